@@ -1,0 +1,13 @@
+#pragma once
+
+namespace clatter {
+
+/// x'' + 2 h x' + x = f sin(nu tau + phase) + load, in units of the natural frequency and the spring (eq. 3).
+struct Oscillator {
+  double damping = 0.0;    ///< h, damping ratio, >= 0
+  double forcing = 0.0;    ///< f, force amplitude over stiffness, any finite
+  double frequency = 1.0;  ///< nu, excitation over natural frequency, > 0
+  double load = 0.0;       ///< constant force over stiffness, any finite
+};
+
+}  // namespace clatter

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <cstdint>
+
+#include "dynamics/oscillator.hpp"
+#include "dynamics/stops.hpp"
+
+namespace clatter {
+
+/// Where the motion begins, at tau = 0.
+struct Start {
+  double displacement = 0.0;  ///< x0, between the stops
+  double velocity = 0.0;      ///< v0
+  double phase = 0.0;         ///< forcing phase at tau = 0, rad
+};
+
+enum class Mode : std::uint8_t { steady, transient };
+
+/// How long a scene is run and when its motion counts as repeated. "Periods" are forcing periods, 2 pi / nu; without forcing, 2 pi.
+struct TimePlan {
+  Mode mode = Mode::steady;
+  std::int64_t max_periods = 5000;  ///< periods after which settling is given up, >= 1
+  std::int64_t window = 64;         ///< periods observed of a motion that does not repeat, >= 1
+  double duration = 0.0;            ///< transient: observed time in tau, > 0
+  double tolerance = 1e-12;         ///< distance of the states at a repeat, relative to the larger of |x| and |v|
+  double max_impacts = 1e8;         ///< impacts after which a point is given up (event_budget)
+};
+
+enum class HarmonicsMethod : std::uint8_t { fft, exact };
+
+/// What is computed and stored; nothing else is.
+struct Observe {
+  bool extrema = false;
+  std::int64_t harmonics = 0;  ///< highest harmonic K, 0: none observed
+  HarmonicsMethod harmonics_method = HarmonicsMethod::fft;
+  std::int64_t harmonics_samples = 4096;  ///< FFT samples over the observed time
+  bool impacts = false;
+  bool impact_log = false;
+  std::int64_t trajectory = 0;  ///< samples over the observed time, both ends included; 0: none
+  bool period = false;
+};
+
+/// One point of a sweep: everything its motion and its results depend on.
+struct Scene {
+  Oscillator oscillator;
+  Stops stops;
+  Start start;
+  TimePlan time;
+  Observe observe;
+};
+
+/// What became of a point; from `event_budget` on it has failed.
+enum class Status : std::uint8_t { periodic = 0, aperiodic = 1, transient = 2, event_budget = 16, not_finite = 17, unresolved = 18 };
+
+[[nodiscard]] constexpr bool failed(Status status) { return status >= Status::event_budget; }
+
+}  // namespace clatter

@@ -1,0 +1,15 @@
+#pragma once
+
+#include <limits>
+
+namespace clatter {
+
+/// The two rigid stops and how much of its speed the mass keeps on each (eq. 4): x'+ = -R x'-.
+struct Stops {
+  double lower = -std::numeric_limits<double>::infinity();  ///< place of the lower stop; -inf: none
+  double upper = std::numeric_limits<double>::infinity();   ///< place of the upper stop; +inf: none
+  double restitution_lower = 1.0;                           ///< R of the lower stop, 0 ... 1
+  double restitution_upper = 1.0;                           ///< R of the upper stop, 0 ... 1
+};
+
+}  // namespace clatter

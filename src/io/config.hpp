@@ -1,0 +1,35 @@
+#pragma once
+
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "sweep/sweep.hpp"
+
+namespace clatter {
+
+/// A complete configuration: what is swept, what is observed, how it is written.
+struct Config {
+  std::string title;
+  std::string source;
+  Sweep sweep;
+  int compression = 4;  ///< deflate level of the output, 0 ... 9
+  std::string text;     ///< the complete configuration, defaults filled in, as TOML that runs again (root attribute `config`)
+};
+
+/// A mistake of the user's: `what()` is one line, "file:line:column: what is wrong; the way out".
+class ConfigError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// A --set KEY=VALUE of the command line, e.g. {"sweep.nu", "linspace(0.5, 1.5, 51)"}.
+struct Override {
+  std::string key;
+  std::string value;
+};
+
+/// Reads a configuration; INI where the name ends in .ini, else TOML. Throws ConfigError; IoError where the file cannot be read.
+[[nodiscard]] Config read_config(const std::string& path, const std::vector<Override>& overrides);
+
+}  // namespace clatter

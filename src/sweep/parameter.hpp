@@ -1,0 +1,23 @@
+#pragma once
+
+#include <optional>
+#include <string_view>
+
+#include "dynamics/scene.hpp"
+
+namespace clatter {
+
+/// A number of the scene that a sweep can vary, named by its key in [scene].
+enum class Parameter { h, f, nu, phase, R, xs, stop_lower, stop_upper, R_lower, R_upper, load, x0, v0, start_period };
+
+/// The key of a parameter, e.g. "nu".
+[[nodiscard]] std::string_view key_of(Parameter parameter);
+
+/// The parameter of a key, or nothing where no parameter has that name.
+[[nodiscard]] std::optional<Parameter> parameter_of(std::string_view key);
+
+/// Puts a value in its place in the scene. `xs` sets both stops to -|xs| and +|xs|, `R` both restitutions; `start_period` sets x0 and v0
+/// from the lower stop, v0 = |xs| cot(start_period / 4) (physics.md, check 1), so it is set after the stops.
+void set(Scene& scene, Parameter parameter, double value);
+
+}  // namespace clatter

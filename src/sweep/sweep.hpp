@@ -1,0 +1,36 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "dynamics/scene.hpp"
+#include "sweep/parameter.hpp"
+
+namespace clatter {
+
+/// One swept parameter and its values.
+struct Axis {
+  Parameter parameter = Parameter::nu;
+  std::vector<double> values;
+};
+
+/// Axes of equal length that run together; named by the first.
+using Dimension = std::vector<Axis>;
+
+/// Every combination of the dimensions' values; the first dimension varies slowest.
+struct Sweep {
+  Scene scene;                          ///< the scene that the axes vary
+  std::vector<Dimension> dimensions;    ///< empty: one point
+  std::optional<std::size_t> follow;    ///< the dimension along which each point starts from the end of the one before
+};
+
+[[nodiscard]] inline std::size_t length(const Dimension& dimension) { return dimension.front().values.size(); }
+
+/// Number of points.
+[[nodiscard]] std::size_t size(const Sweep& sweep);
+
+/// The scene of a point, 0 <= point < size(sweep), in row-major order of the dimensions.
+[[nodiscard]] Scene scene_at(const Sweep& sweep, std::size_t point);
+
+}  // namespace clatter
