@@ -1,0 +1,30 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "io/config.hpp"
+#include "sweep/figure.hpp"
+
+namespace clatter {
+
+/// The bytes of an HDF5 file that is netCDF-4 too: dimension scales, attributes, the whole configuration (interface.md, "Output").
+/// The same figure and configuration give the same bytes.
+[[nodiscard]] std::vector<std::byte> file_image(const Figure& figure, const Config& config);
+
+/// What `clatter info` prints of a file; shapes are dimension names with their lengths.
+struct FileSummary {
+  struct Entry {
+    std::string name, type, units, long_name;
+    std::vector<NamedLength> dimensions;
+  };
+  std::vector<std::pair<std::string, std::string>> attributes;  ///< root attributes in their order, `config` among them
+  std::vector<Entry> variables;
+  std::vector<std::pair<std::string, std::size_t>> status_counts;  ///< flag meaning and number of points that have it
+};
+
+/// Reads a clatter file. Throws IoError where it cannot be read, is no HDF5 file, or was not written by clatter.
+[[nodiscard]] FileSummary read_summary(const std::string& path);
+
+}  // namespace clatter
