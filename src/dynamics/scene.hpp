@@ -16,7 +16,8 @@ struct Start {
 
 enum class Mode : std::uint8_t { steady, transient };
 
-/// How long a scene is run and when its motion counts as repeated. "Periods" are forcing periods, 2 pi / nu; without forcing, 2 pi.
+/// How long a scene is run and when its motion counts as repeated. "Periods" are forcing periods, 2 pi / nu; without
+/// forcing, 2 pi.
 struct TimePlan {
   Mode mode = Mode::steady;
   std::int64_t max_periods = 5000;  ///< periods after which settling is given up, >= 1
@@ -50,7 +51,14 @@ struct Scene {
 };
 
 /// What became of a point; from `event_budget` on it has failed.
-enum class Status : std::uint8_t { periodic = 0, aperiodic = 1, transient = 2, event_budget = 16, not_finite = 17, unresolved = 18 };
+enum class Status : std::uint8_t {
+  periodic = 0,
+  aperiodic = 1,
+  transient = 2,
+  event_budget = 16,
+  not_finite = 17,
+  unresolved = 18
+};
 
 [[nodiscard]] constexpr bool failed(Status status) { return status >= Status::event_budget; }
 

@@ -1,0 +1,135 @@
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "dynamics/flow.hpp"
+
+namespace clatter {
+
+/// Motion without impact from a given instant on, in closed form (eq. 3).
+template <class Number, Effects E>
+class Arc {
+ public:
+  /// Starts at displacement x, velocity v, phase (sine, cosine) and acceleration a, which the equation of motion gives
+  /// or a release makes 0.
+  Arc(const Flow<Number, E>& flow, const Motion<Number>& start)
+      : flow_(&flow),
+        start_(start),
+        free_x_(start.x - flow.steady_displacement(start.sine, start.cosine)),
+        free_v_(start.v - flow.steady_velocity(start.sine, start.cosine)) {}
+
+  [[nodiscard]] const Flow<Number, E>& flow() const { return *flow_; }
+  [[nodiscard]] const Motion<Number>& start() const { return start_; }
+
+  /// Motion a time s >= 0 after the start; for short times by Taylor's series, which keeps the relative accuracy of
+  /// `rise`.
+  [[nodiscard]] Motion<Number> at(const Number& s) const {
+    return s * flow_->rate <= Number(0.25) ? near(start_, s) : closed_form(s);
+  }
+
+  /// Motion a short time d after `m` (d * flow().rate <= 1/4), an instant of this arc, by Taylor's series of the
+  /// equation of motion.
+  [[nodiscard]] Motion<Number> near(const Motion<Number>& m, const Number& d) const;
+
+ private:
+  [[nodiscard]] Motion<Number> closed_form(const Number& s) const;
+  [[nodiscard]] Motion<Number> motion(const Number& x, const Number& v, const SineCosine<Number>& phase) const {
+    return {x - start_.x, x, v, flow_->acceleration(x, v, phase.sine), phase.sine, phase.cosine};
+  }
+  [[nodiscard]] SineCosine<Number> turned(const Motion<Number>& m, const Number& angle) const;
+  [[nodiscard]] std::array<Number, 2> response_from_rest(const Number& s) const;
+
+  const Flow<Number, E>* flow_;
+  Motion<Number> start_;
+  Number free_x_, free_v_;  ///< the transient's displacement and velocity at the start
+};
+
+template <class Number, Effects E>
+SineCosine<Number> Arc<Number, E>::turned(const Motion<Number>& m, const Number& angle) const {
+  using std::cos, std::sin;
+  if constexpr (E.forcing == Forcing::none) return {m.sine, m.cosine};
+  const Number s = sin(angle), c = cos(angle);
+  return {m.sine * c + m.cosine * s, m.cosine * c - m.sine * s};
+}
+
+template <class Number, Effects E>
+Motion<Number> Arc<Number, E>::closed_form(const Number& s) const {
+  const Propagator<Number> p = flow_->propagator(s);
+  const SineCosine<Number> phase = turned(start_, flow_->nu * s);
+  Number x = flow_->steady_displacement(phase.sine, phase.cosine) + (p.a * free_x_ + p.b * free_v_);
+  Number v = flow_->steady_velocity(phase.sine, phase.cosine) + (p.c * free_v_ - p.b * free_x_);
+  if constexpr (E.forcing == Forcing::secular) {
+    const auto [forced_x, forced_v] = response_from_rest(s);
+    x += flow_->f * forced_x;
+    v += flow_->f * forced_v;
+  }
+  return motion(x, v, phase);
+}
+
+/// (e^z - 1)/z for z = re + i im with re <= 0, to relative accuracy for every z: the divided difference of the
+/// exponential.
+template <class Number>
+[[nodiscard]] std::array<Number, 2> divided_exponential(const Number& re, const Number& im) {
+  using std::cos, std::exp, std::expm1, std::sin, std::sqrt;
+  const Number square = re * re + im * im;
+  if (square < sqrt(epsilon<Number>())) {  // 1 + z/2 + z^2/6 + z^3/24: the next term is below rounding
+    const Number re2 = (re - im) * (re + im), im2 = 2 * re * im;
+    return {1 + re / 2 + re2 / 6 + (re * re2 - im * im2) / 24, im / 2 + im2 / 6 + (re * im2 + im * re2) / 24};
+  }
+  const Number half = sin(im / 2), u = expm1(re) * cos(im) - 2 * half * half, w = exp(re) * sin(im);
+  return {(u * re + w * im) / square, (w * re - u * im) / square};
+}
+
+/// Displacement and velocity that sin(phase) alone gives after a time s, from rest: Im(e^{i phase} w(s)) with
+/// w(s) = [E(mu) - E(mu*)]/(2 i lambda), E(mu) = (e^{i nu s} - e^{mu s})/(i nu - mu), mu = -h + i lambda; no difference
+/// of large numbers.
+template <class Number, Effects E>
+std::array<Number, 2> Arc<Number, E>::response_from_rest(const Number& s) const {
+  using std::cos, std::exp, std::sin;
+  const Number &h = flow_->h, &lambda = flow_->root, &nu = flow_->nu;
+  const Number c = cos(nu * s), d = sin(nu * s);
+  const auto [q_re, q_im] = divided_exponential<Number>(-h * s, -flow_->detuning * s);
+  const Number near_re = s * (c * q_re - d * q_im), near_im = s * (c * q_im + d * q_re);  // E(mu)
+  const Number decay = exp(-h * s), top_re = c - decay * cos(lambda * s), top_im = d + decay * sin(lambda * s);
+  const Number sum = nu + lambda, square = h * h + sum * sum;
+  const Number far_re = (top_re * h + top_im * sum) / square, far_im = (top_im * h - top_re * sum) / square;  // E(mu*)
+  const Number minus_re = near_re - far_re, minus_im = near_im - far_im, plus_re = near_re + far_re,
+               plus_im = near_im + far_im;
+  const Number w_re = minus_im / (2 * lambda), w_im = -minus_re / (2 * lambda);
+  const Number rate_re = plus_re / 2 - h * w_re,
+               rate_im = plus_im / 2 - h * w_im;  // [mu E(mu) - mu* E(mu*)]/(2 i lambda)
+  return {start_.cosine * w_im + start_.sine * w_re, start_.cosine * rate_im + start_.sine * rate_re};
+}
+
+template <class Number, Effects E>
+Motion<Number> Arc<Number, E>::near(const Motion<Number>& m, const Number& d) const {
+  constexpr std::size_t terms = std::numeric_limits<Number>::digits <= 64 ? 13 : 36;  // (1/4)^n / n! below rounding
+  if (!(d > 0)) return m;
+  const Number square = d * d;
+  std::array<Number, terms> t;  // t[k] = x^(k) d^k / k!
+  t[0] = 0, t[1] = m.v * d, t[2] = m.a * square / 2;
+  Number force = flow_->f * square, drive = m.sine, next = m.cosine;  // force: f d^2 (nu d)^k / k!
+  for (std::size_t k = 1; k + 2 < terms; ++k) {
+    Number sum = -square * t[k];
+    if constexpr (E.damping != Damping::none) sum -= 2 * flow_->h * d * (static_cast<double>(k) + 1) * t[k + 1];
+    if constexpr (E.forcing != Forcing::none) {
+      force *= flow_->nu * d / static_cast<double>(k);
+      sum += force * next;
+      const Number turn = -drive;
+      drive = next, next = turn;
+    }
+    t[k + 2] = sum / static_cast<double>((k + 1) * (k + 2));
+  }
+  Number rise = 0, gain = 0;  // from the small terms up
+  for (std::size_t k = terms - 1; k >= 1; --k) {
+    rise += t[k];
+    if (k >= 2) gain += static_cast<double>(k) * t[k];
+  }
+  const SineCosine<Number> phase = turned(m, flow_->nu * d);
+  const Number x = m.x + rise, v = m.v + gain / d;
+  return {m.rise + rise, x, v, flow_->acceleration(x, v, phase.sine), phase.sine, phase.cosine};
+}
+
+}  // namespace clatter

@@ -1,0 +1,115 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <optional>
+
+#include "numbers/number.hpp"
+
+namespace clatter {
+
+/// Coefficients of a polynomial of degree 6 on [0, 1] in the Bernstein basis; the polynomial lies within their range.
+template <class Number>
+using Bernstein = std::array<Number, 7>;
+
+/// The polynomial of degree 6 that has value, first and second derivative y, y', y'' at both ends of a step, as
+/// Bernstein coefficients minus the value at its beginning (quintic Hermite interpolation, its degree raised by one). A
+/// function with |y^(6)| <= M differs from it by at most M step^6 / 14400 times the middle Bernstein function, i.e. by
+/// that much in coefficient 3 alone.
+template <class Number>
+[[nodiscard]] Bernstein<Number> hermite(const Number& step, const Number& rise, const std::array<Number, 2>& first,
+                                        const std::array<Number, 2>& second) {
+  const Number v0 = step * first[0], v1 = step * first[1], a0 = step * step * second[0], a1 = step * step * second[1];
+  const Number left = 2 * v0 / 5 + a0 / 20, right = rise - 2 * v1 / 5 + a1 / 20;
+  return {Number(0), v0 / 6, v0 / 3 + a0 / 30, (left + right) / 2, rise - v1 / 3 + a1 / 30, rise - v1 / 6, rise};
+}
+
+/// What the middle coefficient is uncertain by, for |y^(6)| <= bound over the step.
+template <class Number>
+[[nodiscard]] Number hermite_error(const Number& bound, const Number& step) {
+  const Number cube = step * step * step;
+  return bound * cube * cube / 14400;
+}
+
+/// The middle Bernstein function of degree 6 at u.
+template <class Number>
+[[nodiscard]] Number middle_function(const Number& u) {
+  const Number w = u * (1 - u);
+  return 20 * w * w * w;
+}
+
+/// First place in (0, 1] where a polynomial that begins at >= 0 becomes negative, to rounding; roots at 0 itself don't
+/// count.
+template <class Number>
+class FirstRoot {
+ public:
+  [[nodiscard]] static std::optional<Number> of(const Bernstein<Number>& c) { return search({c, 6}, 0); }
+
+ private:
+  struct Piece {
+    Bernstein<Number> c;
+    std::size_t degree;
+
+    void divide_by_u() {
+      for (std::size_t i = 0; i < degree; ++i)
+        c[i] = c[i + 1] * static_cast<double>(degree) / static_cast<double>(i + 1);
+      --degree;
+    }
+    /// Value and derivative at u (de Casteljau).
+    [[nodiscard]] std::array<Number, 2> at(const Number& u) const {
+      Bernstein<Number> b = c;
+      for (std::size_t n = degree; n > 1; --n)
+        for (std::size_t i = 0; i < n; ++i) b[i] += u * (b[i + 1] - b[i]);
+      return {b[0] + u * (b[1] - b[0]), static_cast<double>(degree) * (b[1] - b[0])};
+    }
+    /// The left half; this piece becomes the right one.
+    [[nodiscard]] Piece split_off_left() {
+      Piece left{*this};
+      for (std::size_t n = degree; n >= 1; --n) {
+        left.c[degree - n] = c[0];
+        for (std::size_t i = 0; i < n; ++i) c[i] = (c[i] + c[i + 1]) / 2;
+      }
+      left.c[degree] = c[0];
+      return left;
+    }
+  };
+
+  /// The root in a piece whose coefficients change sign once: Newton's iteration within a bracket.
+  [[nodiscard]] static Number single(const Piece& p) {
+    using std::abs;
+    Number low = 0, high = 1, u = p.c[0] / (p.c[0] - p.c[p.degree]);
+    const Number slope = static_cast<double>(p.degree) * (p.c[0] - p.c[1]);
+    if (p.c[0] < slope) u = p.c[0] / slope;  // near the left end its tangent is the better guess
+    for (int iteration = 0; iteration < 200; ++iteration) {
+      const auto [value, derivative] = p.at(u);
+      (value >= 0 ? low : high) = u;
+      Number next = u - value / derivative;
+      if (!(next > low && next < high)) next = (low + high) / 2;
+      const bool settled = abs(next - u) <= 2 * epsilon<Number>() * u;
+      u = next;
+      if (settled) break;
+    }
+    return u;
+  }
+
+  [[nodiscard]] static std::optional<Number> search(Piece piece, int depth) {
+    while (piece.degree > 0 && piece.c[0] == 0) piece.divide_by_u();  // what remains has the same sign right of 0
+    if (piece.degree == 0) return piece.c[0] < 0 ? std::optional<Number>(Number(0)) : std::nullopt;
+    int changes = 0;
+    bool negative = false;  // a coefficient of 0 counts as what it touches: not negative
+    for (std::size_t i = 0; i <= piece.degree; ++i)
+      if ((piece.c[i] < 0) != negative) negative = !negative, ++changes;
+    if (changes == 0) return std::nullopt;
+    if (piece.c[0] < 0) return Number(0);
+    if (changes == 1) return single(piece);
+    if (depth == std::numeric_limits<Number>::digits) return Number(0);
+    const Piece left = piece.split_off_left();
+    if (const auto root = search(left, depth + 1)) return *root / 2;
+    if (const auto root = search(piece, depth + 1)) return (1 + *root) / 2;
+    return std::nullopt;
+  }
+};
+
+}  // namespace clatter

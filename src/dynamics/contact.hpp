@@ -1,0 +1,187 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "dynamics/arc.hpp"
+#include "dynamics/bernstein.hpp"
+#include "dynamics/stops.hpp"
+
+namespace clatter {
+
+/// How an arc ends: at the first contact, or at its horizon where there is none (side none).
+template <class Number>
+struct Contact {
+  Side side = Side::none;
+  Number elapsed{};         ///< time since the arc began
+  Motion<Number> motion{};  ///< there, the velocity being the one before the impact
+  int evaluations = 0;      ///< instants at which the arc was evaluated
+  bool resolved = true;     ///< false: the bounds overflow, or the step that can be proved fell below rounding
+};
+
+/// Searches an arc for its first contact. Each step is proved free of impacts by an enclosure of the arc between its
+/// ends, or gives the time up to which it is; from there the next, shorter step starts, until what is left of the
+/// uncertainty is below rounding.
+template <class Number, Effects E>
+class ContactSearch {
+ public:
+  ContactSearch(const Arc<Number, E>& arc, const Stops& stops, const Number& horizon)
+      : arc_(arc), lower_(stops.lower), upper_(stops.upper), horizon_(horizon), here_(arc.start()) {}
+
+  [[nodiscard]] Contact<Number> run() {
+    using std::isfinite, std::min;
+    if (!(isfinite(here_.x) && isfinite(here_.v) && isfinite(here_.a))) return unresolved();
+    for (const Side side : {Side::lower, Side::upper})
+      if (gap(side) <= 0 && closing(side, here_.v) > 0) return at(side, Number(0), here_);
+    Number step = first_step();
+    for (int attempts = 0; attempts < max_attempts;) {
+      if (out_of_reach()) return end(evaluate(horizon_));
+      const Number remaining = horizon_ - elapsed_;
+      const bool last = !(step < remaining);
+      if (last) step = remaining;
+      const Motion<Number> there = last ? evaluate(horizon_) : step_from_here(step);
+      const Crossing crossing = first_crossing(there, step);
+      if (crossing.side == Side::none) {
+        if (last) return end(there);
+        here_ = there, elapsed_ += step, step = min(Number(2 * step), longest_step()), attempts = 0;
+        continue;
+      }
+      ++attempts;
+      if (crossing.certain) return touch(crossing.side, crossing.fraction * step);
+      if (crossing.fraction > 0) {
+        elapsed_ += crossing.fraction * step;
+        here_ = evaluate(elapsed_);
+        if (gap(crossing.side) <= 0 && closing(crossing.side, here_.v) > 0) return touch(crossing.side, Number(0));
+      }
+      step = next_step(crossing.side, step);
+      if (!(step > 0)) return unresolved();
+    }
+    return unresolved();
+  }
+
+ private:
+  static constexpr int max_attempts = 200;
+
+  struct Crossing {
+    Side side = Side::none;
+    Number fraction{};     ///< of the step: no contact before it
+    bool certain = false;  ///< and the contact is there, to rounding
+  };
+
+  [[nodiscard]] Number longest_step() const {
+    using std::max;
+    return Number(1.6) / (E.forcing == Forcing::none ? Number(1) : max(Number(1), arc_.flow().nu));
+  }
+
+  /// Gap between the mass and a stop at the search's present place; exact where the arc began on the stop.
+  [[nodiscard]] Number gap(Side side) const {
+    const Number& from = arc_.start().x;
+    return side == Side::upper ? (upper_ - from) - here_.rise : (from - lower_) + here_.rise;
+  }
+  [[nodiscard]] static Number closing(Side side, const Number& y) { return side == Side::upper ? y : Number(-y); }
+
+  [[nodiscard]] bool out_of_reach() const {
+    const Number reach = arc_.flow().reach(here_), load = arc_.flow().load;
+    return lower_ < load - reach && load + reach < upper_;
+  }
+
+  /// The longest step whose enclosure is about as sharp as the gap is wide.
+  [[nodiscard]] Number first_step() const {
+    using std::abs, std::min, std::pow;
+    const Number step = longest_step(), width = upper_ - lower_,
+                 size = abs(here_.x) + abs(here_.v) + arc_.flow().amplitude;
+    const Number error = hermite_error(arc_.flow().derivative_bound(here_, step, 6), step);
+    const Number aim = min(width, size) / 20;
+    return aim > 0 && error > aim ? Number(step * pow(aim / error, Number(1) / 6)) : step;
+  }
+
+  [[nodiscard]] Motion<Number> evaluate(const Number& s) {
+    ++evaluations_;
+    return arc_.at(s);
+  }
+  [[nodiscard]] Motion<Number> step_from_here(const Number& step) {
+    ++evaluations_;
+    return step * arc_.flow().rate <= Number(0.25) ? arc_.near(here_, step) : arc_.at(elapsed_ + step);
+  }
+
+  [[nodiscard]] Crossing first_crossing(const Motion<Number>& there, const Number& step) const {
+    const Number error = hermite_error(arc_.flow().derivative_bound(here_, step, 6), step);
+    const Bernstein<Number> rise =
+        hermite<Number>(step, there.rise - here_.rise, {here_.v, there.v}, {here_.a, there.a});
+    const Crossing low = crossing_of(Side::lower, rise, error), high = crossing_of(Side::upper, rise, error);
+    if (low.side == Side::none) return high;
+    return high.side != Side::none && high.fraction < low.fraction ? high : low;
+  }
+
+  [[nodiscard]] Crossing crossing_of(Side side, const Bernstein<Number>& rise, const Number& error) const {
+    using std::abs;
+    Bernstein<Number> c;
+    const Number from = gap(side);
+    bool inside = true;
+    for (std::size_t i = 0; i < c.size(); ++i) {
+      c[i] = from - closing(side, rise[i]) - (i == 3 ? error : Number(0));
+      inside = inside && c[i] >= 0;
+    }
+    if (inside) return {};
+    if (!(error < std::numeric_limits<double>::max())) return {side, Number(0), false};
+    const auto root = FirstRoot<Number>::of(c);
+    if (!root) return {};
+    const Number& u = *root;
+    const Number size = abs(from) + 6 * abs(c[0] - c[1]) * u;  // the gap's scale at the crossing
+    return {side, u, 2 * error * middle_function(u) <= 4 * epsilon<Number>() * size};
+  }
+
+  /// A step a little longer than the time to the stop, where the motion reaches it; else a quarter.
+  [[nodiscard]] Number next_step(Side side, const Number& step) const {
+    using std::min, std::sqrt;
+    const Number g = gap(side), v = closing(side, here_.v), a = closing(side, here_.a), square = v * v + 2 * a * g;
+    if (g > 0 && square >= 0 && v + sqrt(square) > 0) return min(Number(step / 2), Number(4 * g / (v + sqrt(square))));
+    return step / 4;
+  }
+
+  /// The contact a time d from here, with one Newton correction of the rounding that a long step leaves.
+  [[nodiscard]] Contact<Number> touch(Side side, const Number& d) {
+    using std::abs;
+    Motion<Number> m = d > 0 ? step_from_here(d) : here_;
+    Number elapsed = elapsed_ + d;
+    const Number speed = closing(side, m.v), missing = gap(side) - closing(side, m.rise - here_.rise);
+    if (speed > 0 && abs(missing) <= speed * abs(elapsed) * Number(1e-6)) {
+      const Number more = missing / speed;
+      elapsed += more, m.v += m.a * more;
+    }
+    return at(side, elapsed, m);
+  }
+
+  [[nodiscard]] Contact<Number> at(Side side, const Number& elapsed, Motion<Number> m) const {
+    m.x = side == Side::upper ? upper_ : lower_;
+    return {side, elapsed, m, evaluations_, true};
+  }
+
+  /// The horizon; a contact within rounding of it happens at it, so that it is neither lost nor taken twice.
+  [[nodiscard]] Contact<Number> end(const Motion<Number>& there) {
+    using std::abs;
+    here_ = there, elapsed_ = horizon_;
+    const Number rounding = 8 * epsilon<Number>() * (abs(there.x) + abs(there.v));
+    for (const Side side : {Side::lower, Side::upper})
+      if (gap(side) <= rounding && closing(side, there.v) > 0) return at(side, horizon_, there);
+    return {Side::none, horizon_, there, evaluations_, true};
+  }
+
+  [[nodiscard]] Contact<Number> unresolved() const { return {Side::none, elapsed_, here_, evaluations_, false}; }
+
+  const Arc<Number, E>& arc_;
+  Number lower_, upper_;
+  Number horizon_;
+  Motion<Number> here_;  ///< proved free of contact up to here
+  Number elapsed_ = 0;   ///< time of `here_` since the arc began
+  int evaluations_ = 0;
+};
+
+/// The first contact of an arc with a stop within a time `horizon` > 0.
+template <class Number, Effects E>
+[[nodiscard]] Contact<Number> next_contact(const Arc<Number, E>& arc, const Stops& stops, const Number& horizon) {
+  return ContactSearch<Number, E>(arc, stops, horizon).run();
+}
+
+}  // namespace clatter

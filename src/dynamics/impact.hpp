@@ -1,0 +1,86 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "dynamics/flow.hpp"
+#include "dynamics/state.hpp"
+#include "dynamics/stops.hpp"
+
+namespace clatter {
+
+/// A stop as the mass meets it: place, restitution, and the sign that points into it.
+template <class Number>
+struct Stop {
+  Side side;
+  Number place;
+  Number restitution;
+
+  [[nodiscard]] Number into(const Number& y) const { return side == Side::upper ? y : Number(-y); }
+};
+
+template <class Number>
+[[nodiscard]] Stop<Number> stop_at(const Stops& stops, Side side) {
+  if (side == Side::upper) return {side, Number(stops.upper), Number(stops.restitution_upper)};
+  return {side, Number(stops.lower), Number(stops.restitution_lower)};
+}
+
+/// The force that presses a mass at rest into a stop, f sin(theta) + load - x_stop towards it, and the force's rate of
+/// change.
+template <class Number>
+struct Pressing {
+  Number force, rate;
+
+  /// Pressed now or, where the force is just passing 0, from now on.
+  [[nodiscard]] bool holds() const { return force > 0 || (force == 0 && rate > 0); }
+};
+
+template <class Number, Effects E>
+[[nodiscard]] Pressing<Number> pressing(const Flow<Number, E>& flow, const Stop<Number>& stop,
+                                        const SineCosine<Number>& phase) {
+  if constexpr (E.forcing == Forcing::none) return {stop.into(flow.load - stop.place), Number(0)};
+  return {stop.into(flow.f * phase.sine + (flow.load - stop.place)), stop.into(flow.f * flow.nu * phase.cosine)};
+}
+
+/// Forcing phase, in turns 0 ... 1, at which a stop lets a pressed mass go: f sin(theta) = x_stop - load with the
+/// pressing force falling; nothing where the force never falls to 0, or only touches it.
+template <class Number, Effects E>
+[[nodiscard]] std::optional<Number> release_phase(const Flow<Number, E>& flow, const Stop<Number>& stop) {
+  using std::abs, std::atan2, std::sqrt;
+  const Number needed = stop.place - flow.load, f = flow.f;
+  if (E.forcing == Forcing::none || !(abs(needed) < abs(f))) return std::nullopt;
+  const Number along =
+      sqrt((abs(f) - needed) * (abs(f) + needed));  // |f cos(theta)|; the pressing force falls where into(f cos) < 0
+  const Number f_cosine = stop.into(-along);
+  const Number turns =
+      (f > 0 ? atan2(needed, f_cosine) : atan2(Number(-needed), Number(-f_cosine))) / (2 * pi<Number>());
+  return turns < 0 ? Number(turns + 1) : turns;
+}
+
+/// What is left of an infinite sequence of impacts: the time to its end, where it may be summed.
+///
+/// A rebound at speed w under the pressing acceleration a, with da/dt = j, flies for s = 2 w/a + s2 w^2 + O(w^3) and
+/// returns with w + u2 w^2
+/// + O(w^3): s2 = -4 (h a + j)/(3 a^3), u2 = -(2/3) (2 h a - j)/a^2. The sum S = A w + B w^2 + O(w^3) of all flights
+/// satisfies S(w, a) = s + S(R w', a + j s), which gives A = 2/(a (1 - R)) and B below (Budd & Dux 1994; Nordmark &
+/// Piiroinen 2009). S may be summed when the terms left out, of relative size (S times the rates of the motion)^2,
+/// change it by less than rounding does.
+template <class Number, Effects E>
+[[nodiscard]] std::optional<Number> chatter_time(const Flow<Number, E>& flow, const Stop<Number>& stop,
+                                                 const Pressing<Number>& press, const Number& rebound) {
+  using std::abs, std::max;
+  const Number &R = stop.restitution, &a = press.force, &j = press.rate, &h = flow.h, &w = rebound;
+  const Number loss = 1 - R;
+  if (!(loss > 0) || !(a > 0)) return std::nullopt;
+  const Number first = 2 / (a * loss);
+  const Number s2 = -4 * (h * a + j) / (3 * a * a * a), u2 = -2 * (2 * h * a - j) / (3 * a * a);
+  const Number second = (s2 + first * R * u2 - 2 * first * j * R / (a * a)) / (loss * (1 + R));
+  const Number sum = w * (first + second * w);
+  const Number slope = abs(j) / a, curvature = abs(flow.f) * flow.nu * flow.nu / a;
+  const Number rates = 1 + 2 * h + slope, left_out = w * first * (rates * rates + curvature) * w * first;
+  if (!(left_out <= max(epsilon<Number>(), Number(epsilon<Number>() / (w * first * flow.rate))))) return std::nullopt;
+  return sum;
+}
+
+}  // namespace clatter

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <cstdint>
+
+#include "numbers/number.hpp"
+
+namespace clatter {
+
+enum class Side : std::int8_t { lower = -1, none = 0, upper = 1 };
+
+/// +1 at the upper stop, -1 at the lower one.
+[[nodiscard]] constexpr int sign_of(Side side) { return static_cast<int>(side); }
+
+/// Where a run stands. Time is the forcing phase: turns since the last section and whole sections, never a growing tau
+/// inside a sine. Sections are the instants a whole number of forcing periods (without forcing: of 2 pi) after the
+/// start.
+template <class Number>
+struct State {
+  Number x{};                ///< displacement
+  Number v{};                ///< velocity
+  Number turns{};            ///< forcing periods since the last section, 0 ... 1
+  std::int64_t periods = 0;  ///< sections passed
+  bool released = false;     ///< a stop lets the mass go at this instant: v = 0 and the acceleration is exactly 0
+};
+
+/// Motion at one instant of an arc.
+template <class Number>
+struct Motion {
+  Number rise;          ///< displacement since the arc began: keeps its relative accuracy on the shortest flights
+  Number x;             ///< displacement
+  Number v;             ///< velocity
+  Number a;             ///< acceleration
+  Number sine, cosine;  ///< of the forcing phase
+};
+
+/// One impact, as observers see it.
+struct Impact {
+  double time;    ///< tau since observation began
+  Side side;      ///< the stop that is hit
+  double before;  ///< velocity before
+  double after;   ///< velocity after
+  double place;   ///< of the stop
+};
+
+/// A stretch of time on a stop, as observers see it.
+struct Rest {
+  double time;    ///< tau since observation began, at its beginning
+  double length;  ///< in tau
+  Side side;
+  double place;  ///< of the stop
+  bool held;     ///< at rest; false: the completed rest of a chatter, shorter than what it could move any result by
+};
+
+}  // namespace clatter

@@ -1,0 +1,152 @@
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <optional>
+
+#include "dynamics/arc.hpp"
+#include "dynamics/contact.hpp"
+#include "dynamics/impact.hpp"
+#include "dynamics/scene.hpp"
+
+namespace clatter {
+
+/// What stopped an integrator before its time.
+enum class Outcome : std::uint8_t { completed, event_budget, not_finite, unresolved };
+
+/// Sees nothing; what integrators call where nothing is observed.
+struct NoObserver {
+  template <class A>
+  void arc(const A&, double, double) {}
+  void rest(const Rest&) {}
+  void impact(const Impact&) {}
+};
+
+/// Event-driven integration: closed-form arcs, proved first contacts, chatter completed, rests released at their exact
+/// time.
+template <class Number, Effects E>
+class Exact {
+ public:
+  explicit Exact(const Scene& scene)
+      : flow_(scene.oscillator),
+        stops_(scene.stops),
+        budget_(scene.time.max_impacts),
+        start_turns_(turns_of(scene.start.phase)) {
+    period_ = 2 * pi<Number>();
+    if constexpr (E.forcing != Forcing::none) period_ /= flow_.nu;
+  }
+
+  [[nodiscard]] const Flow<Number, E>& flow() const { return flow_; }
+  [[nodiscard]] const Number& period() const { return period_; }  ///< forcing period in tau; without forcing 2 pi
+  [[nodiscard]] double impacts() const { return impacts_; }       ///< impacts simulated so far
+  [[nodiscard]] double evaluations() const { return evaluations_; }
+
+  /// Runs from `state` to the phase `end`, in turns 0 ... 1 since the last section, and shows observers every arc, rest
+  /// and impact with its time since the section `origin`.
+  template <class Observer>
+  [[nodiscard]] Outcome advance(State<Number>& state, const Number& end, std::int64_t origin, Observer& observer) {
+    while (end - state.turns > 2 * epsilon<Number>()) {  // fly, find the contact, rebound: the whole algorithm
+      if (const auto stop = holding_stop(state)) {
+        rest(state, *stop, end, origin, observer);
+        continue;
+      }
+      const Arc<Number, E> arc{flow_, motion(state)};
+      const Contact<Number> contact = next_contact(arc, stops_, Number((end - state.turns) * period_));
+      evaluations_ += contact.evaluations;
+      if (!contact.resolved)
+        return std::isfinite(static_cast<double>(contact.motion.x)) ? Outcome::unresolved : Outcome::not_finite;
+      observer.arc(arc, time(state, origin), static_cast<double>(contact.elapsed));
+      pass(state, contact.elapsed);
+      state.x = contact.motion.x, state.v = contact.motion.v, state.released = false;
+      if (contact.side == Side::none) break;
+      rebound(state, stop_at<Number>(stops_, contact.side), end, origin, observer);
+      if (++impacts_ > budget_) return Outcome::event_budget;
+    }
+    state.turns = end;
+    return std::isfinite(static_cast<double>(state.x)) && std::isfinite(static_cast<double>(state.v))
+               ? Outcome::completed
+               : Outcome::not_finite;
+  }
+
+  /// The stop that holds a mass at rest, if one does.
+  [[nodiscard]] std::optional<Stop<Number>> holding_stop(const State<Number>& state) const {
+    if (state.v != 0 || state.released) return std::nullopt;
+    for (const Side side : {Side::lower, Side::upper}) {
+      const auto stop = stop_at<Number>(stops_, side);
+      if (state.x == stop.place && pressing(flow_, stop, phase(state)).holds()) return stop;
+    }
+    return std::nullopt;
+  }
+
+  /// Time since the section `origin`.
+  [[nodiscard]] double time(const State<Number>& state, std::int64_t origin) const {
+    return static_cast<double>((static_cast<double>(state.periods - origin) + state.turns) * period_);
+  }
+
+ private:
+  [[nodiscard]] static Number turns_of(double phase) {
+    using std::atan2, std::cos, std::sin;
+    const Number angle(phase);
+    return atan2(Number(sin(angle)), Number(cos(angle))) / (2 * pi<Number>());
+  }
+  [[nodiscard]] SineCosine<Number> phase(const State<Number>& state) const {
+    return sine_cosine_of_turns(Number(start_turns_ + state.turns));
+  }
+  [[nodiscard]] Motion<Number> motion(const State<Number>& state) const {
+    const auto [sine, cosine] = phase(state);
+    return {Number(0), state.x, state.v, state.released ? Number(0) : flow_.acceleration(state.x, state.v, sine),
+            sine,      cosine};
+  }
+  void pass(State<Number>& state, const Number& elapsed) const { state.turns += elapsed / period_; }
+
+  /// Reverses the velocity and completes the chatter that may follow.
+  template <class Observer>
+  void rebound(State<Number>& state, const Stop<Number>& stop, const Number& end, std::int64_t origin,
+               Observer& observer) {
+    using std::min;
+    const Number before = state.v;
+    if (stop.into(before) > 0) state.v = -stop.restitution * before;
+    if (state.v == 0) state.v = 0;  // no negative zero
+    observer.impact(Impact{time(state, origin), stop.side, static_cast<double>(before), static_cast<double>(state.v),
+                           static_cast<double>(stop.place)});
+    if (state.v == 0) return;
+    const auto left = chatter_time(flow_, stop, pressing(flow_, stop, phase(state)), Number(-stop.into(state.v)));
+    if (!left) return;
+    show_rest(state, stop, min(Number(end - state.turns), Number(*left / period_)), false, origin, observer);
+    pass(state, *left);  // beyond `end` too: the mass stays pressed until then, so the cut changes nothing
+    state.v = 0;
+  }
+
+  /// Holds the mass until its release or until `end`, whichever is first.
+  template <class Observer>
+  void rest(State<Number>& state, const Stop<Number>& stop, const Number& end, std::int64_t origin,
+            Observer& observer) {
+    using std::floor;
+    Number until = end;
+    if (const auto phase_of_release = release_phase(flow_, stop)) {
+      Number ahead = *phase_of_release - (start_turns_ + state.turns);
+      ahead -= floor(ahead);
+      if (ahead > 1 - 16 * epsilon<Number>()) ahead = 0;  // it passed within rounding of now, not a whole turn ahead
+      if (state.turns + ahead <= end) until = state.turns + ahead, state.released = true;
+    }
+    show_rest(state, stop, Number(until - state.turns), true, origin, observer);
+    state.turns = until;
+  }
+
+  template <class Observer>
+  void show_rest(const State<Number>& state, const Stop<Number>& stop, const Number& turns, bool held,
+                 std::int64_t origin, Observer& observer) const {
+    observer.rest(Rest{time(state, origin), static_cast<double>(turns * period_), stop.side,
+                       static_cast<double>(stop.place), held});
+  }
+
+  Flow<Number, E> flow_;
+  Stops stops_;
+  double budget_;
+  Number start_turns_;
+  Number period_;
+  double impacts_ = 0.0;
+  double evaluations_ = 0.0;
+};
+
+}  // namespace clatter

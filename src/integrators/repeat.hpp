@@ -1,0 +1,67 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+namespace clatter {
+
+/// Finds the number of forcing periods after which a motion repeats, from its states at the sections (physics.md, "A
+/// motion repeats").
+class RepeatFinder {
+ public:
+  static constexpr std::size_t longest = 64;  ///< forcing periods of the longest motion looked for
+
+  explicit RepeatFinder(double tolerance) : tolerance_(tolerance) {}
+
+  /// Takes the next section's state; returns the n after which the motion repeats, 0 while it doesn't.
+  [[nodiscard]] std::size_t add(double x, double v) {
+    if (x_.size() == capacity) forget();
+    x_.push_back(x), v_.push_back(v);
+    const std::size_t now = x_.size() - 1;
+    const double limit = tolerance_ * std::max(std::abs(x), std::abs(v));
+    for (std::size_t n = 1; n <= std::min(longest, now); ++n)
+      if (std::abs(x - x_[now - n]) <= limit && std::abs(v - v_[now - n]) <= limit && stands(now, n)) return n;
+    return 0;
+  }
+
+  /// Index among the last n states, 0 for the newest, of the one with the least x and then the least v.
+  [[nodiscard]] std::size_t lowest_of_last(std::size_t n) const {
+    const std::size_t now = x_.size() - 1;
+    std::size_t best = 0;
+    for (std::size_t i = 1; i < n; ++i) {
+      const std::size_t other = now - i, chosen = now - best;
+      if (x_[other] < x_[chosen] || (x_[other] == x_[chosen] && v_[other] < v_[chosen])) best = i;
+    }
+    return best;
+  }
+
+ private:
+  static constexpr std::size_t capacity = 512,
+                               kept = 2 * longest;  // a divisor's distance reaches back n + n/2 sections
+
+  void forget() {
+    x_.erase(x_.begin(), x_.end() - kept);
+    v_.erase(v_.begin(), v_.end() - kept);
+  }
+
+  /// Distance of the states at `now` and m sections before, over the larger of |x|, |v|.
+  [[nodiscard]] double distance(std::size_t now, std::size_t m) const {
+    const double difference = std::max(std::abs(x_[now] - x_[now - m]), std::abs(v_[now] - v_[now - m]));
+    return difference / std::max(std::abs(x_[now]), std::abs(v_[now]));
+  }
+
+  /// A hit at n stands when no divisor's distance is still shrinking: else a slowly alternating transient passes for a
+  /// longer period.
+  [[nodiscard]] bool stands(std::size_t now, std::size_t n) const {
+    for (std::size_t m = 1; m < n; ++m)
+      if (n % m == 0 && (now < n + m || distance(now, m) < distance(now - n, m))) return false;
+    return true;
+  }
+
+  double tolerance_;
+  std::vector<double> x_, v_;
+};
+
+}  // namespace clatter

@@ -1,0 +1,113 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "dynamics/arc.hpp"
+#include "dynamics/bernstein.hpp"
+#include "dynamics/stops.hpp"
+
+namespace clatter {
+
+/// Least and greatest displacement and velocity, between the ends of arcs too: every stretch of an arc is either proved
+/// not to pass what was found so far, by the enclosure that finds contacts, or split at its turning point.
+class Extrema {
+ public:
+  struct Range {
+    double low = std::numeric_limits<double>::infinity();
+    double high = -std::numeric_limits<double>::infinity();
+
+    void include(double y) { low = std::min(low, y), high = std::max(high, y); }
+  };
+
+  template <Effects E>
+  void arc(const Arc<double, E>& arc, double, double length) {
+    const double longest = 1.6 / (E.forcing == Forcing::none ? 1.0 : std::max(1.0, arc.flow().nu));
+    const auto steps = static_cast<long>(std::ceil(std::min(length / longest, 1e9)));
+    splits_ = 0;
+    Place from{0.0, arc.start()};
+    include(from.motion);
+    for (long i = 1; i <= steps; ++i) {
+      const double s = i == steps ? length : length * static_cast<double>(i) / static_cast<double>(steps);
+      const Place to{s, arc.at(s)};
+      include(to.motion);
+      search<0>(arc, from, to);
+      search<1>(arc, from, to);
+      from = to;
+    }
+  }
+  void rest(const Rest& rest) { x_.include(rest.place), v_.include(0.0); }
+  void impact(const Impact& impact) { x_.include(impact.place), v_.include(impact.before), v_.include(impact.after); }
+
+  /// Cut at the stops, which the end of an arc meets only to rounding.
+  [[nodiscard]] Range displacement(const Stops& stops) const {
+    return {std::max(x_.low, stops.lower), std::min(x_.high, stops.upper)};
+  }
+  [[nodiscard]] const Range& velocity() const { return v_; }
+
+ private:
+  static constexpr int max_splits = 10000;  ///< an arc whose bounds overflow ends here
+
+  struct Place {
+    double s;
+    Motion<double> motion;
+  };
+
+  void include(const Motion<double>& m) { x_.include(m.x), v_.include(m.v); }
+
+  /// What is searched (order 0: displacement, 1: velocity) with its first two derivatives.
+  template <int order, Effects E>
+  static std::array<double, 3> jet(const Arc<double, E>& arc, const Motion<double>& m) {
+    if constexpr (order == 0) return {m.x, m.v, m.a};
+    return {m.v, m.a, arc.flow().jerk(m)};
+  }
+
+  template <int order, Effects E>
+  void search(const Arc<double, E>& arc, const Place& from, const Place& to) {
+    const Range& range = order == 0 ? x_ : v_;
+    const double step = to.s - from.s;
+    const auto left = jet<order>(arc, from.motion), right = jet<order>(arc, to.motion);
+    const double error = hermite_error(arc.flow().derivative_bound(from.motion, step, 6 + order), step);
+    Bernstein<double> c = hermite<double>(step, right[0] - left[0], {left[1], right[1]}, {left[2], right[2]});
+    const double middle = c[3];
+    c[3] = middle + error;
+    const double high = left[0] + *std::max_element(c.begin(), c.end());
+    c[3] = middle - error;
+    const double low = left[0] + *std::min_element(c.begin(), c.end());
+    const double rounding = 4 * epsilon<double>() * std::max(std::abs(left[0]), std::abs(right[0]));
+    if (!(high > range.high + rounding || low < range.low - rounding) || ++splits_ > max_splits) return;
+    const Place middle_place = split<order>(arc, from, to);
+    if (!(middle_place.s > from.s && middle_place.s < to.s)) return;
+    include(middle_place.motion);
+    search<order>(arc, from, middle_place);
+    search<order>(arc, middle_place, to);
+  }
+
+  /// The turning point where the slope changes sign between two places, by Newton's iteration within a bracket; else
+  /// the middle.
+  template <int order, Effects E>
+  static Place split(const Arc<double, E>& arc, const Place& from, const Place& to) {
+    double low = from.s, high = to.s, s = (low + high) / 2;
+    const double slope_before = jet<order>(arc, from.motion)[1], slope_after = jet<order>(arc, to.motion)[1];
+    Motion<double> m = arc.at(s);
+    if (!(slope_before * slope_after < 0)) return {s, m};
+    for (int iteration = 0; iteration < 60; ++iteration) {
+      const auto [value, slope, curvature] = jet<order>(arc, m);
+      ((slope > 0) == (slope_before > 0) ? low : high) = s;
+      double next = s - slope / curvature;
+      if (!(next > low && next < high)) next = (low + high) / 2;
+      const bool settled = std::abs(next - s) <= 1e-9 * (to.s - from.s);  // the extremum's error is the square of this
+      s = next;
+      m = arc.at(s);
+      if (settled) break;
+    }
+    return {s, m};
+  }
+
+  Range x_, v_;
+  int splits_ = 0;
+};
+
+}  // namespace clatter

@@ -1,0 +1,127 @@
+#pragma once
+
+#include <algorithm>
+#include <boost/math/quadrature/gauss.hpp>
+#include <cmath>
+#include <complex>
+#include <cstddef>
+#include <limits>
+#include <vector>
+
+#include "dynamics/arc.hpp"
+
+namespace clatter {
+
+/// Amplitude and phase of the constant part and the harmonics, shape [harmonic]: a_0 signed, its phase NaN.
+struct Spectrum {
+  std::vector<double> amplitude, phase;
+
+  /// From the complex coefficients X_k, shape [harmonic]: x = X_0 + 2 Re sum X_k e^{ik Omega tau}.
+  static Spectrum of(const std::vector<std::complex<double>>& coefficients) {
+    Spectrum spectrum;
+    for (const auto& c : coefficients) {
+      const bool constant = spectrum.amplitude.empty();
+      spectrum.amplitude.push_back(constant ? c.real() : 2 * std::abs(c));
+      spectrum.phase.push_back(constant ? std::numeric_limits<double>::quiet_NaN() : std::arg(c));
+    }
+    return spectrum;
+  }
+};
+
+/// Harmonics integrated over the arcs themselves, without samples and so without aliasing.
+///
+/// With w = k Omega, integrating eq. 3 by parts over an arc gives its part of the integral of x e^{-iw tau},
+/// Z X = int (f sin theta + load) e^{-iw tau} - [(x' + (iw + 2h) x) e^{-iw tau}],  Z = 1 - w^2 + 2ihw (physics.md,
+/// check 6, is their sum). Where Z is small, at a resonance, the right-hand side cancels, and Gauss-Legendre quadrature
+/// takes its place, exact to rounding.
+class ExactHarmonics {
+ public:
+  using Complex = std::complex<double>;
+
+  /// Harmonics 0 ... K of the base frequency, over the observed time.
+  ExactHarmonics(std::size_t highest, double base_frequency) : base_(base_frequency), x_(highest + 1) {}
+
+  template <Effects E>
+  void arc(const Arc<double, E>& arc, double begin, double length) {
+    const Motion<double>& first = arc.start();
+    const Motion<double> last = arc.at(length);
+    if (!(begin > 0.0)) first_x_ = first.x;
+    for (std::size_t k = 0; k < x_.size(); ++k) {
+      const double w = base_ * static_cast<double>(k), h = arc.flow().h;
+      const Complex z(1 - w * w, 2 * h * w);
+      if (std::norm(z) < 1.0 / 64) {
+        x_[k] += quadrature(arc, w, begin, length);
+        continue;
+      }
+      const Complex slope(2 * h, w);
+      const Complex ends =
+          (last.v + slope * last.x) * turn(w * (begin + length)) - (first.v + slope * first.x) * turn(w * begin);
+      x_[k] += (force(arc, w, length) * turn(w * begin) - ends) / z;
+    }
+  }
+  void rest(const Rest& rest) {
+    if (!(rest.time > 0.0)) first_x_ = rest.place;
+    for (std::size_t k = 0; k < x_.size(); ++k) {
+      const double w = base_ * static_cast<double>(k);
+      x_[k] += rest.place * turn(w * rest.time) * wave(-w, rest.length);
+    }
+  }
+  void impact(const Impact&) {}
+
+  /// Ends the observed time, of length `total`, at displacement x.
+  void finish(double x, double total) {
+    v_.resize(x_.size());
+    for (std::size_t k = 0; k < x_.size(); ++k) {
+      const double w = base_ * static_cast<double>(k);
+      x_[k] /= total;
+      v_[k] = Complex(0, w) * x_[k] + (x * turn(w * total) - first_x_) / total;
+    }
+  }
+  [[nodiscard]] const std::vector<Complex>& displacement() const { return x_; }
+  [[nodiscard]] const std::vector<Complex>& velocity() const { return v_; }
+
+ private:
+  [[nodiscard]] static Complex turn(double angle) { return {std::cos(angle), -std::sin(angle)}; }
+
+  /// Integral of e^{i w s} from 0 to `length`, without cancellation.
+  [[nodiscard]] static Complex wave(double w, double length) {
+    const double half = w * length / 2;
+    return length * (half == 0.0 ? 1.0 : std::sin(half) / half) * Complex(std::cos(half), std::sin(half));
+  }
+
+  /// Integral of the force times e^{-i w s} over an arc.
+  template <Effects E>
+  [[nodiscard]] static Complex force(const Arc<double, E>& arc, double w, double length) {
+    const auto& flow = arc.flow();
+    Complex sum = flow.load * wave(-w, length);
+    if constexpr (E.forcing != Forcing::none) {
+      const Complex phase(arc.start().cosine, arc.start().sine);
+      const Complex difference = phase * wave(flow.nu - w, length) - std::conj(phase) * wave(-flow.nu - w, length);
+      sum += flow.f * difference / Complex(0, 2);
+    }
+    return sum;
+  }
+
+  /// The same integral by panels in which nothing turns by more than a few radians.
+  template <Effects E>
+  [[nodiscard]] static Complex quadrature(const Arc<double, E>& arc, double w, double begin, double length) {
+    using Rule = boost::math::quadrature::gauss<double, 20>;
+    const double panels = std::ceil(length * (arc.flow().rate + w) / 4), half = length / panels / 2;
+    Complex sum = 0;
+    const auto add = [&](double s, double weight) { sum += weight * arc.at(s).x * turn(w * (begin + s)); };
+    for (double panel = 0; panel < panels; ++panel)
+      for (std::size_t i = 0; i < Rule::abscissa().size(); ++i) {
+        const double middle = (2 * panel + 1) * half, offset = half * Rule::abscissa()[i],
+                     weight = half * Rule::weights()[i];
+        add(middle - offset, weight);
+        add(middle + offset, weight);
+      }
+    return sum;
+  }
+
+  double base_;
+  double first_x_ = 0.0;
+  std::vector<Complex> x_, v_;
+};
+
+}  // namespace clatter

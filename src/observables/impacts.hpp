@@ -1,0 +1,61 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <limits>
+#include <vector>
+
+#include "dynamics/state.hpp"
+
+namespace clatter {
+
+/// Index of a stop in results: 0 the lower, 1 the upper one.
+[[nodiscard]] constexpr std::size_t index_of(Side side) { return side == Side::upper ? 1 : 0; }
+
+/// Counts impacts and sums the time at rest, for each stop.
+class Impacts {
+ public:
+  struct OfStop {
+    double count = 0.0;
+    double before = std::numeric_limits<double>::quiet_NaN();  ///< velocity before the first impact, signed
+    double after = std::numeric_limits<double>::quiet_NaN();   ///< velocity after it
+    double rest_time = 0.0;                                    ///< in tau
+  };
+
+  template <class A>
+  void arc(const A&, double, double) {}
+  void rest(const Rest& rest) {
+    if (rest.held) stops_[index_of(rest.side)].rest_time += rest.length;
+  }
+  void impact(const Impact& impact) {
+    OfStop& stop = stops_[index_of(impact.side)];
+    if (stop.count == 0.0) stop.before = impact.before, stop.after = impact.after;
+    stop.count += 1.0;
+    if (!(first_speed_ >= 0.0)) first_speed_ = impact.before < 0.0 ? -impact.before : impact.before;
+  }
+
+  [[nodiscard]] const std::array<OfStop, 2>& stops() const { return stops_; }
+  [[nodiscard]] double first_speed() const {
+    return first_speed_;
+  }  ///< |x'| before the first impact on either stop, NaN if none
+
+ private:
+  std::array<OfStop, 2> stops_{};
+  double first_speed_ = std::numeric_limits<double>::quiet_NaN();
+};
+
+/// Keeps every impact.
+class ImpactLog {
+ public:
+  template <class A>
+  void arc(const A&, double, double) {}
+  void rest(const Rest&) {}
+  void impact(const Impact& impact) { impacts_.push_back(impact); }
+
+  [[nodiscard]] std::vector<Impact>& impacts() { return impacts_; }
+
+ private:
+  std::vector<Impact> impacts_;
+};
+
+}  // namespace clatter

@@ -1,0 +1,153 @@
+#include "sweep/columns.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace clatter {
+namespace {
+
+const char* long_name_of(Parameter parameter) {
+  switch (parameter) {
+    case Parameter::h:
+      return "damping ratio";
+    case Parameter::f:
+      return "force amplitude over stiffness";
+    case Parameter::nu:
+      return "excitation over natural frequency";
+    case Parameter::phase:
+      return "forcing phase at tau = 0";
+    case Parameter::R:
+      return "restitution of velocity";
+    case Parameter::xs:
+      return "place of the symmetric stops";
+    case Parameter::stop_lower:
+      return "place of the lower stop";
+    case Parameter::stop_upper:
+      return "place of the upper stop";
+    case Parameter::R_lower:
+      return "restitution of the lower stop";
+    case Parameter::R_upper:
+      return "restitution of the upper stop";
+    case Parameter::load:
+      return "constant force over stiffness";
+    case Parameter::x0:
+      return "displacement at tau = 0";
+    case Parameter::v0:
+      return "velocity at tau = 0";
+    case Parameter::start_period:
+      return "period of the free vibration that the start lies on";
+  }
+  return "";
+}
+
+std::string name_of(const Dimension& dimension) { return std::string(key_of(dimension.front().parameter)); }
+
+}  // namespace
+
+Columns::Columns(const Sweep& sweep)
+    : sweep_(sweep),
+      status_(size(sweep), static_cast<std::uint8_t>(Status::unresolved)),
+      impacts_(status_.size(), 0),
+      periods_(status_.size(), 0.0),
+      outputs_(outputs_of(sweep.scene.observe)) {
+  for (const Dimension& dimension : sweep.dimensions) axes_.push_back(name_of(dimension));
+  for (const Output& output : outputs_) values_.emplace_back(status_.size() * output.width, no_value);
+  if (sweep.scene.observe.impact_log) log_.resize(status_.size());
+}
+
+void Columns::store(std::size_t point, PointResult&& result) {
+  status_[point] = static_cast<std::uint8_t>(result.status);
+  impacts_[point] = static_cast<std::int64_t>(result.impacts);
+  periods_[point] = result.periods;
+  for (std::size_t i = 0; i < outputs_.size(); ++i) outputs_[i].put(result, &values_[i][point * outputs_[i].width]);
+  if (!log_.empty()) log_[point] = std::move(result.log);
+}
+
+void Columns::add_coordinates(Figure& figure) const {
+  const auto coordinate = [&](std::string name, Column values, std::string long_name) {
+    figure.variables.push_back({name, {name}, std::move(values), std::move(long_name), "1"});
+  };
+  for (const Dimension& dimension : sweep_.dimensions) {
+    figure.dimensions.push_back({name_of(dimension), length(dimension)});
+    for (const Axis& axis : dimension)
+      figure.variables.push_back({std::string(key_of(axis.parameter)),
+                                  {name_of(dimension)},
+                                  axis.values,
+                                  long_name_of(axis.parameter),
+                                  axis.parameter == Parameter::phase ? "rad" : "1"});
+  }
+  const Observe& observe = sweep_.scene.observe;
+  if (observe.harmonics > 0) {
+    std::vector<std::int64_t> numbers(static_cast<std::size_t>(observe.harmonics) + 1);
+    std::iota(numbers.begin(), numbers.end(), 0);
+    figure.dimensions.push_back({"harmonic", numbers.size()});
+    coordinate("harmonic", numbers, "number of the harmonic, 0: constant part");
+  }
+  if (observe.impacts) {
+    figure.dimensions.push_back({"stop", 2});
+    coordinate("stop", std::vector<std::int8_t>{-1, 1}, "-1: lower stop, +1: upper stop");
+  }
+  if (observe.trajectory > 0) figure.dimensions.push_back({"sample", static_cast<std::size_t>(observe.trajectory)});
+}
+
+void Columns::add_always(Figure& figure) {
+  figure.variables.push_back({"status", axes_, std::move(status_), "what became of the point", "1"});
+  figure.variables.back().attributes = {
+      {"flag_values", std::vector<std::uint8_t>{0, 1, 2, 16, 17, 18}},
+      {"flag_meanings", "periodic aperiodic transient event_budget not_finite unresolved"}};
+  figure.variables.push_back({"impact_total", axes_, std::move(impacts_), "impacts simulated", "1"});
+  figure.variables.push_back({"simulated_periods", axes_, std::move(periods_), "forcing periods simulated", "1"});
+}
+
+void Columns::add_impact_log(Figure& figure) {
+  std::vector<std::int64_t> counts;
+  std::vector<double> tau, before, after;
+  std::vector<std::int8_t> stops;
+  for (std::vector<Impact>& impacts : log_) {
+    counts.push_back(static_cast<std::int64_t>(impacts.size()));
+    for (const Impact& impact : impacts) {
+      tau.push_back(impact.time), before.push_back(impact.before), after.push_back(impact.after);
+      stops.push_back(static_cast<std::int8_t>(impact.side));
+    }
+    std::vector<Impact>().swap(impacts);
+  }
+  const std::vector<std::string> along{"impact"};
+  figure.dimensions.push_back({"impact", tau.size()});
+  figure.variables.push_back({"impact_count", axes_, std::move(counts), "impacts in the log of the point", "1"});
+  figure.variables.back().attributes = {{"sample_dimension", "impact"}};
+  figure.variables.push_back(
+      {"impact_tau", along, std::move(tau), "time of the impact since the beginning of the observed time", "1"});
+  figure.variables.push_back({"impact_stop", along, std::move(stops), "stop that is hit, -1: lower, +1: upper", "1"});
+  figure.variables.push_back({"impact_v_before", along, std::move(before), "velocity before the impact", "1"});
+  figure.variables.push_back({"impact_v_after", along, std::move(after), "velocity after the impact", "1"});
+}
+
+Figure Columns::figure() {
+  Figure figure;
+  add_coordinates(figure);
+  add_always(figure);
+  for (std::size_t i = 0; i < outputs_.size(); ++i) {
+    Output& output = outputs_[i];
+    std::vector<std::string> dimensions = axes_;
+    dimensions.insert(dimensions.end(), output.inner.begin(), output.inner.end());
+    figure.variables.push_back(
+        {output.name, std::move(dimensions), std::move(values_[i]), output.long_name, output.units});
+  }
+  if (!log_.empty()) add_impact_log(figure);
+  return figure;
+}
+
+std::size_t Columns::failed_points() const {
+  return static_cast<std::size_t>(std::count_if(
+      status_.begin(), status_.end(), [](std::uint8_t status) { return failed(static_cast<Status>(status)); }));
+}
+
+double Columns::impacts() const {
+  return std::accumulate(impacts_.begin(), impacts_.end(), 0.0,
+                         [](double sum, std::int64_t n) { return sum + static_cast<double>(n); });
+}
+
+double Columns::periods() const { return std::accumulate(periods_.begin(), periods_.end(), 0.0); }
+
+}  // namespace clatter

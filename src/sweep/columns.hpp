@@ -1,0 +1,57 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "sweep/figure.hpp"
+#include "sweep/point.hpp"
+#include "sweep/sweep.hpp"
+
+namespace clatter {
+
+/// A variable of the results and how a point's share of it is got.
+struct Output {
+  std::string name, long_name, units;
+  std::vector<std::string> inner;                               ///< dimensions beyond the sweep's axes
+  std::size_t width = 1;                                        ///< values a point
+  std::function<void(const PointResult&, double* values)> put;  ///< writes `width` values
+};
+
+/// The variables that a scene's observables give (interface.md, table of variables), the impact log and the integer
+/// ones aside.
+[[nodiscard]] std::vector<Output> outputs_of(const Observe& observe);
+
+/// The results of all points, by index, and the figure they make.
+class Columns {
+ public:
+  explicit Columns(const Sweep& sweep);  ///< Throws std::bad_alloc.
+
+  /// Stores a point's result; different points may be stored at the same time.
+  void store(std::size_t point, PointResult&& result);
+
+  /// The figure; the columns are empty afterwards.
+  [[nodiscard]] Figure figure();
+
+  [[nodiscard]] std::size_t failed_points() const;
+  [[nodiscard]] double impacts() const;  ///< simulated, all points together
+  [[nodiscard]] double periods() const;  ///< simulated, all points together
+
+ private:
+  void add_coordinates(Figure& figure) const;
+  void add_always(Figure& figure);
+  void add_impact_log(Figure& figure);
+
+  const Sweep& sweep_;
+  std::vector<std::string> axes_;  ///< the sweep's dimensions
+  std::vector<std::uint8_t> status_;
+  std::vector<std::int64_t> impacts_;
+  std::vector<double> periods_;
+  std::vector<Output> outputs_;
+  std::vector<std::vector<double>> values_;  ///< [output][point][width]
+  std::vector<std::vector<Impact>> log_;     ///< [point], empty where no log is observed
+};
+
+}  // namespace clatter

@@ -1,0 +1,89 @@
+#include <algorithm>
+
+#include "sweep/columns.hpp"
+
+namespace clatter {
+namespace {
+
+using Member = double PointResult::*;
+
+Output scalar(std::string name, std::string long_name, Member member) {
+  return {std::move(name),
+          std::move(long_name),
+          "1",
+          {},
+          1,
+          [member](const PointResult& r, double* out) { *out = r.*member; }};
+}
+
+Output per_stop(std::string name, std::string long_name, double (PointResult::*member)[2]) {
+  const auto put = [member](const PointResult& r, double* out) { std::copy_n(r.*member, 2, out); };
+  return {std::move(name), std::move(long_name), "1", {"stop"}, 2, put};
+}
+
+/// Values of a vector of the result, NaN where the point has none.
+template <class Get>
+Output row(std::string name, std::string long_name, std::string units, std::string dimension, std::size_t width,
+           Get get) {
+  const auto put = [width, get](const PointResult& r, double* out) {
+    const std::vector<double>& values = get(r);
+    std::fill_n(std::copy_n(values.begin(), std::min(width, values.size()), out),
+                width - std::min(width, values.size()), no_value);
+  };
+  return {std::move(name), std::move(long_name), std::move(units), {std::move(dimension)}, width, put};
+}
+
+void add_harmonics(std::vector<Output>& outputs, std::size_t count) {
+  const auto add = [&](const char* name, const char* long_name, const char* units, Spectrum PointResult::*of,
+                       std::vector<double> Spectrum::*what) {
+    outputs.push_back(row(name, long_name, units, "harmonic", count,
+                          [of, what](const PointResult& r) -> const std::vector<double>& { return r.*of.*what; }));
+  };
+  add("x_amplitude", "amplitude of the harmonics of displacement", "1", &PointResult::x_spectrum, &Spectrum::amplitude);
+  add("x_phase", "phase of the harmonics of displacement at tau = 0", "rad", &PointResult::x_spectrum,
+      &Spectrum::phase);
+  add("v_amplitude", "amplitude of the harmonics of velocity", "1", &PointResult::v_spectrum, &Spectrum::amplitude);
+  add("v_phase", "phase of the harmonics of velocity at tau = 0", "rad", &PointResult::v_spectrum, &Spectrum::phase);
+  outputs.push_back(
+      scalar("base_frequency", "frequency whose multiples the harmonics are", &PointResult::base_frequency));
+}
+
+void add_trajectory(std::vector<Output>& outputs, std::size_t count) {
+  const auto add = [&](const char* name, const char* long_name, std::vector<double> PointResult::*what) {
+    outputs.push_back(row(name, long_name, "1", "sample", count,
+                          [what](const PointResult& r) -> const std::vector<double>& { return r.*what; }));
+  };
+  add("tau", "time since the beginning of the observed time", &PointResult::tau);
+  add("x", "displacement", &PointResult::x);
+  add("v", "velocity", &PointResult::v);
+}
+
+}  // namespace
+
+std::vector<Output> outputs_of(const Observe& observe) {
+  std::vector<Output> outputs;
+  if (observe.extrema) {
+    outputs.push_back(scalar("x_min", "minimum displacement", &PointResult::x_min));
+    outputs.push_back(scalar("x_max", "maximum displacement", &PointResult::x_max));
+    outputs.push_back(scalar("v_min", "minimum velocity", &PointResult::v_min));
+    outputs.push_back(scalar("v_max", "maximum velocity", &PointResult::v_max));
+  }
+  if (observe.harmonics > 0) add_harmonics(outputs, static_cast<std::size_t>(observe.harmonics) + 1);
+  if (observe.impacts) {
+    outputs.push_back(per_stop("impacts_per_period", "impacts per forcing period", &PointResult::impacts_per_period));
+    outputs.push_back(per_stop("v_before", "velocity before the first impact", &PointResult::v_before));
+    outputs.push_back(per_stop("v_after", "velocity after the first impact", &PointResult::v_after));
+    outputs.push_back(per_stop("rest_fraction", "share of time at rest on the stop", &PointResult::rest_fraction));
+  }
+  if (observe.trajectory > 0) add_trajectory(outputs, static_cast<std::size_t>(observe.trajectory));
+  if (observe.period) {
+    outputs.push_back(scalar("period", "period of the motion", &PointResult::period));
+    outputs.push_back(scalar("period_ratio", "period of the motion in forcing periods", &PointResult::period_ratio));
+    outputs.push_back(
+        scalar("eigenfrequency", "2 pi over the period of unforced motion", &PointResult::eigenfrequency));
+    outputs.push_back(scalar("velocity_ratio", "|velocity before impact / xs|", &PointResult::velocity_ratio));
+  }
+  return outputs;
+}
+
+}  // namespace clatter

@@ -1,0 +1,178 @@
+#include "sweep/point.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include "integrators/exact.hpp"
+#include "integrators/settle.hpp"
+#include "observables/extrema.hpp"
+#include "observables/samples.hpp"
+
+namespace clatter {
+namespace {
+
+/// The observers that a scene asks for; each is called once an arc, and costs nothing where it is absent.
+class Observers {
+ public:
+  Observers(const Scene& scene, double total, double base_frequency) {
+    const Observe& observe = scene.observe;
+    if (observe.extrema) extrema.emplace();
+    if (observe.impacts || observe.period) impacts.emplace();
+    if (observe.impact_log) log.emplace();
+    if (observe.trajectory > 0) {
+      const auto count = static_cast<std::size_t>(observe.trajectory);
+      trajectory.emplace(count, total / static_cast<double>(count - 1), AtImpact::after, scene.stops);
+    }
+    if (observe.harmonics == 0) return;
+    if (observe.harmonics_method == HarmonicsMethod::exact) {
+      exact_harmonics.emplace(static_cast<std::size_t>(observe.harmonics), base_frequency);
+    } else {
+      const auto count = static_cast<std::size_t>(observe.harmonics_samples);
+      samples.emplace(count, total / static_cast<double>(count), AtImpact::mean, scene.stops);
+    }
+  }
+
+  template <Effects E>
+  void arc(const Arc<double, E>& arc, double begin, double length) {
+    each([&](auto& observer) { observer.arc(arc, begin, length); });
+  }
+  void rest(const Rest& rest) {
+    each([&](auto& observer) { observer.rest(rest); });
+  }
+  void impact(const Impact& impact) {
+    each([&](auto& observer) { observer.impact(impact); });
+  }
+  void finish(double x, double v, double total, bool periodic) {
+    if (trajectory) trajectory->finish(x, v, total, periodic);
+    if (samples) samples->finish(x, v, total, periodic);
+    if (exact_harmonics) exact_harmonics->finish(x, total);
+  }
+
+  std::optional<Extrema> extrema;
+  std::optional<Impacts> impacts;
+  std::optional<ImpactLog> log;
+  std::optional<Samples> trajectory, samples;
+  std::optional<ExactHarmonics> exact_harmonics;
+
+ private:
+  template <class Function>
+  void each(Function&& function) {
+    if (extrema) function(*extrema);
+    if (impacts) function(*impacts);
+    if (log) function(*log);
+    if (trajectory) function(*trajectory);
+    if (samples) function(*samples);
+    if (exact_harmonics) function(*exact_harmonics);
+  }
+};
+
+/// Harmonics k of the base frequency from samples of an observed time in which it turns `turns` times; NaN from half
+/// the sampling rate on.
+Spectrum sampled_spectrum(const std::vector<double>& samples, double turns, std::size_t highest, Workshop& workshop) {
+  const auto all = workshop.transform->transform(samples, *workshop.workspace);
+  const double nan = no_value;
+  std::vector<std::complex<double>> harmonics(highest + 1, {nan, nan});
+  for (std::size_t k = 0; k <= highest; ++k) {
+    const double index = std::round(turns * static_cast<double>(k));
+    if (2 * index < static_cast<double>(samples.size())) harmonics[k] = all[static_cast<std::size_t>(index)];
+  }
+  return Spectrum::of(harmonics);
+}
+
+/// One scene on its way to a result.
+template <Effects E>
+class Point {
+ public:
+  Point(const Scene& scene, Workshop& workshop) : scene_(scene), workshop_(workshop), integrator_(scene) {}
+
+  PointResult run() {
+    State<double> state;
+    state.x = scene_.start.displacement, state.v = scene_.start.velocity;
+    observed_ = settle(integrator_, state, scene_);
+    result_.status = observed_.status;
+    if (!failed(observed_.status)) observe();
+    result_.impacts = integrator_.impacts();
+    return std::move(result_);
+  }
+
+ private:
+  static constexpr bool forced = E.forcing != Forcing::none;
+
+  void observe() {
+    const double total = observed_.turns * integrator_.period();
+    // the base frequency turns once in a transient and in a period of unforced motion, else with the force
+    const bool once = observed_.status == Status::transient || (!forced && observed_.status == Status::periodic);
+    const double base_turns = once ? 1.0 : observed_.turns;
+    result_.base_frequency = once || !forced ? 2 * pi<double>() * base_turns / total : scene_.oscillator.frequency;
+    Observers observers(scene_, total, result_.base_frequency);
+    State<double> state = observed_.from;
+    const Outcome outcome = run_for(integrator_, state, observed_.turns, observers);
+    result_.periods = observed_.settled + observed_.turns;
+    if (outcome != Outcome::completed) {
+      result_.status = status_of(outcome);
+      result_.base_frequency = no_value;
+      return;
+    }
+    result_.end = {state.x, state.v, scene_.start.phase + 2 * pi<double>() * state.turns};
+    observers.finish(state.x, state.v, total, observed_.status == Status::periodic);
+    collect(observers, total, base_turns);
+    if (observers.impacts) collect_impacts(*observers.impacts, total, once ? 1.0 : observed_.turns);
+  }
+
+  void collect(Observers& observers, double total, double base_turns) {
+    if (observers.extrema) {
+      const auto x = observers.extrema->displacement(scene_.stops), v = observers.extrema->velocity();
+      result_.x_min = x.low, result_.x_max = x.high, result_.v_min = v.low, result_.v_max = v.high;
+    }
+    if (observers.log) result_.log = std::move(observers.log->impacts());
+    if (observers.trajectory) {
+      result_.tau = observers.trajectory->times(total);
+      result_.x = std::move(observers.trajectory->displacement()),
+      result_.v = std::move(observers.trajectory->velocity());
+    }
+    if (observers.exact_harmonics) {
+      result_.x_spectrum = Spectrum::of(observers.exact_harmonics->displacement());
+      result_.v_spectrum = Spectrum::of(observers.exact_harmonics->velocity());
+    }
+    if (observers.samples) {
+      const auto highest = static_cast<std::size_t>(scene_.observe.harmonics);
+      result_.x_spectrum = sampled_spectrum(observers.samples->displacement(), base_turns, highest, workshop_);
+      result_.v_spectrum = sampled_spectrum(observers.samples->velocity(), base_turns, highest, workshop_);
+    }
+  }
+
+  void collect_impacts(const Impacts& impacts, double total, double periods) {
+    bool rests_throughout = false;
+    for (std::size_t i = 0; i < impacts.stops().size(); ++i) {
+      const Impacts::OfStop& stop = impacts.stops()[i];
+      result_.impacts_per_period[i] = stop.count / periods;
+      result_.v_before[i] = stop.before, result_.v_after[i] = stop.after;
+      result_.rest_fraction[i] = std::min(1.0, stop.rest_time / total);
+      rests_throughout = rests_throughout || stop.rest_time >= total * (1 - 1e-14);
+    }
+    const Stops& stops = scene_.stops;
+    if (stops.lower == -stops.upper) result_.velocity_ratio = impacts.first_speed() / stops.upper;
+    if (observed_.status == Status::aperiodic) result_.period_ratio = 0.0;
+    if (observed_.status != Status::periodic || observed_.standstill || rests_throughout) return;
+    result_.period = total;
+    if (forced) result_.period_ratio = observed_.turns;
+    if (!forced) result_.eigenfrequency = 2 * pi<double>() / total;
+  }
+
+  const Scene& scene_;
+  Workshop& workshop_;
+  Exact<double, E> integrator_;
+  Observed<double> observed_{};
+  PointResult result_{};
+};
+
+}  // namespace
+
+PointResult run_point(const Scene& scene, Workshop& workshop) {
+  return with_effects(required_effects(scene.oscillator),
+                      [&]<Effects effects>() { return Point<effects>(scene, workshop).run(); });
+}
+
+}  // namespace clatter
