@@ -20,9 +20,11 @@ using Dimension = std::vector<Axis>;
 
 /// Every combination of the dimensions' values; the first dimension varies slowest.
 struct Sweep {
-  Scene scene;                          ///< the scene that the axes vary
-  std::vector<Dimension> dimensions;    ///< empty: one point
-  std::optional<std::size_t> follow;    ///< the dimension along which each point starts from the end of the one before
+  Scene scene;                        ///< the scene that the axes vary
+  std::vector<Dimension> dimensions;  ///< empty: one point
+  std::optional<std::size_t> follow;  ///< the dimension along which each point starts from the end of the one before
+  std::optional<double>
+      start_period{};  ///< start_period of [scene], set at each point after its stops; empty: x0 and v0 are the start
 };
 
 [[nodiscard]] inline std::size_t length(const Dimension& dimension) { return dimension.front().values.size(); }
