@@ -1,0 +1,105 @@
+#include <algorithm>
+#include <array>
+#include <string>
+
+#include "io/consistency.hpp"
+
+namespace clatter {
+namespace {
+
+using enum Parameter;
+
+std::string name_of(Parameter parameter) { return "'" + std::string(key_of(parameter)) + "'"; }
+
+/// Whether a place comes after another; the command line after every file.
+bool later(const Place& left, const Place& right) {
+  const auto rank = [](const Place& place) { return std::array{place.line == 0 ? 1 : 0, place.line, place.column}; };
+  return rank(left) > rank(right);
+}
+
+/// Two ways of saying the same, at the place of the one that was written last.
+void exclude(const Settings& settings, Parameter one, Parameter other) {
+  const auto first = settings.given(one);
+  const auto second = settings.given(other);
+  if (!first || !second) return;
+  const bool in_order = later(second->key_place, first->key_place);
+  fail((in_order ? second : first)->key_place,
+       name_of(in_order ? other : one) + " beside " + name_of(in_order ? one : other) + "; remove one of them");
+}
+
+void check_scene_or_sweep(const Settings& settings) {
+  for (const SweptSetting& swept : settings.axes) {
+    const std::string key(key_of(swept.parameter));
+    const Setting* const fixed = settings.find("scene", key);
+    if (fixed == nullptr) continue;
+    const Place& place = later(fixed->key_place, swept.key_place) ? fixed->key_place : swept.key_place;
+    fail(place, '\'' + key + "' in both [scene] and [sweep]; remove one of them (for a single value: sweep." + key +
+                    " = VALUE)");
+  }
+}
+
+void check_stops_given(const Settings& settings) {
+  if (settings.given(xs)) return;
+  const bool lower = settings.given(stop_lower).has_value();
+  const bool upper = settings.given(stop_upper).has_value();
+  if (lower && upper) return;
+  const Place place = settings.place_of_section("scene");
+  if (!lower && !upper)
+    fail(place, "'xs' is missing in [scene]; give xs, or stop_lower and stop_upper (-inf and inf: no stop)");
+  fail(place, name_of(lower ? stop_upper : stop_lower) + " is missing in [scene]; give " + (lower ? "inf" : "-inf") +
+                  " where there is no such stop");
+}
+
+/// start_period is the period of free motion without loss between symmetric stops (physics.md, check 1).
+void check_start_period(const Settings& settings) {
+  const auto start = settings.given(start_period);
+  if (!start) return;
+  const auto demand = [&](Parameter parameter, double value) {
+    const auto given = settings.given(parameter);
+    if (!given) return;
+    for (std::size_t i = 0; i < given->values.size(); ++i) {
+      if (given->values[i] == value) continue;
+      fail(given->place_of(i), std::string(key_of(parameter)) + " = " + number_text(given->values[i]) +
+                                   " beside 'start_period'; permitted: " + number_text(value) +
+                                   ", or x0 and v0 in place of start_period");
+    }
+  };
+  for (const Parameter parameter : {h, f, load}) demand(parameter, 0);
+  for (const Parameter parameter : {R, R_lower, R_upper}) demand(parameter, 1);
+  if (!settings.given(xs))
+    fail(start->key_place, "'start_period' without 'xs'; give the stops by xs, or x0 and v0 in place of start_period");
+}
+
+void check_duration(const Settings& settings) {
+  if (settings.text("time", "mode") != "transient" || settings.number("time", "duration") > 0) return;
+  const Setting* const given = settings.find("time", "duration");
+  if (given == nullptr)
+    fail(settings.place_of_section("time"), "'duration' is missing in [time]; mode = transient needs a duration > 0");
+  fail(given->place, "duration = 0 is out of range; permitted: > 0 where mode = transient");
+}
+
+/// The FFT of N samples knows the harmonics below N/2.
+void check_harmonics(const Settings& settings) {
+  const std::int64_t highest = settings.integer("observe", "harmonics");
+  const std::int64_t samples = settings.integer("observe", "harmonics_samples");
+  if (settings.text("observe", "harmonics_method") != "fft" || 2 * highest < samples) return;
+  if (highest == 0) return;
+  fail(settings.find("observe", "harmonics")->place,
+       "harmonics = " + std::to_string(highest) + " from " + std::to_string(samples) +
+           " samples; permitted: less than half of harmonics_samples, or harmonics_method = exact");
+}
+
+}  // namespace
+
+void check_alternatives(const Settings& settings) {
+  check_scene_or_sweep(settings);
+  for (const Parameter stop : {stop_lower, stop_upper}) exclude(settings, xs, stop);
+  for (const Parameter restitution : {R_lower, R_upper}) exclude(settings, R, restitution);
+  for (const Parameter start : {x0, v0}) exclude(settings, start_period, start);
+  check_stops_given(settings);
+  check_start_period(settings);
+  check_duration(settings);
+  check_harmonics(settings);
+}
+
+}  // namespace clatter

@@ -1,0 +1,88 @@
+#include <algorithm>
+#include <string>
+#include <string_view>
+
+#include "io/consistency.hpp"
+#include "io/suggestion.hpp"
+
+namespace clatter {
+namespace {
+
+/// The names between the commas.
+std::vector<std::string> split_names(std::string_view text) {
+  std::vector<std::string> names;
+  constexpr std::string_view blanks = " \t";
+  for (std::size_t begin = 0; begin <= text.size();) {
+    const std::size_t end = std::min(text.find(',', begin), text.size());
+    std::string_view name = text.substr(begin, end - begin);
+    name.remove_prefix(std::min(name.find_first_not_of(blanks), name.size()));
+    name = name.substr(0, name.find_last_not_of(blanks) + 1);
+    names.emplace_back(name);
+    begin = end + 1;
+  }
+  return names;
+}
+
+bool is_blank(std::string_view text) { return text.find_first_not_of(" \t") == std::string_view::npos; }
+
+std::size_t axis_of(const Settings& settings, const Setting& setting, std::string_view name) {
+  std::vector<std::string_view> names;
+  for (const SweptSetting& swept : settings.axes) names.push_back(key_of(swept.parameter));
+  const auto found = std::find(names.begin(), names.end(), name);
+  if (found != names.end()) return static_cast<std::size_t>(found - names.begin());
+  const std::string way_out = names.empty() ? "; [sweep] has no axes" : suggestion(name, names, "; the axes are: ");
+  fail(setting.place,
+       std::string(setting.key->name) + " names " + quoted(name) + ", which is no axis of [sweep]" + way_out);
+}
+
+std::vector<std::size_t> linked_axes(const Settings& settings) {
+  const Setting* const setting = settings.find("sweep", "linked");
+  if (setting == nullptr || is_blank(std::get<std::string>(setting->value))) return {};
+  std::vector<std::size_t> linked;
+  for (const std::string& name : split_names(std::get<std::string>(setting->value))) {
+    const std::size_t axis = axis_of(settings, *setting, name);
+    if (std::find(linked.begin(), linked.end(), axis) != linked.end())
+      fail(setting->place, "linked names " + quoted(name) + " twice; name each axis once");
+    const std::size_t length = settings.axes[axis].axis.values.size();
+    const SweptSetting& first = settings.axes[linked.empty() ? axis : linked.front()];
+    if (length != first.axis.values.size()) {
+      fail(setting->place, "linked axes of different lengths: " + std::string(key_of(first.parameter)) + " has " +
+                               std::to_string(first.axis.values.size()) + " values, " + name + " has " +
+                               std::to_string(length) + "; give them equally many");
+    }
+    linked.push_back(axis);
+  }
+  if (linked.size() < 2) fail(setting->place, "linked names one axis; name at least two, e.g. \"nu, f\", or none");
+  return linked;
+}
+
+}  // namespace
+
+AxisGroups group_axes(const Settings& settings) {
+  const std::vector<std::size_t> linked = linked_axes(settings);
+  AxisGroups groups;
+  double points = 1;
+  for (std::size_t axis = 0; axis < settings.axes.size(); ++axis) {
+    const bool is_linked = std::find(linked.begin(), linked.end(), axis) != linked.end();
+    if (is_linked && axis != linked.front()) continue;  // its dimension stands where the axis that names it stands
+    groups.push_back(is_linked ? linked : std::vector<std::size_t>{axis});
+    points *= static_cast<double>(settings.axes[axis].axis.values.size());
+    if (points > max_points)
+      fail(settings.axes[axis].place,
+           "a sweep of " + number_text(points) + " points; permitted: at most " + number_text(max_points));
+  }
+  return groups;
+}
+
+std::optional<std::size_t> followed_dimension(const Settings& settings, const AxisGroups& groups) {
+  const Setting* const setting = settings.find("sweep", "follow");
+  if (setting == nullptr || is_blank(std::get<std::string>(setting->value))) return std::nullopt;
+  const std::size_t axis = axis_of(settings, *setting, split_names(std::get<std::string>(setting->value)).front());
+  for (std::size_t dimension = 0; dimension < groups.size(); ++dimension) {
+    const auto& group = groups[dimension];
+    if (std::find(group.begin(), group.end(), axis) != group.end()) return dimension;
+  }
+  return std::nullopt;
+}
+
+}  // namespace clatter

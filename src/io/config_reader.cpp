@@ -1,0 +1,86 @@
+#include <utility>
+
+#include "io/config.hpp"
+#include "io/config_text.hpp"
+#include "io/consistency.hpp"
+#include "io/raw_config.hpp"
+#include "io/settings.hpp"
+#include "io/text_file.hpp"
+
+namespace clatter {
+namespace {
+
+RawConfig read_raw(const std::string& path) {
+  const std::string text = read_text(path);
+  return path.ends_with(".ini") ? read_ini(path, text) : read_toml(path, text);
+}
+
+TimePlan time_plan(const Settings& settings) {
+  return {.mode = settings.text("time", "mode") == "transient" ? Mode::transient : Mode::steady,
+          .max_periods = settings.integer("time", "max_periods"),
+          .window = settings.integer("time", "window"),
+          .duration = settings.number("time", "duration"),
+          .tolerance = settings.number("time", "tolerance"),
+          .max_impacts = static_cast<double>(settings.integer("time", "max_impacts"))};
+}
+
+Observe observe(const Settings& settings) {
+  return {.extrema = settings.flag("observe", "extrema"),
+          .harmonics = settings.integer("observe", "harmonics"),
+          .harmonics_method =
+              settings.text("observe", "harmonics_method") == "exact" ? HarmonicsMethod::exact : HarmonicsMethod::fft,
+          .harmonics_samples = settings.integer("observe", "harmonics_samples"),
+          .impacts = settings.flag("observe", "impacts"),
+          .impact_log = settings.flag("observe", "impact_log"),
+          .trajectory = settings.integer("observe", "trajectory"),
+          .period = settings.flag("observe", "period")};
+}
+
+/// The scene before any axis is applied; what has no default stays as Scene has it.
+Scene scene_of(const Settings& settings) {
+  Scene scene;
+  scene.time = time_plan(settings);
+  scene.observe = observe(settings);
+  for (const Key& key : keys()) {
+    const auto parameter = parameter_of(key.name);
+    if (key.section != "scene" || !parameter || *parameter == Parameter::start_period) continue;
+    const Setting* const given = settings.find("scene", key.name);
+    if (given != nullptr) set(scene, *parameter, std::get<double>(given->value));
+  }
+  return scene;
+}
+
+Sweep sweep_of(Settings& settings, const AxisGroups& groups) {
+  Sweep sweep{scene_of(settings), {}, followed_dimension(settings, groups), std::nullopt};
+  if (const Setting* const start = settings.find("scene", "start_period"))
+    sweep.start_period = std::get<double>(start->value);
+  for (const std::vector<std::size_t>& group : groups) {
+    Dimension& dimension = sweep.dimensions.emplace_back();
+    for (const std::size_t axis : group) {
+      SweptSetting& swept = settings.axes[axis];
+      dimension.push_back({swept.parameter, std::move(swept.axis.values)});
+    }
+  }
+  return sweep;
+}
+
+}  // namespace
+
+Config read_config(const std::string& path, const std::vector<Override>& overrides) {
+  RawConfig raw = read_raw(path);
+  apply_overrides(raw, overrides);
+  Settings settings = check_keys(std::move(raw));
+  check_alternatives(settings);
+  const AxisGroups groups = group_axes(settings);
+  check_stops_and_start(settings, groups);
+  Config config{settings.text("", "title"), settings.text("", "source"), {}, 0, config_text(settings)};
+  if (config.text.size() > max_config_bytes) {
+    fail({path, 1, 1},
+         "the complete configuration is more than 1 MiB; write long lists as linspace, logspace or arange");
+  }
+  config.compression = static_cast<int>(settings.integer("output", "compression"));
+  config.sweep = sweep_of(settings, groups);
+  return config;
+}
+
+}  // namespace clatter

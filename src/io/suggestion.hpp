@@ -1,0 +1,21 @@
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace clatter {
+
+/// A text for a message of one line: in single quotes, control characters as '?', cut after 60 bytes.
+[[nodiscard]] std::string quoted(std::string_view text);
+
+/// The name nearest to what was written, by edit distance; empty where none is near.
+[[nodiscard]] std::string_view nearest(std::string_view written, std::span<const std::string_view> names);
+
+/// "; did you mean 'nu'?" where a name is near, else all the names after `otherwise`, e.g. "; permitted: h, f, nu".
+[[nodiscard]] std::string suggestion(std::string_view written, std::span<const std::string_view> names, std::string_view otherwise);
+
+/// "h, f, nu"
+[[nodiscard]] std::string joined(std::span<const std::string_view> names);
+
+}  // namespace clatter

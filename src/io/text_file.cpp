@@ -1,0 +1,93 @@
+#include "io/text_file.hpp"
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdint>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+#include "io/error.hpp"
+
+namespace clatter {
+namespace {
+
+[[noreturn]] void unreadable(const std::string& path, const std::string& reason) {
+  throw IoError(path + ": cannot be read: " + reason);
+}
+
+std::uint8_t byte(char character) { return static_cast<std::uint8_t>(character); }
+
+bool is_continuation(char character) { return (byte(character) & 0xC0) == 0x80; }
+
+/// Bytes of the UTF-8 character that begins the text, 0 where none does (RFC 3629: no overlong forms, no surrogates).
+std::size_t utf8_length(std::string_view text) {
+  const std::uint8_t lead = byte(text[0]);
+  if (lead < 0x80) return 1;
+  const std::size_t length = lead >= 0xC2 && lead < 0xE0   ? 2
+                             : lead >= 0xE0 && lead < 0xF0 ? 3
+                             : lead >= 0xF0 && lead < 0xF5 ? 4
+                                                           : 0;
+  if (length == 0 || text.size() < length) return 0;
+  if (!std::all_of(text.begin() + 1, text.begin() + static_cast<std::ptrdiff_t>(length), is_continuation)) return 0;
+  const std::uint8_t second = byte(text[1]);
+  const bool overlong = (lead == 0xE0 && second < 0xA0) || (lead == 0xF0 && second < 0x90);
+  const bool beyond = (lead == 0xED && second >= 0xA0) || (lead == 0xF4 && second >= 0x90);
+  return overlong || beyond ? 0 : length;
+}
+
+bool is_control(std::string_view text) {
+  const char first = text[0];
+  if (first == '\t' || first == '\n') return false;
+  if (first == '\r') return text.size() < 2 || text[1] != '\n';
+  return byte(first) < 0x20 || byte(first) == 0x7F;
+}
+
+}  // namespace
+
+std::string read_text(const std::string& path) {
+  std::error_code error;
+  if (std::filesystem::is_directory(path, error)) unreadable(path, "it is a directory; name a file");
+  std::ifstream stream(path, std::ios::binary);
+  if (!stream) unreadable(path, std::strerror(errno));
+  std::string text(max_config_bytes + 1, '\0');
+  stream.read(text.data(), static_cast<std::streamsize>(text.size()));
+  if (stream.bad()) unreadable(path, std::strerror(errno));
+  text.resize(static_cast<std::size_t>(stream.gcount()));
+  if (text.find('\0') != std::string::npos)
+    unreadable(path, "it holds NUL bytes, so it is no text; a configuration is UTF-8 text");
+  if (text.size() > max_config_bytes)
+    throw ConfigError(path + ":1:1: more than 1 MiB; write long lists as linspace, logspace or arange");
+  if (text.starts_with("\xEF\xBB\xBF")) text.erase(0, 3);
+  return text;
+}
+
+int characters(std::string_view text) {
+  return static_cast<int>(
+      std::count_if(text.begin(), text.end(), [](char character) { return !is_continuation(character); }));
+}
+
+Place place_of(const std::string& file, std::string_view text, std::size_t offset) {
+  const std::string_view before = text.substr(0, offset);
+  const std::size_t line_begin = before.rfind('\n') + 1;  // npos + 1 is 0: the first line
+  const auto line = 1 + std::count(before.begin(), before.end(), '\n');
+  return {file, static_cast<int>(line), 1 + characters(before.substr(line_begin))};
+}
+
+std::string unquoted(std::string_view text) {
+  const bool pair = text.size() >= 2 && (text.front() == '"' || text.front() == '\'') && text.back() == text.front();
+  return std::string(pair ? text.substr(1, text.size() - 2) : text);
+}
+
+void check_characters(const std::string& file, std::string_view text) {
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t length = utf8_length(text.substr(at));
+    if (length == 0) fail(place_of(file, text, at), "a byte that is not UTF-8; save the file as UTF-8");
+    if (is_control(text.substr(at)))
+      fail(place_of(file, text, at), "a control character; only tabs and line ends are permitted");
+    at += length;
+  }
+}
+
+}  // namespace clatter

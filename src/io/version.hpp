@@ -1,0 +1,16 @@
+#pragma once
+
+#include <string_view>
+
+namespace clatter {
+
+/// The project's version, e.g. "0.1.0".
+[[nodiscard]] std::string_view version();
+
+/// The commit it was built from, with "-dirty" where files had changed; "unknown" outside git.
+[[nodiscard]] std::string_view git_commit();
+
+/// The compiler that built it, e.g. "GNU 12.2.0".
+[[nodiscard]] std::string_view compiler();
+
+}  // namespace clatter
