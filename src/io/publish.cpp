@@ -1,0 +1,207 @@
+#include "io/publish.hpp"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <csignal>
+#include <cstring>
+#include <filesystem>
+#include <random>
+#include <string>
+#include <utility>
+
+#include "io/error.hpp"
+
+namespace clatter {
+namespace {
+
+namespace fs = std::filesystem;
+
+[[noreturn]] void refuse(const fs::path& path, const std::string& why, const std::string& way_out) {
+  throw IoError{"cannot write '" + path.string() + "': " + why + "; " + way_out};
+}
+
+std::string way_out_of(int error) {
+  switch (error) {
+    case ENOSPC:
+    case EDQUOT:
+    case EFBIG:
+      return "free some space, or name a place that has more";
+    case EACCES:
+    case EPERM:
+    case EROFS:
+      return "get permission, or name a place where you have it";
+    case ENAMETOOLONG:
+      return "use a shorter name";
+    default:
+      return "name another output file";
+  }
+}
+
+[[noreturn]] void refuse(const fs::path& path, int error) { refuse(path, std::strerror(error), way_out_of(error)); }
+
+/// Repeats a system call that a signal interrupted.
+template <typename Call>
+auto uninterrupted(Call call) {
+  auto result = call();
+  while (result < 0 && errno == EINTR) result = call();
+  return result;
+}
+
+/// Owns a file descriptor.
+class Descriptor {
+ public:
+  explicit Descriptor(int number) : number_{number} {}
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(const Descriptor&) = delete;
+  ~Descriptor() {
+    if (number_ >= 0) ::close(number_);
+  }
+
+  [[nodiscard]] int number() const { return number_; }
+
+  /// Closes now, since a network file system may report here that the data didn't arrive; never repeated, as Linux
+  /// always closes.
+  [[nodiscard]] bool close() { return ::close(std::exchange(number_, -1)) == 0 || errno == EINTR; }
+
+ private:
+  int number_;
+};
+
+/// Makes a write beyond the limit of `ulimit -f` return EFBIG as on a full disk: the signal would end the process at
+/// once.
+class IgnoreFileSizeSignal {
+ public:
+  IgnoreFileSizeSignal() {
+    struct sigaction ignore {};
+    ignore.sa_handler = SIG_IGN;
+    ::sigaction(SIGXFSZ, &ignore, &before_);
+  }
+  IgnoreFileSizeSignal(const IgnoreFileSizeSignal&) = delete;
+  IgnoreFileSizeSignal& operator=(const IgnoreFileSizeSignal&) = delete;
+  ~IgnoreFileSizeSignal() { ::sigaction(SIGXFSZ, &before_, nullptr); }
+
+ private:
+  struct sigaction before_ {};
+};
+
+/// Where a chain of symbolic links ends, whether there is a file or not.
+fs::path target_of(fs::path path) {
+  constexpr int most_links = 40;  // as in Linux's own look-up
+  std::error_code error;
+  for (int links = 0; fs::is_symlink(path, error); ++links) {
+    if (links == most_links) refuse(path, ELOOP);
+    path = path.parent_path() / fs::read_symlink(path, error);  // an absolute link replaces the parent
+    if (error) refuse(path, error.value());
+  }
+  return path;
+}
+
+fs::path directory_of(const fs::path& path) { return path.has_parent_path() ? path.parent_path() : fs::path{"."}; }
+
+void check_directory(const fs::path& path) {
+  const fs::path directory = directory_of(path);
+  struct stat status {};
+  if (::stat(directory.c_str(), &status) != 0) {
+    if (errno != ENOENT) refuse(path, errno);
+    refuse(path, "there is no directory '" + directory.string() + "'", "make it with mkdir -p, or name another");
+  }
+  if (!S_ISDIR(status.st_mode)) refuse(path, ENOTDIR);
+  if (::faccessat(AT_FDCWD, directory.c_str(), W_OK | X_OK, AT_EACCESS) != 0) refuse(path, errno);
+}
+
+void check_target(const fs::path& path) {
+  struct stat status {};
+  if (::stat(path.c_str(), &status) != 0) {
+    if (errno != ENOENT) refuse(path, errno);
+    return;
+  }
+  if (S_ISDIR(status.st_mode)) refuse(path, "is a directory", "name a file in it");
+  if (!S_ISREG(status.st_mode)) refuse(path, "is not a regular file, and would be replaced", "name a file");
+  if (::faccessat(AT_FDCWD, path.c_str(), W_OK, AT_EACCESS) != 0) {
+    refuse(path, "an older file there is write-protected", "chmod u+w it, or name another");
+  }
+}
+
+/// A hidden name beside the target: rename is atomic only within one file system.
+fs::path temporary_name(const fs::path& target) {
+  constexpr std::size_t longest = 200;  // leaves room for the rest of the 255 bytes of a name
+  constexpr std::string_view letters = "abcdefghijklmnopqrstuvwxyz0123456789";
+  std::random_device random;
+  std::uniform_int_distribution<std::size_t> letter{0, letters.size() - 1};
+  std::string name = "." + target.filename().string().substr(0, longest) + ".";
+  for (int i = 0; i < 6; ++i) name += letters[letter(random)];
+  return directory_of(target) / (name + ".tmp");
+}
+
+/// A new file that is removed again unless it has been renamed to its target.
+class TemporaryFile {
+ public:
+  explicit TemporaryFile(fs::path target)
+      : target_{std::move(target)}, path_{temporary_name(target_)}, file_{create()} {}
+  TemporaryFile(const TemporaryFile&) = delete;
+  TemporaryFile& operator=(const TemporaryFile&) = delete;
+  ~TemporaryFile() {
+    if (!path_.empty()) ::unlink(path_.c_str());
+  }
+
+  void write(std::span<const std::byte> bytes) {
+    while (!bytes.empty()) {
+      const ssize_t written = uninterrupted([&] { return ::write(file_.number(), bytes.data(), bytes.size()); });
+      if (written < 0) refuse(target_, errno);
+      bytes = bytes.subspan(static_cast<std::size_t>(written));
+    }
+  }
+
+  void become_target() {
+    if (uninterrupted([&] { return ::fsync(file_.number()); }) != 0 || !file_.close()) refuse(target_, errno);
+    if (::rename(path_.c_str(), target_.c_str()) != 0) refuse(target_, errno);
+    path_.clear();
+  }
+
+ private:
+  /// Creates the file with the permissions that any new file of the user's has; O_EXCL, so that no other run's is
+  /// taken.
+  int create() {
+    while (true) {
+      const int number =
+          uninterrupted([&] { return ::open(path_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666); });
+      if (number >= 0) return number;
+      if (errno != EEXIST) refuse(target_, errno);
+      path_ = temporary_name(target_);
+    }
+  }
+
+  fs::path target_, path_;
+  Descriptor file_;
+};
+
+/// Makes the rename survive a power cut; a directory that cannot be opened or synced leaves that to the system.
+void sync_directory(const fs::path& target) {
+  const Descriptor directory{::open(directory_of(target).c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)};
+  if (directory.number() < 0 || uninterrupted([&] { return ::fsync(directory.number()); }) == 0) return;
+  if (errno != EINVAL && errno != ENOTSUP) refuse(target, errno);
+}
+
+}  // namespace
+
+void check_writable(const std::string& path) {
+  if (path.empty()) throw IoError{"the output file has an empty name; name one"};
+  const fs::path target = target_of(path);
+  check_directory(target);
+  check_target(target);
+}
+
+void publish(const std::string& path, std::span<const std::byte> bytes) {
+  check_writable(path);
+  const IgnoreFileSizeSignal ignore;
+  const fs::path target = target_of(path);
+  TemporaryFile file{target};
+  file.write(bytes);
+  file.become_target();
+  sync_directory(target);
+}
+
+}  // namespace clatter

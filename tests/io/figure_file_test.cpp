@@ -1,0 +1,210 @@
+#include "io/figure_file.hpp"
+
+#include <gtest/gtest.h>
+#include <hdf5.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+#include <stdexcept>
+
+#include "io/error.hpp"
+
+namespace clatter {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A directory of its own for each test, since ctest runs them side by side.
+class FigureFile : public testing::Test {
+ protected:
+  FigureFile() { fs::create_directories(directory_); }
+  ~FigureFile() override { fs::remove_all(directory_); }
+
+  [[nodiscard]] std::string path(const std::string& name) const { return (directory_ / name).string(); }
+
+  [[nodiscard]] std::string write(const std::string& name, const std::vector<std::byte>& bytes) const {
+    std::ofstream{path(name), std::ios::binary}.write(reinterpret_cast<const char*>(bytes.data()),
+                                                      static_cast<std::streamsize>(bytes.size()));
+    return path(name);
+  }
+
+  /// What read_summary throws for a file, or nothing where it reads it.
+  [[nodiscard]] static std::string refusal(const std::string& file) {
+    try {
+      static_cast<void>(read_summary(file));
+      return "";
+    } catch (const IoError& error) {
+      return error.what();
+    }
+  }
+
+ private:
+  fs::path directory_ = fs::path{testing::TempDir()} / ("clatter_figure_" + std::to_string(::getpid()) + "_" +
+                                                        testing::UnitTest::GetInstance()->current_test_info()->name());
+};
+
+Config configuration(int compression = 4) {
+  Config config;
+  config.title = "Größter Ausschlag";
+  config.source = "doi:10.5755/j02.mech.32277";
+  config.text = "[scene]\nxs = -4.0\n";
+  config.compression = compression;
+  return config;
+}
+
+std::vector<double> ramp(std::size_t size) {
+  std::vector<double> values(size);
+  for (std::size_t i = 0; i < size; ++i) values[i] = std::sqrt(static_cast<double>(i));
+  return values;
+}
+
+const std::vector<std::uint8_t> flags{0, 1, 2, 16, 17, 18};
+const std::string meanings = "periodic aperiodic transient event_budget not_finite unresolved";
+
+/// A sweep over nu with trajectories: a coordinate, a scale without one, an integer, a float, and flags.
+Figure sweep(std::size_t points, std::size_t samples) {
+  std::vector<std::uint8_t> status(points, 0);
+  status.front() = 16;
+  return {{{"nu", points}, {"sample", samples}},
+          {{"nu", {"nu"}, ramp(points), "excitation frequency", "1"},
+           {"status", {"nu"}, status, "outcome", "1", {{"flag_values", flags}, {"flag_meanings", meanings}}},
+           {"impact_total", {"nu"}, std::vector<std::int64_t>(points, 1LL << 40), "impacts", "1"},
+           {"x", {"nu", "sample"}, ramp(points * samples), "displacement", "1"}}};
+}
+
+TEST_F(FigureFile, summary_names_what_was_written) {
+  const FileSummary summary = read_summary(write("sweep.h5", file_image(sweep(5, 7), configuration())));
+  ASSERT_EQ(summary.variables.size(), 4U);  // `sample` is a dimension, no variable
+  EXPECT_EQ(summary.variables[0].name, "nu");
+  EXPECT_EQ(summary.variables[1].type, "uint8");
+  EXPECT_EQ(summary.variables[2].type, "int64");
+  const FileSummary::Entry& x = summary.variables[3];
+  EXPECT_EQ(x.name + " " + x.type + " " + x.units + " " + x.long_name, "x float64 1 displacement");
+  ASSERT_EQ(x.dimensions.size(), 2U);
+  EXPECT_EQ(x.dimensions[0].name, "nu");
+  EXPECT_EQ(x.dimensions[1].name, "sample");
+  EXPECT_EQ(x.dimensions[1].length, 7U);
+}
+
+TEST_F(FigureFile, root_attributes_come_in_the_order_of_the_contract) {
+  const FileSummary summary = read_summary(write("sweep.h5", file_image(sweep(5, 7), configuration())));
+  std::string names;
+  for (const auto& [name, text] : summary.attributes) names += name + " ";
+  EXPECT_EQ(names, "Conventions title source clatter_schema clatter_version git_commit config config_sha256 compiler ");
+  EXPECT_EQ(summary.attributes[0].second, "CF-1.10");
+  EXPECT_EQ(summary.attributes[1].second, "Größter Ausschlag");
+  EXPECT_EQ(summary.attributes[6].second, "[scene]\nxs = -4.0\n");
+  EXPECT_EQ(summary.attributes[7].second, "8c1b716c043a2592b76185aa9bc76211cac444ce98858e0fa77cb9b570854d64");
+}
+
+TEST_F(FigureFile, points_are_counted_by_status) {
+  const FileSummary summary = read_summary(write("sweep.h5", file_image(sweep(5, 7), configuration())));
+  ASSERT_EQ(summary.status_counts.size(), flags.size());
+  EXPECT_EQ(summary.status_counts[0], (std::pair<std::string, std::size_t>{"periodic", 4}));
+  EXPECT_EQ(summary.status_counts[3], (std::pair<std::string, std::size_t>{"event_budget", 1}));
+}
+
+TEST_F(FigureFile, the_same_figure_gives_the_same_bytes) {
+  const Figure figure = sweep(501, 64);
+  EXPECT_EQ(file_image(figure, configuration()), file_image(figure, configuration()));
+}
+
+TEST_F(FigureFile, a_sweep_without_axes_has_scalars) {
+  const Figure figure{{}, {{"x_min", {}, std::vector<double>{-0.5}, "least displacement", "1"}}};
+  const FileSummary summary = read_summary(write("scalar.h5", file_image(figure, configuration())));
+  ASSERT_EQ(summary.variables.size(), 1U);
+  EXPECT_TRUE(summary.variables[0].dimensions.empty());
+  EXPECT_TRUE(summary.status_counts.empty());
+}
+
+TEST_F(FigureFile, an_impact_log_may_be_empty) {
+  const Figure figure{{{"impact", 0}}, {{"impact_tau", {"impact"}, std::vector<double>{}, "time of impact", "1"}}};
+  const FileSummary summary = read_summary(write("log.h5", file_image(figure, configuration())));
+  ASSERT_EQ(summary.variables.size(), 1U);
+  EXPECT_EQ(summary.variables[0].dimensions.front().name, "impact");
+  EXPECT_EQ(summary.variables[0].dimensions.front().length, 0U);
+}
+
+TEST_F(FigureFile, a_configuration_may_be_long) {
+  Config config = configuration();
+  config.text = std::string(300'000, '#');  // 64 KiB would fit in an object header
+  const FileSummary summary = read_summary(write("long.h5", file_image(sweep(5, 7), config)));
+  EXPECT_TRUE(summary.attributes[6].second == config.text);  // not EXPECT_EQ, which would print both
+}
+
+/// The bytes that one dataset takes in a file, and whether it is chunked.
+std::pair<hsize_t, bool> storage(const std::string& file, const char* name) {
+  const hid_t opened = H5Fopen(file.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+  const hid_t dataset = H5Dopen2(opened, name, H5P_DEFAULT);
+  const hid_t properties = H5Dget_create_plist(dataset);
+  const std::pair<hsize_t, bool> result{H5Dget_storage_size(dataset), H5Pget_layout(properties) == H5D_CHUNKED};
+  H5Pclose(properties);
+  H5Dclose(dataset);
+  H5Fclose(opened);
+  return result;
+}
+
+TEST_F(FigureFile, large_arrays_are_deflated_and_small_ones_are_not) {
+  const std::string file = write("deflated.h5", file_image(sweep(501, 1000), configuration()));
+  EXPECT_FALSE(storage(file, "nu").second);
+  EXPECT_TRUE(storage(file, "x").second);
+  EXPECT_LT(storage(file, "x").first, 501U * 1000U * sizeof(double));
+  const std::string plain = write("plain.h5", file_image(sweep(501, 1000), configuration(0)));
+  EXPECT_FALSE(storage(plain, "x").second);
+  EXPECT_EQ(storage(plain, "x").first, 501U * 1000U * sizeof(double));
+}
+
+TEST_F(FigureFile, deflated_values_come_back_bit_for_bit) {
+  const Figure figure = sweep(501, 1000);  // four chunks
+  const std::string file = write("deflated.h5", file_image(figure, configuration()));
+  std::vector<double> values(501 * 1000, std::numeric_limits<double>::quiet_NaN());
+  const hid_t opened = H5Fopen(file.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+  const hid_t dataset = H5Dopen2(opened, "x", H5P_DEFAULT);
+  EXPECT_GE(H5Dread(dataset, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()), 0);
+  H5Dclose(dataset);
+  H5Fclose(opened);
+  EXPECT_EQ(values, std::get<std::vector<double>>(figure.variables.back().values));
+}
+
+TEST_F(FigureFile, a_figure_that_contradicts_itself_is_a_bug) {
+  Figure figure = sweep(5, 7);
+  figure.variables[3].values = ramp(34);  // one short
+  EXPECT_THROW(static_cast<void>(file_image(figure, configuration())), std::logic_error);
+  figure = sweep(5, 7);
+  figure.variables[3].dimensions = {"nu", "impact"};
+  EXPECT_THROW(static_cast<void>(file_image(figure, configuration())), std::logic_error);
+}
+
+TEST_F(FigureFile, what_is_no_file_of_clatters_is_refused_in_words) {
+  EXPECT_EQ(refusal(path("none.h5")), "'" + path("none.h5") + "': No such file or directory; check the name");
+  EXPECT_EQ(refusal(path("")), "'" + path("") + "': is a directory; name a file in it");
+  const std::string text = write("text.h5", std::vector<std::byte>(4096, std::byte{'a'}));
+  EXPECT_EQ(refusal(text), "'" + text + "': is not an HDF5 file; name an output of clatter");
+  EXPECT_NE(refusal(write("empty.h5", {})).find("is not an HDF5 file"), std::string::npos);
+  const hid_t foreign = H5Fcreate(path("foreign.h5").c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
+  H5Fclose(foreign);
+  EXPECT_NE(refusal(path("foreign.h5")).find("not one of clatter's"), std::string::npos);
+}
+
+TEST_F(FigureFile, a_truncated_file_is_refused_at_every_length) {
+  const std::vector<std::byte> whole = file_image(sweep(5, 7), configuration());
+  for (std::size_t size = 0; size < whole.size(); size += 97) {
+    const std::string file = write("cut.h5", {whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(size)});
+    EXPECT_NE(refusal(file), "") << size << " of " << whole.size() << " bytes";
+  }
+}
+
+TEST_F(FigureFile, a_damaged_file_is_read_or_refused_but_never_ends_the_process) {
+  const std::vector<std::byte> whole = file_image(sweep(5, 7), configuration());
+  for (std::size_t place = 0; place + 64 < whole.size(); place += 64) {
+    std::vector<std::byte> damaged = whole;
+    std::fill_n(damaged.begin() + static_cast<std::ptrdiff_t>(place), 64, std::byte{0});
+    static_cast<void>(refusal(write("damaged.h5", damaged)));
+  }
+}
+
+}  // namespace
+}  // namespace clatter
