@@ -3,13 +3,14 @@
 #include <string>
 
 #include "io/consistency.hpp"
+#include "io/suggestion.hpp"
 
 namespace clatter {
 namespace {
 
 using enum Parameter;
 
-std::string name_of(Parameter parameter) { return "'" + std::string(key_of(parameter)) + "'"; }
+std::string name_of(Parameter parameter) { return in_quotes(key_of(parameter)); }
 
 /// Whether a place comes after another; the command line after every file.
 bool later(const Place& left, const Place& right) {

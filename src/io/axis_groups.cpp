@@ -32,7 +32,7 @@ std::size_t axis_of(const Settings& settings, const Setting& setting, std::strin
   if (found != names.end()) return static_cast<std::size_t>(found - names.begin());
   const std::string way_out = names.empty() ? "; [sweep] has no axes" : suggestion(name, names, "; the axes are: ");
   fail(setting.place,
-       std::string(setting.key->name) + " names " + quoted(name) + ", which is no axis of [sweep]" + way_out);
+       std::string(setting.key->name) + " names " + in_quotes(name) + ", which is no axis of [sweep]" + way_out);
 }
 
 std::vector<std::size_t> linked_axes(const Settings& settings) {
@@ -42,7 +42,7 @@ std::vector<std::size_t> linked_axes(const Settings& settings) {
   for (const std::string& name : split_names(std::get<std::string>(setting->value))) {
     const std::size_t axis = axis_of(settings, *setting, name);
     if (std::find(linked.begin(), linked.end(), axis) != linked.end())
-      fail(setting->place, "linked names " + quoted(name) + " twice; name each axis once");
+      fail(setting->place, "linked names " + in_quotes(name) + " twice; name each axis once");
     const std::size_t length = settings.axes[axis].axis.values.size();
     const SweptSetting& first = settings.axes[linked.empty() ? axis : linked.front()];
     if (length != first.axis.values.size()) {

@@ -11,7 +11,7 @@ namespace {
 std::string found(const RawValue& raw) {
   const auto describe = [](const auto& data) -> std::string {
     using Data = std::decay_t<decltype(data)>;
-    if constexpr (std::is_same_v<Data, std::string>) return data.empty() ? "nothing" : "the text " + quoted(data);
+    if constexpr (std::is_same_v<Data, std::string>) return data.empty() ? "nothing" : "the text " + in_quotes(data);
     if constexpr (std::is_same_v<Data, bool>) return data ? "true" : "false";
     if constexpr (std::is_same_v<Data, std::int64_t>) return "the number " + std::to_string(data);
     if constexpr (std::is_same_v<Data, double>) return "the number " + number_text(data);

@@ -33,17 +33,17 @@ bool has_default(const Key& key) { return !key.fallback.empty() || key.kind == K
 
 /// The value to show: the default, or an example where there is none.
 std::string shown_value(const Key& key, Format format) {
-  if (!has_default(key)) return ' ' + std::string(key.example);
-  if (format == Format::toml) return ' ' + toml_value(default_setting(key));
-  return (key.fallback.empty() ? "" : " ") + std::string(key.fallback);
+  if (!has_default(key)) return std::string(key.example);
+  return format == Format::toml ? toml_value(default_setting(key)) : std::string(key.fallback);
 }
 
 /// One key of the commented configuration: its meaning, then the key; the stops have no default and must be given.
 std::string commented(const Key& key, Format format) {
   const std::string mark = format == Format::toml ? "#" : ";";
   const bool used = has_default(key) || key.name == "xs";
+  const std::string value = shown_value(key, format);
   return mark + ' ' + std::string(key.help) + " (" + permitted(key) + ")\n" + (used ? "" : mark) +
-         std::string(key.name) + " =" + shown_value(key, format) + '\n';
+         std::string(key.name) + (value.empty() ? " =" : " = ") + value + '\n';
 }
 
 /// The text in lines of at most 100 characters, each after the same indent.

@@ -35,7 +35,7 @@ const Key& known_key(const RawEntry& entry) {
   const std::vector<std::string_view> names = key_names(entry.section);
   std::string way_out = nearest(entry.key, names).empty() ? home_of(entry.key) : "";
   if (way_out.empty()) way_out = suggestion(entry.key, names, "; permitted: ");
-  fail(entry.place, "unknown key " + quoted(entry.key) + ' ' + shown(entry.section) + way_out);
+  fail(entry.place, "unknown key " + in_quotes(entry.key) + ' ' + shown(entry.section) + way_out);
 }
 
 template <typename Value>

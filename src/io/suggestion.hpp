@@ -7,7 +7,7 @@
 namespace clatter {
 
 /// A text for a message of one line: in single quotes, control characters as '?', cut after 60 bytes.
-[[nodiscard]] std::string quoted(std::string_view text);
+[[nodiscard]] std::string in_quotes(std::string_view text);
 
 /// The name nearest to what was written, by edit distance; empty where none is near.
 [[nodiscard]] std::string_view nearest(std::string_view written, std::span<const std::string_view> names);

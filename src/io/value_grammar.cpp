@@ -61,7 +61,7 @@ class Parser {
 
   /// What stands here, for a message.
   [[nodiscard]] std::string found() const {
-    return at_end() ? "found the end of the value" : "found " + quoted(rest());
+    return at_end() ? "found the end of the value" : "found " + in_quotes(rest());
   }
 
   void expect_end() const {
@@ -105,7 +105,7 @@ class Parser {
       const char* const first = source_.text.data() + at_;
       const auto [end, error] = std::from_chars(first, source_.text.data() + source_.text.size(), value);
       if (error == std::errc::result_out_of_range)
-        fail_at(begin, quoted(rest()) + " is beyond the range of double precision");
+        fail_at(begin, in_quotes(rest()) + " is beyond the range of double precision");
       if (error != std::errc{}) fail_at(begin, "expected a number, such as 0.5 or 2*pi, " + found());
       at_ += static_cast<std::size_t>(end - first);
     }
@@ -131,7 +131,7 @@ class Parser {
   [[nodiscard]] AxisValues call(std::string_view name, std::size_t begin) {
     const std::optional<AxisFunction> function = axis_function(name);
     if (!function) {
-      fail_at(begin, "unknown function " + quoted(name) + suggestion(name, axis_function_names(), "; permitted: "));
+      fail_at(begin, "unknown function " + in_quotes(name) + suggestion(name, axis_function_names(), "; permitted: "));
     }
     accept('(');
     std::array<double, 3> arguments{};

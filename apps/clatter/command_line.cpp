@@ -1,0 +1,107 @@
+#include "command_line.hpp"
+
+#include <boost/program_options.hpp>
+
+#include "commands.hpp"
+#include "io/suggestion.hpp"
+
+namespace clatter {
+namespace {
+
+namespace po = boost::program_options;
+
+constexpr auto style = po::command_line_style::unix_style & ~po::command_line_style::allow_guessing;
+
+std::string help_hint(const Command& command) { return "; see `clatter help " + std::string(command.name) + "`"; }
+
+po::options_description description_of(const Command& command) {
+  po::options_description description;
+  for (const Option& option : command.options) {
+    const std::string names = std::string(option.name) + (option.letter != 0 ? std::string{',', option.letter} : "");
+    if (option.argument.empty()) {
+      description.add_options()(names.c_str(), po::bool_switch(), "");
+    } else {
+      description.add_options()(names.c_str(), po::value<std::string>(), "");
+    }
+  }
+  return description;
+}
+
+std::string unknown_option(const Command& command, const std::string& written) {
+  std::vector<std::string> names;
+  for (const Option& option : command.options) names.push_back("--" + std::string(option.name));
+  const std::vector<std::string_view> views(names.begin(), names.end());
+  const bool is_long = written.starts_with("--");
+  std::string message = "unknown option " + in_quotes(written);
+  const std::string_view near = is_long ? nearest(written, views) : std::string_view{};
+  for (const std::string& name : names) {  // an abbreviation is refused, not guessed
+    if (is_long && near.empty() && written.size() > 3 && name.starts_with(written))
+      return message + "; did you mean '" + name + "'?";
+  }
+  return message + (near.empty() ? help_hint(command) : "; did you mean '" + std::string(near) + "'?");
+}
+
+/// Boost's mistakes as one line with the way out.
+[[noreturn]] void refuse(const Command& command, const po::error& error) {
+  if (const auto* const unknown = dynamic_cast<const po::unknown_option*>(&error)) {
+    throw UsageError(unknown_option(command, unknown->get_option_name()));
+  }
+  throw UsageError(std::string(error.what()) + help_hint(command));
+}
+
+void check_operands(const Command& command, const std::vector<std::string>& operands) {
+  if (operands.size() < command.required_operands) {
+    throw UsageError(std::string(command.operands[operands.size()]) + " is missing; write: clatter " +
+                     std::string(command.usage));
+  }
+  if (operands.size() > command.operands.size()) {
+    throw UsageError("unexpected argument " + in_quotes(operands[command.operands.size()]) + "; write: clatter " +
+                     std::string(command.usage));
+  }
+}
+
+Arguments collect(const Command& command, const po::parsed_options& parsed) {
+  Arguments arguments;
+  for (const auto& option : parsed.options) {
+    if (option.position_key >= 0) {
+      arguments.operands.insert(arguments.operands.end(), option.value.begin(), option.value.end());
+      continue;
+    }
+    const bool again = arguments.has(option.string_key);
+    for (const Option& known : command.options) {
+      if (known.name != option.string_key || !again || known.repeatable || known.argument.empty()) continue;
+      throw UsageError("option '--" + option.string_key + "' is given twice; give it once");
+    }
+    auto& values = arguments.options[option.string_key];
+    values.insert(values.end(), option.value.begin(), option.value.end());
+  }
+  return arguments;
+}
+
+}  // namespace
+
+std::optional<std::string> Arguments::value(std::string_view option) const {
+  const auto found = options.find(option);
+  return found == options.end() || found->second.empty() ? std::nullopt : std::optional(found->second.back());
+}
+
+std::vector<std::string> Arguments::values(std::string_view option) const {
+  const auto found = options.find(option);
+  return found == options.end() ? std::vector<std::string>{} : found->second;
+}
+
+Arguments parse_arguments(const Command& command, const std::vector<std::string>& words) {
+  const po::options_description description = description_of(command);
+  po::positional_options_description operands;
+  operands.add("operand", -1);
+  try {
+    const auto parsed = po::command_line_parser(words).options(description).positional(operands).style(style).run();
+    Arguments arguments = collect(command, parsed);
+    if (!arguments.has("help")) check_operands(command, arguments.operands);
+    return arguments;
+  } catch (const po::error& error) {
+    refuse(command, error);
+  }
+}
+
+}  // namespace clatter

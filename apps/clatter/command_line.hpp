@@ -1,0 +1,42 @@
+#pragma once
+
+#include <map>
+#include <optional>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace clatter {
+
+/// A wrong command line; `what()` is one line that ends with the way out.
+class UsageError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+struct Option {
+  std::string_view name;      ///< "output"
+  char letter = 0;            ///< 'o', or 0
+  std::string_view argument;  ///< "FILE.h5"; empty: a switch
+  std::string_view help;
+  bool repeatable = false;
+};
+
+/// What a subcommand was given.
+struct Arguments {
+  std::vector<std::string> operands;
+  std::map<std::string, std::vector<std::string>, std::less<>> options;  ///< by long name; a switch has no values
+
+  [[nodiscard]] bool has(std::string_view option) const { return options.find(option) != options.end(); }
+  [[nodiscard]] std::optional<std::string> value(std::string_view option) const;
+  [[nodiscard]] std::vector<std::string> values(std::string_view option) const;
+};
+
+struct Command;
+
+/// The words after the subcommand's name. Throws UsageError; abbreviations of options are refused.
+[[nodiscard]] Arguments parse_arguments(const Command& command, const std::vector<std::string>& words);
+
+}  // namespace clatter

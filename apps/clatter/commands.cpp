@@ -1,0 +1,21 @@
+#include "commands.hpp"
+
+#include "io/suggestion.hpp"
+
+namespace clatter {
+
+std::span<const Command> commands() {
+  static const std::vector<Command> all{run_command(), info_command(), defaults_command(), help_command()};
+  return all;
+}
+
+const Command& find_command(std::string_view name) {
+  std::vector<std::string_view> names;
+  for (const Command& command : commands()) {
+    if (command.name == name) return command;
+    names.push_back(command.name);
+  }
+  throw UsageError("unknown command " + in_quotes(name) + suggestion(name, names, "; the commands are: "));
+}
+
+}  // namespace clatter

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "command_line.hpp"
+
+namespace clatter {
+
+/// How a command ends; scripts are written against these numbers.
+enum ExitCode : int { done = 0, points_failed = 1, usage_error = 2, internal_error = 70, io_error = 74 };
+
+/// A subcommand: what it takes, what its help says, and what it does.
+struct Command {
+  std::string_view name;
+  std::string_view usage;                  ///< "run CONFIG [OPTION]..."
+  std::string_view summary;                ///< one line for the list of commands
+  std::string_view examples;               ///< the end of its help
+  std::vector<std::string_view> operands;  ///< names of its positional arguments, e.g. "CONFIG"
+  std::size_t required_operands = 0;
+  std::vector<Option> options;
+  int (*run)(const Arguments& arguments);
+};
+
+/// Every subcommand, in the order of the help.
+[[nodiscard]] std::span<const Command> commands();
+
+/// Throws UsageError where no command has that name.
+[[nodiscard]] const Command& find_command(std::string_view name);
+
+[[nodiscard]] Command run_command();
+[[nodiscard]] Command info_command();
+[[nodiscard]] Command defaults_command();
+[[nodiscard]] Command help_command();
+
+/// The help of the program, and of one command.
+[[nodiscard]] std::string program_help();
+[[nodiscard]] std::string command_help(const Command& command);
+
+}  // namespace clatter

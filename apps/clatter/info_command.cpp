@@ -1,0 +1,90 @@
+#include <algorithm>
+#include <iostream>
+
+#include "commands.hpp"
+#include "info_json.hpp"
+#include "io/error.hpp"
+#include "io/figure_file.hpp"
+
+namespace clatter {
+namespace {
+
+std::string column(std::string text, std::size_t width) {
+  text.resize(std::max(text.size(), width), ' ');
+  return text + "  ";
+}
+
+std::string shape_text(const FileSummary::Entry& entry) {
+  std::string text;
+  for (const NamedLength& dimension : entry.dimensions) {
+    text += (text.empty() ? "[" : ", ") + dimension.name + " = " + std::to_string(dimension.length);
+  }
+  return text.empty() ? "scalar" : text + ']';
+}
+
+void print_variables(const FileSummary& summary) {
+  std::size_t name_width = 0, shape_width = 0;
+  for (const auto& entry : summary.variables) {
+    name_width = std::max(name_width, entry.name.size());
+    shape_width = std::max(shape_width, shape_text(entry).size());
+  }
+  for (const auto& entry : summary.variables) {
+    const std::string unit = entry.units.empty() || entry.units == "1" ? "" : ", " + entry.units;
+    std::cout << "  " << column(entry.name, name_width) << column(entry.type, 7)
+              << column(shape_text(entry), shape_width) << entry.long_name << unit << '\n';
+  }
+}
+
+/// For people; a script takes --json.
+void print_text(const FileSummary& summary) {
+  for (const auto& [name, value] : summary.attributes) {
+    if (name != "config") std::cout << column(name, 16) << value << '\n';
+  }
+  std::cout << "\nVariables\n";
+  print_variables(summary);
+  std::cout << "\nPoints by status\n";
+  for (const auto& [meaning, count] : summary.status_counts) std::cout << "  " << column(meaning, 12) << count << '\n';
+}
+
+void print_config(const std::string& path, const FileSummary& summary) {
+  const auto& attributes = summary.attributes;
+  const auto config =
+      std::find_if(attributes.begin(), attributes.end(), [](const auto& pair) { return pair.first == "config"; });
+  if (config == attributes.end()) throw IoError(path + ": holds no configuration; was it written by clatter?");
+  std::cout << config->second;
+}
+
+int print_info(const Arguments& arguments) {
+  if (arguments.has("json") && arguments.has("config")) throw UsageError("--json beside --config; give one of them");
+  const std::string& path = arguments.operands[0];
+  const FileSummary summary = read_summary(path);
+  if (arguments.has("config")) {
+    print_config(path, summary);
+  } else if (arguments.has("json")) {
+    std::cout << json(summary);
+  } else {
+    print_text(summary);
+  }
+  return done;
+}
+
+constexpr std::string_view examples =
+    "  clatter info fig22.h5\n"
+    "  clatter info fig22.h5 --config > again.toml\n";
+
+}  // namespace
+
+Command info_command() {
+  return {.name = "info",
+          .usage = "info FILE.h5 [--json|--config]",
+          .summary = "print what is in an output file and how it was made",
+          .examples = examples,
+          .operands = {"FILE.h5"},
+          .required_operands = 1,
+          .options = {{"json", 0, "", "as JSON"},
+                      {"config", 0, "", "print the configuration that made it; it runs again"},
+                      {"help", 'h', "", "print this help"}},
+          .run = print_info};
+}
+
+}  // namespace clatter

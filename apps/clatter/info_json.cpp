@@ -1,0 +1,53 @@
+#include "info_json.hpp"
+
+#include <array>
+#include <cstdio>
+
+namespace clatter {
+namespace {
+
+std::string json_text(const std::string& text) {
+  std::string quoted = "\"";
+  for (const char character : text) {
+    if (character == '"' || character == '\\') {
+      quoted += {'\\', character};
+    } else if (static_cast<unsigned char>(character) < 0x20) {
+      std::array<char, 8> escaped{};
+      std::snprintf(escaped.data(), escaped.size(), "\\u%04x", static_cast<unsigned>(character));
+      quoted += escaped.data();
+    } else {
+      quoted += character;
+    }
+  }
+  return quoted + '"';
+}
+
+/// The members or elements between commas, each on a line of its own.
+template <typename Range, typename Print>
+std::string lines(const Range& range, const Print& print) {
+  std::string text;
+  for (const auto& element : range) text += (text.empty() ? "\n    " : ",\n    ") + print(element);
+  return text + (text.empty() ? "" : "\n  ");
+}
+
+std::string entry_json(const FileSummary::Entry& entry) {
+  std::string names, shape;
+  for (const NamedLength& dimension : entry.dimensions) {
+    names += (names.empty() ? "" : ", ") + json_text(dimension.name);
+    shape += (shape.empty() ? "" : ", ") + std::to_string(dimension.length);
+  }
+  return "{\"name\": " + json_text(entry.name) + ", \"type\": " + json_text(entry.type) + ", \"dimensions\": [" +
+         names + "], \"shape\": [" + shape + "], \"units\": " + json_text(entry.units) +
+         ", \"long_name\": " + json_text(entry.long_name) + '}';
+}
+
+}  // namespace
+
+std::string json(const FileSummary& summary) {
+  const auto attribute = [](const auto& pair) { return json_text(pair.first) + ": " + json_text(pair.second); };
+  const auto count = [](const auto& pair) { return json_text(pair.first) + ": " + std::to_string(pair.second); };
+  return "{\n  \"attributes\": {" + lines(summary.attributes, attribute) + "},\n  \"variables\": [" +
+         lines(summary.variables, entry_json) + "],\n  \"status\": {" + lines(summary.status_counts, count) + "}\n}\n";
+}
+
+}  // namespace clatter

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+
+namespace clatter {
+
+/// A bar on stderr with points per second and the time left; it erases itself at its end.
+class Progress {
+ public:
+  explicit Progress(bool shown);
+  Progress(const Progress&) = delete;
+  Progress& operator=(const Progress&) = delete;
+  ~Progress();
+
+  void show(std::size_t finished, std::size_t total) const;
+
+ private:
+  bool shown_;
+  bool color_;
+  std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
+};
+
+/// Whether stderr is a terminal.
+[[nodiscard]] bool stderr_is_terminal();
+
+}  // namespace clatter

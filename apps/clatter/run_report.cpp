@@ -1,0 +1,84 @@
+#include "run_report.hpp"
+
+#include <unistd.h>
+
+#include <array>
+#include <cstdint>
+#include <cstdio>
+#include <ctime>
+#include <fstream>
+#include <iterator>
+#include <variant>
+
+#include "dynamics/scene.hpp"
+
+namespace clatter {
+namespace {
+
+constexpr std::size_t shown_points = 5;
+
+std::string formatted(const char* format, double value) {
+  std::array<char, 64> text{};
+  std::snprintf(text.data(), text.size(), format, value);
+  return text.data();
+}
+
+/// The numbers of the first failed points, from 0, in the order of the file.
+std::string failed_numbers(const Figure& figure) {
+  std::string numbers;
+  std::size_t count = 0;
+  for (const Variable& variable : figure.variables) {
+    const auto* const status = std::get_if<std::vector<std::uint8_t>>(&variable.values);
+    if (variable.name != "status" || status == nullptr) continue;
+    for (std::size_t i = 0; i < status->size(); ++i) {
+      if (!failed(static_cast<Status>((*status)[i])) || ++count > shown_points) continue;
+      numbers += (numbers.empty() ? "" : ", ") + std::to_string(i);
+    }
+  }
+  return count > shown_points ? numbers + ", …" : numbers;
+}
+
+std::string host() {
+  std::array<char, 256> name{};
+  return gethostname(name.data(), name.size() - 1) == 0 ? name.data() : "unknown";
+}
+
+std::string counted(std::size_t count, const char* noun) {
+  return std::to_string(count) + ' ' + noun + (count == 1 ? "" : "s");
+}
+
+}  // namespace
+
+std::string summary_line(const RunResult& result, const std::string& output) {
+  std::string text = counted(result.points, "point") + ", " + std::to_string(result.failed_points) + " failed";
+  if (result.failed_points > 0) text += " (number " + failed_numbers(result.figure) + "; see status)";
+  return text + ", " + formatted("%.3g", result.seconds) + " s, " + output;
+}
+
+std::string details(const RunResult& result, const std::string& command, const std::string& began) {
+  return "threads          " + std::to_string(result.threads) + "\nimpacts          " +
+         formatted("%.0f", result.impacts) + "\nforcing periods  " + formatted("%.0f", result.periods) +
+         "\ninstruction set  x86-64\nhost             " + host() + "\ncommand line     " + command +
+         "\nbegan            " + began + "\nended            " + now() + '\n';
+}
+
+std::string now() {
+  const std::time_t seconds = std::time(nullptr);
+  std::tm fields{};
+  gmtime_r(&seconds, &fields);
+  std::array<char, 32> text{};
+  std::strftime(text.data(), text.size(), "%Y-%m-%dT%H:%M:%SZ", &fields);
+  return text.data();
+}
+
+std::string command_line() {
+  std::ifstream stream("/proc/self/cmdline", std::ios::binary);
+  std::string words{std::istreambuf_iterator<char>(stream), {}};
+  if (!words.empty()) words.pop_back();  // each word ends with NUL
+  for (char& character : words) {
+    if (character == '\0') character = ' ';
+  }
+  return words;
+}
+
+}  // namespace clatter
