@@ -71,6 +71,7 @@ std::vector<std::pair<std::string, std::string>> root_attributes(hid_t file) {
   std::vector<std::string> names;
   checked(H5Aiterate2(file, order_of(file, H5Pget_attr_creation_order), H5_ITER_INC, nullptr, collect_name, &names));
   std::vector<std::pair<std::string, std::string>> attributes;
+  attributes.reserve(names.size());
   for (const std::string& name : names) attributes.emplace_back(name, text_attribute(file, name));
   return attributes;
 }

@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <limits>
 #include <map>
+#include <new>
 #include <stdexcept>
 #include <type_traits>
 
@@ -28,10 +29,10 @@ using Shape = std::vector<hsize_t>;
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 /// From this size on an array is deflated: below it, the index of the chunks takes what deflating saves.
-constexpr std::size_t worth_compressing = 16 * 1024;  // bytes
+constexpr std::size_t worth_compressing = 16UL * 1024;  // bytes
 
 /// The size of the chunk cache that every reader has: larger chunks are inflated again for every access.
-constexpr std::size_t largest_chunk = 1024 * 1024;  // bytes
+constexpr std::size_t largest_chunk = 1024UL * 1024;  // bytes
 
 bool is_coordinate(const Variable& variable) {
   return variable.dimensions.size() == 1 && variable.dimensions.front() == variable.name;
@@ -186,6 +187,11 @@ std::vector<std::byte> bytes_of(const Handle& file) {
   return image;
 }
 
+[[noreturn]] void refuse(const std::string& why) {
+  throw IoError{"the output file cannot be built in memory: " + why +
+                "; it takes twice its size there, so a smaller sweep or fewer samples may fit"};
+}
+
 }  // namespace
 
 std::vector<std::byte> file_image(const Figure& figure, const Config& config) try {
@@ -195,8 +201,9 @@ std::vector<std::byte> file_image(const Figure& figure, const Config& config) tr
   write_figure(file, figure, config.compression);
   return bytes_of(file);
 } catch (const hdf5::Failure& failure) {
-  throw IoError{std::string{"the output file cannot be built in memory: "} + failure.what() +
-                "; it takes twice its size there, so a smaller sweep or fewer samples may fit"};
+  refuse(failure.what());
+} catch (const std::bad_alloc&) {
+  refuse("there is not enough");
 }
 
 }  // namespace clatter

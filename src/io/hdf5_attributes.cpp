@@ -30,7 +30,7 @@ std::size_t size_of(hid_t attribute) {
 std::string read_variable_length(hid_t attribute, hid_t type) {
   char* characters = nullptr;
   checked(H5Aread(attribute, type, &characters));
-  const std::string text = characters == nullptr ? "" : characters;
+  std::string text = characters == nullptr ? "" : characters;
   H5free_memory(characters);
   return text;
 }
