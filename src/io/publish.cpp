@@ -190,8 +190,8 @@ void sync_directory(const fs::path& target) {
 void check_writable(const std::string& path) {
   if (path.empty()) throw IoError{"the output file has an empty name; name one"};
   const fs::path target = target_of(path);
-  check_directory(target);
   check_target(target);
+  check_directory(target);
 }
 
 void publish(const std::string& path, std::span<const std::byte> bytes) {

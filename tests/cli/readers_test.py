@@ -253,6 +253,8 @@ class Readers(unittest.TestCase):
                                              observe={"trajectory": 200000}))) as file:
             self.assertEqual((file["x"].compression, file["x"].shuffle), ("gzip", True))
             self.assertLessEqual(file["x"].chunks[0] * 8, 2**20)
+            self.assertEqual(len(set(file["tau"][:])), 200000)  # several chunks, each in its place
+            self.assertTrue((numpy.diff(file["tau"]) > 0).all())
             self.assertIsNone(file["status"].chunks)
 
 
