@@ -12,7 +12,9 @@ namespace {
 void check_section(const std::string& name, const Place& place) {
   const auto known = sections();
   if (name.empty() || std::find(known.begin(), known.end(), name) != known.end()) return;
-  fail(place, "unknown section [" + name + "]" + suggestion(name, known, "; permitted: "));
+  const std::string near(nearest(name, known));
+  fail(place, "unknown section [" + name + "]" +
+                  (near.empty() ? "; permitted: " + joined(known) : "; did you mean [" + near + "]?"));
 }
 
 std::string shown(std::string_view section) {
