@@ -57,12 +57,15 @@ class FirstRoot {
         c[i] = c[i + 1] * static_cast<double>(degree) / static_cast<double>(i + 1);
       --degree;
     }
-    /// Value and derivative at u (de Casteljau).
-    [[nodiscard]] std::array<Number, 2> at(const Number& u) const {
-      Bernstein<Number> b = c;
-      for (std::size_t n = degree; n > 1; --n)
-        for (std::size_t i = 0; i < n; ++i) b[i] += u * (b[i + 1] - b[i]);
-      return {b[0] + u * (b[1] - b[0]), static_cast<double>(degree) * (b[1] - b[0])};
+    /// Coefficients of (1 + t)^degree p(t/(1 + t)) by powers of t, which has p's roots and costs less to evaluate.
+    [[nodiscard]] Bernstein<Number> by_powers() const {
+      Bernstein<Number> q = c;
+      double binomial = 1;
+      for (std::size_t i = 0; i <= degree; ++i) {
+        q[i] *= binomial;
+        binomial *= static_cast<double>(degree - i) / static_cast<double>(i + 1);
+      }
+      return q;
     }
     /// The left half; this piece becomes the right one.
     [[nodiscard]] Piece split_off_left() {
@@ -76,22 +79,30 @@ class FirstRoot {
     }
   };
 
-  /// The root in a piece whose coefficients change sign once: Newton's iteration within a bracket.
-  [[nodiscard]] static Number single(const Piece& p) {
-    using std::abs;
-    Number low = 0, high = 1, u = p.c[0] / (p.c[0] - p.c[p.degree]);
-    const Number slope = static_cast<double>(p.degree) * (p.c[0] - p.c[1]);
-    if (p.c[0] < slope) u = p.c[0] / slope;  // near the left end its tangent is the better guess
+  /// The root in a piece whose coefficients change sign once: Newton's iteration within a bracket, counted from the end
+  /// that is nearer.
+  [[nodiscard]] static Number single(Piece p) {
+    using std::abs, std::sqrt;
+    const bool from_right = abs(p.c[p.degree]) < abs(p.c[0]);
+    if (from_right) std::reverse(p.c.begin(), p.c.begin() + static_cast<std::ptrdiff_t>(p.degree) + 1);
+    const Bernstein<Number> q = p.by_powers();
+    const Number close =
+        sqrt(epsilon<Number>()) / 8;  // the next iterate is exact to rounding: convergence is quadratic
+    const bool falls = q[0] > 0;
+    Number low = 0, high = std::numeric_limits<Number>::infinity(), t = -q[0] / q[1];
+    if (!(t > 0 && t < 1)) t = Number(0.5);
     for (int iteration = 0; iteration < 200; ++iteration) {
-      const auto [value, derivative] = p.at(u);
-      (value >= 0 ? low : high) = u;
-      Number next = u - value / derivative;
-      if (!(next > low && next < high)) next = (low + high) / 2;
-      const bool settled = abs(next - u) <= 2 * epsilon<Number>() * u;
-      u = next;
+      Number value = q[p.degree], slope = 0;
+      for (std::size_t i = p.degree; i-- > 0;) slope = slope * t + value, value = value * t + q[i];
+      ((value > 0) == falls ? low : high) = t;
+      Number next = t - value / slope;
+      if (!(next > low && next < high))
+        next = high < std::numeric_limits<Number>::infinity() ? Number((low + high) / 2) : Number(2 * t + 1);
+      const bool settled = abs(next - t) <= close * t;
+      t = next;
       if (settled) break;
     }
-    return u;
+    return (from_right ? Number(1) : t) / (1 + t);
   }
 
   [[nodiscard]] static std::optional<Number> search(Piece piece, int depth) {

@@ -115,7 +115,7 @@ class ContactSearch {
   }
 
   [[nodiscard]] Crossing crossing_of(Side side, const Bernstein<Number>& rise, const Number& error) const {
-    using std::abs;
+    using std::abs, std::max;
     Bernstein<Number> c;
     const Number from = gap(side);
     bool inside = true;
@@ -128,6 +128,11 @@ class ContactSearch {
     const auto root = FirstRoot<Number>::of(c);
     if (!root) return {};
     const Number& u = *root;
+    if (u == 0) {  // it seems to go in at once, as a release does while the error outweighs its small jerk
+      Number largest = 0;
+      for (const Number& y : c) largest = max(largest, Number(abs(y)));
+      return {side, u, error <= epsilon<Number>() * largest};
+    }
     const Number size = abs(from) + 6 * abs(c[0] - c[1]) * u;  // the gap's scale at the crossing
     return {side, u, 2 * error * middle_function(u) <= 4 * epsilon<Number>() * size};
   }
