@@ -1,0 +1,72 @@
+#!/usr/bin/python3
+"""Draws any output of clatter by what it contains: curves, time histories, phase planes, impacts, harmonics, maps."""
+
+import argparse
+import sys
+from pathlib import Path
+
+try:
+    import plot_style
+    from matplotlib import pyplot
+    from plot_data import FileProblem, Output
+    from plot_figures import paper_figure
+    from plot_generic import generic_figure
+except ImportError as error:
+    sys.exit(f"plot.py: {error}; install python3-h5py and python3-matplotlib (Debian), or h5py and matplotlib (pip)")
+
+BAD_COMMAND, BAD_FILE = 2, 74  # exit codes, clatter's
+DATELESS = {"svg": {"Date": None}, "pdf": {"CreationDate": None}, "png": {}}  # the same bytes on every run
+
+
+def command_line():
+    parser = argparse.ArgumentParser(description=__doc__, allow_abbrev=False,
+                                     epilog="Exit codes: 0 done, 2 wrong command line, 74 a file cannot be read or "
+                                            "written.")
+    parser.add_argument("files", nargs="+", metavar="FILE.h5", help="output of 'clatter run'")
+    parser.add_argument("-o", "--output", metavar="DIR", help="folder for the pictures; default: beside each file")
+    parser.add_argument("--format", nargs="+", choices=sorted(DATELESS), default=["svg", "png"], metavar="svg|png|pdf",
+                        help="one or more formats; default: svg png")
+    return parser.parse_args()
+
+
+def draw(path, folder, formats):
+    """Draws one file and returns the pictures' names."""
+    output = Output(path)
+    figure = (paper_figure(output) or generic_figure)(output)
+    plot_style.heading(figure, output)
+    folder = Path(folder) if folder else Path(path).parent
+    pictures = []
+    for kind in dict.fromkeys(formats):
+        picture = folder / f"{Path(path).stem}.{kind}"
+        try:
+            figure.savefig(picture, metadata=DATELESS[kind])
+        except OSError as error:
+            raise FileProblem(f"{picture}: cannot be written ({error.strerror}); name another folder with -o") from None
+        pictures.append(str(picture))
+    pyplot.close(figure)
+    return pictures
+
+
+def main():
+    options = command_line()
+    plot_style.use_style()
+    try:
+        if options.output:
+            make_folder(options.output)
+        for path in options.files:
+            print("\n".join(draw(path, options.output, options.format)))
+    except FileProblem as problem:
+        print(f"plot.py: {problem}", file=sys.stderr)
+        return BAD_FILE
+    return 0
+
+
+def make_folder(folder):
+    try:
+        Path(folder).mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise FileProblem(f"{folder}: no folder can be made here ({error.strerror}); name another with -o") from None
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,145 @@
+"""How the pictures look: fonts, colours, symbols, stops, legends."""
+
+import re
+
+import matplotlib
+import numpy as np
+
+matplotlib.use("Agg")
+from matplotlib import pyplot  # noqa: E402  (the backend comes first)
+
+WIDTH = 7.0  # inches, two columns of a journal: fonts below are in points at this size
+
+# Colours that stay apart for colour-blind readers and in grey (Okabe and Ito).
+BLUE, VERMILION, GREEN, ORANGE, PURPLE, SKY = "#0072B2", "#D55E00", "#009E73", "#E69F00", "#CC79A7", "#56B4E9"
+STOP, WALL, GRID = "#404040", "#e4e4e4", "#d0d0d0"
+CYCLE = (BLUE, VERMILION, GREEN, PURPLE, ORANGE, SKY)
+
+# Words and symbol of what the paper and the configuration name; anything else is labelled by its long_name.
+LABELS = {
+    "h": ("damping ratio", r"$h$"), "f": ("force amplitude", r"$f$"), "nu": ("excitation frequency", r"$\nu$"),
+    "phase": ("forcing phase", r"$\varphi$"), "R": ("restitution", r"$R$"), "xs": ("stop", r"$x_s$"),
+    "stop_lower": ("lower stop", r"$x_-$"), "stop_upper": ("upper stop", r"$x_+$"),
+    "R_lower": ("restitution, lower stop", r"$R_-$"), "R_upper": ("restitution, upper stop", r"$R_+$"),
+    "load": ("constant load", "load"), "x0": ("initial displacement", r"$x(0)$"),
+    "v0": ("initial velocity", "$x$\N{PRIME}$(0)$"), "start_period": ("period", r"$\bar\tau$"),
+    "tau": ("time", r"$\tau$"), "x": ("displacement", r"$x$"), "v": ("velocity", "$x$\N{PRIME}"),
+    "x_min": ("minimum", r"$x_{\min}$"), "x_max": ("maximum", r"$x_{\max}$"),
+    "v_min": ("minimum", "$x$\N{PRIME}$_{\\min}$"), "v_max": ("maximum", "$x$\N{PRIME}$_{\\max}$"),
+    "v_before": ("velocity before impact", "$x$\N{PRIME}$^{{-}}$"),
+    "v_after": ("velocity after impact", "$x$\N{PRIME}$^{{+}}$"),
+    "period": ("period", r"$\bar\tau$"), "eigenfrequency": ("eigenfrequency", r"$\bar\omega$"),
+    "period_ratio": ("period", r"$\nu\bar\tau/2\pi$"),
+    "velocity_ratio": ("velocity ratio", "$|x$\N{PRIME}$^{{-}}/x_s|$"),
+    "base_frequency": ("base frequency", r"$\Omega$"), "harmonic": ("harmonic", r"$k$"),
+    "x_amplitude": ("amplitude of displacement", r"$a_k$"),
+    "v_amplitude": ("amplitude of velocity", "$a$\N{PRIME}$_k$"),
+    "x_phase": ("phase of displacement", r"$\varphi_k$"), "v_phase": ("phase of velocity", "$\\varphi$\N{PRIME}$_k$"),
+    "impacts_per_period": ("impacts per period", ""), "rest_fraction": ("share of time at rest", ""),
+}
+
+
+def use_style():
+    """The same look on every machine, whatever its matplotlibrc says; the same bytes on every run."""
+    matplotlib.rcdefaults()
+    matplotlib.rcParams.update({
+        "font.family": "STIXGeneral", "mathtext.fontset": "stix", "font.size": 10, "axes.labelsize": 11,
+        "axes.titlesize": 11, "xtick.labelsize": 9.5, "ytick.labelsize": 9.5, "legend.fontsize": 9.5,
+        "axes.linewidth": 0.7, "lines.linewidth": 1.2, "xtick.direction": "in", "ytick.direction": "in",
+        "xtick.top": True, "ytick.right": True, "legend.frameon": False, "legend.handlelength": 1.8,
+        "axes.prop_cycle": matplotlib.cycler(color=CYCLE), "axes.formatter.useoffset": False,
+        "axes.formatter.limits": (-4, 5), "axes.xmargin": 0.0, "hatch.linewidth": 0.5,
+        "savefig.dpi": 300, "svg.hashsalt": "clatter", "figure.max_open_warning": 0,
+    })
+
+
+def symbol(name):
+    return LABELS.get(name, ("", ""))[1] or name.replace("_", " ")
+
+
+def label(output, name):
+    """Axis label: words and symbol where the name is known, else long_name; the unit unless it is 1."""
+    words, sign = LABELS.get(name, ("", ""))
+    variable = output.variables.get(name)
+    full = f"{words} {sign if sign not in words else ''}".strip() or (variable.long_name if variable else name)
+    unit = variable.units if variable else "1"
+    return f"{full} ({unit})" if unit not in ("1", "") else full
+
+
+def number(value):
+    """A number as text, with a real minus sign."""
+    return f"{value:.6g}".replace("-", "\N{MINUS SIGN}")
+
+
+def typeset(title):
+    """A configuration's title with its keys as symbols: 'xs = -4' becomes x_s = −4."""
+    title = title.replace("$", r"\$")
+    title = re.sub(r"\b(xs|nu|x0|v0|R|h|f)(?= = )", lambda key: symbol(key.group(1)), title)
+    return re.sub(r"(?<=[=,( ])-(?=\d)", "\N{MINUS SIGN}", title)
+
+
+def heading(figure, output):
+    """Title above the picture, and below it the constants that it does not already name."""
+    name = f"Fig. {output.figure}.  " if output.figure else ""
+    shown, many = constants(output), int(1.2 * figure.get_figwidth())  # entries that fit a line
+    lines = [",   ".join(shown[first:first + many]) for first in range(0, len(shown), many)]
+    figure.suptitle("\n".join([f"{name}{typeset(output.title)}", *lines]).strip(), fontsize=10.5, linespacing=1.5)
+
+
+def constants(output):
+    """The fixed numbers of the scene that the title doesn't name, e.g. ['h = 0.1', 'f = −1']."""
+    hidden = {"phase": 0.0, "load": 0.0}  # nothing to say at these values
+    named = {key for key in LABELS if re.search(rf"\b{key} = ", output.title)}
+    keys = [key for key in LABELS if key in output.scene and key not in named and not output.swept(key)]
+    if float(output.scene.get("f", 0.0)) == 0.0 and not output.swept("f"):
+        keys = [key for key in keys if key not in ("nu", "phase")]  # no force, no frequency
+    shown = [key for key in keys if not (key in hidden and output.scene[key] == hidden[key])]
+    return [f"{symbol(key)} = {number(float(output.scene[key]))}" for key in shown]
+
+
+def legend_above(axes, columns=4, **options):
+    """A legend on top of the panel's frame, where it covers no data."""
+    handles, names = axes.get_legend_handles_labels()
+    if handles:
+        axes.legend(handles, names, loc="lower center", bbox_to_anchor=(0.5, 1.0), ncol=columns,
+                    borderaxespad=0.15, columnspacing=1.2, handletextpad=0.5, **options)
+
+
+def draw_walls(axes, lower, upper, vertical=False, named=True):
+    """Stops as lines with the wall behind them shaded; the view reaches a little into the walls."""
+    line, span = (axes.axvline, axes.axvspan) if vertical else (axes.axhline, axes.axhspan)
+    view, set_view = (axes.get_xlim, axes.set_xlim) if vertical else (axes.get_ylim, axes.set_ylim)
+    stops = [stop for stop in (lower, upper) if np.isfinite(stop)]
+    if not stops:
+        return
+    low, high = min(*view(), *stops), max(*view(), *stops)
+    margin = 0.08 * (high - low)
+    low = lower - margin if np.isfinite(lower) else low
+    high = upper + margin if np.isfinite(upper) else high
+    for place, stop in enumerate(stops):
+        line(stop, color=STOP, lw=1.0, zorder=1.5, label="stops" if named and place == 0 else None)
+        span(stop, low if stop == lower else high, color=WALL, lw=0, zorder=0)
+    set_view(low, high)
+
+
+def is_geometric(values):
+    """Whether values are spread by equal ratios, so that a logarithmic axis shows them best."""
+    values = np.asarray(values, float)
+    if len(values) < 3 or np.any(values <= 0) or values.max() < 20 * values.min():
+        return False
+    steps = np.diff(np.log(values))
+    return np.allclose(steps, steps[0], rtol=1e-6)
+
+
+def set_axis(axes, output, name, vertical=False):
+    """Limits, scale and label of a swept axis."""
+    values = output.values(name)
+    if is_geometric(values):
+        (axes.set_yscale if vertical else axes.set_xscale)("log")
+    if len(values) > 1:
+        (axes.set_ylim if vertical else axes.set_xlim)(values.min(), values.max())
+    (axes.set_ylabel if vertical else axes.set_xlabel)(label(output, name))
+
+
+def new_figure(height, width=WIDTH):
+    return pyplot.figure(figsize=(width, height), layout="constrained")
