@@ -1,5 +1,6 @@
 #include "command_line.hpp"
 
+#include <algorithm>
 #include <boost/program_options.hpp>
 
 #include "commands.hpp"
@@ -32,13 +33,12 @@ std::string unknown_option(const Command& command, const std::string& written) {
   for (const Option& option : command.options) names.push_back("--" + std::string(option.name));
   const std::vector<std::string_view> views(names.begin(), names.end());
   const bool is_long = written.starts_with("--");
-  std::string message = "unknown option " + in_quotes(written);
-  const std::string_view near = is_long ? nearest(written, views) : std::string_view{};
-  for (const std::string& name : names) {  // an abbreviation is refused, not guessed
-    if (is_long && near.empty() && written.size() > 3 && name.starts_with(written))
-      return message + "; did you mean '" + name + "'?";
-  }
-  return message + (near.empty() ? help_hint(command) : "; did you mean '" + std::string(near) + "'?");
+  const auto extends = [&](const std::string& name) { return written.size() > 3 && name.starts_with(written); };
+  const auto longer = std::find_if(names.begin(), names.end(), extends);  // an abbreviation is refused, not guessed
+  std::string_view near = is_long ? nearest(written, views) : std::string_view{};
+  if (is_long && near.empty() && longer != names.end()) near = *longer;
+  const std::string message = "unknown option " + in_quotes(written);
+  return near.empty() ? message + help_hint(command) : message + "; did you mean " + in_quotes(near) + "?";
 }
 
 /// Boost's mistakes as one line with the way out.

@@ -34,8 +34,9 @@ void check_scene_or_sweep(const Settings& settings) {
     const Setting* const fixed = settings.find("scene", key);
     if (fixed == nullptr) continue;
     const Place& place = later(fixed->key_place, swept.key_place) ? fixed->key_place : swept.key_place;
-    fail(place, '\'' + key + "' in both [scene] and [sweep]; remove one of them (for a single value: sweep." + key +
-                    " = VALUE)");
+    fail(place, name_of(swept.parameter)
+                    .append(" in both [scene] and [sweep]; remove one of them (for a single value: sweep.")
+                    .append(key + " = VALUE)"));
   }
 }
 

@@ -78,7 +78,7 @@ std::string text_of(const Key& key, const RawValue& raw) {
 }
 
 std::string choice_of(const Key& key, const RawValue& raw) {
-  const std::string text = text_of(key, raw);
+  std::string text = text_of(key, raw);
   for (const std::string_view choice : key.choices) {
     if (choice == text) return text;
   }

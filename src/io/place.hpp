@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <string>
 
 #include "io/config.hpp"
@@ -19,9 +20,12 @@ struct Place {
   return place.source + ':' + std::to_string(place.line) + ':' + std::to_string(place.column);
 }
 
-/// Ends the reading with a mistake of the user's at a place.
+/// Ends the reading with a mistake of the user's at a place, in one line whatever the text held.
 [[noreturn]] inline void fail(const Place& place, const std::string& message) {
-  throw ConfigError(to_string(place) + ": " + message);
+  std::string line = to_string(place) + ": " + message;
+  std::replace_if(
+      line.begin(), line.end(), [](unsigned char c) { return c < 0x20 || c == 0x7F; }, '?');
+  throw ConfigError(line);
 }
 
 }  // namespace clatter

@@ -294,6 +294,7 @@ TEST(Toml, syntax_errors_have_a_place) {
                  {"title = \"\\q\"\n", "1:11", "unknown escape sequence"},
                  {"[scene]\nh = 0.1 0.2\n", "2:9", "KEY = VALUE"},
                  {"[scene]\nh = .5\n", "2:5", "expected decimal digit"},
+                           {"[observe]\nextrema = t\n", "2:12", "expected 'true', saw 't?'"},
                  {"scene = 5\n", "1:1", "unknown key 'scene' before the first section; begin the section with [scene]"},
                  {"[[scene]]\nxs = 1\n", "1:3", "begin the section with [scene]"},
                  {"[scene]\nxs = 1\n[scene.nu]\na = 1\n", "3:1", "nu = a table"},
