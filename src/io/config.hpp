@@ -14,7 +14,8 @@ struct Config {
   std::string source;
   Sweep sweep;
   int compression = 4;  ///< deflate level of the output, 0 ... 9
-  std::string text;     ///< the complete configuration, defaults filled in, as TOML that runs again (root attribute `config`)
+  std::string
+      text;  ///< the complete configuration, defaults filled in, as TOML that runs again (root attribute `config`)
 };
 
 /// A mistake of the user's: `what()` is one line, "file:line:column: what is wrong; the way out".
@@ -29,7 +30,8 @@ struct Override {
   std::string value;
 };
 
-/// Reads a configuration; INI where the name ends in .ini, else TOML. Throws ConfigError; IoError where the file cannot be read.
+/// Reads a configuration; INI where the name ends in .ini, else TOML. Throws ConfigError; IoError where the file cannot
+/// be read.
 [[nodiscard]] Config read_config(const std::string& path, const std::vector<Override>& overrides);
 
 }  // namespace clatter

@@ -19,7 +19,8 @@ using AxisGroups = std::vector<std::vector<std::size_t>>;
 /// Throws ConfigError where two ways of saying the same are mixed, or a key is missing that the others need.
 void check_alternatives(const Settings& settings);
 
-/// Throws ConfigError where at some point of the sweep the stops are in the wrong order, or the start is not between them.
+/// Throws ConfigError where at some point of the sweep the stops are in the wrong order, or the start is not between
+/// them.
 void check_stops_and_start(const Settings& settings, const AxisGroups& groups);
 
 }  // namespace clatter

@@ -9,8 +9,8 @@
 
 namespace clatter {
 
-/// The bytes of an HDF5 file that is netCDF-4 too: dimension scales, attributes, the whole configuration (interface.md, "Output").
-/// The same figure and configuration give the same bytes.
+/// The bytes of an HDF5 file that is netCDF-4 too: dimension scales, attributes, the whole configuration (interface.md,
+/// "Output"). The same figure and configuration give the same bytes.
 [[nodiscard]] std::vector<std::byte> file_image(const Figure& figure, const Config& config);
 
 /// What `clatter info` prints of a file; shapes are dimension names with their lengths.

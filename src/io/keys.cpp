@@ -26,7 +26,6 @@ constexpr std::array<std::string_view, 1> methods{"exact"};
 
 using enum Kind;
 
-// clang-format off
 constexpr std::array all_keys{
     Key{"", "title", text, "", "what the configuration shows; the output file keeps it"},
     Key{"", "source", text, "", "where it comes from, e.g. a DOI; the output file keeps it"},
@@ -44,34 +43,60 @@ constexpr std::array all_keys{
     Key{"scene", "load", number, "0", "constant force over stiffness", any},
     Key{"scene", "x0", number, "0", "displacement at tau = 0, between the stops", any},
     Key{"scene", "v0", number, "0", "velocity at tau = 0", any},
-    Key{"scene", "start_period", number, "", "period of the motion to start on, just after its contact with the lower stop; "
+    Key{"scene",
+        "start_period",
+        number,
+        "",
+        "period of the motion to start on, just after its contact with the lower stop; "
         "in place of x0 and v0, where h = f = load = 0, R = 1 and xs is given",
-        Range{.low = 0, .high = 2 * std::numbers::pi, .open = true}, {}, "3.0"},
+        Range{.low = 0, .high = 2 * std::numbers::pi, .open = true},
+        {},
+        "3.0"},
 
-    Key{"sweep", "linked", names, "", "axes of equal length that run together instead of crossing, e.g. nu, f; the first names the dimension"},
+    Key{"sweep", "linked", names, "",
+        "axes of equal length that run together instead of crossing, e.g. nu, f; the first names the dimension"},
     Key{"sweep", "follow", names, "", "axis along which each point starts from the end of the one before"},
 
-    Key{"time", "mode", choice, "steady", "steady: run until the motion repeats, observe one period; transient: observe from tau = 0", {}, modes},
-    Key{"time", "max_periods", integer, "5000", "steady: forcing periods after which settling is given up", Range{.low = 1, .high = 1e12}},
-    Key{"time", "window", integer, "64", "steady: forcing periods observed of a motion that does not repeat", Range{.low = 1, .high = 1e9}},
+    Key{"time",
+        "mode",
+        choice,
+        "steady",
+        "steady: run until the motion repeats, observe one period; transient: observe from tau = 0",
+        {},
+        modes},
+    Key{"time", "max_periods", integer, "5000", "steady: forcing periods after which settling is given up",
+        Range{.low = 1, .high = 1e12}},
+    Key{"time", "window", integer, "64", "steady: forcing periods observed of a motion that does not repeat",
+        Range{.low = 1, .high = 1e9}},
     Key{"time", "duration", number, "0", "transient: observed time in tau; greater than 0 there", not_negative},
-    Key{"time", "tolerance", number, "1e-12", "steady: distance of the states at a repeat", Range{.low = 0, .high = 1, .open = true}},
-    Key{"time", "max_impacts", integer, "1e8", "impacts after which a point is given up, with the status event_budget", Range{.low = 1, .high = 1e15}},
+    Key{"time", "tolerance", number, "1e-12", "steady: distance of the states at a repeat",
+        Range{.low = 0, .high = 1, .open = true}},
+    Key{"time", "max_impacts", integer, "1e8", "impacts after which a point is given up, with the status event_budget",
+        Range{.low = 1, .high = 1e15}},
 
     Key{"observe", "extrema", flag, "false", "x_min x_max v_min v_max, exact, between samples too"},
-    Key{"observe", "harmonics", integer, "0", "constant part and amplitudes 1 ... K of x and of x'; 0: none", Range{.low = 0, .high = 1e5}},
-    Key{"observe", "harmonics_method", choice, "fft", "fft: from samples, by FFTW; exact: from the arcs, without aliasing", {}, harmonics_methods},
-    Key{"observe", "harmonics_samples", integer, "4096", "FFT samples over the observed time", Range{.low = 2, .high = 16777216}},
-    Key{"observe", "impacts", flag, "false", "per stop: impacts per period, velocity before and after the first, share of time at rest"},
+    Key{"observe", "harmonics", integer, "0", "constant part and amplitudes 1 ... K of x and of x'; 0: none",
+        Range{.low = 0, .high = 1e5}},
+    Key{"observe",
+        "harmonics_method",
+        choice,
+        "fft",
+        "fft: from samples, by FFTW; exact: from the arcs, without aliasing",
+        {},
+        harmonics_methods},
+    Key{"observe", "harmonics_samples", integer, "4096", "FFT samples over the observed time",
+        Range{.low = 2, .high = 16777216}},
+    Key{"observe", "impacts", flag, "false",
+        "per stop: impacts per period, velocity before and after the first, share of time at rest"},
     Key{"observe", "impact_log", flag, "false", "every observed impact"},
-    Key{"observe", "trajectory", integer, "0", "samples of tau, x, x' over the observed time; 0: none", Range{.low = 2, .high = 1e7, .or_zero = true}},
+    Key{"observe", "trajectory", integer, "0", "samples of tau, x, x' over the observed time; 0: none",
+        Range{.low = 2, .high = 1e7, .or_zero = true}},
     Key{"observe", "period", flag, "false", "period of the motion, in tau and in forcing periods"},
 
     Key{"integrator", "method", choice, "exact", "how arcs are computed; exact: in closed form", {}, methods},
 
     Key{"output", "compression", integer, "4", "deflate level of the output file; 0: none", Range{.low = 0, .high = 9}},
 };
-// clang-format on
 
 constexpr std::array<std::string_view, 6> all_sections{"scene", "sweep", "time", "observe", "integrator", "output"};
 

@@ -21,7 +21,8 @@ struct Range {
   bool infinite = false;  ///< -inf and inf are permitted
 };
 
-/// All that is known of a key: reading, validation, `clatter defaults`, the help and the README's reference are made from it.
+/// All that is known of a key: reading, validation, `clatter defaults`, the help and the README's reference are made
+/// from it.
 struct Key {
   std::string_view section;  ///< empty at the top level
   std::string_view name;

@@ -13,7 +13,8 @@ namespace clatter {
 [[nodiscard]] std::string_view nearest(std::string_view written, std::span<const std::string_view> names);
 
 /// "; did you mean 'nu'?" where a name is near, else all the names after `otherwise`, e.g. "; permitted: h, f, nu".
-[[nodiscard]] std::string suggestion(std::string_view written, std::span<const std::string_view> names, std::string_view otherwise);
+[[nodiscard]] std::string suggestion(std::string_view written, std::span<const std::string_view> names,
+                                     std::string_view otherwise);
 
 /// "h, f, nu"
 [[nodiscard]] std::string joined(std::span<const std::string_view> names);

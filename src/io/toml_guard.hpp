@@ -5,7 +5,8 @@
 
 namespace clatter {
 
-/// Throws ConfigError at what toml++ 3.3 does not survive: non-ASCII characters outside comments and quotes, and keys of very many parts.
+/// Throws ConfigError at what toml++ 3.3 does not survive: non-ASCII characters outside comments and quotes, and keys
+/// of very many parts.
 void check_toml(const std::string& file, std::string_view text);
 
 }  // namespace clatter

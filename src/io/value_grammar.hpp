@@ -29,7 +29,8 @@ inline constexpr double max_points = 1e9;
 /// A number, where `pi` may stand as a number or factor: 0.5, pi, -2*pi/3, inf. Throws ConfigError.
 [[nodiscard]] double parse_number(const SourceText& source);
 
-/// linspace(a, b, n), logspace(a, b, n), arange(a, b, step), or numbers between commas in optional brackets. Throws ConfigError.
+/// linspace(a, b, n), logspace(a, b, n), arange(a, b, step), or numbers between commas in optional brackets. Throws
+/// ConfigError.
 [[nodiscard]] AxisValues parse_axis(const SourceText& source);
 
 /// The shortest text that reads back to the same number.

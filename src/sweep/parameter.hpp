@@ -16,8 +16,9 @@ enum class Parameter { h, f, nu, phase, R, xs, stop_lower, stop_upper, R_lower, 
 /// The parameter of a key, or nothing where no parameter has that name.
 [[nodiscard]] std::optional<Parameter> parameter_of(std::string_view key);
 
-/// Puts a value in its place in the scene. `xs` sets both stops to -|xs| and +|xs|, `R` both restitutions; `start_period` sets x0 and v0
-/// from the lower stop, v0 = |xs| cot(start_period / 4) (physics.md, check 1), so it is set after the stops.
+/// Puts a value in its place in the scene. `xs` sets both stops to -|xs| and +|xs|, `R` both restitutions;
+/// `start_period` sets x0 and v0 from the lower stop, v0 = |xs| cot(start_period / 4) (physics.md, check 1), so it is
+/// set after the stops.
 void set(Scene& scene, Parameter parameter, double value);
 
 }  // namespace clatter
