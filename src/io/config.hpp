@@ -14,8 +14,7 @@ struct Config {
   std::string source;
   Sweep sweep;
   int compression = 4;  ///< deflate level of the output, 0 ... 9
-  std::string
-      text;  ///< the complete configuration, defaults filled in, as TOML that runs again (root attribute `config`)
+  std::string text;     ///< all of it with the defaults filled in, as TOML that runs again (root attribute `config`)
 };
 
 /// A mistake of the user's: `what()` is one line, "file:line:column: what is wrong; the way out".
