@@ -159,7 +159,14 @@ class ContactSearch {
   }
 
   [[nodiscard]] Contact<Number> at(Side side, const Number& elapsed, Motion<Number> m) const {
+    using std::max, std::sqrt;
     m.x = side == Side::upper ? upper_ : lower_;
+    if constexpr (E.damping == Damping::none &&
+                  E.forcing == Forcing::none) {  // energy is conserved: exact however softly it touches
+      const Motion<Number>& from = arc_.start();
+      const Number square = from.v * from.v + (from.x - m.x) * (from.x + m.x - 2 * arc_.flow().load);
+      m.v = closing(side, sqrt(max(Number(0), square)));
+    }
     return {side, elapsed, m, evaluations_, true};
   }
 

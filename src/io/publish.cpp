@@ -131,7 +131,8 @@ fs::path temporary_name(const fs::path& target) {
   constexpr std::string_view letters = "abcdefghijklmnopqrstuvwxyz0123456789";
   std::random_device random;
   std::uniform_int_distribution<std::size_t> letter{0, letters.size() - 1};
-  std::string name = "." + target.filename().string().substr(0, longest) + ".";
+  std::string name{'.'};
+  name.append(target.filename().string(), 0, longest).append(1, '.');
   for (int i = 0; i < 6; ++i) name += letters[letter(random)];
   return directory_of(target) / (name + ".tmp");
 }

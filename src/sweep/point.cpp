@@ -42,6 +42,7 @@ class Observers {
     each([&](auto& observer) { observer.rest(rest); });
   }
   void impact(const Impact& impact) {
+    if (!(impact.time > 0.0)) return;  // the observed time begins after t0: an impact there belongs to what was before
     each([&](auto& observer) { observer.impact(impact); });
   }
   void finish(double x, double v, double total, bool periodic) {

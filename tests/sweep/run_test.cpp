@@ -1,0 +1,254 @@
+#include "sweep/run.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <cstring>
+#include <numbers>
+
+#include "sweep/point.hpp"
+
+namespace clatter {
+namespace {
+
+/// Scene of Figs. 14-23: h = 0.1, f = -1, from rest.
+Scene paper_scene(double xs, double nu) {
+  Scene scene;
+  scene.oscillator = {0.1, -1.0, nu, 0.0};
+  scene.stops = {-xs, xs, 0.7, 0.7};
+  return scene;
+}
+
+const Variable* find(const Figure& figure, const std::string& name) {
+  const auto found =
+      std::find_if(figure.variables.begin(), figure.variables.end(), [&](const Variable& v) { return v.name == name; });
+  return found == figure.variables.end() ? nullptr : &*found;
+}
+
+const std::vector<double>& values(const Figure& figure, const std::string& name) {
+  const Variable* variable = find(figure, name);
+  if (!variable) throw std::out_of_range("no variable " + name);
+  return std::get<std::vector<double>>(variable->values);
+}
+
+std::vector<std::uint8_t> statuses(const Figure& figure) {
+  return std::get<std::vector<std::uint8_t>>(find(figure, "status")->values);
+}
+
+Sweep sweep_of(const Scene& scene, std::vector<Axis> axes) {
+  Sweep sweep{.scene = scene, .dimensions = {}, .follow = {}};
+  for (Axis& axis : axes) sweep.dimensions.push_back({std::move(axis)});
+  return sweep;
+}
+
+/// The same bits, NaN included.
+void expect_same(const Figure& a, const Figure& b) {
+  ASSERT_EQ(a.variables.size(), b.variables.size());
+  for (std::size_t i = 0; i < a.variables.size(); ++i) {
+    ASSERT_EQ(a.variables[i].name, b.variables[i].name);
+    std::visit(
+        [&](const auto& left) {
+          const auto& right = std::get<std::decay_t<decltype(left)>>(b.variables[i].values);
+          ASSERT_EQ(left.size(), right.size());
+          EXPECT_EQ(std::memcmp(left.data(), right.data(), left.size() * sizeof(left[0])), 0) << a.variables[i].name;
+        },
+        a.variables[i].values);
+  }
+}
+
+TEST(Run, gives_the_same_bits_for_every_number_of_threads) {
+  Scene scene = paper_scene(3.0, 1.0);
+  scene.time.max_periods = 400;  // some points stay aperiodic
+  scene.observe = {.extrema = true,
+                   .harmonics = 2,
+                   .harmonics_samples = 64,
+                   .impacts = true,
+                   .impact_log = true,
+                   .trajectory = 5,
+                   .period = true};
+  Axis nu{Parameter::nu, {}};
+  for (int i = 0; i < 40; ++i) nu.values.push_back(0.8 + 0.01 * i);
+  const Sweep sweep = sweep_of(scene, {nu, {Parameter::R, {0.5, 0.7}}});
+  const Figure one = run(sweep, {.threads = 1}).figure;
+  for (int threads : {2, 3, 8}) expect_same(one, run(sweep, {.threads = threads}).figure);
+  const auto status = statuses(one);
+  EXPECT_GT(std::count(status.begin(), status.end(), 0), 0);
+  EXPECT_GT(std::count(status.begin(), status.end(), 1), 0);
+}
+
+TEST(Run, stores_nothing_that_is_not_observed) {
+  const Figure figure = run(sweep_of(paper_scene(0.5, 1.0), {}), {.threads = 1}).figure;
+  std::vector<std::string> names;
+  for (const Variable& variable : figure.variables) names.push_back(variable.name);
+  EXPECT_EQ(names, (std::vector<std::string>{"status", "impact_total", "simulated_periods"}));
+}
+
+TEST(Run, points_stand_at_their_index_in_every_order_of_axes) {
+  Scene scene = paper_scene(6.0, 1.0);
+  scene.observe.extrema = true;
+  const Axis nu{Parameter::nu, {0.6, 0.9, 1.4}}, f{Parameter::f, {1.0, 2.0}};
+  const Figure a = run(sweep_of(scene, {nu, f}), {}).figure, b = run(sweep_of(scene, {f, nu}), {}).figure;
+  for (std::size_t i = 0; i < 3; ++i)
+    for (std::size_t j = 0; j < 2; ++j) EXPECT_EQ(values(a, "x_max")[i * 2 + j], values(b, "x_max")[j * 3 + i]);
+}
+
+TEST(Run, follow_starts_where_the_point_before_ended_with_its_phase) {
+  // a transient of two equal points, one after the other, is one transient of twice the length
+  Scene scene = paper_scene(0.5, 1.3);
+  scene.start = {0.1, 0.2, 0.4};
+  scene.time.mode = Mode::transient;
+  scene.time.duration = 7.7;  // no whole number of periods: the phase has to come along
+  scene.observe.trajectory = 12;
+  Sweep halves = sweep_of(scene, {{Parameter::R, {0.7, 0.7}}});
+  halves.follow = 0;
+  scene.time.duration *= 2;
+  scene.observe.trajectory = 23;
+  const Figure two = run(halves, {}).figure, whole = run(sweep_of(scene, {}), {}).figure;
+  for (std::size_t i = 0; i < 12; ++i) {
+    EXPECT_NEAR(values(two, "x")[i], values(whole, "x")[i], 1e-13);
+    EXPECT_NEAR(values(two, "x")[12 + i], values(whole, "x")[11 + i], 1e-13);
+    EXPECT_NEAR(values(two, "v")[12 + i], values(whole, "v")[11 + i], 1e-12);
+  }
+}
+
+TEST(Run, follow_stays_on_its_branch_upwards_and_downwards) {
+  // stops that the linear resonance reaches: between the two folds the branch depends on where one comes from
+  Scene scene = paper_scene(3.0, 1.0);
+  scene.stops.restitution_lower = scene.stops.restitution_upper = 0.95;
+  scene.observe.extrema = scene.observe.impacts = true;
+  Axis up{Parameter::nu, {}};
+  for (int i = 0; i <= 120; ++i) up.values.push_back(1.0 + 0.01 * i);
+  Axis down = up;
+  std::reverse(down.values.begin(), down.values.end());
+  Sweep a = sweep_of(scene, {up}), b = sweep_of(scene, {down});
+  a.follow = b.follow = 0;
+  const Figure rising = run(a, {}).figure, falling = run(b, {}).figure;
+  const std::size_t n = up.values.size();
+  std::size_t apart = 0;
+  for (std::size_t i = 0; i < n; ++i)
+    apart += std::abs(values(rising, "x_max")[i] - values(falling, "x_max")[n - 1 - i]) > 0.1;
+  EXPECT_GT(apart, 5u);
+  EXPECT_EQ(values(rising, "x_max")[0], 3.0);      // both hit the stops at resonance
+  EXPECT_LT(values(rising, "x_max")[n - 1], 1.0);  // and neither far above it
+  EXPECT_LT(values(falling, "x_max")[0], 1.0);
+}
+
+TEST(Run, follow_moves_a_state_outside_narrower_stops_onto_the_stop) {
+  Scene scene = paper_scene(3.0, 1.0);
+  scene.time.mode = Mode::transient;
+  scene.time.duration = 30.0;
+  scene.observe.extrema = true;
+  scene.observe.trajectory = 2;
+  Sweep sweep = sweep_of(scene, {{Parameter::xs, {3.0, 0.01}}});
+  sweep.follow = 0;
+  const Figure figure = run(sweep, {}).figure;
+  EXPECT_EQ(std::abs(values(figure, "x")[2]), 0.01);
+  ASSERT_GT(values(figure, "v")[1] * values(figure, "x")[2], 0.0);  // it moves into the stop,
+  EXPECT_DOUBLE_EQ(values(figure, "v")[2],
+                   -0.7 * values(figure, "v")[1]);  // with the velocity it had, and is reversed at once
+  EXPECT_LE(values(figure, "x_max")[1], 0.01);
+}
+
+TEST(Run, a_failed_point_has_no_values_and_does_not_lead_the_next_astray) {
+  Scene scene = paper_scene(0.5, 1.0);
+  scene.time.max_impacts = 40;
+  scene.observe = {.extrema = true, .impacts = true, .impact_log = true, .trajectory = 3, .period = true};
+  Sweep sweep = sweep_of(scene, {{Parameter::xs, {0.01, 6.0}}});
+  sweep.follow = 0;
+  const RunResult result = run(sweep, {});
+  EXPECT_EQ(statuses(result.figure), (std::vector<std::uint8_t>{16, 0}));
+  EXPECT_EQ(result.failed_points, 1u);
+  for (const char* name : {"x_min", "x_max", "v_min", "v_max", "period", "period_ratio"}) {
+    EXPECT_TRUE(std::isnan(values(result.figure, name)[0])) << name;
+    EXPECT_FALSE(std::isnan(values(result.figure, name)[1])) << name;
+  }
+  Sweep alone = sweep_of(scene, {{Parameter::xs, {6.0}}});
+  EXPECT_EQ(values(result.figure, "x_max")[1], values(run(alone, {}).figure, "x_max")[0]);
+}
+
+TEST(Run, progress_reaches_the_total) {
+  Sweep sweep = sweep_of(paper_scene(6.0, 1.0), {{Parameter::nu, std::vector<double>(50, 0.9)}});
+  std::size_t last = 0, calls = 0;
+  const auto report = [&](std::size_t done, std::size_t total) {
+    EXPECT_GE(done, last);
+    EXPECT_EQ(total, 50u);
+    last = done, ++calls;
+  };
+  (void)run(sweep, {.threads = 2, .progress = report});
+  EXPECT_EQ(last, 50u);
+  EXPECT_GE(calls, 1u);
+}
+
+/// Sum over the harmonics of the distance between two spectra.
+double distance(const Spectrum& a, const Spectrum& b) {
+  double sum = std::abs(a.amplitude[0] - b.amplitude[0]);
+  for (std::size_t k = 1; k < a.amplitude.size(); ++k)
+    sum += std::abs(std::polar(a.amplitude[k], a.phase[k]) - std::polar(b.amplitude[k], b.phase[k]));
+  return sum;
+}
+
+TEST(Run, sampled_harmonics_approach_the_exact_ones_as_fast_as_theory_says) {
+  Scene scene = paper_scene(0.5, 1.0);  // Fig. 18
+  scene.observe.harmonics = 5;
+  scene.observe.harmonics_method = HarmonicsMethod::exact;
+  Workshop nothing;
+  const PointResult exact = run_point(scene, nothing);
+  scene.observe.harmonics_method = HarmonicsMethod::fft;
+  // the error depends on where the impacts fall between samples: the mean over sizes in a row
+  const auto errors = [&](std::int64_t samples) {
+    double x = 0.0, v = 0.0;
+    for (std::int64_t n = samples; n < samples + 16; ++n) {
+      scene.observe.harmonics_samples = n;
+      const FourierTransform transform(static_cast<std::size_t>(n));
+      Workshop workshop{&transform, transform.workspace()};
+      const PointResult sampled = run_point(scene, workshop);
+      x += distance(sampled.x_spectrum, exact.x_spectrum) / 16;
+      v += distance(sampled.v_spectrum, exact.v_spectrum) / 16;
+    }
+    return std::pair{x, v};
+  };
+  const auto [coarse_x, coarse_v] = errors(256);
+  const auto [fine_x, fine_v] = errors(4096);
+  EXPECT_NEAR(std::log2(coarse_x / fine_x) / 4, 2.0, 0.25);  // x has kinks: second order
+  EXPECT_NEAR(std::log2(coarse_v / fine_v) / 4, 1.0, 0.25);  // x' has jumps: first order
+}
+
+TEST(Run, harmonics_beyond_half_the_sampling_rate_have_no_value) {
+  Scene scene = paper_scene(3.0, 0.868);  // Fig. 23: two forcing periods, so harmonic k is the transform's 2k-th
+  scene.observe.harmonics = 4;
+  scene.observe.harmonics_samples = 14;
+  const FourierTransform transform(14);
+  Workshop workshop{&transform, transform.workspace()};
+  const PointResult result = run_point(scene, workshop);
+  for (std::size_t k = 0; k <= 4; ++k) EXPECT_EQ(std::isnan(result.x_spectrum.amplitude[k]), 2 * 2 * k >= 14) << k;
+}
+
+TEST(Run, observed_time_is_described) {
+  Scene scene = paper_scene(3.0, 0.868);
+  scene.observe = {.harmonics = 1, .harmonics_method = HarmonicsMethod::exact, .impacts = true, .period = true};
+  Workshop nothing;
+  const PointResult forced = run_point(scene, nothing);
+  EXPECT_EQ(forced.period_ratio, 2.0);
+  EXPECT_EQ(forced.base_frequency, 0.868);
+  EXPECT_NEAR(forced.period, 4 * std::numbers::pi / 0.868, 1e-14);
+  EXPECT_TRUE(std::isnan(forced.eigenfrequency));
+  scene.time.mode = Mode::transient;
+  scene.time.duration = 20.0;
+  const PointResult transient = run_point(scene, nothing);
+  EXPECT_EQ(transient.status, Status::transient);
+  EXPECT_DOUBLE_EQ(transient.base_frequency, 2 * std::numbers::pi / 20);
+  EXPECT_TRUE(std::isnan(transient.period) && std::isnan(transient.period_ratio));
+  Scene held = paper_scene(0.5, 1.0);
+  held.oscillator = {0.1, 0.0, 1.0, 2.0};
+  held.observe = scene.observe;
+  const PointResult still = run_point(held, nothing);
+  EXPECT_EQ(still.status, Status::periodic);
+  EXPECT_TRUE(std::isnan(still.period));
+  EXPECT_EQ(still.rest_fraction[1], 1.0);
+  EXPECT_EQ(still.rest_fraction[0], 0.0);
+}
+
+}  // namespace
+}  // namespace clatter
