@@ -71,13 +71,20 @@ void compare(const Quantity& low, const Quantity& high, Permitted permitted, con
 
 void check_stops_and_start(const Settings& settings, const AxisGroups& groups) {
   const bool symmetric = settings.given(xs).has_value();
-  const Quantity lower = symmetric ? symmetric_stop(settings, groups, -1) : quantity(settings, groups, stop_lower);
-  const Quantity upper = symmetric ? symmetric_stop(settings, groups, 1) : quantity(settings, groups, stop_upper);
+  Quantity lower = symmetric ? symmetric_stop(settings, groups, -1) : quantity(settings, groups, stop_lower);
+  Quantity upper = symmetric ? symmetric_stop(settings, groups, 1) : quantity(settings, groups, stop_upper);
   const Permitted below = [](double left, double right) { return left < right; };
   const Permitted not_above = [](double left, double right) { return left <= right; };
   if (!symmetric) compare(lower, upper, below, "stop_lower < stop_upper");
   if (settings.given(start_period)) return;  // it starts on the lower stop
-  const Quantity start = quantity(settings, groups, x0);
+  // along `follow` only the first point starts from [scene]; later ones move onto a stop that has come past them
+  const auto followed = followed_dimension(settings, groups);
+  const auto at_start = [&](Quantity quantity) {
+    if (followed && quantity.dimension == followed) quantity.values.resize(1);
+    return quantity;
+  };
+  lower = at_start(lower), upper = at_start(upper);
+  const Quantity start = at_start(quantity(settings, groups, x0));
   const std::string rule = "a start between the stops, " + lower.name + " <= x0 <= " + upper.name;
   compare(lower, start, not_above, rule);
   compare(start, upper, not_above, rule);

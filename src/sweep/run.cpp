@@ -32,10 +32,11 @@ struct Branches {
   }
 };
 
-/// Starts a point where the one before was left; a state outside narrower stops moves onto the stop, its velocity kept.
-void continue_from(Scene& scene, const Start& end) {
-  scene.start = end;
-  scene.start.displacement = std::clamp(end.displacement, scene.stops.lower, scene.stops.upper);
+/// Starts a point of a branch where the one before was left, or from the scene where that failed; a state outside narrower stops moves onto
+/// the stop, its velocity kept.
+void start_from(Scene& scene, const std::optional<Start>& end) {
+  if (end) scene.start = *end;
+  scene.start.displacement = std::clamp(scene.start.displacement, scene.stops.lower, scene.stops.upper);
 }
 
 void run_branch(const Sweep& sweep, const Branches& branches, std::size_t branch, Workshop& workshop,
@@ -44,7 +45,7 @@ void run_branch(const Sweep& sweep, const Branches& branches, std::size_t branch
   for (std::size_t i = 0; i < branches.length; ++i) {
     const std::size_t point = branches.point(branch, i);
     Scene scene = scene_at(sweep, point);
-    if (end) continue_from(scene, *end);
+    start_from(scene, end);
     PointResult result = run_point(scene, workshop);
     end = failed(result.status) || !sweep.follow ? std::nullopt : std::optional<Start>(result.end);
     columns.store(point, std::move(result));

@@ -144,6 +144,13 @@ TEST(Axes, stops_that_vary_together_are_compared_value_by_value) {
   EXPECT_NE(mistake_in("a.toml", "[sweep]\nxs = [1, 2]\nx0 = [-1, 2]\n"), "");
 }
 
+TEST(Axes, along_follow_only_the_first_point_has_to_start_between_the_stops) {
+  const std::string text = "[scene]\nx0 = 2\n[sweep]\nxs = [3, 1]\n";
+  EXPECT_NE(mistake_in("a.toml", text), "");
+  EXPECT_EQ(mistake_in("a.toml", text + "follow = \"xs\"\n"), "");
+  EXPECT_NE(mistake_in("a.toml", "[scene]\nx0 = 2\n[sweep]\nxs = [1, 3]\nfollow = \"xs\"\n"), "");
+}
+
 TEST(Set, the_last_of_equal_ones_wins_over_the_file) {
   const Config config = read_as("a.toml", fig22, {{"scene.R", "0.2"}, {"scene.R", "0.3"}, {"title", "'new'"}});
   EXPECT_EQ(config.sweep.scene.stops.restitution_lower, 0.3);

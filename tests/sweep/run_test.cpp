@@ -166,6 +166,10 @@ TEST(Run, a_failed_point_has_no_values_and_does_not_lead_the_next_astray) {
   }
   Sweep alone = sweep_of(scene, {{Parameter::xs, {6.0}}});
   EXPECT_EQ(values(result.figure, "x_max")[1], values(run(alone, {}).figure, "x_max")[0]);
+  sweep.dimensions[0][0].values = {0.01, 0.5};  // starting anew from a scene that narrower stops have come past
+  sweep.scene.start.displacement = 0.8;
+  sweep.scene.time.max_impacts = 100;
+  EXPECT_EQ(statuses(run(sweep, {}).figure), (std::vector<std::uint8_t>{16, 0}));
 }
 
 TEST(Run, progress_reaches_the_total) {
