@@ -9,10 +9,15 @@
 #endif
 
 #ifdef CLATTER_THREAD_SANITIZER
+/// Marks a function that holds nothing but a parallel region: its own reads of what libgomp hands it aren't watched,
+/// what it calls is.
+#define CLATTER_PARALLEL_REGION __attribute__((no_sanitize("thread")))
 extern "C" {
 void __tsan_acquire(void* address);
 void __tsan_release(void* address);
 }
+#else
+#define CLATTER_PARALLEL_REGION
 #endif
 
 namespace clatter {
@@ -23,10 +28,10 @@ namespace clatter {
 class ForkJoin {
  public:
 #ifdef CLATTER_THREAD_SANITIZER
-  ForkJoin() { __tsan_release(&begin_); }
+  void fork() { __tsan_release(&begin_); }
   void join() { __tsan_acquire(&end_); }
 
-  /// One thread's stay in the region.
+  /// One thread's work on one iteration.
   class Member {
    public:
     explicit Member(ForkJoin& region) : region_(region) { __tsan_acquire(&region_.begin_); }
@@ -41,6 +46,7 @@ class ForkJoin {
  private:
   char begin_ = 0, end_ = 0;
 #else
+  void fork() {}
   void join() {}
 
   struct Member {

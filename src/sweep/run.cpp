@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <chrono>
 #include <exception>
+#include <mutex>
 #include <optional>
 #include <vector>
 
@@ -32,8 +33,8 @@ struct Branches {
   }
 };
 
-/// Starts a point of a branch where the one before was left, or from the scene where that failed; a state outside narrower stops moves onto
-/// the stop, its velocity kept.
+/// Starts a point of a branch where the one before was left, or from the scene where that failed; a state outside
+/// narrower stops moves onto the stop, its velocity kept.
 void start_from(Scene& scene, const std::optional<Start>& end) {
   if (end) scene.start = *end;
   scene.start.displacement = std::clamp(scene.start.displacement, scene.stops.lower, scene.stops.upper);
@@ -59,52 +60,74 @@ class Progress {
 
   void add(std::size_t points) {
     if (!report_) return;
-#pragma omp critical(clatter_progress)
-    {
-      done_ += points;
-      const auto now = Clock::now();
-      if (now - last_ > std::chrono::milliseconds(200) || done_ == total_) {
-        last_ = now;
-        report_(done_, total_);
-      }
-    }
+    const std::lock_guard lock(mutex_);
+    done_ += points;
+    const auto now = Clock::now();
+    if (now - last_ <= std::chrono::milliseconds(200) && done_ != total_) return;
+    last_ = now;
+    report_(done_, total_);
   }
 
  private:
   using Clock = std::chrono::steady_clock;
   const std::function<void(std::size_t, std::size_t)>& report_;
+  std::mutex mutex_;
   std::size_t total_, done_ = 0;
   Clock::time_point last_{};
 };
 
-void run_all(const Sweep& sweep, const RunOptions& options, int threads, Columns& columns) {
-  const Branches branches(sweep);
-  const Observe& observe = sweep.scene.observe;
-  std::optional<FourierTransform> transform;
-  if (observe.harmonics > 0 && observe.harmonics_method == HarmonicsMethod::fft)
-    transform.emplace(static_cast<std::size_t>(observe.harmonics_samples));
-  std::vector<Workshop> workshops(static_cast<std::size_t>(threads));
-  for (Workshop& workshop : workshops)
-    if (transform) workshop = {&*transform, transform->workspace()};
-  Progress progress(options, size(sweep));
-  std::exception_ptr failure;
-  ForkJoin fork_join;
-#pragma omp parallel num_threads(threads)
-  {
-    const ForkJoin::Member member(fork_join);
-    Workshop& workshop = workshops[static_cast<std::size_t>(omp_get_thread_num())];
-#pragma omp for schedule(dynamic)
-    for (std::size_t branch = 0; branch < branches.count; ++branch) try {
-        run_branch(sweep, branches, branch, workshop, columns);
-        progress.add(branches.length);
-      } catch (...) {
-#pragma omp critical(clatter_failure)
-        failure = std::current_exception();
-      }
+/// The threads that run a sweep, and what they share.
+class Team {
+ public:
+  Team(const Sweep& sweep, const RunOptions& options, int threads, Columns& columns)
+      : sweep_(sweep),
+        branches_(sweep),
+        columns_(columns),
+        progress_(options, size(sweep)),
+        workshops_(static_cast<std::size_t>(threads)) {
+    const Observe& observe = sweep.scene.observe;
+    if (observe.harmonics == 0 || observe.harmonics_method != HarmonicsMethod::fft) return;
+    transform_.emplace(static_cast<std::size_t>(observe.harmonics_samples));
+    for (Workshop& workshop : workshops_) workshop = {&*transform_, transform_->workspace()};
   }
-  fork_join.join();
-  if (failure) std::rethrow_exception(failure);
-}
+
+  /// Runs every branch; results go by index, so their bits don't depend on which thread runs what.
+  CLATTER_PARALLEL_REGION void run() {
+    fork_join_.fork();
+    const auto threads = static_cast<int>(workshops_.size());
+#pragma omp parallel for schedule(dynamic) num_threads(threads)
+    for (std::size_t branch = 0; branch < branches_.count; ++branch)
+      work(branch, static_cast<std::size_t>(omp_get_thread_num()));
+    fork_join_.join();
+  }
+
+  /// Passes on what a thread could not do.
+  void rethrow() const {
+    if (failure_) std::rethrow_exception(failure_);
+  }
+
+ private:
+  void work(std::size_t branch, std::size_t thread) noexcept {
+    const ForkJoin::Member member(fork_join_);
+    try {
+      run_branch(sweep_, branches_, branch, workshops_[thread], columns_);
+      progress_.add(branches_.length);
+    } catch (...) {
+      const std::lock_guard lock(mutex_);
+      failure_ = std::current_exception();
+    }
+  }
+
+  const Sweep& sweep_;
+  Branches branches_;
+  Columns& columns_;
+  Progress progress_;
+  std::optional<FourierTransform> transform_;
+  std::vector<Workshop> workshops_;  ///< [thread]
+  std::mutex mutex_;
+  std::exception_ptr failure_;
+  ForkJoin fork_join_;
+};
 
 }  // namespace
 
@@ -114,7 +137,9 @@ RunResult run(const Sweep& sweep, const RunOptions& options) {
   Columns columns(sweep);
   result.points = size(sweep);
   result.threads = options.threads > 0 ? options.threads : omp_get_max_threads();
-  run_all(sweep, options, result.threads, columns);
+  Team team(sweep, options, result.threads, columns);
+  team.run();
+  team.rethrow();
   result.failed_points = columns.failed_points();
   result.impacts = columns.impacts();
   result.periods = columns.periods();
