@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 #include "dynamics/arc.hpp"
@@ -30,13 +31,14 @@ class ContactSearch {
       : arc_(arc), lower_(stops.lower), upper_(stops.upper), horizon_(horizon), here_(arc.start()) {}
 
   [[nodiscard]] Contact<Number> run() {
-    using std::isfinite, std::min;
+    using std::isfinite;
     if (!(isfinite(here_.x) && isfinite(here_.v) && isfinite(here_.a))) return unresolved();
     for (const Side side : {Side::lower, Side::upper})
       if (gap(side) <= 0 && closing(side, here_.v) > 0) return at(side, Number(0), here_);
     Number step = first_step();
     for (int attempts = 0; attempts < max_attempts;) {
       if (out_of_reach()) return end(evaluate(horizon_));
+      if (!(step > 0)) return unresolved();
       const Number remaining = horizon_ - elapsed_;
       const bool last = !(step < remaining);
       if (last) step = remaining;
@@ -44,7 +46,7 @@ class ContactSearch {
       const Crossing crossing = first_crossing(there, step);
       if (crossing.side == Side::none) {
         if (last) return end(there);
-        here_ = there, elapsed_ += step, step = min(Number(2 * step), longest_step()), attempts = 0;
+        here_ = there, elapsed_ += step, step = longer(step), attempts = 0;
         continue;
       }
       ++attempts;
@@ -55,7 +57,6 @@ class ContactSearch {
         if (gap(crossing.side) <= 0 && closing(crossing.side, here_.v) > 0) return touch(crossing.side, Number(0));
       }
       step = next_step(crossing.side, step);
-      if (!(step > 0)) return unresolved();
     }
     return unresolved();
   }
@@ -86,14 +87,31 @@ class ContactSearch {
     return lower_ < load - reach && load + reach < upper_;
   }
 
-  /// The longest step whose enclosure is about as sharp as the gap is wide.
+  /// The width that an enclosure has to resolve.
+  [[nodiscard]] Number width() const {
+    using std::abs, std::min;
+    return min(Number(upper_ - lower_), Number(abs(here_.x) + abs(here_.v) + arc_.flow().amplitude));
+  }
+  [[nodiscard]] Number error_of(const Number& step) const {
+    return hermite_error(arc_.flow().derivative_bound(here_, step, 6), step);
+  }
+
+  /// The longest step whose enclosure is about as sharp as the gap is wide; 0 where lengths are so small that products
+  /// of them vanish.
   [[nodiscard]] Number first_step() const {
-    using std::abs, std::min, std::pow;
-    const Number step = longest_step(), width = upper_ - lower_,
-                 size = abs(here_.x) + abs(here_.v) + arc_.flow().amplitude;
-    const Number error = hermite_error(arc_.flow().derivative_bound(here_, step, 6), step);
-    const Number aim = min(width, size) / 20;
+    using std::pow;
+    const Number step = longest_step(), error = error_of(step), aim = width() / 20;
+    if (aim > 0 && aim < std::numeric_limits<Number>::min() / (epsilon<Number>() * epsilon<Number>())) return Number(0);
     return aim > 0 && error > aim ? Number(step * pow(aim / error, Number(1) / 6)) : step;
+  }
+
+  /// The step after one that was proved: twice as long, beyond the usual length only where so little of the fast motion
+  /// is left that the enclosure hardly notices (a slow force, a transient long gone).
+  [[nodiscard]] Number longer(const Number& step) const {
+    using std::min;
+    const Number twice = 2 * step;
+    if (twice > longest_step() && error_of(twice) <= width() / 20000) return twice;
+    return min(twice, longest_step());
   }
 
   [[nodiscard]] Motion<Number> evaluate(const Number& s) {
@@ -106,7 +124,7 @@ class ContactSearch {
   }
 
   [[nodiscard]] Crossing first_crossing(const Motion<Number>& there, const Number& step) const {
-    const Number error = hermite_error(arc_.flow().derivative_bound(here_, step, 6), step);
+    const Number error = error_of(step);
     const Bernstein<Number> rise =
         hermite<Number>(step, there.rise - here_.rise, {here_.v, there.v}, {here_.a, there.a});
     const Crossing low = crossing_of(Side::lower, rise, error), high = crossing_of(Side::upper, rise, error);
@@ -158,15 +176,20 @@ class ContactSearch {
     return at(side, elapsed, m);
   }
 
+  /// Speed at a place by the energy of free undamped motion: exact however softly it touches.
+  [[nodiscard]] Number conserved_speed(const Number& x) const {
+    using std::abs, std::max, std::sqrt;
+    const Motion<Number>& from = arc_.start();
+    const Number fall = from.x - x, middle = from.x + x - 2 * arc_.flow().load;
+    const Number scale = max(max(Number(abs(fall)), Number(abs(middle))), Number(abs(from.v)));
+    if (!(scale > 0)) return Number(0);
+    return scale *
+           sqrt(max(Number(0), Number((from.v / scale) * (from.v / scale) + (fall / scale) * (middle / scale))));
+  }
+
   [[nodiscard]] Contact<Number> at(Side side, const Number& elapsed, Motion<Number> m) const {
-    using std::max, std::sqrt;
     m.x = side == Side::upper ? upper_ : lower_;
-    if constexpr (E.damping == Damping::none &&
-                  E.forcing == Forcing::none) {  // energy is conserved: exact however softly it touches
-      const Motion<Number>& from = arc_.start();
-      const Number square = from.v * from.v + (from.x - m.x) * (from.x + m.x - 2 * arc_.flow().load);
-      m.v = closing(side, sqrt(max(Number(0), square)));
-    }
+    if constexpr (E.damping == Damping::none && E.forcing == Forcing::none) m.v = closing(side, conserved_speed(m.x));
     return {side, elapsed, m, evaluations_, true};
   }
 

@@ -85,10 +85,10 @@ Flow<Number, E>::Flow(const Oscillator& o) : h(o.damping), f(o.forcing), nu(o.fr
   const Number stiffness = (1 - nu) * (1 + nu), friction = 2 * h * nu;
   const Number size =
       max(Number(abs(stiffness)), friction);  // divided out first, so that its square can't overflow or vanish
-  const Number p = stiffness / size, q = friction / size, norm = size * (p * p + q * q);
-  in_phase = E.forcing == Forcing::regular ? Number(f * p / norm) : Number(0);
-  quadrature = E.forcing == Forcing::regular ? Number(-f * q / norm) : Number(0);
-  amplitude = sqrt(in_phase * in_phase + quadrature * quadrature);
+  const Number p = stiffness / size, q = friction / size, determinant = size * (p * p + q * q);
+  in_phase = E.forcing == Forcing::regular ? Number(f * p / determinant) : Number(0);
+  quadrature = E.forcing == Forcing::regular ? Number(-f * q / determinant) : Number(0);
+  amplitude = norm(in_phase, quadrature);
   detuning = (nu - 1) + h * h / (1 + root);
   rate = max(Number(1), Number(2 * h));
   if constexpr (E.forcing != Forcing::none) rate = max(rate, nu);
@@ -136,9 +136,9 @@ Number Flow<Number, E>::derivative_bound(const Motion<Number>& m, const Number& 
   using std::abs, std::min;
   const auto k = static_cast<std::size_t>(order);
   const Number x = m.x - steady_displacement(m.sine, m.cosine), v = m.v - steady_velocity(m.sine, m.cosine);
-  Number norm = abs(x) + abs(v);
-  if constexpr (E.forcing == Forcing::secular) norm += abs(f) * span;
-  Number free = free_bound_[k] * norm;
+  Number energy_norm = abs(x) + abs(v);
+  if constexpr (E.forcing == Forcing::secular) energy_norm += abs(f) * span;
+  Number free = free_bound_[k] * energy_norm;
   if constexpr (E.damping == Damping::heavy) {
     const auto power = [order](const Number& base) {
       Number product = base;
@@ -153,10 +153,9 @@ Number Flow<Number, E>::derivative_bound(const Motion<Number>& m, const Number& 
 
 template <class Number, Effects E>
 Number Flow<Number, E>::reach(const Motion<Number>& m) const {
-  using std::sqrt;
   if constexpr (E.forcing == Forcing::secular) return std::numeric_limits<Number>::infinity();
   const Number x = m.x - steady_displacement(m.sine, m.cosine), v = m.v - steady_velocity(m.sine, m.cosine);
-  return (amplitude + sqrt(x * x + v * v)) * (1 + 16 * epsilon<Number>());
+  return (amplitude + norm(x, v)) * (1 + 16 * epsilon<Number>());
 }
 
 }  // namespace clatter

@@ -60,27 +60,25 @@ template <class Number, Effects E>
 
 /// What is left of an infinite sequence of impacts: the time to its end, where it may be summed.
 ///
-/// A rebound at speed w under the pressing acceleration a, with da/dt = j, flies for s = 2 w/a + s2 w^2 + O(w^3) and
-/// returns with w + u2 w^2
-/// + O(w^3): s2 = -4 (h a + j)/(3 a^3), u2 = -(2/3) (2 h a - j)/a^2. The sum S = A w + B w^2 + O(w^3) of all flights
-/// satisfies S(w, a) = s + S(R w', a + j s), which gives A = 2/(a (1 - R)) and B below (Budd & Dux 1994; Nordmark &
+/// A rebound at speed w under the pressing acceleration a, with da/dt = j, flies for s = 2 q - (4/3) (h + j/a) q^2 +
+/// O(q^3), q = w/a, and returns with w [1 - (2/3) (2 h - j/a) q + O(q^2)]. The sum of all flights satisfies S(w, a) = s
+/// + S(R w', a + j s), which gives S = A q + B q^2 + O(q^3) with A = 2/(1 - R) and B below (Budd & Dux 1994; Nordmark &
 /// Piiroinen 2009). S may be summed when the terms left out, of relative size (S times the rates of the motion)^2,
 /// change it by less than rounding does.
 template <class Number, Effects E>
 [[nodiscard]] std::optional<Number> chatter_time(const Flow<Number, E>& flow, const Stop<Number>& stop,
                                                  const Pressing<Number>& press, const Number& rebound) {
   using std::abs, std::max;
-  const Number &R = stop.restitution, &a = press.force, &j = press.rate, &h = flow.h, &w = rebound;
+  const Number &R = stop.restitution, &a = press.force, &h = flow.h;
   const Number loss = 1 - R;
   if (!(loss > 0) || !(a > 0)) return std::nullopt;
-  const Number first = 2 / (a * loss);
-  const Number s2 = -4 * (h * a + j) / (3 * a * a * a), u2 = -2 * (2 * h * a - j) / (3 * a * a);
-  const Number second = (s2 + first * R * u2 - 2 * first * j * R / (a * a)) / (loss * (1 + R));
-  const Number sum = w * (first + second * w);
-  const Number slope = abs(j) / a, curvature = abs(flow.f) * flow.nu * flow.nu / a;
-  const Number rates = 1 + 2 * h + slope, left_out = w * first * (rates * rates + curvature) * w * first;
-  if (!(left_out <= max(epsilon<Number>(), Number(epsilon<Number>() / (w * first * flow.rate))))) return std::nullopt;
-  return sum;
+  const Number slope = press.rate / a, curvature = abs(flow.f) / a * flow.nu * flow.nu, q = rebound / a,
+               leading = 2 * q / loss;
+  const Number next =
+      -(4 * (h + slope) + 4 * R / loss * (2 * h - slope) + 12 * R / loss * slope) / (3 * loss * (1 + R));
+  const Number rates = 1 + 2 * h + abs(slope), left_out = leading * leading * (rates * rates + curvature);
+  if (!(left_out <= max(epsilon<Number>(), Number(epsilon<Number>() / (leading * flow.rate))))) return std::nullopt;
+  return leading + next * q * q;
 }
 
 }  // namespace clatter

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -23,6 +24,16 @@ template <class Number>
 template <class Number>
 [[nodiscard]] Number select(bool mask, const Number& a, const Number& b) {
   return mask ? a : b;
+}
+
+/// (x^2 + y^2)^(1/2) where the squares would overflow or vanish, too.
+template <class Number>
+[[nodiscard]] Number norm(const Number& x, const Number& y) {
+  using std::abs, std::max, std::min, std::sqrt;
+  const Number large = max(Number(abs(x)), Number(abs(y))), small = min(Number(abs(x)), Number(abs(y)));
+  if (!(large > 0)) return large;
+  const Number ratio = small / large;
+  return large * sqrt(1 + ratio * ratio);
 }
 
 /// Sine and cosine of one angle.

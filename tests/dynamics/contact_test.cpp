@@ -106,6 +106,18 @@ TEST(Contact, stops_out_of_reach_cost_one_evaluation) {
   EXPECT_EQ(contact.evaluations, 1);
 }
 
+TEST(Contact, lengths_near_the_smallest_numbers_are_solved_or_refused) {
+  for (double scale : {1e-150, 1e-250}) {  // squares vanish, the motion is the same
+    const Contact<double> contact = first_contact({0.1, scale, 0.5, 0}, {-scale / 2, scale / 2, 1, 1}, 0, 0, 4.0);
+    EXPECT_EQ(contact.side, Side::upper);
+    EXPECT_NEAR(contact.elapsed, 2.0515931595927638, 1e-14);  // physics.md, "chatter and rest"
+  }
+  EXPECT_FALSE(first_contact({0.1, 1e-300, 0.5, 0}, {-1e-300, 1e-300, 1, 1}, 0, 0, 4.0).resolved);
+  const Contact<double> decayed = first_contact({0.1, 0, 1, 0}, {-1, 1, 1, 1}, 1e-300, 0, 4.0);  // out of reach: no length to resolve
+  EXPECT_EQ(decayed.side, Side::none);
+  EXPECT_TRUE(decayed.resolved);
+}
+
 TEST(Contact, numbers_beyond_the_range_are_not_resolved_rather_than_searched_for_ever) {
   EXPECT_FALSE(first_contact({0.1, 1e308, 1, 0}, {-1, 1, 1, 1}, 0, 1e308, 10.0).resolved);
   EXPECT_FALSE(first_contact({0, 0, 1, 0}, {-1, 1, 1, 1}, 0, std::nan(""), 10.0).resolved);
