@@ -14,11 +14,7 @@ class Arc {
  public:
   /// Starts at displacement x, velocity v, phase (sine, cosine) and acceleration a, which the equation of motion gives
   /// or a release makes 0.
-  Arc(const Flow<Number, E>& flow, const Motion<Number>& start)
-      : flow_(&flow),
-        start_(start),
-        free_x_(start.x - flow.steady_displacement(start.sine, start.cosine)),
-        free_v_(start.v - flow.steady_velocity(start.sine, start.cosine)) {}
+  Arc(const Flow<Number, E>& flow, const Motion<Number>& start) : flow_(&flow), start_(with_free_part(start)) {}
 
   [[nodiscard]] const Flow<Number, E>& flow() const { return *flow_; }
   [[nodiscard]] const Motion<Number>& start() const { return start_; }
@@ -35,15 +31,16 @@ class Arc {
 
  private:
   [[nodiscard]] Motion<Number> closed_form(const Number& s) const;
-  [[nodiscard]] Motion<Number> motion(const Number& x, const Number& v, const SineCosine<Number>& phase) const {
-    return {x - start_.x, x, v, flow_->acceleration(x, v, phase.sine), phase.sine, phase.cosine};
+  [[nodiscard]] Motion<Number> with_free_part(Motion<Number> m) const {
+    m.free_x = m.x - flow_->steady_displacement(m.sine, m.cosine),
+    m.free_v = m.v - flow_->steady_velocity(m.sine, m.cosine);
+    return m;
   }
   [[nodiscard]] SineCosine<Number> turned(const Motion<Number>& m, const Number& angle) const;
   [[nodiscard]] std::array<Number, 2> response_from_rest(const Number& s) const;
 
   const Flow<Number, E>* flow_;
   Motion<Number> start_;
-  Number free_x_, free_v_;  ///< the transient's displacement and velocity at the start
 };
 
 template <class Number, Effects E>
@@ -58,14 +55,17 @@ template <class Number, Effects E>
 Motion<Number> Arc<Number, E>::closed_form(const Number& s) const {
   const Propagator<Number> p = flow_->propagator(s);
   const SineCosine<Number> phase = turned(start_, flow_->nu * s);
-  Number x = flow_->steady_displacement(phase.sine, phase.cosine) + (p.a * free_x_ + p.b * free_v_);
-  Number v = flow_->steady_velocity(phase.sine, phase.cosine) + (p.c * free_v_ - p.b * free_x_);
+  const Number steady_x = flow_->steady_displacement(phase.sine, phase.cosine),
+               steady_v = flow_->steady_velocity(phase.sine, phase.cosine);
+  Number free_x = p.a * start_.free_x + p.b * start_.free_v, free_v = p.c * start_.free_v - p.b * start_.free_x;
+  Number a = -(p.c * start_.free_x + p.d * start_.free_v) - flow_->nu * flow_->nu * (steady_x - flow_->load);
   if constexpr (E.forcing == Forcing::secular) {
     const auto [forced_x, forced_v] = response_from_rest(s);
-    x += flow_->f * forced_x;
-    v += flow_->f * forced_v;
+    free_x += flow_->f * forced_x, free_v += flow_->f * forced_v;
+    a = flow_->acceleration(steady_x + free_x, steady_v + free_v, phase.sine);
   }
-  return motion(x, v, phase);
+  const Number x = steady_x + free_x;
+  return {x - start_.x, x, steady_v + free_v, a, phase.sine, phase.cosine, free_x, free_v};
 }
 
 /// (e^z - 1)/z for z = re + i im with re <= 0, to relative accuracy for every z: the divided difference of the
@@ -129,7 +129,7 @@ Motion<Number> Arc<Number, E>::near(const Motion<Number>& m, const Number& d) co
   }
   const SineCosine<Number> phase = turned(m, flow_->nu * d);
   const Number x = m.x + rise, v = m.v + gain / d;
-  return {m.rise + rise, x, v, flow_->acceleration(x, v, phase.sine), phase.sine, phase.cosine};
+  return with_free_part({m.rise + rise, x, v, flow_->acceleration(x, v, phase.sine), phase.sine, phase.cosine});
 }
 
 }  // namespace clatter

@@ -26,11 +26,10 @@ template <class Number>
   return {Number(0), v0 / 6, v0 / 3 + a0 / 30, (left + right) / 2, rise - v1 / 3 + a1 / 30, rise - v1 / 6, rise};
 }
 
-/// What the middle coefficient is uncertain by, for |y^(6)| <= bound over the step.
+/// What the middle coefficient is uncertain by, for step^6 |y^(6)| <= bound over the step.
 template <class Number>
-[[nodiscard]] Number hermite_error(const Number& bound, const Number& step) {
-  const Number cube = step * step * step;
-  return bound * cube * cube / 14400;
+[[nodiscard]] Number hermite_error(const Number& bound) {
+  return bound / 14400;
 }
 
 /// The middle Bernstein function of degree 6 at u.

@@ -93,7 +93,7 @@ class ContactSearch {
     return min(Number(upper_ - lower_), Number(abs(here_.x) + abs(here_.v) + arc_.flow().amplitude));
   }
   [[nodiscard]] Number error_of(const Number& step) const {
-    return hermite_error(arc_.flow().derivative_bound(here_, step, 6), step);
+    return hermite_error(arc_.flow().sixth_bound(here_, step, 0));
   }
 
   /// The longest step whose enclosure is about as sharp as the gap is wide; 0 where lengths are so small that products

@@ -11,11 +11,17 @@
 
 namespace clatter {
 
-/// Free motion over a time s: x(s) = A x + B v, v(s) = -B x + C v.
+/// Free motion over a time s: x(s) = A x + B v, v(s) = -B x + C v, and its acceleration -C x - D v.
 template <class Number>
 struct Propagator {
-  Number a, b, c;
+  Number a, b, c, d;
 };
+
+/// y z^6; 0 and infinity meet only where y or z is not finite.
+template <class Number>
+[[nodiscard]] Number times_sixth_power(const Number& y, const Number& z) {
+  return y * z * z * z * z * z * z;
+}
 
 /// The constants of an oscillator that all its arcs share, and its free motion and bounds.
 template <class Number, Effects E>
@@ -53,10 +59,10 @@ class Flow {
     return sum;
   }
 
-  /// Bound of |x^(order)|, order 6 or 7, from `m` on for a time `span`. The energy norm of free motion never grows, so
-  /// its derivatives are bounded by the row of the companion matrix' power; heavy damping is also bounded mode by mode,
-  /// since its fast one dies out.
-  [[nodiscard]] Number derivative_bound(const Motion<Number>& m, const Number& span, int order) const;
+  /// Bound of span^6 |y^(6)| from `m` on for a time `span`, for y = x (derivative 0) or y = x' (derivative 1). The
+  /// energy norm of free motion never grows, so its derivatives are bounded by the row of the companion matrix' power;
+  /// heavy damping is also bounded mode by mode, since its fast one dies out.
+  [[nodiscard]] Number sixth_bound(const Motion<Number>& m, const Number& span, int derivative) const;
 
   /// Bound of |x - load| from `m` on, for ever; infinite where resonance may raise it.
   [[nodiscard]] Number reach(const Motion<Number>& m) const;
@@ -71,9 +77,8 @@ class Flow {
  private:
   void bound_derivatives();
 
-  std::array<Number, 8> free_bound_{};    ///< of |x^(k)| over the energy norm
-  std::array<Number, 8> forced_bound_{};  ///< of the steady response's k-th derivative (secular: of what the force adds
-                                          ///< to the free one's)
+  std::array<Number, 2> free_bound_{};    ///< of |x^(6)| and |x^(7)| over the energy norm
+  std::array<Number, 2> forced_bound_{};  ///< secular: of what the force adds to them
 };
 
 template <class Number, Effects E>
@@ -97,20 +102,18 @@ Flow<Number, E>::Flow(const Oscillator& o) : h(o.damping), f(o.forcing), nu(o.fr
 
 template <class Number, Effects E>
 void Flow<Number, E>::bound_derivatives() {
-  using std::abs, std::sqrt;
+  using std::abs;
   Number x_part = 1, v_part = 0;  // x^(k) = x_part x + v_part v + f Im(e^{i theta} (re + i im))
   Number re = 0, im = 0, next_re = 0, next_im = 0;
-  Number power_re = 1, power_im = 0, power = 1;  // (i nu)^k and nu^k
-  for (std::size_t k = 0; k < free_bound_.size(); ++k) {
-    free_bound_[k] = sqrt(x_part * x_part + v_part * v_part);
-    forced_bound_[k] =
-        E.forcing == Forcing::secular ? Number(abs(f) * sqrt(re * re + im * im)) : Number(power * amplitude);
+  Number power_re = 1, power_im = 0;  // (i nu)^k
+  for (std::size_t k = 0; k < 8; ++k) {
+    if (k >= 6) free_bound_[k - 6] = norm(x_part, v_part), forced_bound_[k - 6] = abs(f) * norm(re, im);
     const Number x_next = -v_part, v_next = x_part - 2 * h * v_part;
     x_part = x_next, v_part = v_next;
     const Number after_re = -2 * h * next_re - re + power_re, after_im = -2 * h * next_im - im + power_im;
     re = next_re, im = next_im, next_re = after_re, next_im = after_im;
     const Number turned = -nu * power_im;
-    power_im = nu * power_re, power_re = turned, power *= nu;
+    power_im = nu * power_re, power_re = turned;
   }
 }
 
@@ -118,44 +121,45 @@ template <class Number, Effects E>
 Propagator<Number> Flow<Number, E>::propagator(const Number& s) const {
   using std::cos, std::exp, std::expm1, std::sin;
   if constexpr (E.damping == Damping::none) {
-    const Number c = cos(s);
-    return {c, sin(s), c};
+    const Number c = cos(s), b = sin(s);
+    return {c, b, c, b};
   } else if constexpr (E.damping == Damping::light) {
     const Number decay = exp(-h * s), c = decay * cos(root * s), b = decay * sin(root * s) / root;
-    return {c + h * b, b, c - h * b};
+    const Number v = c - h * b;
+    return {c + h * b, b, v, 2 * h * v + b};
   } else {
     const Number slow_decay = exp(-slow * s), fast_decay = exp(-fast * s), spread = 2 * root * s;
     const Number b =
         slow_decay * select<Number>(spread > 0, -expm1(-spread) / (2 * root), s);  // root = 0: critical damping
-    return {slow_decay + slow * b, b, fast_decay - slow * b};
+    return {slow_decay + slow * b, b, fast_decay - slow * b,
+            2 * h * fast_decay - slow * slow * b};  // 2 h slow - 1 = slow^2
   }
 }
 
 template <class Number, Effects E>
-Number Flow<Number, E>::derivative_bound(const Motion<Number>& m, const Number& span, int order) const {
-  using std::abs, std::min;
-  const auto k = static_cast<std::size_t>(order);
-  const Number x = m.x - steady_displacement(m.sine, m.cosine), v = m.v - steady_velocity(m.sine, m.cosine);
-  Number energy_norm = abs(x) + abs(v);
+Number Flow<Number, E>::sixth_bound(const Motion<Number>& m, const Number& span, int derivative) const {
+  using std::abs;
+  const auto i = static_cast<std::size_t>(derivative);
+  const auto times = [derivative](const Number& y, const Number& z) { return derivative == 0 ? y : Number(y * z); };
+  Number energy_norm = abs(m.free_x) + abs(m.free_v);
   if constexpr (E.forcing == Forcing::secular) energy_norm += abs(f) * span;
-  Number free = free_bound_[k] * energy_norm;
+  Number bound = times_sixth_power(Number(free_bound_[i] * energy_norm), span);
   if constexpr (E.damping == Damping::heavy) {
-    const auto power = [order](const Number& base) {
-      Number product = base;
-      for (int i = 1; i < order; ++i) product *= base;
-      return product;
-    };
-    const Number modal = (abs(fast * x + v) * power(slow) + abs(slow * x + v) * power(fast)) / (2 * root);
-    free = select<Number>(modal < free, modal, free);  // root = 0: modal is infinite or NaN and is left aside
+    const Number slow_part = times(abs(fast * m.free_x + m.free_v) / (2 * root), slow);
+    const Number fast_part = times(abs(slow * m.free_x + m.free_v) / (2 * root), fast);
+    const Number modal =
+        times_sixth_power(slow_part, Number(slow * span)) + times_sixth_power(fast_part, Number(fast * span));
+    bound = select<Number>(modal < bound, modal, bound);  // root = 0: modal is infinite or NaN and is left aside
   }
-  return free + forced_bound_[k];
+  if constexpr (E.forcing == Forcing::regular) bound += times_sixth_power(times(amplitude, nu), Number(nu * span));
+  if constexpr (E.forcing == Forcing::secular) bound += times_sixth_power(forced_bound_[i], span);
+  return bound;
 }
 
 template <class Number, Effects E>
 Number Flow<Number, E>::reach(const Motion<Number>& m) const {
   if constexpr (E.forcing == Forcing::secular) return std::numeric_limits<Number>::infinity();
-  const Number x = m.x - steady_displacement(m.sine, m.cosine), v = m.v - steady_velocity(m.sine, m.cosine);
-  return (amplitude + norm(x, v)) * (1 + 16 * epsilon<Number>());
+  return (amplitude + norm(m.free_x, m.free_v)) * (1 + 16 * epsilon<Number>());
 }
 
 }  // namespace clatter

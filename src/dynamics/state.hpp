@@ -31,6 +31,8 @@ struct Motion {
   Number v;             ///< velocity
   Number a;             ///< acceleration
   Number sine, cosine;  ///< of the forcing phase
+  Number free_x{};      ///< the transient's share of the displacement; at resonance all but the load's
+  Number free_v{};      ///< and of the velocity: kept apart, since it fades below the rounding of the whole
 };
 
 /// One impact, as observers see it.

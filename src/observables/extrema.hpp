@@ -69,7 +69,7 @@ class Extrema {
     const Range& range = order == 0 ? x_ : v_;
     const double step = to.s - from.s;
     const auto left = jet<order>(arc, from.motion), right = jet<order>(arc, to.motion);
-    const double error = hermite_error(arc.flow().derivative_bound(from.motion, step, 6 + order), step);
+    const double error = hermite_error(arc.flow().sixth_bound(from.motion, step, order));
     Bernstein<double> c = hermite<double>(step, right[0] - left[0], {left[1], right[1]}, {left[2], right[2]});
     const double middle = c[3];
     c[3] = middle + error;

@@ -69,15 +69,15 @@ class Observers {
   }
 };
 
-/// Harmonics k of the base frequency from samples of an observed time in which it turns `turns` times; NaN from half
-/// the sampling rate on.
+/// Harmonics k of the base frequency from samples of an observed time in which it turns `turns` times. NaN from half
+/// the sampling rate on; all, the constant part too, where the base frequency itself is beyond it.
 Spectrum sampled_spectrum(const std::vector<double>& samples, double turns, std::size_t highest, Workshop& workshop) {
   const auto all = workshop.transform->transform(samples, *workshop.workspace);
   const double nan = no_value;
   std::vector<std::complex<double>> harmonics(highest + 1, {nan, nan});
   for (std::size_t k = 0; k <= highest; ++k) {
-    const double index = std::round(turns * static_cast<double>(k));
-    if (2 * index < static_cast<double>(samples.size())) harmonics[k] = all[static_cast<std::size_t>(index)];
+    const double index = std::round(turns * static_cast<double>(k)), needed = std::max(index, turns);
+    if (2 * needed < static_cast<double>(samples.size())) harmonics[k] = all[static_cast<std::size_t>(index)];
   }
   return Spectrum::of(harmonics);
 }

@@ -40,28 +40,15 @@ void start_from(Scene& scene, const std::optional<Start>& end) {
   scene.start.displacement = std::clamp(scene.start.displacement, scene.stops.lower, scene.stops.upper);
 }
 
-void run_branch(const Sweep& sweep, const Branches& branches, std::size_t branch, Workshop& workshop,
-                Columns& columns) {
-  std::optional<Start> end;
-  for (std::size_t i = 0; i < branches.length; ++i) {
-    const std::size_t point = branches.point(branch, i);
-    Scene scene = scene_at(sweep, point);
-    start_from(scene, end);
-    PointResult result = run_point(scene, workshop);
-    end = failed(result.status) || !sweep.follow ? std::nullopt : std::optional<Start>(result.end);
-    columns.store(point, std::move(result));
-  }
-}
-
 /// Calls the user's progress function a few times a second, from one thread at a time.
 class Progress {
  public:
   Progress(const RunOptions& options, std::size_t total) : report_(options.progress), total_(total) {}
 
-  void add(std::size_t points) {
+  void add_point() {
     if (!report_) return;
     const std::lock_guard lock(mutex_);
-    done_ += points;
+    ++done_;
     const auto now = Clock::now();
     if (now - last_ <= std::chrono::milliseconds(200) && done_ != total_) return;
     last_ = now;
@@ -75,6 +62,20 @@ class Progress {
   std::size_t total_, done_ = 0;
   Clock::time_point last_{};
 };
+
+void run_branch(const Sweep& sweep, const Branches& branches, std::size_t branch, Workshop& workshop, Columns& columns,
+                Progress& progress) {
+  std::optional<Start> end;
+  for (std::size_t i = 0; i < branches.length; ++i) {
+    const std::size_t point = branches.point(branch, i);
+    Scene scene = scene_at(sweep, point);
+    start_from(scene, end);
+    PointResult result = run_point(scene, workshop);
+    end = failed(result.status) || !sweep.follow ? std::nullopt : std::optional<Start>(result.end);
+    columns.store(point, std::move(result));
+    progress.add_point();
+  }
+}
 
 /// The threads that run a sweep, and what they share.
 class Team {
@@ -110,8 +111,7 @@ class Team {
   void work(std::size_t branch, std::size_t thread) noexcept {
     const ForkJoin::Member member(fork_join_);
     try {
-      run_branch(sweep_, branches_, branch, workshops_[thread], columns_);
-      progress_.add(branches_.length);
+      run_branch(sweep_, branches_, branch, workshops_[thread], columns_, progress_);
     } catch (...) {
       const std::lock_guard lock(mutex_);
       failure_ = std::current_exception();

@@ -96,8 +96,10 @@ TEST(Contact, micro_flights_keep_their_relative_accuracy) {
 }
 
 TEST(Contact, conservative_contacts_keep_the_speed_however_soft) {
-  // from stop to opposite stop the speed is the same, exactly; along the arc it would be lost in the rounding of the place
-  for (double v : {1.0, 1e-3, 1e-7}) EXPECT_EQ(first_contact({0, 0, 1, 0}, {-0.75, 0.75, 1, 1}, -0.75, v, 4.0).motion.v, v);
+  // from stop to opposite stop the speed is the same, exactly; along the arc it would be lost in the rounding of the
+  // place
+  for (double v : {1.0, 1e-3, 1e-7})
+    EXPECT_EQ(first_contact({0, 0, 1, 0}, {-0.75, 0.75, 1, 1}, -0.75, v, 4.0).motion.v, v);
 }
 
 TEST(Contact, stops_out_of_reach_cost_one_evaluation) {
@@ -113,7 +115,8 @@ TEST(Contact, lengths_near_the_smallest_numbers_are_solved_or_refused) {
     EXPECT_NEAR(contact.elapsed, 2.0515931595927638, 1e-14);  // physics.md, "chatter and rest"
   }
   EXPECT_FALSE(first_contact({0.1, 1e-300, 0.5, 0}, {-1e-300, 1e-300, 1, 1}, 0, 0, 4.0).resolved);
-  const Contact<double> decayed = first_contact({0.1, 0, 1, 0}, {-1, 1, 1, 1}, 1e-300, 0, 4.0);  // out of reach: no length to resolve
+  const Contact<double> decayed =
+      first_contact({0.1, 0, 1, 0}, {-1, 1, 1, 1}, 1e-300, 0, 4.0);  // out of reach: no length to resolve
   EXPECT_EQ(decayed.side, Side::none);
   EXPECT_TRUE(decayed.resolved);
 }

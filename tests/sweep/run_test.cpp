@@ -172,17 +172,20 @@ TEST(Run, a_failed_point_has_no_values_and_does_not_lead_the_next_astray) {
   EXPECT_EQ(statuses(run(sweep, {}).figure), (std::vector<std::uint8_t>{16, 0}));
 }
 
-TEST(Run, progress_reaches_the_total) {
+TEST(Run, progress_reaches_the_total_along_a_branch_too) {
   Sweep sweep = sweep_of(paper_scene(6.0, 1.0), {{Parameter::nu, std::vector<double>(50, 0.9)}});
-  std::size_t last = 0, calls = 0;
-  const auto report = [&](std::size_t done, std::size_t total) {
-    EXPECT_GE(done, last);
-    EXPECT_EQ(total, 50u);
-    last = done, ++calls;
-  };
-  (void)run(sweep, {.threads = 2, .progress = report});
-  EXPECT_EQ(last, 50u);
-  EXPECT_GE(calls, 1u);
+  for (const bool follow : {false, true}) {
+    if (follow) sweep.follow = 0;
+    std::size_t last = 0, calls = 0;
+    const auto report = [&](std::size_t done, std::size_t total) {
+      EXPECT_GT(done, last);
+      EXPECT_EQ(total, 50u);
+      last = done, ++calls;
+    };
+    (void)run(sweep, {.threads = 2, .progress = report});
+    EXPECT_EQ(last, 50u);
+    EXPECT_GE(calls, 2u);  // at once after the first point, and at the end
+  }
 }
 
 /// Sum over the harmonics of the distance between two spectra.
@@ -227,6 +230,21 @@ TEST(Run, harmonics_beyond_half_the_sampling_rate_have_no_value) {
   Workshop workshop{&transform, transform.workspace()};
   const PointResult result = run_point(scene, workshop);
   for (std::size_t k = 0; k <= 4; ++k) EXPECT_EQ(std::isnan(result.x_spectrum.amplitude[k]), 2 * 2 * k >= 14) << k;
+}
+
+TEST(Run, too_few_samples_for_the_base_frequency_give_no_harmonics_at_all) {
+  Scene scene = paper_scene(3.0, 0.9);  // Fig. 23: aperiodic, so the samples are shared by the periods of the window
+  scene.time.max_periods = 20;
+  scene.time.window = 32;
+  scene.observe.harmonics = 1;
+  for (std::int64_t samples : {64, 66}) {
+    scene.observe.harmonics_samples = samples;
+    const FourierTransform transform(static_cast<std::size_t>(samples));
+    Workshop workshop{&transform, transform.workspace()};
+    const PointResult result = run_point(scene, workshop);
+    ASSERT_EQ(result.status, Status::aperiodic);
+    for (double amplitude : result.v_spectrum.amplitude) EXPECT_EQ(std::isnan(amplitude), samples == 64);
+  }
 }
 
 TEST(Run, observed_time_is_described) {
