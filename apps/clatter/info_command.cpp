@@ -5,6 +5,7 @@
 #include "info_json.hpp"
 #include "io/error.hpp"
 #include "io/figure_file.hpp"
+#include "io/text_file.hpp"
 
 namespace clatter {
 namespace {
@@ -35,6 +36,18 @@ void print_variables(const FileSummary& summary) {
   }
 }
 
+/// The summary with every text such that a terminal shows it and does not obey it: the file may be anyone's.
+FileSummary harmless(FileSummary summary) {
+  const auto clean = [](std::string& text) { text = printable(text); };
+  for (auto& [name, value] : summary.attributes) clean(name), clean(value);
+  for (FileSummary::Entry& entry : summary.variables) {
+    for (std::string* const text : {&entry.name, &entry.type, &entry.units, &entry.long_name}) clean(*text);
+    for (NamedLength& dimension : entry.dimensions) clean(dimension.name);
+  }
+  for (auto& [meaning, count] : summary.status_counts) clean(meaning);
+  return summary;
+}
+
 /// For people; a script takes --json.
 void print_text(const FileSummary& summary) {
   for (const auto& [name, value] : summary.attributes) {
@@ -63,7 +76,7 @@ int print_info(const Arguments& arguments) {
   } else if (arguments.has("json")) {
     std::cout << json(summary);
   } else {
-    print_text(summary);
+    print_text(harmless(summary));
   }
   return done;
 }

@@ -11,7 +11,7 @@ std::string json_text(const std::string& text) {
   for (const char character : text) {
     if (character == '"' || character == '\\') {
       quoted += {'\\', character};
-    } else if (static_cast<unsigned char>(character) < 0x20) {
+    } else if (static_cast<unsigned char>(character) < 0x20 || character == 0x7F) {
       std::array<char, 8> escaped{};
       std::snprintf(escaped.data(), escaped.size(), "\\u%04x", static_cast<unsigned>(character));
       quoted += escaped.data();

@@ -18,25 +18,42 @@ bool later(const Place& left, const Place& right) {
   return rank(left) > rank(right);
 }
 
+bool on_command_line(const Place& place) { return place.line == 0; }
+
+/// How to be rid of the earlier of two settings: no --set can take a line of a file away.
+std::string removal(Parameter earlier, const Place& earlier_place, const Place& later_place) {
+  if (!on_command_line(later_place) || on_command_line(earlier_place)) return "; remove one of them";
+  return "; remove the line of " + name_of(earlier) + ", " + to_string(earlier_place);
+}
+
 /// Two ways of saying the same, at the place of the one that was written last.
 void exclude(const Settings& settings, Parameter one, Parameter other) {
   const auto first = settings.given(one);
   const auto second = settings.given(other);
   if (!first || !second) return;
   const bool in_order = later(second->key_place, first->key_place);
-  fail((in_order ? second : first)->key_place,
-       name_of(in_order ? other : one) + " beside " + name_of(in_order ? one : other) + "; remove one of them");
+  const Parameter earlier = in_order ? one : other;
+  const Place& earlier_place = (in_order ? first : second)->key_place;
+  const Place& place = (in_order ? second : first)->key_place;
+  fail(place, name_of(in_order ? other : one) + " beside " + name_of(earlier) + removal(earlier, earlier_place, place));
+}
+
+/// An axis may be a single value, which the command line can put in place of the file's axis.
+std::string way_out(const SweptSetting& swept, const Setting& fixed) {
+  const std::string axis = "sweep." + std::string(key_of(swept.parameter));
+  if (on_command_line(swept.key_place) && !on_command_line(fixed.key_place))
+    return removal(swept.parameter, fixed.key_place, swept.key_place);
+  if (on_command_line(fixed.key_place) && !on_command_line(swept.key_place))
+    return "; write --set " + axis + '=' + number_text(std::get<double>(fixed.value));
+  return "; remove one of them (for a single value: " + axis + " = VALUE)";
 }
 
 void check_scene_or_sweep(const Settings& settings) {
   for (const SweptSetting& swept : settings.axes) {
-    const std::string key(key_of(swept.parameter));
-    const Setting* const fixed = settings.find("scene", key);
+    const Setting* const fixed = settings.find("scene", key_of(swept.parameter));
     if (fixed == nullptr) continue;
     const Place& place = later(fixed->key_place, swept.key_place) ? fixed->key_place : swept.key_place;
-    fail(place, name_of(swept.parameter)
-                    .append(" in both [scene] and [sweep]; remove one of them (for a single value: sweep.")
-                    .append(key + " = VALUE)"));
+    fail(place, name_of(swept.parameter) + " in both [scene] and [sweep]" + way_out(swept, *fixed));
   }
 }
 

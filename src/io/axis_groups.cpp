@@ -35,25 +35,46 @@ std::size_t axis_of(const Settings& settings, const Setting& setting, std::strin
        std::string(setting.key->name) + " names " + in_quotes(name) + ", which is no axis of [sweep]" + way_out);
 }
 
-std::vector<std::size_t> linked_axes(const Settings& settings) {
-  const Setting* const setting = settings.find("sweep", "linked");
+std::string name_of(const SweptSetting& swept) { return std::string(key_of(swept.parameter)); }
+
+/// The axes that a key names, each once.
+std::vector<std::size_t> named_axes(const Settings& settings, const Setting* setting) {
   if (setting == nullptr || is_blank(std::get<std::string>(setting->value))) return {};
-  std::vector<std::size_t> linked;
+  std::vector<std::size_t> axes;
   for (const std::string& name : split_names(std::get<std::string>(setting->value))) {
     const std::size_t axis = axis_of(settings, *setting, name);
-    if (std::find(linked.begin(), linked.end(), axis) != linked.end())
-      fail(setting->place, "linked names " + in_quotes(name) + " twice; name each axis once");
-    const std::size_t length = settings.axes[axis].axis.values.size();
-    const SweptSetting& first = settings.axes[linked.empty() ? axis : linked.front()];
-    if (length != first.axis.values.size()) {
-      fail(setting->place, "linked axes of different lengths: " + std::string(key_of(first.parameter)) + " has " +
-                               std::to_string(first.axis.values.size()) + " values, " + name + " has " +
-                               std::to_string(length) + "; give them equally many");
-    }
-    linked.push_back(axis);
+    if (std::find(axes.begin(), axes.end(), axis) != axes.end())
+      fail(setting->place,
+           std::string(setting->key->name) + " names " + in_quotes(name) + " twice; name each axis once");
+    axes.push_back(axis);
   }
-  if (linked.size() < 2) fail(setting->place, "linked names one axis; name at least two, e.g. \"nu, f\", or none");
+  return axes;
+}
+
+std::vector<std::size_t> linked_axes(const Settings& settings) {
+  const Setting* const setting = settings.find("sweep", "linked");
+  const std::vector<std::size_t> linked = named_axes(settings, setting);
+  if (linked.size() == 1) fail(setting->place, "linked names one axis; name at least two, e.g. \"nu, f\", or none");
+  for (const std::size_t axis : linked) {
+    const SweptSetting& first = settings.axes[linked.front()];
+    const SweptSetting& other = settings.axes[axis];
+    if (other.axis.values.size() == first.axis.values.size()) continue;
+    fail(setting->place, "linked axes of different lengths: " + name_of(first) + " has " +
+                             std::to_string(first.axis.values.size()) + " values, " + name_of(other) + " has " +
+                             std::to_string(other.axis.values.size()) + "; give them equally many");
+  }
   return linked;
+}
+
+/// Along a start all points but the first would carry a coordinate that they don't start from.
+void check_no_start(const Settings& settings, const Setting& follow, const std::vector<std::size_t>& group) {
+  for (const std::size_t axis : group) {
+    const Parameter parameter = settings.axes[axis].parameter;
+    using enum Parameter;
+    if (parameter != phase && parameter != x0 && parameter != v0 && parameter != start_period) continue;
+    fail(follow.place, "follow along " + in_quotes(key_of(parameter)) +
+                           ", which only the first point would start from; follow another axis, or none");
+  }
 }
 
 }  // namespace
@@ -76,13 +97,21 @@ AxisGroups group_axes(const Settings& settings) {
 
 std::optional<std::size_t> followed_dimension(const Settings& settings, const AxisGroups& groups) {
   const Setting* const setting = settings.find("sweep", "follow");
-  if (setting == nullptr || is_blank(std::get<std::string>(setting->value))) return std::nullopt;
-  const std::size_t axis = axis_of(settings, *setting, split_names(std::get<std::string>(setting->value)).front());
-  for (std::size_t dimension = 0; dimension < groups.size(); ++dimension) {
-    const auto& group = groups[dimension];
-    if (std::find(group.begin(), group.end(), axis) != group.end()) return dimension;
+  const std::vector<std::size_t> axes = named_axes(settings, setting);
+  if (axes.empty()) return std::nullopt;
+  const auto holds = [](const auto& group, std::size_t axis) {
+    return std::find(group.begin(), group.end(), axis) != group.end();
+  };
+  const auto followed =
+      std::find_if(groups.begin(), groups.end(), [&](const auto& group) { return holds(group, axes.front()); });
+  for (const std::size_t axis : axes) {
+    if (holds(*followed, axis)) continue;
+    fail(setting->place, "follow names " + in_quotes(name_of(settings.axes[axes.front()])) + " and " +
+                             in_quotes(name_of(settings.axes[axis])) +
+                             ", which are not linked; follow one axis, or name both in linked too");
   }
-  return std::nullopt;
+  check_no_start(settings, *setting, *followed);
+  return static_cast<std::size_t>(followed - groups.begin());
 }
 
 }  // namespace clatter

@@ -29,8 +29,8 @@ struct Override {
   std::string value;
 };
 
-/// Reads a configuration; INI where the name ends in .ini, else TOML. Throws ConfigError; IoError where the file cannot
-/// be read.
+/// Reads a configuration; INI where the name ends in .ini in any case, else TOML. Throws ConfigError; IoError where
+/// the file cannot be read.
 [[nodiscard]] Config read_config(const std::string& path, const std::vector<Override>& overrides);
 
 }  // namespace clatter

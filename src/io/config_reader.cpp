@@ -12,7 +12,7 @@ namespace {
 
 RawConfig read_raw(const std::string& path) {
   const std::string text = read_text(path);
-  return path.ends_with(".ini") ? read_ini(path, text) : read_toml(path, text);
+  return has_ending(path, ".ini") ? read_ini(path, text) : read_toml(path, text);
 }
 
 TimePlan time_plan(const Settings& settings) {
@@ -64,6 +64,23 @@ Sweep sweep_of(Settings& settings, const AxisGroups& groups) {
   return sweep;
 }
 
+/// A configuration whose complete text would be too long to be read again, at the longest of its values.
+[[noreturn]] void refuse_long(const Settings& settings) {
+  std::size_t longest = 0;
+  Place place{settings.file, 1, 1};
+  std::string name, way_out;
+  const auto compare = [&](std::string_view key, const Place& key_place, std::size_t length, const char* remedy) {
+    if (length > longest) longest = length, place = key_place, name = key, way_out = remedy;
+  };
+  for (const Setting& setting : settings.values)
+    compare(setting.key->name, setting.key_place, toml_value(setting).size(), "shorten it");
+  for (const SweptSetting& swept : settings.axes)
+    compare(key_of(swept.parameter), swept.key_place, swept.axis.text.size(),
+            "write it as linspace, logspace or arange");
+  fail(place, "the complete configuration is more than 1 MiB, of which '" + name + "' takes " +
+                  std::to_string(longest) + " bytes; " + way_out);
+}
+
 }  // namespace
 
 Config read_config(const std::string& path, const std::vector<Override>& overrides) {
@@ -74,10 +91,7 @@ Config read_config(const std::string& path, const std::vector<Override>& overrid
   const AxisGroups groups = group_axes(settings);
   check_stops_and_start(settings, groups);
   Config config{settings.text("", "title"), settings.text("", "source"), {}, 0, config_text(settings)};
-  if (config.text.size() > max_config_bytes) {
-    fail({path, 1, 1},
-         "the complete configuration is more than 1 MiB; write long lists as linspace, logspace or arange");
-  }
+  if (config.text.size() > max_config_bytes) refuse_long(settings);
   config.compression = static_cast<int>(settings.integer("output", "compression"));
   config.sweep = sweep_of(settings, groups);
   return config;

@@ -14,11 +14,13 @@ bool is_swept(const Settings& settings, std::string_view name) {
   return given && given->axis;
 }
 
-/// Whether the default of a key is to be left out, since its alternative was given.
-bool replaced(const Settings& settings, std::string_view name) {
-  if (name == "R") return settings.given(R_lower) || settings.given(R_upper);
-  if (name == "x0" || name == "v0") return settings.given(start_period).has_value();
-  return false;
+/// Whether the default of a key belongs in the text: not beside the alternative that was given.
+bool default_counts(const Settings& settings, const Key& key) {
+  const bool each_stop = settings.given(R_lower) || settings.given(R_upper);
+  if (key.other == "R") return each_stop;
+  if (key.name == "R") return !each_stop;
+  if (key.name == "x0" || key.name == "v0") return !settings.given(start_period);
+  return key.has_default();
 }
 
 /// The lines of one section; axes come first, in their order.
@@ -34,8 +36,7 @@ std::string section_text(const Settings& settings, std::string_view section) {
     if (key.section != section || (section == "scene" && is_swept(settings, key.name))) continue;
     if (const Setting* const given = settings.find(section, key.name)) {
       add(key.name, toml_value(*given));
-    } else if ((!key.fallback.empty() || key.kind == Kind::text || key.kind == Kind::names) &&
-               !replaced(settings, key.name)) {
+    } else if (default_counts(settings, key)) {
       add(key.name, toml_value(default_setting(key)));
     }
   }

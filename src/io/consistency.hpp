@@ -13,7 +13,8 @@ using AxisGroups = std::vector<std::vector<std::size_t>>;
 /// Groups the axes by `linked`. Throws ConfigError where they cannot run together.
 [[nodiscard]] AxisGroups group_axes(const Settings& settings);
 
-/// The dimension that `follow` names, or nothing. Throws ConfigError where it names no axis.
+/// The dimension that `follow` names, or nothing. Throws ConfigError where it names no axis, axes of different
+/// dimensions, or a start, which only the first point has.
 [[nodiscard]] std::optional<std::size_t> followed_dimension(const Settings& settings, const AxisGroups& groups);
 
 /// Throws ConfigError where two ways of saying the same are mixed, or a key is missing that the others need.

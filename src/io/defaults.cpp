@@ -29,18 +29,16 @@ comments begin with ; or #, and a title or source that holds one of them after a
 An axis has at most 10 million values, a sweep 1000 million points, a configuration 1 MiB.
 )text";
 
-bool has_default(const Key& key) { return !key.fallback.empty() || key.kind == Kind::text || key.kind == Kind::names; }
-
 /// The value to show: the default, or an example where there is none.
 std::string shown_value(const Key& key, Format format) {
-  if (!has_default(key)) return std::string(key.example);
+  if (!key.has_default()) return std::string(key.example);
   return format == Format::toml ? toml_value(default_setting(key)) : std::string(key.fallback);
 }
 
 /// One key of the commented configuration: its meaning, then the key; the stops have no default and must be given.
 std::string commented(const Key& key, Format format) {
   const std::string mark = format == Format::toml ? "#" : ";";
-  const bool used = has_default(key) || key.name == "xs";
+  const bool used = key.has_default() || key.name == "xs";
   const std::string value = shown_value(key, format);
   return mark + ' ' + std::string(key.help) + " (" + permitted(key) + ")\n" + (used ? "" : mark) +
          std::string(key.name) + (value.empty() ? " =" : " = ") + value + '\n';
@@ -58,12 +56,20 @@ std::string wrapped(std::string_view text, std::size_t indent) {
   return lines + std::string(text) + '\n';
 }
 
+/// The default, for the reference.
+std::string fallback(const Key& key) {
+  const std::string other(key.other);
+  if (!other.empty()) return std::string(key.fallback) + ", or " + other + " where that is given";
+  if (!key.has_default()) return "none";
+  return key.fallback.empty() ? "empty" : std::string(key.fallback);
+}
+
 std::string reference(const Key& key) {
   constexpr std::size_t indent = 21;
   std::string name = "  " + std::string(key.name);
   name.resize(indent, ' ');
-  const std::string fallback = !has_default(key) ? "none" : key.fallback.empty() ? "empty" : std::string(key.fallback);
-  return name + wrapped(key.help, indent) + std::string(indent, ' ') + permitted(key) + "; default: " + fallback + '\n';
+  return name + wrapped(key.help, indent) + std::string(indent, ' ') + permitted(key) + "; default: " + fallback(key) +
+         '\n';
 }
 
 }  // namespace

@@ -38,8 +38,8 @@ constexpr std::array all_keys{
     Key{"scene", "xs", number, "", "symmetric stops at -|xs| and +|xs|", not_zero, {}, "-1.0"},
     Key{"scene", "stop_lower", number, "", "lower stop, in place of xs; -inf: none", any_or_infinite, {}, "-1.0"},
     Key{"scene", "stop_upper", number, "", "upper stop, in place of xs; inf: none", any_or_infinite, {}, "inf"},
-    Key{"scene", "R_lower", number, "", "restitution of the lower stop, in place of R", zero_to_one, {}, "1.0"},
-    Key{"scene", "R_upper", number, "", "restitution of the upper stop, in place of R", zero_to_one, {}, "1.0"},
+    Key{"scene", "R_lower", number, "1", "restitution of the lower stop, in place of R", zero_to_one, {}, "1.0", "R"},
+    Key{"scene", "R_upper", number, "1", "restitution of the upper stop, in place of R", zero_to_one, {}, "1.0", "R"},
     Key{"scene", "load", number, "0", "constant force over stiffness", any},
     Key{"scene", "x0", number, "0", "displacement at tau = 0, between the stops", any},
     Key{"scene", "v0", number, "0", "velocity at tau = 0", any},
@@ -55,7 +55,8 @@ constexpr std::array all_keys{
 
     Key{"sweep", "linked", names, "",
         "axes of equal length that run together instead of crossing, e.g. nu, f; the first names the dimension"},
-    Key{"sweep", "follow", names, "", "axis along which each point starts from the end of the one before"},
+    Key{"sweep", "follow", names, "",
+        "one axis (or linked ones) along which each point starts from the end of the one before"},
 
     Key{"time",
         "mode",

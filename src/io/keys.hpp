@@ -31,7 +31,13 @@ struct Key {
   std::string_view help;      ///< its meaning, without the range
   Range range{};
   std::span<const std::string_view> choices{};
-  std::string_view example{};  ///< a value to show where there is no default
+  std::string_view example{};  ///< a value to show where the key is not in use
+  std::string_view other{};    ///< the key that gives the value where this one is not in use; the default is its too
+
+  /// Whether the key has a value where neither it nor an alternative is given.
+  [[nodiscard]] bool has_default() const {
+    return other.empty() && (!fallback.empty() || kind == Kind::text || kind == Kind::names);
+  }
 };
 
 /// Every key, in the order of the configuration's text.

@@ -32,6 +32,17 @@ std::string home_of(std::string_view name) {
   return {};
 }
 
+/// [[sweep]] in place of [sweep].
+void check_brackets(const RawEntry& entry) {
+  const auto known = sections();
+  const auto* const list = std::get_if<RawList>(&entry.value.data);
+  if (!entry.section.empty() || list == nullptr || list->empty()) return;
+  if (!std::holds_alternative<Unsupported>(list->front().data)) return;
+  if (std::find(known.begin(), known.end(), entry.key) == known.end()) return;
+  fail(entry.place, "[[" + entry.key + "]] begins a list of tables, a section is one table; write [" + entry.key +
+                        "], in single brackets");
+}
+
 const Key& known_key(const RawEntry& entry) {
   if (const Key* const key = find_key(entry.section, entry.key)) return *key;
   const std::vector<std::string_view> names = key_names(entry.section);
@@ -101,6 +112,7 @@ Settings check_keys(RawConfig raw) {
   for (const RawSection& section : settings.sections) check_section(section.name, section.place);
   for (const RawEntry& entry : raw.entries) {
     check_section(entry.section, entry.place);
+    check_brackets(entry);
     const Key& key = known_key(entry);
     if (entry.section == "sweep" && key.section == "scene") {
       settings.axes.push_back(

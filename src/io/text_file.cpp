@@ -1,6 +1,7 @@
 #include "io/text_file.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <cerrno>
 #include <cstdint>
 #include <cstring>
@@ -44,7 +45,21 @@ bool is_control(std::string_view text) {
   return byte(first) < 0x20 || byte(first) == 0x7F;
 }
 
+/// The controls of ISO 6429 beyond ASCII, U+0080 ... U+009F, which terminals obey as they do ESC.
+bool is_c1(std::string_view text) { return text.size() > 1 && byte(text[0]) == 0xC2 && byte(text[1]) < 0xA0; }
+
+void append_hexadecimal(std::string& text, std::string_view bytes) {
+  constexpr std::string_view digits = "0123456789abcdef";
+  for (const char character : bytes) text += {'\\', 'x', digits[byte(character) / 16], digits[byte(character) % 16]};
+}
+
 }  // namespace
+
+bool has_ending(std::string_view name, std::string_view ending) {
+  if (name.size() < ending.size()) return false;
+  return std::equal(ending.begin(), ending.end(), name.end() - static_cast<std::ptrdiff_t>(ending.size()),
+                    [](char left, char right) { return left == std::tolower(static_cast<unsigned char>(right)); });
+}
 
 std::string read_text(const std::string& path) {
   std::error_code error;
@@ -78,6 +93,37 @@ Place place_of(const std::string& file, std::string_view text, std::size_t offse
 std::string unquoted(std::string_view text) {
   const bool pair = text.size() >= 2 && (text.front() == '"' || text.front() == '\'') && text.back() == text.front();
   return std::string(pair ? text.substr(1, text.size() - 2) : text);
+}
+
+std::string_view without_blanks(std::string_view text) {
+  constexpr std::string_view blanks = " \t\r\n";
+  text.remove_prefix(std::min(text.find_first_not_of(blanks), text.size()));
+  return text.substr(0, text.find_last_not_of(blanks) + 1);
+}
+
+std::string printable(std::string_view text) {
+  std::string shown;
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t length = utf8_length(text.substr(at));
+    const std::string_view character = text.substr(at, std::max<std::size_t>(length, 1));
+    const bool obeyed = byte(character[0]) < 0x20 || byte(character[0]) == 0x7F || is_c1(character);
+    if (length == 0 || obeyed) {
+      append_hexadecimal(shown, character);
+    } else {
+      shown += character;
+    }
+    at += character.size();
+  }
+  return shown;
+}
+
+std::size_t find_not_utf8(std::string_view text) {
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t length = utf8_length(text.substr(at));
+    if (length == 0) return at;
+    at += length;
+  }
+  return std::string_view::npos;
 }
 
 void check_characters(const std::string& file, std::string_view text) {

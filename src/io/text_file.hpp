@@ -10,6 +10,9 @@ namespace clatter {
 /// The largest configuration that is read.
 inline constexpr std::size_t max_config_bytes = std::size_t{1} << 20;
 
+/// Whether a file's name ends so, in any case; `ending` in lower case.
+[[nodiscard]] bool has_ending(std::string_view name, std::string_view ending);
+
 /// The whole file, without a byte-order mark. Throws IoError where it cannot be read or isn't text.
 [[nodiscard]] std::string read_text(const std::string& path);
 
@@ -21,6 +24,15 @@ inline constexpr std::size_t max_config_bytes = std::size_t{1} << 20;
 
 /// The text without the pair of quotes around it, if there is one.
 [[nodiscard]] std::string unquoted(std::string_view text);
+
+/// The text without the blanks around it.
+[[nodiscard]] std::string_view without_blanks(std::string_view text);
+
+/// A text that a terminal shows and does not obey: control characters and bytes that aren't UTF-8 as \x1b.
+[[nodiscard]] std::string printable(std::string_view text);
+
+/// Where the text has its first byte that isn't UTF-8, or npos.
+[[nodiscard]] std::size_t find_not_utf8(std::string_view text);
 
 /// Throws ConfigError at the first control character or byte that isn't UTF-8: neither belongs in a configuration.
 void check_characters(const std::string& file, std::string_view text);

@@ -100,18 +100,37 @@ Place start_of_token(Place place, std::string_view text, std::string_view descri
   return place;
 }
 
+/// toml++ 3.3 writes the beginning of an escape twice in the keys that it quotes, and the blank after a key.
+std::string corrected(std::string description) {
+  if (description.find("redefine") == std::string::npos) return description;
+  for (const std::string_view twice : {"\\u\\u", "\\U\\U"}) {
+    for (std::size_t at = 0; (at = description.find(twice, at)) != std::string::npos;) description.erase(at, 2);
+  }
+  if (description.ends_with(" '")) description.erase(description.size() - 2, 1);
+  return description;
+}
+
+toml::table parse(const std::string& file, std::string_view text) {
+  check_toml(file, text);
+  try {
+    return toml::parse(text, std::string_view(file));
+  } catch (const toml::parse_error& error) {
+    const Place place = place_at(file, error.source().begin);
+    fail(start_of_token(place, text, error.description()),
+         corrected(std::string(error.description())) + way_out(error.description()));
+  }
+}
+
 }  // namespace
 
 RawConfig read_toml(const std::string& file, std::string_view text) {
   check_characters(file, text);
-  check_toml(file, text);
   RawConfig raw{file, {}, {}};
   try {
-    add_entries(raw, "", toml::parse(text, std::string_view(file)));
-  } catch (const toml::parse_error& error) {
-    const Place place = place_at(file, error.source().begin);
-    fail(start_of_token(place, text, error.description()),
-         std::string(error.description()) + way_out(error.description()));
+    add_entries(raw, "", parse(file, text));
+  } catch (const ConfigError& error) {
+    if (has_ending(file, ".toml")) throw;
+    throw ConfigError(std::string(error.what()) + "; read as TOML, since only names of INI files end in .ini");
   }
   const auto order = [](const auto& left, const auto& right) {  // toml++ iterates alphabetically
     return std::tuple(left.place.line, left.place.column) < std::tuple(right.place.line, right.place.column);

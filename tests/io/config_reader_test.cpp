@@ -88,11 +88,40 @@ TEST(Config, text_reads_back_to_itself) {
       "[scene]\nstop_upper = inf\n[sweep]\nstop_lower = [-inf, -1]\nR = \"linspace(0, 1, 3)\"\nphase = [\"pi\", "
       "\"-pi/2\"]\n",
       "[scene]\nxs = 1\n[time]\nmode = \"transient\"\nduration = \"20*pi\"\nmax_impacts = 1e6\n",
+      "[scene]\nxs = 1\nR_upper = 0.5\n",
+      "[scene]\nxs = 1\n[sweep]\nR_lower = [0.5, 0.6]\n",
+      "[scene]\nxs = 1\nR_lower = 0.5\n[sweep]\nR_upper = [0.5, 0.6]\n",
   };
   for (const std::string& text : texts) {
     const std::string complete = read_as("a.toml", text).text;
     EXPECT_EQ(read_as("b.toml", complete).text, complete) << text;
   }
+}
+
+TEST(Config, text_has_both_restitutions_where_one_is_given) {
+  const std::string fixed = read_as("a.toml", "[scene]\nxs = 1\nR_upper = 0.5\n").text;
+  EXPECT_NE(fixed.find("\nR_lower = 1.0\nR_upper = 0.5\n"), std::string::npos) << fixed;
+  const std::string swept = read_as("a.toml", "[scene]\nxs = 1\n[sweep]\nR_lower = [0.5]\n").text;
+  EXPECT_NE(swept.find("\nxs = 1.0\nR_upper = 1.0\n"), std::string::npos) << swept;
+  const std::string none = read_as("a.toml", "[scene]\nxs = 1\n").text;
+  EXPECT_EQ(none.find("R_"), std::string::npos) << none;
+  EXPECT_NE(none.find("\nR = 1.0\n"), std::string::npos) << none;
+  for (const std::string& text : {fixed, swept}) {
+    const Scene scene = scene_at(read_as("b.toml", text).sweep, 0);
+    EXPECT_EQ(scene.stops.restitution_lower, text == fixed ? 1.0 : 0.5);
+    EXPECT_EQ(scene.stops.restitution_upper, text == fixed ? 0.5 : 1.0);
+  }
+}
+
+TEST(Config, whose_text_is_too_long_to_run_again_is_refused_at_the_longest_value) {
+  std::string escapes, numbers = "1";
+  for (int i = 0; i < 300000; ++i) escapes += "\\n", numbers += ",1";
+  EXPECT_EQ(
+      mistake_in("a.toml", "title = \"" + escapes + "\"\n[scene]\nxs = 1\n"),
+      "a.toml:1:1: the complete configuration is more than 1 MiB, of which 'title' takes 1800002 bytes; shorten it");
+  EXPECT_EQ(mistake_in("a.toml", "[scene]\nxs = 1\n[sweep]\nf = [" + numbers + "]\n"),
+            "a.toml:4:1: the complete configuration is more than 1 MiB, of which 'f' takes 1500005 bytes; write it as "
+            "linspace, logspace or arange");
 }
 
 TEST(Config, text_keeps_the_given_alternatives_only) {
@@ -168,6 +197,33 @@ TEST(Set, replaces_an_axis_in_its_place_and_adds_one_at_the_end) {
 TEST(Set, gives_the_text_of_the_file_that_says_the_same) {
   const std::string with_set = read_as("a.toml", fig22, {{"time.mode", "transient"}, {"time.duration", "2*pi"}}).text;
   EXPECT_EQ(with_set, read_as("b.toml", fig22 + "[time]\nmode = \"transient\"\nduration = \"2*pi\"\n").text);
+}
+
+TEST(Set, drops_blanks_around_key_and_value) {
+  EXPECT_EQ(read_as("a.toml", fig22, {{"scene.R ", " 0.25"}}).sweep.scene.stops.restitution_lower, 0.25);
+  EXPECT_EQ(read_as("a.toml", fig22, {{" time.mode", " 'steady' "}, {"title", " 'b ' "}}).title, "b ");
+}
+
+TEST(Set, of_what_is_not_utf8_speaks_of_the_words_not_of_a_file) {
+  EXPECT_EQ(
+      mistake_in("a.toml", fig22, {{"scene.R", "\xff"}}),
+      "--set scene.R=\\xff: the byte \\xff is not UTF-8; use a terminal (or a script) in UTF-8, or put the text in "
+      "a file");
+}
+
+TEST(Set, beside_the_other_alternative_in_the_file_says_what_works_from_there) {
+  EXPECT_EQ(mistake_in("a.toml", "[scene]\nxs = 1\nf = 1\n", {{"sweep.f", "1, 2"}}).substr(0, 63),
+            "--set sweep.f=1, 2: 'f' in both [scene] and [sweep]; remove the");
+  const auto says = [](const std::string& text, const std::vector<Override>& overrides, const std::string& words) {
+    const std::string mistake = mistake_in("a.toml", text, overrides);
+    EXPECT_TRUE(mistake.ends_with(words)) << mistake;
+  };
+  says("[scene]\nxs = 1\nf = 1\n", {{"sweep.f", "1, 2"}}, "a.toml:3:1");
+  says("[scene]\nxs = 1\nR = 1\n", {{"scene.R_lower", "0.5"}}, "a.toml:3:1");
+  says(fig22, {{"scene.nu", "1.5"}}, "; write --set sweep.nu=1.5");
+  says("[scene]\nxs = 1\n", {{"scene.f", "1"}, {"sweep.f", "1, 2"}}, "(for a single value: sweep.f = VALUE)");
+  says("[scene]\nxs = 1\n", {{"scene.R", "1"}, {"scene.R_lower", "1"}}, "; remove one of them");
+  EXPECT_EQ(mistake_in("a.toml", fig22, {{"sweep.nu", "1.5"}}), "");  // the way out is one
 }
 
 TEST(Set, mistakes_name_the_words_of_the_command_line) {

@@ -86,6 +86,33 @@ TEST(Together, linked_and_follow_name_axes) {
   expect_all("a.ini", table);
 }
 
+TEST(Together, follow_takes_linked_axes_and_no_others) {
+  const std::string axes = both + "h = [1, 2]\nf = [1, 2]\n";  // nu, h and f, lines 4 to 6
+  const std::vector<Wrong> table{
+      {axes + "follow = \"nu,rubbish\"\n", "7:10", "follow names 'rubbish', which is no axis of [sweep]"},
+      {axes + "follow = \"nu, nu\"\n", "7:10", "follow names 'nu' twice; name each axis once"},
+      {axes + "follow = \"nu, f\"\n", "7:10",
+       "follow names 'nu' and 'f', which are not linked; follow one axis, or name both in linked too"},
+      {axes + "linked = \"nu, h\"\nfollow = \"h, f\"\n", "8:10", "follow names 'h' and 'f', which are not linked"},
+  };
+  expect_all("a.toml", table);
+  expect_all("a.ini", table);
+  EXPECT_EQ(mistake_in("a.toml", axes + "linked = \"nu, f\"\nfollow = \"f, nu\"\n"), "");
+}
+
+TEST(Together, follow_goes_along_no_start) {
+  const std::vector<Wrong> table{
+      {both + "phase = [0, 1]\nfollow = \"phase\"\n", "6:10",
+       "follow along 'phase', which only the first point would start from; follow another axis, or none"},
+      {both + "x0 = [0, 1]\nfollow = \"x0\"\n", "6:10", "follow along 'x0'"},
+      {both + "v0 = [0, 1]\nlinked = \"nu, v0\"\nfollow = \"nu\"\n", "7:10", "follow along 'v0'"},
+      {both + "start_period = [1, 2]\nfollow = \"start_period\"\n", "6:10", "follow along 'start_period'"},
+  };
+  expect_all("a.toml", table);
+  expect_all("a.ini", table);
+  EXPECT_EQ(mistake_in("a.toml", both + "v0 = [0, 1]\nfollow = \"nu\"\n"), "");  // each start has a branch of its own
+}
+
 TEST(Together, sizes_are_bounded) {
   const std::string million = "\"linspace(1, 2, 1000000)\"\n";
   const std::vector<Wrong> table{

@@ -19,7 +19,9 @@ TEST(Toml, syntax_errors_have_a_place) {
                  {"[scene]\nh = .5\n", "2:5", "expected decimal digit"},
                  {"[observe]\nextrema = t\n", "2:12", "expected 'true', saw 't?'"},
                  {"scene = 5\n", "1:1", "unknown key 'scene' before the first section; begin the section with [scene]"},
-                 {"[[scene]]\nxs = 1\n", "1:3", "begin the section with [scene]"},
+                 {"[[scene]]\nxs = 1\n", "1:3", "write [scene], in single brackets"},
+                 {"[scene]\nxs = 1\n[[sweep]]\nf = [1]\n", "3:3", "write [sweep], in single brackets"},
+                 {"[scene]\nxs = 1\n\"\\u0078s\" = 2\n", "3:1", "cannot redefine existing integer '\"\\u0078s\"';"},
                  {"[scene]\nxs = 1\n[scene.nu]\na = 1\n", "3:1", "nu = a table"},
                  {"[time]\nmax_period = 1\n", "2:1", "did you mean 'max_periods'?"},
                  {"[Scene]\nxs = 1\n", "1:2", "unknown section [Scene]; did you mean [scene]?"},
@@ -32,6 +34,16 @@ TEST(Toml, syntax_errors_have_a_place) {
                  {"[time]\nmode = \"stedy\"\n", "2:8", "did you mean 'steady'?"},
                  {"[scene]\nxs = 1\n[sweep]\nnu = [1, [2]]\n", "4:10", "nu = a list"},
              });
+}
+
+TEST(Ini, is_known_by_the_ending_of_the_name_in_any_case) {
+  for (const char* name : {"a.ini", "a.INI", "a.Ini"}) EXPECT_EQ(mistake_in(name, "[scene]\nxs = 1 ; INI\n"), "");
+  const std::string hint = "; read as TOML, since only names of INI files end in .ini";
+  for (const char* text : {"[scene]\nxs = 1 ; INI\n", "title = Größe\n", "[sweep]\nnu = linspace(1, 2, 3)\n"}) {
+    for (const char* name : {"a.cfg", "ini"}) EXPECT_TRUE(mistake_in(name, text).ends_with(hint)) << text;
+    for (const char* name : {"a.toml", "a.TOML"}) EXPECT_FALSE(mistake_in(name, text).ends_with(hint)) << text;
+  }
+  EXPECT_FALSE(mistake_in("a.cfg", "[scene]\nxs = 0\n").ends_with(hint));  // this is TOML
 }
 
 TEST(Ini, syntax_errors_have_a_place) {
