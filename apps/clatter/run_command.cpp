@@ -1,4 +1,8 @@
+#include <unistd.h>
+
+#include <array>
 #include <charconv>
+#include <cstdio>
 #include <filesystem>
 #include <iostream>
 
@@ -9,6 +13,7 @@
 #include "io/suggestion.hpp"
 #include "progress.hpp"
 #include "run_report.hpp"
+#include "sweep/memory.hpp"
 
 namespace clatter {
 namespace {
@@ -17,7 +22,7 @@ std::vector<Override> overrides_of(const Arguments& arguments) {
   std::vector<Override> overrides;
   for (const std::string& word : arguments.values("set")) {
     const std::size_t sign = word.find('=');
-    if (sign == std::string::npos || sign == 0) {
+    if (sign == std::string::npos || word.find_first_not_of(" \t") == sign) {
       throw UsageError("--set " + in_quotes(word) + " is no KEY=VALUE; write e.g. --set scene.R=0.5");
     }
     overrides.push_back({word.substr(0, sign), word.substr(sign + 1)});
@@ -55,6 +60,22 @@ void check_not_config(const std::string& config, const std::string& output) {
   throw UsageError("the output " + in_quotes(output) + " is the configuration itself; name another file with -o");
 }
 
+std::string gibibytes(double bytes) {
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), "%.4g GiB", bytes / (1 << 30));
+  return text.data();
+}
+
+/// Results and the file's image of them are in memory together at the end of a run, which is too late to find out.
+void check_memory(const Sweep& sweep) {
+  const double needed = 2 * result_bytes(sweep);
+  const double there = static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
+  if (there <= 0 || needed <= there) return;
+  throw UsageError("the results of " + std::to_string(size(sweep)) + " points and the file's image of them take " +
+                   gibibytes(needed) + ", this machine has " + gibibytes(there) +
+                   "; sweep fewer points, or observe fewer samples and harmonics");
+}
+
 RunResult run_with_progress(const Sweep& sweep, int threads, bool shown) {
   const Progress progress(shown);
   RunOptions options{threads, {}};
@@ -72,6 +93,7 @@ int run_config(const Arguments& arguments) {
   const Config config = read_config(arguments.operands[0], overrides_of(arguments));
   check_not_config(arguments.operands[0], output);
   check_writable(output);
+  check_memory(config.sweep);
   const RunResult result = run_with_progress(config.sweep, threads, shown);
   publish(output, file_image(result.figure, config));
   if (!arguments.has("quiet")) std::cerr << summary_line(result, output) << '\n';

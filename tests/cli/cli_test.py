@@ -81,6 +81,7 @@ class WrongCommandLines(CommandLine):
             (["run", config, "--quiet=yes"], "does not take any arguments"),
             (["run", config, "--set", "scene.R"], "is no KEY=VALUE"),
             (["run", config, "--set", "=2"], "is no KEY=VALUE"),
+            (["run", config, "--set", "  =2"], "is no KEY=VALUE"),
             (["info"], "FILE.h5 is missing"),
             (["info", "a.h5", "--jsn"], "did you mean '--json'?"),
             (["info", "a.h5", "--json", "--config"], "--json beside --config"),
@@ -125,6 +126,20 @@ class WrongConfigurations(CommandLine):
         config = self.write("a.toml", SMALL)
         self.assert_refused(2, "--set scene.R=2: R = 2 is out of range", "run", config, "--set", "scene.R=2")
         self.assert_refused(2, "--set scene.Q=2: unknown key 'Q' in [scene]", "run", config, "--set", "scene.Q=2")
+
+    def test_set_in_another_encoding_is_not_told_to_save_a_file(self):
+        config = self.write("a.toml", SMALL)
+        self.assert_refused(2, r"--set scene.R=\xff: the byte \xff is not UTF-8", "run", config, "--set", b"scene.R=\xff")
+
+    def test_results_beyond_the_memory_are_refused_at_once(self):
+        config = self.write("a.toml", SMALL)
+        axes = [f"--set=sweep.{axis}=linspace(0.1, 1, 1000)" for axis in ("nu", "h", "f")]
+        text = SMALL.replace("f = -1.0\n", "").replace("h = 0.1\n", "")
+        self.write("huge.toml", text)
+        self.assert_refused(2, "the results of 1000000000 points", "run", "huge.toml", *axes,
+                            "--set", "observe.trajectory=1000000")
+        result = self.clatter("run", config, "--set", "observe.trajectory=2")
+        self.assertEqual(result.returncode, 0, result.stderr)
 
 
 class Files(CommandLine):
@@ -239,6 +254,19 @@ class Run(CommandLine):
         self.assertEqual(sum(summary["status"].values()), 5)
         shapes = {variable["name"]: variable["shape"] for variable in summary["variables"]}
         self.assertEqual(shapes["x_min"], [5])
+
+    def test_info_lets_no_control_characters_of_the_file_through(self):
+        title = "a\x1b]0;owned\x07\n\x7f\u009b31m ä"
+        config = self.write("a.toml", "title = " + json.dumps(title) + "\n" + SMALL.partition("\n")[2])
+        self.run_ok(config)
+        text = self.clatter("info", "a.h5").stdout
+        self.assertIn(r"a\x1b]0;owned\x07\x0a\x7f\xc2\x9b31m ä", text)
+        self.assertEqual([c for c in text if c < " " and c != "\n" or "\x7f" <= c < "\xa0"], [])
+        summary = self.clatter("info", "a.h5", "--json").stdout
+        self.assertEqual([c for c in summary if c < " " and c != "\n" or c == "\x7f"], [])
+        self.assertEqual(json.loads(summary)["attributes"]["title"], title)
+        config_text = self.clatter("info", "a.h5", "--config").stdout
+        self.assertEqual(config_text, json.loads(summary)["attributes"]["config"])
 
 
 class Help(CommandLine):
