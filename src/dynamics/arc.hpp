@@ -32,11 +32,16 @@ class Arc {
  private:
   [[nodiscard]] Motion<Number> closed_form(const Number& s) const;
   [[nodiscard]] Motion<Number> with_free_part(Motion<Number> m) const {
-    m.free_x = m.x - flow_->steady_displacement(m.sine, m.cosine),
-    m.free_v = m.v - flow_->steady_velocity(m.sine, m.cosine);
+    m.free_x = (m.x - flow_->load) - flow_->response_displacement(m.sine, m.cosine),
+    m.free_v = m.v - flow_->response_velocity(m.sine, m.cosine);
+    if constexpr (E.damping == Damping::heavy) m.fast_x = flow_->fast_mode(m.free_x, m.free_v);
     return m;
   }
-  [[nodiscard]] SineCosine<Number> turned(const Motion<Number>& m, const Number& angle) const;
+  /// A forcing phase and what it differs from the one before by.
+  struct Turned {
+    SineCosine<Number> phase, change;
+  };
+  [[nodiscard]] Turned turned(const Motion<Number>& m, const Number& angle) const;
   [[nodiscard]] std::array<Number, 2> response_from_rest(const Number& s) const;
 
   const Flow<Number, E>* flow_;
@@ -44,28 +49,35 @@ class Arc {
 };
 
 template <class Number, Effects E>
-SineCosine<Number> Arc<Number, E>::turned(const Motion<Number>& m, const Number& angle) const {
+auto Arc<Number, E>::turned(const Motion<Number>& m, const Number& angle) const -> Turned {
   using std::cos, std::sin;
-  if constexpr (E.forcing == Forcing::none) return {m.sine, m.cosine};
-  const Number s = sin(angle), c = cos(angle);
-  return {m.sine * c + m.cosine * s, m.cosine * c - m.sine * s};
+  if constexpr (E.forcing == Forcing::none) return {{m.sine, m.cosine}, {Number(0), Number(0)}};
+  const Number half = sin(angle / 2), s = 2 * half * cos(angle / 2), c = -2 * half * half;  // sin and cos - 1
+  const SineCosine<Number> change{m.sine * c + m.cosine * s, m.cosine * c - m.sine * s};
+  return {{m.sine + change.sine, m.cosine + change.cosine}, change};
 }
 
 template <class Number, Effects E>
 Motion<Number> Arc<Number, E>::closed_form(const Number& s) const {
+  using std::exp;
   const Propagator<Number> p = flow_->propagator(s);
-  const SineCosine<Number> phase = turned(start_, flow_->nu * s);
-  const Number steady_x = flow_->steady_displacement(phase.sine, phase.cosine),
-               steady_v = flow_->steady_velocity(phase.sine, phase.cosine);
+  const auto [phase, change] = turned(start_, flow_->nu * s);
+  const Number forced_x = flow_->response_displacement(phase.sine, phase.cosine);
+  // no difference of places, so that a short flight keeps its digits; the response is linear in sine and cosine
+  Number rise =
+      p.a_rise * start_.free_x + p.b * start_.free_v + flow_->response_displacement(change.sine, change.cosine);
   Number free_x = p.a * start_.free_x + p.b * start_.free_v, free_v = p.c * start_.free_v - p.b * start_.free_x;
-  Number a = -(p.c * start_.free_x + p.d * start_.free_v) - flow_->nu * flow_->nu * (steady_x - flow_->load);
   if constexpr (E.forcing == Forcing::secular) {
-    const auto [forced_x, forced_v] = response_from_rest(s);
-    free_x += flow_->f * forced_x, free_v += flow_->f * forced_v;
-    a = flow_->acceleration(steady_x + free_x, steady_v + free_v, phase.sine);
+    const auto [response_x, response_v] = response_from_rest(s);
+    rise += flow_->f * response_x, free_x += flow_->f * response_x, free_v += flow_->f * response_v;
   }
-  const Number x = steady_x + free_x;
-  return {x - start_.x, x, steady_v + free_v, a, phase.sine, phase.cosine, free_x, free_v};
+  const Number x = flow_->load + forced_x + free_x, v = flow_->response_velocity(phase.sine, phase.cosine) + free_v;
+  const Number a = E.forcing == Forcing::secular
+                       ? flow_->acceleration(x, v, phase.sine)
+                       : Number(-(p.c * start_.free_x + p.d * start_.free_v) - flow_->nu * flow_->nu * forced_x);
+  Number fast_x = 0;
+  if constexpr (E.damping == Damping::heavy) fast_x = start_.fast_x * exp(-flow_->fast * s);
+  return {rise, x, v, a, phase.sine, phase.cosine, free_x, free_v, fast_x};
 }
 
 /// (e^z - 1)/z for z = re + i im with re <= 0, to relative accuracy for every z: the divided difference of the
@@ -105,6 +117,7 @@ std::array<Number, 2> Arc<Number, E>::response_from_rest(const Number& s) const 
 
 template <class Number, Effects E>
 Motion<Number> Arc<Number, E>::near(const Motion<Number>& m, const Number& d) const {
+  using std::exp;
   constexpr std::size_t terms = std::numeric_limits<Number>::digits <= 64 ? 13 : 36;  // (1/4)^n / n! below rounding
   if (!(d > 0)) return m;
   const Number square = d * d;
@@ -127,9 +140,12 @@ Motion<Number> Arc<Number, E>::near(const Motion<Number>& m, const Number& d) co
     rise += t[k];
     if (k >= 2) gain += static_cast<double>(k) * t[k];
   }
-  const SineCosine<Number> phase = turned(m, flow_->nu * d);
+  const SineCosine<Number> phase = turned(m, flow_->nu * d).phase;
   const Number x = m.x + rise, v = m.v + gain / d;
-  return with_free_part({m.rise + rise, x, v, flow_->acceleration(x, v, phase.sine), phase.sine, phase.cosine});
+  Motion<Number> end =
+      with_free_part({m.rise + rise, x, v, flow_->acceleration(x, v, phase.sine), phase.sine, phase.cosine});
+  if constexpr (E.damping == Damping::heavy) end.fast_x = m.fast_x * exp(-flow_->fast * d);
+  return end;
 }
 
 }  // namespace clatter

@@ -94,10 +94,11 @@ class FirstRoot {
       Number value = q[p.degree], slope = 0;
       for (std::size_t i = p.degree; i-- > 0;) slope = slope * t + value, value = value * t + q[i];
       ((value > 0) == falls ? low : high) = t;
+      if (value == 0) break;
       Number next = t - value / slope;
-      if (!(next > low && next < high))
-        next = high < std::numeric_limits<Number>::infinity() ? Number((low + high) / 2) : Number(2 * t + 1);
-      const bool settled = abs(next - t) <= close * t;
+      const bool newton = next > low && next < high;
+      if (!newton) next = high < std::numeric_limits<Number>::infinity() ? Number((low + high) / 2) : Number(2 * t + 1);
+      const bool settled = newton && abs(next - t) <= close * t;
       t = next;
       if (settled) break;
     }

@@ -50,7 +50,12 @@ class ContactSearch {
         continue;
       }
       ++attempts;
-      if (crossing.certain) return touch(crossing.side, crossing.fraction * step);
+      if (crossing.certain) {
+        const Contact<Number> contact = touch(crossing.side, crossing.fraction * step);
+        if (closing(crossing.side, contact.motion.v) >= 0) return contact;
+        here_ = contact.motion, elapsed_ = contact.elapsed;  // rounding put it on the stop; it is on its way off
+        continue;
+      }
       if (crossing.fraction > 0) {
         elapsed_ += crossing.fraction * step;
         here_ = evaluate(elapsed_);
@@ -83,7 +88,7 @@ class ContactSearch {
   [[nodiscard]] static Number closing(Side side, const Number& y) { return side == Side::upper ? y : Number(-y); }
 
   [[nodiscard]] bool out_of_reach() const {
-    const Number reach = arc_.flow().reach(here_), load = arc_.flow().load;
+    const Number reach = arc_.flow().reach(here_, horizon_ - elapsed_), load = arc_.flow().load;
     return lower_ < load - reach && load + reach < upper_;
   }
 
@@ -101,7 +106,8 @@ class ContactSearch {
   [[nodiscard]] Number first_step() const {
     using std::pow;
     const Number step = longest_step(), error = error_of(step), aim = width() / 20;
-    if (aim > 0 && aim < std::numeric_limits<Number>::min() / (epsilon<Number>() * epsilon<Number>())) return Number(0);
+    if (upper_ - lower_ < std::numeric_limits<Number>::min() / (epsilon<Number>() * epsilon<Number>()))
+      return Number(0);
     return aim > 0 && error > aim ? Number(step * pow(aim / error, Number(1) / 6)) : step;
   }
 
@@ -135,7 +141,7 @@ class ContactSearch {
   [[nodiscard]] Crossing crossing_of(Side side, const Bernstein<Number>& rise, const Number& error) const {
     using std::abs, std::max;
     Bernstein<Number> c;
-    const Number from = gap(side);
+    const Number from = max(Number(0), gap(side));
     bool inside = true;
     for (std::size_t i = 0; i < c.size(); ++i) {
       c[i] = from - closing(side, rise[i]) - (i == 3 ? error : Number(0));
@@ -197,9 +203,11 @@ class ContactSearch {
   [[nodiscard]] Contact<Number> end(const Motion<Number>& there) {
     using std::abs;
     here_ = there, elapsed_ = horizon_;
-    const Number rounding = 8 * epsilon<Number>() * (abs(there.x) + abs(there.v));
-    for (const Side side : {Side::lower, Side::upper})
-      if (gap(side) <= rounding && closing(side, there.v) > 0) return at(side, horizon_, there);
+    for (const Side side : {Side::lower, Side::upper}) {
+      const Number flown = abs(gap(side) + closing(side, there.rise)) + abs(there.rise) + abs(there.v) * horizon_;
+      if (gap(side) < 8 * epsilon<Number>() * flown && closing(side, there.v) > 0)
+        return at(side, horizon_, there);  // false where there is no stop
+    }
     return {Side::none, horizon_, there, evaluations_, true};
   }
 

@@ -15,6 +15,7 @@ namespace clatter {
 template <class Number>
 struct Propagator {
   Number a, b, c, d;
+  Number a_rise;  ///< A - 1, small for short times
 };
 
 /// y z^6; 0 and infinity meet only where y or z is not finite.
@@ -32,13 +33,13 @@ class Flow {
   /// Free motion over s >= 0, without cancellation for every h (physics.md, "Motion").
   [[nodiscard]] Propagator<Number> propagator(const Number& s) const;
 
-  /// Steady forced displacement and velocity at a phase, `load` included; the secular kernel leaves the forced part to
+  /// Displacement and velocity of the steady forced response at a phase; the secular kernel leaves the forced part to
   /// its arcs.
-  [[nodiscard]] Number steady_displacement(const Number& sine, const Number& cosine) const {
-    if constexpr (E.forcing == Forcing::regular) return load + (in_phase * sine + quadrature * cosine);
-    return load;
+  [[nodiscard]] Number response_displacement(const Number& sine, const Number& cosine) const {
+    if constexpr (E.forcing == Forcing::regular) return in_phase * sine + quadrature * cosine;
+    return Number(0);
   }
-  [[nodiscard]] Number steady_velocity(const Number& sine, const Number& cosine) const {
+  [[nodiscard]] Number response_velocity(const Number& sine, const Number& cosine) const {
     if constexpr (E.forcing == Forcing::regular) return nu * (in_phase * cosine - quadrature * sine);
     return Number(0);
   }
@@ -64,8 +65,13 @@ class Flow {
   /// heavy damping is also bounded mode by mode, since its fast one dies out.
   [[nodiscard]] Number sixth_bound(const Motion<Number>& m, const Number& span, int derivative) const;
 
-  /// Bound of |x - load| from `m` on, for ever; infinite where resonance may raise it.
-  [[nodiscard]] Number reach(const Motion<Number>& m) const;
+  /// Bound of |x - load| from `m` on for a time `span`; at resonance the force may raise the energy norm by |f| in a
+  /// unit of time.
+  [[nodiscard]] Number reach(const Motion<Number>& m, const Number& span) const;
+
+  /// Displacement of the fast mode of heavy damping in a free motion (x, v); infinite or NaN at h = 1, where there are
+  /// no two modes.
+  [[nodiscard]] Number fast_mode(const Number& x, const Number& v) const { return -(slow * x + v) / (2 * root); }
 
   Number h, f, nu, load;
   Number root;                  ///< lambda = |1 - h^2|^(1/2)
@@ -74,6 +80,7 @@ class Flow {
   Number amplitude;             ///< (P^2 + Q^2)^(1/2)
   Number detuning;              ///< nu - lambda, without cancellation
   Number rate;                  ///< the fastest of the motion's frequencies and decay rates
+  Number period;                ///< of the force; without forcing 2 pi
  private:
   void bound_derivatives();
 
@@ -97,6 +104,7 @@ Flow<Number, E>::Flow(const Oscillator& o) : h(o.damping), f(o.forcing), nu(o.fr
   detuning = (nu - 1) + h * h / (1 + root);
   rate = max(Number(1), Number(2 * h));
   if constexpr (E.forcing != Forcing::none) rate = max(rate, nu);
+  period = E.forcing == Forcing::none ? Number(2 * pi<Number>()) : Number(2 * pi<Number>() / nu);
   bound_derivatives();
 }
 
@@ -121,18 +129,18 @@ template <class Number, Effects E>
 Propagator<Number> Flow<Number, E>::propagator(const Number& s) const {
   using std::cos, std::exp, std::expm1, std::sin;
   if constexpr (E.damping == Damping::none) {
-    const Number c = cos(s), b = sin(s);
-    return {c, b, c, b};
+    const Number c = cos(s), b = sin(s), half = sin(s / 2);
+    return {c, b, c, b, -2 * half * half};
   } else if constexpr (E.damping == Damping::light) {
-    const Number decay = exp(-h * s), c = decay * cos(root * s), b = decay * sin(root * s) / root;
-    const Number v = c - h * b;
-    return {c + h * b, b, v, 2 * h * v + b};
+    const Number decay = exp(-h * s), turn = cos(root * s), half = sin(root * s / 2);
+    const Number c = decay * turn, b = decay * sin(root * s) / root, v = c - h * b;
+    return {c + h * b, b, v, 2 * h * v + b, expm1(-h * s) * turn - 2 * half * half + h * b};
   } else {
     const Number slow_decay = exp(-slow * s), fast_decay = exp(-fast * s), spread = 2 * root * s;
     const Number b =
         slow_decay * select<Number>(spread > 0, -expm1(-spread) / (2 * root), s);  // root = 0: critical damping
-    return {slow_decay + slow * b, b, fast_decay - slow * b,
-            2 * h * fast_decay - slow * slow * b};  // 2 h slow - 1 = slow^2
+    const Number d = 2 * h * fast_decay - slow * slow * b;                         // 2 h slow - 1 = slow^2
+    return {slow_decay + slow * b, b, fast_decay - slow * b, d, expm1(-slow * s) + slow * b};
   }
 }
 
@@ -145,8 +153,7 @@ Number Flow<Number, E>::sixth_bound(const Motion<Number>& m, const Number& span,
   if constexpr (E.forcing == Forcing::secular) energy_norm += abs(f) * span;
   Number bound = times_sixth_power(Number(free_bound_[i] * energy_norm), span);
   if constexpr (E.damping == Damping::heavy) {
-    const Number slow_part = times(abs(fast * m.free_x + m.free_v) / (2 * root), slow);
-    const Number fast_part = times(abs(slow * m.free_x + m.free_v) / (2 * root), fast);
+    const Number slow_part = times(abs(m.free_x - m.fast_x), slow), fast_part = times(abs(m.fast_x), fast);
     const Number modal =
         times_sixth_power(slow_part, Number(slow * span)) + times_sixth_power(fast_part, Number(fast * span));
     bound = select<Number>(modal < bound, modal, bound);  // root = 0: modal is infinite or NaN and is left aside
@@ -157,9 +164,11 @@ Number Flow<Number, E>::sixth_bound(const Motion<Number>& m, const Number& span,
 }
 
 template <class Number, Effects E>
-Number Flow<Number, E>::reach(const Motion<Number>& m) const {
-  if constexpr (E.forcing == Forcing::secular) return std::numeric_limits<Number>::infinity();
-  return (amplitude + norm(m.free_x, m.free_v)) * (1 + 16 * epsilon<Number>());
+Number Flow<Number, E>::reach(const Motion<Number>& m, const Number& span) const {
+  using std::abs;
+  Number bound = amplitude + norm(m.free_x, m.free_v);
+  if constexpr (E.forcing == Forcing::secular) bound += abs(f) * span;
+  return bound * (1 + 16 * epsilon<Number>());
 }
 
 }  // namespace clatter

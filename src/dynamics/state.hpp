@@ -33,6 +33,7 @@ struct Motion {
   Number sine, cosine;  ///< of the forcing phase
   Number free_x{};      ///< the transient's share of the displacement; at resonance all but the load's
   Number free_v{};      ///< and of the velocity: kept apart, since it fades below the rounding of the whole
+  Number fast_x{};      ///< heavy damping: the fast mode's share of free_x, for the same reason
 };
 
 /// One impact, as observers see it.
@@ -50,7 +51,8 @@ struct Rest {
   double length;  ///< in tau
   Side side;
   double place;  ///< of the stop
-  bool held;     ///< at rest; false: the completed rest of a chatter, shorter than what it could move any result by
+  bool held;     ///< at rest; false: the completed rest of a chatter or a force within rounding of 0, too short to move
+                 ///< any result
 };
 
 }  // namespace clatter

@@ -31,14 +31,11 @@ class Exact {
       : flow_(scene.oscillator),
         stops_(scene.stops),
         budget_(scene.time.max_impacts),
-        start_turns_(turns_of(scene.start.phase)) {
-    period_ = 2 * pi<Number>();
-    if constexpr (E.forcing != Forcing::none) period_ /= flow_.nu;
-  }
+        start_turns_(turns_of(scene.start.phase)) {}
 
   [[nodiscard]] const Flow<Number, E>& flow() const { return flow_; }
-  [[nodiscard]] const Number& period() const { return period_; }  ///< forcing period in tau; without forcing 2 pi
-  [[nodiscard]] double impacts() const { return impacts_; }       ///< impacts simulated so far
+  [[nodiscard]] const Number& period() const { return flow_.period; }  ///< forcing period in tau; without forcing 2 pi
+  [[nodiscard]] double impacts() const { return impacts_; }            ///< impacts simulated so far
   [[nodiscard]] double evaluations() const { return evaluations_; }
 
   /// Runs from `state` to the phase `end`, in turns 0 ... 1 since the last section, and shows observers every arc, rest
@@ -51,10 +48,14 @@ class Exact {
         continue;
       }
       const Arc<Number, E> arc{flow_, motion(state)};
-      const Contact<Number> contact = next_contact(arc, stops_, Number((end - state.turns) * period_));
+      const Contact<Number> contact = next_contact(arc, stops_, Number((end - state.turns) * flow_.period));
       evaluations_ += contact.evaluations;
       if (!contact.resolved)
         return std::isfinite(static_cast<double>(contact.motion.x)) ? Outcome::unresolved : Outcome::not_finite;
+      if (contact.side != Side::none && contact.elapsed == 0 && state.v == 0) {
+        hover(state, stop_at<Number>(stops_, contact.side), end, origin, observer);
+        continue;
+      }
       observer.arc(arc, time(state, origin), static_cast<double>(contact.elapsed));
       pass(state, contact.elapsed);
       state.x = contact.motion.x, state.v = contact.motion.v, state.released = false;
@@ -73,14 +74,14 @@ class Exact {
     if (state.v != 0 || state.released) return std::nullopt;
     for (const Side side : {Side::lower, Side::upper}) {
       const auto stop = stop_at<Number>(stops_, side);
-      if (state.x == stop.place && pressing(flow_, stop, phase(state)).holds()) return stop;
+      if (state.x == stop.place && holds(flow_, stop, phase(state))) return stop;
     }
     return std::nullopt;
   }
 
   /// Time since the section `origin`.
   [[nodiscard]] double time(const State<Number>& state, std::int64_t origin) const {
-    return static_cast<double>((static_cast<double>(state.periods - origin) + state.turns) * period_);
+    return static_cast<double>((static_cast<double>(state.periods - origin) + state.turns) * flow_.period);
   }
 
  private:
@@ -97,7 +98,7 @@ class Exact {
     return {Number(0), state.x, state.v, state.released ? Number(0) : flow_.acceleration(state.x, state.v, sine),
             sine,      cosine};
   }
-  void pass(State<Number>& state, const Number& elapsed) const { state.turns += elapsed / period_; }
+  void pass(State<Number>& state, const Number& elapsed) const { state.turns += elapsed / flow_.period; }
 
   /// Reverses the velocity and completes the chatter that may follow.
   template <class Observer>
@@ -112,7 +113,7 @@ class Exact {
     if (state.v == 0) return;
     const auto left = chatter_time(flow_, stop, pressing(flow_, stop, phase(state)), Number(-stop.into(state.v)));
     if (!left) return;
-    show_rest(state, stop, min(Number(end - state.turns), Number(*left / period_)), false, origin, observer);
+    show_rest(state, stop, min(Number(end - state.turns), Number(*left / flow_.period)), false, origin, observer);
     pass(state, *left);  // beyond `end` too: the mass stays pressed until then, so the cut changes nothing
     state.v = 0;
   }
@@ -133,10 +134,21 @@ class Exact {
     state.turns = until;
   }
 
+  /// Lets time move on where a mass at rest on a stop is neither held nor leaves: the force on it is within rounding of
+  /// 0, out of which it grows in the square root of rounding, while the mass moves by far less than rounding.
+  template <class Observer>
+  void hover(State<Number>& state, const Stop<Number>& stop, const Number& end, std::int64_t origin,
+             Observer& observer) {
+    using std::min, std::sqrt;
+    const Number turns = min(Number(end - state.turns), Number(sqrt(epsilon<Number>())));
+    show_rest(state, stop, turns, false, origin, observer);
+    state.turns += turns, state.released = false;
+  }
+
   template <class Observer>
   void show_rest(const State<Number>& state, const Stop<Number>& stop, const Number& turns, bool held,
                  std::int64_t origin, Observer& observer) const {
-    observer.rest(Rest{time(state, origin), static_cast<double>(turns * period_), stop.side,
+    observer.rest(Rest{time(state, origin), static_cast<double>(turns * flow_.period), stop.side,
                        static_cast<double>(stop.place), held});
   }
 
@@ -144,7 +156,6 @@ class Exact {
   Stops stops_;
   double budget_;
   Number start_turns_;
-  Number period_;
   double impacts_ = 0.0;
   double evaluations_ = 0.0;
 };

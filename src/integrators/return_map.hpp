@@ -28,7 +28,7 @@ class ReturnMap {
     touched_ = true;
     conserved_ = conserved_ && std::abs(impact.after) == std::abs(impact.before);
     Impact& last = last_[impact.side == Side::upper ? 1 : 0];
-    const bool again = std::abs(impact.after - last.after) <= tolerance_ * std::max(scale_, std::abs(impact.after));
+    const bool again = std::abs(impact.after - last.after) <= tolerance_ * std::abs(impact.after);
     if (again && impact.after != 0.0 && !(period_ > 0.0)) period_ = impact.time - last.time;
     last = impact;
   }
@@ -49,7 +49,7 @@ class ReturnMap {
   /// Held by a stop, at the equilibrium, or so near to it that the rest of the motion is below the tolerance.
   [[nodiscard]] bool stands_still(double x, double v, bool held) const {
     const double left = std::max(std::abs(x - equilibrium_), std::abs(v));
-    return held || left == 0.0 || (damped_ && left <= tolerance_ * scale_);
+    return held || left == 0.0 || (!conserved_ && left <= tolerance_ * scale_);
   }
 
  private:

@@ -88,6 +88,7 @@ template <class Number, Effects E>
     returns.begin_period(static_cast<double>(integrator.period()));
     const Outcome outcome = advance_to_section(integrator, state, state.periods, returns);
     if (outcome != Outcome::completed) return {status_of(outcome), state, Number(0), settled};
+    if (integrator.holding_stop(state)) continue;
     const Number turns = returns.free_rotation() ? Number(1) : Number(Number(returns.period()) / integrator.period());
     if (turns > 0) return {Status::periodic, returns.conserved() ? start : state, turns, settled + 1};
   }

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -29,9 +28,10 @@ template <class Number>
 /// (x^2 + y^2)^(1/2) where the squares would overflow or vanish, too.
 template <class Number>
 [[nodiscard]] Number norm(const Number& x, const Number& y) {
-  using std::abs, std::max, std::min, std::sqrt;
-  const Number large = max(Number(abs(x)), Number(abs(y))), small = min(Number(abs(x)), Number(abs(y)));
-  if (!(large > 0)) return large;
+  using std::abs, std::sqrt;
+  const bool first = abs(x) > abs(y);  // one comparison for both, so that a NaN on either side stays
+  const Number large = first ? abs(x) : abs(y), small = first ? abs(y) : abs(x);
+  if (large == 0) return small;
   const Number ratio = small / large;
   return large * sqrt(1 + ratio * ratio);
 }

@@ -12,7 +12,8 @@
 namespace clatter {
 
 /// Least and greatest displacement and velocity, between the ends of arcs too: every stretch of an arc is either proved
-/// not to pass what was found so far, by the enclosure that finds contacts, or split at its turning point.
+/// not to pass what was found so far, by the enclosure that finds contacts, or split, at its turning point where it has
+/// one.
 class Extrema {
  public:
   struct Range {
@@ -24,19 +25,12 @@ class Extrema {
 
   template <Effects E>
   void arc(const Arc<double, E>& arc, double, double length) {
-    const double longest = 1.6 / (E.forcing == Forcing::none ? 1.0 : std::max(1.0, arc.flow().nu));
-    const auto steps = static_cast<long>(std::ceil(std::min(length / longest, 1e9)));
     splits_ = 0;
-    Place from{0.0, arc.start()};
+    const Place from{0.0, arc.start()}, to{length, arc.at(length)};
     include(from.motion);
-    for (long i = 1; i <= steps; ++i) {
-      const double s = i == steps ? length : length * static_cast<double>(i) / static_cast<double>(steps);
-      const Place to{s, arc.at(s)};
-      include(to.motion);
-      search<0>(arc, from, to);
-      search<1>(arc, from, to);
-      from = to;
-    }
+    include(to.motion);
+    search<0>(arc, from, to);
+    search<1>(arc, from, to);
   }
   void rest(const Rest& rest) { x_.include(rest.place), v_.include(0.0); }
   void impact(const Impact& impact) { x_.include(impact.place), v_.include(impact.before), v_.include(impact.after); }
@@ -48,7 +42,7 @@ class Extrema {
   [[nodiscard]] const Range& velocity() const { return v_; }
 
  private:
-  static constexpr int max_splits = 10000;  ///< an arc whose bounds overflow ends here
+  static constexpr int max_splits = 1 << 22;  ///< of an arc; only one whose bounds overflow comes near it
 
   struct Place {
     double s;
@@ -92,7 +86,8 @@ class Extrema {
     double low = from.s, high = to.s, s = (low + high) / 2;
     const double slope_before = jet<order>(arc, from.motion)[1], slope_after = jet<order>(arc, to.motion)[1];
     Motion<double> m = arc.at(s);
-    if (!(slope_before * slope_after < 0)) return {s, m};
+    const bool turns_once = slope_before * slope_after < 0 && (to.s - from.s) * arc.flow().rate < 4;
+    if (!turns_once) return {s, m};
     for (int iteration = 0; iteration < 60; ++iteration) {
       const auto [value, slope, curvature] = jet<order>(arc, m);
       ((slope > 0) == (slope_before > 0) ? low : high) = s;

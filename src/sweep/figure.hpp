@@ -10,7 +10,8 @@
 namespace clatter {
 
 /// The values of one variable, row-major over its dimensions.
-using Column = std::variant<std::vector<double>, std::vector<std::uint8_t>, std::vector<std::int8_t>, std::vector<std::int64_t>>;
+using Column =
+    std::variant<std::vector<double>, std::vector<std::uint8_t>, std::vector<std::int8_t>, std::vector<std::int64_t>>;
 
 using Attribute = std::pair<std::string, std::variant<std::string, double, std::vector<std::uint8_t>>>;
 

@@ -93,6 +93,7 @@ class Point {
     state.x = scene_.start.displacement, state.v = scene_.start.velocity;
     observed_ = settle(integrator_, state, scene_);
     result_.status = observed_.status;
+    result_.periods = observed_.settled;
     if (!failed(observed_.status)) observe();
     result_.impacts = integrator_.impacts();
     return std::move(result_);
@@ -116,7 +117,9 @@ class Point {
       result_.base_frequency = no_value;
       return;
     }
-    result_.end = {state.x, state.v, scene_.start.phase + 2 * pi<double>() * state.turns};
+    result_.end = {state.x, state.v, scene_.start.phase};
+    if (state.turns > 0)
+      result_.end.phase = std::fmod(scene_.start.phase + 2 * pi<double>() * state.turns, 2 * pi<double>());
     observers.finish(state.x, state.v, total, observed_.status == Status::periodic);
     collect(observers, total, base_turns);
     if (observers.impacts) collect_impacts(*observers.impacts, total, once ? 1.0 : observed_.turns);

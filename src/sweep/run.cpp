@@ -3,6 +3,7 @@
 #include <omp.h>
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <exception>
 #include <mutex>
@@ -110,11 +111,13 @@ class Team {
  private:
   void work(std::size_t branch, std::size_t thread) noexcept {
     const ForkJoin::Member member(fork_join_);
+    if (stopped_) return;
     try {
       run_branch(sweep_, branches_, branch, workshops_[thread], columns_, progress_);
     } catch (...) {
       const std::lock_guard lock(mutex_);
       failure_ = std::current_exception();
+      stopped_ = true;
     }
   }
 
@@ -126,6 +129,7 @@ class Team {
   std::vector<Workshop> workshops_;  ///< [thread]
   std::mutex mutex_;
   std::exception_ptr failure_;
+  std::atomic<bool> stopped_ = false;  ///< by a failure: what is left isn't begun
   ForkJoin fork_join_;
 };
 

@@ -115,6 +115,17 @@ TEST(Arc, rise_of_a_short_flight_keeps_its_relative_accuracy) {
   }
 }
 
+TEST(Arc, rise_keeps_its_digits_for_every_length_of_flight) {
+  for (const Oscillator& o : oscillators())
+    for (double s : {1e-9, 1e-4, 0.02, 0.3, 2.0}) {
+      const auto rounded = motion_after<double>(o, {0.37, -1.1, 0.137}, s);
+      const auto exact = motion_after<FiftyDigits>(o, {0.37, -1.1, 0.137}, s);
+      // v s with |v| = 1.1, made of a transient and a response of up to 1.3 * 8 each
+      EXPECT_NEAR(rounded.rise, static_cast<double>(exact.rise), 2e-14 * std::min(s, 1.0))
+          << "h = " << o.damping << ", nu = " << o.frequency;
+    }
+}
+
 TEST(Arc, derivative_bounds_hold_and_are_not_slack) {
   // free undamped motion has |x^(k)| <= its amplitude, the steady response nu^k times its own
   const Flow<double, Effects{Damping::none, Forcing::none}> free({0, 0, 1, 0});

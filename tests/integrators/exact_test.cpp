@@ -168,6 +168,68 @@ TEST(Exact, an_impact_at_the_end_of_a_run_is_taken_once) {
   EXPECT_EQ(run_scene(scene, 3 * contact * (1 - 1e-12)).record.impacts.size(), 1u);
 }
 
+TEST(Exact, a_stop_that_never_presses_does_not_hold_at_the_tangency) {
+  // |f| = x_stop - load: the pull just vanishes at the peak, where its rounding may have either sign
+  for (double before : {1e-9, 1e-8, 1e-3}) {
+    Scene scene = scene_of({0.1, 1.0, 0.5, 0.0}, -1.0, 1.0, 0.7);
+    scene.start = {1.0, 0.0, pi_ / 2 - before};
+    const auto run = run_scene(scene, 30.0);
+    EXPECT_TRUE(run.record.rests.empty() || !run.record.rests[0].held) << before;
+    EXPECT_LT(run.end.x, 1.0);
+  }
+}
+
+TEST(Exact, a_stop_that_always_presses_holds_through_the_tangency) {
+  // load - x_stop = |f|: the pressing force just vanishes at the trough
+  for (double R : {0.0, 0.7, 0.99}) {
+    Scene scene = scene_of({0.0, 1.0, 1.0, 1.5}, -0.5, 0.5, R);
+    scene.start = {0.5, 0.0, -pi_ / 2};
+    const auto run = run_scene(scene, 50.0);
+    EXPECT_TRUE(run.record.impacts.empty()) << R;
+    EXPECT_EQ(run.end.x, 0.5);
+  }
+}
+
+TEST(Exact, flights_too_short_to_move_time_on_are_rest) {
+  // elastic, and let go within rounding of where the force would press again: bounces of 1e-31 would never end
+  Scene scene = scene_of({0.0, 1.0, 1.0, -0.25}, -0.25, 0.25, 1.0);
+  scene.stops.restitution_lower = 0.3;
+  scene.start = {0.25, 0.0, pi_ / 6};
+  scene.time.max_impacts = 1e4;
+  EXPECT_EQ(run_scene(scene, 20.0).outcome, Outcome::completed);
+}
+
+TEST(Exact, heavier_damping_does_not_cost_more) {
+  for (double h : {1e2, 1e6, 1e12}) {
+    const auto run = run_scene(scene_of({h, h, 0.5, 0.0}, -0.5, 0.5, 0.5), 30.0);
+    EXPECT_EQ(run.outcome, Outcome::completed);
+    EXPECT_LT(run.evaluations, 5000.0) << h;
+  }
+}
+
+TEST(Exact, a_slow_force_does_not_cost_more) {
+  for (double nu : {1e-3, 1e-6, 1e-9}) {
+    const auto run = run_scene(scene_of({0.1, 1.0, nu, 0.0}, -0.5, 0.5, 0.5), 4 * 2 * pi_ / nu);
+    EXPECT_EQ(run.outcome, Outcome::completed);
+    EXPECT_NEAR(static_cast<double>(run.record.impacts.size()), 160, 20) << nu;  // chatter onto a stop twice a period
+    EXPECT_LT(run.evaluations, 2000.0) << nu;
+  }
+}
+
+TEST(Exact, no_impact_leaves_a_stop) {
+  // rounding of a release under very heavy damping once put the mass back on the stop it was leaving
+  const auto run = run_scene(scene_of({1e6, 30.0, 0.5, 0.0}, -2.0, 2.0, 0.0), 40.0);
+  EXPECT_EQ(run.outcome, Outcome::completed);
+  for (const Impact& impact : run.record.impacts) EXPECT_GE(impact.before * sign_of(impact.side), 0.0);
+}
+
+TEST(Exact, motion_may_fade_far_below_its_stops) {
+  Scene scene = scene_of({0.1, 0.0, 1.0, 0.0}, 0.0, 2.0, 0.9);  // decays onto a stop at its equilibrium
+  scene.start.displacement = 1.0;
+  EXPECT_EQ(run_scene(scene, 1e4).outcome, Outcome::completed);
+  EXPECT_EQ(run_scene(scene_of({0.0, 1e-300, 1.0, 0.0}, -1.0, 1.0, 0.9), 100.0).outcome, Outcome::completed);
+}
+
 TEST(Exact, more_impacts_than_allowed_is_an_outcome) {
   Scene scene = scene_of({0.0, 0.0, 1.0, 0.0}, -0.75, 0.75, 1.0);
   scene.start = {0.0, 1.5, 0.0};

@@ -129,6 +129,22 @@ TEST(Settle, unforced_motion_that_loses_speed_at_stops_ends_as_free_vibration) {
               1e-5);  // contacts grow soft: pi - 2 arccos... differs by the last speed, below the tolerance's root
 }
 
+TEST(Settle, chatter_is_no_period) {
+  for (double R : {0.5, 0.999, 0.9999}) {  // pressed by its load: the bounces die out, however slowly they change
+    Scene scene = scene_of({0.1, 0.0, 1.0, 1.0}, -0.5, 0.5, R);
+    scene.start = {0.5, -1.0, 0.0};
+    const Steady steady = steady_of(scene);
+    EXPECT_EQ(steady.status, Status::periodic);
+    EXPECT_TRUE(steady.standstill) << R;
+  }
+}
+
+TEST(Settle, speed_lost_at_one_stop_in_the_centre_ends_in_standstill) {
+  Scene scene = scene_of({0.0, 0.0, 1.0, 0.0}, 0.0, none, 0.5);
+  scene.start = {1.0, 0.0, 0.0};
+  EXPECT_TRUE(steady_of(scene).standstill);
+}
+
 TEST(Repeat, forgets_nothing_it_needs) {
   // a motion of 64 periods is found however long the settling before it was
   RepeatFinder finder(1e-12);

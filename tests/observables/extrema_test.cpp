@@ -64,5 +64,33 @@ TEST(Extrema, are_never_passed_by_a_dense_scan_and_never_far_from_it) {
   EXPECT_GT(hits, 20);
 }
 
+TEST(Extrema, of_a_long_arc_are_found_among_thousands_of_its_oscillations) {
+  // an undamped oscillation on a force so slow that one arc holds thousands of turns: the highest is where both are
+  Scene scene;
+  scene.oscillator = {0.0, 1.0, 1e-4, 0.0};
+  scene.start.velocity = 0.5;
+  scene.time.mode = Mode::transient;
+  scene.time.duration = 2 * 3.141592653589793 / 1e-4;
+  Extrema extrema;
+  observe(scene, [&](double, auto run) { run(extrema); });
+  const double f = 1 / (1 - 1e-8), free = 0.5 - f * 1e-4;  // x = f sin(nu tau) + free sin(tau)
+  // within half a turn of the force's peak the two are in step: sin falls short of 1 there by (pi nu)^2/2 at the most
+  EXPECT_LE(extrema.displacement(scene.stops).high, f + free);
+  EXPECT_GE(extrema.displacement(scene.stops).high, f + free - 5e-8);
+  EXPECT_LE(extrema.velocity().high, free + f * 1e-4 + 1e-14);
+  EXPECT_GE(extrema.velocity().high, free + f * 1e-4 - 5e-12);  // in step at tau = 0 and whole turns near it
+}
+
+TEST(Extrema, of_heavily_damped_and_slow_motion_are_exact) {
+  Scene scene;
+  scene.oscillator = {1e3, 1.0, 1e-3, 0.1};
+  scene.time.tolerance = 1e-13;
+  Extrema extrema;
+  observe(scene, [&](double, auto run) { run(extrema); });
+  const double D = std::pow(1 - 1e-6, 2) + std::pow(2 * 1e3 * 1e-3, 2);
+  EXPECT_NEAR(extrema.displacement(scene.stops).low, 0.1 - 1 / std::sqrt(D), 1e-12);
+  EXPECT_NEAR(extrema.displacement(scene.stops).high, 0.1 + 1 / std::sqrt(D), 1e-12);
+}
+
 }  // namespace
 }  // namespace clatter

@@ -1,6 +1,9 @@
 #pragma once
 
 #include <cmath>
+#include <stdexcept>
+#include <tuple>
+#include <type_traits>
 
 #include "integrators/settle.hpp"
 

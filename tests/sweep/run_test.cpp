@@ -172,6 +172,16 @@ TEST(Run, a_failed_point_has_no_values_and_does_not_lead_the_next_astray) {
   EXPECT_EQ(statuses(run(sweep, {}).figure), (std::vector<std::uint8_t>{16, 0}));
 }
 
+TEST(Run, a_failed_point_says_how_far_it_came) {
+  Scene scene = paper_scene(0.5, 1.0);  // two impacts a period
+  scene.time.max_impacts = 21;
+  Workshop nothing;
+  const PointResult result = run_point(scene, nothing);
+  EXPECT_EQ(result.status, Status::event_budget);
+  EXPECT_EQ(result.impacts, 22.0);
+  EXPECT_NEAR(result.periods, 10.0, 1.0);
+}
+
 TEST(Run, progress_reaches_the_total_along_a_branch_too) {
   Sweep sweep = sweep_of(paper_scene(6.0, 1.0), {{Parameter::nu, std::vector<double>(50, 0.9)}});
   for (const bool follow : {false, true}) {
