@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
-#include <regex>
 #include <sstream>
 
 #include "integrators/runs.hpp"
@@ -23,21 +22,33 @@ struct Reference {
   std::vector<Row> rows;
 };
 
+/// The quoted or bare value that follows `"key": ` from `from` on; moves `from` past it.
+std::string value_of(const std::string& json, const std::string& key, std::size_t& from) {
+  const std::size_t name = json.find('"' + key + "\": ", from);
+  if (name == std::string::npos) return {};
+  const std::size_t begin = json.find_first_not_of("\" ", name + key.size() + 3);
+  from = json.find_first_of("\",\n", begin);
+  return json.substr(begin, from - begin);
+}
+
 Reference read_reference(const std::string& name) {
   std::ifstream file(CLATTER_SOURCE "/tests/reference/" + name);
   std::stringstream text;
   text << file.rdbuf();
   const std::string json = text.str();
-  const auto number = [&](const std::string& key) {
-    std::smatch match;
-    EXPECT_TRUE(std::regex_search(json, match, std::regex("\"" + key + "\": \"([^\"]+)\""))) << key << " in " << name;
-    return std::stod(match[1]);
+  const auto parameter = [&](const std::string& key) {
+    std::size_t from = json.find("\"params\"");
+    return std::stod(value_of(json, key, from));
   };
   Reference reference;
-  reference.scene = scene_of({number("h"), number("f"), number("nu"), 0.0}, -number("g"), number("g"), number("R"));
-  const std::regex row("\"t\": \"([^\"]+)\",\\s*\"side\": (-?1),\\s*\"v_pre\": \"([^\"]+)\"");
-  for (auto match = std::sregex_iterator(json.begin(), json.end(), row); match != std::sregex_iterator(); ++match)
-    reference.rows.push_back({FiftyDigits((*match)[1].str()), std::stoi((*match)[2]), FiftyDigits((*match)[3].str())});
+  reference.scene =
+      scene_of({parameter("h"), parameter("f"), parameter("nu"), 0.0}, -parameter("g"), parameter("g"), parameter("R"));
+  for (std::size_t from = json.find("\"events\"");;) {
+    const std::string time = value_of(json, "t", from);
+    if (time.empty()) break;
+    const std::string side = value_of(json, "side", from), before = value_of(json, "v_pre", from);
+    reference.rows.push_back({FiftyDigits(time), std::stoi(side), FiftyDigits(before)});
+  }
   return reference;
 }
 
