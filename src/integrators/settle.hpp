@@ -47,11 +47,14 @@ template <class Number, Effects E, class Observer>
                               Observer& observer) {
   using std::floor;
   const std::int64_t origin = state.periods;
-  const Number whole = floor(turns);
-  for (Number passed = 0; passed < whole; ++passed)
-    if (const Outcome outcome = advance_to_section(integrator, state, origin, observer); outcome != Outcome::completed)
-      return outcome;
-  return integrator.advance(state, Number(turns - whole), origin, observer);
+  Number left = floor(turns);
+  const Number part = turns - left;
+  while (left > 0) {
+    const Outcome outcome = advance_to_section(integrator, state, origin, observer);
+    if (outcome != Outcome::completed) return outcome;
+    left -= 1;
+  }
+  return integrator.advance(state, part, origin, observer);
 }
 
 /// Runs forced motion until its state at the sections repeats.

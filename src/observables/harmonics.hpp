@@ -106,12 +106,13 @@ class ExactHarmonics {
   template <Effects E>
   [[nodiscard]] static Complex quadrature(const Arc<double, E>& arc, double w, double begin, double length) {
     using Rule = boost::math::quadrature::gauss<double, 20>;
-    const double panels = std::ceil(length * (arc.flow().rate + w) / 4), half = length / panels / 2;
+    const auto panels = static_cast<std::size_t>(std::ceil(length * (arc.flow().rate + w) / 4));
+    const double half = length / static_cast<double>(panels) / 2;
     Complex sum = 0;
     const auto add = [&](double s, double weight) { sum += weight * arc.at(s).x * turn(w * (begin + s)); };
-    for (double panel = 0; panel < panels; ++panel)
+    for (std::size_t panel = 0; panel < panels; ++panel)
       for (std::size_t i = 0; i < Rule::abscissa().size(); ++i) {
-        const double middle = (2 * panel + 1) * half, offset = half * Rule::abscissa()[i],
+        const double middle = static_cast<double>(2 * panel + 1) * half, offset = half * Rule::abscissa()[i],
                      weight = half * Rule::weights()[i];
         add(middle - offset, weight);
         add(middle + offset, weight);

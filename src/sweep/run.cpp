@@ -96,8 +96,7 @@ class Team {
   /// Runs every branch; results go by index, so their bits don't depend on which thread runs what.
   CLATTER_PARALLEL_REGION void run() {
     fork_join_.fork();
-    const auto threads = static_cast<int>(workshops_.size());
-#pragma omp parallel for schedule(dynamic) num_threads(threads)
+#pragma omp parallel for schedule(dynamic) num_threads(threads())
     for (std::size_t branch = 0; branch < branches_.count; ++branch)
       work(branch, static_cast<std::size_t>(omp_get_thread_num()));
     fork_join_.join();
@@ -109,6 +108,8 @@ class Team {
   }
 
  private:
+  [[nodiscard]] int threads() const { return static_cast<int>(workshops_.size()); }
+
   void work(std::size_t branch, std::size_t thread) noexcept {
     const ForkJoin::Member member(fork_join_);
     if (stopped_) return;
