@@ -14,10 +14,15 @@ class Arc {
  public:
   /// Starts at displacement x, velocity v, phase (sine, cosine) and acceleration a, which the equation of motion gives
   /// or a release makes 0.
-  Arc(const Flow<Number, E>& flow, const Motion<Number>& start) : flow_(&flow), start_(with_free_part(start)) {}
+  Arc(const Flow<Number, E>& flow, const Motion<Number>& start) : Arc(flow, start, start.x) {}
+
+  /// Starts `start.rise` away from a place.
+  Arc(const Flow<Number, E>& flow, const Motion<Number>& start, const Number& anchor)
+      : flow_(&flow), start_(with_free_part(start)), anchor_(anchor) {}
 
   [[nodiscard]] const Flow<Number, E>& flow() const { return *flow_; }
   [[nodiscard]] const Motion<Number>& start() const { return start_; }
+  [[nodiscard]] const Number& anchor() const { return anchor_; }  ///< the place that `rise` counts from
 
   /// Motion a time s >= 0 after the start; for short times by Taylor's series, which keeps the relative accuracy of
   /// `rise`.
@@ -46,6 +51,7 @@ class Arc {
 
   const Flow<Number, E>* flow_;
   Motion<Number> start_;
+  Number anchor_;
 };
 
 template <class Number, Effects E>
@@ -59,7 +65,7 @@ auto Arc<Number, E>::turned(const Motion<Number>& m, const Number& angle) const 
 
 template <class Number, Effects E>
 Motion<Number> Arc<Number, E>::closed_form(const Number& s) const {
-  using std::exp;
+  using std::abs, std::exp;
   const Propagator<Number> p = flow_->propagator(s);
   const auto [phase, change] = turned(start_, flow_->nu * s);
   const Number forced_x = flow_->response_displacement(phase.sine, phase.cosine);
@@ -71,7 +77,11 @@ Motion<Number> Arc<Number, E>::closed_form(const Number& s) const {
     const auto [response_x, response_v] = response_from_rest(s);
     rise += flow_->f * response_x, free_x += flow_->f * response_x, free_v += flow_->f * response_v;
   }
-  const Number x = flow_->load + forced_x + free_x, v = flow_->response_velocity(phase.sine, phase.cosine) + free_v;
+  rise += start_.rise;
+  // of two sums for the place the one with the smaller terms: between close stops that is the rise
+  const Number whole = abs(flow_->load) + abs(forced_x) + abs(free_x);
+  const Number x = abs(anchor_) + abs(rise) < whole ? anchor_ + rise : flow_->load + forced_x + free_x;
+  const Number v = flow_->response_velocity(phase.sine, phase.cosine) + free_v;
   const Number a = E.forcing == Forcing::secular
                        ? flow_->acceleration(x, v, phase.sine)
                        : Number(-(p.c * start_.free_x + p.d * start_.free_v) - flow_->nu * flow_->nu * forced_x);

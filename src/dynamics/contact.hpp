@@ -79,10 +79,10 @@ class ContactSearch {
     return Number(1.6) / (E.forcing == Forcing::none ? Number(1) : max(Number(1), arc_.flow().nu));
   }
 
-  /// Gap between the mass and a stop at the search's present place; exact where the arc began on the stop.
+  /// Gap between the mass and a stop at the search's present place; exact where the arc is anchored on the stop.
   [[nodiscard]] Number gap(Side side) const {
-    const Number& from = arc_.start().x;
-    return side == Side::upper ? (upper_ - from) - here_.rise : (from - lower_) + here_.rise;
+    const Number& anchor = arc_.anchor();
+    return side == Side::upper ? (upper_ - anchor) - here_.rise : (anchor - lower_) + here_.rise;
   }
   [[nodiscard]] static Number closing(Side side, const Number& y) { return side == Side::upper ? y : Number(-y); }
 
@@ -185,7 +185,7 @@ class ContactSearch {
   [[nodiscard]] Number conserved_speed(const Number& x) const {
     using std::abs, std::max, std::sqrt;
     const Motion<Number>& from = arc_.start();
-    const Number fall = from.x - x, middle = from.x + x - 2 * arc_.flow().load;
+    const Number fall = (arc_.anchor() - x) + from.rise, middle = from.x + x - 2 * arc_.flow().load;
     const Number scale = max(max(Number(abs(fall)), Number(abs(middle))), Number(abs(from.v)));
     if (!(scale > 0)) return Number(0);
     return scale *

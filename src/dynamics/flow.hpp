@@ -83,7 +83,9 @@ class Flow {
   Number period;                ///< of the force; without forcing 2 pi
  private:
   void bound_derivatives();
+  [[nodiscard]] Number short_rise(const Number& s) const;
 
+  Number coarse_root_{}, spare_root_{};   ///< light damping: root is their difference; 1 and the rest while h < 1/2
   std::array<Number, 2> free_bound_{};    ///< of |x^(6)| and |x^(7)| over the energy norm
   std::array<Number, 2> forced_bound_{};  ///< secular: of what the force adds to them
 };
@@ -92,6 +94,8 @@ template <class Number, Effects E>
 Flow<Number, E>::Flow(const Oscillator& o) : h(o.damping), f(o.forcing), nu(o.frequency), load(o.load) {
   using std::abs, std::max, std::sqrt;
   root = sqrt(abs((1 - h) * (1 + h)));
+  coarse_root_ = select<Number>(h < Number(0.5), Number(1), root);
+  spare_root_ = select<Number>(h < Number(0.5), Number(h * h / (1 + root)), Number(0));
   fast = h + root;
   slow = 1 / fast;
   const Number stiffness = (1 - nu) * (1 + nu), friction = 2 * h * nu;
@@ -129,19 +133,39 @@ template <class Number, Effects E>
 Propagator<Number> Flow<Number, E>::propagator(const Number& s) const {
   using std::cos, std::exp, std::expm1, std::sin;
   if constexpr (E.damping == Damping::none) {
-    const Number c = cos(s), b = sin(s), half = sin(s / 2);
-    return {c, b, c, b, -2 * half * half};
+    const Number half = sin(s / 2), b = 2 * half * cos(s / 2), a_rise = -2 * half * half;
+    return {1 + a_rise, b, 1 + a_rise, b, a_rise};
   } else if constexpr (E.damping == Damping::light) {
-    const Number decay = exp(-h * s), turn = cos(root * s), half = sin(root * s / 2);
-    const Number c = decay * turn, b = decay * sin(root * s) / root, v = c - h * b;
-    return {c + h * b, b, v, 2 * h * v + b, expm1(-h * s) * turn - 2 * half * half + h * b};
+    // what the difference of the two products loses is given back: a long arc turns by more than one angle can hold
+    const Number coarse = coarse_root_ * s, spare = spare_root_ * s;
+    const Number angle = coarse - spare, lost = (coarse - angle) - spare;
+    const Number sine = sin(angle / 2), cosine = cos(angle / 2);
+    const Number half = sine + lost / 2 * cosine, other = cosine - lost / 2 * sine;
+    const Number decay = exp(-h * s), turn_rise = -2 * half * half;
+    const Number c = decay * (1 + turn_rise), b = decay * (2 * half * other) / root, v = c - h * b;
+    const Number a_rise = s <= Number(0.25) ? short_rise(s) : expm1(-h * s) * (1 + turn_rise) + turn_rise + h * b;
+    return {c + h * b, b, v, 2 * h * v + b, a_rise};
   } else {
     const Number slow_decay = exp(-slow * s), fast_decay = exp(-fast * s), spread = 2 * root * s;
     const Number b =
         slow_decay * select<Number>(spread > 0, -expm1(-spread) / (2 * root), s);  // root = 0: critical damping
     const Number d = 2 * h * fast_decay - slow * slow * b;                         // 2 h slow - 1 = slow^2
-    return {slow_decay + slow * b, b, fast_decay - slow * b, d, expm1(-slow * s) + slow * b};
+    const Number a_rise = 8 * h * s <= 1 ? short_rise(s) : Number(expm1(-slow * s) + slow * b);
+    return {slow_decay + slow * b, b, fast_decay - slow * b, d, a_rise};
   }
+}
+
+/// A(s) - 1 of a time that is short for the oscillator, though not for a fast force, by Taylor's series: the closed
+/// form is a difference of terms 1/s times larger.
+template <class Number, Effects E>
+Number Flow<Number, E>::short_rise(const Number& s) const {
+  constexpr int terms = std::numeric_limits<Number>::digits <= 64 ? 13 : 36;  // (1/4)^n / n! below rounding
+  Number before = 0, last = -s * s / 2, sum = last;                           // of s^k A^(k)(0) / k!
+  for (int k = 3; k < terms; ++k) {
+    const Number next = -(s * s * before + 2 * h * s * (k - 1) * last) / (k * (k - 1));
+    sum += next, before = last, last = next;
+  }
+  return sum;
 }
 
 template <class Number, Effects E>

@@ -69,29 +69,44 @@ template <class Number, Effects E>
   return turns < 0 ? Number(turns + 1) : turns;
 }
 
-/// What is left of an infinite sequence of impacts: the time to its end, where it may be summed.
+/// An infinite sequence of impacts that a rebound begins: its duration, summed, and how far the sum may be off.
+template <class Number>
+struct ChatterSum {
+  Number time, bound;
+};
+
+/// Sums the flights of a chatter whose pressing acceleration is a > 0 at the rebound (Budd & Dux 1994; Nordmark &
+/// Piiroinen 2009, carried one order further).
 ///
-/// A rebound at speed w under the pressing acceleration a, with da/dt = j, flies for s = 2 q - (4/3) (h + j/a) q^2 +
-/// O(q^3), q = w/a, and returns with w [1 - (2/3) (2 h - j/a) q + O(q^2)]. The sum of all flights satisfies S(w, a) = s
-/// + S(R w', a + j s), which gives S = A q + B q^2 + O(q^3) with A = 2/(1 - R) and B below (Budd & Dux 1994; Nordmark &
-/// Piiroinen 2009). S may be summed when the terms left out, of relative size (S times the rates of the motion)^2,
-/// change it by less than rounding does.
+/// A rebound at speed w flies for s = 2 q - (4/3) (h + j/a) q^2 + O(q^3), q = w/a, j = da/dt, and returns with
+/// w [1 - (2/3) (2 h - j/a) q + O(q^2)]. The sum satisfies S(w, a) = s + S(R w', a + j s), so with T = 2 q/(1 - R)
+///   S = T - (h + j/a) T^2/3 + (8 (1 + R^2) h^2 + (10 + 12 R + 10 R^2) h j/a + (8 + 12 R + 8 R^2) (j/a)^2
+///       - 3 (1 + R)^2 a''/a - 3 (1 - R)^2) T^3/(36 (1 + R + R^2)) + ...
+/// For every R the third term is below 0.27 (r^2 + c) T^3, r = 1 + 2 h + |j/a|, c = max |a''|/a. The bound takes
+/// (r^2 + c) T^3: what that leaves over holds all later terms, each smaller by a factor of order r T, while r T is
+/// small.
+template <class Number, Effects E>
+[[nodiscard]] ChatterSum<Number> chatter_sum(const Flow<Number, E>& flow, const Stop<Number>& stop,
+                                             const Pressing<Number>& press, const Number& rebound) {
+  using std::abs;
+  const Number &a = press.force, &h = flow.h;
+  const Number slope = press.rate / a, bend = abs(flow.f) / a * flow.nu * flow.nu;
+  const Number time = 2 * (rebound / a) / (1 - stop.restitution), rates = 1 + 2 * h + abs(slope);
+  return {time - (h + slope) * time * time / 3, (rates * rates + bend) * time * time * time};
+}
+
+/// What is left of an infinite sequence of impacts: the time to its end, once the bound of what its sum leaves out is
+/// below the rounding of the sum, or of a time on the scale of the fastest motion.
 template <class Number, Effects E>
 [[nodiscard]] std::optional<Number> chatter_time(const Flow<Number, E>& flow, const Stop<Number>& stop,
                                                  const Pressing<Number>& press, const Number& rebound) {
-  using std::abs, std::max;
-  const Number &R = stop.restitution, &a = press.force, &h = flow.h;
-  const Number loss = 1 - R;
-  if (!(a > 0)) return std::nullopt;
-  if (2 * rebound <= a * epsilon<Number>() * flow.period) return Number(0);  // a flight too short to move time on
-  if (!(loss > 0)) return std::nullopt;
-  const Number slope = press.rate / a, curvature = abs(flow.f) / a * flow.nu * flow.nu, q = rebound / a,
-               leading = 2 * q / loss;
-  const Number next =
-      -(4 * (h + slope) + 4 * R / loss * (2 * h - slope) + 12 * R / loss * slope) / (3 * loss * (1 + R));
-  const Number rates = 1 + 2 * h + abs(slope), left_out = leading * leading * (rates * rates + curvature);
-  if (!(left_out <= max(epsilon<Number>(), Number(epsilon<Number>() / (leading * flow.rate))))) return std::nullopt;
-  return leading + next * q * q;
+  using std::max;
+  if (!(press.force > 0)) return std::nullopt;
+  if (2 * rebound <= press.force * epsilon<Number>() * flow.period) return Number(0);  // too short to move time on
+  if (!(stop.restitution < 1)) return std::nullopt;
+  const ChatterSum<Number> sum = chatter_sum(flow, stop, press, rebound);
+  const Number rounding = epsilon<Number>() * max(sum.time, Number(1 / flow.rate));
+  return sum.bound <= rounding ? std::optional<Number>(sum.time) : std::nullopt;
 }
 
 }  // namespace clatter

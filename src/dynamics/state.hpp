@@ -21,12 +21,14 @@ struct State {
   Number turns{};            ///< forcing periods since the last section, 0 ... 1
   std::int64_t periods = 0;  ///< sections passed
   bool released = false;     ///< a stop lets the mass go at this instant: v = 0 and the acceleration is exactly 0
+  Side left = Side::none;    ///< the stop on which the present flight began
+  Number rise{};             ///< x minus the place of that stop: keeps the digits of a flight that a section cuts
 };
 
 /// Motion at one instant of an arc.
 template <class Number>
 struct Motion {
-  Number rise;          ///< displacement since the arc began: keeps its relative accuracy on the shortest flights
+  Number rise;          ///< x minus the arc's anchor: keeps its relative accuracy on the shortest flights
   Number x;             ///< displacement
   Number v;             ///< velocity
   Number a;             ///< acceleration

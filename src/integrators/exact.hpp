@@ -47,7 +47,7 @@ class Exact {
         rest(state, *stop, end, origin, observer);
         continue;
       }
-      const Arc<Number, E> arc{flow_, motion(state)};
+      const Arc<Number, E> arc{flow_, motion(state), anchor(state)};
       const Contact<Number> contact = next_contact(arc, stops_, Number((end - state.turns) * flow_.period));
       evaluations_ += contact.evaluations;
       if (!contact.resolved)
@@ -58,7 +58,7 @@ class Exact {
       }
       observer.arc(arc, time(state, origin), static_cast<double>(contact.elapsed));
       pass(state, contact.elapsed);
-      state.x = contact.motion.x, state.v = contact.motion.v, state.released = false;
+      state.x = contact.motion.x, state.v = contact.motion.v, state.rise = contact.motion.rise, state.released = false;
       if (contact.side == Side::none) break;
       rebound(state, stop_at<Number>(stops_, contact.side), end, origin, observer);
       if (++impacts_ > budget_) return Outcome::event_budget;
@@ -95,8 +95,16 @@ class Exact {
   }
   [[nodiscard]] Motion<Number> motion(const State<Number>& state) const {
     const auto [sine, cosine] = phase(state);
-    return {Number(0), state.x, state.v, state.released ? Number(0) : flow_.acceleration(state.x, state.v, sine),
-            sine,      cosine};
+    return {state.left == Side::none ? Number(0) : state.rise,
+            state.x,
+            state.v,
+            state.released ? Number(0) : flow_.acceleration(state.x, state.v, sine),
+            sine,
+            cosine};
+  }
+  /// The place that the rise of the present flight counts from.
+  [[nodiscard]] Number anchor(const State<Number>& state) const {
+    return state.left == Side::none ? state.x : stop_at<Number>(stops_, state.left).place;
   }
   void pass(State<Number>& state, const Number& elapsed) const { state.turns += elapsed / flow_.period; }
 
@@ -106,6 +114,7 @@ class Exact {
                Observer& observer) {
     using std::min;
     const Number before = state.v;
+    state.left = stop.side, state.rise = 0;
     if (stop.into(before) > 0) state.v = -stop.restitution * before;
     if (state.v == 0) state.v = 0;  // no negative zero
     observer.impact(Impact{time(state, origin), stop.side, static_cast<double>(before), static_cast<double>(state.v),
@@ -124,6 +133,7 @@ class Exact {
             Observer& observer) {
     using std::floor;
     Number until = end;
+    state.left = stop.side, state.rise = 0;
     if (const auto phase_of_release = release_phase(flow_, stop)) {
       Number ahead = *phase_of_release - (start_turns_ + state.turns);
       ahead -= floor(ahead);

@@ -6,40 +6,10 @@
 #include <vector>
 
 #include "numbers/fifty_digits.hpp"
+#include "support/motion.hpp"
 
 namespace clatter {
 namespace {
-
-struct Start {
-  double x, v, turns;
-};
-
-/// Motion a time s after a start, in one number type.
-template <class Number>
-Motion<Number> motion_after(const Oscillator& oscillator, const Start& start, double s) {
-  return with_effects(required_effects(oscillator), [&]<Effects effects>() {
-    const Flow<Number, effects> flow(oscillator);
-    const auto [sine, cosine] = sine_cosine_of_turns(Number(start.turns));
-    const Number x(start.x), v(start.v);
-    return Arc<Number, effects>(flow, {Number(0), x, v, flow.acceleration(x, v, sine), sine, cosine}).at(Number(s));
-  });
-}
-
-/// The same by Taylor steps of the equation of motion alone, 50 digits: shares no formula with the closed form.
-Motion<FiftyDigits> motion_by_taylor(const Oscillator& o, const Start& start, double s) {
-  const Effects all{o.damping == 0 ? Damping::none : o.damping < 1 ? Damping::light : Damping::heavy, Forcing::regular};
-  return with_effects(all, [&]<Effects effects>() {
-    const Flow<FiftyDigits, effects> flow(o);
-    const auto [sine, cosine] = sine_cosine_of_turns(FiftyDigits(start.turns));
-    const FiftyDigits x(start.x), v(start.v);
-    const Motion<FiftyDigits> first{0, x, v, flow.acceleration(x, v, sine), sine, cosine};
-    const Arc<FiftyDigits, effects> arc(flow, first);
-    const auto steps = static_cast<int>(std::ceil(s * static_cast<double>(flow.rate) * 5));
-    Motion<FiftyDigits> m = first;
-    for (int i = 0; i < steps; ++i) m = arc.near(m, FiftyDigits(s) / steps);
-    return m;
-  });
-}
 
 std::vector<Oscillator> oscillators() {
   std::vector<Oscillator> all;
@@ -50,8 +20,9 @@ std::vector<Oscillator> oscillators() {
 
 TEST(Arc, closed_form_is_the_solution_of_the_equation_of_motion) {
   for (const Oscillator& o : oscillators()) {
-    const Start start{0.37, -1.1, 0.137};
-    const auto closed = motion_after<FiftyDigits>(o, start, 4.3), stepped = motion_by_taylor(o, start, 4.3);
+    const ArcStart start{0.37, -1.1, 0.137};
+    const auto closed = motion_after<FiftyDigits>(o, start, 4.3),
+               stepped = motion_by_taylor<FiftyDigits>(o, start, 4.3);
     EXPECT_LT(abs(closed.x - stepped.x), 1e-40) << "h = " << o.damping << ", nu = " << o.frequency;
     EXPECT_LT(abs(closed.v - stepped.v), 1e-40) << "h = " << o.damping << ", nu = " << o.frequency;
   }
@@ -60,7 +31,7 @@ TEST(Arc, closed_form_is_the_solution_of_the_equation_of_motion) {
 TEST(Arc, double_agrees_with_fifty_digits_for_every_damping_and_frequency) {
   for (const Oscillator& o : oscillators())
     for (double s : {1e-6, 0.2, 1.0, 6.0, 40.0}) {
-      const Start start{0.37, -1.1, 0.137};
+      const ArcStart start{0.37, -1.1, 0.137};
       const auto rounded = motion_after<double>(o, start, s);
       const auto exact = motion_after<FiftyDigits>(o, start, s);
       // natural scale: the start and the response, which resonance lets grow to f s/2; the argument of a sine rounds to

@@ -4,6 +4,7 @@
 
 #include "dynamics/contact.hpp"
 #include "numbers/fifty_digits.hpp"
+#include "support/random.hpp"
 
 namespace clatter {
 namespace {
@@ -37,7 +38,7 @@ template <Effects E>
 FiftyDigits time_of_all_flights(const Flow<FiftyDigits, E>& flow, const Stops& stops, double turns, double w) {
   const auto stop = stop_at<FiftyDigits>(stops, Side::upper);
   FiftyDigits phase = turns, speed = w, total = 0;
-  while (speed > 1e-40) {
+  while (speed > 1e-20 * w) {  // what follows takes 1e-20 of the time
     const auto [sine, cosine] = sine_cosine_of_turns(phase);
     const FiftyDigits x = stop.place, v = -speed;
     const Arc<FiftyDigits, E> arc(flow, {0, x, v, flow.acceleration(x, v, sine), sine, cosine});
@@ -70,21 +71,51 @@ TEST(Impact, chatter_ends_when_flight_by_flight_it_does) {
       }
 }
 
-TEST(Impact, next_order_term_of_the_chatter_series_is_right) {
-  // summed in 50 digits, what is left out is of third order in w: a tenth of w leaves a thousandth of the error
+TEST(Impact, chatter_sum_is_of_third_order_with_the_coefficient_it_states) {
+  // a tenth of w leaves a thousandth of the error
   constexpr Effects effects{Damping::light, Forcing::regular};
-  const Oscillator o{0.3, 1.0, 0.8, 0.0};
+  const double h = 0.3, nu = 0.8;
+  const Oscillator o{h, 1.0, nu, 0.0};
   const Stops stops{-0.3, 0.3, 0.6, 0.6};
   const Flow<FiftyDigits, effects> flow(o);
   const auto stop = stop_at<FiftyDigits>(stops, Side::upper);
   const auto press = pressing(flow, stop, sine_cosine_of_turns(FiftyDigits(0.15)));
-  const auto error = [&](double w) {
-    const FiftyDigits first = 2 / (press.force * (1 - stop.restitution)), tiny = 1e-30;
-    // the coefficient of w^2, read off chatter_time itself where it may be summed
-    const FiftyDigits second = (*chatter_time(flow, stop, press, tiny) / tiny - first) / tiny;
-    return static_cast<double>(abs(time_of_all_flights(flow, stops, 0.15, w) - FiftyDigits(w) * (first + second * w)));
-  };
-  EXPECT_NEAR(error(1e-4) / error(1e-5), 1000.0, 30.0);
+  const double R = 0.6, a = static_cast<double>(press.force), j = static_cast<double>(press.rate) / a,
+               bend = -nu * nu * (a + 0.3) / a;
+  const double third = (8 * (1 + R * R) * h * h + (10 + 12 * R + 10 * R * R) * h * j +
+                        (8 + 12 * R + 8 * R * R) * j * j - 3 * (1 + R) * (1 + R) * bend - 3 * (1 - R) * (1 - R)) /
+                       (36 * (1 + R + R * R));
+  for (double w : {1e-4, 1e-5}) {
+    const FiftyDigits error = time_of_all_flights(flow, stops, 0.15, w) - chatter_sum(flow, stop, press, {w}).time;
+    EXPECT_NEAR(static_cast<double>(error) / std::pow(2 * w / a / (1 - R), 3), third, 20 * w);
+  }
+}
+
+TEST(Impact, chatter_sum_is_off_by_less_than_its_bound_and_the_bound_is_not_slack) {
+  Random random(20232, 0);
+  double closest = 0;
+  for (int i = 0; i < 60; ++i) {
+    const double R = random.happens(0.2) ? 1 - random.logarithmic(0.05, 0.1) : random.uniform(0, 0.9);
+    const Oscillator o{random.logarithmic(1e-3, 0.99), random.sign(), random.logarithmic(1.1, 30),
+                       random.uniform(0, 2)};
+    const Stops stops{-2, 0.1, R, R};
+    const double turns = random.uniform(0, 1);
+    with_effects(required_effects(o), [&]<Effects effects>() {
+      const Flow<FiftyDigits, effects> flow(o);
+      const auto stop = stop_at<FiftyDigits>(stops, Side::upper);
+      const auto press = pressing(flow, stop, sine_cosine_of_turns(FiftyDigits(turns)));
+      if (!(press.force > 0)) return;
+      const double rates = 1 + 2 * o.damping + static_cast<double>(abs(press.rate) / press.force),
+                   bend = static_cast<double>(abs(flow.f) / press.force) * o.frequency * o.frequency;
+      const double duration = 0.02 / std::max(rates, std::sqrt(bend));  // thousands of times longer than is ever summed
+      const double w = duration * (1 - R) / 2 * static_cast<double>(press.force);
+      const auto sum = chatter_sum(flow, stop, press, {w});
+      const FiftyDigits off = abs(time_of_all_flights(flow, stops, turns, w) - sum.time);
+      EXPECT_LE(off, sum.bound) << "R = " << R << ", h = " << o.damping << ", nu = " << o.frequency;
+      closest = std::max(closest, static_cast<double>(off / sum.bound));
+    });
+  }
+  EXPECT_GT(closest, 0.1);
 }
 
 TEST(Impact, elastic_stops_and_pulled_masses_have_no_chatter) {

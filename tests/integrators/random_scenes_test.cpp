@@ -6,7 +6,7 @@
 #include <numbers>
 #include <random>
 
-#include "integrators/course.hpp"
+#include "support/course.hpp"
 
 namespace clatter {
 namespace {
