@@ -112,7 +112,6 @@ class Exact {
   template <class Observer>
   void rebound(State<Number>& state, const Stop<Number>& stop, const Number& end, std::int64_t origin,
                Observer& observer) {
-    using std::min;
     const Number before = state.v;
     state.left = stop.side, state.rise = 0;
     if (stop.into(before) > 0) state.v = -stop.restitution * before;
@@ -121,9 +120,9 @@ class Exact {
                            static_cast<double>(stop.place)});
     if (state.v == 0) return;
     const auto left = chatter_time(flow_, stop, pressing(flow_, stop, phase(state)), Number(-stop.into(state.v)));
-    if (!left) return;
-    show_rest(state, stop, min(Number(end - state.turns), Number(*left / flow_.period)), false, origin, observer);
-    pass(state, *left);  // beyond `end` too: the mass stays pressed until then, so the cut changes nothing
+    if (!left || state.turns + *left / flow_.period > end) return;  // a run that ends in a chatter ends in a flight
+    show_rest(state, stop, Number(*left / flow_.period), false, origin, observer);
+    pass(state, *left);
     state.v = 0;
   }
 

@@ -95,7 +95,11 @@ std::vector<Case> all_cases() {
       8 * pi_);
 
   add("second_contact", "back on its stop", symmetric({0.1, 1.0, 5.0, 0.9}, 0.1, 0.5), 4 * pi_);
-  add("second_contact", "back within 1e-2", starting(symmetric({0.1, 1.0, 5.0, 1.1 - 1e-5}, 0.1, 0.5), {0.1, 0.0, 0.0}),
+  add("second_contact", "let go for 2e-3", starting(symmetric({0.1, 1.0, 5.0, 1.1 - 1e-5}, 0.1, 0.5), {0.1, 0.0, 0.0}),
+      4 * pi_);
+  add("second_contact", "let go for 1e-6", starting(symmetric({0.1, 1.0, 5.0, 1.1 - 1e-13}, 0.1, 0.5), {0.1, 0.0, 0.0}),
+      4 * pi_);
+  add("second_contact", "let go for 1e-8", starting(symmetric({0.1, 1.0, 5.0, 1.1 - 2e-16}, 0.1, 0.5), {0.1, 0.0, 0.0}),
       4 * pi_);
   add("second_contact", "on the other stop", symmetric({0.1, 1.0, 1.0, 0.0}, 1e-6, 0.5), 4 * pi_);
 
@@ -122,7 +126,7 @@ std::vector<Case> all_cases() {
   add("scales", "xs = 1e9, f = 2e9", symmetric({0.1, 2e9, 0.5, 0.0}, 1e9, 0.5), 16 * pi_);
   add("scales", "xs = 1e9, f = 1", symmetric({0.1, 1.0, 0.5, 0.0}, 1e9, 0.5), 16 * pi_);
   add("scales", "nu = 1e-3", symmetric({0.1, 1.0, 1e-3, 0.0}, 0.5, 0.5), 2e3 * pi_ * 2);
-  add("scales", "nu = 1e3", symmetric({0.1, 1.0, 1e3, 0.2}, 1e-3, 0.5), 0.2 * pi_);
+  add("scales", "nu = 1e3", symmetric({0.1, 1.0, 1e3, 0.2}, 1e-3, 0.5), 0.08 * pi_);
   add("scales", "f = 0", starting(symmetric({0.1, 0.0, 1.0, 0.0}, 0.5, 0.5), {0.0, 3.0, 0.0}), 100.0);
   add("scales", "f = 1e-300", starting(symmetric({0.1, 1e-300, 1.0, 0.0}, 0.5, 0.5), {0.0, 3.0, 0.0}), 100.0);
 
@@ -136,8 +140,8 @@ std::vector<Case> all_cases() {
   add("last_instant", "end 1e-12 sooner", free_vibration(), 3 * std::asin(0.5) * (1 - 1e-12));
   add("last_instant", "forced, at the end", symmetric(slow_force, 0.5, 0.5), 2.0515931595927638);
 
-  add("long", "conservative, 1e6 impacts", free_vibration(), 1e6 * 2 * std::asin(0.5));
-  add("long", "1e5 forcing periods", grazing(-1), 1e5 * graze_period);
+  add("long", "conservative impacts", free_vibration(), 1e6 * 2 * std::asin(0.5));
+  add("long", "1e7 forcing periods", grazing(-1), 1e7 * graze_period);
 
   add("chaos", "xs = 3", symmetric({0.1, -1.0, 0.845, 0.0}, 3.0, 0.7), 300 * 2 * pi_ / 0.845);
   return all;

@@ -4,7 +4,7 @@
 
 #include <numbers>
 
-#include "integrators/runs.hpp"
+#include "support/runs.hpp"
 
 namespace clatter {
 namespace {

@@ -5,7 +5,7 @@
 #include <fstream>
 #include <sstream>
 
-#include "integrators/runs.hpp"
+#include "support/runs.hpp"
 #include "numbers/fifty_digits.hpp"
 
 namespace clatter {

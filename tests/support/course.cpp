@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iomanip>
+#include <limits>
 #include <sstream>
 
 #include "integrators/settle.hpp"
@@ -28,6 +29,7 @@ template <class Number>
 Course run_in(const Scene& scene, double duration) {
   return with_effects(required_effects(scene.oscillator), [&]<Effects effects>() {
     Course course;
+    course.duration = duration;
     Exact<Number, effects> integrator(scene);
     State<Number> state;
     state.x = scene.start.displacement, state.v = scene.start.velocity;
@@ -51,6 +53,14 @@ std::vector<Event> with_rests_joined(const std::vector<Event>& events) {
   return joined;
 }
 
+/// What happens within rounding of the end of a run may fall on either side of it: this part of its length.
+constexpr double at_the_end = 1e-14;
+
+std::size_t& count_of(Event::Kind kind, Deviation& deviation) {
+  if (kind == Event::Kind::impact) return deviation.impacts;
+  return kind == Event::Kind::chatter ? deviation.chatters : deviation.rests;
+}
+
 std::string text(const Event& event) {
   static const char* const names[] = {"impact", "chatter", "rest"};
   std::ostringstream out;
@@ -64,35 +74,63 @@ std::string text(const Event& event) {
 Course course_of(const Scene& scene, double duration) { return run_in<double>(scene, duration); }
 Course reference_of(const Scene& scene, double duration) { return run_in<FiftyDigits>(scene, duration); }
 
+double Deviation::largest() const { return std::max({time, speed, end}); }
+
 Deviation deviation(const Course& course, const Course& reference) {
   const auto events = with_rests_joined(course.events), expected = with_rests_joined(reference.events);
   Deviation result;
+  double size_x = std::abs(reference.x), size_v = std::abs(reference.v);
   std::size_t j = 0;
   for (const Event& event : events) {
     if (event.kind == Event::Kind::chatter)  // the reference goes on for a while
       while (j < expected.size() && expected[j].kind == Event::Kind::impact) ++j;
-    if (event.kind == Event::Kind::chatter && j == expected.size() && &event == &events.back()) {
-      ++result.chatters;  // the run ends before the reference has completed it
-      continue;
-    }
+    if (j == expected.size() && event.time >= (1 - at_the_end) * reference.duration) continue;
     if (j == expected.size() || expected[j].kind != event.kind || expected[j].side != event.side) {
       result.difference = text(event) + " against " + (j == expected.size() ? "nothing" : text(expected[j]));
       return result;
     }
     const Event& other = expected[j++];
-    if (event.kind == Event::Kind::chatter) {
-      ++result.chatters;
-      result.time = std::max(result.time, std::abs(event.time + event.length - other.time - other.length));
-      continue;
-    }
-    result.time = std::max({result.time, std::abs(event.time - other.time),
-                            std::abs(event.time + event.length - other.time - other.length)});
+    const double off = std::abs(event.time - other.time),
+                 end_off = std::abs(event.time + event.length - other.time - other.length);
+    result.time = std::max({result.time, event.kind == Event::Kind::chatter ? 0.0 : off, end_off});
     result.speed = std::max(result.speed, std::abs(event.speed - other.speed));
-    ++(event.kind == Event::Kind::rest ? result.rests : result.impacts);
+    size_v = std::max(size_v, other.speed);
+    ++count_of(event.kind, result);
   }
+  while (j < expected.size() && expected[j].time >= (1 - at_the_end) * reference.duration) ++j;
   result.same_events = j == expected.size();
   if (!result.same_events) result.difference = "nothing against " + text(expected[j]);
+  size_v = std::max(size_v, size_x);  // the natural frequency is 1
+  result.time /= reference.duration;
+  if (size_v > 0) result.speed /= size_v;
+  if (size_x > 0)
+    result.end = std::max(std::abs(course.x - reference.x) / size_x, std::abs(course.v - reference.v) / size_v);
   return result;
+}
+
+double conditioning(const Scene& scene, const Course& reference) {
+  double worst = 0;
+  for (const unsigned signs : {0b010110101u, 0b100111000u}) {
+    Scene moved = scene;
+    Oscillator& o = moved.oscillator;
+    Stops& stops = moved.stops;
+    Start& start = moved.start;
+    unsigned i = 0;
+    start.phase += epsilon<double>();  // the force knows its phase to an ulp of a turn
+    for (double* value : {&o.damping, &o.forcing, &o.frequency, &o.load, &stops.restitution_lower,
+                          &stops.restitution_upper, &start.velocity, &start.phase, &start.displacement})
+      if (*value != 0.0) *value *= 1 + (signs >> i++ & 1 ? 1 : -1) * epsilon<double>();
+    for (double* value : {&stops.lower, &stops.upper}) {
+      const bool on_it = scene.start.displacement == *value;
+      *value *= 1 + epsilon<double>();
+      if (on_it) start.displacement = *value;
+    }
+    for (double* R : {&stops.restitution_lower, &stops.restitution_upper}) *R = std::min(*R, 1.0);
+    start.displacement = std::clamp(start.displacement, stops.lower, stops.upper);
+    const Deviation d = deviation(reference_of(moved, reference.duration), reference);
+    worst = std::max(worst, d.same_events ? d.largest() : std::numeric_limits<double>::infinity());
+  }
+  return worst;
 }
 
 std::string configuration_of(const Scene& s, double duration) {

@@ -1,0 +1,45 @@
+#!/usr/bin/env bash
+# The longer forms of tests that draw random scenes or run for long; --help says more.
+set -euo pipefail
+
+usage() {
+  cat <<END
+usage: scripts/long_checks.sh NAME [COUNT]
+
+Runs the long form of a test in tests/hard, on all cores; build first (scripts/test.sh). NAME is one of
+  random       COUNT scenes with chatter and rest against 50 digits            (default 10000; about 0.1 s each)
+  arcs         COUNT arcs of every scale against 50 digits                     (default 10000000; about 0.1 ms each)
+  properties   what must hold for COUNT scenes that nobody chose               (default 1000000; about 4 ms each)
+  drift        the speed of contact over COUNT conservative impacts            (default 100000000; about 1 us each)
+END
+}
+
+filter="" count=""
+case "${1-}" in
+  random) filter='*RandomScenes*' count=10000 ;;
+  arcs) filter='Arcs.agree*' count=10000000 ;;
+  properties) filter='Properties.*' count=1000000 ;;
+  drift) filter='Long.conservative*' count=100000000 ;;
+  -h | --help) usage; exit 0 ;;
+  *) echo "long_checks.sh: unknown name '${1-}'; try --help" >&2; exit 2 ;;
+esac
+count=${2-$count}
+[[ $count =~ ^[1-9][0-9]*$ ]] || { echo "long_checks.sh: COUNT is a whole number above 0, not '$count'" >&2; exit 2; }
+
+program=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)/build/release/tests/hard_tests
+[[ -x $program ]] || { echo "long_checks.sh: $program is missing; scripts/test.sh builds it" >&2; exit 2; }
+
+if [[ $1 == drift ]]; then
+  CLATTER_IMPACTS=$count exec "$program" --gtest_filter="$filter"
+fi
+
+parts=$(nproc) failed=0 processes=()
+((parts <= count)) || parts=1
+for ((part = 0; part < parts; ++part)); do
+  CLATTER_SCENES=$((count * part / parts)):$((count * (part + 1) / parts)) "$program" --gtest_filter="$filter" &
+  processes+=($!)
+done
+for process in "${processes[@]}"; do
+  wait "$process" || failed=1
+done
+exit $failed

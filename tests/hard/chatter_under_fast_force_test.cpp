@@ -1,0 +1,21 @@
+// A chatter slower than the force: what presses the mass turns round during it, and no series may sum it.
+
+#include <gtest/gtest.h>
+
+#include "hard/measure.hpp"
+
+namespace clatter::hard {
+namespace {
+
+TEST(ChatterUnderFastForce, agrees_with_fifty_digits) { expect_agreement("chatter_under_fast_force"); }
+
+TEST(ChatterUnderFastForce, is_not_completed_while_the_force_turns_round) {
+  for (const Case& one : cases_of("chatter_under_fast_force")) {
+    const Course course = course_of(one.scene, one.duration);
+    EXPECT_GE(course.events.size(), 2u) << one.what;
+    for (const Event& event : course.events) EXPECT_EQ(event.kind, Event::Kind::impact) << one.what;
+  }
+}
+
+}  // namespace
+}  // namespace clatter::hard

@@ -1,0 +1,72 @@
+// What adds up over long runs: the speed of conservative impacts, and the phase of the force.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <iostream>
+
+#include "hard/measure.hpp"
+#include "integrators/settle.hpp"
+
+namespace clatter::hard {
+namespace {
+
+/// Keeps the extremes of the speed of contact and the time of the last one.
+struct Drift {
+  double slowest = INFINITY, fastest = 0.0, last = 0.0, count = 0.0;
+
+  template <class A>
+  void arc(const A&, double, double) {}
+  void rest(const Rest&) {}
+  void impact(const Impact& impact) {
+    slowest = std::min(slowest, std::abs(impact.before)), fastest = std::max(fastest, std::abs(impact.before));
+    last = impact.time, ++count;
+  }
+};
+
+/// A million impacts, or as many as the environment variable CLATTER_IMPACTS says.
+double impacts_to_take() {
+  const char* const text = std::getenv("CLATTER_IMPACTS");
+  return text == nullptr ? 1e6 : std::stod(text);
+}
+
+TEST(Long, conservative_impacts_neither_gain_nor_lose_speed) {
+  Case one = case_of("long", "conservative impacts");
+  const double count = impacts_to_take(), between = 2 * std::asin(0.5);
+  one.scene.time.max_impacts = 2 * count;
+  Exact<double, Effects{}> integrator(one.scene);
+  State<double> state{0.0, one.scene.start.velocity};
+  Drift drift;
+  ASSERT_EQ(run_for(integrator, state, count * between / integrator.period(), drift), Outcome::completed);
+  EXPECT_EQ(drift.count, count);
+  const double speed = std::sqrt(1.5 * 1.5 - 0.75 * 0.75), off = std::max(drift.fastest - speed, speed - drift.slowest);
+  std::cout << count << " impacts, speed off by " << off / speed << ", last time by "
+            << drift.last / ((count - 0.5) * between) - 1 << '\n';
+  EXPECT_LE(off / speed, 1e-10 * count / 1e8);  // a rounding an impact, were they all of one sign
+  EXPECT_NEAR(drift.last / ((count - 0.5) * between), 1.0, 1e-10 * count / 1e8);
+  Measured m;
+  m.course.outcome = Outcome::completed, m.course.impacts = drift.count,
+  m.course.evaluations = integrator.evaluations();
+  m.error = off / speed;
+  report(one, m);
+}
+
+TEST(Long, ten_million_forcing_periods_keep_the_phase) {
+  // on the linear steady state the mass is at every section where it was at the first; a phase off by 1e-15 would show
+  const Case& one = case_of("long", "1e7 forcing periods");
+  Exact<double, Effects{Damping::light, Forcing::regular}> integrator(one.scene);
+  State<double> state{one.scene.start.displacement, one.scene.start.velocity};
+  NoObserver nobody;
+  ASSERT_EQ(run_for(integrator, state, 1e7, nobody), Outcome::completed);
+  EXPECT_EQ(state.periods, 10'000'000);
+  EXPECT_EQ(state.turns, 0.0);
+  Measured m;
+  m.course.outcome = Outcome::completed, m.course.evaluations = integrator.evaluations();
+  m.error = std::max(std::abs(state.x - one.scene.start.displacement), std::abs(state.v - one.scene.start.velocity));
+  EXPECT_LE(m.error, 1e-15);
+  report(one, m);
+}
+
+}  // namespace
+}  // namespace clatter::hard

@@ -1,0 +1,50 @@
+#include "hard/measure.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <fstream>
+#include <stdexcept>
+#include <string>
+
+namespace clatter::hard {
+namespace {
+
+const char* name_of(Outcome outcome) {
+  static const char* const names[] = {"completed", "event_budget", "not_finite", "unresolved"};
+  return names[static_cast<int>(outcome)];
+}
+
+}  // namespace
+
+void report(const Case& one, const Measured& m) {
+  const char* const name = std::getenv("CLATTER_HARD_CASES");
+  if (name == nullptr) return;
+  std::ofstream file(name, std::ios::app);
+  file << "{\"row\": \"" << one.row << "\", \"what\": \"" << one.what << "\", \"outcome\": \""
+       << name_of(m.course.outcome) << "\", \"impacts\": " << m.course.impacts << ", \"rests\": " << m.rests
+       << ", \"evaluations\": " << m.course.evaluations << ", \"error\": " << m.error << ", \"one_ulp\": " << m.one_ulp
+       << "}\n";
+  if (!file.flush()) throw std::runtime_error(std::string("cannot write ") + name);
+}
+
+Measured expect_agreement(const Case& one, double rounding) {
+  Measured m;
+  m.course = course_of(one.scene, one.duration);
+  const Course reference = reference_of(one.scene, one.duration);
+  const Deviation d = deviation(m.course, reference);
+  m.error = d.largest(), m.one_ulp = conditioning(one.scene, reference);
+  m.impacts = d.impacts, m.chatters = d.chatters, m.rests = d.rests;
+  EXPECT_EQ(m.course.outcome, Outcome::completed) << one.row << ", " << one.what;
+  EXPECT_TRUE(d.same_events) << one.row << ", " << one.what << ": " << d.difference;
+  EXPECT_LE(m.error, 64 * std::max(m.one_ulp, rounding)) << one.row << ", " << one.what;
+  report(one, m);
+  return m;
+}
+
+void expect_agreement(const std::string& row) {
+  for (const Case& one : cases_of(row)) expect_agreement(one);
+}
+
+}  // namespace clatter::hard

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <string>
+
+#include "hard/cases.hpp"
+#include "support/course.hpp"
+
+namespace clatter::hard {
+
+/// What a hard case gave: the figures of its line in the README.
+struct Measured {
+  Course course;
+  double error = 0.0;    ///< largest error of a time, a speed or the end, each relative (see Deviation)
+  double one_ulp = 0.0;  ///< what moving the inputs by one ulp does to the same
+  std::size_t impacts = 0, chatters = 0, rests = 0;
+};
+
+/// Appends a line to the file that the environment variable CLATTER_HARD_CASES names, if it names one.
+void report(const Case& one, const Measured& measured);
+
+/// Runs a case in double and in 50 digits, reports it, and expects that it is completed with the same impacts and rests
+/// and an error of at most 64 times what one ulp of its inputs does, or what `rounding` an ulp of time makes.
+Measured expect_agreement(const Case& one, double rounding = epsilon<double>());
+
+/// The same for all cases of a row.
+void expect_agreement(const std::string& row);
+
+}  // namespace clatter::hard

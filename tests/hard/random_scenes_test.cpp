@@ -1,0 +1,65 @@
+// Random scenes with chatter and rest against the same source in 50 digits: the same impacts and rests at the same
+// times.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <iostream>
+
+#include "support/course.hpp"
+#include "support/random.hpp"
+#include "support/scene_range.hpp"
+
+namespace clatter::hard {
+namespace {
+
+/// Damping none to heavy, two stops with a restitution each, a load in half of them.
+Scene random_scene(std::uint64_t index) {
+  Random random(20230, index);
+  Scene scene;
+  scene.oscillator = {random.happens(0.2) ? 0.0 : random.logarithmic(1e-2, 3),
+                      random.sign() * random.logarithmic(0.1, 3), random.logarithmic(0.2, 4),
+                      random.happens(0.5) ? 0.0 : random.uniform(-0.5, 0.5)};
+  const double gap = random.logarithmic(1e-2, 1.5);
+  scene.stops = {-gap * random.uniform(0.2, 1.2), gap * random.uniform(0.2, 1.2), random.uniform(0, 0.9),
+                 random.uniform(0, 0.9)};
+  scene.start = {random.uniform(scene.stops.lower, scene.stops.upper), random.uniform(-1, 1), random.uniform(0, 6)};
+  return scene;
+}
+
+/// The part-th quarter of the scenes, so that quarters run side by side.
+class RandomScenes : public testing::TestWithParam<std::uint64_t> {};
+
+TEST_P(RandomScenes, agree_with_fifty_digits_in_every_impact_and_rest) {
+  const SceneRange range = scene_range(1000);
+  std::size_t scenes = 0, impacts = 0, chatters = 0, rests = 0;
+  double worst = 0, worst_ratio = 0;
+  std::uint64_t worst_index = 0;
+  for (std::uint64_t index = range.from + GetParam(); index < range.to; index += 4) {
+    const Scene scene = random_scene(index);
+    const double duration = 3.3 * 2 * pi<double>() / scene.oscillator.frequency;
+    const Course course = course_of(scene, duration), reference = reference_of(scene, duration);
+    const Deviation d = deviation(course, reference);
+    EXPECT_EQ(course.outcome, Outcome::completed);
+    EXPECT_TRUE(d.same_events) << d.difference << "\n" << configuration_of(scene, duration);
+    // a rounding an impact; where the motion separates, what the rounding of the inputs does
+    if (const double rounding = (16 + course.impacts) * epsilon<double>(); d.largest() > rounding) {
+      const double one_ulp = conditioning(scene, reference);
+      EXPECT_LE(d.largest(), std::max(rounding, 64 * one_ulp)) << configuration_of(scene, duration);
+      worst_ratio = std::max(worst_ratio, d.largest() / one_ulp);
+    }
+    if (d.largest() > worst) worst = d.largest(), worst_index = index;
+    ++scenes, impacts += d.impacts, chatters += d.chatters, rests += d.rests;
+  }
+  EXPECT_GT(impacts, 20 * scenes);
+  EXPECT_GT(chatters, scenes);
+  EXPECT_GT(rests, 2 * scenes);
+  std::cout << scenes << " scenes, " << impacts << " impacts, " << chatters << " chatters, " << rests
+            << " rests; largest error " << worst << " (scene " << worst_index
+            << "); beyond a rounding an impact at most " << worst_ratio << " times what one ulp of the inputs does\n";
+}
+
+INSTANTIATE_TEST_SUITE_P(Quarter, RandomScenes, testing::Range<std::uint64_t>(0, 4));
+
+}  // namespace
+}  // namespace clatter::hard

@@ -1,0 +1,30 @@
+// Released, and on a stop again at once: on the same one when the force lets go for a moment, on the other when it is
+// near.
+
+#include <gtest/gtest.h>
+
+#include "hard/measure.hpp"
+
+namespace clatter::hard {
+namespace {
+
+TEST(SecondContact, agrees_with_fifty_digits) { expect_agreement("second_contact"); }
+
+TEST(SecondContact, follows_every_release) {
+  for (const char* what : {"let go for 2e-3", "let go for 1e-6"}) {
+    const Case& one = case_of("second_contact", what);
+    const Course course = course_of(one.scene, one.duration);
+    std::size_t releases = 0;
+    for (std::size_t i = 0; i + 1 < course.events.size(); ++i) {
+      const Event &rest = course.events[i], &next = course.events[i + 1];
+      if (rest.kind != Event::Kind::rest || next.kind != Event::Kind::impact) continue;
+      ++releases;
+      EXPECT_EQ(next.side, rest.side) << what;
+      EXPECT_LT(next.time - rest.time - rest.length, 0.01) << what;
+    }
+    EXPECT_EQ(releases, 10u) << what;  // one in each of ten forcing periods
+  }
+}
+
+}  // namespace
+}  // namespace clatter::hard

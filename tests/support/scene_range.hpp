@@ -1,0 +1,25 @@
+#pragma once
+
+#include <cstdint>
+#include <cstdlib>
+#include <stdexcept>
+#include <string>
+
+namespace clatter {
+
+/// Which of a family of random scenes a test draws: from ... to - 1.
+struct SceneRange {
+  std::uint64_t from, to;
+};
+
+/// `count` scenes from the first on, or those that the environment variable CLATTER_SCENES names as FROM:TO.
+inline SceneRange scene_range(std::uint64_t count) {
+  const char* const text = std::getenv("CLATTER_SCENES");
+  if (text == nullptr) return {0, count};
+  const std::string range(text);
+  const std::size_t colon = range.find(':');
+  if (colon == std::string::npos) throw std::invalid_argument("CLATTER_SCENES is FROM:TO, not " + range);
+  return {std::stoull(range.substr(0, colon)), std::stoull(range.substr(colon + 1))};
+}
+
+}  // namespace clatter

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstring>
+#include <stdexcept>
+
+#include "sweep/run.hpp"
+
+namespace clatter {
+
+/// The variable of a name; null where there is none.
+inline const Variable* find(const Figure& figure, const std::string& name) {
+  const auto found =
+      std::find_if(figure.variables.begin(), figure.variables.end(), [&](const Variable& v) { return v.name == name; });
+  return found == figure.variables.end() ? nullptr : &*found;
+}
+
+/// The values of a variable of numbers. Throws std::out_of_range where there is none.
+inline const std::vector<double>& values(const Figure& figure, const std::string& name) {
+  const Variable* variable = find(figure, name);
+  if (!variable) throw std::out_of_range("no variable " + name);
+  return std::get<std::vector<double>>(variable->values);
+}
+
+inline std::vector<std::uint8_t> statuses(const Figure& figure) {
+  return std::get<std::vector<std::uint8_t>>(find(figure, "status")->values);
+}
+
+/// A sweep whose axes cross.
+inline Sweep sweep_of(const Scene& scene, std::vector<Axis> axes) {
+  Sweep sweep{.scene = scene, .dimensions = {}, .follow = {}};
+  for (Axis& axis : axes) sweep.dimensions.push_back({std::move(axis)});
+  return sweep;
+}
+
+/// The same bits, NaN included.
+inline void expect_same(const Figure& a, const Figure& b) {
+  ASSERT_EQ(a.variables.size(), b.variables.size());
+  for (std::size_t i = 0; i < a.variables.size(); ++i) {
+    ASSERT_EQ(a.variables[i].name, b.variables[i].name);
+    std::visit(
+        [&](const auto& left) {
+          const auto& right = std::get<std::decay_t<decltype(left)>>(b.variables[i].values);
+          ASSERT_EQ(left.size(), right.size());
+          EXPECT_EQ(std::memcmp(left.data(), right.data(), left.size() * sizeof(left[0])), 0) << a.variables[i].name;
+        },
+        a.variables[i].values);
+  }
+}
+
+}  // namespace clatter
