@@ -143,7 +143,7 @@ std::vector<Case> all_cases() {
   add("long", "conservative impacts", free_vibration(), 1e6 * 2 * std::asin(0.5));
   add("long", "1e7 forcing periods", grazing(-1), 1e7 * graze_period);
 
-  add("chaos", "xs = 3", symmetric({0.1, -1.0, 0.845, 0.0}, 3.0, 0.7), 300 * 2 * pi_ / 0.845);
+  add("chaos", "xs = 3, nu = 0.95", symmetric({0.1, -1.0, 0.95, 0.0}, 3.0, 0.7), 100 * 2 * pi_ / 0.95);
   return all;
 }
 

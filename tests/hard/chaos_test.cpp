@@ -11,7 +11,7 @@ namespace {
 TEST(Chaos, agrees_with_fifty_digits_while_it_remembers_its_start) { expect_agreement("chaos"); }
 
 TEST(Chaos, is_labelled_aperiodic_and_has_one_set_of_bits) {
-  Scene scene = case_of("chaos", "xs = 3").scene;
+  Scene scene = case_of("chaos", "xs = 3, nu = 0.95").scene;
   scene.observe.extrema = scene.observe.impact_log = scene.observe.period = true;
   const Sweep sweep = sweep_of(scene, {{Parameter::nu, {0.9, 0.91, 0.92, 0.93, 0.94, 0.95}}});
   const Figure one = run(sweep, {.threads = 1}).figure;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <string>
 
 #include "hard/cases.hpp"
@@ -10,8 +11,9 @@ namespace clatter::hard {
 /// What a hard case gave: the figures of its line in the README.
 struct Measured {
   Course course;
-  double error = 0.0;    ///< largest error of a time, a speed or the end, each relative (see Deviation)
-  double one_ulp = 0.0;  ///< what moving the inputs by one ulp does to the same
+  double error = 0.0;  ///< largest error of a time, a speed or the end, each relative (see Deviation)
+  double one_ulp = std::numeric_limits<double>::quiet_NaN();  ///< what moving the inputs by one ulp does to the same;
+                                                              ///< NaN: not measured
   std::size_t impacts = 0, chatters = 0, rests = 0;
 };
 
