@@ -18,7 +18,7 @@ class Arc {
 
   /// Starts `start.rise` away from a place.
   Arc(const Flow<Number, E>& flow, const Motion<Number>& start, const Number& anchor)
-      : flow_(&flow), start_(with_free_part(start)), anchor_(anchor) {}
+      : flow_(&flow), anchor_(anchor), start_(with_free_part(start)) {}
 
   [[nodiscard]] const Flow<Number, E>& flow() const { return *flow_; }
   [[nodiscard]] const Motion<Number>& start() const { return start_; }
@@ -37,7 +37,7 @@ class Arc {
  private:
   [[nodiscard]] Motion<Number> closed_form(const Number& s) const;
   [[nodiscard]] Motion<Number> with_free_part(Motion<Number> m) const {
-    m.free_x = (m.x - flow_->load) - flow_->response_displacement(m.sine, m.cosine),
+    m.free_x = flow_->offset(m.x, anchor_, m.rise) - flow_->response_displacement(m.sine, m.cosine),
     m.free_v = m.v - flow_->response_velocity(m.sine, m.cosine);
     if constexpr (E.damping == Damping::heavy) m.fast_x = flow_->fast_mode(m.free_x, m.free_v);
     return m;
@@ -50,8 +50,8 @@ class Arc {
   [[nodiscard]] std::array<Number, 2> response_from_rest(const Number& s) const;
 
   const Flow<Number, E>* flow_;
-  Motion<Number> start_;
   Number anchor_;
+  Motion<Number> start_;
 };
 
 template <class Number, Effects E>
@@ -80,10 +80,11 @@ Motion<Number> Arc<Number, E>::closed_form(const Number& s) const {
   rise += start_.rise;
   // of two sums for the place the one with the smaller terms: between close stops that is the rise
   const Number whole = abs(flow_->load) + abs(forced_x) + abs(free_x);
-  const Number x = abs(anchor_) + abs(rise) < whole ? anchor_ + rise : flow_->load + forced_x + free_x;
+  const bool rises = abs(anchor_) + abs(rise) < whole;
+  const Number x = rises ? anchor_ + rise : flow_->load + forced_x + free_x;
   const Number v = flow_->response_velocity(phase.sine, phase.cosine) + free_v;
   const Number a = E.forcing == Forcing::secular
-                       ? flow_->acceleration(x, v, phase.sine)
+                       ? flow_->acceleration(rises ? flow_->offset(x, anchor_, rise) : free_x, v, phase.sine)
                        : Number(-(p.c * start_.free_x + p.d * start_.free_v) - flow_->nu * flow_->nu * forced_x);
   Number fast_x = 0;
   if constexpr (E.damping == Damping::heavy) fast_x = start_.fast_x * exp(-flow_->fast * s);
@@ -152,8 +153,9 @@ Motion<Number> Arc<Number, E>::near(const Motion<Number>& m, const Number& d) co
   }
   const SineCosine<Number> phase = turned(m, flow_->nu * d).phase;
   const Number x = m.x + rise, v = m.v + gain / d;
-  Motion<Number> end =
-      with_free_part({m.rise + rise, x, v, flow_->acceleration(x, v, phase.sine), phase.sine, phase.cosine});
+  rise += m.rise;
+  const Number a = flow_->acceleration(flow_->offset(x, anchor_, rise), v, phase.sine);
+  Motion<Number> end = with_free_part({rise, x, v, a, phase.sine, phase.cosine});
   if constexpr (E.damping == Damping::heavy) end.fast_x = m.fast_x * exp(-flow_->fast * d);
   return end;
 }

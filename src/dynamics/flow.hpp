@@ -44,9 +44,17 @@ class Flow {
     return Number(0);
   }
 
-  /// Acceleration from the equation of motion (eq. 3).
-  [[nodiscard]] Number acceleration(const Number& x, const Number& v, const Number& sine) const {
-    Number sum = load - x;
+  /// Displacement from the load's equilibrium of a mass at x = anchor + rise, by whichever of the two has kept more
+  /// digits of it.
+  [[nodiscard]] Number offset(const Number& x, const Number& anchor, const Number& rise) const {
+    using std::abs;
+    const Number from = anchor - load;
+    return abs(from) + abs(rise) < abs(x) ? from + rise : x - load;
+  }
+
+  /// Acceleration from the equation of motion (eq. 3), a displacement `offset` away from the load's equilibrium.
+  [[nodiscard]] Number acceleration(const Number& offset, const Number& v, const Number& sine) const {
+    Number sum = -offset;
     if constexpr (E.forcing != Forcing::none) sum += f * sine;
     if constexpr (E.damping != Damping::none) sum -= 2 * h * v;
     return sum;

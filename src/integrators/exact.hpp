@@ -95,12 +95,10 @@ class Exact {
   }
   [[nodiscard]] Motion<Number> motion(const State<Number>& state) const {
     const auto [sine, cosine] = phase(state);
-    return {state.left == Side::none ? Number(0) : state.rise,
-            state.x,
-            state.v,
-            state.released ? Number(0) : flow_.acceleration(state.x, state.v, sine),
-            sine,
-            cosine};
+    const Number rise = state.left == Side::none ? Number(0) : state.rise;
+    const Number offset = flow_.offset(state.x, anchor(state), rise);
+    const Number a = state.released ? Number(0) : flow_.acceleration(offset, state.v, sine);
+    return {rise, state.x, state.v, a, sine, cosine};
   }
   /// The place that the rise of the present flight counts from.
   [[nodiscard]] Number anchor(const State<Number>& state) const {

@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <utility>
 #include <vector>
 
 namespace clatter {
 
-/// Finds the number of forcing periods after which a motion repeats, from its states at the sections (physics.md, "A
-/// motion repeats").
+/// Finds the number of forcing periods after which a motion repeats, from its states at the sections. A repeat has to
+/// go on for as long again: motion that forgets its past on a stop, and is chaotic after it, comes back to
+/// a state to rounding and yet takes another way from there.
 class RepeatFinder {
  public:
   static constexpr std::size_t longest = 64;  ///< forcing periods of the longest motion looked for
@@ -20,10 +22,10 @@ class RepeatFinder {
     if (x_.size() == capacity) forget();
     x_.push_back(x), v_.push_back(v);
     const std::size_t now = x_.size() - 1;
-    const double limit = tolerance_ * std::max(std::abs(x), std::abs(v));
-    for (std::size_t n = 1; n <= std::min(longest, now); ++n)
-      if (std::abs(x - x_[now - n]) <= limit && std::abs(v - v_[now - n]) <= limit && stands(now, n))
-        return shortest(now, n);
+    if (candidate_ > 0 && !repeats(now, candidate_, few * tolerance_)) candidate_ = 0;
+    if (candidate_ > 0 && --left_ == 0) return shortest(now, std::exchange(candidate_, 0));
+    for (std::size_t n = 1; candidate_ == 0 && n <= std::min(longest, now); ++n)
+      if (repeats(now, n, tolerance_) && stands(now, n)) candidate_ = left_ = n;
     return 0;
   }
 
@@ -45,6 +47,12 @@ class RepeatFinder {
   void forget() {
     x_.erase(x_.begin(), x_.end() - kept);
     v_.erase(v_.begin(), v_.end() - kept);
+  }
+
+  /// Whether the states at `now` and n sections before are the same, to a tolerance.
+  [[nodiscard]] bool repeats(std::size_t now, std::size_t n, double tolerance) const {
+    const double limit = tolerance * std::max(std::abs(x_[now]), std::abs(v_[now]));
+    return std::abs(x_[now] - x_[now - n]) <= limit && std::abs(v_[now] - v_[now - n]) <= limit;
   }
 
   /// Distance of the states at `now` and m sections before, over the larger of |x|, |v|.
@@ -72,6 +80,7 @@ class RepeatFinder {
 
   static constexpr double few = 100;
   double tolerance_;
+  std::size_t candidate_ = 0, left_ = 0;  ///< a repeat to be confirmed, and the sections until then
   std::vector<double> x_, v_;
 };
 

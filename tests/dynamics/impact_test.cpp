@@ -41,7 +41,7 @@ FiftyDigits time_of_all_flights(const Flow<FiftyDigits, E>& flow, const Stops& s
   while (speed > 1e-20 * w) {  // what follows takes 1e-20 of the time
     const auto [sine, cosine] = sine_cosine_of_turns(phase);
     const FiftyDigits x = stop.place, v = -speed;
-    const Arc<FiftyDigits, E> arc(flow, {0, x, v, flow.acceleration(x, v, sine), sine, cosine});
+    const Arc<FiftyDigits, E> arc(flow, {0, x, v, flow.acceleration(x - flow.load, v, sine), sine, cosine});
     const auto contact = next_contact(arc, stops, FiftyDigits(1));
     total += contact.elapsed;
     phase += contact.elapsed * flow.nu / (2 * pi<FiftyDigits>());

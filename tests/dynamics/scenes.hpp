@@ -12,7 +12,7 @@ inline Contact<double> first_contact(const Oscillator& oscillator, const Stops& 
                                      double horizon) {
   return with_effects(required_effects(oscillator), [&]<Effects effects>() {
     const Flow<double, effects> flow(oscillator);
-    const Arc<double, effects> arc(flow, {0, x, v, flow.acceleration(x, v, 0.0), 0, 1});
+    const Arc<double, effects> arc(flow, {0, x, v, flow.acceleration(x - flow.load, v, 0.0), 0, 1});
     return next_contact(arc, stops, horizon);
   });
 }

@@ -140,7 +140,7 @@ std::string configuration_of(const Scene& s, double duration) {
       << "\nx0 = " << s.start.displacement << "\nv0 = " << s.start.velocity << "\nstop_lower = " << s.stops.lower
       << "\nstop_upper = " << s.stops.upper << "\nR_lower = " << s.stops.restitution_lower
       << "\nR_upper = " << s.stops.restitution_upper << "\n[time]\nmode = \"transient\"\nduration = " << duration
-      << "\n[observe]\nimpact_log = true\n";
+      << "\nmax_impacts = " << s.time.max_impacts << "\n[observe]\nimpact_log = true\n";
   return out.str();
 }
 

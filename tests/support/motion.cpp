@@ -12,7 +12,7 @@ template <class Number, Effects E>
 Motion<Number> first_motion(const Flow<Number, E>& flow, const ArcStart& start) {
   const auto [sine, cosine] = sine_cosine_of_turns(Number(start.turns));
   const Number x(start.x), v(start.v);
-  return {Number(0), x, v, flow.acceleration(x, v, sine), sine, cosine};
+  return {Number(0), x, v, flow.acceleration(x - flow.load, v, sine), sine, cosine};
 }
 
 }  // namespace

@@ -1,0 +1,70 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "hard/any_scene.hpp"
+#include "hard/tally.hpp"
+
+namespace clatter::hard {
+
+/// How far arcs go beyond the stops, in ulps of the natural scale of the sum that forms a place: the sizes of its terms
+/// (load, stop, forced response, free motion), and how far an ulp of the time moves the response and the mass. A flight
+/// that a section cuts keeps the scale it had before.
+class BeyondStops : public Watcher {
+ public:
+  explicit BeyondStops(const Scene& scene) : oscillator_(scene.oscillator), stops_(scene.stops) {}
+
+  template <class A>
+  void arc(const A& arc, double, double length) {
+    for (int i = 1; i < looks; ++i) look(arc, length * i / looks);
+    look(arc, length);
+    flight_ = scale_;
+  }
+  void impact(const Impact&) { flight_ = 0; }
+  void rest(const Rest&) { flight_ = 0; }
+
+  [[nodiscard]] double ulps() const { return ulps_; }
+
+ private:
+  static constexpr int looks = 8;
+
+  template <class A>
+  void look(const A& arc, double s) {
+    const auto m = arc.at(s);
+    const auto& start = arc.start();
+    const double amplitude = arc.flow().amplitude, f = std::abs(oscillator_.forcing);
+    const double response = (amplitude > 0 ? amplitude : f * s) * (1 + oscillator_.frequency * s);  // f s: resonance
+    scale_ = std::max(flight_, std::abs(oscillator_.load) + std::abs(arc.anchor()) + response + std::abs(start.free_x) +
+                                   std::abs(start.free_v) + std::abs(m.v) * s);
+    const double beyond = std::max(stops_.lower - m.x, m.x - stops_.upper);
+    if (beyond > 0) raise(ulps_, beyond / (epsilon<double>() * scale_));
+  }
+
+  Oscillator oscillator_;
+  Stops stops_;
+  double scale_ = 0, flight_ = 0, ulps_ = 0;
+};
+
+/// Whether every place that is told of a motion lies between the stops, and every impact and rest on one.
+class ToldPlaces : public Watcher {
+ public:
+  explicit ToldPlaces(const Stops& stops) : stops_(stops) {}
+
+  void rest(const Rest& rest) {
+    right_ = right_ && rest.place == (rest.side == Side::upper ? stops_.upper : stops_.lower);
+  }
+  void impact(const Impact& impact) {
+    right_ = right_ && impact.place == (impact.side == Side::upper ? stops_.upper : stops_.lower);
+  }
+  void section(const State<double>& state) { see(state.x); }
+  void see(double x) { right_ = right_ && x >= stops_.lower && x <= stops_.upper; }
+
+  [[nodiscard]] bool right() const { return right_; }
+
+ private:
+  Stops stops_;
+  bool right_ = true;
+};
+
+}  // namespace clatter::hard

@@ -1,0 +1,150 @@
+// Random scenes run until they repeat: harmonics from the impacts alone, and the energy of a period.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <complex>
+#include <numbers>
+#include <vector>
+
+#include "hard/energy.hpp"
+#include "hard/panels.hpp"
+#include "hard/tally.hpp"
+#include "observables/harmonics.hpp"
+
+namespace clatter::hard {
+namespace {
+
+using Complex = std::complex<double>;
+
+constexpr std::size_t highest = 3;  ///< harmonic
+
+/// A period of a motion, seen in three ways.
+struct Period : Watcher {
+  Period(const Scene& scene, const State<double>& from, double length, double base_)
+      : base(base_), by_parts(highest, base_), books(scene, from.x, from.v), total(length) {}
+
+  template <class A>
+  void arc(const A& arc, double begin, double length) {
+    by_parts.arc(arc, begin, length), books.arc(arc, begin, length);
+    for (std::size_t k = 0; k <= highest; ++k) {
+      const double w = base * static_cast<double>(k);
+      double part = 0;
+      by_quadrature[k] += integral(
+                              arc, length, arc.flow().rate + w,
+                              [&](const auto& m, double s) { return m.x * std::polar(1.0, -w * (begin + s)); }, part) /
+                          total;
+      if (k == 0) size += part / total;
+    }
+  }
+  void rest(const Rest& rest) { rests = true, by_parts.rest(rest); }
+  void impact(const Impact& impact) { impacts.push_back(impact), books.impact(impact); }
+  /// Whether an impact is so soft that its speed is known to the square root of rounding.
+  [[nodiscard]] bool grazes() const {
+    return std::any_of(impacts.begin(), impacts.end(),
+                       [&](const Impact& i) { return std::abs(i.before) < 1e-6 * size; });
+  }
+  /// The largest of a displacement and velocity and of the impacts' velocities.
+  [[nodiscard]] double fastest(const State<double>& state) const {
+    double largest = std::max(std::abs(state.x), std::abs(state.v));
+    for (const Impact& impact : impacts) largest = std::max(largest, std::abs(impact.before));
+    return largest;
+  }
+  void finish(const State<double>& state) { by_parts.finish(state.x, total), books.section(state); }
+
+  double base;
+  ExactHarmonics by_parts;
+  std::array<Complex, highest + 1> by_quadrature{};
+  EnergyBooks books;
+  std::vector<Impact> impacts{};
+  double total, size = 0;  ///< mean of |x|
+  bool rests = false;
+};
+
+/// Check 6 of physics.md: the force's share of harmonic k, and the impacts'.
+struct Shares {
+  Complex sum;
+  double size;
+};
+
+Shares shares_of(const Scene& scene, const Period& period, std::size_t k) {
+  const auto& [h, f, nu, load] = scene.oscillator;
+  Shares shares{k == 0 ? Complex(load) : k == 1 ? f * std::polar(0.5, scene.start.phase - std::numbers::pi / 2) : 0, 0};
+  shares.size = std::abs(shares.sum);
+  for (const Impact& impact : period.impacts) {
+    const double jump = (impact.after - impact.before) / period.total;
+    shares.sum += jump * std::polar(1.0, -period.base * static_cast<double>(k) * impact.time);
+    shares.size += std::abs(jump);
+  }
+  return shares;
+}
+
+/// The three ways' largest difference in units of what is allowed: rounding, in the impacts' way of the jumps that are
+/// summed and of the angles, and what the period failed to close by.
+double difference_of_harmonics(const Scene& scene, const Period& period, double gap) {
+  double worst = 0;
+  for (std::size_t k = 0; k <= highest; ++k) {
+    const double w = period.base * static_cast<double>(k), h = scene.oscillator.damping;
+    const Complex z(1 - w * w, 2 * h * w);
+    if (std::norm(z) < 1.0 / 64) continue;
+    const auto [sum, size] = shares_of(scene, period, k);
+    const double rounding =
+        16 * epsilon<double>() * (1 + w * period.total) * (size + period.size * (1 + 2 * h + w) / period.total);
+    const double open = 2 * gap * (1 + 2 * h + w) / period.total;
+    const double allowed = (rounding + open) / std::abs(z) + 16 * epsilon<double>() * period.size;
+    raise(worst, std::abs(sum / z - period.by_quadrature[k]) / allowed);
+    raise(worst, std::abs(period.by_parts.displacement()[k] - period.by_quadrature[k]) / allowed);
+  }
+  return worst;
+}
+
+/// The tenth part of the scenes, from a steady state on where one is found within 300 periods.
+template <class Check>
+void in_steady_scenes(Check&& check) {
+  in_every_scene([&](AnyScene any) {
+    if (any.index % 10 != 0) return;
+    any.scene.time.mode = Mode::steady, any.scene.time.max_periods = 300, any.scene.time.max_impacts = 1e4;
+    any.scene.time.tolerance = 1e-13;
+    with_effects(required_effects(any.scene.oscillator), [&]<Effects effects>() {
+      Exact<double, effects> integrator(any.scene);
+      check(any, integrator, settle(integrator, start_of(any.scene), any.scene));
+    });
+  });
+}
+
+/// Whether a period is seen from just before an impact to just after it.
+bool begins_with_impact(const Scene& scene, const State<double>& from) {
+  return (from.x == scene.stops.lower && from.v < 0) || (from.x == scene.stops.upper && from.v > 0);
+}
+
+TEST(Properties, harmonics_of_a_periodic_motion_follow_from_its_impacts) {
+  Tally closes("a period closes"), harmonics("harmonics from the impacts alone"), energy("work done over a period");
+  std::uint64_t settled = 0, periodic = 0;
+  in_steady_scenes([&](const AnyScene& any, auto& integrator, const Observed<double>& observed) {
+    ++settled, periodic += observed.status == Status::periodic;
+    if (observed.status != Status::periodic || observed.standstill || begins_with_impact(any.scene, observed.from))
+      return;
+    const double total = observed.turns * integrator.period();
+    const bool forced = any.scene.oscillator.forcing != 0;
+    Period period(any.scene, observed.from, total,
+                  forced ? any.scene.oscillator.frequency : 2 * std::numbers::pi / total);
+    State<double> state = observed.from;
+    const Outcome outcome = run_for(integrator, state, observed.turns, period);
+    if (outcome != Outcome::completed) return;  // over budget
+    period.finish(state);
+    const double gap = std::max(std::abs(state.x - observed.from.x), std::abs(state.v - observed.from.v));
+    closes.take(any, gap / (1e-5 * period.fastest(state)));  // where it ends in a graze; others far better
+    if (period.rests || period.grazes() || period.impacts.empty()) return;
+    harmonics.take(any, difference_of_harmonics(any.scene, period, gap));
+    energy.take(any, period.books.left_over() / 1e-11);
+  });
+  std::cout << settled << " scenes, " << periodic << " periodic\n";
+  closes.conclude(0.05), harmonics.conclude(0.01), energy.conclude(0.01);
+  if (settled >= Tally::enough / 10) {
+    EXPECT_GT(periodic, settled / 2);
+  }
+}
+
+}  // namespace
+}  // namespace clatter::hard

@@ -1,0 +1,267 @@
+// What must hold for every scene: 10^4 random ones, or those that CLATTER_SCENES names as FROM:TO.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <vector>
+
+#include "hard/energy.hpp"
+#include "hard/inside.hpp"
+#include "hard/rescan.hpp"
+#include "hard/tally.hpp"
+#include "hard/tangent.hpp"
+#include "observables/extrema.hpp"
+#include "observables/samples.hpp"
+
+namespace clatter::hard {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// Counts what a motion is made of.
+struct Contents : Watcher {
+  std::uint64_t impacts = 0, rests = 0, chatters = 0;
+
+  void rest(const Rest& rest) { ++(rest.held ? rests : chatters); }
+  void impact(const Impact&) { ++impacts; }
+};
+
+TEST(Properties, scenes_are_completed_and_hold_all_that_motion_is_made_of) {
+  Tally resolved("outcome is completed or event_budget");
+  Contents all;
+  std::uint64_t scenes = 0, unfinished = 0, hit = 0;
+  in_every_scene([&](const AnyScene& any) {
+    Contents contents;
+    const Outcome outcome = watch(any, contents);
+    resolved.take(any, outcome == Outcome::completed || outcome == Outcome::event_budget ? 0 : infinity);
+    ++scenes, hit += contents.impacts > 0, unfinished += outcome == Outcome::event_budget;
+    all.impacts += contents.impacts, all.rests += contents.rests, all.chatters += contents.chatters;
+  });
+  resolved.conclude(1);
+  std::cout << hit << " scenes with impacts, " << unfinished << " over budget; " << all.impacts << " impacts, "
+            << all.rests << " rests, " << all.chatters << " chatters\n";
+  if (scenes < Tally::enough) return;
+  EXPECT_LT(unfinished, scenes / 25);  // pressed without loss, or nearly so
+  EXPECT_GT(hit, scenes * 4 / 5);
+  EXPECT_GT(all.impacts, 50 * scenes);
+  EXPECT_GT(all.rests, scenes);
+  EXPECT_GT(all.chatters, scenes);
+}
+
+TEST(Properties, arcs_stay_between_the_stops_to_two_ulps) {
+  Tally tally("arcs between the stops");
+  in_every_scene([&](const AnyScene& any) {
+    BeyondStops beyond(any.scene);
+    (void)watch(any, beyond);
+    tally.take(any, beyond.ulps() / 2);  // every term is known to an ulp or so; they seldom err the same way
+  });
+  tally.conclude(1);
+}
+
+/// Shows a motion to what the program's users see it by.
+struct Told : ToldPlaces {
+  Told(const AnyScene& any)
+      : ToldPlaces(any.scene.stops), samples(100, any.duration / 99, AtImpact::after, any.scene.stops) {}
+
+  template <class A>
+  void arc(const A& arc, double begin, double length) {
+    extrema.arc(arc, begin, length), samples.arc(arc, begin, length);
+  }
+  void rest(const Rest& rest) { extrema.rest(rest), samples.rest(rest), ToldPlaces::rest(rest); }
+  void impact(const Impact& impact) { extrema.impact(impact), samples.impact(impact), ToldPlaces::impact(impact); }
+
+  Extrema extrema;
+  Samples samples;
+};
+
+TEST(Properties, no_place_outside_the_stops_is_told) {
+  Tally tally("told places between the stops"), bounds("samples between the extrema");
+  in_every_scene([&](const AnyScene& any) {
+    Told told(any);
+    with_effects(required_effects(any.scene.oscillator), [&]<Effects effects>() {
+      Exact<double, effects> integrator(any.scene);
+      State<double> state = start_of(any.scene);
+      if (run_for(integrator, state, any.duration / integrator.period(), told) == Outcome::completed)
+        told.section(state);
+    });
+    const auto range = told.extrema.displacement(any.scene.stops);
+    told.see(range.low), told.see(range.high);
+    double beyond = 0, largest = std::max(std::abs(range.low), std::abs(range.high));
+    for (const double x : told.samples.displacement()) {
+      told.see(x);
+      beyond = std::max({beyond, range.low - x, x - range.high});
+    }
+    tally.take(any, told.right() ? 0 : infinity);
+    bounds.take(any, beyond > 0 ? beyond / (8 * epsilon<double>() * largest) : 0);  // extrema stop there
+  });
+  tally.conclude(1);
+  bounds.conclude(1);
+}
+
+/// Whether events come in the order of time.
+struct Order : Watcher {
+  template <class A>
+  void arc(const A&, double begin, double) {
+    right = right && begin >= last_impact;
+  }
+  void rest(const Rest& rest) { right = right && rest.time >= last_impact && rest.length >= 0; }
+  void impact(const Impact& impact) {
+    right = right && impact.time > last_impact;
+    last_impact = impact.time;
+    ++impacts;
+  }
+  void section(const State<double>&) { last_impact = -infinity; }  // times count from the next one
+
+  double last_impact = -infinity;
+  std::uint64_t impacts = 0;
+  bool right = true;
+};
+
+TEST(Properties, impacts_come_strictly_one_after_the_other) {
+  Tally tally("impacts in the order of time");
+  in_every_scene([&](const AnyScene& any) {
+    Order order;
+    (void)watch(any, order);
+    if (order.impacts > 1) tally.take(any, order.right ? 0 : infinity);
+  });
+  tally.conclude(0.8);
+}
+
+TEST(Properties, energy_balances_over_every_period) {
+  Tally periods("energy over a period"), runs("energy over the run");
+  in_every_scene([&](const AnyScene& any) {
+    EnergyBooks books(any.scene);
+    (void)watch(any, books);
+    periods.take(any, books.of_period() / 1e-11);  // a rounding an impact and panel, thousands of them
+    runs.take(any, books.of_run() / 1e-11);
+  });
+  periods.conclude(1);
+  runs.conclude(1);
+}
+
+TEST(Properties, no_impact_is_missed) {
+  Tally missed("no impact that Taylor steps see is missed"), place("places that Taylor steps come to"),
+      speed("velocities that Taylor steps come to"), pressed("mass at rest is pressed"),
+      broken("motion goes on where and when it was");
+  in_every_scene([&](const AnyScene& any) {
+    Rescan rescan(any.scene);
+    (void)watch(any, rescan);
+    missed.take(any, rescan.missed), place.take(any, rescan.place), speed.take(any, rescan.speed);
+    pressed.take(any, rescan.pressed), broken.take(any, rescan.broken);
+  });
+  for (const Tally* tally : {&missed, &place, &speed, &pressed, &broken}) tally->conclude(1);
+}
+
+/// The tangent map of a motion, and what its determinant must be.
+struct Area : Watcher {
+  explicit Area(const Oscillator& oscillator) : damping(oscillator.damping) {}
+
+  template <class A>
+  void arc(const A& arc, double begin, double length) {
+    tangent.arc(arc, begin, length);
+    // an arc's determinant e^{-2hs} is a difference of products that heavy damping makes larger than it
+    const auto p = arc.flow().propagator(length);
+    const double decayed = 2 * damping * length;
+    rounding += (1 + decayed) * (1 + (std::abs(p.a * p.c) + p.b * p.b) * std::exp(decayed));
+  }
+  void rest(const Rest&) { smooth = false; }
+  void impact(const Impact& impact) {
+    tangent.impact(impact);
+    smooth = smooth && impact.before * sign_of(impact.side) > 0 && impact.after != 0;
+    ++(impact.side == Side::upper ? on_upper : on_lower);
+    rounding += 1;
+  }
+  /// The logarithm of R^2 an impact and e^{-2hT}.
+  [[nodiscard]] double expected(const AnyScene& any) const {
+    const Stops& stops = any.scene.stops;
+    double sum = -2 * damping * any.duration;
+    if (on_lower > 0) sum += 2 * on_lower * std::log(stops.restitution_lower);
+    if (on_upper > 0) sum += 2 * on_upper * std::log(stops.restitution_upper);
+    return sum;
+  }
+
+  double damping;
+  Tangent<double> tangent;
+  double on_lower = 0, on_upper = 0, rounding = 0;
+  bool smooth = true;  ///< no rest, no impact without a rebound
+};
+
+TEST(Properties, areas_shrink_by_damping_and_restitution_alone) {
+  Tally tally("determinant of the tangent map");
+  in_every_scene([&](const AnyScene& any) {
+    Area area(any.scene.oscillator);
+    if (watch(any, area) != Outcome::completed || !area.smooth || area.on_lower + area.on_upper == 0) return;
+    const double expected = area.expected(any), allowed = 4 * epsilon<double>() * (area.rounding + std::abs(expected));
+    if (allowed > 1e-6 || expected < -600) return;  // nothing left of it in doubles
+    tally.take(any, std::abs(std::log(area.tangent.determinant()) - expected) / allowed);
+  });
+  tally.conclude(0.1);
+}
+
+/// All that is shown of a motion, as numbers; what has a sign times `sign`, what has a length times `scale`.
+struct Trace : Watcher {
+  Trace(int sign_, double scale_) : sign(sign_), scale(sign_ * scale_) {}
+
+  template <class A>
+  void arc(const A& arc, double begin, double length) {
+    add({begin, length, scale * arc.start().x, scale * arc.start().v, 0});
+  }
+  void rest(const Rest& rest) {
+    add({rest.time, rest.length, double(sign * sign_of(rest.side)), scale * rest.place, double(rest.held)});
+  }
+  void impact(const Impact& impact) {
+    add({impact.time, double(sign * sign_of(impact.side)), scale * impact.before, scale * impact.after,
+         scale * impact.place});
+  }
+  void section(const State<double>& state) { add({scale * state.x, scale * state.v, state.turns, 0, 0}); }
+  void add(const std::array<double, 5>& row) { rows.push_back(row); }
+
+  int sign;
+  double scale;
+  std::vector<std::array<double, 5>> rows{};
+};
+
+AnyScene mirrored(AnyScene any) {
+  auto& [oscillator, stops, start, time, observe] = any.scene;
+  oscillator.forcing *= -1, oscillator.load *= -1;
+  stops = {-stops.upper, -stops.lower, stops.restitution_upper, stops.restitution_lower};
+  start.displacement *= -1, start.velocity *= -1;
+  return any;
+}
+
+AnyScene scaled(AnyScene any, double by) {
+  auto& [oscillator, stops, start, time, observe] = any.scene;
+  for (double* length :
+       {&oscillator.forcing, &oscillator.load, &stops.lower, &stops.upper, &start.displacement, &start.velocity})
+    *length *= by;
+  return any;
+}
+
+/// The trace of a run that starts after a number of sections.
+Trace traced(const AnyScene& any, int sign, double scale, std::int64_t sections = 0) {
+  Trace trace(sign, scale);
+  with_effects(required_effects(any.scene.oscillator), [&]<Effects effects>() {
+    Exact<double, effects> integrator(any.scene);
+    State<double> state = start_of(any.scene);
+    state.periods = sections;
+    (void)watch(integrator, state, any.duration, trace);
+  });
+  return trace;
+}
+
+TEST(Properties, symmetries_hold_bit_for_bit) {
+  Tally mirror("mirrored"), scale("scaled by a power of two"), shift("started whole periods later");
+  in_every_scene([&](const AnyScene& any) {
+    const auto rows = traced(any, 1, 1).rows;
+    const double by = std::ldexp(1.0, static_cast<int>(any.index % 41) - 20);
+    mirror.take(any, traced(mirrored(any), -1, 1).rows == rows ? 0 : infinity);
+    scale.take(any, traced(scaled(any, by), 1, 1 / by).rows == rows ? 0 : infinity);
+    shift.take(any, traced(any, 1, 1, std::int64_t(1) << 40).rows == rows ? 0 : infinity);
+  });
+  for (const Tally* tally : {&mirror, &scale, &shift}) tally->conclude(1);
+}
+
+}  // namespace
+}  // namespace clatter::hard

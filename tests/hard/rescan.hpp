@@ -1,0 +1,143 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "hard/any_scene.hpp"
+#include "hard/tally.hpp"
+#include "hard/taylor_scan.hpp"
+
+namespace clatter::hard {
+
+/// Flies every arc of a motion again by Taylor steps and checks every rest by its force. Deviations are in units of
+/// what rounding allows: `ulps` of the sizes of the sums that form a place, a velocity or a force.
+class Rescan : public Watcher {
+ public:
+  explicit Rescan(const Scene& scene)
+      : oscillator_(scene.oscillator),
+        stops_(scene.stops),
+        phase_(scene.start.phase),
+        x_(scene.start.displacement),
+        v_(scene.start.velocity) {}
+
+  template <class A>
+  void arc(const A& arc, double begin, double length) {
+    const auto& m = arc.start();
+    if (flying_ || m.x != x_ || m.v != v_) broken = infinity;  // it begins where the motion was
+    check_phase(m, begin);
+    anchor_ = arc.anchor();
+    flight_ = TaylorScan(oscillator_, anchor_).fly({m.rise, m.v, m.sine, m.cosine}, length);
+    allow(m, length, arc.flow().rate);
+    raise(missed,
+          ratio(std::max(rise_of(stops_.lower) - flight_.lowest, flight_.highest - rise_of(stops_.upper)), near_));
+    flying_ = true, rebound_ = 0;
+  }
+  void impact(const Impact& impact) {
+    const bool upper = impact.side == Side::upper, moving_in = upper ? impact.before > 0 : impact.before < 0;
+    const double R = upper ? stops_.restitution_upper : stops_.restitution_lower;
+    if (impact.after != (moving_in ? -R * impact.before : impact.before)) broken = infinity;
+    raise(place, ratio(std::abs(rise_of(impact.place) - flight_.end.rise), near_));
+    // where the place is known to d, v^2 is known to 2 a d
+    const double soft = acceleration_ * near_ / std::max(std::abs(impact.before), std::sqrt(acceleration_ * near_));
+    raise(speed, ratio(std::abs(impact.before - flight_.end.v), fast_ + soft));
+    x_ = impact.place, v_ = impact.after, rebound_ = impact.after;
+    flying_ = false;
+  }
+  void rest(const Rest& rest) {
+    if (rest.held || rebound_ != 0)
+      check_pressed(rest);
+    else
+      check_hover(rest);
+    x_ = rest.place, v_ = 0, rebound_ = 0;
+  }
+  void section(const State<double>& state) {
+    if (flying_) {
+      raise(place, ratio(std::abs(rise_of(state.x) - flight_.end.rise), whole_));
+      raise(speed, ratio(std::abs(state.v - flight_.end.v), fast_));
+    }
+    if (!flying_ && (state.x != x_ || state.v != v_)) broken = infinity;
+    x_ = state.x, v_ = state.v, flying_ = false, rebound_ = 0;
+  }
+
+  double missed = 0;   ///< penetration of a stop
+  double place = 0;    ///< distance of an arc's end from the stop that is hit, or from the place that is told
+  double speed = 0;    ///< the same of its velocity
+  double pressed = 0;  ///< force that pulls a resting mass off its stop
+  double broken = 0;   ///< an arc that doesn't begin where the last ended, or at another phase; an impact against eq. 4
+
+ private:
+  using Real = TaylorScan::Real;
+  static constexpr double ulps = 16;  ///< of sums of some ten terms, each with a rounding or two of its own
+  static constexpr double infinity = std::numeric_limits<double>::infinity();
+
+  [[nodiscard]] Real rise_of(double x) const { return static_cast<Real>(x) - anchor_; }
+
+  [[nodiscard]] static double ratio(Real deviation, double allowed) {
+    return deviation > 0 ? static_cast<double>(deviation / allowed) : 0.0;
+  }
+
+  /// What rounding allows in a flight. A short flight's place is known relative to how far it went; a longer one's is a
+  /// sum of forced response and free motion, which near resonance are larger than both.
+  template <class M>
+  void allow(const M& m, double length, double rate) {
+    const auto& [h, f, nu, load] = oscillator_;
+    const double response =
+        f == 0 ? 0 : std::abs(f) * std::min(1 / std::hypot((1 - nu) * (1 + nu), 2 * h * nu), 16 + length);
+    const double part = std::min(1.0, length), terms = length * rate > 0.25 ? response * part : 0;
+    const double way = std::abs(m.rise) + std::abs(m.v) * part;  // as far as it comes without a force
+    acceleration_ = std::abs(load - anchor_) + way + std::abs(f) + 2 * h * std::abs(m.v);
+    const double unit = ulps * epsilon<double>();
+    near_ = unit * (way + acceleration_ * part * part + terms);
+    whole_ = near_ + unit * (std::abs(anchor_) + std::abs(load) + terms);
+    fast_ = unit * (std::abs(m.v) + acceleration_ * part + terms * std::max(1.0, nu));
+  }
+
+  [[nodiscard]] Real angle(double time) const { return phase_ + static_cast<Real>(oscillator_.frequency) * time; }
+
+  template <class M>
+  void check_phase(const M& m, double begin) {
+    if (oscillator_.forcing == 0) return;
+    const double off = static_cast<double>(
+        std::max(std::abs(m.sine - std::sin(angle(begin))), std::abs(m.cosine - std::cos(angle(begin)))));
+    raise(broken, off / (ulps * epsilon<double>()));  // a turn is known to an ulp
+  }
+
+  /// The force on a mass at rest, f sin(theta) + load - x, into its stop.
+  [[nodiscard]] Real force(const Rest& rest, Real sine) const {
+    return sign_of(rest.side) * (oscillator_.forcing * sine + (static_cast<Real>(oscillator_.load) - rest.place));
+  }
+  [[nodiscard]] double force_rounding(const Rest& rest) const {
+    return ulps * epsilon<double>() *
+           (std::abs(oscillator_.forcing) + std::abs(oscillator_.load) + std::abs(rest.place));
+  }
+
+  /// The force presses all the time, at its least as well.
+  void check_pressed(const Rest& rest) {
+    constexpr int looks = 16;
+    Real least =
+        std::min(force(rest, std::sin(angle(rest.time))), force(rest, std::sin(angle(rest.time + rest.length))));
+    for (int i = 1; i < looks; ++i)
+      least = std::min(least, force(rest, std::sin(angle(rest.time + rest.length * i / looks))));
+    raise(pressed, ratio(-least, force_rounding(rest)));
+  }
+
+  /// The force is so small that the mass would not move by rounding.
+  void check_hover(const Rest& rest) {
+    const Real largest = std::max(std::abs(force(rest, std::sin(angle(rest.time)))),
+                                  std::abs(force(rest, std::sin(angle(rest.time + rest.length)))));
+    raise(pressed, ratio(largest * rest.length * rest.length / 2, force_rounding(rest)));
+  }
+
+  Oscillator oscillator_;
+  Stops stops_;
+  Real phase_;
+  double x_, v_;        ///< where the motion is, as it was told
+  double rebound_ = 0;  ///< velocity after an impact that nothing has followed yet
+  bool flying_ = false;
+  double anchor_ = 0;
+  TaylorScan::Flight flight_{};
+  double near_ = 0, whole_ = 0, fast_ = 0, acceleration_ = 0;
+};
+
+}  // namespace clatter::hard

@@ -1,0 +1,65 @@
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <iostream>
+#include <string>
+#include <utility>
+
+#include "hard/any_scene.hpp"
+#include "support/course.hpp"
+#include "support/scene_range.hpp"
+
+namespace clatter::hard {
+
+/// The scenes of a test: 10^4, or those that CLATTER_SCENES names.
+[[nodiscard]] inline SceneRange tested_scenes() { return scene_range(10000); }
+
+template <class Check>
+void in_every_scene(Check&& check) {
+  const auto [from, to] = tested_scenes();
+  for (std::uint64_t index = from; index < to; ++index) check(any_scene(index));
+}
+
+/// What one property came to: how many scenes broke it, and which came nearest to what is allowed.
+class Tally {
+ public:
+  explicit Tally(std::string property) : property_(std::move(property)) {}
+
+  /// Takes what a scene gave, in units of what is allowed: beyond 1 it has failed.
+  void take(const AnyScene& any, double deviation) {
+    ++checked_;
+    if (!(deviation <= worst_)) worst_ = deviation, worst_index_ = any.index;
+    if (deviation <= 1 || ++failed_ > shown) return;
+    ADD_FAILURE() << property_ << ": " << deviation << " of what is allowed, in scene " << any.index << "\n"
+                  << configuration_of(any.scene, any.duration);
+  }
+
+  /// Fails where scenes failed, or where fewer than this share of them had anything to check.
+  void conclude(double share) const {
+    const auto [from, to] = tested_scenes();
+    EXPECT_EQ(failed_, 0u) << property_;
+    if (to - from >= enough) {
+      EXPECT_GE(static_cast<double>(checked_), share * static_cast<double>(to - from)) << property_;
+    }
+    std::cout << property_ << ": " << checked_ << " scenes, " << failed_ << " failed; at most " << worst_
+              << " of what is allowed (scene " << worst_index_ << ")\n";
+  }
+
+  static constexpr std::uint64_t enough = 1000;  ///< scenes for shares of them to mean something
+
+ private:
+  static constexpr std::uint64_t shown = 3;
+
+  std::string property_;
+  std::uint64_t checked_ = 0, failed_ = 0, worst_index_ = 0;
+  double worst_ = 0.0;
+};
+
+/// Keeps the larger, or what is no number.
+inline void raise(double& worst, double deviation) {
+  if (!(deviation <= worst)) worst = deviation;
+}
+
+}  // namespace clatter::hard
