@@ -5,8 +5,8 @@
 #include <fstream>
 #include <sstream>
 
-#include "support/runs.hpp"
 #include "numbers/fifty_digits.hpp"
+#include "support/runs.hpp"
 
 namespace clatter {
 namespace {
