@@ -10,8 +10,8 @@ import subprocess
 import sys
 import tempfile
 
-SOURCE = pathlib.Path(__file__).resolve().parent.parent
-README = SOURCE / "README.md"
+from readme_table import README, add_build, program, replaced, section
+
 OURS, OTHERS = "hard cases", "general solvers on the hard cases"
 TITLES = {
     "graze": "graze: the stops 1e-2 … 1e-10 inside the amplitude, or 1e-12 outside it",
@@ -36,14 +36,12 @@ TITLES = {
 
 def measured(build):
     """What the tests of the hard cases report, a dictionary a case."""
-    program = build / "tests" / "hard_tests"
-    if not program.exists():
-        sys.exit(f"hard_cases.py: {program} is missing; scripts/test.sh builds it")
+    tests = program(build, "tests/hard_tests")
     with tempfile.TemporaryDirectory() as folder:
         lines = pathlib.Path(folder) / "cases"
         environment = {**os.environ, "CLATTER_HARD_CASES": str(lines)}
         names = "*agrees_with_fifty_digits*:*ends_where_the_sum*:Long.*"
-        done = subprocess.run([program, f"--gtest_filter={names}"], env=environment, capture_output=True, text=True)
+        done = subprocess.run([tests, f"--gtest_filter={names}"], env=environment, capture_output=True, text=True)
         if done.returncode != 0:
             sys.exit(f"hard_cases.py: the tests fail:\n{done.stdout}")
         return parsed(lines.read_text())
@@ -86,10 +84,8 @@ def our_table(rows):
 
 def solved(build):
     """What tests/bench/general_solvers prints, a dictionary a case and solver."""
-    program = build / "tests" / "bench" / "general_solvers"
-    if not program.exists():
-        sys.exit(f"hard_cases.py: {program} is missing; scripts/test.sh builds it")
-    return parsed(subprocess.run([program], check=True, capture_output=True, text=True).stdout)
+    solvers = program(build, "tests/bench/general_solvers")
+    return parsed(subprocess.run([solvers], check=True, capture_output=True, text=True).stdout)
 
 
 def is_right(run):
@@ -144,23 +140,9 @@ def differences(now, written):
     return found
 
 
-def section(text, name):
-    begin, end = f"<!-- begin: {name} -->\n", "<!-- end -->"
-    start = text.find(begin)
-    if start < 0:
-        sys.exit(f"hard_cases.py: README.md has no section '{name}'")
-    start += len(begin)
-    return start, text.index(end, start)
-
-
-def replaced(text, name, table):
-    start, stop = section(text, name)
-    return text[:start] + table + "\n" + text[stop:]
-
-
 def main():
     parser = argparse.ArgumentParser(description="Makes the tables of hard cases in README.md from what the tests and tests/bench measure.")
-    parser.add_argument("--build", type=pathlib.Path, default=SOURCE / "build" / "release", help="build folder (default: build/release)")
+    add_build(parser)
     parser.add_argument("--check", action="store_true", help="write nothing; fail where the README's figures are no longer true")
     parser.add_argument("--cases", action="store_true", help="print every case instead")
     arguments = parser.parse_args()

@@ -31,6 +31,7 @@ struct Command {
 [[nodiscard]] const Command& find_command(std::string_view name);
 
 [[nodiscard]] Command run_command();
+[[nodiscard]] Command plan_command();
 [[nodiscard]] Command info_command();
 [[nodiscard]] Command defaults_command();
 [[nodiscard]] Command help_command();

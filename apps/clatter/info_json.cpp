@@ -1,26 +1,9 @@
 #include "info_json.hpp"
 
-#include <array>
-#include <cstdio>
+#include "format.hpp"
 
 namespace clatter {
 namespace {
-
-std::string json_text(const std::string& text) {
-  std::string quoted = "\"";
-  for (const char character : text) {
-    if (character == '"' || character == '\\') {
-      quoted += {'\\', character};
-    } else if (static_cast<unsigned char>(character) < 0x20 || character == 0x7F) {
-      std::array<char, 8> escaped{};
-      std::snprintf(escaped.data(), escaped.size(), "\\u%04x", static_cast<unsigned>(character));
-      quoted += escaped.data();
-    } else {
-      quoted += character;
-    }
-  }
-  return quoted + '"';
-}
 
 /// The members or elements between commas, each on a line of its own.
 template <typename Range, typename Print>

@@ -4,24 +4,19 @@
 
 #include <array>
 #include <cstdint>
-#include <cstdio>
 #include <ctime>
 #include <fstream>
 #include <iterator>
 #include <variant>
 
 #include "dynamics/scene.hpp"
+#include "format.hpp"
+#include "sweep/plan.hpp"
 
 namespace clatter {
 namespace {
 
 constexpr std::size_t shown_points = 5;
-
-std::string formatted(const char* format, double value) {
-  std::array<char, 64> text{};
-  std::snprintf(text.data(), text.size(), format, value);
-  return text.data();
-}
 
 /// The numbers of the first failed points, from 0, in the order of the file.
 std::string failed_numbers(const Figure& figure) {
@@ -43,21 +38,39 @@ std::string host() {
   return gethostname(name.data(), name.size() - 1) == 0 ? name.data() : "unknown";
 }
 
-std::string counted(std::size_t count, const char* noun) {
-  return std::to_string(count) + ' ' + noun + (count == 1 ? "" : "s");
+/// What each group of points took, and all of them.
+std::string usage_text(const std::vector<Usage>& usage) {
+  std::string text;
+  double impacts = 0, periods = 0, evaluations = 0;
+  for (std::size_t group = 0; group < usage.size(); ++group) {
+    const Usage& used = usage[group];
+    text += (group == 0 ? "groups           " : "                 ") +
+            counted(static_cast<double>(used.points), "point") + " by the kernel: " + kernel_name(used.effects) +
+            "; forcing periods " + formatted("%.6g", used.periods) + ", impacts " + formatted("%.0f", used.impacts) +
+            ", evaluations " + formatted("%.0f", used.evaluations);
+    std::string found;
+    for (std::size_t i = 0; i < used.found_by.size(); ++i)
+      if (used.found_by[i] > 0)
+        found += (found.empty() ? "; observed time by " : ", ") + std::string(found_by_names[i]) + ' ' +
+                 std::to_string(used.found_by[i]);
+    text += found + '\n';
+    impacts += used.impacts, periods += used.periods, evaluations += used.evaluations;
+  }
+  return text + "impacts          " + formatted("%.0f", impacts) + "\nforcing periods  " + formatted("%.6g", periods) +
+         "\nevaluations      " + formatted("%.0f", evaluations) + '\n';
 }
 
 }  // namespace
 
 std::string summary_line(const RunResult& result, const std::string& output) {
-  std::string text = counted(result.points, "point") + ", " + std::to_string(result.failed_points) + " failed";
+  std::string text =
+      counted(static_cast<double>(result.points), "point") + ", " + std::to_string(result.failed_points) + " failed";
   if (result.failed_points > 0) text += " (number " + failed_numbers(result.figure) + "; see status)";
   return text + ", " + formatted("%.3g", result.seconds) + " s, " + output;
 }
 
 std::string details(const RunResult& result, const std::string& command, const std::string& began) {
-  return "threads          " + std::to_string(result.threads) + "\nimpacts          " +
-         formatted("%.0f", result.impacts) + "\nforcing periods  " + formatted("%.0f", result.periods) +
+  return usage_text(result.usage) + "threads          " + std::to_string(result.threads) +
          "\ninstruction set  x86-64\nhost             " + host() + "\ncommand line     " + command +
          "\nbegan            " + began + "\nended            " + now() + '\n';
 }

@@ -30,6 +30,9 @@ class Arc {
     return s * flow_->rate <= Number(0.25) ? near(start_, s) : closed_form(s);
   }
 
+  /// The forcing phase a time s after the start.
+  [[nodiscard]] SineCosine<Number> phase_after(const Number& s) const { return turned(start_, flow_->nu * s).phase; }
+
   /// Motion a short time d after `m` (d * flow().rate <= 1/4), an instant of this arc, by Taylor's series of the
   /// equation of motion.
   [[nodiscard]] Motion<Number> near(const Motion<Number>& m, const Number& d) const;

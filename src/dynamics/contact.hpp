@@ -76,7 +76,7 @@ class ContactSearch {
 
   [[nodiscard]] Number longest_step() const {
     using std::max;
-    return Number(1.6) / (E.forcing == Forcing::none ? Number(1) : max(Number(1), arc_.flow().nu));
+    return Number(1.6) / max(Number(1), arc_.flow().nu);
   }
 
   /// Gap between the mass and a stop at the search's present place; exact where the arc is anchored on the stop.
@@ -94,7 +94,7 @@ class ContactSearch {
   /// The width that an enclosure has to resolve.
   [[nodiscard]] Number width() const {
     using std::abs, std::min;
-    return min(Number(upper_ - lower_), Number(abs(here_.x) + abs(here_.v) + arc_.flow().amplitude));
+    return min(Number(upper_ - lower_), Number(abs(here_.x) + abs(here_.v) + arc_.flow().response.amplitude));
   }
   [[nodiscard]] Number error_of(const Number& step) const {
     return hermite_error(arc_.flow().sixth_bound(here_, step, 0));
@@ -141,6 +141,7 @@ class ContactSearch {
     using std::abs, std::max;
     Bernstein<Number> c;
     const Number from = max(Number(0), gap(side));
+    if (from > std::numeric_limits<double>::max()) return {};  // no such stop
     bool inside = true;
     for (std::size_t i = 0; i < c.size(); ++i) {
       c[i] = from - closing(side, rise[i]) - (i == 3 ? error : Number(0));

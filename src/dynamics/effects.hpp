@@ -1,63 +1,139 @@
 #pragma once
 
+#include <array>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 
 #include "dynamics/oscillator.hpp"
 
 namespace clatter {
 
-enum class Damping {
-  none,
-  light,
-  heavy
-};  ///< h = 0, 0 < h < 1, h >= 1: no decay, decaying rotation, two decaying exponentials
-enum class Forcing {
-  none,
-  regular,
-  secular
-};  ///< f = 0, away from resonance, at it or so near that the response is nearly secular
+/// h = 0, 0 < h < 1, h = 1, h > 1: no decay, a decaying rotation, its limit, two decaying exponentials.
+enum class Damping : std::uint8_t { none, light, critical, heavy };
 
-/// What the motion of an arc is made of; a template argument, so that what is absent costs nothing.
+/// f = 0, away from resonance, at it or so near that the response is nearly secular.
+enum class Forcing : std::uint8_t { none, regular, secular };
+
+/// What a motion is made of. As a template argument it leaves out of the code what is absent, so that it costs nothing.
 struct Effects {
   Damping damping = Damping::none;
   Forcing forcing = Forcing::none;
+  bool load = false;                  ///< a constant force
+  bool lower = false, upper = false;  ///< a stop in reach
+  bool dissipation = false;           ///< speed is lost on a stop in reach: R < 1
+  bool rest = false;                  ///< chatter and rest: a stop in reach may be pressed
 
-  friend constexpr bool operator==(Effects, Effects) = default;
+  [[nodiscard]] constexpr bool stops() const { return lower || upper; }
+
+  /// What the arcs between impacts depend on.
+  [[nodiscard]] constexpr Effects arc() const { return {.damping = damping, .forcing = forcing}; }
+
+  friend constexpr bool operator==(const Effects&, const Effects&) = default;
 };
+
+/// Whether a kernel for `all` simulates whatever `some` calls for.
+[[nodiscard]] constexpr bool contains(const Effects& all, const Effects& some) {
+  const bool decays_twice = some.damping >= Damping::critical;
+  const bool damping =
+      decays_twice ? all.damping == Damping::heavy : all.damping <= Damping::light && all.damping >= some.damping;
+  return damping && all.forcing >= some.forcing && all.load >= some.load && all.lower >= some.lower &&
+         all.upper >= some.upper && all.dissipation >= some.dissipation && all.rest >= some.rest;
+}
+
+namespace kernels {
+
+[[nodiscard]] constexpr Effects free_of_stops(Damping damping, Forcing forcing) {
+  return {.damping = damping, .forcing = forcing, .load = true};
+}
+[[nodiscard]] constexpr Effects impacts(Damping damping, Forcing forcing) {
+  return {.damping = damping, .forcing = forcing, .load = true, .lower = true, .upper = true, .dissipation = true};
+}
+[[nodiscard]] constexpr Effects complete(Damping damping, Forcing forcing) {
+  Effects effects = impacts(damping, forcing);
+  effects.rest = true;
+  return effects;
+}
+
+}  // namespace kernels
+
+/// The sets of effects that are compiled, the cheaper before the dearer. Not told apart, since telling them apart saves
+/// little: the load (an addition), one stop or two (looked at once a step, not in every evaluation), dissipation (a
+/// multiplication an impact), and critical damping, which is rare. README shows what each effect costs.
+inline constexpr std::array compiled_effects{
+    kernels::free_of_stops(Damping::none, Forcing::none),     kernels::free_of_stops(Damping::light, Forcing::regular),
+    kernels::free_of_stops(Damping::heavy, Forcing::regular), kernels::free_of_stops(Damping::light, Forcing::secular),
+    kernels::impacts(Damping::none, Forcing::none),           kernels::complete(Damping::none, Forcing::none),
+    kernels::impacts(Damping::light, Forcing::none),          kernels::complete(Damping::light, Forcing::none),
+    kernels::complete(Damping::none, Forcing::regular),  // cheaper than light damping without rest
+    kernels::impacts(Damping::light, Forcing::regular),       kernels::complete(Damping::light, Forcing::regular),
+    kernels::complete(Damping::none, Forcing::secular),       kernels::impacts(Damping::light, Forcing::secular),
+    kernels::complete(Damping::light, Forcing::secular),      kernels::complete(Damping::heavy, Forcing::none),
+    kernels::complete(Damping::heavy, Forcing::regular)};
+
+/// The cheapest compiled set that contains the effects: an index of `compiled_effects`.
+[[nodiscard]] constexpr std::size_t kernel_of(const Effects& effects) {
+  std::size_t kernel = 0;
+  while (!contains(compiled_effects[kernel], effects)) ++kernel;
+  return kernel;
+}
+
+/// Every effect that an oscillator of this damping can have.
+[[nodiscard]] constexpr Effects all_effects(Damping damping) {
+  return damping >= Damping::critical ? kernels::complete(Damping::heavy, Forcing::regular)
+                                      : kernels::complete(Damping::light, Forcing::secular);
+}
+
+[[nodiscard]] constexpr bool every_scene_has_a_kernel() {
+  for (const Damping damping : {Damping::none, Damping::light, Damping::critical, Damping::heavy})
+    for (const Forcing forcing : {Forcing::none, Forcing::regular, Forcing::secular}) {
+      const bool exists = forcing != Forcing::secular || damping <= Damping::light;  // no resonance from h = 1/16 on
+      if (exists && !contains(all_effects(damping), kernels::complete(damping, forcing))) return false;
+    }
+  return true;
+}
+static_assert(every_scene_has_a_kernel());
 
 /// Distance of i nu from the oscillator's roots below which forced response and transient are formed together. There
 /// each of the two is up to 1/(2 * distance) times larger than the force, and so is the rounding error of their sum
 /// when it is formed from both.
 inline constexpr double secular_distance = 1.0 / 16.0;
 
-/// The smallest set of effects that reproduces the oscillator exactly.
-[[nodiscard]] inline Effects required_effects(const Oscillator& oscillator) {
+[[nodiscard]] inline Damping damping_of(const Oscillator& oscillator) {
   const double h = oscillator.damping;
-  const Damping damping = h == 0.0 ? Damping::none : h < 1.0 ? Damping::light : Damping::heavy;
-  if (oscillator.forcing == 0.0) return {damping, Forcing::none};
-  const bool secular = std::hypot(h, oscillator.frequency - 1.0) < secular_distance;
-  return {damping, secular ? Forcing::secular : Forcing::regular};
+  return h == 0.0 ? Damping::none : h < 1.0 ? Damping::light : h == 1.0 ? Damping::critical : Damping::heavy;
 }
 
-/// Calls `function.operator()<effects>()` for the compiled set of effects: eight of them, since heavy damping has no
-/// resonance.
-template <class Function>
-decltype(auto) with_effects(Effects effects, Function&& function) {
-  const auto with_damping = [&]<Damping damping>() -> decltype(auto) {
-    if (effects.forcing == Forcing::none) return function.template operator()<Effects{damping, Forcing::none}>();
-    if constexpr (damping != Damping::heavy)
-      if (effects.forcing == Forcing::secular)
-        return function.template operator()<Effects{damping, Forcing::secular}>();
-    return function.template operator()<Effects{damping, Forcing::regular}>();
-  };
-  switch (effects.damping) {
-    case Damping::none:
-      return with_damping.template operator()<Damping::none>();
-    case Damping::light:
-      return with_damping.template operator()<Damping::light>();
-    default:
-      return with_damping.template operator()<Damping::heavy>();
+[[nodiscard]] inline Forcing forcing_of(const Oscillator& oscillator) {
+  if (oscillator.forcing == 0.0) return Forcing::none;
+  const bool secular = std::hypot(oscillator.damping, oscillator.frequency - 1.0) < secular_distance;
+  return secular ? Forcing::secular : Forcing::regular;
+}
+
+/// Calls `function.operator()<kernel>()` for the cheapest compiled set that contains the effects.
+template <class Function, std::size_t candidate = 0>
+decltype(auto) with_effects(const Effects& effects, Function&& function) {
+  if constexpr (candidate + 1 < compiled_effects.size()) {
+    if (!contains(compiled_effects[candidate], effects))
+      return with_effects<Function, candidate + 1>(effects, static_cast<Function&&>(function));
   }
+  return function.template operator()<compiled_effects[candidate]>();
+}
+
+/// Calls `function.operator()<kernel>()` for an oscillator between any stops: one of the eight complete sets.
+template <class Function>
+decltype(auto) with_any_stops(const Oscillator& oscillator, Function&& function) {
+  const Damping damping = damping_of(oscillator);
+  const Forcing forcing = forcing_of(oscillator);
+  const auto with_damping = [&]<Damping d>() -> decltype(auto) {
+    if (forcing == Forcing::none) return function.template operator()<kernels::complete(d, Forcing::none)>();
+    if constexpr (d != Damping::heavy)
+      if (forcing == Forcing::secular) return function.template operator()<kernels::complete(d, Forcing::secular)>();
+    return function.template operator()<kernels::complete(d, Forcing::regular)>();
+  };
+  if (damping == Damping::none) return with_damping.template operator()<Damping::none>();
+  if (damping == Damping::light) return with_damping.template operator()<Damping::light>();
+  return with_damping.template operator()<Damping::heavy>();
 }
 
 }  // namespace clatter

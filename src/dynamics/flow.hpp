@@ -6,6 +6,7 @@
 
 #include "dynamics/effects.hpp"
 #include "dynamics/oscillator.hpp"
+#include "dynamics/response.hpp"
 #include "dynamics/state.hpp"
 #include "numbers/number.hpp"
 
@@ -27,6 +28,8 @@ template <class Number>
 /// The constants of an oscillator that all its arcs share, and its free motion and bounds.
 template <class Number, Effects E>
 class Flow {
+  static_assert(E == E.arc());  // nothing else makes another arc
+
  public:
   explicit Flow(const Oscillator& oscillator);
 
@@ -36,11 +39,11 @@ class Flow {
   /// Displacement and velocity of the steady forced response at a phase; the secular kernel leaves the forced part to
   /// its arcs.
   [[nodiscard]] Number response_displacement(const Number& sine, const Number& cosine) const {
-    if constexpr (E.forcing == Forcing::regular) return in_phase * sine + quadrature * cosine;
+    if constexpr (E.forcing == Forcing::regular) return response.in_phase * sine + response.quadrature * cosine;
     return Number(0);
   }
   [[nodiscard]] Number response_velocity(const Number& sine, const Number& cosine) const {
-    if constexpr (E.forcing == Forcing::regular) return nu * (in_phase * cosine - quadrature * sine);
+    if constexpr (E.forcing == Forcing::regular) return nu * (response.in_phase * cosine - response.quadrature * sine);
     return Number(0);
   }
 
@@ -81,14 +84,13 @@ class Flow {
   /// no two modes.
   [[nodiscard]] Number fast_mode(const Number& x, const Number& v) const { return -(slow * x + v) / (2 * root); }
 
-  Number h, f, nu, load;
-  Number root;                  ///< lambda = |1 - h^2|^(1/2)
-  Number slow, fast;            ///< decay rates of heavy damping
-  Number in_phase, quadrature;  ///< P and Q of the steady response P sin + Q cos
-  Number amplitude;             ///< (P^2 + Q^2)^(1/2)
-  Number detuning;              ///< nu - lambda, without cancellation
-  Number rate;                  ///< the fastest of the motion's frequencies and decay rates
-  Number period;                ///< of the force; without forcing 2 pi
+  Number h, f, nu, load;      ///< of the oscillator; without forcing nu = 1, so that a period is 2 pi
+  Number root;                ///< lambda = |1 - h^2|^(1/2)
+  Number slow, fast;          ///< decay rates of heavy damping
+  Response<Number> response;  ///< 0 where arcs form it together with the free motion (secular)
+  Number detuning;            ///< nu - lambda, without cancellation
+  Number rate;                ///< the fastest of the motion's frequencies and decay rates
+  Number period;              ///< of the force; without forcing 2 pi
  private:
   void bound_derivatives();
   [[nodiscard]] Number short_rise(const Number& s) const;
@@ -99,24 +101,18 @@ class Flow {
 };
 
 template <class Number, Effects E>
-Flow<Number, E>::Flow(const Oscillator& o) : h(o.damping), f(o.forcing), nu(o.frequency), load(o.load) {
+Flow<Number, E>::Flow(const Oscillator& o)
+    : h(o.damping), f(o.forcing), nu(o.forcing == 0 ? 1 : o.frequency), load(o.load) {
   using std::abs, std::max, std::sqrt;
   root = sqrt(abs((1 - h) * (1 + h)));
   coarse_root_ = select<Number>(h < Number(0.5), Number(1), root);
   spare_root_ = select<Number>(h < Number(0.5), Number(h * h / (1 + root)), Number(0));
   fast = h + root;
   slow = 1 / fast;
-  const Number stiffness = (1 - nu) * (1 + nu), friction = 2 * h * nu;
-  const Number size =
-      max(Number(abs(stiffness)), friction);  // divided out first, so that its square can't overflow or vanish
-  const Number p = stiffness / size, q = friction / size, determinant = size * (p * p + q * q);
-  in_phase = E.forcing == Forcing::regular ? Number(f * p / determinant) : Number(0);
-  quadrature = E.forcing == Forcing::regular ? Number(-f * q / determinant) : Number(0);
-  amplitude = norm(in_phase, quadrature);
+  if constexpr (E.forcing == Forcing::regular) response = steady_response(h, f, nu);
   detuning = (nu - 1) + h * h / (1 + root);
-  rate = max(Number(1), Number(2 * h));
-  if constexpr (E.forcing != Forcing::none) rate = max(rate, nu);
-  period = E.forcing == Forcing::none ? Number(2 * pi<Number>()) : Number(2 * pi<Number>() / nu);
+  rate = max(nu, max(Number(1), Number(2 * h)));
+  period = 2 * pi<Number>() / nu;
   bound_derivatives();
 }
 
@@ -190,7 +186,8 @@ Number Flow<Number, E>::sixth_bound(const Motion<Number>& m, const Number& span,
         times_sixth_power(slow_part, Number(slow * span)) + times_sixth_power(fast_part, Number(fast * span));
     bound = select<Number>(modal < bound, modal, bound);  // root = 0: modal is infinite or NaN and is left aside
   }
-  if constexpr (E.forcing == Forcing::regular) bound += times_sixth_power(times(amplitude, nu), Number(nu * span));
+  if constexpr (E.forcing == Forcing::regular)
+    bound += times_sixth_power(times(response.amplitude, nu), Number(nu * span));
   if constexpr (E.forcing == Forcing::secular) bound += times_sixth_power(forced_bound_[i], span);
   return bound;
 }
@@ -198,7 +195,7 @@ Number Flow<Number, E>::sixth_bound(const Motion<Number>& m, const Number& span,
 template <class Number, Effects E>
 Number Flow<Number, E>::reach(const Motion<Number>& m, const Number& span) const {
   using std::abs;
-  Number bound = amplitude + norm(m.free_x, m.free_v);
+  Number bound = response.amplitude + norm(m.free_x, m.free_v);
   if constexpr (E.forcing == Forcing::secular) bound += abs(f) * span;
   return bound * (1 + 16 * epsilon<Number>());
 }

@@ -48,8 +48,8 @@ template <class Number, Effects E>
   using std::abs;
   const Number constant = stop.into(flow.load - stop.place);
   if constexpr (E.forcing == Forcing::none) return constant > 0;
-  if (constant >= abs(flow.f)) return true;
   if (constant <= -abs(flow.f)) return false;
+  if (constant >= abs(flow.f)) return true;
   const Pressing<Number> press = pressing(flow, stop, phase);
   return press.force > 0 || (press.force == 0 && press.rate > 0);
 }

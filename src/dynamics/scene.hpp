@@ -39,6 +39,7 @@ struct Observe {
   bool impact_log = false;
   std::int64_t trajectory = 0;  ///< samples over the observed time, both ends included; 0: none
   bool period = false;
+  bool stability = false;
 };
 
 /// One point of a sweep: everything its motion and its results depend on.
@@ -48,6 +49,7 @@ struct Scene {
   Start start;
   TimePlan time;
   Observe observe;
+  bool all_effects = false;  ///< simulate every effect and take no shortcut, to compare with
 };
 
 /// What became of a point; from `event_budget` on it has failed.

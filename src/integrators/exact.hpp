@@ -23,17 +23,21 @@ struct NoObserver {
 };
 
 /// Event-driven integration: closed-form arcs, proved first contacts, chatter completed, rests released at their exact
-/// time.
+/// time. Of these what the effects E have.
 template <class Number, Effects E>
 class Exact {
  public:
-  explicit Exact(const Scene& scene)
+  explicit Exact(const Scene& scene) : Exact(scene, scene.stops) {}
+
+  /// Looks for contacts with the given stops only, the others being out of reach.
+  Exact(const Scene& scene, const Stops& in_reach)
       : flow_(scene.oscillator),
-        stops_(scene.stops),
+        stops_(in_reach),
         budget_(scene.time.max_impacts),
         start_turns_(turns_of(scene.start.phase)) {}
 
-  [[nodiscard]] const Flow<Number, E>& flow() const { return flow_; }
+  [[nodiscard]] const Flow<Number, E.arc()>& flow() const { return flow_; }
+  [[nodiscard]] const Stops& stops() const { return stops_; }          ///< that contacts are looked for with
   [[nodiscard]] const Number& period() const { return flow_.period; }  ///< forcing period in tau; without forcing 2 pi
   [[nodiscard]] double impacts() const { return impacts_; }            ///< impacts simulated so far
   [[nodiscard]] double evaluations() const { return evaluations_; }
@@ -47,8 +51,8 @@ class Exact {
         rest(state, *stop, end, origin, observer);
         continue;
       }
-      const Arc<Number, E> arc{flow_, motion(state), anchor(state)};
-      const Contact<Number> contact = next_contact(arc, stops_, Number((end - state.turns) * flow_.period));
+      const Arc<Number, E.arc()> arc{flow_, motion(state), anchor(state)};
+      const Contact<Number> contact = end_of(arc, Number((end - state.turns) * flow_.period));
       evaluations_ += contact.evaluations;
       if (!contact.resolved)
         return std::isfinite(static_cast<double>(contact.motion.x)) ? Outcome::unresolved : Outcome::not_finite;
@@ -71,12 +75,17 @@ class Exact {
 
   /// The stop that holds a mass at rest, if one does.
   [[nodiscard]] std::optional<Stop<Number>> holding_stop(const State<Number>& state) const {
-    if (state.v != 0 || state.released) return std::nullopt;
+    if (!E.rest || state.v != 0 || state.released) return std::nullopt;
     for (const Side side : {Side::lower, Side::upper}) {
       const auto stop = stop_at<Number>(stops_, side);
       if (state.x == stop.place && holds(flow_, stop, phase(state))) return stop;
     }
     return std::nullopt;
+  }
+
+  /// Of the force.
+  [[nodiscard]] SineCosine<Number> phase(const State<Number>& state) const {
+    return sine_cosine_of_turns(Number(start_turns_ + state.turns));
   }
 
   /// Time since the section `origin`.
@@ -90,9 +99,6 @@ class Exact {
     const Number angle(phase);
     return atan2(Number(sin(angle)), Number(cos(angle))) / (2 * pi<Number>());
   }
-  [[nodiscard]] SineCosine<Number> phase(const State<Number>& state) const {
-    return sine_cosine_of_turns(Number(start_turns_ + state.turns));
-  }
   [[nodiscard]] Motion<Number> motion(const State<Number>& state) const {
     const auto [sine, cosine] = phase(state);
     const Number rise = state.left == Side::none ? Number(0) : state.rise;
@@ -103,6 +109,12 @@ class Exact {
   /// The place that the rise of the present flight counts from.
   [[nodiscard]] Number anchor(const State<Number>& state) const {
     return state.left == Side::none ? state.x : stop_at<Number>(stops_, state.left).place;
+  }
+  /// The first contact of an arc, or its end at the horizon.
+  [[nodiscard]] Contact<Number> end_of(const Arc<Number, E.arc()>& arc, const Number& horizon) const {
+    if constexpr (E.stops()) return next_contact(arc, stops_, horizon);
+    const Motion<Number> there = arc.at(horizon);
+    return {Side::none, horizon, there, 1, std::isfinite(static_cast<double>(there.x))};
   }
   void pass(State<Number>& state, const Number& elapsed) const { state.turns += elapsed / flow_.period; }
 
@@ -116,7 +128,7 @@ class Exact {
     if (state.v == 0) state.v = 0;  // no negative zero
     observer.impact(Impact{time(state, origin), stop.side, static_cast<double>(before), static_cast<double>(state.v),
                            static_cast<double>(stop.place)});
-    if (state.v == 0) return;
+    if (!E.rest || state.v == 0) return;
     const auto left = chatter_time(flow_, stop, pressing(flow_, stop, phase(state)), Number(-stop.into(state.v)));
     if (!left || state.turns + *left / flow_.period > end) return;  // a run that ends in a chatter ends in a flight
     show_rest(state, stop, Number(*left / flow_.period), false, origin, observer);
@@ -132,10 +144,13 @@ class Exact {
     Number until = end;
     state.left = stop.side, state.rise = 0;
     if (const auto phase_of_release = release_phase(flow_, stop)) {
-      Number ahead = *phase_of_release - (start_turns_ + state.turns);
-      ahead -= floor(ahead);
-      if (ahead > 1 - 16 * epsilon<Number>()) ahead = 0;  // it passed within rounding of now, not a whole turn ahead
-      if (state.turns + ahead <= end) until = state.turns + ahead, state.released = true;
+      Number release = *phase_of_release - start_turns_;  // the same number after every rest
+      release -= floor(release);
+      if (release == 1) release = 0;  // rounded up
+      const Number ahead = release - state.turns + (release < state.turns ? 1 : 0);
+      if (ahead > 1 - 16 * epsilon<Number>())
+        release = state.turns;  // it passed within rounding of now, not a whole turn ahead
+      if (release >= state.turns && release <= end) until = release, state.released = true;
     }
     show_rest(state, stop, Number(until - state.turns), true, origin, observer);
     state.turns = until;
@@ -159,7 +174,7 @@ class Exact {
                        static_cast<double>(stop.place), held});
   }
 
-  Flow<Number, E> flow_;
+  Flow<Number, E.arc()> flow_;
   Stops stops_;
   double budget_;
   Number start_turns_;

@@ -1,10 +1,11 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <utility>
-#include <vector>
 
 namespace clatter {
 
@@ -14,14 +15,15 @@ namespace clatter {
 class RepeatFinder {
  public:
   static constexpr std::size_t longest = 64;  ///< forcing periods of the longest motion looked for
+  static constexpr double few = 100;          ///< tolerances within which a divisor of a period counts as one
 
   explicit RepeatFinder(double tolerance) : tolerance_(tolerance) {}
 
   /// Takes the next section's state; returns the n after which the motion repeats, 0 while it doesn't.
   [[nodiscard]] std::size_t add(double x, double v) {
-    if (x_.size() == capacity) forget();
-    x_.push_back(x), v_.push_back(v);
-    const std::size_t now = x_.size() - 1;
+    if (size_ == capacity) forget();
+    x_[size_] = x, v_[size_] = v;
+    const std::size_t now = size_++;
     if (candidate_ > 0 && !repeats(now, candidate_, few * tolerance_)) candidate_ = 0;
     if (candidate_ > 0 && --left_ == 0) return shortest(now, std::exchange(candidate_, 0));
     for (std::size_t n = 1; candidate_ == 0 && n <= std::min(longest, now); ++n)
@@ -29,9 +31,15 @@ class RepeatFinder {
     return 0;
   }
 
+  /// Distance of the newest state and the one m sections before, over the larger of |x|, |v|; `ago` sections ago.
+  /// Infinite where there is no such state (any more).
+  [[nodiscard]] double distance_over(std::size_t m, std::size_t ago = 0) const {
+    return m + ago < size_ ? distance(size_ - 1 - ago, m) : std::numeric_limits<double>::infinity();
+  }
+
   /// Index among the last n states, 0 for the newest, of the one with the least x and then the least v.
   [[nodiscard]] std::size_t lowest_of_last(std::size_t n) const {
-    const std::size_t now = x_.size() - 1;
+    const std::size_t now = size_ - 1;
     std::size_t best = 0;
     for (std::size_t i = 1; i < n; ++i) {
       const std::size_t other = now - i, chosen = now - best;
@@ -41,12 +49,13 @@ class RepeatFinder {
   }
 
  private:
-  static constexpr std::size_t capacity = 512,
-                               kept = 2 * longest;  // a divisor's distance reaches back n + n/2 sections
+  static constexpr std::size_t capacity = 512;
+  static constexpr std::ptrdiff_t kept = 2 * longest;  // a divisor's distance reaches back n + n/2 sections
 
   void forget() {
-    x_.erase(x_.begin(), x_.end() - kept);
-    v_.erase(v_.begin(), v_.end() - kept);
+    std::copy(x_.end() - kept, x_.end(), x_.begin());
+    std::copy(v_.end() - kept, v_.end(), v_.begin());
+    size_ = static_cast<std::size_t>(kept);
   }
 
   /// Whether the states at `now` and n sections before are the same, to a tolerance.
@@ -78,10 +87,10 @@ class RepeatFinder {
     return n;
   }
 
-  static constexpr double few = 100;
   double tolerance_;
   std::size_t candidate_ = 0, left_ = 0;  ///< a repeat to be confirmed, and the sections until then
-  std::vector<double> x_, v_;
+  std::size_t size_ = 0;
+  std::array<double, capacity> x_{}, v_{};
 };
 
 }  // namespace clatter

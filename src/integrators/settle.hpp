@@ -1,109 +1,49 @@
 #pragma once
 
-#include <array>
-#include <cmath>
-#include <cstdint>
+#include <algorithm>
 
-#include "integrators/exact.hpp"
-#include "integrators/repeat.hpp"
-#include "integrators/return_map.hpp"
+#include "integrators/settle_forced.hpp"
+#include "integrators/settle_unforced.hpp"
 
 namespace clatter {
 
-/// The time that is observed: where it begins, how long it is, and what the motion in it is.
-template <class Number>
-struct Observed {
-  Status status = Status::unresolved;
-  State<Number> from{};
-  Number turns{};           ///< its length in forcing periods; without forcing in 2 pi
-  double settled = 0.0;     ///< forcing periods simulated before, to find it
-  bool standstill = false;  ///< nothing moves any more
-};
-
-[[nodiscard]] constexpr Status status_of(Outcome failure) {
-  switch (failure) {
-    case Outcome::event_budget:
-      return Status::event_budget;
-    case Outcome::not_finite:
-      return Status::not_finite;
-    default:
-      return Status::unresolved;
-  }
-}
-
-/// Runs to the next section.
-template <class Number, Effects E, class Observer>
-[[nodiscard]] Outcome advance_to_section(Exact<Number, E>& integrator, State<Number>& state, std::int64_t origin,
-                                         Observer& observer) {
-  const Outcome outcome = integrator.advance(state, Number(1), origin, observer);
-  state.turns = 0;
-  ++state.periods;
-  return outcome;
-}
-
-/// Runs for a time in turns, starting at a section, under the eyes of an observer.
-template <class Number, Effects E, class Observer>
-[[nodiscard]] Outcome run_for(Exact<Number, E>& integrator, State<Number>& state, const Number& turns,
-                              Observer& observer) {
-  using std::floor;
-  const std::int64_t origin = state.periods;
-  Number left = floor(turns);
-  const Number part = turns - left;
-  while (left > 0) {
-    const Outcome outcome = advance_to_section(integrator, state, origin, observer);
-    if (outcome != Outcome::completed) return outcome;
-    left -= 1;
-  }
-  return integrator.advance(state, part, origin, observer);
-}
-
-/// Runs forced motion until its state at the sections repeats.
-template <class Number, Effects E>
-[[nodiscard]] Observed<Number> settle_forced(Exact<Number, E>& integrator, State<Number> state, const TimePlan& plan) {
+/// Runs forced motion for all of max_periods and looks for a repeat only then: what shortcuts are compared with.
+template <Effects E>
+[[nodiscard]] Observed settle_without_shortcut(Exact<double, E>& integrator, State<double> state,
+                                               const TimePlan& plan) {
+  constexpr auto longest = static_cast<std::int64_t>(RepeatFinder::longest);
   NoObserver nobody;
   RepeatFinder repeat(plan.tolerance);
-  std::array<State<Number>, RepeatFinder::longest> recent;
-  for (std::int64_t k = 0;; ++k) {
-    recent[static_cast<std::size_t>(k) % recent.size()] = state;
-    if (const std::size_t n = repeat.add(static_cast<double>(state.x), static_cast<double>(state.v))) {
-      const auto chosen = static_cast<std::size_t>(k) - repeat.lowest_of_last(n);
-      return {Status::periodic, recent[chosen % recent.size()], Number(static_cast<double>(n)), static_cast<double>(k)};
+  std::array<State<double>, RepeatFinder::longest> recent;
+  for (std::int64_t section = 0;; ++section) {
+    const auto settled = static_cast<double>(section);
+    recent[static_cast<std::size_t>(section % longest)] = state;
+    if (section >= plan.max_periods - 3 * longest) {
+      if (const std::size_t n = repeat.add(state.x, state.v)) {
+        const auto chosen = section - static_cast<std::int64_t>(repeat.lowest_of_last(n));
+        return {Status::periodic, recent[static_cast<std::size_t>(chosen % longest)], static_cast<double>(n), settled,
+                FoundBy::repetition};
+      }
     }
-    if (k == plan.max_periods)
-      return {Status::aperiodic, state, Number(static_cast<double>(plan.window)), static_cast<double>(k)};
+    if (section == plan.max_periods)
+      return {Status::aperiodic, state, static_cast<double>(plan.window), settled, FoundBy::nothing};
     const Outcome outcome = advance_to_section(integrator, state, state.periods, nobody);
-    if (outcome != Outcome::completed) return {status_of(outcome), state, Number(0), static_cast<double>(k)};
-  }
-}
-
-/// Runs unforced motion until it returns to the same speed on the same stop, turns freely, or comes to stand still.
-template <class Number, Effects E>
-[[nodiscard]] Observed<Number> settle_unforced(Exact<Number, E>& integrator, State<Number> state, const Scene& scene) {
-  const State<Number> start = state;
-  ReturnMap returns(scene);
-  for (std::int64_t k = 0;; ++k) {
-    const auto settled = static_cast<double>(k);
-    if (returns.stands_still(static_cast<double>(state.x), static_cast<double>(state.v),
-                             integrator.holding_stop(state).has_value()))
-      return {Status::periodic, state, Number(1), settled, true};
-    if (k == scene.time.max_periods)
-      return {Status::aperiodic, state, Number(static_cast<double>(scene.time.window)), settled};
-    returns.begin_period(static_cast<double>(integrator.period()));
-    const Outcome outcome = advance_to_section(integrator, state, state.periods, returns);
-    if (outcome != Outcome::completed) return {status_of(outcome), state, Number(0), settled};
-    if (integrator.holding_stop(state)) continue;
-    const Number turns = returns.free_rotation() ? Number(1) : Number(Number(returns.period()) / integrator.period());
-    if (turns > 0) return {Status::periodic, returns.conserved() ? start : state, turns, settled + 1};
+    if (outcome != Outcome::completed) return {status_of(outcome), state, 0.0, settled, FoundBy::nothing};
   }
 }
 
 /// The time to observe of a scene that starts from `state`.
-template <class Number, Effects E>
-[[nodiscard]] Observed<Number> settle(Exact<Number, E>& integrator, const State<Number>& state, const Scene& scene) {
+template <Effects E>
+[[nodiscard]] Observed settle(Exact<double, E>& integrator, const State<double>& state, const Scene& scene) {
   if (scene.time.mode == Mode::transient)
-    return {Status::transient, state, Number(Number(scene.time.duration) / integrator.period())};
-  if constexpr (E.forcing == Forcing::none) return settle_unforced(integrator, state, scene);
-  return settle_forced(integrator, state, scene.time);
+    return {Status::transient, state, scene.time.duration / integrator.period(), 0.0, FoundBy::start};
+  const bool forced = E.forcing != Forcing::none && scene.oscillator.forcing != 0;
+  if (!forced) return FreeSearch<E>(integrator, scene).run(state);
+  if constexpr (E.forcing != Forcing::none) {
+    if (scene.all_effects) return settle_without_shortcut(integrator, state, scene.time);
+    return SteadySearch<E>(integrator, scene).run(state);
+  }
+  return {};
 }
 
 }  // namespace clatter

@@ -33,7 +33,8 @@ Observe observe(const Settings& settings) {
           .impacts = settings.flag("observe", "impacts"),
           .impact_log = settings.flag("observe", "impact_log"),
           .trajectory = settings.integer("observe", "trajectory"),
-          .period = settings.flag("observe", "period")};
+          .period = settings.flag("observe", "period"),
+          .stability = settings.flag("observe", "stability")};
 }
 
 /// The scene before any axis is applied; what has no default stays as Scene has it.
@@ -41,6 +42,7 @@ Scene scene_of(const Settings& settings) {
   Scene scene;
   scene.time = time_plan(settings);
   scene.observe = observe(settings);
+  scene.all_effects = settings.text("integrator", "effects") == "all";
   for (const Key& key : keys()) {
     const auto parameter = parameter_of(key.name);
     if (key.section != "scene" || !parameter || *parameter == Parameter::start_period) continue;

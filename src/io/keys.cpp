@@ -23,6 +23,7 @@ constexpr Range zero_to_one{.low = 0, .high = 1};
 constexpr std::array<std::string_view, 2> modes{"steady", "transient"};
 constexpr std::array<std::string_view, 2> harmonics_methods{"fft", "exact"};
 constexpr std::array<std::string_view, 1> methods{"exact"};
+constexpr std::array<std::string_view, 2> effects{"required", "all"};
 
 using enum Kind;
 
@@ -93,8 +94,17 @@ constexpr std::array all_keys{
     Key{"observe", "trajectory", integer, "0", "samples of tau, x, x' over the observed time; 0: none",
         Range{.low = 2, .high = 1e7, .or_zero = true}},
     Key{"observe", "period", flag, "false", "period of the motion, in tau and in forcing periods"},
+    Key{"observe", "stability", flag, "false", "multipliers of the periodic motion, largest Lyapunov exponent"},
 
     Key{"integrator", "method", choice, "exact", "how arcs are computed; exact: in closed form", {}, methods},
+    Key{"integrator",
+        "effects",
+        choice,
+        "required",
+        "required: simulate what a scene calls for; all: to compare with, simulate every effect, run max_periods, and "
+        "look for the repeat only then",
+        {},
+        effects},
 
     Key{"output", "compression", integer, "4", "deflate level of the output file; 0: none", Range{.low = 0, .high = 9}},
 };

@@ -26,7 +26,7 @@ class Extrema {
   template <Effects E>
   void arc(const Arc<double, E>& arc, double, double length) {
     splits_ = 0;
-    const Place from{0.0, arc.start()}, to{length, arc.at(length)};
+    const Place from{0.0, arc.start()}, to{length, at(arc, length)};
     include(from.motion);
     include(to.motion);
     search<0>(arc, from, to);
@@ -40,6 +40,7 @@ class Extrema {
     return {std::max(x_.low, stops.lower), std::min(x_.high, stops.upper)};
   }
   [[nodiscard]] const Range& velocity() const { return v_; }
+  [[nodiscard]] double evaluations() const { return evaluations_; }  ///< of arcs
 
  private:
   static constexpr int max_splits = 1 << 22;  ///< of an arc; only one whose bounds overflow comes near it
@@ -49,6 +50,11 @@ class Extrema {
     Motion<double> motion;
   };
 
+  template <Effects E>
+  Motion<double> at(const Arc<double, E>& arc, double s) {
+    ++evaluations_;
+    return arc.at(s);
+  }
   void include(const Motion<double>& m) { x_.include(m.x), v_.include(m.v); }
 
   /// What is searched (order 0: displacement, 1: velocity) with its first two derivatives.
@@ -82,10 +88,10 @@ class Extrema {
   /// The turning point where the slope changes sign between two places, by Newton's iteration within a bracket; else
   /// the middle.
   template <int order, Effects E>
-  static Place split(const Arc<double, E>& arc, const Place& from, const Place& to) {
+  Place split(const Arc<double, E>& arc, const Place& from, const Place& to) {
     double low = from.s, high = to.s, s = (low + high) / 2;
     const double slope_before = jet<order>(arc, from.motion)[1], slope_after = jet<order>(arc, to.motion)[1];
-    Motion<double> m = arc.at(s);
+    Motion<double> m = at(arc, s);
     const bool turns_once = slope_before * slope_after < 0 && (to.s - from.s) * arc.flow().rate < 4;
     if (!turns_once) return {s, m};
     for (int iteration = 0; iteration < 60; ++iteration) {
@@ -95,7 +101,7 @@ class Extrema {
       if (!(next > low && next < high)) next = (low + high) / 2;
       const bool settled = std::abs(next - s) <= 1e-9 * (to.s - from.s);  // the extremum's error is the square of this
       s = next;
-      m = arc.at(s);
+      m = at(arc, s);
       if (settled) break;
     }
     return {s, m};
@@ -103,6 +109,7 @@ class Extrema {
 
   Range x_, v_;
   int splits_ = 0;
+  double evaluations_ = 0.0;
 };
 
 }  // namespace clatter

@@ -45,6 +45,7 @@ class ExactHarmonics {
   void arc(const Arc<double, E>& arc, double begin, double length) {
     const Motion<double>& first = arc.start();
     const Motion<double> last = arc.at(length);
+    ++evaluations_;
     if (!(begin > 0.0)) first_x_ = first.x;
     for (std::size_t k = 0; k < x_.size(); ++k) {
       const double w = base_ * static_cast<double>(k), h = arc.flow().h;
@@ -79,6 +80,7 @@ class ExactHarmonics {
   }
   [[nodiscard]] const std::vector<Complex>& displacement() const { return x_; }
   [[nodiscard]] const std::vector<Complex>& velocity() const { return v_; }
+  [[nodiscard]] double evaluations() const { return evaluations_; }  ///< of arcs
 
  private:
   [[nodiscard]] static Complex turn(double angle) { return {std::cos(angle), -std::sin(angle)}; }
@@ -104,11 +106,12 @@ class ExactHarmonics {
 
   /// The same integral by panels in which nothing turns by more than a few radians.
   template <Effects E>
-  [[nodiscard]] static Complex quadrature(const Arc<double, E>& arc, double w, double begin, double length) {
+  [[nodiscard]] Complex quadrature(const Arc<double, E>& arc, double w, double begin, double length) {
     using Rule = boost::math::quadrature::gauss<double, 20>;
     const auto panels = static_cast<std::size_t>(std::ceil(length * (arc.flow().rate + w) / 4));
     const double half = length / static_cast<double>(panels) / 2;
     Complex sum = 0;
+    evaluations_ += static_cast<double>(panels) * 20;
     const auto add = [&](double s, double weight) { sum += weight * arc.at(s).x * turn(w * (begin + s)); };
     for (std::size_t panel = 0; panel < panels; ++panel)
       for (std::size_t i = 0; i < Rule::abscissa().size(); ++i) {
@@ -122,6 +125,7 @@ class ExactHarmonics {
 
   double base_;
   double first_x_ = 0.0;
+  double evaluations_ = 0.0;
   std::vector<Complex> x_, v_;
 };
 

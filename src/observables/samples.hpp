@@ -33,6 +33,7 @@ class Samples {
     for (; due() < begin + length - rounding_ && x_.size() < count_;) {
       const auto motion = arc.at(std::max(0.0, due() - begin));
       add(motion.x, motion.v);
+      ++evaluations_;
     }
   }
   void rest(const Rest& rest) {
@@ -57,6 +58,7 @@ class Samples {
     tau.back() = end;
     return tau;
   }
+  [[nodiscard]] double evaluations() const { return evaluations_; }  ///< of arcs
   [[nodiscard]] std::vector<double>& displacement() { return x_; }
   [[nodiscard]] std::vector<double>& velocity() { return v_; }
 
@@ -74,6 +76,7 @@ class Samples {
   AtImpact at_impact_;
   Stops stops_;
   Impact last_{-std::numeric_limits<double>::infinity(), Side::none, 0, 0, 0};
+  double evaluations_ = 0.0;
   std::vector<double> x_, v_;
 };
 

@@ -89,6 +89,7 @@ void Columns::add_coordinates(Figure& figure) const {
     coordinate("stop", std::vector<std::int8_t>{-1, 1}, "-1: lower stop, +1: upper stop");
   }
   if (observe.trajectory > 0) figure.dimensions.push_back({"sample", static_cast<std::size_t>(observe.trajectory)});
+  if (observe.stability) figure.dimensions.push_back({"multiplier", 2});
 }
 
 void Columns::add_always(Figure& figure) {
@@ -142,12 +143,5 @@ std::size_t Columns::failed_points() const {
   return static_cast<std::size_t>(std::count_if(
       status_.begin(), status_.end(), [](std::uint8_t status) { return failed(static_cast<Status>(status)); }));
 }
-
-double Columns::impacts() const {
-  return std::accumulate(impacts_.begin(), impacts_.end(), 0.0,
-                         [](double sum, std::int64_t n) { return sum + static_cast<double>(n); });
-}
-
-double Columns::periods() const { return std::accumulate(periods_.begin(), periods_.end(), 0.0); }
 
 }  // namespace clatter

@@ -36,8 +36,6 @@ class Columns {
   [[nodiscard]] Figure figure();
 
   [[nodiscard]] std::size_t failed_points() const;
-  [[nodiscard]] double impacts() const;  ///< simulated, all points together
-  [[nodiscard]] double periods() const;  ///< simulated, all points together
 
  private:
   void add_coordinates(Figure& figure) const;

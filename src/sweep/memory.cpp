@@ -1,5 +1,8 @@
 #include "sweep/memory.hpp"
 
+#include <unistd.h>
+
+#include <algorithm>
 #include <cstdint>
 
 #include "sweep/columns.hpp"
@@ -11,6 +14,12 @@ double result_bytes(const Sweep& sweep) {
   for (const Output& output : outputs_of(sweep.scene.observe))
     bytes_a_point += static_cast<double>(output.width) * sizeof(double);
   return bytes_a_point * static_cast<double>(size(sweep));
+}
+
+double run_bytes(const Sweep& sweep) { return 2 * result_bytes(sweep); }
+
+double machine_bytes() {
+  return std::max(0.0, static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE)));
 }
 
 }  // namespace clatter

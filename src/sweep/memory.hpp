@@ -4,8 +4,14 @@
 
 namespace clatter {
 
-/// Bytes that the results of a sweep take in memory, so that one that cannot fit is refused before hours of computing;
-/// the impact log, whose length nobody knows beforehand, comes on top.
+/// Bytes that the results of a sweep take; the impact log, whose length nobody knows beforehand, comes on top.
 [[nodiscard]] double result_bytes(const Sweep& sweep);
+
+/// Bytes in memory at the end of a run, results and the file's image of them together, so that a sweep that cannot fit
+/// is refused before hours of computing.
+[[nodiscard]] double run_bytes(const Sweep& sweep);
+
+/// Memory of this machine in bytes; 0 where it isn't told.
+[[nodiscard]] double machine_bytes();
 
 }  // namespace clatter

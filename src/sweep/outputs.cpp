@@ -16,9 +16,10 @@ Output scalar(std::string name, std::string long_name, Member member) {
           [member](const PointResult& r, double* out) { *out = r.*member; }};
 }
 
-Output per_stop(std::string name, std::string long_name, double (PointResult::*member)[2]) {
+/// Two values, over `stop` or `multiplier`.
+Output pair(std::string name, std::string long_name, std::string dimension, double (PointResult::*member)[2]) {
   const auto put = [member](const PointResult& r, double* out) { std::copy_n(r.*member, 2, out); };
-  return {std::move(name), std::move(long_name), "1", {"stop"}, 2, put};
+  return {std::move(name), std::move(long_name), "1", {std::move(dimension)}, 2, put};
 }
 
 /// Values of a vector of the result, NaN where the point has none.
@@ -70,10 +71,11 @@ std::vector<Output> outputs_of(const Observe& observe) {
   }
   if (observe.harmonics > 0) add_harmonics(outputs, static_cast<std::size_t>(observe.harmonics) + 1);
   if (observe.impacts) {
-    outputs.push_back(per_stop("impacts_per_period", "impacts per forcing period", &PointResult::impacts_per_period));
-    outputs.push_back(per_stop("v_before", "velocity before the first impact", &PointResult::v_before));
-    outputs.push_back(per_stop("v_after", "velocity after the first impact", &PointResult::v_after));
-    outputs.push_back(per_stop("rest_fraction", "share of time at rest on the stop", &PointResult::rest_fraction));
+    outputs.push_back(
+        pair("impacts_per_period", "impacts per forcing period", "stop", &PointResult::impacts_per_period));
+    outputs.push_back(pair("v_before", "velocity before the first impact", "stop", &PointResult::v_before));
+    outputs.push_back(pair("v_after", "velocity after the first impact", "stop", &PointResult::v_after));
+    outputs.push_back(pair("rest_fraction", "share of time at rest on the stop", "stop", &PointResult::rest_fraction));
   }
   if (observe.trajectory > 0) add_trajectory(outputs, static_cast<std::size_t>(observe.trajectory));
   if (observe.period) {
@@ -82,6 +84,13 @@ std::vector<Output> outputs_of(const Observe& observe) {
     outputs.push_back(
         scalar("eigenfrequency", "2 pi over the period of unforced motion", &PointResult::eigenfrequency));
     outputs.push_back(scalar("velocity_ratio", "|velocity before impact / xs|", &PointResult::velocity_ratio));
+  }
+  if (observe.stability) {
+    outputs.push_back(
+        pair("multiplier_re", "real part of the period's multipliers", "multiplier", &PointResult::multiplier_re));
+    outputs.push_back(
+        pair("multiplier_im", "imaginary part of the period's multipliers", "multiplier", &PointResult::multiplier_im));
+    outputs.push_back(scalar("lyapunov", "largest Lyapunov exponent per tau", &PointResult::lyapunov));
   }
   return outputs;
 }

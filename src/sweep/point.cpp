@@ -1,14 +1,16 @@
 #include "sweep/point.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <utility>
 
-#include "integrators/exact.hpp"
 #include "integrators/settle.hpp"
 #include "observables/extrema.hpp"
 #include "observables/samples.hpp"
+#include "observables/stability.hpp"
 
 namespace clatter {
 namespace {
@@ -25,6 +27,7 @@ class Observers {
       const auto count = static_cast<std::size_t>(observe.trajectory);
       trajectory.emplace(count, total / static_cast<double>(count - 1), AtImpact::after, scene.stops);
     }
+    if (observe.stability) stability.emplace(scene.stops);
     if (observe.harmonics == 0) return;
     if (observe.harmonics_method == HarmonicsMethod::exact) {
       exact_harmonics.emplace(static_cast<std::size_t>(observe.harmonics), base_frequency);
@@ -45,10 +48,18 @@ class Observers {
     if (!(impact.time > 0.0)) return;  // the observed time begins after t0: an impact there belongs to what was before
     each([&](auto& observer) { observer.impact(impact); });
   }
-  void finish(double x, double v, double total, bool periodic) {
+  void finish(double x, double v, double total, bool periodic, bool forced) {
+    if (stability && periodic) stability->finish_period(total, !forced);
+    if (stability && !periodic) stability->finish_window(total);
     if (trajectory) trajectory->finish(x, v, total, periodic);
     if (samples) samples->finish(x, v, total, periodic);
     if (exact_harmonics) exact_harmonics->finish(x, total);
+  }
+
+  /// Of arcs, by all observers together.
+  [[nodiscard]] double evaluations() const {
+    const auto of = [](const auto& observer) { return observer ? observer->evaluations() : 0.0; };
+    return of(extrema) + of(trajectory) + of(samples) + of(exact_harmonics) + of(stability);
   }
 
   std::optional<Extrema> extrema;
@@ -56,6 +67,7 @@ class Observers {
   std::optional<ImpactLog> log;
   std::optional<Samples> trajectory, samples;
   std::optional<ExactHarmonics> exact_harmonics;
+  std::optional<Stability> stability;
 
  private:
   template <class Function>
@@ -66,6 +78,7 @@ class Observers {
     if (trajectory) function(*trajectory);
     if (samples) function(*samples);
     if (exact_harmonics) function(*exact_harmonics);
+    if (stability) function(*stability);
   }
 };
 
@@ -86,23 +99,27 @@ Spectrum sampled_spectrum(const std::vector<double>& samples, double turns, std:
 template <Effects E>
 class Point {
  public:
-  Point(const Scene& scene, Workshop& workshop) : scene_(scene), workshop_(workshop), integrator_(scene) {}
+  Point(const Task& task, Workshop& workshop)
+      : scene_(task.scene),
+        workshop_(workshop),
+        integrator_(task.scene, stops_in_reach(task.scene.stops, task.effects)) {}
 
   PointResult run() {
     State<double> state;
     state.x = scene_.start.displacement, state.v = scene_.start.velocity;
     observed_ = settle(integrator_, state, scene_);
     result_.status = observed_.status;
+    result_.found_by = observed_.found_by;
     result_.periods = observed_.settled;
     if (!failed(observed_.status)) observe();
     result_.impacts = integrator_.impacts();
+    result_.evaluations += integrator_.evaluations();
     return std::move(result_);
   }
 
  private:
-  static constexpr bool forced = E.forcing != Forcing::none;
-
   void observe() {
+    const bool forced = scene_.oscillator.forcing != 0;
     const double total = observed_.turns * integrator_.period();
     // the base frequency turns once in a transient and in a period of unforced motion, else with the force
     const bool once = observed_.status == Status::transient || (!forced && observed_.status == Status::periodic);
@@ -112,6 +129,7 @@ class Point {
     State<double> state = observed_.from;
     const Outcome outcome = run_for(integrator_, state, observed_.turns, observers);
     result_.periods = observed_.settled + observed_.turns;
+    result_.evaluations = observers.evaluations();
     if (outcome != Outcome::completed) {
       result_.status = status_of(outcome);
       result_.base_frequency = no_value;
@@ -120,7 +138,8 @@ class Point {
     result_.end = {state.x, state.v, scene_.start.phase};
     if (state.turns > 0)
       result_.end.phase = std::fmod(scene_.start.phase + 2 * pi<double>() * state.turns, 2 * pi<double>());
-    observers.finish(state.x, state.v, total, observed_.status == Status::periodic);
+    observers.finish(state.x, state.v, total, observed_.status == Status::periodic,
+                     forced || observed_.found_by == FoundBy::standstill);
     collect(observers, total, base_turns);
     if (observers.impacts) collect_impacts(*observers.impacts, total, once ? 1.0 : observed_.turns);
   }
@@ -129,6 +148,12 @@ class Point {
     if (observers.extrema) {
       const auto x = observers.extrema->displacement(scene_.stops), v = observers.extrema->velocity();
       result_.x_min = x.low, result_.x_max = x.high, result_.v_min = v.low, result_.v_max = v.high;
+    }
+    if (observers.stability) {
+      const std::complex<double> multipliers[2] = {observers.stability->first(), observers.stability->second()};
+      for (std::size_t i = 0; i < 2; ++i)
+        result_.multiplier_re[i] = multipliers[i].real(), result_.multiplier_im[i] = multipliers[i].imag();
+      result_.lyapunov = observers.stability->lyapunov();
     }
     if (observers.log) result_.log = std::move(observers.log->impacts());
     if (observers.trajectory) {
@@ -159,8 +184,9 @@ class Point {
     const Stops& stops = scene_.stops;
     if (stops.lower == -stops.upper) result_.velocity_ratio = impacts.first_speed() / stops.upper;
     if (observed_.status == Status::aperiodic) result_.period_ratio = 0.0;
-    if (observed_.status != Status::periodic || observed_.standstill || rests_throughout) return;
+    if (observed_.status != Status::periodic || observed_.found_by == FoundBy::standstill || rests_throughout) return;
     result_.period = total;
+    const bool forced = scene_.oscillator.forcing != 0;
     if (forced) result_.period_ratio = observed_.turns;
     if (!forced) result_.eigenfrequency = 2 * pi<double>() / total;
   }
@@ -168,15 +194,53 @@ class Point {
   const Scene& scene_;
   Workshop& workshop_;
   Exact<double, E> integrator_;
-  Observed<double> observed_{};
+  Observed observed_{};
   PointResult result_{};
 };
 
 }  // namespace
 
+Effects effects_of(const Scene& scene) {
+  return scene.all_effects ? all_effects(damping_of(scene.oscillator)) : required_effects(scene);
+}
+
+void run_batch(std::span<const Task> tasks, Workshop& workshop,
+               const std::function<void(const Task&, PointResult&&)>& take) {
+  if (tasks.empty()) return;
+  with_effects(tasks.front().effects, [&]<Effects kernel>() {
+    for (const Task& task : tasks) take(task, Point<kernel>(task, workshop).run());
+  });
+}
+
 PointResult run_point(const Scene& scene, Workshop& workshop) {
-  return with_effects(required_effects(scene.oscillator),
-                      [&]<Effects effects>() { return Point<effects>(scene, workshop).run(); });
+  PointResult result;
+  const Task task{0, scene, effects_of(scene)};
+  run_batch({&task, 1}, workshop, [&](const Task&, PointResult&& of_point) { result = std::move(of_point); });
+  return result;
+}
+
+double seconds_per_evaluation(const Effects& effects) {
+  return with_effects(effects, []<Effects kernel>() {
+    Scene scene;
+    scene.oscillator.damping = kernel.damping == Damping::none ? 0.0 : kernel.damping == Damping::light ? 0.04 : 2.0;
+    scene.oscillator.forcing = kernel.forcing == Forcing::none ? 0.0 : 1.0;
+    scene.oscillator.frequency = kernel.forcing == Forcing::secular ? 1.03 : 1.3;
+    scene.start.velocity = 1.0;
+    if (kernel.stops()) scene.stops = {-0.5, 0.5, 0.7, 0.7};
+    using Clock = std::chrono::steady_clock;
+    double least = std::numeric_limits<double>::infinity();
+    for (int repetition = 0; repetition < 3; ++repetition) {
+      Exact<double, kernel> integrator(scene);
+      State<double> state;
+      state.v = scene.start.velocity;
+      NoObserver nobody;
+      const auto begin = Clock::now();
+      (void)run_for(integrator, state, 50.0, nobody);
+      const double seconds = std::chrono::duration<double>(Clock::now() - begin).count();
+      least = std::min(least, seconds / std::max(1.0, integrator.evaluations()));
+    }
+    return least;
+  });
 }
 
 }  // namespace clatter

@@ -1,12 +1,14 @@
 #pragma once
 
+#include <functional>
 #include <limits>
 #include <memory>
-#include <optional>
+#include <span>
 #include <vector>
 
-#include "dynamics/scene.hpp"
+#include "dynamics/required_effects.hpp"
 #include "dynamics/state.hpp"
+#include "integrators/observed.hpp"
 #include "observables/fourier_transform.hpp"
 #include "observables/harmonics.hpp"
 #include "observables/impacts.hpp"
@@ -18,8 +20,10 @@ inline constexpr double no_value = std::numeric_limits<double>::quiet_NaN();
 /// Everything that a point gives; what is not observed, or of a failed point, is NaN or empty.
 struct PointResult {
   Status status = Status::unresolved;
-  double impacts = 0.0;  ///< simulated, settling included
-  double periods = 0.0;  ///< forcing periods simulated, settling included
+  FoundBy found_by = FoundBy::nothing;
+  double impacts = 0.0;      ///< simulated, settling included
+  double periods = 0.0;      ///< forcing periods simulated, settling included
+  double evaluations = 0.0;  ///< of arcs, settling and observables included
   double x_min = no_value, x_max = no_value, v_min = no_value, v_max = no_value;
   double base_frequency = no_value;
   Spectrum x_spectrum{}, v_spectrum{};                  ///< shape [harmonic]
@@ -28,6 +32,8 @@ struct PointResult {
   std::vector<Impact> log{};
   std::vector<double> tau{}, x{}, v{};  ///< shape [sample]
   double period = no_value, period_ratio = no_value, eigenfrequency = no_value, velocity_ratio = no_value;
+  double multiplier_re[2] = {no_value, no_value}, multiplier_im[2] = {no_value, no_value};  ///< the larger first
+  double lyapunov = no_value;
   Start end{};  ///< where the motion was left, for the next point of a branch
 };
 
@@ -37,7 +43,26 @@ struct Workshop {
   std::unique_ptr<FourierTransform::Workspace, void (*)(FourierTransform::Workspace*)> workspace{nullptr, nullptr};
 };
 
-/// Runs one point: settles, observes, and says where the motion was left.
+/// The effects that a point is run with: what its scene requires, or all where that is asked for.
+[[nodiscard]] Effects effects_of(const Scene& scene);
+
+/// A point on its way to a kernel.
+struct Task {
+  std::size_t point = 0;  ///< its index in the sweep
+  Scene scene;
+  Effects effects;
+};
+
+/// Runs points of one and the same kernel, with one dispatch: each settles, observes, and says where the motion was
+/// left; `take` gets the results in their order.
+void run_batch(std::span<const Task> tasks, Workshop& workshop,
+               const std::function<void(const Task&, PointResult&&)>& take);
+
+/// Runs a single point.
 [[nodiscard]] PointResult run_point(const Scene& scene, Workshop& workshop);
+
+/// Wall time of an evaluation of an arc, contact search included, in the kernel of these effects: a short measurement
+/// on a scene of its own.
+[[nodiscard]] double seconds_per_evaluation(const Effects& effects);
 
 }  // namespace clatter

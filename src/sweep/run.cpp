@@ -8,38 +8,18 @@
 #include <exception>
 #include <mutex>
 #include <optional>
+#include <ranges>
+#include <span>
 #include <vector>
 
+#include "sweep/branches.hpp"
 #include "sweep/columns.hpp"
 #include "sweep/fork_join.hpp"
+#include "sweep/plan.hpp"
 #include "sweep/point.hpp"
 
 namespace clatter {
 namespace {
-
-/// Points that run one after the other: along `follow` a whole branch, else a single point.
-struct Branches {
-  std::size_t count = 0, length = 1, stride = 1;
-
-  explicit Branches(const Sweep& sweep) : count(size(sweep)) {
-    if (!sweep.follow) return;
-    length = clatter::length(sweep.dimensions[*sweep.follow]);
-    for (std::size_t d = *sweep.follow + 1; d < sweep.dimensions.size(); ++d)
-      stride *= clatter::length(sweep.dimensions[d]);
-    count /= length;
-  }
-  /// Index of the i-th point of a branch.
-  [[nodiscard]] std::size_t point(std::size_t branch, std::size_t i) const {
-    return (branch / stride * length + i) * stride + branch % stride;
-  }
-};
-
-/// Starts a point of a branch where the one before was left, or from the scene where that failed; a state outside
-/// narrower stops moves onto the stop, its velocity kept.
-void start_from(Scene& scene, const std::optional<Start>& end) {
-  if (end) scene.start = *end;
-  scene.start.displacement = std::clamp(scene.start.displacement, scene.stops.lower, scene.stops.upper);
-}
 
 /// Calls the user's progress function a few times a second, from one thread at a time.
 class Progress {
@@ -64,18 +44,24 @@ class Progress {
   Clock::time_point last_{};
 };
 
-void run_branch(const Sweep& sweep, const Branches& branches, std::size_t branch, Workshop& workshop, Columns& columns,
-                Progress& progress) {
-  std::optional<Start> end;
-  for (std::size_t i = 0; i < branches.length; ++i) {
-    const std::size_t point = branches.point(branch, i);
-    Scene scene = scene_at(sweep, point);
-    start_from(scene, end);
-    PointResult result = run_point(scene, workshop);
-    end = failed(result.status) || !sweep.follow ? std::nullopt : std::optional<Start>(result.end);
-    columns.store(point, std::move(result));
-    progress.add_point();
+/// Adds a point to what its effects took.
+void count(std::vector<Usage>& usage, const Effects& effects, const PointResult& result) {
+  auto used = std::find_if(usage.begin(), usage.end(), [&](const Usage& u) { return u.effects == effects; });
+  if (used == usage.end()) used = usage.insert(usage.end(), Usage{.effects = effects});
+  ++used->points;
+  ++used->found_by[static_cast<std::size_t>(result.found_by)];
+  used->impacts += result.impacts, used->periods += result.periods, used->evaluations += result.evaluations;
+}
+
+void merge(std::vector<Usage>& sum, const Usage& part) {
+  const auto same = std::find_if(sum.begin(), sum.end(), [&](const Usage& u) { return u.effects == part.effects; });
+  if (same == sum.end()) {
+    sum.push_back(part);
+    return;
   }
+  same->points += part.points;
+  for (std::size_t i = 0; i < part.found_by.size(); ++i) same->found_by[i] += part.found_by[i];
+  same->impacts += part.impacts, same->periods += part.periods, same->evaluations += part.evaluations;
 }
 
 /// The threads that run a sweep, and what they share.
@@ -86,7 +72,11 @@ class Team {
         branches_(sweep),
         columns_(columns),
         progress_(options, size(sweep)),
-        workshops_(static_cast<std::size_t>(threads)) {
+        chunk_(sweep.follow
+                   ? 1
+                   : std::clamp<std::size_t>(branches_.count / (64 * static_cast<std::size_t>(threads)), 1, 64)),
+        workshops_(static_cast<std::size_t>(threads)),
+        usage_(static_cast<std::size_t>(threads)) {
     const Observe& observe = sweep.scene.observe;
     if (observe.harmonics == 0 || observe.harmonics_method != HarmonicsMethod::fft) return;
     transform_.emplace(static_cast<std::size_t>(observe.harmonics_samples));
@@ -97,9 +87,18 @@ class Team {
   CLATTER_PARALLEL_REGION void run() {
     fork_join_.fork();
 #pragma omp parallel for schedule(dynamic) num_threads(threads())
-    for (std::size_t branch = 0; branch < branches_.count; ++branch)
-      work(branch, static_cast<std::size_t>(omp_get_thread_num()));
+    for (std::size_t begin = 0; begin < branches_.count; begin += chunk_)
+      work(begin, static_cast<std::size_t>(omp_get_thread_num()));
     fork_join_.join();
+  }
+
+  /// What all threads took, the cheapest kernel first.
+  [[nodiscard]] std::vector<Usage> usage() const {
+    std::vector<Usage> sum;
+    for (const std::vector<Usage>& of_thread : usage_)
+      for (const Usage& part : of_thread) merge(sum, part);
+    std::sort(sum.begin(), sum.end(), [](const Usage& a, const Usage& b) { return cheaper(a.effects, b.effects); });
+    return sum;
   }
 
   /// Passes on what a thread could not do.
@@ -110,15 +109,59 @@ class Team {
  private:
   [[nodiscard]] int threads() const { return static_cast<int>(workshops_.size()); }
 
-  void work(std::size_t branch, std::size_t thread) noexcept {
+  void work(std::size_t begin, std::size_t thread) noexcept {
     const ForkJoin::Member member(fork_join_);
     if (stopped_) return;
     try {
-      run_branch(sweep_, branches_, branch, workshops_[thread], columns_, progress_);
+      if (sweep_.follow) {
+        run_branch(begin, thread);
+      } else {
+        run_chunk(begin, std::min(begin + chunk_, branches_.count), thread);
+      }
     } catch (...) {
       const std::lock_guard lock(mutex_);
       failure_ = std::current_exception();
       stopped_ = true;
+    }
+  }
+
+  void store(const Task& task, PointResult&& result, std::size_t thread) {
+    count(usage_[thread], task.effects, result);
+    columns_.store(task.point, std::move(result));
+    progress_.add_point();
+  }
+
+  /// Runs the points of a branch, each from the end of the one before.
+  void run_branch(std::size_t branch, std::size_t thread) {
+    std::optional<Start> end;
+    for (std::size_t i = 0; i < branches_.length; ++i) {
+      Task task{branches_.point(branch, i), {}, {}};
+      task.scene = scene_at(sweep_, task.point);
+      start_from(task.scene, end);
+      task.effects = effects_of(task.scene);
+      run_batch({&task, 1}, workshops_[thread], [&](const Task&, PointResult&& result) {
+        end = failed(result.status) ? std::nullopt : std::optional<Start>(result.end);
+        store(task, std::move(result), thread);
+      });
+    }
+  }
+
+  /// Runs points that don't depend on each other, those of equal kernels together.
+  void run_chunk(std::size_t begin, std::size_t end, std::size_t thread) {
+    std::vector<Task> tasks;
+    tasks.reserve(end - begin);
+    for (std::size_t point = begin; point < end; ++point) {
+      Task& task = tasks.emplace_back(Task{point, scene_at(sweep_, point), {}});
+      task.effects = effects_of(task.scene);
+    }
+    const auto kernel = [](const Task& task) { return kernel_of(task.effects); };
+    std::ranges::stable_sort(tasks, {}, kernel);
+    for (std::span<const Task> left(tasks); !left.empty();) {
+      const auto other = std::ranges::find_if(left, [&](const Task& task) { return kernel(task) != kernel(left[0]); });
+      const auto batch = static_cast<std::size_t>(other - left.begin());
+      run_batch(left.first(batch), workshops_[thread],
+                [&](const Task& task, PointResult&& result) { store(task, std::move(result), thread); });
+      left = left.subspan(batch);
     }
   }
 
@@ -127,7 +170,9 @@ class Team {
   Columns& columns_;
   Progress progress_;
   std::optional<FourierTransform> transform_;
-  std::vector<Workshop> workshops_;  ///< [thread]
+  std::size_t chunk_;                      ///< branches that a thread takes at once
+  std::vector<Workshop> workshops_;        ///< [thread]
+  std::vector<std::vector<Usage>> usage_;  ///< [thread]
   std::mutex mutex_;
   std::exception_ptr failure_;
   std::atomic<bool> stopped_ = false;  ///< by a failure: what is left isn't begun
@@ -136,18 +181,19 @@ class Team {
 
 }  // namespace
 
+int threads_used(const RunOptions& options) { return options.threads > 0 ? options.threads : omp_get_max_threads(); }
+
 RunResult run(const Sweep& sweep, const RunOptions& options) {
   RunResult result;
   const auto begin = std::chrono::steady_clock::now();
   Columns columns(sweep);
   result.points = size(sweep);
-  result.threads = options.threads > 0 ? options.threads : omp_get_max_threads();
+  result.threads = threads_used(options);
   Team team(sweep, options, result.threads, columns);
   team.run();
   team.rethrow();
   result.failed_points = columns.failed_points();
-  result.impacts = columns.impacts();
-  result.periods = columns.periods();
+  result.usage = team.usage();
   result.figure = columns.figure();
   result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   return result;

@@ -1,8 +1,12 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <functional>
+#include <vector>
 
+#include "dynamics/effects.hpp"
+#include "integrators/observed.hpp"
 #include "sweep/figure.hpp"
 #include "sweep/sweep.hpp"
 
@@ -14,6 +18,19 @@ struct RunOptions {
       progress{};  ///< called from one thread at a time, a few times a second
 };
 
+/// The threads that a run with these options uses.
+[[nodiscard]] int threads_used(const RunOptions& options);
+
+/// What the points of equal effects took.
+struct Usage {
+  Effects effects;
+  std::size_t points = 0;
+  std::array<std::size_t, found_by_names.size()> found_by{};  ///< points by how their observed time was found
+  double impacts = 0.0;                                       ///< simulated
+  double periods = 0.0;                                       ///< forcing periods simulated
+  double evaluations = 0.0;                                   ///< of arcs
+};
+
 /// The results of a sweep and what they took.
 struct RunResult {
   Figure figure;                  ///< coordinates, status, impact_total, simulated_periods, then what is observed
@@ -21,8 +38,7 @@ struct RunResult {
   std::size_t failed_points = 0;  ///< points with a status from event_budget on
   int threads = 1;                ///< threads that were used
   double seconds = 0.0;           ///< wall time of the points
-  double impacts = 0.0;           ///< impacts simulated, all points together
-  double periods = 0.0;           ///< forcing periods simulated, all points together
+  std::vector<Usage> usage;       ///< the cheapest kernel first
 };
 
 /// Runs every point; the same bits for every number of threads. Throws std::bad_alloc where the results don't fit into

@@ -108,7 +108,7 @@ TEST(Arc, derivative_bounds_hold_and_are_not_slack) {
   const Flow<double, Effects{Damping::light, Forcing::regular}> forced({0.1, 1.0, 2.0, 0.0});
   for (int derivative : {0, 1})
     EXPECT_NEAR(forced.sixth_bound({0, 1, 1, 0, 0, 1}, 0.5, derivative) * 64,
-                std::pow(2.0, 6 + derivative) * forced.amplitude, 1e-12);
+                std::pow(2.0, 6 + derivative) * forced.response.amplitude, 1e-12);
 }
 
 /// The k-th derivative of an arc at s, from differences in 50 digits.
@@ -126,9 +126,9 @@ double derivative_at(const Arc<FiftyDigits, E>& arc, double s, int k) {
 
 TEST(Arc, derivative_bounds_hold_for_every_kind_of_motion) {
   for (const Oscillator& o : oscillators())
-    with_effects(required_effects(o), [&]<Effects effects>() {
-      const Flow<FiftyDigits, effects> flow(o);
-      const Arc<FiftyDigits, effects> arc(
+    with_any_stops(o, [&]<Effects effects>() {
+      const Flow<FiftyDigits, effects.arc()> flow(o);
+      const Arc<FiftyDigits, effects.arc()> arc(
           flow, {0, FiftyDigits(0.37), FiftyDigits(-1.1), 0, FiftyDigits(0.6), FiftyDigits(0.8)});
       const FiftyDigits span = 1.5;
       for (double from : {0.5, 3.0})

@@ -44,9 +44,9 @@ TEST(Contact, agrees_with_a_dense_scan_on_random_scenes) {
     const Contact<double> contact = first_contact(o, stops, x, v, horizon);
     ASSERT_TRUE(contact.resolved);
     contacts += contact.side != Side::none;
-    with_effects(required_effects(o), [&]<Effects effects>() {
-      const Flow<double, effects> flow(o);
-      const Arc<double, effects> arc(flow, {0, x, v, flow.acceleration(x - flow.load, v, 0.0), 0, 1});
+    with_any_stops(o, [&]<Effects effects>() {
+      const Flow<double, effects.arc()> flow(o);
+      const Arc<double, effects.arc()> arc(flow, {0, x, v, flow.acceleration(x - flow.load, v, 0.0), 0, 1});
       for (double s = 0; s < contact.elapsed; s += 1e-3) {
         const double at = arc.at(s).x;
         EXPECT_TRUE(at >= stops.lower - 1e-14 && at <= stops.upper + 1e-14) << "scene " << scene << ", s = " << s;

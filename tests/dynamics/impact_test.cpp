@@ -57,8 +57,8 @@ TEST(Impact, chatter_ends_when_flight_by_flight_it_does) {
       for (double turns : {0.12, 0.25, 0.4}) {  // the force grows, is greatest, falls
         const Oscillator o{h, 1.0, 0.5, 0.1};
         const Stops stops{-0.5, 0.5, R, R};
-        const Flow<double, effects> flow(o);
-        const Flow<FiftyDigits, effects> reference(o);
+        const Flow<double, effects.arc()> flow(o);
+        const Flow<FiftyDigits, effects.arc()> reference(o);
         const auto stop = stop_at<double>(stops, Side::upper);
         const auto press = pressing(flow, stop, sine_cosine_of_turns(turns));
         ASSERT_TRUE(holds(flow, stop, sine_cosine_of_turns(turns)));
@@ -77,7 +77,7 @@ TEST(Impact, chatter_sum_is_of_third_order_with_the_coefficient_it_states) {
   const double h = 0.3, nu = 0.8;
   const Oscillator o{h, 1.0, nu, 0.0};
   const Stops stops{-0.3, 0.3, 0.6, 0.6};
-  const Flow<FiftyDigits, effects> flow(o);
+  const Flow<FiftyDigits, effects.arc()> flow(o);
   const auto stop = stop_at<FiftyDigits>(stops, Side::upper);
   const auto press = pressing(flow, stop, sine_cosine_of_turns(FiftyDigits(0.15)));
   const double R = 0.6, a = static_cast<double>(press.force), j = static_cast<double>(press.rate) / a,
@@ -100,8 +100,8 @@ TEST(Impact, chatter_sum_is_off_by_less_than_its_bound_and_the_bound_is_not_slac
                        random.uniform(0, 2)};
     const Stops stops{-2, 0.1, R, R};
     const double turns = random.uniform(0, 1);
-    with_effects(required_effects(o), [&]<Effects effects>() {
-      const Flow<FiftyDigits, effects> flow(o);
+    with_any_stops(o, [&]<Effects effects>() {
+      const Flow<FiftyDigits, effects.arc()> flow(o);
       const auto stop = stop_at<FiftyDigits>(stops, Side::upper);
       const auto press = pressing(flow, stop, sine_cosine_of_turns(FiftyDigits(turns)));
       if (!(press.force > 0)) return;

@@ -10,9 +10,9 @@ namespace clatter {
 /// First contact of a scene that starts at (x, v) with phase 0, within a time `horizon`.
 inline Contact<double> first_contact(const Oscillator& oscillator, const Stops& stops, double x, double v,
                                      double horizon) {
-  return with_effects(required_effects(oscillator), [&]<Effects effects>() {
-    const Flow<double, effects> flow(oscillator);
-    const Arc<double, effects> arc(flow, {0, x, v, flow.acceleration(x - flow.load, v, 0.0), 0, 1});
+  return with_any_stops(oscillator, [&]<Effects effects>() {
+    const Flow<double, effects.arc()> flow(oscillator);
+    const Arc<double, effects.arc()> arc(flow, {0, x, v, flow.acceleration(x - flow.load, v, 0.0), 0, 1});
     return next_contact(arc, stops, horizon);
   });
 }

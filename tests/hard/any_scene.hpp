@@ -103,7 +103,7 @@ template <class Integrator, class W>
 /// Runs a scene under the eyes of a watcher.
 template <class W>
 [[nodiscard]] Outcome watch(const AnyScene& any, W& watcher) {
-  return with_effects(required_effects(any.scene.oscillator), [&]<Effects effects>() {
+  return with_any_stops(any.scene.oscillator, [&]<Effects effects>() {
     Exact<double, effects> integrator(any.scene);
     State<double> state = start_of(any.scene);
     return watch(integrator, state, any.duration, watcher);

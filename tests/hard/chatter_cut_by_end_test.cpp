@@ -34,7 +34,7 @@ TEST(ChatterCutByEnd, leaves_the_motion_after_it_as_it_is) {
       EXPECT_EQ(integrator.advance(state, (expected.time + 1e-3) / period, 0, nobody), Outcome::completed);
       return state;
     };
-    const State<double> state = cut.operator()<Effects{Damping::light, Forcing::regular}>();
+    const State<double> state = cut.operator()<kernels::complete(Damping::light, Forcing::regular)>();
     const Course uncut = course_of(scene, expected.time + 1e-3);
     EXPECT_NEAR(state.x, uncut.x, 1e-14) << before;
     EXPECT_NEAR(state.v, uncut.v, 1e-14) << before;

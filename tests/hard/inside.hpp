@@ -33,7 +33,7 @@ class BeyondStops : public Watcher {
   void look(const A& arc, double s) {
     const auto m = arc.at(s);
     const auto& start = arc.start();
-    const double amplitude = arc.flow().amplitude, f = std::abs(oscillator_.forcing);
+    const double amplitude = arc.flow().response.amplitude, f = std::abs(oscillator_.forcing);
     const double response = (amplitude > 0 ? amplitude : f * s) * (1 + oscillator_.frequency * s);  // f s: resonance
     scale_ = std::max(flight_, std::abs(oscillator_.load) + std::abs(arc.anchor()) + response + std::abs(start.free_x) +
                                    std::abs(start.free_v) + std::abs(m.v) * s);

@@ -22,7 +22,7 @@ TEST(LastInstant, belongs_to_the_run_that_it_ends) {
 
 TEST(LastInstant, is_not_taken_again_by_the_run_that_goes_on) {
   const Case& one = case_of("last_instant", "contact at the end");
-  Exact<double, Effects{}> integrator(one.scene);
+  Exact<double, kernels::complete(Damping::none, Forcing::none)> integrator(one.scene);
   State<double> state{0.0, one.scene.start.velocity};
   NoObserver nobody;
   const double contact = one.duration / integrator.period();

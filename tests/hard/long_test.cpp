@@ -35,7 +35,7 @@ TEST(Long, conservative_impacts_neither_gain_nor_lose_speed) {
   Case one = case_of("long", "conservative impacts");
   const double count = impacts_to_take(), between = 2 * std::asin(0.5);
   one.scene.time.max_impacts = 2 * count;
-  Exact<double, Effects{}> integrator(one.scene);
+  Exact<double, kernels::complete(Damping::none, Forcing::none)> integrator(one.scene);
   State<double> state{0.0, one.scene.start.velocity};
   Drift drift;
   ASSERT_EQ(run_for(integrator, state, count * between / integrator.period(), drift), Outcome::completed);
@@ -55,7 +55,7 @@ TEST(Long, conservative_impacts_neither_gain_nor_lose_speed) {
 TEST(Long, ten_million_forcing_periods_keep_the_phase) {
   // on the linear steady state the mass is at every section where it was at the first; a phase off by 1e-15 would show
   const Case& one = case_of("long", "1e7 forcing periods");
-  Exact<double, Effects{Damping::light, Forcing::regular}> integrator(one.scene);
+  Exact<double, kernels::complete(Damping::light, Forcing::regular)> integrator(one.scene);
   State<double> state{one.scene.start.displacement, one.scene.start.velocity};
   NoObserver nobody;
   ASSERT_EQ(run_for(integrator, state, 1e7, nobody), Outcome::completed);

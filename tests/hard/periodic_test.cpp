@@ -106,7 +106,7 @@ void in_steady_scenes(Check&& check) {
     if (any.index % 10 != 0) return;
     any.scene.time.mode = Mode::steady, any.scene.time.max_periods = 300, any.scene.time.max_impacts = 1e4;
     any.scene.time.tolerance = 1e-13;
-    with_effects(required_effects(any.scene.oscillator), [&]<Effects effects>() {
+    with_any_stops(any.scene.oscillator, [&]<Effects effects>() {
       Exact<double, effects> integrator(any.scene);
       check(any, integrator, settle(integrator, start_of(any.scene), any.scene));
     });
@@ -121,9 +121,10 @@ bool begins_with_impact(const Scene& scene, const State<double>& from) {
 TEST(Properties, harmonics_of_a_periodic_motion_follow_from_its_impacts) {
   Tally closes("a period closes"), harmonics("harmonics from the impacts alone"), energy("work done over a period");
   std::uint64_t settled = 0, periodic = 0;
-  in_steady_scenes([&](const AnyScene& any, auto& integrator, const Observed<double>& observed) {
+  in_steady_scenes([&](const AnyScene& any, auto& integrator, const Observed& observed) {
     ++settled, periodic += observed.status == Status::periodic;
-    if (observed.status != Status::periodic || observed.standstill || begins_with_impact(any.scene, observed.from))
+    if (observed.status != Status::periodic || observed.found_by == FoundBy::standstill ||
+        begins_with_impact(any.scene, observed.from))
       return;
     const double total = observed.turns * integrator.period();
     const bool forced = any.scene.oscillator.forcing != 0;

@@ -7,11 +7,11 @@
 #include <limits>
 #include <vector>
 
+#include "dynamics/tangent.hpp"
 #include "hard/energy.hpp"
 #include "hard/inside.hpp"
 #include "hard/rescan.hpp"
 #include "hard/tally.hpp"
-#include "hard/tangent.hpp"
 #include "observables/extrema.hpp"
 #include "observables/samples.hpp"
 
@@ -80,7 +80,7 @@ TEST(Properties, no_place_outside_the_stops_is_told) {
   Tally tally("told places between the stops"), bounds("samples between the extrema");
   in_every_scene([&](const AnyScene& any) {
     Told told(any);
-    with_effects(required_effects(any.scene.oscillator), [&]<Effects effects>() {
+    with_any_stops(any.scene.oscillator, [&]<Effects effects>() {
       Exact<double, effects> integrator(any.scene);
       State<double> state = start_of(any.scene);
       if (run_for(integrator, state, any.duration / integrator.period(), told) == Outcome::completed)
@@ -156,7 +156,7 @@ TEST(Properties, no_impact_is_missed) {
 
 /// The tangent map of a motion, and what its determinant must be.
 struct Area : Watcher {
-  explicit Area(const Oscillator& oscillator) : damping(oscillator.damping) {}
+  explicit Area(const Scene& scene) : damping(scene.oscillator.damping), tangent(scene.stops) {}
 
   template <class A>
   void arc(const A& arc, double begin, double length) {
@@ -191,7 +191,7 @@ struct Area : Watcher {
 TEST(Properties, areas_shrink_by_damping_and_restitution_alone) {
   Tally tally("determinant of the tangent map");
   in_every_scene([&](const AnyScene& any) {
-    Area area(any.scene.oscillator);
+    Area area(any.scene);
     if (watch(any, area) != Outcome::completed || !area.smooth || area.on_lower + area.on_upper == 0) return;
     const double expected = area.expected(any), allowed = 4 * epsilon<double>() * (area.rounding + std::abs(expected));
     if (allowed > 1e-6 || expected < -600) return;  // nothing left of it in doubles
@@ -224,7 +224,7 @@ struct Trace : Watcher {
 };
 
 AnyScene mirrored(AnyScene any) {
-  auto& [oscillator, stops, start, time, observe] = any.scene;
+  auto& [oscillator, stops, start, time, observe, all_effects] = any.scene;
   oscillator.forcing *= -1, oscillator.load *= -1;
   stops = {-stops.upper, -stops.lower, stops.restitution_upper, stops.restitution_lower};
   start.displacement *= -1, start.velocity *= -1;
@@ -232,7 +232,7 @@ AnyScene mirrored(AnyScene any) {
 }
 
 AnyScene scaled(AnyScene any, double by) {
-  auto& [oscillator, stops, start, time, observe] = any.scene;
+  auto& [oscillator, stops, start, time, observe, all_effects] = any.scene;
   for (double* length :
        {&oscillator.forcing, &oscillator.load, &stops.lower, &stops.upper, &start.displacement, &start.velocity})
     *length *= by;
@@ -242,7 +242,7 @@ AnyScene scaled(AnyScene any, double by) {
 /// The trace of a run that starts after a number of sections.
 Trace traced(const AnyScene& any, int sign, double scale, std::int64_t sections = 0) {
   Trace trace(sign, scale);
-  with_effects(required_effects(any.scene.oscillator), [&]<Effects effects>() {
+  with_any_stops(any.scene.oscillator, [&]<Effects effects>() {
     Exact<double, effects> integrator(any.scene);
     State<double> state = start_of(any.scene);
     state.periods = sections;

@@ -110,7 +110,7 @@ TEST(Exact, scenes_scaled_by_a_power_of_two_move_alike_to_the_last_bit) {
 
 TEST(Exact, a_start_whole_periods_later_moves_alike_to_the_last_bit) {
   for (const Scene& scene : scenes_for_symmetry())
-    with_effects(required_effects(scene.oscillator), [&]<Effects effects>() {
+    with_any_stops(scene.oscillator, [&]<Effects effects>() {
       Exact<double, effects> integrator(scene);
       Recorder a, b;
       State<double> now{scene.start.displacement, scene.start.velocity, 0.0, 0}, later = now;
@@ -127,7 +127,7 @@ TEST(Exact, keeps_the_forcing_phase_over_a_hundred_thousand_periods) {
   const double amplitude = 0.777909841584413976;
   Scene scene = scene_of({0.1, 1.0, 1.5, 0.0}, -2 * amplitude, 2 * amplitude, 0.7);
   scene.start = {-0.181543116490166415, -1.13464447806354009, 0.0};
-  with_effects(required_effects(scene.oscillator), [&]<Effects effects>() {
+  with_any_stops(scene.oscillator, [&]<Effects effects>() {
     Exact<double, effects> integrator(scene);
     State<double> state{scene.start.displacement, scene.start.velocity};
     NoObserver nobody;

@@ -110,14 +110,14 @@ TEST(Settle, motion_that_does_not_repeat_is_aperiodic_over_the_window) {
 TEST(Settle, unforced_motion_comes_to_stand_still) {
   Scene decaying = scene_of({0.1, 0.0, 1.0, 0.0}, -1, 1, 0.7);
   decaying.start = {0.5, 0.0, 0.0};
-  EXPECT_TRUE(steady_of(decaying).standstill);
+  EXPECT_EQ(steady_of(decaying).found_by, FoundBy::standstill);
   Scene held = scene_of({0.1, 0.0, 1.0, 2.0}, -1, 1, 0.7);  // the load presses it onto the upper stop
   const Steady steady = steady_of(held);
-  EXPECT_TRUE(steady.standstill);
+  EXPECT_EQ(steady.found_by, FoundBy::standstill);
   EXPECT_EQ(steady.from.x, 1.0);
   ASSERT_EQ(steady.record.rests.size(), 1u);
   EXPECT_EQ(steady.record.rests[0].length, steady.length);
-  EXPECT_TRUE(steady_of(conservative(-1, 1, 0.0, 0.0)).standstill);  // at rest from the start
+  EXPECT_EQ(steady_of(conservative(-1, 1, 0.0, 0.0)).found_by, FoundBy::standstill);  // at rest from the start
 }
 
 TEST(Settle, unforced_motion_that_loses_speed_at_stops_ends_as_free_vibration) {
@@ -135,14 +135,14 @@ TEST(Settle, chatter_is_no_period) {
     scene.start = {0.5, -1.0, 0.0};
     const Steady steady = steady_of(scene);
     EXPECT_EQ(steady.status, Status::periodic);
-    EXPECT_TRUE(steady.standstill) << R;
+    EXPECT_EQ(steady.found_by, FoundBy::standstill) << R;
   }
 }
 
 TEST(Settle, speed_lost_at_one_stop_in_the_centre_ends_in_standstill) {
   Scene scene = scene_of({0.0, 0.0, 1.0, 0.0}, 0.0, none, 0.5);
   scene.start = {1.0, 0.0, 0.0};
-  EXPECT_TRUE(steady_of(scene).standstill);
+  EXPECT_EQ(steady_of(scene).found_by, FoundBy::standstill);
 }
 
 TEST(Repeat, forgets_nothing_it_needs) {

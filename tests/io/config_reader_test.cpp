@@ -131,7 +131,8 @@ TEST(Config, text_keeps_the_given_alternatives_only) {
   EXPECT_NE(text.find("stop_upper = inf\n"), std::string::npos);
   EXPECT_NE(text.find("x0 = 0.0\n"), std::string::npos);
   EXPECT_EQ(text.find("start_period"), std::string::npos);
-  EXPECT_EQ(text.find("stability"), std::string::npos);
+  EXPECT_NE(text.find("stability = false\n"), std::string::npos);
+  EXPECT_NE(text.find("effects = \"required\"\n"), std::string::npos);
 }
 
 TEST(Config, the_default_configuration_reads_the_same_from_toml_and_ini) {

@@ -127,8 +127,6 @@ TEST(Together, sizes_are_bounded) {
 
 TEST(Later, keys_and_methods_of_later_issues_are_unknown_today) {
   const std::vector<Wrong> table{
-      {"[scene]\nxs = 1\n[observe]\nstability = true\n", "4:1", "unknown key 'stability' in [observe]"},
-      {"[scene]\nxs = 1\n[integrator]\neffects = \"all\"\n", "4:1", "unknown key 'effects' in [integrator]"},
       {"[scene]\nxs = 1\n[integrator]\nstep = 1e-3\n", "4:1", "unknown key 'step' in [integrator]"},
       {"[scene]\nxs = 1\n[integrator]\nmethod = \"dopri5\"\n", "4:10", "permitted: exact"},
   };

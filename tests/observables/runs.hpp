@@ -29,11 +29,11 @@ struct Both {
 /// The observed time of a scene under the eyes of `make(total)`'s observers; gives its length.
 template <class Make>
 double observe(const Scene& scene, Make&& make) {
-  return with_effects(required_effects(scene.oscillator), [&]<Effects effects>() {
+  return with_any_stops(scene.oscillator, [&]<Effects effects>() {
     Exact<double, effects> integrator(scene);
     State<double> state;
     state.x = scene.start.displacement, state.v = scene.start.velocity;
-    const Observed<double> observed = settle(integrator, state, scene);
+    const Observed observed = settle(integrator, state, scene);
     const double total = observed.turns * integrator.period();
     state = observed.from;
     make(total, [&](auto&... observer) {

@@ -27,7 +27,7 @@ struct Recorder {
 
 template <class Number>
 Course run_in(const Scene& scene, double duration) {
-  return with_effects(required_effects(scene.oscillator), [&]<Effects effects>() {
+  return with_any_stops(scene.oscillator, [&]<Effects effects>() {
     Course course;
     course.duration = duration;
     Exact<Number, effects> integrator(scene);

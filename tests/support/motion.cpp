@@ -19,18 +19,18 @@ Motion<Number> first_motion(const Flow<Number, E>& flow, const ArcStart& start) 
 
 template <class Number>
 Motion<Number> motion_after(const Oscillator& oscillator, const ArcStart& start, double s) {
-  return with_effects(required_effects(oscillator), [&]<Effects effects>() {
-    const Flow<Number, effects> flow(oscillator);
-    return Arc<Number, effects>(flow, first_motion(flow, start)).at(Number(s));
+  return with_any_stops(oscillator, [&]<Effects effects>() {
+    const Flow<Number, effects.arc()> flow(oscillator);
+    return Arc<Number, effects.arc()>(flow, first_motion(flow, start)).at(Number(s));
   });
 }
 
 template <class Number>
 Motion<Number> motion_by_taylor(const Oscillator& o, const ArcStart& start, double s) {
-  const Effects all{o.damping == 0 ? Damping::none : o.damping < 1 ? Damping::light : Damping::heavy, Forcing::regular};
-  return with_effects(all, [&]<Effects effects>() {
-    const Flow<Number, effects> flow(o);
-    const Arc<Number, effects> arc(flow, first_motion(flow, start));
+  const Oscillator away{o.damping, 1.0, 10.0, 0.0};  // from resonance: response and transient apart
+  return with_any_stops(away, [&]<Effects effects>() {
+    const Flow<Number, effects.arc()> flow(o);
+    const Arc<Number, effects.arc()> arc(flow, first_motion(flow, start));
     const auto steps = static_cast<int>(std::ceil(s * static_cast<double>(flow.rate) * 5));
     Motion<Number> m = arc.start();
     for (int i = 0; i < steps; ++i) m = arc.near(m, Number(s) / steps);

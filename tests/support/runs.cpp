@@ -6,7 +6,7 @@ namespace clatter {
 
 template <class Number>
 Run<Number> run_scene(const Scene& scene, double duration) {
-  return with_effects(required_effects(scene.oscillator), [&]<Effects effects>() {
+  return with_any_stops(scene.oscillator, [&]<Effects effects>() {
     Run<Number> run;
     Exact<Number, effects> integrator(scene);
     run.end.x = scene.start.displacement, run.end.v = scene.start.velocity;
@@ -20,13 +20,17 @@ template Run<double> run_scene(const Scene&, double);
 template Run<FiftyDigits> run_scene(const Scene&, double);
 
 Steady steady_of(const Scene& scene) {
-  return with_effects(required_effects(scene.oscillator), [&]<Effects effects>() {
+  return with_any_stops(scene.oscillator, [&]<Effects effects>() {
     Exact<double, effects> integrator(scene);
     State<double> state;
     state.x = scene.start.displacement, state.v = scene.start.velocity;
-    const Observed<double> observed = settle(integrator, state, scene);
-    Steady steady{observed.status, observed.turns * integrator.period(), observed.turns, observed.standstill,
-                  observed.from};
+    const Observed observed = settle(integrator, state, scene);
+    Steady steady{.status = observed.status,
+                  .length = observed.turns * integrator.period(),
+                  .turns = observed.turns,
+                  .settled = observed.settled,
+                  .found_by = observed.found_by,
+                  .from = observed.from};
     state = observed.from;
     if (!failed(observed.status) && run_for(integrator, state, observed.turns, steady.record) != Outcome::completed)
       steady.status = Status::unresolved;

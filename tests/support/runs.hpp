@@ -42,9 +42,10 @@ template <class Number = double>
 /// The observed time of a scene, and what happens in it.
 struct Steady {
   Status status = Status::unresolved;
-  double length = 0.0;  ///< of the observed time, in tau
-  double turns = 0.0;   ///< the same in forcing periods
-  bool standstill = false;
+  double length = 0.0;   ///< of the observed time, in tau
+  double turns = 0.0;    ///< the same in forcing periods
+  double settled = 0.0;  ///< forcing periods simulated before
+  FoundBy found_by = FoundBy::nothing;
   State<double> from{};
   Recorder record{};
 };

@@ -1,0 +1,37 @@
+#include <iostream>
+
+#include "commands.hpp"
+#include "config_arguments.hpp"
+#include "plan_report.hpp"
+#include "sweep/run.hpp"
+
+namespace clatter {
+namespace {
+
+int print_plan(const Arguments& arguments) {
+  const int threads = threads_of(arguments);
+  const Config config = config_of(arguments);
+  const Plan plan = plan_of(config.sweep);
+  const auto report = arguments.has("json") ? plan_json : plan_text;
+  std::cout << report(plan, config.sweep, threads_used({.threads = threads}));
+  return done;
+}
+
+constexpr std::string_view examples =
+    "  clatter plan configs/fig22.toml\n"
+    "  clatter plan configs/fig22.toml --json --set scene.xs=-6\n";
+
+}  // namespace
+
+Command plan_command() {
+  return {.name = "plan",
+          .usage = "plan CONFIG [OPTION]...",
+          .summary = "print what a configuration will simulate and why, and its work; runs nothing",
+          .examples = examples,
+          .operands = {"CONFIG"},
+          .required_operands = 1,
+          .options = {{"json", 0, "", "as JSON"}, set_option, threads_option, {"help", 'h', "", "print this help"}},
+          .run = print_plan};
+}
+
+}  // namespace clatter

@@ -1,0 +1,134 @@
+#include "plan_report.hpp"
+
+#include <algorithm>
+#include <sstream>
+#include <string_view>
+
+#include "format.hpp"
+
+namespace clatter {
+namespace {
+
+/// A line of a two-column text; an empty title continues the line before.
+std::string line(std::string_view title, const std::string& text) {
+  std::string left(title);
+  left.resize(20, ' ');
+  return left + text + '\n';
+}
+
+std::string range(const Estimate& estimate, const char* format) {
+  const std::string least = formatted(format, estimate.least), most = formatted(format, estimate.most);
+  return least == most ? least : least + " ... " + most;
+}
+
+std::string axis_text(const Axis& axis) {
+  return std::string(key_of(axis.parameter)) + " (" + std::to_string(axis.values.size()) + " from " +
+         formatted("%.10g", axis.values.front()) + " to " + formatted("%.10g", axis.values.back()) + ')';
+}
+
+std::string axes_text(const Sweep& sweep) {
+  std::string text;
+  for (const Dimension& dimension : sweep.dimensions) {
+    text += text.empty() ? "" : " x ";
+    for (std::size_t i = 0; i < dimension.size(); ++i) text += (i > 0 ? " with " : "") + axis_text(dimension[i]);
+  }
+  if (sweep.follow) text += ", following " + std::string(key_of(sweep.dimensions[*sweep.follow].front().parameter));
+  return text.empty() ? "none" : text;
+}
+
+std::string joined(const std::vector<std::string>& names) {
+  std::string text;
+  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
+  return text.empty() ? "nothing" : text;
+}
+
+std::string group_text(const Group& group) {
+  std::string text =
+      '\n' + line(counted(static_cast<double>(group.points), "point"), "kernel: " + kernel_name(group.effects));
+  for (const Reason& reason : group.reasons)
+    text += line("  " + reason.effect, (reason.required ? "yes  " : "no   ") + reason.why);
+  return text + line("  work", range(group.periods, "%.4g") + " forcing periods, " + range(group.seconds, "%.2g") +
+                                   " s on one thread");
+}
+
+Estimate seconds_of(const Plan& plan, int threads) {
+  Estimate sum;
+  for (const Group& group : plan.groups) sum += group.seconds;
+  const double together = std::min(static_cast<double>(std::max(1, threads)), static_cast<double>(plan.branches));
+  return {sum.least / together, sum.most / together};
+}
+
+/// A JSON array, its elements printed by `print`.
+template <typename Range, typename Print>
+void list(std::ostringstream& out, const Range& range, const Print& print) {
+  const char* separator = "";
+  out << '[';
+  for (const auto& element : range) {
+    out << separator;
+    print(element);
+    separator = ", ";
+  }
+  out << ']';
+}
+
+std::string estimate_json(const Estimate& estimate) {
+  std::ostringstream out;
+  out << '[' << json_number(estimate.least) << ", " << json_number(estimate.most) << ']';
+  return out.str();
+}
+
+void put_group(std::ostringstream& out, const Group& group) {
+  out << "\n    {\"points\": " << group.points << ", \"example\": " << group.example
+      << ", \"kernel\": " << json_text(kernel_name(group.effects)) << ", \"periods\": " << estimate_json(group.periods)
+      << ", \"seconds\": " << estimate_json(group.seconds) << ", \"effects\": ";
+  list(out, group.reasons, [&](const Reason& reason) {
+    out << "\n      {\"effect\": " << json_text(reason.effect)
+        << ", \"required\": " << (reason.required ? "true" : "false") << ", \"why\": " << json_text(reason.why) << '}';
+  });
+  out << '}';
+}
+
+}  // namespace
+
+std::string plan_text(const Plan& plan, const Sweep& sweep, int threads) {
+  std::string text = line("axes", axes_text(sweep)) + line("points", std::to_string(plan.points)) +
+                     line("observed", joined(plan.observed));
+  if (sweep.scene.all_effects)
+    text += line("effects", "all are simulated, for all of max_periods (integrator.effects = all); called for are:");
+  for (const Group& group : plan.groups) text += group_text(group);
+  text += '\n' + line("estimated time", range(seconds_of(plan, threads), "%.2g") + " s on " +
+                                            counted(std::max(1, threads), "thread") + ", without the observables");
+  text += line("output", bytes_text(plan.output_bytes) + " before compression" +
+                             (sweep.scene.observe.impact_log ? ", and 25 bytes an impact of the log" : ""));
+  text += line("memory", bytes_text(plan.memory_bytes) + " at the end, of " + bytes_text(plan.machine_bytes));
+  for (const std::string& warning : plan.warnings) text += "warning: " + warning + '\n';
+  return text;
+}
+
+std::string plan_json(const Plan& plan, const Sweep& sweep, int threads) {
+  std::ostringstream out;
+  out << "{\n  \"schema\": \"clatter-plan/1\",\n  \"points\": " << plan.points << ",\n  \"dimensions\": ";
+  list(out, sweep.dimensions, [&](const Dimension& dimension) {
+    list(out, dimension, [&](const Axis& axis) {
+      out << "{\"key\": " << json_text(std::string(key_of(axis.parameter))) << ", \"length\": " << axis.values.size()
+          << ", \"first\": " << json_number(axis.values.front()) << ", \"last\": " << json_number(axis.values.back())
+          << '}';
+    });
+  });
+  out << ",\n  \"follow\": ";
+  out << (sweep.follow ? json_text(std::string(key_of(sweep.dimensions[*sweep.follow].front().parameter))) : "null");
+  out << ",\n  \"observed\": ";
+  list(out, plan.observed, [&](const std::string& name) { out << json_text(name); });
+  out << ",\n  \"all_effects\": " << (sweep.scene.all_effects ? "true" : "false") << ",\n  \"groups\": ";
+  list(out, plan.groups, [&](const Group& group) { put_group(out, group); });
+  out << ",\n  \"threads\": " << std::max(1, threads)
+      << ",\n  \"seconds\": " << estimate_json(seconds_of(plan, threads))
+      << ",\n  \"output_bytes\": " << json_number(plan.output_bytes)
+      << ",\n  \"memory_bytes\": " << json_number(plan.memory_bytes)
+      << ",\n  \"machine_bytes\": " << json_number(plan.machine_bytes) << ",\n  \"warnings\": ";
+  list(out, plan.warnings, [&](const std::string& warning) { out << json_text(warning); });
+  out << "\n}\n";
+  return out.str();
+}
+
+}  // namespace clatter

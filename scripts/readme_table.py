@@ -1,0 +1,35 @@
+"""What the scripts that make README.md's tables share."""
+
+import pathlib
+import sys
+
+SOURCE = pathlib.Path(__file__).resolve().parent.parent
+README = SOURCE / "README.md"
+BUILD = SOURCE / "build" / "release"
+
+
+def add_build(parser):
+    parser.add_argument("--build", type=pathlib.Path, default=BUILD, help="build folder (default: build/release)")
+
+
+def program(build, path, reason="scripts/test.sh builds it"):
+    """A program of a build folder; the script ends where it isn't there."""
+    found = build / path
+    if not found.exists():
+        sys.exit(f"{pathlib.Path(sys.argv[0]).name}: {found} is missing; {reason}")
+    return found
+
+
+def section(text, name):
+    """Where in the README's text the section between its markers begins and ends."""
+    begin, end = f"<!-- begin: {name} -->\n", "<!-- end -->"
+    start = text.find(begin)
+    if start < 0:
+        sys.exit(f"{pathlib.Path(sys.argv[0]).name}: README.md has no section '{name}'")
+    start += len(begin)
+    return start, text.index(end, start)
+
+
+def replaced(text, name, table):
+    start, stop = section(text, name)
+    return text[:start] + table + "\n" + text[stop:]

@@ -1,0 +1,157 @@
+#include "dynamics/required_effects.hpp"
+
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+
+#include "dynamics/reach.hpp"
+
+namespace clatter {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+std::string text(double value) {
+  std::array<char, 32> digits{};
+  std::snprintf(digits.data(), digits.size(), "%.4g", value);
+  return digits.data();
+}
+
+/// "a < b" or "a >= b" with as many digits as tell the two apart.
+std::string compared(double a, const char* sign, double b) {
+  std::array<char, 64> left{}, right{};
+  for (int digits = 4; digits <= 17; ++digits) {
+    std::snprintf(left.data(), left.size(), "%.*g", digits, a);
+    std::snprintf(right.data(), right.size(), "%.*g", digits, b);
+    if (left != right) break;
+  }
+  return std::string(left.data()) + sign + right.data();
+}
+
+/// "x" is measured from the load's equilibrium.
+std::string displacement(const Scene& scene) { return scene.oscillator.load == 0 ? "|x|" : "|x - load|"; }
+
+std::string duration_of(const Scene& scene) {
+  return scene.time.mode == Mode::steady ? "for all time" : "until tau = " + text(scene.time.duration);
+}
+
+Reason damping_reason(const Oscillator& oscillator) {
+  const std::string h = "h = " + text(oscillator.damping);
+  switch (damping_of(oscillator)) {
+    case Damping::none:
+      return {"damping", false, "h = 0: no damping"};
+    case Damping::light:
+      return {"damping", true, h + " < 1: free motion is a decaying rotation"};
+    case Damping::critical:
+      return {"damping", true, "h = 1: critical, the limit of rotation and creep"};
+    default:
+      return {"damping", true, h + " > 1: free motion is the sum of a slow and a fast decay"};
+  }
+}
+
+Reason forcing_reason(const Oscillator& oscillator) {
+  if (oscillator.forcing == 0) return {"forcing", false, "f = 0: no forcing"};
+  return {"forcing", true, "f = " + text(oscillator.forcing)};
+}
+
+Reason resonance_reason(const Oscillator& oscillator) {
+  const double distance = std::hypot(oscillator.damping, oscillator.frequency - 1);
+  if (oscillator.forcing == 0) return {"resonance", false, "f = 0: nothing to resonate with"};
+  const std::string what = "hypot(h, nu - 1) = " + text(distance);
+  if (forcing_of(oscillator) == Forcing::secular)
+    return {"resonance", true, what + " < 1/16: response and transient nearly cancel"};
+  return {"resonance", false, what + " >= 1/16: response and transient keep their digits apart"};
+}
+
+Reason load_reason(const Oscillator& oscillator) {
+  if (oscillator.load == 0) return {"load", false, "load = 0"};
+  return {"load", true, "load = " + text(oscillator.load)};
+}
+
+Reason stop_reason(const Scene& scene, const Requirements& needs, bool upper) {
+  const std::string name = upper ? "upper stop" : "lower stop";
+  const bool required = upper ? needs.effects.upper : needs.effects.lower;
+  const double gap = upper ? needs.upper_gap : needs.lower_gap;
+  if (std::isinf(gap)) return {name, false, upper ? "stop_upper = inf: no stop" : "stop_lower = -inf: no stop"};
+  const std::string bound = displacement(scene) + " <= ", during = ' ' + duration_of(scene);
+  if (!needs.effects.stops())
+    return {name, false, bound + compared(needs.free_reach, " < ", gap) + during + ": out of reach"};
+  if (!required)
+    return {name, false, bound + compared(needs.reach, " < ", gap) + during + ", impacts included: out of reach"};
+  if (std::isnan(scene.start.displacement))
+    return {name, true, "the start isn't known before the point before has ended"};
+  const double reach =
+      needs.free_reach < gap ? needs.reach : needs.free_reach;  // pushed there by the other stop, or not
+  if (!(reach < infinity)) return {name, true, "nothing bounds " + displacement(scene)};
+  return {name, true, displacement(scene) + " may reach " + compared(reach, " >= ", gap)};
+}
+
+Reason dissipation_reason(const Scene& scene, const Effects& effects) {
+  if (!effects.stops()) return {"dissipation", false, "no stop in reach"};
+  if (!effects.dissipation) return {"dissipation", false, "R = 1: impacts keep the speed"};
+  const auto& [lower, upper, R_lower, R_upper] = scene.stops;
+  if (R_lower == R_upper || !effects.lower || !effects.upper)
+    return {"dissipation", true, "R = " + text(effects.lower ? R_lower : R_upper)};
+  return {"dissipation", true, "R = " + text(R_lower) + " and " + text(R_upper)};
+}
+
+Reason rest_reason(const Scene& scene, const Requirements& needs) {
+  const std::string effect = "chatter and rest";
+  if (!needs.effects.stops()) return {effect, false, "no stop in reach"};
+  const bool lower_first = needs.effects.lower && (!needs.effects.upper || needs.lower_gap < needs.upper_gap);
+  const double gap = lower_first ? needs.lower_gap : needs.upper_gap;
+  const std::string from = scene.oscillator.load == 0 ? "" : " around the load";
+  const std::string force = "|f| = " + text(std::abs(scene.oscillator.forcing)) + from;
+  if (!needs.effects.rest) return {effect, false, force + " < " + text(gap) + ": no stop can hold the mass"};
+  return {effect, true, force + " >= " + text(gap) + ": a stop can be pressed"};
+}
+
+enum class Bounds { sufficient, sharpest };
+
+/// The same effects for both kinds of bounds.
+Requirements requirements(const Scene& scene, Bounds bounds) {
+  const Oscillator& o = scene.oscillator;
+  const Stops& stops = scene.stops;
+  Requirements needs{{.damping = damping_of(o), .forcing = forcing_of(o), .load = o.load != 0}};
+  needs.lower_gap = o.load - stops.lower, needs.upper_gap = stops.upper - o.load;
+  const Instant start{scene.start.displacement - o.load, scene.start.velocity, std::sin(scene.start.phase),
+                      std::cos(scene.start.phase)};
+  const double duration = scene.time.mode == Mode::steady ? infinity : scene.time.duration;
+  const double enough = bounds == Bounds::sharpest ? 0.0 : std::fmin(needs.lower_gap, needs.upper_gap);
+  needs.free_reach = reach_of(o, start, duration, enough);
+  needs.reach = reach_through_impacts(o, start, duration);
+  Effects& effects = needs.effects;
+  if (!(needs.free_reach < needs.lower_gap && needs.free_reach < needs.upper_gap)) {  // else none is ever met
+    effects.lower = std::isfinite(stops.lower) && !(needs.reach < needs.lower_gap);
+    effects.upper = std::isfinite(stops.upper) && !(needs.reach < needs.upper_gap);
+  }
+  effects.dissipation =
+      (effects.lower && stops.restitution_lower < 1) || (effects.upper && stops.restitution_upper < 1);
+  const double push = std::abs(o.forcing) * (1 + 4 * std::numeric_limits<double>::epsilon());
+  effects.rest = (effects.lower && !(push < needs.lower_gap)) || (effects.upper && !(push < needs.upper_gap));
+  return needs;
+}
+
+}  // namespace
+
+Requirements requirements_of(const Scene& scene) { return requirements(scene, Bounds::sharpest); }
+
+Effects required_effects(const Scene& scene) { return requirements(scene, Bounds::sufficient).effects; }
+
+std::vector<Reason> reasons_of(const Scene& scene) {
+  const Requirements needs = requirements_of(scene);
+  return {damping_reason(scene.oscillator),         forcing_reason(scene.oscillator),
+          resonance_reason(scene.oscillator),       load_reason(scene.oscillator),
+          stop_reason(scene, needs, false),         stop_reason(scene, needs, true),
+          dissipation_reason(scene, needs.effects), rest_reason(scene, needs)};
+}
+
+Stops stops_in_reach(const Stops& stops, const Effects& effects) {
+  Stops met = stops;
+  if (!effects.lower) met.lower = -infinity;
+  if (!effects.upper) met.upper = infinity;
+  return met;
+}
+
+}  // namespace clatter

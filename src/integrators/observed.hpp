@@ -1,0 +1,35 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "dynamics/scene.hpp"
+#include "dynamics/state.hpp"
+
+namespace clatter {
+
+/// How the time to observe was found.
+enum class FoundBy : std::uint8_t {
+  start,        ///< a transient is observed from its start
+  closed_form,  ///< no stop in reach: the steady response, or what free motion ends as
+  energy,       ///< conservative motion: the period follows from the start
+  newton,       ///< Newton's method on the period map
+  repetition,   ///< the state came back
+  standstill,   ///< nothing moves any more
+  nothing       ///< the motion doesn't repeat, or the point has failed
+};
+
+/// For people, in the order of FoundBy.
+inline constexpr std::array<const char*, 7> found_by_names{"start",      "closed form", "energy",   "Newton's method",
+                                                           "repetition", "standstill",  "not found"};
+
+/// The time that is observed: where it begins, how long it is, and what the motion in it is.
+struct Observed {
+  Status status = Status::unresolved;
+  State<double> from{};
+  double turns = 0.0;    ///< its length in forcing periods; without forcing in 2 pi
+  double settled = 0.0;  ///< forcing periods simulated before, to find it
+  FoundBy found_by = FoundBy::nothing;
+};
+
+}  // namespace clatter

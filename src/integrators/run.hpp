@@ -1,0 +1,47 @@
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+
+#include "integrators/exact.hpp"
+
+namespace clatter {
+
+[[nodiscard]] constexpr Status status_of(Outcome failure) {
+  switch (failure) {
+    case Outcome::event_budget:
+      return Status::event_budget;
+    case Outcome::not_finite:
+      return Status::not_finite;
+    default:
+      return Status::unresolved;
+  }
+}
+
+/// Runs to the next section.
+template <class Number, Effects E, class Observer>
+[[nodiscard]] Outcome advance_to_section(Exact<Number, E>& integrator, State<Number>& state, std::int64_t origin,
+                                         Observer& observer) {
+  const Outcome outcome = integrator.advance(state, Number(1), origin, observer);
+  state.turns = 0;
+  ++state.periods;
+  return outcome;
+}
+
+/// Runs for a time in turns, starting at a section, under the eyes of an observer.
+template <class Number, Effects E, class Observer>
+[[nodiscard]] Outcome run_for(Exact<Number, E>& integrator, State<Number>& state, const Number& turns,
+                              Observer& observer) {
+  using std::floor;
+  const std::int64_t origin = state.periods;
+  Number left = floor(turns);
+  const Number part = turns - left;
+  while (left > 0) {
+    const Outcome outcome = advance_to_section(integrator, state, origin, observer);
+    if (outcome != Outcome::completed) return outcome;
+    left -= 1;
+  }
+  return integrator.advance(state, part, origin, observer);
+}
+
+}  // namespace clatter

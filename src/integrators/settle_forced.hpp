@@ -1,0 +1,150 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <optional>
+
+#include "dynamics/reach.hpp"
+#include "integrators/observed.hpp"
+#include "integrators/period_map.hpp"
+
+namespace clatter {
+
+/// Runs forced motion until its steady state is known, in as few forcing periods as possible: as the closed form once
+/// no stop can be reached any more, by Newton's method once successive states contract, else by repetition.
+template <Effects E>
+class SteadySearch {
+ public:
+  SteadySearch(Exact<double, E>& integrator, const Scene& scene)
+      : integrator_(integrator),
+        scene_(scene),
+        plan_(scene.time),
+        repeat_(scene.time.tolerance),
+        watch_(integrator.stops()),
+        map_(integrator, scene.time.tolerance) {
+    near_enough_.fill(nearest_first);
+  }
+
+  [[nodiscard]] Observed run(State<double> state) {
+    for (;; ++section_) {
+      recent_[index(0)] = state;
+      if (const auto found = closed_form(state)) return *found;
+      if (const std::size_t n = repeat_.add(state.x, state.v)) return repetition(n);
+      if (section_ == plan_.max_periods)
+        return {Status::aperiodic, state, static_cast<double>(plan_.window), simulated(), FoundBy::nothing};
+      if (const auto found = attractor(state)) return *found;
+      const Outcome outcome = advance(state);
+      if (outcome != Outcome::completed) return {status_of(outcome), state, 0.0, simulated(), FoundBy::nothing};
+    }
+  }
+
+ private:
+  static constexpr double infinity = std::numeric_limits<double>::infinity();
+  static constexpr double nearest_first = 0.02;  ///< relative distance below which a first attempt pays
+  static constexpr std::size_t kept = 2 * RepeatFinder::longest;
+
+  [[nodiscard]] std::size_t index(std::size_t ago) const { return (static_cast<std::size_t>(section_) - ago) % kept; }
+  [[nodiscard]] double simulated() const {
+    return static_cast<double>(section_ - taken_) + static_cast<double>(map_.simulated());
+  }
+
+  /// Runs to the next section, or takes it from an approach that has come to nothing.
+  [[nodiscard]] Outcome advance(State<double>& state) {
+    if (approach_ && next_ < approach_->periods) {
+      itineraries_[index(0)] = approach_->itineraries[next_];
+      state = approach_->states[++next_];
+      ++taken_;
+      return Outcome::completed;
+    }
+    watch_.begin_section();
+    const Outcome outcome = advance_to_section(integrator_, state, state.periods, watch_);
+    itineraries_[index(0)] = watch_.itinerary();
+    return outcome;
+  }
+
+  [[nodiscard]] Observed repetition(std::size_t n) const {
+    return {Status::periodic, recent_[index(repeat_.lowest_of_last(n))], static_cast<double>(n), simulated(),
+            FoundBy::repetition};
+  }
+
+  /// The steady forced response, where no stop is in reach from now on and the transient will be gone in time.
+  [[nodiscard]] std::optional<Observed> closed_form(const State<double>& state) const {
+    const Oscillator& o = scene_.oscillator;
+    if (o.damping == 0 || (section_ > 0 && itineraries_[index(1)] != 0)) return std::nullopt;
+    const auto [sine, cosine] = integrator_.phase(State<double>{});
+    const Instant now{state.x - o.load, state.v, sine, cosine};
+    const double gap = std::min(o.load - integrator_.stops().lower, integrator_.stops().upper - o.load);
+    if (E.stops() && !(reach_of(o, now, infinity, gap) < gap)) return std::nullopt;
+    const PhasePoint transient = transient_of(o, now), response = response_at(o, sine, cosine);
+    const double left = decay_over(o, static_cast<double>(plan_.max_periods - section_) * integrator_.period());
+    State<double> steady = state;
+    steady.x = o.load + response.x, steady.v = response.v, steady.left = Side::none;
+    const double scale = std::max(std::abs(steady.x), std::abs(steady.v));
+    if (!(transient_bound(o, transient) * left <= plan_.tolerance * scale)) return std::nullopt;
+    return Observed{Status::periodic, steady, 1.0, simulated(), FoundBy::closed_form};
+  }
+
+  /// Follows the next n periods together with their derivative where states have begun to contract, and looks for the
+  /// periodic motion that they contract to. Periods spent in vain are at most a quarter of all.
+  [[nodiscard]] std::optional<Observed> attractor(const State<double>& state) {
+    const bool under_way = approach_ && next_ < approach_->periods;
+    if (under_way || map_.simulated() > 32 + static_cast<std::size_t>(section_) / 4) return std::nullopt;
+    const std::size_t n = contracting();
+    if (n == 0) return std::nullopt;
+    near_enough_[n] = repeat_.distance_over(n) / 8;  // for the next attempt
+    approach_ = map_.follow(state, n), next_ = 0;
+    const auto orbit = approach_ ? map_.attractor_of(*approach_) : std::nullopt;
+    return orbit ? std::optional(observed(*orbit)) : std::nullopt;
+  }
+
+  /// The least n for which states n apart come closer, over the same stops in the same order; 0 for none.
+  [[nodiscard]] std::size_t contracting() const {
+    for (std::size_t n = 1; n <= RepeatFinder::longest; ++n) {
+      const double now = repeat_.distance_over(n);
+      if (!(now <= near_enough_[n] && now > plan_.tolerance && now < repeat_.distance_over(n, n))) continue;
+      bool same = true;
+      for (std::size_t i = 1; same && i <= n && n + i < kept; ++i)
+        same = itineraries_[index(i)] == itineraries_[index(n + i)];
+      if (same) return n;
+    }
+    return 0;
+  }
+
+  [[nodiscard]] Observed observed(const Orbit& orbit) const {
+    const std::size_t n = shortest(orbit);
+    std::size_t lowest = 0;
+    for (std::size_t i = 1; i < n; ++i) {
+      const State<double>&one = orbit.states[i], &best = orbit.states[lowest];
+      if (one.x < best.x || (one.x == best.x && one.v < best.v)) lowest = i;
+    }
+    return {Status::periodic, orbit.states[lowest], static_cast<double>(n), simulated(), FoundBy::newton};
+  }
+
+  /// The least divisor of its periods after which an orbit is back.
+  [[nodiscard]] std::size_t shortest(const Orbit& orbit) const {
+    const State<double>& start = orbit.states[0];
+    const double limit = RepeatFinder::few * plan_.tolerance * std::max(std::abs(start.x), std::abs(start.v));
+    for (std::size_t m = 1; m < orbit.periods; ++m)
+      if (orbit.periods % m == 0 && between(start, orbit.states[m]).size() <= limit) return m;
+    return orbit.periods;
+  }
+
+  Exact<double, E>& integrator_;
+  const Scene& scene_;
+  const TimePlan& plan_;
+  RepeatFinder repeat_;
+  SectionWatch watch_;
+  PeriodMap<E> map_;
+  std::optional<Orbit> approach_;  ///< the periods after an attempt
+  std::size_t next_ = 0;           ///< of its sections, the one that comes next
+  std::int64_t section_ = 0;
+  std::int64_t taken_ = 0;                                       ///< sections that were taken from approaches
+  std::array<State<double>, kept> recent_{};                     ///< [section modulo kept]
+  std::array<std::uint64_t, kept> itineraries_{};                ///< of the section that begins there
+  std::array<double, RepeatFinder::longest + 1> near_enough_{};  ///< [n]: distance below which an attempt is made
+};
+
+}  // namespace clatter

@@ -1,0 +1,84 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "dynamics/reach.hpp"
+#include "integrators/free_period.hpp"
+#include "integrators/observed.hpp"
+#include "integrators/return_map.hpp"
+#include "integrators/run.hpp"
+
+namespace clatter {
+
+/// Runs unforced motion until it returns to the same speed on the same stop, turns freely, or comes to stand still;
+/// where nothing is lost, its period follows from the start.
+template <Effects E>
+class FreeSearch {
+ public:
+  FreeSearch(Exact<double, E>& integrator, const Scene& scene)
+      : integrator_(integrator), scene_(scene), returns_(scene) {}
+
+  [[nodiscard]] Observed run(State<double> state) {
+    const State<double> start = state;
+    const std::int64_t most = scene_.time.max_periods;
+    for (std::int64_t section = 0;; ++section) {
+      const auto settled = static_cast<double>(section);
+      if (stands_still(state)) return {Status::periodic, state, 1.0, settled, FoundBy::standstill};
+      if (!scene_.all_effects) {
+        if (section == 0 && conservative()) return {Status::periodic, start, free_turns(start), 0.0, FoundBy::energy};
+        if (const auto found = closed_form(state, section)) return *found;
+      }
+      if (section == most)
+        return {Status::aperiodic, state, static_cast<double>(scene_.time.window), settled, FoundBy::nothing};
+      returns_.begin_period(integrator_.period());
+      const Outcome outcome = advance_to_section(integrator_, state, state.periods, returns_);
+      if (outcome != Outcome::completed) return {status_of(outcome), state, 0.0, settled, FoundBy::nothing};
+      if (integrator_.holding_stop(state) || (scene_.all_effects && section + 1 < most)) continue;
+      const double turns = returns_.free_rotation() ? 1.0 : returns_.period() / integrator_.period();
+      if (turns > 0)
+        return {Status::periodic, returns_.conserved() ? start : state, turns, settled + 1, FoundBy::repetition};
+    }
+  }
+
+ private:
+  [[nodiscard]] bool stands_still(const State<double>& state) const {
+    return returns_.stands_still(state.x, state.v, integrator_.holding_stop(state).has_value());
+  }
+
+  [[nodiscard]] bool conservative() const {
+    const Stops& stops = integrator_.stops();
+    const auto keeps = [](double place, double R) { return std::isinf(place) || R == 1.0; };
+    return scene_.oscillator.damping == 0 && keeps(stops.lower, stops.restitution_lower) &&
+           keeps(stops.upper, stops.restitution_upper);
+  }
+  [[nodiscard]] double free_turns(const State<double>& start) const {
+    return free_period<double>(scene_.oscillator.load, integrator_.stops(), start.x, start.v) / integrator_.period();
+  }
+
+  /// How the motion ends where no stop is in reach from now on: in free vibration, or at its equilibrium if damping
+  /// takes it there in time.
+  [[nodiscard]] std::optional<Observed> closed_form(const State<double>& state, std::int64_t section) const {
+    const Oscillator& o = scene_.oscillator;
+    const Stops& stops = integrator_.stops();
+    const double gap = std::min(o.load - stops.lower, stops.upper - o.load);
+    const Instant now{state.x - o.load, state.v, 0.0, 1.0};
+    if (E.stops() && !(reach_of(o, now, infinity, gap) < gap)) return std::nullopt;
+    const auto settled = static_cast<double>(section);
+    if (o.damping == 0) return Observed{Status::periodic, state, 1.0, settled, FoundBy::closed_form};
+    const double time = static_cast<double>(scene_.time.max_periods - section) * integrator_.period();
+    const double left = transient_bound(o, transient_of(o, now)) * decay_over(o, time);
+    if (!returns_.stands_still(o.load + left, left, false)) return std::nullopt;
+    State<double> end = state;
+    end.x = o.load, end.v = 0, end.left = Side::none;
+    return Observed{Status::periodic, end, 1.0, settled, FoundBy::standstill};
+  }
+
+  static constexpr double infinity = std::numeric_limits<double>::infinity();
+  Exact<double, E>& integrator_;
+  const Scene& scene_;
+  ReturnMap returns_;
+};
+
+}  // namespace clatter

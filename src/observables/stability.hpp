@@ -1,0 +1,60 @@
+#pragma once
+
+#include <cmath>
+#include <complex>
+#include <limits>
+
+#include "dynamics/tangent.hpp"
+
+namespace clatter {
+
+/// How small changes of a motion grow: the multipliers of a period and the largest Lyapunov exponent, impacts and rests
+/// included (physics: saltation matrices, Nordmark & Piiroinen 2009).
+class Stability {
+ public:
+  using Complex = std::complex<double>;
+
+  explicit Stability(const Stops& stops) : tangent_(stops) {}
+
+  template <Effects E>
+  void arc(const Arc<double, E>& arc, double begin, double length) {
+    tangent_.arc(arc, begin, length);
+    ++evaluations_;
+  }
+  void rest(const Rest& rest) { tangent_.rest(rest); }
+  void impact(const Impact& impact) { tangent_.impact(impact); }
+
+  /// Ends the observed time, one period of forced motion; of unforced motion (`autonomous`) one multiplier is 1, since
+  /// a shift of time along the motion stays what it is.
+  void finish_period(double total, bool autonomous) {
+    const Map<double> map = tangent_.map();
+    const double product = tangent_.determinant(), half = (map[0] + map[3]) / 2, square = half * half - product;
+    if (autonomous) {
+      first_ = 1.0, second_ = product;
+    } else if (square < 0) {
+      first_ = {half, std::sqrt(-square)}, second_ = std::conj(first_);
+    } else {
+      first_ = half + std::copysign(std::sqrt(square), half);
+      second_ = first_ == 0.0 ? first_ : product / first_;
+    }
+    if (std::abs(second_) > std::abs(first_)) std::swap(first_, second_);
+    exponent_ = std::log(std::abs(first_)) / total;
+  }
+
+  /// Ends the observed time of motion without a period: the exponent along it.
+  void finish_window(double total) { exponent_ = tangent_.log_norm() / total; }
+
+  [[nodiscard]] const Complex& first() const { return first_; }    ///< the larger multiplier; NaN without a period
+  [[nodiscard]] const Complex& second() const { return second_; }  ///< the smaller one
+  [[nodiscard]] double lyapunov() const { return exponent_; }      ///< per tau; -inf where a change is gone at once
+  [[nodiscard]] double evaluations() const { return evaluations_; }
+
+ private:
+  static constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  Tangent<double> tangent_;
+  Complex first_{nan, nan}, second_{nan, nan};
+  double exponent_ = nan;
+  double evaluations_ = 0.0;
+};
+
+}  // namespace clatter

@@ -1,0 +1,220 @@
+#include "sweep/plan.hpp"
+
+#include <omp.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <tuple>
+
+#include "dynamics/reach.hpp"
+#include "sweep/branches.hpp"
+#include "sweep/fork_join.hpp"
+#include "sweep/memory.hpp"
+#include "sweep/point.hpp"
+
+namespace clatter {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// A point as the plan sees it; along a followed branch nobody knows where it starts.
+Scene planned_scene(const Sweep& sweep, const Branches& branches, std::size_t point) {
+  Scene scene = scene_at(sweep, point);
+  if (branches.begins(point)) {
+    start_from(scene, std::nullopt);
+  } else {
+    scene.start = {no_value, no_value, no_value};
+  }
+  return scene;
+}
+
+double period_of(const Oscillator& o) { return 2 * pi<double>() / (o.forcing == 0 ? 1 : o.frequency); }
+
+/// Forcing periods of a point. Where nothing is proved: at best a single one is settled and one observed, at worst all
+/// of max_periods, a quarter more for attempts to find the periodic motion, and the window.
+Estimate periods_of(const Scene& scene, const Effects& effects) {
+  const TimePlan& time = scene.time;
+  const Oscillator& o = scene.oscillator;
+  const double longest = static_cast<double>(time.max_periods), period = period_of(o);
+  if (time.mode == Mode::transient) return {time.duration / period, time.duration / period};
+  if (scene.all_effects) return {std::max(1.0, longest - 192) + 1, longest + static_cast<double>(time.window)};
+  const bool fades = decay_over(o, longest * period) <= time.tolerance * 1e-3;
+  if (!effects.stops() && (o.forcing == 0 || fades)) return {1, 1};
+  if (o.forcing == 0 && o.damping == 0 && !effects.dissipation) return {0, 1};
+  return {2, longest * 1.25 + static_cast<double>(time.window)};
+}
+
+/// Evaluations of arcs in a forcing period, from the length of the steps that are proved free of contact; two impacts a
+/// period, each worth two.
+double evaluations_of(const Scene& scene, const Effects& effects) {
+  const double longest_step = 1.6 / std::max(1.0, scene.oscillator.forcing == 0 ? 1.0 : scene.oscillator.frequency);
+  return effects.stops() ? std::ceil(period_of(scene.oscillator) / longest_step) + 4 : 1;
+}
+
+/// How little room a motion leaves before the stops that are out of reach: 1 where it touches, 0 where it meets them.
+double closeness(const Requirements& needs) {
+  const double reach = needs.effects.stops() ? needs.reach : needs.free_reach;
+  double closest = 0;
+  if (!needs.effects.lower && needs.lower_gap < infinity) closest = reach / needs.lower_gap;
+  if (!needs.effects.upper && needs.upper_gap < infinity) closest = std::max(closest, reach / needs.upper_gap);
+  return closest;
+}
+
+/// A group while it is collected.
+struct Collected {
+  Effects effects;
+  std::size_t points = 0, example = 0;
+  double closest = -1;
+  Estimate periods, evaluations;
+
+  void add(const Collected& other) {
+    points += other.points;
+    periods += other.periods, evaluations += other.evaluations;
+    if (other.closest > closest || (other.closest == closest && other.example < example))
+      closest = other.closest, example = other.example;
+  }
+};
+
+void add(std::vector<Collected>& groups, const Collected& part) {
+  const auto same = std::ranges::find(groups, part.effects, &Collected::effects);
+  if (same == groups.end()) {
+    groups.push_back(part);
+  } else {
+    same->add(part);
+  }
+}
+
+Collected collected(const Sweep& sweep, const Branches& branches, std::size_t point) {
+  const Scene scene = planned_scene(sweep, branches, point);
+  const Requirements needs = requirements_of(scene);
+  const Effects effects = scene.all_effects ? all_effects(damping_of(scene.oscillator)) : needs.effects;
+  const Estimate periods = periods_of(scene, effects);
+  const double evaluations = evaluations_of(scene, effects);
+  return {effects, 1, point, closeness(needs), periods, {periods.least * evaluations, periods.most * evaluations}};
+}
+
+/// Groups points on all threads; the same groups for every number of them but for the rounding of the estimates.
+class Collector {
+ public:
+  explicit Collector(const Sweep& sweep)
+      : sweep_(sweep),
+        branches_(sweep),
+        points_(size(sweep)),
+        groups_(static_cast<std::size_t>(omp_get_max_threads())) {}
+
+  CLATTER_PARALLEL_REGION std::vector<Collected> run() {
+    fork_join_.fork();
+#pragma omp parallel for schedule(static)
+    for (std::size_t point = 0; point < points_; ++point) work(point, static_cast<std::size_t>(omp_get_thread_num()));
+    fork_join_.join();
+    std::vector<Collected> sum;
+    for (const std::vector<Collected>& of_thread : groups_)
+      for (const Collected& part : of_thread) add(sum, part);
+    std::ranges::sort(sum, cheaper, &Collected::effects);
+    return sum;
+  }
+
+ private:
+  void work(std::size_t point, std::size_t thread) {
+    const ForkJoin::Member member(fork_join_);
+    add(groups_[thread], collected(sweep_, branches_, point));
+  }
+
+  const Sweep& sweep_;
+  Branches branches_;
+  std::size_t points_;
+  std::vector<std::vector<Collected>> groups_;  ///< [thread]
+  ForkJoin fork_join_;
+};
+
+std::vector<std::string> observed_of(const Observe& observe) {
+  std::vector<std::string> names;
+  if (observe.extrema) names.emplace_back("extrema");
+  if (observe.harmonics > 0) {
+    const bool fft = observe.harmonics_method == HarmonicsMethod::fft;
+    names.push_back("harmonics 0 ... " + std::to_string(observe.harmonics) +
+                    (fft ? " by FFT of " + std::to_string(observe.harmonics_samples) + " samples" : " from the arcs"));
+  }
+  if (observe.impacts) names.emplace_back("impacts");
+  if (observe.impact_log) names.emplace_back("impact log");
+  if (observe.trajectory > 0) names.push_back("trajectory of " + std::to_string(observe.trajectory) + " samples");
+  if (observe.period) names.emplace_back("period");
+  if (observe.stability) names.emplace_back("stability");
+  return names;
+}
+
+/// A stop that is there, but never met by any point.
+void warn_of_stop(const Sweep& sweep, Plan& plan, bool upper) {
+  const auto met = [upper](const Group& group) { return upper ? group.effects.upper : group.effects.lower; };
+  const Stops& stops = scene_at(sweep, 0).stops;
+  const bool absent = upper ? stops.upper == infinity : stops.lower == -infinity;
+  if (absent || plan.groups.empty() || std::ranges::any_of(plan.groups, met)) return;
+  const Reason& reason = plan.groups.front().reasons[upper ? 5 : 4];
+  plan.warnings.push_back("the " + reason.effect + " is never reached at any point, at the closest " + reason.why +
+                          "; if impacts are meant, move it nearer or raise f, x0 or v0");
+}
+
+void warn(const Sweep& sweep, Plan& plan) {
+  warn_of_stop(sweep, plan, false);
+  warn_of_stop(sweep, plan, true);
+  if (plan.machine_bytes > 0 && plan.memory_bytes > plan.machine_bytes)
+    plan.warnings.push_back(
+        "the output is larger than the memory of this machine: clatter run will refuse; sweep fewer "
+        "points, or observe fewer samples and harmonics");
+  if (plan.observed.empty())
+    plan.warnings.emplace_back(
+        "nothing is observed: the file will tell the status alone; switch on e.g. observe.extrema");
+  const Scene& scene = sweep.scene;
+  const auto lasting = [](const Group& g) {
+    return g.effects.damping == Damping::none && g.effects.forcing != Forcing::none && !g.effects.dissipation;
+  };
+  if (scene.time.mode == Mode::steady && std::ranges::any_of(plan.groups, lasting))
+    plan.warnings.emplace_back(
+        "without damping and loss at impacts a transient never fades: forced points run for all of "
+        "max_periods unless they start on a periodic motion; for a given time write mode = transient");
+}
+
+}  // namespace
+
+bool cheaper(const Effects& one, const Effects& other) {
+  const auto key = [](const Effects& e) {
+    return std::tuple(kernel_of(e), e.damping, e.forcing, e.load, e.lower, e.upper, e.dissipation, e.rest);
+  };
+  return key(one) < key(other);
+}
+
+std::string kernel_name(const Effects& effects) {
+  const Effects& kernel = compiled_effects[kernel_of(effects)];
+  std::string name = kernel.damping == Damping::none    ? "no damping"
+                     : kernel.damping == Damping::light ? "light damping"
+                                                        : "heavy damping";
+  if (kernel.forcing != Forcing::none) name += kernel.forcing == Forcing::regular ? ", forcing" : ", resonant forcing";
+  name += kernel.stops() ? ", impacts" : ", no stops";
+  if (kernel.rest) name += ", chatter and rest";
+  return name;
+}
+
+Plan plan_of(const Sweep& sweep) {
+  Plan plan;
+  plan.points = size(sweep);
+  plan.observed = observed_of(sweep.scene.observe);
+  const Branches branches(sweep);
+  plan.branches = branches.count;
+  for (const Collected& group : Collector(sweep).run()) {
+    const double seconds = seconds_per_evaluation(group.effects);
+    plan.groups.push_back({.effects = group.effects,
+                           .points = group.points,
+                           .example = group.example,
+                           .reasons = reasons_of(planned_scene(sweep, branches, group.example)),
+                           .periods = group.periods,
+                           .seconds = {group.evaluations.least * seconds, group.evaluations.most * seconds}});
+  }
+  plan.output_bytes = result_bytes(sweep);
+  plan.memory_bytes = run_bytes(sweep);
+  plan.machine_bytes = machine_bytes();
+  warn(sweep, plan);
+  return plan;
+}
+
+}  // namespace clatter

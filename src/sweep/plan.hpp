@@ -1,0 +1,53 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "dynamics/required_effects.hpp"
+#include "sweep/sweep.hpp"
+
+namespace clatter {
+
+/// The least and the greatest that something can come to.
+struct Estimate {
+  double least = 0.0, most = 0.0;
+
+  Estimate& operator+=(const Estimate& other) {
+    least += other.least, most += other.most;
+    return *this;
+  }
+};
+
+/// Points that call for equal effects.
+struct Group {
+  Effects effects;
+  std::size_t points = 0;
+  std::size_t example = 0;      ///< the point whose reasons are the closest: the least room left before a stop
+  std::vector<Reason> reasons;  ///< of that point
+  Estimate periods;             ///< forcing periods to simulate, all points together
+  Estimate seconds;             ///< on one thread, from a short measurement of the kernel
+};
+
+/// What a sweep will do, known before anything runs.
+struct Plan {
+  std::size_t points = 0;
+  std::size_t branches = 0;           ///< of them, so many don't wait for others: the rest follow
+  std::vector<std::string> observed;  ///< the observables, e.g. "harmonics 0 ... 3 by FFT of 4096 samples"
+  std::vector<Group> groups;          ///< the cheapest kernel first
+  double output_bytes = 0.0;          ///< of the results before compression; the impact log comes on top
+  double memory_bytes = 0.0;          ///< at the end of a run: results and the file's image of them
+  double machine_bytes = 0.0;         ///< memory of this machine
+  std::vector<std::string> warnings;  ///< what looks unintended, and the remedy
+};
+
+/// Groups the points by the effects that they call for and estimates their work; runs none of them.
+[[nodiscard]] Plan plan_of(const Sweep& sweep);
+
+/// A compiled set of effects in words, e.g. "light damping, forcing, stops, chatter and rest".
+[[nodiscard]] std::string kernel_name(const Effects& effects);
+
+/// Whether one set of effects stands before another in lists: that of the cheaper kernel, else any fixed order.
+[[nodiscard]] bool cheaper(const Effects& one, const Effects& other);
+
+}  // namespace clatter
