@@ -14,7 +14,7 @@ TOGETHER = (("x_min", "x_max"), ("v_min", "v_max"), ("v_before", "v_after"))  # 
 RECORDS = ("tau", "x", "v")
 ORDER = ("x_min", "x_max", "v_min", "v_max", "period_ratio", "period", "eigenfrequency", "velocity_ratio",
          "impacts_per_period", "v_before", "v_after", "rest_fraction",
-         "x_amplitude", "x_phase", "v_amplitude", "v_phase")
+         "x_amplitude", "x_phase", "v_amplitude", "v_phase", "multiplier_re", "multiplier_im", "lyapunov")
 
 
 def generic_figure(output):
@@ -60,7 +60,7 @@ def point_panels(output):
         if output[name].dims == ("harmonic",):
             panels.append(lambda figure, axes, name=name: spectrum(output, name, axes))
     names = [name for name in in_order(output.results())
-             if output[name].dims in ((), ("stop",)) and name not in BOOKKEEPING]
+             if output[name].dims in ((), ("stop",), ("multiplier",)) and name not in BOOKKEEPING]
     if names or not panels and any(name not in output for name in RECORDS):
         panels.append(lambda figure, axes: scalars(output, names or BOOKKEEPING[:3], axes))
     return panels
@@ -112,6 +112,8 @@ def component_title(name, dimension, value, several):
     if dimension == "stop":
         side = "lower" if value < 0 else "upper"
         return f"{symbol(name)} {side}" if several else f"{side} stop"
+    if dimension == "multiplier":
+        return f"{'larger' if value == 1 else 'smaller'} modulus"
     return f"${'k' if dimension == 'harmonic' else dimension} = {number(float(value))}$"
 
 

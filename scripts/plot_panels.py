@@ -240,6 +240,9 @@ def scalar_parts(output, name):
     if variable.dims == ("stop",):
         sides = [("lower" if side < 0 else "upper") for side in output.values("stop")]
         return [(f"{variable.long_name}, {side} stop", value) for side, value in zip(sides, variable.values)]
+    if variable.dims == ("multiplier",):
+        return [(f"{variable.long_name}, {which} modulus", value)
+                for which, value in zip(("larger", "smaller"), variable.values)]
     return []
 
 

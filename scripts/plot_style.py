@@ -35,6 +35,9 @@ LABELS = {
     "x_amplitude": ("amplitude of displacement", r"$a_k$"),
     "v_amplitude": ("amplitude of velocity", "$a$\N{PRIME}$_k$"),
     "x_phase": ("phase of displacement", r"$\varphi_k$"), "v_phase": ("phase of velocity", "$\\varphi$\N{PRIME}$_k$"),
+    "multiplier_re": ("real part of multipliers", r"$\mathrm{Re}\,\mu$"),
+    "multiplier_im": ("imaginary part of multipliers", r"$\mathrm{Im}\,\mu$"),
+    "lyapunov": ("largest Lyapunov exponent", r"$\lambda$"),
     "impacts_per_period": ("impacts per period", ""), "rest_fraction": ("share of time at rest", ""),
 }
 

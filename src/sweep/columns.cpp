@@ -89,7 +89,10 @@ void Columns::add_coordinates(Figure& figure) const {
     coordinate("stop", std::vector<std::int8_t>{-1, 1}, "-1: lower stop, +1: upper stop");
   }
   if (observe.trajectory > 0) figure.dimensions.push_back({"sample", static_cast<std::size_t>(observe.trajectory)});
-  if (observe.stability) figure.dimensions.push_back({"multiplier", 2});
+  if (observe.stability) {
+    figure.dimensions.push_back({"multiplier", 2});
+    coordinate("multiplier", std::vector<std::int8_t>{1, 2}, "number of the multiplier, 1: the larger modulus");
+  }
 }
 
 void Columns::add_always(Figure& figure) {

@@ -21,6 +21,7 @@ OBSERVED = {  # variables of each [observe] key (interface)
     "impact_log": ("impact_count", "impact_tau", "impact_stop", "impact_v_before", "impact_v_after"),
     "trajectory": ("tau", "x", "v"),
     "period": ("period", "period_ratio"),
+    "stability": ("multiplier", "multiplier_re", "multiplier_im", "lyapunov"),
 }
 PLOTTED = {  # what each of the paper's figures needs, with its axes and number of points
     **dict.fromkeys((2, 3), (("velocity_ratio", "period", "eigenfrequency"), ("start_period",), 400)),

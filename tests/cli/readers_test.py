@@ -104,13 +104,14 @@ class Readers(unittest.TestCase):
 
     def test_one_axis(self):
         config = toml("Größter Ausschlag", sweep={"nu": quoted("linspace(0.9, 1.1, 5)")},
-                      observe={"extrema": True, "impacts": True, "period": True})
+                      observe={"extrema": True, "impacts": True, "period": True, "stability": True})
         path = self.run_clatter(config)
         on_nu = {**ALWAYS, **dict.fromkeys(("x_min", "x_max", "v_min", "v_max", "period", "period_ratio",
-                                            "eigenfrequency", "velocity_ratio"), "float64")}
+                                            "eigenfrequency", "velocity_ratio", "lyapunov"), "float64")}
         on_stops = ("impacts_per_period", "v_before", "v_after", "rest_fraction")
-        self.assert_contents(path, {"nu": 5, "stop": 2}, {
-            "nu": (("nu",), "float64"), "stop": (("stop",), "int8"),
+        self.assert_contents(path, {"nu": 5, "stop": 2, "multiplier": 2}, {
+            "nu": (("nu",), "float64"), "stop": (("stop",), "int8"), "multiplier": (("multiplier",), "int8"),
+            **{name: (("nu", "multiplier"), "float64") for name in ("multiplier_re", "multiplier_im")},
             **{name: (("nu",), kind) for name, kind in on_nu.items()},
             **{name: (("nu", "stop"), "float64") for name in on_stops}})
         with xarray.open_dataset(path) as data:
