@@ -31,10 +31,11 @@ Complex rotation(const Oscillator& oscillator, const PhasePoint& transient) {
 double beat_bound(const Complex& R, const Complex& B, double h, double delta) {
   constexpr int parts = 48;
   constexpr double slack = 1e-4;
-  const double steady = std::abs(R), whole = std::abs(B), part = 2 * std::acos(-1.0) / parts;
+  const double scale = std::abs(R) + std::abs(B);  // divided out, so that squares neither overflow nor vanish
+  const double steady = std::abs(R) / scale, whole = std::abs(B) / scale, part = 2 * std::acos(-1.0) / parts;
   const double decay = std::exp(-h * part / (std::abs(delta) * (1 + slack)));
-  const Complex turn = std::polar(1.0, part), between = B * std::conj(R) / (whole * steady);
-  Complex from = delta > 0 ? between : std::conj(between);
+  const Complex turn = std::polar(1.0, part), begin = std::polar(1.0, std::arg(B) - std::arg(R));
+  Complex from = delta > 0 ? begin : std::conj(begin);
   double square = steady * steady, length = whole;
   for (int i = 0; i < parts; ++i) {
     const Complex to = from * turn;
@@ -44,7 +45,7 @@ double beat_bound(const Complex& R, const Complex& B, double h, double delta) {
       square = std::max(square, steady * steady + l * l + 2 * steady * l * cosine);
     from = to, length = shorter;
   }
-  return std::sqrt(square) + rounding * (steady + whole);
+  return (std::sqrt(square) + rounding) * scale;
 }
 
 }  // namespace
@@ -61,28 +62,35 @@ PhasePoint transient_of(const Oscillator& oscillator, const Instant& now) {
   return {now.x - response.x, now.v - response.v};
 }
 
-double transient_bound(const Oscillator& oscillator, const PhasePoint& transient) {
-  const double energy = norm(transient.x, transient.v);
-  if (!rotates(oscillator)) return energy;
-  const double rotating = std::abs(rotation(oscillator, transient));
-  return rotating < energy ? rotating : energy;
+double transient_bound(const Oscillator& oscillator, const PhasePoint& transient, double after) {
+  const double h = oscillator.damping, energy = norm(transient.x, transient.v);
+  if (h == 0) return energy;
+  if (rotates(oscillator)) return std::min(energy, std::abs(rotation(oscillator, transient)) * std::exp(-h * after));
+  // e^{-slow t} [x + (v + slow x) (1 - e^{-2 lambda t})/(2 lambda)], the last factor being at most t
+  const double root = std::sqrt((h - 1) * (h + 1)), slow = 1 / (h + root), decay = std::exp(-slow * after);
+  const double longest = std::max(after, 1 / slow);  // where t e^{-slow t} is greatest
+  const double creep = std::min(longest * std::exp(-slow * longest), decay / (2 * root));
+  return std::min(energy, decay * std::abs(transient.x) + std::abs(transient.v + slow * transient.x) * creep);
 }
 
-double decay_over(const Oscillator& oscillator, double time) {
-  const double h = oscillator.damping;
-  return std::exp(-time * (h <= 1 ? h : 1 / (h + std::sqrt((h - 1) * (h + 1)))));
+bool fades(const Oscillator& oscillator, const Instant& now, double after, double tolerance) {
+  const PhasePoint response = response_at(oscillator, now.sine, now.cosine);
+  const double scale = std::max(std::abs(oscillator.load + response.x), std::abs(response.v));
+  return oscillator.damping > 0 &&
+         transient_bound(oscillator, transient_of(oscillator, now), after) <= tolerance * scale;
 }
 
 double reach_through_impacts(const Oscillator& oscillator, const Instant& now, double duration) {
   const double push = oscillator.forcing == 0 ? 0.0 : std::abs(oscillator.forcing) * duration;
   const double bound = (norm(now.x, now.v) + push) * (1 + rounding);
-  return bound >= 0 ? bound : std::numeric_limits<double>::infinity();
+  return bound >= 0 && oscillator.damping >= 0 ? bound : std::numeric_limits<double>::infinity();
 }
 
 double reach_of(const Oscillator& oscillator, const Instant& now, double duration, double enough) {
   const auto response = steady_response(oscillator.damping, oscillator.forcing, oscillator.frequency);
   const PhasePoint transient = transient_of(oscillator, now);
   double bound = std::numeric_limits<double>::infinity();
+  if (!(oscillator.damping >= 0)) return bound;
   const auto improve = [&](double other) {
     if (other * (1 + rounding) < bound) bound = other * (1 + rounding);  // a NaN is no improvement
   };

@@ -22,12 +22,13 @@ struct PhasePoint {
 /// What is left of the transient at an instant: the motion minus its steady forced response.
 [[nodiscard]] PhasePoint transient_of(const Oscillator& oscillator, const Instant& now);
 
-/// Bound of the transient's displacement from an instant on, while no stop interferes: of its decaying rotation for
-/// 0 < h < 1, else of its energy norm, which never grows.
-[[nodiscard]] double transient_bound(const Oscillator& oscillator, const PhasePoint& transient);
+/// Bound of the transient's displacement from a time `after` on, while no stop interferes: of its decaying rotation for
+/// 0 < h < 1, of its decays for h >= 1, of its energy norm, which never grows.
+[[nodiscard]] double transient_bound(const Oscillator& oscillator, const PhasePoint& transient, double after = 0.0);
 
-/// What of that bound is left after a time: e^{-h t}, e^{-slow t} with the slower rate of heavy damping, 1 for h = 0.
-[[nodiscard]] double decay_over(const Oscillator& oscillator, double time);
+/// Whether after a time nothing is left of the transient but a share `tolerance` of the response, of the larger of its
+/// |x| (from zero, load included) and |x'| at this phase.
+[[nodiscard]] bool fades(const Oscillator& oscillator, const Instant& now, double after, double tolerance);
 
 /// Bound of |x - load| from an instant on for a time `duration` (inf: for all time), while no stop interferes; infinite
 /// where nothing bounds the motion. Rounding is allowed for. A bound below `enough` isn't made any sharper.

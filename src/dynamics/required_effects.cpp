@@ -127,7 +127,7 @@ Requirements requirements(const Scene& scene, Bounds bounds) {
     effects.upper = std::isfinite(stops.upper) && !(needs.reach < needs.upper_gap);
   }
   effects.dissipation =
-      (effects.lower && stops.restitution_lower < 1) || (effects.upper && stops.restitution_upper < 1);
+      (effects.lower && !(stops.restitution_lower >= 1)) || (effects.upper && !(stops.restitution_upper >= 1));
   const double push = std::abs(o.forcing) * (1 + 4 * std::numeric_limits<double>::epsilon());
   effects.rest = (effects.lower && !(push < needs.lower_gap)) || (effects.upper && !(push < needs.upper_gap));
   return needs;

@@ -12,11 +12,6 @@ namespace clatter {
 template <class Number>
 using Map = std::array<Number, 4>;
 
-template <class Number>
-[[nodiscard]] Number determinant(const Map<Number>& map) {
-  return map[0] * map[3] - map[1] * map[2];
-}
-
 /// The derivative of a motion by its start: free motion over the arcs; at each impact its saltation matrix
 /// S = [[-R, 0], [(R a- + a+)/v-, -R]] (physics: the impact comes earlier or later; Nordmark 1991); nothing is left of
 /// a change after a rest. Kept as a rotation times a triangle, so that its determinant keeps its digits however far the
@@ -28,28 +23,38 @@ class Tangent {
 
   template <Effects E>
   void arc(const Arc<Number, E>& arc, double, double length) {
+    using std::exp;
     const auto& flow = arc.flow();
-    const auto p = flow.propagator(Number(length));
-    multiply({p.a, p.b, -p.b, p.c});
+    const double pieces = 1 + std::floor(static_cast<double>(flow.h) * length / 64);  // none of which underflows
+    const Number piece = Number(length) / pieces, area = exp(-2 * flow.h * piece);
+    const auto p = flow.propagator(piece);
+    for (double i = 0; i < pieces; i += 1) multiply({p.a, p.b, -p.b, p.c}, area);
     h_ = flow.h, force_ = flow.load + flow.acceleration(Number(0), Number(0), arc.phase_after(Number(length)).sine);
   }
   void rest(const Rest&) { top_ = shear_ = bottom_ = 0; }
   void impact(const Impact& impact) {
     const Number before(impact.before), after(impact.after), R = stop_at<Number>(stops_, impact.side).restitution;
     const Number a_before = force_ - impact.place - 2 * h_ * before, a_after = force_ - impact.place - 2 * h_ * after;
-    multiply({-R, Number(0), (R * a_before + a_after) / before, -R});
+    multiply({-R, Number(0), (R * a_before + a_after) / before, -R}, Number(R * R));
   }
 
   [[nodiscard]] Map<Number> map() const {
     using std::ldexp;
-    const Number scale = ldexp(Number(1), exponent_);
-    return {scale * (cosine_ * top_), scale * (cosine_ * shear_ - sine_ * bottom_), scale * (sine_ * top_),
-            scale * (sine_ * shear_ + cosine_ * bottom_)};
+    Map<Number> map = mantissa();
+    for (Number& entry : map) entry = ldexp(entry, exponent_);
+    return map;
   }
   [[nodiscard]] Number determinant() const {
     using std::ldexp;
-    return ldexp(Number(top_ * bottom_), 2 * exponent_);
+    return ldexp(mantissa_determinant(), 2 * exponent_);
   }
+
+  /// The map without its power of two, for what would over- or underflow with it.
+  [[nodiscard]] Map<Number> mantissa() const {
+    return {cosine_ * top_, cosine_ * shear_ - sine_ * bottom_, sine_ * top_, sine_ * shear_ + cosine_ * bottom_};
+  }
+  [[nodiscard]] Number mantissa_determinant() const { return top_ * bottom_; }
+  [[nodiscard]] int exponent() const { return exponent_; }  ///< of two
 
   /// Logarithm of the largest factor by which it stretches a change; -inf where nothing is left of any.
   [[nodiscard]] Number log_norm() const {
@@ -62,12 +67,11 @@ class Tangent {
  private:
   static constexpr int step = 256;  ///< of the exponent
 
-  /// Puts a map after this one: its effect on the two turned directions is turned upright again.
-  void multiply(const Map<Number>& f) {
+  /// Puts a map of this determinant after this one: its effect on the two turned directions is turned upright again.
+  void multiply(const Map<Number>& f, const Number& area) {
     const Number x = f[0] * cosine_ + f[1] * sine_, v = f[2] * cosine_ + f[3] * sine_;
     const Number side_x = f[1] * cosine_ - f[0] * sine_, side_v = f[3] * cosine_ - f[2] * sine_;
     const Number length = norm(x, v);
-    const Number area = clatter::determinant(f);  // of a strong shear: no difference of large numbers
     if (length > 0) cosine_ = x / length, sine_ = v / length;
     top_ *= length;
     shear_ = length * shear_ + (cosine_ * side_x + sine_ * side_v) * bottom_;

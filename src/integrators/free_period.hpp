@@ -27,10 +27,9 @@ template <class Number>
   };
   const End upper = end(stops.upper, Side::upper), lower = end(stops.lower, Side::lower);
   Number sine = upper.distance * lower.speed + lower.distance * upper.speed;
-  if (upper.distance < 0 || lower.distance < 0) {  // both ends on one side: no difference of large numbers
-    const bool both = upper.speed > 0 && lower.speed > 0;
-    const Number width =
-        both ? Number((Number(stops.upper) - stops.lower) / amplitude) : Number(upper.distance + lower.distance);
+  const bool both = upper.speed > 0 && lower.speed > 0;
+  if (both && (upper.distance < 0 || lower.distance < 0)) {  // on one side: no difference of large numbers
+    const Number width = (Number(stops.upper) - stops.lower) / amplitude;
     const Number sum = upper.distance < 0 ? Number(lower.distance * upper.speed - upper.distance * lower.speed)
                                           : Number(upper.distance * lower.speed - lower.distance * upper.speed);
     const Number difference =

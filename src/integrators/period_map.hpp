@@ -45,7 +45,8 @@ class ContractionNorm {
       const double xv = D[0] * (xx_ * D[1] + xv_ * D[3]) + D[2] * (xv_ * D[1] + vv_ * D[3]);
       const double vv = D[1] * (xx_ * D[1] + xv_ * D[3]) + D[3] * (xv_ * D[1] + vv_ * D[3]);
       xx_ += xx, xv_ += xv, vv_ += vv;
-      if (!(xx + vv < most)) return;  // it grows without end
+      if (!(xx + vv < most)) return;                                 // it grows without end
+      if (!(xx_ >= 1 && vv_ >= 1 && xx_ * vv_ > xv_ * xv_)) return;  // M >= I: rounding has eaten it
       if (xx + vv <= std::numeric_limits<double>::epsilon() * (xx_ + vv_)) {
         const double larger = (xx_ + vv_) / 2 + norm((xx_ - vv_) / 2, xv_);
         factor_ = std::sqrt(1 - 1 / larger);

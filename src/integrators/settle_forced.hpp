@@ -78,12 +78,11 @@ class SteadySearch {
     const Instant now{state.x - o.load, state.v, sine, cosine};
     const double gap = std::min(o.load - integrator_.stops().lower, integrator_.stops().upper - o.load);
     if (E.stops() && !(reach_of(o, now, infinity, gap) < gap)) return std::nullopt;
-    const PhasePoint transient = transient_of(o, now), response = response_at(o, sine, cosine);
-    const double left = decay_over(o, static_cast<double>(plan_.max_periods - section_) * integrator_.period());
+    const double time = static_cast<double>(plan_.max_periods - section_) * integrator_.period();
+    if (!fades(o, now, time, plan_.tolerance)) return std::nullopt;
+    const PhasePoint response = response_at(o, sine, cosine);
     State<double> steady = state;
     steady.x = o.load + response.x, steady.v = response.v, steady.left = Side::none;
-    const double scale = std::max(std::abs(steady.x), std::abs(steady.v));
-    if (!(transient_bound(o, transient) * left <= plan_.tolerance * scale)) return std::nullopt;
     return Observed{Status::periodic, steady, 1.0, simulated(), FoundBy::closed_form};
   }
 

@@ -27,7 +27,8 @@ class FreeSearch {
       const auto settled = static_cast<double>(section);
       if (stands_still(state)) return {Status::periodic, state, 1.0, settled, FoundBy::standstill};
       if (!scene_.all_effects) {
-        if (section == 0 && conservative()) return {Status::periodic, start, free_turns(start), 0.0, FoundBy::energy};
+        const double turns = section == 0 && conservative() ? free_turns(start) : 0.0;
+        if (turns > shortest) return {Status::periodic, start, turns, 0.0, FoundBy::energy};
         if (const auto found = closed_form(state, section)) return *found;
       }
       if (section == most)
@@ -68,13 +69,14 @@ class FreeSearch {
     const auto settled = static_cast<double>(section);
     if (o.damping == 0) return Observed{Status::periodic, state, 1.0, settled, FoundBy::closed_form};
     const double time = static_cast<double>(scene_.time.max_periods - section) * integrator_.period();
-    const double left = transient_bound(o, transient_of(o, now)) * decay_over(o, time);
+    const double left = transient_bound(o, transient_of(o, now), time);
     if (!returns_.stands_still(o.load + left, left, false)) return std::nullopt;
     State<double> end = state;
     end.x = o.load, end.v = 0, end.left = Side::none;
     return Observed{Status::periodic, end, 1.0, settled, FoundBy::standstill};
   }
 
+  static constexpr double shortest = 16 * std::numeric_limits<double>::epsilon();  ///< turns that time can tell apart
   static constexpr double infinity = std::numeric_limits<double>::infinity();
   Exact<double, E>& integrator_;
   const Scene& scene_;

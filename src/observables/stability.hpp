@@ -3,6 +3,8 @@
 #include <cmath>
 #include <complex>
 #include <limits>
+#include <numbers>
+#include <utility>
 
 #include "dynamics/tangent.hpp"
 
@@ -27,18 +29,21 @@ class Stability {
   /// Ends the observed time, one period of forced motion; of unforced motion (`autonomous`) one multiplier is 1, since
   /// a shift of time along the motion stays what it is.
   void finish_period(double total, bool autonomous) {
-    const Map<double> map = tangent_.map();
-    const double product = tangent_.determinant(), half = (map[0] + map[3]) / 2, square = half * half - product;
+    const Map<double> map = tangent_.mantissa();
+    const double product = tangent_.mantissa_determinant(), half = (map[0] + map[3]) / 2,
+                 square = half * half - product;
     if (autonomous) {
-      first_ = 1.0, second_ = product;
-    } else if (square < 0) {
-      first_ = {half, std::sqrt(-square)}, second_ = std::conj(first_);
-    } else {
-      first_ = half + std::copysign(std::sqrt(square), half);
-      second_ = first_ == 0.0 ? first_ : product / first_;
+      first_ = 1.0, second_ = tangent_.determinant();
+      if (std::abs(second_) > 1) std::swap(first_, second_);
+      exponent_ = std::log(std::abs(first_)) / total;
+      return;
     }
-    if (std::abs(second_) > std::abs(first_)) std::swap(first_, second_);
-    exponent_ = std::log(std::abs(first_)) / total;
+    first_ = square < 0 ? Complex(half, std::sqrt(-square)) : half + std::copysign(std::sqrt(square), half);
+    second_ = square < 0 ? std::conj(first_) : first_ == 0.0 ? first_ : product / first_;
+    exponent_ = (std::log(std::abs(first_)) + tangent_.exponent() * std::numbers::ln2) / total;
+    for (Complex* const multiplier : {&first_, &second_})
+      *multiplier = {std::ldexp(multiplier->real(), tangent_.exponent()),
+                     std::ldexp(multiplier->imag(), tangent_.exponent())};
   }
 
   /// Ends the observed time of motion without a period: the exponent along it.

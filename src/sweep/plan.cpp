@@ -31,6 +31,16 @@ Scene planned_scene(const Sweep& sweep, const Branches& branches, std::size_t po
 
 double period_of(const Oscillator& o) { return 2 * pi<double>() / (o.forcing == 0 ? 1 : o.frequency); }
 
+/// Whether motion without stops comes to its end, the steady response, free vibration or standstill, within a time.
+bool ends_in_time(const Scene& scene, double time) {
+  const Oscillator& o = scene.oscillator;
+  const double x = scene.start.displacement - o.load, v = scene.start.velocity;
+  if (o.forcing != 0)
+    return fades(o, {x, v, std::sin(scene.start.phase), std::cos(scene.start.phase)}, time, scene.time.tolerance);
+  const double scale = std::max({std::abs(scene.start.displacement), std::abs(v), std::abs(o.load)});
+  return o.damping == 0 || transient_bound(o, {x, v}, time) <= scene.time.tolerance * scale;
+}
+
 /// Forcing periods of a point. Where nothing is proved: at best a single one is settled and one observed, at worst all
 /// of max_periods, a quarter more for attempts to find the periodic motion, and the window.
 Estimate periods_of(const Scene& scene, const Effects& effects) {
@@ -39,8 +49,7 @@ Estimate periods_of(const Scene& scene, const Effects& effects) {
   const double longest = static_cast<double>(time.max_periods), period = period_of(o);
   if (time.mode == Mode::transient) return {time.duration / period, time.duration / period};
   if (scene.all_effects) return {std::max(1.0, longest - 192) + 1, longest + static_cast<double>(time.window)};
-  const bool fades = decay_over(o, longest * period) <= time.tolerance * 1e-3;
-  if (!effects.stops() && (o.forcing == 0 || fades)) return {1, 1};
+  if (!effects.stops() && ends_in_time(scene, longest * period)) return {1, 1};
   if (o.forcing == 0 && o.damping == 0 && !effects.dissipation) return {0, 1};
   return {2, longest * 1.25 + static_cast<double>(time.window)};
 }

@@ -1,0 +1,201 @@
+#include "integrators/period_map.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "support/random.hpp"
+#include "support/runs.hpp"
+
+namespace clatter {
+namespace {
+
+constexpr Effects kernel = kernels::complete(Damping::light, Forcing::regular);
+constexpr double ulp = std::numeric_limits<double>::epsilon();
+using Integrator = Exact<double, kernel>;
+
+/// Figs. 14-23: h = 0.1, f = -1, R = 0.7.
+Scene figure(double xs, double nu) { return scene_of({0.1, -1.0, nu, 0.0}, -xs, xs, 0.7); }
+
+State<double> at(double x, double v) {
+  State<double> state;
+  state.x = x, state.v = v;
+  return state;
+}
+
+/// The section some periods later.
+State<double> later(Integrator& integrator, State<double> state, int periods) {
+  NoObserver nobody;
+  for (int i = 0; i < periods; ++i)
+    EXPECT_EQ(advance_to_section(integrator, state, state.periods, nobody), Outcome::completed);
+  return state;
+}
+
+double distance(const State<double>& a, const State<double>& b) { return between(a, b).size(); }
+
+double determinant(const Map<double>& D) { return D[0] * D[3] - D[1] * D[2]; }
+
+/// Larger modulus of the two multipliers.
+double spectral_radius(const Map<double>& D) {
+  const double half = (D[0] + D[3]) / 2, product = determinant(D), square = half * half - product;
+  return square < 0 ? std::sqrt(product) : std::abs(half) + std::sqrt(square);
+}
+
+TEST(PeriodMap, newtons_method_finds_the_symmetric_motion_to_rounding) {
+  // check 4: u = 0.88861376168497155; a start that is off by d gives an orbit off by d^2, the next by rounding
+  const Scene scene = figure(0.5, 1.0);
+  Integrator integrator(scene);
+  PeriodMap<kernel> map(integrator, 1e-12);
+  const auto approach = map.follow(later(integrator, at(0, 0), 5), 1);
+  ASSERT_TRUE(approach);
+  ASSERT_GT(approach->gap().size(), 1e-6);  // still far away
+  const auto orbit = map.attractor_of(*approach);
+  ASSERT_TRUE(orbit);
+  EXPECT_LE(orbit->gap().size(), 8 * ulp);
+  EXPECT_LE(map.simulated(), 1u + 4 + 3);  // the approach, Newton's steps, the neighbours
+  Recorder record;
+  State<double> state = orbit->states[0];
+  ASSERT_EQ(advance_to_section(integrator, state, state.periods, record), Outcome::completed);
+  ASSERT_EQ(record.impacts.size(), 2u);
+  for (const Impact& impact : record.impacts) EXPECT_NEAR(std::abs(impact.before), 0.88861376168497155, 8 * ulp);
+  // check 5: multipliers of the whole period
+  const Map<double>& D = orbit->derivative();
+  EXPECT_NEAR(D[0] + D[3], 0.349971948059 + 0.195257796329, 1e-10);
+  EXPECT_NEAR(determinant(D), 0.349971948059 * 0.195257796329, 1e-10);
+}
+
+TEST(PeriodMap, a_newton_step_solves_a_linear_map_at_once) {
+  for (std::uint64_t i = 0; i < 1000; ++i) {
+    Random random(8, i);
+    const auto any = [&] { return random.uniform(-2, 2); };
+    const Map<double> D{any(), any(), any(), any()};
+    const Change fixed{any(), any()}, moved = D * fixed;  // of the map s -> D s + (fixed - D fixed), from 0
+    const Change step = newton_step(D, {fixed.x - moved.x, fixed.v - moved.v});
+    const double condition = 40 / std::abs((1 - D[0]) * (1 - D[3]) - D[1] * D[2]);
+    EXPECT_NEAR(step.x, fixed.x, 4 * ulp * condition);
+    EXPECT_NEAR(step.v, fixed.v, 4 * ulp * condition);
+  }
+}
+
+/// A map with multipliers r1, r2 (or a pair of modulus r1) in a skewed basis.
+Map<double> any_map(Random& random, double r1, double r2) {
+  const double angle = random.uniform(0, 2 * pi<double>()), shear = random.sign() * random.logarithmic(1e-3, 1e3);
+  const double c = std::cos(angle), s = std::sin(angle);
+  if (random.happens(0.5)) return {r1 * c, -r1 * s * shear, r1 * s / shear, r1 * c};   // a pair
+  return {r1 * c * c + r2 * s * s + shear * c * s, (r1 - r2) * c * s + shear * s * s,  // upper triangle, turned
+          (r1 - r2) * c * s - shear * c * c, r1 * s * s + r2 * c * c - shear * c * s};
+}
+
+TEST(ContractionNorm, shrinks_every_change_by_its_factor_within_the_unit_circle) {
+  double found = 0;
+  for (std::uint64_t i = 0; i < 3000; ++i) {
+    Random random(9, i);
+    const double r = 1 - random.logarithmic(1e-6, 1), other = r * random.uniform(-1, 1);
+    const Map<double> D = any_map(random, r, other);
+    const ContractionNorm measure(D);
+    EXPECT_GE(measure.factor(), spectral_radius(D) * (1 - 1e-7)) << i;
+    const double larger = 1 / (1 - measure.factor() * measure.factor());  // eigenvalue of M
+    if (!(larger < 1e6)) continue;  // of a strong shear: the squares of D that M is summed from lose its digits
+    ++found;
+    for (int k = 0; k < 20; ++k) {
+      const double angle = random.uniform(0, 2 * pi<double>());
+      const Change e{std::cos(angle), std::sin(angle)}, a = measure.across(e);
+      // |e|^2 is no smaller than e's own square, what it is summed from by this factor larger, and D^(2^k) off by the
+      // shear times the ulps of 2^k steps
+      const double rounding = 1e5 * ulp * larger;
+      EXPECT_LE(measure.of(D * e), measure.factor() * measure.of(e) * (1 + rounding)) << i;
+      EXPECT_NEAR(measure.of(a) / measure.of(e), 1, rounding);  // at right angles: a square's diagonals are equal
+      EXPECT_NEAR(measure.of({e.x + a.x, e.v + a.v}) / measure.of({e.x - a.x, e.v - a.v}), 1, rounding) << i;
+    }
+  }
+  EXPECT_GT(found, 1000);
+}
+
+TEST(ContractionNorm, there_is_none_on_or_outside_the_unit_circle) {
+  for (std::uint64_t i = 0; i < 1000; ++i) {
+    Random random(10, i);
+    const double r = i % 10 == 0 ? 1 + 16 * ulp : 1 + random.logarithmic(1e-9, 10);
+    const ContractionNorm measure(any_map(random, r, random.uniform(-1, 1)));
+    EXPECT_EQ(measure.factor(), 1) << i;
+  }
+}
+
+TEST(PeriodMap, an_unstable_motion_is_not_taken_for_an_attractor) {
+  // at nu = 0.8 the symmetric motion between stops at -+0.34 has a multiplier of 1.6
+  const Scene scene = figure(0.34, 0.8);
+  Integrator integrator(scene);
+  PeriodMap<kernel> map(integrator, 1e-12);
+  State<double> symmetric = at(0.20072, -0.0738);
+  std::optional<Orbit> orbit;
+  for (int i = 0; i < 8; ++i) {
+    orbit = map.follow(symmetric, 1);
+    ASSERT_TRUE(orbit);
+    const Change step = newton_step(orbit->derivative(), orbit->gap());
+    symmetric = at(symmetric.x + step.x, symmetric.v + step.v);
+  }
+  ASSERT_LT(orbit->gap().size(), 1e-14);
+  ASSERT_GT(spectral_radius(orbit->derivative()), 1.5);
+  EXPECT_FALSE(map.attractor_of(*orbit));
+  for (const double off : {1e-12, 1e-9, 1e-6, 1e-3})
+    for (const std::size_t periods : {1u, 2u, 3u}) {
+      const auto near = map.follow(at(symmetric.x + off, symmetric.v), periods);
+      ASSERT_TRUE(near);
+      EXPECT_FALSE(map.attractor_of(*near)) << off << ", " << periods << " periods";
+    }
+}
+
+/// What came of starts all over a part of the plane.
+struct Basin {
+  int accepted = 0, refused = 0, wrong = 0;
+};
+
+Basin basin_of(const Scene& scene, std::uint64_t starts, double x, double v, std::size_t periods) {
+  Basin basin;
+  Integrator integrator(scene);
+  for (std::uint64_t i = 0; i < starts; ++i) {
+    Random random(11, i);
+    PeriodMap<kernel> map(integrator, 1e-12);
+    const State<double> start = at(random.uniform(-x, x), random.uniform(-v, v));
+    const auto approach = map.follow(start, periods);
+    const auto orbit = approach ? map.attractor_of(*approach) : std::nullopt;
+    ++(orbit ? basin.accepted : basin.refused);
+    if (!orbit) continue;
+    EXPECT_LE(orbit->gap().size(), 1e-12 * (x + v));
+    // the slowest of these contracts by a few percent a period: 600 periods leave nothing of the plane's width
+    const State<double> end = later(integrator, start, 600 * static_cast<int>(periods));
+    if (distance(end, orbit->states[0]) <= 1e-8) continue;
+    ++basin.wrong;
+    ADD_FAILURE() << "nu " << scene.oscillator.frequency << " xs " << scene.stops.upper << " from " << start.x << ", "
+                  << start.v << ": " << orbit->states[0].x << " against " << end.x;
+  }
+  return basin;
+}
+
+TEST(PeriodMap, only_motion_that_ends_on_the_orbit_is_accepted) {
+  // stops that resonance reaches and other motion does not: an impacting and a free motion both attract
+  const Scene two = scene_of({0.05, 1.0, 1.3, 0.0}, -3, 3, 0.9);
+  const Basin coexisting = basin_of(two, 400, 3.0, 4.5, 1);
+  EXPECT_GT(coexisting.accepted, 20);
+  EXPECT_GT(coexisting.refused, 100);
+  EXPECT_EQ(coexisting.wrong, 0);
+  const Basin alone = basin_of(figure(0.5, 1.0), 400, 0.5, 2.0, 1);
+  EXPECT_GT(alone.accepted, 20);
+  EXPECT_GT(alone.refused, 20);
+  EXPECT_EQ(alone.wrong, 0);
+  EXPECT_EQ(basin_of(figure(3.0, 0.9), 200, 3.0, 3.0, 1).accepted, 0);  // chaos: nothing attracts
+}
+
+TEST(PeriodMap, a_motion_that_leaves_the_stops_between_its_states_is_refused) {
+  // Newton's step takes a start far from any orbit beyond the stops
+  const Scene scene = figure(0.5, 1.0);
+  Integrator integrator(scene);
+  PeriodMap<kernel> map(integrator, 1e-12);
+  Orbit approach = *map.follow(at(0.1, 0.2), 1);
+  approach.states[1].x = approach.states[0].x + 100;
+  EXPECT_FALSE(map.attractor_of(approach));
+  approach.states[1].v = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_FALSE(map.attractor_of(approach));
+}
+
+}  // namespace
+}  // namespace clatter

@@ -1,0 +1,196 @@
+// What a point costs: memory only for what is kept, arcs evaluated only for what is observed.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <cstdlib>
+#include <new>
+#include <vector>
+
+#include "sweep/point.hpp"
+
+namespace {
+std::atomic<long> allocated{0};  ///< calls of operator new in this program
+}
+
+void* operator new(std::size_t size) {
+  ++allocated;
+  if (void* const memory = std::malloc(size > 0 ? size : 1)) return memory;
+  throw std::bad_alloc();
+}
+void operator delete(void* memory) noexcept { std::free(memory); }
+void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
+
+namespace clatter {
+namespace {
+
+/// A point, what it allocated, and what it was evaluated for beyond a point of which nothing is observed.
+struct Cost {
+  PointResult result;
+  long allocations = 0;
+  double evaluations = 0.0;
+};
+
+Cost cost_of(const Scene& scene, Workshop& workshop) {
+  Scene silent = scene;
+  silent.observe = {};
+  Cost cost;
+  const double nothing = run_point(silent, workshop).evaluations;
+  const long before = allocated;
+  cost.result = run_point(scene, workshop);
+  cost.allocations = allocated - before;
+  cost.evaluations = cost.result.evaluations - nothing;
+  return cost;
+}
+
+Cost cost_of(const Scene& scene) {
+  Workshop none;
+  return cost_of(scene, none);
+}
+
+/// Figs. 14-23: h = 0.1, f = -1, R = 0.7, from rest.
+Scene figure(double xs, double nu) {
+  Scene scene;
+  scene.oscillator = {0.1, -1.0, nu, 0.0};
+  scene.stops = {-xs, xs, 0.7, 0.7};
+  return scene;
+}
+
+/// The symmetric motion of example 4: two impacts a period, so three arcs from section to section.
+Scene symmetric() { return figure(0.5, 1.0); }
+constexpr double arcs = 3, impacts = 2;
+
+Scene observing(Scene scene, const Observe& observe) {
+  scene.observe = observe;
+  return scene;
+}
+
+TEST(Cost, extrema_allocate_nothing_in_any_number_of_periods) {
+  const Observe extrema{.extrema = true};
+  for (const std::int64_t periods : {50, 500, 5000}) {
+    Scene chaos = observing(figure(3.0, 0.95), extrema);
+    chaos.time.max_periods = periods, chaos.time.window = periods;
+    const Cost cost = cost_of(chaos);
+    EXPECT_EQ(cost.result.status, Status::aperiodic);
+    EXPECT_GT(cost.result.impacts, static_cast<double>(periods));
+    EXPECT_EQ(cost.allocations, 0);
+  }
+  Scene rests = observing(figure(0.5, 0.5), extrema), free = rests;
+  rests.stops.restitution_lower = rests.stops.restitution_upper = 0.0;
+  free.oscillator = {0.0, 0.0, 1.0, 0.0}, free.start.velocity = 1.0;
+  for (const Scene& scene : {observing(symmetric(), extrema), observing(figure(6, 1), extrema), rests, free}) {
+    const Cost cost = cost_of(scene);
+    EXPECT_EQ(cost.result.status, Status::periodic);
+    EXPECT_LT(cost.result.x_min, cost.result.x_max);
+    EXPECT_EQ(cost.allocations, 0);
+    Scene all = scene;
+    all.all_effects = true;
+    EXPECT_EQ(cost_of(all).allocations, 0);
+  }
+}
+
+TEST(Cost, numbers_of_a_period_allocate_nothing) {
+  const Observe numbers{.extrema = true, .impacts = true, .period = true, .stability = true};
+  EXPECT_EQ(cost_of(observing(symmetric(), numbers)).allocations, 0);
+}
+
+TEST(Cost, what_is_kept_is_allocated_once) {
+  // a log grows by doubling: two impacts, two steps; a trajectory is x, x' and the times
+  EXPECT_EQ(cost_of(observing(symmetric(), {.impact_log = true})).allocations, 2);
+  EXPECT_EQ(cost_of(observing(symmetric(), {.trajectory = 1000})).allocations, 3);
+  EXPECT_GT(cost_of(observing(symmetric(), {.harmonics = 5, .harmonics_method = HarmonicsMethod::exact})).allocations,
+            0);
+}
+
+TEST(Cost, impacts_and_period_are_seen_without_an_evaluation) {
+  for (const Observe& observe : {Observe{.impacts = true}, Observe{.impact_log = true}, Observe{.period = true}})
+    EXPECT_EQ(cost_of(observing(symmetric(), observe)).evaluations, 0);
+  EXPECT_EQ(cost_of(observing(symmetric(), {.impact_log = true})).result.log.size(), impacts);
+}
+
+TEST(Cost, stability_and_exact_harmonics_look_once_at_an_arc) {
+  EXPECT_EQ(cost_of(observing(symmetric(), {.stability = true})).evaluations, arcs);
+  // the harmonic at the resonance, k = 1 with |1 - w^2 + 2ihw| = 0.2, is far enough from it for the closed form
+  Scene away = symmetric();
+  away.observe = {.harmonics = 20, .harmonics_method = HarmonicsMethod::exact};
+  EXPECT_EQ(cost_of(away).evaluations, arcs);
+  // with h = 0.05 it is within 1/8: panels of 20 points, each of 4 radians of nu + 1 = 2 over a period of 2 pi
+  away.oscillator.damping = 0.05;
+  const Cost near = cost_of(away);
+  EXPECT_GE(near.evaluations, near.result.impacts > 0 ? arcs + 20 * 4 : 0);
+  EXPECT_LE(near.evaluations, arcs + 20 * (4 + arcs));
+}
+
+TEST(Cost, samples_are_evaluated_once_each_and_not_on_impacts) {
+  for (const std::int64_t count : {2, 100, 5000}) {
+    const Cost cost = cost_of(observing(symmetric(), {.trajectory = count}));
+    EXPECT_EQ(cost.evaluations, static_cast<double>(count - 1));  // the last is the end of the run
+    EXPECT_EQ(cost.result.x.size(), static_cast<std::size_t>(count));
+  }
+  const FourierTransform transform(4096);
+  Workshop workshop{&transform, transform.workspace()};
+  const Cost cost = cost_of(observing(symmetric(), {.harmonics = 5}), workshop);
+  EXPECT_EQ(cost.evaluations, 4096);
+  EXPECT_EQ(cost.result.x_spectrum.amplitude.size(), 6u);
+}
+
+TEST(Cost, extrema_look_at_an_arc_a_few_times) {
+  // the end of each arc, and for displacement and velocity one or two turning points by a few steps of Newton's method
+  const Cost cost = cost_of(observing(symmetric(), {.extrema = true}));
+  EXPECT_GE(cost.evaluations, arcs);
+  EXPECT_LE(cost.evaluations, arcs * (1 + 2 * 2 * 8));
+}
+
+TEST(Cost, is_the_sum_of_what_is_observed) {
+  const FourierTransform transform(4096);
+  Workshop workshop{&transform, transform.workspace()};
+  const Observe each[] = {{.extrema = true},  {.harmonics = 5}, {.impacts = true},  {.impact_log = true},
+                          {.trajectory = 77}, {.period = true}, {.stability = true}};
+  const Observe all{.extrema = true,
+                    .harmonics = 5,
+                    .impacts = true,
+                    .impact_log = true,
+                    .trajectory = 77,
+                    .period = true,
+                    .stability = true};
+  for (const Scene& scene : {symmetric(), figure(6, 1), figure(4, 1)}) {
+    double sum = 0;
+    for (const Observe& observe : each) sum += cost_of(observing(scene, observe), workshop).evaluations;
+    EXPECT_EQ(cost_of(observing(scene, all), workshop).evaluations, sum);
+  }
+}
+
+TEST(Cost, nothing_is_kept_that_is_not_asked_for) {
+  const PointResult result = cost_of(observing(symmetric(), {.extrema = true})).result;
+  EXPECT_TRUE(result.log.empty() && result.tau.empty() && result.x.empty() && result.v.empty());
+  EXPECT_TRUE(result.x_spectrum.amplitude.empty() && result.v_spectrum.amplitude.empty());
+  for (const double value : {result.impacts_per_period[0], result.period, result.lyapunov, result.multiplier_re[0]})
+    EXPECT_TRUE(std::isnan(value));
+}
+
+TEST(Cost, motion_out_of_reach_of_its_stops_is_one_arc) {
+  // Fig. 20: in closed form nothing is run to find the steady motion, and one arc is a period of it
+  const Cost cost = cost_of(observing(figure(6, 1), {.stability = true}));
+  EXPECT_EQ(cost.result.found_by, FoundBy::closed_form);
+  EXPECT_EQ(cost.result.periods, 1);
+  EXPECT_EQ(cost.result.evaluations, 1 + 1);  // the arc's end, and its derivative
+  Scene silent = figure(6, 1);
+  silent.all_effects = true;
+  EXPECT_GT(cost_of(silent).result.evaluations, 1000);
+}
+
+TEST(Cost, conservative_motion_is_run_for_its_one_period) {
+  Scene scene;
+  scene.stops = {-0.749, 0.749, 1.0, 1.0}, scene.start.velocity = -1.5;
+  scene.observe.stability = true;
+  const Cost cost = cost_of(scene);
+  EXPECT_EQ(cost.result.found_by, FoundBy::energy);
+  EXPECT_EQ(cost.result.impacts, 2);
+  EXPECT_EQ(cost.evaluations, arcs);
+  EXPECT_LE(cost.result.evaluations, arcs * 20);
+}
+
+}  // namespace
+}  // namespace clatter
