@@ -9,11 +9,11 @@ namespace clatter {
 namespace {
 
 int print_plan(const Arguments& arguments) {
-  const int threads = threads_of(arguments);
+  const int threads = threads_used({.threads = threads_of(arguments)});
   const Config config = config_of(arguments);
-  const Plan plan = plan_of(config.sweep);
+  const Plan plan = plan_of(config.sweep, threads);
   const auto report = arguments.has("json") ? plan_json : plan_text;
-  std::cout << report(plan, config.sweep, threads_used({.threads = threads}));
+  std::cout << report(plan, config.sweep, threads);
   return done;
 }
 

@@ -47,14 +47,14 @@ std::string group_text(const Group& group) {
       '\n' + line(counted(static_cast<double>(group.points), "point"), "kernel: " + kernel_name(group.effects));
   for (const Reason& reason : group.reasons)
     text += line("  " + reason.effect, (reason.required ? "yes  " : "no   ") + reason.why);
-  return text + line("  work", range(group.periods, "%.4g") + " forcing periods, " + range(group.seconds, "%.2g") +
-                                   " s on one thread");
+  return text + line("  work",
+                     range(group.periods, "%.4g") + " periods, " + range(group.seconds, "%.2g") + " s on one thread");
 }
 
 Estimate seconds_of(const Plan& plan, int threads) {
   Estimate sum;
   for (const Group& group : plan.groups) sum += group.seconds;
-  const double together = std::min(static_cast<double>(std::max(1, threads)), static_cast<double>(plan.branches));
+  const double together = std::min(static_cast<double>(threads), static_cast<double>(plan.branches));
   return {sum.least / together, sum.most / together};
 }
 
@@ -97,10 +97,11 @@ std::string plan_text(const Plan& plan, const Sweep& sweep, int threads) {
     text += line("effects", "all are simulated, for all of max_periods (integrator.effects = all); called for are:");
   for (const Group& group : plan.groups) text += group_text(group);
   text += '\n' + line("estimated time", range(seconds_of(plan, threads), "%.2g") + " s on " +
-                                            counted(std::max(1, threads), "thread") + ", without the observables");
+                                            counted(threads, "thread") + ", without the observables");
   text += line("output", bytes_text(plan.output_bytes) + " before compression" +
                              (sweep.scene.observe.impact_log ? ", and 25 bytes an impact of the log" : ""));
-  text += line("memory", bytes_text(plan.memory_bytes) + " at the end, of " + bytes_text(plan.machine_bytes));
+  text += line("memory", bytes_text(plan.memory_bytes) + " at the end" +
+                             (plan.machine_bytes > 0 ? ", of " + bytes_text(plan.machine_bytes) : ""));
   for (const std::string& warning : plan.warnings) text += "warning: " + warning + '\n';
   return text;
 }
@@ -121,8 +122,7 @@ std::string plan_json(const Plan& plan, const Sweep& sweep, int threads) {
   list(out, plan.observed, [&](const std::string& name) { out << json_text(name); });
   out << ",\n  \"all_effects\": " << (sweep.scene.all_effects ? "true" : "false") << ",\n  \"groups\": ";
   list(out, plan.groups, [&](const Group& group) { put_group(out, group); });
-  out << ",\n  \"threads\": " << std::max(1, threads)
-      << ",\n  \"seconds\": " << estimate_json(seconds_of(plan, threads))
+  out << ",\n  \"threads\": " << threads << ",\n  \"seconds\": " << estimate_json(seconds_of(plan, threads))
       << ",\n  \"output_bytes\": " << json_number(plan.output_bytes)
       << ",\n  \"memory_bytes\": " << json_number(plan.memory_bytes)
       << ",\n  \"machine_bytes\": " << json_number(plan.machine_bytes) << ",\n  \"warnings\": ";

@@ -55,15 +55,14 @@ int run_config(const Arguments& arguments) {
   if (arguments.has("quiet") && arguments.has("verbose"))
     throw UsageError("--quiet beside --verbose; give one of them");
   const std::string began = now();
-  const int threads = threads_of(arguments);
+  const int threads = threads_used({.threads = threads_of(arguments)});
   const bool shown = progress_wanted(arguments);
   const std::string output = output_of(arguments);
   const Config config = config_of(arguments);
   check_not_config(arguments.operands[0], output);
   check_writable(output);
   check_memory(config.sweep);
-  if (arguments.has("verbose"))
-    std::cerr << plan_text(plan_of(config.sweep), config.sweep, threads_used({.threads = threads}));
+  if (arguments.has("verbose")) std::cerr << plan_text(plan_of(config.sweep, threads), config.sweep, threads);
   const RunResult result = run_with_progress(config.sweep, threads, shown);
   publish(output, file_image(result.figure, config));
   if (!arguments.has("quiet")) std::cerr << summary_line(result, output) << '\n';

@@ -114,7 +114,7 @@ inline constexpr double secular_distance = 1.0 / 16.0;
 template <class Function, std::size_t candidate = 0>
 decltype(auto) with_effects(const Effects& effects, Function&& function) {
   if constexpr (candidate + 1 < compiled_effects.size()) {
-    if (!contains(compiled_effects[candidate], effects))
+    if (kernel_of(effects) != candidate)
       return with_effects<Function, candidate + 1>(effects, static_cast<Function&&>(function));
   }
   return function.template operator()<compiled_effects[candidate]>();

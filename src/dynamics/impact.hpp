@@ -61,11 +61,10 @@ template <class Number, Effects E>
   using std::abs, std::atan2, std::sqrt;
   const Number needed = stop.place - flow.load, f = flow.f;
   if (E.forcing == Forcing::none || !(abs(needed) < abs(f))) return std::nullopt;
-  const Number along =
-      sqrt((abs(f) - needed) * (abs(f) + needed));  // |f cos(theta)|; the pressing force falls where into(f cos) < 0
-  const Number f_cosine = stop.into(-along);
-  const Number turns =
-      (f > 0 ? atan2(needed, f_cosine) : atan2(Number(-needed), Number(-f_cosine))) / (2 * pi<Number>());
+  // over |f|, so that no square vanishes: |cos(theta)|; the pressing force falls where into(f cos) < 0
+  const Number size = abs(f), along = sqrt((size - needed) / size * ((size + needed) / size));
+  const Number sine = needed / size, cosine = stop.into(-along);
+  const Number turns = (f > 0 ? atan2(sine, cosine) : atan2(Number(-sine), Number(-cosine))) / (2 * pi<Number>());
   return turns < 0 ? Number(turns + 1) : turns;
 }
 

@@ -25,9 +25,9 @@ Complex rotation(const Oscillator& oscillator, const PhasePoint& transient) {
   return {(transient.v + oscillator.damping * transient.x) / root_of(oscillator), transient.x};
 }
 
-/// Bound of |R + B e^{(-h + i delta) t}| for all t >= 0. In each part of the first turn the length of the second term
-/// lies between its values at the ends, the modulus is convex in it, and so greatest at one of them; later turns
-/// repeat the angles with shorter lengths. `slack` is what delta, relative, and the angles may be off by.
+/// Bound of |R + B e^{(-h + i delta) t}| for all t >= 0. In each part of the first turn the second term is no longer
+/// than at its beginning; the modulus is convex in that length, so at most what it is there or without the term; later
+/// turns repeat the angles with shorter lengths. `slack` is what delta, relative, and the angles may be off by.
 double beat_bound(const Complex& R, const Complex& B, double h, double delta) {
   constexpr int parts = 48;
   constexpr double slack = 1e-4;
@@ -40,10 +40,9 @@ double beat_bound(const Complex& R, const Complex& B, double h, double delta) {
   for (int i = 0; i < parts; ++i) {
     const Complex to = from * turn;
     const bool aligned = from.real() > 0 && from.imag() <= slack && to.imag() >= -slack;
-    const double cosine = aligned ? 1.0 : std::max(from.real(), to.real()) + slack, shorter = length * decay;
-    for (const double l : {length, shorter})
-      square = std::max(square, steady * steady + l * l + 2 * steady * l * cosine);
-    from = to, length = shorter;
+    const double cosine = aligned ? 1.0 : std::max(from.real(), to.real()) + slack;
+    square = std::max(square, steady * steady + length * length + 2 * steady * length * cosine);
+    from = to, length *= decay;
   }
   return (std::sqrt(square) + rounding) * scale;
 }
@@ -101,6 +100,11 @@ double reach_of(const Oscillator& oscillator, const Instant& now, double duratio
   const double h = oscillator.damping, detuning = (oscillator.frequency - 1) + h * h / (1 + root_of(oscillator));
   if (std::abs(detuning) > 1e-10) improve(beat_bound(R, rotation(oscillator, transient), h, -detuning));
   return bound;
+}
+
+bool out_of_reach(const Oscillator& oscillator, const Instant& now, const Stops& stops) {
+  const double gap = std::min(oscillator.load - stops.lower, stops.upper - oscillator.load);
+  return reach_of(oscillator, now, std::numeric_limits<double>::infinity(), gap) < gap;
 }
 
 }  // namespace clatter

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "dynamics/oscillator.hpp"
+#include "dynamics/stops.hpp"
 
 namespace clatter {
 
@@ -42,5 +43,8 @@ struct PhasePoint {
 /// Bound of |x - load| for a time `duration` that holds through impacts too: they take energy, and the force raises the
 /// energy norm by at most |f| in a unit of time. Infinite where nothing bounds the motion.
 [[nodiscard]] double reach_through_impacts(const Oscillator& oscillator, const Instant& now, double duration);
+
+/// Whether no stop can be met from an instant on, for all time.
+[[nodiscard]] bool out_of_reach(const Oscillator& oscillator, const Instant& now, const Stops& stops);
 
 }  // namespace clatter

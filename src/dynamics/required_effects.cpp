@@ -101,10 +101,9 @@ Reason rest_reason(const Scene& scene, const Requirements& needs) {
   if (!needs.effects.stops()) return {effect, false, "no stop in reach"};
   const bool lower_first = needs.effects.lower && (!needs.effects.upper || needs.lower_gap < needs.upper_gap);
   const double gap = lower_first ? needs.lower_gap : needs.upper_gap;
-  const std::string from = scene.oscillator.load == 0 ? "" : " around the load";
-  const std::string force = "|f| = " + text(std::abs(scene.oscillator.forcing)) + from;
-  if (!needs.effects.rest) return {effect, false, force + " < " + text(gap) + ": no stop can hold the mass"};
-  return {effect, true, force + " >= " + text(gap) + ": a stop can be pressed"};
+  const std::string force = "|f| = " + text(std::abs(scene.oscillator.forcing)) + (needs.effects.rest ? " >= " : " < ") +
+                            text(gap) + (scene.oscillator.load == 0 ? "" : ", the gap from the load");
+  return {effect, needs.effects.rest, force + (needs.effects.rest ? ": a stop can be pressed" : ": no stop can hold the mass")};
 }
 
 enum class Bounds { sufficient, sharpest };

@@ -59,13 +59,19 @@ class ContractionNorm {
   /// At most this share of a change is left after the map; 1 where there is no such norm.
   [[nodiscard]] double factor() const { return factor_; }
   [[nodiscard]] double of(const Change& e) const {
-    return std::sqrt(std::max(0.0, xx_ * e.x * e.x + 2 * xv_ * e.x * e.v + vv_ * e.v * e.v));
+    const double size = e.size();  // divided out: the squares of small changes vanish
+    if (!(size > 0)) return size;
+    const double x = e.x / size, v = e.v / size;
+    return size * std::sqrt(std::max(0.0, xx_ * x * x + 2 * xv_ * x * v + vv_ * v * v));
   }
   /// A change of the same size, at right angles to this one in the norm.
   [[nodiscard]] Change across(const Change& e) const {
-    const Change other{-(xv_ * e.x + vv_ * e.v), xx_ * e.x + xv_ * e.v};
-    const double size = of(other);
-    return size > 0 ? Change{other.x * of(e) / size, other.v * of(e) / size} : Change{};
+    const double size = e.size();
+    if (!(size > 0)) return {};
+    const double x = e.x / size, v = e.v / size;
+    const Change other{-(xv_ * x + vv_ * v), xx_ * x + xv_ * v};
+    const double factor = of({x, v}) / of(other);
+    return {other.x * factor * size, other.v * factor * size};
   }
 
  private:
@@ -92,6 +98,9 @@ class PeriodMap {
   PeriodMap(Exact<double, E>& integrator, double tolerance)
       : integrator_(integrator), watch_(integrator.stops()), tolerance_(tolerance) {}
 
+  /// Times that an attempt follows all periods of a motion: the approach, each iteration, three neighbours.
+  static constexpr std::size_t most_iterations = 4, most_turns = 1 + most_iterations + 3;
+
   [[nodiscard]] std::size_t simulated() const { return simulated_; }  ///< forcing periods
 
   /// The motion over n periods from a state; nothing where it fails.
@@ -115,7 +124,7 @@ class PeriodMap {
   [[nodiscard]] std::optional<Orbit> attractor_of(const Orbit& approach) {
     State<double> start = moved(approach.states[0], newton_step(approach.derivative(), approach.gap()));
     double before = std::numeric_limits<double>::infinity();
-    for (int iteration = 0; iteration < 8; ++iteration) {
+    for (std::size_t iteration = 0; iteration < most_iterations; ++iteration) {
       if (!inside(start)) return std::nullopt;
       std::optional<Orbit> orbit = follow(start, approach.periods);
       if (!orbit || orbit->itineraries != approach.itineraries) return std::nullopt;
@@ -140,7 +149,8 @@ class PeriodMap {
   }
 
   /// Whether the approach ends on the orbit: what the derivative doesn't tell of it is small against the contraction,
-  /// and all around the orbit, as far away as the approach began, motion meets the same stops in the same order.
+  /// and on three more sides of the orbit, as far away as the approach began, motion meets the same stops in the same
+  /// order.
   [[nodiscard]] bool attracts(const Orbit& orbit, const Orbit& approach) {
     const ContractionNorm measure(orbit.derivative());
     const Change first = between(orbit.states[0], approach.states[0]);

@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 #include <optional>
 
 #include "dynamics/reach.hpp"
@@ -42,7 +41,6 @@ class SteadySearch {
   }
 
  private:
-  static constexpr double infinity = std::numeric_limits<double>::infinity();
   static constexpr double nearest_first = 0.02;  ///< relative distance below which a first attempt pays
   static constexpr std::size_t kept = 2 * RepeatFinder::longest;
 
@@ -76,8 +74,7 @@ class SteadySearch {
     if (o.damping == 0 || (section_ > 0 && itineraries_[index(1)] != 0)) return std::nullopt;
     const auto [sine, cosine] = integrator_.phase(State<double>{});
     const Instant now{state.x - o.load, state.v, sine, cosine};
-    const double gap = std::min(o.load - integrator_.stops().lower, integrator_.stops().upper - o.load);
-    if (E.stops() && !(reach_of(o, now, infinity, gap) < gap)) return std::nullopt;
+    if (E.stops() && !out_of_reach(o, now, integrator_.stops())) return std::nullopt;
     const double time = static_cast<double>(plan_.max_periods - section_) * integrator_.period();
     if (!fades(o, now, time, plan_.tolerance)) return std::nullopt;
     const PhasePoint response = response_at(o, sine, cosine);
@@ -87,16 +84,22 @@ class SteadySearch {
   }
 
   /// Follows the next n periods together with their derivative where states have begun to contract, and looks for the
-  /// periodic motion that they contract to. Periods spent in vain are at most a quarter of all.
+  /// periodic motion that they contract to.
   [[nodiscard]] std::optional<Observed> attractor(const State<double>& state) {
     const bool under_way = approach_ && next_ < approach_->periods;
-    if (under_way || map_.simulated() > 32 + static_cast<std::size_t>(section_) / 4) return std::nullopt;
-    const std::size_t n = contracting();
-    if (n == 0) return std::nullopt;
+    const std::size_t n = under_way ? 0 : contracting();
+    if (n == 0 || !affordable(n)) return std::nullopt;
     near_enough_[n] = repeat_.distance_over(n) / 8;  // for the next attempt
     approach_ = map_.follow(state, n), next_ = 0;
     const auto orbit = approach_ ? map_.attractor_of(*approach_) : std::nullopt;
     return orbit ? std::optional(observed(*orbit)) : std::nullopt;
+  }
+
+  /// Whether attempts together stay below 64 periods, but no more than max_periods, and a quarter of those of the
+  /// motion.
+  [[nodiscard]] bool affordable(std::size_t n) const {
+    const std::int64_t spent = static_cast<std::int64_t>(map_.simulated() + n * PeriodMap<E>::most_turns);
+    return spent <= std::min<std::int64_t>(64, plan_.max_periods) + section_ / 4;
   }
 
   /// The least n for which states n apart come closer, over the same stops in the same order; 0 for none.

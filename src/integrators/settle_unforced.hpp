@@ -62,10 +62,8 @@ class FreeSearch {
   /// takes it there in time.
   [[nodiscard]] std::optional<Observed> closed_form(const State<double>& state, std::int64_t section) const {
     const Oscillator& o = scene_.oscillator;
-    const Stops& stops = integrator_.stops();
-    const double gap = std::min(o.load - stops.lower, stops.upper - o.load);
     const Instant now{state.x - o.load, state.v, 0.0, 1.0};
-    if (E.stops() && !(reach_of(o, now, infinity, gap) < gap)) return std::nullopt;
+    if (E.stops() && !out_of_reach(o, now, integrator_.stops())) return std::nullopt;
     const auto settled = static_cast<double>(section);
     if (o.damping == 0) return Observed{Status::periodic, state, 1.0, settled, FoundBy::closed_form};
     const double time = static_cast<double>(scene_.time.max_periods - section) * integrator_.period();
@@ -77,7 +75,6 @@ class FreeSearch {
   }
 
   static constexpr double shortest = 16 * std::numeric_limits<double>::epsilon();  ///< turns that time can tell apart
-  static constexpr double infinity = std::numeric_limits<double>::infinity();
   Exact<double, E>& integrator_;
   const Scene& scene_;
   ReturnMap returns_;

@@ -26,24 +26,22 @@ class Stability {
   void rest(const Rest& rest) { tangent_.rest(rest); }
   void impact(const Impact& impact) { tangent_.impact(impact); }
 
-  /// Ends the observed time, one period of forced motion; of unforced motion (`autonomous`) one multiplier is 1, since
-  /// a shift of time along the motion stays what it is.
+  /// Ends the observed time, one period. Unforced motion (`autonomous`) is periodic only when it loses nothing; a shift
+  /// of time along it, and one to a neighbouring speed, stay what they are: both multipliers are 1.
   void finish_period(double total, bool autonomous) {
+    if (autonomous) {
+      first_ = second_ = 1.0, exponent_ = 0.0;
+      return;
+    }
     const Map<double> map = tangent_.mantissa();
     const double product = tangent_.mantissa_determinant(), half = (map[0] + map[3]) / 2,
                  square = half * half - product;
-    if (autonomous) {
-      first_ = 1.0, second_ = tangent_.determinant();
-      if (std::abs(second_) > 1) std::swap(first_, second_);
-      exponent_ = std::log(std::abs(first_)) / total;
-      return;
-    }
     first_ = square < 0 ? Complex(half, std::sqrt(-square)) : half + std::copysign(std::sqrt(square), half);
     second_ = square < 0 ? std::conj(first_) : first_ == 0.0 ? first_ : product / first_;
     exponent_ = (std::log(std::abs(first_)) + tangent_.exponent() * std::numbers::ln2) / total;
     for (Complex* const multiplier : {&first_, &second_})
-      *multiplier = {std::ldexp(multiplier->real(), tangent_.exponent()),
-                     std::ldexp(multiplier->imag(), tangent_.exponent())};
+      *multiplier = {Tangent<double>::scaled(multiplier->real(), tangent_.exponent()),
+                     Tangent<double>::scaled(multiplier->imag(), tangent_.exponent()) + 0.0};  // no negative zero
   }
 
   /// Ends the observed time of motion without a period: the exponent along it.

@@ -42,7 +42,7 @@ bool ends_in_time(const Scene& scene, double time) {
 }
 
 /// Forcing periods of a point. Where nothing is proved: at best a single one is settled and one observed, at worst all
-/// of max_periods, a quarter more for attempts to find the periodic motion, and the window.
+/// of max_periods, what attempts to find the periodic motion may take, and the window.
 Estimate periods_of(const Scene& scene, const Effects& effects) {
   const TimePlan& time = scene.time;
   const Oscillator& o = scene.oscillator;
@@ -51,7 +51,7 @@ Estimate periods_of(const Scene& scene, const Effects& effects) {
   if (scene.all_effects) return {std::max(1.0, longest - 192) + 1, longest + static_cast<double>(time.window)};
   if (!effects.stops() && ends_in_time(scene, longest * period)) return {1, 1};
   if (o.forcing == 0 && o.damping == 0 && !effects.dissipation) return {0, 1};
-  return {2, longest * 1.25 + static_cast<double>(time.window)};
+  return {2, longest * 1.25 + std::min(64.0, longest) + static_cast<double>(time.window)};
 }
 
 /// Evaluations of arcs in a forcing period, from the length of the steps that are proved free of contact; two impacts a
@@ -61,79 +61,106 @@ double evaluations_of(const Scene& scene, const Effects& effects) {
   return effects.stops() ? std::ceil(period_of(scene.oscillator) / longest_step) + 4 : 1;
 }
 
-/// How little room a motion leaves before the stops that are out of reach: 1 where it touches, 0 where it meets them.
-double closeness(const Requirements& needs) {
-  const double reach = needs.effects.stops() ? needs.reach : needs.free_reach;
-  double closest = 0;
-  if (!needs.effects.lower && needs.lower_gap < infinity) closest = reach / needs.lower_gap;
-  if (!needs.effects.upper && needs.upper_gap < infinity) closest = std::max(closest, reach / needs.upper_gap);
-  return closest;
+/// How near motion comes to a stop that it doesn't meet: 1 where it would touch. Negative where there is none.
+double closeness(const Requirements& needs, double gap) {
+  return gap < infinity ? (needs.effects.stops() ? needs.reach : needs.free_reach) / gap : -1;
 }
+
+/// The point that is closest to something, the first of equal ones.
+struct Closest {
+  double ratio = -1;
+  std::size_t point = 0;
+
+  void add(const Closest& other) {
+    if (other.ratio > ratio || (other.ratio == ratio && other.point < point)) *this = other;
+  }
+};
+
+/// A stop over all points.
+struct StopSeen {
+  bool met = false;  ///< by any of them
+  Closest closest;   ///< among those that don't meet it
+
+  void add(const StopSeen& other) { met = met || other.met, closest.add(other.closest); }
+};
 
 /// A group while it is collected.
 struct Collected {
   Effects effects;
-  std::size_t points = 0, example = 0;
-  double closest = -1;
+  std::size_t points = 0;
+  Closest example;
   Estimate periods, evaluations;
 
   void add(const Collected& other) {
     points += other.points;
     periods += other.periods, evaluations += other.evaluations;
-    if (other.closest > closest || (other.closest == closest && other.example < example))
-      closest = other.closest, example = other.example;
+    example.add(other.example);
   }
 };
 
-void add(std::vector<Collected>& groups, const Collected& part) {
-  const auto same = std::ranges::find(groups, part.effects, &Collected::effects);
-  if (same == groups.end()) {
-    groups.push_back(part);
-  } else {
-    same->add(part);
-  }
-}
+/// What points have to do, whatever their order and division.
+struct Survey {
+  std::vector<Collected> groups;
+  StopSeen lower, upper;
+  bool lasting = false;  ///< a transient never fades
 
-Collected collected(const Sweep& sweep, const Branches& branches, std::size_t point) {
+  void add(const Collected& part) {
+    const auto same = std::ranges::find(groups, part.effects, &Collected::effects);
+    if (same == groups.end()) {
+      groups.push_back(part);
+    } else {
+      same->add(part);
+    }
+  }
+  void add(const Survey& other) {
+    for (const Collected& group : other.groups) add(group);
+    lower.add(other.lower), upper.add(other.upper), lasting = lasting || other.lasting;
+  }
+};
+
+void look_at(const Sweep& sweep, const Branches& branches, std::size_t point, Survey& survey) {
   const Scene scene = planned_scene(sweep, branches, point);
   const Requirements needs = requirements_of(scene);
   const Effects effects = scene.all_effects ? all_effects(damping_of(scene.oscillator)) : needs.effects;
   const Estimate periods = periods_of(scene, effects);
   const double evaluations = evaluations_of(scene, effects);
-  return {effects, 1, point, closeness(needs), periods, {periods.least * evaluations, periods.most * evaluations}};
+  const Closest to_lower{needs.effects.lower ? 0 : closeness(needs, needs.lower_gap), point},
+      to_upper{needs.effects.upper ? 0 : closeness(needs, needs.upper_gap), point};
+  Closest example = to_lower;
+  example.add(to_upper);
+  survey.add({effects, 1, example, periods, {periods.least * evaluations, periods.most * evaluations}});
+  survey.lower.add({needs.effects.lower, to_lower}), survey.upper.add({needs.effects.upper, to_upper});
+  survey.lasting = survey.lasting || (scene.time.mode == Mode::steady && scene.oscillator.forcing != 0 &&
+                                      scene.oscillator.damping == 0 && !needs.effects.dissipation);
 }
 
-/// Groups points on all threads; the same groups for every number of them but for the rounding of the estimates.
-class Collector {
+/// Looks at all points on several threads; the same survey for every number of them but for the rounding of estimates.
+class Surveyor {
  public:
-  explicit Collector(const Sweep& sweep)
-      : sweep_(sweep),
-        branches_(sweep),
-        points_(size(sweep)),
-        groups_(static_cast<std::size_t>(omp_get_max_threads())) {}
+  Surveyor(const Sweep& sweep, int threads)
+      : sweep_(sweep), branches_(sweep), points_(size(sweep)), surveys_(static_cast<std::size_t>(threads)) {}
 
-  CLATTER_PARALLEL_REGION std::vector<Collected> run() {
+  CLATTER_PARALLEL_REGION Survey run() {
     fork_join_.fork();
-#pragma omp parallel for schedule(static)
+#pragma omp parallel for schedule(static) num_threads(static_cast <int>(surveys_.size()))
     for (std::size_t point = 0; point < points_; ++point) work(point, static_cast<std::size_t>(omp_get_thread_num()));
     fork_join_.join();
-    std::vector<Collected> sum;
-    for (const std::vector<Collected>& of_thread : groups_)
-      for (const Collected& part : of_thread) add(sum, part);
-    std::ranges::sort(sum, cheaper, &Collected::effects);
+    Survey sum;
+    for (const Survey& of_thread : surveys_) sum.add(of_thread);
+    std::ranges::sort(sum.groups, cheaper, &Collected::effects);
     return sum;
   }
 
  private:
   void work(std::size_t point, std::size_t thread) {
     const ForkJoin::Member member(fork_join_);
-    add(groups_[thread], collected(sweep_, branches_, point));
+    look_at(sweep_, branches_, point, surveys_[thread]);
   }
 
   const Sweep& sweep_;
   Branches branches_;
   std::size_t points_;
-  std::vector<std::vector<Collected>> groups_;  ///< [thread]
+  std::vector<Survey> surveys_;  ///< [thread]
   ForkJoin fork_join_;
 };
 
@@ -153,35 +180,29 @@ std::vector<std::string> observed_of(const Observe& observe) {
   return names;
 }
 
-/// A stop that is there, but never met by any point.
-void warn_of_stop(const Sweep& sweep, Plan& plan, bool upper) {
-  const auto met = [upper](const Group& group) { return upper ? group.effects.upper : group.effects.lower; };
-  const Stops& stops = scene_at(sweep, 0).stops;
-  const bool absent = upper ? stops.upper == infinity : stops.lower == -infinity;
-  if (absent || plan.groups.empty() || std::ranges::any_of(plan.groups, met)) return;
-  const Reason& reason = plan.groups.front().reasons[upper ? 5 : 4];
-  plan.warnings.push_back("the " + reason.effect + " is never reached at any point, at the closest " + reason.why +
+/// A stop that is there at some point, but never met by any.
+void warn_of_stop(const Sweep& sweep, const StopSeen& stop, std::size_t reason, Plan& plan) {
+  if (stop.met || stop.closest.ratio < 0) return;
+  const auto [effect, required, why] = reasons_of(planned_scene(sweep, Branches(sweep), stop.closest.point))[reason];
+  plan.warnings.push_back("the " + effect + " is never reached at any point, at the closest " + why +
                           "; if impacts are meant, move it nearer or raise f, x0 or v0");
 }
 
-void warn(const Sweep& sweep, Plan& plan) {
-  warn_of_stop(sweep, plan, false);
-  warn_of_stop(sweep, plan, true);
+void warn(const Sweep& sweep, const Survey& survey, Plan& plan) {
+  warn_of_stop(sweep, survey.lower, 4, plan);
+  warn_of_stop(sweep, survey.upper, 5, plan);
   if (plan.machine_bytes > 0 && plan.memory_bytes > plan.machine_bytes)
-    plan.warnings.push_back(
-        "the output is larger than the memory of this machine: clatter run will refuse; sweep fewer "
-        "points, or observe fewer samples and harmonics");
+    plan.warnings.emplace_back(
+        "the output is larger than the memory of this machine: clatter run will refuse; sweep fewer points, or observe "
+        "fewer samples and harmonics");
   if (plan.observed.empty())
     plan.warnings.emplace_back(
-        "nothing is observed: the file will tell the status alone; switch on e.g. observe.extrema");
-  const Scene& scene = sweep.scene;
-  const auto lasting = [](const Group& g) {
-    return g.effects.damping == Damping::none && g.effects.forcing != Forcing::none && !g.effects.dissipation;
-  };
-  if (scene.time.mode == Mode::steady && std::ranges::any_of(plan.groups, lasting))
+        "nothing is observed: the file will tell no more than status, impacts and periods; switch "
+        "on e.g. observe.extrema");
+  if (survey.lasting)
     plan.warnings.emplace_back(
-        "without damping and loss at impacts a transient never fades: forced points run for all of "
-        "max_periods unless they start on a periodic motion; for a given time write mode = transient");
+        "without damping and loss at impacts a transient never fades: forced points run for all of max_periods unless "
+        "they start on a periodic motion; for a given time write mode = transient");
 }
 
 }  // namespace
@@ -204,25 +225,26 @@ std::string kernel_name(const Effects& effects) {
   return name;
 }
 
-Plan plan_of(const Sweep& sweep) {
+Plan plan_of(const Sweep& sweep, int threads) {
+  const Survey survey = Surveyor(sweep, threads).run();
   Plan plan;
   plan.points = size(sweep);
   plan.observed = observed_of(sweep.scene.observe);
   const Branches branches(sweep);
   plan.branches = branches.count;
-  for (const Collected& group : Collector(sweep).run()) {
+  for (const Collected& group : survey.groups) {
     const double seconds = seconds_per_evaluation(group.effects);
     plan.groups.push_back({.effects = group.effects,
                            .points = group.points,
-                           .example = group.example,
-                           .reasons = reasons_of(planned_scene(sweep, branches, group.example)),
+                           .example = group.example.point,
+                           .reasons = reasons_of(planned_scene(sweep, branches, group.example.point)),
                            .periods = group.periods,
                            .seconds = {group.evaluations.least * seconds, group.evaluations.most * seconds}});
   }
   plan.output_bytes = result_bytes(sweep);
   plan.memory_bytes = run_bytes(sweep);
   plan.machine_bytes = machine_bytes();
-  warn(sweep, plan);
+  warn(sweep, survey, plan);
   return plan;
 }
 

@@ -23,7 +23,7 @@ struct Estimate {
 struct Group {
   Effects effects;
   std::size_t points = 0;
-  std::size_t example = 0;      ///< the point whose reasons are the closest: the least room left before a stop
+  std::size_t example = 0;      ///< the point whose reasons are given: the one that leaves the least room before a stop
   std::vector<Reason> reasons;  ///< of that point
   Estimate periods;             ///< forcing periods to simulate, all points together
   Estimate seconds;             ///< on one thread, from a short measurement of the kernel
@@ -41,8 +41,8 @@ struct Plan {
   std::vector<std::string> warnings;  ///< what looks unintended, and the remedy
 };
 
-/// Groups the points by the effects that they call for and estimates their work; runs none of them.
-[[nodiscard]] Plan plan_of(const Sweep& sweep);
+/// Groups the points by the effects that they call for and estimates their work, on so many threads; runs none of them.
+[[nodiscard]] Plan plan_of(const Sweep& sweep, int threads);
 
 /// A compiled set of effects in words, e.g. "light damping, forcing, stops, chatter and rest".
 [[nodiscard]] std::string kernel_name(const Effects& effects);

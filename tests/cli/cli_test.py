@@ -190,7 +190,7 @@ class Run(CommandLine):
         config = self.write("a.toml", SMALL)
         self.assertEqual(self.run_ok(config, "-q").stderr, "")
         details = self.run_ok(config, "-v", "--threads", "1").stderr
-        for word in ("axes  ", "5 points, 0 failed", "groups  ", "observed time by ", "threads          1\n", "impacts ",
+        for word in ("axes  ", "5 points, 0 failed", "groups  ", "settled by ", "threads          1\n", "impacts ",
                      "forcing periods ", "evaluations ", "instruction set ", "host ", "command line ", "began ", "ended "):
             self.assertIn(word, details)
 

@@ -145,7 +145,7 @@ TEST(RequiredEffects, a_force_weaker_than_the_spring_holds_no_mass) {
   Scene beyond = figure(1.0, 1.0);
   beyond.oscillator.load = 2.0;  // beyond the upper stop, which it presses the mass on
   EXPECT_TRUE(required_effects(beyond).upper && required_effects(beyond).rest);
-  expect_reason(beyond, "chatter and rest", true, "|f| = 1 around the load >= -1: a stop can be pressed");
+  expect_reason(beyond, "chatter and rest", true, "|f| = 1 >= -1, the gap from the load: a stop can be pressed");
   beyond.oscillator.forcing = 0.0, beyond.oscillator.load = -2.0;
   EXPECT_TRUE(required_effects(beyond).lower && required_effects(beyond).rest);
 }

@@ -111,6 +111,15 @@ TEST(ContractionNorm, shrinks_every_change_by_its_factor_within_the_unit_circle)
   EXPECT_GT(found, 1000);
 }
 
+TEST(ContractionNorm, measures_changes_whose_squares_vanish_or_overflow) {
+  const ContractionNorm measure({0.5, 0.3, -0.2, 0.4});
+  const double size = measure.of({0.7, -0.4});
+  for (const double scale : {0x1p-1000, 0x1p900}) {
+    EXPECT_EQ(measure.of({0.7 * scale, -0.4 * scale}), size * scale);
+    EXPECT_NEAR(measure.of(measure.across({0.7 * scale, -0.4 * scale})) / (size * scale), 1, 8 * ulp);
+  }
+}
+
 TEST(ContractionNorm, there_is_none_on_or_outside_the_unit_circle) {
   for (std::uint64_t i = 0; i < 1000; ++i) {
     Random random(10, i);

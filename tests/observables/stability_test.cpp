@@ -97,6 +97,28 @@ TEST(Stability, of_slow_forcing_is_still_the_damping) {
   for (const double h : {0.2, 0.9}) EXPECT_NEAR(judged(linear_scene(h, 1e-3)).stability.lyapunov(), -h, 1e-12);
 }
 
+TEST(Stability, of_arcs_of_any_length) {
+  // one arc of up to 1e300 decays, its tangent map made by squaring: the exponent is the slower rate of decay
+  const struct {
+    double h, nu, rate;
+  } cases[] = {{0.5, 1e-12, 0.5}, {0.5, 1e-300, 0.5}, {1e6, 1e-3, 1 / (1e6 + std::sqrt(1e12 - 1))}};
+  for (const auto& [h, nu, rate] : cases) {
+    Scene scene = paper_scene(10, 0.7, nu);
+    scene.oscillator.damping = h;
+    // the angle of a long arc is known to an ulp of it, which the logarithm of its map hardly feels
+    EXPECT_NEAR(judged(scene).stability.lyapunov() / -rate, 1, 1e-9) << "h " << h << ", nu " << nu;
+  }
+}
+
+TEST(Stability, a_stop_that_is_touched_without_speed_changes_nothing) {
+  const Judged found = judged(conservative_scene(1.0, 1.0), true);
+  EXPECT_EQ(found.stability.first(), 1.0);
+  EXPECT_EQ(found.stability.second(), 1.0);
+  Tangent<double> tangent({-1, 1, 0.7, 0.7});
+  tangent.impact({.time = 1, .side = Side::upper, .before = 0, .after = 0, .place = 1});
+  EXPECT_EQ(tangent.map(), (Map<double>{1, 0, 0, 1}));
+}
+
 TEST(Stability, nothing_is_left_of_a_change_after_a_rest) {
   Scene scene;
   scene.oscillator = {0.1, 1.0, 0.5, 0.0};
