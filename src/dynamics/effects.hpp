@@ -69,7 +69,8 @@ inline constexpr std::array compiled_effects{
     kernels::impacts(Damping::light, Forcing::regular),       kernels::complete(Damping::light, Forcing::regular),
     kernels::complete(Damping::none, Forcing::secular),       kernels::impacts(Damping::light, Forcing::secular),
     kernels::complete(Damping::light, Forcing::secular),      kernels::complete(Damping::heavy, Forcing::none),
-    kernels::complete(Damping::heavy, Forcing::regular)};
+    kernels::complete(Damping::heavy, Forcing::regular),
+};
 
 /// The cheapest compiled set that contains the effects: an index of `compiled_effects`.
 [[nodiscard]] constexpr std::size_t kernel_of(const Effects& effects) {
@@ -78,28 +79,18 @@ inline constexpr std::array compiled_effects{
   return kernel;
 }
 
-/// Every effect that an oscillator of this damping can have.
-[[nodiscard]] constexpr Effects all_effects(Damping damping) {
-  return damping >= Damping::critical ? kernels::complete(Damping::heavy, Forcing::regular)
-                                      : kernels::complete(Damping::light, Forcing::secular);
-}
-
-[[nodiscard]] constexpr bool every_scene_has_a_kernel() {
-  for (const Damping damping : {Damping::none, Damping::light, Damping::critical, Damping::heavy})
-    for (const Forcing forcing : {Forcing::none, Forcing::regular, Forcing::secular}) {
-      const bool exists = forcing != Forcing::secular || damping <= Damping::light;  // no resonance from h = 1/16 on
-      if (exists && !contains(all_effects(damping), kernels::complete(damping, forcing))) return false;
-    }
-  return true;
-}
-static_assert(every_scene_has_a_kernel());
-
 /// Distance of i nu from the oscillator's roots below which forced response and transient are formed together. There
 /// each of the two is up to 1/(2 * distance) times larger than the force, and so is the rounding error of their sum
 /// when it is formed from both.
 inline constexpr double secular_distance = 1.0 / 16.0;
 
-[[nodiscard]] inline Damping damping_of(const Oscillator& oscillator) {
+/// Every effect that an oscillator of damping h can have; resonance is none of them from h = 1/16 on.
+[[nodiscard]] constexpr Effects all_effects(double h) {
+  if (h >= 1.0) return kernels::complete(Damping::heavy, Forcing::regular);
+  return kernels::complete(Damping::light, h >= secular_distance ? Forcing::regular : Forcing::secular);
+}
+
+[[nodiscard]] constexpr Damping damping_of(const Oscillator& oscillator) {
   const double h = oscillator.damping;
   return h == 0.0 ? Damping::none : h < 1.0 ? Damping::light : h == 1.0 ? Damping::critical : Damping::heavy;
 }
@@ -109,6 +100,16 @@ inline constexpr double secular_distance = 1.0 / 16.0;
   const bool secular = std::hypot(oscillator.damping, oscillator.frequency - 1.0) < secular_distance;
   return secular ? Forcing::secular : Forcing::regular;
 }
+
+[[nodiscard]] constexpr bool every_scene_has_a_kernel() {
+  for (const double h : {0.0, secular_distance / 2, secular_distance, 1.0, 2.0})
+    for (const Forcing forcing : {Forcing::none, Forcing::regular, Forcing::secular}) {
+      const bool exists = forcing != Forcing::secular || h < secular_distance;
+      if (exists && !contains(all_effects(h), kernels::complete(damping_of({.damping = h}), forcing))) return false;
+    }
+  return true;
+}
+static_assert(every_scene_has_a_kernel());
 
 /// Calls `function.operator()<kernel>()` for the cheapest compiled set that contains the effects.
 template <class Function, std::size_t candidate = 0>

@@ -121,7 +121,7 @@ struct Survey {
 void look_at(const Sweep& sweep, const Branches& branches, std::size_t point, Survey& survey) {
   const Scene scene = planned_scene(sweep, branches, point);
   const Requirements needs = requirements_of(scene);
-  const Effects effects = scene.all_effects ? all_effects(damping_of(scene.oscillator)) : needs.effects;
+  const Effects effects = scene.all_effects ? all_effects(scene.oscillator.damping) : needs.effects;
   const Estimate periods = periods_of(scene, effects);
   const double evaluations = evaluations_of(scene, effects);
   const Closest to_lower{needs.effects.lower ? 0 : closeness(needs, needs.lower_gap), point},

@@ -201,7 +201,7 @@ class Point {
 }  // namespace
 
 Effects effects_of(const Scene& scene) {
-  return scene.all_effects ? all_effects(damping_of(scene.oscillator)) : required_effects(scene);
+  return scene.all_effects ? all_effects(scene.oscillator.damping) : required_effects(scene);
 }
 
 void run_batch(std::span<const Task> tasks, Workshop& workshop,

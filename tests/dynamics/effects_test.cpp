@@ -76,7 +76,7 @@ TEST(Effects, any_stops_are_met_with_all_that_the_oscillator_does) {
         const Oscillator oscillator{h, f, nu, 0.5};
         const Effects own{damping_of(oscillator), forcing_of(oscillator), true, true, true, true, true};
         EXPECT_TRUE(contains(with_any_stops(oscillator, []<Effects kernel>() { return kernel; }), own));
-        EXPECT_TRUE(contains(all_effects(own.damping), own));
+        EXPECT_TRUE(contains(all_effects(oscillator.damping), own));
       }
 }
 
