@@ -44,21 +44,19 @@ class Progress {
   Clock::time_point last_{};
 };
 
-/// Adds a point to what its effects took.
-void count(std::vector<Usage>& usage, const Effects& effects, const PointResult& result) {
-  auto used = std::find_if(usage.begin(), usage.end(), [&](const Usage& u) { return u.effects == effects; });
-  if (used == usage.end()) used = usage.insert(usage.end(), Usage{.effects = effects});
-  ++used->points;
-  ++used->found_by[static_cast<std::size_t>(result.found_by)];
-  used->impacts += result.impacts, used->periods += result.periods, used->evaluations += result.evaluations;
+Usage usage_of(const Task& task, const PointResult& result) {
+  Usage usage{.effects = task.effects,
+              .points = 1,
+              .impacts = result.impacts,
+              .periods = result.periods,
+              .evaluations = result.evaluations};
+  usage.found_by[static_cast<std::size_t>(result.found_by)] = 1;
+  return usage;
 }
 
-void merge(std::vector<Usage>& sum, const Usage& part) {
-  const auto same = std::find_if(sum.begin(), sum.end(), [&](const Usage& u) { return u.effects == part.effects; });
-  if (same == sum.end()) {
-    sum.push_back(part);
-    return;
-  }
+void add(std::vector<Usage>& sum, const Usage& part) {
+  auto same = std::ranges::find(sum, part.effects, &Usage::effects);
+  if (same == sum.end()) same = sum.insert(sum.end(), Usage{.effects = part.effects});
   same->points += part.points;
   for (std::size_t i = 0; i < part.found_by.size(); ++i) same->found_by[i] += part.found_by[i];
   same->impacts += part.impacts, same->periods += part.periods, same->evaluations += part.evaluations;
@@ -96,8 +94,8 @@ class Team {
   [[nodiscard]] std::vector<Usage> usage() const {
     std::vector<Usage> sum;
     for (const std::vector<Usage>& of_thread : usage_)
-      for (const Usage& part : of_thread) merge(sum, part);
-    std::sort(sum.begin(), sum.end(), [](const Usage& a, const Usage& b) { return cheaper(a.effects, b.effects); });
+      for (const Usage& part : of_thread) add(sum, part);
+    std::ranges::sort(sum, cheaper, &Usage::effects);
     return sum;
   }
 
@@ -126,7 +124,7 @@ class Team {
   }
 
   void store(const Task& task, PointResult&& result, std::size_t thread) {
-    count(usage_[thread], task.effects, result);
+    add(usage_[thread], usage_of(task, result));
     columns_.store(task.point, std::move(result));
     progress_.add_point();
   }
