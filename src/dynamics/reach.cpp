@@ -104,7 +104,9 @@ double reach_of(const Oscillator& oscillator, const Instant& now, double duratio
 
 bool out_of_reach(const Oscillator& oscillator, const Instant& now, const Stops& stops) {
   const double gap = std::min(oscillator.load - stops.lower, stops.upper - oscillator.load);
-  return reach_of(oscillator, now, std::numeric_limits<double>::infinity(), gap) < gap;
+  const auto response = steady_response(oscillator.damping, oscillator.forcing, oscillator.frequency);
+  return response.amplitude < gap &&  // what it comes to: no need to look further
+         reach_of(oscillator, now, std::numeric_limits<double>::infinity(), gap) < gap;
 }
 
 }  // namespace clatter

@@ -31,6 +31,15 @@ class RepeatFinder {
     return 0;
   }
 
+  /// The least n, from `n` on, for which the newest state and the one n sections before are within a distance of each
+  /// other; 0 for none.
+  [[nodiscard]] std::size_t next_within(double distance, std::size_t n) const {
+    const std::size_t now = size_ - 1, last = std::min(longest, now);
+    const double limit = distance * std::max(std::abs(x_[now]), std::abs(v_[now]));
+    while (n <= last && !(std::abs(x_[now] - x_[now - n]) <= limit && std::abs(v_[now] - v_[now - n]) <= limit)) ++n;
+    return n <= last ? n : 0;
+  }
+
   /// Distance of the newest state and the one m sections before, over the larger of |x|, |v|; `ago` sections ago.
   /// Infinite where there is no such state (any more).
   [[nodiscard]] double distance_over(std::size_t m, std::size_t ago = 0) const {

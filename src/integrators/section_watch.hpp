@@ -14,7 +14,8 @@ class SectionWatch {
 
   template <class A>
   void arc(const A& arc, double begin, double length) {
-    if (differentiates_) tangent_.arc(arc, begin, length);
+    if (differentiates_) [[unlikely]]
+      tangent_.arc(arc, begin, length);
   }
   void rest(const Rest& rest) {
     add(rest.side == Side::upper ? 4 : 3);

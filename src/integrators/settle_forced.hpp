@@ -42,6 +42,7 @@ class SteadySearch {
 
  private:
   static constexpr double nearest_first = 0.02;  ///< relative distance below which a first attempt pays
+  static constexpr std::int64_t long_settling = 128;
   static constexpr std::size_t kept = 2 * RepeatFinder::longest;
 
   [[nodiscard]] std::size_t index(std::size_t ago) const { return (static_cast<std::size_t>(section_) - ago) % kept; }
@@ -87,7 +88,8 @@ class SteadySearch {
   /// periodic motion that they contract to.
   [[nodiscard]] std::optional<Observed> attractor(const State<double>& state) {
     const bool under_way = approach_ && next_ < approach_->periods;
-    const std::size_t n = under_way ? 0 : contracting();
+    const bool rarely = section_ > long_settling && section_ % 8 != 0;  // looking costs a tenth of a forcing period
+    const std::size_t n = under_way || rarely ? 0 : contracting();
     if (n == 0 || !affordable(n)) return std::nullopt;
     near_enough_[n] = repeat_.distance_over(n) / 8;  // for the next attempt
     approach_ = map_.follow(state, n), next_ = 0;
@@ -104,7 +106,7 @@ class SteadySearch {
 
   /// The least n for which states n apart come closer, over the same stops in the same order; 0 for none.
   [[nodiscard]] std::size_t contracting() const {
-    for (std::size_t n = 1; n <= RepeatFinder::longest; ++n) {
+    for (std::size_t n = repeat_.next_within(nearest_first, 1); n > 0; n = repeat_.next_within(nearest_first, n + 1)) {
       const double now = repeat_.distance_over(n);
       if (!(now <= near_enough_[n] && now > plan_.tolerance && now < repeat_.distance_over(n, n))) continue;
       bool same = true;
