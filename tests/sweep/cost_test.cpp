@@ -9,6 +9,7 @@
 #include <new>
 #include <vector>
 
+#include "sweep/figures.hpp"
 #include "sweep/point.hpp"
 
 namespace {
@@ -55,16 +56,8 @@ Cost cost_of(const Scene& scene) {
   return cost_of(scene, none);
 }
 
-/// Figs. 14-23: h = 0.1, f = -1, R = 0.7, from rest.
-Scene figure(double xs, double nu) {
-  Scene scene;
-  scene.oscillator = {0.1, -1.0, nu, 0.0};
-  scene.stops = {-xs, xs, 0.7, 0.7};
-  return scene;
-}
-
 /// The symmetric motion of example 4: two impacts a period, so three arcs from section to section.
-Scene symmetric() { return figure(0.5, 1.0); }
+Scene symmetric() { return paper_scene(0.5, 1.0); }
 constexpr double arcs = 3, impacts = 2;
 
 Scene observing(Scene scene, const Observe& observe) {
@@ -75,17 +68,17 @@ Scene observing(Scene scene, const Observe& observe) {
 TEST(Cost, extrema_allocate_nothing_in_any_number_of_periods) {
   const Observe extrema{.extrema = true};
   for (const std::int64_t periods : {50, 500, 5000}) {
-    Scene chaos = observing(figure(3.0, 0.95), extrema);
+    Scene chaos = observing(paper_scene(3.0, 0.95), extrema);
     chaos.time.max_periods = periods, chaos.time.window = periods;
     const Cost cost = cost_of(chaos);
     EXPECT_EQ(cost.result.status, Status::aperiodic);
     EXPECT_GT(cost.result.impacts, static_cast<double>(periods));
     EXPECT_EQ(cost.allocations, 0);
   }
-  Scene rests = observing(figure(0.5, 0.5), extrema), free = rests;
+  Scene rests = observing(paper_scene(0.5, 0.5), extrema), free = rests;
   rests.stops.restitution_lower = rests.stops.restitution_upper = 0.0;
   free.oscillator = {0.0, 0.0, 1.0, 0.0}, free.start.velocity = 1.0;
-  for (const Scene& scene : {observing(symmetric(), extrema), observing(figure(6, 1), extrema), rests, free}) {
+  for (const Scene& scene : {observing(symmetric(), extrema), observing(paper_scene(6, 1), extrema), rests, free}) {
     const Cost cost = cost_of(scene);
     EXPECT_EQ(cost.result.status, Status::periodic);
     EXPECT_LT(cost.result.x_min, cost.result.x_max);
@@ -160,7 +153,7 @@ TEST(Cost, is_the_sum_of_what_is_observed) {
                     .trajectory = 77,
                     .period = true,
                     .stability = true};
-  for (const Scene& scene : {symmetric(), figure(6, 1), figure(4, 1)}) {
+  for (const Scene& scene : {symmetric(), paper_scene(6, 1), paper_scene(4, 1)}) {
     double sum = 0;
     for (const Observe& observe : each) sum += cost_of(observing(scene, observe), workshop).evaluations;
     EXPECT_EQ(cost_of(observing(scene, all), workshop).evaluations, sum);
@@ -177,11 +170,11 @@ TEST(Cost, nothing_is_kept_that_is_not_asked_for) {
 
 TEST(Cost, motion_out_of_reach_of_its_stops_is_one_arc) {
   // Fig. 20: in closed form nothing is run to find the steady motion, and one arc is a period of it
-  const Cost cost = cost_of(observing(figure(6, 1), {.stability = true}));
+  const Cost cost = cost_of(observing(paper_scene(6, 1), {.stability = true}));
   EXPECT_EQ(cost.result.found_by, FoundBy::closed_form);
   EXPECT_EQ(cost.result.periods, 1);
   EXPECT_EQ(cost.result.evaluations, 1 + 1);  // the arc's end, and its derivative
-  Scene silent = figure(6, 1);
+  Scene silent = paper_scene(6, 1);
   silent.all_effects = true;
   EXPECT_GT(cost_of(silent).result.evaluations, 1000);
 }

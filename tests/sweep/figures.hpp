@@ -10,6 +10,14 @@
 
 namespace clatter {
 
+/// Scene of Figs. 14-23: h = 0.1, f = -1, R = 0.7, from rest.
+inline Scene paper_scene(double xs, double nu) {
+  Scene scene;
+  scene.oscillator = {0.1, -1.0, nu, 0.0};
+  scene.stops = {-xs, xs, 0.7, 0.7};
+  return scene;
+}
+
 /// The variable of a name; null where there is none.
 inline const Variable* find(const Figure& figure, const std::string& name) {
   const auto found =

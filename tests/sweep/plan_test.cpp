@@ -13,11 +13,9 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// Scene of Figs. 20-23: h = 0.1, f = -1, R = 0.7, from rest.
-Scene paper_scene(double xs) {
-  Scene scene;
-  scene.oscillator = {0.1, -1.0, 1.0, 0.0};
-  scene.stops = {-xs, xs, 0.7, 0.7};
+/// A point of Figs. 20-23, its extrema observed.
+Scene figure(double xs) {
+  Scene scene = paper_scene(xs, 1.0);
   scene.observe.extrema = true;
   return scene;
 }
@@ -33,8 +31,7 @@ bool warns(const Plan& plan, const std::string& words) {
 }
 
 TEST(Plan, groups_are_the_same_for_every_number_of_threads) {
-  const Sweep sweep =
-      sweep_of(paper_scene(3), {{Parameter::nu, frequencies()}, {Parameter::h, {0.0, 0.05, 0.1, 1.0, 2.0}}});
+  const Sweep sweep = sweep_of(figure(3), {{Parameter::nu, frequencies()}, {Parameter::h, {0.0, 0.05, 0.1, 1.0, 2.0}}});
   const Plan one = plan_of(sweep, 1);
   EXPECT_GT(one.groups.size(), 6u);
   for (const int threads : {2, 3, 7}) {
@@ -50,7 +47,7 @@ TEST(Plan, groups_are_the_same_for_every_number_of_threads) {
 }
 
 TEST(Plan, points_run_with_the_effects_of_their_group_and_no_longer_than_it_says) {
-  Scene scene = paper_scene(3);
+  Scene scene = figure(3);
   scene.time.max_periods = 300;
   for (const bool all : {false, true}) {
     scene.all_effects = all;
@@ -70,7 +67,7 @@ TEST(Plan, points_run_with_the_effects_of_their_group_and_no_longer_than_it_says
 }
 
 TEST(Plan, the_least_work_of_transients_and_of_conservative_motion_is_the_most) {
-  Scene scene = paper_scene(3);
+  Scene scene = figure(3);
   scene.time.mode = Mode::transient, scene.time.duration = 7.0;
   EXPECT_EQ(plan_of(sweep_of(scene, {}), 1).groups[0].periods.least, 7.0 / (2 * pi<double>()));
   EXPECT_EQ(plan_of(sweep_of(scene, {}), 1).groups[0].periods.most, 7.0 / (2 * pi<double>()));
@@ -80,7 +77,7 @@ TEST(Plan, the_least_work_of_transients_and_of_conservative_motion_is_the_most) 
 }
 
 TEST(Plan, memory_is_that_of_the_run) {
-  const Sweep sweep = sweep_of(paper_scene(3), {{Parameter::nu, frequencies()}});
+  const Sweep sweep = sweep_of(figure(3), {{Parameter::nu, frequencies()}});
   const Plan plan = plan_of(sweep, 1);
   EXPECT_EQ(plan.output_bytes, result_bytes(sweep));
   EXPECT_EQ(plan.memory_bytes, run_bytes(sweep));
@@ -88,7 +85,7 @@ TEST(Plan, memory_is_that_of_the_run) {
 }
 
 TEST(Plan, a_stop_that_no_point_reaches_is_named_with_the_closest_of_all_groups) {
-  Scene scene = paper_scene(20);
+  Scene scene = figure(20);
   scene.oscillator.damping = 0.03;  // the amplitude at resonance is 16.7, and resonant points are another group
   for (const bool all : {false, true}) {
     scene.all_effects = all;
@@ -96,11 +93,11 @@ TEST(Plan, a_stop_that_no_point_reaches_is_named_with_the_closest_of_all_groups)
     EXPECT_TRUE(warns(plan, "the lower stop is never reached at any point, at the closest |x| <= 16.67 < 20"));
     EXPECT_TRUE(warns(plan, "the upper stop is never reached"));
   }
-  EXPECT_FALSE(warns(plan_of(sweep_of(paper_scene(3), {{Parameter::nu, frequencies()}}), 1), "never reached"));
+  EXPECT_FALSE(warns(plan_of(sweep_of(figure(3), {{Parameter::nu, frequencies()}}), 1), "never reached"));
 }
 
 TEST(Plan, a_stop_may_be_absent_at_some_points) {
-  Scene scene = paper_scene(9);
+  Scene scene = figure(9);
   for (const std::vector<double>& lower : {std::vector<double>{-infinity, -9, -20}, {-9, -infinity, -20}}) {
     const Plan plan = plan_of(sweep_of(scene, {{Parameter::stop_lower, lower}}), 1);
     EXPECT_TRUE(warns(plan, "the lower stop is never reached"));
@@ -110,7 +107,7 @@ TEST(Plan, a_stop_may_be_absent_at_some_points) {
 }
 
 TEST(Plan, warns_of_motion_that_keeps_its_transient) {
-  Scene scene = paper_scene(3);
+  Scene scene = figure(3);
   scene.oscillator.damping = 0, scene.oscillator.frequency = 1.3;
   scene.stops.restitution_lower = scene.stops.restitution_upper = 1;
   EXPECT_TRUE(warns(plan_of(sweep_of(scene, {}), 1), "never fades"));
@@ -119,7 +116,7 @@ TEST(Plan, warns_of_motion_that_keeps_its_transient) {
 }
 
 TEST(Plan, along_a_followed_branch_only_the_first_start_is_known) {
-  Sweep sweep = sweep_of(paper_scene(6), {{Parameter::R, {0.5, 0.7}}, {Parameter::nu, frequencies()}});
+  Sweep sweep = sweep_of(figure(6), {{Parameter::R, {0.5, 0.7}}, {Parameter::nu, frequencies()}});
   sweep.follow = 1;
   const Plan plan = plan_of(sweep, 1);
   EXPECT_EQ(plan.branches, 2u);

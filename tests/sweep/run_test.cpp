@@ -14,14 +14,6 @@
 namespace clatter {
 namespace {
 
-/// Scene of Figs. 14-23: h = 0.1, f = -1, from rest.
-Scene paper_scene(double xs, double nu) {
-  Scene scene;
-  scene.oscillator = {0.1, -1.0, nu, 0.0};
-  scene.stops = {-xs, xs, 0.7, 0.7};
-  return scene;
-}
-
 TEST(Run, gives_the_same_bits_for_every_number_of_threads) {
   Scene scene = paper_scene(3.0, 1.0);
   scene.time.max_periods = 400;  // some points stay aperiodic

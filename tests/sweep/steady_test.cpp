@@ -10,6 +10,7 @@
 
 #include "support/course.hpp"
 #include "support/random.hpp"
+#include "sweep/figures.hpp"
 #include "sweep/point.hpp"
 
 namespace clatter {
@@ -21,11 +22,9 @@ PointResult result_of(Scene scene, bool all_effects) {
   return run_point(scene, none);
 }
 
-/// Figs. 20 ... 23: h = 0.1, f = -1, R = 0.7, from rest.
+/// A point of Figs. 20-23, all of it observed.
 Scene figure(double xs, double nu) {
-  Scene scene;
-  scene.oscillator = {0.1, -1.0, nu, 0.0};
-  scene.stops = {-xs, xs, 0.7, 0.7};
+  Scene scene = paper_scene(xs, nu);
   scene.observe.extrema = scene.observe.period = scene.observe.stability = true;
   scene.time.max_periods = 800;
   return scene;
