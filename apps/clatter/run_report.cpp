@@ -51,7 +51,7 @@ std::string usage_text(const std::vector<Usage>& usage) {
     std::string found;
     for (std::size_t i = 0; i < used.found_by.size(); ++i)
       if (used.found_by[i] > 0)
-        found += (found.empty() ? "; settled by " : ", ") + std::string(found_by_names[i]) + ' ' +
+        found += (found.empty() ? "; settled: " : ", ") + std::string(found_by_names[i]) + ' ' +
                  std::to_string(used.found_by[i]);
     text += found + '\n';
     impacts += used.impacts, periods += used.periods, evaluations += used.evaluations;

@@ -20,6 +20,13 @@ struct Contact {
   bool resolved = true;     ///< false: the bounds overflow, or the step that can be proved fell below rounding
 };
 
+/// The usual length of a step that is proved free of contact.
+template <class Number>
+[[nodiscard]] Number longest_step(const Number& nu) {
+  using std::max;
+  return Number(1.6) / max(Number(1), nu);
+}
+
 /// Searches an arc for its first contact. Each step is proved free of impacts by an enclosure of the arc between its
 /// ends, or gives the time up to which it is; from there the next, shorter step starts, until what is left of the
 /// uncertainty is below rounding.
@@ -74,11 +81,6 @@ class ContactSearch {
     bool certain = false;  ///< and the contact is there, to rounding
   };
 
-  [[nodiscard]] Number longest_step() const {
-    using std::max;
-    return Number(1.6) / max(Number(1), arc_.flow().nu);
-  }
-
   /// Gap between the mass and a stop at the search's present place; exact where the arc is anchored on the stop.
   [[nodiscard]] Number gap(Side side) const {
     const Number& anchor = arc_.anchor();
@@ -104,7 +106,7 @@ class ContactSearch {
   /// of them vanish.
   [[nodiscard]] Number first_step() const {
     using std::pow;
-    const Number step = longest_step(), error = error_of(step), aim = width() / 20;
+    const Number step = longest_step(arc_.flow().nu), error = error_of(step), aim = width() / 20;
     if (upper_ - lower_ < std::numeric_limits<Number>::min() / (epsilon<Number>() * epsilon<Number>()))
       return Number(0);
     return aim > 0 && error > aim ? Number(step * pow(aim / error, Number(1) / 6)) : step;
@@ -115,8 +117,8 @@ class ContactSearch {
   [[nodiscard]] Number longer(const Number& step) const {
     using std::min;
     const Number twice = 2 * step;
-    if (twice > longest_step() && error_of(twice) <= width() / 20000) return twice;
-    return min(twice, longest_step());
+    if (twice > longest_step(arc_.flow().nu) && error_of(twice) <= width() / 20000) return twice;
+    return min(twice, longest_step(arc_.flow().nu));
   }
 
   [[nodiscard]] Motion<Number> evaluate(const Number& s) {

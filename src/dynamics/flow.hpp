@@ -101,8 +101,7 @@ class Flow {
 };
 
 template <class Number, Effects E>
-Flow<Number, E>::Flow(const Oscillator& o)
-    : h(o.damping), f(o.forcing), nu(o.forcing == 0 ? 1 : o.frequency), load(o.load) {
+Flow<Number, E>::Flow(const Oscillator& o) : h(o.damping), f(o.forcing), nu(counting_frequency(o)), load(o.load) {
   using std::abs, std::max, std::sqrt;
   root = sqrt(abs((1 - h) * (1 + h)));
   coarse_root_ = select<Number>(h < Number(0.5), Number(1), root);

@@ -101,9 +101,11 @@ Reason rest_reason(const Scene& scene, const Requirements& needs) {
   if (!needs.effects.stops()) return {effect, false, "no stop in reach"};
   const bool lower_first = needs.effects.lower && (!needs.effects.upper || needs.lower_gap < needs.upper_gap);
   const double gap = lower_first ? needs.lower_gap : needs.upper_gap;
-  const std::string force = "|f| = " + text(std::abs(scene.oscillator.forcing)) + (needs.effects.rest ? " >= " : " < ") +
-                            text(gap) + (scene.oscillator.load == 0 ? "" : ", the gap from the load");
-  return {effect, needs.effects.rest, force + (needs.effects.rest ? ": a stop can be pressed" : ": no stop can hold the mass")};
+  const std::string force = "|f| = " + text(std::abs(scene.oscillator.forcing)) +
+                            (needs.effects.rest ? " >= " : " < ") + text(gap) +
+                            (scene.oscillator.load == 0 ? "" : ", the gap from the load");
+  return {effect, needs.effects.rest,
+          force + (needs.effects.rest ? ": a stop can be pressed" : ": no stop can hold the mass")};
 }
 
 enum class Bounds { sufficient, sharpest };

@@ -20,7 +20,7 @@ enum class FoundBy : std::uint8_t {
 };
 
 /// For people, in the order of FoundBy.
-inline constexpr std::array<const char*, 7> found_by_names{"start",      "closed form", "energy",   "Newton's method",
+inline constexpr std::array<const char*, 7> found_by_names{"transient",  "closed form", "energy",   "Newton's method",
                                                            "repetition", "standstill",  "no repeat"};
 
 /// The time that is observed: where it begins, how long it is, and what the motion in it is.

@@ -9,6 +9,14 @@
 
 namespace clatter {
 
+/// The least proper divisor of n that a predicate holds for, else n.
+template <class Predicate>
+[[nodiscard]] std::size_t least_divisor(std::size_t n, Predicate&& holds) {
+  for (std::size_t m = 1; m < n; ++m)
+    if (n % m == 0 && holds(m)) return m;
+  return n;
+}
+
 /// Finds the number of forcing periods after which a motion repeats, from its states at the sections. A repeat has to
 /// go on for as long again: motion that forgets its past on a stop, and is chaotic after it, comes back to
 /// a state to rounding and yet takes another way from there.
@@ -26,8 +34,11 @@ class RepeatFinder {
     const std::size_t now = size_++;
     if (candidate_ > 0 && !repeats(now, candidate_, few * tolerance_)) candidate_ = 0;
     if (candidate_ > 0 && --left_ == 0) return shortest(now, std::exchange(candidate_, 0));
-    for (std::size_t n = 1; candidate_ == 0 && n <= std::min(longest, now); ++n)
-      if (repeats(now, n, tolerance_) && stands(now, n)) candidate_ = left_ = n;
+    for (std::size_t n = candidate_ > 0 ? 0 : next_within(tolerance_, 1); n > 0; n = next_within(tolerance_, n + 1))
+      if (stands(now, n)) {
+        candidate_ = left_ = n;
+        break;
+      }
     return 0;
   }
 
@@ -35,8 +46,7 @@ class RepeatFinder {
   /// other; 0 for none.
   [[nodiscard]] std::size_t next_within(double distance, std::size_t n) const {
     const std::size_t now = size_ - 1, last = std::min(longest, now);
-    const double limit = distance * std::max(std::abs(x_[now]), std::abs(v_[now]));
-    while (n <= last && !(std::abs(x_[now] - x_[now - n]) <= limit && std::abs(v_[now] - v_[now - n]) <= limit)) ++n;
+    while (n <= last && !repeats(now, n, distance)) ++n;
     return n <= last ? n : 0;
   }
 
@@ -91,9 +101,7 @@ class RepeatFinder {
   /// to a repeat as rounding lets it come (with a multiplier near -1 the states then lock into a cycle of a few hundred
   /// ulps).
   [[nodiscard]] std::size_t shortest(std::size_t now, std::size_t n) const {
-    for (std::size_t m = 1; m < n; ++m)
-      if (n % m == 0 && distance(now, m) < few * tolerance_) return m;
-    return n;
+    return least_divisor(n, [&](std::size_t m) { return distance(now, m) < few * tolerance_; });
   }
 
   double tolerance_;

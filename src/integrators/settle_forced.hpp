@@ -5,6 +5,8 @@
 #include <cmath>
 #include <cstdint>
 #include <optional>
+#include <span>
+#include <utility>
 
 #include "dynamics/reach.hpp"
 #include "integrators/observed.hpp"
@@ -118,22 +120,13 @@ class SteadySearch {
   }
 
   [[nodiscard]] Observed observed(const Orbit& orbit) const {
-    const std::size_t n = shortest(orbit);
-    std::size_t lowest = 0;
-    for (std::size_t i = 1; i < n; ++i) {
-      const State<double>&one = orbit.states[i], &best = orbit.states[lowest];
-      if (one.x < best.x || (one.x == best.x && one.v < best.v)) lowest = i;
-    }
-    return {Status::periodic, orbit.states[lowest], static_cast<double>(n), simulated(), FoundBy::newton};
-  }
-
-  /// The least divisor of its periods after which an orbit is back.
-  [[nodiscard]] std::size_t shortest(const Orbit& orbit) const {
     const State<double>& start = orbit.states[0];
     const double limit = RepeatFinder::few * plan_.tolerance * std::max(std::abs(start.x), std::abs(start.v));
-    for (std::size_t m = 1; m < orbit.periods; ++m)
-      if (orbit.periods % m == 0 && between(start, orbit.states[m]).size() <= limit) return m;
-    return orbit.periods;
+    const std::size_t n =
+        least_divisor(orbit.periods, [&](std::size_t m) { return between(start, orbit.states[m]).size() <= limit; });
+    const auto lowest = std::ranges::min_element(
+        std::span(orbit.states).first(n), {}, [](const State<double>& state) { return std::pair(state.x, state.v); });
+    return {Status::periodic, *lowest, static_cast<double>(n), simulated(), FoundBy::newton};
   }
 
   Exact<double, E>& integrator_;

@@ -7,6 +7,7 @@
 #include <limits>
 #include <tuple>
 
+#include "dynamics/contact.hpp"
 #include "dynamics/reach.hpp"
 #include "sweep/branches.hpp"
 #include "sweep/fork_join.hpp"
@@ -29,7 +30,7 @@ Scene planned_scene(const Sweep& sweep, const Branches& branches, std::size_t po
   return scene;
 }
 
-double period_of(const Oscillator& o) { return 2 * pi<double>() / (o.forcing == 0 ? 1 : o.frequency); }
+double period_of(const Oscillator& o) { return 2 * pi<double>() / counting_frequency(o); }
 
 /// Whether motion without stops comes to its end, the steady response, free vibration or standstill, within a time.
 bool ends_in_time(const Scene& scene, double time) {
@@ -57,8 +58,8 @@ Estimate periods_of(const Scene& scene, const Effects& effects) {
 /// Evaluations of arcs in a forcing period, from the length of the steps that are proved free of contact; two impacts a
 /// period, each worth two.
 double evaluations_of(const Scene& scene, const Effects& effects) {
-  const double longest_step = 1.6 / std::max(1.0, scene.oscillator.forcing == 0 ? 1.0 : scene.oscillator.frequency);
-  return effects.stops() ? std::ceil(period_of(scene.oscillator) / longest_step) + 4 : 1;
+  const double step = longest_step(counting_frequency(scene.oscillator));
+  return effects.stops() ? std::ceil(period_of(scene.oscillator) / step) + 4 : 1;
 }
 
 /// How near motion comes to a stop that it doesn't meet: 1 where it would touch. Negative where there is none.
@@ -142,7 +143,7 @@ class Surveyor {
 
   CLATTER_PARALLEL_REGION Survey run() {
     fork_join_.fork();
-#pragma omp parallel for schedule(static) num_threads(static_cast <int>(surveys_.size()))
+#pragma omp parallel for schedule(static) num_threads(threads())
     for (std::size_t point = 0; point < points_; ++point) work(point, static_cast<std::size_t>(omp_get_thread_num()));
     fork_join_.join();
     Survey sum;
@@ -152,6 +153,8 @@ class Surveyor {
   }
 
  private:
+  [[nodiscard]] int threads() const { return static_cast<int>(surveys_.size()); }
+
   void work(std::size_t point, std::size_t thread) {
     const ForkJoin::Member member(fork_join_);
     look_at(sweep_, branches_, point, surveys_[thread]);
@@ -181,16 +184,17 @@ std::vector<std::string> observed_of(const Observe& observe) {
 }
 
 /// A stop that is there at some point, but never met by any.
-void warn_of_stop(const Sweep& sweep, const StopSeen& stop, std::size_t reason, Plan& plan) {
+void warn_of_stop(const Sweep& sweep, const StopSeen& stop, const std::string& name, Plan& plan) {
   if (stop.met || stop.closest.ratio < 0) return;
-  const auto [effect, required, why] = reasons_of(planned_scene(sweep, Branches(sweep), stop.closest.point))[reason];
-  plan.warnings.push_back("the " + effect + " is never reached at any point, at the closest " + why +
+  const auto reasons = reasons_of(planned_scene(sweep, Branches(sweep), stop.closest.point));
+  const std::string& why = std::ranges::find(reasons, name, &Reason::effect)->why;
+  plan.warnings.push_back("the " + name + " is never reached at any point, at the closest " + why +
                           "; if impacts are meant, move it nearer or raise f, x0 or v0");
 }
 
 void warn(const Sweep& sweep, const Survey& survey, Plan& plan) {
-  warn_of_stop(sweep, survey.lower, 4, plan);
-  warn_of_stop(sweep, survey.upper, 5, plan);
+  warn_of_stop(sweep, survey.lower, "lower stop", plan);
+  warn_of_stop(sweep, survey.upper, "upper stop", plan);
   if (plan.machine_bytes > 0 && plan.memory_bytes > plan.machine_bytes)
     plan.warnings.emplace_back(
         "the output is larger than the memory of this machine: clatter run will refuse; sweep fewer points, or observe "

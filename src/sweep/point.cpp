@@ -48,8 +48,8 @@ class Observers {
     if (!(impact.time > 0.0)) return;  // the observed time begins after t0: an impact there belongs to what was before
     each([&](auto& observer) { observer.impact(impact); });
   }
-  void finish(double x, double v, double total, bool periodic, bool forced) {
-    if (stability && periodic) stability->finish_period(total, !forced);
+  void finish(double x, double v, double total, bool periodic, bool autonomous) {
+    if (stability && periodic) stability->finish_period(total, autonomous);
     if (stability && !periodic) stability->finish_window(total);
     if (trajectory) trajectory->finish(x, v, total, periodic);
     if (samples) samples->finish(x, v, total, periodic);
@@ -139,7 +139,7 @@ class Point {
     if (state.turns > 0)
       result_.end.phase = std::fmod(scene_.start.phase + 2 * pi<double>() * state.turns, 2 * pi<double>());
     observers.finish(state.x, state.v, total, observed_.status == Status::periodic,
-                     forced || observed_.found_by == FoundBy::standstill);
+                     !forced && observed_.found_by != FoundBy::standstill);
     collect(observers, total, base_turns);
     if (observers.impacts) collect_impacts(*observers.impacts, total, once ? 1.0 : observed_.turns);
   }

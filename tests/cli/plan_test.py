@@ -1,0 +1,74 @@
+"""`clatter plan`: text, JSON and warnings, and that `run -v` and the README say the same."""
+
+import json
+import unittest
+
+from command_line import SMALL, SOURCE, CommandLine
+
+
+class Plan(CommandLine):
+    def plan(self, text, *words):
+        config = self.write("p.toml", text)
+        result = self.clatter("plan", config, "--json", *words)
+        self.assertEqual((result.returncode, result.stderr), (0, ""))
+        self.assertEqual(self.files(), ["p.toml"])  # runs nothing, writes nothing
+        return json.loads(result.stdout)
+
+    def test_groups_add_up_and_give_their_reasons(self):
+        plan = self.plan(SMALL, "--threads", "3")
+        self.assertEqual((plan["schema"], plan["points"], plan["threads"]), ("clatter-plan/1", 5, 3))
+        self.assertEqual(plan["dimensions"], [[{"key": "nu", "length": 5, "first": 0.5, "last": 1.5}]])
+        self.assertEqual(plan["observed"], ["extrema", "period"])
+        self.assertEqual([group["points"] for group in plan["groups"]], [4, 1])  # only nu = 1 reaches the stops
+        without, with_stops = ({e["effect"]: e for e in group["effects"]} for group in plan["groups"])
+        self.assertEqual(list(without), ["damping", "forcing", "resonance", "load", "lower stop", "upper stop", "dissipation",
+                                         "chatter and rest"])
+        self.assertFalse(without["upper stop"]["required"])
+        self.assertRegex(without["upper stop"]["why"], r"^\|x\| <= \S+ < 4 for all time: out of reach$")
+        self.assertTrue(with_stops["upper stop"]["required"])
+        self.assertFalse(with_stops["chatter and rest"]["required"])
+        self.assertEqual(plan["groups"][0]["periods"], [4, 4])  # the closed form, one period observed at each
+        self.assertLess(*plan["groups"][1]["periods"])
+        self.assertEqual(plan["output_bytes"], 5 * (1 + 8 + 8 + 8 * 8))
+        self.assertEqual(plan["warnings"], [])
+
+    def test_says_the_same_before_a_verbose_run(self):
+        config = self.write("a.toml", SMALL)
+        text = self.clatter("plan", config, "--threads", "1").stdout
+        run = self.clatter("run", config, "-v", "--threads", "1").stderr
+        without_times = [line for line in text.splitlines() if " s on " not in line]
+        self.assertGreater(len(without_times), 20)
+        for line in without_times:
+            self.assertIn(line, run)
+
+    def test_warns_of_what_looks_unintended(self):
+        far = self.plan(SMALL, "--set", "scene.xs=6")["warnings"]
+        self.assertEqual(len(far), 2)
+        self.assertRegex(far[0], r"^the lower stop is never reached .* 5 < 6 .*; if impacts are meant, move it nearer")
+        huge = self.plan(SMALL, "--set", "sweep.x0=linspace(-1, 1, 1000000)", "--set", "sweep.nu=1, 1.1",
+                         "--set", "observe.trajectory=10000000")["warnings"]
+        self.assertTrue(any("larger than the memory" in warning for warning in huge), huge)
+        nothing = self.plan(SMALL, "--set", "observe.extrema=false", "--set", "observe.period=false")["warnings"]
+        self.assertTrue(any("nothing is observed" in warning for warning in nothing), nothing)
+        lasting = self.plan(SMALL, "--set", "scene.h=0", "--set", "scene.R=1", "--set", "sweep.nu=1.3")["warnings"]
+        self.assertTrue(any("never fades" in warning for warning in lasting), lasting)
+
+    def test_a_followed_branch_knows_its_first_start_only(self):
+        plan = self.plan(SMALL, "--set", "sweep.follow=nu")
+        self.assertEqual(plan["follow"], "nu")
+        self.assertEqual([group["points"] for group in plan["groups"]], [1, 4])
+        reasons = {e["effect"]: e["why"] for e in plan["groups"][1]["effects"]}
+        self.assertIn("start isn't known", reasons["lower stop"])
+
+    def test_the_readme_shows_the_plan_of_a_figure(self):
+        readme = (SOURCE / "README.md").read_text(encoding="utf-8")
+        shown = readme.split("$ clatter plan configs/fig22.toml\n")[1].split("```")[0].splitlines()
+        plan = self.clatter("plan", str(SOURCE / "configs" / "fig22.toml")).stdout.splitlines()
+        self.assertEqual(len(shown), len(plan))
+        for ours, theirs in zip(plan, shown):
+            if " s on " not in ours and not ours.startswith("memory "):  # what differs from machine to machine
+                self.assertEqual(ours, theirs)
+
+
+if __name__ == "__main__":
+    unittest.main()
