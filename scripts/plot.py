@@ -1,5 +1,6 @@
 #!/usr/bin/python3
-"""Draws any output of clatter by what it contains: curves, time histories, phase planes, impacts, harmonics, maps."""
+"""Draws any output of clatter by what it contains: curves, time histories, phase planes, impacts, harmonics, maps, and
+what accuracy costs in time."""
 
 import argparse
 import sys
@@ -8,6 +9,7 @@ from pathlib import Path
 try:
     import plot_style
     from matplotlib import pyplot
+    from plot_accuracy import accuracy_figure
     from plot_data import FileProblem, Output
     from plot_figures import paper_figure
     from plot_generic import generic_figure
@@ -22,7 +24,7 @@ def command_line():
     parser = argparse.ArgumentParser(description=__doc__, allow_abbrev=False,
                                      epilog="Exit codes: 0 done, 2 wrong command line, 74 a file cannot be read or "
                                             "written.")
-    parser.add_argument("files", nargs="+", metavar="FILE.h5", help="output of 'clatter run'")
+    parser.add_argument("files", nargs="+", metavar="FILE.h5", help="output of 'clatter run' or 'clatter accuracy'")
     parser.add_argument("-o", "--output", metavar="DIR", help="folder for the pictures; default: beside each file")
     parser.add_argument("--format", nargs="+", choices=sorted(DATELESS), default=["svg", "png"], metavar="svg|png|pdf",
                         help="one or more formats; default: svg png")
@@ -31,9 +33,7 @@ def command_line():
 
 def draw(path, folder, formats):
     """Draws one file and returns the pictures' names."""
-    output = Output(path)
-    figure = (paper_figure(output) or generic_figure)(output)
-    plot_style.heading(figure, output)
+    figure = figure_of(Output(path))
     folder = Path(folder) if folder else Path(path).parent
     pictures = []
     for kind in dict.fromkeys(formats):
@@ -45,6 +45,15 @@ def draw(path, folder, formats):
         pictures.append(str(picture))
     pyplot.close(figure)
     return pictures
+
+
+def figure_of(output):
+    """The figure, with its heading, that suits what the file contains."""
+    if output.is_study:
+        return accuracy_figure(output)
+    figure = (paper_figure(output) or generic_figure)(output)
+    plot_style.heading(figure, output)
+    return figure
 
 
 def main():

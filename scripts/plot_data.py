@@ -1,4 +1,4 @@
-"""Reads what `clatter run` wrote: variables with named dimensions, and the scene that made them."""
+"""Reads what `clatter run` or `clatter accuracy` wrote: variables with named dimensions, and the scene behind them."""
 
 import re
 import tomllib
@@ -8,6 +8,7 @@ import h5py
 import numpy as np
 
 PAPER = "10.5755/j02.mech.32277"
+WANTED = "give a file that 'clatter run' or 'clatter accuracy' wrote"
 FIRST_FAILURE = 16  # status values from here on are failures
 
 
@@ -37,8 +38,9 @@ class Output:
             self.config = tomllib.loads(text(file.attrs["config"]))
             self.variables = {name: read_variable(item) for name, item in file.items()
                               if isinstance(item, h5py.Dataset) and not is_bare_dimension(item)}
-            self.meanings = status_meanings(file["status"])
-        self.axes = self["status"].dims
+            self.meanings = flag_meanings(file["status"])
+            self.methods = flag_meanings(file["method"]) if "method" in file else {}
+        self.axes = tuple(name for name in self["status"].dims if name != "row")
         self.scene = self.config.get("scene", {})
 
     def __contains__(self, name):
@@ -53,13 +55,18 @@ class Output:
     @property
     def shape(self):
         """Points along each axis of the sweep."""
-        return self.values("status").shape
+        return self.values("status").shape[:len(self.axes)]
+
+    @property
+    def is_study(self):
+        """Whether this is a study of what accuracy costs: rows of methods at every point of the sweep."""
+        return "method" in self and "ns_per_period" in self
 
     @property
     def figure(self):
         """Number of the paper's figure that this file is, or None."""
         match = re.search(r"\bFig\.\s*(\d+)\s*$", self.source)
-        return int(match.group(1)) if match and PAPER in self.source else None
+        return int(match.group(1)) if match and PAPER in self.source and not self.is_study else None
 
     @property
     def follow(self):
@@ -112,12 +119,12 @@ def open_clatter(path):
     except PermissionError:
         raise FileProblem(f"{path}: not readable; check its permissions") from None
     except OSError:
-        raise FileProblem(f"{path}: not an HDF5 file; give a file that 'clatter run' wrote") from None
+        raise FileProblem(f"{path}: not an HDF5 file; {WANTED}") from None
     schema = text(file.attrs.get("clatter_schema", ""))
     if schema != "clatter/1" or "status" not in file or "config" not in file.attrs:
         file.close()
         found = f"its schema is '{schema}'" if schema else "it has no attribute clatter_schema"
-        raise FileProblem(f"{path}: not a clatter/1 file ({found}); give a file that 'clatter run' wrote")
+        raise FileProblem(f"{path}: not a clatter/1 file ({found}); {WANTED}")
     return file
 
 
@@ -138,7 +145,7 @@ def read_variable(item):
                     text(item.attrs.get("long_name", name)), text(item.attrs.get("units", "1")))
 
 
-def status_meanings(status):
-    """Meaning of each status value, e.g. {1: 'aperiodic'}."""
-    values = np.atleast_1d(status.attrs.get("flag_values", []))
-    return dict(zip((int(value) for value in values), text(status.attrs.get("flag_meanings", "")).split()))
+def flag_meanings(item):
+    """Meaning of each value of a status or method, e.g. {1: 'aperiodic'}."""
+    values = np.atleast_1d(item.attrs.get("flag_values", []))
+    return dict(zip((int(value) for value in values), text(item.attrs.get("flag_meanings", "")).split()))

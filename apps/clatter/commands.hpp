@@ -32,6 +32,7 @@ struct Command {
 
 [[nodiscard]] Command run_command();
 [[nodiscard]] Command plan_command();
+[[nodiscard]] Command accuracy_command();
 [[nodiscard]] Command info_command();
 [[nodiscard]] Command defaults_command();
 [[nodiscard]] Command help_command();

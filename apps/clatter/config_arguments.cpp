@@ -1,8 +1,10 @@
 #include "config_arguments.hpp"
 
 #include <charconv>
+#include <filesystem>
 
 #include "io/suggestion.hpp"
+#include "progress.hpp"
 
 namespace clatter {
 
@@ -27,6 +29,24 @@ int threads_of(const Arguments& arguments) {
     throw UsageError("--threads " + in_quotes(*word) + "; permitted: a whole number from 1 to 1024");
   }
   return threads;
+}
+
+bool progress_wanted(const Arguments& arguments) {
+  const std::string when = arguments.value("progress").value_or("auto");
+  if (when == "always" || when == "never") return when == "always";
+  if (when == "auto") return stderr_is_terminal() && !arguments.has("quiet");
+  throw UsageError("--progress " + in_quotes(when) + "; permitted: auto, always, never");
+}
+
+std::string output_of(const Arguments& arguments) {
+  const std::filesystem::path config(arguments.operands[0]);
+  return arguments.value("output").value_or(config.stem().string() + ".h5");
+}
+
+void check_not_config(const std::string& config, const std::string& output) {
+  std::error_code error;
+  if (!std::filesystem::equivalent(config, output, error)) return;
+  throw UsageError("the output " + in_quotes(output) + " is the configuration itself; name another file with -o");
 }
 
 }  // namespace clatter

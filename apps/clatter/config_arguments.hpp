@@ -16,4 +16,18 @@ inline const Option threads_option{"threads", 0, "N", "threads, 1 to 1024; defau
 /// What --threads says; 0 where it isn't given. Throws UsageError.
 [[nodiscard]] int threads_of(const Arguments& arguments);
 
+/// Options of the commands that write a file.
+inline const Option output_option{"output", 'o', "FILE.h5",
+                                  "where the results go; default: the configuration's name with .h5, here"};
+inline const Option progress_option{"progress", 0, "WHEN", "auto (on a terminal), always, never"};
+
+/// Whether progress is to be shown. Throws UsageError.
+[[nodiscard]] bool progress_wanted(const Arguments& arguments);
+
+/// The file that -o names, or the configuration's name with .h5.
+[[nodiscard]] std::string output_of(const Arguments& arguments);
+
+/// Results must not take the place of the configuration. Throws UsageError.
+void check_not_config(const std::string& config, const std::string& output);
+
 }  // namespace clatter

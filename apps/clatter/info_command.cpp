@@ -55,7 +55,7 @@ void print_text(const FileSummary& summary) {
   }
   std::cout << "\nVariables\n";
   print_variables(summary);
-  std::cout << "\nPoints by status\n";
+  std::cout << "\nRuns by status\n";
   for (const auto& [meaning, count] : summary.status_counts) std::cout << "  " << column(meaning, 12) << count << '\n';
 }
 

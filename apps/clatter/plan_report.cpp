@@ -93,7 +93,7 @@ void put_group(std::ostringstream& out, const Group& group) {
 std::string plan_text(const Plan& plan, const Sweep& sweep, int threads) {
   std::string text = line("axes", axes_text(sweep)) + line("points", std::to_string(plan.points)) +
                      line("observed", joined(plan.observed));
-  if (sweep.scene.all_effects)
+  if (sweep.scene.integration.all_effects)
     text += line("effects", "all are simulated, for all of max_periods (integrator.effects = all); called for are:");
   for (const Group& group : plan.groups) text += group_text(group);
   text += '\n' + line("estimated time", range(seconds_of(plan, threads), "%.2g") + " s on " +
@@ -120,7 +120,7 @@ std::string plan_json(const Plan& plan, const Sweep& sweep, int threads) {
   out << (sweep.follow ? json_text(std::string(key_of(sweep.dimensions[*sweep.follow].front().parameter))) : "null");
   out << ",\n  \"observed\": ";
   list(out, plan.observed, [&](const std::string& name) { out << json_text(name); });
-  out << ",\n  \"all_effects\": " << (sweep.scene.all_effects ? "true" : "false") << ",\n  \"groups\": ";
+  out << ",\n  \"all_effects\": " << (sweep.scene.integration.all_effects ? "true" : "false") << ",\n  \"groups\": ";
   list(out, plan.groups, [&](const Group& group) { put_group(out, group); });
   out << ",\n  \"threads\": " << threads << ",\n  \"seconds\": " << estimate_json(seconds_of(plan, threads))
       << ",\n  \"output_bytes\": " << json_number(plan.output_bytes)

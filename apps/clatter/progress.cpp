@@ -33,7 +33,7 @@ std::string clock_text(double seconds) {
 
 bool stderr_is_terminal() { return isatty(STDERR_FILENO) == 1; }
 
-Progress::Progress(bool shown) : shown_(shown), color_(color_wanted()) {}
+Progress::Progress(bool shown, const char* counted) : shown_(shown), counted_(counted), color_(color_wanted()) {}
 
 Progress::~Progress() {
   if (shown_) std::fputs(stderr_is_terminal() ? erase_line : "\n", stderr);
@@ -47,8 +47,8 @@ void Progress::show(std::size_t finished, std::size_t total) const {
   const std::string bar = (color_ ? "\033[32m" : "") + std::string(filled, '#') + (color_ ? "\033[0m" : "") +
                           std::string(width - filled, '.');
   const std::string left = rate > 0 ? clock_text(static_cast<double>(total - finished) / rate) : "-:--:--";
-  std::fprintf(stderr, "\r[%s] %3zu %%  %zu/%zu points  %.0f points/s  %s left", bar.c_str(), 100 * finished / total,
-               finished, total, rate, left.c_str());
+  std::fprintf(stderr, "\r[%s] %3zu %%  %zu/%zu %s  %.0f %s/s  %s left", bar.c_str(), 100 * finished / total, finished,
+               total, counted_, rate, counted_, left.c_str());
   std::fflush(stderr);
 }
 

@@ -5,10 +5,10 @@
 
 namespace clatter {
 
-/// A bar on stderr with points per second and the time left; it erases itself at its end.
+/// A bar on stderr with points, or what else is counted, per second and the time left; it erases itself at its end.
 class Progress {
  public:
-  explicit Progress(bool shown);
+  explicit Progress(bool shown, const char* counted = "points");
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
   ~Progress();
@@ -17,6 +17,7 @@ class Progress {
 
  private:
   bool shown_;
+  const char* counted_;
   bool color_;
   std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
 };

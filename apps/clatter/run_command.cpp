@@ -1,4 +1,3 @@
-#include <filesystem>
 #include <iostream>
 
 #include "commands.hpp"
@@ -7,7 +6,6 @@
 #include "io/config.hpp"
 #include "io/figure_file.hpp"
 #include "io/publish.hpp"
-#include "io/suggestion.hpp"
 #include "plan_report.hpp"
 #include "progress.hpp"
 #include "run_report.hpp"
@@ -15,25 +13,6 @@
 
 namespace clatter {
 namespace {
-
-bool progress_wanted(const Arguments& arguments) {
-  const std::string when = arguments.value("progress").value_or("auto");
-  if (when == "always" || when == "never") return when == "always";
-  if (when == "auto") return stderr_is_terminal() && !arguments.has("quiet");
-  throw UsageError("--progress " + in_quotes(when) + "; permitted: auto, always, never");
-}
-
-std::string output_of(const Arguments& arguments) {
-  const std::filesystem::path config(arguments.operands[0]);
-  return arguments.value("output").value_or(config.stem().string() + ".h5");
-}
-
-/// The results must not take the place of the configuration.
-void check_not_config(const std::string& config, const std::string& output) {
-  std::error_code error;
-  if (!std::filesystem::equivalent(config, output, error)) return;
-  throw UsageError("the output " + in_quotes(output) + " is the configuration itself; name another file with -o");
-}
 
 /// Too late to find out at the end of a run.
 void check_memory(const Sweep& sweep) {
@@ -78,21 +57,20 @@ constexpr std::string_view examples =
 }  // namespace
 
 Command run_command() {
-  return {
-      .name = "run",
-      .usage = "run CONFIG [OPTION]...",
-      .summary = "run a configuration and write its results as HDF5",
-      .examples = examples,
-      .operands = {"CONFIG"},
-      .required_operands = 1,
-      .options = {{"output", 'o', "FILE.h5", "where the results go; default: the configuration's name with .h5, here"},
-                  set_option,
-                  threads_option,
-                  {"progress", 0, "WHEN", "auto (on a terminal), always, never"},
-                  {"quiet", 'q', "", "print errors only"},
-                  {"verbose", 'v', "", "print the plan before, and after it what was used, host and times"},
-                  {"help", 'h', "", "print this help"}},
-      .run = run_config};
+  return {.name = "run",
+          .usage = "run CONFIG [OPTION]...",
+          .summary = "run a configuration and write its results as HDF5",
+          .examples = examples,
+          .operands = {"CONFIG"},
+          .required_operands = 1,
+          .options = {output_option,
+                      set_option,
+                      threads_option,
+                      progress_option,
+                      {"quiet", 'q', "", "print errors only"},
+                      {"verbose", 'v', "", "print the plan before, and after it what was used, host and times"},
+                      {"help", 'h', "", "print this help"}},
+          .run = run_config};
 }
 
 }  // namespace clatter

@@ -9,9 +9,11 @@
 namespace clatter {
 
 /// Motion without impact from a given instant on, in closed form (eq. 3).
-template <class Number, Effects E>
+template <class N, Effects E>
 class Arc {
  public:
+  using Number = N;
+
   /// Starts at displacement x, velocity v, phase (sine, cosine) and acceleration a, which the equation of motion gives
   /// or a release makes 0.
   Arc(const Flow<Number, E>& flow, const Motion<Number>& start) : Arc(flow, start, start.x) {}

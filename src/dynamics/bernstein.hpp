@@ -26,6 +26,44 @@ template <class Number>
   return {Number(0), v0 / 6, v0 / 3 + a0 / 30, (left + right) / 2, rise - v1 / 3 + a1 / 30, rise - v1 / 6, rise};
 }
 
+/// The polynomial of degree 5 that has value and slope {y, y'} at both ends of a step and the values `thirds` at a
+/// third and two thirds of it, as Bernstein coefficients, its degree raised by one.
+[[nodiscard]] inline Bernstein<double> quintic(double step, const std::array<double, 2>& first,
+                                               const std::array<double, 2>& last, const std::array<double, 2>& thirds) {
+  const double b0 = first[0], b1 = b0 + step * first[1] / 5, b5 = last[0], b4 = b5 - step * last[1] / 5;
+  const double left = (243 * thirds[0] - 32 * b0 - 80 * b1 - 10 * b4 - b5) / 40;   // 2 b2 + b3
+  const double right = (243 * thirds[1] - b0 - 10 * b1 - 80 * b4 - 32 * b5) / 40;  // b2 + 2 b3
+  const double b2 = (2 * left - right) / 3, b3 = (2 * right - left) / 3;
+  return {b0, (b0 + 5 * b1) / 6, (b1 + 2 * b2) / 3, (b2 + b3) / 2, (2 * b3 + b4) / 3, (5 * b4 + b5) / 6, b5};
+}
+
+/// The polynomial of degree 3 that has value and slope {y, y'} at both ends of a step, its degree raised to 6.
+[[nodiscard]] inline Bernstein<double> cubic(double step, const std::array<double, 2>& first,
+                                             const std::array<double, 2>& last) {
+  const double b0 = first[0], b1 = b0 + step * first[1] / 3, b3 = last[0], b2 = b3 - step * last[1] / 3;
+  return {b0,
+          (b0 + b1) / 2,
+          (b0 + 3 * b1 + b2) / 5,
+          (b0 + 9 * b1 + 9 * b2 + b3) / 20,
+          (b1 + 3 * b2 + b3) / 5,
+          (b2 + b3) / 2,
+          b3};
+}
+
+/// Splits a polynomial at u: coefficients of the part before; `c` becomes those of the part after. The value at u is
+/// the last of the first part (de Casteljau).
+[[nodiscard]] inline Bernstein<double> split_off(Bernstein<double>& c, double u) {
+  Bernstein<double> before;
+  for (std::size_t n = c.size(); n-- > 0;) {
+    before[c.size() - 1 - n] = c[0];
+    for (std::size_t i = 0; i < n; ++i) c[i] += u * (c[i + 1] - c[i]);
+  }
+  return before;
+}
+
+/// The value at u.
+[[nodiscard]] inline double value_at(Bernstein<double> c, double u) { return split_off(c, u).back(); }
+
 /// What the middle coefficient is uncertain by, for step^6 |y^(6)| <= bound over the step.
 template <class Number>
 [[nodiscard]] Number hermite_error(const Number& bound) {

@@ -121,6 +121,21 @@ decltype(auto) with_effects(const Effects& effects, Function&& function) {
   return function.template operator()<compiled_effects[candidate]>();
 }
 
+/// What general methods simulate of every scene; damping only tells how small changes of a motion decay.
+[[nodiscard]] constexpr Effects general_effects(double h) {
+  const Damping damping = h == 0 ? Damping::none : h < 1 ? Damping::light : Damping::heavy;
+  return kernels::complete(damping, Forcing::regular);
+}
+
+/// Calls `function.operator()<effects>()` for what general methods simulate of an oscillator.
+template <class Function>
+decltype(auto) with_general_effects(const Oscillator& oscillator, Function&& function) {
+  const Damping damping = general_effects(oscillator.damping).damping;
+  if (damping == Damping::none) return function.template operator()<general_effects(0.0)>();
+  if (damping == Damping::light) return function.template operator()<general_effects(0.5)>();
+  return function.template operator()<general_effects(1.0)>();
+}
+
 /// Calls `function.operator()<kernel>()` for an oscillator between any stops: one of the eight complete sets.
 template <class Function>
 decltype(auto) with_any_stops(const Oscillator& oscillator, Function&& function) {

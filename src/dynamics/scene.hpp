@@ -35,11 +35,25 @@ struct Observe {
   std::int64_t harmonics = 0;  ///< highest harmonic K, 0: none observed
   HarmonicsMethod harmonics_method = HarmonicsMethod::fft;
   std::int64_t harmonics_samples = 4096;  ///< FFT samples over the observed time
+  double base_frequency = 0.0;            ///< of harmonics; 0: the force's, without forcing the motion's own
   bool impacts = false;
   bool impact_log = false;
+  bool rest_log = false;        ///< every rest and completed chatter
   std::int64_t trajectory = 0;  ///< samples over the observed time, both ends included; 0: none
   bool period = false;
   bool stability = false;
+};
+
+enum class Method : std::uint8_t { exact, dopri5, moreau };
+
+/// How arcs, impacts and rests are computed.
+struct Integration {
+  Method method = Method::exact;
+  double tolerance = 1e-10;  ///< dopri5: error of a step, relative to the motion
+  double step = 1e-3;        ///< moreau: in forcing periods
+  double theta = 0.5;        ///< moreau: share of a step's end in its mean, 0 ... 1
+  bool shortcuts = true;     ///< exact: settle by closed forms and Newton's method where they hold
+  bool all_effects = false;  ///< simulate every effect and take no shortcut, to compare with
 };
 
 /// One point of a sweep: everything its motion and its results depend on.
@@ -49,7 +63,7 @@ struct Scene {
   Start start;
   TimePlan time;
   Observe observe;
-  bool all_effects = false;  ///< simulate every effect and take no shortcut, to compare with
+  Integration integration;
 };
 
 /// What became of a point; from `event_budget` on it has failed.

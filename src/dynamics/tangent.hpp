@@ -22,8 +22,8 @@ class Tangent {
  public:
   explicit Tangent(const Stops& stops) : stops_(stops) {}
 
-  template <Effects E>
-  void arc(const Arc<Number, E>& arc, double, double length) {
+  template <class A>
+  void arc(const A& arc, double, double length) {
     const auto& flow = arc.flow();
     multiply(power_of(flow, Number(length)));
     h_ = flow.h, force_ = flow.load + flow.acceleration(Number(0), Number(0), arc.phase_after(Number(length)).sine);

@@ -7,6 +7,7 @@
 #include <limits>
 #include <optional>
 
+#include "integrators/exact.hpp"
 #include "integrators/repeat.hpp"
 #include "integrators/run.hpp"
 #include "integrators/section_watch.hpp"

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <cstdint>
 
-#include "integrators/exact.hpp"
+#include "integrators/setup.hpp"
 
 namespace clatter {
 
@@ -19,19 +19,20 @@ namespace clatter {
 }
 
 /// Runs to the next section.
-template <class Number, Effects E, class Observer>
-[[nodiscard]] Outcome advance_to_section(Exact<Number, E>& integrator, State<Number>& state, std::int64_t origin,
-                                         Observer& observer) {
-  const Outcome outcome = integrator.advance(state, Number(1), origin, observer);
+template <class Integrator, class Observer>
+[[nodiscard]] Outcome advance_to_section(Integrator& integrator, State<typename Integrator::Number>& state,
+                                         std::int64_t origin, Observer& observer) {
+  const Outcome outcome = integrator.advance(state, typename Integrator::Number(1), origin, observer);
   state.turns = 0;
   ++state.periods;
   return outcome;
 }
 
 /// Runs for a time in turns, starting at a section, under the eyes of an observer.
-template <class Number, Effects E, class Observer>
-[[nodiscard]] Outcome run_for(Exact<Number, E>& integrator, State<Number>& state, const Number& turns,
-                              Observer& observer) {
+template <class Integrator, class Observer>
+[[nodiscard]] Outcome run_for(Integrator& integrator, State<typename Integrator::Number>& state,
+                              const typename Integrator::Number& turns, Observer& observer) {
+  using Number = typename Integrator::Number;
   using std::floor;
   const std::int64_t origin = state.periods;
   Number left = floor(turns);

@@ -7,10 +7,10 @@
 
 namespace clatter {
 
-/// Runs forced motion for all of max_periods and looks for a repeat only then: what shortcuts are compared with.
-template <Effects E>
-[[nodiscard]] Observed settle_without_shortcut(Exact<double, E>& integrator, State<double> state,
-                                               const TimePlan& plan) {
+/// Runs forced motion until it repeats, and looks for that from a section on.
+template <class Integrator>
+[[nodiscard]] Observed settle_by_repetition(Integrator& integrator, State<double> state, const TimePlan& plan,
+                                            std::int64_t from) {
   constexpr auto longest = static_cast<std::int64_t>(RepeatFinder::longest);
   NoObserver nobody;
   RepeatFinder repeat(plan.tolerance);
@@ -18,7 +18,7 @@ template <Effects E>
   for (std::int64_t section = 0;; ++section) {
     const auto settled = static_cast<double>(section);
     recent[static_cast<std::size_t>(section % longest)] = state;
-    if (section >= plan.max_periods - 3 * longest) {
+    if (section >= from) {
       if (const std::size_t n = repeat.add(state.x, state.v)) {
         const auto chosen = section - static_cast<std::int64_t>(repeat.lowest_of_last(n));
         return {Status::periodic, recent[static_cast<std::size_t>(chosen % longest)], static_cast<double>(n), settled,
@@ -32,16 +32,23 @@ template <Effects E>
   }
 }
 
-/// The time to observe of a scene that starts from `state`.
-template <Effects E>
-[[nodiscard]] Observed settle(Exact<double, E>& integrator, const State<double>& state, const Scene& scene) {
+/// The time to observe of a scene that starts from `state`. General methods know no shortcut; nor is one taken where
+/// all effects are asked for, to compare with: it is run for all of max_periods then, and a repeat looked for at their
+/// end.
+template <class Integrator>
+[[nodiscard]] Observed settle(Integrator& integrator, const State<double>& state, const Scene& scene) {
+  constexpr Effects E = Integrator::effects;
   if (scene.time.mode == Mode::transient)
     return {Status::transient, state, scene.time.duration / integrator.period(), 0.0, FoundBy::start};
   const bool forced = E.forcing != Forcing::none && scene.oscillator.forcing != 0;
-  if (!forced) return FreeSearch<E>(integrator, scene).run(state);
+  if (!forced) return FreeSearch(integrator, scene).run(state);
   if constexpr (E.forcing != Forcing::none) {
-    if (scene.all_effects) return settle_without_shortcut(integrator, state, scene.time);
-    return SteadySearch<E>(integrator, scene).run(state);
+    constexpr auto longest = static_cast<std::int64_t>(RepeatFinder::longest);
+    if (scene.integration.all_effects)
+      return settle_by_repetition(integrator, state, scene.time, scene.time.max_periods - 3 * longest);
+    if constexpr (Integrator::in_closed_form)
+      if (scene.integration.shortcuts) return SteadySearch<E>(integrator, scene).run(state);
+    return settle_by_repetition(integrator, state, scene.time, 0);
   }
   return {};
 }

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "dynamics/reach.hpp"
+#include "integrators/exact.hpp"
 #include "integrators/observed.hpp"
 #include "integrators/period_map.hpp"
 

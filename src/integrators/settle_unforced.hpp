@@ -13,12 +13,11 @@
 namespace clatter {
 
 /// Runs unforced motion until it returns to the same speed on the same stop, turns freely, or comes to stand still;
-/// where nothing is lost, its period follows from the start.
-template <Effects E>
+/// in closed form, where nothing is lost, its period follows from the start.
+template <class Integrator>
 class FreeSearch {
  public:
-  FreeSearch(Exact<double, E>& integrator, const Scene& scene)
-      : integrator_(integrator), scene_(scene), returns_(scene) {}
+  FreeSearch(Integrator& integrator, const Scene& scene) : integrator_(integrator), scene_(scene), returns_(scene) {}
 
   [[nodiscard]] Observed run(State<double> state) {
     const State<double> start = state;
@@ -26,7 +25,7 @@ class FreeSearch {
     for (std::int64_t section = 0;; ++section) {
       const auto settled = static_cast<double>(section);
       if (stands_still(state)) return {Status::periodic, state, 1.0, settled, FoundBy::standstill};
-      if (!scene_.all_effects) {
+      if (Integrator::in_closed_form && !all_effects()) {
         const double turns = section == 0 && conservative() ? free_turns(start) : 0.0;
         if (turns > shortest) return {Status::periodic, start, turns, 0.0, FoundBy::energy};
         if (const auto found = closed_form(state, section)) return *found;
@@ -36,7 +35,7 @@ class FreeSearch {
       returns_.begin_period(integrator_.period());
       const Outcome outcome = advance_to_section(integrator_, state, state.periods, returns_);
       if (outcome != Outcome::completed) return {status_of(outcome), state, 0.0, settled, FoundBy::nothing};
-      if (integrator_.holding_stop(state) || (scene_.all_effects && section + 1 < most)) continue;
+      if (integrator_.holding_stop(state) || (all_effects() && section + 1 < most)) continue;
       const double turns = returns_.free_rotation() ? 1.0 : returns_.period() / integrator_.period();
       if (turns > 0)
         return {Status::periodic, returns_.conserved() ? start : state, turns, settled + 1, FoundBy::repetition};
@@ -44,6 +43,7 @@ class FreeSearch {
   }
 
  private:
+  [[nodiscard]] bool all_effects() const { return scene_.integration.all_effects; }
   [[nodiscard]] bool stands_still(const State<double>& state) const {
     return returns_.stands_still(state.x, state.v, integrator_.holding_stop(state).has_value());
   }
@@ -63,7 +63,7 @@ class FreeSearch {
   [[nodiscard]] std::optional<Observed> closed_form(const State<double>& state, std::int64_t section) const {
     const Oscillator& o = scene_.oscillator;
     const Instant now{state.x - o.load, state.v, 0.0, 1.0};
-    if (E.stops() && !out_of_reach(o, now, integrator_.stops())) return std::nullopt;
+    if (Integrator::effects.stops() && !out_of_reach(o, now, integrator_.stops())) return std::nullopt;
     const auto settled = static_cast<double>(section);
     if (o.damping == 0) return Observed{Status::periodic, state, 1.0, settled, FoundBy::closed_form};
     const double time = static_cast<double>(scene_.time.max_periods - section) * integrator_.period();
@@ -75,7 +75,7 @@ class FreeSearch {
   }
 
   static constexpr double shortest = 16 * std::numeric_limits<double>::epsilon();  ///< turns that time can tell apart
-  Exact<double, E>& integrator_;
+  Integrator& integrator_;
   const Scene& scene_;
   ReturnMap returns_;
 };

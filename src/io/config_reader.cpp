@@ -37,12 +37,25 @@ Observe observe(const Settings& settings) {
           .stability = settings.flag("observe", "stability")};
 }
 
+Method method(const std::string& name) {
+  if (name == "dopri5") return Method::dopri5;
+  return name == "moreau" ? Method::moreau : Method::exact;
+}
+
+Integration integration(const Settings& settings) {
+  return {.method = method(settings.text("integrator", "method")),
+          .tolerance = settings.number("integrator", "tolerance"),
+          .step = settings.number("integrator", "step"),
+          .theta = settings.number("integrator", "theta"),
+          .all_effects = settings.text("integrator", "effects") == "all"};
+}
+
 /// The scene before any axis is applied; what has no default stays as Scene has it.
 Scene scene_of(const Settings& settings) {
   Scene scene;
   scene.time = time_plan(settings);
   scene.observe = observe(settings);
-  scene.all_effects = settings.text("integrator", "effects") == "all";
+  scene.integration = integration(settings);
   for (const Key& key : keys()) {
     const auto parameter = parameter_of(key.name);
     if (key.section != "scene" || !parameter || *parameter == Parameter::start_period) continue;

@@ -22,7 +22,7 @@ constexpr Range zero_to_one{.low = 0, .high = 1};
 
 constexpr std::array<std::string_view, 2> modes{"steady", "transient"};
 constexpr std::array<std::string_view, 2> harmonics_methods{"fft", "exact"};
-constexpr std::array<std::string_view, 1> methods{"exact"};
+constexpr std::array<std::string_view, 3> methods{"exact", "dopri5", "moreau"};
 constexpr std::array<std::string_view, 2> effects{"required", "all"};
 
 using enum Kind;
@@ -96,7 +96,22 @@ constexpr std::array all_keys{
     Key{"observe", "period", flag, "false", "period of the motion, in tau and in forcing periods"},
     Key{"observe", "stability", flag, "false", "multipliers of the periodic motion, largest Lyapunov exponent"},
 
-    Key{"integrator", "method", choice, "exact", "how arcs are computed; exact: in closed form", {}, methods},
+    Key{"integrator",
+        "method",
+        choice,
+        "exact",
+        "exact: closed-form arcs, proved contacts; to compare with, dopri5: Dormand-Prince pair of orders 5 and 4, "
+        "contacts on its dense output; moreau: Moreau-Jean time stepping",
+        {},
+        methods},
+    Key{"integrator", "tolerance", number, "1e-10", "dopri5: error of a step, relative to the motion",
+        Range{.low = 1e-14, .high = 0.1}},
+    Key{"integrator", "step", number, "1e-3", "moreau: in forcing periods, without forcing in 2 pi",
+        Range{.low = 1e-9, .high = 1}},
+    Key{"integrator", "theta", number, "0.5",
+        "moreau: weight of a step's end; 1/2: the trapezoidal rule, 1: implicit Euler; below 1/2 stable only for "
+        "short steps",
+        zero_to_one},
     Key{"integrator",
         "effects",
         choice,
@@ -111,12 +126,14 @@ constexpr std::array all_keys{
 
 constexpr std::array<std::string_view, 6> all_sections{"scene", "sweep", "time", "observe", "integrator", "output"};
 
-/// A bound as people write it: 1e9, not 1e+09.
+/// A bound as people write it: 1e9, not 1e+09, and 1e-9, not 1e-09.
 std::string bound_text(double bound) {
   if (bound == 2 * std::numbers::pi) return "2*pi";
   std::string number = number_text(bound);
-  if (const std::size_t at = number.find("e+"); at != std::string::npos)
-    number.erase(at + 1, number[at + 2] == '0' ? 2 : 1);
+  const std::size_t at = number.find('e');
+  if (at == std::string::npos) return number;
+  if (number[at + 2] == '0') number.erase(at + 2, 1);
+  if (number[at + 1] == '+') number.erase(at + 1, 1);
   return number;
 }
 

@@ -7,6 +7,7 @@
 
 #include "dynamics/arc.hpp"
 #include "dynamics/bernstein.hpp"
+#include "dynamics/polynomial_arc.hpp"
 #include "dynamics/stops.hpp"
 
 namespace clatter {
@@ -32,6 +33,15 @@ class Extrema {
     search<0>(arc, from, to);
     search<1>(arc, from, to);
   }
+  template <Polynomial A>
+  void arc(const A& arc, double, double length) {
+    const double part = arc.length() > 0 ? length / arc.length() : 0.0;
+    Bernstein<double> rise = arc.rise(), velocity = arc.velocity();
+    rise = split_off(rise, part), velocity = split_off(velocity, part);
+    include(x_, rise, arc.anchor(), most_halvings);
+    include(v_, velocity, 0.0, most_halvings);
+    ++evaluations_;
+  }
   void rest(const Rest& rest) { x_.include(rest.place), v_.include(0.0); }
   void impact(const Impact& impact) { x_.include(impact.place), v_.include(impact.before), v_.include(impact.after); }
 
@@ -44,6 +54,7 @@ class Extrema {
 
  private:
   static constexpr int max_splits = 1 << 22;  ///< of an arc; only one whose bounds overflow comes near it
+  static constexpr int most_halvings = 52;    ///< of a polynomial's step
 
   struct Place {
     double s;
@@ -56,6 +67,18 @@ class Extrema {
     return arc.at(s);
   }
   void include(const Motion<double>& m) { x_.include(m.x), v_.include(m.v); }
+
+  /// A polynomial over a step, which lies within the range of its coefficients.
+  static void include(Range& range, Bernstein<double> y, double offset, int halvings) {
+    range.include(offset + y.front()), range.include(offset + y.back());
+    const auto [least, greatest] = std::ranges::minmax(y);
+    const double low = offset + least, high = offset + greatest;
+    const double rounding = 4 * epsilon<double>() * std::max(std::abs(low), std::abs(high));
+    if (!(high > range.high + rounding || low < range.low - rounding) || halvings == 0) return;
+    const Bernstein<double> left = split_off(y, 0.5);
+    include(range, left, offset, halvings - 1);
+    include(range, y, offset, halvings - 1);
+  }
 
   /// What is searched (order 0: displacement, 1: velocity) with its first two derivatives.
   template <int order, Effects E>

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "dynamics/arc.hpp"
+#include "dynamics/polynomial_arc.hpp"
 
 namespace clatter {
 
@@ -33,7 +34,7 @@ struct Spectrum {
 /// With w = k Omega, integrating eq. 3 by parts over an arc gives its part of the integral of x e^{-iw tau},
 /// Z X = int (f sin theta + load) e^{-iw tau} - [(x' + (iw + 2h) x) e^{-iw tau}],  Z = 1 - w^2 + 2ihw (physics.md,
 /// check 6, is their sum). Where Z is small, at a resonance, the right-hand side cancels, and Gauss-Legendre quadrature
-/// takes its place, exact to rounding.
+/// takes its place, exact to rounding; so it does for arcs by polynomials, which fulfil eq. 3 only to their error.
 class ExactHarmonics {
  public:
   using Complex = std::complex<double>;
@@ -41,6 +42,15 @@ class ExactHarmonics {
   /// Harmonics 0 ... K of the base frequency, over the observed time.
   ExactHarmonics(std::size_t highest, double base_frequency) : base_(base_frequency), x_(highest + 1) {}
 
+  template <Polynomial A>
+  void arc(const A& arc, double begin, double length) {
+    if (!(begin > 0.0)) first_x_ = arc.start().x;
+    for (std::size_t k = 0; k < x_.size(); ++k) {
+      const double w = base_ * static_cast<double>(k);
+      x_[k] += length * (arc.flow().rate + w) < 1 ? quadrature<10>(arc, w, begin, length)
+                                                  : quadrature<20>(arc, w, begin, length);
+    }
+  }
   template <Effects E>
   void arc(const Arc<double, E>& arc, double begin, double length) {
     const Motion<double>& first = arc.start();
@@ -51,7 +61,7 @@ class ExactHarmonics {
       const double w = base_ * static_cast<double>(k), h = arc.flow().h;
       const Complex z(1 - w * w, 2 * h * w);
       if (std::norm(z) < 1.0 / 64) {
-        x_[k] += quadrature(arc, w, begin, length);
+        x_[k] += quadrature<20>(arc, w, begin, length);
         continue;
       }
       const Complex slope(2 * h, w);
@@ -104,14 +114,14 @@ class ExactHarmonics {
     return sum;
   }
 
-  /// The same integral by panels in which nothing turns by more than a few radians.
-  template <Effects E>
-  [[nodiscard]] Complex quadrature(const Arc<double, E>& arc, double w, double begin, double length) {
-    using Rule = boost::math::quadrature::gauss<double, 20>;
+  /// Integral of x e^{-i w tau} over an arc by panels in which nothing turns by more than a few radians.
+  template <unsigned points, class A>  // points: even
+  [[nodiscard]] Complex quadrature(const A& arc, double w, double begin, double length) {
+    using Rule = boost::math::quadrature::gauss<double, points>;
     const auto panels = static_cast<std::size_t>(std::ceil(length * (arc.flow().rate + w) / 4));
     const double half = length / static_cast<double>(panels) / 2;
     Complex sum = 0;
-    evaluations_ += static_cast<double>(panels) * 20;
+    evaluations_ += static_cast<double>(panels) * points;
     const auto add = [&](double s, double weight) { sum += weight * arc.at(s).x * turn(w * (begin + s)); };
     for (std::size_t panel = 0; panel < panels; ++panel)
       for (std::size_t i = 0; i < Rule::abscissa().size(); ++i) {

@@ -58,4 +58,18 @@ class ImpactLog {
   std::vector<Impact> impacts_;
 };
 
+/// Keeps every rest and completed chatter.
+class RestLog {
+ public:
+  template <class A>
+  void arc(const A&, double, double) {}
+  void rest(const Rest& rest) { rests_.push_back(rest); }
+  void impact(const Impact&) {}
+
+  [[nodiscard]] std::vector<Rest>& rests() { return rests_; }
+
+ private:
+  std::vector<Rest> rests_;
+};
+
 }  // namespace clatter

@@ -18,8 +18,8 @@ class Stability {
 
   explicit Stability(const Stops& stops) : tangent_(stops) {}
 
-  template <Effects E>
-  void arc(const Arc<double, E>& arc, double begin, double length) {
+  template <class A>
+  void arc(const A& arc, double begin, double length) {
     tangent_.arc(arc, begin, length);
     ++evaluations_;
   }

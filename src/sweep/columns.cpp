@@ -45,13 +45,36 @@ std::string name_of(const Dimension& dimension) { return std::string(key_of(dime
 
 }  // namespace
 
+void add_axes(const Sweep& sweep, Figure& figure) {
+  for (const Dimension& dimension : sweep.dimensions) {
+    figure.dimensions.push_back({name_of(dimension), length(dimension)});
+    for (const Axis& axis : dimension)
+      figure.variables.push_back({std::string(key_of(axis.parameter)),
+                                  {name_of(dimension)},
+                                  axis.values,
+                                  long_name_of(axis.parameter),
+                                  axis.parameter == Parameter::phase ? "rad" : "1"});
+  }
+}
+
+std::vector<std::string> axis_names(const Sweep& sweep) {
+  std::vector<std::string> names;
+  for (const Dimension& dimension : sweep.dimensions) names.push_back(name_of(dimension));
+  return names;
+}
+
+std::vector<Attribute> status_flags() {
+  return {{"flag_values", std::vector<std::uint8_t>{0, 1, 2, 16, 17, 18}},
+          {"flag_meanings", "periodic aperiodic transient event_budget not_finite unresolved"}};
+}
+
 Columns::Columns(const Sweep& sweep)
     : sweep_(sweep),
+      axes_(axis_names(sweep)),
       status_(size(sweep), static_cast<std::uint8_t>(Status::unresolved)),
       impacts_(status_.size(), 0),
       periods_(status_.size(), 0.0),
       outputs_(outputs_of(sweep.scene.observe)) {
-  for (const Dimension& dimension : sweep.dimensions) axes_.push_back(name_of(dimension));
   for (const Output& output : outputs_) values_.emplace_back(status_.size() * output.width, no_value);
   if (sweep.scene.observe.impact_log) log_.resize(status_.size());
 }
@@ -68,15 +91,7 @@ void Columns::add_coordinates(Figure& figure) const {
   const auto coordinate = [&](std::string name, Column values, std::string long_name) {
     figure.variables.push_back({name, {name}, std::move(values), std::move(long_name), "1"});
   };
-  for (const Dimension& dimension : sweep_.dimensions) {
-    figure.dimensions.push_back({name_of(dimension), length(dimension)});
-    for (const Axis& axis : dimension)
-      figure.variables.push_back({std::string(key_of(axis.parameter)),
-                                  {name_of(dimension)},
-                                  axis.values,
-                                  long_name_of(axis.parameter),
-                                  axis.parameter == Parameter::phase ? "rad" : "1"});
-  }
+  add_axes(sweep_, figure);
   const Observe& observe = sweep_.scene.observe;
   if (observe.harmonics > 0) {
     std::vector<std::int64_t> numbers(static_cast<std::size_t>(observe.harmonics) + 1);
@@ -97,9 +112,7 @@ void Columns::add_coordinates(Figure& figure) const {
 
 void Columns::add_always(Figure& figure) {
   figure.variables.push_back({"status", axes_, std::move(status_), "what became of the point", "1"});
-  figure.variables.back().attributes = {
-      {"flag_values", std::vector<std::uint8_t>{0, 1, 2, 16, 17, 18}},
-      {"flag_meanings", "periodic aperiodic transient event_budget not_finite unresolved"}};
+  figure.variables.back().attributes = status_flags();
   figure.variables.push_back({"impact_total", axes_, std::move(impacts_), "impacts simulated", "1"});
   figure.variables.push_back({"simulated_periods", axes_, std::move(periods_), "forcing periods simulated", "1"});
 }

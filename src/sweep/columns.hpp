@@ -24,6 +24,15 @@ struct Output {
 /// ones aside.
 [[nodiscard]] std::vector<Output> outputs_of(const Observe& observe);
 
+/// Adds the sweep's dimensions and the coordinates along them.
+void add_axes(const Sweep& sweep, Figure& figure);
+
+/// Names of the sweep's dimensions.
+[[nodiscard]] std::vector<std::string> axis_names(const Sweep& sweep);
+
+/// Attributes of a `status` that tell what its values mean.
+[[nodiscard]] std::vector<Attribute> status_flags();
+
 /// The results of all points, by index, and the figure they make.
 class Columns {
  public:

@@ -49,15 +49,18 @@ Estimate periods_of(const Scene& scene, const Effects& effects) {
   const Oscillator& o = scene.oscillator;
   const double longest = static_cast<double>(time.max_periods), period = period_of(o);
   if (time.mode == Mode::transient) return {time.duration / period, time.duration / period};
-  if (scene.all_effects) return {std::max(1.0, longest - 192) + 1, longest + static_cast<double>(time.window)};
+  if (scene.integration.all_effects)
+    return {std::max(1.0, longest - 192) + 1, longest + static_cast<double>(time.window)};
+  if (scene.integration.method != Method::exact) return {2, longest + static_cast<double>(time.window)};
   if (!effects.stops() && ends_in_time(scene, longest * period)) return {1, 1};
   if (o.forcing == 0 && o.damping == 0 && !effects.dissipation) return {0, 1};
   return {2, longest * 1.25 + std::min(64.0, longest) + static_cast<double>(time.window)};
 }
 
 /// Evaluations of arcs in a forcing period, from the length of the steps that are proved free of contact; two impacts a
-/// period, each worth two.
-double evaluations_of(const Scene& scene, const Effects& effects) {
+/// period, each worth two. The work of general methods counts in forcing periods.
+double work_of_period(const Scene& scene, const Effects& effects) {
+  if (scene.integration.method != Method::exact) return 1;
   const double step = longest_step(counting_frequency(scene.oscillator));
   return effects.stops() ? std::ceil(period_of(scene.oscillator) / step) + 4 : 1;
 }
@@ -90,11 +93,11 @@ struct Collected {
   Effects effects;
   std::size_t points = 0;
   Closest example;
-  Estimate periods, evaluations;
+  Estimate periods, work;
 
   void add(const Collected& other) {
     points += other.points;
-    periods += other.periods, evaluations += other.evaluations;
+    periods += other.periods, work += other.work;
     example.add(other.example);
   }
 };
@@ -119,17 +122,27 @@ struct Survey {
   }
 };
 
+/// Wall time of a unit of work, by a measurement.
+double seconds_of_work(Scene scene, const Effects& effects) {
+  if (scene.integration.method == Method::exact) return seconds_per_evaluation(effects);
+  if (!std::isfinite(scene.start.displacement)) scene.start = {};
+  start_from(scene, std::nullopt);
+  Workshop workshop;
+  return seconds_per_period(scene, workshop);
+}
+
 void look_at(const Sweep& sweep, const Branches& branches, std::size_t point, Survey& survey) {
   const Scene scene = planned_scene(sweep, branches, point);
   const Requirements needs = requirements_of(scene);
-  const Effects effects = scene.all_effects ? all_effects(scene.oscillator.damping) : needs.effects;
+  const bool required = scene.integration.method == Method::exact && !scene.integration.all_effects;
+  const Effects effects = required ? needs.effects : effects_of(scene);
   const Estimate periods = periods_of(scene, effects);
-  const double evaluations = evaluations_of(scene, effects);
+  const double work = work_of_period(scene, effects);
   const Closest to_lower{needs.effects.lower ? 0 : closeness(needs, needs.lower_gap), point},
       to_upper{needs.effects.upper ? 0 : closeness(needs, needs.upper_gap), point};
   Closest example = to_lower;
   example.add(to_upper);
-  survey.add({effects, 1, example, periods, {periods.least * evaluations, periods.most * evaluations}});
+  survey.add({effects, 1, example, periods, {periods.least * work, periods.most * work}});
   survey.lower.add({needs.effects.lower, to_lower}), survey.upper.add({needs.effects.upper, to_upper});
   survey.lasting = survey.lasting || (scene.time.mode == Mode::steady && scene.oscillator.forcing != 0 &&
                                       scene.oscillator.damping == 0 && !needs.effects.dissipation);
@@ -237,13 +250,13 @@ Plan plan_of(const Sweep& sweep, int threads) {
   const Branches branches(sweep);
   plan.branches = branches.count;
   for (const Collected& group : survey.groups) {
-    const double seconds = seconds_per_evaluation(group.effects);
+    const double seconds = seconds_of_work(planned_scene(sweep, branches, group.example.point), group.effects);
     plan.groups.push_back({.effects = group.effects,
                            .points = group.points,
                            .example = group.example.point,
                            .reasons = reasons_of(planned_scene(sweep, branches, group.example.point)),
                            .periods = group.periods,
-                           .seconds = {group.evaluations.least * seconds, group.evaluations.most * seconds}});
+                           .seconds = {group.work.least * seconds, group.work.most * seconds}});
   }
   plan.output_bytes = result_bytes(sweep);
   plan.memory_bytes = run_bytes(sweep);

@@ -21,15 +21,17 @@ inline constexpr double no_value = std::numeric_limits<double>::quiet_NaN();
 struct PointResult {
   Status status = Status::unresolved;
   FoundBy found_by = FoundBy::nothing;
-  double impacts = 0.0;      ///< simulated, settling included
-  double periods = 0.0;      ///< forcing periods simulated, settling included
-  double evaluations = 0.0;  ///< of arcs, settling and observables included
+  double impacts = 0.0;              ///< simulated, settling included
+  double periods = 0.0;              ///< forcing periods simulated, settling included
+  double evaluations = 0.0;          ///< of arcs, settling and observables included
+  double observed_turns = no_value;  ///< forcing periods observed
   double x_min = no_value, x_max = no_value, v_min = no_value, v_max = no_value;
   double base_frequency = no_value;
   Spectrum x_spectrum{}, v_spectrum{};                  ///< shape [harmonic]
   double impacts_per_period[2] = {no_value, no_value};  ///< [stop]
   double v_before[2] = {no_value, no_value}, v_after[2] = {no_value, no_value}, rest_fraction[2] = {no_value, no_value};
   std::vector<Impact> log{};
+  std::vector<Rest> rests{};
   std::vector<double> tau{}, x{}, v{};  ///< shape [sample]
   double period = no_value, period_ratio = no_value, eigenfrequency = no_value, velocity_ratio = no_value;
   double multiplier_re[2] = {no_value, no_value}, multiplier_im[2] = {no_value, no_value};  ///< the larger first
@@ -43,7 +45,8 @@ struct Workshop {
   std::unique_ptr<FourierTransform::Workspace, void (*)(FourierTransform::Workspace*)> workspace{nullptr, nullptr};
 };
 
-/// The effects that a point is run with: what its scene requires, or all where that is asked for.
+/// The effects that a point is run with: what its scene requires; all where that is asked for, or the method is a
+/// general one.
 [[nodiscard]] Effects effects_of(const Scene& scene);
 
 /// A point on its way to a kernel.
@@ -53,8 +56,8 @@ struct Task {
   Effects effects;
 };
 
-/// Runs points of one and the same kernel, with one dispatch: each settles, observes, and says where the motion was
-/// left; `take` gets the results in their order.
+/// Runs points of one and the same kernel or general method, with one dispatch: each settles, observes, and says where
+/// the motion was left; `take` gets the results in their order.
 void run_batch(std::span<const Task> tasks, Workshop& workshop,
                const std::function<void(const Task&, PointResult&&)>& take);
 
@@ -64,5 +67,8 @@ void run_batch(std::span<const Task> tasks, Workshop& workshop,
 /// Wall time of an evaluation of an arc, contact search included, in the kernel of these effects: a short measurement
 /// on a scene of its own.
 [[nodiscard]] double seconds_per_evaluation(const Effects& effects);
+
+/// Wall time of a forcing period of a scene: a short measurement on its first four.
+[[nodiscard]] double seconds_per_period(Scene scene, Workshop& workshop);
 
 }  // namespace clatter

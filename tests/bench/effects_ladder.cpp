@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "dynamics/required_effects.hpp"
+#include "integrators/exact.hpp"
 #include "integrators/run.hpp"
 
 namespace clatter::bench {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "dynamics/scene.hpp"
-#include "support/course.hpp"
+#include "support/deviation.hpp"
 
 namespace clatter::bench {
 

@@ -1,4 +1,4 @@
-"""Folders of src include only their right-hand neighbours: apps -> io -> sweep -> {integrators, observables} -> dynamics -> numbers."""
+"""Folders of src include only their right-hand neighbours: apps -> io -> study -> sweep -> {integrators, observables} -> dynamics -> numbers."""
 
 import os
 import re
@@ -13,8 +13,9 @@ BELOW = {  # folder: what it may include besides itself
     "integrators": {"dynamics", "numbers"},
     "observables": {"dynamics", "numbers"},
     "sweep": {"integrators", "observables", "dynamics", "numbers"},
-    "io": {"sweep", "integrators", "observables", "dynamics", "numbers"},
-    "apps": {"io", "sweep", "integrators", "observables", "dynamics", "numbers"},
+    "study": {"sweep", "integrators", "observables", "dynamics", "numbers"},
+    "io": {"study", "sweep", "integrators", "observables", "dynamics", "numbers"},
+    "apps": {"io", "study", "sweep", "integrators", "observables", "dynamics", "numbers"},
 }
 KNOWN_TO = {  # library header: the only folder that sees it
     r"fftw3": {"observables"},

@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "hard/measure.hpp"
+#include "integrators/exact.hpp"
+#include "integrators/run.hpp"
 
 namespace clatter::hard {
 namespace {

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "hard/cases.hpp"
-#include "support/course.hpp"
+#include "support/deviation.hpp"
 
 namespace clatter::hard {
 

@@ -224,7 +224,7 @@ struct Trace : Watcher {
 };
 
 AnyScene mirrored(AnyScene any) {
-  auto& [oscillator, stops, start, time, observe, all_effects] = any.scene;
+  auto& [oscillator, stops, start, time, observe, integration] = any.scene;
   oscillator.forcing *= -1, oscillator.load *= -1;
   stops = {-stops.upper, -stops.lower, stops.restitution_upper, stops.restitution_lower};
   start.displacement *= -1, start.velocity *= -1;
@@ -232,7 +232,7 @@ AnyScene mirrored(AnyScene any) {
 }
 
 AnyScene scaled(AnyScene any, double by) {
-  auto& [oscillator, stops, start, time, observe, all_effects] = any.scene;
+  auto& [oscillator, stops, start, time, observe, integration] = any.scene;
   for (double* length :
        {&oscillator.forcing, &oscillator.load, &stops.lower, &stops.upper, &start.displacement, &start.velocity})
     *length *= by;

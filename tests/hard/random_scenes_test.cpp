@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <iostream>
 
-#include "support/course.hpp"
+#include "support/deviation.hpp"
 #include "support/random.hpp"
 #include "support/scene_range.hpp"
 

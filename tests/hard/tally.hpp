@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "hard/any_scene.hpp"
-#include "support/course.hpp"
+#include "support/deviation.hpp"
 #include "support/scene_range.hpp"
 
 namespace clatter::hard {

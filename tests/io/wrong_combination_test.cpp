@@ -125,14 +125,5 @@ TEST(Together, sizes_are_bounded) {
   expect_all("a.ini", table);
 }
 
-TEST(Later, keys_and_methods_of_later_issues_are_unknown_today) {
-  const std::vector<Wrong> table{
-      {"[scene]\nxs = 1\n[integrator]\nstep = 1e-3\n", "4:1", "unknown key 'step' in [integrator]"},
-      {"[scene]\nxs = 1\n[integrator]\nmethod = \"dopri5\"\n", "4:10", "permitted: exact"},
-  };
-  expect_all("a.toml", table);
-  expect_all("a.ini", table);
-}
-
 }  // namespace
 }  // namespace clatter

@@ -84,7 +84,7 @@ TEST(Cost, extrema_allocate_nothing_in_any_number_of_periods) {
     EXPECT_LT(cost.result.x_min, cost.result.x_max);
     EXPECT_EQ(cost.allocations, 0);
     Scene all = scene;
-    all.all_effects = true;
+    all.integration.all_effects = true;
     EXPECT_EQ(cost_of(all).allocations, 0);
   }
 }
@@ -175,7 +175,7 @@ TEST(Cost, motion_out_of_reach_of_its_stops_is_one_arc) {
   EXPECT_EQ(cost.result.periods, 1);
   EXPECT_EQ(cost.result.evaluations, 1 + 1);  // the arc's end, and its derivative
   Scene silent = paper_scene(6, 1);
-  silent.all_effects = true;
+  silent.integration.all_effects = true;
   EXPECT_GT(cost_of(silent).result.evaluations, 1000);
 }
 

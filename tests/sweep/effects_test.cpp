@@ -11,7 +11,7 @@
 #include <string>
 
 #include "hard/any_scene.hpp"
-#include "support/course.hpp"
+#include "support/deviation.hpp"
 #include "sweep/point.hpp"
 
 namespace clatter {
@@ -20,7 +20,7 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 PointResult result_of(Scene scene, bool all_effects) {
-  scene.all_effects = all_effects;
+  scene.integration.all_effects = all_effects;
   Workshop none;
   return run_point(scene, none);
 }
@@ -185,7 +185,7 @@ TEST(Effects, all_are_run_in_the_complete_kernel) {
     Scene scene = hard::any_scene(i).scene;
     const double h = scene.oscillator.damping;
     EXPECT_TRUE(contains(all_effects(h), effects_of(scene)));
-    scene.all_effects = true;
+    scene.integration.all_effects = true;
     EXPECT_EQ(effects_of(scene), all_effects(h));
   }
 }

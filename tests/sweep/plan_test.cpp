@@ -50,7 +50,7 @@ TEST(Plan, points_run_with_the_effects_of_their_group_and_no_longer_than_it_says
   Scene scene = figure(3);
   scene.time.max_periods = 300;
   for (const bool all : {false, true}) {
-    scene.all_effects = all;
+    scene.integration.all_effects = all;
     const Sweep sweep = sweep_of(scene, {{Parameter::nu, frequencies()}});
     const Plan plan = plan_of(sweep, 2);
     const RunResult result = run(sweep, {.threads = 2});
@@ -88,7 +88,7 @@ TEST(Plan, a_stop_that_no_point_reaches_is_named_with_the_closest_of_all_groups)
   Scene scene = figure(20);
   scene.oscillator.damping = 0.03;  // the amplitude at resonance is 16.7, and resonant points are another group
   for (const bool all : {false, true}) {
-    scene.all_effects = all;
+    scene.integration.all_effects = all;
     const Plan plan = plan_of(sweep_of(scene, {{Parameter::nu, frequencies()}}), 1);
     EXPECT_TRUE(warns(plan, "the lower stop is never reached at any point, at the closest |x| <= 16.67 < 20"));
     EXPECT_TRUE(warns(plan, "the upper stop is never reached"));

@@ -8,7 +8,7 @@
 #include <limits>
 #include <numbers>
 
-#include "support/course.hpp"
+#include "support/deviation.hpp"
 #include "support/random.hpp"
 #include "sweep/figures.hpp"
 #include "sweep/point.hpp"
@@ -17,7 +17,7 @@ namespace clatter {
 namespace {
 
 PointResult result_of(Scene scene, bool all_effects) {
-  scene.all_effects = all_effects;
+  scene.integration.all_effects = all_effects;
   Workshop none;
   return run_point(scene, none);
 }

@@ -1,4 +1,4 @@
-#include "support/course.hpp"
+#include "support/deviation.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -6,52 +6,8 @@
 #include <limits>
 #include <sstream>
 
-#include "integrators/settle.hpp"
-#include "numbers/fifty_digits.hpp"
-
 namespace clatter {
 namespace {
-
-struct Recorder {
-  std::vector<Event>& events;
-
-  template <class A>
-  void arc(const A&, double, double) {}
-  void rest(const Rest& rest) {
-    events.push_back({rest.held ? Event::Kind::rest : Event::Kind::chatter, rest.side, rest.time, 0.0, rest.length});
-  }
-  void impact(const Impact& impact) {
-    events.push_back({Event::Kind::impact, impact.side, impact.time, std::abs(impact.before), 0.0});
-  }
-};
-
-template <class Number>
-Course run_in(const Scene& scene, double duration) {
-  return with_any_stops(scene.oscillator, [&]<Effects effects>() {
-    Course course;
-    course.duration = duration;
-    Exact<Number, effects> integrator(scene);
-    State<Number> state;
-    state.x = scene.start.displacement, state.v = scene.start.velocity;
-    Recorder recorder{course.events};
-    course.outcome = run_for(integrator, state, Number(Number(duration) / integrator.period()), recorder);
-    course.x = static_cast<double>(state.x), course.v = static_cast<double>(state.v);
-    course.impacts = integrator.impacts(), course.evaluations = integrator.evaluations();
-    return course;
-  });
-}
-
-/// One rest per stay on a stop: a section cuts a rest in two, whose ends meet.
-std::vector<Event> with_rests_joined(const std::vector<Event>& events) {
-  std::vector<Event> joined;
-  for (const Event& event : events) {
-    if (event.kind == Event::Kind::rest && !joined.empty() && joined.back().kind == Event::Kind::rest)
-      joined.back().length = event.time + event.length - joined.back().time;
-    else
-      joined.push_back(event);
-  }
-  return joined;
-}
 
 /// What happens within rounding of the end of a run may fall on either side of it: this part of its length.
 constexpr double at_the_end = 1e-14;
@@ -70,9 +26,6 @@ std::string text(const Event& event) {
 }
 
 }  // namespace
-
-Course course_of(const Scene& scene, double duration) { return run_in<double>(scene, duration); }
-Course reference_of(const Scene& scene, double duration) { return run_in<FiftyDigits>(scene, duration); }
 
 double Deviation::largest() const { return std::max({time, speed, end}); }
 

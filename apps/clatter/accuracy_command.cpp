@@ -1,0 +1,88 @@
+#include <csignal>
+#include <iostream>
+#include <vector>
+
+#include "accuracy_report.hpp"
+#include "commands.hpp"
+#include "config_arguments.hpp"
+#include "interrupt.hpp"
+#include "io/figure_file.hpp"
+#include "io/publish.hpp"
+#include "progress.hpp"
+#include "study/study_figure.hpp"
+
+namespace clatter {
+namespace {
+
+void check_starts(const Config& config, const std::string& file) {
+  if (!config.sweep.follow) return;
+  throw UsageError(file + ": [sweep] follow: a study starts every point from [scene]; add --set sweep.follow=''");
+}
+
+/// Studies all points and prints each; fewer where it was interrupted.
+std::vector<PointStudy> study_points(const Sweep& sweep, bool json, bool shown) {
+  const std::vector<Trial> trials = trials_of(sweep.scene.time.mode);
+  const Progress progress(shown, "runs");
+  StudyOptions options{.stopped = [] { return Interrupt::signal() != 0; }};
+  std::size_t finished = 0;
+  const std::size_t total = size(sweep) * steps_of(trials.size(), options);
+  options.progress = [&] { progress.show(++finished, total); };
+  std::vector<PointStudy> points;
+  for (std::size_t point = 0; point < size(sweep); ++point) {
+    PointStudy of_point = study(scene_at(sweep, point), trials, options);
+    if (Interrupt::signal() != 0) break;
+    std::cout << (json ? study_json : study_text)(of_point, sweep, point) << std::flush;
+    points.push_back(std::move(of_point));
+  }
+  return points;
+}
+
+bool any_failed(const std::vector<PointStudy>& points) {
+  for (const PointStudy& point : points)
+    for (const Row& row : point.rows)
+      if (row.trial.studied == Studied::exact && failed(row.status)) return true;
+  return false;
+}
+
+int run_study(const Arguments& arguments) {
+  const bool shown = progress_wanted(arguments);
+  const std::string output = output_of(arguments);
+  const Config config = config_of(arguments);
+  check_not_config(arguments.operands[0], output);
+  check_starts(config, arguments.operands[0]);
+  check_writable(output);
+  const Interrupt interrupt;
+  const std::vector<PointStudy> points = study_points(config.sweep, arguments.has("json"), shown);
+  if (const int signal = Interrupt::signal()) {
+    std::cerr << "stopped after " << points.size() << " of " << size(config.sweep) << " points; " << output
+              << " is not written\n";
+    return 128 + signal;
+  }
+  publish(output, file_image(study_figure(config.sweep, points), config));
+  if (!arguments.has("quiet")) std::cerr << output << '\n';
+  return any_failed(points) ? points_failed : done;
+}
+
+constexpr std::string_view examples =
+    "  clatter accuracy configs/accuracy_smooth.toml\n"
+    "  clatter accuracy mine.toml --json --set scene.R=0.5 > mine.jsonl\n";
+
+}  // namespace
+
+Command accuracy_command() {
+  return {.name = "accuracy",
+          .usage = "accuracy CONFIG [OPTION]...",
+          .summary = "measure what accuracy costs in time: methods and settings against 50 digits",
+          .examples = examples,
+          .operands = {"CONFIG"},
+          .required_operands = 1,
+          .options = {output_option,
+                      set_option,
+                      {"json", 0, "", "a JSON object a row in place of the table"},
+                      progress_option,
+                      {"quiet", 'q', "", "print rows and errors only"},
+                      {"help", 'h', "", "print this help"}},
+          .run = run_study};
+}
+
+}  // namespace clatter

@@ -1,0 +1,126 @@
+#include "accuracy_report.hpp"
+
+#include <cmath>
+#include <functional>
+#include <sstream>
+
+#include "format.hpp"
+#include "study/study_figure.hpp"
+
+namespace clatter {
+namespace {
+
+/// Calls `take(key, value)` for each axis at a point.
+void each_coordinate(const Sweep& sweep, std::size_t point, const std::function<void(const Axis&, double)>& take) {
+  std::size_t stride = size(sweep);
+  for (const Dimension& dimension : sweep.dimensions) {
+    stride /= length(dimension);
+    const std::size_t index = point / stride % length(dimension);
+    for (const Axis& axis : dimension) take(axis, axis.values[index]);
+  }
+}
+
+struct ColumnTitle {
+  const char *top, *bottom;
+  std::size_t width;
+};
+
+constexpr ColumnTitle titles[] = {{"", "setting", 9},
+                                  {"", "time", 9},
+                                  {"", "speed", 9},
+                                  {"error of", "rest", 9},
+                                  {"", "extrema", 9},
+                                  {"", "harmonics", 11},
+                                  {"", "of v", 9},
+                                  {"", "missed", 8},
+                                  {"impacts", "doubled", 9},
+                                  {"rests", "missed", 8},
+                                  {"periods", "simulated", 11},
+                                  {"time a", "period/ns", 12},
+                                  {"", "spread", 9}};
+
+std::string right(std::string text, std::size_t width) {
+  text.insert(0, width > text.size() ? width - text.size() : 0, ' ');
+  return text;
+}
+std::string left(std::string text) {
+  text.resize(17, ' ');
+  return text;
+}
+
+std::string header() {
+  std::string top = left(""), bottom = left("method");
+  for (const ColumnTitle& title : titles)
+    top += right(title.top, title.width), bottom += right(title.bottom, title.width);
+  return top + '\n' + bottom + '\n';
+}
+
+std::string row_text(const Row& row) {
+  std::size_t column = 0;
+  std::string text = left(std::string(studied_names[static_cast<std::size_t>(row.trial.studied)]));
+  const auto put = [&](const char* format, double value) {
+    text += right(std::isnan(value) ? "-" : formatted(format, value), titles[column++].width);
+  };
+  put(row.trial.studied == Studied::harmonics_fft ? "%.0f" : "%.0e", row.trial.setting);
+  for (const double error :
+       {row.contact_time, row.contact_speed, row.rest, row.extrema, row.harmonics, row.v_harmonics})
+    put("%.1e", error);
+  for (const double count : {row.missed, row.doubled, row.rests_missed}) put("%.0f", count);
+  put("%.6g", row.simulated_periods), put("%.4g", row.ns_per_period), put("%.2g", row.ns_spread);
+  return text + (failed(row.status) ? "  failed\n" : "\n");
+}
+
+/// What the errors are taken from.
+std::string horizon_text(const PointStudy& study) {
+  const std::string events = counted(study.impacts, "impact") + " and " + counted(study.rests, "rest");
+  const std::string asked = formatted("%.6g", study.asked) + " forcing periods from the start";
+  std::string text;
+  if (study.horizon == study.asked)
+    text = "compared with 50 digits over " + asked + ": " + events;
+  else if (study.horizon > 0)
+    text = "compared with 50 digits over " + formatted("%.6g", study.horizon) + " of " + asked + ": " + events +
+           "; from there on double and 50 digits differ, as chaotic motion lets them";
+  else
+    text = "not compared: double and 50 digits differ within the first forcing period, or the run fails";
+  text += ".\n";
+  if (study.steady_periods > 0)
+    text += "Harmonics and repeats are those of the steady motion, " + counted(study.steady_periods, "forcing period") +
+            " long, in 50 digits.\n";
+  return text;
+}
+
+}  // namespace
+
+std::string study_text(const PointStudy& study, const Sweep& sweep, std::size_t point) {
+  std::string text;
+  each_coordinate(sweep, point, [&](const Axis& axis, double value) {
+    if (!text.empty()) text += ", ";
+    text += key_of(axis.parameter);
+    text += formatted(" = %.10g", value);
+  });
+  if (!text.empty()) text += '\n';
+  text += horizon_text(study);
+  text += header();
+  for (const Row& row : study.rows) text += row_text(row);
+  return text + '\n';
+}
+
+std::string study_json(const PointStudy& study, const Sweep& sweep, std::size_t point) {
+  std::ostringstream out;
+  for (const Row& row : study.rows) {
+    const auto put = [&](const std::string& name, double value) {
+      out << ", \"" << name << "\": " << json_number(value);
+    };
+    out << "{\"method\": " << json_text(std::string(studied_names[static_cast<std::size_t>(row.trial.studied)]));
+    put("setting", row.trial.setting);
+    for (const auto& [name, long_name, value] : row_variables()) put(name, row.*value);
+    out << ", \"status\": " << static_cast<int>(row.status) << ", \"point\": " << point;
+    each_coordinate(sweep, point,
+                    [&](const Axis& axis, double value) { put(std::string(key_of(axis.parameter)), value); });
+    for (const auto& [name, long_name, value] : point_variables()) put(name, study.*value);
+    out << "}\n";
+  }
+  return out.str();
+}
+
+}  // namespace clatter

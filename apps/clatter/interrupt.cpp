@@ -1,0 +1,31 @@
+#include "interrupt.hpp"
+
+#include <csignal>
+#include <initializer_list>
+
+namespace clatter {
+namespace {
+
+volatile std::sig_atomic_t came = 0;
+
+void take(int number) {
+  came = number;
+  std::signal(number, SIG_DFL);
+}
+
+}  // namespace
+
+Interrupt::Interrupt() {
+  came = 0;
+  for (const int number : {SIGINT, SIGTERM})
+    if (std::signal(number, take) == SIG_IGN) std::signal(number, SIG_IGN);  // as a shell wants it in the background
+}
+
+Interrupt::~Interrupt() {
+  for (const int number : {SIGINT, SIGTERM})
+    if (std::signal(number, SIG_DFL) == SIG_IGN) std::signal(number, SIG_IGN);
+}
+
+int Interrupt::signal() { return came; }
+
+}  // namespace clatter

@@ -1,0 +1,164 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <boost/numeric/odeint/stepper/generation.hpp>
+#include <boost/numeric/odeint/stepper/runge_kutta_dopri5.hpp>
+#include <boost/numeric/odeint/util/odeint_error.hpp>
+#include <cmath>
+#include <utility>
+
+#include "dynamics/polynomial_arc.hpp"
+#include "integrators/event_driven.hpp"
+
+namespace clatter {
+
+/// What a general solver's user would take: Boost.Odeint's pair of orders 5 and 4 of Dormand and Prince, with step size
+/// control and dense output, and contacts found on the dense output.
+///
+/// Over a step the dense output of the displacement is a polynomial of degree 5, so its first contact is found for
+/// certain: the Bernstein form shows two crossings of a stop within one step as well as one. A step that touches a stop
+/// without crossing it counts as free of contact. What the polynomial itself doesn't show, by its error, is lost.
+/// Chatter, rest and release follow the exact integrator's rules; displacement is carried as the distance from the last
+/// stop, so that the shortest flights keep their digits.
+///
+/// Each flight and each forcing period begins with a step whose size depends on the state alone: a period is a function
+/// of the state at its beginning, and a motion can repeat.
+template <Effects E>
+class DormandPrince : public EventDriven<DormandPrince<E>, double, E> {
+  using Base = EventDriven<DormandPrince<E>, double, E>;
+
+ public:
+  static constexpr bool in_closed_form = false;
+  using DenseArc = PolynomialArc<E.arc()>;
+
+  explicit DormandPrince(const Scene& scene)
+      : Base(scene, scene.stops),
+        tolerance_(scene.integration.tolerance),
+        stepper_(boost::numeric::odeint::make_dense_output(tolerance_ * size_of(scene), tolerance_, Pair())) {}
+
+  /// The next step's arc, and the contact in it; without one it ends with the step, or at the horizon.
+  [[nodiscard]] Flight<DenseArc> fly(const State<double>& state, const Motion<double>& start, double anchor,
+                                     double horizon) {
+    const bool goes_on = under_way_ && state.x == reached_.x && state.v == reached_.v;
+    if (!goes_on) begin(state, start, anchor);
+    under_way_ = false;
+    Flight<DenseArc> flight{standing(state)};
+    if (const Side side = entered(); side != Side::none) {
+      flight.contact = {side, 0.0, start};
+      return flight;
+    }
+    try {
+      flight.arc = step(state, start.a);
+    } catch (const boost::numeric::odeint::odeint_error&) {  // no step is short enough
+      flight.contact = {Side::none, 0.0, start, 0, false};
+      return flight;
+    }
+    flight.contact = first_contact(flight.arc, horizon);
+    const bool stands = flight.contact.side == Side::none && !(state.turns + elapsed_turns(flight) > state.turns);
+    flight.contact.resolved = this->finite(flight.contact.motion.x) && !stands;
+    under_way_ = flight.contact.side == Side::none && flight.contact.elapsed < horizon;
+    reached_ = flight.contact.motion;
+    return flight;
+  }
+
+ private:
+  using Values = std::array<double, 2>;  ///< distance from the anchor, velocity
+  using Pair = boost::numeric::odeint::runge_kutta_dopri5<Values>;
+  using Stepper = typename boost::numeric::odeint::result_of::make_dense_output<Pair>::type;
+
+  /// What an error of a step is small against besides the motion itself: half the distance of the stops, or what start
+  /// and forces suggest, if that is less.
+  [[nodiscard]] static double size_of(const Scene& scene) {
+    const Oscillator& o = scene.oscillator;
+    const double response = std::abs(o.forcing) / std::max(1.0, o.frequency * o.frequency);
+    const double moves =
+        std::max({response, std::abs(o.load), std::abs(scene.start.displacement), std::abs(scene.start.velocity)});
+    const double size = std::min((scene.stops.upper - scene.stops.lower) / 2, moves);
+    return size > 0 ? size : 1.0;
+  }
+
+  void begin(const State<double>& state, const Motion<double>& start, double anchor) {
+    const auto& flow = this->flow();
+    anchor_ = anchor, angle_ = 2 * pi<double>() * (this->start_turns() + state.turns);
+    double first_step = std::pow(tolerance_, 0.2) / flow.rate / 2;
+    if (state.left != Side::none && start.rise == 0) {  // no longer than a flight that the force ends at once
+      const double leaving = -sign_of(state.left) * start.v, pressed = sign_of(state.left) * start.a;
+      if (leaving > 0 && pressed > 0) first_step = std::min(first_step, 2 * leaving / pressed);
+    }
+    here_ = {start.rise, start.v};
+    stepper_.initialize(here_, 0.0, first_step);
+  }
+
+  [[nodiscard]] double acceleration(const Values& y, double s) {
+    const auto& flow = this->flow();
+    this->count_evaluations(1);
+    const double sine = flow.f == 0 ? 0.0 : std::sin(angle_ + flow.nu * s);
+    return flow.acceleration(flow.offset(anchor_ + y[0], anchor_, y[0]), y[1], sine);
+  }
+
+  [[nodiscard]] DenseArc standing(const State<double>& state) const {
+    Bernstein<double> rise, velocity;
+    rise.fill(here_[0]), velocity.fill(here_[1]);
+    return {this->flow(), anchor_, this->start_turns() + state.turns, 0.0, rise, velocity};
+  }
+
+  /// Makes a step from here, where the acceleration is a, and its dense output into an arc.
+  [[nodiscard]] DenseArc step(const State<double>& state, double a) {
+    const auto equation = [this](const Values& y, Values& rate, double s) { rate = {y[1], acceleration(y, s)}; };
+    const auto [from, to] = stepper_.do_step(equation);
+    const double length = to - from;
+    const Values begin = std::exchange(here_, stepper_.current_state());
+    Values third, two_thirds;
+    stepper_.calc_state(from + length / 3, third), stepper_.calc_state(from + 2 * length / 3, two_thirds);
+    const double a_end = acceleration(here_, to);
+    return {this->flow(),
+            anchor_,
+            this->start_turns() + state.turns,
+            length,
+            quintic(length, {begin[0], begin[1]}, {here_[0], here_[1]}, {third[0], two_thirds[0]}),
+            quintic(length, {begin[1], a}, {here_[1], a_end}, {third[1], two_thirds[1]})};
+  }
+
+  /// Distance from the anchor to a stop, positive inside.
+  [[nodiscard]] double gap(Side side) const {
+    return side == Side::upper ? this->stops().upper - anchor_ : anchor_ - this->stops().lower;
+  }
+
+  /// The stop that a mass is on and moves into, if it does.
+  [[nodiscard]] Side entered() const {
+    for (const Side side : {Side::lower, Side::upper})
+      if (gap(side) - sign_of(side) * here_[0] <= 0 && sign_of(side) * here_[1] > 0) return side;
+    return Side::none;
+  }
+
+  /// The first place at which the polynomial goes beyond a stop; else its end, or the horizon.
+  [[nodiscard]] Contact<double> first_contact(const DenseArc& arc, double horizon) const {
+    Contact<double> first{Side::none, std::min(arc.length(), horizon), {}};
+    for (const Side side : {Side::lower, Side::upper}) {
+      if (std::isinf(gap(side))) continue;
+      Bernstein<double> c = arc.rise();
+      for (double& y : c) y = gap(side) - sign_of(side) * y;
+      c[0] = std::max(c[0], 0.0);
+      const auto root = FirstRoot<double>::of(c);
+      if (root && *root * arc.length() <= first.elapsed) first.side = side, first.elapsed = *root * arc.length();
+    }
+    first.motion = arc.at(first.elapsed);
+    if (first.side == Side::none) return first;
+    first.motion.x = stop_at<double>(this->stops(), first.side).place;
+    if (!(sign_of(first.side) * first.motion.v > 0)) first.motion.v = 0;  // the two polynomials differ by their errors
+    return first;
+  }
+  [[nodiscard]] double elapsed_turns(const Flight<DenseArc>& flight) const {
+    return flight.contact.elapsed / this->period();
+  }
+
+  double tolerance_;
+  Stepper stepper_;
+  double anchor_ = 0.0, angle_ = 0.0;  ///< of the present flight: its place of reference, the forcing phase it began at
+  Values here_{};                      ///< where its next step begins
+  Motion<double> reached_{};           ///< end of the last step,
+  bool under_way_ = false;             ///< from which the flight goes on
+};
+
+}  // namespace clatter

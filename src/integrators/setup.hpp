@@ -1,0 +1,102 @@
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <optional>
+
+#include "dynamics/impact.hpp"
+#include "dynamics/scene.hpp"
+
+namespace clatter {
+
+/// What stopped an integrator before its time.
+enum class Outcome : std::uint8_t { completed, event_budget, not_finite, unresolved };
+
+/// Sees nothing; what integrators call where nothing is observed.
+struct NoObserver {
+  template <class A>
+  void arc(const A&, double, double) {}
+  void rest(const Rest&) {}
+  void impact(const Impact&) {}
+};
+
+/// A scene made ready for an integrator: its constants, its clock, and what has been spent on it.
+template <class N, Effects E>
+class Setup {
+ public:
+  using Number = N;
+  static constexpr Effects effects = E;
+
+  /// Meets the given stops only, the others being out of reach.
+  Setup(const Scene& scene, const Stops& in_reach)
+      : flow_(scene.oscillator),
+        stops_(in_reach),
+        budget_(scene.time.max_impacts),
+        start_turns_(turns_of(scene.start.phase)) {}
+
+  [[nodiscard]] const Flow<Number, E.arc()>& flow() const { return flow_; }
+  [[nodiscard]] const Stops& stops() const { return stops_; }          ///< that contacts are looked for with
+  [[nodiscard]] const Number& period() const { return flow_.period; }  ///< forcing period in tau; without forcing 2 pi
+  [[nodiscard]] double impacts() const { return impacts_; }            ///< impacts simulated so far
+  [[nodiscard]] double evaluations() const { return evaluations_; }    ///< of arcs; of the equation by general methods
+
+  /// The stop that holds a mass at rest, if one does.
+  [[nodiscard]] std::optional<Stop<Number>> holding_stop(const State<Number>& state) const {
+    if (!E.rest || state.v != 0 || state.released) return std::nullopt;
+    for (const Side side : {Side::lower, Side::upper}) {
+      const auto stop = stop_at<Number>(stops_, side);
+      if (state.x == stop.place && holds(flow_, stop, phase(state))) return stop;
+    }
+    return std::nullopt;
+  }
+
+  /// Of the force.
+  [[nodiscard]] SineCosine<Number> phase(const State<Number>& state) const {
+    return sine_cosine_of_turns(Number(start_turns_ + state.turns));
+  }
+
+  /// Time since the section `origin`.
+  [[nodiscard]] double time(const State<Number>& state, std::int64_t origin) const {
+    return static_cast<double>((static_cast<double>(state.periods - origin) + state.turns) * flow_.period);
+  }
+
+ protected:
+  [[nodiscard]] static bool finite(const Number& x) { return std::isfinite(static_cast<double>(x)); }
+  [[nodiscard]] static Outcome outcome_of(const State<Number>& state) {
+    return finite(state.x) && finite(state.v) ? Outcome::completed : Outcome::not_finite;
+  }
+  [[nodiscard]] const Number& start_turns() const { return start_turns_; }  ///< forcing phase at tau = 0
+
+  /// Takes note of an impact; whether the budget allows for it.
+  [[nodiscard]] bool count_impact() { return ++impacts_ <= budget_; }
+  void count_evaluations(double count) { evaluations_ += count; }
+
+  template <class Observer>
+  void show_impact(const State<Number>& state, const Stop<Number>& stop, const Number& before, std::int64_t origin,
+                   Observer& observer) const {
+    observer.impact(Impact{time(state, origin), stop.side, static_cast<double>(before), static_cast<double>(state.v),
+                           static_cast<double>(stop.place)});
+  }
+  template <class Observer>
+  void show_rest(const State<Number>& state, const Stop<Number>& stop, const Number& turns, bool held,
+                 std::int64_t origin, Observer& observer) const {
+    observer.rest(Rest{time(state, origin), static_cast<double>(turns * flow_.period), stop.side,
+                       static_cast<double>(stop.place), held});
+  }
+
+ private:
+  [[nodiscard]] static Number turns_of(double phase) {
+    using std::atan2, std::cos, std::sin;
+    const Number angle(phase);
+    return atan2(Number(sin(angle)), Number(cos(angle))) / (2 * pi<Number>());
+  }
+
+  Flow<Number, E.arc()> flow_;
+  Stops stops_;
+  double budget_;
+  Number start_turns_;
+  double impacts_ = 0.0;
+  double evaluations_ = 0.0;
+};
+
+}  // namespace clatter

@@ -1,0 +1,141 @@
+#include "study/comparison.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace clatter {
+namespace {
+
+/// What happens on one stop: impacts, and the times in which the mass stays on it, chatters' ends and rests that follow
+/// each other being one.
+struct OfStop {
+  std::vector<Event> impacts, rests;
+  struct Stay {
+    double from, to;
+  };
+  std::vector<Stay> stays;
+
+  OfStop(std::span<const Event> events, Side side) {
+    for (const Event& event : with_rests_joined({events.begin(), events.end()})) {
+      if (event.side != side) continue;
+      if (event.kind == Event::Kind::impact) {
+        impacts.push_back(event);
+        continue;
+      }
+      if (event.kind == Event::Kind::rest) rests.push_back(event);
+      const bool follows = !stays.empty() && event.time <= stays.back().to + touching * (1 + event.time);
+      if (follows)
+        stays.back().to = std::max(stays.back().to, event.end());
+      else
+        stays.push_back({event.time, event.end()});
+    }
+  }
+
+  /// Whether the mass stays on the stop at a time, to a slack at both ends.
+  [[nodiscard]] bool stays_at(double time, double slack) const {
+    return std::ranges::any_of(stays,
+                               [&](const Stay& stay) { return time >= stay.from - slack && time <= stay.to + slack; });
+  }
+
+ private:
+  static constexpr double touching = 1e-12;
+};
+
+/// Pairs the impacts of a run with those of its reference on one stop.
+class Pairing {
+ public:
+  Pairing(const OfStop& run, const OfStop& reference, double duration, ContactErrors& errors)
+      : run_(run), reference_(reference), duration_(duration), errors_(errors) {}
+
+  void impacts() {
+    std::size_t j = 0;
+    for (std::size_t i = 0; i < reference_.impacts.size(); ++i) {
+      const double time = reference_.impacts[i].time;
+      while (j < run_.impacts.size() && run_.impacts[j].time - lag_ < time - room(i, -1)) extra(run_.impacts[j++]);
+      if (j < run_.impacts.size() && run_.impacts[j].time - lag_ <= time + room(i, 1)) {
+        pair(run_.impacts[j++], reference_.impacts[i]);
+      } else if (!run_.stays_at(time + lag_, std::abs(lag_))) {
+        ++errors_.missed;
+      }
+    }
+    while (j < run_.impacts.size()) extra(run_.impacts[j++]);
+  }
+
+  void rests() {
+    for (const Event& rest : reference_.rests) {
+      const auto overlaps = [&](const Event& other) { return other.time <= rest.end() && other.end() >= rest.time; };
+      const auto other = std::ranges::find_if(run_.rests, overlaps);
+      if (other == run_.rests.end()) {
+        ++errors_.rests_missed;
+        continue;
+      }
+      errors_.rest = std::max({errors_.rest, std::abs(other->time - rest.time), std::abs(other->end() - rest.end())});
+    }
+  }
+
+ private:
+  /// Half the time from an impact of the reference to the next (direction 1) or the one before (-1).
+  [[nodiscard]] double room(std::size_t i, int direction) const {
+    const auto& impacts = reference_.impacts;
+    const bool first = i == 0, last = i + 1 == impacts.size();
+    if (first && last) return duration_ / 2;
+    const bool ahead = (direction > 0 && !last) || first;
+    return std::abs(impacts[ahead ? i + 1 : i - 1].time - impacts[i].time) / 2;
+  }
+  void pair(const Event& impact, const Event& expected) {
+    lag_ = impact.time - expected.time;
+    errors_.time = std::max(errors_.time, std::abs(lag_));
+    errors_.speed = std::max(errors_.speed, std::abs(impact.speed - expected.speed));
+  }
+  void extra(const Event& impact) {
+    if (!reference_.stays_at(impact.time - lag_, std::abs(lag_))) ++errors_.doubled;
+  }
+
+  const OfStop &run_, &reference_;
+  double duration_;
+  ContactErrors& errors_;
+  double lag_ = 0.0;  ///< of the run behind the reference, at the last pair
+};
+
+}  // namespace
+
+Agreement agreement_of(const Course& in_double, const Course& in_fifty_digits, double room) {
+  const std::vector<Event> events = with_rests_joined(in_double.events),
+                           exact = with_rests_joined(in_fifty_digits.events);
+  const double end = in_double.duration * (1 - 1e-12);  // what happens at the very end may fall on either side of it
+  Agreement agreement{.until = in_double.duration};
+  std::size_t j = 0;
+  for (const Event& event : events) {
+    if (event.kind == Event::Kind::chatter)
+      while (j < exact.size() && exact[j].kind == Event::Kind::impact) ++j;
+    const double other = j < exact.size() ? exact[j].time : in_double.duration;
+    const bool chatter = event.kind == Event::Kind::chatter;  // begins later in 50 digits, and ends at the same time
+    const double off =
+        chatter ? std::abs(event.end() - (j < exact.size() ? exact[j].end() : end)) : std::abs(event.time - other);
+    const bool same = j < exact.size() && exact[j].kind == event.kind && exact[j].side == event.side && off <= room;
+    if (!same && std::min(event.time, other) >= end) return agreement;
+    if (!same) {
+      agreement.until = std::min(event.time, other);
+      return agreement;
+    }
+    agreement.events.push_back(exact[j++]);
+  }
+  if (j < exact.size() && exact[j].time < end) agreement.until = exact[j].time;
+  return agreement;
+}
+
+ContactErrors compare(std::span<const Event> run, std::span<const Event> reference, double duration) {
+  ContactErrors errors;
+  double fastest = 0.0;
+  for (const Event& event : reference) fastest = std::max(fastest, event.speed);
+  for (const Side side : {Side::lower, Side::upper}) {
+    const OfStop of_run(run, side), of_reference(reference, side);
+    Pairing pairing(of_run, of_reference, duration, errors);
+    pairing.impacts();
+    pairing.rests();
+  }
+  if (fastest > 0) errors.speed /= fastest;
+  return errors;
+}
+
+}  // namespace clatter

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "study/trial.hpp"
+#include "sweep/point.hpp"
+
+namespace clatter {
+
+/// A row of a study: what a method and its setting give and cost. NaN: does not apply, or there is nothing to compare.
+struct Row {
+  Trial trial;
+  Status status = Status::unresolved;
+  double contact_time = no_value;   ///< largest error of an impact's time, in forcing periods
+  double contact_speed = no_value;  ///< largest error of an impact's speed, over the largest speed
+  double rest = no_value;           ///< largest error of a rest's beginning or end, in forcing periods
+  double extrema = no_value;        ///< error of the least and greatest x and x', over the largest |x| and |x'|
+  double harmonics = no_value;      ///< of x: error of the complex amplitudes 1 ... 3, over the largest of them
+  double v_harmonics = no_value;    ///< the same of x'
+  double missed = no_value, doubled = no_value;  ///< impacts
+  double rests_missed = no_value;
+  double impacts = no_value;            ///< simulated
+  double simulated_periods = no_value;  ///< forcing periods, settling included
+  double evaluations = no_value;        ///< of arcs; of the equation by general methods
+  double ns_per_period = no_value;      ///< median wall time of a forcing period on one thread, in ns
+  double ns_spread = no_value;          ///< interquartile range of it; NaN where it was measured once
+};
+
+/// What accuracy costs at one point of a sweep. Forcing periods; without forcing 2 pi.
+struct PointStudy {
+  double asked = 0.0;                ///< periods to compare: the duration of a transient, else the window
+  double horizon = 0.0;              ///< periods compared: as long as double and 50 digits agree
+  double impacts = 0.0;              ///< of the reference within the horizon
+  double rests = 0.0;                ///< of the reference within the horizon
+  double steady_periods = no_value;  ///< period of the steady motion that repeats are compared with; NaN: none
+  std::vector<Row> rows;
+};
+
+struct StudyOptions {
+  int rounds = 9;                    ///< measurements of time a row, at most
+  std::function<void()> progress{};  ///< called after every trial and every round
+  std::function<bool()> stopped{};   ///< asked before every run; once true, nothing more is run
+};
+
+/// Calls of `progress` in the study of a point, so many rows.
+[[nodiscard]] std::size_t steps_of(std::size_t rows, const StudyOptions& options);
+
+/// Studies a scene: every trial's error against 50 digits, and its time, in turn with all others. Rows are incomplete
+/// where it was stopped.
+[[nodiscard]] PointStudy study(const Scene& scene, const std::vector<Trial>& trials, const StudyOptions& options);
+
+}  // namespace clatter

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string_view>
+#include <vector>
+
+#include "dynamics/scene.hpp"
+
+namespace clatter {
+
+/// What a row of a study varies.
+enum class Studied : std::uint8_t {
+  exact,              ///< the exact integrator, over the horizon
+  dopri5,             ///< setting: tolerance
+  moreau,             ///< setting: step, in forcing periods
+  harmonics_exact,    ///< harmonics from the arcs
+  harmonics_fft,      ///< setting: samples
+  steady,             ///< setting: tolerance of the repeat; with closed forms and Newton's method
+  steady_repetition,  ///< the same by repetition alone
+};
+
+/// In the order of Studied.
+inline constexpr std::array<std::string_view, 7> studied_names{
+    "exact", "dopri5", "moreau", "harmonics_exact", "harmonics_fft", "steady", "steady_repetition"};
+
+/// A row before it is run.
+struct Trial {
+  Studied studied = Studied::exact;
+  double setting = 0.0;  ///< NaN where there is none
+};
+
+/// A complete study: exact; dopri5 at tolerances 1e-3 ... 1e-13; Moreau's time stepping at steps of 1e-1 ... 1e-5
+/// periods; harmonics, exact and of 2^4 ... 2^20 samples; unless motion is transient, steady detection at tolerances
+/// 1e-3 ... 1e-14.
+[[nodiscard]] std::vector<Trial> trials_of(Mode mode);
+
+}  // namespace clatter

@@ -1,0 +1,102 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <optional>
+#include <vector>
+
+#include "observables/extrema.hpp"
+#include "observables/harmonics.hpp"
+#include "observables/impacts.hpp"
+#include "observables/samples.hpp"
+#include "observables/stability.hpp"
+#include "sweep/point.hpp"
+
+namespace clatter {
+
+/// The observers that a scene asks for; each is called once an arc, and costs nothing where it is absent.
+class Observers {
+ public:
+  Observers(const Scene& scene, double total, double base_frequency) {
+    const Observe& observe = scene.observe;
+    if (observe.extrema) extrema.emplace();
+    if (observe.impacts || observe.period) impacts.emplace();
+    if (observe.impact_log) log.emplace();
+    if (observe.rest_log) rests.emplace();
+    if (observe.trajectory > 0) {
+      const auto count = static_cast<std::size_t>(observe.trajectory);
+      trajectory.emplace(count, total / static_cast<double>(count - 1), AtImpact::after, scene.stops);
+    }
+    if (observe.stability) stability.emplace(scene.stops);
+    if (observe.harmonics == 0) return;
+    if (observe.harmonics_method == HarmonicsMethod::exact) {
+      exact_harmonics.emplace(static_cast<std::size_t>(observe.harmonics), base_frequency);
+    } else {
+      const auto count = static_cast<std::size_t>(observe.harmonics_samples);
+      samples.emplace(count, total / static_cast<double>(count), AtImpact::mean, scene.stops);
+    }
+  }
+
+  template <class A>
+  void arc(const A& arc, double begin, double length) {
+    each([&](auto& observer) { observer.arc(arc, begin, length); });
+  }
+  void rest(const Rest& rest) {
+    each([&](auto& observer) { observer.rest(rest); });
+  }
+  void impact(const Impact& impact) {
+    if (!(impact.time > 0.0)) return;  // the observed time begins after t0: an impact there belongs to what was before
+    each([&](auto& observer) { observer.impact(impact); });
+  }
+  void finish(double x, double v, double total, bool periodic, bool autonomous) {
+    if (stability && periodic) stability->finish_period(total, autonomous);
+    if (stability && !periodic) stability->finish_window(total);
+    if (trajectory) trajectory->finish(x, v, total, periodic);
+    if (samples) samples->finish(x, v, total, periodic);
+    if (exact_harmonics) exact_harmonics->finish(x, total);
+  }
+
+  /// Of arcs, by all observers together.
+  [[nodiscard]] double evaluations() const {
+    const auto of = [](const auto& observer) { return observer ? observer->evaluations() : 0.0; };
+    return of(extrema) + of(trajectory) + of(samples) + of(exact_harmonics) + of(stability);
+  }
+
+  std::optional<Extrema> extrema;
+  std::optional<Impacts> impacts;
+  std::optional<ImpactLog> log;
+  std::optional<RestLog> rests;
+  std::optional<Samples> trajectory, samples;
+  std::optional<ExactHarmonics> exact_harmonics;
+  std::optional<Stability> stability;
+
+ private:
+  template <class Function>
+  void each(Function&& function) {
+    if (extrema) function(*extrema);
+    if (impacts) function(*impacts);
+    if (log) function(*log);
+    if (rests) function(*rests);
+    if (trajectory) function(*trajectory);
+    if (samples) function(*samples);
+    if (exact_harmonics) function(*exact_harmonics);
+    if (stability) function(*stability);
+  }
+};
+
+/// Harmonics k of the base frequency from samples of an observed time in which it turns `turns` times. NaN from half
+/// the sampling rate on; all, the constant part too, where the base frequency itself is beyond it.
+[[nodiscard]] inline Spectrum sampled_spectrum(const std::vector<double>& samples, double turns, std::size_t highest,
+                                               Workshop& workshop) {
+  const auto all = workshop.transform->transform(samples, *workshop.workspace);
+  const double nan = no_value;
+  std::vector<std::complex<double>> harmonics(highest + 1, {nan, nan});
+  for (std::size_t k = 0; k <= highest; ++k) {
+    const double index = std::round(turns * static_cast<double>(k)), needed = std::max(index, turns);
+    if (2 * needed < static_cast<double>(samples.size())) harmonics[k] = all[static_cast<std::size_t>(index)];
+  }
+  return Spectrum::of(harmonics);
+}
+
+}  // namespace clatter

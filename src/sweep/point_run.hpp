@@ -1,0 +1,117 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "integrators/settle.hpp"
+#include "sweep/observers.hpp"
+#include "sweep/point.hpp"
+
+namespace clatter {
+
+/// One scene on its way to a result.
+template <class Integrator>
+class Point {
+ public:
+  Point(const Scene& scene, Workshop& workshop, const Integrator& integrator)
+      : scene_(scene), workshop_(workshop), integrator_(integrator) {}
+
+  PointResult run() {
+    State<double> state;
+    state.x = scene_.start.displacement, state.v = scene_.start.velocity;
+    observed_ = settle(integrator_, state, scene_);
+    result_.status = observed_.status;
+    result_.found_by = observed_.found_by;
+    result_.periods = observed_.settled;
+    if (!failed(observed_.status)) observe();
+    result_.impacts = integrator_.impacts();
+    result_.evaluations += integrator_.evaluations();
+    return std::move(result_);
+  }
+
+ private:
+  void observe() {
+    const bool forced = scene_.oscillator.forcing != 0;
+    const double total = observed_.turns * integrator_.period();
+    // the base frequency turns once in a transient and in a period of unforced motion, else with the force
+    const bool once = observed_.status == Status::transient || (!forced && observed_.status == Status::periodic);
+    double base_turns = once ? 1.0 : observed_.turns;
+    result_.base_frequency = once || !forced ? 2 * pi<double>() * base_turns / total : scene_.oscillator.frequency;
+    if (const double given = scene_.observe.base_frequency; given > 0)
+      result_.base_frequency = given, base_turns = given * total / (2 * pi<double>());
+    Observers observers(scene_, total, result_.base_frequency);
+    State<double> state = observed_.from;
+    const Outcome outcome = run_for(integrator_, state, observed_.turns, observers);
+    result_.periods = observed_.settled + observed_.turns, result_.observed_turns = observed_.turns;
+    result_.evaluations = observers.evaluations();
+    if (outcome != Outcome::completed) {
+      result_.status = status_of(outcome);
+      result_.base_frequency = no_value;
+      return;
+    }
+    result_.end = {state.x, state.v, scene_.start.phase};
+    if (state.turns > 0)
+      result_.end.phase = std::fmod(scene_.start.phase + 2 * pi<double>() * state.turns, 2 * pi<double>());
+    observers.finish(state.x, state.v, total, observed_.status == Status::periodic,
+                     !forced && observed_.found_by != FoundBy::standstill);
+    collect(observers, total, base_turns);
+    if (observers.impacts) collect_impacts(*observers.impacts, total, once ? 1.0 : observed_.turns);
+  }
+
+  void collect(Observers& observers, double total, double base_turns) {
+    if (observers.extrema) {
+      const auto x = observers.extrema->displacement(scene_.stops), v = observers.extrema->velocity();
+      result_.x_min = x.low, result_.x_max = x.high, result_.v_min = v.low, result_.v_max = v.high;
+    }
+    if (observers.stability) {
+      const std::complex<double> multipliers[2] = {observers.stability->first(), observers.stability->second()};
+      for (std::size_t i = 0; i < 2; ++i)
+        result_.multiplier_re[i] = multipliers[i].real(), result_.multiplier_im[i] = multipliers[i].imag();
+      result_.lyapunov = observers.stability->lyapunov();
+    }
+    if (observers.log) result_.log = std::move(observers.log->impacts());
+    if (observers.rests) result_.rests = std::move(observers.rests->rests());
+    if (observers.trajectory) {
+      result_.tau = observers.trajectory->times(total);
+      result_.x = std::move(observers.trajectory->displacement()),
+      result_.v = std::move(observers.trajectory->velocity());
+    }
+    if (observers.exact_harmonics) {
+      result_.x_spectrum = Spectrum::of(observers.exact_harmonics->displacement());
+      result_.v_spectrum = Spectrum::of(observers.exact_harmonics->velocity());
+    }
+    if (observers.samples) {
+      const auto highest = static_cast<std::size_t>(scene_.observe.harmonics);
+      result_.x_spectrum = sampled_spectrum(observers.samples->displacement(), base_turns, highest, workshop_);
+      result_.v_spectrum = sampled_spectrum(observers.samples->velocity(), base_turns, highest, workshop_);
+    }
+  }
+
+  void collect_impacts(const Impacts& impacts, double total, double periods) {
+    bool rests_throughout = false;
+    for (std::size_t i = 0; i < impacts.stops().size(); ++i) {
+      const Impacts::OfStop& stop = impacts.stops()[i];
+      result_.impacts_per_period[i] = stop.count / periods;
+      result_.v_before[i] = stop.before, result_.v_after[i] = stop.after;
+      result_.rest_fraction[i] = std::min(1.0, stop.rest_time / total);
+      rests_throughout = rests_throughout || stop.rest_time >= total * (1 - 1e-14);
+    }
+    const Stops& stops = scene_.stops;
+    if (stops.lower == -stops.upper) result_.velocity_ratio = impacts.first_speed() / stops.upper;
+    if (observed_.status == Status::aperiodic) result_.period_ratio = 0.0;
+    if (observed_.status != Status::periodic || observed_.found_by == FoundBy::standstill || rests_throughout) return;
+    result_.period = total;
+    const bool forced = scene_.oscillator.forcing != 0;
+    if (forced) result_.period_ratio = observed_.turns;
+    if (!forced) result_.eigenfrequency = 2 * pi<double>() / total;
+  }
+
+  const Scene& scene_;
+  Workshop& workshop_;
+  Integrator integrator_;
+  Observed observed_{};
+  PointResult result_{};
+};
+
+}  // namespace clatter
