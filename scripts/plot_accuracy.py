@@ -20,7 +20,8 @@ LOOKS = {
     "exact": ("exact", STOP, "D"),
     "dopri5": ("Dormand\N{EN DASH}Prince (tolerance)", BLUE, "o"),
     "moreau": ("Moreau (step in forcing periods)", VERMILION, "s"),
-    "harmonics_fft": ("FFT", BLUE, "o"),
+    "harmonics_fft": ("FFT, displacement", BLUE, "o"),
+    "harmonics_fft_v": ("FFT, velocity", VERMILION, "s"),
     "harmonics_exact": ("exact", STOP, ""),
     "steady": ("as configured", GREEN, "o"),
     "steady_repetition": ("repetition alone", PURPLE, "s"),
@@ -52,7 +53,9 @@ def accuracy_figure(output):
     """The figure of a study, with its heading: a panel for each thing that has an error to show."""
     exact = curve(output, "harmonics_exact", ("error_harmonics",), None)
     panels = [(time_panel, [curve(output, name, MOTION, "ns_per_period") for name in ("exact", "dopri5", "moreau")]),
-              (partial(samples_panel, exact), [curve(output, "harmonics_fft", ("error_harmonics",), "setting")]),
+              (partial(samples_panel, exact),
+               [curve(output, "harmonics_fft", ("error_harmonics",), "setting"),
+                curve(output, "harmonics_fft", ("error_harmonics_v",), "setting", "harmonics_fft_v")]),
               (steady_panel, [curve(output, name, (*MOTION, "error_harmonics"), "simulated_periods")
                               for name in ("steady", "steady_repetition")])]
     panels = [(draw, [part for part in found if len(part)]) for draw, found in panels]
@@ -84,7 +87,7 @@ def note(output, found):
     return "\n".join([*lines, ";  ".join(symbols)])
 
 
-def curve(output, method, errors, cost):
+def curve(output, method, errors, cost, look=None):
     """One method's rows that have an error: the largest of `errors` against a cost, over all points of the sweep."""
     error, setting = worst(at_points(output, *errors)), output.values("setting")
     costs = medians(at_points(output, cost)) if cost else np.zeros(len(setting))
@@ -94,7 +97,7 @@ def curve(output, method, errors, cost):
     mine = output.values("method") == code_of(output, method)
     rows = np.flatnonzero(mine & np.isfinite(error) & np.isfinite(costs))
     rows = rows[np.argsort(setting[rows] if method == "harmonics_fft" else -setting[rows], kind="stable")]
-    return Curve(method, setting[rows], costs[rows], spread[rows], np.maximum(error[rows], FLOOR),
+    return Curve(look or method, setting[rows], costs[rows], spread[rows], np.maximum(error[rows], FLOOR),
                  bool((error[rows] < FLOOR).any()), wrong[rows], failed[rows])
 
 
@@ -203,19 +206,21 @@ def draw_front(axes, cost, error):
 
 def samples_panel(exact, axes, found):
     """Error of the FFT's harmonics against its samples, with the slopes of first and second order."""
-    draw_curve(axes, found[0])
+    for part in found:
+        draw_curve(axes, part)
     for part in exact.error[:1]:
         axes.axhline(part, color=STOP, lw=1.0, ls=(0, (5, 2)), label="exact", gid="harmonics_exact")
     name_hollow(axes, found)
     axes.set_gid("panel-samples")
     finish(axes, "FFT samples", 2)
     axes.set_ylabel("error of harmonics")
-    return [draw_slope(axes, found[0], order) for order in (1, 2)] if len(found[0]) > 1 else []
+    return [draw_slope(axes, part, order) for part, order in ((found[-1], 1), (found[0], 2)) if len(part) > 1]
 
 
 def draw_slope(axes, fft, order):
-    """A thin line of one order from above the coarsest error on; returns its label."""
-    first, start, low = fft.cost[0], 3 * fft.error[0], axes.get_ylim()[0]
+    """A thin line of one order above all errors; returns its label."""
+    first, low = fft.cost[0], axes.get_ylim()[0]
+    start = 2 * max(fft.error * (fft.cost / first) ** order)
     last = min(fft.cost[-1], first * (start / low) ** (1 / order))
     axes.plot([first, last], [start, start * (first / last) ** order], color=STOP, lw=0.6, scalex=False, scaley=False,
               gid=f"slope-{order}")

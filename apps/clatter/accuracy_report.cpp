@@ -35,7 +35,8 @@ constexpr ColumnTitle titles[] = {{"", "setting", 9},
                                   {"", "missed", 8},
                                   {"impacts", "doubled", 9},
                                   {"rests", "missed", 8},
-                                  {"periods", "simulated", 11},
+                                  {"simulated", "impacts", 11},
+                                  {"", "periods", 9},
                                   {"time a", "period/ns", 12},
                                   {"", "spread", 9}};
 
@@ -66,7 +67,8 @@ std::string row_text(const Row& row) {
        {row.contact_time, row.contact_speed, row.rest, row.extrema, row.harmonics, row.v_harmonics})
     put("%.1e", error);
   for (const double count : {row.missed, row.doubled, row.rests_missed}) put("%.0f", count);
-  put("%.6g", row.simulated_periods), put("%.4g", row.ns_per_period), put("%.2g", row.ns_spread);
+  put("%.0f", row.impacts), put("%.6g", row.simulated_periods), put("%.4g", row.ns_per_period),
+      put("%.2g", row.ns_spread);
   return text + (failed(row.status) ? "  failed\n" : "\n");
 }
 

@@ -42,6 +42,10 @@ std::string joined(const std::vector<std::string>& names) {
   return text.empty() ? "nothing" : text;
 }
 
+std::string method_of(const Sweep& sweep) {
+  return std::string(method_names[static_cast<std::size_t>(sweep.scene.integration.method)]);
+}
+
 std::string group_text(const Group& group) {
   std::string text =
       '\n' + line(counted(static_cast<double>(group.points), "point"), "kernel: " + kernel_name(group.effects));
@@ -93,7 +97,10 @@ void put_group(std::ostringstream& out, const Group& group) {
 std::string plan_text(const Plan& plan, const Sweep& sweep, int threads) {
   std::string text = line("axes", axes_text(sweep)) + line("points", std::to_string(plan.points)) +
                      line("observed", joined(plan.observed));
-  if (sweep.scene.integration.all_effects)
+  const Integration& integration = sweep.scene.integration;
+  if (integration.method != Method::exact)
+    text += line("method", method_of(sweep) + ": every effect is simulated, no shortcut taken; called for are:");
+  else if (integration.all_effects)
     text += line("effects", "all are simulated, for all of max_periods (integrator.effects = all); called for are:");
   for (const Group& group : plan.groups) text += group_text(group);
   text += '\n' + line("estimated time", range(seconds_of(plan, threads), "%.2g") + " s on " +
@@ -120,7 +127,8 @@ std::string plan_json(const Plan& plan, const Sweep& sweep, int threads) {
   out << (sweep.follow ? json_text(std::string(key_of(sweep.dimensions[*sweep.follow].front().parameter))) : "null");
   out << ",\n  \"observed\": ";
   list(out, plan.observed, [&](const std::string& name) { out << json_text(name); });
-  out << ",\n  \"all_effects\": " << (sweep.scene.integration.all_effects ? "true" : "false") << ",\n  \"groups\": ";
+  out << ",\n  \"method\": " << json_text(method_of(sweep))
+      << ",\n  \"all_effects\": " << (sweep.scene.integration.all_effects ? "true" : "false") << ",\n  \"groups\": ";
   list(out, plan.groups, [&](const Group& group) { put_group(out, group); });
   out << ",\n  \"threads\": " << threads << ",\n  \"seconds\": " << estimate_json(seconds_of(plan, threads))
       << ",\n  \"output_bytes\": " << json_number(plan.output_bytes)

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <string_view>
 
 #include "dynamics/oscillator.hpp"
 #include "dynamics/stops.hpp"
@@ -45,6 +47,9 @@ struct Observe {
 };
 
 enum class Method : std::uint8_t { exact, dopri5, moreau };
+
+/// In the order of Method.
+inline constexpr std::array<std::string_view, 3> method_names{"exact", "dopri5", "moreau"};
 
 /// How arcs, impacts and rests are computed.
 struct Integration {

@@ -140,6 +140,8 @@ class DormandPrince : public EventDriven<DormandPrince<E>, double, E> {
       Bernstein<double> c = arc.rise();
       for (double& y : c) y = gap(side) - sign_of(side) * y;
       c[0] = std::max(c[0], 0.0);
+      if (c[0] == 0 && arc.velocity()[0] == 0)  // let go: the force leads away, though the polynomial's error may not
+        c[1] = 0, c[2] = std::max(c[2], 0.0);
       const auto root = FirstRoot<double>::of(c);
       if (root && *root * arc.length() <= first.elapsed) first.side = side, first.elapsed = *root * arc.length();
     }

@@ -4,7 +4,7 @@
 #include <cstdint>
 
 #include "dynamics/contact.hpp"
-#include "integrators/setup.hpp"
+#include "integrators/integrator.hpp"
 
 namespace clatter {
 

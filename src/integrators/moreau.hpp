@@ -5,7 +5,7 @@
 #include <cstdint>
 
 #include "dynamics/polynomial_arc.hpp"
-#include "integrators/setup.hpp"
+#include "integrators/integrator.hpp"
 
 namespace clatter {
 
@@ -120,7 +120,7 @@ class Moreau : public Setup<double, E> {
     this->show_impact(state, stop, before, origin, observer);
     if (after == 0) {
       state.x = stop.place;
-      this->show_rest(state, stop, theta_ * free.length / this->period(), false, origin, observer);
+      this->show_rest(state, stop, theta_ * free.length / this->period(), true, origin, observer);
     } else {
       drift(state, theta_ * free.length, origin, observer);
     }

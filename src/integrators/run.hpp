@@ -3,7 +3,7 @@
 #include <cmath>
 #include <cstdint>
 
-#include "integrators/setup.hpp"
+#include "integrators/integrator.hpp"
 
 namespace clatter {
 
@@ -19,20 +19,20 @@ namespace clatter {
 }
 
 /// Runs to the next section.
-template <class Integrator, class Observer>
-[[nodiscard]] Outcome advance_to_section(Integrator& integrator, State<typename Integrator::Number>& state,
-                                         std::int64_t origin, Observer& observer) {
-  const Outcome outcome = integrator.advance(state, typename Integrator::Number(1), origin, observer);
+template <Integrator I, class Observer>
+[[nodiscard]] Outcome advance_to_section(I& integrator, State<typename I::Number>& state, std::int64_t origin,
+                                         Observer& observer) {
+  const Outcome outcome = integrator.advance(state, typename I::Number(1), origin, observer);
   state.turns = 0;
   ++state.periods;
   return outcome;
 }
 
 /// Runs for a time in turns, starting at a section, under the eyes of an observer.
-template <class Integrator, class Observer>
-[[nodiscard]] Outcome run_for(Integrator& integrator, State<typename Integrator::Number>& state,
-                              const typename Integrator::Number& turns, Observer& observer) {
-  using Number = typename Integrator::Number;
+template <Integrator I, class Observer>
+[[nodiscard]] Outcome run_for(I& integrator, State<typename I::Number>& state, const typename I::Number& turns,
+                              Observer& observer) {
+  using Number = typename I::Number;
   using std::floor;
   const std::int64_t origin = state.periods;
   Number left = floor(turns);

@@ -8,8 +8,8 @@
 namespace clatter {
 
 /// Runs forced motion until it repeats, and looks for that from a section on.
-template <class Integrator>
-[[nodiscard]] Observed settle_by_repetition(Integrator& integrator, State<double> state, const TimePlan& plan,
+template <Integrator I>
+[[nodiscard]] Observed settle_by_repetition(I& integrator, State<double> state, const TimePlan& plan,
                                             std::int64_t from) {
   constexpr auto longest = static_cast<std::int64_t>(RepeatFinder::longest);
   NoObserver nobody;
@@ -35,9 +35,9 @@ template <class Integrator>
 /// The time to observe of a scene that starts from `state`. General methods know no shortcut; nor is one taken where
 /// all effects are asked for, to compare with: it is run for all of max_periods then, and a repeat looked for at their
 /// end.
-template <class Integrator>
-[[nodiscard]] Observed settle(Integrator& integrator, const State<double>& state, const Scene& scene) {
-  constexpr Effects E = Integrator::effects;
+template <Integrator I>
+[[nodiscard]] Observed settle(I& integrator, const State<double>& state, const Scene& scene) {
+  constexpr Effects E = I::effects;
   if (scene.time.mode == Mode::transient)
     return {Status::transient, state, scene.time.duration / integrator.period(), 0.0, FoundBy::start};
   const bool forced = E.forcing != Forcing::none && scene.oscillator.forcing != 0;
@@ -46,7 +46,7 @@ template <class Integrator>
     constexpr auto longest = static_cast<std::int64_t>(RepeatFinder::longest);
     if (scene.integration.all_effects)
       return settle_by_repetition(integrator, state, scene.time, scene.time.max_periods - 3 * longest);
-    if constexpr (Integrator::in_closed_form)
+    if constexpr (I::in_closed_form)
       if (scene.integration.shortcuts) return SteadySearch<E>(integrator, scene).run(state);
     return settle_by_repetition(integrator, state, scene.time, 0);
   }

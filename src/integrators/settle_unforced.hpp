@@ -14,10 +14,10 @@ namespace clatter {
 
 /// Runs unforced motion until it returns to the same speed on the same stop, turns freely, or comes to stand still;
 /// in closed form, where nothing is lost, its period follows from the start.
-template <class Integrator>
+template <Integrator I>
 class FreeSearch {
  public:
-  FreeSearch(Integrator& integrator, const Scene& scene) : integrator_(integrator), scene_(scene), returns_(scene) {}
+  FreeSearch(I& integrator, const Scene& scene) : integrator_(integrator), scene_(scene), returns_(scene) {}
 
   [[nodiscard]] Observed run(State<double> state) {
     const State<double> start = state;
@@ -25,7 +25,7 @@ class FreeSearch {
     for (std::int64_t section = 0;; ++section) {
       const auto settled = static_cast<double>(section);
       if (stands_still(state)) return {Status::periodic, state, 1.0, settled, FoundBy::standstill};
-      if (Integrator::in_closed_form && !all_effects()) {
+      if (I::in_closed_form && !all_effects()) {
         const double turns = section == 0 && conservative() ? free_turns(start) : 0.0;
         if (turns > shortest) return {Status::periodic, start, turns, 0.0, FoundBy::energy};
         if (const auto found = closed_form(state, section)) return *found;
@@ -63,7 +63,7 @@ class FreeSearch {
   [[nodiscard]] std::optional<Observed> closed_form(const State<double>& state, std::int64_t section) const {
     const Oscillator& o = scene_.oscillator;
     const Instant now{state.x - o.load, state.v, 0.0, 1.0};
-    if (Integrator::effects.stops() && !out_of_reach(o, now, integrator_.stops())) return std::nullopt;
+    if (I::effects.stops() && !out_of_reach(o, now, integrator_.stops())) return std::nullopt;
     const auto settled = static_cast<double>(section);
     if (o.damping == 0) return Observed{Status::periodic, state, 1.0, settled, FoundBy::closed_form};
     const double time = static_cast<double>(scene_.time.max_periods - section) * integrator_.period();
@@ -75,7 +75,7 @@ class FreeSearch {
   }
 
   static constexpr double shortest = 16 * std::numeric_limits<double>::epsilon();  ///< turns that time can tell apart
-  Integrator& integrator_;
+  I& integrator_;
   const Scene& scene_;
   ReturnMap returns_;
 };

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <utility>
 
 #include "io/config.hpp"
@@ -38,8 +39,7 @@ Observe observe(const Settings& settings) {
 }
 
 Method method(const std::string& name) {
-  if (name == "dopri5") return Method::dopri5;
-  return name == "moreau" ? Method::moreau : Method::exact;
+  return static_cast<Method>(std::ranges::find(method_names, name) - method_names.begin());
 }
 
 Integration integration(const Settings& settings) {

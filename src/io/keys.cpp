@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "dynamics/scene.hpp"
 #include "io/suggestion.hpp"
 #include "io/value_grammar.hpp"
 
@@ -22,7 +23,6 @@ constexpr Range zero_to_one{.low = 0, .high = 1};
 
 constexpr std::array<std::string_view, 2> modes{"steady", "transient"};
 constexpr std::array<std::string_view, 2> harmonics_methods{"fft", "exact"};
-constexpr std::array<std::string_view, 3> methods{"exact", "dopri5", "moreau"};
 constexpr std::array<std::string_view, 2> effects{"required", "all"};
 
 using enum Kind;
@@ -103,7 +103,7 @@ constexpr std::array all_keys{
         "exact: closed-form arcs, proved contacts; to compare with, dopri5: Dormand-Prince pair of orders 5 and 4, "
         "contacts on its dense output; moreau: Moreau-Jean time stepping",
         {},
-        methods},
+        method_names},
     Key{"integrator", "tolerance", number, "1e-10", "dopri5: error of a step, relative to the motion",
         Range{.low = 1e-14, .high = 0.1}},
     Key{"integrator", "step", number, "1e-3", "moreau: in forcing periods, without forcing in 2 pi",

@@ -6,55 +6,42 @@
 namespace clatter {
 namespace {
 
-/// What happens on one stop: impacts, and the times in which the mass stays on it, chatters' ends and rests that follow
-/// each other being one.
+/// What happens on one stop.
 struct OfStop {
-  std::vector<Event> impacts, rests;
-  struct Stay {
-    double from, to;
-  };
-  std::vector<Stay> stays;
+  std::vector<Event> impacts, chatters, rests;
 
   OfStop(std::span<const Event> events, Side side) {
     for (const Event& event : with_rests_joined({events.begin(), events.end()})) {
       if (event.side != side) continue;
-      if (event.kind == Event::Kind::impact) {
-        impacts.push_back(event);
-        continue;
-      }
-      if (event.kind == Event::Kind::rest) rests.push_back(event);
-      const bool follows = !stays.empty() && event.time <= stays.back().to + touching * (1 + event.time);
-      if (follows)
-        stays.back().to = std::max(stays.back().to, event.end());
-      else
-        stays.push_back({event.time, event.end()});
+      auto& of_kind = event.kind == Event::Kind::impact    ? impacts
+                      : event.kind == Event::Kind::chatter ? chatters
+                                                           : rests;
+      of_kind.push_back(event);
     }
   }
 
-  /// Whether the mass stays on the stop at a time, to a slack at both ends.
-  [[nodiscard]] bool stays_at(double time, double slack) const {
-    return std::ranges::any_of(stays,
-                               [&](const Stay& stay) { return time >= stay.from - slack && time <= stay.to + slack; });
+  /// Whether a chatter has been completed over a time, to its length at both ends.
+  [[nodiscard]] bool completes(double time) const {
+    return std::ranges::any_of(chatters, [&](const Event& chatter) {
+      return time >= chatter.time - chatter.length && time <= chatter.end() + chatter.length;
+    });
   }
-
- private:
-  static constexpr double touching = 1e-12;
 };
 
 /// Pairs the impacts of a run with those of its reference on one stop.
 class Pairing {
  public:
-  Pairing(const OfStop& run, const OfStop& reference, double duration, ContactErrors& errors)
-      : run_(run), reference_(reference), duration_(duration), errors_(errors) {}
+  Pairing(const OfStop& run, const OfStop& reference, double latest, ContactErrors& errors)
+      : run_(run), reference_(reference), latest_(latest), errors_(errors) {}
 
   void impacts() {
     std::size_t j = 0;
     for (std::size_t i = 0; i < reference_.impacts.size(); ++i) {
       const double time = reference_.impacts[i].time;
-      while (j < run_.impacts.size() && run_.impacts[j].time - lag_ < time - room(i, -1)) extra(run_.impacts[j++]);
-      if (j < run_.impacts.size() && run_.impacts[j].time - lag_ <= time + room(i, 1)) {
+      while (j < run_.impacts.size() && run_.impacts[j].time < time + earliest(i)) extra(run_.impacts[j++]);
+      if (j < run_.impacts.size() && run_.impacts[j].time <= time + latest(i)) {
         pair(run_.impacts[j++], reference_.impacts[i]);
-      } else if (!run_.stays_at(time + lag_, std::abs(lag_))) {
+      } else if (!run_.completes(time + lag_)) {
         ++errors_.missed;
       }
     }
@@ -78,21 +65,25 @@ class Pairing {
   [[nodiscard]] double room(std::size_t i, int direction) const {
     const auto& impacts = reference_.impacts;
     const bool first = i == 0, last = i + 1 == impacts.size();
-    if (first && last) return duration_ / 2;
+    if (first && last) return latest_;
     const bool ahead = (direction > 0 && !last) || first;
     return std::abs(impacts[ahead ? i + 1 : i - 1].time - impacts[i].time) / 2;
   }
+  /// Of the run's impact against the reference's.
+  [[nodiscard]] double earliest(std::size_t i) const { return std::max(lag_ - room(i, -1), -latest_); }
+  [[nodiscard]] double latest(std::size_t i) const { return std::min(lag_ + room(i, 1), latest_); }
+
   void pair(const Event& impact, const Event& expected) {
     lag_ = impact.time - expected.time;
     errors_.time = std::max(errors_.time, std::abs(lag_));
     errors_.speed = std::max(errors_.speed, std::abs(impact.speed - expected.speed));
   }
   void extra(const Event& impact) {
-    if (!reference_.stays_at(impact.time - lag_, std::abs(lag_))) ++errors_.doubled;
+    if (!reference_.completes(impact.time - lag_)) ++errors_.doubled;
   }
 
   const OfStop &run_, &reference_;
-  double duration_;
+  double latest_;
   ContactErrors& errors_;
   double lag_ = 0.0;  ///< of the run behind the reference, at the last pair
 };
@@ -119,18 +110,20 @@ Agreement agreement_of(const Course& in_double, const Course& in_fifty_digits, d
       return agreement;
     }
     agreement.events.push_back(exact[j++]);
+    if (chatter)
+      agreement.events.back().time = event.time, agreement.events.back().length = exact[j - 1].end() - event.time;
   }
   if (j < exact.size() && exact[j].time < end) agreement.until = exact[j].time;
   return agreement;
 }
 
-ContactErrors compare(std::span<const Event> run, std::span<const Event> reference, double duration) {
+ContactErrors compare(std::span<const Event> run, std::span<const Event> reference, double latest) {
   ContactErrors errors;
   double fastest = 0.0;
   for (const Event& event : reference) fastest = std::max(fastest, event.speed);
   for (const Side side : {Side::lower, Side::upper}) {
     const OfStop of_run(run, side), of_reference(reference, side);
-    Pairing pairing(of_run, of_reference, duration, errors);
+    Pairing pairing(of_run, of_reference, latest, errors);
     pairing.impacts();
     pairing.rests();
   }

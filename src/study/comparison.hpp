@@ -15,7 +15,8 @@ struct Agreement {
 };
 
 /// Follows both runs until they differ: in a stop, in the kind of what happens, or in a time by more than `room`.
-/// Impacts that 50 digits go on to take where a double has completed a chatter are left out.
+/// Impacts that 50 digits go on to take where a double has completed a chatter are left out, and a chatter begins where
+/// the double completes it.
 [[nodiscard]] Agreement agreement_of(const Course& in_double, const Course& in_fifty_digits, double room);
 
 /// How the contacts and rests of a run differ from those of a reference.
@@ -29,9 +30,9 @@ struct ContactErrors {
 };
 
 /// Pairs the impacts of each stop in their order. A run may lag behind its reference by what it lags at the impact
-/// before, and half the time to the neighbouring impacts of the stop: a sequence that comes too late as a whole is
-/// late, not missed. Impacts that one of them takes within a chatter or rest of the other are neither missed nor
-/// doubled.
-[[nodiscard]] ContactErrors compare(std::span<const Event> run, std::span<const Event> reference, double duration);
+/// before, and half the time to the neighbouring impacts of the stop, together by up to `latest`: a sequence that comes
+/// too late as a whole is late, not missed. Impacts that one of them takes where the other completes a
+/// chatter are neither missed nor doubled.
+[[nodiscard]] ContactErrors compare(std::span<const Event> run, std::span<const Event> reference, double latest);
 
 }  // namespace clatter

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "dynamics/scene.hpp"
-#include "integrators/setup.hpp"
+#include "integrators/integrator.hpp"
 #include "observables/extrema.hpp"
 #include "observables/harmonics.hpp"
 

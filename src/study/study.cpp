@@ -274,8 +274,8 @@ class Study {
     row.extrema = std::max(range_error(result.x_min, result.x_max, reference.x_range),
                            range_error(result.v_min, result.v_max, reference.v_range));
     if (prepared.reference_period > 0 && result.observed_turns != prepared.reference_period) return;
-    const ContactErrors errors = compare(events_of(result), reference.events, reference.duration);
     const double period = period_of(scene_);
+    const ContactErrors errors = compare(events_of(result), reference.events, period / 2);
     row.contact_time = errors.time / period, row.contact_speed = errors.speed, row.rest = errors.rest / period;
     row.missed = static_cast<double>(errors.missed), row.doubled = static_cast<double>(errors.doubled);
     row.rests_missed = static_cast<double>(errors.rests_missed);

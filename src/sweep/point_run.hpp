@@ -11,10 +11,10 @@
 namespace clatter {
 
 /// One scene on its way to a result.
-template <class Integrator>
+template <Integrator I>
 class Point {
  public:
-  Point(const Scene& scene, Workshop& workshop, const Integrator& integrator)
+  Point(const Scene& scene, Workshop& workshop, const I& integrator)
       : scene_(scene), workshop_(workshop), integrator_(integrator) {}
 
   PointResult run() {
@@ -109,7 +109,7 @@ class Point {
 
   const Scene& scene_;
   Workshop& workshop_;
-  Integrator integrator_;
+  I integrator_;
   Observed observed_{};
   PointResult result_{};
 };

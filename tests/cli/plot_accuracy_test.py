@@ -21,8 +21,8 @@ import plot_style  # noqa: E402
 
 METHODS = ("exact", "dopri5", "moreau", "harmonics_exact", "harmonics_fft", "steady", "steady_repetition")
 STATUSES = {0: "periodic", 1: "aperiodic", 2: "transient", 16: "event_budget", 17: "not_finite", 18: "unresolved"}
-RESULTS = ("error_contact_time", "error_contact_speed", "error_extrema", "error_harmonics", "error_rest", "missed",
-           "doubled", "impacts", "simulated_periods", "ns_per_period", "ns_spread")
+RESULTS = ("error_contact_time", "error_contact_speed", "error_extrema", "error_harmonics", "error_harmonics_v",
+           "error_rest", "missed", "doubled", "impacts", "simulated_periods", "ns_per_period", "ns_spread")
 MOTION = ("error_contact_time", "error_contact_speed", "error_extrema")
 CONFIG = """title = "Minimum and maximum displacement, xs = -4"
 source = "doi:10.5755/j02.mech.32277, Fig. 22"
@@ -80,7 +80,8 @@ class Study:
         self.results["missed"][self.rows("moreau", 1e-1)] = 12.0
         self.results["doubled"][self.rows("dopri5", 1e-3)] = 1.0
         samples = self.setting[self.rows("harmonics_fft")[1]]
-        self.put("harmonics_fft", error_harmonics=3.0 * samples ** -1.0, ns_per_period=30 * samples)
+        self.put("harmonics_fft", error_harmonics=3.0 * samples ** -2.0, error_harmonics_v=2.0 / samples,
+                 ns_per_period=30 * samples)
         self.put("harmonics_exact", error_harmonics=np.array([2e-16]), ns_per_period=np.array([900.0]))
         for method, slowness in (("steady", 0.0), ("steady_repetition", 1.0)):
             tolerance = self.setting[self.rows(method)[1]]
@@ -137,7 +138,8 @@ def make_studies(folder):
         scalar.results[name][scalar.rows("dopri5", 1e-13)] = np.nan
         dead.results[name][:] = np.nan
     dead.status[:] = 17
-    dead.results["error_harmonics"][:] = np.nan
+    for name in ("error_harmonics", "error_harmonics_v"):
+        dead.results[name][:] = np.nan
     sweep.status[1, sweep.rows("moreau", 1e-2)[1]] = 16
     for name in RESULTS:
         sweep.results[name][1, sweep.rows("moreau", 1e-2)[1]] = np.nan
@@ -198,7 +200,8 @@ class Pictures(unittest.TestCase):
         self.assertFalse(self.says("scalar", "no method has an error"))
 
     def test_curves_have_a_symbol_for_each_setting_that_has_an_error(self):
-        curves = {"exact": 1, "dopri5": 11, "moreau": 5, "harmonics_fft": 17, "steady": 12, "steady_repetition": 12}
+        curves = {"exact": 1, "dopri5": 11, "moreau": 5, "harmonics_fft": 17, "harmonics_fft_v": 17, "steady": 12,
+                  "steady_repetition": 12}
         for name, differences in (("scalar", {"dopri5": 10}), ("sweep", {}), ("map", {}),
                                   ("dead", dict.fromkeys(curves)),
                                   ("transient", {"steady": None, "steady_repetition": None})):

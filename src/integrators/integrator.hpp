@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cmath>
+#include <concepts>
 #include <cstdint>
 #include <optional>
 
@@ -97,6 +98,17 @@ class Setup {
   Number start_turns_;
   double impacts_ = 0.0;
   double evaluations_ = 0.0;
+};
+
+/// What runs a scene: it advances a state to a phase and shows observers arcs, impacts and rests on the way. Observers
+/// don't know which one runs, and no integrator knows what is observed.
+template <class I>
+concept Integrator = requires(I& integrator, State<typename I::Number>& state, const typename I::Number& end,
+                              NoObserver& observer) {
+  { integrator.advance(state, end, std::int64_t{}, observer) } -> std::same_as<Outcome>;
+  { integrator.holding_stop(state) } -> std::same_as<std::optional<Stop<typename I::Number>>>;
+  { I::in_closed_form } -> std::convertible_to<bool>;  ///< its arcs are exact: shortcuts may rest on them
+  requires std::derived_from<I, Setup<typename I::Number, I::effects>>;
 };
 
 }  // namespace clatter
