@@ -26,6 +26,7 @@ std::vector<PointStudy> study_points(const Sweep& sweep, bool json, bool shown) 
   StudyOptions options{.stopped = [] { return Interrupt::signal() != 0; }};
   std::size_t finished = 0;
   const std::size_t total = size(sweep) * steps_of(trials.size(), options);
+  progress.show(0, total);
   options.progress = [&] { progress.show(++finished, total); };
   std::vector<PointStudy> points;
   for (std::size_t point = 0; point < size(sweep); ++point) {

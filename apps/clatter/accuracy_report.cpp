@@ -26,19 +26,19 @@ struct ColumnTitle {
 };
 
 constexpr ColumnTitle titles[] = {{"", "setting", 9},
-                                  {"", "time", 9},
-                                  {"", "speed", 9},
-                                  {"error of", "rest", 9},
-                                  {"", "extrema", 9},
-                                  {"", "harmonics", 11},
-                                  {"", "of v", 9},
-                                  {"", "missed", 8},
+                                  {"error of", "time", 10},
+                                  {"error of", "speed", 10},
+                                  {"error of", "rest", 10},
+                                  {"error of", "extrema", 10},
+                                  {"error of", "harmonics", 11},
+                                  {"error of", "those of v", 12},
+                                  {"impacts", "missed", 9},
                                   {"impacts", "doubled", 9},
                                   {"rests", "missed", 8},
-                                  {"simulated", "impacts", 11},
-                                  {"", "periods", 9},
-                                  {"time a", "period/ns", 12},
-                                  {"", "spread", 9}};
+                                  {"impacts", "taken", 9},
+                                  {"periods", "run", 9},
+                                  {"ns per", "period", 12},
+                                  {"its", "spread", 10}};
 
 std::string right(std::string text, std::size_t width) {
   text.insert(0, width > text.size() ? width - text.size() : 0, ' ');
@@ -67,23 +67,23 @@ std::string row_text(const Row& row) {
        {row.contact_time, row.contact_speed, row.rest, row.extrema, row.harmonics, row.v_harmonics})
     put("%.1e", error);
   for (const double count : {row.missed, row.doubled, row.rests_missed}) put("%.0f", count);
-  put("%.0f", row.impacts), put("%.6g", row.simulated_periods), put("%.4g", row.ns_per_period),
-      put("%.2g", row.ns_spread);
+  put("%.0f", row.impacts), put("%.6g", row.simulated_periods), put("%.0f", row.ns_per_period),
+      put("%.0f", row.ns_spread);
   return text + (failed(row.status) ? "  failed\n" : "\n");
 }
 
 /// What the errors are taken from.
-std::string horizon_text(const PointStudy& study) {
+std::string horizon_text(const PointStudy& study, bool forced) {
   const std::string events = counted(study.impacts, "impact") + " and " + counted(study.rests, "rest");
-  const std::string asked = formatted("%.6g", study.asked) + " forcing periods from the start";
+  const std::string asked = formatted("%.6g ", study.asked) + (forced ? "forcing periods" : "turns of 2 pi");
   std::string text;
   if (study.horizon == study.asked)
-    text = "compared with 50 digits over " + asked + ": " + events;
+    text = "compared with 50 digits over " + asked + " from the start: " + events;
   else if (study.horizon > 0)
-    text = "compared with 50 digits over " + formatted("%.6g", study.horizon) + " of " + asked + ": " + events +
-           "; from there on double and 50 digits differ, as chaotic motion lets them";
+    text = "compared with 50 digits over " + formatted("%.6g", study.horizon) + " of " + asked +
+           " from the start: " + events + "; from there on double and 50 digits differ, as chaotic motion lets them";
   else
-    text = "not compared: double and 50 digits differ within the first forcing period, or the run fails";
+    text = "not compared: double and 50 digits differ within the first of " + asked + ", or the run fails";
   text += ".\n";
   if (study.steady_periods > 0)
     text += "Harmonics and repeats are those of the steady motion, " + counted(study.steady_periods, "forcing period") +
@@ -101,7 +101,7 @@ std::string study_text(const PointStudy& study, const Sweep& sweep, std::size_t 
     text += formatted(" = %.10g", value);
   });
   if (!text.empty()) text += '\n';
-  text += horizon_text(study);
+  text += horizon_text(study, scene_at(sweep, point).oscillator.forcing != 0);
   text += header();
   for (const Row& row : study.rows) text += row_text(row);
   return text + '\n';

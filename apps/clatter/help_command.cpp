@@ -14,6 +14,7 @@ constexpr std::string_view exit_codes = R"(Exit codes
   2   wrong command line or configuration
   70  a bug in clatter
   74  a file cannot be read or written
+  130, 143  stopped by SIGINT, SIGTERM
 )";
 
 /// Two columns: words, and what they mean.

@@ -6,6 +6,7 @@
 #include <boost/numeric/odeint/stepper/runge_kutta_dopri5.hpp>
 #include <boost/numeric/odeint/util/odeint_error.hpp>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "dynamics/polynomial_arc.hpp"
@@ -40,9 +41,9 @@ class DormandPrince : public EventDriven<DormandPrince<E>, double, E> {
   /// The next step's arc, and the contact in it; without one it ends with the step, or at the horizon.
   [[nodiscard]] Flight<DenseArc> fly(const State<double>& state, const Motion<double>& start, double anchor,
                                      double horizon) {
-    const bool goes_on = under_way_ && state.x == reached_.x && state.v == reached_.v;
+    const bool goes_on = Place{state.x, state.v, state.turns} == reached_;
     if (!goes_on) begin(state, start, anchor);
-    under_way_ = false;
+    reached_ = nowhere;
     Flight<DenseArc> flight{standing(state)};
     if (const Side side = entered(); side != Side::none) {
       flight.contact = {side, 0.0, start};
@@ -54,16 +55,18 @@ class DormandPrince : public EventDriven<DormandPrince<E>, double, E> {
       flight.contact = {Side::none, 0.0, start, 0, false};
       return flight;
     }
-    flight.contact = first_contact(flight.arc, horizon);
-    const bool stands = flight.contact.side == Side::none && !(state.turns + elapsed_turns(flight) > state.turns);
-    flight.contact.resolved = this->finite(flight.contact.motion.x) && !stands;
-    under_way_ = flight.contact.side == Side::none && flight.contact.elapsed < horizon;
-    reached_ = flight.contact.motion;
+    Contact<double>& contact = flight.contact = first_contact(flight.arc, horizon);
+    const double turns = state.turns + contact.elapsed / this->period();
+    contact.resolved = this->finite(contact.motion.x) && (contact.side != Side::none || turns > state.turns);
+    if (contact.side == Side::none && contact.elapsed < horizon) reached_ = {contact.motion.x, contact.motion.v, turns};
     return flight;
   }
 
  private:
   using Values = std::array<double, 2>;  ///< distance from the anchor, velocity
+  using Place = std::array<double, 3>;   ///< x, v, turns
+  static constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  static constexpr Place nowhere{nan, nan, nan};  // equal to no place
   using Pair = boost::numeric::odeint::runge_kutta_dopri5<Values>;
   using Stepper = typename boost::numeric::odeint::result_of::make_dense_output<Pair>::type;
 
@@ -151,16 +154,12 @@ class DormandPrince : public EventDriven<DormandPrince<E>, double, E> {
     if (!(sign_of(first.side) * first.motion.v > 0)) first.motion.v = 0;  // the two polynomials differ by their errors
     return first;
   }
-  [[nodiscard]] double elapsed_turns(const Flight<DenseArc>& flight) const {
-    return flight.contact.elapsed / this->period();
-  }
 
   double tolerance_;
   Stepper stepper_;
   double anchor_ = 0.0, angle_ = 0.0;  ///< of the present flight: its place of reference, the forcing phase it began at
   Values here_{};                      ///< where its next step begins
-  Motion<double> reached_{};           ///< end of the last step,
-  bool under_way_ = false;             ///< from which the flight goes on
+  Place reached_ = nowhere;            ///< from which the flight goes on
 };
 
 }  // namespace clatter

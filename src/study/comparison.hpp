@@ -24,6 +24,8 @@ struct ContactErrors {
   double time = 0.0;             ///< largest error of an impact's time, in tau
   double speed = 0.0;            ///< largest error of an impact's speed, over the largest speed
   double rest = 0.0;             ///< largest error of a rest's beginning or end, in tau
+  std::size_t paired = 0;        ///< impacts that both have: where there are none, time and speed mean nothing
+  std::size_t rests_paired = 0;  ///< rests that both have
   std::size_t missed = 0;        ///< impacts of the reference that the run doesn't have
   std::size_t doubled = 0;       ///< impacts of the run that the reference doesn't have
   std::size_t rests_missed = 0;  ///< rests of the reference during which the run never rests on that stop

@@ -75,14 +75,28 @@ State<Number> start_of(const Scene& scene) {
   return state;
 }
 
+/// Runs for a time in turns, unless it is stopped.
+template <Integrator I, class Observer>
+Outcome run_unless(const std::function<bool()>& stopped, I& integrator, State<typename I::Number>& state,
+                   const typename I::Number& turns, Observer& observer) {
+  using Number = typename I::Number;
+  const auto sections = static_cast<std::int64_t>(turns);
+  for (std::int64_t section = 0; section < sections; ++section) {
+    if (stopped && stopped()) return Outcome::unresolved;
+    const Outcome outcome = advance_to_section(integrator, state, 0, observer);
+    if (outcome != Outcome::completed) return outcome;
+  }
+  return integrator.advance(state, Number(turns - Number(sections)), 0, observer);
+}
+
 template <class Number, Effects E>
 Course run_from(const Scene& scene, State<Number> state, const Number& turns, double duration,
-                const std::optional<CourseObservables>& observables) {
+                const std::optional<CourseObservables>& observables, const std::function<bool()>& stopped) {
   Course course;
   course.duration = duration;
   Exact<Number, E> integrator(scene);
   Witness<Number, E> witness(scene, observables);
-  course.outcome = run_for(integrator, state, turns, witness);
+  course.outcome = run_unless(stopped, integrator, state, turns, witness);
   course.x = static_cast<double>(state.x), course.v = static_cast<double>(state.v);
   course.impacts = integrator.impacts(), course.evaluations = integrator.evaluations();
   witness.finish(course);
@@ -90,24 +104,26 @@ Course run_from(const Scene& scene, State<Number> state, const Number& turns, do
 }
 
 template <class Number>
-Course run_in(const Scene& scene, double duration, const std::optional<CourseObservables>& observables) {
+Course run_in(const Scene& scene, double duration, const std::optional<CourseObservables>& observables,
+              const std::function<bool()>& stopped) {
   return with_any_stops(scene.oscillator, [&]<Effects effects>() {
     const Number period = 2 * pi<Number>() / Number(counting_frequency(scene.oscillator));
     return run_from<Number, effects>(scene, start_of<Number>(scene), Number(Number(duration) / period), duration,
-                                     observables);
+                                     observables, stopped);
   });
 }
 
 /// Moves a state to the fixed point of the map over so many periods; whether it got there.
 template <Effects E>
-bool to_fixed_point(const Scene& scene, State<FiftyDigits>& start, double periods) {
+bool to_fixed_point(const Scene& scene, State<FiftyDigits>& start, double periods,
+                    const std::function<bool()>& stopped) {
   constexpr int most_iterations = 12;
   for (int iteration = 0; iteration < most_iterations; ++iteration) {
     Exact<FiftyDigits, E> integrator(scene);
     Witness<FiftyDigits, E> witness(scene, std::nullopt);
     witness.differentiate();
     State<FiftyDigits> end = start;
-    if (run_for(integrator, end, FiftyDigits(periods), witness) != Outcome::completed) return false;
+    if (run_unless(stopped, integrator, end, FiftyDigits(periods), witness) != Outcome::completed) return false;
     const FiftyDigits dx = end.x - start.x, dv = end.v - start.v;
     if (abs(dx) + abs(dv) <= FiftyDigits(1e-30) * (abs(end.x) + abs(end.v))) return true;
     const Map<FiftyDigits> D = witness.derivative();
@@ -140,18 +156,21 @@ std::vector<Event> with_rests_joined(const std::vector<Event>& events) {
 }
 
 Course course_of(const Scene& scene, double duration, const std::optional<CourseObservables>& observables) {
-  return run_in<double>(scene, duration, observables);
+  return run_in<double>(scene, duration, observables, {});
 }
-Course reference_of(const Scene& scene, double duration, const std::optional<CourseObservables>& observables) {
-  return run_in<FiftyDigits>(scene, duration, observables);
+Course reference_of(const Scene& scene, double duration, const std::optional<CourseObservables>& observables,
+                    const std::function<bool()>& stopped) {
+  return run_in<FiftyDigits>(scene, duration, observables, stopped);
 }
 
-std::optional<Course> periodic_reference(const Scene& scene, double periods, const CourseObservables& observables) {
+std::optional<Course> periodic_reference(const Scene& scene, double periods, const CourseObservables& observables,
+                                         const std::function<bool()>& stopped) {
+  if (periods != std::floor(periods)) return std::nullopt;
   return with_any_stops(scene.oscillator, [&]<Effects effects>() -> std::optional<Course> {
     State<FiftyDigits> start = start_of<FiftyDigits>(scene);
-    if (!to_fixed_point<effects>(scene, start, periods)) return std::nullopt;
+    if (!to_fixed_point<effects>(scene, start, periods, stopped)) return std::nullopt;
     const double duration = periods * 2 * pi<double>() / counting_frequency(scene.oscillator);
-    return run_from<FiftyDigits, effects>(scene, start, FiftyDigits(periods), duration, observables);
+    return run_from<FiftyDigits, effects>(scene, start, FiftyDigits(periods), duration, observables, stopped);
   });
 }
 

@@ -3,6 +3,7 @@
 #include <complex>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -58,13 +59,15 @@ struct CourseObservables {
 
 /// The same source run in 50 digits: the reference. It completes a chatter only where a double would long have done so.
 /// Observables are taken from its arcs, each rounded to double at its start: an error of a few roundings, that doesn't
-/// grow.
+/// grow. Unresolved where `stopped`, asked at every section, ends it.
 [[nodiscard]] Course reference_of(const Scene& scene, double duration,
-                                  const std::optional<CourseObservables>& observables = std::nullopt);
+                                  const std::optional<CourseObservables>& observables = std::nullopt,
+                                  const std::function<bool()>& stopped = {});
 
-/// The periodic motion of so many forcing periods near the scene's start, by Newton's method in 50 digits; nothing
-/// where it doesn't converge to 30 digits.
+/// The periodic motion of so many forcing periods, a whole number, near the scene's start, by Newton's method in 50
+/// digits; nothing where it doesn't converge to 30 digits, or `stopped` ends it.
 [[nodiscard]] std::optional<Course> periodic_reference(const Scene& scene, double periods,
-                                                       const CourseObservables& observables);
+                                                       const CourseObservables& observables,
+                                                       const std::function<bool()>& stopped = {});
 
 }  // namespace clatter

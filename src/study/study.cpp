@@ -1,23 +1,19 @@
 #include "study/study.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <complex>
 #include <optional>
 #include <span>
 
 #include "study/comparison.hpp"
+#include "study/references.hpp"
+#include "study/stopwatch.hpp"
 
 namespace clatter {
 namespace {
 
-constexpr std::size_t highest_harmonic = 3;
-constexpr double agreement_room = 1e-8;  ///< forcing periods by which double and 50 digits may differ: half the digits
-
 using Complexes = std::vector<std::complex<double>>;
-
-double period_of(const Scene& scene) { return 2 * pi<double>() / counting_frequency(scene.oscillator); }
 
 /// Complex amplitudes of the harmonics of a result, in the form of a course's.
 Complexes complex_amplitudes(const Spectrum& spectrum) {
@@ -53,47 +49,71 @@ std::vector<Event> events_of(const PointResult& result) {
   return events;
 }
 
-/// A trial's scenes: what its errors are taken from, and the same without what costs time beside it.
+/// A trial ready to run: the scene that its errors are taken from, the same without what costs time beside it, and what
+/// it is compared with.
 struct Prepared {
   Trial trial;
   Scene observed, silent;
   const Course* reference = nullptr;  ///< null: nothing to compare with
-  double reference_period =
-      no_value;  ///< steady trials: contacts are compared with a motion of as many forcing periods
+  double reference_period = 0.0;      ///< steady trials: contacts are compared with a motion of as many forcing periods
 };
 
-/// Wall times of a trial.
-class Stopwatch {
- public:
-  /// Runs a scene often enough to be measured; a slow one is measured in the first rounds only.
-  void measure(const Scene& scene, Workshop& workshop, int round) {
-    if ((round > 0 && seconds_ > 5) || (round > 2 && seconds_ > 1)) return;
-    const auto begin = std::chrono::steady_clock::now();
-    double periods = 0;
-    for (int i = 0; i < batch_; ++i) periods += run_point(scene, workshop).periods;
-    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-    seconds_ = seconds / batch_;
-    if (round >= 0) ns_per_period_.push_back(1e9 * seconds / periods);
-    batch_ = static_cast<int>(std::clamp(shortest / seconds_, 1.0, 1e6));
-  }
-  [[nodiscard]] double median() { return quantile(0.5); }
-  [[nodiscard]] double spread() { return ns_per_period_.size() > 1 ? quantile(0.75) - quantile(0.25) : no_value; }
+/// Harmonics alone, of the frequency that suits a duration.
+Observe harmonics_over(const Scene& scene, double duration) {
+  Observe observe;
+  observe.harmonics = highest_harmonic, observe.harmonics_method = HarmonicsMethod::exact;
+  observe.base_frequency = observables_over(scene, duration).base_frequency;
+  return observe;
+}
+Observe everything_over(const Scene& scene, double duration) {
+  Observe observe = harmonics_over(scene, duration);
+  observe.extrema = observe.impact_log = observe.rest_log = true;
+  return observe;
+}
 
- private:
-  static constexpr double shortest = 2e-3;  // seconds
+const Course* pointer_to(const std::optional<Course>& course) { return course ? &*course : nullptr; }
 
-  [[nodiscard]] double quantile(double share) {
-    if (ns_per_period_.empty()) return no_value;
-    std::ranges::sort(ns_per_period_);
-    const double place = share * static_cast<double>(ns_per_period_.size() - 1);
-    const auto below = static_cast<std::size_t>(place), above = std::min(below + 1, ns_per_period_.size() - 1);
-    return std::lerp(ns_per_period_[below], ns_per_period_[above], place - std::floor(place));
-  }
+/// A scene that runs over the horizon.
+Scene over_horizon(Scene scene, const References& references) {
+  scene.time.mode = Mode::transient, scene.time.duration = references.horizon * period_of(scene);
+  return scene;
+}
 
-  int batch_ = 1;
-  double seconds_ = 0.0;
-  std::vector<double> ns_per_period_;
-};
+Prepared prepare_method(const Trial& trial, const Scene& scene, const References& references) {
+  Prepared prepared{trial, scene, over_horizon(scene, references), pointer_to(references.from_start)};
+  Integration& integration = prepared.silent.integration;
+  if (trial.studied == Studied::dopri5) integration.method = Method::dopri5, integration.tolerance = trial.setting;
+  if (trial.studied == Studied::moreau) integration.method = Method::moreau, integration.step = trial.setting;
+  prepared.observed = prepared.silent;
+  prepared.observed.observe = everything_over(scene, prepared.silent.time.duration);
+  return prepared;
+}
+
+Prepared prepare_harmonics(const Trial& trial, const Scene& scene, const References& references) {
+  const bool steady = references.periodic.has_value();
+  Prepared prepared{trial, scene, steady ? *references.on_period : over_horizon(scene, references),
+                    pointer_to(steady ? references.periodic : references.from_start)};
+  Observe& observe = prepared.silent.observe = harmonics_over(scene, prepared.silent.time.duration);
+  if (trial.studied == Studied::harmonics_fft)
+    observe.harmonics_method = HarmonicsMethod::fft, observe.harmonics_samples = std::llround(trial.setting);
+  prepared.observed = prepared.silent;
+  return prepared;
+}
+
+Prepared prepare_steady(const Trial& trial, const Scene& scene, const References& references) {
+  Prepared prepared{trial, scene, scene, pointer_to(references.periodic), references.steady_periods};
+  prepared.silent.time.tolerance = trial.setting;
+  prepared.silent.integration.shortcuts = trial.studied == Studied::steady;
+  prepared.observed = prepared.silent;
+  prepared.observed.observe = everything_over(scene, period_of(scene));
+  return prepared;
+}
+
+Prepared prepare(const Trial& trial, const Scene& scene, const References& references) {
+  if (trial.studied <= Studied::moreau) return prepare_method(trial, scene, references);
+  if (trial.studied <= Studied::harmonics_fft) return prepare_harmonics(trial, scene, references);
+  return prepare_steady(trial, scene, references);
+}
 
 /// What a thread needs for a scene's harmonics.
 class Bench {
@@ -122,12 +142,18 @@ class Study {
   }
 
   PointStudy run(const std::vector<Trial>& trials) {
-    if (!stopped()) find_references();
+    if (!stopped()) references_ = references_of(scene_, options_.stopped);
     std::vector<Prepared> prepared;
-    for (const Trial& trial : trials) prepared.push_back(prepare(trial));
-    for (const Prepared& trial : prepared) result_.rows.push_back(row_of(trial));
-    measure(prepared);
-    return std::move(result_);
+    for (const Trial& trial : trials) prepared.push_back(prepare(trial, scene_, references_));
+    PointStudy study{.asked = references_.asked,
+                     .horizon = references_.horizon,
+                     .impacts = references_.count(Event::Kind::impact),
+                     .rests = references_.count(Event::Kind::rest),
+                     .steady_periods = references_.periodic ? references_.steady_periods : no_value,
+                     .rows = {}};
+    for (const Prepared& trial : prepared) study.rows.push_back(row_of(trial));
+    measure(prepared, study.rows);
+    return study;
   }
 
  private:
@@ -135,128 +161,15 @@ class Study {
   void step() const {
     if (options_.progress) options_.progress();
   }
-  [[nodiscard]] CourseObservables observables() const {
-    return {highest_harmonic, counting_frequency(scene_.oscillator)};
-  }
-
-  /// Motion from the start in 50 digits as far as a double follows it, and the steady motion.
-  void find_references() {
-    const double period = period_of(scene_);
-    const bool steady = scene_.time.mode == Mode::steady;
-    const double duration = steady ? static_cast<double>(scene_.time.window) * period : scene_.time.duration;
-    result_.asked = duration / period;
-    const Course in_double = course_of(scene_, duration);
-    from_start_ = reference_of(scene_, duration, observables());
-    const bool failed = in_double.outcome != Outcome::completed || from_start_->outcome != Outcome::completed;
-    Agreement agreement = agreement_of(in_double, *from_start_, agreement_room * period);
-    const double periods = failed ? 0 : std::floor(agreement.until / period);
-    result_.horizon = !failed && agreement.until == duration ? result_.asked : periods;
-    if (result_.horizon < result_.asked) {
-      const double end = periods * period;
-      from_start_ = reference_of(scene_, end, observables());
-      std::erase_if(agreement.events, [&](const Event& event) { return event.time > end; });
-      for (Event& event : agreement.events) event.length = std::min(event.length, end - event.time);
-    }
-    from_start_->events = std::move(agreement.events);
-    if (!(result_.horizon > 0)) from_start_.reset();
-    count_events();
-    if (steady && scene_.oscillator.forcing != 0) find_steady_motion();
-  }
-
-  void count_events() {
-    if (!from_start_) return;
-    for (const Event& event : with_rests_joined(from_start_->events)) {
-      if (event.kind == Event::Kind::impact) ++result_.impacts;
-      if (event.kind == Event::Kind::rest) ++result_.rests;
-    }
-  }
-
-  void find_steady_motion() {
-    Scene scene = scene_;
-    scene.observe.period = true;
-    Workshop workshop;
-    const PointResult result = run_point(scene, workshop);
-    const bool moves = result.status == Status::periodic && result.found_by != FoundBy::standstill;
-    const double periods = result.observed_turns;
-    if (!moves) return;
-    on_period_ = scene_;
-    on_period_->start = result.end;
-    on_period_->time.mode = Mode::transient, on_period_->time.duration = periods * period_of(scene_);
-    periodic_ = periodic_reference(*on_period_, periods, observables());
-    if (periodic_) result_.steady_periods = periods;
-  }
-
-  [[nodiscard]] Prepared prepare(const Trial& trial) const {
-    Prepared prepared{trial, scene_, scene_};
-    switch (trial.studied) {
-      case Studied::exact:
-      case Studied::dopri5:
-      case Studied::moreau:
-        prepare_method(prepared);
-        break;
-      case Studied::harmonics_exact:
-      case Studied::harmonics_fft:
-        prepare_harmonics(prepared);
-        break;
-      case Studied::steady:
-      case Studied::steady_repetition:
-        prepare_steady(prepared);
-        break;
-    }
-    return prepared;
-  }
-
-  [[nodiscard]] Observe everything() const {
-    Observe observe;
-    observe.extrema = observe.impact_log = observe.rest_log = true;
-    observe.harmonics = highest_harmonic, observe.harmonics_method = HarmonicsMethod::exact;
-    observe.base_frequency = observables().base_frequency;
-    return observe;
-  }
-
-  void prepare_method(Prepared& prepared) const {
-    Scene& scene = prepared.silent;
-    Integration& integration = scene.integration;
-    scene.time.mode = Mode::transient, scene.time.duration = result_.horizon * period_of(scene_);
-    if (prepared.trial.studied == Studied::dopri5)
-      integration.method = Method::dopri5, integration.tolerance = prepared.trial.setting;
-    if (prepared.trial.studied == Studied::moreau)
-      integration.method = Method::moreau, integration.step = prepared.trial.setting;
-    prepared.observed = scene;
-    prepared.observed.observe = everything();
-    if (from_start_) prepared.reference = &*from_start_;
-  }
-
-  void prepare_harmonics(Prepared& prepared) const {
-    Scene& scene = prepared.silent;
-    if (periodic_) scene = *on_period_;
-    if (!periodic_) scene.time.mode = Mode::transient, scene.time.duration = result_.horizon * period_of(scene_);
-    scene.observe.harmonics = highest_harmonic, scene.observe.base_frequency = observables().base_frequency;
-    scene.observe.harmonics_method = HarmonicsMethod::exact;
-    if (prepared.trial.studied == Studied::harmonics_fft)
-      scene.observe.harmonics_method = HarmonicsMethod::fft,
-      scene.observe.harmonics_samples = static_cast<std::int64_t>(prepared.trial.setting);
-    prepared.observed = scene;
-    if (periodic_)
-      prepared.reference = &*periodic_;
-    else if (from_start_)
-      prepared.reference = &*from_start_;
-  }
-
-  void prepare_steady(Prepared& prepared) const {
-    Scene& scene = prepared.silent;
-    scene.time.tolerance = prepared.trial.setting;
-    scene.integration.shortcuts = prepared.trial.studied == Studied::steady;
-    prepared.observed = scene;
-    prepared.observed.observe = everything();
-    if (!periodic_) return;
-    prepared.reference = &*periodic_, prepared.reference_period = result_.steady_periods;
-  }
 
   [[nodiscard]] Row row_of(const Prepared& prepared) const {
-    Row row{.trial = prepared.trial};
+    Row row{.trial = prepared.trial, .status = references_.not_run};
     const bool empty = prepared.silent.time.mode == Mode::transient && !(prepared.silent.time.duration > 0);
-    if (stopped() || empty) return row;
+    if (stopped()) return row;
+    if (empty) {
+      step();
+      return row;
+    }
     Bench bench(prepared.observed.observe);
     const PointResult result = run_point(prepared.observed, bench.workshop());
     row.status = result.status;
@@ -276,33 +189,33 @@ class Study {
     if (prepared.reference_period > 0 && result.observed_turns != prepared.reference_period) return;
     const double period = period_of(scene_);
     const ContactErrors errors = compare(events_of(result), reference.events, period / 2);
-    row.contact_time = errors.time / period, row.contact_speed = errors.speed, row.rest = errors.rest / period;
+    if (errors.paired > 0) row.contact_time = errors.time / period, row.contact_speed = errors.speed;
+    if (errors.rests_paired > 0) row.rest = errors.rest / period;
     row.missed = static_cast<double>(errors.missed), row.doubled = static_cast<double>(errors.doubled);
     row.rests_missed = static_cast<double>(errors.rests_missed);
   }
 
   /// All trials in turn, so that what disturbs the machine disturbs them alike.
-  void measure(const std::vector<Prepared>& prepared) {
+  void measure(const std::vector<Prepared>& prepared, std::vector<Row>& rows) const {
     std::vector<Stopwatch> stopwatches(prepared.size());
     for (int round = -1; round < options_.rounds; ++round) {  // the first one warms up
       for (std::size_t i = 0; i < prepared.size(); ++i) {
         if (stopped()) return;
-        if (std::isnan(result_.rows[i].simulated_periods)) continue;
-        Bench bench(prepared[i].silent.observe);
-        stopwatches[i].measure(prepared[i].silent, bench.workshop(), round);
+        const Row& row = rows[i];
+        if (row.simulated_periods > 0 && !failed(row.status)) {
+          Bench bench(prepared[i].silent.observe);
+          stopwatches[i].measure(prepared[i].silent, bench.workshop(), round);
+        }
         if (round >= 0) step();
       }
     }
     for (std::size_t i = 0; i < prepared.size(); ++i)
-      result_.rows[i].ns_per_period = stopwatches[i].median(), result_.rows[i].ns_spread = stopwatches[i].spread();
+      rows[i].ns_per_period = stopwatches[i].median(), rows[i].ns_spread = stopwatches[i].spread();
   }
 
   Scene scene_;
   const StudyOptions& options_;
-  PointStudy result_{};
-  std::optional<Course> from_start_;  ///< over the horizon
-  std::optional<Course> periodic_;    ///< one period of the steady motion
-  std::optional<Scene> on_period_;    ///< that starts on it, for one period
+  References references_{};
 };
 
 }  // namespace

@@ -25,6 +25,7 @@ constexpr RowVariable all_row_variables[] = {
 };
 
 constexpr PointVariable all_point_variables[] = {
+    {"asked", "forcing periods to be compared: the duration of a transient, else the window", &PointStudy::asked},
     {"horizon", "forcing periods compared, as long as double and 50 digits agree", &PointStudy::horizon},
     {"reference_impacts", "impacts within the horizon", &PointStudy::impacts},
     {"reference_rests", "rests within the horizon", &PointStudy::rests},

@@ -43,7 +43,9 @@ class Point {
     Observers observers(scene_, total, result_.base_frequency);
     State<double> state = observed_.from;
     const Outcome outcome = run_for(integrator_, state, observed_.turns, observers);
-    result_.periods = observed_.settled + observed_.turns, result_.observed_turns = observed_.turns;
+    const auto sections = static_cast<double>(state.periods - observed_.from.periods);
+    result_.periods = observed_.settled + (outcome == Outcome::completed ? observed_.turns : sections + state.turns);
+    result_.observed_turns = observed_.turns;
     result_.evaluations = observers.evaluations();
     if (outcome != Outcome::completed) {
       result_.status = status_of(outcome);

@@ -130,6 +130,51 @@ TEST(EveryNumber, out_of_its_range_is_refused_with_the_range) {
   EXPECT_GE(bounded, 16);  // all but f, phase, load, x0, v0 and the stops
 }
 
+TEST(Integrator, misspelt_methods_are_told_the_nearest) {
+  const Key& method = *find_key("integrator", "method");
+  for (const auto& [typo, meant] : {std::pair{"exactt", "exact"},
+                                    {"dopri", "dopri5"},
+                                    {"dopri54", "dopri5"},
+                                    {"moraeu", "moreau"},
+                                    {"Moreau", "moreau"}}) {
+    const std::string words = "permitted: exact, dopri5, moreau; did you mean '" + std::string(meant) + "'?";
+    expect_wrong_value(method, '"' + std::string(typo) + '"', words);
+  }
+  expect_wrong_value(method, "\"rk4\"", "the text 'rk4'; permitted: exact, dopri5, moreau");
+}
+
+TEST(Integrator, settings_beyond_what_converges_are_refused) {
+  const struct {
+    const char *name, *value, *range;
+  } table[] = {
+      {"tolerance", "0", "1e-14 ... 0.1"},
+      {"tolerance", "1", "1e-14 ... 0.1"},
+      {"tolerance", "1e-15", "1e-14 ... 0.1"},
+      {"tolerance", "0.2", "1e-14 ... 0.1"},
+      {"step", "0", "1e-9 ... 1"},
+      {"step", "1e-10", "1e-9 ... 1"},
+      {"step", "1.5", "1e-9 ... 1"},
+      {"theta", "2", "0 ... 1"},
+      {"theta", "-0.5", "0 ... 1"},
+  };
+  for (const auto& [name, value, range] : table)
+    expect_wrong_value(*find_key("integrator", name), value, " is out of range; permitted: " + std::string(range));
+}
+
+TEST(Integrator, settings_within_their_ranges_are_taken) {
+  const auto integrator = [](const std::string& lines) { return "[scene]\nxs = 1\n[integrator]\n" + lines; };
+  for (const std::string name : {"a.toml", "a.ini"}) {
+    const Integration taken = read_as(name, integrator("method = \"moreau\"\nstep = 1\ntheta = 0\ntolerance = 0.1\n"))
+                                  .sweep.scene.integration;
+    EXPECT_EQ(taken.method, Method::moreau);
+    EXPECT_EQ(taken.step, 1.0);
+    EXPECT_EQ(taken.theta, 0.0);
+    EXPECT_EQ(taken.tolerance, 0.1);
+    EXPECT_EQ(read_as(name, integrator("method = \"dopri5\"\n")).sweep.scene.integration.method, Method::dopri5);
+    EXPECT_EQ(read_as(name, integrator("")).sweep.scene.integration.method, Method::exact);
+  }
+}
+
 TEST(EveryCount, that_is_a_fraction_is_refused) {
   for (const Key& key : keys()) {
     if (key.kind == Kind::integer) expect_wrong_value(key, "2.5", "2.5 is a fraction; permitted: a whole number");

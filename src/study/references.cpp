@@ -1,0 +1,75 @@
+#include "study/references.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "integrators/run.hpp"
+#include "study/comparison.hpp"
+#include "sweep/point.hpp"
+
+namespace clatter {
+namespace {
+
+constexpr double agreement_room = 1e-8;  ///< forcing periods by which double and 50 digits may differ: half the digits
+
+/// Motion from the start in 50 digits as far as a double follows it.
+void find_motion_from_start(const Scene& scene, double duration, const std::function<bool()>& stopped,
+                            References& found) {
+  const double period = period_of(scene);
+  const Course in_double = course_of(scene, duration);
+  Course exact = reference_of(scene, duration, observables_over(scene, duration), stopped);
+  const Outcome outcome = in_double.outcome != Outcome::completed ? in_double.outcome : exact.outcome;
+  found.not_run = outcome != Outcome::completed ? status_of(outcome) : Status::transient;
+  if (outcome != Outcome::completed) return;
+  Agreement agreement = agreement_of(in_double, exact, agreement_room * period);
+  const bool throughout = agreement.until == duration;
+  found.horizon = throughout ? found.asked : std::floor(agreement.until / period);
+  if (!(found.horizon > 0)) return;
+  if (!throughout) {
+    const double end = found.horizon * period;
+    exact = reference_of(scene, end, observables_over(scene, end), stopped);
+    std::erase_if(agreement.events, [&](const Event& event) { return event.time > end; });
+    for (Event& event : agreement.events) event.length = std::min(event.length, end - event.time);
+  }
+  exact.events = std::move(agreement.events);
+  found.from_start = std::move(exact);
+}
+
+void find_steady_motion(const Scene& scene, const std::function<bool()>& stopped, References& found) {
+  Workshop workshop;
+  const PointResult result = run_point(scene, workshop);
+  if (result.status != Status::periodic || result.found_by == FoundBy::standstill) return;
+  const double periods = result.observed_turns, duration = periods * period_of(scene);
+  Scene on_period = scene;
+  on_period.start = result.end;
+  on_period.time.mode = Mode::transient, on_period.time.duration = duration;
+  found.periodic = periodic_reference(on_period, periods, observables_over(scene, duration), stopped);
+  if (found.periodic) found.on_period = on_period, found.steady_periods = periods;
+}
+
+}  // namespace
+
+double References::count(Event::Kind kind) const {
+  if (!from_start) return 0.0;
+  return static_cast<double>(std::ranges::count(with_rests_joined(from_start->events), kind, &Event::kind));
+}
+
+double period_of(const Scene& scene) { return 2 * pi<double>() / counting_frequency(scene.oscillator); }
+
+CourseObservables observables_over(const Scene& scene, double duration) {
+  const double turns = duration / period_of(scene), whole = std::max(1.0, std::round(turns));
+  if (std::abs(turns - whole) < 1e-9 * whole) return {highest_harmonic, counting_frequency(scene.oscillator)};
+  return {highest_harmonic, 2 * pi<double>() * whole / duration};
+}
+
+References references_of(const Scene& scene, const std::function<bool()>& stopped) {
+  References found;
+  const bool steady = scene.time.mode == Mode::steady;
+  const double duration = steady ? static_cast<double>(scene.time.window) * period_of(scene) : scene.time.duration;
+  found.asked = duration / period_of(scene);
+  find_motion_from_start(scene, duration, stopped, found);
+  if (steady && scene.oscillator.forcing != 0) find_steady_motion(scene, stopped, found);
+  return found;
+}
+
+}  // namespace clatter

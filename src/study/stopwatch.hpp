@@ -1,0 +1,45 @@
+#pragma once
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <vector>
+
+#include "sweep/point.hpp"
+
+namespace clatter {
+
+/// Wall times of a trial.
+class Stopwatch {
+ public:
+  /// Runs a scene often enough to be measured; a slow one is measured in the first rounds only.
+  void measure(const Scene& scene, Workshop& workshop, int round) {
+    if ((round > 0 && seconds_ > 5) || (round > 2 && seconds_ > 1)) return;
+    const auto begin = std::chrono::steady_clock::now();
+    double periods = 0;
+    for (int i = 0; i < batch_; ++i) periods += run_point(scene, workshop).periods;
+    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    seconds_ = seconds / batch_;
+    if (round >= 0) ns_per_period_.push_back(1e9 * seconds / periods);
+    batch_ = static_cast<int>(std::clamp(shortest / seconds_, 1.0, 1e6));
+  }
+  [[nodiscard]] double median() { return quantile(0.5); }
+  [[nodiscard]] double spread() { return ns_per_period_.size() > 1 ? quantile(0.75) - quantile(0.25) : no_value; }
+
+ private:
+  static constexpr double shortest = 2e-3;  // seconds
+
+  [[nodiscard]] double quantile(double share) {
+    if (ns_per_period_.empty()) return no_value;
+    std::ranges::sort(ns_per_period_);
+    const double place = share * static_cast<double>(ns_per_period_.size() - 1);
+    const auto below = static_cast<std::size_t>(place), above = std::min(below + 1, ns_per_period_.size() - 1);
+    return std::lerp(ns_per_period_[below], ns_per_period_[above], place - std::floor(place));
+  }
+
+  int batch_ = 1;
+  double seconds_ = 0.0;
+  std::vector<double> ns_per_period_;
+};
+
+}  // namespace clatter

@@ -1,0 +1,257 @@
+"""`clatter accuracy` as shell scripts and readers of its files meet it: table, JSON, file, signals; runs by every method.
+
+Nothing here depends on how long anything takes: the two variables of times are only looked at for being there.
+"""
+
+import json
+import math
+import os
+import re
+import signal
+import subprocess
+import time
+import unittest
+
+import h5py
+import numpy as np
+import xarray
+
+from command_line import CLATTER, SMALL, CommandLine
+
+SCENE = """title = "a small study"
+[scene]
+f = -1.0
+h = 0.1
+R = 0.7
+xs = -0.5
+"""
+STEADY = SCENE + "[time]\nwindow = 3\n"
+SWEEP = SCENE + '[sweep]\nnu = [0.9, 1.1]\n[time]\nmode = "transient"\nduration = 10\n'
+METHODS = ["exact"] + ["dopri5"] * 11 + ["moreau"] * 5 + ["harmonics_exact"] + ["harmonics_fft"] * 17
+REPEATS = ["steady"] * 12 + ["steady_repetition"] * 12
+KEYS = {"method", "setting", "error_contact_time", "error_contact_speed", "error_extrema", "error_harmonics", "missed",
+        "doubled", "ns_per_period", "ns_spread", "horizon", "status"}
+TIMES = {"ns_per_period", "ns_spread"}
+
+
+def objects(text):
+    """The JSON objects of lines, none of which may hold what is no JSON, as NaN."""
+    def refuse(word):
+        raise ValueError(f"{word} is no JSON")
+    return [json.loads(line, parse_constant=refuse) for line in text.splitlines()]
+
+
+def number(value):
+    return math.nan if value is None else value
+
+
+class Studies(CommandLine):
+    def study(self, *words, code=0):
+        result = self.clatter("accuracy", *words)
+        self.assertEqual(result.returncode, code, result.stderr)
+        return result
+
+    def assert_file_holds(self, name, rows):
+        """The file has the numbers of the JSON objects, in their order."""
+        with h5py.File(self.directory / name) as file:
+            meanings = file["method"].attrs["flag_meanings"]
+            names = (meanings if isinstance(meanings, str) else meanings.decode()).split()
+            points = max(row["point"] for row in rows) + 1
+            count = len(rows) // points
+            self.assertEqual([names[index] for index in file["method"]] * points, [row["method"] for row in rows])
+            for key in rows[0].keys() - {"method", "point"}:
+                expected = np.array([number(row[key]) for row in rows])
+                variable = np.array(file[key], dtype=float)
+                if key == "setting":
+                    variable = np.tile(variable, points)
+                elif variable.size == points:  # of the point, not of its rows; coordinates too
+                    variable = np.repeat(variable.reshape(points), count)
+                np.testing.assert_array_equal(variable.ravel(), expected, key)
+
+
+class Study(Studies):
+    def test_of_one_point_prints_writes_and_repeats_itself(self):
+        config = self.write("a.toml", STEADY)
+        result = self.study(config, "--json", "--progress", "always")
+        *_, bar, output = result.stderr.splitlines()
+        self.assertRegex(bar, r"^\[#{30}\] 100 %  590/590 runs  .* runs/s  .* left$")
+        self.assertEqual(output, "a.h5")
+        rows = objects(result.stdout)
+        self.assertEqual([row["method"] for row in rows], METHODS + REPEATS)
+        for row in rows:
+            self.assertLessEqual(KEYS, row.keys())
+            self.assertTrue(row["ns_per_period"] > 0, row)
+            self.assertEqual(row["horizon"], 3)
+            self.assertEqual(row["setting"] is None, row["method"] in ("exact", "harmonics_exact"), row)
+            has_contacts = not row["method"].startswith("harmonics")
+            for key in ("error_contact_time", "error_contact_speed", "error_extrema", "missed", "doubled"):
+                self.assertEqual(row[key] is not None, has_contacts, (key, row))
+            self.assertIsNotNone(row["error_harmonics"])
+        exact = rows[0]
+        for key in ("error_contact_time", "error_contact_speed", "error_extrema", "error_harmonics"):
+            self.assertLess(exact[key], 1e-13, key)  # roundings of six contracting impacts
+        self.assertEqual((exact["missed"], exact["doubled"], exact["simulated_periods"]), (0, 0, 3))
+        self.assertEqual([row["setting"] for row in rows[1:12]], [1 / 10**n for n in range(3, 14)])
+        self.assert_file_holds("a.h5", rows)
+        self.reads_with_named_axes("a.h5")
+        self.repeats("a.h5")
+
+    def reads_with_named_axes(self, name):
+        with xarray.open_dataset(self.directory / name, engine="h5netcdf") as file:
+            self.assertEqual(dict(file.sizes), {"row": 59})
+            for variable in file.variables.values():
+                self.assertIn(variable.dims, ((), ("row",)))
+                self.assertTrue(variable.attrs["long_name"])
+            self.assertEqual(file["method"].attrs["flag_meanings"].split()[:3], ["exact", "dopri5", "moreau"])
+            self.assertEqual(file.attrs["clatter_schema"], "clatter/1")
+
+    def repeats(self, name):
+        """The configuration in the file gives the same file, but for times; the table has a line a row."""
+        self.write("again.toml", self.clatter("info", name, "--config").stdout)
+        result = self.study("again.toml")
+        self.assertEqual(result.stderr, "again.h5\n")  # no bar without a terminal
+        with h5py.File(self.directory / name) as one, h5py.File(self.directory / "again.h5") as other:
+            self.assertEqual(set(one), set(other))
+            self.assertEqual(one.attrs["config"], other.attrs["config"])
+            for variable in set(one) - TIMES:
+                self.assertEqual(one[variable][()].tobytes(), other[variable][()].tobytes(), variable)
+        first, second, *table = result.stdout.splitlines()
+        self.assertIn("compared with 50 digits over 3 forcing periods from the start: 6 impacts and 0 rests.", first)
+        self.assertIn("steady motion, 1 forcing period long", second)
+        lines = [line.split() for line in table if re.match(r"[a-z]", line)]
+        self.assertEqual([line[0] for line in lines], ["method"] + METHODS + REPEATS)
+        self.assertEqual({len(line) for line in lines[1:]}, {len(lines[1])})  # as many columns in each
+        self.assertEqual([line[1] for line in lines[1:4]], ["-", "1e-03", "1e-04"])
+        self.assertLessEqual(max(map(len, result.stdout.splitlines())), 160)
+
+    def test_of_a_sweep_has_its_axes_before_the_rows(self):
+        config = self.write("a.toml", SWEEP)
+        result = self.study(config, "--json", "-q", "-o", "sweep.h5")
+        self.assertEqual(result.stderr, "")
+        self.assertEqual(self.files(), ["a.toml", "sweep.h5"])
+        rows = objects(result.stdout)
+        self.assertEqual([row["method"] for row in rows], METHODS * 2)  # nothing settles in a transient
+        self.assertEqual([row["nu"] for row in rows], [0.9] * 35 + [1.1] * 35)
+        self.assertEqual([row["point"] for row in rows], [0] * 35 + [1] * 35)
+        self.assert_file_holds("sweep.h5", rows)
+        with xarray.open_dataset(self.directory / "sweep.h5", engine="h5netcdf") as file:
+            self.assertEqual(dict(file.sizes), {"nu": 2, "row": 35})
+            self.assertEqual(file["error_extrema"].dims, ("nu", "row"))
+            self.assertEqual(file["horizon"].dims, ("nu",))
+            self.assertEqual(file["setting"].dims, ("row",))
+            np.testing.assert_array_equal(file["nu"], [0.9, 1.1])
+            np.testing.assert_allclose(file["horizon"], np.array([0.9, 1.1]) * 10 / (2 * np.pi), rtol=1e-15)
+
+    def test_that_fails_ends_with_1_and_still_writes_its_file(self):
+        config = self.write("a.toml", STEADY + "max_impacts = 1\n")
+        rows = objects(self.study(config, "--json", code=1).stdout)
+        self.assertEqual(len(rows), 59)
+        for row in rows:
+            self.assertEqual([row[key] for key in KEYS if key.startswith("error")], [None] * 4)
+            self.assertGreaterEqual(row["status"], 16)
+            self.assertEqual(row["horizon"], 0)
+        self.assert_file_holds("a.h5", rows)
+        table = self.study(config, "-o", "b.h5", code=1).stdout
+        self.assertIn("not compared", table)
+        self.assertEqual(table.count("failed\n"), 59)
+
+    def test_with_interrupts_ignored_goes_on(self):
+        """As under nohup, or in the background of a script."""
+        config = self.write("a.toml", STEADY + "max_impacts = 1\n")
+        process = subprocess.Popen([CLATTER, "accuracy", config], cwd=self.directory, stdout=subprocess.PIPE,
+                                   stderr=subprocess.PIPE, preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_IGN))
+        while process.poll() is None:
+            process.send_signal(signal.SIGINT)
+            time.sleep(0.01)
+        self.assertEqual(process.returncode, 1, process.communicate())
+        process.communicate()
+        self.assertEqual(self.files(), ["a.h5", "a.toml"])
+
+
+class Interrupts(Studies):
+    def interrupted(self, number, stream, words, *options):
+        """Sends a signal as soon as a stream has these words; gives the exit code, stdout and stderr."""
+        with open(self.directory / "stdout", "wb") as out, open(self.directory / "stderr", "wb") as err:
+            process = subprocess.Popen([CLATTER, "accuracy", "a.toml", *options], cwd=self.directory, stdout=out, stderr=err,
+                                       preexec_fn=lambda: signal.signal(number, signal.SIG_DFL))
+        self.addCleanup(process.kill)
+        deadline = time.monotonic() + 120
+        while words not in (self.directory / stream).read_bytes():
+            self.assertIsNone(process.poll(), "it ended before the signal")
+            self.assertLess(time.monotonic(), deadline, "it never said so")
+            time.sleep(0.01)
+        process.send_signal(number)
+        code = process.wait(timeout=120)
+        texts = [(self.directory / name).read_text(encoding="utf-8") for name in ("stdout", "stderr")]
+        for name in ("stdout", "stderr"):
+            os.remove(self.directory / name)
+        return code, *texts
+
+    def test_sigint_in_the_first_point_leaves_nothing(self):
+        self.write("a.toml", STEADY + "[sweep]\nnu = [0.9, 1.0, 1.1]\n")
+        code, out, err = self.interrupted(signal.SIGINT, "stderr", b" runs ", "--progress", "always")
+        self.assertEqual((code, out), (130, ""), err)
+        self.assertIn("stopped after 0 of 3 points; a.h5 is not written\n", err)
+        self.assertEqual(self.files(), ["a.toml"])
+
+    def test_sigterm_after_the_first_point_keeps_what_was_printed_and_the_older_file(self):
+        self.write("a.toml", STEADY + "[sweep]\nnu = [0.9, 1.0, 1.1]\n")
+        self.write("a.h5", "an older file")
+        code, out, err = self.interrupted(signal.SIGTERM, "stdout", b"\n", "--json")
+        self.assertEqual(code, 143, err)
+        finished = int(re.fullmatch(r"stopped after ([12]) of 3 points; a\.h5 is not written\n", err)[1])
+        self.assertEqual([row["point"] for row in objects(out)], [0] * 59 + [1] * 59 * (finished - 1))
+        self.assertEqual(self.files(), ["a.h5", "a.toml"])
+        self.assertEqual((self.directory / "a.h5").read_text(), "an older file")
+
+
+class Refusals(Studies):
+    def test_exit_2_with_the_way_out(self):
+        config = self.write("a.toml", STEADY)
+        followed = self.write("b.toml", SCENE + '[sweep]\nnu = [1, 2]\nfollow = "nu"\n')
+        cases = [
+            ([followed], "b.toml: [sweep] follow: a study starts every point from [scene]; add --set sweep.follow=''"),
+            ([config, "-o", config], "the output 'a.toml' is the configuration itself"),
+            ([], "CONFIG is missing; write: clatter accuracy CONFIG"),
+            ([config, config], "unexpected argument 'a.toml'"),
+            ([config, "--jsn"], "unknown option '--jsn'; did you mean '--json'?"),
+            ([config, "--threads", "2"], "unknown option '--threads'; see `clatter help accuracy`"),
+            ([config, "--progress", "sometimes"], "permitted: auto, always, never"),
+            ([config, "-o", "b.h5", "-o", "c.h5"], "'--output' is given twice"),
+            ([config, "--set", "integrator.method=dopri"], "did you mean 'dopri5'?"),
+        ]
+        for words, message in cases:
+            with self.subTest(words=words):
+                self.assert_refused(2, message, "accuracy", *words)
+
+    def test_a_file_that_cannot_be_written_is_refused_before_the_study(self):
+        config = self.write("a.toml", STEADY)
+        (self.directory / "folder").mkdir()
+        self.assert_refused(74, "there is no directory 'none'", "accuracy", config, "-o", "none/a.h5")
+        self.assert_refused(74, "is a directory", "accuracy", config, "-o", "folder")
+        self.assert_refused(74, "none.toml: cannot be read", "accuracy", "none.toml")
+
+
+class Methods(CommandLine):
+    def test_all_write_the_same_variables_of_the_same_shapes(self):
+        config = self.write("a.toml", SMALL + "harmonics = 3\nimpacts = true\ntrajectory = 11\n")
+        shapes, largest = {}, {}
+        for method in ("exact", "dopri5", "moreau"):
+            result = self.clatter("run", config, "-q", "-o", "a.h5", f"--set=integrator.method={method}",
+                                  "--set", "time.tolerance=1e-9")
+            self.assertEqual((result.returncode, result.stdout, result.stderr), (0, "", ""), method)
+            with h5py.File(self.directory / "a.h5") as file:
+                shapes[method] = {name: (file[name].shape, file[name].dtype) for name in file}
+                largest[method] = file["x_max"][()]
+        self.assertIn("v_amplitude", shapes["exact"])
+        self.assertEqual(shapes["dopri5"], shapes["exact"])
+        self.assertEqual(shapes["moreau"], shapes["exact"])
+        # the defaults: a tolerance of 1e-10, and a thousand steps a period; and that they were other methods
+        np.testing.assert_allclose(largest["dopri5"], largest["exact"], rtol=1e-7)
+        np.testing.assert_allclose(largest["moreau"], largest["exact"], rtol=1e-2)
+        self.assertFalse(np.array_equal(largest["dopri5"], largest["exact"]))
+        self.assertFalse(np.array_equal(largest["moreau"], largest["exact"]))
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,125 @@
+#include "study/study_figure.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <set>
+#include <string>
+
+#include "study/studies.hpp"
+#include "sweep/figures.hpp"
+
+namespace clatter {
+namespace {
+
+const StudyOptions once{.rounds = 1};
+
+using Names = std::vector<std::string>;
+
+std::size_t length_of(const Column& column) {
+  return std::visit([](const auto& all) { return all.size(); }, column);
+}
+
+/// A sweep, and the studies of its points.
+struct StudiedSweep {
+  Sweep sweep;
+  std::vector<PointStudy> points;
+};
+
+StudiedSweep two_points() {
+  StudiedSweep all{sweep_of(smooth_scene(), {{Parameter::nu, {0.9, 1.0}}}), {}};
+  for (std::size_t i = 0; i < 2; ++i) all.points.push_back(study(scene_at(all.sweep, i), one_of_each(), once));
+  return all;
+}
+
+TEST(StudyFigure, has_the_axes_and_then_the_rows) {
+  const auto [sweep, points] = two_points();
+  const Figure figure = study_figure(sweep, points);
+  ASSERT_EQ(figure.dimensions.size(), 2u);
+  EXPECT_EQ(figure.dimensions[0].name, "nu");
+  EXPECT_EQ(figure.dimensions[0].length, 2u);
+  EXPECT_EQ(figure.dimensions[1].name, "row");
+  EXPECT_EQ(figure.dimensions[1].length, one_of_each().size());
+  std::set<std::string> names;
+  for (const Variable& variable : figure.variables) {
+    EXPECT_TRUE(names.insert(variable.name).second) << variable.name << " is there twice";
+    EXPECT_FALSE(variable.long_name.empty());
+    EXPECT_EQ(variable.units, "1");
+    std::size_t expected = 1;
+    for (const std::string& dimension : variable.dimensions) expected *= dimension == "nu" ? 2 : one_of_each().size();
+    EXPECT_EQ(length_of(variable.values), expected) << variable.name;
+  }
+  EXPECT_EQ(find(figure, "nu")->dimensions, Names{"nu"});
+  for (const char* name : {"method", "setting"}) EXPECT_EQ(find(figure, name)->dimensions, Names{"row"});
+  for (const PointVariable& variable : point_variables())
+    EXPECT_EQ(find(figure, variable.name)->dimensions, Names{"nu"});
+  for (const RowVariable& variable : row_variables())
+    EXPECT_EQ(find(figure, variable.name)->dimensions, (Names{"nu", "row"}));
+  EXPECT_EQ(find(figure, "status")->dimensions, (Names{"nu", "row"}));
+  EXPECT_EQ(names.size(), 4 + point_variables().size() + row_variables().size());  // nu, method, setting, status
+}
+
+TEST(StudyFigure, has_what_the_contract_names) {
+  const auto [sweep, points] = two_points();
+  const Figure figure = study_figure(sweep, points);
+  for (const char* name : {"method", "setting", "error_contact_time", "error_contact_speed", "missed", "doubled",
+                           "error_extrema", "error_harmonics", "ns_per_period", "ns_spread"})
+    EXPECT_NE(find(figure, name), nullptr) << name;
+}
+
+TEST(StudyFigure, holds_the_numbers_of_the_points_in_their_order) {
+  const auto [sweep, points] = two_points();
+  const Figure figure = study_figure(sweep, points);
+  const std::size_t rows = one_of_each().size();
+  EXPECT_EQ(values(figure, "nu"), (std::vector{0.9, 1.0}));
+  const auto same = [](double a, double b) { return a == b || (std::isnan(a) && std::isnan(b)); };
+  for (std::size_t i = 0; i < 2; ++i) {
+    for (const PointVariable& variable : point_variables())
+      EXPECT_TRUE(same(values(figure, variable.name)[i], points[i].*variable.value)) << variable.name;
+    for (std::size_t row = 0; row < rows; ++row) {
+      for (const RowVariable& variable : row_variables())
+        EXPECT_TRUE(same(values(figure, variable.name)[i * rows + row], points[i].rows[row].*variable.value))
+            << variable.name << ' ' << i << ' ' << row;
+      EXPECT_EQ(statuses(figure)[i * rows + row], static_cast<std::uint8_t>(points[i].rows[row].status));
+    }
+  }
+  EXPECT_NE(values(figure, "error_extrema")[0], values(figure, "error_extrema")[rows]);  // two different points
+}
+
+TEST(StudyFigure, names_its_methods) {
+  const auto [sweep, points] = two_points();
+  const Figure figure = study_figure(sweep, points);
+  const Variable& method = *find(figure, "method");
+  EXPECT_EQ(std::get<std::vector<std::uint8_t>>(method.values), (std::vector<std::uint8_t>{0, 1, 2, 3, 4, 5, 6}));
+  ASSERT_EQ(method.attributes.size(), 2u);
+  EXPECT_EQ(std::get<std::vector<std::uint8_t>>(method.attributes[0].second).size(), studied_names.size());
+  EXPECT_EQ(std::get<std::string>(method.attributes[1].second),
+            "exact dopri5 moreau harmonics_exact harmonics_fft steady steady_repetition");
+  EXPECT_TRUE(std::isnan(values(figure, "setting")[0]));
+  EXPECT_EQ(values(figure, "setting")[4], 1024.0);
+}
+
+TEST(StudyFigure, of_one_point_has_rows_alone) {
+  const Sweep sweep = sweep_of(smooth_scene(), {});
+  const std::vector<PointStudy> points{study(smooth_scene(), {{Studied::exact, no_setting}}, {.rounds = 0})};
+  const Figure figure = study_figure(sweep, points);
+  ASSERT_EQ(figure.dimensions.size(), 1u);
+  EXPECT_EQ(figure.dimensions[0].name, "row");
+  EXPECT_EQ(find(figure, "error_extrema")->dimensions, Names{"row"});
+  EXPECT_TRUE(find(figure, "horizon")->dimensions.empty());
+  EXPECT_EQ(values(figure, "horizon"), std::vector{6.0});
+}
+
+TEST(StudyFigure, of_two_axes_lets_the_first_vary_slowest) {
+  const Sweep sweep = sweep_of(smooth_scene(), {{Parameter::nu, {0.9, 1.0}}, {Parameter::R, {0.5, 0.6, 0.7}}});
+  std::vector<PointStudy> points(6);
+  for (std::size_t i = 0; i < 6; ++i) points[i].horizon = static_cast<double>(i), points[i].rows.resize(2);
+  const Figure figure = study_figure(sweep, points);
+  EXPECT_EQ(find(figure, "horizon")->dimensions, (Names{"nu", "R"}));
+  EXPECT_EQ(find(figure, "missed")->dimensions, (Names{"nu", "R", "row"}));
+  EXPECT_EQ(length_of(find(figure, "missed")->values), 12u);
+  EXPECT_EQ(values(figure, "horizon"), (std::vector<double>{0, 1, 2, 3, 4, 5}));
+}
+
+}  // namespace
+}  // namespace clatter
