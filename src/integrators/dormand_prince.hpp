@@ -47,6 +47,7 @@ class DormandPrince : public EventDriven<DormandPrince<E>, double, E> {
     Flight<DenseArc> flight{standing(state)};
     if (const Side side = entered(); side != Side::none) {
       flight.contact = {side, 0.0, start};
+      flight.contact.motion.x = stop_at<double>(this->stops(), side).place;  // where the step ended, to rounding
       return flight;
     }
     try {
@@ -151,7 +152,7 @@ class DormandPrince : public EventDriven<DormandPrince<E>, double, E> {
     first.motion = arc.at(first.elapsed);
     if (first.side == Side::none) return first;
     first.motion.x = stop_at<double>(this->stops(), first.side).place;
-    if (!(sign_of(first.side) * first.motion.v > 0)) first.motion.v = 0;  // the two polynomials differ by their errors
+    if (sign_of(first.side) * first.motion.v <= 0) first.motion.v = 0;  // the two polynomials differ by their errors
     return first;
   }
 

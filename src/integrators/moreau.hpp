@@ -115,14 +115,16 @@ class Moreau : public Setup<double, E> {
     const double before = stop.into(state.v) > 0 ? state.v : free.v;  // leaving too slowly: pushed back by the force
     const double pressed = stop.into(force(stop.place, 0.0, free.sine)), rebound = stop.restitution * stop.into(before);
     const double after = 2 * rebound > pressed * free.length && stop.into(state.v) > 0 ? -stop.restitution * before : 0;
-    drift(state, (1 - theta_) * free.length, origin, observer);
-    state.v = after;
+    constexpr double least = 1e-6;  // of a step: the impact is the step's, not one of what was before it
+    const double until = std::max(1 - theta_, least) * free.length;
+    drift(state, until, origin, observer);
+    state.v = after + 0.0;  // no negative zero
     this->show_impact(state, stop, before, origin, observer);
     if (after == 0) {
       state.x = stop.place;
-      this->show_rest(state, stop, theta_ * free.length / this->period(), true, origin, observer);
+      this->show_rest(state, stop, (free.length - until) / this->period(), true, origin, observer);
     } else {
-      drift(state, theta_ * free.length, origin, observer);
+      drift(state, free.length - until, origin, observer);
     }
   }
 

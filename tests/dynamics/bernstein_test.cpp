@@ -2,10 +2,16 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
+
+#include "support/random.hpp"
 
 namespace clatter {
 namespace {
+
+constexpr double ulp = std::numeric_limits<double>::epsilon();
 
 /// Value of a Bernstein polynomial (de Casteljau).
 double value(Bernstein<double> c, double u) {
@@ -97,6 +103,121 @@ TEST(Bernstein, a_tiny_root_keeps_its_relative_accuracy) {
 TEST(Bernstein, signs_without_change_have_no_root) {
   EXPECT_FALSE(FirstRoot<double>::of({1, 2, 3, 4, 3, 2, 1}));
   EXPECT_FALSE(FirstRoot<double>::of({0, 0, 0, 0, 0, 0, 0}));
+}
+
+TEST(Bernstein, a_touch_without_crossing_is_no_root_and_a_hair_beyond_it_is) {
+  const Bernstein<double> touching{15, 5, -1, -3, -1, 5, 15};  // 60 (u - 1/2)^2, exact when halved
+  EXPECT_FALSE(FirstRoot<double>::of(touching));
+  for (const double beyond : {0x1p-8, 0x1p-16, 0x1p-24}) {  // roots at 1/2 -+ beyond
+    Bernstein<double> c = touching;
+    for (double& coefficient : c) coefficient -= 60 * beyond * beyond;
+    const auto root = FirstRoot<double>::of(c);
+    ASSERT_TRUE(root) << beyond;
+    // a rounding of coefficients up to 15, over the slope 120 beyond; the last place holds 1/2 -+ beyond to half an ulp
+    EXPECT_NEAR(*root, 0.5 - beyond, 15 * ulp / (120 * beyond) + ulp) << beyond;
+  }
+}
+
+/// A polynomial of degree 5 (or less) by its powers, with its derivative.
+struct Powers {
+  std::array<double, 6> a{};
+
+  static Powers any(Random& random, std::size_t degree) {
+    Powers p;
+    for (std::size_t k = 0; k <= degree; ++k) p.a[k] = random.uniform(-1, 1);
+    return p;
+  }
+  [[nodiscard]] double at(double s) const {
+    double sum = 0;
+    for (std::size_t k = a.size(); k-- > 0;) sum = sum * s + a[k];
+    return sum;
+  }
+  [[nodiscard]] double slope(double s) const {
+    double sum = 0;
+    for (std::size_t k = a.size(); k-- > 1;) sum = sum * s + static_cast<double>(k) * a[k];
+    return sum;
+  }
+  /// No value, slope times step or term of them is larger on a step.
+  [[nodiscard]] double size(double step) const {
+    double sum = 0, power = 1;
+    for (const double coefficient : a) sum += std::abs(coefficient) * power, power *= step;
+    return sum;
+  }
+};
+
+/// Largest difference of a Bernstein polynomial over a step from a polynomial by its powers, over the latter's size.
+double difference(const Bernstein<double>& c, const Powers& p, double step) {
+  double worst = 0;
+  for (int i = 0; i <= 64; ++i) worst = std::max(worst, std::abs(value_at(c, i / 64.0) - p.at(step * i / 64)));
+  return worst / p.size(step);
+}
+
+TEST(Bernstein, quintic_gives_back_any_polynomial_of_degree_five) {
+  for (std::uint64_t i = 0; i < 500; ++i) {
+    Random random(21, i);
+    const double step = random.logarithmic(1e-3, 3);
+    const Powers p = Powers::any(random, 5);
+    const auto c =
+        quintic(step, {p.at(0), p.slope(0)}, {p.at(step), p.slope(step)}, {p.at(step / 3), p.at(2 * step / 3)});
+    // two coefficients sum values with weights of up to 243/40 * 2/3 and, in all, 366/40 of either sign: 10 roundings
+    EXPECT_LE(difference(c, p, step), 16 * ulp) << i;
+    EXPECT_EQ(c.front(), p.at(0));
+    EXPECT_EQ(c.back(), p.at(step));
+  }
+}
+
+TEST(Bernstein, quintic_does_not_give_back_a_polynomial_of_degree_six) {
+  const auto power = [](double u) { return u * u * u * u * u * u; };
+  const auto c = quintic(1.0, {0, 0}, {1, 6}, {power(1.0 / 3), power(2.0 / 3)});
+  // they differ by u^6 + ... that vanishes where values, and doubly where slopes are given
+  const auto error = [](double u) { return u * u * (u - 1.0 / 3) * (u - 2.0 / 3) * (u - 1) * (u - 1); };
+  for (const double u : {0.2, 0.5, 0.8}) EXPECT_NEAR(power(u) - value_at(c, u), error(u), 16 * ulp);
+}
+
+TEST(Bernstein, cubic_gives_back_any_polynomial_of_degree_three) {
+  for (std::uint64_t i = 0; i < 500; ++i) {
+    Random random(22, i);
+    const double step = random.logarithmic(1e-3, 3);
+    const Powers p = Powers::any(random, 3);
+    const auto c = cubic(step, {p.at(0), p.slope(0)}, {p.at(step), p.slope(step)});
+    EXPECT_LE(difference(c, p, step), 8 * ulp) << i;  // sums of a few values with weights below 1
+    EXPECT_EQ(c.front(), p.at(0));
+    EXPECT_EQ(c.back(), p.at(step));
+  }
+}
+
+TEST(Bernstein, value_at_the_ends_is_the_first_and_the_last_coefficient) {
+  const Bernstein<double> c{0.3, -7, 2, 1e9, 5, -1, 0.7};
+  EXPECT_EQ(value_at(c, 0.0), 0.3);
+  EXPECT_NEAR(value_at(c, 1.0), 0.7, 2 * ulp * 1e9);  // a + (b - a) is b to a rounding of a
+}
+
+TEST(Bernstein, split_off_gives_both_parts) {
+  for (std::uint64_t i = 0; i < 200; ++i) {
+    Random random(23, i);
+    Bernstein<double> c;
+    for (double& coefficient : c) coefficient = random.uniform(-1, 1);
+    const double u = random.uniform(0, 1);
+    Bernstein<double> after = c;
+    const Bernstein<double> before = split_off(after, u);
+    EXPECT_EQ(before.front(), c.front());
+    EXPECT_EQ(after.back(), c.back());
+    EXPECT_EQ(before.back(), after.front());
+    EXPECT_EQ(before.back(), value_at(c, u));
+    for (int k = 0; k <= 16; ++k) {  // convex sums of coefficients below 1: a rounding for each of six levels, twice
+      EXPECT_NEAR(value_at(before, k / 16.0), value_at(c, u * k / 16), 12 * ulp) << i;
+      EXPECT_NEAR(value_at(after, k / 16.0), value_at(c, u + (1 - u) * k / 16), 12 * ulp) << i;
+    }
+  }
+}
+
+TEST(Bernstein, split_off_at_an_end_leaves_a_point) {
+  const Bernstein<double> c{1, 4, -2, 8, 0, 3, 5};
+  Bernstein<double> all = c;
+  for (const double y : split_off(all, 0.0)) EXPECT_EQ(y, 1.0);
+  EXPECT_EQ(all, c);
+  EXPECT_EQ(split_off(all, 1.0), c);  // whole numbers: no rounding
+  for (const double y : all) EXPECT_EQ(y, 5.0);
 }
 
 }  // namespace

@@ -26,23 +26,30 @@ struct Both {
   }
 };
 
-/// The observed time of a scene under the eyes of `make(total)`'s observers; gives its length.
+/// The observed time of a scene as an integrator finds it, under the eyes of `make(total)`'s observers; gives its
+/// length.
+template <class Integrator, class Make>
+double observe_by(Integrator& integrator, const Scene& scene, Make&& make) {
+  State<double> state;
+  state.x = scene.start.displacement, state.v = scene.start.velocity;
+  const Observed observed = settle(integrator, state, scene);
+  const double total = observed.turns * integrator.period();
+  state = observed.from;
+  make(total, [&](auto&... observer) {
+    Both<std::remove_reference_t<decltype(observer)>...> all{{observer...}};
+    const Outcome outcome = run_for(integrator, state, observed.turns, all);
+    if (outcome != Outcome::completed) throw std::runtime_error("the scene was not completed");
+    return state;
+  });
+  return total;
+}
+
+/// The same by the exact integrator.
 template <class Make>
 double observe(const Scene& scene, Make&& make) {
   return with_any_stops(scene.oscillator, [&]<Effects effects>() {
     Exact<double, effects> integrator(scene);
-    State<double> state;
-    state.x = scene.start.displacement, state.v = scene.start.velocity;
-    const Observed observed = settle(integrator, state, scene);
-    const double total = observed.turns * integrator.period();
-    state = observed.from;
-    make(total, [&](auto&... observer) {
-      Both<std::remove_reference_t<decltype(observer)>...> all{{observer...}};
-      const Outcome outcome = run_for(integrator, state, observed.turns, all);
-      if (outcome != Outcome::completed) throw std::runtime_error("the scene was not completed");
-      return state;
-    });
-    return total;
+    return observe_by(integrator, scene, make);
   });
 }
 
