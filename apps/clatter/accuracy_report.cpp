@@ -1,5 +1,6 @@
 #include "accuracy_report.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <sstream>
@@ -40,6 +41,10 @@ constexpr ColumnTitle titles[] = {{"", "setting", 9},
                                   {"ns per", "period", 12},
                                   {"its", "spread", 10}};
 
+std::string status_name(Status status) {
+  return std::string(std::ranges::find(status_names, status, &std::pair<Status, std::string_view>::first)->second);
+}
+
 std::string right(std::string text, std::size_t width) {
   text.insert(0, width > text.size() ? width - text.size() : 0, ' ');
   return text;
@@ -56,7 +61,16 @@ std::string header() {
   return top + '\n' + bottom + '\n';
 }
 
-std::string row_text(const Row& row) {
+/// What keeps a row from being compared.
+std::string remark(const Row& row, const PointStudy& study) {
+  const bool steady = row.trial.studied >= Studied::steady;
+  if (failed(row.status) || (steady && row.status == Status::aperiodic)) return "  " + status_name(row.status);
+  return steady && study.steady_periods > 0 && row.observed_periods != study.steady_periods
+             ? "  period " + formatted("%.6g", row.observed_periods)
+             : "";
+}
+
+std::string row_text(const Row& row, const PointStudy& study) {
   std::size_t column = 0;
   std::string text = left(std::string(studied_names[static_cast<std::size_t>(row.trial.studied)]));
   const auto put = [&](const char* format, double value) {
@@ -69,25 +83,31 @@ std::string row_text(const Row& row) {
   for (const double count : {row.missed, row.doubled, row.rests_missed}) put("%.0f", count);
   put("%.0f", row.impacts), put("%.6g", row.simulated_periods), put("%.0f", row.ns_per_period),
       put("%.0f", row.ns_spread);
-  return text + (failed(row.status) ? "  failed\n" : "\n");
+  return text + remark(row, study) + '\n';
 }
 
 /// What the errors are taken from.
 std::string horizon_text(const PointStudy& study, bool forced) {
   const std::string events = counted(study.impacts, "impact") + " and " + counted(study.rests, "rest");
-  const std::string asked = formatted("%.6g ", study.asked) + (forced ? "forcing periods" : "turns of 2 pi");
+  const std::string asked = formatted("%.6g", study.asked) + (forced ? " forcing period" : " turn") +
+                            (study.asked == 1 ? "" : "s") + (forced ? "" : " of 2 pi");
+  const Status status = study.rows.front().status;
   std::string text;
-  if (study.horizon == study.asked)
+  if (failed(status))
+    text = "not compared, since the run fails: " + status_name(status);
+  else if (study.horizon == study.asked)
     text = "compared with 50 digits over " + asked + " from the start: " + events;
   else if (study.horizon > 0)
     text = "compared with 50 digits over " + formatted("%.6g", study.horizon) + " of " + asked +
            " from the start: " + events + "; from there on double and 50 digits differ, as chaotic motion lets them";
   else
-    text = "not compared: double and 50 digits differ within the first of " + asked + ", or the run fails";
+    text = "not compared: double and 50 digits differ within the first of " + asked;
   text += ".\n";
   if (study.steady_periods > 0)
     text += "Harmonics and repeats are those of the steady motion, " + counted(study.steady_periods, "forcing period") +
             " long, in 50 digits.\n";
+  else
+    text += "Harmonics are those of the time compared; there is no steady forced motion to compare repeats with.\n";
   return text;
 }
 
@@ -103,7 +123,7 @@ std::string study_text(const PointStudy& study, const Sweep& sweep, std::size_t 
   if (!text.empty()) text += '\n';
   text += horizon_text(study, scene_at(sweep, point).oscillator.forcing != 0);
   text += header();
-  for (const Row& row : study.rows) text += row_text(row);
+  for (const Row& row : study.rows) text += row_text(row, study);
   return text + '\n';
 }
 

@@ -1,5 +1,8 @@
 #include "interrupt.hpp"
 
+#include <unistd.h>
+
+#include <array>
 #include <csignal>
 #include <initializer_list>
 
@@ -11,6 +14,9 @@ volatile std::sig_atomic_t came = 0;
 void take(int number) {
   came = number;
   std::signal(number, SIG_DFL);
+  static constexpr std::array message =
+      std::to_array("\nclatter: stops after the present run; once more stops at once\n");
+  (void)!write(STDERR_FILENO, message.data(), message.size() - 1);  // nothing else is safe here
 }
 
 }  // namespace

@@ -99,7 +99,7 @@ std::string plan_text(const Plan& plan, const Sweep& sweep, int threads) {
                      line("observed", joined(plan.observed));
   const Integration& integration = sweep.scene.integration;
   if (integration.method != Method::exact)
-    text += line("method", method_of(sweep) + ": every effect is simulated, no shortcut taken; called for are:");
+    text += line("method", method_of(sweep) + ": every effect is simulated, whatever the kernel; called for are:");
   else if (integration.all_effects)
     text += line("effects", "all are simulated, for all of max_periods (integrator.effects = all); called for are:");
   for (const Group& group : plan.groups) text += group_text(group);

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <string_view>
+#include <utility>
 
 #include "dynamics/oscillator.hpp"
 #include "dynamics/stops.hpp"
@@ -40,7 +41,7 @@ struct Observe {
   double base_frequency = 0.0;            ///< of harmonics; 0: the force's, without forcing the motion's own
   bool impacts = false;
   bool impact_log = false;
-  bool rest_log = false;        ///< every rest and completed chatter
+  bool full_log = false;        ///< with the impact log: every rest and completed chatter, and an impact at t0 itself
   std::int64_t trajectory = 0;  ///< samples over the observed time, both ends included; 0: none
   bool period = false;
   bool stability = false;
@@ -80,6 +81,15 @@ enum class Status : std::uint8_t {
   not_finite = 17,
   unresolved = 18
 };
+
+/// Every status and its name.
+inline constexpr std::array<std::pair<Status, std::string_view>, 6> status_names{
+    {{Status::periodic, "periodic"},
+     {Status::aperiodic, "aperiodic"},
+     {Status::transient, "transient"},
+     {Status::event_budget, "event_budget"},
+     {Status::not_finite, "not_finite"},
+     {Status::unresolved, "unresolved"}}};
 
 [[nodiscard]] constexpr bool failed(Status status) { return status >= Status::event_budget; }
 

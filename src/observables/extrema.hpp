@@ -45,7 +45,7 @@ class Extrema {
   void rest(const Rest& rest) { x_.include(rest.place), v_.include(0.0); }
   void impact(const Impact& impact) { x_.include(impact.place), v_.include(impact.before), v_.include(impact.after); }
 
-  /// Cut at the stops, which the end of an arc meets only to rounding.
+  /// Cut at the stops, which the end of an arc meets only to rounding, or by time stepping to the length of a step.
   [[nodiscard]] Range displacement(const Stops& stops) const {
     return {std::max(x_.low, stops.lower), std::min(x_.high, stops.upper)};
   }

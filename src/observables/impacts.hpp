@@ -23,7 +23,9 @@ class Impacts {
   };
 
   template <class A>
-  void arc(const A&, double, double) {}
+  void arc(const A&, double, double length) {
+    flown_ = flown_ || length > 0;
+  }
   void rest(const Rest& rest) {
     if (rest.held) stops_[index_of(rest.side)].rest_time += rest.length;
   }
@@ -35,12 +37,14 @@ class Impacts {
   }
 
   [[nodiscard]] const std::array<OfStop, 2>& stops() const { return stops_; }
+  [[nodiscard]] bool flown() const { return flown_; }  ///< whether the mass moves at all, not resting throughout
   [[nodiscard]] double first_speed() const {
     return first_speed_;
   }  ///< |x'| before the first impact on either stop, NaN if none
 
  private:
   std::array<OfStop, 2> stops_{};
+  bool flown_ = false;
   double first_speed_ = std::numeric_limits<double>::quiet_NaN();
 };
 

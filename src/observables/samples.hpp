@@ -69,7 +69,7 @@ class Samples {
   }
   void add(double x, double v) {
     x_.push_back(std::clamp(x, stops_.lower, stops_.upper)), v_.push_back(v);
-  }  // an arc's end may round past
+  }  // an arc's end may round past; Moreau's time stepping goes past by up to a step
 
   std::size_t count_;
   double spacing_, rounding_;

@@ -10,6 +10,7 @@
 namespace clatter {
 namespace {
 
+constexpr double steady_tolerance = 1e-12;
 constexpr double agreement_room = 1e-8;  ///< forcing periods by which double and 50 digits may differ: half the digits
 
 /// Motion from the start in 50 digits as far as a double follows it.
@@ -35,7 +36,15 @@ void find_motion_from_start(const Scene& scene, double duration, const std::func
   found.from_start = std::move(exact);
 }
 
-void find_steady_motion(const Scene& scene, const std::function<bool()>& stopped, References& found) {
+/// Whether a periodic motion in 50 digits is the one that a double has found, not another one nearby.
+bool same_motion(const Course& exact, const Start& in_double) {
+  const double size = std::max(std::abs(exact.x), std::abs(exact.v));
+  return std::max(std::abs(exact.x - in_double.displacement), std::abs(exact.v - in_double.velocity)) <= 1e-6 * size;
+}
+
+/// Looks for it with a tolerance of the study's own: a loose one finds another motion.
+void find_steady_motion(Scene scene, const std::function<bool()>& stopped, References& found) {
+  scene.time.tolerance = std::min(scene.time.tolerance, steady_tolerance);
   Workshop workshop;
   const PointResult result = run_point(scene, workshop);
   if (result.status != Status::periodic || result.found_by == FoundBy::standstill) return;
@@ -44,7 +53,10 @@ void find_steady_motion(const Scene& scene, const std::function<bool()>& stopped
   on_period.start = result.end;
   on_period.time.mode = Mode::transient, on_period.time.duration = duration;
   found.periodic = periodic_reference(on_period, periods, observables_over(scene, duration), stopped);
-  if (found.periodic) found.on_period = on_period, found.steady_periods = periods;
+  if (found.periodic && !same_motion(*found.periodic, on_period.start)) found.periodic.reset();
+  if (!found.periodic) return;
+  on_period.start.displacement = found.periodic->x, on_period.start.velocity = found.periodic->v;
+  found.on_period = on_period, found.steady_periods = periods;
 }
 
 }  // namespace

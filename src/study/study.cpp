@@ -23,20 +23,24 @@ Complexes complex_amplitudes(const Spectrum& spectrum) {
   return harmonics;
 }
 
-/// Largest error of the harmonics from the first on, over the largest of them; NaN where one has no value.
-double harmonics_error(const Complexes& harmonics, const Complexes& reference) {
+/// Largest error of the harmonics from the first on, over the largest of them, or over the motion's size where they are
+/// no more than its rounding; NaN where one has no value.
+double harmonics_error(const Complexes& harmonics, const Complexes& reference, double size) {
   double error = 0.0, largest = 0.0;
   for (std::size_t k = 1; k < reference.size(); ++k) {
     const double off = k < harmonics.size() ? std::abs(harmonics[k] - reference[k]) : no_value;
     if (std::isnan(off)) return no_value;
     error = std::max(error, off), largest = std::max(largest, std::abs(reference[k]));
   }
-  return largest > 0 ? error / largest : error;
+  const double scale = largest > 1e-12 * size ? largest : size;
+  return scale > 0 ? error / scale : error;
 }
+
+double size_of(const Extrema::Range& range) { return std::max(std::abs(range.low), std::abs(range.high)); }
 
 /// Error of the ends of a range, over its larger end.
 double range_error(double low, double high, const Extrema::Range& reference) {
-  const double size = std::max(std::abs(reference.low), std::abs(reference.high));
+  const double size = size_of(reference);
   const double error = std::max(std::abs(low - reference.low), std::abs(high - reference.high));
   return size > 0 ? error / size : error;
 }
@@ -67,7 +71,7 @@ Observe harmonics_over(const Scene& scene, double duration) {
 }
 Observe everything_over(const Scene& scene, double duration) {
   Observe observe = harmonics_over(scene, duration);
-  observe.extrema = observe.impact_log = observe.rest_log = true;
+  observe.extrema = observe.impact_log = observe.full_log = true;
   return observe;
 }
 
@@ -174,6 +178,7 @@ class Study {
     const PointResult result = run_point(prepared.observed, bench.workshop());
     row.status = result.status;
     row.impacts = result.impacts, row.simulated_periods = result.periods, row.evaluations = result.evaluations;
+    row.observed_periods = result.observed_turns;
     if (prepared.reference != nullptr && !failed(result.status)) compare_with(prepared, result, row);
     step();
     return row;
@@ -181,12 +186,13 @@ class Study {
 
   void compare_with(const Prepared& prepared, const PointResult& result, Row& row) const {
     const Course& reference = *prepared.reference;
-    row.harmonics = harmonics_error(complex_amplitudes(result.x_spectrum), reference.harmonics);
-    row.v_harmonics = harmonics_error(complex_amplitudes(result.v_spectrum), reference.v_harmonics);
+    if (prepared.reference_period > 0 && row.observed_periods != prepared.reference_period) return;  // another motion
+    const double size = std::max(size_of(reference.x_range), size_of(reference.v_range));
+    row.harmonics = harmonics_error(complex_amplitudes(result.x_spectrum), reference.harmonics, size);
+    row.v_harmonics = harmonics_error(complex_amplitudes(result.v_spectrum), reference.v_harmonics, size);
     if (!prepared.observed.observe.extrema) return;
     row.extrema = std::max(range_error(result.x_min, result.x_max, reference.x_range),
                            range_error(result.v_min, result.v_max, reference.v_range));
-    if (prepared.reference_period > 0 && result.observed_turns != prepared.reference_period) return;
     const double period = period_of(scene_);
     const ContactErrors errors = compare(events_of(result), reference.events, period / 2);
     if (errors.paired > 0) row.contact_time = errors.time / period, row.contact_speed = errors.speed;

@@ -22,6 +22,7 @@ struct Row {
   double rests_missed = no_value;
   double impacts = no_value;            ///< simulated
   double simulated_periods = no_value;  ///< forcing periods, settling included
+  double observed_periods = no_value;   ///< forcing periods observed: of periodic motion its period
   double evaluations = no_value;        ///< of arcs; of the equation by general methods
   double ns_per_period = no_value;      ///< median wall time of a forcing period on one thread, in ns
   double ns_spread = no_value;          ///< interquartile range of it; NaN where it was measured once

@@ -19,6 +19,7 @@ constexpr RowVariable all_row_variables[] = {
     {"rests_missed", "rests of the reference that are missed", &Row::rests_missed},
     {"impacts", "impacts simulated", &Row::impacts},
     {"simulated_periods", "forcing periods simulated", &Row::simulated_periods},
+    {"observed_periods", "forcing periods observed, of periodic motion its period", &Row::observed_periods},
     {"evaluations", "evaluations of arcs; of the equation by general methods", &Row::evaluations},
     {"ns_per_period", "median wall time of a forcing period on one thread, in nanoseconds", &Row::ns_per_period},
     {"ns_spread", "interquartile range of ns_per_period", &Row::ns_spread},

@@ -64,8 +64,14 @@ std::vector<std::string> axis_names(const Sweep& sweep) {
 }
 
 std::vector<Attribute> status_flags() {
-  return {{"flag_values", std::vector<std::uint8_t>{0, 1, 2, 16, 17, 18}},
-          {"flag_meanings", "periodic aperiodic transient event_budget not_finite unresolved"}};
+  std::vector<std::uint8_t> values;
+  std::string meanings;
+  for (const auto& [status, name] : status_names) {
+    values.push_back(static_cast<std::uint8_t>(status));
+    if (!meanings.empty()) meanings += ' ';
+    meanings += name;
+  }
+  return {{"flag_values", values}, {"flag_meanings", meanings}};
 }
 
 Columns::Columns(const Sweep& sweep)

@@ -23,7 +23,7 @@ class Observers {
     if (observe.extrema) extrema.emplace();
     if (observe.impacts || observe.period) impacts.emplace();
     if (observe.impact_log) log.emplace();
-    if (observe.rest_log) rests.emplace();
+    if (observe.full_log) rests.emplace();
     if (observe.trajectory > 0) {
       const auto count = static_cast<std::size_t>(observe.trajectory);
       trajectory.emplace(count, total / static_cast<double>(count - 1), AtImpact::after, scene.stops);
@@ -46,7 +46,10 @@ class Observers {
     each([&](auto& observer) { observer.rest(rest); });
   }
   void impact(const Impact& impact) {
-    if (!(impact.time > 0.0)) return;  // the observed time begins after t0: an impact there belongs to what was before
+    if (!(impact.time > 0.0)) {  // the observed time begins after t0: an impact there belongs to what was before
+      if (rests && log) log->impact(impact);
+      return;
+    }
     each([&](auto& observer) { observer.impact(impact); });
   }
   void finish(double x, double v, double total, bool periodic, bool autonomous) {

@@ -43,12 +43,16 @@ PointResult run_point(const Scene& scene, Workshop& workshop) {
 }
 
 double seconds_per_period(Scene scene, Workshop& workshop) {
+  constexpr double enough = 5e-3;  // seconds
   scene.time.mode = Mode::transient;
-  scene.time.duration = 4 * 2 * pi<double>() / counting_frequency(scene.oscillator);
   scene.observe = {};
-  const auto begin = std::chrono::steady_clock::now();
-  (void)run_point(scene, workshop);
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count() / 4;
+  for (double periods = 1e-6;; periods *= 10) {
+    scene.time.duration = periods * 2 * pi<double>() / counting_frequency(scene.oscillator);
+    const auto begin = std::chrono::steady_clock::now();
+    (void)run_point(scene, workshop);
+    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    if (seconds > enough || periods > 5) return seconds / periods;
+  }
 }
 
 double seconds_per_evaluation(const Effects& effects) {

@@ -21,9 +21,9 @@ inline constexpr double no_value = std::numeric_limits<double>::quiet_NaN();
 struct PointResult {
   Status status = Status::unresolved;
   FoundBy found_by = FoundBy::nothing;
-  double impacts = 0.0;              ///< simulated, settling included
-  double periods = 0.0;              ///< forcing periods simulated, settling included
-  double evaluations = 0.0;          ///< of arcs, settling and observables included
+  double impacts = 0.0;      ///< simulated, settling included
+  double periods = 0.0;      ///< forcing periods simulated, settling included
+  double evaluations = 0.0;  ///< of arcs (of the equation by general methods), settling and observables included
   double observed_turns = no_value;  ///< forcing periods observed
   double x_min = no_value, x_max = no_value, v_min = no_value, v_max = no_value;
   double base_frequency = no_value;
@@ -68,7 +68,7 @@ void run_batch(std::span<const Task> tasks, Workshop& workshop,
 /// on a scene of its own.
 [[nodiscard]] double seconds_per_evaluation(const Effects& effects);
 
-/// Wall time of a forcing period of a scene: a short measurement on its first four.
+/// Wall time of a forcing period of a scene: a short measurement on its first ones.
 [[nodiscard]] double seconds_per_period(Scene scene, Workshop& workshop);
 
 }  // namespace clatter

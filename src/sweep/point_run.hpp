@@ -91,18 +91,16 @@ class Point {
   }
 
   void collect_impacts(const Impacts& impacts, double total, double periods) {
-    bool rests_throughout = false;
     for (std::size_t i = 0; i < impacts.stops().size(); ++i) {
       const Impacts::OfStop& stop = impacts.stops()[i];
       result_.impacts_per_period[i] = stop.count / periods;
       result_.v_before[i] = stop.before, result_.v_after[i] = stop.after;
       result_.rest_fraction[i] = std::min(1.0, stop.rest_time / total);
-      rests_throughout = rests_throughout || stop.rest_time >= total * (1 - 1e-14);
     }
     const Stops& stops = scene_.stops;
     if (stops.lower == -stops.upper) result_.velocity_ratio = impacts.first_speed() / stops.upper;
     if (observed_.status == Status::aperiodic) result_.period_ratio = 0.0;
-    if (observed_.status != Status::periodic || observed_.found_by == FoundBy::standstill || rests_throughout) return;
+    if (observed_.status != Status::periodic || observed_.found_by == FoundBy::standstill || !impacts.flown()) return;
     result_.period = total;
     const bool forced = scene_.oscillator.forcing != 0;
     if (forced) result_.period_ratio = observed_.turns;

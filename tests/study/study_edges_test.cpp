@@ -33,6 +33,33 @@ Scene failing_scene() {
   return scene;
 }
 
+TEST(StartOnAStop, moving_in_is_neither_missed_nor_doubled) {
+  Scene scene = smooth_scene();
+  scene.start = {0.5, 1.0, 0.0};
+  const PointStudy found = study(scene, {{Studied::exact, no_setting}, {Studied::dopri5, 1e-8}}, once);
+  for (const Row& row : found.rows) EXPECT_EQ(row.missed + row.doubled, 0.0);
+  EXPECT_EQ(row_of(found, Studied::exact).impacts, found.impacts);
+}
+
+TEST(SteadyMotion, is_the_same_however_loose_the_tolerance_of_the_scene_is) {
+  Scene scene = scene_of({0.1, 1.0, 0.5, 0.0}, -1.3216, 1.3216, 0.7);  // next to grazing, where a loose one errs
+  scene.time.window = 2, scene.time.tolerance = 1e-3;
+  const PointStudy found = study(scene, one_of_each(), once);
+  EXPECT_EQ(found.steady_periods, 3.0);
+  EXPECT_LT(row_of(found, Studied::harmonics_exact).harmonics, 1e-13);
+  const PointStudy loose = study(scene, {{Studied::steady, 1e-3}}, once);
+  EXPECT_EQ(loose.rows[0].observed_periods, 1.0);  // another motion: it has no error
+  for (const double error : errors_of(loose.rows[0])) EXPECT_TRUE(std::isnan(error));
+}
+
+TEST(RestingMotion, has_harmonics_in_units_of_its_own_size) {
+  Scene scene = smooth_scene();
+  scene.oscillator.load = 3.0, scene.time.window = 2;  // it ends at rest on the upper stop: its harmonics are rounding
+  const PointStudy found = study(scene, {{Studied::harmonics_fft, 1024}}, once);
+  EXPECT_LT(found.rows[0].harmonics, 1e-14);
+  EXPECT_LT(found.rows[0].v_harmonics, 1e-14);
+}
+
 TEST(ChaoticScene, is_compared_while_double_follows_fifty_digits) {
   const PointStudy found = study(chaotic_scene(), one_of_each(), once);
   EXPECT_EQ(found.asked, 200.0);

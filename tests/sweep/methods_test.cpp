@@ -20,7 +20,7 @@ constexpr std::size_t samples = 1024;
 
 Observe everything(HarmonicsMethod harmonics) {
   Observe observe;
-  observe.extrema = observe.impacts = observe.impact_log = observe.rest_log = observe.period = observe.stability = true;
+  observe.extrema = observe.impacts = observe.impact_log = observe.full_log = observe.period = observe.stability = true;
   observe.harmonics = 3, observe.harmonics_method = harmonics;
   observe.harmonics_samples = static_cast<std::int64_t>(samples);
   observe.trajectory = 33;
@@ -168,6 +168,19 @@ TEST(Methods, moreau_comes_to_the_results_of_the_exact_method) {
       EXPECT_LT(difference(result, exact, name), 2 * 2 * std::numbers::pi * step) << name << ", " << step;
       EXPECT_EQ(result.log.size(), exact.log.size()) << name;
     }
+  }
+}
+
+TEST(Methods, motion_that_rests_throughout_has_no_period) {
+  Scene scene = paper_scene(1.0, 1.0);
+  scene.oscillator.load = 3.0;
+  scene.observe.period = scene.observe.impacts = true;
+  for (const Method method : {Method::exact, Method::dopri5, Method::moreau}) {
+    scene.integration.method = method;
+    const PointResult result = result_of(scene);
+    EXPECT_EQ(result.status, Status::periodic);
+    EXPECT_TRUE(std::isnan(result.period)) << result.period;
+    EXPECT_NEAR(result.rest_fraction[1], 1.0, 1e-12);  // a sum of a thousand steps
   }
 }
 
