@@ -90,8 +90,8 @@ TEST(DormandPrinceMotion, at_resonance_grows_as_its_closed_form) {
 
 TEST(DormandPrinceMotion, between_sections_depends_on_the_state_alone) {
   // a new integrator goes on from a section as the one that came there, to the last bit, though not in mid-period
-  for (const auto& [name, scene] : every_kind())
-    with_general_effects(scene.oscillator, [&]<Effects effects>() {
+  for (const auto& [kind, of_kind] : every_kind())
+    with_general_effects(of_kind.oscillator, [&, name = kind, scene = of_kind]<Effects effects>() {
       DormandPrince<effects> first(with_tolerance(scene, 1e-6));
       State<double> state;
       state.x = scene.start.displacement, state.v = scene.start.velocity;
