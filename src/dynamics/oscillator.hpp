@@ -1,5 +1,7 @@
 #pragma once
 
+#include <numbers>
+
 namespace clatter {
 
 /// x'' + 2 h x' + x = f sin(nu tau + phase) + load, in units of the natural frequency and the spring (eq. 3).
@@ -13,6 +15,11 @@ struct Oscillator {
 /// The frequency whose periods a run is counted in: nu under forcing, else 1.
 [[nodiscard]] constexpr double counting_frequency(const Oscillator& oscillator) {
   return oscillator.forcing == 0.0 ? 1.0 : oscillator.frequency;
+}
+
+/// Forcing period in tau; without forcing 2 pi.
+[[nodiscard]] constexpr double period_of(const Oscillator& oscillator) {
+  return 2 * std::numbers::pi / counting_frequency(oscillator);
 }
 
 }  // namespace clatter

@@ -169,7 +169,7 @@ std::optional<Course> periodic_reference(const Scene& scene, double periods, con
   return with_any_stops(scene.oscillator, [&]<Effects effects>() -> std::optional<Course> {
     State<FiftyDigits> start = start_of<FiftyDigits>(scene);
     if (!to_fixed_point<effects>(scene, start, periods, stopped)) return std::nullopt;
-    const double duration = periods * 2 * pi<double>() / counting_frequency(scene.oscillator);
+    const double duration = periods * period_of(scene.oscillator);
     return run_from<FiftyDigits, effects>(scene, start, FiftyDigits(periods), duration, observables, stopped);
   });
 }

@@ -16,7 +16,7 @@ constexpr double agreement_room = 1e-8;  ///< forcing periods by which double an
 /// Motion from the start in 50 digits as far as a double follows it.
 void find_motion_from_start(const Scene& scene, double duration, const std::function<bool()>& stopped,
                             References& found) {
-  const double period = period_of(scene);
+  const double period = period_of(scene.oscillator);
   const Course in_double = course_of(scene, duration);
   Course exact = reference_of(scene, duration, observables_over(scene, duration), stopped);
   const Outcome outcome = in_double.outcome != Outcome::completed ? in_double.outcome : exact.outcome;
@@ -48,7 +48,7 @@ void find_steady_motion(Scene scene, const std::function<bool()>& stopped, Refer
   Workshop workshop;
   const PointResult result = run_point(scene, workshop);
   if (result.status != Status::periodic || result.found_by == FoundBy::standstill) return;
-  const double periods = result.observed_turns, duration = periods * period_of(scene);
+  const double periods = result.observed_turns, duration = periods * period_of(scene.oscillator);
   Scene on_period = scene;
   on_period.start = result.end;
   on_period.time.mode = Mode::transient, on_period.time.duration = duration;
@@ -66,10 +66,8 @@ double References::count(Event::Kind kind) const {
   return static_cast<double>(std::ranges::count(with_rests_joined(from_start->events), kind, &Event::kind));
 }
 
-double period_of(const Scene& scene) { return 2 * pi<double>() / counting_frequency(scene.oscillator); }
-
 CourseObservables observables_over(const Scene& scene, double duration) {
-  const double turns = duration / period_of(scene), whole = std::max(1.0, std::round(turns));
+  const double turns = duration / period_of(scene.oscillator), whole = std::max(1.0, std::round(turns));
   if (std::abs(turns - whole) < 1e-9 * whole) return {highest_harmonic, counting_frequency(scene.oscillator)};
   return {highest_harmonic, 2 * pi<double>() * whole / duration};
 }
@@ -77,8 +75,9 @@ CourseObservables observables_over(const Scene& scene, double duration) {
 References references_of(const Scene& scene, const std::function<bool()>& stopped) {
   References found;
   const bool steady = scene.time.mode == Mode::steady;
-  const double duration = steady ? static_cast<double>(scene.time.window) * period_of(scene) : scene.time.duration;
-  found.asked = duration / period_of(scene);
+  const double duration =
+      steady ? static_cast<double>(scene.time.window) * period_of(scene.oscillator) : scene.time.duration;
+  found.asked = duration / period_of(scene.oscillator);
   find_motion_from_start(scene, duration, stopped, found);
   if (steady && scene.oscillator.forcing != 0) find_steady_motion(scene, stopped, found);
   return found;

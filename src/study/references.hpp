@@ -23,9 +23,6 @@ struct References {
   [[nodiscard]] double count(Event::Kind kind) const;  ///< of events within the horizon
 };
 
-/// Forcing period in tau; without forcing 2 pi.
-[[nodiscard]] double period_of(const Scene& scene);
-
 /// What is observed of a run from the start: harmonics of the frequency that is nearest to the force's and turns a
 /// whole number of times, since samples know no other.
 [[nodiscard]] CourseObservables observables_over(const Scene& scene, double duration);

@@ -79,7 +79,7 @@ const Course* pointer_to(const std::optional<Course>& course) { return course ? 
 
 /// A scene that runs over the horizon.
 Scene over_horizon(Scene scene, const References& references) {
-  scene.time.mode = Mode::transient, scene.time.duration = references.horizon * period_of(scene);
+  scene.time.mode = Mode::transient, scene.time.duration = references.horizon * period_of(scene.oscillator);
   return scene;
 }
 
@@ -109,7 +109,7 @@ Prepared prepare_steady(const Trial& trial, const Scene& scene, const References
   prepared.silent.time.tolerance = trial.setting;
   prepared.silent.integration.shortcuts = trial.studied == Studied::steady;
   prepared.observed = prepared.silent;
-  prepared.observed.observe = everything_over(scene, period_of(scene));
+  prepared.observed.observe = everything_over(scene, period_of(scene.oscillator));
   return prepared;
 }
 
@@ -193,7 +193,7 @@ class Study {
     if (!prepared.observed.observe.extrema) return;
     row.extrema = std::max(range_error(result.x_min, result.x_max, reference.x_range),
                            range_error(result.v_min, result.v_max, reference.v_range));
-    const double period = period_of(scene_);
+    const double period = period_of(scene_.oscillator);
     const ContactErrors errors = compare(events_of(result), reference.events, period / 2);
     if (errors.paired > 0) row.contact_time = errors.time / period, row.contact_speed = errors.speed;
     if (errors.rests_paired > 0) row.rest = errors.rest / period;

@@ -30,8 +30,6 @@ Scene planned_scene(const Sweep& sweep, const Branches& branches, std::size_t po
   return scene;
 }
 
-double period_of(const Oscillator& o) { return 2 * pi<double>() / counting_frequency(o); }
-
 /// Whether motion without stops comes to its end, the steady response, free vibration or standstill, within a time.
 bool ends_in_time(const Scene& scene, double time) {
   const Oscillator& o = scene.oscillator;

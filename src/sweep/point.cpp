@@ -47,7 +47,7 @@ double seconds_per_period(Scene scene, Workshop& workshop) {
   scene.time.mode = Mode::transient;
   scene.observe = {};
   for (double periods = 1e-6;; periods *= 10) {
-    scene.time.duration = periods * 2 * pi<double>() / counting_frequency(scene.oscillator);
+    scene.time.duration = periods * period_of(scene.oscillator);
     const auto begin = std::chrono::steady_clock::now();
     (void)run_point(scene, workshop);
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
