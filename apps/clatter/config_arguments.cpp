@@ -1,6 +1,7 @@
 #include "config_arguments.hpp"
 
 #include <charconv>
+#include <cstdlib>
 #include <filesystem>
 
 #include "io/suggestion.hpp"
@@ -29,6 +30,19 @@ int threads_of(const Arguments& arguments) {
     throw UsageError("--threads " + in_quotes(*word) + "; permitted: a whole number from 1 to 1024");
   }
   return threads;
+}
+
+Arch arch_of(const Arguments& arguments) {
+  const char* const variable = std::getenv("CLATTER_ARCH");
+  const std::optional<std::string> option = arguments.value("arch");
+  if (!option && (variable == nullptr || *variable == '\0')) return best_arch();
+  const std::string name = option ? *option : variable, where = option ? "--arch " : "CLATTER_ARCH=";
+  const std::optional<Arch> arch = arch_named(name);
+  if (!arch) throw UsageError(where + in_quotes(name) + "; permitted: scalar, sse2, avx2, avx512");
+  if (!runs_here(*arch))
+    throw UsageError(where + in_quotes(name) + ": this machine doesn't have it; its widest is " +
+                     std::string(name_of(best_arch())));
+  return *arch;
 }
 
 bool progress_wanted(const Arguments& arguments) {

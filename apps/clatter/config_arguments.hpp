@@ -2,6 +2,7 @@
 
 #include "command_line.hpp"
 #include "io/config.hpp"
+#include "numbers/arch.hpp"
 
 namespace clatter {
 
@@ -15,6 +16,13 @@ inline const Option threads_option{"threads", 0, "N", "threads, 1 to 1024; defau
 
 /// What --threads says; 0 where it isn't given. Throws UsageError.
 [[nodiscard]] int threads_of(const Arguments& arguments);
+
+inline const Option arch_option{
+    "arch", 0, "NAME", "instruction set: scalar, sse2, avx2, avx512; default: CLATTER_ARCH, else the widest here"};
+
+/// The instruction set that --arch or the environment names; the widest of this machine where neither does. Throws
+/// UsageError.
+[[nodiscard]] Arch arch_of(const Arguments& arguments);
 
 /// Options of the commands that write a file.
 inline const Option output_option{"output", 'o', "FILE.h5",

@@ -23,9 +23,9 @@ void check_memory(const Sweep& sweep) {
                    "; sweep fewer points, or observe fewer samples and harmonics");
 }
 
-RunResult run_with_progress(const Sweep& sweep, int threads, bool shown) {
+RunResult run_with_progress(const Sweep& sweep, int threads, Arch arch, bool shown) {
   const Progress progress(shown);
-  RunOptions options{threads, {}};
+  RunOptions options{.threads = threads, .arch = arch};
   if (shown) options.progress = [&](std::size_t finished, std::size_t total) { progress.show(finished, total); };
   return run(sweep, options);
 }
@@ -34,6 +34,7 @@ int run_config(const Arguments& arguments) {
   if (arguments.has("quiet") && arguments.has("verbose"))
     throw UsageError("--quiet beside --verbose; give one of them");
   const std::string began = now();
+  const Arch arch = arch_of(arguments);
   const int threads = threads_used({.threads = threads_of(arguments)});
   const bool shown = progress_wanted(arguments);
   const std::string output = output_of(arguments);
@@ -42,7 +43,7 @@ int run_config(const Arguments& arguments) {
   check_writable(output);
   check_memory(config.sweep);
   if (arguments.has("verbose")) std::cerr << plan_text(plan_of(config.sweep, threads), config.sweep, threads);
-  const RunResult result = run_with_progress(config.sweep, threads, shown);
+  const RunResult result = run_with_progress(config.sweep, threads, arch, shown);
   publish(output, file_image(result.figure, config));
   if (!arguments.has("quiet")) std::cerr << summary_line(result, output) << '\n';
   if (arguments.has("verbose")) std::cerr << details(result, command_line(), began);
@@ -66,6 +67,7 @@ Command run_command() {
           .options = {output_option,
                       set_option,
                       threads_option,
+                      arch_option,
                       progress_option,
                       {"quiet", 'q', "", "print errors only"},
                       {"verbose", 'v', "", "print the plan before, and after it what was used, host and times"},

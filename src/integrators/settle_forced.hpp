@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <span>
 #include <utility>
@@ -15,32 +17,51 @@
 
 namespace clatter {
 
-/// Runs forced motion until its steady state is known, in as few forcing periods as possible: as the closed form once
-/// no stop can be reached any more, by Newton's method once successive states contract, else by repetition.
+/// Who takes a motion from section to section while its steady state is looked for: the search itself, or lanes, where
+/// a forcing period costs so little that plain repetition is the quickest way unless states contract slowly.
+enum class TakenBy : std::uint8_t { itself, lanes };
+
+/// Looks at forced motion, section by section, until its steady state is known, in as few forcing periods as possible:
+/// as the closed form once no stop can be reached any more, by Newton's method once successive states contract, else by
+/// repetition.
 template <Effects E>
 class SteadySearch {
  public:
-  SteadySearch(Exact<double, E>& integrator, const Scene& scene)
+  SteadySearch(Exact<double, E>& integrator, const Scene& scene, TakenBy taken_by = TakenBy::itself)
       : integrator_(integrator),
         scene_(scene),
         plan_(scene.time),
+        in_lanes_(taken_by == TakenBy::lanes),
         repeat_(scene.time.tolerance),
         watch_(integrator.stops()),
         map_(integrator, scene.time.tolerance) {
     near_enough_.fill(nearest_first);
   }
 
+  /// Runs from `state`, at a section, until the steady state is known.
   [[nodiscard]] Observed run(State<double> state) {
-    for (;; ++section_) {
-      recent_[index(0)] = state;
-      if (const auto found = closed_form(state)) return *found;
-      if (const std::size_t n = repeat_.add(state.x, state.v)) return repetition(n);
-      if (section_ == plan_.max_periods)
-        return {Status::aperiodic, state, static_cast<double>(plan_.window), simulated(), FoundBy::nothing};
-      if (const auto found = attractor(state)) return *found;
+    for (;;) {
+      if (const auto found = at_section(state)) return *found;
       const Outcome outcome = advance(state);
-      if (outcome != Outcome::completed) return {status_of(outcome), state, 0.0, simulated(), FoundBy::nothing};
+      if (outcome != Outcome::completed) return failure(outcome, state);
+      ++section_;
     }
+  }
+
+  /// What is known at the next section; nothing: the motion has to go on.
+  [[nodiscard]] std::optional<Observed> at_section(const State<double>& state) {
+    recent_[index(0)] = state;
+    if (const auto found = closed_form(state)) return found;
+    if (const std::size_t n = repeats(state)) return repetition(n);
+    if (section_ == plan_.max_periods)
+      return Observed{Status::aperiodic, state, static_cast<double>(plan_.window), simulated(), FoundBy::nothing};
+    return attractor(state);
+  }
+  /// Takes note of the forcing period that leads to the next section.
+  void pass_period(std::uint64_t itinerary) { itineraries_[index(0)] = itinerary, ++section_; }
+
+  [[nodiscard]] Observed failure(Outcome outcome, const State<double>& state) const {
+    return {status_of(outcome), state, 0.0, simulated(), FoundBy::nothing};
   }
 
  private:
@@ -67,6 +88,19 @@ class SteadySearch {
     return outcome;
   }
 
+  /// The forcing periods after which the motion repeats, 0 while it doesn't. In lanes it goes on until the states at
+  /// the sections have come as close as rounding lets them, since no Newton step takes them there.
+  [[nodiscard]] std::size_t repeats(const State<double>& state) {
+    const std::size_t n = repeat_.add(state.x, state.v);
+    if (!in_lanes_ || (n == 0 && closing_in_ == 0)) return n;
+    if (closing_in_ == 0) closing_in_ = n, closest_ = std::numeric_limits<double>::infinity();
+    const double distance = repeat_.distance_over(closing_in_);
+    if (distance < closest_) closest_ = distance, closest_at_ = section_;
+    const bool as_close_as_it_gets = section_ - closest_at_ > static_cast<std::int64_t>(2 * closing_in_ + 4);
+    const bool close = distance <= 8 * epsilon<double>() || as_close_as_it_gets || section_ == plan_.max_periods;
+    return close ? closing_in_ : 0;
+  }
+
   [[nodiscard]] Observed repetition(std::size_t n) const {
     return {Status::periodic, recent_[index(repeat_.lowest_of_last(n))], static_cast<double>(n), simulated(),
             FoundBy::repetition};
@@ -91,13 +125,23 @@ class SteadySearch {
   /// periodic motion that they contract to.
   [[nodiscard]] std::optional<Observed> attractor(const State<double>& state) {
     const bool under_way = approach_ && next_ < approach_->periods;
-    const bool rarely = section_ > long_settling && section_ % 8 != 0;  // looking costs a tenth of a forcing period
-    const std::size_t n = under_way || rarely ? 0 : contracting();
+    const std::size_t n = under_way || !pays() ? 0 : contracting();
     if (n == 0 || !affordable(n)) return std::nullopt;
     near_enough_[n] = repeat_.distance_over(n) / 8;  // for the next attempt
     approach_ = map_.follow(state, n), next_ = 0;
     const auto orbit = approach_ ? map_.attractor_of(*approach_) : std::nullopt;
+    if (in_lanes_) approach_.reset();
     return orbit ? std::optional(observed(*orbit)) : std::nullopt;
+  }
+
+  /// Whether it pays to look for contracting states: that costs a tenth of a forcing period, and in lanes an attempt
+  /// costs as much as hundreds.
+  [[nodiscard]] bool pays() const {
+    if (closing_in_ > 0) return false;
+    if (in_lanes_)
+      return section_ >= 64 &&
+             (std::has_single_bit(static_cast<std::uint64_t>(section_)) || section_ + 1 == plan_.max_periods);
+    return section_ <= long_settling || section_ % 8 == 0;
   }
 
   /// Whether attempts together stay below 64 periods, but no more than max_periods, and a quarter of those of the
@@ -133,9 +177,13 @@ class SteadySearch {
   Exact<double, E>& integrator_;
   const Scene& scene_;
   const TimePlan& plan_;
+  bool in_lanes_;
   RepeatFinder repeat_;
   SectionWatch watch_;
   PeriodMap<E> map_;
+  std::size_t closing_in_ = 0;     ///< lanes: the forcing periods after which the motion is known to repeat, 0: unknown
+  double closest_ = 0.0;           ///< distance of states so many sections apart, the least so far
+  std::int64_t closest_at_ = 0;    ///< the section where that was
   std::optional<Orbit> approach_;  ///< the periods after an attempt
   std::size_t next_ = 0;           ///< of its sections, the one that comes next
   std::int64_t section_ = 0;

@@ -20,18 +20,23 @@ class Point {
   PointResult run() {
     State<double> state;
     state.x = scene_.start.displacement, state.v = scene_.start.velocity;
-    observed_ = settle(integrator_, state, scene_);
+    return observe(settle(integrator_, state, scene_));
+  }
+
+  /// The result of a motion whose time to observe is known.
+  PointResult observe(const Observed& observed) {
+    observed_ = observed;
     result_.status = observed_.status;
     result_.found_by = observed_.found_by;
     result_.periods = observed_.settled;
-    if (!failed(observed_.status)) observe();
+    if (!failed(observed_.status)) look();
     result_.impacts = integrator_.impacts();
     result_.evaluations += integrator_.evaluations();
     return std::move(result_);
   }
 
  private:
-  void observe() {
+  void look() {
     const bool forced = scene_.oscillator.forcing != 0;
     const double total = observed_.turns * integrator_.period();
     // the base frequency turns once in a transient and in a period of unforced motion, else with the force

@@ -14,6 +14,7 @@
 
 #include "sweep/branches.hpp"
 #include "sweep/columns.hpp"
+#include "sweep/crew.hpp"
 #include "sweep/fork_join.hpp"
 #include "sweep/plan.hpp"
 #include "sweep/point.hpp"
@@ -62,6 +63,14 @@ void add(std::vector<Usage>& sum, const Usage& part) {
   same->impacts += part.impacts, same->periods += part.periods, same->evaluations += part.evaluations;
 }
 
+/// Whether points of a sweep may go into lanes: those of the exact method that look for their steady motion by every
+/// shortcut, and don't wait for each other.
+bool lanes_can_run(const Sweep& sweep) {
+  const Integration& integration = sweep.scene.integration;
+  return integration.method == Method::exact && integration.shortcuts && !integration.all_effects &&
+         sweep.scene.time.mode == Mode::steady && !sweep.follow;
+}
+
 /// The threads that run a sweep, and what they share.
 class Team {
  public:
@@ -73,6 +82,8 @@ class Team {
         chunk_(sweep.follow
                    ? 1
                    : std::clamp<std::size_t>(branches_.count / (64 * static_cast<std::size_t>(threads)), 1, 64)),
+        arch_(options.arch),
+        in_lanes_(options.arch != Arch::scalar && lanes_can_run(sweep)),
         workshops_(static_cast<std::size_t>(threads)),
         usage_(static_cast<std::size_t>(threads)) {
     const Observe& observe = sweep.scene.observe;
@@ -84,9 +95,8 @@ class Team {
   /// Runs every branch; results go by index, so their bits don't depend on which thread runs what.
   CLATTER_PARALLEL_REGION void run() {
     fork_join_.fork();
-#pragma omp parallel for schedule(dynamic) num_threads(threads())
-    for (std::size_t begin = 0; begin < branches_.count; begin += chunk_)
-      work(begin, static_cast<std::size_t>(omp_get_thread_num()));
+#pragma omp parallel num_threads(threads())
+    work(static_cast<std::size_t>(omp_get_thread_num()));
     fork_join_.join();
   }
 
@@ -107,20 +117,58 @@ class Team {
  private:
   [[nodiscard]] int threads() const { return static_cast<int>(workshops_.size()); }
 
-  void work(std::size_t begin, std::size_t thread) noexcept {
+  /// What one thread does: chunk after chunk, until none is left.
+  void work(std::size_t thread) noexcept {
     const ForkJoin::Member member(fork_join_);
-    if (stopped_) return;
     try {
-      if (sweep_.follow) {
-        run_branch(begin, thread);
+      if (in_lanes_) {
+        run_crew(thread);
       } else {
-        run_chunk(begin, std::min(begin + chunk_, branches_.count), thread);
+        while (const auto chunk = next_chunk()) run_chunk(*chunk, thread);
       }
     } catch (...) {
       const std::lock_guard lock(mutex_);
       failure_ = std::current_exception();
       stopped_ = true;
     }
+  }
+
+  struct Chunk {
+    std::size_t begin, end;
+  };
+  /// Branches that no thread has begun; nothing where none is left, or another thread has failed.
+  std::optional<Chunk> next_chunk() {
+    const std::size_t begin = begun_.fetch_add(chunk_);
+    if (stopped_ || begin >= branches_.count) return std::nullopt;
+    return Chunk{begin, std::min(begin + chunk_, branches_.count)};
+  }
+
+  Task task_of(std::size_t point) const {
+    Task task{point, scene_at(sweep_, point), {}};
+    task.effects = effects_of(task.scene);
+    return task;
+  }
+
+  /// Runs the points that fit in lanes, and one by one between them those that don't.
+  void run_crew(std::size_t thread) {
+    const auto take = [&](const Task& task, PointResult&& result) { store(task, std::move(result), thread); };
+    Chunk chunk{0, 0};
+    const auto next = [&]() -> std::optional<Task> {
+      for (;; ++chunk.begin) {
+        if (chunk.begin == chunk.end) {
+          const auto other = next_chunk();
+          if (!other) return std::nullopt;
+          chunk = *other;
+        }
+        const Task task = task_of(chunk.begin);
+        if (task.effects.stops() && fits_lanes(task.scene)) {
+          ++chunk.begin;
+          return task;
+        }
+        run_batch({&task, 1}, workshops_[thread], take);
+      }
+    };
+    Crew(visit_of(arch_), workshops_[thread]).run(next, take);
   }
 
   void store(const Task& task, PointResult&& result, std::size_t thread) {
@@ -144,14 +192,19 @@ class Team {
     }
   }
 
-  /// Runs points that don't depend on each other, those of equal kernels together.
-  void run_chunk(std::size_t begin, std::size_t end, std::size_t thread) {
-    std::vector<Task> tasks;
-    tasks.reserve(end - begin);
-    for (std::size_t point = begin; point < end; ++point) {
-      Task& task = tasks.emplace_back(Task{point, scene_at(sweep_, point), {}});
-      task.effects = effects_of(task.scene);
+  void run_chunk(const Chunk& chunk, std::size_t thread) {
+    if (sweep_.follow) {
+      run_branch(chunk.begin, thread);
+    } else {
+      run_points(chunk, thread);
     }
+  }
+
+  /// Runs points that don't depend on each other, those of equal kernels together.
+  void run_points(const Chunk& chunk, std::size_t thread) {
+    std::vector<Task> tasks;
+    tasks.reserve(chunk.end - chunk.begin);
+    for (std::size_t point = chunk.begin; point < chunk.end; ++point) tasks.push_back(task_of(point));
     const auto kernel = [](const Task& task) { return kernel_of(task.effects); };
     std::ranges::stable_sort(tasks, {}, kernel);
     for (std::span<const Task> left(tasks); !left.empty();) {
@@ -168,7 +221,10 @@ class Team {
   Columns& columns_;
   Progress progress_;
   std::optional<FourierTransform> transform_;
-  std::size_t chunk_;                      ///< branches that a thread takes at once
+  std::size_t chunk_;  ///< branches that a thread takes at once
+  Arch arch_;
+  bool in_lanes_;
+  std::atomic<std::size_t> begun_ = 0;     ///< branches that a thread has taken
   std::vector<Workshop> workshops_;        ///< [thread]
   std::vector<std::vector<Usage>> usage_;  ///< [thread]
   std::mutex mutex_;

@@ -7,6 +7,7 @@
 
 #include "dynamics/effects.hpp"
 #include "integrators/observed.hpp"
+#include "numbers/arch.hpp"
 #include "sweep/figure.hpp"
 #include "sweep/sweep.hpp"
 
@@ -16,6 +17,7 @@ struct RunOptions {
   int threads = 0;  ///< OpenMP threads; 0: as many as the machine offers
   std::function<void(std::size_t done, std::size_t total)>
       progress{};  ///< called from one thread at a time, a few times a second
+  Arch arch = best_arch();  ///< instruction set of the points that lanes can take
 };
 
 /// The threads that a run with these options uses.

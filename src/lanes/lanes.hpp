@@ -1,0 +1,51 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+namespace clatter {
+
+/// A number for each lane.
+struct alignas(64) Row {
+  static constexpr std::size_t width = 16;
+  double lane[width];
+};
+
+/// One bit for each lane.
+using LaneSet = std::uint32_t;
+
+/// Scenes that run side by side, a lane each: what their kernel reads and writes, the same for every instruction set.
+///
+/// Each lane counts its time in steps of a length that an enclosure usually proves free of contact at once. So v and w
+/// are velocities times that length and a is the acceleration times its square; displacements are seen from the load's
+/// equilibrium. The motion is the steady response to the force plus a free part (p, w).
+struct Lanes {
+  // of the oscillator
+  Row free_pp, free_pw, free_wp, free_ww;  ///< free motion over a step: p' = pp p + pw w, w' = ww w - wp p
+  Row turn_sine, turn_cosine;              ///< of the forcing phase in a step
+  Row in_phase, quadrature;                ///< P and Q of the response
+  Row angle, rotation, decay, damping;     ///< nu, lambda, h and 2 h times the step
+  Row skew, slowness;                      ///< h/lambda; one over the rotation in a step
+  Row push, stiffness;                     ///< f nu times the step cubed; the step squared
+  Row rate;                                ///< one over the step
+  // of the stops
+  Row lower, upper, keep_lower, keep_upper;  ///< places and restitution
+  // of the enclosure
+  Row bound, bound_forced;  ///< the error of its middle coefficient is bound (|p| + |w| rate) + bound_forced
+  Row rounding;             ///< of places, the part that doesn't depend on the free motion
+  // of the sections
+  Row period, start_sine, start_cosine;
+  // where the lanes are
+  Row p, w, sine, cosine, y, v, a;
+  Row left;     ///< time to the next section
+  Row impacts;  ///< met so far
+  Row trace;    ///< stops met since the last section
+  // what a visit reports
+  Row section_y, section_v, section_trace;  ///< at the section that was passed
+  LaneSet arrived;                          ///< lanes that have passed a section
+  LaneSet stuck;                            ///< lanes that the kernel cannot take on from where they are
+  // what it took
+  double proved, refined;  ///< lanes times steps that were to be proved, and times contacts that were looked for
+};
+
+}  // namespace clatter

@@ -1,0 +1,109 @@
+#include "lanes/seat.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "dynamics/bernstein.hpp"
+#include "dynamics/flow.hpp"
+#include "lanes/visits.hpp"
+
+namespace clatter {
+namespace {
+
+constexpr Effects effects = {.damping = Damping::light, .forcing = Forcing::regular};
+
+/// Of a step, times the larger of 1 and nu: below it more steps are proved, above it fewer of them are free of a stop.
+constexpr double usual_step = 1.9;
+
+/// What places are rounded by, over the sizes of the parts that they are sums of.
+constexpr double rounding = 0x1p-49;
+
+double step_of(const Scene& scene) { return usual_step / std::max(1.0, scene.oscillator.frequency); }
+
+/// Fills a lane with what a free motion (p, w) of its own kind is bounded by.
+void set_bounds(Lanes& lanes, std::size_t i, const Flow<double, effects>& flow, const Stops& stops, double step) {
+  Motion<double> unit{};
+  const double forced = hermite_error(flow.sixth_bound(unit, step, 0));
+  unit.free_x = 1.0;
+  const double both = hermite_error(flow.sixth_bound(unit, step, 0));
+  lanes.bound.lane[i] = both - forced, lanes.bound_forced.lane[i] = forced;
+  double scale = flow.response.amplitude * (1 + flow.nu * flow.nu * step * step);
+  for (const double stop : {stops.lower, stops.upper})
+    if (std::isfinite(stop)) scale += std::abs(stop) + std::abs(flow.load);
+  lanes.rounding.lane[i] = rounding * scale;
+}
+
+}  // namespace
+
+bool fits_lanes(const Scene& scene) {
+  const Oscillator& o = scene.oscillator;
+  const Stops& stops = scene.stops;
+  const bool moves = o.forcing != 0 && o.damping >= 0 && o.damping <= 0.9 && forcing_of(o) == Forcing::regular;
+  const double amplitude = steady_response(o.damping, o.forcing, o.frequency).amplitude,
+               room = stops.upper - stops.lower;
+  const bool bounces = std::min(stops.restitution_lower, stops.restitution_upper) >= 1.0 / 16;
+  return moves && o.frequency >= 1e-3 && o.frequency <= 1e3 && bounces && amplitude > 1e-100 && amplitude < 1e100 &&
+         room > amplitude / 64 && std::min(std::abs(stops.lower), std::abs(stops.upper)) < 1e100;
+}
+
+void seat(Lanes& lanes, std::size_t i, const Scene& scene, const Stops& stops) {
+  const Flow<double, effects> flow(scene.oscillator);
+  const double step = step_of(scene), angle = flow.nu * step, rotation = flow.root * step;
+  const Propagator<double> free = flow.propagator(step);
+  const auto set = [i](Row& row, double value) { row.lane[i] = value; };
+  set(lanes.free_pp, free.a), set(lanes.free_pw, free.b / step);
+  set(lanes.free_wp, free.b * step), set(lanes.free_ww, free.c);
+  set(lanes.turn_sine, std::sin(angle)), set(lanes.turn_cosine, std::cos(angle));
+  set(lanes.in_phase, flow.response.in_phase), set(lanes.quadrature, flow.response.quadrature);
+  set(lanes.angle, angle), set(lanes.rotation, rotation), set(lanes.decay, flow.h * step);
+  set(lanes.damping, 2 * flow.h * step), set(lanes.skew, flow.h / flow.root), set(lanes.slowness, 1 / rotation);
+  set(lanes.push, flow.f * flow.nu * step * step * step), set(lanes.stiffness, step * step), set(lanes.rate, 1 / step);
+  set(lanes.lower, stops.lower - flow.load), set(lanes.upper, stops.upper - flow.load);
+  set(lanes.keep_lower, stops.restitution_lower), set(lanes.keep_upper, stops.restitution_upper);
+  set_bounds(lanes, i, flow, stops, step);
+  set(lanes.period, flow.period / step);
+  set(lanes.start_sine, std::sin(scene.start.phase)), set(lanes.start_cosine, std::cos(scene.start.phase));
+  set(lanes.impacts, 0), set(lanes.trace, 0);
+  put(lanes, i, scene, {scene.start.displacement, scene.start.velocity, 0});
+}
+
+void vacate(Lanes& lanes, std::size_t i) {
+  Scene scene;
+  scene.oscillator = {.damping = 0.5, .forcing = 1.0, .frequency = 2.0};
+  seat(lanes, i, scene, {});
+  lanes.left.lane[i] = std::numeric_limits<double>::infinity();
+}
+
+LanePlace place_of(const Lanes& lanes, std::size_t i, const Scene& scene) {
+  const Stops& stops = scene.stops;
+  const double y = lanes.y.lane[i];
+  const double x = y == lanes.lower.lane[i]   ? stops.lower
+                   : y == lanes.upper.lane[i] ? stops.upper
+                                              : scene.oscillator.load + y;
+  return {x, lanes.v.lane[i] * lanes.rate.lane[i], 1 - lanes.left.lane[i] / lanes.period.lane[i]};
+}
+
+void put(Lanes& lanes, std::size_t i, const Scene& scene, const LanePlace& place) {
+  const double turn = 2 * pi<double>() * place.turns, phase = scene.start.phase + turn;
+  const double sine = place.turns == 0 ? lanes.start_sine.lane[i] : std::sin(phase);
+  const double cosine = place.turns == 0 ? lanes.start_cosine.lane[i] : std::cos(phase);
+  const double P = lanes.in_phase.lane[i], Q = lanes.quadrature.lane[i], angle = lanes.angle.lane[i];
+  const double y = place.x == scene.stops.lower   ? lanes.lower.lane[i]
+                   : place.x == scene.stops.upper ? lanes.upper.lane[i]
+                                                  : place.x - scene.oscillator.load;
+  const double v = place.v / lanes.rate.lane[i], response = P * sine + Q * cosine;
+  const double p = y - response, w = v - angle * (P * cosine - Q * sine);
+  lanes.sine.lane[i] = sine, lanes.cosine.lane[i] = cosine;
+  lanes.p.lane[i] = p, lanes.w.lane[i] = w, lanes.y.lane[i] = y, lanes.v.lane[i] = v;
+  lanes.a.lane[i] = -(angle * angle * response + lanes.stiffness.lane[i] * p + lanes.damping.lane[i] * w);
+  lanes.left.lane[i] = (1 - place.turns) * lanes.period.lane[i];
+}
+
+VisitLanes visit_of(Arch arch) {
+  if (arch == Arch::avx512) return visit_avx512;
+  if (arch == Arch::avx2) return visit_avx2;
+  return visit_sse2;
+}
+
+}  // namespace clatter
