@@ -21,13 +21,15 @@ constexpr double rounding = 0x1p-49;
 
 double step_of(const Scene& scene) { return usual_step / std::max(1.0, scene.oscillator.frequency); }
 
-/// Fills a lane with what a free motion (p, w) of its own kind is bounded by.
+/// Fills a lane with what its enclosures are uncertain by.
 void set_bounds(Lanes& lanes, std::size_t i, const Flow<double, effects>& flow, const Stops& stops, double step) {
-  Motion<double> unit{};
-  const double forced = hermite_error(flow.sixth_bound(unit, step, 0));
-  unit.free_x = 1.0;
-  const double both = hermite_error(flow.sixth_bound(unit, step, 0));
-  lanes.bound.lane[i] = both - forced, lanes.bound_forced.lane[i] = forced;
+  const auto error_of = [&](double free, int derivative) {
+    Motion<double> m{};
+    m.free_x = free;
+    return hermite_error(flow.sixth_bound(m, step, derivative)) * (derivative == 1 ? step : 1.0);
+  };
+  lanes.bound_forced.lane[i] = error_of(0, 0), lanes.bound.lane[i] = error_of(1, 0) - error_of(0, 0);
+  lanes.bound_forced_v.lane[i] = error_of(0, 1), lanes.bound_v.lane[i] = error_of(1, 1) - error_of(0, 1);
   double scale = flow.response.amplitude * (1 + flow.nu * flow.nu * step * step);
   for (const double stop : {stops.lower, stops.upper})
     if (std::isfinite(stop)) scale += std::abs(stop) + std::abs(flow.load);
@@ -68,11 +70,20 @@ void seat(Lanes& lanes, std::size_t i, const Scene& scene, const Stops& stops) {
   put(lanes, i, scene, {scene.start.displacement, scene.start.velocity, 0});
 }
 
+void watch(Lanes& lanes, std::size_t i, bool ends, bool clips) {
+  const double infinity = std::numeric_limits<double>::infinity();
+  lanes.ends.lane[i] = ends ? 1 : 0, lanes.clips.lane[i] = ends && clips ? 1 : 0;
+  lanes.y_low.lane[i] = lanes.v_low.lane[i] = infinity, lanes.y_high.lane[i] = lanes.v_high.lane[i] = -infinity;
+  for (const std::size_t stop : {0, 1}) lanes.count[stop].lane[i] = 0;
+  for (std::size_t k = 0; k <= lanes.harmonics; ++k) lanes.jump_real[k].lane[i] = lanes.jump_imaginary[k].lane[i] = 0;
+}
+
 void vacate(Lanes& lanes, std::size_t i) {
   Scene scene;
   scene.oscillator = {.damping = 0.5, .forcing = 1.0, .frequency = 2.0};
   seat(lanes, i, scene, {});
   lanes.left.lane[i] = std::numeric_limits<double>::infinity();
+  watch(lanes, i, false, false);
 }
 
 LanePlace place_of(const Lanes& lanes, std::size_t i, const Scene& scene) {
@@ -100,10 +111,10 @@ void put(Lanes& lanes, std::size_t i, const Scene& scene, const LanePlace& place
   lanes.left.lane[i] = (1 - place.turns) * lanes.period.lane[i];
 }
 
-VisitLanes visit_of(Arch arch) {
-  if (arch == Arch::avx512) return visit_avx512;
-  if (arch == Arch::avx2) return visit_avx2;
-  return visit_sse2;
+Visits visits_of(Arch arch) {
+  if (arch == Arch::avx512) return {visit_avx512, observe_avx512};
+  if (arch == Arch::avx2) return {visit_avx2, observe_avx2};
+  return {visit_sse2, observe_sse2};
 }
 
 }  // namespace clatter

@@ -27,10 +27,18 @@ void vacate(Lanes& lanes, std::size_t lane);
 /// Moves a lane to another place.
 void put(Lanes& lanes, std::size_t lane, const Scene& scene, const LanePlace& place);
 
-/// Takes every lane on: to its next contact, the next section, or a few steps, whichever comes first.
+/// Begins to observe a lane; where it `ends` with the next section, it may be `clipped` there.
+void watch(Lanes& lanes, std::size_t lane, bool ends, bool clips);
+
+/// Takes every lane on: to its next contact, past the next section, or by a few steps, whichever comes first.
 using VisitLanes = void (*)(Lanes&);
 
-/// What visits lanes with an instruction set that this machine has; not scalar.
-[[nodiscard]] VisitLanes visit_of(Arch arch);
+/// The kernel for one instruction set, plain and with observers.
+struct Visits {
+  VisitLanes plain, observed;
+};
+
+/// Of an instruction set that this machine has; not scalar.
+[[nodiscard]] Visits visits_of(Arch arch);
 
 }  // namespace clatter

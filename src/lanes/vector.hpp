@@ -6,9 +6,13 @@
 
 namespace clatter {
 
+template <class A>
+struct PairMask;
+
 /// Two SIMD vectors side by side: while one waits for a result, the other computes.
 template <class A>
 struct Pair {
+  using Mask = PairMask<A>;
   using Batch = xsimd::batch<double, A>;
   static constexpr std::size_t size = 2 * Batch::size;
 
@@ -133,6 +137,12 @@ unsigned bits(const xsimd::batch_bool<double, A>& m) {
 template <class A>
 unsigned bits(const PairMask<A>& m) {
   return bits(m.first) | bits(m.second) << xsimd::batch<double, A>::size;
+}
+
+/// How many lanes a mask holds for.
+template <class A>
+int count(const PairMask<A>& m) {
+  return __builtin_popcount(bits(m));
 }
 
 }  // namespace clatter

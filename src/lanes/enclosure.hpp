@@ -1,0 +1,90 @@
+#pragma once
+
+#include "lanes/vector.hpp"
+
+namespace clatter {
+
+/// A function at both ends of a stretch of time, over that time: value, first and second derivative.
+template <class V>
+struct Ends {
+  V y0, v0, a0, y1, v1, a1;
+
+  /// From derivatives by a time of which the stretch is `length`.
+  static Ends scaled(const Ends& e, const V& length) {
+    const V square = length * length;
+    return {e.y0, e.v0 * length, e.a0 * square, e.y1, e.v1 * length, e.a1 * square};
+  }
+};
+
+template <class V>
+struct Range {
+  V low, high;
+
+  void include(const V& y) { low = min(low, y), high = max(high, y); }
+};
+
+/// Range of a function but for its values at both ends: of the Bernstein coefficients of degree 6 of its quintic
+/// Hermite polynomial, the middle one widened by what the function may differ from it (dynamics/bernstein.hpp).
+template <class V>
+[[nodiscard]] Range<V> enclosure(const Ends<V>& e, const V& error) {
+  const V b1 = fma(V(1.0 / 6), e.v0, e.y0), b2 = fma(V(1.0 / 30), e.a0, fma(V(1.0 / 3), e.v0, e.y0));
+  const V b5 = fnma(V(1.0 / 6), e.v1, e.y1), b4 = fma(V(1.0 / 30), e.a1, fnma(V(1.0 / 3), e.v1, e.y1));
+  const V b3 = fma(V(1.0 / 40), e.a0 + e.a1, fma(V(0.2), e.v0 - e.v1, (e.y0 + e.y1) * 0.5));
+  return {min(min(min(b1, b2), min(b4, b5)), b3 - error), max(max(max(b1, b2), max(b4, b5)), b3 + error)};
+}
+
+/// The quintic Hermite polynomial itself, by powers of the part t of the stretch.
+template <class V>
+class Quintic {
+ public:
+  explicit Quintic(const Ends<V>& e)
+      : c0_(e.y0), c1_(e.v0), c2_(e.a0 * 0.5), y1_(e.y1), v1_(e.v1), half_a1_(e.a1 * 0.5) {
+    const V D = y1_ - c0_;
+    c3_ = fma(V(10.0), D, half_a1_ - fma(V(6.0), c1_, fma(V(4.0), v1_, c2_ * 3.0)));
+    c4_ = fma(V(-15.0), D, fma(V(8.0), c1_, fma(V(7.0), v1_, fma(V(3.0), c2_, half_a1_ * -2.0))));
+    c5_ = fma(V(6.0), D, half_a1_ - fma(V(3.0), c1_ + v1_, c2_));
+  }
+
+  [[nodiscard]] V value(const V& t) const { return fma(fma(fma(fma(fma(c5_, t, c4_), t, c3_), t, c2_), t, c1_), t, c0_); }
+  [[nodiscard]] V slope(const V& t) const {
+    return fma(fma(fma(fma(c5_ * 5.0, t, c4_ * 4.0), t, c3_ * 3.0), t, c2_ + c2_), t, c1_);
+  }
+  /// Half the second derivative.
+  [[nodiscard]] V bend(const V& t) const { return fma(fma(fma(c5_ * 10.0, t, c4_ * 6.0), t, c3_ * 3.0), t, c2_); }
+
+  /// Where the slope changes its sign, by Newton's iteration.
+  [[nodiscard]] V turning_point() const {
+    V t = min(max(c1_ / (c1_ - v1_), V(0.0)), V(1.0));
+    for (int i = 0; i < 3; ++i) t = fnma(V(0.5), slope(t) / bend(t), t);
+    return t;
+  }
+  /// The first root of a polynomial that begins positive: from the first crossing of its control polygon, by Halley's
+  /// iteration.
+  [[nodiscard]] V root() const {
+    const V b1 = fma(V(0.2), c1_, c0_), b2 = fma(V(0.1), c2_, fma(V(0.4), c1_, c0_));
+    const V b4 = fnma(V(0.2), v1_, y1_), b3 = fma(V(0.1), half_a1_, fnma(V(0.4), v1_, y1_));
+    V before = b4, beyond = y1_, t(0.8);
+    const auto consider = [&](const V& one, const V& next, double place) {
+      const auto crosses = next < V(0.0);
+      before = select(crosses, one, before), beyond = select(crosses, next, beyond), t = select(crosses, V(place), t);
+    };
+    consider(b3, b4, 0.6), consider(b2, b3, 0.4), consider(b1, b2, 0.2), consider(c0_, b1, 0.0);
+    t = fma(V(0.2), before / (before - beyond), t);
+    for (int i = 0; i < 2; ++i) {
+      const V f = value(t), s = slope(t);
+      t = t - f * s / fms(s, s, f * bend(t));
+    }
+    return t;
+  }
+
+ private:
+  V c0_, c1_, c2_, c3_, c4_, c5_, y1_, v1_, half_a1_;
+};
+
+template <class V>
+[[nodiscard]] V sixth_power(const V& y) {
+  const V square = y * y;
+  return square * square * square;
+}
+
+}  // namespace clatter
