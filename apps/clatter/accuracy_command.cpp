@@ -59,7 +59,7 @@ int run_study(const Arguments& arguments) {
               << " is not written\n";
     return 128 + signal;
   }
-  publish(output, file_image(study_figure(config.sweep, points), config));
+  publish(output, file_image(study_figure(config.sweep, points), config).bytes);
   if (!arguments.has("quiet")) std::cerr << output << '\n';
   return any_failed(points) ? points_failed : done;
 }

@@ -1,4 +1,6 @@
+#include <algorithm>
 #include <iostream>
+#include <utility>
 
 #include "commands.hpp"
 #include "config_arguments.hpp"
@@ -18,8 +20,9 @@ namespace {
 void check_memory(const Sweep& sweep) {
   const double needed = run_bytes(sweep), there = machine_bytes();
   if (there == 0 || needed <= there) return;
-  throw UsageError("the results of " + std::to_string(size(sweep)) + " points and the file's image of them take " +
-                   bytes_text(needed) + ", this machine has " + bytes_text(there) +
+  throw UsageError("the results of " + std::to_string(size(sweep)) +
+                   " points, and the largest variable of them once more, take " + bytes_text(needed) +
+                   ", this machine has " + bytes_text(there) +
                    "; sweep fewer points, or observe fewer samples and harmonics");
 }
 
@@ -43,9 +46,10 @@ int run_config(const Arguments& arguments) {
   check_writable(output);
   check_memory(config.sweep);
   if (arguments.has("verbose")) std::cerr << plan_text(plan_of(config.sweep, threads), config.sweep, threads);
-  const RunResult result = run_with_progress(config.sweep, threads, arch, shown);
-  publish(output, file_image(result.figure, config));
-  if (!arguments.has("quiet")) std::cerr << summary_line(result, output) << '\n';
+  RunResult result = run_with_progress(config.sweep, threads, arch, shown);
+  const std::string summary = summary_line(result, output);
+  publish(output, file_image(std::move(result.figure), config).bytes);
+  if (!arguments.has("quiet")) std::cerr << summary << '\n';
   if (arguments.has("verbose")) std::cerr << details(result, command_line(), began);
   return result.failed_points > 0 ? points_failed : done;
 }

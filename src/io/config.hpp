@@ -13,7 +13,7 @@ struct Config {
   std::string title;
   std::string source;
   Sweep sweep;
-  int compression = 4;  ///< deflate level of the output, 0 ... 9
+  int compression = 0;  ///< deflate level of the output, 0 ... 9
   std::string text;     ///< all of it with the defaults filled in, as TOML that runs again (root attribute `config`)
 };
 

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -9,9 +11,16 @@
 
 namespace clatter {
 
+/// The bytes of a file where the library that made them keeps them, since a copy would take their size again.
+struct FileImage {
+  std::shared_ptr<const void> owner;  ///< the bytes live as long as it does
+  std::span<const std::byte> bytes;
+};
+
 /// The bytes of an HDF5 file that is netCDF-4 too: dimension scales, attributes, the whole configuration (interface.md,
-/// "Output"). The same figure and configuration give the same bytes.
-[[nodiscard]] std::vector<std::byte> file_image(const Figure& figure, const Config& config);
+/// "Output"). The same figure and configuration give the same bytes. Gives the memory of each variable back once it is
+/// in the image, so that a run holds its results once and one variable twice.
+[[nodiscard]] FileImage file_image(Figure figure, const Config& config);
 
 /// What `clatter info` prints of a file; shapes are dimension names with their lengths.
 struct FileSummary {

@@ -13,6 +13,7 @@
 #include "io/figure_file.hpp"
 #include "io/hdf5_attributes.hpp"
 #include "io/hdf5_handle.hpp"
+#include "io/hdf5_image.hpp"
 #include "io/sha256.hpp"
 #include "io/version.hpp"
 
@@ -33,6 +34,9 @@ constexpr std::size_t worth_compressing = 16UL * 1024;  // bytes
 
 /// The size of the chunk cache that every reader has: larger chunks are inflated again for every access.
 constexpr std::size_t largest_chunk = 1024UL * 1024;  // bytes
+
+/// By this much the file grows in memory at least: few steps, and little to clear for a small file.
+constexpr std::size_t growth = 64UL * 1024;  // bytes
 
 bool is_coordinate(const Variable& variable) {
   return variable.dimensions.size() == 1 && variable.dimensions.front() == variable.name;
@@ -141,15 +145,26 @@ Handle write_scale(hid_t file, const NamedLength& dimension, const Figure& figur
   return scale;
 }
 
-/// Scales first: netCDF numbers the dimensions in their order of creation.
-void write_figure(hid_t file, const Figure& figure, int level) {
+/// Gives the values' memory back; clearing would keep it.
+void release(Column& values) {
+  std::visit(
+      [](auto& held) {
+        held = {};
+        held.shrink_to_fit();
+      },
+      values);
+}
+
+/// Scales first: netCDF numbers the dimensions in their order of creation. Takes the values out of the figure.
+void write_figure(hid_t file, Figure& figure, int level) {
   std::map<std::string, Handle> scales;
   for (const NamedLength& dimension : figure.dimensions) {
     scales.emplace(dimension.name, write_scale(file, dimension, figure, level));
   }
-  for (const Variable& variable : figure.variables) {
+  for (Variable& variable : figure.variables) {
     if (is_coordinate(variable)) continue;
     const Handle dataset = write_variable(file, variable, figure, level);
+    release(variable.values);
     for (unsigned d = 0; d < variable.dimensions.size(); ++d) {
       checked(H5DSattach_scale(dataset, scales.at(variable.dimensions[d]), d));
     }
@@ -169,9 +184,12 @@ void write_origin(hid_t file, const Config& config) {
 }
 
 /// A file that lives in memory alone: HDF5 leaves a broken one on a disk that fills up or when it is killed.
-Handle create_in_memory() {
+Handle create_in(hdf5::Image& image) {
   const Handle access{H5Pcreate(H5P_FILE_ACCESS), H5Pclose};
-  checked(H5Pset_fapl_core(access, largest_chunk, false));
+  checked(H5Pset_fapl_core(access, growth, false));
+  checked(H5Pset_meta_block_size(access, 0));  // blocks to be filled later would be cut at their end on closing
+  checked(H5Pset_small_data_block_size(access, 0));
+  image.receive_from(access);
   checked(H5Pset_libver_bounds(access, H5F_LIBVER_EARLIEST, H5F_LIBVER_LATEST));  // others gave images that don't open
   const Handle creation{H5Pcreate(H5P_FILE_CREATE), H5Pclose};
   checked(H5Pset_obj_track_times(creation, false));
@@ -180,26 +198,27 @@ Handle create_in_memory() {
   return {H5Fcreate("clatter.h5", H5F_ACC_TRUNC, creation, access), H5Fclose};
 }
 
-std::vector<std::byte> bytes_of(const Handle& file) {
+/// Builds the file and closes it, which finishes it; returns its size.
+std::size_t build(hdf5::Image& image, Figure& figure, const Config& config) {
+  const Handle file = create_in(image);
+  write_origin(file, config);
+  write_figure(file, figure, config.compression);
   checked(H5Fflush(file, H5F_SCOPE_LOCAL));
-  std::vector<std::byte> image(static_cast<std::size_t>(checked(H5Fget_file_image(file, nullptr, 0))));
-  checked(H5Fget_file_image(file, image.data(), image.size()));
-  return image;
+  return static_cast<std::size_t>(checked(H5Fget_file_image(file, nullptr, 0)));
 }
 
 [[noreturn]] void refuse(const std::string& why) {
   throw IoError{"the output file cannot be built in memory: " + why +
-                "; it takes twice its size there, so a smaller sweep or fewer samples may fit"};
+                "; all of it must fit there, so a smaller sweep or fewer samples may fit"};
 }
 
 }  // namespace
 
-std::vector<std::byte> file_image(const Figure& figure, const Config& config) try {
+FileImage file_image(Figure figure, const Config& config) try {
   const hdf5::QuietErrors quiet;
-  const Handle file = create_in_memory();
-  write_origin(file, config);
-  write_figure(file, figure, config.compression);
-  return bytes_of(file);
+  const auto image = std::make_shared<hdf5::Image>();
+  const std::size_t size = build(*image, figure, config);
+  return {image, image->first(size)};
 } catch (const hdf5::Failure& failure) {
   refuse(failure.what());
 } catch (const std::bad_alloc&) {

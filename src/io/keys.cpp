@@ -122,7 +122,7 @@ constexpr std::array all_keys{
         {},
         effects},
 
-    Key{"output", "compression", integer, "4", "deflate level of the output file; 0: none", Range{.low = 0, .high = 9}},
+    Key{"output", "compression", integer, "0", "deflate level of the output file; 0: none", Range{.low = 0, .high = 9}},
 };
 
 constexpr std::array<std::string_view, 6> all_sections{"scene", "sweep", "time", "observe", "integrator", "output"};

@@ -1,24 +1,23 @@
 #include "io/sha256.hpp"
 
-#include <openssl/evp.h>
+#include <nettle/sha2.h>
 
 #include <array>
-#include <stdexcept>
+#include <cstdint>
+#include <vector>
 
 namespace clatter {
 
 std::string sha256(std::string_view text) {
   constexpr std::string_view digits = "0123456789abcdef";
-  std::array<unsigned char, EVP_MAX_MD_SIZE> digest{};
-  unsigned length = 0;
-  if (EVP_Digest(text.data(), text.size(), digest.data(), &length, EVP_sha256(), nullptr) != 1) {
-    throw std::runtime_error{"OpenSSL cannot compute a SHA-256 digest"};
-  }
+  const std::vector<std::uint8_t> bytes(text.begin(), text.end());
+  std::array<std::uint8_t, SHA256_DIGEST_SIZE> digest{};
+  sha256_ctx context;
+  sha256_init(&context);
+  sha256_update(&context, bytes.size(), bytes.data());
+  sha256_digest(&context, digest.size(), digest.data());
   std::string hex;
-  for (unsigned i = 0; i < length; ++i) {
-    hex += digits[digest[i] / 16U];
-    hex += digits[digest[i] % 16U];
-  }
+  for (const std::uint8_t byte : digest) hex += {digits[byte / 16U], digits[byte % 16U]};
   return hex;
 }
 

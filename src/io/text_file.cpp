@@ -1,6 +1,7 @@
 #include "io/text_file.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <cerrno>
 #include <cstdint>
@@ -53,6 +54,18 @@ void append_hexadecimal(std::string& text, std::string_view bytes) {
   for (const char character : bytes) text += {'\\', 'x', digits[byte(character) / 16], digits[byte(character) % 16]};
 }
 
+/// Reads until there is more than is permitted; room for that much at once takes longer to clear than most files to
+/// read.
+std::string read_pieces(std::istream& stream) {
+  std::string text;
+  std::array<char, 16 * 1024> piece;
+  while (stream && text.size() <= max_config_bytes) {
+    stream.read(piece.data(), piece.size());
+    text.append(piece.data(), static_cast<std::size_t>(stream.gcount()));
+  }
+  return text;
+}
+
 }  // namespace
 
 bool has_ending(std::string_view name, std::string_view ending) {
@@ -66,10 +79,8 @@ std::string read_text(const std::string& path) {
   if (std::filesystem::is_directory(path, error)) unreadable(path, "it is a directory; name a file");
   std::ifstream stream(path, std::ios::binary);
   if (!stream) unreadable(path, std::strerror(errno));
-  std::string text(max_config_bytes + 1, '\0');
-  stream.read(text.data(), static_cast<std::streamsize>(text.size()));
+  std::string text = read_pieces(stream);
   if (stream.bad()) unreadable(path, std::strerror(errno));
-  text.resize(static_cast<std::size_t>(stream.gcount()));
   if (text.find('\0') != std::string::npos)
     unreadable(path, "it holds NUL bytes, so it is no text; a configuration is UTF-8 text");
   if (text.size() > max_config_bytes)

@@ -41,6 +41,13 @@ const char* long_name_of(Parameter parameter) {
   return "";
 }
 
+/// The length of the log as a whole, so that its columns are made in one piece.
+std::size_t impacts_in(const std::vector<std::vector<Impact>>& log) {
+  std::size_t impacts = 0;
+  for (const std::vector<Impact>& of_point : log) impacts += of_point.size();
+  return impacts;
+}
+
 std::string name_of(const Dimension& dimension) { return std::string(key_of(dimension.front().parameter)); }
 
 }  // namespace
@@ -127,6 +134,8 @@ void Columns::add_impact_log(Figure& figure) {
   std::vector<std::int64_t> counts;
   std::vector<double> tau, before, after;
   std::vector<std::int8_t> stops;
+  const std::size_t total = impacts_in(log_);
+  counts.reserve(log_.size()), tau.reserve(total), before.reserve(total), after.reserve(total), stops.reserve(total);
   for (std::vector<Impact>& impacts : log_) {
     counts.push_back(static_cast<std::int64_t>(impacts.size()));
     for (const Impact& impact : impacts) {

@@ -242,7 +242,7 @@ RunResult run(const Sweep& sweep, const RunOptions& options) {
   const auto begin = std::chrono::steady_clock::now();
   Columns columns(sweep);
   result.points = size(sweep);
-  result.threads = threads_used(options);
+  result.threads = static_cast<int>(std::min<std::size_t>(static_cast<std::size_t>(threads_used(options)), Branches(sweep).count));  // others would only be waited for
   Team team(sweep, options, result.threads, columns);
   team.run();
   team.rethrow();

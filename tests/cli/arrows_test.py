@@ -23,7 +23,7 @@ KNOWN_TO = {  # library header: the only folder that sees it
     r"hdf5|H5|toml": {"io"},
     r"boost/program_options": {"io", "apps"},
     r"boost/multiprecision": {"numbers"},
-    r"openssl": {"io"},
+    r"nettle": {"io"},
 }
 
 

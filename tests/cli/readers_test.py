@@ -251,12 +251,26 @@ class Readers(unittest.TestCase):
 
     def test_large_arrays_are_deflated_in_moderate_chunks(self):
         with h5py.File(self.run_clatter(toml(time={"mode": quoted("transient"), "duration": 100.0},
-                                             observe={"trajectory": 200000}))) as file:
+                                             observe={"trajectory": 200000}, output={"compression": 4}))) as file:
             self.assertEqual((file["x"].compression, file["x"].shuffle), ("gzip", True))
             self.assertLessEqual(file["x"].chunks[0] * 8, 2**20)
             self.assertEqual(len(set(file["tau"][:])), 200000)  # several chunks, each in its place
             self.assertTrue((numpy.diff(file["tau"]) > 0).all())
             self.assertIsNone(file["status"].chunks)
+
+    def test_deflated_values_are_the_same_in_every_reader(self):
+        texts = {level: toml(sweep={"nu": quoted("linspace(0.5, 1.5, 21)")}, observe={"trajectory": 501},
+                             output={"compression": level}) for level in (0, 1, 9)}
+        paths = {level: self.run_clatter(text, f"level{level}") for level, text in texts.items()}
+        with h5py.File(paths[0]) as plain:
+            self.assertIsNone(plain["x"].chunks)
+            for level in (1, 9):
+                for engine in ("h5netcdf", "netcdf4"):
+                    with xarray.open_dataset(paths[level], engine=engine) as data:
+                        self.assertEqual(data["x"].encoding["complevel"], level)
+                        numpy.testing.assert_array_equal(data["x"].values, plain["x"][...])
+                two = self.run_clatter(texts[level], "two", threads=2)
+                self.assertEqual(two.read_bytes(), paths[level].read_bytes())
 
 
 if __name__ == "__main__":

@@ -45,7 +45,7 @@ TEST(Config, means_what_it_says) {
   const Config config = read_as("a.toml", fig22);
   EXPECT_EQ(config.title, "Minimum and maximum displacement, xs = -4");
   EXPECT_EQ(config.source, "doi:10.5755/j02.mech.32277, Fig. 22");
-  EXPECT_EQ(config.compression, 4);
+  EXPECT_EQ(config.compression, 0);
   EXPECT_EQ(size(config.sweep), 501u);
   const Scene scene = scene_at(config.sweep, 250);
   EXPECT_EQ(scene.oscillator.frequency, 1.0);
@@ -81,7 +81,7 @@ TEST(Config, text_reads_back_to_itself) {
       fig22,
       "title = \"Größe \\\"a\\\" \\\\ \\u0007 'b'\"\n[scene]\nstop_lower = -inf\nstop_upper = 0.1\nR_lower = 0.5\nload "
       "= 1e22\nf = 1e-320\n",
-      "[scene]\nxs = -0.75\nstart_period = 3\n[output]\ncompression = 0\n",
+      "[scene]\nxs = -0.75\nstart_period = 3\n[output]\ncompression = 4\n",
       "[scene]\nxs = -0.75\n[sweep]\nstart_period = [1, 2, 3]\nnu = \"arange(1, 2, 0.25)\"\nfollow = \"nu\"\n",
       "[scene]\nxs = 2\nx0 = -0.0\n[sweep]\nv0 = \"logspace(1, 8, 4)\"\nf = [0.1, 0.2, 0.3, -0.0]\nlinked = \" f,v0 "
       "\"\n",

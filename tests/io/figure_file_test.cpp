@@ -7,8 +7,10 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <optional>
 #include <span>
 #include <stdexcept>
+#include <utility>
 
 #include "io/error.hpp"
 
@@ -64,6 +66,19 @@ std::vector<double> ramp(std::size_t size) {
 const std::vector<std::uint8_t> flags{0, 1, 2, 16, 17, 18};
 const std::string meanings = "periodic aperiodic transient event_budget not_finite unresolved";
 
+/// A copy of the image, to be changed and compared; file_image takes the figure, tests keep theirs.
+std::vector<std::byte> bytes_of(Figure figure, const Config& config) {
+  const FileImage image = file_image(std::move(figure), config);
+  return {image.bytes.begin(), image.bytes.end()};
+}
+
+/// A little-endian number of the file.
+std::size_t number_at(const std::vector<std::byte>& bytes, std::size_t place, std::size_t size) {
+  std::size_t number = 0;
+  for (std::size_t i = size; i-- > 0;) number = number << 8U | std::to_integer<std::size_t>(bytes[place + i]);
+  return number;
+}
+
 /// A sweep over nu with trajectories: a coordinate, a scale without one, an integer, a float, and flags.
 Figure sweep(std::size_t points, std::size_t samples) {
   std::vector<std::uint8_t> status(points, 0);
@@ -76,7 +91,7 @@ Figure sweep(std::size_t points, std::size_t samples) {
 }
 
 TEST_F(FigureFile, summary_names_what_was_written) {
-  const FileSummary summary = read_summary(write("sweep.h5", file_image(sweep(5, 7), configuration())));
+  const FileSummary summary = read_summary(write("sweep.h5", bytes_of(sweep(5, 7), configuration())));
   ASSERT_EQ(summary.variables.size(), 4U);  // `sample` is a dimension, no variable
   EXPECT_EQ(summary.variables[0].name, "nu");
   EXPECT_EQ(summary.variables[1].type, "uint8");
@@ -90,7 +105,7 @@ TEST_F(FigureFile, summary_names_what_was_written) {
 }
 
 TEST_F(FigureFile, root_attributes_come_in_the_order_of_the_contract) {
-  const FileSummary summary = read_summary(write("sweep.h5", file_image(sweep(5, 7), configuration())));
+  const FileSummary summary = read_summary(write("sweep.h5", bytes_of(sweep(5, 7), configuration())));
   std::string names;
   for (const auto& [name, text] : summary.attributes) names += name + " ";
   EXPECT_EQ(names, "Conventions title source clatter_schema clatter_version git_commit config config_sha256 compiler ");
@@ -101,7 +116,7 @@ TEST_F(FigureFile, root_attributes_come_in_the_order_of_the_contract) {
 }
 
 TEST_F(FigureFile, points_are_counted_by_status) {
-  const FileSummary summary = read_summary(write("sweep.h5", file_image(sweep(5, 7), configuration())));
+  const FileSummary summary = read_summary(write("sweep.h5", bytes_of(sweep(5, 7), configuration())));
   ASSERT_EQ(summary.status_counts.size(), flags.size());
   EXPECT_EQ(summary.status_counts[0], (std::pair<std::string, std::size_t>{"periodic", 4}));
   EXPECT_EQ(summary.status_counts[3], (std::pair<std::string, std::size_t>{"event_budget", 1}));
@@ -109,12 +124,31 @@ TEST_F(FigureFile, points_are_counted_by_status) {
 
 TEST_F(FigureFile, the_same_figure_gives_the_same_bytes) {
   const Figure figure = sweep(501, 64);
-  EXPECT_EQ(file_image(figure, configuration()), file_image(figure, configuration()));
+  EXPECT_EQ(bytes_of(figure, configuration()), bytes_of(figure, configuration()));
+}
+
+TEST_F(FigureFile, the_file_is_closed_and_ends_where_it_says) {
+  for (const int compression : {0, 4}) {
+    const std::vector<std::byte> image = bytes_of(sweep(501, 1000), configuration(compression));
+    ASSERT_EQ(number_at(image, 8, 1), 0U);             // the version of the superblock that the next lines know
+    EXPECT_EQ(number_at(image, 20, 4), 0U);            // not open for writing
+    EXPECT_EQ(number_at(image, 40, 8), image.size());  // end of file
+  }
+}
+
+TEST_F(FigureFile, an_image_outlives_its_figure_and_other_images) {
+  std::optional<FileImage> first = file_image(sweep(501, 64), configuration());
+  const FileImage second = file_image(sweep(501, 65), configuration());
+  const std::vector<std::byte> copy{first->bytes.begin(), first->bytes.end()};
+  EXPECT_EQ(copy, bytes_of(sweep(501, 64), configuration()));
+  first.reset();
+  EXPECT_EQ((std::vector<std::byte>{second.bytes.begin(), second.bytes.end()}),
+            bytes_of(sweep(501, 65), configuration()));
 }
 
 TEST_F(FigureFile, a_sweep_without_axes_has_scalars) {
   const Figure figure{{}, {{"x_min", {}, std::vector<double>{-0.5}, "least displacement", "1"}}};
-  const FileSummary summary = read_summary(write("scalar.h5", file_image(figure, configuration())));
+  const FileSummary summary = read_summary(write("scalar.h5", bytes_of(figure, configuration())));
   ASSERT_EQ(summary.variables.size(), 1U);
   EXPECT_TRUE(summary.variables[0].dimensions.empty());
   EXPECT_TRUE(summary.status_counts.empty());
@@ -122,7 +156,7 @@ TEST_F(FigureFile, a_sweep_without_axes_has_scalars) {
 
 TEST_F(FigureFile, an_impact_log_may_be_empty) {
   const Figure figure{{{"impact", 0}}, {{"impact_tau", {"impact"}, std::vector<double>{}, "time of impact", "1"}}};
-  const FileSummary summary = read_summary(write("log.h5", file_image(figure, configuration())));
+  const FileSummary summary = read_summary(write("log.h5", bytes_of(figure, configuration())));
   ASSERT_EQ(summary.variables.size(), 1U);
   EXPECT_EQ(summary.variables[0].dimensions.front().name, "impact");
   EXPECT_EQ(summary.variables[0].dimensions.front().length, 0U);
@@ -131,20 +165,20 @@ TEST_F(FigureFile, an_impact_log_may_be_empty) {
 TEST_F(FigureFile, a_configuration_may_be_long) {
   Config config = configuration();
   config.text = std::string(300'000, '#');  // 64 KiB would fit in an object header
-  const FileSummary summary = read_summary(write("long.h5", file_image(sweep(5, 7), config)));
+  const FileSummary summary = read_summary(write("long.h5", bytes_of(sweep(5, 7), config)));
   EXPECT_TRUE(summary.attributes[6].second == config.text);  // not EXPECT_EQ, which would print both
 }
 
 TEST_F(FigureFile, large_arrays_are_deflated_and_small_ones_are_not) {
-  const std::size_t plain = file_image(sweep(501, 1000), configuration(0)).size();
+  const std::size_t plain = bytes_of(sweep(501, 1000), configuration(0)).size();
   EXPECT_GT(plain, 501U * 1000U * sizeof(double));
-  EXPECT_LT(file_image(sweep(501, 1000), configuration(4)).size(), plain);
-  EXPECT_EQ(file_image(sweep(501, 2), configuration(4)), file_image(sweep(501, 2), configuration(0)));
+  EXPECT_LT(bytes_of(sweep(501, 1000), configuration(4)).size(), plain);
+  EXPECT_EQ(bytes_of(sweep(501, 2), configuration(4)), bytes_of(sweep(501, 2), configuration(0)));
 }
 
 TEST_F(FigureFile, values_lie_in_the_file_as_little_endian_doubles) {
   const Figure figure = sweep(501, 2);  // too small to be deflated; readers_test.py reads deflated ones
-  const std::vector<std::byte> image = file_image(figure, configuration());
+  const std::vector<std::byte> image = bytes_of(figure, configuration());
   const auto bytes = std::as_bytes(std::span{std::get<std::vector<double>>(figure.variables.back().values)});
   EXPECT_NE(std::search(image.begin(), image.end(), bytes.begin(), bytes.end()), image.end());
 }
@@ -152,10 +186,10 @@ TEST_F(FigureFile, values_lie_in_the_file_as_little_endian_doubles) {
 TEST_F(FigureFile, a_figure_that_contradicts_itself_is_a_bug) {
   Figure figure = sweep(5, 7);
   figure.variables[3].values = ramp(34);  // one short
-  EXPECT_THROW(static_cast<void>(file_image(figure, configuration())), std::logic_error);
+  EXPECT_THROW(static_cast<void>(bytes_of(figure, configuration())), std::logic_error);
   figure = sweep(5, 7);
   figure.variables[3].dimensions = {"nu", "impact"};
-  EXPECT_THROW(static_cast<void>(file_image(figure, configuration())), std::logic_error);
+  EXPECT_THROW(static_cast<void>(bytes_of(figure, configuration())), std::logic_error);
 }
 
 TEST_F(FigureFile, what_is_no_file_of_clatters_is_refused_in_words) {
@@ -164,7 +198,7 @@ TEST_F(FigureFile, what_is_no_file_of_clatters_is_refused_in_words) {
   const std::string text = write("text.h5", std::vector<std::byte>(4096, std::byte{'a'}));
   EXPECT_EQ(refusal(text), "'" + text + "': is not an HDF5 file; name an output of clatter");
   EXPECT_NE(refusal(write("empty.h5", {})).find("is not an HDF5 file"), std::string::npos);
-  std::vector<std::byte> foreign = file_image(sweep(5, 7), configuration());
+  std::vector<std::byte> foreign = bytes_of(sweep(5, 7), configuration());
   const auto schema = std::as_bytes(std::span{std::string_view{"clatter/1"}});
   const auto found = std::search(foreign.begin(), foreign.end(), schema.begin(), schema.end());
   ASSERT_NE(found, foreign.end());
@@ -173,7 +207,7 @@ TEST_F(FigureFile, what_is_no_file_of_clatters_is_refused_in_words) {
 }
 
 TEST_F(FigureFile, a_truncated_file_is_refused_at_every_length) {
-  const std::vector<std::byte> whole = file_image(sweep(5, 7), configuration());
+  const std::vector<std::byte> whole = bytes_of(sweep(5, 7), configuration());
   for (std::size_t size = 0; size < whole.size(); size += 97) {
     const std::string file = write("cut.h5", {whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(size)});
     EXPECT_NE(refusal(file), "") << size << " of " << whole.size() << " bytes";
@@ -181,7 +215,7 @@ TEST_F(FigureFile, a_truncated_file_is_refused_at_every_length) {
 }
 
 TEST_F(FigureFile, a_damaged_file_is_read_or_refused_but_ends_no_process_and_holds_none_up) {
-  const std::vector<std::byte> whole = file_image(sweep(5, 7), configuration());
+  const std::vector<std::byte> whole = bytes_of(sweep(5, 7), configuration());
   const auto read_all = [&] {
     ::alarm(60);  // s; all of them take less than one
     for (std::size_t place = 0; place + 64 < whole.size(); place += 64) {

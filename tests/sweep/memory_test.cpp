@@ -32,6 +32,14 @@ TEST(Memory, is_that_of_the_figure) {
   EXPECT_EQ(result_bytes(sweep), bytes_of(run(sweep, {}).figure));
 }
 
+TEST(Memory, of_a_run_is_that_of_the_results_and_the_largest_variable) {
+  Sweep sweep;
+  sweep.dimensions = {{{Parameter::nu, {0.8, 0.9, 1.0}}}};
+  EXPECT_EQ(run_bytes(sweep), result_bytes(sweep) + 3 * 8);
+  sweep.scene.observe = {.extrema = true, .harmonics = 3, .trajectory = 10};
+  EXPECT_EQ(run_bytes(sweep), result_bytes(sweep) + 3 * 8 * 10);
+}
+
 TEST(Memory, of_a_huge_sweep_is_known_without_running_it) {
   Sweep sweep;
   const std::vector<double> values(1000, 0.5);

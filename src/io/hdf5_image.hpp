@@ -1,0 +1,29 @@
+#pragma once
+
+#include <hdf5.h>
+
+#include <cstddef>
+#include <span>
+
+namespace clatter::hdf5 {
+
+/// Memory that the core driver builds a file in and leaves here, finished, when the file is closed: H5Fget_file_image
+/// would take the size of the file once more. It outlives the file.
+class Image {
+ public:
+  Image() = default;
+  ~Image();
+  Image(const Image&) = delete;
+  Image& operator=(const Image&) = delete;
+
+  /// Makes files that are created with `access` leave their memory here.
+  void receive_from(hid_t access);
+
+  /// The first `size` bytes, since the driver takes more than the file has; empty until the file is closed.
+  [[nodiscard]] std::span<const std::byte> first(std::size_t size) const;
+
+ private:
+  void* bytes_ = nullptr;
+};
+
+}  // namespace clatter::hdf5
