@@ -84,6 +84,7 @@ void vacate(Lanes& lanes, std::size_t i) {
   seat(lanes, i, scene, {});
   lanes.left.lane[i] = std::numeric_limits<double>::infinity();
   watch(lanes, i, false, false);
+  std::swap(lanes.y_low.lane[i], lanes.y_high.lane[i]), std::swap(lanes.v_low.lane[i], lanes.v_high.lane[i]);
 }
 
 LanePlace place_of(const Lanes& lanes, std::size_t i, const Scene& scene) {

@@ -54,7 +54,7 @@ class Watch {
       put(lanes_.after[stop], select(first_here, at.v, row(lanes_.after[stop])));
       put(lanes_.count[stop], count + select(here, V(1.0), zero));
     }
-    add_jump(select(counted, jump, zero), at);
+    add_jump(counted, jump, at);
   }
 
   void store() const {
@@ -107,10 +107,11 @@ class Watch {
   }
 
   /// Adds jumps of the velocity times e^{-ik nu tau} to the sums that make the harmonics.
-  void add_jump(const V& jump, const Instant<V>& at) const {
-    const V s0 = row(lanes_.start_sine), c0 = row(lanes_.start_cosine);
-    const V cosine = fma(at.cosine, c0, at.sine * s0), sine = fms(at.sine, c0, at.cosine * s0);
-    V real = jump, imaginary(0.0);
+  void add_jump(const Mask& counted, const V& jump, const Instant<V>& at) const {
+    const V s0 = row(lanes_.start_sine), c0 = row(lanes_.start_cosine), zero(0.0);
+    const V cosine = select(counted, fma(at.cosine, c0, at.sine * s0), zero);
+    const V sine = select(counted, fms(at.sine, c0, at.cosine * s0), zero);
+    V real = select(counted, jump, zero), imaginary = zero;
     for (std::size_t k = 0; k <= lanes_.harmonics; ++k) {
       put(lanes_.jump_real[k], row(lanes_.jump_real[k]) + real);
       put(lanes_.jump_imaginary[k], row(lanes_.jump_imaginary[k]) + imaginary);

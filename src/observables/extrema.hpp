@@ -42,6 +42,10 @@ class Extrema {
     include(v_, velocity, 0.0, most_halvings);
     ++evaluations_;
   }
+  /// Ranges that were found elsewhere.
+  void include(const Range& x, const Range& v) {
+    x_.include(x.low), x_.include(x.high), v_.include(v.low), v_.include(v.high);
+  }
   void rest(const Rest& rest) { x_.include(rest.place), v_.include(0.0); }
   void impact(const Impact& impact) { x_.include(impact.place), v_.include(impact.before), v_.include(impact.after); }
 

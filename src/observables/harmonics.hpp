@@ -6,10 +6,12 @@
 #include <complex>
 #include <cstddef>
 #include <limits>
+#include <span>
 #include <vector>
 
 #include "dynamics/arc.hpp"
 #include "dynamics/polynomial_arc.hpp"
+#include "dynamics/reach.hpp"
 
 namespace clatter {
 
@@ -59,8 +61,8 @@ class ExactHarmonics {
     if (!(begin > 0.0)) first_x_ = first.x;
     for (std::size_t k = 0; k < x_.size(); ++k) {
       const double w = base_ * static_cast<double>(k), h = arc.flow().h;
-      const Complex z(1 - w * w, 2 * h * w);
-      if (std::norm(z) < 1.0 / 64) {
+      const Complex z = impedance(h, w);
+      if (resonates(z)) {
         x_[k] += quadrature<20>(arc, w, begin, length);
         continue;
       }
@@ -78,6 +80,24 @@ class ExactHarmonics {
     }
   }
   void impact(const Impact&) {}
+
+  /// All flights of whole forcing periods at once, without rest: the terms at the ends of arcs cancel but for the jumps
+  /// of the velocity, whose sums with e^{-iw tau}, w = k nu, are given, shape [harmonic]. Nowhere may Z be small.
+  void flights(const Oscillator& o, double phase, const PhasePoint& first, const PhasePoint& last, double total,
+               std::span<const Complex> jumps) {
+    first_x_ = first.x;
+    for (std::size_t k = 0; k < x_.size(); ++k) {
+      const double w = base_ * static_cast<double>(k);
+      const Complex slope(2 * o.damping, w), growth = (last.v - first.v) + slope * (last.x - first.x);
+      Complex force = k == 0 ? o.load * total : 0.0;
+      if (k == 1) force = o.forcing * total / 2 * Complex(std::sin(phase), -std::cos(phase));
+      x_[k] = (force + jumps[k] - growth) / impedance(o.damping, w);
+    }
+  }
+  /// Z of harmonic w.
+  [[nodiscard]] static Complex impedance(double h, double w) { return {1 - w * w, 2 * h * w}; }
+  /// Whether Z is so small that quadrature has to take the place of a division by it.
+  [[nodiscard]] static bool resonates(const Complex& z) { return std::norm(z) < 1.0 / 64; }
 
   /// Ends the observed time, of length `total`, at displacement x.
   void finish(double x, double total) {

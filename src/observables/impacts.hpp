@@ -36,6 +36,11 @@ class Impacts {
     if (!(first_speed_ >= 0.0)) first_speed_ = impact.before < 0.0 ? -impact.before : impact.before;
   }
 
+  /// Takes over what was counted elsewhere, in motion that isn't at rest throughout.
+  void include(const std::array<OfStop, 2>& stops, double first_speed) {
+    stops_ = stops, first_speed_ = first_speed, flown_ = true;
+  }
+
   [[nodiscard]] const std::array<OfStop, 2>& stops() const { return stops_; }
   [[nodiscard]] bool flown() const { return flown_; }  ///< whether the mass moves at all, not resting throughout
   [[nodiscard]] double first_speed() const {

@@ -4,42 +4,57 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <vector>
 
-#include "integrators/settle_forced.hpp"
 #include "lanes/seat.hpp"
 #include "sweep/point.hpp"
 
 namespace clatter {
 
-/// The points that one thread runs side by side in SIMD lanes. A lane whose point is done takes the next one; what the
-/// lanes' kernel leaves undone, chatter, rest and grazes, the scalar kernel does for a short time. What a point gives
-/// depends neither on its lane nor on its neighbours.
+/// The points that one thread runs side by side in SIMD lanes: first until their motion is known, then, in other lanes,
+/// to observe it. A lane whose point is done takes the next one; what the lanes' kernel leaves undone, chatter, rest and
+/// grazes, the scalar kernel does for a short time. What a point gives depends neither on its lane nor on its
+/// neighbours.
 class Crew {
  public:
-  Crew(VisitLanes visit, Workshop& workshop);
-  ~Crew();
-
   /// The next point, one that fits into lanes; nothing: there are no more.
   using Next = std::function<std::optional<Task>()>;
   using Take = std::function<void(const Task&, PointResult&&)>;
 
-  /// Runs all points that `next` gives.
-  void run(const Next& next, const Take& take);
+  Crew(const Visits& visits, Workshop& workshop, Next next, Take take);
+  ~Crew();
+  Crew(const Crew&) = delete;
+  Crew& operator=(const Crew&) = delete;
 
-  [[nodiscard]] const Lanes& lanes() const { return lanes_; }
+  /// Runs all points that `next` gives, and lets `take` have their results.
+  void run();
+
+  /// Lanes times steps that were to be proved free of contact, and times contacts that were looked for.
+  [[nodiscard]] double proved() const { return settling_.lanes.proved + observing_.lanes.proved; }
+  [[nodiscard]] double refined() const { return settling_.lanes.refined + observing_.lanes.refined; }
 
  private:
-  class Seat;
+  class Member;
+  struct Bench {
+    Lanes lanes{};
+    std::array<std::unique_ptr<Member>, Row::width> members;
+    std::size_t taken = 0;
+  };
 
-  void fill(std::size_t lane, const Next& next, const Take& take);
-  void finish(std::size_t lane, const Observed& observed, const Next& next, const Take& take);
-  void help(std::size_t lane, const Next& next, const Take& take);
-  void look(std::size_t lane, const Next& next, const Take& take);
+  void visit(Bench& bench, VisitLanes kernel);
+  void help(Bench& bench, std::size_t lane);
+  void look(Bench& bench, std::size_t lane);
+  void settle_next(std::size_t lane);
+  void observe_next(std::size_t lane);
+  void settled(std::unique_ptr<Member> member);
+  [[nodiscard]] std::unique_ptr<Member> leave(Bench& bench, std::size_t lane);
 
-  VisitLanes visit_;
+  Visits visits_;
   Workshop& workshop_;
-  Lanes lanes_{};
-  std::array<std::unique_ptr<Seat>, Row::width> seats_;
+  Next next_;
+  Take take_;
+  Bench settling_, observing_;
+  std::vector<std::unique_ptr<Member>> waiting_;  ///< to be observed
 };
 
 }  // namespace clatter

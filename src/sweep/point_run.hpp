@@ -25,45 +25,57 @@ class Point {
 
   /// The result of a motion whose time to observe is known.
   PointResult observe(const Observed& observed) {
-    observed_ = observed;
-    result_.status = observed_.status;
-    result_.found_by = observed_.found_by;
-    result_.periods = observed_.settled;
-    if (!failed(observed_.status)) look();
-    result_.impacts = integrator_.impacts();
-    result_.evaluations += integrator_.evaluations();
-    return std::move(result_);
+    if (failed(observed.status)) return result_of(observed);
+    Observers observers = begin(observed);
+    State<double> state = observed.from;
+    const Outcome outcome = run_for(integrator_, state, observed.turns, observers);
+    return end(observers, state, outcome);
   }
 
- private:
-  void look() {
+  /// What is to observe the motion from `observed.from` on.
+  Observers begin(const Observed& observed) {
+    observed_ = observed;
     const bool forced = scene_.oscillator.forcing != 0;
-    const double total = observed_.turns * integrator_.period();
+    total_ = observed_.turns * integrator_.period();
     // the base frequency turns once in a transient and in a period of unforced motion, else with the force
-    const bool once = observed_.status == Status::transient || (!forced && observed_.status == Status::periodic);
-    double base_turns = once ? 1.0 : observed_.turns;
-    result_.base_frequency = once || !forced ? 2 * pi<double>() * base_turns / total : scene_.oscillator.frequency;
+    once_ = observed_.status == Status::transient || (!forced && observed_.status == Status::periodic);
+    base_turns_ = once_ ? 1.0 : observed_.turns;
+    result_.base_frequency = once_ || !forced ? 2 * pi<double>() * base_turns_ / total_ : scene_.oscillator.frequency;
     if (const double given = scene_.observe.base_frequency; given > 0)
-      result_.base_frequency = given, base_turns = given * total / (2 * pi<double>());
-    Observers observers(scene_, total, result_.base_frequency);
-    State<double> state = observed_.from;
-    const Outcome outcome = run_for(integrator_, state, observed_.turns, observers);
+      result_.base_frequency = given, base_turns_ = given * total_ / (2 * pi<double>());
+    return Observers(scene_, total_, result_.base_frequency);
+  }
+
+  /// The result, once the observers have seen the motion up to `state`.
+  PointResult end(Observers& observers, const State<double>& state, Outcome outcome) {
+    const bool forced = scene_.oscillator.forcing != 0;
     const auto sections = static_cast<double>(state.periods - observed_.from.periods);
-    result_.periods = observed_.settled + (outcome == Outcome::completed ? observed_.turns : sections + state.turns);
     result_.observed_turns = observed_.turns;
     result_.evaluations = observers.evaluations();
     if (outcome != Outcome::completed) {
-      result_.status = status_of(outcome);
+      Observed broken = observed_;
+      broken.status = status_of(outcome), broken.settled += sections + state.turns;
       result_.base_frequency = no_value;
-      return;
+      return result_of(broken);
     }
     result_.end = {state.x, state.v, scene_.start.phase};
     if (state.turns > 0)
       result_.end.phase = std::fmod(scene_.start.phase + 2 * pi<double>() * state.turns, 2 * pi<double>());
-    observers.finish(state.x, state.v, total, observed_.status == Status::periodic,
+    observers.finish(state.x, state.v, total_, observed_.status == Status::periodic,
                      !forced && observed_.found_by != FoundBy::standstill);
-    collect(observers, total, base_turns);
-    if (observers.impacts) collect_impacts(*observers.impacts, total, once ? 1.0 : observed_.turns);
+    collect(observers, total_, base_turns_);
+    if (observers.impacts) collect_impacts(*observers.impacts, total_, once_ ? 1.0 : observed_.turns);
+    Observed complete = observed_;
+    complete.settled += observed_.turns;
+    return result_of(complete);
+  }
+
+ private:
+  PointResult result_of(const Observed& observed) {
+    result_.status = observed.status, result_.found_by = observed.found_by, result_.periods = observed.settled;
+    result_.impacts = integrator_.impacts();
+    result_.evaluations += integrator_.evaluations();
+    return std::move(result_);
   }
 
   void collect(Observers& observers, double total, double base_turns) {
@@ -116,6 +128,9 @@ class Point {
   Workshop& workshop_;
   I integrator_;
   Observed observed_{};
+  double total_ = 0.0;       ///< observed time in tau
+  double base_turns_ = 0.0;  ///< of the base frequency in it
+  bool once_ = false;        ///< the observed time as a whole makes one turn
   PointResult result_{};
 };
 

@@ -168,7 +168,7 @@ class Team {
         run_batch({&task, 1}, workshops_[thread], take);
       }
     };
-    Crew(visit_of(arch_), workshops_[thread]).run(next, take);
+    Crew(visits_of(arch_), workshops_[thread], next, take).run();
   }
 
   void store(const Task& task, PointResult&& result, std::size_t thread) {

@@ -1,0 +1,195 @@
+#include "sweep/crew_member.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <complex>
+#include <utility>
+#include <vector>
+
+#include "sweep/point_run.hpp"
+
+namespace clatter {
+namespace {
+
+/// What the scalar kernel shows while it helps a lane: as the lanes' kernel notes it.
+class HelpWatch {
+ public:
+  HelpWatch(Lanes& lanes, std::size_t lane, const Scene& scene, bool observes, bool at_start)
+      : lanes_(lanes), lane_(lane), scene_(scene), observes_(observes), at_start_(at_start) {}
+
+  template <class A>
+  void arc(const A& arc, double begin, double length) {
+    if (observes_) extrema_.arc(arc, begin, length);
+  }
+  void rest(const Rest&) { rested_ = true; }
+  void impact(const Impact& impact) {
+    const bool upper = impact.side == Side::upper;
+    at(lanes_.trace) = 3 * at(lanes_.trace) + (upper ? 2 : 1);
+    if (!observes_ || (at_start_ && !(impact.time > 0))) return;  // that one belongs to what was before
+    extrema_.impact(impact);
+    count(impact, upper ? 1 : 0);
+    const double jump = impact.after - impact.before, step = 1 / at(lanes_.rate);
+    for (std::size_t k = 0; k <= lanes_.harmonics; ++k) {
+      const double angle = static_cast<double>(k) * scene_.oscillator.frequency * impact.time;
+      at(lanes_.jump_real[k]) += step * jump * std::cos(angle);
+      at(lanes_.jump_imaginary[k]) -= step * jump * std::sin(angle);
+    }
+  }
+
+  /// Widens the lane's ranges by what was seen.
+  void finish() {
+    const double step = 1 / at(lanes_.rate), load = scene_.oscillator.load;
+    const auto x = extrema_.displacement(scene_.stops), v = extrema_.velocity();
+    at(lanes_.y_low) = std::min(at(lanes_.y_low), x.low == scene_.stops.lower ? at(lanes_.lower) : x.low - load);
+    at(lanes_.y_high) = std::max(at(lanes_.y_high), x.high == scene_.stops.upper ? at(lanes_.upper) : x.high - load);
+    at(lanes_.v_low) = std::min(at(lanes_.v_low), v.low * step);
+    at(lanes_.v_high) = std::max(at(lanes_.v_high), v.high * step);
+  }
+  [[nodiscard]] bool rested() const { return rested_; }
+
+ private:
+  [[nodiscard]] double& at(Row& row) const { return row.lane[lane_]; }
+  void count(const Impact& impact, std::size_t stop) {
+    const double step = 1 / at(lanes_.rate);
+    if (at(lanes_.count[0]) + at(lanes_.count[1]) == 0) at(lanes_.first_before) = impact.before * step;
+    if (at(lanes_.count[stop]) == 0)
+      at(lanes_.before[stop]) = impact.before * step, at(lanes_.after[stop]) = impact.after * step;
+    at(lanes_.count[stop]) += 1;
+  }
+
+  Lanes& lanes_;
+  std::size_t lane_;
+  const Scene& scene_;
+  bool observes_, at_start_;
+  bool rested_ = false;
+  Extrema extrema_;
+};
+
+/// Whether lanes have observers for all that is asked for.
+bool lanes_observe(const Scene& scene) {
+  const Observe& o = scene.observe;
+  if (o.stability || o.trajectory > 0 || o.impact_log || o.full_log) return false;
+  if (o.harmonics == 0) return true;
+  if (o.harmonics_method != HarmonicsMethod::exact || o.base_frequency != 0) return false;
+  if (o.harmonics > static_cast<std::int64_t>(Lanes::most_harmonics)) return false;
+  for (std::int64_t k = 0; k <= o.harmonics; ++k) {
+    const double w = static_cast<double>(k) * scene.oscillator.frequency;
+    if (ExactHarmonics::resonates(ExactHarmonics::impedance(scene.oscillator.damping, w))) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+Crew::Member::Member(const Task& task)
+    : task_(task),
+      exact_(task_.scene, stops_in_reach(task_.scene.stops, task_.effects)),
+      search_(exact_, task_.scene, TakenBy::lanes) {}
+
+std::optional<Observed> Crew::Member::begin(Lanes& lanes, std::size_t lane) {
+  seat(lanes, lane, task_.scene, exact_.stops());
+  State<double> state;
+  state.x = task_.scene.start.displacement, state.v = task_.scene.start.velocity;
+  return search_.at_section(state);
+}
+
+double Crew::Member::x_of(const Lanes& lanes, std::size_t lane, double y) const {
+  if (y == lanes.lower.lane[lane]) return task_.scene.stops.lower;
+  if (y == lanes.upper.lane[lane]) return task_.scene.stops.upper;
+  return task_.scene.oscillator.load + y;
+}
+
+std::optional<Observed> Crew::Member::at_section(const Lanes& lanes, std::size_t lane) {
+  search_.pass_period(std::bit_cast<std::uint64_t>(lanes.section_trace.lane[lane]));
+  State<double> state;
+  state.x = x_of(lanes, lane, lanes.section_y.lane[lane]);
+  state.v = lanes.section_v.lane[lane] * lanes.rate.lane[lane], state.periods = ++sections_;
+  if (exact_.impacts() + lanes.impacts.lane[lane] > task_.scene.time.max_impacts)
+    return failure(Outcome::event_budget);
+  return search_.at_section(state);
+}
+
+bool Crew::Member::can_observe(const Observed& observed) {
+  observed_ = observed;
+  return !failed(observed.status) && observed.turns >= 1 && lanes_observe(task_.scene);
+}
+
+void Crew::Member::begin_to_observe(Lanes& lanes, std::size_t lane) {
+  observing_ = true, sections_ = helped_ = 0, helped_left_ = std::numeric_limits<double>::quiet_NaN();
+  lanes.harmonics = static_cast<std::size_t>(task_.scene.observe.harmonics);
+  seat(lanes, lane, task_.scene, exact_.stops());
+  put(lanes, lane, task_.scene, {observed_.from.x, observed_.from.v, 0});
+  watch(lanes, lane, observed_.turns == 1, observed_.status != Status::periodic);
+}
+
+bool Crew::Member::ends(Lanes& lanes, std::size_t lane) {
+  const double left = observed_.turns - static_cast<double>(++sections_);
+  lanes.ends.lane[lane] = left == 1 ? 1 : 0;
+  lanes.clips.lane[lane] = left == 1 && observed_.status != Status::periodic ? 1 : 0;
+  return left == 0;
+}
+
+Outcome Crew::Member::help(Lanes& lanes, std::size_t lane) {
+  const LanePlace place = place_of(lanes, lane, task_.scene);
+  State<double> state;
+  state.x = place.x, state.v = place.v, state.turns = place.turns;
+  if (place.x == exact_.stops().lower) state.left = Side::lower;
+  if (place.x == exact_.stops().upper) state.left = Side::upper;
+  if (lanes.left.lane[lane] == helped_left_) state = helped_to_;  // a lane can't hold a release or a short rise
+  const double end = std::min(1.0, state.turns + 2 / lanes.period.lane[lane]);
+  HelpWatch seen(lanes, lane, task_.scene, observing_, sections_ == 0);
+  const Outcome outcome = exact_.advance(state, end, 0, seen);
+  ++helped_;
+  if (observing_) seen.finish(), rested_ = rested_ || seen.rested();
+  if (end == 1.0) {
+    lanes.section_y.lane[lane] = state.x - task_.scene.oscillator.load;
+    lanes.section_v.lane[lane] = state.v / lanes.rate.lane[lane];
+    lanes.section_trace.lane[lane] = std::exchange(lanes.trace.lane[lane], 0.0);
+    lanes.arrived |= LaneSet{1} << lane;
+    state.turns = 0;
+  }
+  put(lanes, lane, task_.scene, {state.x, state.v, state.turns});
+  helped_to_ = state, helped_left_ = lanes.left.lane[lane];
+  return outcome;
+}
+
+PointResult Crew::Member::result(Workshop& workshop) const {
+  PointResult result = Point(task_.scene, workshop, exact_).observe(observed_);
+  result.impacts += impacts_;
+  return result;
+}
+
+PointResult Crew::Member::result(const Lanes& lanes, std::size_t lane, Workshop& workshop) const {
+  const auto at = [lane](const Row& row) { return row.lane[lane]; };
+  Point point(task_.scene, workshop, exact_);
+  Observers observers = point.begin(observed_);
+  const double rate = at(lanes.rate), total = observed_.turns * exact_.period();
+  State<double> end = observed_.from;
+  end.x = x_of(lanes, lane, at(lanes.section_y)), end.v = at(lanes.section_v) * rate;
+  end.periods += static_cast<std::int64_t>(observed_.turns);
+  if (observers.extrema)
+    observers.extrema->include({x_of(lanes, lane, at(lanes.y_low)), x_of(lanes, lane, at(lanes.y_high))},
+                               {at(lanes.v_low) * rate, at(lanes.v_high) * rate});
+  if (observers.impacts) {
+    std::array<Impacts::OfStop, 2> stops;
+    for (std::size_t i = 0; i < stops.size(); ++i) {
+      if (at(lanes.count[i]) == 0) continue;
+      stops[i] = {at(lanes.count[i]), at(lanes.before[i]) * rate, at(lanes.after[i]) * rate, 0.0};
+    }
+    const bool met = stops[0].count + stops[1].count > 0;
+    observers.impacts->include(stops, met ? std::abs(at(lanes.first_before)) * rate : no_value);
+  }
+  if (observers.exact_harmonics) {
+    std::vector<std::complex<double>> jumps;
+    for (std::size_t k = 0; k <= lanes.harmonics; ++k)
+      jumps.emplace_back(at(lanes.jump_real[k]) * rate, at(lanes.jump_imaginary[k]) * rate);
+    observers.exact_harmonics->flights(task_.scene.oscillator, task_.scene.start.phase, {observed_.from.x, observed_.from.v},
+                                       {end.x, end.v}, total, jumps);
+  }
+  PointResult result = point.end(observers, end, Outcome::completed);
+  result.impacts += impacts_;
+  return result;
+}
+
+}  // namespace clatter

@@ -1,0 +1,61 @@
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <optional>
+
+#include "integrators/settle_forced.hpp"
+#include "lanes/seat.hpp"
+#include "sweep/crew.hpp"
+
+namespace clatter {
+
+/// A point in a lane: what it is, how far its motion is known, and the scalar kernel that helps it.
+class Crew::Member {
+ public:
+  explicit Member(const Task& task);
+  Member(const Member&) = delete;
+  Member& operator=(const Member&) = delete;
+
+  [[nodiscard]] const Task& task() const { return task_; }
+
+  /// Takes a lane to settle in; what is known at the start.
+  [[nodiscard]] std::optional<Observed> begin(Lanes& lanes, std::size_t lane);
+  /// What is known at the section that the lane has passed.
+  [[nodiscard]] std::optional<Observed> at_section(const Lanes& lanes, std::size_t lane);
+  [[nodiscard]] Observed failure(Outcome outcome) const { return search_.failure(outcome, {}); }
+
+  /// Notes what is to be observed, and whether lanes can do it.
+  [[nodiscard]] bool can_observe(const Observed& observed);
+  void begin_to_observe(Lanes& lanes, std::size_t lane);
+  /// Takes note of a section that was passed under observation; whether it was the last.
+  [[nodiscard]] bool ends(Lanes& lanes, std::size_t lane);
+
+  /// Takes a stuck lane on by the scalar kernel: by two steps, or to the next section.
+  [[nodiscard]] Outcome help(Lanes& lanes, std::size_t lane);
+  /// Whether the scalar kernel alone would be quicker, or has to observe.
+  [[nodiscard]] bool needs_no_lane() const { return rested_ || helped_ > 64 + 2 * sections_; }
+
+  void add_impacts(double impacts) { impacts_ += impacts; }  ///< that a lane met
+  [[nodiscard]] PointResult result(Workshop& workshop) const;  ///< observed by the scalar kernel
+  [[nodiscard]] PointResult result(const Lanes& lanes, std::size_t lane, Workshop& workshop) const;
+
+ private:
+  static constexpr Effects effects = kernels::complete(Damping::light, Forcing::regular);
+  using Kernel = Exact<double, effects>;
+
+  [[nodiscard]] double x_of(const Lanes& lanes, std::size_t lane, double y) const;
+
+  Task task_;
+  Kernel exact_;
+  SteadySearch<effects> search_;
+  Observed observed_{};
+  State<double> helped_to_{};                                      ///< where the scalar kernel left the lane
+  double helped_left_ = std::numeric_limits<double>::quiet_NaN();  ///< its time to the next section then
+  std::int64_t sections_ = 0, helped_ = 0;
+  double impacts_ = 0.0;
+  bool observing_ = false;
+  bool rested_ = false;  ///< under observation, which only the scalar kernel can sum
+};
+
+}  // namespace clatter
