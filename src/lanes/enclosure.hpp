@@ -45,17 +45,23 @@ class Quintic {
     c5_ = fma(V(6.0), D, half_a1_ - fma(V(3.0), c1_ + v1_, c2_));
   }
 
-  [[nodiscard]] V value(const V& t) const { return fma(fma(fma(fma(fma(c5_, t, c4_), t, c3_), t, c2_), t, c1_), t, c0_); }
+  [[nodiscard]] V value(const V& t) const {
+    return fma(fma(fma(fma(fma(c5_, t, c4_), t, c3_), t, c2_), t, c1_), t, c0_);
+  }
   [[nodiscard]] V slope(const V& t) const {
     return fma(fma(fma(fma(c5_ * 5.0, t, c4_ * 4.0), t, c3_ * 3.0), t, c2_ + c2_), t, c1_);
   }
   /// Half the second derivative.
   [[nodiscard]] V bend(const V& t) const { return fma(fma(fma(c5_ * 10.0, t, c4_ * 6.0), t, c3_ * 3.0), t, c2_); }
 
-  /// Where the slope changes its sign, by Newton's iteration.
-  [[nodiscard]] V turning_point() const {
-    V t = min(max(c1_ / (c1_ - v1_), V(0.0)), V(1.0));
-    for (int i = 0; i < 3; ++i) t = fnma(V(0.5), slope(t) / bend(t), t);
+  /// Where it is least, if that is between the ends: by Newton's iteration for the slope's root, from the least inner
+  /// point of the control polygon.
+  [[nodiscard]] V least() const {
+    const V b1 = fma(V(0.2), c1_, c0_), b2 = fma(V(0.1), c2_, fma(V(0.4), c1_, c0_));
+    const V b4 = fnma(V(0.2), v1_, y1_), b3 = fma(V(0.1), half_a1_, fnma(V(0.4), v1_, y1_));
+    const V left = select(b1 < b2, V(0.2), V(0.4)), right = select(b4 < b3, V(0.8), V(0.6));
+    V t = select(min(b1, b2) < min(b3, b4), left, right);
+    for (int i = 0; i < 4; ++i) t = fnma(V(0.5), slope(t) / bend(t), t);
     return t;
   }
   /// The first root of a polynomial that begins positive: from the first crossing of its control polygon, by Halley's

@@ -47,13 +47,14 @@ struct Lanes {
   LaneSet arrived;                          ///< lanes that have passed a section
   LaneSet stuck;                            ///< lanes that the kernel cannot take on from where they are
   // of what is observed, where it is
-  Row ends;                                ///< 1: the next section ends the observed time
-  Row clips;                               ///< 1: and the flight across it isn't taken, since it leads beyond
-  Row bound_v, bound_forced_v;             ///< as bound and bound_forced, of the velocity
-  Row y_low, y_high, v_low, v_high;        ///< least and greatest so far
-  Row count[2], before[2], after[2];       ///< [stop]: impacts, and the velocities of the first one
-  Row first_before;                        ///< velocity before the first impact of all
-  Row jump_real[most_harmonics + 1], jump_imaginary[most_harmonics + 1];  ///< [k]: sums of the velocity's jumps times e^{-ik nu tau}
+  Row ends;                           ///< 1: the next section ends the observed time
+  Row clips;                          ///< 1: and the flight across it isn't taken, since it leads beyond
+  Row bound_v, bound_forced_v;        ///< as bound and bound_forced, of the velocity
+  Row y_low, y_high, v_low, v_high;   ///< least and greatest so far
+  Row count[2], before[2], after[2];  ///< [stop]: impacts, and the velocities of the first one
+  Row first_before;                   ///< velocity before the first impact of all
+  Row jump_real[most_harmonics + 1],
+      jump_imaginary[most_harmonics + 1];  ///< [k]: sums of the velocity's jumps times e^{-ik nu tau}
   std::size_t harmonics;                   ///< highest k that is summed
   // what it took
   double proved, refined;  ///< lanes times steps that were to be proved, and times contacts that were looked for

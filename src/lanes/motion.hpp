@@ -86,7 +86,8 @@ class Motions {
     return {third, fourth, -fma(push * angle, m.cosine, fma(damping, fourth, stiffness * third))};
   }
 
-  /// Moves an instant by a time |t| <= 2^-10, by Taylor's series; its displacement and free part are left to the caller.
+  /// Moves an instant by a time |t| <= 2^-10, by Taylor's series; its displacement and free part are left to the
+  /// caller.
   void shift(Instant<V>& m, const Jet<V>& jet, const V& t) const {
     m.v = fma(t, fma(t, fma(t, fma(t, jet.fifth * (1.0 / 24), jet.fourth * (1.0 / 6)), jet.third * 0.5), m.a), m.v);
     m.a = fma(t, fma(t, fma(t, jet.fifth * (1.0 / 6), jet.fourth * 0.5), jet.third), m.a);

@@ -71,9 +71,9 @@ void seat(Lanes& lanes, std::size_t i, const Scene& scene, const Stops& stops) {
 }
 
 void watch(Lanes& lanes, std::size_t i, bool ends, bool clips) {
-  const double infinity = std::numeric_limits<double>::infinity();
   lanes.ends.lane[i] = ends ? 1 : 0, lanes.clips.lane[i] = ends && clips ? 1 : 0;
-  lanes.y_low.lane[i] = lanes.v_low.lane[i] = infinity, lanes.y_high.lane[i] = lanes.v_high.lane[i] = -infinity;
+  lanes.y_low.lane[i] = lanes.y_high.lane[i] = lanes.y.lane[i];
+  lanes.v_low.lane[i] = lanes.v_high.lane[i] = lanes.v.lane[i];
   for (const std::size_t stop : {0, 1}) lanes.count[stop].lane[i] = 0;
   for (std::size_t k = 0; k <= lanes.harmonics; ++k) lanes.jump_real[k].lane[i] = lanes.jump_imaginary[k].lane[i] = 0;
 }
@@ -84,7 +84,8 @@ void vacate(Lanes& lanes, std::size_t i) {
   seat(lanes, i, scene, {});
   lanes.left.lane[i] = std::numeric_limits<double>::infinity();
   watch(lanes, i, false, false);
-  std::swap(lanes.y_low.lane[i], lanes.y_high.lane[i]), std::swap(lanes.v_low.lane[i], lanes.v_high.lane[i]);
+  const double infinity = std::numeric_limits<double>::infinity();
+  lanes.y_low.lane[i] = lanes.v_low.lane[i] = -infinity, lanes.y_high.lane[i] = lanes.v_high.lane[i] = infinity;
 }
 
 LanePlace place_of(const Lanes& lanes, std::size_t i, const Scene& scene) {

@@ -105,7 +105,7 @@ class Visit {
     g.crosses = gap.y1 < zero;
     g.time = quintic.root();
     if (any(touched_ & !g.crosses)) {
-      const V turning = quintic.turning_point(), least = quintic.value(turning), part = turning * (one - turning);
+      const V turning = quintic.least(), least = quintic.value(turning), part = turning * (one - turning);
       const V uncertain = uncertainty.error * (part * part * part * 20.0);
       const Mask misses = (!g.crosses) & (least >= -uncertain);
       // where the error doesn't tell, only half of the way: a shorter flight has far less of it
@@ -198,7 +198,8 @@ class Visit {
     lanes_.arrived |= bits(arrived_) << first_, lanes_.stuck |= bits(stuck_) << first_;
   }
 
-  static constexpr double grazing = 0x1p-12;         ///< speed over acceleration below which a contact is left to the scalar kernel
+  static constexpr double grazing =
+      0x1p-12;  ///< speed over acceleration below which a contact is left to the scalar kernel
   static constexpr double shortest_flight = 0x1p-5;  ///< in half steps: a shorter one is left to it, too
 
   Lanes& lanes_;

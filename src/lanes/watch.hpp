@@ -29,9 +29,9 @@ class Watch {
     const auto velocity = [](const Instant<V>& m, const Jet<V>& jet) {
       return Course{m.v, m.a, jet.third, jet.fourth};
     };
-    const Mask sure = active & search(active, new_y, y, from, length, uncertainty.error * part, uncertainty.rounding,
-                                      displacement) &
-                      search(active, new_v, v, from, length, uncertainty.error_v * part, uncertainty.rounding * 2.0, velocity);
+    const Mask sure =
+        active & search(active, new_y, y, from, length, uncertainty.error * part, uncertainty.rounding, displacement) &
+        search(active, new_v, v, from, length, uncertainty.error_v * part, uncertainty.rounding * 2.0, velocity);
     take(sure, new_y, new_v);
     return sure;
   }
@@ -85,19 +85,30 @@ class Watch {
   Mask search(const Mask& active, Range<V>& range, const Ends<V>& ends, const Instant<V>& from, const V& length,
               const V& error, const V& slack, const Derivatives& derivatives) {
     const Ends<V> scaled = Ends<V>::scaled(ends, length);
-    Mask sure = within(enclosure(scaled, error), range, slack);
+    const Range<V> bounds = enclosure(scaled, error);
+    const Mask sure = within(bounds, range, slack);
     const Mask open = active & !sure;
     if (!any(open)) return sure;
-    const V t = min(max(Quintic<V>(scaled).turning_point(), V(0.0)), V(1.0)) * length;
-    const Instant<V> near = motions_.after(from, t);
-    const auto [value, slope, curvature, third] = derivatives(near, motions_.jet(near));
-    const V more = -slope / curvature, there = t + more;
-    const V extremum = fma(more, fma(more, fma(more, third * (1.0 / 6), curvature * 0.5), slope), value);
+    const V sign = select(bounds.high > range.high + slack, V(-1.0), V(1.0));  // of a greatest or a least value
+    const Ends<V> below{sign * scaled.y0, sign * scaled.v0, sign * scaled.a0,
+                        sign * scaled.y1, sign * scaled.v1, sign * scaled.a1};
+    V there = min(max(Quintic<V>(below).least(), V(0.0)), V(1.0)) * length, more;
+    Course at;
+    for (int pass = 0; pass < 3; ++pass) {
+      const Instant<V> near = motions_.after(from, there);
+      at = derivatives(near, motions_.jet(near));
+      more = -at.slope / at.curvature;
+      const Mask far = open & !(abs(more) <= V(0x1p-10));
+      if (!any(far)) break;
+      there = select(far, min(max(there + more, V(0.0)), length), there);
+    }
+    there = there + more;
+    const V extremum = fma(more, fma(more, fma(more, at.third * (1.0 / 6), at.curvature * 0.5), at.slope), at.value);
     const Mask turns = (abs(more) <= V(0x1p-10)) & (there > V(0.0)) & (there < length);
     Range<V> wider = range;
     wider.include(extremum);
-    const V zero(0.0), bend = fma(more, third, curvature), rest = length - there, part = there / length,
-            rest_part = rest / length;
+    const V zero(0.0), bend = fma(more, at.third, at.curvature), rest = length - there, part = there / length,
+                       rest_part = rest / length;
     const Ends<V> before = Ends<V>::scaled({ends.y0, ends.v0, ends.a0, extremum, zero, bend}, there);
     const Ends<V> after = Ends<V>::scaled({extremum, zero, bend, ends.y1, ends.v1, ends.a1}, rest);
     const Mask found = open & turns & within(enclosure(before, error * sixth_power(part)), wider, slack) &

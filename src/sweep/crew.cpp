@@ -97,7 +97,8 @@ void Crew::look(Bench& bench, std::size_t lane) {
   Member& member = *bench.members[lane];
   if (&bench == &observing_) {
     if (!member.ends(bench.lanes, lane)) return;
-    take_(member.task(), member.result(bench.lanes, lane, workshop_));
+    take_(member.task(),
+          member.needs_no_lane() ? member.result(workshop_) : member.result(bench.lanes, lane, workshop_));
     (void)leave(bench, lane);
     return observe_next(lane);
   }

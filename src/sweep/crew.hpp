@@ -12,8 +12,8 @@
 namespace clatter {
 
 /// The points that one thread runs side by side in SIMD lanes: first until their motion is known, then, in other lanes,
-/// to observe it. A lane whose point is done takes the next one; what the lanes' kernel leaves undone, chatter, rest and
-/// grazes, the scalar kernel does for a short time. What a point gives depends neither on its lane nor on its
+/// to observe it. A lane whose point is done takes the next one; what the lanes' kernel leaves undone, chatter, rest
+/// and grazes, the scalar kernel does for a short time. What a point gives depends neither on its lane nor on its
 /// neighbours.
 class Crew {
  public:

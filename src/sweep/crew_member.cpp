@@ -72,6 +72,7 @@ bool lanes_observe(const Scene& scene) {
   if (o.stability || o.trajectory > 0 || o.impact_log || o.full_log) return false;
   if (o.harmonics == 0) return true;
   if (o.harmonics_method != HarmonicsMethod::exact || o.base_frequency != 0) return false;
+  if (scene.time.mode == Mode::transient) return false;  // their base frequency isn't the force's
   if (o.harmonics > static_cast<std::int64_t>(Lanes::most_harmonics)) return false;
   for (std::int64_t k = 0; k <= o.harmonics; ++k) {
     const double w = static_cast<double>(k) * scene.oscillator.frequency;
@@ -91,6 +92,8 @@ std::optional<Observed> Crew::Member::begin(Lanes& lanes, std::size_t lane) {
   seat(lanes, lane, task_.scene, exact_.stops());
   State<double> state;
   state.x = task_.scene.start.displacement, state.v = task_.scene.start.velocity;
+  if (task_.scene.time.mode == Mode::transient)
+    return Observed{Status::transient, state, task_.scene.time.duration / exact_.period(), 0.0, FoundBy::start};
   return search_.at_section(state);
 }
 
@@ -105,8 +108,7 @@ std::optional<Observed> Crew::Member::at_section(const Lanes& lanes, std::size_t
   State<double> state;
   state.x = x_of(lanes, lane, lanes.section_y.lane[lane]);
   state.v = lanes.section_v.lane[lane] * lanes.rate.lane[lane], state.periods = ++sections_;
-  if (exact_.impacts() + lanes.impacts.lane[lane] > task_.scene.time.max_impacts)
-    return failure(Outcome::event_budget);
+  if (exact_.impacts() + lanes.impacts.lane[lane] > task_.scene.time.max_impacts) return failure(Outcome::event_budget);
   return search_.at_section(state);
 }
 
@@ -120,14 +122,25 @@ void Crew::Member::begin_to_observe(Lanes& lanes, std::size_t lane) {
   lanes.harmonics = static_cast<std::size_t>(task_.scene.observe.harmonics);
   seat(lanes, lane, task_.scene, exact_.stops());
   put(lanes, lane, task_.scene, {observed_.from.x, observed_.from.v, 0});
-  watch(lanes, lane, observed_.turns == 1, observed_.status != Status::periodic);
+  watch(lanes, lane, std::floor(observed_.turns) == 1, observed_.status != Status::periodic);
 }
 
 bool Crew::Member::ends(Lanes& lanes, std::size_t lane) {
-  const double left = observed_.turns - static_cast<double>(++sections_);
+  const double whole = std::floor(observed_.turns), left = whole - static_cast<double>(++sections_);
   lanes.ends.lane[lane] = left == 1 ? 1 : 0;
   lanes.clips.lane[lane] = left == 1 && observed_.status != Status::periodic ? 1 : 0;
-  return left == 0;
+  if (left == 0 && observed_.turns > whole) finish_period(lanes, lane, observed_.turns - whole);
+  gives_up_ = gives_up_ || exact_.impacts() + impacts_ + lanes.impacts.lane[lane] > task_.scene.time.max_impacts;
+  return left == 0 || gives_up_;
+}
+
+/// Takes a transient through the part of a forcing period that is left after the last section.
+void Crew::Member::finish_period(Lanes& lanes, std::size_t lane, double part) {
+  HelpWatch seen(lanes, lane, task_.scene, true, false);
+  gives_up_ = gives_up_ || exact_.advance(helped_to_, part, 0, seen) != Outcome::completed || seen.rested();
+  seen.finish();
+  lanes.section_y.lane[lane] = helped_to_.x - task_.scene.oscillator.load;
+  lanes.section_v.lane[lane] = helped_to_.v / lanes.rate.lane[lane];
 }
 
 Outcome Crew::Member::help(Lanes& lanes, std::size_t lane) {
@@ -141,7 +154,7 @@ Outcome Crew::Member::help(Lanes& lanes, std::size_t lane) {
   HelpWatch seen(lanes, lane, task_.scene, observing_, sections_ == 0);
   const Outcome outcome = exact_.advance(state, end, 0, seen);
   ++helped_;
-  if (observing_) seen.finish(), rested_ = rested_ || seen.rested();
+  if (observing_) seen.finish(), gives_up_ = gives_up_ || seen.rested();
   if (end == 1.0) {
     lanes.section_y.lane[lane] = state.x - task_.scene.oscillator.load;
     lanes.section_v.lane[lane] = state.v / lanes.rate.lane[lane];
@@ -167,7 +180,7 @@ PointResult Crew::Member::result(const Lanes& lanes, std::size_t lane, Workshop&
   const double rate = at(lanes.rate), total = observed_.turns * exact_.period();
   State<double> end = observed_.from;
   end.x = x_of(lanes, lane, at(lanes.section_y)), end.v = at(lanes.section_v) * rate;
-  end.periods += static_cast<std::int64_t>(observed_.turns);
+  end.periods += static_cast<std::int64_t>(observed_.turns), end.turns = observed_.turns - std::floor(observed_.turns);
   if (observers.extrema)
     observers.extrema->include({x_of(lanes, lane, at(lanes.y_low)), x_of(lanes, lane, at(lanes.y_high))},
                                {at(lanes.v_low) * rate, at(lanes.v_high) * rate});
@@ -184,8 +197,8 @@ PointResult Crew::Member::result(const Lanes& lanes, std::size_t lane, Workshop&
     std::vector<std::complex<double>> jumps;
     for (std::size_t k = 0; k <= lanes.harmonics; ++k)
       jumps.emplace_back(at(lanes.jump_real[k]) * rate, at(lanes.jump_imaginary[k]) * rate);
-    observers.exact_harmonics->flights(task_.scene.oscillator, task_.scene.start.phase, {observed_.from.x, observed_.from.v},
-                                       {end.x, end.v}, total, jumps);
+    observers.exact_harmonics->flights(task_.scene.oscillator, task_.scene.start.phase,
+                                       {observed_.from.x, observed_.from.v}, {end.x, end.v}, total, jumps);
   }
   PointResult result = point.end(observers, end, Outcome::completed);
   result.impacts += impacts_;

@@ -19,7 +19,7 @@ class Crew::Member {
 
   [[nodiscard]] const Task& task() const { return task_; }
 
-  /// Takes a lane to settle in; what is known at the start.
+  /// Takes a lane to settle in; what is known at the start, of a transient all of it.
   [[nodiscard]] std::optional<Observed> begin(Lanes& lanes, std::size_t lane);
   /// What is known at the section that the lane has passed.
   [[nodiscard]] std::optional<Observed> at_section(const Lanes& lanes, std::size_t lane);
@@ -28,15 +28,15 @@ class Crew::Member {
   /// Notes what is to be observed, and whether lanes can do it.
   [[nodiscard]] bool can_observe(const Observed& observed);
   void begin_to_observe(Lanes& lanes, std::size_t lane);
-  /// Takes note of a section that was passed under observation; whether it was the last.
+  /// Takes note of a section that was passed under observation; whether the observed time is over.
   [[nodiscard]] bool ends(Lanes& lanes, std::size_t lane);
 
   /// Takes a stuck lane on by the scalar kernel: by two steps, or to the next section.
   [[nodiscard]] Outcome help(Lanes& lanes, std::size_t lane);
   /// Whether the scalar kernel alone would be quicker, or has to observe.
-  [[nodiscard]] bool needs_no_lane() const { return rested_ || helped_ > 64 + 2 * sections_; }
+  [[nodiscard]] bool needs_no_lane() const { return gives_up_ || helped_ > 64 + 2 * sections_; }
 
-  void add_impacts(double impacts) { impacts_ += impacts; }  ///< that a lane met
+  void add_impacts(double impacts) { impacts_ += impacts; }    ///< that a lane met
   [[nodiscard]] PointResult result(Workshop& workshop) const;  ///< observed by the scalar kernel
   [[nodiscard]] PointResult result(const Lanes& lanes, std::size_t lane, Workshop& workshop) const;
 
@@ -44,6 +44,7 @@ class Crew::Member {
   static constexpr Effects effects = kernels::complete(Damping::light, Forcing::regular);
   using Kernel = Exact<double, effects>;
 
+  void finish_period(Lanes& lanes, std::size_t lane, double part);
   [[nodiscard]] double x_of(const Lanes& lanes, std::size_t lane, double y) const;
 
   Task task_;
@@ -55,7 +56,7 @@ class Crew::Member {
   std::int64_t sections_ = 0, helped_ = 0;
   double impacts_ = 0.0;
   bool observing_ = false;
-  bool rested_ = false;  ///< under observation, which only the scalar kernel can sum
+  bool gives_up_ = false;  ///< it rested under observation, or failed: only the scalar kernel tells what comes of it
 };
 
 }  // namespace clatter

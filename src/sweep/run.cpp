@@ -63,12 +63,11 @@ void add(std::vector<Usage>& sum, const Usage& part) {
   same->impacts += part.impacts, same->periods += part.periods, same->evaluations += part.evaluations;
 }
 
-/// Whether points of a sweep may go into lanes: those of the exact method that look for their steady motion by every
-/// shortcut, and don't wait for each other.
+/// Whether points of a sweep may go into lanes: those of the exact method that take every shortcut to their steady
+/// motion, and don't wait for each other.
 bool lanes_can_run(const Sweep& sweep) {
   const Integration& integration = sweep.scene.integration;
-  return integration.method == Method::exact && integration.shortcuts && !integration.all_effects &&
-         sweep.scene.time.mode == Mode::steady && !sweep.follow;
+  return integration.method == Method::exact && integration.shortcuts && !integration.all_effects && !sweep.follow;
 }
 
 /// The threads that run a sweep, and what they share.
@@ -242,7 +241,8 @@ RunResult run(const Sweep& sweep, const RunOptions& options) {
   const auto begin = std::chrono::steady_clock::now();
   Columns columns(sweep);
   result.points = size(sweep);
-  result.threads = static_cast<int>(std::min<std::size_t>(static_cast<std::size_t>(threads_used(options)), Branches(sweep).count));  // others would only be waited for
+  result.threads = static_cast<int>(std::min<std::size_t>(static_cast<std::size_t>(threads_used(options)),
+                                                          Branches(sweep).count));  // others would only be waited for
   Team team(sweep, options, result.threads, columns);
   team.run();
   team.rethrow();
