@@ -45,14 +45,16 @@ class Quintic {
     c5_ = fma(V(6.0), D, half_a1_ - fma(V(3.0), c1_ + v1_, c2_));
   }
 
-  [[nodiscard]] V value(const V& t) const {
-    return fma(fma(fma(fma(fma(c5_, t, c4_), t, c3_), t, c2_), t, c1_), t, c0_);
+  /// Value, slope and half the second derivative.
+  struct Local {
+    V value, slope, bend;
+  };
+  [[nodiscard]] Local at(const V& t) const {
+    const V f1 = fma(c5_, t, c4_), f2 = fma(f1, t, c3_), f3 = fma(f2, t, c2_), f4 = fma(f3, t, c1_);
+    const V s2 = fma(c5_, t, f1), s3 = fma(s2, t, f2), s4 = fma(s3, t, f3);
+    const V h3 = fma(c5_, t, s2), h4 = fma(h3, t, s3);
+    return {fma(f4, t, c0_), fma(s4, t, f4), fma(h4, t, s4)};
   }
-  [[nodiscard]] V slope(const V& t) const {
-    return fma(fma(fma(fma(c5_ * 5.0, t, c4_ * 4.0), t, c3_ * 3.0), t, c2_ + c2_), t, c1_);
-  }
-  /// Half the second derivative.
-  [[nodiscard]] V bend(const V& t) const { return fma(fma(fma(c5_ * 10.0, t, c4_ * 6.0), t, c3_ * 3.0), t, c2_); }
 
   /// Where it is least, if that is between the ends: by Newton's iteration for the slope's root, from the least inner
   /// point of the control polygon.
@@ -61,11 +63,14 @@ class Quintic {
     const V b4 = fnma(V(0.2), v1_, y1_), b3 = fma(V(0.1), half_a1_, fnma(V(0.4), v1_, y1_));
     const V left = select(b1 < b2, V(0.2), V(0.4)), right = select(b4 < b3, V(0.8), V(0.6));
     V t = select(min(b1, b2) < min(b3, b4), left, right);
-    for (int i = 0; i < 4; ++i) t = fnma(V(0.5), slope(t) / bend(t), t);
+    for (int i = 0; i < 4; ++i) {
+      const Local l = at(t);
+      t = fnma(V(0.5), l.slope / l.bend, t);
+    }
     return t;
   }
-  /// The first root of a polynomial that begins positive: from the first crossing of its control polygon, by Halley's
-  /// iteration.
+  /// The first root of a polynomial that begins positive: from the first crossing of its control polygon, by a step of
+  /// Halley's method.
   [[nodiscard]] V root() const {
     const V b1 = fma(V(0.2), c1_, c0_), b2 = fma(V(0.1), c2_, fma(V(0.4), c1_, c0_));
     const V b4 = fnma(V(0.2), v1_, y1_), b3 = fma(V(0.1), half_a1_, fnma(V(0.4), v1_, y1_));
@@ -76,11 +81,8 @@ class Quintic {
     };
     consider(b3, b4, 0.6), consider(b2, b3, 0.4), consider(b1, b2, 0.2), consider(c0_, b1, 0.0);
     t = fma(V(0.2), before / (before - beyond), t);
-    for (int i = 0; i < 2; ++i) {
-      const V f = value(t), s = slope(t);
-      t = t - f * s / fms(s, s, f * bend(t));
-    }
-    return t;
+    const Local l = at(t);
+    return t - l.value * l.slope / fms(l.slope, l.slope, l.value * l.bend);
   }
 
  private:

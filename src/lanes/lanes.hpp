@@ -27,9 +27,10 @@ struct Lanes {
   Row turn_sine, turn_cosine;              ///< of the forcing phase in a step
   Row in_phase, quadrature;                ///< P and Q of the response
   Row angle, rotation, decay, damping;     ///< nu, lambda, h and 2 h times the step
-  Row skew, slowness;                      ///< h/lambda; one over the rotation in a step
+  Row skew, slowness;                      ///< h/lambda; one over the rotation
   Row push, stiffness;                     ///< f nu times the step cubed; the step squared
   Row rate;                                ///< one over the step
+  Row inverse_angle;                        ///< one over the angle
   // of the stops
   Row lower, upper, keep_lower, keep_upper;  ///< places and restitution
   // of the enclosure
@@ -40,6 +41,8 @@ struct Lanes {
   // where the lanes are
   Row p, w, sine, cosine, y, v, a;
   Row left;     ///< time to the next section
+  Row to_next;  ///< from that to the one after it, by the lane's clock
+  Row longer;   ///< by what part sine and cosine are to be shortened at the next section
   Row impacts;  ///< met so far
   Row trace;    ///< stops met since the last section
   // what a visit reports
@@ -55,6 +58,7 @@ struct Lanes {
   Row first_before;                   ///< velocity before the first impact of all
   Row jump_real[most_harmonics + 1],
       jump_imaginary[most_harmonics + 1];  ///< [k]: sums of the velocity's jumps times e^{-ik nu tau}
+  bool extrema;                            ///< whether y and v are searched for them
   std::size_t harmonics;                   ///< highest k that is summed
   // what it took
   double proved, refined;  ///< lanes times steps that were to be proved, and times contacts that were looked for

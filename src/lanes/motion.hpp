@@ -18,16 +18,17 @@ template <class Mask, class V>
           select(m, x.y, y.y), select(m, x.v, y.v), select(m, x.a, y.a)};
 }
 
-/// Third to fifth derivative of the displacement.
+/// Third to seventh derivative of the displacement.
 template <class V>
 struct Jet {
-  V third, fourth, fifth;
+  V d3, d4, d5, d6, d7;
 };
 
 /// What an enclosure of a step is uncertain by, and what places are rounded by.
 template <class V>
 struct Uncertainty {
-  V error, error_v, rounding;
+  V free;  ///< size of the free motion
+  V error, rounding;
 };
 
 /// The closed forms of the motion of some lanes; time counts in their steps.
@@ -80,30 +81,62 @@ class Motions {
     return fms(row(lanes_.push), m.cosine, fma(row(lanes_.damping), m.a, row(lanes_.stiffness) * m.v));
   }
   [[nodiscard]] Jet<V> jet(const Instant<V>& m) const {
-    const V angle = row(lanes_.angle), push = row(lanes_.push) * angle, damping = row(lanes_.damping),
+    const V angle = row(lanes_.angle), square = -angle * angle, damping = row(lanes_.damping),
             stiffness = row(lanes_.stiffness);
-    const V third = jerk(m), fourth = -fma(push, m.sine, fma(damping, third, stiffness * m.a));
-    return {third, fourth, -fma(push * angle, m.cosine, fma(damping, fourth, stiffness * third))};
+    const auto next = [&](const V& force, const V& last, const V& before) {
+      return force - fma(damping, last, stiffness * before);
+    };
+    const V push3 = row(lanes_.push) * m.cosine, push4 = -row(lanes_.push) * angle * m.sine;
+    Jet<V> jet;
+    jet.d3 = next(push3, m.a, m.v), jet.d4 = next(push4, jet.d3, m.a);
+    jet.d5 = next(push3 * square, jet.d4, jet.d3), jet.d6 = next(push4 * square, jet.d5, jet.d4);
+    jet.d7 = next(push3 * square * square, jet.d6, jet.d5);
+    return jet;
   }
 
-  /// Moves an instant by a time |t| <= 2^-10, by Taylor's series; its displacement and free part are left to the
+  static constexpr double longest_shift = 0x1p-7;  ///< below it the series of `shift` is exact to rounding
+
+  /// Moves an instant by a time |t| <= longest_shift, by Taylor's series; its displacement and free part are left to the
   /// caller.
-  void shift(Instant<V>& m, const Jet<V>& jet, const V& t) const {
-    m.v = fma(t, fma(t, fma(t, fma(t, jet.fifth * (1.0 / 24), jet.fourth * (1.0 / 6)), jet.third * 0.5), m.a), m.v);
-    m.a = fma(t, fma(t, fma(t, jet.fifth * (1.0 / 6), jet.fourth * 0.5), jet.third), m.a);
-    const V angle = row(lanes_.angle) * t, square = angle * angle;
-    const V cosine = square * -0.5 * fnma(V(1.0 / 12), square, V(1.0));  // minus 1
-    const V sine = angle * fnma(square * (1.0 / 6), fnma(V(0.05), square, V(1.0)), V(1.0));
+  void shift(Instant<V>& m, const Jet<V>& j, const V& t) const {
+    m.v = fma(t, fma(t, fma(t, fma(t, fma(t, fma(t, j.d7 * (1.0 / 720), j.d6 * (1.0 / 120)), j.d5 * (1.0 / 24)),
+                                   j.d4 * (1.0 / 6)),
+                            j.d3 * 0.5),
+                     m.a),
+              m.v);
+    m.a = fma(t, fma(t, fma(t, fma(t, fma(t, j.d7 * (1.0 / 120), j.d6 * (1.0 / 24)), j.d5 * (1.0 / 6)), j.d4 * 0.5), j.d3),
+              m.a);
+    const V angle = row(lanes_.angle) * t, square = angle * angle, one(1.0);
+    const V cosine = square * -0.5 * fnma(square * (1.0 / 12), fnma(V(1.0 / 30), square, one), one);  // minus 1
+    const V sine = angle * fnma(square * (1.0 / 6), fnma(square * 0.05, fnma(V(1.0 / 42), square, one), one), one);
     const V before = m.sine;
     m.sine = before + fma(before, cosine, m.cosine * sine);
     m.cosine = m.cosine + fms(m.cosine, cosine, before * sine);
   }
 
+  /// The time, about as short as longest_shift or shorter, from `m` to a place nearby: Newton's method on the series.
+  [[nodiscard]] static V time_to(const V& place, const Instant<V>& m, const Jet<V>& j) {
+    const V missing = place - m.y, inverse = V(1.0) / m.v, half = m.a * 0.5;
+    V t = missing * inverse;
+    t = fnma(half * inverse * t, t, t);
+    const V c4 = j.d4 * (1.0 / 24), c3 = j.d3 * (1.0 / 6), c5 = fma(t, j.d6 * (1.0 / 720), j.d5 * (1.0 / 120));
+    for (int i = 0; i < 2; ++i) {
+      const V left = fnma(t, fma(t, fma(t, fma(t, fma(t, c5, c4), c3), half), m.v), missing);
+      const V bend = t * fma(t, fma(t, c4 * 4.0, c3 * 3.0), m.a) * inverse;  // of the slope from that at m
+      t = fma(left * inverse, fma(bend, bend, V(1.0) - bend), t);
+    }
+    return t;
+  }
+
   /// For a step that begins at m.
   [[nodiscard]] Uncertainty<V> uncertainty(const Instant<V>& m) const {
     const V free = fma(abs(m.w), row(lanes_.rate), abs(m.p));
-    return {fma(row(lanes_.bound), free, row(lanes_.bound_forced)),
-            fma(row(lanes_.bound_v), free, row(lanes_.bound_forced_v)), fma(V(0x1p-49), free, row(lanes_.rounding))};
+    return {free, fma(row(lanes_.bound), free, row(lanes_.bound_forced)),
+            fma(V(0x1p-49), free, row(lanes_.rounding))};
+  }
+  /// Of the velocity's enclosure.
+  [[nodiscard]] V error_v(const Uncertainty<V>& u) const {
+    return fma(row(lanes_.bound_v), u.free, row(lanes_.bound_forced_v));
   }
 
  private:

@@ -20,18 +20,19 @@ class Watch {
   /// are sure; of the others nothing is noted.
   Mask flight(const Mask& active, const Instant<V>& from, const Instant<V>& to, const V& length,
               const Uncertainty<V>& uncertainty) {
+    if (!lanes_.extrema) return active;
     const V part = sixth_power(length);
     const Ends<V> y{from.y, from.v, from.a, to.y, to.v, to.a};
     const Ends<V> v{from.v, from.a, motions_.jerk(from), to.v, to.a, motions_.jerk(to)};
     Range<V> new_y = y_, new_v = v_;
     new_y.include(to.y), new_v.include(to.v);
-    const auto displacement = [](const Instant<V>& m, const Jet<V>& jet) { return Course{m.y, m.v, m.a, jet.third}; };
+    const auto displacement = [](const Instant<V>& m, const Jet<V>& jet) { return Course{m.y, m.v, m.a, jet.d3}; };
     const auto velocity = [](const Instant<V>& m, const Jet<V>& jet) {
-      return Course{m.v, m.a, jet.third, jet.fourth};
+      return Course{m.v, m.a, jet.d3, jet.d4};
     };
     const Mask sure =
         active & search(active, new_y, y, from, length, uncertainty.error * part, uncertainty.rounding, displacement) &
-        search(active, new_v, v, from, length, uncertainty.error_v * part, uncertainty.rounding * 2.0, velocity);
+        search(active, new_v, v, from, length, motions_.error_v(uncertainty) * part, uncertainty.rounding * 2.0, velocity);
     take(sure, new_y, new_v);
     return sure;
   }

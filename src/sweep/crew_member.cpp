@@ -119,6 +119,7 @@ bool Crew::Member::can_observe(const Observed& observed) {
 
 void Crew::Member::begin_to_observe(Lanes& lanes, std::size_t lane) {
   observing_ = true, sections_ = helped_ = 0, helped_left_ = std::numeric_limits<double>::quiet_NaN();
+  lanes.extrema = task_.scene.observe.extrema;
   lanes.harmonics = static_cast<std::size_t>(task_.scene.observe.harmonics);
   seat(lanes, lane, task_.scene, exact_.stops());
   put(lanes, lane, task_.scene, {observed_.from.x, observed_.from.v, 0});
@@ -201,7 +202,7 @@ PointResult Crew::Member::result(const Lanes& lanes, std::size_t lane, Workshop&
                                        {observed_.from.x, observed_.from.v}, {end.x, end.v}, total, jumps);
   }
   PointResult result = point.end(observers, end, Outcome::completed);
-  result.impacts += impacts_;
+  result.impacts += impacts_ + at(lanes.impacts);
   return result;
 }
 

@@ -1,0 +1,81 @@
+#!/usr/bin/env bash
+# All benchmarks from one command; --help says more.
+set -euo pipefail
+
+source_dir=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
+# shellcheck source=scripts/packages.sh
+source "$source_dir/scripts/packages.sh"
+
+steps() {
+  cat <<END
+Measures how fast clatter is, on Debian 12, as root or with sudo; nothing else should run meanwhile:
+  1. installs the packages that are missing: for the build (${BUILD_PACKAGES[*]})
+     and for the benchmarks (${BENCH_PACKAGES[*]}),
+  2. builds clatter and its benchmarks in build/release,
+  3. runs them, some ten minutes long, and leaves their results as JSON in build/release/bench,
+  4. prints tables of them, medians of several repetitions, and what is wanted. It asserts nothing.
+--quick takes one repetition and smaller sweeps, to see that all works. --arch NAME makes the whole processes
+use that instruction set; the other benchmarks use each in turn.
+END
+}
+
+usage() {
+  echo "usage: scripts/bench.sh [--quick] [--arch NAME]"
+  echo
+  steps
+}
+
+repetitions=(--benchmark_repetitions=7 --benchmark_min_time=0.3)
+solver_repetitions=3
+growth_filter=all
+solver_filter=all
+processes=()
+while (($# > 0)); do
+  case "$1" in
+    --quick)
+      repetitions=(--benchmark_repetitions=1 --benchmark_min_time=0.05)
+      solver_repetitions=1
+      growth_filter='^(sincos|threads|points/10{3,5}$|periods/10{1,3}$)'
+      solver_filter='^(sincos|clatter|Odeint|CVODE/1e-0)'
+      processes+=(--map 60 --repetitions 1)
+      shift
+      ;;
+    --arch)
+      if (($# < 2)); then
+        echo "bench.sh: --arch needs a name; try --help" >&2
+        exit 2
+      fi
+      processes+=(--arch "$2")
+      shift 2
+      ;;
+    -h | --help) usage; exit 0 ;;
+    *) echo "bench.sh: unknown argument '$1'; try --help" >&2; exit 2 ;;
+  esac
+done
+
+steps
+install_missing "${BUILD_PACKAGES[@]}" "${BENCH_PACKAGES[@]}"
+
+cd "$source_dir"
+cmake --preset release
+cmake --build --preset release --target benchmarks
+
+results=build/release/bench
+mkdir -p "$results"
+
+# Runs an executable's benchmarks in random order, again and again: what else the machine does hits all of them alike.
+measure() {
+  local name=$1
+  shift
+  echo "Running $name"
+  "build/release/tests/bench/${name}_bench" "${repetitions[@]}" --benchmark_enable_random_interleaving=true \
+    --benchmark_report_aggregates_only=true --benchmark_out_format=json --benchmark_out="$results/$name.json" "$@" >/dev/null
+}
+
+measure rates
+measure growth --benchmark_filter="$growth_filter"
+measure figures
+measure solvers --benchmark_repetitions="$solver_repetitions" --benchmark_filter="$solver_filter"
+echo "Running whole processes"
+/usr/bin/python3 scripts/bench_processes.py --out "$results/processes.json" "${processes[@]}"
+/usr/bin/python3 scripts/bench_table.py "$results"

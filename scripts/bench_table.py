@@ -1,0 +1,191 @@
+#!/usr/bin/python3
+"""Prints what scripts/bench.sh measured, and beside it what is wanted; --help says more."""
+
+import argparse
+import json
+import pathlib
+
+from readme_table import BUILD
+
+ARCHS = ("scalar", "sse2", "avx2", "avx512")
+FAST_UNIT = 0.6e-9  # seconds: on machines of a longer s than this, times are wanted in proportion
+
+
+def order(name):
+    """Of benchmarks, which run in random order: by what they measure, then instruction sets, numbers, and tolerances from the loosest."""
+    what, how = name.split("/")
+    if how in ARCHS:
+        return what.lower(), ARCHS.index(how)
+    return what.lower(), -float(how) if float(how) < 1 else float(how)
+
+
+class Run:
+    """The medians of one Google Benchmark executable by their benchmarks' names."""
+
+    def __init__(self, path):
+        content = json.loads(path.read_text())
+        self.context = content["context"]
+        self.medians = {}
+        for entry in content["benchmarks"]:
+            if entry["run_type"] == "iteration" or entry["aggregate_name"] == "median":
+                self.medians[entry["run_name"].removesuffix("/real_time")] = entry
+        self.medians = dict(sorted(self.medians.items(), key=lambda item: order(item[0])))
+
+    def unit(self, arch=None):
+        """The time of one batched sincos for each element; for scalar code that of the set it is compiled for."""
+        arch = arch or self.context["best"]
+        return self.medians["sincos/" + ("sse2" if arch == "scalar" else arch)]["time"]
+
+    def named(self, prefix):
+        """What follows the prefix in names, with its measurement."""
+        return [(name.removeprefix(prefix), entry) for name, entry in self.medians.items() if name.startswith(prefix)]
+
+
+def time(seconds):
+    for unit, size in (("s", 1), ("ms", 1e-3), ("µs", 1e-6)):
+        if seconds >= size:
+            return f"{seconds / size:.3g} {unit}"
+    return f"{seconds * 1e9:.3g} ns"
+
+
+def in_units(seconds, unit):
+    count = seconds / unit
+    return f"{count:,.0f}" if 100 < count < 1e6 else f"{count:.3g}"
+
+
+def show(title, head, rows):
+    """A table in Markdown, which is also how it reads in a terminal."""
+    rows = [head, *([str(cell) for cell in row] for row in rows)]
+    widths = [max(len(row[i]) for row in rows) for i in range(len(head))]
+    print(f"\n{title}\n")
+    for number, row in enumerate(rows):
+        print("| " + " | ".join(cell.ljust(width) for cell, width in zip(row, widths)) + " |")
+        if number == 0:
+            print("|" + "|".join("-" * (width + 2) for width in widths) + "|")
+
+
+def show_units(runs):
+    rows = [(name, *(time(run.unit(arch)) if f"sincos/{arch}" in run.medians else "–" for arch in ARCHS[1:])) for name, run in runs.items()]
+    show("The unit s: one batched xsimd sincos for each element, in each of the runs", ("run", *ARCHS[1:]), rows)
+
+
+def show_rates(run):
+    rows = []
+    for name, entry in run.medians.items():
+        sweep, arch = name.split("/")
+        if sweep != "sincos":
+            unit = run.unit(arch)
+            rows.append((sweep, arch, *(text for what in ("impact", "period") for text in (time(entry[what]), in_units(entry[what], unit)))))
+    show("Time per impact and per forcing period, one thread; s of the same instruction set",
+         ("sweep", "set", "impact", "in s", "period", "in s"), rows)
+
+
+def show_growth(run):
+    unit = run.unit()
+    rows = [(f"{kind[:-1]} ({number} {kind})", time(entry["time"]), in_units(entry["time"], unit))
+            for kind in ("points", "periods") for number, entry in run.named(kind + "/")]
+    show(f"Growth: time for each point of 3 forcing periods, and for each period of 200 points; one thread", ("each", "time", "in s"), rows)
+    show("Two threads", ("sweep", "1 thread", "2 threads", "efficiency"),
+         [(what, time(run.medians[f"threads of {what}/1"]["time"]), time(run.medians[f"threads of {what}/2"]["time"]),
+           f"{efficiency(run, what):.3f}") for what in ("transients", "the map")])
+
+
+def efficiency(run, what):
+    one, two = (run.medians[f"threads of {what}/{threads}"]["time"] for threads in (1, 2))
+    return one / (2 * two)
+
+
+def show_solvers(run):
+    clatter, unit = run.medians["clatter/" + run.context["best"]]["time"], run.unit()
+    rows = []
+    for name, entry in run.medians.items():
+        if not name.startswith("sincos"):
+            counts = [f"{entry[what]:.{digits}g}" if what in entry else "–" for what, digits in (("wrong", 3), ("error", 1), ("through", 3))]
+            rows.append((name, time(entry["time"]), in_units(entry["time"], unit), f"{entry['time'] / clatter:.4g}", *counts))
+    show(f"The sweep of Fig. 23: 200 points, 300 forcing periods each on average, one thread; s of {run.context['best']}",
+         ("method", "period", "in s", "÷ clatter", "wrong points", "error of the others", "through a stop"), rows)
+
+
+def show_processes(content, unit):
+    rows = [(one["name"], time(one["seconds"]), in_units(one["seconds"], unit), f"{one['megabytes']:.0f} MB", one["repetitions"])
+            for one in content["processes"]]
+    size, cores = content["context"]["map"], content["context"]["cores"]
+    show(f"Whole processes of clatter run on {cores} cores; the map has {size} x {size} points", ("what", "time", "in s", "memory", "runs"), rows)
+
+
+class Wanted:
+    """Lines of what is measured and what is wanted."""
+
+    def __init__(self):
+        self.rows = []
+
+    def at_most(self, what, value, bound, text, seconds=None, unit=None):
+        self.rows.append((what, text(value), in_units(seconds, unit) if seconds else "–", f"at most {text(bound)}", met(value <= bound)))
+
+    def at_least(self, what, value, bound, text):
+        self.rows.append((what, text(value), "–", f"at least {text(bound)}", met(value >= bound)))
+
+
+def met(yes):
+    return "yes" if yes else "no"
+
+
+def wanted_rates(wanted, run):
+    for arch in ("avx512", "avx2"):
+        if f"sincos/{arch}" not in run.medians:
+            continue
+        unit = run.unit(arch)
+        for sweep in ("fig18", "fig18_1000"):
+            value = run.medians[f"{sweep}/{arch}"]["impact"]
+            wanted.at_most(f"{sweep}: an impact, {arch}", value, 25 * unit, time, value, unit)
+        value = run.medians[f"fig23/{arch}"]["period"]
+        wanted.at_most(f"fig23: a period, {arch}", value, 25 * unit, time, value, unit)
+
+
+def wanted_ratios(wanted, run):
+    clatter = run.medians["clatter/" + run.context["best"]]["time"]
+    for solver, bound in (("Odeint", 800), ("Odeint with turns", 800), ("CVODE", 4000)):
+        right = [(name, entry["time"]) for name, entry in run.named(solver + "/") if entry["wrong"] == 0]
+        if right:
+            loosest, seconds = max(right, key=lambda one: float(one[0]))
+            wanted.at_least(f"times faster than {solver} at {loosest}", seconds / clatter, bound, lambda ratio: f"{ratio:.4g}")
+
+
+def wanted_times(wanted, content, figures):
+    unit = figures.unit()
+    slower = max(1.0, unit / FAST_UNIT)
+    seconds = {one["name"]: one["seconds"] for one in content["processes"]}
+    in_one = figures.medians["figures/" + figures.context["best"]]["time"]
+    times = [("22 figures in one process", in_one, 0.3), ("22 figures in 22 processes", seconds["figures"], 0.3),
+             ("one point, the process", seconds["start"], 0.015)]
+    if content["context"]["map"] == 1000:
+        times.append((f"the map, {content['context']['cores']} cores", seconds["map"], 4))
+        megabytes = next(one["megabytes"] for one in content["processes"] if one["name"] == "map")
+        wanted.at_most("the map: memory", megabytes, 700, lambda value: f"{value:.0f} MB")
+    for what, value, bound in times:
+        wanted.at_most(what, value, bound * slower, time, value, unit)
+
+
+def main():
+    parser = argparse.ArgumentParser(description="Prints what scripts/bench.sh measured as tables, each time also in s, and what is wanted of it. "
+                                                 "Times wanted of whole runs hold where s is at most 0.6 ns, and in proportion on slower machines.")
+    parser.add_argument("folder", type=pathlib.Path, nargs="?", default=BUILD / "bench", help="of the JSON files (default: build/release/bench)")
+    folder = parser.parse_args().folder
+    runs = {name: Run(folder / f"{name}.json") for name in ("rates", "growth", "figures", "solvers")}
+    processes = json.loads((folder / "processes.json").read_text())
+    show_units(runs)
+    show_rates(runs["rates"])
+    show_growth(runs["growth"])
+    show_solvers(runs["solvers"])
+    show_processes(processes, runs["figures"].unit())
+    wanted = Wanted()
+    wanted_rates(wanted, runs["rates"])
+    wanted_ratios(wanted, runs["solvers"])
+    wanted_times(wanted, processes, runs["figures"])
+    for what in ("transients", "the map"):
+        wanted.at_least(f"efficiency of 2 threads, {what}", efficiency(runs["growth"], what), 0.93, lambda value: f"{value:.3f}")
+    show("What is wanted", ("what", "measured", "in s", "wanted", "met"), wanted.rows)
+
+
+if __name__ == "__main__":
+    main()

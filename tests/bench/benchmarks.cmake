@@ -1,0 +1,43 @@
+# What each effect costs.
+add_executable(effects_ladder effects_ladder.cpp)
+target_link_libraries(effects_ladder PRIVATE clatter_integrators benchmark::benchmark)
+
+# The unit of time: xsimd's batched sincos, of each instruction set by itself, contracted as compilers do by default.
+find_path(XSIMD_INCLUDE_DIR xsimd/xsimd.hpp)
+if(NOT XSIMD_INCLUDE_DIR)
+  return()
+endif()
+set(flags_sse2 -msse2)
+set(flags_avx2 -mavx2 -mfma)
+set(flags_avx512 -mavx512f -mavx512cd -mavx512dq -mavx512bw -mavx512vl
+  -Wno-maybe-uninitialized)  # GCC 12 warns of its own _mm512_undefined_pd
+add_library(bench_support STATIC sweeps.cpp unit.cpp)
+target_include_directories(bench_support PUBLIC ${PROJECT_SOURCE_DIR}/tests)
+target_link_libraries(bench_support PUBLIC clatter_sweep benchmark::benchmark)
+foreach(arch sse2 avx2 avx512)
+  add_library(sincos_${arch} OBJECT sincos.cpp)
+  target_compile_definitions(sincos_${arch} PRIVATE CLATTER_SINCOS_ARCH=${arch})
+  target_compile_options(sincos_${arch} PRIVATE ${flags_${arch}} -ffp-contract=fast)
+  target_include_directories(sincos_${arch} PRIVATE ${PROJECT_SOURCE_DIR}/tests)
+  target_include_directories(sincos_${arch} SYSTEM PRIVATE ${XSIMD_INCLUDE_DIR})
+  target_link_libraries(sincos_${arch} PRIVATE clatter_numbers)
+  target_sources(bench_support PRIVATE $<TARGET_OBJECTS:sincos_${arch}>)
+endforeach()
+
+foreach(bench rates growth figures solvers)
+  add_executable(${bench}_bench ${bench}_bench.cpp)
+  target_link_libraries(${bench}_bench PRIVATE bench_support)
+endforeach()
+target_link_libraries(figures_bench PRIVATE clatter_io)
+target_compile_definitions(figures_bench PRIVATE CLATTER_SOURCE="${PROJECT_SOURCE_DIR}")
+target_sources(solvers_bench PRIVATE lean_odeint.cpp reference.cpp)
+# As their users would compile them, for the machine at hand; clatter itself isn't.
+set_source_files_properties(lean_odeint.cpp lean_cvode.cpp PROPERTIES COMPILE_OPTIONS "-march=native;-ffp-contract=fast")
+target_link_libraries(solvers_bench PRIVATE Boost::headers)
+if(sundials_6)
+  target_sources(solvers_bench PRIVATE lean_cvode.cpp)
+  target_include_directories(solvers_bench SYSTEM PRIVATE ${SUNDIALS_INCLUDE_DIR})
+  target_link_libraries(solvers_bench PRIVATE ${sundials_libraries})
+  target_compile_definitions(solvers_bench PRIVATE CLATTER_CVODE)
+endif()
+add_custom_target(benchmarks DEPENDS rates_bench growth_bench figures_bench solvers_bench clatter)

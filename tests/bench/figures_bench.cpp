@@ -1,0 +1,42 @@
+// The 22 figures of the paper as configs/fig02.toml ... fig23.toml have them, computed one after the other in one
+// process on all cores; reading the configurations and writing files is not timed.
+#include <benchmark/benchmark.h>
+
+#include <string>
+#include <vector>
+
+#include "bench/unit.hpp"
+#include "io/config.hpp"
+#include "sweep/run.hpp"
+
+namespace clatter::bench {
+namespace {
+
+std::vector<Sweep> figures() {
+  std::vector<Sweep> sweeps;
+  for (int number = 2; number <= 23; ++number) {
+    const std::string digits = (number < 10 ? "0" : "") + std::to_string(number);
+    sweeps.push_back(read_config(CLATTER_SOURCE "/configs/fig" + digits + ".toml", {}).sweep);
+  }
+  return sweeps;
+}
+
+void time_figures(benchmark::State& state, const std::vector<Sweep>& sweeps, Arch arch) {
+  using benchmark::Counter;
+  for ([[maybe_unused]] auto _ : state)
+    for (const Sweep& sweep : sweeps) benchmark::DoNotOptimize(run(sweep, {.arch = arch}));
+  state.counters["time"] = Counter(1, Counter::kIsIterationInvariantRate | Counter::kInvert);
+}
+
+}  // namespace
+}  // namespace clatter::bench
+
+int main(int count, char** arguments) {
+  using namespace clatter::bench;
+  for (const clatter::Arch arch : archs_here())
+    benchmark::RegisterBenchmark(("figures/" + std::string(clatter::name_of(arch))).c_str(),
+                                 [arch, sweeps = figures()](auto& state) { time_figures(state, sweeps, arch); })
+        ->UseRealTime()
+        ->Unit(benchmark::kMillisecond);
+  return run_benchmarks(count, arguments);
+}

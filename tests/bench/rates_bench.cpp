@@ -1,0 +1,40 @@
+// Time per impact beside Fig. 18, where every forcing period has two, and per forcing period of the sweep of Fig. 23,
+// for each instruction set on one thread.
+#include <benchmark/benchmark.h>
+
+#include <string>
+
+#include "bench/sweeps.hpp"
+#include "bench/unit.hpp"
+
+namespace clatter::bench {
+namespace {
+
+constexpr double periods = 300;  // of each point, on average
+
+void time_sweep(benchmark::State& state, const Sweep& sweep, Arch arch) {
+  using benchmark::Counter;
+  Work work;
+  for ([[maybe_unused]] auto _ : state) work = work_of(run(sweep, {.threads = 1, .arch = arch}));
+  const auto per = Counter::kIsIterationInvariantRate | Counter::kInvert;
+  state.counters["impact"] = Counter(work.impacts, per);
+  state.counters["period"] = Counter(work.periods, per);
+}
+
+void add(const std::string& name, const Sweep& sweep) {
+  for (const Arch arch : archs_here())
+    benchmark::RegisterBenchmark((name + '/' + std::string(name_of(arch))).c_str(), [=](benchmark::State& state) {
+      time_sweep(state, sweep, arch);
+    })->Unit(benchmark::kMillisecond);
+}
+
+}  // namespace
+}  // namespace clatter::bench
+
+int main(int count, char** arguments) {
+  using namespace clatter::bench;
+  add("fig18", transients(xs_18, 200, periods));
+  add("fig18_1000", transients(xs_18, 1000, periods));
+  add("fig23", transients(xs_23, 200, periods));
+  return run_benchmarks(count, arguments);
+}

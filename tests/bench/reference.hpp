@@ -1,0 +1,42 @@
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <vector>
+
+#include "bench/transient.hpp"
+#include "sweep/sweep.hpp"
+
+namespace clatter::bench {
+
+/// A general solver at a tolerance.
+using Solver = std::function<Transient(const Scene&)>;
+
+/// At how many points of a sweep a solver is wrong, and how far off it is at the others.
+struct Verdict {
+  std::size_t wrong = 0;    ///< extrema of x, or x or x' at the end, are off by more than a thousandth of |xs|
+  double error = 0.0;       ///< the largest where it isn't wrong, over |xs|
+  std::size_t through = 0;  ///< the mass goes deeper into a stop than that, at points that don't count as wrong too
+};
+
+/// clatter's exact motions in a sweep of transients, for solvers to be compared with.
+///
+/// Where rounding decides on the motion at the end, nothing can be compared with there: where the motion never becomes
+/// periodic, or a displacement of 1e-13 at the start changes the end by more than 1e-6. Such a point is compared over
+/// its beginning only, 10 * 2 pi, in which a displacement grows a hundredfold at most.
+class Reference {
+ public:
+  explicit Reference(const Sweep& sweep);
+
+  /// Of a solver that made `runs` of the points; it runs once more from the start where beginnings are compared.
+  [[nodiscard]] Verdict judge(const Solver& solver, const std::vector<Transient>& runs) const;
+
+  [[nodiscard]] std::size_t undetermined() const;  ///< points that are compared over their beginning only
+
+ private:
+  Sweep whole_, beginning_;
+  std::vector<Transient> at_end_, early_;
+  std::vector<bool> determined_;
+};
+
+}  // namespace clatter::bench

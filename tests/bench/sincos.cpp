@@ -1,0 +1,43 @@
+// Compiled once for each instruction set, which CLATTER_SINCOS_ARCH names. xsimd gets a namespace of its own in each:
+// of its inline functions that don't carry the instruction set in their type the linker would keep any one, and that
+// might be one that this machine doesn't have the instructions for.
+#define CLATTER_JOINED(a, b) a##b
+#define CLATTER_JOIN(a, b) CLATTER_JOINED(a, b)
+#define xsimd CLATTER_JOIN(xsimd_, CLATTER_SINCOS_ARCH)
+#include "bench/sincos.hpp"
+
+#include <xsimd/xsimd.hpp>
+
+namespace clatter::bench {
+namespace {
+
+/// xsimd's name of an instruction set.
+template <Arch arch>
+struct Named;
+template <>
+struct Named<Arch::sse2> {
+  using Type = xsimd::sse2;
+};
+template <>
+struct Named<Arch::avx2> {
+  using Type = xsimd::fma3<xsimd::avx2>;
+};
+template <>
+struct Named<Arch::avx512> {
+  using Type = xsimd::avx512dq;
+};
+
+}  // namespace
+
+template <Arch arch>
+void sincos(Sines& of) {
+  using Batch = xsimd::batch<double, typename Named<arch>::Type>;
+  for (std::size_t i = 0; i < Sines::count; i += Batch::size) {
+    const auto [sine, cosine] = xsimd::sincos(Batch::load_aligned(of.angles + i));
+    sine.store_aligned(of.sines + i), cosine.store_aligned(of.cosines + i);
+  }
+}
+
+template void sincos<Arch::CLATTER_SINCOS_ARCH>(Sines&);
+
+}  // namespace clatter::bench

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <cstddef>
+
+#include "numbers/arch.hpp"
+
+namespace clatter::bench {
+
+/// Angles, and room for their sines and cosines: as much as fits into the first cache, in whole cache lines.
+struct alignas(64) Sines {
+  static constexpr std::size_t count = 1024;
+  double angles[count], sines[count], cosines[count];
+};
+
+/// Batched xsimd sincos of one instruction set; only where it runs.
+template <Arch arch>
+void sincos(Sines& of);
+
+extern template void sincos<Arch::sse2>(Sines&);
+extern template void sincos<Arch::avx2>(Sines&);
+extern template void sincos<Arch::avx512>(Sines&);
+
+}  // namespace clatter::bench

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <vector>
+
+#include "numbers/arch.hpp"
+
+namespace clatter::bench {
+
+/// The instruction sets of this machine, scalar first.
+[[nodiscard]] std::vector<Arch> archs_here();
+
+/// Adds the unit that times are given in as benchmarks of their own, "sincos/sse2" and so on for each instruction set
+/// here: one batched xsimd sincos for each element, the counter `time`.
+void add_unit();
+
+/// Adds the unit and runs all benchmarks; what main returns.
+int run_benchmarks(int count, char** arguments);
+
+}  // namespace clatter::bench
