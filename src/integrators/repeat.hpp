@@ -25,7 +25,9 @@ class RepeatFinder {
   static constexpr std::size_t longest = 64;  ///< forcing periods of the longest motion looked for
   static constexpr double few = 100;          ///< tolerances within which a divisor of a period counts as one
 
-  explicit RepeatFinder(double tolerance) : tolerance_(tolerance) {}
+  /// Looks for a repeat at every section, or where periods cost less than looking at every `looks_every`-th.
+  explicit RepeatFinder(double tolerance, std::size_t looks_every = 1)
+      : tolerance_(tolerance), looks_every_(looks_every) {}
 
   /// Takes the next section's state; returns the n after which the motion repeats, 0 while it doesn't.
   [[nodiscard]] std::size_t add(double x, double v) {
@@ -34,7 +36,9 @@ class RepeatFinder {
     const std::size_t now = size_++;
     if (candidate_ > 0 && !repeats(now, candidate_, few * tolerance_)) candidate_ = 0;
     if (candidate_ > 0 && --left_ == 0) return shortest(now, std::exchange(candidate_, 0));
-    for (std::size_t n = candidate_ > 0 ? 0 : next_within(tolerance_, 1); n > 0; n = next_within(tolerance_, n + 1))
+    if (candidate_ > 0 || ++waited_ < looks_every_) return 0;
+    waited_ = 0;
+    for (std::size_t n = next_within(tolerance_, 1); n > 0; n = next_within(tolerance_, n + 1))
       if (stands(now, n)) {
         candidate_ = left_ = n;
         break;
@@ -46,6 +50,13 @@ class RepeatFinder {
   /// other; 0 for none.
   [[nodiscard]] std::size_t next_within(double distance, std::size_t n) const {
     const std::size_t now = size_ - 1, last = std::min(longest, now);
+    const double x = x_[now], limit = distance * std::max(std::abs(x), std::abs(v_[now]));
+    for (; n + block <= last + 1; n += block) {  // without a branch for each state, so that compilers use vectors
+      const double* const before = &x_[now - n - (block - 1)];
+      int near = 0;
+      for (std::size_t i = 0; i < block; ++i) near += std::abs(x - before[i]) <= limit ? 1 : 0;
+      if (near > 0) break;
+    }
     while (n <= last && !repeats(now, n, distance)) ++n;
     return n <= last ? n : 0;
   }
@@ -69,6 +80,7 @@ class RepeatFinder {
 
  private:
   static constexpr std::size_t capacity = 512;
+  static constexpr std::size_t block = 8;              ///< states that are looked at together
   static constexpr std::ptrdiff_t kept = 2 * longest;  // a divisor's distance reaches back n + n/2 sections
 
   void forget() {
@@ -105,9 +117,10 @@ class RepeatFinder {
   }
 
   double tolerance_;
+  std::size_t looks_every_, waited_ = 0;  ///< sections between two looks, and those since the last
   std::size_t candidate_ = 0, left_ = 0;  ///< a repeat to be confirmed, and the sections until then
   std::size_t size_ = 0;
-  std::array<double, capacity> x_{}, v_{};
+  std::array<double, capacity> x_, v_;  ///< the first `size_` are set
 };
 
 }  // namespace clatter

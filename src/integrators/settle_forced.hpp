@@ -32,7 +32,7 @@ class SteadySearch {
         scene_(scene),
         plan_(scene.time),
         in_lanes_(taken_by == TakenBy::lanes),
-        repeat_(scene.time.tolerance),
+        repeat_(scene.time.tolerance, in_lanes_ ? 4 : 1),
         watch_(integrator.stops()),
         map_(integrator, scene.time.tolerance) {
     near_enough_.fill(nearest_first);
@@ -156,6 +156,7 @@ class SteadySearch {
     for (std::size_t n = repeat_.next_within(nearest_first, 1); n > 0; n = repeat_.next_within(nearest_first, n + 1)) {
       const double now = repeat_.distance_over(n);
       if (!(now <= near_enough_[n] && now > plan_.tolerance && now < repeat_.distance_over(n, n))) continue;
+      if (in_lanes_ && !(repeat_.distance_over(n, n) < repeat_.distance_over(n, 2 * n))) continue;
       bool same = true;
       for (std::size_t i = 1; same && i <= n && n + i < kept; ++i)
         same = itineraries_[index(i)] == itineraries_[index(n + i)];

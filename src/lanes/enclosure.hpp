@@ -26,7 +26,7 @@ struct Range {
 /// Range of a function but for its values at both ends: of the Bernstein coefficients of degree 6 of its quintic
 /// Hermite polynomial, the middle one widened by what the function may differ from it (dynamics/bernstein.hpp).
 template <class V>
-[[nodiscard]] Range<V> enclosure(const Ends<V>& e, const V& error) {
+[[nodiscard, gnu::always_inline]] inline Range<V> enclosure(const Ends<V>& e, const V& error) {
   const V b1 = fma(V(1.0 / 6), e.v0, e.y0), b2 = fma(V(1.0 / 30), e.a0, fma(V(1.0 / 3), e.v0, e.y0));
   const V b5 = fnma(V(1.0 / 6), e.v1, e.y1), b4 = fma(V(1.0 / 30), e.a1, fnma(V(1.0 / 3), e.v1, e.y1));
   const V b3 = fma(V(1.0 / 40), e.a0 + e.a1, fma(V(0.2), e.v0 - e.v1, (e.y0 + e.y1) * 0.5));
@@ -49,7 +49,7 @@ class Quintic {
   struct Local {
     V value, slope, bend;
   };
-  [[nodiscard]] Local at(const V& t) const {
+  [[nodiscard, gnu::always_inline]] Local at(const V& t) const {
     const V f1 = fma(c5_, t, c4_), f2 = fma(f1, t, c3_), f3 = fma(f2, t, c2_), f4 = fma(f3, t, c1_);
     const V s2 = fma(c5_, t, f1), s3 = fma(s2, t, f2), s4 = fma(s3, t, f3);
     const V h3 = fma(c5_, t, s2), h4 = fma(h3, t, s3);
@@ -71,7 +71,7 @@ class Quintic {
   }
   /// The first root of a polynomial that begins positive: from the first crossing of its control polygon, by a step of
   /// Halley's method.
-  [[nodiscard]] V root() const {
+  [[nodiscard, gnu::always_inline]] V root() const {
     const V b1 = fma(V(0.2), c1_, c0_), b2 = fma(V(0.1), c2_, fma(V(0.4), c1_, c0_));
     const V b4 = fnma(V(0.2), v1_, y1_), b3 = fma(V(0.1), half_a1_, fnma(V(0.4), v1_, y1_));
     V before = b4, beyond = y1_, t(0.8);

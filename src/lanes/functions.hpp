@@ -21,7 +21,7 @@ template <std::size_t count>
 
 /// A polynomial with the given coefficients, by Horner's rule.
 template <class V, std::size_t count>
-[[nodiscard]] V polynomial(const std::array<double, count>& coefficients, const V& x) {
+[[nodiscard, gnu::always_inline]] inline V polynomial(const std::array<double, count>& coefficients, const V& x) {
   V sum(coefficients[count - 1]);
   for (std::size_t i = count - 1; i-- > 0;) sum = fma(sum, x, V(coefficients[i]));
   return sum;
@@ -34,7 +34,7 @@ struct SineAndCosine {
 
 /// Sine and cosine of 0 <= x <= 2.2, to 2 ulps of 1: Taylor's series of half the angle.
 template <class V>
-[[nodiscard]] SineAndCosine<V> short_sine_cosine(const V& x) {
+[[nodiscard, gnu::always_inline]] inline SineAndCosine<V> short_sine_cosine(const V& x) {
   static constexpr auto sine_terms = alternating_series<9>(1, 2);
   static constexpr auto cosine_terms = alternating_series<10>(0, 2);
   const V half = x * 0.5, square = half * half;
@@ -45,7 +45,7 @@ template <class V>
 
 /// e^-x of 0 <= x <= 2.2, to 2 ulps of 1: e^(-x/8) - 1 by Taylor's series, doubled three times.
 template <class V>
-[[nodiscard]] V short_decay(const V& x) {
+[[nodiscard, gnu::always_inline]] inline V short_decay(const V& x) {
   static constexpr auto terms = alternating_series<12>(1, 1);
   const V part = x * 0.125;
   V less = part * polynomial(terms, part);  // 1 - e^(-x/8)

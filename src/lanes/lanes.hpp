@@ -30,7 +30,7 @@ struct Lanes {
   Row skew, slowness;                      ///< h/lambda; one over the rotation
   Row push, stiffness;                     ///< f nu times the step cubed; the step squared
   Row rate;                                ///< one over the step
-  Row inverse_angle;                        ///< one over the angle
+  Row inverse_angle;                       ///< one over the angle
   // of the stops
   Row lower, upper, keep_lower, keep_upper;  ///< places and restitution
   // of the enclosure
@@ -50,12 +50,18 @@ struct Lanes {
   LaneSet arrived;                          ///< lanes that have passed a section
   LaneSet stuck;                            ///< lanes that the kernel cannot take on from where they are
   // of what is observed, where it is
-  Row ends;                           ///< 1: the next section ends the observed time
-  Row clips;                          ///< 1: and the flight across it isn't taken, since it leads beyond
-  Row bound_v, bound_forced_v;        ///< as bound and bound_forced, of the velocity
-  Row y_low, y_high, v_low, v_high;   ///< least and greatest so far
-  Row count[2], before[2], after[2];  ///< [stop]: impacts, and the velocities of the first one
-  Row first_before;                   ///< velocity before the first impact of all
+  Row ends;                          ///< 1: the next section ends the observed time
+  Row clips;                         ///< 1: and the flight across it isn't taken, since it leads beyond
+  Row bound_v, bound_forced_v;       ///< as bound and bound_forced, of the velocity
+  Row y_low, y_high, v_low, v_high;  ///< least and greatest so far
+  /// The beginning of the flight in which an extremum was found, and its length.
+  struct Reference {
+    Row p, w, sine, cosine, length;
+  };
+  Reference reference_y[2], reference_v[2];  ///< [least, greatest]
+  Row forced_size;                           ///< what a unit of phase changes the displacement and velocity by, at most
+  Row count[2], before[2], after[2];         ///< [stop]: impacts, and the velocities of the first one
+  Row first_before;                          ///< velocity before the first impact of all
   Row jump_real[most_harmonics + 1],
       jump_imaginary[most_harmonics + 1];  ///< [k]: sums of the velocity's jumps times e^{-ik nu tau}
   bool extrema;                            ///< whether y and v are searched for them

@@ -13,7 +13,7 @@ struct Instant {
 };
 
 template <class Mask, class V>
-[[nodiscard]] Instant<V> select(const Mask& m, const Instant<V>& x, const Instant<V>& y) {
+[[nodiscard, gnu::always_inline]] inline Instant<V> select(const Mask& m, const Instant<V>& x, const Instant<V>& y) {
   return {select(m, x.p, y.p), select(m, x.w, y.w), select(m, x.sine, y.sine), select(m, x.cosine, y.cosine),
           select(m, x.y, y.y), select(m, x.v, y.v), select(m, x.a, y.a)};
 }
@@ -96,15 +96,18 @@ class Motions {
 
   static constexpr double longest_shift = 0x1p-7;  ///< below it the series of `shift` is exact to rounding
 
-  /// Moves an instant by a time |t| <= longest_shift, by Taylor's series; its displacement and free part are left to the
-  /// caller.
+  /// Moves an instant by a time |t| <= longest_shift, by Taylor's series; its displacement and free part are left to
+  /// the caller.
   void shift(Instant<V>& m, const Jet<V>& j, const V& t) const {
-    m.v = fma(t, fma(t, fma(t, fma(t, fma(t, fma(t, j.d7 * (1.0 / 720), j.d6 * (1.0 / 120)), j.d5 * (1.0 / 24)),
-                                   j.d4 * (1.0 / 6)),
-                            j.d3 * 0.5),
-                     m.a),
-              m.v);
-    m.a = fma(t, fma(t, fma(t, fma(t, fma(t, j.d7 * (1.0 / 120), j.d6 * (1.0 / 24)), j.d5 * (1.0 / 6)), j.d4 * 0.5), j.d3),
+    m.v = fma(
+        t,
+        fma(t,
+            fma(t, fma(t, fma(t, fma(t, j.d7 * (1.0 / 720), j.d6 * (1.0 / 120)), j.d5 * (1.0 / 24)), j.d4 * (1.0 / 6)),
+                j.d3 * 0.5),
+            m.a),
+        m.v);
+    m.a = fma(t,
+              fma(t, fma(t, fma(t, fma(t, j.d7 * (1.0 / 120), j.d6 * (1.0 / 24)), j.d5 * (1.0 / 6)), j.d4 * 0.5), j.d3),
               m.a);
     const V angle = row(lanes_.angle) * t, square = angle * angle, one(1.0);
     const V cosine = square * -0.5 * fnma(square * (1.0 / 12), fnma(V(1.0 / 30), square, one), one);  // minus 1
@@ -131,8 +134,7 @@ class Motions {
   /// For a step that begins at m.
   [[nodiscard]] Uncertainty<V> uncertainty(const Instant<V>& m) const {
     const V free = fma(abs(m.w), row(lanes_.rate), abs(m.p));
-    return {free, fma(row(lanes_.bound), free, row(lanes_.bound_forced)),
-            fma(V(0x1p-49), free, row(lanes_.rounding))};
+    return {free, fma(row(lanes_.bound), free, row(lanes_.bound_forced)), fma(V(0x1p-49), free, row(lanes_.rounding))};
   }
   /// Of the velocity's enclosure.
   [[nodiscard]] V error_v(const Uncertainty<V>& u) const {

@@ -14,7 +14,7 @@ namespace {
 constexpr Effects effects = {.damping = Damping::light, .forcing = Forcing::regular};
 
 /// Of a step, times the larger of 1 and nu: below it more steps are proved, above it fewer of them are free of a stop.
-constexpr double usual_step = 1.9;
+constexpr double usual_step = 2.1;
 
 /// What places are rounded by, over the sizes of the parts that they are sums of.
 constexpr double rounding = 0x1p-49;
@@ -30,6 +30,7 @@ void set_bounds(Lanes& lanes, std::size_t i, const Flow<double, effects>& flow, 
   };
   lanes.bound_forced.lane[i] = error_of(0, 0), lanes.bound.lane[i] = error_of(1, 0) - error_of(0, 0);
   lanes.bound_forced_v.lane[i] = error_of(0, 1), lanes.bound_v.lane[i] = error_of(1, 1) - error_of(0, 1);
+  lanes.forced_size.lane[i] = 2 * flow.response.amplitude * (1 + flow.nu);
   double scale = flow.response.amplitude * (1 + flow.nu * flow.nu * step * step);
   for (const double stop : {stops.lower, stops.upper})
     if (std::isfinite(stop)) scale += std::abs(stop) + std::abs(flow.load);
@@ -59,7 +60,8 @@ void seat(Lanes& lanes, std::size_t i, const Scene& scene, const Stops& stops) {
   set(lanes.turn_sine, std::sin(angle)), set(lanes.turn_cosine, std::cos(angle));
   set(lanes.in_phase, flow.response.in_phase), set(lanes.quadrature, flow.response.quadrature);
   set(lanes.angle, angle), set(lanes.rotation, rotation), set(lanes.decay, flow.h * step);
-  set(lanes.damping, 2 * flow.h * step), set(lanes.skew, flow.h / flow.root), set(lanes.slowness, 1 / rotation), set(lanes.inverse_angle, 1 / angle);
+  set(lanes.damping, 2 * flow.h * step), set(lanes.skew, flow.h / flow.root), set(lanes.slowness, 1 / rotation),
+      set(lanes.inverse_angle, 1 / angle);
   set(lanes.push, flow.f * flow.nu * step * step * step), set(lanes.stiffness, step * step), set(lanes.rate, 1 / step);
   set(lanes.lower, stops.lower - flow.load), set(lanes.upper, stops.upper - flow.load);
   set(lanes.keep_lower, stops.restitution_lower), set(lanes.keep_upper, stops.restitution_upper);
@@ -74,6 +76,8 @@ void watch(Lanes& lanes, std::size_t i, bool ends, bool clips) {
   lanes.ends.lane[i] = ends ? 1 : 0, lanes.clips.lane[i] = ends && clips ? 1 : 0;
   lanes.y_low.lane[i] = lanes.y_high.lane[i] = lanes.y.lane[i];
   lanes.v_low.lane[i] = lanes.v_high.lane[i] = lanes.v.lane[i];
+  for (const std::size_t which : {0, 1})
+    lanes.reference_y[which].length.lane[i] = lanes.reference_v[which].length.lane[i] = -1;
   for (const std::size_t stop : {0, 1}) lanes.count[stop].lane[i] = 0;
   for (std::size_t k = 0; k <= lanes.harmonics; ++k) lanes.jump_real[k].lane[i] = lanes.jump_imaginary[k].lane[i] = 0;
 }

@@ -40,7 +40,8 @@ class Visit {
 
  private:
   static constexpr int most_steps = 6;
-  static constexpr double grazing = 0x1p-12;  ///< speed over acceleration below which a contact is left to the scalar kernel
+  static constexpr double grazing =
+      0x1p-12;  ///< speed over acceleration below which a contact is left to the scalar kernel
   static constexpr double shortest_flight = 0x1p-5;  ///< in half steps: a shorter one is left to it, too
 
   V row(const Row& r) const { return motions_.row(r); }
@@ -61,7 +62,7 @@ class Visit {
       const Mask passes = left_ <= one;
       stepping = stepping & !(above | below | (passes & arrived_));  // a second section waits for the next visit
       if constexpr (observes) {
-        const Mask seen = watch_.flight(stepping & !clipped(one), here_, next, one, uncertainty);
+        const Mask seen = watch_.flight(stepping & !clipped(one), here_, next, one, uncertainty, range);
         stuck_ = stuck_ | (stepping & !seen), stepping = seen;
       }
       pass_sections(stepping & passes, next);
@@ -82,8 +83,8 @@ class Visit {
     Mask crosses, good;
   };
 
-  /// About where the touched lanes have their first contact, by the quintic, or where it has none the place that is next
-  /// to the stop.
+  /// About where the touched lanes have their first contact, by the quintic, or where it has none the place that is
+  /// next to the stop.
   Goal aim(const Instant<V>& to, const V& error, const V& sign, const V& stop) const {
     const V zero(0.0), one(1.0), back = -sign;
     const Quintic<V> gap(Ends<V>{sign * (stop - here_.y), back * here_.v, back * here_.a, sign * (stop - to.y),
@@ -144,11 +145,11 @@ class Visit {
     g.good = g.good & ((!g.crosses) | bounces);
     const Mask passes = left_ <= g.time, waits = touched_ & passes & arrived_;
     g.good = g.good & !waits;
-    if constexpr (observes) g.good = watch_.flight(g.good & !clipped(g.time), here_, at, g.time, uncertainty);
+    if constexpr (observes) g.good = watch_.flight(g.good & !clipped(g.time), here_, at, g.time, uncertainty, range);
     at.v = after, at.a = a;
     const Mask met = g.good & g.crosses;
     if constexpr (observes) {
-      const Mask over = passes & (row(lanes_.ends) > zero);
+      const Mask over = (passes | arrived_) & (row(lanes_.ends) > zero);  // its period is over already
       watch_.impact(met, met & !over, upper_, at, before, jump);
     }
     pass_sections(g.good & passes, at);
@@ -203,8 +204,8 @@ class Visit {
   V left_, trace_;
   struct {
     V p, w, sine, cosine;
-  } from_;   ///< where the flight across a section began
-  V time_;   ///< from there to the section
+  } from_;  ///< where the flight across a section began
+  V time_;  ///< from there to the section
   Mask none_, arrived_, touched_, upper_, stuck_;
 };
 

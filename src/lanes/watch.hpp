@@ -16,23 +16,28 @@ class Watch {
         y_{V::load(lanes.y_low.lane + first), V::load(lanes.y_high.lane + first)},
         v_{V::load(lanes.v_low.lane + first), V::load(lanes.v_high.lane + first)} {}
 
-  /// A flight from one instant to another; of a step it is the part `length`. Returns the lanes for which its extrema
-  /// are sure; of the others nothing is noted.
+  /// A flight from one instant to another; of a step it is the part `length`, and its displacement lies within `range`.
+  /// Returns the lanes for which its extrema are sure; of the others nothing is noted.
   Mask flight(const Mask& active, const Instant<V>& from, const Instant<V>& to, const V& length,
-              const Uncertainty<V>& uncertainty) {
+              const Uncertainty<V>& uncertainty, const Range<V>& range) {
     if (!lanes_.extrema) return active;
-    const V part = sixth_power(length);
-    const Ends<V> y{from.y, from.v, from.a, to.y, to.v, to.a};
-    const Ends<V> v{from.v, from.a, motions_.jerk(from), to.v, to.a, motions_.jerk(to)};
+    const V slack = uncertainty.rounding * 0.5, part = sixth_power(length),
+            error_v = motions_.error_v(uncertainty) * part;
+    const Ends<V> v = Ends<V>::scaled({from.v, from.a, motions_.jerk(from), to.v, to.a, motions_.jerk(to)}, length);
     Range<V> new_y = y_, new_v = v_;
     new_y.include(to.y), new_v.include(to.v);
-    const auto displacement = [](const Instant<V>& m, const Jet<V>& jet) { return Course{m.y, m.v, m.a, jet.d3}; };
-    const auto velocity = [](const Instant<V>& m, const Jet<V>& jet) {
-      return Course{m.v, m.a, jet.d3, jet.d4};
-    };
-    const Mask sure =
-        active & search(active, new_y, y, from, length, uncertainty.error * part, uncertainty.rounding, displacement) &
-        search(active, new_v, v, from, length, motions_.error_v(uncertainty) * part, uncertainty.rounding * 2.0, velocity);
+    const Mask open_y = active & !within(range, new_y, slack);
+    const Mask open_v = active & !within(enclosure(v, error_v), new_v, slack);
+    Mask sure = active;
+    if (any(open_y)) {
+      const Ends<V> y = Ends<V>::scaled({from.y, from.v, from.a, to.y, to.v, to.a}, length);
+      const auto jet = [](const Instant<V>& m, const Jet<V>& j) { return Course{m.y, m.v, m.a, j.d3, j.d4}; };
+      sure = sure & search(open_y, new_y, y, from, length, uncertainty.error * part, slack, lanes_.reference_y, jet);
+    }
+    if (any(open_v)) {
+      const auto jet = [](const Instant<V>& m, const Jet<V>& j) { return Course{m.v, m.a, j.d3, j.d4, j.d5}; };
+      sure = sure & search(open_v, new_v, v, from, length, error_v, slack, lanes_.reference_v, jet);
+    }
     take(sure, new_y, new_v);
     return sure;
   }
@@ -63,9 +68,9 @@ class Watch {
   }
 
  private:
-  /// A function at an instant, and its first three derivatives.
+  /// A function at an instant, and its first four derivatives.
   struct Course {
-    V value, slope, curvature, third;
+    V value, slope, curvature, third, fourth;
   };
 
   V row(const Row& r) const { return motions_.row(r); }
@@ -80,42 +85,59 @@ class Watch {
     return (part.low >= whole.low - slack) & (part.high <= whole.high + slack);
   }
 
-  /// Widens a range by the extremum of a flight where its enclosure passes that; sure are the lanes in which then
-  /// nothing does. `derivatives` tells value, slope and curvature of what is searched, and one derivative more.
+  /// Widens a range by the extremum of a flight whose enclosure passes it, in the open lanes; returns those lanes in
+  /// which then nothing does, and all others. `ends` is what is searched, over the flight; `derivatives` tells it at an
+  /// instant. A flight as good as equal to the one in which the extremum was found before isn't searched again.
   template <class Derivatives>
-  Mask search(const Mask& active, Range<V>& range, const Ends<V>& ends, const Instant<V>& from, const V& length,
-              const V& error, const V& slack, const Derivatives& derivatives) {
-    const Ends<V> scaled = Ends<V>::scaled(ends, length);
-    const Range<V> bounds = enclosure(scaled, error);
-    const Mask sure = within(bounds, range, slack);
-    const Mask open = active & !sure;
-    if (!any(open)) return sure;
-    const V sign = select(bounds.high > range.high + slack, V(-1.0), V(1.0));  // of a greatest or a least value
-    const Ends<V> below{sign * scaled.y0, sign * scaled.v0, sign * scaled.a0,
-                        sign * scaled.y1, sign * scaled.v1, sign * scaled.a1};
-    V there = min(max(Quintic<V>(below).least(), V(0.0)), V(1.0)) * length, more;
+  Mask search(const Mask& open, Range<V>& range, const Ends<V>& ends, const Instant<V>& from, const V& length,
+              const V& error, const V& slack, Lanes::Reference* references, const Derivatives& derivatives) {
+    const V zero(0.0), one(1.0);
+    const Range<V> bounds = enclosure(ends, error);
+    const Mask high = bounds.high > range.high + slack, low = bounds.low < range.low - slack;
+    const Mask known = (!(high & low)) & (like(references[0], from, length, slack) | !low) &
+                       (like(references[1], from, length, slack) | !high);
+    const Mask left = open & !known;
+    if (!any(left)) return (!open) | known;
+    const V sign = select(high, -one, one);  // of a greatest or a least value
+    const Ends<V> below{sign * ends.y0, sign * ends.v0, sign * ends.a0, sign * ends.y1, sign * ends.v1, sign * ends.a1};
+    V part = min(max(Quintic<V>(below).least(), zero), one), more;
     Course at;
     for (int pass = 0; pass < 3; ++pass) {
-      const Instant<V> near = motions_.after(from, there);
+      const Instant<V> near = motions_.after(from, part * length);
       at = derivatives(near, motions_.jet(near));
       more = -at.slope / at.curvature;
-      const Mask far = open & !(abs(more) <= V(0x1p-10));
+      more = fnma(at.third / at.curvature * 0.5, more * more, more);
+      const Mask far = left & !(abs(more) <= V(0x1p-10));
       if (!any(far)) break;
-      there = select(far, min(max(there + more, V(0.0)), length), there);
+      part = select(far, min(max(part + more / length, zero), one), part);
     }
-    there = there + more;
-    const V extremum = fma(more, fma(more, fma(more, at.third * (1.0 / 6), at.curvature * 0.5), at.slope), at.value);
-    const Mask turns = (abs(more) <= V(0x1p-10)) & (there > V(0.0)) & (there < length);
+    part = part + more / length;
+    const V cubic = fma(more, at.fourth * (1.0 / 24), at.third * (1.0 / 6));
+    const V extremum = fma(more, fma(more, fma(more, cubic, at.curvature * 0.5), at.slope), at.value);
+    const V bend = fma(more, at.third, at.curvature) * (length * length), rest = one - part;
     Range<V> wider = range;
     wider.include(extremum);
-    const V zero(0.0), bend = fma(more, at.third, at.curvature), rest = length - there, part = there / length,
-                       rest_part = rest / length;
-    const Ends<V> before = Ends<V>::scaled({ends.y0, ends.v0, ends.a0, extremum, zero, bend}, there);
+    const Ends<V> before = Ends<V>::scaled({ends.y0, ends.v0, ends.a0, extremum, zero, bend}, part);
     const Ends<V> after = Ends<V>::scaled({extremum, zero, bend, ends.y1, ends.v1, ends.a1}, rest);
-    const Mask found = open & turns & within(enclosure(before, error * sixth_power(part)), wider, slack) &
-                       within(enclosure(after, error * sixth_power(rest_part)), wider, slack);
+    const Mask found = left & (abs(more) <= V(0x1p-10)) & (part > zero) & (part < one) &
+                       within(enclosure(before, error * sixth_power(part)), wider, slack) &
+                       within(enclosure(after, error * sixth_power(rest)), wider, slack);
+    refer(references[0], found & !high, from, length), refer(references[1], found & high, from, length);
     range = {select(found, wider.low, range.low), select(found, wider.high, range.high)};
-    return sure | found;
+    return (!open) | known | found;
+  }
+
+  /// Whether a flight begins as the reference did, and lasts no longer: then it stays as close to it as it began, for
+  /// the difference of two motions is a free one and that of their forcing phases.
+  Mask like(const Lanes::Reference& r, const Instant<V>& from, const V& length, const V& slack) const {
+    const V free = fma(abs(from.w - row(r.w)), row(lanes_.rate), abs(from.p - row(r.p)));
+    const V phase = abs(from.sine - row(r.sine)) + abs(from.cosine - row(r.cosine));
+    return (fma(phase, row(lanes_.forced_size), free) <= slack * 0.5) & (length <= row(r.length) + V(0x1p-44));
+  }
+  void refer(Lanes::Reference& r, const Mask& m, const Instant<V>& from, const V& length) const {
+    put(r.p, select(m, from.p, row(r.p))), put(r.w, select(m, from.w, row(r.w)));
+    put(r.sine, select(m, from.sine, row(r.sine))), put(r.cosine, select(m, from.cosine, row(r.cosine)));
+    put(r.length, select(m, length, row(r.length)));
   }
 
   /// Adds jumps of the velocity times e^{-ik nu tau} to the sums that make the harmonics.
