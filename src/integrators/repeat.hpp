@@ -38,11 +38,12 @@ class RepeatFinder {
     if (candidate_ > 0 && --left_ == 0) return shortest(now, std::exchange(candidate_, 0));
     if (candidate_ > 0 || ++waited_ < looks_every_) return 0;
     waited_ = 0;
-    for (std::size_t n = next_within(tolerance_, 1); n > 0; n = next_within(tolerance_, n + 1))
-      if (stands(now, n)) {
-        candidate_ = left_ = n;
-        break;
-      }
+    for (std::size_t n = next_within(tolerance_, 1); n > 0; n = next_within(tolerance_, n + 1)) {
+      waited_ = looks_every_;  // a hit that doesn't stand may do so at the next section
+      if (!stands(now, n)) continue;
+      candidate_ = left_ = n;
+      break;
+    }
     return 0;
   }
 

@@ -151,12 +151,21 @@ class SteadySearch {
     return spent <= std::min<std::int64_t>(64, plan_.max_periods) + section_ / 4;
   }
 
+  /// Whether plain repetition will get there before an attempt by Newton's method has paid, as fast as states n apart
+  /// come closer; also where they have not done so for long enough to tell.
+  [[nodiscard]] bool repeats_soon(std::size_t n) const {
+    const double now = repeat_.distance_over(n), before = repeat_.distance_over(n, n);
+    if (!(before < repeat_.distance_over(n, 2 * n)) && !(now < 1e-3)) return true;
+    const double left = static_cast<double>(n) * std::log(now / plan_.tolerance) / std::log(before / now);
+    return left < std::min(400.0, static_cast<double>(plan_.max_periods - section_));
+  }
+
   /// The least n for which states n apart come closer, over the same stops in the same order; 0 for none.
   [[nodiscard]] std::size_t contracting() const {
     for (std::size_t n = repeat_.next_within(nearest_first, 1); n > 0; n = repeat_.next_within(nearest_first, n + 1)) {
       const double now = repeat_.distance_over(n);
       if (!(now <= near_enough_[n] && now > plan_.tolerance && now < repeat_.distance_over(n, n))) continue;
-      if (in_lanes_ && !(repeat_.distance_over(n, n) < repeat_.distance_over(n, 2 * n))) continue;
+      if (in_lanes_ && repeats_soon(n)) continue;
       bool same = true;
       for (std::size_t i = 1; same && i <= n && n + i < kept; ++i)
         same = itineraries_[index(i)] == itineraries_[index(n + i)];
