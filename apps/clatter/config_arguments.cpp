@@ -36,12 +36,12 @@ Arch arch_of(const Arguments& arguments) {
   const char* const variable = std::getenv("CLATTER_ARCH");
   const std::optional<std::string> option = arguments.value("arch");
   if (!option && (variable == nullptr || *variable == '\0')) return best_arch();
-  const std::string name = option ? *option : variable, where = option ? "--arch " : "CLATTER_ARCH=";
+  const std::string name = option ? *option : variable;
+  const std::string given = std::string(option ? "--arch " : "CLATTER_ARCH=").append(in_quotes(name));
   const std::optional<Arch> arch = arch_named(name);
-  if (!arch) throw UsageError(where + in_quotes(name) + "; permitted: scalar, sse2, avx2, avx512");
+  if (!arch) throw UsageError(given + "; permitted: scalar, sse2, avx2, avx512");
   if (!runs_here(*arch))
-    throw UsageError(where + in_quotes(name) + ": this machine doesn't have it; its widest is " +
-                     std::string(name_of(best_arch())));
+    throw UsageError(given + ": this machine doesn't have it; its widest is " + std::string(name_of(best_arch())));
   return *arch;
 }
 

@@ -33,6 +33,13 @@ std::string failed_numbers(const Figure& figure) {
   return count > shown_points ? numbers + ", …" : numbers;
 }
 
+/// What lanes took, where any ran.
+std::string lanes_text(const LaneWork& work) {
+  if (work.proved == 0) return "";
+  return "; lanes: steps " + formatted("%.6g", work.proved) + ", contacts looked for " +
+         formatted("%.6g", work.refined);
+}
+
 std::string host() {
   std::array<char, 256> name{};
   return gethostname(name.data(), name.size() - 1) == 0 ? name.data() : "unknown";
@@ -70,9 +77,9 @@ std::string summary_line(const RunResult& result, const std::string& output) {
 }
 
 std::string details(const RunResult& result, const std::string& command, const std::string& began) {
-  return usage_text(result.usage) + "threads          " + std::to_string(result.threads) +
-         "\ninstruction set  x86-64\nhost             " + host() + "\ncommand line     " + command +
-         "\nbegan            " + began + "\nended            " + now() + '\n';
+  return usage_text(result.usage) + "threads          " + std::to_string(result.threads) + "\ninstruction set  " +
+         std::string(name_of(result.arch)) + lanes_text(result.lanes) + "\nhost             " + host() +
+         "\ncommand line     " + command + "\nbegan            " + began + "\nended            " + now() + '\n';
 }
 
 std::string now() {

@@ -46,9 +46,10 @@ struct Lanes {
   Row impacts;  ///< met so far
   Row trace;    ///< stops met since the last section
   // what a visit reports
-  Row section_y, section_v, section_trace;  ///< at the section that was passed
-  LaneSet arrived;                          ///< lanes that have passed a section
-  LaneSet stuck;                            ///< lanes that the kernel cannot take on from where they are
+  Row section_y, section_v;            ///< at the section that was passed
+  Row section_trace, section_impacts;  ///< trace and impacts up to it
+  LaneSet arrived;                     ///< lanes that have passed a section
+  LaneSet stuck;                       ///< lanes that the kernel cannot take on from where they are
   // of what is observed, where it is
   Row ends;                          ///< 1: the next section ends the observed time
   Row clips;                         ///< 1: and the flight across it isn't taken, since it leads beyond

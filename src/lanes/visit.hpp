@@ -31,7 +31,7 @@ class Visit {
         stuck_(none_) {}
 
   void run() {
-    motions_.put(lanes_.section_trace, trace_);
+    motions_.put(lanes_.section_trace, trace_), motions_.put(lanes_.section_impacts, row(lanes_.impacts));
     step();
     if (any(touched_)) contact();
     if (any(arrived_)) sections();
@@ -65,8 +65,10 @@ class Visit {
         const Mask seen = watch_.flight(stepping & !clipped(one), here_, next, one, uncertainty, range);
         stuck_ = stuck_ | (stepping & !seen), stepping = seen;
       }
-      pass_sections(stepping & passes, next);
+      const Mask arrives = stepping & passes;
+      pass_sections(arrives, next);
       here_ = select(stepping, next, here_), left_ = select(stepping, left_ - one, left_);
+      if constexpr (observes) stepping = stepping & !(arrives & (row(lanes_.ends) > V(0.0)));
       if (steps == most_steps || 2 * count(stepping) <= static_cast<int>(V::size)) return;
     }
   }

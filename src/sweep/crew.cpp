@@ -6,6 +6,16 @@
 #include "sweep/crew_member.hpp"
 
 namespace clatter {
+namespace {
+
+/// The first lane of a set, which then is out of it.
+std::size_t taken_from(LaneSet& set) {
+  const auto lane = static_cast<std::size_t>(std::countr_zero(set));
+  set &= set - 1;
+  return lane;
+}
+
+}  // namespace
 
 Crew::Crew(const Visits& visits, Workshop& workshop, Next next, Take take)
     : visits_(visits), workshop_(workshop), next_(std::move(next)), take_(std::move(take)) {}
@@ -28,16 +38,21 @@ void Crew::run() {
 void Crew::visit(Bench& bench, VisitLanes kernel) {
   bench.lanes.arrived = bench.lanes.stuck = 0;
   kernel(bench.lanes);
-  for (LaneSet left = bench.lanes.stuck; left != 0; left &= left - 1)
-    help(bench, static_cast<std::size_t>(std::countr_zero(left)));
-  for (LaneSet left = bench.lanes.arrived; left != 0; left &= left - 1)
-    look(bench, static_cast<std::size_t>(std::countr_zero(left)));
+  // sections first: a lane that has passed one may have got stuck beyond it, which no longer matters if it is done
+  look(bench);
+  while (bench.lanes.stuck != 0) help(bench, taken_from(bench.lanes.stuck));
+  look(bench);
 }
 
-/// Takes a member off its lane.
-std::unique_ptr<Crew::Member> Crew::leave(Bench& bench, std::size_t lane) {
-  bench.lanes.arrived &= ~(LaneSet{1} << lane);
-  bench.members[lane]->add_impacts(bench.lanes.impacts.lane[lane]);
+/// Looks at the lanes that have passed a section.
+void Crew::look(Bench& bench) {
+  while (bench.lanes.arrived != 0) look(bench, taken_from(bench.lanes.arrived));
+}
+
+/// Takes a member off its lane, where it has met so many impacts.
+std::unique_ptr<Crew::Member> Crew::leave(Bench& bench, std::size_t lane, double impacts) {
+  bench.lanes.stuck &= ~(LaneSet{1} << lane);
+  bench.members[lane]->add_impacts(impacts);
   --bench.taken;
   vacate(bench.lanes, lane);
   return std::move(bench.members[lane]);
@@ -79,7 +94,8 @@ void Crew::help(Bench& bench, std::size_t lane) {
   const bool observes = &bench == &observing_;
   const Outcome outcome = member.help(bench.lanes, lane);
   if (outcome == Outcome::completed && !member.needs_no_lane()) return;
-  const std::unique_ptr<Member> left = leave(bench, lane);
+  bench.lanes.arrived &= ~(LaneSet{1} << lane);
+  const std::unique_ptr<Member> left = leave(bench, lane, bench.lanes.impacts.lane[lane]);
   if (observes) {
     take_(left->task(), left->result(workshop_));
     return observe_next(lane);
@@ -99,13 +115,13 @@ void Crew::look(Bench& bench, std::size_t lane) {
     if (!member.ends(bench.lanes, lane)) return;
     take_(member.task(),
           member.needs_no_lane() ? member.result(workshop_) : member.result(bench.lanes, lane, workshop_));
-    (void)leave(bench, lane);
+    (void)leave(bench, lane, bench.lanes.section_impacts.lane[lane]);
     return observe_next(lane);
   }
   const auto found = member.at_section(bench.lanes, lane);
   if (!found) return;
   const bool in_lanes = member.can_observe(*found);
-  std::unique_ptr<Member> left = leave(bench, lane);
+  std::unique_ptr<Member> left = leave(bench, lane, bench.lanes.section_impacts.lane[lane]);
   if (in_lanes) {
     settled(std::move(left));
   } else {

@@ -43,11 +43,12 @@ class Crew {
 
   void visit(Bench& bench, VisitLanes kernel);
   void help(Bench& bench, std::size_t lane);
+  void look(Bench& bench);
   void look(Bench& bench, std::size_t lane);
   void settle_next(std::size_t lane);
   void observe_next(std::size_t lane);
   void settled(std::unique_ptr<Member> member);
-  [[nodiscard]] std::unique_ptr<Member> leave(Bench& bench, std::size_t lane);
+  [[nodiscard]] std::unique_ptr<Member> leave(Bench& bench, std::size_t lane, double impacts);
 
   Visits visits_;
   Workshop& workshop_;

@@ -108,7 +108,8 @@ std::optional<Observed> Crew::Member::at_section(const Lanes& lanes, std::size_t
   State<double> state;
   state.x = x_of(lanes, lane, lanes.section_y.lane[lane]);
   state.v = lanes.section_v.lane[lane] * lanes.rate.lane[lane], state.periods = ++sections_;
-  if (exact_.impacts() + lanes.impacts.lane[lane] > task_.scene.time.max_impacts) return failure(Outcome::event_budget);
+  if (exact_.impacts() + lanes.section_impacts.lane[lane] > task_.scene.time.max_impacts)
+    return failure(Outcome::event_budget);
   return search_.at_section(state);
 }
 
@@ -118,6 +119,7 @@ bool Crew::Member::can_observe(const Observed& observed) {
 }
 
 void Crew::Member::begin_to_observe(Lanes& lanes, std::size_t lane) {
+  settled_ = exact_, settled_impacts_ = impacts_;
   observing_ = true, sections_ = helped_ = 0, helped_left_ = std::numeric_limits<double>::quiet_NaN();
   lanes.extrema = task_.scene.observe.extrema;
   lanes.harmonics = static_cast<std::size_t>(task_.scene.observe.harmonics);
@@ -131,7 +133,8 @@ bool Crew::Member::ends(Lanes& lanes, std::size_t lane) {
   lanes.ends.lane[lane] = left == 1 ? 1 : 0;
   lanes.clips.lane[lane] = left == 1 && observed_.status != Status::periodic ? 1 : 0;
   if (left == 0 && observed_.turns > whole) finish_period(lanes, lane, observed_.turns - whole);
-  gives_up_ = gives_up_ || exact_.impacts() + impacts_ + lanes.impacts.lane[lane] > task_.scene.time.max_impacts;
+  gives_up_ =
+      gives_up_ || exact_.impacts() + impacts_ + lanes.section_impacts.lane[lane] > task_.scene.time.max_impacts;
   return left == 0 || gives_up_;
 }
 
@@ -160,6 +163,7 @@ Outcome Crew::Member::help(Lanes& lanes, std::size_t lane) {
     lanes.section_y.lane[lane] = state.x - task_.scene.oscillator.load;
     lanes.section_v.lane[lane] = state.v / lanes.rate.lane[lane];
     lanes.section_trace.lane[lane] = std::exchange(lanes.trace.lane[lane], 0.0);
+    lanes.section_impacts.lane[lane] = lanes.impacts.lane[lane];
     lanes.arrived |= LaneSet{1} << lane;
     state.turns = 0;
   }
@@ -169,9 +173,13 @@ Outcome Crew::Member::help(Lanes& lanes, std::size_t lane) {
 }
 
 PointResult Crew::Member::result(Workshop& workshop) const {
-  PointResult result = Point(task_.scene, workshop, exact_).observe(observed_);
-  result.impacts += impacts_;
-  return result;
+  const Kernel& kernel = settled_ ? *settled_ : exact_;  // what lanes have observed in vain doesn't count
+  PointResult result = Point(task_.scene, workshop, kernel).observe(observed_);
+  result.impacts += settled_ ? settled_impacts_ : impacts_;
+  if (failed(result.status) || result.impacts <= task_.scene.time.max_impacts) return result;
+  PointResult over = Point(task_.scene, workshop, kernel).observe(failure(Outcome::event_budget));
+  over.impacts = result.impacts, over.periods = result.periods, over.evaluations = result.evaluations;
+  return over;
 }
 
 PointResult Crew::Member::result(const Lanes& lanes, std::size_t lane, Workshop& workshop) const {
@@ -202,7 +210,7 @@ PointResult Crew::Member::result(const Lanes& lanes, std::size_t lane, Workshop&
                                        {observed_.from.x, observed_.from.v}, {end.x, end.v}, total, jumps);
   }
   PointResult result = point.end(observers, end, Outcome::completed);
-  result.impacts += impacts_ + at(lanes.impacts);
+  result.impacts += impacts_ + at(lanes.section_impacts);
   return result;
 }
 

@@ -51,6 +51,8 @@ class Crew::Member {
   Kernel exact_;
   SteadySearch<effects> search_;
   Observed observed_{};
+  std::optional<Kernel> settled_{};                                ///< the scalar kernel before lanes began to observe
+  double settled_impacts_ = 0.0;                                   ///< that lanes had met until then
   State<double> helped_to_{};                                      ///< where the scalar kernel left the lane
   double helped_left_ = std::numeric_limits<double>::quiet_NaN();  ///< its time to the next section then
   std::int64_t sections_ = 0, helped_ = 0;

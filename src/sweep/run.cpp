@@ -108,6 +108,8 @@ class Team {
     return sum;
   }
 
+  [[nodiscard]] const LaneWork& lane_work() const { return lane_work_; }
+
   /// Passes on what a thread could not do.
   void rethrow() const {
     if (failure_) std::rethrow_exception(failure_);
@@ -167,7 +169,10 @@ class Team {
         run_batch({&task, 1}, workshops_[thread], take);
       }
     };
-    Crew(visits_of(arch_), workshops_[thread], next, take).run();
+    Crew crew(visits_of(arch_), workshops_[thread], next, take);
+    crew.run();
+    const std::lock_guard lock(mutex_);
+    lane_work_.proved += crew.proved(), lane_work_.refined += crew.refined();
   }
 
   void store(const Task& task, PointResult&& result, std::size_t thread) {
@@ -226,6 +231,7 @@ class Team {
   std::atomic<std::size_t> begun_ = 0;     ///< branches that a thread has taken
   std::vector<Workshop> workshops_;        ///< [thread]
   std::vector<std::vector<Usage>> usage_;  ///< [thread]
+  LaneWork lane_work_;
   std::mutex mutex_;
   std::exception_ptr failure_;
   std::atomic<bool> stopped_ = false;  ///< by a failure: what is left isn't begun
@@ -248,6 +254,7 @@ RunResult run(const Sweep& sweep, const RunOptions& options) {
   team.rethrow();
   result.failed_points = columns.failed_points();
   result.usage = team.usage();
+  result.arch = options.arch, result.lanes = team.lane_work();
   result.figure = columns.figure();
   result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   return result;

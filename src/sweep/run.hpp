@@ -33,6 +33,11 @@ struct Usage {
   double evaluations = 0.0;                                   ///< of arcs
 };
 
+/// Work in SIMD lanes: lanes times steps that were to be proved free of contact, and times contacts that were looked for.
+struct LaneWork {
+  double proved = 0.0, refined = 0.0;
+};
+
 /// The results of a sweep and what they took.
 struct RunResult {
   Figure figure;                  ///< coordinates, status, impact_total, simulated_periods, then what is observed
@@ -41,6 +46,8 @@ struct RunResult {
   int threads = 1;                ///< threads that were used
   double seconds = 0.0;           ///< wall time of the points
   std::vector<Usage> usage;       ///< the cheapest kernel first
+  Arch arch = Arch::scalar;       ///< instruction set that was used
+  LaneWork lanes;                 ///< what it took in SIMD lanes
 };
 
 /// Runs every point; the same bits for every number of threads. Throws std::bad_alloc where the results don't fit into

@@ -1,4 +1,4 @@
-"""Folders of src include only their right-hand neighbours: apps -> io -> study -> sweep -> {integrators, observables} -> dynamics -> numbers."""
+"""Folders of src include only their right-hand neighbours: apps -> io -> study -> sweep -> {integrators, observables, lanes} -> dynamics -> numbers."""
 
 import os
 import re
@@ -12,10 +12,11 @@ BELOW = {  # folder: what it may include besides itself
     "dynamics": {"numbers"},
     "integrators": {"dynamics", "numbers"},
     "observables": {"dynamics", "numbers"},
-    "sweep": {"integrators", "observables", "dynamics", "numbers"},
-    "study": {"sweep", "integrators", "observables", "dynamics", "numbers"},
-    "io": {"study", "sweep", "integrators", "observables", "dynamics", "numbers"},
-    "apps": {"io", "study", "sweep", "integrators", "observables", "dynamics", "numbers"},
+    "lanes": {"dynamics", "numbers"},
+    "sweep": {"integrators", "observables", "lanes", "dynamics", "numbers"},
+    "study": {"sweep", "integrators", "observables", "lanes", "dynamics", "numbers"},
+    "io": {"study", "sweep", "integrators", "observables", "lanes", "dynamics", "numbers"},
+    "apps": {"io", "study", "sweep", "integrators", "observables", "lanes", "dynamics", "numbers"},
 }
 KNOWN_TO = {  # library header: the only folder that sees it
     r"fftw3": {"observables"},
@@ -24,6 +25,7 @@ KNOWN_TO = {  # library header: the only folder that sees it
     r"boost/program_options": {"io", "apps"},
     r"boost/multiprecision": {"numbers"},
     r"nettle": {"io"},
+    r"xsimd": {"lanes"},
 }
 
 

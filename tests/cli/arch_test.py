@@ -1,0 +1,112 @@
+"""Instruction sets: how one is chosen, that each gives the same results, and that none leaks into code for old machines."""
+
+import os
+import pathlib
+import re
+import shutil
+import subprocess
+import unittest
+
+import h5py
+import numpy
+
+from command_line import CLATTER, SMALL, CommandLine
+
+NAMES = ("scalar", "sse2", "avx2", "avx512")
+EVERYTHING = SMALL.replace("xs = -4.0", "xs = -3.5").replace("1.5, 5)", "1.5, 41)") + """impacts = true
+harmonics = 3
+harmonics_method = "exact"
+"""
+
+
+def runs_here(name):
+    """Whether this machine has an instruction set, as its kernel says."""
+    flags = set(re.search(r"^flags\s*:(.*)$", pathlib.Path("/proc/cpuinfo").read_text(), re.MULTILINE)[1].split())
+    return {"avx2": {"avx2", "fma"}, "avx512": {"avx512f", "avx512dq"}}.get(name, set()) <= flags
+
+
+class Arch(CommandLine):
+    def run_with(self, *words, variable=None, text=SMALL):
+        config = self.write("a.toml", text)
+        result = self.clatter("run", config, "-q", *words, environment={"CLATTER_ARCH": variable or ""})
+        self.assertEqual((result.returncode, result.stderr), (0, ""), words)
+        with h5py.File(self.directory / "a.h5") as file:
+            return {name: file[name][...] for name in file if isinstance(file[name], h5py.Dataset)}
+
+    def assert_same_bits(self, a, b):
+        self.assertEqual(a.keys(), b.keys())
+        for name in a:
+            self.assertEqual(a[name].tobytes(), b[name].tobytes(), name)
+
+    def test_every_name_is_taken_by_option_and_by_variable(self):
+        for name in filter(runs_here, NAMES):
+            self.assert_same_bits(self.run_with("--arch", name), self.run_with(variable=name))
+
+    def test_one_that_the_machine_lacks_is_refused(self):
+        config = self.write("a.toml", SMALL)
+        for name in NAMES:
+            if not runs_here(name):
+                self.assert_refused(2, f"--arch '{name}': this machine doesn't have it; its widest is ", "run", config,
+                                    "--arch", name)
+
+    def test_a_wrong_name_is_refused(self):
+        config = self.write("a.toml", SMALL)
+        permitted = "permitted: scalar, sse2, avx2, avx512"
+        for name in ("AVX2", "avx", "", " sse2", "best"):
+            self.assert_refused(2, f"--arch '{name}'; {permitted}\n", "run", config, "--arch", name)
+        result = self.clatter("run", config, environment={"CLATTER_ARCH": "avx1024"})
+        self.assertEqual((result.returncode, result.stdout), (2, ""))
+        self.assertIn(f"CLATTER_ARCH='avx1024'; {permitted}\n", result.stderr)
+        self.assertEqual(self.files(), ["a.toml"])
+
+    def test_the_option_counts_before_the_variable(self):
+        chosen = self.run_with("--arch", "scalar", variable="no such name", text=EVERYTHING)
+        self.assert_same_bits(chosen, self.run_with("--arch", "scalar", text=EVERYTHING))
+        lanes = self.run_with("--arch", "sse2", variable="scalar", text=EVERYTHING)
+        self.assertNotEqual(lanes["v_max"].tobytes(), chosen["v_max"].tobytes())  # or this test couldn't fail
+
+    def test_an_empty_variable_is_none(self):
+        config = self.write("a.toml", SMALL)
+        environment = {name: value for name, value in os.environ.items() if name != "CLATTER_ARCH"}
+        subprocess.run([CLATTER, "run", config, "-q", "-o", "none.h5"], cwd=self.directory, env=environment, check=True)
+        with h5py.File(self.directory / "none.h5") as file:
+            x_max = file["x_max"][...]
+        self.assertEqual(self.run_with(variable="")["x_max"].tobytes(), x_max.tobytes())
+
+    def test_every_set_gives_the_same_motion(self):
+        default = self.run_with(text=EVERYTHING)
+        periodic = default["status"] == 0
+        self.assertGreater(periodic.sum(), 30)
+        for name in filter(runs_here, NAMES):
+            other = self.run_with("--arch", name, text=EVERYTHING)
+            numpy.testing.assert_array_equal(other["status"], default["status"])
+            for counted in ("impacts_per_period", "period_ratio"):
+                numpy.testing.assert_array_equal(other[counted][periodic], default[counted][periodic], f"{name}: {counted}")
+            for measured in ("x_min", "x_max", "v_min", "v_max", "v_before", "v_after", "x_amplitude", "v_amplitude"):
+                numpy.testing.assert_allclose(other[measured][periodic], default[measured][periodic], rtol=0, atol=1e-12,
+                                              err_msg=f"{name}: {measured}")
+
+
+class Objects(unittest.TestCase):
+    """The linker keeps one of equal functions: one that AVX code leaves behind could be what every machine runs."""
+
+    def symbols(self, name):
+        nm = shutil.which("nm")
+        if nm is None:
+            self.skipTest("there is no nm here (of binutils) to look at object files with")
+        objects = list((pathlib.Path(CLATTER).parents[2] / "src" / "lanes").glob(f"CMakeFiles/*_{name}.dir/**/*.o"))
+        self.assertEqual(len(objects), 1, f"kernel for {name}")
+        text = subprocess.run([nm, "--defined-only", objects[0]], capture_output=True, text=True, check=True).stdout
+        return [line.split()[-2:] for line in text.splitlines()]
+
+    def test_kernels_define_nothing_that_code_of_another_set_could_be_merged_with(self):
+        for name, tag in (("avx2", r"5xsimd.*4avx2"), ("avx512", r"5xsimd.*avx512")):
+            functions = {symbol for kind, symbol in self.symbols(name) if kind in "TWui"}
+            entries = {symbol for symbol in functions if re.fullmatch(rf"_ZN7clatter\d+(visit|observe)_{name}ERNS_5LanesE", symbol)}
+            self.assertEqual(len(entries), 2, functions)
+            shared = [symbol for symbol in functions - entries if not re.search(tag, symbol)]
+            self.assertEqual(shared, [], f"{name}: the linker could take these for those of other objects")
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,99 @@
+#pragma once
+
+#include <bit>
+#include <vector>
+
+#include "integrators/exact.hpp"
+#include "lanes/seat.hpp"
+#include "support/runs.hpp"
+
+namespace clatter {
+
+/// The scalar kernel that lanes share their arcs with.
+inline constexpr Effects lane_effects = kernels::complete(Damping::light, Forcing::regular);
+using LaneExact = Exact<double, lane_effects>;
+
+/// A section as a lane reports it.
+struct Section {
+  double x, v;
+};
+
+/// What a lane met on its own, up to where it got stuck or had enough.
+struct LaneRun {
+  std::vector<Impact> impacts{};  ///< times in tau since the start
+  std::vector<Section> sections{};
+  bool stuck = false;
+  LanePlace stuck_at{};
+  std::int64_t visits = 0;
+};
+
+/// Reads an impact off a lane: it stands on a stop with the velocity after it.
+inline Impact impact_of(const Lanes& lanes, std::size_t lane, const Scene& scene, double sections) {
+  const LanePlace place = place_of(lanes, lane, scene);
+  const bool upper = place.x == scene.stops.upper;
+  const double R = upper ? scene.stops.restitution_upper : scene.stops.restitution_lower;
+  return {(sections + place.turns) * period_of(scene.oscillator), upper ? Side::upper : Side::lower, -place.v / R,
+          place.v, place.x};
+}
+
+/// Takes scenes side by side until each has met so many impacts, passed so many sections, or is stuck.
+inline std::vector<LaneRun> run_lanes(const std::vector<Scene>& scenes, VisitLanes kernel, std::size_t impacts,
+                                      std::size_t sections) {
+  Lanes lanes{};
+  std::vector<LaneRun> runs(scenes.size());
+  for (std::size_t i = 0; i < Row::width; ++i) vacate(lanes, i);
+  for (std::size_t i = 0; i < scenes.size(); ++i) seat(lanes, i, scenes[i], scenes[i].stops);
+  std::vector<bool> done(scenes.size(), false);
+  for (std::size_t left = scenes.size(); left > 0;) {
+    std::vector<double> before(lanes.impacts.lane, lanes.impacts.lane + Row::width);
+    lanes.arrived = lanes.stuck = 0;
+    kernel(lanes);
+    for (std::size_t i = 0; i < scenes.size(); ++i) {
+      if (done[i]) continue;
+      LaneRun& run = runs[i];
+      ++run.visits;
+      if (lanes.arrived >> i & 1)
+        run.sections.push_back(
+            {scenes[i].oscillator.load + lanes.section_y.lane[i], lanes.section_v.lane[i] * lanes.rate.lane[i]});
+      if (lanes.impacts.lane[i] > before[i])
+        run.impacts.push_back(impact_of(lanes, i, scenes[i], static_cast<double>(run.sections.size())));
+      run.stuck = lanes.stuck >> i & 1;
+      if (run.stuck) run.stuck_at = place_of(lanes, i, scenes[i]);
+      done[i] = run.stuck || run.impacts.size() >= impacts || run.sections.size() >= sections || run.visits > 100000;
+      if (done[i]) vacate(lanes, i), --left;
+    }
+  }
+  return runs;
+}
+
+/// The scalar kernel's impacts and sections of the same scene, for so many forcing periods.
+struct ScalarRun {
+  Recorder record{};
+  std::vector<Section> sections{};
+};
+
+inline ScalarRun run_scalar(const Scene& scene, std::size_t sections) {
+  ScalarRun run;
+  LaneExact exact(scene);
+  State<double> state;
+  state.x = scene.start.displacement, state.v = scene.start.velocity;
+  for (std::size_t i = 0; i < sections; ++i) {
+    if (advance_to_section(exact, state, 0, run.record) != Outcome::completed) break;
+    run.sections.push_back({state.x, state.v});
+  }
+  return run;
+}
+
+/// Ways to move inputs by an ulp, each up or down.
+inline constexpr unsigned move_signs[] = {0, 21, 42, 63};
+
+/// A scene whose inputs are moved by an ulp each.
+inline Scene moved(Scene scene, unsigned signs) {
+  unsigned i = 0;
+  for (double* value : {&scene.oscillator.damping, &scene.oscillator.frequency, &scene.oscillator.forcing,
+                        &scene.stops.lower, &scene.stops.upper, &scene.start.velocity})
+    *value *= 1 + (signs >> i++ & 1 ? 1 : -1) * epsilon<double>();
+  return scene;
+}
+
+}  // namespace clatter

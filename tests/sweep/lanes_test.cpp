@@ -1,0 +1,285 @@
+// Points in SIMD lanes against the same points by the scalar kernel.
+
+#include <gtest/gtest.h>
+
+#include <iostream>
+#include <numbers>
+
+#include "lanes/seat.hpp"
+#include "support/deviation.hpp"
+#include "support/scene_range.hpp"
+#include "sweep/two_runs.hpp"
+
+namespace clatter {
+namespace {
+
+constexpr double pi_ = std::numbers::pi;
+
+/// Every test, for every instruction set that this machine has.
+class InLanes : public testing::TestWithParam<Arch> {
+ protected:
+  void SetUp() override {
+    if (!runs_here(GetParam())) GTEST_SKIP() << "this machine has no " << name_of(GetParam());
+  }
+  [[nodiscard]] Figure lanes(const Sweep& sweep, int threads = 1) const {
+    return run(sweep, {.threads = threads, .arch = GetParam()}).figure;
+  }
+};
+
+/// What a comparison of many points came to.
+struct Totals {
+  std::size_t points = 0, fit = 0, periodic = 0, sensitive = 0, chaotic = 0, slow = 0;
+  double worst = 0;  ///< of those that aren't sensitive
+};
+
+std::ostream& operator<<(std::ostream& out, const Totals& t) {
+  return out << t.points << " points, " << t.fit << " fit lanes, " << t.periodic << " periodic; largest difference "
+             << t.worst << " but for " << t.sensitive << " that 1e-15 of the inputs moves by more, and " << t.chaotic
+             << " that it changes visibly; " << t.slow << " took longer to settle";
+}
+
+/// The difference of a point's two runs, over what is allowed. Values are the same to 1e-13 of the motion's scale. A
+/// motion that multiplies a change of its inputs by 1e-15 does so with the roundings of either kernel too: some ten an
+/// impact, so 16 of what one change does are allowed, and where one changes counts, or values visibly, nothing is said.
+double beyond(const Scene& scene, const RunPoint& lanes, const RunPoint& scalar, Totals& totals) {
+  const Apart apart = compare(lanes, scalar);
+  if (apart.by <= 1e-13) {
+    totals.worst = std::max(totals.worst, apart.by);
+    return 0;
+  }
+  const double own = sensitivity(scene, scalar);
+  const bool chaotic = own > 1e-6, settled = scalar.status() != static_cast<int>(Status::aperiodic);
+  const double allowed = (settled ? 16 : 64) * own;
+  if (chaotic || apart.by <= allowed) ++(chaotic ? totals.chaotic : totals.sensitive);
+  return chaotic ? 0 : apart.by / allowed;
+}
+
+/// How many periods slow motion takes to settle depends on who looks when; given more of them, both find the same.
+double beyond_if_longer(Scene scene, Arch arch, Totals& totals) {
+  scene.time.max_periods *= 16;
+  const Sweep sweep = sweep_of(scene, {});
+  const Figure lanes = run(sweep, {.threads = 1, .arch = arch}).figure;
+  const Figure scalar = run(sweep, {.threads = 1, .arch = Arch::scalar}).figure;
+  ++totals.slow;
+  return beyond(scene, {lanes, 0}, {scalar, 0}, totals);
+}
+
+Totals expect_alike(const Sweep& sweep, Arch arch) {
+  const Figure lanes = run(sweep, {.threads = 1, .arch = arch}).figure;
+  const Figure scalar = run(sweep, {.threads = 1, .arch = Arch::scalar}).figure;
+  Totals totals;
+  for (std::size_t i = 0; i < size(sweep); ++i) {
+    const Scene scene = scene_at(sweep, i);
+    const RunPoint tested{lanes, i}, reference{scalar, i};
+    ++totals.points, totals.fit += fits_lanes(scene), totals.periodic += reference.status() == 0;
+    double ratio = beyond(scene, tested, reference, totals);
+    if (tested.status() != reference.status() && ratio > 1) ratio = beyond_if_longer(scene, arch, totals);
+    EXPECT_LE(ratio, 1) << "point " << i << ", " << compare(tested, reference).what << ", status "
+                        << int{tested.status()} << " against " << int{reference.status()} << "\n"
+                        << configuration_of(scene, scene.time.duration);
+  }
+  std::cout << totals << '\n';
+  return totals;
+}
+
+/// All that lanes observe of a steady motion.
+Scene observed(Scene scene) {
+  scene.observe = {
+      .extrema = true, .harmonics = 5, .harmonics_method = HarmonicsMethod::exact, .impacts = true, .period = true};
+  scene.time.max_periods = 300, scene.time.max_impacts = 1e5;
+  return scene;
+}
+
+Sweep figure(double xs) {
+  Axis nu{Parameter::nu, {}};
+  for (int i = 0; i <= 500; ++i)
+    if (xs != 5 || i != 250) nu.values.push_back(0.5 + i / 500.0);  // that one grazes to 3e-16: nobody's to say
+  return sweep_of(observed(paper_scene(xs, 1.0)), {nu});
+}
+
+TEST_P(InLanes, figures_20_to_23_are_those_of_the_scalar_kernel) {
+  for (const double xs : {6.0, 5.0, 4.0, 3.0}) {
+    const Totals totals = expect_alike(figure(xs), GetParam());
+    EXPECT_EQ(totals.fit, totals.points);
+    EXPECT_GT(totals.periodic, 450u);
+    EXPECT_LE(totals.sensitive + totals.chaotic, totals.points - totals.periodic + 4);  // all but a few have no period
+    EXPECT_EQ(totals.slow, 0u);
+  }
+}
+
+/// Forced motion between stops, one stop, under a load or without; a tenth has no damping, a tenth too much for lanes.
+Scene random_scene(std::uint64_t index) {
+  Random random(4711, index);
+  Scene scene;
+  const double kind = random.uniform(0, 1);
+  scene.oscillator = {kind < 0.1   ? 0
+                      : kind < 0.2 ? random.uniform(0.9, 2)
+                                   : random.logarithmic(5e-3, 0.9),
+                      random.sign() * random.logarithmic(0.1, 3), random.logarithmic(0.2, 5),
+                      random.happens(0.5) ? 0 : random.uniform(-1, 1)};
+  const double lower = random.logarithmic(0.05, 4), upper = random.logarithmic(0.05, 4);
+  const double restitution = random.happens(0.1) ? 1 : random.uniform(0.05, 1);
+  scene.stops = {-lower, upper, restitution, random.happens(0.5) ? restitution : random.uniform(0.05, 1)};
+  scene.start = {random.uniform(-lower, upper), random.uniform(-1, 1), random.uniform(0, 2 * pi_)};
+  if (random.happens(0.1))
+    scene.stops.lower = -std::numeric_limits<double>::infinity();
+  else if (random.happens(0.1))
+    scene.stops.upper = std::numeric_limits<double>::infinity();
+  return scene;
+}
+
+template <class Change>
+Sweep random_sweep(std::uint64_t count, const Change& change) {
+  std::vector<Scene> scenes;
+  for (std::uint64_t i = 0; i < count; ++i) scenes.push_back(change(random_scene(i)));
+  return sweep_over(scenes);
+}
+
+TEST_P(InLanes, steady_motion_that_nobody_chose_is_that_of_the_scalar_kernel) {
+  const Totals totals = expect_alike(random_sweep(1000, observed), GetParam());
+  EXPECT_GT(totals.fit, 800u);
+  EXPECT_GT(totals.periodic, 800u);
+  EXPECT_LT(totals.sensitive, 50u);
+  EXPECT_LT(totals.chaotic, 80u);
+  EXPECT_LT(totals.slow, 10u);
+}
+
+Scene transient(Scene scene, double periods) {
+  scene.observe = {.extrema = true, .impacts = true, .period = true};
+  scene.time.mode = Mode::transient;
+  scene.time.duration = periods * 2 * pi_ / scene.oscillator.frequency;
+  scene.time.max_impacts = 1e5;
+  return scene;
+}
+
+TEST_P(InLanes, a_few_periods_from_any_start_are_those_of_the_scalar_kernel) {
+  // one duration for all, so that their forcing periods end in all sorts of parts
+  const Totals totals = expect_alike(random_sweep(1000,
+                                                  [](const Scene& scene) {
+                                                    Scene one = transient(scene, 1);
+                                                    one.time.duration = 20;
+                                                    return one;
+                                                  }),
+                                     GetParam());
+  EXPECT_LT(totals.sensitive + totals.chaotic, 150u);
+}
+
+TEST_P(InLanes, fifty_periods_and_a_part_are_those_of_the_scalar_kernel) {
+  Axis nu{Parameter::nu, {}};
+  for (int i = 0; i < 100; ++i) nu.values.push_back(0.4 + i / 25.0);
+  for (const double part : {0.0, 1e-9, 0.37, 1 - 1e-9}) {
+    Scene scene = transient(paper_scene(0.5, 1.3), 50 + part);
+    scene.oscillator.damping = 0.3;
+    const Totals totals = expect_alike(sweep_of(scene, {nu}), GetParam());
+    EXPECT_LT(totals.sensitive + totals.chaotic, 50u);
+  }
+}
+
+/// A slow force presses onto near stops: chatter that is completed, rest, release.
+std::vector<Scene> chattering() {
+  std::vector<Scene> scenes;
+  for (const double nu : {0.05, 0.2, 0.5})
+    for (const double xs : {0.05, 0.2, 0.5})
+      for (const double R : {0.07, 0.2, 0.5, 0.9}) {
+        Scene scene = paper_scene(xs, nu);
+        scene.stops.restitution_lower = R, scene.stops.restitution_upper = std::sqrt(R);
+        scenes.push_back(observed(scene));
+        scene.stops.lower = -std::numeric_limits<double>::infinity();
+        scenes.push_back(observed(scene));
+      }
+  return scenes;
+}
+
+TEST_P(InLanes, chatter_rest_and_release_are_those_of_the_scalar_kernel) {
+  std::vector<Scene> scenes = chattering();
+  EXPECT_LE(expect_alike(sweep_over(scenes), GetParam()).chaotic, 2u);
+  for (Scene& scene : scenes) {
+    scene = transient(scene, 1);
+    scene.time.duration = 123.4;
+  }
+  EXPECT_EQ(expect_alike(sweep_over(scenes), GetParam()).chaotic, 0u);
+}
+
+TEST_P(InLanes, grazes_and_near_misses_are_those_of_the_scalar_kernel) {
+  // the steady response has this amplitude; stops a little farther are missed, a little nearer they are hit softly
+  const double amplitude = 0.777909841584413976;
+  std::vector<Scene> scenes;
+  for (const double gap : {1e-14, 1e-12, 1e-9, 1e-6, 1e-4, 1e-3, 1e-2})
+    for (const double sign : {-1.0, 1.0}) {
+      Scene scene = paper_scene(amplitude * (1 + sign * gap), 1.5);
+      scene.oscillator.forcing = 1, scene.start = {-0.181543116490166415, -1.13464447806354009, 0.0};
+      scenes.push_back(transient(scene, 20.25));
+    }
+  const Sweep sweep = sweep_over(scenes);
+  const Figure lanes = InLanes::lanes(sweep), scalar = run(sweep, {.arch = Arch::scalar}).figure;
+  Totals totals;
+  for (std::size_t i = 0; i < scenes.size(); ++i) {
+    const RunPoint point{lanes, i};
+    EXPECT_LE(beyond(scenes[i], point, {scalar, i}, totals), 1) << configuration_of(scenes[i], 0);
+    if (i % 2 == 1) {
+      EXPECT_EQ(point.of("impacts_per_period"), (std::vector<double>{0, 0})) << i;
+    }
+  }
+  EXPECT_LE(totals.chaotic, 4u);  // each impact divides a change by the root of the gap
+}
+
+double impacts_of(const Scene& scene, Arch arch) {
+  const Figure figure = run(sweep_of(scene, {}), {.threads = 1, .arch = arch}).figure;
+  return static_cast<double>(std::get<std::vector<std::int64_t>>(find(figure, "impact_total")->values)[0]);
+}
+
+TEST_P(InLanes, a_budget_of_impacts_ends_the_same_transients) {
+  for (const auto& [xs, nu] : {std::pair{0.5, 1.3}, {0.5, 0.5}, {0.05, 0.2}}) {  // the last two rest on their stops
+    Scene scene = transient(paper_scene(xs, nu), 10.4);
+    const double impacts = impacts_of(scene, Arch::scalar);
+    for (const double missing : {-1.0, 0.0, 1.0, 10.0}) {
+      scene.time.max_impacts = impacts - missing;
+      const Figure figure = lanes(sweep_of(scene, {}));
+      EXPECT_EQ(statuses(figure)[0], missing > 0 ? 16 : 2) << xs << " " << nu << ": " << impacts << " - " << missing;
+      EXPECT_EQ(std::isnan(values(figure, "x_max")[0]), missing > 0);
+    }
+  }
+}
+
+TEST_P(InLanes, a_budget_of_impacts_holds_for_settling_and_observing_together) {
+  // chaos: about 2 impacts a period, for 200 periods of settling and 64 of observation
+  Scene scene = observed(paper_scene(3.0, 0.92));
+  scene.time.max_periods = 200;
+  for (const bool in_lanes : {true, false})
+    for (const Arch arch : {Arch::scalar, GetParam()}) {  // each with impacts of its own, since the motion is chaotic
+      scene.observe.harmonics_method = in_lanes ? HarmonicsMethod::exact : HarmonicsMethod::fft;
+      scene.time.max_impacts = 1e5;
+      const double impacts = impacts_of(scene, arch);
+      for (const double missing :
+           {-1.0, 0.0, 20.0}) {  // the scalar kernel may do an observation again, and meet one less
+        scene.time.max_impacts = impacts - missing;
+        EXPECT_EQ(statuses(run(sweep_of(scene, {}), {.threads = 1, .arch = arch}).figure)[0], missing > 0 ? 16 : 1)
+            << name_of(arch) << ": " << impacts << " - " << missing;
+      }
+    }
+}
+
+TEST_P(InLanes, nothing_lies_beyond_a_stop_and_nothing_is_missing) {
+  const Sweep sweep = random_sweep(1000, observed);
+  const Figure figure = lanes(sweep);
+  for (std::size_t i = 0; i < size(sweep); ++i) {
+    const Stops stops = scene_at(sweep, i).stops;
+    const RunPoint point{figure, i};
+    if (point.status() == 16) continue;  // elastic chatter has impacts without end
+    EXPECT_GE(point.of("x_min")[0], stops.lower);
+    EXPECT_LE(point.of("x_max")[0], stops.upper);
+    const std::vector<double> met = point.of("impacts_per_period");
+    const std::vector<double> rested = point.of("rest_fraction");
+    EXPECT_EQ(met[0] > 0 || rested[0] > 0, point.of("x_min")[0] == stops.lower) << i;
+    EXPECT_EQ(met[1] > 0 || rested[1] > 0, point.of("x_max")[0] == stops.upper) << i;
+    for (const char* name : {"x_min", "x_max", "v_min", "v_max", "period_ratio"})
+      EXPECT_TRUE(std::isfinite(point.of(name)[0]) || met == std::vector<double>(2, 0)) << name << " of " << i;
+    for (const double amplitude : point.of("v_amplitude")) EXPECT_TRUE(std::isfinite(amplitude)) << i;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Of, InLanes, testing::Values(Arch::sse2, Arch::avx2, Arch::avx512),
+                         [](const auto& of) { return std::string(name_of(of.param)); });
+
+}  // namespace
+}  // namespace clatter
