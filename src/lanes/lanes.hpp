@@ -31,6 +31,7 @@ struct Lanes {
   Row push, stiffness;                     ///< f nu times the step cubed; the step squared
   Row rate;                                ///< one over the step
   Row inverse_angle;                       ///< one over the angle
+  Row amplitude, span;                     ///< of the response; the step
   // of the stops
   Row lower, upper, keep_lower, keep_upper;  ///< places and restitution
   // of the enclosure

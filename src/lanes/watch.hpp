@@ -26,8 +26,11 @@ class Watch {
     const Ends<V> v = Ends<V>::scaled({from.v, from.a, motions_.jerk(from), to.v, to.a, motions_.jerk(to)}, length);
     Range<V> new_y = y_, new_v = v_;
     new_y.include(to.y), new_v.include(to.v);
-    const Mask open_y = active & !within(range, new_y, slack);
-    const Mask open_v = active & !within(enclosure(v, error_v), new_v, slack);
+    const V forced = row(lanes_.amplitude);  // what the flight can't exceed: response and free part at their largest
+    const Mask open_y = active & !within(inside(range, forced + uncertainty.free), new_y, slack);
+    const Mask open_v = active & !within(inside(enclosure(v, error_v),
+                                                fma(uncertainty.free, row(lanes_.span), forced * row(lanes_.angle))),
+                                         new_v, slack);
     Mask sure = active;
     if (any(open_y)) {
       const Ends<V> y = Ends<V>::scaled({from.y, from.v, from.a, to.y, to.v, to.a}, length);
@@ -81,6 +84,9 @@ class Watch {
     v_ = {select(m, v.low, v_.low), select(m, v.high, v_.high)};
   }
 
+  static Range<V> inside(const Range<V>& range, const V& most) {
+    return {max(range.low, -most), min(range.high, most)};
+  }
   static Mask within(const Range<V>& part, const Range<V>& whole, const V& slack) {
     return (part.low >= whole.low - slack) & (part.high <= whole.high + slack);
   }

@@ -162,7 +162,7 @@ class Team {
           chunk = *other;
         }
         const Task task = task_of(chunk.begin);
-        if (task.effects.stops() && fits_lanes(task.scene)) {
+        if ((task.effects.stops() || task.scene.time.mode == Mode::transient) && fits_lanes(task.scene)) {
           ++chunk.begin;
           return task;
         }
