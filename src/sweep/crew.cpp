@@ -23,9 +23,10 @@ Crew::Crew(const Visits& visits, Workshop& workshop, Next next, Take take)
 Crew::~Crew() = default;
 
 void Crew::run() {
-  for (std::size_t lane = 0; lane < Row::width; ++lane) vacate(observing_.lanes, lane);
-  for (std::size_t lane = 0; lane < Row::width; ++lane) settle_next(lane);
-  while (settling_.taken + observing_.taken > 0) {
+  for (std::size_t lane = 0; lane < Row::width; ++lane) vacate(settling_.lanes, lane), vacate(observing_.lanes, lane);
+  for (;;) {
+    fill();
+    if (settling_.taken + observing_.taken == 0) return;
     const bool observe = observing_.taken == Row::width || settling_.taken == 0;  // a full bench costs no more
     if (observe) {
       visit(observing_, visits_.observed);
@@ -33,6 +34,12 @@ void Crew::run() {
       visit(settling_, visits_.plain);
     }
   }
+}
+
+/// Lets the next points settle in free lanes, unless many wait to be observed.
+void Crew::fill() {
+  for (std::size_t lane = 0; lane < Row::width && settling_.taken < Row::width && !exhausted_; ++lane)
+    if (!settling_.members[lane] && waiting_.size() < Row::width) settle_next(lane);
 }
 
 void Crew::visit(Bench& bench, VisitLanes kernel) {
@@ -59,7 +66,10 @@ std::unique_ptr<Crew::Member> Crew::leave(Bench& bench, std::size_t lane, double
 }
 
 void Crew::settle_next(std::size_t lane) {
-  while (const std::optional<Task> task = next_()) {
+  while (waiting_.size() < Row::width) {
+    const std::optional<Task> task = next_();
+    exhausted_ = !task;
+    if (exhausted_) break;
     auto member = std::make_unique<Member>(*task);
     const auto found = member->begin(settling_.lanes, lane);
     if (!found) {
@@ -106,7 +116,6 @@ void Crew::help(Bench& bench, std::size_t lane) {
     (void)left->can_observe(left->failure(outcome));
     take_(left->task(), left->result(workshop_));
   }
-  settle_next(lane);
 }
 
 void Crew::look(Bench& bench, std::size_t lane) {
@@ -127,7 +136,6 @@ void Crew::look(Bench& bench, std::size_t lane) {
   } else {
     take_(left->task(), left->result(workshop_));
   }
-  settle_next(lane);
 }
 
 }  // namespace clatter

@@ -45,6 +45,7 @@ class Crew {
   void help(Bench& bench, std::size_t lane);
   void look(Bench& bench);
   void look(Bench& bench, std::size_t lane);
+  void fill();
   void settle_next(std::size_t lane);
   void observe_next(std::size_t lane);
   void settled(std::unique_ptr<Member> member);
@@ -55,7 +56,8 @@ class Crew {
   Next next_;
   Take take_;
   Bench settling_, observing_;
-  std::vector<std::unique_ptr<Member>> waiting_;  ///< to be observed
+  std::vector<std::unique_ptr<Member>> waiting_;  ///< to be observed; as many as there are lanes, at most some more
+  bool exhausted_ = false;                        ///< there are no more points
 };
 
 }  // namespace clatter
