@@ -1,3 +1,5 @@
+#include <malloc.h>
+
 #include <exception>
 #include <iostream>
 #include <new>
@@ -41,6 +43,7 @@ int report(const char* message, int code) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  mallopt(M_TRIM_THRESHOLD, 64 * 1024 * 1024);  // points come and go by the million: what they free is soon taken again
   try {
     const int code = run_program({argv + 1, argv + argc});
     std::cout.flush();

@@ -76,9 +76,9 @@ void watch(Lanes& lanes, std::size_t i, bool ends, bool clips) {
   lanes.ends.lane[i] = ends ? 1 : 0, lanes.clips.lane[i] = ends && clips ? 1 : 0;
   lanes.y_low.lane[i] = lanes.y_high.lane[i] = lanes.y.lane[i];
   lanes.v_low.lane[i] = lanes.v_high.lane[i] = lanes.v.lane[i];
-  for (const std::size_t which : {0, 1})
+  for (const std::size_t which : {0u, 1u})
     lanes.reference_y[which].length.lane[i] = lanes.reference_v[which].length.lane[i] = -1;
-  for (const std::size_t stop : {0, 1}) lanes.count[stop].lane[i] = 0;
+  for (const std::size_t stop : {0u, 1u}) lanes.count[stop].lane[i] = 0;
   for (std::size_t k = 0; k <= lanes.harmonics; ++k) lanes.jump_real[k].lane[i] = lanes.jump_imaginary[k].lane[i] = 0;
 }
 

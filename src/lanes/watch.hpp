@@ -55,7 +55,7 @@ class Watch {
     const V earlier = row(lanes_.count[0]) + row(lanes_.count[1]);
     const Mask first = counted & (earlier <= zero);
     put(lanes_.first_before, select(first, before, row(lanes_.first_before)));
-    for (const std::size_t stop : {0, 1}) {
+    for (const std::size_t stop : {0u, 1u}) {
       const Mask here = stop == 1 ? counted & upper : counted & !upper;
       const V count = row(lanes_.count[stop]);
       const Mask first_here = here & (count <= zero);

@@ -84,9 +84,7 @@ bool lanes_observe(const Scene& scene) {
 }  // namespace
 
 Crew::Member::Member(const Task& task)
-    : task_(task),
-      exact_(task_.scene, stops_in_reach(task_.scene.stops, task_.effects)),
-      search_(exact_, task_.scene, TakenBy::lanes) {}
+    : task_(task), exact_(task_.scene, stops_in_reach(task_.scene.stops, task_.effects)) {}
 
 std::optional<Observed> Crew::Member::begin(Lanes& lanes, std::size_t lane) {
   seat(lanes, lane, task_.scene, exact_.stops());
@@ -94,7 +92,13 @@ std::optional<Observed> Crew::Member::begin(Lanes& lanes, std::size_t lane) {
   state.x = task_.scene.start.displacement, state.v = task_.scene.start.velocity;
   if (task_.scene.time.mode == Mode::transient)
     return Observed{Status::transient, state, task_.scene.time.duration / exact_.period(), 0.0, FoundBy::start};
-  return search_.at_section(state);
+  search_.emplace(exact_, task_.scene, TakenBy::lanes);
+  return search_->at_section(state);
+}
+
+Observed Crew::Member::failure(Outcome outcome) const {
+  Observed failed{.status = status_of(outcome)};
+  return search_ ? search_->failure(outcome, {}) : failed;
 }
 
 double Crew::Member::x_of(const Lanes& lanes, std::size_t lane, double y) const {
@@ -104,13 +108,13 @@ double Crew::Member::x_of(const Lanes& lanes, std::size_t lane, double y) const 
 }
 
 std::optional<Observed> Crew::Member::at_section(const Lanes& lanes, std::size_t lane) {
-  search_.pass_period(std::bit_cast<std::uint64_t>(lanes.section_trace.lane[lane]));
+  search_->pass_period(std::bit_cast<std::uint64_t>(lanes.section_trace.lane[lane]));
   State<double> state;
   state.x = x_of(lanes, lane, lanes.section_y.lane[lane]);
   state.v = lanes.section_v.lane[lane] * lanes.rate.lane[lane], state.periods = ++sections_;
   if (exact_.impacts() + lanes.section_impacts.lane[lane] > task_.scene.time.max_impacts)
     return failure(Outcome::event_budget);
-  return search_.at_section(state);
+  return search_->at_section(state);
 }
 
 bool Crew::Member::can_observe(const Observed& observed) {

@@ -23,7 +23,7 @@ class Crew::Member {
   [[nodiscard]] std::optional<Observed> begin(Lanes& lanes, std::size_t lane);
   /// What is known at the section that the lane has passed.
   [[nodiscard]] std::optional<Observed> at_section(const Lanes& lanes, std::size_t lane);
-  [[nodiscard]] Observed failure(Outcome outcome) const { return search_.failure(outcome, {}); }
+  [[nodiscard]] Observed failure(Outcome outcome) const;
 
   /// Notes what is to be observed, and whether lanes can do it.
   [[nodiscard]] bool can_observe(const Observed& observed);
@@ -49,7 +49,7 @@ class Crew::Member {
 
   Task task_;
   Kernel exact_;
-  SteadySearch<effects> search_;
+  std::optional<SteadySearch<effects>> search_{};  ///< a transient needs none
   Observed observed_{};
   std::optional<Kernel> settled_{};                                ///< the scalar kernel before lanes began to observe
   double settled_impacts_ = 0.0;                                   ///< that lanes had met until then
