@@ -59,8 +59,7 @@ class Quintic {
   /// Where it is least, if that is between the ends: by Newton's iteration for the slope's root, from the least inner
   /// point of the control polygon.
   [[nodiscard]] V least() const {
-    const V b1 = fma(V(0.2), c1_, c0_), b2 = fma(V(0.1), c2_, fma(V(0.4), c1_, c0_));
-    const V b4 = fnma(V(0.2), v1_, y1_), b3 = fma(V(0.1), half_a1_, fnma(V(0.4), v1_, y1_));
+    const auto [b1, b2, b3, b4] = polygon();
     const V left = select(b1 < b2, V(0.2), V(0.4)), right = select(b4 < b3, V(0.8), V(0.6));
     V t = select(min(b1, b2) < min(b3, b4), left, right);
     for (int i = 0; i < 4; ++i) {
@@ -72,8 +71,7 @@ class Quintic {
   /// The first root of a polynomial that begins positive: from the first crossing of its control polygon, by a step of
   /// Halley's method.
   [[nodiscard, gnu::always_inline]] V root() const {
-    const V b1 = fma(V(0.2), c1_, c0_), b2 = fma(V(0.1), c2_, fma(V(0.4), c1_, c0_));
-    const V b4 = fnma(V(0.2), v1_, y1_), b3 = fma(V(0.1), half_a1_, fnma(V(0.4), v1_, y1_));
+    const auto [b1, b2, b3, b4] = polygon();
     V before = b4, beyond = y1_, t(0.8);
     const auto consider = [&](const V& one, const V& next, double place) {
       const auto crosses = next < V(0.0);
@@ -86,6 +84,15 @@ class Quintic {
   }
 
  private:
+  /// The inner points of the control polygon, at 0.2 ... 0.8.
+  struct Polygon {
+    V b1, b2, b3, b4;
+  };
+  [[nodiscard, gnu::always_inline]] Polygon polygon() const {
+    return {fma(V(0.2), c1_, c0_), fma(V(0.1), c2_, fma(V(0.4), c1_, c0_)),
+            fma(V(0.1), half_a1_, fnma(V(0.4), v1_, y1_)), fnma(V(0.2), v1_, y1_)};
+  }
+
   V c0_, c1_, c2_, c3_, c4_, c5_, y1_, v1_, half_a1_;
 };
 

@@ -60,8 +60,8 @@ void seat(Lanes& lanes, std::size_t i, const Scene& scene, const Stops& stops) {
   set(lanes.turn_sine, std::sin(angle)), set(lanes.turn_cosine, std::cos(angle));
   set(lanes.in_phase, flow.response.in_phase), set(lanes.quadrature, flow.response.quadrature);
   set(lanes.angle, angle), set(lanes.rotation, rotation), set(lanes.decay, flow.h * step);
-  set(lanes.damping, 2 * flow.h * step), set(lanes.skew, flow.h / flow.root), set(lanes.slowness, 1 / rotation),
-      set(lanes.inverse_angle, 1 / angle), set(lanes.amplitude, flow.response.amplitude), set(lanes.span, step);
+  set(lanes.damping, 2 * flow.h * step), set(lanes.skew, flow.h / flow.root), set(lanes.slowness, 1 / rotation);
+  set(lanes.inverse_angle, 1 / angle), set(lanes.amplitude, flow.response.amplitude), set(lanes.span, step);
   set(lanes.push, flow.f * flow.nu * step * step * step), set(lanes.stiffness, step * step), set(lanes.rate, 1 / step);
   set(lanes.lower, stops.lower - flow.load), set(lanes.upper, stops.upper - flow.load);
   set(lanes.keep_lower, stops.restitution_lower), set(lanes.keep_upper, stops.restitution_upper);

@@ -40,9 +40,10 @@ class Visit {
 
  private:
   static constexpr int most_steps = 6;
-  static constexpr double grazing =
-      0x1p-12;  ///< speed over acceleration below which a contact is left to the scalar kernel
-  static constexpr double shortest_flight = 0x1p-5;  ///< in half steps: a shorter one is left to it, too
+  /// Speed over acceleration below which a contact is left to the scalar kernel.
+  static constexpr double grazing = 0x1p-12;
+  /// In half steps: a contact that a shorter one follows is left to it, too.
+  static constexpr double shortest_flight = 0x1p-5;
 
   V row(const Row& r) const { return motions_.row(r); }
 

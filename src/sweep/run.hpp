@@ -30,7 +30,7 @@ struct Usage {
   std::array<std::size_t, found_by_names.size()> found_by{};  ///< points by how their observed time was found
   double impacts = 0.0;                                       ///< simulated
   double periods = 0.0;                                       ///< forcing periods simulated
-  double evaluations = 0.0;                                   ///< of arcs
+  double evaluations = 0.0;                                   ///< of arcs by the scalar kernel
 };
 
 /// Work in SIMD lanes: lanes times steps that were to be proved free of contact, and times contacts that were looked for.

@@ -10,26 +10,14 @@
 
 #include <array>
 #include <cstdlib>
-#include <memory>
 #include <stdexcept>
 #include <string>
 
+#include "bench/cvode_handles.hpp"
 #include "bench/solver_run.hpp"
 
 namespace clatter::bench {
 namespace {
-
-/// Frees what CVODE allocates.
-struct Free {
-  void operator()(N_Vector vector) const { N_VDestroy(vector); }
-  void operator()(SUNMatrix matrix) const { SUNMatDestroy(matrix); }
-  void operator()(SUNLinearSolver solver) const { SUNLinSolFree(solver); }
-  void operator()(SUNContext context) const { SUNContext_Free(&context); }
-  void operator()(void* cvode) const { CVodeFree(&cvode); }
-};
-
-template <class Handle>
-using Owned = std::unique_ptr<std::remove_pointer_t<Handle>, Free>;
 
 Values values(N_Vector y) { return {NV_Ith_S(y, 0), NV_Ith_S(y, 1)}; }
 

@@ -8,25 +8,13 @@
 #include <sunmatrix/sunmatrix_dense.h>
 
 #include <array>
-#include <memory>
 #include <stdexcept>
 
+#include "bench/cvode_handles.hpp"
 #include "bench/transient.hpp"
 
 namespace clatter::bench {
 namespace {
-
-/// Frees what CVODE allocates.
-struct Free {
-  void operator()(N_Vector vector) const { N_VDestroy(vector); }
-  void operator()(SUNMatrix matrix) const { SUNMatDestroy(matrix); }
-  void operator()(SUNLinearSolver solver) const { SUNLinSolFree(solver); }
-  void operator()(SUNContext context) const { SUNContext_Free(&context); }
-  void operator()(void* cvode) const { CVodeFree(&cvode); }
-};
-
-template <class Handle>
-using Owned = std::unique_ptr<std::remove_pointer_t<Handle>, Free>;
 
 /// What CVODE's functions know.
 struct Problem {
