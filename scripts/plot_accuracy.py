@@ -12,12 +12,14 @@ from plot_style import BLUE, GREEN, PURPLE, STOP, VERMILION, heading, legend_abo
 
 FLOOR = 1e-17  # smaller errors are drawn here: a logarithmic axis has no place for 0
 MINUS = "\N{MINUS SIGN}"
+SCALAR = 0  # the arch of rows that no lanes ran
 WRONG = ("missed", "doubled")
 MOTION = ("error_contact_time", "error_contact_speed", "error_extrema")
 
 # Method: its name in the legend, colour, symbol. What its points are labelled with is its setting.
 LOOKS = {
     "exact": ("exact", STOP, "D"),
+    "exact_lanes": ("exact in lanes (extrema)", GREEN, "^"),
     "dopri5": ("Dormand\N{EN DASH}Prince (tolerance)", BLUE, "o"),
     "moreau": ("Moreau (step in forcing periods)", VERMILION, "s"),
     "harmonics_fft": ("FFT, displacement", BLUE, "o"),
@@ -52,7 +54,9 @@ class Curve:
 def accuracy_figure(output):
     """The figure of a study, with its heading: a panel for each thing that has an error to show."""
     exact = curve(output, "harmonics_exact", ("error_harmonics",), None)
-    panels = [(time_panel, [curve(output, name, MOTION, "ns_per_period") for name in ("exact", "dopri5", "moreau")]),
+    lanes = curve(output, "exact", ("error_extrema",), "ns_per_period", "exact_lanes", in_lanes=True)
+    panels = [(partial(time_panel, lanes),
+               [curve(output, name, MOTION, "ns_per_period") for name in ("exact", "dopri5", "moreau")]),
               (partial(samples_panel, exact),
                [curve(output, "harmonics_fft", ("error_harmonics",), "setting"),
                 curve(output, "harmonics_fft", ("error_harmonics_v",), "setting", "harmonics_fft_v")]),
@@ -62,7 +66,7 @@ def accuracy_figure(output):
     panels = panels[:1] + [(draw, found) for draw, found in panels[1:] if found]
     figure, places = panel_places(len(panels))
     heading(figure, output)  # takes room, and the labels come last
-    figure.supxlabel(note(output, [exact, *(part for _, found in panels for part in found)]), fontsize=9.5)
+    figure.supxlabel(note(output, [exact, lanes, *(part for _, found in panels for part in found)]), fontsize=9.5)
     place_labels(figure, [labels for axes, (draw, found) in zip(places, panels) for labels in draw(axes, found)])
     return figure
 
@@ -87,14 +91,15 @@ def note(output, found):
     return "\n".join([*lines, ";  ".join(symbols)])
 
 
-def curve(output, method, errors, cost, look=None):
-    """One method's rows that have an error: the largest of `errors` against a cost, over all points of the sweep."""
+def curve(output, method, errors, cost, look=None, in_lanes=False):
+    """One method's rows, by the scalar kernel or in lanes, that have an error: the largest of `errors` against a cost,
+    over all points of the sweep."""
     error, setting = worst(at_points(output, *errors)), output.values("setting")
     costs = medians(at_points(output, cost)) if cost else np.zeros(len(setting))
     spread = medians(at_points(output, "ns_spread")) if cost == "ns_per_period" else np.full(len(setting), np.nan)
     wrong = worst(at_points(output, "missed", "doubled")) > 0
     failed = worst(at_points(output, "status")) >= FIRST_FAILURE
-    mine = output.values("method") == code_of(output, method)
+    mine = (output.values("method") == code_of(output, method)) & ((output.values("arch") != SCALAR) == in_lanes)
     rows = np.flatnonzero(mine & np.isfinite(error) & np.isfinite(costs))
     rows = rows[np.argsort(setting[rows] if method == "harmonics_fft" else -setting[rows], kind="stable")]
     return Curve(look or method, setting[rows], costs[rows], spread[rows], np.maximum(error[rows], FLOOR),
@@ -178,8 +183,9 @@ def finish(axes, across, columns):
     legend_above(axes, columns)
 
 
-def time_panel(axes, found):
-    """Error against time per forcing period, and the points that no method beats."""
+def time_panel(lanes, axes, found):
+    """Error against time per forcing period, and the points that no method beats. Lanes stand beside them: of their
+    errors only that of the extrema is drawn."""
     axes.set_gid("panel-time")
     if not found:
         axes.set_axis_off()
@@ -188,6 +194,7 @@ def time_panel(axes, found):
     labels = [draw_curve(axes, found[0])]
     draw_front(axes, *(np.concatenate([getattr(part, name)[~part.hollow] for part in found])
                        for name in ("cost", "error")))
+    found = [*found, *([lanes] if len(lanes) else [])]
     labels += [draw_curve(axes, part) for part in found[1:]]
     name_hollow(axes, found)
     finish(axes, "time per forcing period (ns)", 3)

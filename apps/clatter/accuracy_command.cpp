@@ -20,8 +20,8 @@ void check_starts(const Config& config, const std::string& file) {
 }
 
 /// Studies all points and prints each; fewer where it was interrupted.
-std::vector<PointStudy> study_points(const Sweep& sweep, bool json, bool shown) {
-  const std::vector<Trial> trials = trials_of(sweep.scene.time.mode);
+std::vector<PointStudy> study_points(const Sweep& sweep, Arch arch, bool json, bool shown) {
+  const std::vector<Trial> trials = trials_of(sweep.scene.time.mode, arch);
   const Progress progress(shown, "runs");
   StudyOptions options{.stopped = [] { return Interrupt::signal() != 0; }};
   std::size_t finished = 0;
@@ -40,12 +40,13 @@ std::vector<PointStudy> study_points(const Sweep& sweep, bool json, bool shown) 
 
 bool any_failed(const std::vector<PointStudy>& points) {
   for (const PointStudy& point : points)
-    for (const Row& row : point.rows)
+    for (const StudyRow& row : point.rows)
       if (row.trial.studied == Studied::exact && failed(row.status)) return true;
   return false;
 }
 
 int run_study(const Arguments& arguments) {
+  const Arch arch = arch_of(arguments);
   const bool shown = progress_wanted(arguments);
   const std::string output = output_of(arguments);
   const Config config = config_of(arguments);
@@ -53,7 +54,7 @@ int run_study(const Arguments& arguments) {
   check_starts(config, arguments.operands[0]);
   check_writable(output);
   const Interrupt interrupt;
-  const std::vector<PointStudy> points = study_points(config.sweep, arguments.has("json"), shown);
+  const std::vector<PointStudy> points = study_points(config.sweep, arch, arguments.has("json"), shown);
   if (const int signal = Interrupt::signal()) {
     std::cerr << "stopped after " << points.size() << " of " << size(config.sweep) << " points; " << output
               << " is not written\n";
@@ -79,6 +80,7 @@ Command accuracy_command() {
           .required_operands = 1,
           .options = {output_option,
                       set_option,
+                      arch_option,
                       {"json", 0, "", "a JSON object a row in place of the table"},
                       progress_option,
                       {"quiet", 'q', "", "print rows and errors only"},

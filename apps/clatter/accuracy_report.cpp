@@ -26,19 +26,20 @@ struct ColumnTitle {
   std::size_t width;
 };
 
-constexpr ColumnTitle titles[] = {{"", "setting", 9},
+constexpr ColumnTitle titles[] = {{"", "arch", 8},
+                                  {"", "setting", 9},
                                   {"error of", "time", 10},
                                   {"error of", "speed", 10},
                                   {"error of", "rest", 10},
                                   {"error of", "extrema", 10},
                                   {"error of", "harmonics", 11},
-                                  {"error of", "those of v", 12},
+                                  {"error of", "those of v", 11},
                                   {"impacts", "missed", 9},
                                   {"impacts", "doubled", 9},
                                   {"rests", "missed", 8},
                                   {"impacts", "taken", 9},
                                   {"periods", "run", 9},
-                                  {"ns per", "period", 12},
+                                  {"ns per", "period", 10},
                                   {"its", "spread", 10}};
 
 std::string status_name(Status status) {
@@ -61,8 +62,14 @@ std::string header() {
   return top + '\n' + bottom + '\n';
 }
 
+/// Whether a scene was to go into lanes and did not.
+bool left_out(const StudyRow& row, const PointStudy& study) {
+  const bool run = row.trial.studied >= Studied::steady || study.horizon > 0;
+  return row.trial.arch != Arch::scalar && run && std::isnan(row.simulated_periods);
+}
+
 /// What keeps a row from being compared.
-std::string remark(const Row& row, const PointStudy& study) {
+std::string remark(const StudyRow& row, const PointStudy& study) {
   const bool steady = row.trial.studied >= Studied::steady;
   if (failed(row.status) || (steady && row.status == Status::aperiodic)) return "  " + status_name(row.status);
   return steady && study.steady_periods > 0 && row.observed_periods != study.steady_periods
@@ -70,12 +77,14 @@ std::string remark(const Row& row, const PointStudy& study) {
              : "";
 }
 
-std::string row_text(const Row& row, const PointStudy& study) {
+std::string row_text(const StudyRow& row, const PointStudy& study) {
   std::size_t column = 0;
   std::string text = left(std::string(studied_names[static_cast<std::size_t>(row.trial.studied)]));
   const auto put = [&](const char* format, double value) {
     text += right(std::isnan(value) ? "-" : formatted(format, value), titles[column++].width);
   };
+  text += right(std::string(name_of(row.trial.arch)), titles[column++].width);
+  if (left_out(row, study)) return text + "  not in lanes: this motion is left to the scalar kernel\n";
   put(row.trial.studied == Studied::harmonics_fft ? "%.0f" : "%.0e", row.trial.setting);
   for (const double error :
        {row.contact_time, row.contact_speed, row.rest, row.extrema, row.harmonics, row.v_harmonics})
@@ -123,18 +132,19 @@ std::string study_text(const PointStudy& study, const Sweep& sweep, std::size_t 
   if (!text.empty()) text += '\n';
   text += horizon_text(study, scene_at(sweep, point).oscillator.forcing != 0);
   text += header();
-  for (const Row& row : study.rows) text += row_text(row, study);
+  for (const StudyRow& row : study.rows) text += row_text(row, study);
   return text + '\n';
 }
 
 std::string study_json(const PointStudy& study, const Sweep& sweep, std::size_t point) {
   std::ostringstream out;
-  for (const Row& row : study.rows) {
+  for (const StudyRow& row : study.rows) {
     const auto put = [&](const std::string& name, double value) {
       out << ", \"" << name << "\": " << json_number(value);
     };
     out << "{\"method\": " << json_text(std::string(studied_names[static_cast<std::size_t>(row.trial.studied)]));
     put("setting", row.trial.setting);
+    out << ", \"arch\": " << json_text(std::string(name_of(row.trial.arch)));
     for (const auto& [name, long_name, value] : row_variables()) put(name, row.*value);
     out << ", \"status\": " << static_cast<int>(row.status) << ", \"point\": " << point;
     each_coordinate(sweep, point,

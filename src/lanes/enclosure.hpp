@@ -62,7 +62,7 @@ class Quintic {
     const auto [b1, b2, b3, b4] = polygon();
     const V left = select(b1 < b2, V(0.2), V(0.4)), right = select(b4 < b3, V(0.8), V(0.6));
     V t = select(min(b1, b2) < min(b3, b4), left, right);
-    for (int i = 0; i < 4; ++i) {
+    for (int i = 0; i < 3; ++i) {
       const Local l = at(t);
       t = fnma(V(0.5), l.slope / l.bend, t);
     }

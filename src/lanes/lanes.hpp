@@ -49,9 +49,10 @@ struct Lanes {
   // what a visit reports
   Row section_y, section_v;            ///< at the section that was passed
   Row section_trace, section_impacts;  ///< trace and impacts up to it
-  LaneSet arrived;                     ///< lanes that have passed a section
+  LaneSet arrived;                     ///< lanes that have passed a section and report it
   LaneSet stuck;                       ///< lanes that the kernel cannot take on from where they are
   // of what is observed, where it is
+  Row quiet;                         ///< sections that are passed without a report before the next one
   Row ends;                          ///< 1: the next section ends the observed time
   Row clips;                         ///< 1: and the flight across it isn't taken, since it leads beyond
   Row bound_v, bound_forced_v;       ///< as bound and bound_forced, of the velocity
@@ -67,7 +68,8 @@ struct Lanes {
   Row jump_real[most_harmonics + 1],
       jump_imaginary[most_harmonics + 1];  ///< [k]: sums of the velocity's jumps times e^{-ik nu tau}
   bool extrema;                            ///< whether y and v are searched for them
-  std::size_t harmonics;                   ///< highest k that is summed
+  bool counts;                             ///< whether impacts are counted, and the first on each stop noted
+  std::size_t harmonics;                   ///< highest k that is summed; 0: none
   // what it took
   double proved, refined;  ///< lanes times steps that were to be proved, and times contacts that were looked for
 };

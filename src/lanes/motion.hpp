@@ -52,19 +52,22 @@ class Motions {
   /// The instant a time 0 <= d <= 1 later.
   [[nodiscard]] Instant<V> after(const Instant<V>& m, const V& d) const {
     Instant<V> end;
-    move_free(end, m, d);
-    const auto [sine, cosine] = short_sine_cosine(row(lanes_.angle) * d);
-    turn(end, m, sine, cosine);
+    move_free(end, m, d), move_phase(end, m, d);
     complete(end);
     return end;
   }
-  /// Free part and phase of it alone.
-  [[nodiscard]] Instant<V> parts_after(const Instant<V>& m, const V& d) const {
-    Instant<V> end{};
-    move_free(end, m, d);
+  /// The free part a time 0 <= d <= 1 after `from`.
+  void move_free(Instant<V>& m, const Instant<V>& from, const V& d) const {
+    const auto [turned, cosine] = short_sine_cosine(row(lanes_.rotation) * d);
+    const V e = short_decay(row(lanes_.decay) * d), s = turned * e, c = cosine * e;
+    const V skew = row(lanes_.skew), b = s * row(lanes_.slowness);
+    m.p = fma(fma(skew, s, c), from.p, b * from.w);
+    m.w = fms(fnma(skew, s, c), from.w, b * row(lanes_.stiffness) * from.p);
+  }
+  /// The forcing phase then.
+  void move_phase(Instant<V>& m, const Instant<V>& from, const V& d) const {
     const auto [sine, cosine] = short_sine_cosine(row(lanes_.angle) * d);
-    turn(end, m, sine, cosine);
-    return end;
+    turn(m, from, sine, cosine);
   }
   /// Free part from displacement, velocity and phase.
   void divide(Instant<V>& m) const {
@@ -145,13 +148,6 @@ class Motions {
   static void turn(Instant<V>& m, const Instant<V>& from, const V& sine, const V& cosine) {
     m.sine = fma(from.sine, cosine, from.cosine * sine);
     m.cosine = fnma(from.sine, sine, from.cosine * cosine);
-  }
-  void move_free(Instant<V>& m, const Instant<V>& from, const V& d) const {
-    const auto [turned, cosine] = short_sine_cosine(row(lanes_.rotation) * d);
-    const V e = short_decay(row(lanes_.decay) * d), s = turned * e, c = cosine * e;
-    const V skew = row(lanes_.skew), b = s * row(lanes_.slowness);
-    m.p = fma(fma(skew, s, c), from.p, b * from.w);
-    m.w = fms(fnma(skew, s, c), from.w, b * row(lanes_.stiffness) * from.p);
   }
   void complete(Instant<V>& m) const {
     const V x = response(m.sine, m.cosine), angle = row(lanes_.angle);

@@ -73,7 +73,7 @@ void seat(Lanes& lanes, std::size_t i, const Scene& scene, const Stops& stops) {
 }
 
 void watch(Lanes& lanes, std::size_t i, bool ends, bool clips) {
-  lanes.ends.lane[i] = ends ? 1 : 0, lanes.clips.lane[i] = ends && clips ? 1 : 0;
+  lanes.quiet.lane[i] = 0, lanes.ends.lane[i] = ends ? 1 : 0, lanes.clips.lane[i] = ends && clips ? 1 : 0;
   lanes.y_low.lane[i] = lanes.y_high.lane[i] = lanes.y.lane[i];
   lanes.v_low.lane[i] = lanes.v_high.lane[i] = lanes.v.lane[i];
   for (const std::size_t which : {0u, 1u})

@@ -22,10 +22,11 @@ class Visit {
         here_{row(lanes.p), row(lanes.w), row(lanes.sine), row(lanes.cosine), row(lanes.y), row(lanes.v), row(lanes.a)},
         left_(row(lanes.left)),
         trace_(row(lanes.trace)),
-        from_{here_.p, here_.w, here_.sine, here_.cosine},
+        from_{here_},
         time_(0.0),
         none_(V(1.0) < V(0.0)),
         arrived_(none_),
+        reported_(none_),
         touched_(none_),
         upper_(none_),
         stuck_(none_) {}
@@ -167,8 +168,8 @@ class Visit {
   /// last section has told of the clock's error, and of the length of sine and cosine, is put right now.
   void pass_sections(const Mask& arrives, Instant<V>& to) {
     if (!any(arrives)) return;
-    from_ = {select(arrives, here_.p, from_.p), select(arrives, here_.w, from_.w),
-             select(arrives, here_.sine, from_.sine), select(arrives, here_.cosine, from_.cosine)};
+    from_.p = select(arrives, here_.p, from_.p), from_.w = select(arrives, here_.w, from_.w);
+    from_.sine = select(arrives, here_.sine, from_.sine), from_.cosine = select(arrives, here_.cosine, from_.cosine);
     time_ = select(arrives, left_, time_);
     left_ = select(arrives, left_ + row(lanes_.to_next), left_);
     const V longer = select(arrives, row(lanes_.longer), V(0.0));
@@ -177,17 +178,27 @@ class Visit {
     arrived_ = arrived_ | arrives;
   }
 
-  /// Displacement and velocity at the sections that were passed, and how far clock and phase have come apart.
-  void sections() const {
+  /// How far clock and phase have come apart at the sections that were passed, and displacement and velocity at those
+  /// that are reported.
+  void sections() {
+    reported_ = arrived_;
+    if constexpr (observes) {
+      const V quiet = row(lanes_.quiet), zero(0.0);
+      reported_ = arrived_ & (quiet <= zero);
+      motions_.put(lanes_.quiet, select(arrived_, max(quiet - V(1.0), zero), quiet));
+    }
     const V sine = row(lanes_.start_sine), cosine = row(lanes_.start_cosine);
-    const Instant<V> m = motions_.parts_after({from_.p, from_.w, from_.sine, from_.cosine, time_, time_, time_}, time_);
-    motions_.put(lanes_.section_y, m.p + motions_.response(sine, cosine));
-    motions_.put(lanes_.section_v, m.w + motions_.response_velocity(sine, cosine));
+    Instant<V> m;
+    motions_.move_phase(m, from_, time_);
     const V ahead = fms(m.sine, cosine, m.cosine * sine) * row(lanes_.inverse_angle);
     const V longer = fma(m.sine, m.sine, fms(m.cosine, m.cosine, V(1.0))) * 0.5;
     // half of it, since it is put right one section later
     motions_.put(lanes_.to_next, select(arrived_, fnma(V(0.5), ahead, row(lanes_.period)), row(lanes_.to_next)));
     motions_.put(lanes_.longer, select(arrived_, longer * 0.5, row(lanes_.longer)));
+    if (!any(reported_)) return;
+    motions_.move_free(m, from_, time_);
+    motions_.put(lanes_.section_y, m.p + motions_.response(sine, cosine));
+    motions_.put(lanes_.section_v, m.w + motions_.response_velocity(sine, cosine));
   }
 
   void store() const {
@@ -196,7 +207,7 @@ class Visit {
     motions_.put(lanes_.y, here_.y), motions_.put(lanes_.v, here_.v), motions_.put(lanes_.a, here_.a);
     motions_.put(lanes_.left, left_), motions_.put(lanes_.trace, trace_);
     if constexpr (observes) watch_.store();
-    lanes_.arrived |= bits(arrived_) << first_, lanes_.stuck |= bits(stuck_) << first_;
+    lanes_.arrived |= bits(reported_) << first_, lanes_.stuck |= bits(stuck_) << first_;
   }
 
   Lanes& lanes_;
@@ -205,11 +216,9 @@ class Visit {
   Watch<V> watch_;
   Instant<V> here_;
   V left_, trace_;
-  struct {
-    V p, w, sine, cosine;
-  } from_;  ///< where the flight across a section began
-  V time_;  ///< from there to the section
-  Mask none_, arrived_, touched_, upper_, stuck_;
+  Instant<V> from_;  ///< where the flight across a section began; place, velocity and acceleration aren't kept
+  V time_;           ///< from there to the section
+  Mask none_, arrived_, reported_, touched_, upper_, stuck_;
 };
 
 /// Lets numbers below 1e-308 be 0 while lanes are visited: a free motion that has died out would else cost a hundred

@@ -18,8 +18,8 @@ class Watch {
 
   /// A flight from one instant to another; of a step it is the part `length`, and its displacement lies within `range`.
   /// Returns the lanes for which its extrema are sure; of the others nothing is noted.
-  Mask flight(const Mask& active, const Instant<V>& from, const Instant<V>& to, const V& length,
-              const Uncertainty<V>& uncertainty, const Range<V>& range) {
+  [[gnu::always_inline]] Mask flight(const Mask& active, const Instant<V>& from, const Instant<V>& to, const V& length,
+                                     const Uncertainty<V>& uncertainty, const Range<V>& range) {
     if (!lanes_.extrema) return active;
     const V slack = uncertainty.rounding * 0.5, part = sixth_power(length),
             error_v = motions_.error_v(uncertainty) * part;
@@ -51,6 +51,8 @@ class Watch {
     Range<V> with_after = v_;
     with_after.include(at.v);
     take(met, y_, with_after);
+    if (lanes_.harmonics > 0) add_jump(counted, jump, at);
+    if (!lanes_.counts) return;
     const V zero(0.0);
     const V earlier = row(lanes_.count[0]) + row(lanes_.count[1]);
     const Mask first = counted & (earlier <= zero);
@@ -63,7 +65,6 @@ class Watch {
       put(lanes_.after[stop], select(first_here, at.v, row(lanes_.after[stop])));
       put(lanes_.count[stop], count + select(here, V(1.0), zero));
     }
-    add_jump(counted, jump, at);
   }
 
   void store() const {
@@ -95,8 +96,9 @@ class Watch {
   /// which then nothing does, and all others. `ends` is what is searched, over the flight; `derivatives` tells it at an
   /// instant. A flight as good as equal to the one in which the extremum was found before isn't searched again.
   template <class Derivatives>
-  Mask search(const Mask& open, Range<V>& range, const Ends<V>& ends, const Instant<V>& from, const V& length,
-              const V& error, const V& slack, Lanes::Reference* references, const Derivatives& derivatives) {
+  [[gnu::noinline]] Mask search(const Mask& open, Range<V>& range, const Ends<V>& ends, const Instant<V>& from,
+                                const V& length, const V& error, const V& slack, Lanes::Reference* references,
+                                const Derivatives& derivatives) {
     const V zero(0.0), one(1.0);
     const Range<V> bounds = enclosure(ends, error);
     const Mask high = bounds.high > range.high + slack, low = bounds.low < range.low - slack;

@@ -94,6 +94,13 @@ class ExactHarmonics {
       x_[k] = (force + jumps[k] - growth) / impedance(o.damping, w);
     }
   }
+  /// A time `total` of the steady response to the force, whole periods of it from displacement x on, base frequency nu.
+  void response(const Oscillator& o, double phase, double x, double total) {
+    const auto [in_phase, quadrature, amplitude] = steady_response(o.damping, o.forcing, o.frequency);
+    first_x_ = x;
+    x_[0] = o.load * total;
+    if (x_.size() > 1) x_[1] = total / 2 * Complex(quadrature, -in_phase) * std::polar(1.0, phase);
+  }
   /// Z of harmonic w.
   [[nodiscard]] static Complex impedance(double h, double w) { return {1 - w * w, 2 * h * w}; }
   /// Whether Z is so small that quadrature has to take the place of a division by it.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <functional>
 #include <vector>
 
 #include "sweep/point.hpp"
@@ -12,12 +13,12 @@ namespace clatter {
 /// Wall times of a trial.
 class Stopwatch {
  public:
-  /// Runs a scene often enough to be measured; a slow one is measured in the first rounds only.
-  void measure(const Scene& scene, Workshop& workshop, int round) {
+  /// Lets a trial run often enough to be measured; a slow one is measured in the first rounds only. `run` is told how
+  /// often, and says how many forcing periods that took.
+  void measure(const std::function<double(int times)>& run, int round) {
     if ((round > 0 && seconds_ > 5) || (round > 2 && seconds_ > 1)) return;
     const auto begin = std::chrono::steady_clock::now();
-    double periods = 0;
-    for (int i = 0; i < batch_; ++i) periods += run_point(scene, workshop).periods;
+    const double periods = run(batch_);
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     seconds_ = seconds / batch_;
     if (round >= 0) ns_per_period_.push_back(1e9 * seconds / periods);

@@ -9,6 +9,7 @@
 #include "study/comparison.hpp"
 #include "study/references.hpp"
 #include "study/stopwatch.hpp"
+#include "sweep/lane_points.hpp"
 
 namespace clatter {
 namespace {
@@ -75,6 +76,13 @@ Observe everything_over(const Scene& scene, double duration) {
   return observe;
 }
 
+/// What lanes observe of that: they count impacts, keep no log, and know the harmonics of the force alone.
+Observe in_lanes(Observe observe, const Scene& scene) {
+  observe.impact_log = observe.full_log = false, observe.impacts = true;
+  if (observe.base_frequency != scene.oscillator.frequency) observe.harmonics = 0;
+  return observe;
+}
+
 const Course* pointer_to(const std::optional<Course>& course) { return course ? &*course : nullptr; }
 
 /// A scene that runs over the horizon.
@@ -114,9 +122,36 @@ Prepared prepare_steady(const Trial& trial, const Scene& scene, const References
 }
 
 Prepared prepare(const Trial& trial, const Scene& scene, const References& references) {
-  if (trial.studied <= Studied::moreau) return prepare_method(trial, scene, references);
-  if (trial.studied <= Studied::harmonics_fft) return prepare_harmonics(trial, scene, references);
-  return prepare_steady(trial, scene, references);
+  Prepared prepared = trial.studied <= Studied::moreau          ? prepare_method(trial, scene, references)
+                      : trial.studied <= Studied::harmonics_fft ? prepare_harmonics(trial, scene, references)
+                                                                : prepare_steady(trial, scene, references);
+  Observe& observe = prepared.observed.observe;
+  if (trial.arch != Arch::scalar) observe = in_lanes(observe, scene);
+  return prepared;
+}
+
+Task task_of(const Scene& scene) { return {0, scene, effects_of(scene)}; }
+
+/// Runs a trial once, in lanes too, where one point gives what a full crew of it does; nothing where lanes leave it to
+/// the scalar kernel.
+std::optional<PointResult> result_of(const Prepared& prepared, Workshop& workshop) {
+  const Arch arch = prepared.trial.arch;
+  if (arch == Arch::scalar) return run_point(prepared.observed, workshop);
+  const Task task = task_of(prepared.observed);
+  if (!can_go_into_lanes(task)) return std::nullopt;
+  PointResult result = run_in_lanes(task, 1, arch, workshop);
+  return result.in_lanes || failed(result.status) ? std::optional(std::move(result)) : std::nullopt;
+}
+
+/// Runs a trial silently so many times, in lanes so many times a full crew; the forcing periods of all.
+double run_silently(const Prepared& prepared, Workshop& workshop, int times) {
+  if (const Arch arch = prepared.trial.arch; arch != Arch::scalar) {
+    const std::size_t points = full_crew * static_cast<std::size_t>(times);
+    return static_cast<double>(points) * run_in_lanes(task_of(prepared.silent), points, arch, workshop).periods;
+  }
+  double periods = 0;
+  for (int i = 0; i < times; ++i) periods += run_point(prepared.silent, workshop).periods;
+  return periods;
 }
 
 /// What a thread needs for a scene's harmonics.
@@ -166,8 +201,8 @@ class Study {
     if (options_.progress) options_.progress();
   }
 
-  [[nodiscard]] Row row_of(const Prepared& prepared) const {
-    Row row{.trial = prepared.trial, .status = references_.not_run};
+  [[nodiscard]] StudyRow row_of(const Prepared& prepared) const {
+    StudyRow row{.trial = prepared.trial, .status = references_.not_run};
     const bool empty = prepared.silent.time.mode == Mode::transient && !(prepared.silent.time.duration > 0);
     if (stopped()) return row;
     if (empty) {
@@ -175,16 +210,19 @@ class Study {
       return row;
     }
     Bench bench(prepared.observed.observe);
-    const PointResult result = run_point(prepared.observed, bench.workshop());
-    row.status = result.status;
-    row.impacts = result.impacts, row.simulated_periods = result.periods, row.evaluations = result.evaluations;
-    row.observed_periods = result.observed_turns;
-    if (prepared.reference != nullptr && !failed(result.status)) compare_with(prepared, result, row);
+    if (const std::optional<PointResult> result = result_of(prepared, bench.workshop())) take(prepared, *result, row);
     step();
     return row;
   }
 
-  void compare_with(const Prepared& prepared, const PointResult& result, Row& row) const {
+  void take(const Prepared& prepared, const PointResult& result, StudyRow& row) const {
+    row.status = result.status;
+    row.impacts = result.impacts, row.simulated_periods = result.periods, row.observed_periods = result.observed_turns;
+    row.evaluations = result.evaluations;
+    if (prepared.reference != nullptr && !failed(result.status)) compare_with(prepared, result, row);
+  }
+
+  void compare_with(const Prepared& prepared, const PointResult& result, StudyRow& row) const {
     const Course& reference = *prepared.reference;
     if (prepared.reference_period > 0 && row.observed_periods != prepared.reference_period) return;  // another motion
     const double size = std::max(size_of(reference.x_range), size_of(reference.v_range));
@@ -193,6 +231,7 @@ class Study {
     if (!prepared.observed.observe.extrema) return;
     row.extrema = std::max(range_error(result.x_min, result.x_max, reference.x_range),
                            range_error(result.v_min, result.v_max, reference.v_range));
+    if (result.in_lanes) return compare_counts(result, reference, row);
     const double period = period_of(scene_.oscillator);
     const ContactErrors errors = compare(events_of(result), reference.events, period / 2);
     if (errors.paired > 0) row.contact_time = errors.time / period, row.contact_speed = errors.speed;
@@ -201,16 +240,31 @@ class Study {
     row.rests_missed = static_cast<double>(errors.rests_missed);
   }
 
+  /// Lanes count impacts, each stop's apart.
+  static void compare_counts(const PointResult& result, const Course& reference, StudyRow& row) {
+    row.missed = row.doubled = 0.0;
+    const double periods = result.status == Status::transient ? 1.0 : result.observed_turns;
+    for (const Side side : {Side::lower, Side::upper}) {
+      const auto counts = [&](const Event& event) {  // an impact at the start belongs to what was before
+        return event.kind == Event::Kind::impact && event.side == side && event.time > 0;
+      };
+      const double more = std::round(result.impacts_per_period[index_of(side)] * periods) -
+                          static_cast<double>(std::ranges::count_if(reference.events, counts));
+      row.missed += std::max(0.0, -more), row.doubled += std::max(0.0, more);
+    }
+  }
+
   /// All trials in turn, so that what disturbs the machine disturbs them alike.
-  void measure(const std::vector<Prepared>& prepared, std::vector<Row>& rows) const {
+  void measure(const std::vector<Prepared>& prepared, std::vector<StudyRow>& rows) const {
     std::vector<Stopwatch> stopwatches(prepared.size());
     for (int round = -1; round < options_.rounds; ++round) {  // the first one warms up
       for (std::size_t i = 0; i < prepared.size(); ++i) {
         if (stopped()) return;
-        const Row& row = rows[i];
+        const StudyRow& row = rows[i];
         if (row.simulated_periods > 0 && !failed(row.status)) {
           Bench bench(prepared[i].silent.observe);
-          stopwatches[i].measure(prepared[i].silent, bench.workshop(), round);
+          const auto run = [&](int times) { return run_silently(prepared[i], bench.workshop(), times); };
+          stopwatches[i].measure(run, round);
         }
         if (round >= 0) step();
       }

@@ -8,8 +8,9 @@
 
 namespace clatter {
 
-/// A row of a study: what a method and its setting give and cost. NaN: does not apply, or there is nothing to compare.
-struct Row {
+/// A row of a study: what a method and its setting give and cost. NaN: does not apply, or there is nothing to compare;
+/// all of it where lanes leave the scene to the scalar kernel. In lanes impacts are counted only, without their times.
+struct StudyRow {
   Trial trial;
   Status status = Status::unresolved;
   double contact_time = no_value;   ///< largest error of an impact's time, in forcing periods
@@ -18,13 +19,14 @@ struct Row {
   double extrema = no_value;        ///< error of the least and greatest x and x', over the largest |x| and |x'|
   double harmonics = no_value;      ///< of x: error of the complex amplitudes 1 ... 3, over the largest of them
   double v_harmonics = no_value;    ///< the same of x'
-  double missed = no_value, doubled = no_value;  ///< impacts
+  double missed = no_value, doubled = no_value;  ///< impacts; in lanes by their count on each stop
   double rests_missed = no_value;
   double impacts = no_value;            ///< simulated
   double simulated_periods = no_value;  ///< forcing periods, settling included
   double observed_periods = no_value;   ///< forcing periods observed: of periodic motion its period
-  double evaluations = no_value;        ///< of arcs; of the equation by general methods
-  double ns_per_period = no_value;      ///< median wall time of a forcing period on one thread, in ns
+  double evaluations = no_value;        ///< of arcs by the scalar kernel; of the equation by general methods
+  double ns_per_period = no_value;      ///< median wall time of a forcing period on one thread, in ns; in lanes of a
+                                        ///< full crew that runs the same point, over its number
   double ns_spread = no_value;          ///< interquartile range of it; NaN where it was measured once
 };
 
@@ -35,7 +37,7 @@ struct PointStudy {
   double impacts = 0.0;              ///< of the reference within the horizon
   double rests = 0.0;                ///< of the reference within the horizon
   double steady_periods = no_value;  ///< period of the steady motion that repeats are compared with; NaN: none
-  std::vector<Row> rows;
+  std::vector<StudyRow> rows;
 };
 
 struct StudyOptions {

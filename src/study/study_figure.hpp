@@ -12,7 +12,7 @@ namespace clatter {
 /// A variable of a study over its rows, and where a row has it.
 struct RowVariable {
   const char *name, *long_name;
-  double Row::*value;
+  double StudyRow::*value;
 };
 
 /// A variable of a study over its points.

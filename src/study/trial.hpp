@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "dynamics/scene.hpp"
+#include "numbers/arch.hpp"
 
 namespace clatter {
 
@@ -27,12 +28,13 @@ inline constexpr std::array<std::string_view, 7> studied_names{
 /// A row before it is run.
 struct Trial {
   Studied studied = Studied::exact;
-  double setting = 0.0;  ///< NaN where there is none
+  double setting = 0.0;      ///< NaN where there is none
+  Arch arch = Arch::scalar;  ///< instruction set; but for scalar the exact method runs in its lanes
 };
 
 /// A complete study: exact; dopri5 at tolerances 1e-3 ... 1e-13; Moreau's time stepping at steps of 1e-1 ... 1e-5
 /// periods; harmonics, exact and of 2^4 ... 2^20 samples; unless motion is transient, steady detection at tolerances
-/// 1e-3 ... 1e-14.
-[[nodiscard]] std::vector<Trial> trials_of(Mode mode);
+/// 1e-3 ... 1e-14. With an instruction set, exact in its lanes beside the first, and steady detection at 1e-12 there.
+[[nodiscard]] std::vector<Trial> trials_of(Mode mode, Arch arch);
 
 }  // namespace clatter

@@ -71,8 +71,10 @@ bool lanes_observe(const Scene& scene) {
   const Observe& o = scene.observe;
   if (o.stability || o.trajectory > 0 || o.impact_log || o.full_log) return false;
   if (o.harmonics == 0) return true;
-  if (o.harmonics_method != HarmonicsMethod::exact || o.base_frequency != 0) return false;
-  if (scene.time.mode == Mode::transient) return false;  // their base frequency isn't the force's
+  if (o.harmonics_method != HarmonicsMethod::exact) return false;
+  const bool of_force = o.base_frequency == 0 ? scene.time.mode == Mode::steady  // that of a transient is its own
+                                              : o.base_frequency == scene.oscillator.frequency;
+  if (!of_force) return false;
   if (o.harmonics > static_cast<std::int64_t>(Lanes::most_harmonics)) return false;
   for (std::int64_t k = 0; k <= o.harmonics; ++k) {
     const double w = static_cast<double>(k) * scene.oscillator.frequency;
@@ -119,13 +121,15 @@ std::optional<Observed> Crew::Member::at_section(const Lanes& lanes, std::size_t
 
 bool Crew::Member::can_observe(const Observed& observed) {
   observed_ = observed;
-  return !failed(observed.status) && observed.turns >= 1 && lanes_observe(task_.scene);
+  return !failed(observed.status) && observed.found_by != FoundBy::closed_form && observed.turns >= 1 &&
+         lanes_observe(task_.scene);
 }
 
 void Crew::Member::begin_to_observe(Lanes& lanes, std::size_t lane) {
   settled_ = exact_, settled_impacts_ = impacts_;
-  observing_ = true, sections_ = helped_ = 0, helped_left_ = std::numeric_limits<double>::quiet_NaN();
-  lanes.extrema = task_.scene.observe.extrema;
+  observing_ = true, coasts_ = false, sections_ = helped_ = quiet_ = 0,
+  helped_left_ = std::numeric_limits<double>::quiet_NaN();
+  lanes.extrema = task_.scene.observe.extrema, lanes.counts = task_.scene.observe.impacts || task_.scene.observe.period;
   lanes.harmonics = static_cast<std::size_t>(task_.scene.observe.harmonics);
   seat(lanes, lane, task_.scene, exact_.stops());
   put(lanes, lane, task_.scene, {observed_.from.x, observed_.from.v, 0});
@@ -133,13 +137,53 @@ void Crew::Member::begin_to_observe(Lanes& lanes, std::size_t lane) {
 }
 
 bool Crew::Member::ends(Lanes& lanes, std::size_t lane) {
-  const double whole = std::floor(observed_.turns), left = whole - static_cast<double>(++sections_);
-  lanes.ends.lane[lane] = left == 1 ? 1 : 0;
-  lanes.clips.lane[lane] = left == 1 && observed_.status != Status::periodic ? 1 : 0;
+  sections_ += 1 + std::exchange(quiet_, 0);
+  const double whole = std::floor(observed_.turns), left = whole - static_cast<double>(sections_);
+  const bool over = left == 0 || has_seen_all(lanes, lane);
+  if (left > 0 && over) coast(lanes, lane);
   if (left == 0 && observed_.turns > whole) finish_period(lanes, lane, observed_.turns - whole);
+  lanes.ends.lane[lane] = left == 1 || coasts_ ? 1 : 0;
+  lanes.clips.lane[lane] = left == 1 && observed_.status != Status::periodic ? 1 : 0;
+  if (left > 1 && !coasts_) quiet_ = std::min({sections_ / 4, longest_quiet, static_cast<std::int64_t>(left) - 2});
+  lanes.quiet.lane[lane] = static_cast<double>(quiet_);
   gives_up_ =
       gives_up_ || exact_.impacts() + impacts_ + lanes.section_impacts.lane[lane] > task_.scene.time.max_impacts;
-  return left == 0 || gives_up_;
+  return over || gives_up_;
+}
+
+/// Where the lane was at the section that it has passed.
+Instant Crew::Member::section(const Lanes& lanes, std::size_t lane) const {
+  return {lanes.section_y.lane[lane], lanes.section_v.lane[lane] * lanes.rate.lane[lane], lanes.start_sine.lane[lane],
+          lanes.start_cosine.lane[lane]};
+}
+
+/// Whether the rest of the observed time can add nothing: no stop can be met any more, and response and transient
+/// together stay within the extrema so far. The lane then stops at its sections, since which extrema it has seen
+/// at one must not depend on how far its neighbours let it go on.
+bool Crew::Member::has_seen_all(const Lanes& lanes, std::size_t lane) {
+  const auto at = [lane](const Row& row) { return row.lane[lane]; };
+  const Oscillator& o = task_.scene.oscillator;
+  const bool before = coasts_;
+  if (!before) coasts_ = at(lanes.section_trace) == 0 && out_of_reach(o, section(lanes, lane), exact_.stops());
+  if (!before || !lanes.extrema) return coasts_ && !lanes.extrema;
+  const double transient = transient_bound(o, transient_of(o, section(lanes, lane))), slack = at(lanes.rounding) / 2;
+  const double y = at(lanes.amplitude) + transient - slack;
+  const double v = (o.frequency * at(lanes.amplitude) + transient - slack) / at(lanes.rate);
+  return at(lanes.y_low) <= -y && at(lanes.y_high) >= y && at(lanes.v_low) <= -v && at(lanes.v_high) >= v;
+}
+
+/// Takes a lane that no stop is in the way of from the section that it has passed to the end of the observed time.
+void Crew::Member::coast(Lanes& lanes, std::size_t lane) const {
+  const Oscillator& o = task_.scene.oscillator;
+  const PhasePoint free = transient_of(o, section(lanes, lane));
+  State<double> end;
+  end.turns = observed_.turns - std::floor(observed_.turns);
+  const auto [sine, cosine] = exact_.phase(end);
+  const PhasePoint response = response_at(o, sine, cosine);
+  const double time = (observed_.turns - static_cast<double>(sections_)) * exact_.period();
+  const Propagator<double> to = exact_.flow().propagator(time);
+  lanes.section_y.lane[lane] = response.x + to.a * free.x + to.b * free.v;
+  lanes.section_v.lane[lane] = (response.v - to.b * free.x + to.c * free.v) / lanes.rate.lane[lane];
 }
 
 /// Takes a transient through the part of a forcing period that is left after the last section.
@@ -168,7 +212,12 @@ Outcome Crew::Member::help(Lanes& lanes, std::size_t lane) {
     lanes.section_v.lane[lane] = state.v / lanes.rate.lane[lane];
     lanes.section_trace.lane[lane] = std::exchange(lanes.trace.lane[lane], 0.0);
     lanes.section_impacts.lane[lane] = lanes.impacts.lane[lane];
-    lanes.arrived |= LaneSet{1} << lane;
+    double& quiet = lanes.quiet.lane[lane];
+    if (quiet > 0) {
+      --quiet;
+    } else {
+      lanes.arrived |= LaneSet{1} << lane;
+    }
     state.turns = 0;
   }
   put(lanes, lane, task_.scene, {state.x, state.v, state.turns});
@@ -214,7 +263,7 @@ PointResult Crew::Member::result(const Lanes& lanes, std::size_t lane, Workshop&
                                        {observed_.from.x, observed_.from.v}, {end.x, end.v}, total, jumps);
   }
   PointResult result = point.end(observers, end, Outcome::completed);
-  result.impacts += impacts_ + at(lanes.section_impacts);
+  result.impacts += impacts_ + at(lanes.section_impacts), result.in_lanes = true;
   return result;
 }
 

@@ -4,6 +4,7 @@
 #include <limits>
 #include <optional>
 
+#include "dynamics/reach.hpp"
 #include "integrators/settle_forced.hpp"
 #include "lanes/seat.hpp"
 #include "sweep/crew.hpp"
@@ -43,8 +44,12 @@ class Crew::Member {
  private:
   static constexpr Effects effects = kernels::complete(Damping::light, Forcing::regular);
   using Kernel = Exact<double, effects>;
+  static constexpr std::int64_t longest_quiet = 15;  ///< sections
 
   void finish_period(Lanes& lanes, std::size_t lane, double part);
+  [[nodiscard]] bool has_seen_all(const Lanes& lanes, std::size_t lane);
+  void coast(Lanes& lanes, std::size_t lane) const;
+  [[nodiscard]] Instant section(const Lanes& lanes, std::size_t lane) const;
   [[nodiscard]] double x_of(const Lanes& lanes, std::size_t lane, double y) const;
 
   Task task_;
@@ -56,8 +61,10 @@ class Crew::Member {
   State<double> helped_to_{};                                      ///< where the scalar kernel left the lane
   double helped_left_ = std::numeric_limits<double>::quiet_NaN();  ///< its time to the next section then
   std::int64_t sections_ = 0, helped_ = 0;
+  std::int64_t quiet_ = 0;  ///< sections that the lane passes without a report before the next one
   double impacts_ = 0.0;
   bool observing_ = false;
+  bool coasts_ = false;    ///< no stop can be met under observation any more
   bool gives_up_ = false;  ///< it rested under observation, or failed: only the scalar kernel tells what comes of it
 };
 

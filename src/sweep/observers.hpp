@@ -38,6 +38,19 @@ class Observers {
     }
   }
 
+  /// Takes a time `total` of the steady response to the force, whole periods that no stop interrupts, from displacement
+  /// x on: by its amplitude and phase, but for what needs its course.
+  void response(const Scene& scene, double x, double total) {
+    const Oscillator& o = scene.oscillator;
+    const double amplitude = steady_response(o.damping, o.forcing, o.frequency).amplitude, v = o.frequency * amplitude;
+    if (extrema) extrema->include({o.load - amplitude, o.load + amplitude}, {-v, v});
+    if (impacts) impacts->include({}, no_value);
+    if (exact_harmonics) exact_harmonics->response(o, scene.start.phase, x, total);
+    in_closed_form_ = true;
+  }
+  /// Whether anything still has to see the flights.
+  [[nodiscard]] bool need_flights() const { return !in_closed_form_ || trajectory || samples || stability; }
+
   template <class A>
   void arc(const A& arc, double begin, double length) {
     each([&](auto& observer) { observer.arc(arc, begin, length); });
@@ -77,15 +90,17 @@ class Observers {
  private:
   template <class Function>
   void each(Function&& function) {
-    if (extrema) function(*extrema);
-    if (impacts) function(*impacts);
+    if (extrema && !in_closed_form_) function(*extrema);
+    if (impacts && !in_closed_form_) function(*impacts);
+    if (exact_harmonics && !in_closed_form_) function(*exact_harmonics);
     if (log) function(*log);
     if (rests) function(*rests);
     if (trajectory) function(*trajectory);
     if (samples) function(*samples);
-    if (exact_harmonics) function(*exact_harmonics);
     if (stability) function(*stability);
   }
+
+  bool in_closed_form_ = false;  ///< extrema, impacts and exact harmonics are known already
 };
 
 /// Harmonics k of the base frequency from samples of an observed time in which it turns `turns` times. NaN from half

@@ -21,8 +21,9 @@ inline constexpr double no_value = std::numeric_limits<double>::quiet_NaN();
 struct PointResult {
   Status status = Status::unresolved;
   FoundBy found_by = FoundBy::nothing;
-  double impacts = 0.0;  ///< simulated, settling included
-  double periods = 0.0;  ///< forcing periods simulated, settling included
+  bool in_lanes = false;  ///< observed in SIMD lanes
+  double impacts = 0.0;   ///< simulated, settling included
+  double periods = 0.0;   ///< forcing periods simulated, settling included
   /// Of arcs by the scalar kernel (of the equation by general methods), settling and observables included.
   double evaluations = 0.0;
   double observed_turns = no_value;  ///< forcing periods observed

@@ -28,7 +28,15 @@ class Point {
     if (failed(observed.status)) return result_of(observed);
     Observers observers = begin(observed);
     State<double> state = observed.from;
-    const Outcome outcome = run_for(integrator_, state, observed.turns, observers);
+    const bool steady = observed.found_by == FoundBy::closed_form && scene_.oscillator.forcing != 0 &&
+                        scene_.observe.base_frequency == 0;
+    if (steady) observers.response(scene_, state.x, total_);
+    Outcome outcome = Outcome::completed;
+    if (observers.need_flights()) {
+      outcome = run_for(integrator_, state, observed.turns, observers);
+    } else {
+      state.periods += static_cast<std::int64_t>(observed.turns);
+    }
     return end(observers, state, outcome);
   }
 

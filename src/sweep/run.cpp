@@ -16,6 +16,7 @@
 #include "sweep/columns.hpp"
 #include "sweep/crew.hpp"
 #include "sweep/fork_join.hpp"
+#include "sweep/lane_points.hpp"
 #include "sweep/plan.hpp"
 #include "sweep/point.hpp"
 
@@ -162,7 +163,7 @@ class Team {
           chunk = *other;
         }
         const Task task = task_of(chunk.begin);
-        if ((task.effects.stops() || task.scene.time.mode == Mode::transient) && fits_lanes(task.scene)) {
+        if (can_go_into_lanes(task)) {
           ++chunk.begin;
           return task;
         }

@@ -16,7 +16,7 @@ namespace clatter {
 struct RunOptions {
   int threads = 0;  ///< OpenMP threads; 0: as many as the machine offers
   std::function<void(std::size_t done, std::size_t total)>
-      progress{};  ///< called from one thread at a time, a few times a second
+      progress{};           ///< called from one thread at a time, a few times a second
   Arch arch = best_arch();  ///< instruction set of the points that lanes can take
 };
 
@@ -33,7 +33,8 @@ struct Usage {
   double evaluations = 0.0;                                   ///< of arcs by the scalar kernel
 };
 
-/// Work in SIMD lanes: lanes times steps that were to be proved free of contact, and times contacts that were looked for.
+/// Work in SIMD lanes: lanes times steps that were to be proved free of contact, and times contacts that were looked
+/// for.
 struct LaneWork {
   double proved = 0.0, refined = 0.0;
 };

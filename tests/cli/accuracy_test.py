@@ -16,7 +16,7 @@ import h5py
 import numpy as np
 import xarray
 
-from command_line import CLATTER, SMALL, CommandLine
+from command_line import CLATTER, SMALL, CommandLine, runs_here
 
 SCENE = """title = "a small study"
 [scene]
@@ -27,10 +27,11 @@ xs = -0.5
 """
 STEADY = SCENE + "[time]\nwindow = 3\n"
 SWEEP = SCENE + '[sweep]\nnu = [0.9, 1.1]\n[time]\nmode = "transient"\nduration = 10\n'
-METHODS = ["exact"] + ["dopri5"] * 11 + ["moreau"] * 5 + ["harmonics_exact"] + ["harmonics_fft"] * 17
-REPEATS = ["steady"] * 12 + ["steady_repetition"] * 12
-KEYS = {"method", "setting", "error_contact_time", "error_contact_speed", "error_extrema", "error_harmonics", "missed",
-        "doubled", "ns_per_period", "ns_spread", "horizon", "status"}
+METHODS = ["exact"] * 2 + ["dopri5"] * 11 + ["moreau"] * 5 + ["harmonics_exact"] + ["harmonics_fft"] * 17
+REPEATS = ["steady"] * 13 + ["steady_repetition"] * 12
+LANES = (1, 48)  # rows of the exact method and of its steady motion in lanes
+KEYS = {"method", "setting", "arch", "error_contact_time", "error_contact_speed", "error_extrema", "error_harmonics",
+        "missed", "doubled", "ns_per_period", "ns_spread", "horizon", "status"}
 TIMES = {"ns_per_period", "ns_spread"}
 NOTED = "\nclatter: stops after the present run; once more stops at once\n"  # the signal
 
@@ -47,20 +48,21 @@ def number(value):
 
 
 class Studies(CommandLine):
-    def study(self, *words, code=0):
-        result = self.clatter("accuracy", *words)
+    def study(self, *words, code=0, arch=""):
+        result = self.clatter("accuracy", *words, environment={"CLATTER_ARCH": arch})
         self.assertEqual(result.returncode, code, result.stderr)
         return result
 
     def assert_file_holds(self, name, rows):
         """The file has the numbers of the JSON objects, in their order."""
         with h5py.File(self.directory / name) as file:
-            meanings = file["method"].attrs["flag_meanings"]
-            names = (meanings if isinstance(meanings, str) else meanings.decode()).split()
             points = max(row["point"] for row in rows) + 1
             count = len(rows) // points
-            self.assertEqual([names[index] for index in file["method"]] * points, [row["method"] for row in rows])
-            for key in rows[0].keys() - {"method", "point"}:
+            for key in ("method", "arch"):
+                meanings = file[key].attrs["flag_meanings"]
+                names = (meanings if isinstance(meanings, str) else meanings.decode()).split()
+                self.assertEqual([names[index] for index in file[key]] * points, [row[key] for row in rows])
+            for key in rows[0].keys() - {"method", "arch", "point"}:
                 expected = np.array([number(row[key]) for row in rows])
                 variable = np.array(file[key], dtype=float)
                 if key == "setting":
@@ -75,7 +77,7 @@ class Study(Studies):
         config = self.write("a.toml", STEADY)
         result = self.study(config, "--json", "--progress", "always")
         *_, bar, output = result.stderr.splitlines()
-        self.assertRegex(bar, r"^\[#{30}\] 100 %  590/590 runs  .* runs/s  .* left$")
+        self.assertRegex(bar, r"^\[#{30}\] 100 %  610/610 runs  .* runs/s  .* left$")
         self.assertEqual(output, "a.h5")
         rows = objects(result.stdout)
         self.assertEqual([row["method"] for row in rows], METHODS + REPEATS)
@@ -84,22 +86,29 @@ class Study(Studies):
             self.assertTrue(row["ns_per_period"] > 0, row)
             self.assertEqual(row["horizon"], 3)
             self.assertEqual(row["setting"] is None, row["method"] in ("exact", "harmonics_exact"), row)
-            has_contacts = not row["method"].startswith("harmonics")
-            for key in ("error_contact_time", "error_contact_speed", "error_extrema", "missed", "doubled"):
+            has_contacts, in_lanes = not row["method"].startswith("harmonics"), row["arch"] != "scalar"
+            for key in ("error_extrema", "missed", "doubled"):
                 self.assertEqual(row[key] is not None, has_contacts, (key, row))
+            for key in ("error_contact_time", "error_contact_speed", "rests_missed"):
+                self.assertEqual(row[key] is not None, has_contacts and not in_lanes, (key, row))
             self.assertIsNotNone(row["error_harmonics"])
+        self.assertEqual([place for place, row in enumerate(rows) if row["arch"] != "scalar"], [*LANES])
         exact = rows[0]
         for key in ("error_contact_time", "error_contact_speed", "error_extrema", "error_harmonics"):
             self.assertLess(exact[key], 1e-13, key)  # roundings of six contracting impacts
         self.assertEqual((exact["missed"], exact["doubled"], exact["simulated_periods"]), (0, 0, 3))
-        self.assertEqual([row["setting"] for row in rows[1:12]], [1 / 10**n for n in range(3, 14)])
+        for lanes in (rows[place] for place in LANES):
+            for key in ("error_extrema", "error_harmonics", "error_harmonics_v"):
+                self.assertLess(lanes[key], 1e-13, key)
+            self.assertEqual((lanes["missed"], lanes["doubled"]), (0, 0))
+        self.assertEqual([row["setting"] for row in rows[2:13]], [1 / 10**n for n in range(3, 14)])
         self.assert_file_holds("a.h5", rows)
         self.reads_with_named_axes("a.h5")
         self.repeats("a.h5")
 
     def reads_with_named_axes(self, name):
         with xarray.open_dataset(self.directory / name, engine="h5netcdf") as file:
-            self.assertEqual(dict(file.sizes), {"row": 59})
+            self.assertEqual(dict(file.sizes), {"row": 61})
             for variable in file.variables.values():
                 self.assertIn(variable.dims, ((), ("row",)))
                 self.assertTrue(variable.attrs["long_name"])
@@ -122,7 +131,7 @@ class Study(Studies):
         lines = [line.split() for line in table if re.match(r"[a-z]", line)]
         self.assertEqual([line[0] for line in lines], ["method"] + METHODS + REPEATS)
         self.assertEqual({len(line) for line in lines[1:]}, {len(lines[1])})  # as many columns in each
-        self.assertEqual([line[1] for line in lines[1:4]], ["-", "1e-03", "1e-04"])
+        self.assertEqual([line[2] for line in lines[1:5]], ["-", "-", "1e-03", "1e-04"])
         self.assertLessEqual(max(map(len, result.stdout.splitlines())), 160)
 
     def test_of_a_sweep_has_its_axes_before_the_rows(self):
@@ -132,11 +141,11 @@ class Study(Studies):
         self.assertEqual(self.files(), ["a.toml", "sweep.h5"])
         rows = objects(result.stdout)
         self.assertEqual([row["method"] for row in rows], METHODS * 2)  # nothing settles in a transient
-        self.assertEqual([row["nu"] for row in rows], [0.9] * 35 + [1.1] * 35)
-        self.assertEqual([row["point"] for row in rows], [0] * 35 + [1] * 35)
+        self.assertEqual([row["nu"] for row in rows], [0.9] * 36 + [1.1] * 36)
+        self.assertEqual([row["point"] for row in rows], [0] * 36 + [1] * 36)
         self.assert_file_holds("sweep.h5", rows)
         with xarray.open_dataset(self.directory / "sweep.h5", engine="h5netcdf") as file:
-            self.assertEqual(dict(file.sizes), {"nu": 2, "row": 35})
+            self.assertEqual(dict(file.sizes), {"nu": 2, "row": 36})
             self.assertEqual(file["error_extrema"].dims, ("nu", "row"))
             self.assertEqual(file["horizon"].dims, ("nu",))
             self.assertEqual(file["setting"].dims, ("row",))
@@ -146,7 +155,7 @@ class Study(Studies):
     def test_that_fails_ends_with_1_and_still_writes_its_file(self):
         config = self.write("a.toml", STEADY + "max_impacts = 1\n")
         rows = objects(self.study(config, "--json", code=1).stdout)
-        self.assertEqual(len(rows), 59)
+        self.assertEqual(len(rows), 61)
         for row in rows:
             self.assertEqual([row[key] for key in KEYS if key.startswith("error")], [None] * 4)
             self.assertGreaterEqual(row["status"], 16)
@@ -154,7 +163,32 @@ class Study(Studies):
         self.assert_file_holds("a.h5", rows)
         table = self.study(config, "-o", "b.h5", code=1).stdout
         self.assertIn("not compared", table)
-        self.assertEqual(table.count("  event_budget\n"), 59)
+        self.assertEqual(table.count("  event_budget\n"), 61)
+
+    def test_in_lanes_is_of_the_instruction_set_that_is_named(self):
+        config = self.write("a.toml", STEADY + "max_impacts = 1\n")  # which ends soon
+        for name in filter(runs_here, ("sse2", "avx2", "avx512")):
+            for words, variable in ((("--arch", name), "scalar"), ((), name)):
+                rows = objects(self.study(config, "--json", *words, code=1, arch=variable).stdout)
+                self.assertEqual([(place, row["arch"]) for place, row in enumerate(rows) if row["arch"] != "scalar"],
+                                 [(place, name) for place in LANES])
+                self.assert_file_holds("a.h5", rows)
+        rows = objects(self.study(config, "--json", "--arch", "scalar", code=1).stdout)
+        self.assertEqual({row["arch"] for row in rows}, {"scalar"})
+        self.assertEqual(len(rows), 59)
+        self.assert_file_holds("a.h5", rows)
+
+    def test_of_points_that_lanes_leave_to_the_scalar_kernel_says_so(self):
+        scene = SCENE.replace("h = 0.1\n", "")
+        config = self.write("a.toml", scene + "[sweep]\nh = [0.1, 2]\n[time]\nwindow = 1\nmax_periods = 100\n")
+        table = self.study(config, "-q").stdout
+        sentence = r"^(exact|steady) +\w+  not in lanes: this motion is left to the scalar kernel$"
+        self.assertEqual(re.findall(sentence, table, re.MULTILINE), ["exact", "steady"])
+        self.assertLess(table.index("h = 2"), table.index("not in lanes"))
+        with h5py.File(self.directory / "a.h5") as file:
+            for key in ("error_extrema", "error_harmonics", "missed", "impacts", "simulated_periods", "ns_per_period"):
+                self.assertEqual(np.isnan(file[key][:, list(LANES)]).tolist(), [[False, False], [True, True]], key)
+            self.assertLess(file["status"][()].max(), 16)
 
     def test_with_interrupts_ignored_goes_on(self):
         """As under nohup, or in the background of a script."""
@@ -174,6 +208,7 @@ class Interrupts(Studies):
         """Sends a signal as soon as a stream has these words; gives the exit code, stdout and stderr."""
         with open(self.directory / "stdout", "wb") as out, open(self.directory / "stderr", "wb") as err:
             process = subprocess.Popen([CLATTER, "accuracy", "a.toml", *options], cwd=self.directory, stdout=out, stderr=err,
+                                       env={**os.environ, "CLATTER_ARCH": ""},
                                        preexec_fn=lambda: signal.signal(number, signal.SIG_DFL))
         self.addCleanup(process.kill)
         deadline = time.monotonic() + 120
@@ -201,7 +236,7 @@ class Interrupts(Studies):
         code, out, err = self.interrupted(signal.SIGTERM, "stdout", b"\n", "--json")
         self.assertEqual(code, 143, err)
         finished = int(re.fullmatch(NOTED + r"stopped after ([12]) of 3 points; a\.h5 is not written\n", err)[1])
-        self.assertEqual([row["point"] for row in objects(out)], [0] * 59 + [1] * 59 * (finished - 1))
+        self.assertEqual([row["point"] for row in objects(out)], [0] * 61 + [1] * 61 * (finished - 1))
         self.assertEqual(self.files(), ["a.h5", "a.toml"])
         self.assertEqual((self.directory / "a.h5").read_text(), "an older file")
 
@@ -217,6 +252,7 @@ class Refusals(Studies):
             ([config, config], "unexpected argument 'a.toml'"),
             ([config, "--jsn"], "unknown option '--jsn'; did you mean '--json'?"),
             ([config, "--threads", "2"], "unknown option '--threads'; see `clatter help accuracy`"),
+            ([config, "--arch", "avx"], "--arch 'avx'; permitted: scalar, sse2, avx2, avx512"),
             ([config, "--progress", "sometimes"], "permitted: auto, always, never"),
             ([config, "-o", "b.h5", "-o", "c.h5"], "'--output' is given twice"),
             ([config, "--set", "integrator.method=dopri"], "did you mean 'dopri5'?"),

@@ -10,19 +10,13 @@ import unittest
 import h5py
 import numpy
 
-from command_line import CLATTER, SMALL, CommandLine
+from command_line import CLATTER, SMALL, CommandLine, runs_here
 
 NAMES = ("scalar", "sse2", "avx2", "avx512")
 EVERYTHING = SMALL.replace("xs = -4.0", "xs = -3.5").replace("1.5, 5)", "1.5, 41)") + """impacts = true
 harmonics = 3
 harmonics_method = "exact"
 """
-
-
-def runs_here(name):
-    """Whether this machine has an instruction set, as its kernel says."""
-    flags = set(re.search(r"^flags\s*:(.*)$", pathlib.Path("/proc/cpuinfo").read_text(), re.MULTILINE)[1].split())
-    return {"avx2": {"avx2", "fma"}, "avx512": {"avx512f", "avx512dq"}}.get(name, set()) <= flags
 
 
 class Arch(CommandLine):

@@ -2,6 +2,7 @@
 
 import os
 import pathlib
+import re
 import subprocess
 import tempfile
 import unittest
@@ -21,6 +22,12 @@ nu = "linspace(0.5, 1.5, 5)"
 extrema = true
 period = true
 """
+
+
+def runs_here(name):
+    """Whether this machine has an instruction set, as its kernel says."""
+    flags = set(re.search(r"^flags\s*:(.*)$", pathlib.Path("/proc/cpuinfo").read_text(), re.MULTILINE)[1].split())
+    return {"avx2": {"avx2", "fma"}, "avx512": {"avx512f", "avx512dq"}}.get(name, set()) <= flags
 
 
 class CommandLine(unittest.TestCase):

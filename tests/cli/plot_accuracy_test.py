@@ -98,8 +98,8 @@ class Pictures(unittest.TestCase):
         self.assertFalse(self.says("scalar", "no method has an error"))
 
     def test_curves_have_a_symbol_for_each_setting_that_has_an_error(self):
-        curves = {"exact": 1, "dopri5": 11, "moreau": 5, "harmonics_fft": 17, "harmonics_fft_v": 17, "steady": 12,
-                  "steady_repetition": 12}
+        curves = {"exact": 1, "exact_lanes": 1, "dopri5": 11, "moreau": 5, "harmonics_fft": 17, "harmonics_fft_v": 17,
+                  "steady": 12, "steady_repetition": 12}
         for name, differences in (("scalar", {"dopri5": 10}), ("sweep", {}), ("map", {}),
                                   ("dead", dict.fromkeys(curves)),
                                   ("transient", {"steady": None, "steady_repetition": None})):
@@ -191,6 +191,18 @@ class Reductions(unittest.TestCase):
         np.testing.assert_array_equal(found.setting, np.sort(study.setting[study.rows("moreau")[1]])[::-1])
         np.testing.assert_array_equal(found.wrong, [True, False, False, False, False])
         self.assertFalse(found.failed.any())
+
+    def test_lanes_stand_apart_from_the_scalar_kernel(self):
+        study = Study(steady=False)
+        study.results["missed"][study.rows("exact", arch="avx512")] = 1.0
+        with tempfile.TemporaryDirectory() as folder:
+            study.write(Path(folder) / "study.h5")
+            output = plot_data.Output(Path(folder) / "study.h5")
+        scalar, lanes = (plot_accuracy.curve(output, "exact", ("error_extrema",), "ns_per_period", in_lanes=in_lanes)
+                         for in_lanes in (False, True))
+        self.assertEqual((lanes.cost.tolist(), lanes.error.tolist(), lanes.hollow.tolist()), ([120.0], [5e-15], [True]))
+        self.assertEqual((len(scalar), scalar.hollow.tolist()), (1, [False]))
+        self.assertGreater(scalar.cost[0], 500)
 
     def test_one_faulty_point_makes_the_row_faulty(self):
         study = Study(nu=[0.9, 1.0, 1.1])

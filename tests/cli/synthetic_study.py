@@ -3,6 +3,7 @@
 import h5py
 import numpy as np
 
+ARCHS = ("scalar", "sse2", "avx2", "avx512")
 METHODS = ("exact", "dopri5", "moreau", "harmonics_exact", "harmonics_fft", "steady", "steady_repetition")
 STATUSES = {0: "periodic", 1: "aperiodic", 2: "transient", 16: "event_budget", 17: "not_finite", 18: "unresolved"}
 RESULTS = ("error_contact_time", "error_contact_speed", "error_extrema", "error_harmonics", "error_harmonics_v",
@@ -29,17 +30,20 @@ class Study:
         if steady:
             settings |= dict.fromkeys(("steady", "steady_repetition"), 10.0 ** -np.arange(3, 15))
         self.axes = {name: np.asarray(values, float) for name, values in axes.items()}
-        self.method = np.concatenate([[METHODS.index(name)] * len(values) for name, values in settings.items()])
-        self.setting = np.concatenate(list(settings.values()))
+        self.method = np.concatenate([[METHODS.index("exact")], *([METHODS.index(name)] * len(values)
+                                                                  for name, values in settings.items())])
+        self.setting = np.concatenate([[np.nan], *settings.values()])
+        self.arch = np.zeros(len(self.method), np.uint8)
+        self.arch[0] = ARCHS.index("avx512")
         shape = (*map(len, self.axes.values()), len(self.method))
         self.status = np.zeros(shape, np.uint8)
         self.results = {name: np.full(shape, np.nan) for name in RESULTS}
         self.chance = np.random.default_rng(1)
         self.fill()
 
-    def rows(self, method, setting=None):
+    def rows(self, method, setting=None, arch="scalar"):
         """Index of a method's rows at all points, or of the one with this setting."""
-        found = self.method == METHODS.index(method)
+        found = (self.method == METHODS.index(method)) & (self.arch == ARCHS.index(arch))
         return np.s_[..., found if setting is None else found & np.isclose(self.setting, setting, rtol=1e-9, atol=0)]
 
     def put(self, method, **values):
@@ -56,6 +60,8 @@ class Study:
 
     def fill(self):
         self.put_motion("exact", np.array([3e-15]), np.array([1400.0]))
+        for name, value in (("error_extrema", 5e-15), ("ns_per_period", 120.0), ("ns_spread", 9.0), ("missed", 0.0)):
+            self.results[name][self.rows("exact", arch="avx512")] = value
         tolerance = self.setting[self.rows("dopri5")[1]]
         self.put_motion("dopri5", 4 * tolerance + 1e-13, 2600.0 * (1e-3 / tolerance) ** 0.17)
         step = self.setting[self.rows("moreau")[1]]
@@ -88,7 +94,9 @@ class Study:
             file["row"].make_scale(f"This is a netCDF dimension but not a netCDF variable.{len(self.method):10d}")
             self.put_variable(file, "method", self.method.astype(np.uint8), ("row",))
             self.put_variable(file, "setting", self.setting, ("row",))
+            self.put_variable(file, "arch", self.arch, ("row",))
             flags(file["method"], dict(enumerate(METHODS)))
+            flags(file["arch"], dict(enumerate(ARCHS)))
             for name, values in ({"status": self.status} | self.results).items():
                 self.put_variable(file, name, values, (*self.axes, "row"))
             flags(file["status"], STATUSES)

@@ -58,7 +58,7 @@ Seen seen_by_scalar(const Scene& scene, double turns) {
 /// never does.
 std::optional<Seen> seen_by_lane(const Scene& scene, VisitLanes kernel, int sections, double& turns) {
   Lanes lanes{};
-  lanes.extrema = true;
+  lanes.extrema = lanes.counts = true;
   for (std::size_t i = 0; i < Row::width; ++i) vacate(lanes, i);
   seat(lanes, 3, scene, scene.stops);
   watch(lanes, 3, false, false);

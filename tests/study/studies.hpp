@@ -49,14 +49,14 @@ inline std::vector<Trial> one_of_each() {
           {Studied::steady_repetition, 1e-10}};
 }
 
-inline const Row& row_of(const PointStudy& study, Studied studied) {
-  return *std::ranges::find_if(study.rows, [&](const Row& row) { return row.trial.studied == studied; });
+inline const StudyRow& row_of(const PointStudy& study, Studied studied) {
+  return *std::ranges::find_if(study.rows, [&](const StudyRow& row) { return row.trial.studied == studied; });
 }
 
 /// Slope of the straight line through the logarithms of the settings of a study's rows and of their errors.
-inline double order_of(const PointStudy& study, double Row::*error) {
+inline double order_of(const PointStudy& study, double StudyRow::*error) {
   double n = 0, x = 0, y = 0, xx = 0, xy = 0;
-  for (const Row& row : study.rows) {
+  for (const StudyRow& row : study.rows) {
     const double u = std::log(row.trial.setting), v = std::log(row.*error);
     n += 1, x += u, y += v, xx += u * u, xy += u * v;
   }
@@ -64,13 +64,13 @@ inline double order_of(const PointStudy& study, double Row::*error) {
 }
 
 /// The errors of a row that are measured, all of which are NaN where there is nothing to compare with.
-inline std::vector<double> errors_of(const Row& row) {
+inline std::vector<double> errors_of(const StudyRow& row) {
   return {row.contact_time, row.contact_speed, row.rest,    row.extrema,     row.harmonics,
           row.v_harmonics,  row.missed,        row.doubled, row.rests_missed};
 }
-inline bool has_errors(const Row& row) {
+inline bool has_errors(const StudyRow& row) {
   return std::ranges::any_of(errors_of(row), [](double error) { return !std::isnan(error); });
 }
-inline double sum_of_faults(const Row& row) { return row.missed + row.doubled + row.rests_missed; }
+inline double sum_of_faults(const StudyRow& row) { return row.missed + row.doubled + row.rests_missed; }
 
 }  // namespace clatter

@@ -37,7 +37,7 @@ TEST(StartOnAStop, moving_in_is_neither_missed_nor_doubled) {
   Scene scene = smooth_scene();
   scene.start = {0.5, 1.0, 0.0};
   const PointStudy found = study(scene, {{Studied::exact, no_setting}, {Studied::dopri5, 1e-8}}, once);
-  for (const Row& row : found.rows) EXPECT_EQ(row.missed + row.doubled, 0.0);
+  for (const StudyRow& row : found.rows) EXPECT_EQ(row.missed + row.doubled, 0.0);
   EXPECT_EQ(row_of(found, Studied::exact).impacts, found.impacts);
 }
 
@@ -67,7 +67,7 @@ TEST(ChaoticScene, is_compared_while_double_follows_fifty_digits) {
   EXPECT_GT(found.horizon, 20.0);
   EXPECT_EQ(found.horizon, std::floor(found.horizon));
   EXPECT_TRUE(std::isnan(found.steady_periods));
-  const Row& exact = row_of(found, Studied::exact);
+  const StudyRow& exact = row_of(found, Studied::exact);
   EXPECT_NEAR(exact.simulated_periods, found.horizon, 1e-12);  // through tau and back
   EXPECT_EQ(exact.impacts, found.impacts);
   EXPECT_EQ(sum_of_faults(exact), 0.0);
@@ -86,7 +86,7 @@ TEST(UnforcedScene, is_compared_from_its_start_alone) {
   EXPECT_EQ(found.horizon, 3.0);
   EXPECT_GT(found.impacts, 0.0);
   EXPECT_TRUE(std::isnan(found.steady_periods));
-  const Row& exact = row_of(found, Studied::exact);
+  const StudyRow& exact = row_of(found, Studied::exact);
   EXPECT_LT(exact.contact_time, 1e-14);
   EXPECT_LT(exact.harmonics, 1e-13);
   EXPECT_EQ(sum_of_faults(exact), 0.0);
@@ -95,12 +95,12 @@ TEST(UnforcedScene, is_compared_from_its_start_alone) {
 }
 
 TEST(TransientScene, is_compared_over_its_duration) {
-  const PointStudy found = study(transient_scene(), trials_of(Mode::transient), {.rounds = 0});
+  const PointStudy found = study(transient_scene(), trials_of(Mode::transient, Arch::scalar), {.rounds = 0});
   EXPECT_DOUBLE_EQ(found.asked, 20 / (2 * std::numbers::pi));
   EXPECT_EQ(found.horizon, found.asked);
   EXPECT_EQ(found.impacts, 6.0);
   EXPECT_TRUE(std::isnan(found.steady_periods));
-  for (const Row& row : found.rows) {
+  for (const StudyRow& row : found.rows) {
     EXPECT_EQ(row.status, Status::transient);
     EXPECT_EQ(row.simulated_periods, found.horizon);
     EXPECT_EQ(row.impacts, 6.0);
@@ -114,7 +114,7 @@ TEST(TransientScene, sampled_harmonics_converge_where_it_does_not_end_with_a_for
   for (int power = 8; power <= 16; ++power) trials.push_back({Studied::harmonics_fft, std::exp2(power)});
   const PointStudy found = study(transient_scene(), trials, {.rounds = 0});
   // the motion doesn't end where it began: a jump, for samples of x too
-  EXPECT_NEAR(order_of(found, &Row::harmonics), -1.0, 0.2);
+  EXPECT_NEAR(order_of(found, &StudyRow::harmonics), -1.0, 0.2);
   EXPECT_LT(found.rows.back().harmonics, 1e-4);
 }
 
@@ -122,7 +122,7 @@ TEST(FailingScene, has_no_errors_and_says_why) {
   const PointStudy found = study(failing_scene(), one_of_each(), once);
   EXPECT_EQ(found.horizon, 0.0);
   EXPECT_EQ(found.impacts, 0.0);
-  for (const Row& row : found.rows) {
+  for (const StudyRow& row : found.rows) {
     EXPECT_EQ(row.status, Status::event_budget) << studied_names[static_cast<std::size_t>(row.trial.studied)];
     EXPECT_FALSE(has_errors(row));
     EXPECT_TRUE(std::isnan(row.ns_per_period)) << "what did not run to its end takes no time a period";
@@ -150,7 +150,7 @@ TEST(SceneWithoutImpacts, has_no_errors_of_contacts) {
   const PointStudy found = study(scene, one_of_each(), once);
   EXPECT_EQ(found.impacts, 0.0);
   for (const Studied studied : {Studied::exact, Studied::dopri5, Studied::steady}) {
-    const Row& row = row_of(found, studied);
+    const StudyRow& row = row_of(found, studied);
     for (const double error : {row.contact_time, row.contact_speed, row.rest})
       EXPECT_TRUE(std::isnan(error)) << "there is nothing to compare";
     EXPECT_EQ(sum_of_faults(row), 0.0);
@@ -165,7 +165,7 @@ void expect_same_but_for_times(const PointStudy& one, const PointStudy& other) {
   for (std::size_t i = 0; i < one.rows.size(); ++i) {
     EXPECT_EQ(one.rows[i].status, other.rows[i].status);
     for (const RowVariable& variable : row_variables()) {
-      if (variable.value == &Row::ns_per_period || variable.value == &Row::ns_spread) continue;
+      if (variable.value == &StudyRow::ns_per_period || variable.value == &StudyRow::ns_spread) continue;
       EXPECT_TRUE(same_bits(one.rows[i].*variable.value, other.rows[i].*variable.value)) << variable.name << ' ' << i;
     }
   }
@@ -194,11 +194,11 @@ TEST(Study, takes_no_method_and_no_observables_from_the_scene) {
 
 TEST(Study, measures_the_time_of_every_row_that_runs) {
   const PointStudy found = study(smooth_scene(), one_of_each(), {.rounds = 2});
-  for (const Row& row : found.rows) {
+  for (const StudyRow& row : found.rows) {
     EXPECT_TRUE(std::isfinite(row.ns_per_period) && row.ns_per_period > 0);
     EXPECT_TRUE(std::isfinite(row.ns_spread) && row.ns_spread >= 0);
   }
-  for (const Row& row : study(smooth_scene(), one_of_each(), once).rows)
+  for (const StudyRow& row : study(smooth_scene(), one_of_each(), once).rows)
     EXPECT_TRUE(std::isfinite(row.ns_per_period) && std::isnan(row.ns_spread)) << "a single time has no spread";
 }
 
@@ -220,7 +220,7 @@ TEST(Study, stopped_before_it_begins_runs_nothing) {
       study(smooth_scene(), one_of_each(), {.progress = [&] { ++steps; }, .stopped = [] { return true; }});
   EXPECT_EQ(steps, 0u);
   EXPECT_EQ(found.rows.size(), one_of_each().size());
-  for (const Row& row : found.rows) {
+  for (const StudyRow& row : found.rows) {
     EXPECT_FALSE(has_errors(row));
     EXPECT_TRUE(std::isnan(row.ns_per_period) && std::isnan(row.impacts));
   }

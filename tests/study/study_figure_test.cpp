@@ -50,20 +50,20 @@ TEST(StudyFigure, has_the_axes_and_then_the_rows) {
     EXPECT_EQ(length_of(variable.values), expected) << variable.name;
   }
   EXPECT_EQ(find(figure, "nu")->dimensions, Names{"nu"});
-  for (const char* name : {"method", "setting"}) EXPECT_EQ(find(figure, name)->dimensions, Names{"row"});
+  for (const char* name : {"method", "setting", "arch"}) EXPECT_EQ(find(figure, name)->dimensions, Names{"row"});
   for (const PointVariable& variable : point_variables())
     EXPECT_EQ(find(figure, variable.name)->dimensions, Names{"nu"});
   for (const RowVariable& variable : row_variables())
     EXPECT_EQ(find(figure, variable.name)->dimensions, (Names{"nu", "row"}));
   EXPECT_EQ(find(figure, "status")->dimensions, (Names{"nu", "row"}));
-  EXPECT_EQ(names.size(), 4 + point_variables().size() + row_variables().size());  // nu, method, setting, status
+  EXPECT_EQ(names.size(), 5 + point_variables().size() + row_variables().size());  // nu, method, setting, arch, status
 }
 
 TEST(StudyFigure, has_what_the_contract_names) {
   const auto [sweep, points] = two_points();
   const Figure figure = study_figure(sweep, points);
-  for (const char* name : {"method", "setting", "error_contact_time", "error_contact_speed", "missed", "doubled",
-                           "error_extrema", "error_harmonics", "ns_per_period", "ns_spread"})
+  for (const char* name : {"method", "setting", "arch", "error_contact_time", "error_contact_speed", "missed",
+                           "doubled", "error_extrema", "error_harmonics", "ns_per_period", "ns_spread"})
     EXPECT_NE(find(figure, name), nullptr) << name;
 }
 
@@ -97,6 +97,17 @@ TEST(StudyFigure, names_its_methods) {
             "exact dopri5 moreau harmonics_exact harmonics_fft steady steady_repetition");
   EXPECT_TRUE(std::isnan(values(figure, "setting")[0]));
   EXPECT_EQ(values(figure, "setting")[4], 1024.0);
+}
+
+TEST(StudyFigure, names_the_instruction_set_of_each_row) {
+  PointStudy point;
+  for (const Arch arch : {Arch::scalar, Arch::avx512, Arch::sse2})
+    point.rows.push_back({.trial = {Studied::exact, no_setting, arch}});
+  const Figure figure = study_figure(sweep_of(smooth_scene(), {}), {point});
+  const Variable& arch = *find(figure, "arch");
+  EXPECT_EQ(std::get<std::vector<std::uint8_t>>(arch.values), (std::vector<std::uint8_t>{0, 3, 1}));
+  EXPECT_EQ(std::get<std::vector<std::uint8_t>>(arch.attributes[0].second), (std::vector<std::uint8_t>{0, 1, 2, 3}));
+  EXPECT_EQ(std::get<std::string>(arch.attributes[1].second), "scalar sse2 avx2 avx512");
 }
 
 TEST(StudyFigure, of_one_point_has_rows_alone) {

@@ -15,7 +15,7 @@ namespace {
 const StudyOptions once{.rounds = 1};
 
 TEST(Trials, cover_the_range_of_every_method) {
-  const auto trials = trials_of(Mode::steady), transient = trials_of(Mode::transient);
+  const auto trials = trials_of(Mode::steady, Arch::scalar), transient = trials_of(Mode::transient, Arch::scalar);
   const auto count = [](const std::vector<Trial>& all, Studied studied) {
     return std::ranges::count(all, studied, &Trial::studied);
   };
@@ -42,6 +42,25 @@ TEST(Trials, cover_the_range_of_every_method) {
   EXPECT_EQ(trials.back().setting, 1e-14);
 }
 
+TEST(Trials, in_lanes_stand_beside_those_of_the_scalar_kernel) {
+  for (const Mode mode : {Mode::steady, Mode::transient}) {
+    const auto scalar = trials_of(mode, Arch::scalar);
+    auto both = trials_of(mode, Arch::avx2);
+    EXPECT_EQ(both[1].studied, Studied::exact);
+    EXPECT_EQ(both[1].arch, Arch::avx2);
+    EXPECT_EQ(both.size(), scalar.size() + (mode == Mode::steady ? 2 : 1));
+    std::erase_if(both, [](const Trial& trial) {
+      return trial.arch == Arch::avx2 && (trial.studied == Studied::exact || trial.setting == 1e-12);
+    });
+    ASSERT_EQ(both.size(), scalar.size());
+    for (std::size_t i = 0; i < both.size(); ++i) {
+      EXPECT_EQ(both[i].studied, scalar[i].studied);
+      EXPECT_EQ(both[i].arch, Arch::scalar);
+      EXPECT_EQ(scalar[i].arch, Arch::scalar);
+    }
+  }
+}
+
 TEST(SmoothScene, is_exact_in_every_column) {
   const PointStudy found = study(smooth_scene(), one_of_each(), once);
   EXPECT_EQ(found.asked, 6.0);
@@ -49,7 +68,7 @@ TEST(SmoothScene, is_exact_in_every_column) {
   EXPECT_EQ(found.impacts, 12.0);
   EXPECT_EQ(found.rests, 0.0);
   EXPECT_EQ(found.steady_periods, 1.0);
-  const Row& exact = row_of(found, Studied::exact);
+  const StudyRow& exact = row_of(found, Studied::exact);
   // roundings of a dozen contracting impacts: some 1e-15
   for (const double error :
        {exact.contact_time, exact.contact_speed, exact.extrema, exact.harmonics, exact.v_harmonics})
@@ -58,7 +77,7 @@ TEST(SmoothScene, is_exact_in_every_column) {
   EXPECT_EQ(exact.impacts, 12.0);
   EXPECT_EQ(exact.simulated_periods, 6.0);
   EXPECT_EQ(exact.status, Status::transient);
-  const Row& harmonics = row_of(found, Studied::harmonics_exact);
+  const StudyRow& harmonics = row_of(found, Studied::harmonics_exact);
   EXPECT_LT(harmonics.harmonics, 1e-12);  // on a motion that has settled to 1e-12
   EXPECT_LT(harmonics.v_harmonics, 1e-12);
   for (const double error : {harmonics.contact_time, harmonics.extrema, harmonics.missed})
@@ -69,9 +88,10 @@ TEST(SmoothScene, is_exact_in_every_column) {
 TEST(SmoothScene, dopri5_errs_in_proportion_to_its_tolerance) {
   const PointStudy found = study(smooth_scene(), decades(Studied::dopri5, 3, 12), once);
   // the pair controls the error of a unit step, with a safety that varies by a factor of a few
-  for (const auto error : {&Row::contact_time, &Row::contact_speed, &Row::extrema, &Row::harmonics, &Row::v_harmonics})
+  for (const auto error : {&StudyRow::contact_time, &StudyRow::contact_speed, &StudyRow::extrema, &StudyRow::harmonics,
+                           &StudyRow::v_harmonics})
     EXPECT_NEAR(order_of(found, error), 1.0, 0.15);
-  for (const Row& row : found.rows) {
+  for (const StudyRow& row : found.rows) {
     EXPECT_LT(row.contact_time, row.trial.setting);
     EXPECT_GT(row.contact_time, 1e-3 * row.trial.setting);
     EXPECT_EQ(sum_of_faults(row), 0.0);
@@ -83,9 +103,10 @@ TEST(SmoothScene, dopri5_errs_in_proportion_to_its_tolerance) {
 TEST(SmoothScene, moreau_errs_in_proportion_to_its_step) {
   const PointStudy found = study(smooth_scene(), decades(Studied::moreau, 1, 5), once);
   // where in its step an impact falls is chance: a factor of several either way, over four decades of steps
-  for (const auto error : {&Row::contact_time, &Row::contact_speed, &Row::extrema, &Row::harmonics, &Row::v_harmonics})
+  for (const auto error : {&StudyRow::contact_time, &StudyRow::contact_speed, &StudyRow::extrema, &StudyRow::harmonics,
+                           &StudyRow::v_harmonics})
     EXPECT_NEAR(order_of(found, error), 1.0, 0.3);
-  for (const Row& row : found.rows) EXPECT_LT(row.contact_time, 4 * row.trial.setting);
+  for (const StudyRow& row : found.rows) EXPECT_LT(row.contact_time, 4 * row.trial.setting);
 }
 
 TEST(SmoothScene, sampled_harmonics_converge_in_the_second_order_and_those_of_velocity_in_the_first) {
@@ -93,9 +114,9 @@ TEST(SmoothScene, sampled_harmonics_converge_in_the_second_order_and_those_of_ve
   for (int power = 4; power <= 16; ++power) trials.push_back({Studied::harmonics_fft, std::exp2(power)});
   const PointStudy found = study(smooth_scene(), trials, once);
   // x has kinks at the impacts and v jumps; where they fall between two samples is chance
-  EXPECT_NEAR(order_of(found, &Row::harmonics), -2.0, 0.3);
-  EXPECT_NEAR(order_of(found, &Row::v_harmonics), -1.0, 0.3);
-  for (const Row& row : found.rows) {
+  EXPECT_NEAR(order_of(found, &StudyRow::harmonics), -2.0, 0.3);
+  EXPECT_NEAR(order_of(found, &StudyRow::v_harmonics), -1.0, 0.3);
+  for (const StudyRow& row : found.rows) {
     EXPECT_LT(row.harmonics, 20 / std::pow(row.trial.setting, 2));
     EXPECT_LT(row.v_harmonics, 20 / row.trial.setting);
     EXPECT_EQ(row.simulated_periods, 1.0);
@@ -104,7 +125,7 @@ TEST(SmoothScene, sampled_harmonics_converge_in_the_second_order_and_those_of_ve
 
 TEST(SmoothScene, repeats_are_as_exact_as_they_are_asked_to_be) {
   const PointStudy repetition = study(smooth_scene(), decades(Studied::steady_repetition, 3, 13), once);
-  for (const Row& row : repetition.rows) {
+  for (const StudyRow& row : repetition.rows) {
     EXPECT_EQ(row.status, Status::periodic);
     EXPECT_EQ(sum_of_faults(row), 0.0);
     // states a period apart are that near, and go on to contract by more than a half each period; then roundings
@@ -128,7 +149,7 @@ TEST(ChatteringScene, is_exact_and_nothing_is_missed_or_doubled) {
   EXPECT_EQ(found.horizon, 4.0);
   EXPECT_GT(found.impacts, 50.0);
   EXPECT_EQ(found.rests, 1.0);
-  const Row& exact = row_of(found, Studied::exact);
+  const StudyRow& exact = row_of(found, Studied::exact);
   EXPECT_EQ(exact.missed, 0.0);
   EXPECT_EQ(exact.doubled, 0.0);
   EXPECT_EQ(exact.rests_missed, 0.0);
@@ -142,7 +163,7 @@ TEST(ChatteringScene, general_methods_miss_what_is_shorter_than_their_steps) {
   const PointStudy moreau = study(chattering_scene(), decades(Studied::moreau, 1, 3), once);
   EXPECT_EQ(moreau.rows[0].rests_missed, 1.0);
   EXPECT_GT(moreau.rows[0].missed, moreau.rows[2].missed);
-  for (const Row& row : moreau.rows) {
+  for (const StudyRow& row : moreau.rows) {
     EXPECT_GT(row.missed, 0.0);
     EXPECT_LE(row.missed, moreau.impacts);
   }
@@ -153,8 +174,8 @@ TEST(ChatteringScene, general_methods_miss_what_is_shorter_than_their_steps) {
   }
   const PointStudy dopri5 = study(chattering_scene(), decades(Studied::dopri5, 3, 10), once);
   EXPECT_GT(dopri5.rows[0].rest, 1e-6);
-  EXPECT_NEAR(order_of(dopri5, &Row::rest), 1.0, 0.3);
-  for (const Row& row : dopri5.rows) EXPECT_EQ(sum_of_faults(row), 0.0) << row.trial.setting;
+  EXPECT_NEAR(order_of(dopri5, &StudyRow::rest), 1.0, 0.3);
+  for (const StudyRow& row : dopri5.rows) EXPECT_EQ(sum_of_faults(row), 0.0) << row.trial.setting;
 }
 
 }  // namespace

@@ -190,6 +190,24 @@ std::vector<Scene> chattering() {
   return scenes;
 }
 
+TEST_P(InLanes, what_leaves_its_stops_for_good_is_taken_to_its_end_at_once) {
+  // the response stays within 2.5 of the load's equilibrium; what is free of the start meets the stops before
+  Axis nu{Parameter::nu, {}}, x0{Parameter::x0, {-2.9, 0.3, 2.5}}, load{Parameter::load, {0.0, 0.2}};
+  for (int i = 0; i < 40; ++i) nu.values.push_back(i % 2 == 0 ? 0.4 + i / 100.0 : 1.25 + i / 50.0);
+  Scene scene = paper_scene(3.0, 1.0);
+  scene.start.velocity = 3.0;
+  scene = transient(scene, 400.37);
+  const Sweep sweep{.scene = scene, .dimensions = {{nu}, {x0}, {load}}, .follow = {}};
+  const Totals totals = expect_alike(sweep, GetParam());
+  EXPECT_EQ(totals.sensitive + totals.chaotic, 0u);
+  const RunResult result = run(sweep, {.threads = 1, .arch = GetParam()});
+  const std::vector<double>& impacts = values(result.figure, "impacts_per_period");
+  EXPECT_GT(std::ranges::count_if(impacts, [](double n) { return n > 0; }), 100);
+  double periods = 0;
+  for (const Usage& usage : result.usage) periods += usage.periods;
+  EXPECT_LT(result.lanes.proved, periods);  // steps, of which a period has three at least
+}
+
 TEST_P(InLanes, chatter_rest_and_release_are_those_of_the_scalar_kernel) {
   std::vector<Scene> scenes = chattering();
   EXPECT_LE(expect_alike(sweep_over(scenes), GetParam()).chaotic, 2u);
