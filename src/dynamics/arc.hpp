@@ -29,18 +29,24 @@ class Arc {
   /// Motion a time s >= 0 after the start; for short times by Taylor's series, which keeps the relative accuracy of
   /// `rise`.
   [[nodiscard]] Motion<Number> at(const Number& s) const {
-    return s * flow_->rate <= Number(0.25) ? near(start_, s) : closed_form(s);
+    return s * flow_->rate <= Number(0.25) ? near(start_, s) : moved(start_, flow_->step(s));
   }
 
   /// The forcing phase a time s after the start.
-  [[nodiscard]] SineCosine<Number> phase_after(const Number& s) const { return turned(start_, flow_->nu * s).phase; }
+  [[nodiscard]] SineCosine<Number> phase_after(const Number& s) const {
+    return turned(start_, turn_by(Number(flow_->nu * s))).phase;
+  }
+
+  /// Motion a step of any length after `m`, an instant of this arc, in closed form; inlined, since samples want nothing
+  /// but place and velocity.
+  [[nodiscard, gnu::always_inline]] inline Motion<Number> moved(const Motion<Number>& m,
+                                                                const Step<Number>& step) const;
 
   /// Motion a short time d after `m` (d * flow().rate <= 1/4), an instant of this arc, by Taylor's series of the
   /// equation of motion.
   [[nodiscard]] Motion<Number> near(const Motion<Number>& m, const Number& d) const;
 
  private:
-  [[nodiscard]] Motion<Number> closed_form(const Number& s) const;
   [[nodiscard]] Motion<Number> with_free_part(Motion<Number> m) const {
     m.free_x = flow_->offset(m.x, anchor_, m.rise) - flow_->response_displacement(m.sine, m.cosine),
     m.free_v = m.v - flow_->response_velocity(m.sine, m.cosine);
@@ -51,8 +57,7 @@ class Arc {
   struct Turned {
     SineCosine<Number> phase, change;
   };
-  [[nodiscard]] Turned turned(const Motion<Number>& m, const Number& angle) const;
-  [[nodiscard]] std::array<Number, 2> response_from_rest(const Number& s) const;
+  [[nodiscard]] static Turned turned(const Motion<Number>& m, const SineCosine<Number>& turn);
 
   const Flow<Number, E>* flow_;
   Number anchor_;
@@ -60,29 +65,28 @@ class Arc {
 };
 
 template <class Number, Effects E>
-auto Arc<Number, E>::turned(const Motion<Number>& m, const Number& angle) const -> Turned {
-  using std::cos, std::sin;
+auto Arc<Number, E>::turned(const Motion<Number>& m, const SineCosine<Number>& turn) -> Turned {
   if constexpr (E.forcing == Forcing::none) return {{m.sine, m.cosine}, {Number(0), Number(0)}};
-  const Number half = sin(angle / 2), s = 2 * half * cos(angle / 2), c = -2 * half * half;  // sin and cos - 1
+  const auto& [s, c] = turn;
   const SineCosine<Number> change{m.sine * c + m.cosine * s, m.cosine * c - m.sine * s};
   return {{m.sine + change.sine, m.cosine + change.cosine}, change};
 }
 
 template <class Number, Effects E>
-Motion<Number> Arc<Number, E>::closed_form(const Number& s) const {
-  using std::abs, std::exp;
-  const Propagator<Number> p = flow_->propagator(s);
-  const auto [phase, change] = turned(start_, flow_->nu * s);
+Motion<Number> Arc<Number, E>::moved(const Motion<Number>& m, const Step<Number>& step) const {
+  using std::abs;
+  const Propagator<Number>& p = step.free;
+  const auto [phase, change] = turned(m, step.turn);
   const Number forced_x = flow_->response_displacement(phase.sine, phase.cosine);
   // no difference of places, so that a short flight keeps its digits; the response is linear in sine and cosine
-  Number rise =
-      p.a_rise * start_.free_x + p.b * start_.free_v + flow_->response_displacement(change.sine, change.cosine);
-  Number free_x = p.a * start_.free_x + p.b * start_.free_v, free_v = p.c * start_.free_v - p.b * start_.free_x;
+  Number rise = p.a_rise * m.free_x + p.b * m.free_v + flow_->response_displacement(change.sine, change.cosine);
+  Number free_x = p.a * m.free_x + p.b * m.free_v, free_v = p.c * m.free_v - p.b * m.free_x;
   if constexpr (E.forcing == Forcing::secular) {
-    const auto [response_x, response_v] = response_from_rest(s);
+    const Number response_x = m.cosine * step.displacement.cosine + m.sine * step.displacement.sine;
+    const Number response_v = m.cosine * step.velocity.cosine + m.sine * step.velocity.sine;
     rise += flow_->f * response_x, free_x += flow_->f * response_x, free_v += flow_->f * response_v;
   }
-  rise += start_.rise;
+  rise += m.rise;
   // of two sums for the place the one with the smaller terms: between close stops that is the rise
   const Number whole = abs(flow_->load) + abs(forced_x) + abs(free_x);
   const bool rises = abs(anchor_) + abs(rise) < whole;
@@ -90,45 +94,10 @@ Motion<Number> Arc<Number, E>::closed_form(const Number& s) const {
   const Number v = flow_->response_velocity(phase.sine, phase.cosine) + free_v;
   const Number a = E.forcing == Forcing::secular
                        ? flow_->acceleration(rises ? flow_->offset(x, anchor_, rise) : free_x, v, phase.sine)
-                       : Number(-(p.c * start_.free_x + p.d * start_.free_v) - flow_->nu * flow_->nu * forced_x);
+                       : Number(-(p.c * m.free_x + p.d * m.free_v) - flow_->nu * flow_->nu * forced_x);
   Number fast_x = 0;
-  if constexpr (E.damping == Damping::heavy) fast_x = start_.fast_x * exp(-flow_->fast * s);
+  if constexpr (E.damping == Damping::heavy) fast_x = m.fast_x * step.fast_decay;
   return {rise, x, v, a, phase.sine, phase.cosine, free_x, free_v, fast_x};
-}
-
-/// (e^z - 1)/z for z = re + i im with re <= 0, to relative accuracy for every z: the divided difference of the
-/// exponential.
-template <class Number>
-[[nodiscard]] std::array<Number, 2> divided_exponential(const Number& re, const Number& im) {
-  using std::cos, std::exp, std::expm1, std::sin, std::sqrt;
-  const Number square = re * re + im * im;
-  if (square < sqrt(epsilon<Number>())) {  // 1 + z/2 + z^2/6 + z^3/24: the next term is below rounding
-    const Number re2 = (re - im) * (re + im), im2 = 2 * re * im;
-    return {1 + re / 2 + re2 / 6 + (re * re2 - im * im2) / 24, im / 2 + im2 / 6 + (re * im2 + im * re2) / 24};
-  }
-  const Number half = sin(im / 2), u = expm1(re) * cos(im) - 2 * half * half, w = exp(re) * sin(im);
-  return {(u * re + w * im) / square, (w * re - u * im) / square};
-}
-
-/// Displacement and velocity that sin(phase) alone gives after a time s, from rest: Im(e^{i phase} w(s)) with
-/// w(s) = [E(mu) - E(mu*)]/(2 i lambda), E(mu) = (e^{i nu s} - e^{mu s})/(i nu - mu), mu = -h + i lambda; no difference
-/// of large numbers.
-template <class Number, Effects E>
-std::array<Number, 2> Arc<Number, E>::response_from_rest(const Number& s) const {
-  using std::cos, std::exp, std::sin;
-  const Number &h = flow_->h, &lambda = flow_->root, &nu = flow_->nu;
-  const Number c = cos(nu * s), d = sin(nu * s);
-  const auto [q_re, q_im] = divided_exponential<Number>(-h * s, -flow_->detuning * s);
-  const Number near_re = s * (c * q_re - d * q_im), near_im = s * (c * q_im + d * q_re);  // E(mu)
-  const Number decay = exp(-h * s), top_re = c - decay * cos(lambda * s), top_im = d + decay * sin(lambda * s);
-  const Number sum = nu + lambda, square = h * h + sum * sum;
-  const Number far_re = (top_re * h + top_im * sum) / square, far_im = (top_im * h - top_re * sum) / square;  // E(mu*)
-  const Number minus_re = near_re - far_re, minus_im = near_im - far_im, plus_re = near_re + far_re,
-               plus_im = near_im + far_im;
-  const Number w_re = minus_im / (2 * lambda), w_im = -minus_re / (2 * lambda);
-  const Number rate_re = plus_re / 2 - h * w_re,
-               rate_im = plus_im / 2 - h * w_im;  // [mu E(mu) - mu* E(mu*)]/(2 i lambda)
-  return {start_.cosine * w_im + start_.sine * w_re, start_.cosine * rate_im + start_.sine * rate_re};
 }
 
 template <class Number, Effects E>
@@ -156,7 +125,7 @@ Motion<Number> Arc<Number, E>::near(const Motion<Number>& m, const Number& d) co
     rise += t[k];
     if (k >= 2) gain += static_cast<double>(k) * t[k];
   }
-  const SineCosine<Number> phase = turned(m, flow_->nu * d).phase;
+  const SineCosine<Number> phase = turned(m, turn_by(Number(flow_->nu * d))).phase;
   const Number x = m.x + rise, v = m.v + gain / d;
   rise += m.rise;
   const Number a = flow_->acceleration(flow_->offset(x, anchor_, rise), v, phase.sine);

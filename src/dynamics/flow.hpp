@@ -19,6 +19,37 @@ struct Propagator {
   Number a_rise;  ///< A - 1, small for short times
 };
 
+/// What a time s does to every motion of an oscillator.
+template <class Number>
+struct Step {
+  Propagator<Number> free;
+  SineCosine<Number> turn{};                      ///< sine of nu s, and its cosine less 1
+  SineCosine<Number> displacement{}, velocity{};  ///< secular: what the force's sine and cosine give from rest, f = 1
+  Number fast_decay{};                            ///< heavy damping: e^(-fast s)
+};
+
+/// Sine of an angle and its cosine less 1, which is small for small angles.
+template <class Number>
+[[nodiscard]] SineCosine<Number> turn_by(const Number& angle) {
+  using std::cos, std::sin;
+  const Number half = sin(angle / 2);
+  return {2 * half * cos(angle / 2), -2 * half * half};
+}
+
+/// (e^z - 1)/z for z = re + i im with re <= 0, to relative accuracy for every z: the divided difference of the
+/// exponential.
+template <class Number>
+[[nodiscard]] std::array<Number, 2> divided_exponential(const Number& re, const Number& im) {
+  using std::cos, std::exp, std::expm1, std::sin, std::sqrt;
+  const Number square = re * re + im * im;
+  if (square < sqrt(epsilon<Number>())) {  // 1 + z/2 + z^2/6 + z^3/24: the next term is below rounding
+    const Number re2 = (re - im) * (re + im), im2 = 2 * re * im;
+    return {1 + re / 2 + re2 / 6 + (re * re2 - im * im2) / 24, im / 2 + im2 / 6 + (re * im2 + im * re2) / 24};
+  }
+  const Number half = sin(im / 2), u = expm1(re) * cos(im) - 2 * half * half, w = exp(re) * sin(im);
+  return {(u * re + w * im) / square, (w * re - u * im) / square};
+}
+
 /// y z^6; 0 and infinity meet only where y or z is not finite.
 template <class Number>
 [[nodiscard]] Number times_sixth_power(const Number& y, const Number& z) {
@@ -35,6 +66,9 @@ class Flow {
 
   /// Free motion over s >= 0, without cancellation for every h (physics.md, "Motion").
   [[nodiscard]] Propagator<Number> propagator(const Number& s) const;
+
+  /// All that moves motions on by a time s >= 0 (`Arc::moved`).
+  [[nodiscard]] Step<Number> step(const Number& s) const;
 
   /// Displacement and velocity of the steady forced response at a phase; the secular kernel leaves the forced part to
   /// its arcs.
@@ -94,6 +128,7 @@ class Flow {
  private:
   void bound_derivatives();
   [[nodiscard]] Number short_rise(const Number& s) const;
+  void respond_from_rest(const Number& s, Step<Number>& step) const;
 
   Number coarse_root_{}, spare_root_{};   ///< light damping: root is their difference; 1 and the rest while h < 1/2
   std::array<Number, 2> free_bound_{};    ///< of |x^(6)| and |x^(7)| over the energy norm
@@ -156,6 +191,36 @@ Propagator<Number> Flow<Number, E>::propagator(const Number& s) const {
     const Number a_rise = 8 * h * s <= 1 ? short_rise(s) : Number(expm1(-slow * s) + slow * b);
     return {slow_decay + slow * b, b, fast_decay - slow * b, d, a_rise};
   }
+}
+
+template <class Number, Effects E>
+Step<Number> Flow<Number, E>::step(const Number& s) const {
+  using std::exp;
+  Step<Number> step{propagator(s)};
+  if constexpr (E.forcing != Forcing::none) step.turn = turn_by(Number(nu * s));
+  if constexpr (E.forcing == Forcing::secular) respond_from_rest(s, step);
+  if constexpr (E.damping == Damping::heavy) step.fast_decay = exp(-fast * s);
+  return step;
+}
+
+/// Displacement and velocity that sin(phase) alone gives after a time s, from rest: Im(e^{i phase} w(s)) with
+/// w(s) = [E(mu) - E(mu*)]/(2 i lambda), E(mu) = (e^{i nu s} - e^{mu s})/(i nu - mu), mu = -h + i lambda; no difference
+/// of large numbers.
+template <class Number, Effects E>
+void Flow<Number, E>::respond_from_rest(const Number& s, Step<Number>& step) const {
+  using std::cos, std::exp, std::sin;
+  const Number& lambda = root;
+  const Number c = cos(nu * s), d = sin(nu * s);
+  const auto [q_re, q_im] = divided_exponential<Number>(-h * s, -detuning * s);
+  const Number near_re = s * (c * q_re - d * q_im), near_im = s * (c * q_im + d * q_re);  // E(mu)
+  const Number decay = exp(-h * s), top_re = c - decay * cos(lambda * s), top_im = d + decay * sin(lambda * s);
+  const Number sum = nu + lambda, square = h * h + sum * sum;
+  const Number far_re = (top_re * h + top_im * sum) / square, far_im = (top_im * h - top_re * sum) / square;  // E(mu*)
+  const Number minus_re = near_re - far_re, minus_im = near_im - far_im, plus_re = near_re + far_re,
+               plus_im = near_im + far_im;
+  const Number w_re = minus_im / (2 * lambda), w_im = -minus_re / (2 * lambda);
+  step.displacement = {w_re, w_im};
+  step.velocity = {plus_re / 2 - h * w_re, plus_im / 2 - h * w_im};  // [mu E(mu) - mu* E(mu*)]/(2 i lambda)
 }
 
 /// A(s) - 1 of a time that is short for the oscillator, though not for a fast force, by Taylor's series: the closed

@@ -7,13 +7,20 @@
 #include <new>
 
 namespace clatter {
+namespace {
+
+/// From row to row of samples; even, so that every row is aligned as the first.
+std::size_t sample_stride(std::size_t size) { return size + size % 2; }
+std::size_t sums_of(std::size_t size) { return size / 2 + 1; }
+
+}  // namespace
 
 class FourierTransform::Workspace {
  public:
   explicit Workspace(std::size_t size)
-      : samples(fftw_alloc_real(size)),
-        coefficients(reinterpret_cast<std::complex<double>*>(fftw_alloc_complex(size / 2 + 1))) {
-    if (samples && coefficients) return;
+      : samples(fftw_alloc_real(batch * sample_stride(size))),
+        sums(reinterpret_cast<std::complex<double>*>(fftw_alloc_complex(batch * sums_of(size)))) {
+    if (samples && sums) return;
     release();
     throw std::bad_alloc();
   }
@@ -21,13 +28,13 @@ class FourierTransform::Workspace {
   Workspace(const Workspace&) = delete;
   Workspace& operator=(const Workspace&) = delete;
 
-  [[nodiscard]] fftw_complex* output() const { return reinterpret_cast<fftw_complex*>(coefficients); }
+  [[nodiscard]] fftw_complex* output() const { return reinterpret_cast<fftw_complex*>(sums); }
 
-  double* samples;
-  std::complex<double>* coefficients;
+  double* samples;             ///< shape [row][sample_stride]
+  std::complex<double>* sums;  ///< shape [row][N/2 + 1]
 
  private:
-  void release() { fftw_free(samples), fftw_free(coefficients); }
+  void release() { fftw_free(samples), fftw_free(sums); }
 };
 
 struct FourierTransform::Plan {
@@ -38,7 +45,10 @@ struct FourierTransform::Plan {
 // FFTW_ESTIMATE and one alignment: FFTW_MEASURE picks other plans, and other bits, from run to run.
 FourierTransform::FourierTransform(std::size_t size) : plan_(new Plan{size, nullptr}) {
   Workspace memory(size);
-  plan_->plan = fftw_plan_dft_r2c_1d(static_cast<int>(size), memory.samples, memory.output(), FFTW_ESTIMATE);
+  const int length = static_cast<int>(size), rows = static_cast<int>(batch);
+  plan_->plan =
+      fftw_plan_many_dft_r2c(1, &length, rows, memory.samples, nullptr, 1, static_cast<int>(sample_stride(size)),
+                             memory.output(), nullptr, 1, static_cast<int>(sums_of(size)), FFTW_ESTIMATE);
   if (!plan_->plan) throw std::bad_alloc();
 }
 
@@ -53,14 +63,17 @@ std::unique_ptr<FourierTransform::Workspace, void (*)(FourierTransform::Workspac
   return {new Workspace(plan_->size), [](Workspace* workspace) { delete workspace; }};
 }
 
-std::span<const std::complex<double>> FourierTransform::transform(std::span<const double> samples,
-                                                                  Workspace& workspace) const {
-  assert(samples.size() == plan_->size);
-  std::copy(samples.begin(), samples.end(), workspace.samples);
+auto FourierTransform::transform(const Rows<double>& samples, Workspace& workspace) const
+    -> Rows<std::complex<double>> {
+  Rows<std::complex<double>> sums;
+  const std::size_t size = plan_->size;
+  for (std::size_t row = 0; row < batch; ++row) {
+    assert(samples[row].size() == size);
+    std::ranges::copy(samples[row], workspace.samples + row * sample_stride(size));
+    sums[row] = {workspace.sums + row * sums_of(size), sums_of(size)};
+  }
   fftw_execute_dft_r2c(plan_->plan, workspace.samples, workspace.output());
-  const std::span<std::complex<double>> result(workspace.coefficients, plan_->size / 2 + 1);
-  for (auto& coefficient : result) coefficient /= static_cast<double>(plan_->size);
-  return result;
+  return sums;
 }
 
 }  // namespace clatter

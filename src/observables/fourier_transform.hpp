@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <complex>
 #include <cstddef>
 #include <memory>
@@ -7,9 +8,14 @@
 
 namespace clatter {
 
-/// A plan for the transform of `size` real samples, made once; `transform` may then run in any number of threads.
+/// A plan for the transforms of `batch` rows of `size` real samples each, all at once, made once; `transform` may then
+/// run in any number of threads.
 class FourierTransform {
  public:
+  static constexpr std::size_t batch = 2;  ///< displacement and velocity of a point; more at once are no faster
+  template <class T>
+  using Rows = std::array<std::span<const T>, batch>;
+
   explicit FourierTransform(std::size_t size);  ///< Throws std::bad_alloc.
   ~FourierTransform();
   FourierTransform(FourierTransform&&) noexcept;
@@ -19,10 +25,9 @@ class FourierTransform {
   class Workspace;
   [[nodiscard]] std::unique_ptr<Workspace, void (*)(Workspace*)> workspace() const;
 
-  /// Coefficients X_j = (1/N) sum_i samples[i] exp(-2 pi i j i/N), shape [N/2 + 1], valid until the workspace is used
-  /// again.
-  [[nodiscard]] std::span<const std::complex<double>> transform(std::span<const double> samples,
-                                                                Workspace& workspace) const;
+  /// Sums S_j = sum_i samples[i] exp(-2 pi i j i/N) of each row, shape [row][N/2 + 1], valid until the workspace is
+  /// used again; S_j / N are the Fourier coefficients.
+  [[nodiscard]] Rows<std::complex<double>> transform(const Rows<double>& samples, Workspace& workspace) const;
 
  private:
   struct Plan;

@@ -1,9 +1,11 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <ranges>
 #include <vector>
 
 #include "dynamics/arc.hpp"
@@ -30,14 +32,30 @@ class Samples {
 
   template <class A>
   void arc(const A& arc, double begin, double length) {
-    for (; due() < begin + length - rounding_ && x_.size() < count_;) {
-      const auto motion = arc.at(std::max(0.0, due() - begin));
-      add(motion.x, motion.v);
-      ++evaluations_;
+    while (is_due_before(begin + length)) add(arc.at(std::max(0.0, due() - begin)));
+  }
+  /// Of an arc in closed form one sample in so many is evaluated, and those after it from there by steps of 1, 2, ...
+  /// spacings; of an arc so short that its every digit counts each one is. All arcs are of one oscillator.
+  template <Effects E>
+  void arc(const Arc<double, E>& arc, double begin, double length) {
+    const std::size_t most = length * arc.flow().rate > 0.25 ? steps_.size() : 0;
+    while (is_due_before(begin + length)) {
+      const Motion<double> here = arc.at(std::max(0.0, due() - begin));
+      add(here);
+      const std::size_t more = due_before(begin + length, most);
+      for (; steps_made_ < more; ++steps_made_)
+        steps_[steps_made_] = arc.flow().step(static_cast<double>(steps_made_ + 1) * spacing_);
+      const std::size_t first = x_.size();
+      x_.resize(first + more), v_.resize(first + more);
+      for (std::size_t i = 0; i < more; ++i) {
+        const Motion<double> m = arc.moved(here, steps_[i]);
+        x_[first + i] = between_stops(m.x), v_[first + i] = m.v;
+      }
+      evaluations_ += more;
     }
   }
   void rest(const Rest& rest) {
-    while (due() < rest.time + rest.length - rounding_ && x_.size() < count_) add(rest.place, 0.0);
+    while (is_due_before(rest.time + rest.length)) add(rest.place, 0.0);
   }
   void impact(const Impact& impact) {
     last_ = impact;
@@ -58,25 +76,35 @@ class Samples {
     tau.back() = end;
     return tau;
   }
-  [[nodiscard]] double evaluations() const { return evaluations_; }  ///< of arcs
+  [[nodiscard]] double evaluations() const { return static_cast<double>(evaluations_); }  ///< of arcs
   [[nodiscard]] std::vector<double>& displacement() { return x_; }
   [[nodiscard]] std::vector<double>& velocity() { return v_; }
 
  private:
-  [[nodiscard]] double due() const { return static_cast<double>(x_.size()) * spacing_; }
+  [[nodiscard]] double due() const { return instant(x_.size()); }
+  [[nodiscard]] double instant(std::size_t i) const { return static_cast<double>(i) * spacing_; }
   [[nodiscard]] double at(const Impact& impact) const {
     return at_impact_ == AtImpact::after ? impact.after : (impact.before + impact.after) / 2;
   }
-  void add(double x, double v) {
-    x_.push_back(std::clamp(x, stops_.lower, stops_.upper)), v_.push_back(v);
-  }  // an arc's end may round past; Moreau's time stepping goes past by up to a step
+  [[nodiscard]] bool is_due_before(double end) const { return due_before(end, 1) == 1; }
+  /// How many of the next samples, of `most` at most, lie before an instant.
+  [[nodiscard]] std::size_t due_before(double end, std::size_t most) const {
+    const auto next = std::views::iota(x_.size(), x_.size() + std::min(most, count_ - x_.size()));
+    const auto behind = std::ranges::partition_point(next, [&](std::size_t i) { return instant(i) < end - rounding_; });
+    return static_cast<std::size_t>(behind - next.begin());
+  }
+  void add(const Motion<double>& m) { add(m.x, m.v), ++evaluations_; }
+  void add(double x, double v) { x_.push_back(between_stops(x)), v_.push_back(v); }
+  /// An arc's end may round past; Moreau's time stepping goes past by up to a step.
+  [[nodiscard]] double between_stops(double x) const { return std::clamp(x, stops_.lower, stops_.upper); }
 
   std::size_t count_;
   double spacing_, rounding_;
   AtImpact at_impact_;
   Stops stops_;
   Impact last_{-std::numeric_limits<double>::infinity(), Side::none, 0, 0, 0};
-  double evaluations_ = 0.0;
+  std::array<Step<double>, 63> steps_;  ///< over 1, 2, ... spacings; as many are made as an arc asks for
+  std::size_t steps_made_ = 0, evaluations_ = 0;
   std::vector<double> x_, v_;
 };
 

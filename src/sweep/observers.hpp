@@ -4,6 +4,7 @@
 #include <cmath>
 #include <complex>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "observables/extrema.hpp"
@@ -103,16 +104,16 @@ class Observers {
   bool in_closed_form_ = false;  ///< extrema, impacts and exact harmonics are known already
 };
 
-/// Harmonics k of the base frequency from samples of an observed time in which it turns `turns` times. NaN from half
-/// the sampling rate on; all, the constant part too, where the base frequency itself is beyond it.
-[[nodiscard]] inline Spectrum sampled_spectrum(const std::vector<double>& samples, double turns, std::size_t highest,
-                                               Workshop& workshop) {
-  const auto all = workshop.transform->transform(samples, *workshop.workspace);
-  const double nan = no_value;
+/// Harmonics k of the base frequency from the sums of the transform of `count` samples of an observed time in which it
+/// turns `turns` times. NaN from half the sampling rate on; all, the constant part too, where the base frequency itself
+/// is beyond it.
+[[nodiscard]] inline Spectrum sampled_spectrum(std::span<const std::complex<double>> sums, std::size_t count,
+                                               double turns, std::size_t highest) {
+  const double nan = no_value, samples = static_cast<double>(count);
   std::vector<std::complex<double>> harmonics(highest + 1, {nan, nan});
   for (std::size_t k = 0; k <= highest; ++k) {
     const double index = std::round(turns * static_cast<double>(k)), needed = std::max(index, turns);
-    if (2 * needed < static_cast<double>(samples.size())) harmonics[k] = all[static_cast<std::size_t>(index)];
+    if (2 * needed < samples) harmonics[k] = sums[static_cast<std::size_t>(index)] / samples;
   }
   return Spectrum::of(harmonics);
 }

@@ -110,8 +110,10 @@ class Point {
     }
     if (observers.samples) {
       const auto highest = static_cast<std::size_t>(scene_.observe.harmonics);
-      result_.x_spectrum = sampled_spectrum(observers.samples->displacement(), base_turns, highest, workshop_);
-      result_.v_spectrum = sampled_spectrum(observers.samples->velocity(), base_turns, highest, workshop_);
+      const auto &x = observers.samples->displacement(), &v = observers.samples->velocity();
+      const auto sums = workshop_.transform->transform({x, v}, *workshop_.workspace);
+      result_.x_spectrum = sampled_spectrum(sums[0], x.size(), base_turns, highest);
+      result_.v_spectrum = sampled_spectrum(sums[1], v.size(), base_turns, highest);
     }
   }
 

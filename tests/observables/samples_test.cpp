@@ -2,10 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <numbers>
 
+#include "numbers/fifty_digits.hpp"
 #include "observables/fourier_transform.hpp"
 #include "observables/runs.hpp"
+#include "support/random.hpp"
 
 namespace clatter {
 namespace {
@@ -53,20 +56,90 @@ TEST(Samples, never_lie_outside_the_stops) {
   EXPECT_LE(*high, 0.5);
 }
 
-TEST(FourierTransform, finds_a_sum_of_cosines) {
-  const std::size_t n = 64;
+/// An arc of an oscillator from (x, v) at the phase (0.6, 0.8).
+template <class Number, Effects E>
+Arc<Number, E> arc_of(const Flow<Number, E>& flow, double x, double v) {
+  Motion<Number> m{Number(0), Number(x), Number(v), Number(0), Number(6) / 10, Number(8) / 10};
+  m.a = flow.acceleration(m.x - flow.load, m.v, m.sine);
+  return {flow, m};
+}
+
+TEST(Samples, by_steps_from_an_instant_are_as_good_as_evaluated_ones) {
+  constexpr std::size_t count = 300;
+  constexpr double spacing = 1.0 / 64;  // so that instants are exact
+  for (const double h : {0.0, 1e-9, 0.1, 0.9, 1.0, 1.5, 10.0, 1000.0})
+    for (const double f : {0.0, -1.3})
+      for (const double nu : {1e-3, 0.3, 1.0, 1.04, 2.7, 30.0})
+        with_any_stops({h, f, nu, 0.2}, [&]<Effects effects>() {
+          const Flow<double, effects.arc()> flow({h, f, nu, 0.2});
+          const Flow<FiftyDigits, effects.arc()> exact_flow({h, f, nu, 0.2});
+          const auto arc = arc_of(flow, 0.37, -1.1);
+          const auto exact = arc_of(exact_flow, 0.37, -1.1);
+          Samples samples(count, spacing, AtImpact::after, {});
+          samples.arc(arc, 0.0, count * spacing);
+          for (std::size_t i = 0; i < count; i += 7) {
+            const double s = static_cast<double>(i) * spacing;
+            const Motion<FiftyDigits> expected = exact.at(s);
+            // natural scale: the response and the free motion; the argument of a sine rounds to its ulps; evaluated
+            // samples take 0.19 of (8 + argument), these 0.16
+            const double scale = 0.2 + flow.reach(arc.start(), s);
+            const double allowed = 0.25 * std::numeric_limits<double>::epsilon() * (8 + s * flow.rate) * scale;
+            EXPECT_NEAR(samples.displacement()[i], static_cast<double>(expected.x), allowed)
+                << "h = " << h << ", f = " << f << ", nu = " << nu << ", s = " << s;
+            EXPECT_NEAR(samples.velocity()[i], static_cast<double>(expected.v), allowed * std::max(1.0, nu))
+                << "h = " << h << ", f = " << f << ", nu = " << nu << ", s = " << s;
+          }
+        });
+}
+
+TEST(Samples, of_short_flights_are_evaluated_each) {
+  // between stops 1e-9 apart: a step from another instant would know the place to an ulp of the response
+  const Flow<double, Effects{Damping::light, Forcing::regular}> flow({0.1, 1.0, 1.5, 0.0});
+  const Arc<double, Effects{Damping::light, Forcing::regular}> arc = arc_of(flow, -5e-10, 1e-5);
+  constexpr double length = 1e-4;
+  Samples samples(50, length / 50, AtImpact::after, {-5e-10, 5e-10, 0.7, 0.7});
+  samples.arc(arc, 0.0, length);
+  for (std::size_t i = 0; i < 50; ++i) {
+    const Motion<double> expected = arc.at(static_cast<double>(i) * (length / 50));
+    EXPECT_EQ(samples.displacement()[i], std::min(expected.x, 5e-10));
+    EXPECT_EQ(samples.velocity()[i], expected.v);
+  }
+}
+
+/// N samples of 0.25 + 3 cos(5 tau + 0.7) over a period.
+std::vector<double> cosine(std::size_t n) {
   std::vector<double> samples;
   for (std::size_t i = 0; i < n; ++i)
-    samples.push_back(0.25 +
-                      3 * std::cos(2 * std::numbers::pi * 5 * static_cast<double>(i) / static_cast<double>(n) + 0.7));
+    samples.push_back(
+        0.25 + 3 * std::cos(2 * std::numbers::pi * static_cast<double>(5 * i % n) / static_cast<double>(n) + 0.7));
+  return samples;
+}
+
+TEST(FourierTransform, finds_a_sum_of_cosines) {
+  const std::size_t n = 64;
   const FourierTransform transform(n);
   const auto workspace = transform.workspace();
-  const auto c = transform.transform(samples, *workspace);
-  ASSERT_EQ(c.size(), n / 2 + 1);
-  EXPECT_NEAR(c[0].real(), 0.25, 1e-15);
-  EXPECT_NEAR(2 * std::abs(c[5]), 3.0, 2e-15);
-  EXPECT_NEAR(std::arg(c[5]), 0.7, 1e-15);
-  EXPECT_LT(std::abs(c[4]), 1e-15);
+  const auto sums = transform.transform({cosine(n), cosine(n)}, *workspace);
+  for (const auto& c : sums) {
+    ASSERT_EQ(c.size(), n / 2 + 1);
+    EXPECT_NEAR(c[0].real() / n, 0.25, 1e-15);
+    EXPECT_NEAR(2 * std::abs(c[5]) / n, 3.0, 2e-15);
+    EXPECT_NEAR(std::arg(c[5]), 0.7, 1e-15);
+    EXPECT_LT(std::abs(c[4]) / n, 1e-15);
+  }
+}
+
+TEST(FourierTransform, a_row_has_the_same_bits_in_either_place_and_beside_any_other) {
+  for (const std::size_t n : {2, 3, 4, 15, 16, 64, 101, 1000, 1001, 4096}) {
+    Random random(44, n);
+    std::vector<double> row = cosine(n), other(n);
+    for (double& sample : other) sample = random.uniform(-1e3, 1e3);
+    const FourierTransform transform(n), again(n);
+    const auto workspace = transform.workspace(), another = transform.workspace();
+    const auto first = transform.transform({row, other}, *workspace)[0];
+    const auto second = again.transform({other, row}, *another)[1];
+    EXPECT_TRUE(std::ranges::equal(first, second)) << n;
+  }
 }
 
 }  // namespace

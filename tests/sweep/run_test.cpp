@@ -19,7 +19,7 @@ TEST(Run, gives_the_same_bits_for_every_number_of_threads) {
   scene.time.max_periods = 400;  // some points stay aperiodic
   scene.observe = {.extrema = true,
                    .harmonics = 2,
-                   .harmonics_samples = 64,
+                   .harmonics_samples = 257,
                    .impacts = true,
                    .impact_log = true,
                    .trajectory = 5,
