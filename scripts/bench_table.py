@@ -75,9 +75,10 @@ def show_rates(run):
         sweep, arch = name.split("/")
         if sweep != "sincos":
             unit = run.unit(arch)
-            rows.append((sweep, arch, *(text for what in ("impact", "period") for text in (time(entry[what]), in_units(entry[what], unit)))))
-    show("Time per impact and per forcing period, one thread; s of the same instruction set",
-         ("sweep", "set", "impact", "in s", "period", "in s"), rows)
+            rows.append((sweep, arch, *(text for what in ("impact", "period") for text in
+                                        (time(entry[what]), in_units(entry[what], unit), f"{entry['proved_' + what]:.3g}", f"{entry['refined_' + what]:.3g}"))))
+    show("Time per impact and per forcing period, one thread; s of the same instruction set; lanes times steps proved and contacts refined",
+         ("sweep", "set", "impact", "in s", "proved", "refined", "period", "in s", "proved", "refined"), rows)
 
 
 def show_growth(run):

@@ -69,8 +69,9 @@ class Quintic {
     return t;
   }
   /// The first root of a polynomial that begins positive: from the first crossing of its control polygon, by a step of
-  /// Halley's method.
-  [[nodiscard, gnu::always_inline]] V root() const {
+  /// Halley's method; by two for the wanted ones on the way to which the slope changes much.
+  template <class Mask>
+  [[nodiscard, gnu::always_inline]] V root(const Mask& wanted) const {
     const auto [b1, b2, b3, b4] = polygon();
     V before = b4, beyond = y1_, t(0.8);
     const auto consider = [&](const V& one, const V& next, double place) {
@@ -79,8 +80,14 @@ class Quintic {
     };
     consider(b3, b4, 0.6), consider(b2, b3, 0.4), consider(b1, b2, 0.2), consider(c0_, b1, 0.0);
     t = fma(V(0.2), before / (before - beyond), t);
-    const Local l = at(t);
-    return t - l.value * l.slope / fms(l.slope, l.slope, l.value * l.bend);
+    const auto back_to_root = [](const Local& l) {
+      return l.value * l.slope / fms(l.slope, l.slope, l.value * l.bend);
+    };
+    const Local here = at(t);
+    const V back = back_to_root(here);
+    const Mask far = wanted & (beyond < V(0.0)) & (abs(back * here.bend) > abs(here.slope) * 0.1);
+    t = t - back;
+    return any(far) ? select(far, t - back_to_root(at(t)), t) : t;
   }
 
  private:

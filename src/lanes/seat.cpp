@@ -14,7 +14,7 @@ namespace {
 constexpr Effects effects = {.damping = Damping::light, .forcing = Forcing::regular};
 
 /// Of a step, times the larger of 1 and nu: below it more steps are proved, above it fewer of them are free of a stop.
-constexpr double usual_step = 2.1;
+constexpr double usual_step = 2.0;
 
 /// What places are rounded by, over the sizes of the parts that they are sums of.
 constexpr double rounding = 0x1p-49;
@@ -83,13 +83,13 @@ void watch(Lanes& lanes, std::size_t i, bool ends, bool clips) {
 }
 
 void vacate(Lanes& lanes, std::size_t i) {
-  Scene scene;
-  scene.oscillator = {.damping = 0.5, .forcing = 1.0, .frequency = 2.0};
-  seat(lanes, i, scene, {});
-  lanes.left.lane[i] = std::numeric_limits<double>::infinity();
-  watch(lanes, i, false, false);
   const double infinity = std::numeric_limits<double>::infinity();
+  for (Row* const row : {&lanes.p, &lanes.w, &lanes.sine, &lanes.cosine, &lanes.y, &lanes.v, &lanes.a})
+    row->lane[i] = 0;
+  lanes.lower.lane[i] = -infinity, lanes.upper.lane[i] = lanes.left.lane[i] = infinity;
+  watch(lanes, i, false, false);
   lanes.y_low.lane[i] = lanes.v_low.lane[i] = -infinity, lanes.y_high.lane[i] = lanes.v_high.lane[i] = infinity;
+  lanes.impacts.lane[i] = 0;
 }
 
 LanePlace place_of(const Lanes& lanes, std::size_t i, const Scene& scene) {

@@ -95,7 +95,7 @@ class Visit {
                                  back * to.v, back * to.a});
     Goal g;
     g.crosses = sign * (stop - to.y) < zero;
-    g.time = gap.root();
+    g.time = gap.root(touched_);
     if (any(touched_ & !g.crosses)) {
       const V turning = gap.least(), least = gap.at(turning).value, part = turning * (one - turning);
       const V uncertain = error * (part * part * part * 20.0);

@@ -82,7 +82,6 @@ void Crew::settle_next(std::size_t lane) {
       take_(member->task(), member->result(workshop_));
     }
   }
-  vacate(settling_.lanes, lane);
 }
 
 /// Observes a member in a free lane, or lets it wait for one.

@@ -89,13 +89,14 @@ Crew::Member::Member(const Task& task)
     : task_(task), exact_(task_.scene, stops_in_reach(task_.scene.stops, task_.effects)) {}
 
 std::optional<Observed> Crew::Member::begin(Lanes& lanes, std::size_t lane) {
-  seat(lanes, lane, task_.scene, exact_.stops());
   State<double> state;
   state.x = task_.scene.start.displacement, state.v = task_.scene.start.velocity;
   if (task_.scene.time.mode == Mode::transient)
     return Observed{Status::transient, state, task_.scene.time.duration / exact_.period(), 0.0, FoundBy::start};
   search_.emplace(exact_, task_.scene, TakenBy::lanes);
-  return search_->at_section(state);
+  const auto found = search_->at_section(state);
+  if (!found) seat(lanes, lane, task_.scene, exact_.stops());
+  return found;
 }
 
 Observed Crew::Member::failure(Outcome outcome) const {

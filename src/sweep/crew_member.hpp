@@ -20,7 +20,7 @@ class Crew::Member {
 
   [[nodiscard]] const Task& task() const { return task_; }
 
-  /// Takes a lane to settle in; what is known at the start, of a transient all of it.
+  /// What is known at the start, of a transient all of it; else takes a lane to settle in.
   [[nodiscard]] std::optional<Observed> begin(Lanes& lanes, std::size_t lane);
   /// What is known at the section that the lane has passed.
   [[nodiscard]] std::optional<Observed> at_section(const Lanes& lanes, std::size_t lane);

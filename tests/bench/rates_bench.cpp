@@ -1,5 +1,6 @@
 // Time per impact beside Fig. 18, where every forcing period has two, and per forcing period of the sweep of Fig. 23,
-// for each instruction set on one thread.
+// for each instruction set on one thread; and how many lanes times steps that are to be proved free of contact, and
+// times contacts that are looked for, each of them takes, idle lanes included.
 #include <benchmark/benchmark.h>
 
 #include <string>
@@ -15,10 +16,18 @@ constexpr double periods = 300;  // of each point, on average
 void time_sweep(benchmark::State& state, const Sweep& sweep, Arch arch) {
   using benchmark::Counter;
   Work work;
-  for ([[maybe_unused]] auto _ : state) work = work_of(run(sweep, {.threads = 1, .arch = arch}));
+  LaneWork lanes;
+  for ([[maybe_unused]] auto _ : state) {
+    const RunResult result = run(sweep, {.threads = 1, .arch = arch});
+    work = work_of(result), lanes = result.lanes;
+  }
   const auto per = Counter::kIsIterationInvariantRate | Counter::kInvert;
   state.counters["impact"] = Counter(work.impacts, per);
   state.counters["period"] = Counter(work.periods, per);
+  state.counters["proved_impact"] = lanes.proved / work.impacts;
+  state.counters["refined_impact"] = lanes.refined / work.impacts;
+  state.counters["proved_period"] = lanes.proved / work.periods;
+  state.counters["refined_period"] = lanes.refined / work.periods;
 }
 
 void add(const std::string& name, const Sweep& sweep) {
