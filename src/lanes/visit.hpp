@@ -97,7 +97,11 @@ class Visit {
     g.crosses = sign * (stop - to.y) < zero;
     g.time = gap.root(touched_);
     if (any(touched_ & !g.crosses)) {
-      const V turning = gap.least(), least = gap.at(turning).value, part = turning * (one - turning);
+      const V place = gap.least();
+      // a lane has to get on: only one on its way to the stop can turn at once
+      const V soonest = select(sign * here_.v > zero, V(0x1p-40), V(0x1p-4));
+      const V turning = select((place > soonest) & (place < one), place, V(0.5));
+      const V least = gap.at(turning).value, part = turning * (one - turning);
       const V uncertain = error * (part * part * part * 20.0);
       const Mask misses = (!g.crosses) & (least >= -uncertain);
       // where the error doesn't tell, only half of the way: a shorter flight has far less of it

@@ -174,6 +174,22 @@ TEST_P(LaneVisits, report_what_grazes_as_stuck) {
   }
 }
 
+TEST_P(LaneVisits, get_every_lane_on) {
+  // just off the lower stop, on an arc whose quintic is least, for Newton's method, 1e-17 of a step from where it is
+  const double stop = 0x1.e7807ca49e781p-3;
+  const Scene scene = scene_of({0.1, -1.0, 0x1.07b00c4ce07bp-1, 0.0}, -stop, stop, 0.7);
+  Lanes lanes{};
+  for (std::size_t lane = 0; lane < Row::width; ++lane) vacate(lanes, lane);
+  seat(lanes, 1, scene, scene.stops);
+  lanes.p.lane[1] = 0x1.584ce6d702e79p-2, lanes.w.lane[1] = -0x1.3c0af122d568p+0;
+  lanes.sine.lane[1] = 0x1.2ed29049b0f28p-2, lanes.cosine.lane[1] = -0x1.e9198d9f7dcb6p-1;
+  lanes.y.lane[1] = -0x1.e5dc1ac0bc4dap-3, lanes.v.lane[1] = 0x1.6559d0258a1p-6;
+  lanes.a.lane[1] = -0x1.f1022e7faa118p-3;
+  const double left = lanes.left.lane[1] = 0x1.abb50e872e83fp+1;
+  visits_of(GetParam()).plain(lanes);
+  EXPECT_TRUE(lanes.stuck != 0 || lanes.left.lane[1] < left - 0.01);
+}
+
 TEST_P(LaneVisits, report_nothing_of_idle_lanes) {
   Lanes lanes{};
   for (std::size_t i = 0; i < Row::width; ++i) vacate(lanes, i);
