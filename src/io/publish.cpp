@@ -6,101 +6,18 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <csignal>
-#include <cstring>
 #include <filesystem>
 #include <random>
 #include <string>
 #include <utility>
 
 #include "io/error.hpp"
+#include "io/file_calls.hpp"
 
 namespace clatter {
 namespace {
 
 namespace fs = std::filesystem;
-
-[[noreturn]] void refuse(const fs::path& path, const std::string& why, const std::string& way_out) {
-  throw IoError{"cannot write '" + path.string() + "': " + why + "; " + way_out};
-}
-
-std::string way_out_of(int error) {
-  switch (error) {
-    case ENOSPC:
-    case EDQUOT:
-    case EFBIG:
-      return "free some space, or name a place that has more";
-    case EACCES:
-    case EPERM:
-    case EROFS:
-      return "get permission, or name a place where you have it";
-    case ENAMETOOLONG:
-      return "use a shorter name";
-    default:
-      return "name another output file";
-  }
-}
-
-[[noreturn]] void refuse(const fs::path& path, int error) { refuse(path, std::strerror(error), way_out_of(error)); }
-
-/// Repeats a system call that a signal interrupted.
-template <typename Call>
-auto uninterrupted(Call call) {
-  auto result = call();
-  while (result < 0 && errno == EINTR) result = call();
-  return result;
-}
-
-/// Owns a file descriptor.
-class Descriptor {
- public:
-  explicit Descriptor(int number) : number_{number} {}
-  Descriptor(const Descriptor&) = delete;
-  Descriptor& operator=(const Descriptor&) = delete;
-  ~Descriptor() {
-    if (number_ >= 0) ::close(number_);
-  }
-
-  [[nodiscard]] int number() const { return number_; }
-
-  /// Closes now, since a network file system may report here that the data didn't arrive; never repeated, as Linux
-  /// always closes.
-  [[nodiscard]] bool close() { return ::close(std::exchange(number_, -1)) == 0 || errno == EINTR; }
-
- private:
-  int number_;
-};
-
-/// Makes a write beyond the limit of `ulimit -f` return EFBIG as on a full disk: the signal would end the process at
-/// once.
-class IgnoreFileSizeSignal {
- public:
-  IgnoreFileSizeSignal() {
-    struct sigaction ignore {};
-    ignore.sa_handler = SIG_IGN;
-    ::sigaction(SIGXFSZ, &ignore, &before_);
-  }
-  IgnoreFileSizeSignal(const IgnoreFileSizeSignal&) = delete;
-  IgnoreFileSizeSignal& operator=(const IgnoreFileSizeSignal&) = delete;
-  ~IgnoreFileSizeSignal() { ::sigaction(SIGXFSZ, &before_, nullptr); }
-
- private:
-  struct sigaction before_ {};
-};
-
-/// Where a chain of symbolic links ends, whether there is a file or not.
-fs::path target_of(fs::path path) {
-  constexpr int most_links = 40;  // as in Linux's own look-up
-  std::error_code error;
-  for (int links = 0; fs::is_symlink(path, error); ++links) {
-    if (links == most_links) refuse(path, ELOOP);
-    path = path.parent_path() / fs::read_symlink(path, error);  // an absolute link replaces the parent
-    if (error) refuse(path, error.value());
-  }
-  return path;
-}
-
-fs::path directory_of(const fs::path& path) { return path.has_parent_path() ? path.parent_path() : fs::path{"."}; }
 
 void check_directory(const fs::path& path) {
   const fs::path directory = directory_of(path);
@@ -149,17 +66,7 @@ class TemporaryFile {
     if (!path_.empty()) ::unlink(path_.c_str());
   }
 
-  /// Writes in small pieces: for large ones Linux takes large pages for its cache, which on a virtual machine often are
-  /// memory that the host has yet to find, at ten times the cost.
-  void write(std::span<const std::byte> bytes) {
-    constexpr std::size_t piece = 64UL * 1024;  // bytes
-    while (!bytes.empty()) {
-      const std::size_t next = std::min(bytes.size(), piece);
-      const ssize_t written = uninterrupted([&] { return ::write(file_.number(), bytes.data(), next); });
-      if (written < 0) refuse(target_, errno);
-      bytes = bytes.subspan(static_cast<std::size_t>(written));
-    }
-  }
+  void write(std::span<const std::byte> bytes) { write_all(file_, bytes, target_); }
 
   void become_target() {
     if (uninterrupted([&] { return ::fsync(file_.number()); }) != 0 || !file_.close()) refuse(target_, errno);

@@ -1,0 +1,64 @@
+#include "io/file_calls.hpp"
+
+#include <algorithm>
+#include <cstring>
+
+#include "io/error.hpp"
+
+namespace clatter {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+std::string way_out_of(int error) {
+  switch (error) {
+    case ENOSPC:
+    case EDQUOT:
+    case EFBIG:
+      return "free some space, or name a place that has more";
+    case EACCES:
+    case EPERM:
+    case EROFS:
+      return "get permission, or name a place where you have it";
+    case ENAMETOOLONG:
+      return "use a shorter name";
+    default:
+      return "name another output file";
+  }
+}
+
+}  // namespace
+
+void refuse(const fs::path& path, const std::string& why, const std::string& way_out) {
+  throw IoError{"cannot write '" + path.string() + "': " + why + "; " + way_out};
+}
+
+void refuse(const fs::path& path, int error) { refuse(path, std::strerror(error), way_out_of(error)); }
+
+fs::path target_of(fs::path path) {
+  constexpr int most_links = 40;  // as in Linux's own look-up
+  std::error_code error;
+  for (int links = 0; fs::is_symlink(path, error); ++links) {
+    if (links == most_links) refuse(path, ELOOP);
+    path = path.parent_path() / fs::read_symlink(path, error);  // an absolute link replaces the parent
+    if (error) refuse(path, error.value());
+  }
+  return path;
+}
+
+fs::path directory_of(const fs::path& path) { return path.has_parent_path() ? path.parent_path() : fs::path{"."}; }
+
+/// In small pieces: for large ones Linux takes large pages for its cache, which on a virtual machine often are memory
+/// that the host has yet to find, at ten times the cost.
+void write_all(const Descriptor& file, std::span<const std::byte> bytes, const fs::path& named) {
+  constexpr std::size_t piece = 64UL * 1024;  // bytes
+  while (!bytes.empty()) {
+    const std::size_t next = std::min(bytes.size(), piece);
+    const ssize_t written = uninterrupted([&] { return ::write(file.number(), bytes.data(), next); });
+    if (written < 0) refuse(named, errno);
+    bytes = bytes.subspan(static_cast<std::size_t>(written));
+  }
+}
+
+}  // namespace clatter

@@ -1,0 +1,75 @@
+#pragma once
+
+#include <unistd.h>
+
+#include <cerrno>
+#include <csignal>
+#include <cstddef>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <utility>
+
+namespace clatter {
+
+/// Throws the IoError of a file that cannot be written.
+[[noreturn]] void refuse(const std::filesystem::path& path, const std::string& why, const std::string& way_out);
+[[noreturn]] void refuse(const std::filesystem::path& path, int error);
+
+/// Repeats a system call that a signal interrupted.
+template <typename Call>
+auto uninterrupted(Call call) {
+  auto result = call();
+  while (result < 0 && errno == EINTR) result = call();
+  return result;
+}
+
+/// Owns a file descriptor.
+class Descriptor {
+ public:
+  explicit Descriptor(int number) : number_{number} {}
+  Descriptor(Descriptor&& other) noexcept : number_{std::exchange(other.number_, -1)} {}
+  Descriptor& operator=(Descriptor&& other) noexcept {
+    std::swap(number_, other.number_);
+    return *this;
+  }
+  ~Descriptor() {
+    if (number_ >= 0) ::close(number_);
+  }
+
+  [[nodiscard]] int number() const { return number_; }
+
+  /// Closes now, since a network file system may report here that the data didn't arrive; never repeated, as Linux
+  /// always closes.
+  [[nodiscard]] bool close() { return ::close(std::exchange(number_, -1)) == 0 || errno == EINTR; }
+
+ private:
+  int number_;
+};
+
+/// Makes a write beyond the limit of `ulimit -f` return EFBIG as on a full disk: the signal would end the process at
+/// once.
+class IgnoreFileSizeSignal {
+ public:
+  IgnoreFileSizeSignal() {
+    struct sigaction ignore {};
+    ignore.sa_handler = SIG_IGN;
+    ::sigaction(SIGXFSZ, &ignore, &before_);
+  }
+  IgnoreFileSizeSignal(const IgnoreFileSizeSignal&) = delete;
+  IgnoreFileSizeSignal& operator=(const IgnoreFileSizeSignal&) = delete;
+  ~IgnoreFileSizeSignal() { ::sigaction(SIGXFSZ, &before_, nullptr); }
+
+ private:
+  struct sigaction before_ {};
+};
+
+/// Where a chain of symbolic links ends, whether there is a file or not.
+[[nodiscard]] std::filesystem::path target_of(std::filesystem::path path);
+
+[[nodiscard]] std::filesystem::path directory_of(const std::filesystem::path& path);
+
+/// Writes all of the bytes. Throws IoError, for the file that is to be named.
+void write_all(const Descriptor& file, std::span<const std::byte> bytes, const std::filesystem::path& named);
+
+}  // namespace clatter

@@ -1,0 +1,276 @@
+#include "io/journal.hpp"
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <zlib.h>
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <optional>
+#include <sstream>
+#include <string_view>
+#include <utility>
+
+#include "io/error.hpp"
+
+namespace clatter {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::string_view magic = "clatter journal 1\n";
+
+using Bytes = std::vector<std::byte>;
+
+std::span<const std::byte> bytes_of(std::string_view text) { return std::as_bytes(std::span(text)); }
+
+void append(Bytes& to, std::span<const std::byte> bytes) { to.insert(to.end(), bytes.begin(), bytes.end()); }
+
+template <class Number>
+void append_number(Bytes& to, Number number) {
+  append(to, std::as_bytes(std::span(&number, 1)));
+}
+
+std::uint32_t crc_of(std::span<const std::byte> bytes) {
+  uLong crc = ::crc32_z(0, nullptr, 0);
+  return static_cast<std::uint32_t>(::crc32_z(crc, reinterpret_cast<const Bytef*>(bytes.data()), bytes.size()));
+}
+
+/// A block of bytes in the file: its length and CRC-32 before it.
+struct BlockHead {
+  std::uint64_t length;
+  std::uint32_t crc;
+  std::uint32_t check;  ///< the CRC-32 of the two before, so that a damaged length isn't taken for a torn tail
+};
+
+BlockHead head_of(std::span<const std::byte> block) {
+  BlockHead head{block.size(), crc_of(block), 0};
+  head.check = crc_of(std::as_bytes(std::span(&head, 1)).first(offsetof(BlockHead, check)));
+  return head;
+}
+
+void append_block(Bytes& to, std::span<const std::byte> block) {
+  append_number(to, head_of(block));
+  append(to, block);
+}
+
+/// Reads a file from its beginning.
+class Reader {
+ public:
+  Reader(const Descriptor& file, std::uint64_t size, const fs::path& path) : file_(file), size_(size), path_(path) {}
+
+  [[nodiscard]] std::uint64_t at() const { return at_; }
+  [[nodiscard]] std::uint64_t left() const { return size_ - at_; }
+
+  void read(std::span<std::byte> to) {
+    while (!to.empty()) {
+      if (buffered_.empty()) fill();
+      const std::size_t some = std::min(to.size(), buffered_.size());
+      std::ranges::copy(buffered_.first(some), to.begin());
+      to = to.subspan(some), buffered_ = buffered_.subspan(some), at_ += some;
+    }
+  }
+
+  /// The next block; nothing: it is torn off. Throws IoError where it is damaged.
+  std::optional<std::span<const std::byte>> block() {
+    const std::uint64_t begin = at_;
+    BlockHead head{};
+    if (left() < sizeof head) return std::nullopt;
+    read(std::as_writable_bytes(std::span(&head, 1)));
+    const auto summed = std::as_bytes(std::span(&head, 1)).first(offsetof(BlockHead, check));
+    if (head.length == 0 && head.crc == 0 && head.check == 0 && only_zeros_left()) return std::nullopt;
+    if (crc_of(summed) != head.check) damaged(begin);
+    if (head.length > left()) return std::nullopt;
+    block_.resize(static_cast<std::size_t>(head.length));
+    read(block_);
+    if (crc_of(block_) != head.crc) damaged(begin);
+    return block_;
+  }
+
+  [[noreturn]] void damaged(std::uint64_t where) const {
+    throw IoError("'" + path_.string() + "' is damaged at byte " + std::to_string(where) +
+                  ": what it holds of an earlier run can't be trusted; --restart begins anew, without it");
+  }
+
+ private:
+  /// What a power cut may leave of the last records.
+  bool only_zeros_left() {
+    std::byte next{};
+    while (left() > 0 && next == std::byte{}) read(std::span(&next, 1));
+    return next == std::byte{};
+  }
+
+  void fill() {
+    const ssize_t got = uninterrupted([&] { return ::read(file_.number(), buffer_.data(), buffer_.size()); });
+    if (got <= 0)
+      throw IoError("cannot read '" + path_.string() + "': " + (got < 0 ? std::strerror(errno) : "it became shorter") +
+                    "; try again, or begin anew with --restart");
+    buffered_ = std::span<const std::byte>(buffer_).first(static_cast<std::size_t>(got));
+  }
+
+  const Descriptor& file_;
+  std::uint64_t size_, at_ = 0;
+  const fs::path& path_;
+  Bytes buffer_ = Bytes(std::size_t{1} << 18), block_;
+  std::span<const std::byte> buffered_;
+};
+
+Bytes bytes_of(const JournalKey& key) {
+  Bytes bytes;
+  for (const std::string* text : {&key.program, &key.arch, &key.config})
+    append_number(bytes, std::uint64_t{text->size()}), append(bytes, bytes_of(*text));
+  return bytes;
+}
+
+/// The key in a sound header; nothing where its lengths don't fit.
+std::optional<JournalKey> key_of(std::span<const std::byte> bytes) {
+  JournalKey key;
+  for (std::string* text : {&key.program, &key.arch, &key.config}) {
+    std::uint64_t length = 0;
+    if (bytes.size() < sizeof length) return std::nullopt;
+    std::memcpy(&length, bytes.data(), sizeof length);
+    bytes = bytes.subspan(sizeof length);
+    if (length > bytes.size()) return std::nullopt;
+    text->assign(reinterpret_cast<const char*>(bytes.data()), static_cast<std::size_t>(length));
+    bytes = bytes.subspan(static_cast<std::size_t>(length));
+  }
+  return bytes.empty() ? std::optional(key) : std::nullopt;
+}
+
+std::vector<std::string> lines_of(const std::string& text) {
+  std::vector<std::string> lines;
+  std::istringstream stream(text);
+  for (std::string line; std::getline(stream, line);) lines.push_back(line);
+  return lines;
+}
+
+/// Some lines that only one of two configurations has.
+std::string difference(const JournalKey& left, const JournalKey& right) {
+  constexpr std::size_t most = 6;
+  std::string text;
+  std::size_t shown = 0;
+  const auto show = [&](const char* sign, const std::string& line) {
+    if (++shown <= most) text += std::string("\n  ").append(sign) + line;
+  };
+  const auto only_in = [](const std::string& one, const std::string& other) {
+    std::vector<std::string> lines = lines_of(one);
+    const std::vector<std::string> others = lines_of(other);
+    std::erase_if(lines, [&](const std::string& line) { return std::ranges::find(others, line) != others.end(); });
+    return lines;
+  };
+  if (left.program != right.program) show("its program: ", left.program), show("this program: ", right.program);
+  if (left.arch != right.arch) show("its instruction set: ", left.arch), show("this run's: ", right.arch);
+  for (const std::string& line : only_in(left.config, right.config)) show("its: ", line);
+  for (const std::string& line : only_in(right.config, left.config)) show("this run's: ", line);
+  if (shown > most) text += "\n  and " + std::to_string(shown - most) + " more lines";
+  return text;
+}
+
+}  // namespace
+
+Journal::Journal(const fs::path& output, JournalKey key, Begin begin, const Take& take)
+    : output_(target_of(output)), path_(fs::path(output_) += ".journal"), key_(std::move(key)) {
+  lock();
+  try {
+    read(take, begin);
+  } catch (...) {
+    if (size_ == 0) ::unlink(path_.c_str());
+    throw;
+  }
+}
+
+Journal::~Journal() {
+  if (file_.number() >= 0 && size_ == 0) ::unlink(path_.c_str());
+}
+
+/// Opens the file that has the journal's name and locks it; the one that was opened may have been removed meanwhile, by
+/// the run that held the lock.
+void Journal::lock() {
+  for (;;) {
+    file_ = Descriptor{uninterrupted(
+        [&] { return ::open(path_.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC | O_NOFOLLOW, 0666); })};
+    if (file_.number() < 0) refuse(path_, errno);
+    if (uninterrupted([&] { return ::flock(file_.number(), LOCK_EX | LOCK_NB); }) != 0) {
+      const int error = errno;
+      file_ = Descriptor{-1};
+      if (error != EWOULDBLOCK) refuse(path_, error);
+      throw BusyError("'" + output_.string() +
+                      "' is being written by another run; wait for its end, or name another output");
+    }
+    struct stat opened {
+    }, named{};
+    if (::fstat(file_.number(), &opened) != 0) refuse(path_, errno);
+    if (::stat(path_.c_str(), &named) != 0 || named.st_ino != opened.st_ino || named.st_dev != opened.st_dev) continue;
+    if (!S_ISREG(opened.st_mode)) refuse(path_, "is not a regular file", "move it away, or name another output");
+    size_ = static_cast<std::uint64_t>(opened.st_size);
+    return;
+  }
+}
+
+void Journal::read(const Take& take, Begin begin) {
+  Reader reader(file_, size_, path_);
+  std::array<char, magic.size()> first{};
+  const std::span<char> found = std::span(first).first(std::min<std::size_t>(first.size(), reader.left()));
+  reader.read(std::as_writable_bytes(found));
+  if (std::string_view(found.data(), found.size()) != magic.substr(0, found.size()))
+    throw IoError("'" + path_.string() + "' is no journal of clatter; move it away, or name another output");
+  std::uint64_t whole = 0;
+  const auto header = begin == Begin::restart || found.size() < magic.size() ? std::nullopt : reader.block();
+  if (header) {
+    const auto key = key_of(*header);
+    if (!key) reader.damaged(magic.size());
+    if (*key != key_)
+      throw IoError("'" + path_.string() +
+                    "' holds what an earlier run of something else had finished:" + difference(*key, key_) +
+                    "\nrun that again to complete it, begin anew with --restart, or name another output");
+    whole = reader.at();
+    for (auto block = reader.block(); block; block = reader.block(), ++records_) {
+      std::uint64_t number = 0;
+      if (block->size() < sizeof number) reader.damaged(whole);
+      std::memcpy(&number, block->data(), sizeof number);
+      take(number, block->subspan(sizeof number));
+      whole = reader.at();
+    }
+  }
+  if (begin == Begin::resume && records_ == 0)
+    throw IoError("there is nothing to resume: '" + path_.string() + "' holds no finished points; leave --resume out");
+  if (uninterrupted([&] { return ::ftruncate(file_.number(), static_cast<off_t>(whole)); }) != 0) refuse(path_, errno);
+  size_ = whole;
+}
+
+void Journal::add(std::uint64_t number, std::span<const std::byte> bytes) {
+  Bytes block;
+  block.reserve(sizeof number + bytes.size());
+  append_number(block, number), append(block, bytes);
+  const std::lock_guard lock(adding_);
+  append_block(added_, block);
+}
+
+void Journal::save() {
+  const std::lock_guard lock(saving_);
+  Bytes bytes;
+  if (size_ == 0) append(bytes, bytes_of(magic)), append_block(bytes, bytes_of(key_));
+  {
+    const std::lock_guard adding(adding_);
+    if (added_.empty()) return;
+    append(bytes, added_), added_.clear();
+  }
+  const IgnoreFileSizeSignal ignore;
+  try {
+    write_all(file_, bytes, path_);
+    if (uninterrupted([&] { return ::fdatasync(file_.number()); }) != 0) refuse(path_, errno);
+  } catch (...) {
+    (void)!::ftruncate(file_.number(), static_cast<off_t>(size_));  // else the next run cuts it
+    throw;
+  }
+  size_ += bytes.size();
+}
+
+void Journal::remove() {
+  if (::unlink(path_.c_str()) != 0 && errno != ENOENT) refuse(path_, errno);
+  file_ = Descriptor{-1};
+}
+
+}  // namespace clatter

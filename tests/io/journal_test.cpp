@@ -1,0 +1,216 @@
+#include "io/journal.hpp"
+
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <string>
+#include <thread>
+
+#include "io/error.hpp"
+
+namespace clatter {
+namespace {
+
+namespace fs = std::filesystem;
+
+using Records = std::map<std::uint64_t, std::string>;
+
+const JournalKey key{"nu = 1\nxs = 2\n", "1.0", "avx2"};
+
+std::string text_of(std::span<const std::byte> bytes) {
+  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
+std::span<const std::byte> bytes_of(const std::string& text) { return std::as_bytes(std::span(text)); }
+
+/// A directory of its own for each test, since ctest runs them side by side.
+class JournalFile : public testing::Test {
+ protected:
+  JournalFile() { fs::create_directories(directory_); }
+  ~JournalFile() override { fs::remove_all(directory_); }
+
+  [[nodiscard]] std::string output() const { return (directory_ / "a.h5").string(); }
+  [[nodiscard]] std::string path() const { return output() + ".journal"; }
+  [[nodiscard]] std::string content() const {
+    std::ifstream file{path(), std::ios::binary};
+    return {std::istreambuf_iterator<char>{file}, {}};
+  }
+  void overwrite(const std::string& text) const { std::ofstream{path(), std::ios::binary} << text; }
+
+  /// Keeps records as a run does that is then killed.
+  void write(const Records& records, Journal::Begin begin = Journal::Begin::anyhow) const {
+    Journal journal(output(), key, begin, [](auto, auto) {});
+    for (const auto& [number, text] : records) journal.add(number, bytes_of(text));
+    journal.save();
+  }
+  /// What the next run finds.
+  [[nodiscard]] Records found(const JournalKey& by = key, Journal::Begin begin = Journal::Begin::anyhow) const {
+    Records records;
+    const Journal journal(output(), by, begin, [&](std::uint64_t number, std::span<const std::byte> bytes) {
+      EXPECT_TRUE(records.emplace(number, text_of(bytes)).second) << number;
+    });
+    EXPECT_EQ(journal.records(), records.size());
+    return records;
+  }
+  [[nodiscard]] std::string refusal(const JournalKey& by = key, Journal::Begin begin = Journal::Begin::anyhow) const {
+    try {
+      (void)found(by, begin);
+      return "";
+    } catch (const IoError& error) {
+      return error.what();
+    }
+  }
+
+ private:
+  fs::path directory_ = fs::path{testing::TempDir()} / ("clatter_journal_" + std::to_string(::getpid()) + "_" +
+                                                        testing::UnitTest::GetInstance()->current_test_info()->name());
+};
+
+const Records three{{7, "seven"}, {2, ""}, {std::uint64_t{1} << 40, std::string(70000, 'x')}};
+
+TEST_F(JournalFile, holds_what_was_added_for_the_next_run) {
+  write(three);
+  EXPECT_EQ(found(), three);
+  write({{9, "nine"}});
+  Records four = three;
+  four[9] = "nine";
+  EXPECT_EQ(found(), four);
+}
+
+TEST_F(JournalFile, is_not_there_without_records_nor_after_remove) {
+  write({});
+  EXPECT_FALSE(fs::exists(path()));
+  write(three);
+  Journal(output(), key, Journal::Begin::anyhow, [](auto, auto) {}).remove();
+  EXPECT_FALSE(fs::exists(path()));
+}
+
+TEST_F(JournalFile, begins_anew_where_that_is_asked_for) {
+  write(three);
+  write({{1, "one"}}, Journal::Begin::restart);
+  EXPECT_EQ(found(), (Records{{1, "one"}}));
+  overwrite(content() + "torn");
+  EXPECT_EQ(found(key, Journal::Begin::restart), Records{});
+}
+
+TEST_F(JournalFile, resumes_only_what_there_is) {
+  EXPECT_NE(refusal(key, Journal::Begin::resume).find("nothing to resume"), std::string::npos);
+  EXPECT_FALSE(fs::exists(path()));
+  write(three);
+  EXPECT_EQ(found(key, Journal::Begin::resume), three);
+}
+
+TEST_F(JournalFile, refuses_another_key_and_says_what_differs) {
+  write(three);
+  const std::string before = content();
+  const std::string config = refusal({"nu = 3\nxs = 2\n", "1.0", "avx2"});
+  EXPECT_NE(config.find("nu = 1"), std::string::npos) << config;
+  EXPECT_NE(config.find("nu = 3"), std::string::npos) << config;
+  EXPECT_EQ(config.find("xs = 2"), std::string::npos) << config;
+  EXPECT_NE(config.find("--restart"), std::string::npos) << config;
+  EXPECT_NE(refusal({key.config, "1.1", key.arch}).find("1.1"), std::string::npos);
+  EXPECT_NE(refusal({key.config, key.program, "sse2"}).find("sse2"), std::string::npos);
+  EXPECT_EQ(content(), before);
+}
+
+TEST_F(JournalFile, of_two_runs_only_one_has_it) {
+  Journal first(output(), key, Journal::Begin::anyhow, [](auto, auto) {});
+  first.add(1, bytes_of("one"));
+  first.save();
+  EXPECT_THROW(Journal(output(), key, Journal::Begin::restart, [](auto, auto) {}), BusyError);
+  first.add(2, bytes_of("two"));
+  first.save();
+  EXPECT_THROW((void)found(), BusyError);
+}
+
+TEST_F(JournalFile, cut_anywhere_gives_its_whole_records) {
+  const Records small{{1, "one"}, {2, "two"}, {3, "three"}};
+  write(small);
+  const std::string whole = content();
+  std::size_t most = 0;
+  for (std::size_t length = 0; length <= whole.size(); ++length) {
+    overwrite(whole.substr(0, length));
+    const Records left = found();
+    for (const auto& [number, text] : left) EXPECT_EQ(text, small.at(number)) << length;
+    EXPECT_GE(left.size(), most) << length;
+    most = left.size();
+    overwrite(whole.substr(0, length));
+    write({{4, "four"}});  // goes on after the cut
+    EXPECT_EQ(found().size(), left.size() + 1) << length;
+  }
+  EXPECT_EQ(most, 3u);
+}
+
+TEST_F(JournalFile, with_zeros_at_its_end_gives_what_is_before_them) {
+  write(three);
+  overwrite(content() + std::string(5000, '\0'));
+  EXPECT_EQ(found(), three);
+  overwrite(content() + std::string(40, '\0') + 'x');
+  EXPECT_NE(refusal().find("damaged"), std::string::npos);
+}
+
+TEST_F(JournalFile, with_a_flipped_bit_is_refused_and_left_alone) {
+  write({{1, "one"}, {2, "two"}});
+  const std::string whole = content();
+  for (std::size_t bit = 0; bit < 8 * whole.size(); ++bit) {
+    std::string damaged = whole;
+    damaged[bit / 8] = static_cast<char>(damaged[bit / 8] ^ 1 << bit % 8);
+    overwrite(damaged);
+    EXPECT_NE(refusal(), "") << bit;
+    EXPECT_EQ(content(), damaged) << bit;
+  }
+}
+
+TEST_F(JournalFile, of_something_else_is_refused_and_left_alone) {
+  for (const std::string foreign : {"x", "clatter journal 2\n", "\x89HDF\r\n\x1a\n and so on"}) {
+    overwrite(foreign);
+    for (const Journal::Begin begin : {Journal::Begin::anyhow, Journal::Begin::restart})
+      EXPECT_NE(refusal(key, begin).find("no journal"), std::string::npos) << foreign;
+    EXPECT_EQ(content(), foreign);
+  }
+}
+
+TEST_F(JournalFile, on_a_full_disk_keeps_what_it_had) {
+  write(three);
+  const std::string before = content();
+  rlimit limit{};
+  ASSERT_EQ(::getrlimit(RLIMIT_FSIZE, &limit), 0);
+  for (const rlim_t more : {0, 1, 15, 16, 17, 60, 5000}) {
+    const rlimit full{static_cast<rlim_t>(before.size()) + more, limit.rlim_max};
+    ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &full), 0);
+    {
+      Journal journal(output(), key, Journal::Begin::anyhow, [](auto, auto) {});
+      journal.add(8, bytes_of(std::string(100000, 'y')));
+      EXPECT_THROW(journal.save(), IoError) << more;
+    }
+    ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &limit), 0);
+    EXPECT_EQ(content(), before) << more;
+  }
+  EXPECT_EQ(found(), three);
+}
+
+TEST_F(JournalFile, takes_records_from_many_threads) {
+  {
+    Journal journal(output(), key, Journal::Begin::anyhow, [](auto, auto) {});
+    std::vector<std::thread> threads;
+    for (std::uint64_t thread = 0; thread < 4; ++thread)
+      threads.emplace_back([&journal, thread] {
+        for (std::uint64_t i = 0; i < 500; ++i) {
+          journal.add(1000 * thread + i, bytes_of(std::to_string(1000 * thread + i)));
+          if (i % 100 == 0) journal.save();
+        }
+      });
+    for (std::thread& thread : threads) thread.join();
+    journal.save();
+  }
+  const Records all = found();
+  EXPECT_EQ(all.size(), 2000u);
+  for (const auto& [number, text] : all) EXPECT_EQ(text, std::to_string(number));
+}
+
+}  // namespace
+}  // namespace clatter
