@@ -10,7 +10,15 @@
 namespace clatter {
 
 /// How a command ends; scripts are written against these numbers.
-enum ExitCode : int { done = 0, points_failed = 1, usage_error = 2, internal_error = 70, io_error = 74 };
+enum ExitCode : int {
+  done = 0,
+  points_failed = 1,
+  usage_error = 2,
+  internal_error = 70,
+  io_error = 74,
+  busy = 75,
+  timed_out = 124  ///< and 128 + the number of a signal
+};
 
 /// A subcommand: what it takes, what its help says, and what it does.
 struct Command {

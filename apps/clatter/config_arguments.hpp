@@ -17,8 +17,8 @@ inline const Option threads_option{"threads", 0, "N", "threads, 1 to 1024; defau
 /// What --threads says; 0 where it isn't given. Throws UsageError.
 [[nodiscard]] int threads_of(const Arguments& arguments);
 
-inline const Option arch_option{
-    "arch", 0, "NAME", "instruction set: scalar, sse2, avx2, avx512; default: CLATTER_ARCH, else the widest"};
+inline const Option arch_option{"arch", 0, "NAME",
+                                "instruction set: scalar, sse2, avx2, avx512; default: CLATTER_ARCH, else the widest"};
 
 /// The instruction set that --arch or the environment names; the widest of this machine where neither does. Throws
 /// UsageError.

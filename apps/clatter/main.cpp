@@ -9,6 +9,7 @@
 #include "commands.hpp"
 #include "io/config.hpp"
 #include "io/error.hpp"
+#include "io/journal.hpp"
 #include "io/version.hpp"
 
 namespace {
@@ -55,6 +56,8 @@ int main(int argc, char** argv) {
     return usage_error;
   } catch (const IoError& error) {
     return report(error.what(), io_error);
+  } catch (const BusyError& error) {
+    return report(error.what(), busy);
   } catch (const std::bad_alloc&) {
     return report("the results don't fit into memory; sweep fewer points, or observe less", usage_error);
   } catch (const std::exception& error) {

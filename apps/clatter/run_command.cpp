@@ -1,13 +1,21 @@
 #include <algorithm>
+#include <charconv>
 #include <iostream>
+#include <optional>
+#include <string>
 #include <utility>
 
 #include "commands.hpp"
 #include "config_arguments.hpp"
 #include "format.hpp"
 #include "io/config.hpp"
+#include "io/error.hpp"
 #include "io/figure_file.hpp"
+#include "io/journal.hpp"
 #include "io/publish.hpp"
+#include "io/suggestion.hpp"
+#include "io/version.hpp"
+#include "keeper.hpp"
 #include "plan_report.hpp"
 #include "progress.hpp"
 #include "run_report.hpp"
@@ -26,11 +34,32 @@ void check_memory(const Sweep& sweep) {
                    "; sweep fewer points, or observe fewer samples and harmonics");
 }
 
-RunResult run_with_progress(const Sweep& sweep, int threads, Arch arch, bool shown) {
+Journal::Begin begin_of(const Arguments& arguments) {
+  if (arguments.has("resume") && arguments.has("restart"))
+    throw UsageError("--resume beside --restart; give one of them");
+  if (arguments.has("restart")) return Journal::Begin::restart;
+  return arguments.has("resume") ? Journal::Begin::resume : Journal::Begin::anyhow;
+}
+
+std::optional<Keeper::Seconds> longest_of(const Arguments& arguments) {
+  const std::optional<std::string> word = arguments.value("max-time");
+  if (!word) return std::nullopt;
+  double seconds = 0;
+  const auto [end, error] = std::from_chars(word->data(), word->data() + word->size(), seconds);
+  if (error != std::errc{} || end != word->data() + word->size() || !(seconds > 0) || seconds > 1e9)
+    throw UsageError("--max-time " + in_quotes(*word) + "; permitted: a number of seconds above 0, up to 1e9");
+  return Keeper::Seconds(seconds);
+}
+
+/// Runs what the journal doesn't hold yet, and keeps it there.
+RunResult run_and_keep(SweepRun& sweep, Journal& journal, std::optional<Keeper::Seconds> longest, int threads,
+                       Arch arch, bool shown) {
+  const Keeper keeper(journal, longest);
   const Progress progress(shown);
   RunOptions options{.threads = threads, .arch = arch};
   if (shown) options.progress = [&](std::size_t finished, std::size_t total) { progress.show(finished, total); };
-  return run(sweep, options);
+  options.finished = [&](std::size_t branch, std::span<const std::byte> results) { journal.add(branch, results); };
+  return sweep.run(options);
 }
 
 int run_config(const Arguments& arguments) {
@@ -40,15 +69,27 @@ int run_config(const Arguments& arguments) {
   const Arch arch = arch_of(arguments);
   const int threads = threads_used({.threads = threads_of(arguments)});
   const bool shown = progress_wanted(arguments);
+  const Journal::Begin begin = begin_of(arguments);
+  const std::optional<Keeper::Seconds> longest = longest_of(arguments);
   const std::string output = output_of(arguments);
   const Config config = config_of(arguments);
   check_not_config(arguments.operands[0], output);
   check_writable(output);
   check_memory(config.sweep);
   if (arguments.has("verbose")) std::cerr << plan_text(plan_of(config.sweep, threads), config.sweep, threads);
-  RunResult result = run_with_progress(config.sweep, threads, arch, shown);
+  SweepRun sweep(config.sweep);
+  Journal journal(output,
+                  {config.text, std::string(version()).append(" ").append(git_commit()), std::string(name_of(arch))},
+                  begin, [&](std::uint64_t branch, std::span<const std::byte> results) {
+                    if (!sweep.restore(branch, results))
+                      throw IoError("the journal of '" + output + "' doesn't fit the sweep; --restart begins anew");
+                  });
+  if (sweep.restored_points() > 0 && !arguments.has("quiet"))
+    std::cerr << "goes on from " << sweep.restored_points() << " finished points\n";
+  RunResult result = run_and_keep(sweep, journal, longest, threads, arch, shown);
   const std::string summary = summary_line(result, output);
   publish(output, file_image(std::move(result.figure), config).bytes);
+  journal.remove();
   if (!arguments.has("quiet")) std::cerr << summary << '\n';
   if (arguments.has("verbose")) std::cerr << details(result, command_line(), began);
   return result.failed_points > 0 ? points_failed : done;
@@ -72,6 +113,9 @@ Command run_command() {
                       set_option,
                       threads_option,
                       arch_option,
+                      {"resume", 0, "", "go on from an interrupted run, as without it; an error where there is none"},
+                      {"restart", 0, "", "begin anew, without what an interrupted run has left"},
+                      {"max-time", 0, "SECONDS", "stop after so long, keep what is finished, and exit with 124"},
                       progress_option,
                       {"quiet", 'q', "", "print errors only"},
                       {"verbose", 'v', "", "print the plan before, and after it what was used, host and times"},

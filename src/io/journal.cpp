@@ -246,16 +246,19 @@ void Journal::add(std::uint64_t number, std::span<const std::byte> bytes) {
   append_number(block, number), append(block, bytes);
   const std::lock_guard lock(adding_);
   append_block(added_, block);
+  ++adds_;
 }
 
 void Journal::save() {
   const std::lock_guard lock(saving_);
   Bytes bytes;
+  std::uint64_t added = 0;
   if (size_ == 0) append(bytes, bytes_of(magic)), append_block(bytes, bytes_of(key_));
   {
     const std::lock_guard adding(adding_);
     if (added_.empty()) return;
     append(bytes, added_), added_.clear();
+    added = std::exchange(adds_, 0);
   }
   const IgnoreFileSizeSignal ignore;
   try {
@@ -265,7 +268,14 @@ void Journal::save() {
     (void)!::ftruncate(file_.number(), static_cast<off_t>(size_));  // else the next run cuts it
     throw;
   }
-  size_ += bytes.size();
+  size_ += bytes.size(), records_ += added;
+}
+
+std::string Journal::leave() {
+  const std::lock_guard lock(saving_);
+  if (size_ > 0) return "what was finished is in '" + path_.string() + "', from which the same command goes on";
+  ::unlink(path_.c_str());
+  return "nothing was finished yet";
 }
 
 void Journal::remove() {

@@ -58,8 +58,10 @@ class Journal {
   void save();
   /// Removes the file, once its records are in the output.
   void remove();
+  /// Ends without an output: says what the next run will find. An empty file is removed.
+  [[nodiscard]] std::string leave();
 
-  [[nodiscard]] std::uint64_t records() const { return records_; }  ///< that were there at the beginning
+  [[nodiscard]] std::uint64_t records() const { return records_; }  ///< that are in the file
 
  private:
   void lock();
@@ -72,6 +74,7 @@ class Journal {
   std::uint64_t records_ = 0;
   std::mutex adding_, saving_;
   std::vector<std::byte> added_;
+  std::uint64_t adds_ = 0;  ///< records in it
 };
 
 }  // namespace clatter

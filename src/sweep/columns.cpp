@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <type_traits>
 
 namespace clatter {
 namespace {
@@ -39,6 +40,22 @@ const char* long_name_of(Parameter parameter) {
       return "period of the free vibration that the start lies on";
   }
   return "";
+}
+
+template <class T>
+requires std::is_trivially_copyable_v<T>
+void append(std::vector<std::byte>& to, std::span<const T> values) {
+  const auto bytes = std::as_bytes(values);
+  to.insert(to.end(), bytes.begin(), bytes.end());
+}
+
+template <class T>
+requires std::is_trivially_copyable_v<T>
+bool take(std::span<const std::byte>& from, std::span<T> values) {
+  if (from.size() < values.size_bytes()) return false;
+  std::ranges::copy(from.first(values.size_bytes()), std::as_writable_bytes(values).begin());
+  from = from.subspan(values.size_bytes());
+  return true;
 }
 
 /// The length of the log as a whole, so that its columns are made in one piece.
@@ -98,6 +115,29 @@ void Columns::store(std::size_t point, PointResult&& result) {
   periods_[point] = result.periods;
   for (std::size_t i = 0; i < outputs_.size(); ++i) outputs_[i].put(result, &values_[i][point * outputs_[i].width]);
   if (!log_.empty()) log_[point] = std::move(result.log);
+}
+
+void Columns::pack(std::size_t point, std::vector<std::byte>& to) const {
+  append(to, std::span(&status_[point], 1)), append(to, std::span(&impacts_[point], 1));
+  append(to, std::span(&periods_[point], 1));
+  for (std::size_t i = 0; i < outputs_.size(); ++i)
+    append(to, std::span(values_[i]).subspan(point * outputs_[i].width, outputs_[i].width));
+  if (log_.empty()) return;
+  const std::uint64_t count = log_[point].size();
+  append(to, std::span(&count, 1));
+  append(to, std::span<const Impact>(log_[point]));
+}
+
+bool Columns::unpack(std::size_t point, std::span<const std::byte>& from) {
+  bool whole = take(from, std::span(&status_[point], 1)) && take(from, std::span(&impacts_[point], 1)) &&
+               take(from, std::span(&periods_[point], 1));
+  for (std::size_t i = 0; whole && i < outputs_.size(); ++i)
+    whole = take(from, std::span(values_[i]).subspan(point * outputs_[i].width, outputs_[i].width));
+  std::uint64_t count = 0;
+  if (!whole || log_.empty()) return whole;
+  if (!take(from, std::span(&count, 1)) || count > from.size()) return false;
+  log_[point].resize(static_cast<std::size_t>(count));
+  return take(from, std::span(log_[point]));
 }
 
 void Columns::add_coordinates(Figure& figure) const {

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -40,6 +41,12 @@ class Columns {
 
   /// Stores a point's result; different points may be stored at the same time.
   void store(std::size_t point, PointResult&& result);
+
+  /// Appends a point's results, as `unpack` takes them from a run of the same sweep.
+  void pack(std::size_t point, std::vector<std::byte>& to) const;
+  /// Takes a point's results off the beginning of `from`; false where they aren't of this sweep, and then nothing is
+  /// sure of the point.
+  [[nodiscard]] bool unpack(std::size_t point, std::span<const std::byte>& from);
 
   /// The figure; the columns are empty afterwards.
   [[nodiscard]] Figure figure();

@@ -26,7 +26,8 @@ namespace {
 /// Calls the user's progress function a few times a second, from one thread at a time.
 class Progress {
  public:
-  Progress(const RunOptions& options, std::size_t total) : report_(options.progress), total_(total) {}
+  Progress(const RunOptions& options, std::size_t total, std::size_t done)
+      : report_(options.progress), total_(total), done_(done) {}
 
   void add_point() {
     if (!report_) return;
@@ -42,7 +43,7 @@ class Progress {
   using Clock = std::chrono::steady_clock;
   const std::function<void(std::size_t, std::size_t)>& report_;
   std::mutex mutex_;
-  std::size_t total_, done_ = 0;
+  std::size_t total_, done_;
   Clock::time_point last_{};
 };
 
@@ -74,11 +75,15 @@ bool lanes_can_run(const Sweep& sweep) {
 /// The threads that run a sweep, and what they share.
 class Team {
  public:
-  Team(const Sweep& sweep, const RunOptions& options, int threads, Columns& columns)
+  /// `done` tells the branches that are left out, `restored` how many points they have.
+  Team(const Sweep& sweep, const RunOptions& options, int threads, Columns& columns, const std::vector<char>& done,
+       std::size_t restored)
       : sweep_(sweep),
         branches_(sweep),
         columns_(columns),
-        progress_(options, size(sweep)),
+        done_(done),
+        finished_(options.finished),
+        progress_(options, size(sweep), restored),
         chunk_(sweep.follow
                    ? 1
                    : std::clamp<std::size_t>(branches_.count / (64 * static_cast<std::size_t>(threads)), 1, 64)),
@@ -162,6 +167,7 @@ class Team {
           if (!other) return std::nullopt;
           chunk = *other;
         }
+        if (done_[chunk.begin] != 0) continue;
         const Task task = task_of(chunk.begin);
         if (can_go_into_lanes(task)) {
           ++chunk.begin;
@@ -179,7 +185,16 @@ class Team {
   void store(const Task& task, PointResult&& result, std::size_t thread) {
     add(usage_[thread], usage_of(task, result));
     columns_.store(task.point, std::move(result));
+    if (branches_.length == 1) finish(task.point);
     progress_.add_point();
+  }
+
+  /// Hands the results of a branch on.
+  void finish(std::size_t branch) {
+    if (!finished_) return;
+    std::vector<std::byte> results;
+    for (std::size_t i = 0; i < branches_.length; ++i) columns_.pack(branches_.point(branch, i), results);
+    finished_(branch, results);
   }
 
   /// Runs the points of a branch, each from the end of the one before.
@@ -195,11 +210,12 @@ class Team {
         store(task, std::move(result), thread);
       });
     }
+    if (branches_.length > 1) finish(branch);
   }
 
   void run_chunk(const Chunk& chunk, std::size_t thread) {
     if (sweep_.follow) {
-      run_branch(chunk.begin, thread);
+      if (done_[chunk.begin] == 0) run_branch(chunk.begin, thread);
     } else {
       run_points(chunk, thread);
     }
@@ -209,7 +225,8 @@ class Team {
   void run_points(const Chunk& chunk, std::size_t thread) {
     std::vector<Task> tasks;
     tasks.reserve(chunk.end - chunk.begin);
-    for (std::size_t point = chunk.begin; point < chunk.end; ++point) tasks.push_back(task_of(point));
+    for (std::size_t point = chunk.begin; point < chunk.end; ++point)
+      if (done_[point] == 0) tasks.push_back(task_of(point));
     const auto kernel = [](const Task& task) { return kernel_of(task.effects); };
     std::ranges::stable_sort(tasks, {}, kernel);
     for (std::span<const Task> left(tasks); !left.empty();) {
@@ -224,6 +241,8 @@ class Team {
   const Sweep& sweep_;
   Branches branches_;
   Columns& columns_;
+  const std::vector<char>& done_;  ///< [branch]
+  const std::function<void(std::size_t, std::span<const std::byte>)>& finished_;
   Progress progress_;
   std::optional<FourierTransform> transform_;
   std::size_t chunk_;  ///< branches that a thread takes at once
@@ -243,22 +262,33 @@ class Team {
 
 int threads_used(const RunOptions& options) { return options.threads > 0 ? options.threads : omp_get_max_threads(); }
 
-RunResult run(const Sweep& sweep, const RunOptions& options) {
+SweepRun::SweepRun(const Sweep& sweep) : sweep_(sweep), branches_(sweep), columns_(sweep), done_(branches_.count, 0) {}
+
+bool SweepRun::restore(std::size_t branch, std::span<const std::byte> results) {
+  if (branch >= branches_.count || done_[branch] != 0) return false;
+  for (std::size_t i = 0; i < branches_.length; ++i)
+    if (!columns_.unpack(branches_.point(branch, i), results)) return false;
+  done_[branch] = 1, restored_ += branches_.length;
+  return results.empty();
+}
+
+RunResult SweepRun::run(const RunOptions& options) {
   RunResult result;
   const auto begin = std::chrono::steady_clock::now();
-  Columns columns(sweep);
-  result.points = size(sweep);
+  result.points = size(sweep_);
   result.threads = static_cast<int>(std::min<std::size_t>(static_cast<std::size_t>(threads_used(options)),
-                                                          Branches(sweep).count));  // others would only be waited for
-  Team team(sweep, options, result.threads, columns);
+                                                          branches_.count));  // others would only be waited for
+  Team team(sweep_, options, result.threads, columns_, done_, restored_);
   team.run();
   team.rethrow();
-  result.failed_points = columns.failed_points();
+  result.failed_points = columns_.failed_points();
   result.usage = team.usage();
   result.arch = options.arch, result.lanes = team.lane_work();
-  result.figure = columns.figure();
+  result.figure = columns_.figure();
   result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   return result;
 }
+
+RunResult run(const Sweep& sweep, const RunOptions& options) { return SweepRun(sweep).run(options); }
 
 }  // namespace clatter

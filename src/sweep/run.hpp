@@ -3,11 +3,14 @@
 #include <array>
 #include <cstddef>
 #include <functional>
+#include <span>
 #include <vector>
 
 #include "dynamics/effects.hpp"
 #include "integrators/observed.hpp"
 #include "numbers/arch.hpp"
+#include "sweep/branches.hpp"
+#include "sweep/columns.hpp"
 #include "sweep/figure.hpp"
 #include "sweep/sweep.hpp"
 
@@ -18,6 +21,8 @@ struct RunOptions {
   std::function<void(std::size_t done, std::size_t total)>
       progress{};           ///< called from one thread at a time, a few times a second
   Arch arch = best_arch();  ///< instruction set of the points that lanes can take
+  /// Called from any thread for each branch of points that is finished (`Branches`), with its results
+  std::function<void(std::size_t branch, std::span<const std::byte> results)> finished{};
 };
 
 /// The threads that a run with these options uses.
@@ -51,8 +56,28 @@ struct RunResult {
   LaneWork lanes;                 ///< what it took in SIMD lanes
 };
 
-/// Runs every point; the same bits for every number of threads. Throws std::bad_alloc where the results don't fit into
-/// memory.
+/// A sweep on its way to its results.
+class SweepRun {
+ public:
+  explicit SweepRun(const Sweep& sweep);  ///< Throws std::bad_alloc where the results don't fit into memory.
+
+  /// Takes the results of a branch from an earlier run of the same sweep, as `finished` got them; false where they
+  /// aren't of this sweep.
+  [[nodiscard]] bool restore(std::size_t branch, std::span<const std::byte> results);
+  [[nodiscard]] std::size_t restored_points() const { return restored_; }
+
+  /// Runs every point that isn't restored; the same bits for every number of threads, and however many are.
+  [[nodiscard]] RunResult run(const RunOptions& options);
+
+ private:
+  const Sweep& sweep_;
+  Branches branches_;
+  Columns columns_;
+  std::vector<char> done_;  ///< [branch]
+  std::size_t restored_ = 0;
+};
+
+/// Runs every point of a sweep.
 [[nodiscard]] RunResult run(const Sweep& sweep, const RunOptions& options);
 
 }  // namespace clatter
