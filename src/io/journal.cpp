@@ -182,7 +182,12 @@ Journal::Journal(const fs::path& output, JournalKey key, Begin begin, const Take
 }
 
 Journal::~Journal() {
-  if (file_.number() >= 0 && size_ == 0) ::unlink(path_.c_str());
+  if (file_.number() < 0) return;
+  try {
+    save();
+  } catch (const IoError&) {  // the run has failed for a reason of its own, which is told
+  }
+  if (size_ == 0) ::unlink(path_.c_str());
 }
 
 /// Opens the file that has the journal's name and locks it; the one that was opened may have been removed meanwhile, by

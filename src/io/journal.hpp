@@ -47,7 +47,7 @@ class Journal {
   /// Locks the journal of an output, and lets `take` have each record that is there. Throws BusyError, and IoError:
   /// where another configuration, program or instruction set has left it, it is damaged, or cannot be read or written.
   Journal(const std::filesystem::path& output, JournalKey key, Begin begin, const Take& take);
-  /// Leaves a journal with records; an empty one is removed.
+  /// Saves what it can, for a run that has failed; an empty file is removed.
   ~Journal();
   Journal(const Journal&) = delete;
   Journal& operator=(const Journal&) = delete;
