@@ -3,7 +3,7 @@
 
 # libgtest-dev is among the build's, since the preset configures the tests too: one configuration for both scripts.
 BUILD_PACKAGES=(g++ cmake ninja-build pkg-config libhdf5-dev libboost-program-options-dev libtomlplusplus-dev libfftw3-dev
-                nettle-dev libxsimd-dev libgtest-dev)
+                nettle-dev zlib1g-dev libxsimd-dev libgtest-dev)
 PLOT_PACKAGES=(python3 python3-h5py python3-numpy python3-matplotlib)
 TEST_PACKAGES=(python3-xarray python3-h5netcdf python3-netcdf4 netcdf-bin)
 BENCH_PACKAGES=(libbenchmark-dev libsundials-dev python3)

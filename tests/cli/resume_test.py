@@ -44,7 +44,7 @@ impacts = true
 class Resume(CommandLine):
     def setUp(self):
         super().setUp()
-        self.config = self.write("a.toml", LONG)
+        self.config = self.directory / self.write("a.toml", LONG)
         self.output, self.journal = self.directory / "a.h5", self.directory / "a.h5.journal"
 
     def command(self, *words, threads=2, config=None):
@@ -117,7 +117,7 @@ class Resume(CommandLine):
         self.assertEqual(self.output.read_bytes(), whole)
 
     def test_followed_branches_are_kept_whole(self):
-        config = self.write("f.toml", FOLLOWED)
+        config = self.directory / self.write("f.toml", FOLLOWED)
         whole = self.undisturbed(config)
         code, said = self.stopped(0.3, signal.SIGINT, config=config)
         self.assertIn(code, (0, 130), said)
