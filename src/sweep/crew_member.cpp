@@ -164,9 +164,10 @@ Instant Crew::Member::section(const Lanes& lanes, std::size_t lane) const {
 bool Crew::Member::has_seen_all(const Lanes& lanes, std::size_t lane) {
   const auto at = [lane](const Row& row) { return row.lane[lane]; };
   const Oscillator& o = task_.scene.oscillator;
-  const bool before = coasts_;
-  if (!before) coasts_ = at(lanes.section_trace) == 0 && out_of_reach(o, section(lanes, lane), exact_.stops());
-  if (!before || !lanes.extrema) return coasts_ && !lanes.extrema;
+  if (!coasts_) {
+    coasts_ = at(lanes.section_trace) == 0 && out_of_reach(o, section(lanes, lane), exact_.stops());
+    return coasts_ && !lanes.extrema;
+  }
   const double transient = transient_bound(o, transient_of(o, section(lanes, lane))), slack = at(lanes.rounding) / 2;
   const double y = at(lanes.amplitude) + transient - slack;
   const double v = (o.frequency * at(lanes.amplitude) + transient - slack) / at(lanes.rate);

@@ -15,8 +15,9 @@ namespace {
 std::vector<Sweep> figures() {
   std::vector<Sweep> sweeps;
   for (int number = 2; number <= 23; ++number) {
-    const std::string digits = (number < 10 ? "0" : "") + std::to_string(number);
-    sweeps.push_back(read_config(CLATTER_SOURCE "/configs/fig" + digits + ".toml", {}).sweep);
+    std::string path(CLATTER_SOURCE "/configs/fig");
+    path.append(number < 10 ? "0" : "").append(std::to_string(number)).append(".toml");
+    sweeps.push_back(read_config(path, {}).sweep);
   }
   return sweeps;
 }
