@@ -54,7 +54,7 @@ void check_operands(const Command& command, const std::vector<std::string>& oper
     throw UsageError(std::string(command.operands[operands.size()]) + " is missing; write: clatter " +
                      std::string(command.usage));
   }
-  if (operands.size() > command.operands.size()) {
+  if (operands.size() > command.operands.size() && !command.repeats_last) {
     throw UsageError("unexpected argument " + in_quotes(operands[command.operands.size()]) + "; write: clatter " +
                      std::string(command.usage));
   }

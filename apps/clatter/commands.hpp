@@ -27,6 +27,7 @@ struct Command {
   std::string_view summary;                ///< one line for the list of commands
   std::string_view examples;               ///< the end of its help
   std::vector<std::string_view> operands;  ///< names of its positional arguments, e.g. "CONFIG"
+  bool repeats_last = false;               ///< the last of them may be given several times
   std::size_t required_operands = 0;
   std::vector<Option> options;
   int (*run)(const Arguments& arguments);
@@ -41,6 +42,7 @@ struct Command {
 [[nodiscard]] Command run_command();
 [[nodiscard]] Command plan_command();
 [[nodiscard]] Command accuracy_command();
+[[nodiscard]] Command merge_command();
 [[nodiscard]] Command info_command();
 [[nodiscard]] Command defaults_command();
 [[nodiscard]] Command help_command();

@@ -11,6 +11,7 @@
 #include <iostream>
 #include <string>
 #include <system_error>
+#include <utility>
 
 #include "commands.hpp"
 
@@ -31,7 +32,8 @@ void take(int number) {
 
 }  // namespace
 
-Keeper::Keeper(Journal& journal, std::optional<Seconds> longest) : journal_(journal) {
+Keeper::Keeper(Journal& journal, std::function<void()> save, std::optional<Seconds> longest)
+    : journal_(journal), save_(std::move(save)) {
   if (longest) end_ = Clock::now() + std::chrono::duration_cast<Clock::duration>(*longest);
   if (::pipe2(ends_, O_CLOEXEC) != 0) throw std::system_error(errno, std::generic_category(), "no pipe");
   into = ends_[1];
@@ -68,7 +70,7 @@ void Keeper::keep() {
     const char came = wait();
     if (came == over) return;
     try {
-      journal_.save();
+      save_();
     } catch (const std::exception& error) {
       leave(io_error, std::string(error.what()).append("\nclatter: stopped"));
     }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <chrono>
+#include <functional>
 #include <optional>
 #include <thread>
 
@@ -15,8 +16,9 @@ class Keeper {
  public:
   using Seconds = std::chrono::duration<double>;
 
-  /// Stops the run after `longest`, if that is given. There may be one at a time.
-  Keeper(Journal& journal, std::optional<Seconds> longest);
+  /// `save` writes what was finished since the last time into the journal. Stops the run after `longest`, if that is
+  /// given. There may be one keeper at a time.
+  Keeper(Journal& journal, std::function<void()> save, std::optional<Seconds> longest);
   /// The run is over: signals act as by default again.
   ~Keeper();
   Keeper(const Keeper&) = delete;
@@ -30,6 +32,7 @@ class Keeper {
   [[noreturn]] void leave(int code, const std::string& why);
 
   Journal& journal_;
+  std::function<void()> save_;
   std::optional<Clock::time_point> end_;
   int ends_[2];  ///< of a pipe: signals and the end of the run go into the second
   std::thread thread_;

@@ -1,7 +1,9 @@
 #include <algorithm>
 #include <charconv>
+#include <filesystem>
 #include <iostream>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 
@@ -25,13 +27,30 @@ namespace clatter {
 namespace {
 
 /// Too late to find out at the end of a run.
-void check_memory(const Sweep& sweep) {
-  const double needed = run_bytes(sweep), there = machine_bytes();
+void check_memory(const Sweep& sweep, const std::optional<Shard>& shard) {
+  const double needed = run_bytes(sweep, shard), there = machine_bytes();
   if (there == 0 || needed <= there) return;
-  throw UsageError("the results of " + std::to_string(size(sweep)) +
+  throw UsageError("the results of " + std::to_string(Share(sweep, shard).points()) +
                    " points, and the largest variable of them once more, take " + bytes_text(needed) +
                    ", this machine has " + bytes_text(there) +
-                   "; sweep fewer points, or observe fewer samples and harmonics");
+                   "; sweep fewer points, observe fewer samples and harmonics, or share the points out with --shard");
+}
+
+std::optional<Shard> shard_of(const Arguments& arguments) {
+  const std::optional<std::string> word = arguments.value("shard");
+  if (!word) return std::nullopt;
+  const std::optional<Shard> shard = shard_named(*word);
+  if (!shard)
+    throw UsageError("--shard " + in_quotes(*word) +
+                     "; permitted: K/N, two whole numbers, K from 0 to N - 1, N up to " + std::to_string(Shard::most));
+  return shard;
+}
+
+/// What -o names; else the configuration's name with .h5, for a shard with .K-of-N.h5.
+std::string output_of(const Arguments& arguments, const std::optional<Shard>& shard) {
+  if (!shard || arguments.has("output")) return output_of(arguments);
+  const std::string name = std::filesystem::path(arguments.operands[0]).stem().string();
+  return name + '.' + std::to_string(shard->number) + "-of-" + std::to_string(shard->of) + ".h5";
 }
 
 Journal::Begin begin_of(const Arguments& arguments) {
@@ -52,14 +71,26 @@ std::optional<Keeper::Seconds> longest_of(const Arguments& arguments) {
 }
 
 /// Runs what the journal doesn't hold yet, and keeps it there.
-RunResult run_and_keep(SweepRun& sweep, Journal& journal, std::optional<Keeper::Seconds> longest, int threads,
-                       Arch arch, bool shown) {
-  const Keeper keeper(journal, longest);
-  const Progress progress(shown);
-  RunOptions options{.threads = threads, .arch = arch};
-  if (shown) options.progress = [&](std::size_t finished, std::size_t total) { progress.show(finished, total); };
-  options.finished = [&](std::size_t branch, std::span<const std::byte> results) { journal.add(branch, results); };
-  return sweep.run(options);
+void run_and_keep(SweepRun& sweep, Journal& journal, std::optional<Keeper::Seconds> longest,
+                  const RunOptions& options) {
+  const auto save = [&] {
+    sweep.save([&](std::span<const std::byte> results) { journal.append(results); });
+    journal.sync();
+  };
+  const auto save_if_possible = [&] {
+    try {
+      save();
+    } catch (const IoError&) {  // the run's own end tells more
+    }
+  };
+  try {
+    const Keeper keeper(journal, save, longest);
+    sweep.run(options);
+  } catch (...) {
+    save_if_possible();
+    throw;
+  }
+  if (journal.has_records()) save_if_possible();  // should the output find no room
 }
 
 int run_config(const Arguments& arguments) {
@@ -71,24 +102,35 @@ int run_config(const Arguments& arguments) {
   const bool shown = progress_wanted(arguments);
   const Journal::Begin begin = begin_of(arguments);
   const std::optional<Keeper::Seconds> longest = longest_of(arguments);
-  const std::string output = output_of(arguments);
+  const std::optional<Shard> shard = shard_of(arguments);
+  const std::string output = output_of(arguments, shard);
   const Config config = config_of(arguments);
   check_not_config(arguments.operands[0], output);
   check_writable(output);
-  check_memory(config.sweep);
+  check_memory(config.sweep, shard);
   if (arguments.has("verbose")) std::cerr << plan_text(plan_of(config.sweep, threads), config.sweep, threads);
-  SweepRun sweep(config.sweep);
+  SweepRun sweep(config.sweep, shard);
   Journal journal(output,
-                  {config.text, std::string(version()).append(" ").append(git_commit()), std::string(name_of(arch))},
-                  begin, [&](std::uint64_t branch, std::span<const std::byte> results) {
-                    if (!sweep.restore(branch, results))
+                  {.config = config.text,
+                   .program = std::string(version()).append(" ").append(git_commit()),
+                   .arch = std::string(name_of(arch)),
+                   .shard = shard ? text_of(*shard) : ""},
+                  begin, [&](std::span<const std::byte> results) {
+                    if (!sweep.restore(results))
                       throw IoError("the journal of '" + output + "' doesn't fit the sweep; --restart begins anew");
                   });
   if (sweep.restored_points() > 0 && !arguments.has("quiet"))
     std::cerr << "goes on from " << sweep.restored_points() << " finished points\n";
-  RunResult result = run_and_keep(sweep, journal, longest, threads, arch, shown);
+  {
+    const Progress progress(shown);
+    RunOptions options{.threads = threads, .arch = arch};
+    if (shown) options.progress = [&](std::size_t finished, std::size_t total) { progress.show(finished, total); };
+    run_and_keep(sweep, journal, longest, options);
+  }
+  RunResult result = sweep.result();
   const std::string summary = summary_line(result, output);
-  publish(output, file_image(std::move(result.figure), config).bytes);
+  const auto image = shard ? sealed_image : file_image;
+  publish(output, image(std::move(result.figure), config).bytes);
   journal.remove();
   if (!arguments.has("quiet")) std::cerr << summary << '\n';
   if (arguments.has("verbose")) std::cerr << details(result, command_line(), began);
@@ -98,29 +140,32 @@ int run_config(const Arguments& arguments) {
 constexpr std::string_view examples =
     "  clatter run configs/fig22.toml\n"
     "  clatter run configs/fig22.toml -o coarse.h5 --set sweep.nu='linspace(0.5, 1.5, 51)' --set scene.R=0.5\n"
-    "  clatter run configs/fig22.ini --threads 2 --progress never\n";
+    "  clatter run configs/fig22.ini --threads 2 --progress never\n"
+    "  clatter run configs/map_nu_xs.toml --shard 0/4          writes map_nu_xs.0-of-4.h5\n";
 
 }  // namespace
 
 Command run_command() {
-  return {.name = "run",
-          .usage = "run CONFIG [OPTION]...",
-          .summary = "run a configuration and write its results as HDF5",
-          .examples = examples,
-          .operands = {"CONFIG"},
-          .required_operands = 1,
-          .options = {output_option,
-                      set_option,
-                      threads_option,
-                      arch_option,
-                      {"resume", 0, "", "go on from an interrupted run, as without it; an error where there is none"},
-                      {"restart", 0, "", "begin anew, without what an interrupted run has left"},
-                      {"max-time", 0, "SECONDS", "stop after so long, keep what is finished, and exit with 124"},
-                      progress_option,
-                      {"quiet", 'q', "", "print errors only"},
-                      {"verbose", 'v', "", "print the plan before, and after it what was used, host and times"},
-                      {"help", 'h', "", "print this help"}},
-          .run = run_config};
+  return {
+      .name = "run",
+      .usage = "run CONFIG [OPTION]...",
+      .summary = "run a configuration and write its results as HDF5",
+      .examples = examples,
+      .operands = {"CONFIG"},
+      .required_operands = 1,
+      .options = {output_option,
+                  set_option,
+                  threads_option,
+                  arch_option,
+                  {"shard", 0, "K/N", "compute points K, K + N, ... alone, K from 0; `clatter merge` joins the files"},
+                  {"resume", 0, "", "go on from an interrupted run, as without it; an error where there is none"},
+                  {"restart", 0, "", "begin anew, without what an interrupted run has left"},
+                  {"max-time", 0, "SECONDS", "stop after so long, keep what is finished, and exit with 124"},
+                  progress_option,
+                  {"quiet", 'q', "", "print errors only"},
+                  {"verbose", 'v', "", "print the plan before, and after it what was used, host and times"},
+                  {"help", 'h', "", "print this help"}},
+      .run = run_config};
 }
 
 }  // namespace clatter

@@ -33,4 +33,7 @@ struct Override {
 /// the file cannot be read.
 [[nodiscard]] Config read_config(const std::string& path, const std::vector<Override>& overrides);
 
+/// Reads a configuration from TOML, such as the complete text of another one; `file` is named in errors.
+[[nodiscard]] Config parse_config(const std::string& text, const std::string& file);
+
 }  // namespace clatter

@@ -96,11 +96,7 @@ Sweep sweep_of(Settings& settings, const AxisGroups& groups) {
                   std::to_string(longest) + " bytes; " + way_out);
 }
 
-}  // namespace
-
-Config read_config(const std::string& path, const std::vector<Override>& overrides) {
-  RawConfig raw = read_raw(path);
-  apply_overrides(raw, overrides);
+Config config_of(RawConfig raw) {
   Settings settings = check_keys(std::move(raw));
   check_alternatives(settings);
   const AxisGroups groups = group_axes(settings);
@@ -111,5 +107,15 @@ Config read_config(const std::string& path, const std::vector<Override>& overrid
   config.sweep = sweep_of(settings, groups);
   return config;
 }
+
+}  // namespace
+
+Config read_config(const std::string& path, const std::vector<Override>& overrides) {
+  RawConfig raw = read_raw(path);
+  apply_overrides(raw, overrides);
+  return config_of(std::move(raw));
+}
+
+Config parse_config(const std::string& text, const std::string& file) { return config_of(read_toml(file, text)); }
 
 }  // namespace clatter

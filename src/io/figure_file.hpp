@@ -22,6 +22,9 @@ struct FileImage {
 /// in the image, so that a run holds its results once and one variable twice.
 [[nodiscard]] FileImage file_image(Figure figure, const Config& config);
 
+/// The same with a seal (`require_sealed`) at its end, for a file that another run of clatter will read.
+[[nodiscard]] FileImage sealed_image(Figure figure, const Config& config);
+
 /// What `clatter info` prints of a file; shapes are dimension names with their lengths.
 struct FileSummary {
   struct Entry {

@@ -14,6 +14,7 @@
 #include "io/hdf5_attributes.hpp"
 #include "io/hdf5_handle.hpp"
 #include "io/hdf5_image.hpp"
+#include "io/seal.hpp"
 #include "io/sha256.hpp"
 #include "io/version.hpp"
 
@@ -110,15 +111,18 @@ Handle write_values(hid_t file, const Variable& variable, const Shape& shape, co
   return dataset;
 }
 
+void put(hid_t object, const std::vector<Attribute>& attributes) {
+  for (const auto& [name, value] : attributes)
+    std::visit([&, &key = name](const auto& held) { hdf5::put(object, key, held); }, value);
+}
+
 Handle write_variable(hid_t file, const Variable& variable, const Figure& figure, int level) {
   const Shape shape = shape_of(variable, figure);
   Handle dataset = std::visit([&](const auto& values) { return write_values(file, variable, shape, values, level); },
                               variable.values);
   put(dataset, "long_name", variable.long_name);
   put(dataset, "units", variable.units);
-  for (const auto& [name, value] : variable.attributes) {
-    std::visit([&, &key = name](const auto& held) { put(dataset, key, held); }, value);
-  }
+  put(dataset, variable.attributes);
   return dataset;
 }
 
@@ -202,6 +206,7 @@ Handle create_in(hdf5::Image& image) {
 std::size_t build(hdf5::Image& image, Figure& figure, const Config& config) {
   const Handle file = create_in(image);
   write_origin(file, config);
+  put(file, figure.attributes);
   write_figure(file, figure, config.compression);
   checked(H5Fflush(file, H5F_SCOPE_LOCAL));
   return static_cast<std::size_t>(checked(H5Fget_file_image(file, nullptr, 0)));
@@ -212,17 +217,23 @@ std::size_t build(hdf5::Image& image, Figure& figure, const Config& config) {
                 "; all of it must fit there, so a smaller sweep or fewer samples may fit"};
 }
 
-}  // namespace
-
-FileImage file_image(Figure figure, const Config& config) try {
+FileImage image_of(Figure& figure, const Config& config, bool sealed) try {
   const hdf5::QuietErrors quiet;
   const auto image = std::make_shared<hdf5::Image>();
   const std::size_t size = build(*image, figure, config);
-  return {image, image->first(size)};
+  if (!sealed) return {image, image->first(size)};
+  const std::string seal = seal_of(image->first(size));
+  return {image, image->append(size, std::as_bytes(std::span(seal)))};
 } catch (const hdf5::Failure& failure) {
   refuse(failure.what());
 } catch (const std::bad_alloc&) {
   refuse("there is not enough");
 }
+
+}  // namespace
+
+FileImage file_image(Figure figure, const Config& config) { return image_of(figure, config, false); }
+
+FileImage sealed_image(Figure figure, const Config& config) { return image_of(figure, config, true); }
 
 }  // namespace clatter

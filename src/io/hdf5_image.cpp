@@ -1,6 +1,8 @@
 #include "io/hdf5_image.hpp"
 
+#include <algorithm>
 #include <cstdlib>
+#include <new>
 
 #include "io/hdf5_handle.hpp"
 
@@ -33,6 +35,14 @@ void Image::receive_from(hid_t access) {
 
 std::span<const std::byte> Image::first(std::size_t size) const {
   return {static_cast<const std::byte*>(bytes_), bytes_ == nullptr ? 0 : size};
+}
+
+std::span<const std::byte> Image::append(std::size_t size, std::span<const std::byte> bytes) {
+  void* const longer = std::realloc(bytes_, size + bytes.size());
+  if (longer == nullptr) throw std::bad_alloc();
+  bytes_ = longer;
+  std::ranges::copy(bytes, static_cast<std::byte*>(bytes_) + size);
+  return first(size + bytes.size());
 }
 
 }  // namespace clatter::hdf5

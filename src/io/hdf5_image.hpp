@@ -22,6 +22,9 @@ class Image {
   /// The first `size` bytes, since the driver takes more than the file has; empty until the file is closed.
   [[nodiscard]] std::span<const std::byte> first(std::size_t size) const;
 
+  /// Puts bytes behind the first `size` bytes; returns both. Throws std::bad_alloc.
+  std::span<const std::byte> append(std::size_t size, std::span<const std::byte> bytes);
+
  private:
   void* bytes_ = nullptr;
 };

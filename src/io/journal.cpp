@@ -3,16 +3,16 @@
 #include <fcntl.h>
 #include <sys/file.h>
 #include <sys/stat.h>
-#include <zlib.h>
 
 #include <algorithm>
 #include <array>
 #include <cstring>
 #include <optional>
-#include <sstream>
 #include <string_view>
 #include <utility>
 
+#include "io/crc32.hpp"
+#include "io/difference.hpp"
 #include "io/error.hpp"
 
 namespace clatter {
@@ -26,16 +26,11 @@ using Bytes = std::vector<std::byte>;
 
 std::span<const std::byte> bytes_of(std::string_view text) { return std::as_bytes(std::span(text)); }
 
-void append(Bytes& to, std::span<const std::byte> bytes) { to.insert(to.end(), bytes.begin(), bytes.end()); }
+void append_bytes(Bytes& to, std::span<const std::byte> bytes) { to.insert(to.end(), bytes.begin(), bytes.end()); }
 
 template <class Number>
 void append_number(Bytes& to, Number number) {
-  append(to, std::as_bytes(std::span(&number, 1)));
-}
-
-std::uint32_t crc_of(std::span<const std::byte> bytes) {
-  uLong crc = ::crc32_z(0, nullptr, 0);
-  return static_cast<std::uint32_t>(::crc32_z(crc, reinterpret_cast<const Bytef*>(bytes.data()), bytes.size()));
+  append_bytes(to, std::as_bytes(std::span(&number, 1)));
 }
 
 /// A block of bytes in the file: its length and CRC-32 before it.
@@ -46,14 +41,14 @@ struct BlockHead {
 };
 
 BlockHead head_of(std::span<const std::byte> block) {
-  BlockHead head{block.size(), crc_of(block), 0};
-  head.check = crc_of(std::as_bytes(std::span(&head, 1)).first(offsetof(BlockHead, check)));
+  BlockHead head{block.size(), crc32_of(block), 0};
+  head.check = crc32_of(std::as_bytes(std::span(&head, 1)).first(offsetof(BlockHead, check)));
   return head;
 }
 
 void append_block(Bytes& to, std::span<const std::byte> block) {
   append_number(to, head_of(block));
-  append(to, block);
+  append_bytes(to, block);
 }
 
 /// Reads a file from its beginning.
@@ -81,11 +76,11 @@ class Reader {
     read(std::as_writable_bytes(std::span(&head, 1)));
     const auto summed = std::as_bytes(std::span(&head, 1)).first(offsetof(BlockHead, check));
     if (head.length == 0 && head.crc == 0 && head.check == 0 && only_zeros_left()) return std::nullopt;
-    if (crc_of(summed) != head.check) damaged(begin);
+    if (crc32_of(summed) != head.check) damaged(begin);
     if (head.length > left()) return std::nullopt;
     block_.resize(static_cast<std::size_t>(head.length));
     read(block_);
-    if (crc_of(block_) != head.crc) damaged(begin);
+    if (crc32_of(block_) != head.crc) damaged(begin);
     return block_;
   }
 
@@ -119,15 +114,15 @@ class Reader {
 
 Bytes bytes_of(const JournalKey& key) {
   Bytes bytes;
-  for (const std::string* text : {&key.program, &key.arch, &key.config})
-    append_number(bytes, std::uint64_t{text->size()}), append(bytes, bytes_of(*text));
+  for (const std::string* text : {&key.program, &key.arch, &key.shard, &key.config})
+    append_number(bytes, std::uint64_t{text->size()}), append_bytes(bytes, bytes_of(*text));
   return bytes;
 }
 
 /// The key in a sound header; nothing where its lengths don't fit.
 std::optional<JournalKey> key_of(std::span<const std::byte> bytes) {
   JournalKey key;
-  for (std::string* text : {&key.program, &key.arch, &key.config}) {
+  for (std::string* text : {&key.program, &key.arch, &key.shard, &key.config}) {
     std::uint64_t length = 0;
     if (bytes.size() < sizeof length) return std::nullopt;
     std::memcpy(&length, bytes.data(), sizeof length);
@@ -139,33 +134,14 @@ std::optional<JournalKey> key_of(std::span<const std::byte> bytes) {
   return bytes.empty() ? std::optional(key) : std::nullopt;
 }
 
-std::vector<std::string> lines_of(const std::string& text) {
-  std::vector<std::string> lines;
-  std::istringstream stream(text);
-  for (std::string line; std::getline(stream, line);) lines.push_back(line);
-  return lines;
-}
-
-/// Some lines that only one of two configurations has.
-std::string difference(const JournalKey& left, const JournalKey& right) {
-  constexpr std::size_t most = 6;
-  std::string text;
-  std::size_t shown = 0;
-  const auto show = [&](const char* sign, const std::string& line) {
-    if (++shown <= most) text += std::string("\n  ").append(sign) + line;
+/// What another key has, and what this run's.
+std::string difference_of(const JournalKey& other, const JournalKey& key) {
+  const auto about = [](const JournalKey& of) {
+    return "program " + of.program + "\ninstruction set " + of.arch + '\n' +
+           (of.shard.empty() ? "the whole sweep" : "shard " + of.shard) + '\n' + of.config;
   };
-  const auto only_in = [](const std::string& one, const std::string& other) {
-    std::vector<std::string> lines = lines_of(one);
-    const std::vector<std::string> others = lines_of(other);
-    std::erase_if(lines, [&](const std::string& line) { return std::ranges::find(others, line) != others.end(); });
-    return lines;
-  };
-  if (left.program != right.program) show("its program: ", left.program), show("this program: ", right.program);
-  if (left.arch != right.arch) show("its instruction set: ", left.arch), show("this run's: ", right.arch);
-  for (const std::string& line : only_in(left.config, right.config)) show("its: ", line);
-  for (const std::string& line : only_in(right.config, left.config)) show("this run's: ", line);
-  if (shown > most) text += "\n  and " + std::to_string(shown - most) + " more lines";
-  return text;
+  const std::string others = about(other), ours = about(key);
+  return difference({"its: ", others}, {"this run's: ", ours});
 }
 
 }  // namespace
@@ -182,12 +158,7 @@ Journal::Journal(const fs::path& output, JournalKey key, Begin begin, const Take
 }
 
 Journal::~Journal() {
-  if (file_.number() < 0) return;
-  try {
-    save();
-  } catch (const IoError&) {  // the run has failed for a reason of its own, which is told
-  }
-  if (size_ == 0) ::unlink(path_.c_str());
+  if (file_.number() >= 0 && size_ == 0) ::unlink(path_.c_str());
 }
 
 /// Opens the file that has the journal's name and locks it; the one that was opened may have been removed meanwhile, by
@@ -221,63 +192,48 @@ void Journal::read(const Take& take, Begin begin) {
   reader.read(std::as_writable_bytes(found));
   if (std::string_view(found.data(), found.size()) != magic.substr(0, found.size()))
     throw IoError("'" + path_.string() + "' is no journal of clatter; move it away, or name another output");
-  std::uint64_t whole = 0;
+  std::uint64_t whole = 0, header_end = 0;
   const auto header = begin == Begin::restart || found.size() < magic.size() ? std::nullopt : reader.block();
   if (header) {
     const auto key = key_of(*header);
     if (!key) reader.damaged(magic.size());
     if (*key != key_)
       throw IoError("'" + path_.string() +
-                    "' holds what an earlier run of something else had finished:" + difference(*key, key_) +
+                    "' holds what an earlier run of something else had finished:" + difference_of(*key, key_) +
                     "\nrun that again to complete it, begin anew with --restart, or name another output");
-    whole = reader.at();
-    for (auto block = reader.block(); block; block = reader.block(), ++records_) {
-      std::uint64_t number = 0;
-      if (block->size() < sizeof number) reader.damaged(whole);
-      std::memcpy(&number, block->data(), sizeof number);
-      take(number, block->subspan(sizeof number));
+    whole = header_end = reader.at();
+    for (auto record = reader.block(); record; record = reader.block()) {
+      take(*record);
       whole = reader.at();
     }
   }
-  if (begin == Begin::resume && records_ == 0)
+  if (begin == Begin::resume && whole <= header_end)
     throw IoError("there is nothing to resume: '" + path_.string() + "' holds no finished points; leave --resume out");
   if (uninterrupted([&] { return ::ftruncate(file_.number(), static_cast<off_t>(whole)); }) != 0) refuse(path_, errno);
   size_ = whole;
 }
 
-void Journal::add(std::uint64_t number, std::span<const std::byte> bytes) {
-  Bytes block;
-  block.reserve(sizeof number + bytes.size());
-  append_number(block, number), append(block, bytes);
-  const std::lock_guard lock(adding_);
-  append_block(added_, block);
-  ++adds_;
-}
-
-void Journal::save() {
-  const std::lock_guard lock(saving_);
+void Journal::append(std::span<const std::byte> record) {
   Bytes bytes;
-  std::uint64_t added = 0;
-  if (size_ == 0) append(bytes, bytes_of(magic)), append_block(bytes, bytes_of(key_));
-  {
-    const std::lock_guard adding(adding_);
-    if (added_.empty()) return;
-    append(bytes, added_), added_.clear();
-    added = std::exchange(adds_, 0);
-  }
+  if (size_ == 0) append_bytes(bytes, bytes_of(magic)), append_block(bytes, bytes_of(key_));
+  append_number(bytes, head_of(record));
   const IgnoreFileSizeSignal ignore;
+  synced_ = false;
   try {
-    write_all(file_, bytes, path_);
-    if (uninterrupted([&] { return ::fdatasync(file_.number()); }) != 0) refuse(path_, errno);
+    write_all(file_, bytes, path_), write_all(file_, record, path_);
   } catch (...) {
     (void)!::ftruncate(file_.number(), static_cast<off_t>(size_));  // else the next run cuts it
     throw;
   }
-  size_ += bytes.size(), records_ += added;
+  size_ += bytes.size() + record.size();
+}
+
+void Journal::sync() {
+  if (!synced_ && uninterrupted([&] { return ::fdatasync(file_.number()); }) != 0) refuse(path_, errno);
+  synced_ = true;
 }
 
 std::string Journal::leave() {
-  const std::lock_guard lock(saving_);
   if (size_ > 0) return "what was finished is in '" + path_.string() + "', from which the same command goes on";
   ::unlink(path_.c_str());
   return "nothing was finished yet";

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <stdexcept>
 #include <type_traits>
 
 namespace clatter {
@@ -51,7 +52,7 @@ void append(std::vector<std::byte>& to, std::span<const T> values) {
 
 template <class T>
 requires std::is_trivially_copyable_v<T>
-bool take(std::span<const std::byte>& from, std::span<T> values) {
+bool take_off(std::span<const std::byte>& from, std::span<T> values) {
   if (from.size() < values.size_bytes()) return false;
   std::ranges::copy(from.first(values.size_bytes()), std::as_writable_bytes(values).begin());
   from = from.subspan(values.size_bytes());
@@ -63,6 +64,28 @@ std::size_t impacts_in(const std::vector<std::vector<Impact>>& log) {
   std::size_t impacts = 0;
   for (const std::vector<Impact>& of_point : log) impacts += of_point.size();
   return impacts;
+}
+
+/// The values of a variable, where it is there and of this type.
+template <class T>
+std::vector<T>& values_in(Figure& figure, const std::string& name) {
+  const auto found = std::ranges::find(figure.variables, name, &Variable::name);
+  if (found == figure.variables.end()) throw std::runtime_error("it has no '" + name + "'");
+  auto* const values = std::get_if<std::vector<T>>(&found->values);
+  if (values == nullptr) throw std::runtime_error("its '" + name + "' is of another type");
+  return *values;
+}
+
+void require_length(const std::string& name, std::size_t length, std::size_t wanted) {
+  if (length != wanted) throw std::runtime_error("its '" + name + "' is of another length");
+}
+
+std::vector<std::int64_t> point_numbers(const Share& share) {
+  std::vector<std::int64_t> numbers(share.points());
+  for (std::size_t branch = 0; branch < share.count(); ++branch)
+    for (std::size_t i = 0; i < share.length(); ++i)
+      numbers[share.slot(branch, i)] = static_cast<std::int64_t>(share.point(branch, i));
+  return numbers;
 }
 
 std::string name_of(const Dimension& dimension) { return std::string(key_of(dimension.front().parameter)); }
@@ -98,10 +121,12 @@ std::vector<Attribute> status_flags() {
   return {{"flag_values", values}, {"flag_meanings", meanings}};
 }
 
-Columns::Columns(const Sweep& sweep)
+Columns::Columns(const Sweep& sweep, const std::optional<Shard>& shard)
     : sweep_(sweep),
-      axes_(axis_names(sweep)),
-      status_(size(sweep), static_cast<std::uint8_t>(Status::unresolved)),
+      shard_(shard),
+      share_(sweep, shard),
+      along_(shard ? std::vector<std::string>{"point"} : axis_names(sweep)),
+      status_(share_.points(), static_cast<std::uint8_t>(Status::unresolved)),
       impacts_(status_.size(), 0),
       periods_(status_.size(), 0.0),
       outputs_(outputs_of(sweep.scene.observe)) {
@@ -109,35 +134,35 @@ Columns::Columns(const Sweep& sweep)
   if (sweep.scene.observe.impact_log) log_.resize(status_.size());
 }
 
-void Columns::store(std::size_t point, PointResult&& result) {
-  status_[point] = static_cast<std::uint8_t>(result.status);
-  impacts_[point] = static_cast<std::int64_t>(result.impacts);
-  periods_[point] = result.periods;
-  for (std::size_t i = 0; i < outputs_.size(); ++i) outputs_[i].put(result, &values_[i][point * outputs_[i].width]);
-  if (!log_.empty()) log_[point] = std::move(result.log);
+void Columns::store(std::size_t slot, PointResult&& result) {
+  status_[slot] = static_cast<std::uint8_t>(result.status);
+  impacts_[slot] = static_cast<std::int64_t>(result.impacts);
+  periods_[slot] = result.periods;
+  for (std::size_t i = 0; i < outputs_.size(); ++i) outputs_[i].put(result, &values_[i][slot * outputs_[i].width]);
+  if (!log_.empty()) log_[slot] = std::move(result.log);
 }
 
-void Columns::pack(std::size_t point, std::vector<std::byte>& to) const {
-  append(to, std::span(&status_[point], 1)), append(to, std::span(&impacts_[point], 1));
-  append(to, std::span(&periods_[point], 1));
+void Columns::pack(std::size_t slot, std::vector<std::byte>& to) const {
+  append(to, std::span(&status_[slot], 1)), append(to, std::span(&impacts_[slot], 1));
+  append(to, std::span(&periods_[slot], 1));
   for (std::size_t i = 0; i < outputs_.size(); ++i)
-    append(to, std::span(values_[i]).subspan(point * outputs_[i].width, outputs_[i].width));
+    append(to, std::span(values_[i]).subspan(slot * outputs_[i].width, outputs_[i].width));
   if (log_.empty()) return;
-  const std::uint64_t count = log_[point].size();
+  const std::uint64_t count = log_[slot].size();
   append(to, std::span(&count, 1));
-  append(to, std::span<const Impact>(log_[point]));
+  append(to, std::span<const Impact>(log_[slot]));
 }
 
-bool Columns::unpack(std::size_t point, std::span<const std::byte>& from) {
-  bool whole = take(from, std::span(&status_[point], 1)) && take(from, std::span(&impacts_[point], 1)) &&
-               take(from, std::span(&periods_[point], 1));
+bool Columns::unpack(std::size_t slot, std::span<const std::byte>& from) {
+  bool whole = take_off(from, std::span(&status_[slot], 1)) && take_off(from, std::span(&impacts_[slot], 1)) &&
+               take_off(from, std::span(&periods_[slot], 1));
   for (std::size_t i = 0; whole && i < outputs_.size(); ++i)
-    whole = take(from, std::span(values_[i]).subspan(point * outputs_[i].width, outputs_[i].width));
+    whole = take_off(from, std::span(values_[i]).subspan(slot * outputs_[i].width, outputs_[i].width));
   std::uint64_t count = 0;
   if (!whole || log_.empty()) return whole;
-  if (!take(from, std::span(&count, 1)) || count > from.size()) return false;
-  log_[point].resize(static_cast<std::size_t>(count));
-  return take(from, std::span(log_[point]));
+  if (!take_off(from, std::span(&count, 1)) || count > from.size()) return false;
+  log_[slot].resize(static_cast<std::size_t>(count));
+  return take_off(from, std::span(log_[slot]));
 }
 
 void Columns::add_coordinates(Figure& figure) const {
@@ -145,6 +170,10 @@ void Columns::add_coordinates(Figure& figure) const {
     figure.variables.push_back({name, {name}, std::move(values), std::move(long_name), "1"});
   };
   add_axes(sweep_, figure);
+  if (shard_) {
+    figure.dimensions.push_back({"point", share_.points()});
+    coordinate("point", point_numbers(share_), "index of the point in the sweep, row-major over its axes");
+  }
   const Observe& observe = sweep_.scene.observe;
   if (observe.harmonics > 0) {
     std::vector<std::int64_t> numbers(static_cast<std::size_t>(observe.harmonics) + 1);
@@ -163,11 +192,48 @@ void Columns::add_coordinates(Figure& figure) const {
   }
 }
 
+void Columns::take(Figure& figure, const Shard& shard) {
+  const std::vector<std::int64_t> numbers = point_numbers(Share(sweep_, shard));
+  if (values_in<std::int64_t>(figure, "point") != numbers)
+    throw std::runtime_error("its points aren't those of its shard");
+  const auto scatter = [&]<class T>(const std::string& name, std::size_t width, std::vector<T>& to) {
+    std::vector<T>& from = values_in<T>(figure, name);
+    require_length(name, from.size(), numbers.size() * width);
+    for (std::size_t i = 0; i < numbers.size(); ++i)
+      std::ranges::copy(std::span(from).subspan(i * width, width), &to[static_cast<std::size_t>(numbers[i]) * width]);
+    std::vector<T>().swap(from);
+  };
+  scatter("status", 1, status_), scatter("impact_total", 1, impacts_), scatter("simulated_periods", 1, periods_);
+  for (std::size_t i = 0; i < outputs_.size(); ++i) scatter(outputs_[i].name, outputs_[i].width, values_[i]);
+  if (!log_.empty()) take_impact_log(figure, numbers);
+}
+
+void Columns::take_impact_log(Figure& figure, std::span<const std::int64_t> numbers) {
+  const auto& counts = values_in<std::int64_t>(figure, "impact_count");
+  const auto& tau = values_in<double>(figure, "impact_tau");
+  const auto& stops = values_in<std::int8_t>(figure, "impact_stop");
+  const auto& before = values_in<double>(figure, "impact_v_before");
+  const auto& after = values_in<double>(figure, "impact_v_after");
+  require_length("impact_count", counts.size(), numbers.size());
+  require_length("impact_stop", stops.size(), tau.size());
+  require_length("impact_v_before", before.size(), tau.size());
+  require_length("impact_v_after", after.size(), tau.size());
+  std::size_t at = 0;
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    const auto end = at + static_cast<std::size_t>(counts[i]);
+    if (end < at || end > tau.size()) throw std::runtime_error("its 'impact_count' doesn't fit its 'impact_tau'");
+    std::vector<Impact>& log = log_[static_cast<std::size_t>(numbers[i])];
+    log.clear(), log.reserve(end - at);
+    for (; at < end; ++at) log.push_back({tau[at], static_cast<Side>(stops[at]), before[at], after[at], no_value});
+  }
+  require_length("impact_tau", tau.size(), at);
+}
+
 void Columns::add_always(Figure& figure) {
-  figure.variables.push_back({"status", axes_, std::move(status_), "what became of the point", "1"});
+  figure.variables.push_back({"status", along_, std::move(status_), "what became of the point", "1"});
   figure.variables.back().attributes = status_flags();
-  figure.variables.push_back({"impact_total", axes_, std::move(impacts_), "impacts simulated", "1"});
-  figure.variables.push_back({"simulated_periods", axes_, std::move(periods_), "forcing periods simulated", "1"});
+  figure.variables.push_back({"impact_total", along_, std::move(impacts_), "impacts simulated", "1"});
+  figure.variables.push_back({"simulated_periods", along_, std::move(periods_), "forcing periods simulated", "1"});
 }
 
 void Columns::add_impact_log(Figure& figure) {
@@ -186,7 +252,7 @@ void Columns::add_impact_log(Figure& figure) {
   }
   const std::vector<std::string> along{"impact"};
   figure.dimensions.push_back({"impact", tau.size()});
-  figure.variables.push_back({"impact_count", axes_, std::move(counts), "impacts in the log of the point", "1"});
+  figure.variables.push_back({"impact_count", along_, std::move(counts), "impacts in the log of the point", "1"});
   figure.variables.back().attributes = {{"sample_dimension", "impact"}};
   figure.variables.push_back(
       {"impact_tau", along, std::move(tau), "time of the impact since the beginning of the observed time", "1"});
@@ -201,7 +267,7 @@ Figure Columns::figure() {
   add_always(figure);
   for (std::size_t i = 0; i < outputs_.size(); ++i) {
     Output& output = outputs_[i];
-    std::vector<std::string> dimensions = axes_;
+    std::vector<std::string> dimensions = along_;
     dimensions.insert(dimensions.end(), output.inner.begin(), output.inner.end());
     figure.variables.push_back(
         {output.name, std::move(dimensions), std::move(values_[i]), output.long_name, output.units});

@@ -3,12 +3,14 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "sweep/figure.hpp"
 #include "sweep/point.hpp"
+#include "sweep/share.hpp"
 #include "sweep/sweep.hpp"
 
 namespace clatter {
@@ -34,21 +36,26 @@ void add_axes(const Sweep& sweep, Figure& figure);
 /// Attributes of a `status` that tell what its values mean.
 [[nodiscard]] std::vector<Attribute> status_flags();
 
-/// The results of all points, by index, and the figure they make.
+/// The results of all points of a run, by their slots (`Share`), and the figure they make.
 class Columns {
  public:
-  explicit Columns(const Sweep& sweep);  ///< Throws std::bad_alloc.
+  /// Of a whole sweep, or of a shard. Throws std::bad_alloc.
+  explicit Columns(const Sweep& sweep, const std::optional<Shard>& shard = {});
 
   /// Stores a point's result; different points may be stored at the same time.
-  void store(std::size_t point, PointResult&& result);
+  void store(std::size_t slot, PointResult&& result);
 
   /// Appends a point's results, as `unpack` takes them from a run of the same sweep.
-  void pack(std::size_t point, std::vector<std::byte>& to) const;
+  void pack(std::size_t slot, std::vector<std::byte>& to) const;
   /// Takes a point's results off the beginning of `from`; false where they aren't of this sweep, and then nothing is
   /// sure of the point.
-  [[nodiscard]] bool unpack(std::size_t point, std::span<const std::byte>& from);
+  [[nodiscard]] bool unpack(std::size_t slot, std::span<const std::byte>& from);
 
-  /// The figure; the columns are empty afterwards.
+  /// Takes the results of a shard from its figure into the columns of the whole sweep. Throws std::runtime_error where
+  /// the figure isn't that of the shard; then nothing is sure of its points.
+  void take(Figure& figure, const Shard& shard);
+
+  /// The figure: over the sweep's axes, that of a shard over its points. The columns are empty afterwards.
   [[nodiscard]] Figure figure();
 
   [[nodiscard]] std::size_t failed_points() const;
@@ -57,15 +64,18 @@ class Columns {
   void add_coordinates(Figure& figure) const;
   void add_always(Figure& figure);
   void add_impact_log(Figure& figure);
+  void take_impact_log(Figure& figure, std::span<const std::int64_t> numbers);
 
   const Sweep& sweep_;
-  std::vector<std::string> axes_;  ///< the sweep's dimensions
+  std::optional<Shard> shard_;
+  Share share_;
+  std::vector<std::string> along_;  ///< the dimensions of what has a value a point
   std::vector<std::uint8_t> status_;
   std::vector<std::int64_t> impacts_;
   std::vector<double> periods_;
   std::vector<Output> outputs_;
-  std::vector<std::vector<double>> values_;  ///< [output][point][width]
-  std::vector<std::vector<Impact>> log_;     ///< [point], empty where no log is observed
+  std::vector<std::vector<double>> values_;  ///< [output][slot][width]
+  std::vector<std::vector<Impact>> log_;     ///< [slot], empty where no log is observed
 };
 
 }  // namespace clatter

@@ -34,6 +34,7 @@ struct NamedLength {
 struct Figure {
   std::vector<NamedLength> dimensions;
   std::vector<Variable> variables;
+  std::vector<Attribute> attributes{};  ///< of the whole, beyond its origin
 };
 
 }  // namespace clatter

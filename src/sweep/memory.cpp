@@ -4,22 +4,40 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <vector>
 
 #include "sweep/columns.hpp"
 
 namespace clatter {
 
-double result_bytes(const Sweep& sweep) {
+double result_bytes(const Sweep& sweep, const std::optional<Shard>& shard) {
   double bytes_a_point = sizeof(std::uint8_t) + sizeof(std::int64_t) + sizeof(double);  // status, impacts, periods
   for (const Output& output : outputs_of(sweep.scene.observe))
     bytes_a_point += static_cast<double>(output.width) * sizeof(double);
-  return bytes_a_point * static_cast<double>(size(sweep));
+  if (shard) bytes_a_point += sizeof(std::int64_t);  // index in the sweep
+  return bytes_a_point * static_cast<double>(Share(sweep, shard).points());
 }
 
-double run_bytes(const Sweep& sweep) {
+double run_bytes(const Sweep& sweep, const std::optional<Shard>& shard) {
   std::size_t width = 1;
   for (const Output& output : outputs_of(sweep.scene.observe)) width = std::max(width, output.width);
-  return result_bytes(sweep) + static_cast<double>(width * sizeof(double)) * static_cast<double>(size(sweep));
+  return result_bytes(sweep, shard) +
+         static_cast<double>(width * sizeof(double)) * static_cast<double>(Share(sweep, shard).points());
+}
+
+double merge_bytes(const Sweep& sweep, std::span<const ShardSize> shards) {
+  constexpr double logged = 3 * sizeof(double) + sizeof(std::int8_t);  // bytes of an impact in the file
+  constexpr double heap = 2 * sizeof(void*);                           // taken with each block
+  double impacts = 0.0, largest = 0.0;
+  for (const ShardSize& size : shards) {
+    impacts += static_cast<double>(size.impacts);
+    largest = std::max(largest, result_bytes(sweep, size.shard) + logged * static_cast<double>(size.impacts));
+  }
+  double log = 0.0;
+  if (sweep.scene.observe.impact_log)
+    log = static_cast<double>(size(sweep)) * (sizeof(std::vector<Impact>) + heap) + impacts * sizeof(Impact);
+  const double building = std::max(run_bytes(sweep), result_bytes(sweep) + impacts * sizeof(double));
+  return std::max(result_bytes(sweep) + log + largest, building + log + logged * impacts);
 }
 
 double machine_bytes() {

@@ -53,7 +53,7 @@ struct Workshop {
 
 /// A point on its way to a kernel.
 struct Task {
-  std::size_t point = 0;  ///< its index in the sweep
+  std::size_t slot = 0;  ///< where its results go (`Share`)
   Scene scene;
   Effects effects;
 };

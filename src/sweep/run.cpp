@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <cstring>
 #include <exception>
 #include <mutex>
 #include <optional>
@@ -75,18 +76,17 @@ bool lanes_can_run(const Sweep& sweep) {
 /// The threads that run a sweep, and what they share.
 class Team {
  public:
-  /// `done` tells the branches that are left out, `restored` how many points they have.
-  Team(const Sweep& sweep, const RunOptions& options, int threads, Columns& columns, const std::vector<char>& done,
-       std::size_t restored)
+  /// Branches that are saved are left out; `restored` is how many points they have.
+  Team(const Sweep& sweep, const Share& share, const RunOptions& options, int threads, Columns& columns,
+       std::vector<std::atomic<BranchState>>& states, std::size_t restored)
       : sweep_(sweep),
-        branches_(sweep),
+        share_(share),
         columns_(columns),
-        done_(done),
-        finished_(options.finished),
-        progress_(options, size(sweep), restored),
+        states_(states),
+        progress_(options, share.points(), restored),
         chunk_(sweep.follow
                    ? 1
-                   : std::clamp<std::size_t>(branches_.count / (64 * static_cast<std::size_t>(threads)), 1, 64)),
+                   : std::clamp<std::size_t>(share_.count() / (64 * static_cast<std::size_t>(threads)), 1, 64)),
         arch_(options.arch),
         in_lanes_(options.arch != Arch::scalar && lanes_can_run(sweep)),
         workshops_(static_cast<std::size_t>(threads)),
@@ -146,12 +146,15 @@ class Team {
   /// Branches that no thread has begun; nothing where none is left, or another thread has failed.
   std::optional<Chunk> next_chunk() {
     const std::size_t begin = begun_.fetch_add(chunk_);
-    if (stopped_ || begin >= branches_.count) return std::nullopt;
-    return Chunk{begin, std::min(begin + chunk_, branches_.count)};
+    if (stopped_ || begin >= share_.count()) return std::nullopt;
+    return Chunk{begin, std::min(begin + chunk_, share_.count())};
   }
 
-  Task task_of(std::size_t point) const {
-    Task task{point, scene_at(sweep_, point), {}};
+  [[nodiscard]] bool is_restored(std::size_t branch) const { return states_[branch] == BranchState::saved; }
+
+  /// The point that a branch of one is.
+  Task task_of(std::size_t branch) const {
+    Task task{branch, scene_at(sweep_, share_.point(branch, 0)), {}};
     task.effects = effects_of(task.scene);
     return task;
   }
@@ -167,7 +170,7 @@ class Team {
           if (!other) return std::nullopt;
           chunk = *other;
         }
-        if (done_[chunk.begin] != 0) continue;
+        if (is_restored(chunk.begin)) continue;
         const Task task = task_of(chunk.begin);
         if (can_go_into_lanes(task)) {
           ++chunk.begin;
@@ -184,25 +187,16 @@ class Team {
 
   void store(const Task& task, PointResult&& result, std::size_t thread) {
     add(usage_[thread], usage_of(task, result));
-    columns_.store(task.point, std::move(result));
-    if (branches_.length == 1) finish(task.point);
+    columns_.store(task.slot, std::move(result));
+    if (share_.length() == 1) states_[task.slot] = BranchState::finished;
     progress_.add_point();
-  }
-
-  /// Hands the results of a branch on.
-  void finish(std::size_t branch) {
-    if (!finished_) return;
-    std::vector<std::byte> results;
-    for (std::size_t i = 0; i < branches_.length; ++i) columns_.pack(branches_.point(branch, i), results);
-    finished_(branch, results);
   }
 
   /// Runs the points of a branch, each from the end of the one before.
   void run_branch(std::size_t branch, std::size_t thread) {
     std::optional<Start> end;
-    for (std::size_t i = 0; i < branches_.length; ++i) {
-      Task task{branches_.point(branch, i), {}, {}};
-      task.scene = scene_at(sweep_, task.point);
+    for (std::size_t i = 0; i < share_.length(); ++i) {
+      Task task{share_.slot(branch, i), scene_at(sweep_, share_.point(branch, i)), {}};
       start_from(task.scene, end);
       task.effects = effects_of(task.scene);
       run_batch({&task, 1}, workshops_[thread], [&](const Task&, PointResult&& result) {
@@ -210,12 +204,12 @@ class Team {
         store(task, std::move(result), thread);
       });
     }
-    if (branches_.length > 1) finish(branch);
+    states_[branch] = BranchState::finished;
   }
 
   void run_chunk(const Chunk& chunk, std::size_t thread) {
     if (sweep_.follow) {
-      if (done_[chunk.begin] == 0) run_branch(chunk.begin, thread);
+      if (!is_restored(chunk.begin)) run_branch(chunk.begin, thread);
     } else {
       run_points(chunk, thread);
     }
@@ -225,8 +219,8 @@ class Team {
   void run_points(const Chunk& chunk, std::size_t thread) {
     std::vector<Task> tasks;
     tasks.reserve(chunk.end - chunk.begin);
-    for (std::size_t point = chunk.begin; point < chunk.end; ++point)
-      if (done_[point] == 0) tasks.push_back(task_of(point));
+    for (std::size_t branch = chunk.begin; branch < chunk.end; ++branch)
+      if (!is_restored(branch)) tasks.push_back(task_of(branch));
     const auto kernel = [](const Task& task) { return kernel_of(task.effects); };
     std::ranges::stable_sort(tasks, {}, kernel);
     for (std::span<const Task> left(tasks); !left.empty();) {
@@ -239,10 +233,9 @@ class Team {
   }
 
   const Sweep& sweep_;
-  Branches branches_;
+  const Share& share_;
   Columns& columns_;
-  const std::vector<char>& done_;  ///< [branch]
-  const std::function<void(std::size_t, std::span<const std::byte>)>& finished_;
+  std::vector<std::atomic<BranchState>>& states_;  ///< [branch]
   Progress progress_;
   std::optional<FourierTransform> transform_;
   std::size_t chunk_;  ///< branches that a thread takes at once
@@ -262,33 +255,62 @@ class Team {
 
 int threads_used(const RunOptions& options) { return options.threads > 0 ? options.threads : omp_get_max_threads(); }
 
-SweepRun::SweepRun(const Sweep& sweep) : sweep_(sweep), branches_(sweep), columns_(sweep), done_(branches_.count, 0) {}
+SweepRun::SweepRun(const Sweep& sweep, const std::optional<Shard>& shard)
+    : sweep_(sweep), shard_(shard), share_(sweep, shard), columns_(sweep, shard), states_(share_.count()) {}
 
-bool SweepRun::restore(std::size_t branch, std::span<const std::byte> results) {
-  if (branch >= branches_.count || done_[branch] != 0) return false;
-  for (std::size_t i = 0; i < branches_.length; ++i)
-    if (!columns_.unpack(branches_.point(branch, i), results)) return false;
-  done_[branch] = 1, restored_ += branches_.length;
-  return results.empty();
+bool SweepRun::restore(std::span<const std::byte> results) {
+  while (!results.empty()) {
+    std::uint64_t branch = 0;
+    if (results.size() < sizeof branch) return false;
+    std::memcpy(&branch, results.data(), sizeof branch);
+    results = results.subspan(sizeof branch);
+    if (branch >= share_.count() || states_[branch] != BranchState::open) return false;
+    for (std::size_t i = 0; i < share_.length(); ++i)
+      if (!columns_.unpack(share_.slot(branch, i), results)) return false;
+    states_[branch] = BranchState::saved, restored_ += share_.length();
+  }
+  return true;
 }
 
-RunResult SweepRun::run(const RunOptions& options) {
-  RunResult result;
+void SweepRun::save(const std::function<void(std::span<const std::byte> results)>& write) {
+  constexpr std::size_t enough = 256UL * 1024;  // bytes
+  std::vector<std::byte> results;
+  for (std::uint64_t branch = 0; branch < share_.count(); ++branch) {
+    if (states_[branch] != BranchState::finished) continue;
+    const auto number = std::as_bytes(std::span(&branch, 1));
+    results.insert(results.end(), number.begin(), number.end());
+    for (std::size_t i = 0; i < share_.length(); ++i) columns_.pack(share_.slot(branch, i), results);
+    states_[branch] = BranchState::saved;
+    if (results.size() >= enough) write(results), results.clear();
+  }
+  if (!results.empty()) write(results);
+}
+
+void SweepRun::run(const RunOptions& options) {
   const auto begin = std::chrono::steady_clock::now();
-  result.points = size(sweep_);
-  result.threads = static_cast<int>(std::min<std::size_t>(static_cast<std::size_t>(threads_used(options)),
-                                                          branches_.count));  // others would only be waited for
-  Team team(sweep_, options, result.threads, columns_, done_, restored_);
+  const auto threads = static_cast<std::size_t>(threads_used(options));
+  result_.threads = static_cast<int>(std::clamp<std::size_t>(share_.count(), 1, threads));  // others would wait
+  Team team(sweep_, share_, options, result_.threads, columns_, states_, restored_);
   team.run();
   team.rethrow();
-  result.failed_points = columns_.failed_points();
-  result.usage = team.usage();
-  result.arch = options.arch, result.lanes = team.lane_work();
-  result.figure = columns_.figure();
-  result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-  return result;
+  result_.usage = team.usage();
+  result_.arch = options.arch, result_.lanes = team.lane_work();
+  result_.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
 }
 
-RunResult run(const Sweep& sweep, const RunOptions& options) { return SweepRun(sweep).run(options); }
+RunResult SweepRun::result() {
+  result_.points = share_.points();
+  result_.failed_points = columns_.failed_points();
+  result_.figure = columns_.figure();
+  if (shard_)
+    result_.figure.attributes = {{"shard", text_of(*shard_)}, {"instruction_set", std::string(name_of(result_.arch))}};
+  return std::move(result_);
+}
+
+RunResult run(const Sweep& sweep, const RunOptions& options) {
+  SweepRun sweep_run(sweep);
+  sweep_run.run(options);
+  return sweep_run.result();
+}
 
 }  // namespace clatter

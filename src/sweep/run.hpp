@@ -1,17 +1,20 @@
 #pragma once
 
 #include <array>
+#include <atomic>
 #include <cstddef>
+#include <cstdint>
 #include <functional>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "dynamics/effects.hpp"
 #include "integrators/observed.hpp"
 #include "numbers/arch.hpp"
-#include "sweep/branches.hpp"
 #include "sweep/columns.hpp"
 #include "sweep/figure.hpp"
+#include "sweep/share.hpp"
 #include "sweep/sweep.hpp"
 
 namespace clatter {
@@ -21,8 +24,6 @@ struct RunOptions {
   std::function<void(std::size_t done, std::size_t total)>
       progress{};           ///< called from one thread at a time, a few times a second
   Arch arch = best_arch();  ///< instruction set of the points that lanes can take
-  /// Called from any thread for each branch of points that is finished (`Branches`), with its results
-  std::function<void(std::size_t branch, std::span<const std::byte> results)> finished{};
 };
 
 /// The threads that a run with these options uses.
@@ -47,7 +48,7 @@ struct LaneWork {
 /// The results of a sweep and what they took.
 struct RunResult {
   Figure figure;                  ///< coordinates, status, impact_total, simulated_periods, then what is observed
-  std::size_t points = 0;         ///< points of the sweep
+  std::size_t points = 0;         ///< points of the sweep, or of the shard
   std::size_t failed_points = 0;  ///< points with a status from event_budget on
   int threads = 1;                ///< threads that were used
   double seconds = 0.0;           ///< wall time of the points
@@ -56,25 +57,37 @@ struct RunResult {
   LaneWork lanes;                 ///< what it took in SIMD lanes
 };
 
-/// A sweep on its way to its results.
+/// What has become of a branch of points.
+enum class BranchState : std::uint8_t { open, finished, saved };
+
+/// A sweep, or a shard of it, on its way to its results.
 class SweepRun {
  public:
-  explicit SweepRun(const Sweep& sweep);  ///< Throws std::bad_alloc where the results don't fit into memory.
+  /// Throws std::bad_alloc where the results don't fit into memory.
+  explicit SweepRun(const Sweep& sweep, const std::optional<Shard>& shard = {});
 
-  /// Takes the results of a branch from an earlier run of the same sweep, as `finished` got them; false where they
-  /// aren't of this sweep.
-  [[nodiscard]] bool restore(std::size_t branch, std::span<const std::byte> results);
+  /// Takes results that `save` gave in an earlier run of the same points; false where they aren't of this sweep.
+  [[nodiscard]] bool restore(std::span<const std::byte> results);
   [[nodiscard]] std::size_t restored_points() const { return restored_; }
 
   /// Runs every point that isn't restored; the same bits for every number of threads, and however many are.
-  [[nodiscard]] RunResult run(const RunOptions& options);
+  void run(const RunOptions& options);
+
+  /// Gives `write` the results of branches that were finished since the last time, some at once. Another thread may
+  /// call it while `run` is at work.
+  void save(const std::function<void(std::span<const std::byte> results)>& write);
+
+  /// What all points gave; to be called once.
+  [[nodiscard]] RunResult result();
 
  private:
   const Sweep& sweep_;
-  Branches branches_;
+  std::optional<Shard> shard_;
+  Share share_;
   Columns columns_;
-  std::vector<char> done_;  ///< [branch]
+  std::vector<std::atomic<BranchState>> states_;  ///< [branch]
   std::size_t restored_ = 0;
+  RunResult result_;
 };
 
 /// Runs every point of a sweep.

@@ -1,0 +1,16 @@
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string>
+
+namespace clatter {
+
+/// The seal of a file's bytes, to be put behind them: a line with their number and CRC-32, so that a copy that went
+/// wrong isn't taken for results. HDF5 doesn't look behind the end of its own bytes.
+[[nodiscard]] std::string seal_of(std::span<const std::byte> bytes);
+
+/// Throws IoError where a file cannot be read, has no seal, or has changed since it was sealed.
+void require_sealed(const std::string& path);
+
+}  // namespace clatter

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+
+#include "sweep/figure.hpp"
+#include "sweep/share.hpp"
+
+namespace clatter {
+
+/// What a shard's file says of itself.
+struct ShardHead {
+  std::string path;
+  Shard shard;
+  std::string schema, version, git_commit, compiler;
+  std::string config, config_sha256;
+  std::string instruction_set;
+  std::size_t impacts = 0;  ///< in its log
+};
+
+/// Reads what a shard's file says of itself, once its seal is found whole. Throws IoError.
+[[nodiscard]] ShardHead read_shard_head(const std::string& path);
+
+/// Reads the variables of a shard, names and values alone. Throws IoError.
+[[nodiscard]] Figure read_shard(const std::string& path);
+
+}  // namespace clatter
