@@ -192,25 +192,27 @@ void Journal::read(const Take& take, Begin begin) {
   reader.read(std::as_writable_bytes(found));
   if (std::string_view(found.data(), found.size()) != magic.substr(0, found.size()))
     throw IoError("'" + path_.string() + "' is no journal of clatter; move it away, or name another output");
-  std::uint64_t whole = 0, header_end = 0;
+  std::uint64_t whole = 0;  // bytes up to the end of the last whole record
   const auto header = begin == Begin::restart || found.size() < magic.size() ? std::nullopt : reader.block();
   if (header) {
     const auto key = key_of(*header);
     if (!key) reader.damaged(magic.size());
-    if (*key != key_)
-      throw IoError("'" + path_.string() +
-                    "' holds what an earlier run of something else had finished:" + difference_of(*key, key_) +
-                    "\nrun that again to complete it, begin anew with --restart, or name another output");
-    whole = header_end = reader.at();
     for (auto record = reader.block(); record; record = reader.block()) {
+      if (*key != key_) refuse_other(*key);
       take(*record);
       whole = reader.at();
     }
   }
-  if (begin == Begin::resume && whole <= header_end)
+  if (begin == Begin::resume && whole == 0)
     throw IoError("there is nothing to resume: '" + path_.string() + "' holds no finished points; leave --resume out");
   if (uninterrupted([&] { return ::ftruncate(file_.number(), static_cast<off_t>(whole)); }) != 0) refuse(path_, errno);
   size_ = whole;
+}
+
+void Journal::refuse_other(const JournalKey& key) const {
+  throw IoError("'" + path_.string() +
+                "' holds what an earlier run of something else had finished:" + difference_of(key, key_) +
+                "\nrun that again to complete it, begin anew with --restart, or name another output");
 }
 
 void Journal::append(std::span<const std::byte> record) {

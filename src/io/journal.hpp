@@ -64,6 +64,7 @@ class Journal {
  private:
   void lock();
   void read(const Take& take, Begin begin);
+  [[noreturn]] void refuse_other(const JournalKey& key) const;
 
   std::filesystem::path output_, path_;
   JournalKey key_;

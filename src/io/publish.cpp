@@ -1,6 +1,7 @@
 #include "io/publish.hpp"
 
 #include <fcntl.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -43,16 +44,47 @@ void check_target(const fs::path& path) {
   }
 }
 
-/// A hidden name beside the target: rename is atomic only within one file system.
-fs::path temporary_name(const fs::path& target) {
+constexpr std::string_view temporary_ending = ".tmp";
+constexpr std::size_t temporary_letters = 6;
+
+/// A hidden name beside the target, since rename is atomic only within one file system; this is how it begins.
+std::string temporary_prefix(const fs::path& target) {
   constexpr std::size_t longest = 200;  // leaves room for the rest of the 255 bytes of a name
+  return std::string{'.'}.append(target.filename().string(), 0, longest).append(1, '.');
+}
+
+fs::path temporary_name(const fs::path& target) {
   constexpr std::string_view letters = "abcdefghijklmnopqrstuvwxyz0123456789";
   std::random_device random;
   std::uniform_int_distribution<std::size_t> letter{0, letters.size() - 1};
-  std::string name{'.'};
-  name.append(target.filename().string(), 0, longest).append(1, '.');
-  for (int i = 0; i < 6; ++i) name += letters[letter(random)];
-  return directory_of(target) / (name + ".tmp");
+  std::string name = temporary_prefix(target);
+  for (std::size_t i = 0; i < temporary_letters; ++i) name += letters[letter(random)];
+  return directory_of(target) / name.append(temporary_ending);
+}
+
+bool is_same_file(int number, const fs::path& path) {
+  struct stat opened {
+  }, named{};
+  return ::fstat(number, &opened) == 0 && ::stat(path.c_str(), &named) == 0 && opened.st_ino == named.st_ino &&
+         opened.st_dev == named.st_dev;
+}
+
+bool lock(int number) {
+  return uninterrupted([&] { return ::flock(number, LOCK_EX | LOCK_NB); }) == 0;
+}
+
+/// Removes what a killed process has left under a temporary name of this target: the file of one that lives is locked.
+void remove_abandoned(const fs::path& target) {
+  const std::string prefix = temporary_prefix(target);
+  std::error_code error;
+  for (fs::directory_iterator entry(directory_of(target), error), end; !error && entry != end; entry.increment(error)) {
+    const std::string name = entry->path().filename().string();
+    if (!name.starts_with(prefix) || !name.ends_with(temporary_ending) ||
+        name.size() != prefix.size() + temporary_letters + temporary_ending.size())
+      continue;
+    const Descriptor file{::open(entry->path().c_str(), O_WRONLY | O_CLOEXEC | O_NOFOLLOW)};
+    if (file.number() >= 0 && lock(file.number())) ::unlink(entry->path().c_str());
+  }
 }
 
 /// A new file that is removed again unless it has been renamed to its target.
@@ -81,8 +113,12 @@ class TemporaryFile {
     while (true) {
       const int number =
           uninterrupted([&] { return ::open(path_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666); });
-      if (number >= 0) return number;
-      if (errno != EEXIST) refuse(target_, errno);
+      if (number < 0 && errno != EEXIST) refuse(target_, errno);
+      if (number >= 0) {
+        lock(number);
+        if (is_same_file(number, path_)) return number;
+        ::close(number);  // removed as abandoned, before it was locked
+      }
       path_ = temporary_name(target_);
     }
   }
@@ -111,6 +147,7 @@ void publish(const std::string& path, std::span<const std::byte> bytes) {
   check_writable(path);
   const IgnoreFileSizeSignal ignore;
   const fs::path target = target_of(path);
+  remove_abandoned(target);
   TemporaryFile file{target};
   file.write(bytes);
   file.become_target();

@@ -205,7 +205,7 @@ void Columns::take(Figure& figure, const Shard& shard) {
   };
   scatter("status", 1, status_), scatter("impact_total", 1, impacts_), scatter("simulated_periods", 1, periods_);
   for (std::size_t i = 0; i < outputs_.size(); ++i) scatter(outputs_[i].name, outputs_[i].width, values_[i]);
-  if (!log_.empty()) take_impact_log(figure, numbers);
+  if (sweep_.scene.observe.impact_log) take_impact_log(figure, numbers);
 }
 
 void Columns::take_impact_log(Figure& figure, std::span<const std::int64_t> numbers) {
@@ -272,7 +272,7 @@ Figure Columns::figure() {
     figure.variables.push_back(
         {output.name, std::move(dimensions), std::move(values_[i]), output.long_name, output.units});
   }
-  if (!log_.empty()) add_impact_log(figure);
+  if (sweep_.scene.observe.impact_log) add_impact_log(figure);
   return figure;
 }
 

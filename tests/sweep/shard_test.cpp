@@ -1,0 +1,214 @@
+#include <gtest/gtest.h>
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "sweep/columns.hpp"
+#include "sweep/figures.hpp"
+#include "sweep/memory.hpp"
+#include "sweep/run.hpp"
+
+namespace clatter {
+namespace {
+
+using Bytes = std::vector<std::byte>;
+
+/// 30 points of every kind: periodic, aperiodic, with chatter and with no impact at all; each observable.
+Sweep any_sweep(std::optional<std::size_t> follow = {}) {
+  Scene scene = paper_scene(0.5, 1.0);
+  scene.time.max_periods = 300;
+  scene.observe = {.extrema = true,
+                   .harmonics = 2,
+                   .harmonics_samples = 64,
+                   .impacts = true,
+                   .impact_log = true,
+                   .trajectory = 5,
+                   .period = true,
+                   .stability = true};
+  Sweep sweep = sweep_of(
+      scene, {{Parameter::f, {-1, 2}}, {Parameter::nu, {0.5, 0.7, 0.9, 1.1, 1.3}}, {Parameter::R, {0, 0.5, 0.9}}});
+  sweep.follow = follow;
+  return sweep;
+}
+
+Figure shard_figure(const Sweep& sweep, const Shard& shard, const RunOptions& options = {}) {
+  SweepRun run(sweep, shard);
+  run.run(options);
+  return run.result().figure;
+}
+
+/// What a run hands over to be kept, piece by piece.
+std::vector<Bytes> saved(SweepRun& run) {
+  std::vector<Bytes> pieces;
+  run.save([&](std::span<const std::byte> results) { pieces.emplace_back(results.begin(), results.end()); });
+  return pieces;
+}
+
+const std::vector<std::optional<std::size_t>> every_follow{std::nullopt, 0, 1, 2};
+
+TEST(Shard, is_named_by_number_and_count) {
+  EXPECT_EQ(shard_named("0/1"), (Shard{0, 1}));
+  EXPECT_EQ(shard_named("3/8"), (Shard{3, 8}));
+  EXPECT_EQ(text_of({3, 8}), "3/8");
+  for (const char* wrong : {"", "/", "3", "3/", "/8", "8/8", "9/8", "-1/8", "+1/8", "1/0", "0/0", "1/8 ", " 1/8",
+                            "1/8/2", "1.0/8", "0/1000001", "99999999999999999999/999999999999999999999"})
+    EXPECT_EQ(shard_named(wrong), std::nullopt) << wrong;
+}
+
+TEST(Shard, has_each_point_once_in_ascending_order_and_whole_branches) {
+  for (const auto& follow : every_follow) {
+    const Sweep sweep = any_sweep(follow);
+    const Branches branches(sweep);
+    for (std::size_t of = 1; of <= 33; ++of) {
+      std::vector<int> owners(size(sweep), 0);
+      for (std::size_t number = 0; number < of; ++number) {
+        const Share share(sweep, Shard{number, of});
+        std::vector<std::size_t> points(share.points(), size(sweep));
+        for (std::size_t n = 0; n < share.count(); ++n)
+          for (std::size_t i = 0; i < share.length(); ++i) {
+            ASSERT_EQ(share.point(n, i), branches.point(number + n * of, i));
+            ASSERT_LT(share.slot(n, i), points.size());
+            points[share.slot(n, i)] = share.point(n, i);
+            ++owners[share.point(n, i)];
+          }
+        EXPECT_TRUE(std::ranges::is_sorted(points, std::ranges::less_equal{})) << number << '/' << of;
+      }
+      EXPECT_TRUE(std::ranges::all_of(owners, [](int owner) { return owner == 1; })) << of;
+    }
+  }
+}
+
+TEST(Shard, figures_make_that_of_the_whole_sweep_bit_for_bit) {
+  for (const auto& follow : every_follow) {
+    const Sweep sweep = any_sweep(follow);
+    const Figure whole = run(sweep, {.threads = 1}).figure;
+    for (const std::size_t of : {1, 2, 3, 7, 40}) {
+      Columns columns(sweep);
+      for (std::size_t number = of; number-- > 0;) {
+        Figure part = shard_figure(sweep, {number, of}, {.threads = static_cast<int>(1 + number % 3)});
+        columns.take(part, {number, of});
+      }
+      expect_same(whole, columns.figure());
+    }
+  }
+}
+
+TEST(Shard, figure_of_another_one_is_refused) {
+  const Sweep sweep = any_sweep();
+  const auto refusal = [&](Figure figure, const Shard& shard = {0, 2}) -> std::string {
+    try {
+      Columns(sweep).take(figure, shard);
+      return "";
+    } catch (const std::runtime_error& error) {
+      return error.what();
+    }
+  };
+  const Figure figure = shard_figure(sweep, {0, 2});
+  EXPECT_EQ(refusal(figure), "");
+  EXPECT_NE(refusal(figure, {1, 2}).find("points"), std::string::npos);
+  EXPECT_NE(refusal(figure, {0, 3}).find("points"), std::string::npos);
+  EXPECT_NE(refusal(run(sweep, {}).figure).find("'point'"), std::string::npos);
+  for (const Variable& variable : figure.variables) {
+    if (variable.dimensions == std::vector{variable.name} && variable.name != "point") continue;  // not read
+    Figure without = figure, longer = figure, other = figure;
+    const auto at = &variable - figure.variables.data();
+    without.variables.erase(without.variables.begin() + at);
+    std::visit([](auto& values) { values.push_back({}); }, longer.variables[static_cast<std::size_t>(at)].values);
+    Column& values = other.variables[static_cast<std::size_t>(at)].values;
+    if (std::holds_alternative<std::vector<double>>(values))
+      values = std::vector<std::int64_t>();
+    else
+      values = std::vector<double>();
+    EXPECT_NE(refusal(without).find(variable.name), std::string::npos) << variable.name;
+    EXPECT_NE(refusal(longer), "") << variable.name;
+    EXPECT_NE(refusal(other).find(variable.name), std::string::npos) << variable.name;
+  }
+}
+
+TEST(Shard, takes_memory_by_its_points) {
+  Sweep sweep = any_sweep();
+  sweep.scene.observe.impact_log = false;
+  for (const Shard shard : {Shard{0, 4}, Shard{3, 4}, Shard{35, 40}}) {
+    double bytes = 0;
+    for (const Variable& variable : shard_figure(sweep, shard).variables)
+      if (!variable.dimensions.empty() && variable.dimensions.front() == "point")
+        bytes += std::visit([](const auto& held) { return static_cast<double>(held.size() * sizeof held[0]); },
+                            variable.values);
+    EXPECT_EQ(result_bytes(sweep, shard), bytes) << shard.number;
+  }
+}
+
+TEST(SavedRun, goes_on_from_whatever_was_saved_to_the_same_bits) {
+  for (const auto& follow : {every_follow[0], every_follow[2]}) {
+    const Sweep sweep = any_sweep(follow);
+    const Figure whole = run(sweep, {.threads = 2}).figure;
+    SweepRun first(sweep);
+    EXPECT_TRUE(saved(first).empty());
+    first.run({.threads = 2});
+    const std::vector<Bytes> pieces = saved(first);
+    ASSERT_EQ(pieces.size(), 1u);
+    EXPECT_TRUE(saved(first).empty());  // all was saved
+    const Bytes& all = pieces[0];
+    std::size_t most = 0;
+    for (std::size_t length = 0; length <= all.size(); ++length) {
+      SweepRun again(sweep);
+      const bool fits = again.restore(std::span(all).first(length));
+      EXPECT_EQ(fits, length == 0 || again.restored_points() > most || length == all.size()) << length;
+      most = std::max(most, again.restored_points());
+      if (!fits || again.restored_points() % 5 != 0) continue;
+      const std::size_t restored = again.restored_points();
+      again.run({.threads = 3});
+      std::size_t left = 0;
+      for (const Usage& usage : again.result().usage) left += usage.points;
+      EXPECT_EQ(left, size(sweep) - restored);
+    }
+    EXPECT_EQ(most, size(sweep));
+    SweepRun half(sweep);
+    ASSERT_TRUE(half.restore(all));
+    half.run({});
+    expect_same(half.result().figure, whole);
+  }
+}
+
+TEST(SavedRun, refuses_results_that_are_not_its_own) {
+  const Sweep sweep = any_sweep();
+  SweepRun first(sweep, Shard{1, 2});
+  first.run({});
+  const Bytes bytes = saved(first).at(0);
+  SweepRun again(sweep, Shard{1, 2});
+  EXPECT_TRUE(again.restore(bytes));
+  EXPECT_FALSE(again.restore(bytes));  // twice
+  EXPECT_FALSE(SweepRun(sweep, Shard{1, 4}).restore(bytes));
+  Sweep other = sweep;
+  other.scene.observe.trajectory = 6;
+  EXPECT_FALSE(SweepRun(other, Shard{1, 2}).restore(bytes));
+}
+
+TEST(SavedRun, may_be_saved_while_it_is_at_work) {
+  Sweep sweep = any_sweep();
+  const Figure whole = run(sweep, {.threads = 1}).figure;
+  for (int round = 0; round < 20; ++round) {
+    std::vector<Bytes> pieces;
+    SweepRun first(sweep);
+    {
+      std::jthread saver([&](const std::stop_token& stop) {
+        while (!stop.stop_requested())
+          for (Bytes& piece : saved(first)) pieces.push_back(std::move(piece));
+      });
+      first.run({.threads = 2});
+    }
+    pieces.resize(pieces.size() * static_cast<std::size_t>(round) / 19);
+    SweepRun again(sweep);
+    for (const Bytes& piece : pieces) ASSERT_TRUE(again.restore(piece));
+    again.run({.threads = 2});
+    expect_same(again.result().figure, whole);
+  }
+}
+
+}  // namespace
+}  // namespace clatter
