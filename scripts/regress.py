@@ -1,0 +1,193 @@
+#!/usr/bin/python3
+"""What scripts/regress.sh writes and compares with h5py; --help says more."""
+
+import argparse
+import math
+import pathlib
+import sys
+import typing
+
+import h5py
+import numpy
+
+ROWS = 11  # of each variable in a text baseline: its points are far from tangencies, past which the last bits decide
+SETTLING = ("impact_total", "simulated_periods")  # how long it took to get there: work, and no property of the motion
+REFERENCES = ("DIMENSION_LIST", "REFERENCE_LIST")  # attributes that point at other variables
+APERIODIC = 1
+
+
+class Variable(typing.NamedTuple):
+    type: str
+    shape: tuple
+    step: int  # every how many rows are there
+    rows: numpy.ndarray  # points of the sweep; of a single point, and of what isn't swept, the first dimension
+    swept: bool = False
+    attributes: dict = {}
+
+
+class Output(typing.NamedTuple):
+    config: str  # its sha256
+    variables: dict
+    is_text: bool
+
+
+def read_h5(path):
+    variables = {}
+    with h5py.File(path) as file:
+        sweep = file["status"].shape
+        for name, dataset in file.items():
+            if not isinstance(dataset, h5py.Dataset) or b"netCDF dimension but not a netCDF variable" in dataset.attrs.get("NAME", b""):
+                continue  # a length, which the variables along it have, too
+            swept = dataset.attrs.get("CLASS") != b"DIMENSION_SCALE" and dataset.shape[:len(sweep)] == sweep
+            number = math.prod(sweep) if swept and sweep else (dataset.shape or (1,))[0]
+            rows = dataset[()].reshape(number, dataset.size // max(number, 1)).astype(float)
+            attributes = {key: str(value) for key, value in dataset.attrs.items() if key not in REFERENCES}
+            variables[name] = Variable(str(dataset.dtype), dataset.shape, 1, rows, swept, attributes)
+        return Output(file.attrs["config_sha256"], variables, False)
+
+
+def text_of(output):
+    lines = ["# By scripts/regress.sh. A line is a variable of the output: name, type, shape, every how many rows, how many, their values",
+             f"config_sha256 {output.config}"]
+    for name, (kind, shape, _, rows, *_) in output.variables.items():
+        if name not in SETTLING:
+            step = max(1, math.ceil(len(rows) / ROWS))
+            kept = rows[::step]
+            values = [f"{value:.15g}" for value in kept.ravel()]
+            lines.append(" ".join([name, kind, "x".join(map(str, shape)) or "scalar", str(step), str(len(kept)), *values]))
+    return "\n".join(lines) + "\n"
+
+
+def read_text(path):
+    _, config, *lines = path.read_text(encoding="ascii").splitlines()
+    variables = {}
+    for name, kind, lengths, step, number, *values in map(str.split, lines):
+        shape = () if lengths == "scalar" else tuple(map(int, lengths.split("x")))
+        variables[name] = Variable(kind, shape, int(step), numpy.array(values, dtype=float).reshape(int(number), -1))
+    return Output(config.split()[1], variables, True)
+
+
+class Comparison:
+    """Of an output with its baseline: what differs, and what does but may."""
+
+    def __init__(self, base, new, tolerance):
+        self.differences, self.permitted = [], []
+        self.variables, self.largest, self.where = 0, 0.0, "-"
+        self.tolerance = tolerance
+        step = base.variables["status"].step
+        self.chaotic = new.variables["status"].rows[::step, 0] == APERIODIC  # where the baseline's isn't, status itself differs
+        self.points = len(self.chaotic)
+        self.unlike = numpy.zeros(self.points, dtype=bool)  # the aperiodic points where something differs
+        left_out = SETTLING if base.is_text else ()
+        for name in sorted((base.variables.keys() | new.variables.keys()) - set(left_out)):
+            if name not in new.variables:
+                self.differences.append(f"{name} is missing")
+            elif name not in base.variables:
+                self.differences.append(f"{name} is new")
+            else:
+                self.compare(name, base.variables[name], new)
+        if self.unlike.any():
+            self.permitted.append(f"values at {numpy.count_nonzero(self.unlike)} aperiodic points")
+        if self.differences and base.config != new.config:
+            self.differences.append("config_sha256: another configuration")
+
+    def compare(self, name, old, new):
+        now = new.variables[name]
+        if (old.type, old.shape) != (now.type, now.shape):
+            self.differences.append(f"{name} is {now.type}{list(now.shape)}, not {old.type}{list(old.shape)}")
+            return
+        if old.attributes and old.attributes != now.attributes:
+            self.differences.append(f"attributes of {name}")
+        a, b = old.rows, now.rows[::old.step]
+        if a.shape != b.shape:
+            self.differences.append(f"{name} has {len(b)} rows, not {len(a)}")
+            return
+        with numpy.errstate(invalid="ignore"):  # inf - inf
+            apart = numpy.where((a == b) | (numpy.isnan(a) & numpy.isnan(b)), 0, numpy.abs(a - b))
+        if name.endswith("_phase"):  # that of a zero amplitude is noise, and pi is -pi
+            amplitude = new.variables[name.replace("_phase", "_amplitude")].rows[::old.step]
+            error = numpy.abs(amplitude) * numpy.abs(numpy.remainder(apart + math.pi, 2 * math.pi) - math.pi)
+            if ((apart > self.tolerance) & (error <= self.tolerance)).any():
+                self.permitted.append(f"{name} by whole turns or of no amplitude")
+            apart = numpy.where(apart == 0, 0, error)
+        beyond = ~(apart <= self.tolerance)  # a number beside NaN, too
+        if name in SETTLING:
+            if beyond.any():
+                self.permitted.append(f"{name} at {numpy.count_nonzero(beyond)} points")
+            return
+        if now.swept and name != "status":
+            chaotic = numpy.broadcast_to(self.chaotic, len(a))
+            seen = beyond.any(axis=1) & chaotic
+            self.unlike |= seen if len(seen) == self.points else seen.any()
+            apart[chaotic], beyond[chaotic] = 0, False
+        self.variables += 1
+        if beyond.any():
+            self.differences.append(f"{name} at {numpy.count_nonzero(beyond)} of {beyond.size}")
+        if apart.size:
+            worst = numpy.argmax(apart)  # the first NaN, if any
+            row, column = numpy.unravel_index(worst, apart.shape)
+            if not (apart.flat[worst] <= self.largest or math.isnan(self.largest)):
+                place = numpy.unravel_index(row * old.step * apart.shape[1] + column, now.shape)
+                self.largest, self.where = apart.flat[worst], f"{name}[{','.join(map(str, place))}]" if place else name
+
+
+def line(name, points, variables, largest, where, h5diff, verdict, note):
+    return f"{name:<12} {points:>6}  {variables:>9}  {largest:>8}  {where:<20}  {h5diff:<7}  {verdict:<8}  {note}".rstrip()
+
+
+def table_row(baseline, output, tolerance, h5diff):
+    """The line of the table, and whether the output agrees."""
+    name = output.stem
+    is_text = (baseline / f"{name}.txt").exists()
+    base = baseline / f"{name}.{'txt' if is_text else 'h5'}"
+    for what, path in (("baseline", base), ("output", output)):
+        if not path.exists():
+            return line(name, *"----", h5diff, "differs", f"no {what}"), False
+    try:
+        found = Comparison(read_text(base) if is_text else read_h5(base), read_h5(output), tolerance)
+    except (OSError, LookupError, ValueError) as error:
+        return line(name, *"----", h5diff, "differs", f"can't be read: {error}"), False
+    if h5diff == "differs" and not found.differences and not found.permitted:
+        found.differences = ["h5diff finds what isn't seen here"]
+    agrees = not found.differences
+    note = "but for " + ", ".join(found.permitted) if agrees and found.permitted else "; ".join(found.differences)
+    return line(name, found.points, found.variables, f"{found.largest:.1e}" if found.largest else "0", found.where, h5diff,
+                "agrees" if agrees else "differs", note), agrees
+
+
+def table(arguments):
+    print(line("figure", "points", "variables", "largest", "where", "h5diff", "verdict", "differences"))
+    agreeing = 0
+    for name, h5diff in (word.rsplit("=", 1) for word in arguments.figures):
+        row, agrees = table_row(arguments.baseline, arguments.outputs / f"{name}.h5", arguments.tolerance, h5diff)
+        print(row)
+        agreeing += agrees
+    print(f"{agreeing} of {len(arguments.figures)} agree within {arguments.tolerance:g}", file=sys.stderr)
+    return 0 if agreeing == len(arguments.figures) else 1
+
+
+def text(arguments):
+    for output in sorted(arguments.outputs.glob("*.h5")):
+        (arguments.baseline / f"{output.stem}.txt").write_text(text_of(read_h5(output)), encoding="ascii")
+    return 0
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__)
+    commands = parser.add_subparsers(required=True)
+    command = commands.add_parser("table", help="compares outputs with a baseline and prints a table; ends with 1 where any differs")
+    command.add_argument("baseline", type=pathlib.Path, help="folder of NAME.h5 or NAME.txt")
+    command.add_argument("outputs", type=pathlib.Path, help="folder of NAME.h5")
+    command.add_argument("tolerance", type=float)
+    command.add_argument("figures", nargs="+", metavar="NAME=H5DIFF", help="H5DIFF is what it says: same, differs or -")
+    command.set_defaults(run=table)
+    command = commands.add_parser("text", help="makes a text baseline of outputs")
+    command.add_argument("outputs", type=pathlib.Path, help="folder of NAME.h5")
+    command.add_argument("baseline", type=pathlib.Path, help="folder for NAME.txt")
+    command.set_defaults(run=text)
+    arguments = parser.parse_args()
+    return arguments.run(arguments)
+
+
+if __name__ == "__main__":
+    sys.exit(main())
