@@ -103,13 +103,15 @@ void check_points(const Sweep& sweep, const std::vector<ShardHead>& heads) {
   if (!missing.empty()) throw IoError(missing);
 }
 
-void check_memory(const Sweep& sweep, const std::vector<ShardHead>& heads) {
+/// Bytes that merging takes; throws IoError where this machine hasn't got them.
+double memory_for(const Sweep& sweep, const std::vector<ShardHead>& heads) {
   std::vector<ShardSize> sizes;
   for (const ShardHead& head : heads) sizes.push_back({head.shard, head.impacts});
   const double needed = merge_bytes(sweep, sizes), there = machine_bytes();
-  if (there == 0 || needed <= there) return;
-  throw IoError("merging takes " + bytes_text(needed) + " of memory, this machine has " + bytes_text(there) +
-                "; merge on a machine that has more");
+  if (there > 0 && needed > there)
+    throw IoError("merging takes " + bytes_text(needed) + " of memory, this machine has " + bytes_text(there) +
+                  "; merge on a machine that has more");
+  return needed;
 }
 
 std::vector<ShardHead> read_heads(const std::vector<std::string>& paths, const std::string& output) {
@@ -124,6 +126,8 @@ std::vector<ShardHead> read_heads(const std::vector<std::string>& paths, const s
 }
 
 int merge(const Arguments& arguments) {
+  if (arguments.has("quiet") && arguments.has("verbose"))
+    throw UsageError("--quiet beside --verbose; give one of them");
   if (!arguments.has("output")) throw UsageError("no output; name it with -o FILE.h5");
   const std::string output = *arguments.value("output");
   check_writable(output);
@@ -131,7 +135,10 @@ int merge(const Arguments& arguments) {
   check_origins(heads);
   const Config config = parse_config(heads.front().config, heads.front().path);
   check_points(config.sweep, heads);
-  check_memory(config.sweep, heads);
+  const double memory = memory_for(config.sweep, heads);
+  if (arguments.has("verbose"))
+    std::cerr << "shards           " << heads.size() << "\ninstruction set  " << heads.front().instruction_set
+              << "\nmemory           " << bytes_text(memory) << '\n';
   Columns columns(config.sweep);
   for (const ShardHead& head : heads) {
     Figure figure = read_shard(head.path);
@@ -164,6 +171,7 @@ Command merge_command() {
           .required_operands = 1,
           .options = {{"output", 'o', "FILE.h5", "where the whole sweep goes"},
                       {"quiet", 'q', "", "print errors only"},
+                      {"verbose", 'v', "", "print the memory that it takes, and with what the shards were computed"},
                       {"help", 'h', "", "print this help"}},
           .run = merge};
 }
