@@ -1,16 +1,18 @@
 #!/usr/bin/env bash
-# The longer forms of tests that draw random scenes or run for long; --help says more.
+# The longer forms of tests that draw random scenes, run for long or go wrong in many ways; --help says more.
 set -euo pipefail
 
 usage() {
   cat <<END
 usage: scripts/long_checks.sh NAME [COUNT]
 
-Runs the long form of a test in tests/hard, on all cores; build first (scripts/test.sh). NAME is one of
+Runs the long form of a test in tests/hard or tests/cli; build first (scripts/test.sh). NAME is one of
   random       COUNT scenes with chatter and rest against 50 digits            (default 10000; about 0.1 s each)
   arcs         COUNT arcs of every scale against 50 digits                     (default 10000000; about 0.1 ms each)
   properties   what must hold for COUNT scenes that nobody chose               (default 1000000; about 4 ms each)
   drift        the speed of contact over COUNT conservative impacts            (default 100000000; about 1 us each)
+  kills        COUNT sweeps, each killed again and again until it is done      (default 200; some seconds each)
+  disks        a sweep on disks that are full at COUNT sizes                   (default 100; about 1 s each)
 END
 }
 
@@ -20,13 +22,23 @@ case "${1-}" in
   arcs) filter='Arcs.agree*' count=10000000 ;;
   properties) filter='Properties.*' count=1000000 ;;
   drift) filter='Long.conservative*' count=100000000 ;;
+  kills) filter=resume_test.Resume.test_killed_at_random_moments_it_loses_nothing_that_was_saved count=200 ;;
+  disks) filter=faults_test.Faults.test_a_disk_that_is_full_at_any_size_loses_nothing count=100 ;;
   -h | --help) usage; exit 0 ;;
   *) echo "long_checks.sh: unknown name '${1-}'; try --help" >&2; exit 2 ;;
 esac
 count=${2-$count}
 [[ $count =~ ^[1-9][0-9]*$ ]] || { echo "long_checks.sh: COUNT is a whole number above 0, not '$count'" >&2; exit 2; }
 
-program=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)/build/release/tests/hard_tests
+top=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
+if [[ $1 == kills || $1 == disks ]]; then
+  export CLATTER=$top/build/release/apps/clatter/clatter CLATTER_KILLS=$count CLATTER_DISKS=$count PYTHONDONTWRITEBYTECODE=1
+  [[ -x $CLATTER ]] || { echo "long_checks.sh: $CLATTER is missing; scripts/test.sh builds it" >&2; exit 2; }
+  cd "$top/tests/cli"
+  exec /usr/bin/python3 -m unittest -v "$filter"
+fi
+
+program=$top/build/release/tests/hard_tests
 [[ -x $program ]] || { echo "long_checks.sh: $program is missing; scripts/test.sh builds it" >&2; exit 2; }
 
 if [[ $1 == drift ]]; then

@@ -48,16 +48,6 @@ class WrongCommandLines(CommandLine):
             with self.subTest(command=command):
                 self.assert_refused(2, words, *command)
 
-    def test_what_comes_later_is_unknown_today(self):
-        config = self.write("a.toml", SMALL)
-        self.assert_refused(2, "unknown command 'merge'", "merge", config)
-        for option in ("--shard",):
-            self.assert_refused(2, f"unknown option '{option}'", "run", config, option)
-        help_texts = "".join(self.clatter("help", topic).stdout for topic in ("run", "info", "defaults", "configuration"))
-        help_texts += self.clatter("--help").stdout + self.clatter("defaults").stdout
-        for word in ("shard", "merge"):
-            self.assertNotIn(word, help_texts)
-
 
 class WrongConfigurations(CommandLine):
     def test_exit_2_with_file_line_and_column_and_no_output(self):

@@ -1,0 +1,230 @@
+"""Calls that fail, disks that are full, places that can't be written: no broken file, no point lost or doubled, never a false success.
+
+scripts/long_checks.sh disks runs the full disks at more sizes.
+"""
+
+import contextlib
+import os
+import resource
+import shutil
+import signal
+import subprocess
+import unittest
+
+from command_line import CLATTER
+from stopped_runs import StoppedRuns
+
+SHIM = os.environ.get("CLATTER_FAULTS")
+
+
+class Faults(StoppedRuns):
+    def setUp(self):
+        super().setUp()
+        self.sweep(nu=40, xs=25)
+        self.whole = self.undisturbed()
+        self.marker = self.directory.with_suffix(".happened")
+
+    def begin_anew(self, journal=None):
+        for path in self.directory.iterdir():
+            if path != self.config:
+                path.unlink()
+        if journal is not None:
+            self.journal.write_bytes(journal)
+
+    def half(self):
+        """The journal of a run that was stopped on its way."""
+        for attempt in range(1, 200):
+            if self.run_command("--max-time", f"{0.01 * attempt:g}").returncode == 124 and self.journal.exists():
+                return self.journal.read_bytes()
+        self.fail("it is never stopped on its way")
+
+    def assert_whole_or_nothing(self, code, said):
+        """What a run may leave that something went wrong for: a whole output and a success, or neither."""
+        if self.output.exists():
+            self.assertEqual(self.output.read_bytes(), self.whole, said)
+        else:
+            self.assertNotEqual(code, 0, said)
+
+    def assert_completes(self, context):
+        """The same command again gives the bytes of an undisturbed run, and nothing else is left."""
+        content, said = self.complete()
+        self.assertEqual(content, self.whole, (context, said))
+
+    def with_fault(self, fault, *words):
+        environment = {**os.environ, "LD_PRELOAD": SHIM, "CLATTER_FAULT": fault, "CLATTER_FAULT_DONE": str(self.marker)}
+        self.marker.unlink(missing_ok=True)
+        result = subprocess.run(self.command(*words), capture_output=True, text=True, timeout=300, env=environment)
+        happened = self.marker.exists()
+        self.marker.unlink(missing_ok=True)
+        return result, happened
+
+    def check_each_call(self, calls, effects, words, journal):
+        """Lets the n-th call go wrong, for all n that there are; returns how often one did."""
+        times = 0
+        for call in calls:
+            for effect in effects:
+                for n in range(1, 1000):
+                    self.begin_anew(journal)
+                    result, happened = self.with_fault(f"{call} {n} {effect}", *words)
+                    if not happened:
+                        self.assertGreater(n, 1, f"no call of {call} with {words}")
+                        break
+                    times += 1
+                    context = (call, n, effect, words, result.returncode, result.stderr)
+                    permitted = {"kill": {-signal.SIGKILL}, "EINTR": {0, 124}, "short": {0, 124}}.get(effect, {0, 74, 124})
+                    self.assertIn(result.returncode, permitted, context)
+                    self.assert_whole_or_nothing(result.returncode, context)
+                    if result.returncode == 74:
+                        self.assertRegex(result.stderr, "cannot (be read|read|write)", context)
+                        self.assertEqual(self.hidden(), [], context)
+                    self.assert_completes(context)
+        return times
+
+    def hidden(self):
+        return [name for name in self.files() if name.startswith(".")]
+
+    @unittest.skipUnless(SHIM, "calls can't be made to fail under a sanitizer")
+    def test_each_call_of_a_run_that_resumes_and_publishes_may_fail_or_be_the_last(self):
+        calls = ("open", "read", "write", "ftruncate", "fsync", "rename", "unlink")
+        self.assertGreater(self.check_each_call(calls, ("kill", "EIO"), (), self.half()), 20)
+
+    @unittest.skipUnless(SHIM, "calls can't be made to fail under a sanitizer")
+    def test_each_call_of_a_run_that_saves_may_fail_or_be_the_last(self):
+        words = ("--max-time", "0.05")
+        self.half()  # so that the next run stops with something finished
+        self.assertGreater(self.check_each_call(("open", "write", "fdatasync"), ("kill", "ENOSPC"), words, None), 5)
+
+    @unittest.skipUnless(SHIM, "calls can't be made to fail under a sanitizer")
+    def test_interrupted_and_short_calls_are_repeated(self):
+        journal = self.half()
+        for call, effect in (("open", "EINTR"), ("read", "EINTR"), ("read", "short"), ("write", "EINTR"), ("write", "short"),
+                             ("ftruncate", "EINTR"), ("fsync", "EINTR")):
+            for n in (0, 1):
+                self.begin_anew(journal)
+                result, happened = self.with_fault(f"{call} {n} {effect}")
+                self.assertTrue(happened or n == 0, call)
+                self.assertEqual(result.returncode, 0, (call, effect, result.stderr))
+                self.assertEqual(self.output.read_bytes(), self.whole, (call, effect))
+
+    def limited(self, size, *words):
+        return subprocess.run(self.command(*words), capture_output=True, text=True, timeout=300,
+                              preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (size, size)))
+
+    def test_a_disk_that_is_full_at_any_size_loses_nothing(self):
+        """CLATTER_DISKS: how many sizes (scripts/long_checks.sh disks)."""
+        sizes = int(os.environ.get("CLATTER_DISKS", "12"))
+        half, refused = self.half(), 0
+        for i in range(sizes):
+            size = (len(self.whole) + 4096) * i // sizes
+            for journal, words in ((None, ()), (half, ()), (None, ("--max-time", "0.05"))):
+                self.begin_anew(journal)
+                result = self.limited(size, *words)
+                context = (size, words, result.returncode, result.stderr)
+                self.assertIn(result.returncode, (0, 74, 124), context)
+                self.assert_whole_or_nothing(result.returncode, context)
+                self.assertEqual(self.hidden(), [], context)
+                if result.returncode == 74:
+                    refused += 1
+                    self.assertIn("free some space", result.stderr)
+                if journal is not None and not self.output.exists():
+                    self.assertTrue(self.journal.read_bytes().startswith(journal), context)
+                self.assert_completes(context)
+        self.assertGreater(refused, sizes)
+
+    @contextlib.contextmanager
+    def small_disk(self, kibibytes):
+        place = self.directory.with_suffix(".disk")
+        place.mkdir()
+        self.addCleanup(shutil.rmtree, place, ignore_errors=True)
+        mount = subprocess.run(["mount", "-t", "tmpfs", "-o", f"size={kibibytes}k", "clatter-test", place], capture_output=True, text=True)
+        if mount.returncode != 0:
+            self.skipTest("no small disk can be mounted here: " + mount.stderr.strip())
+        try:
+            yield place
+        finally:
+            subprocess.run(["umount", place], check=True)
+            place.rmdir()
+
+    def test_a_small_disk_that_is_really_full_loses_nothing(self):
+        needed = len(self.whole) // 1024
+        for kibibytes in (4, 16, needed // 4, needed // 2, needed - 4, needed + needed // 4):
+            with self.small_disk(kibibytes) as disk:
+                output = disk / "a.h5"
+                before = None
+                for words in (("--max-time", "0.05"), ()):
+                    result = self.run_command(*words, output=output)
+                    context = (kibibytes, words, result.returncode, result.stderr)
+                    self.assertIn(result.returncode, (0, 74, 124), context)
+                    self.assertEqual(result.returncode == 0, output.exists(), context)
+                    self.assertEqual([path for path in disk.iterdir() if path.suffix == ".tmp"], [], context)
+                    journal = disk / "a.h5.journal"
+                    if before is not None and not output.exists():
+                        self.assertTrue(journal.read_bytes().startswith(before), context)
+                    before = journal.read_bytes() if journal.exists() else None
+                self.assertTrue(result.returncode == 74 or output.read_bytes() == self.whole, context)
+                if before is not None:  # the way out: a larger place
+                    self.begin_anew(before)
+                    self.assert_completes(context)
+
+    def test_an_output_that_was_there_stays_until_the_new_one_is_whole(self):
+        self.output.write_bytes(b"of an earlier run")
+        result = self.limited(len(self.whole) // 2)
+        self.assertEqual(result.returncode, 74)
+        self.assertEqual(self.output.read_bytes(), b"of an earlier run")
+        self.assertEqual(self.hidden(), [])
+        self.assert_completes("")
+
+    def test_places_that_cannot_be_written_are_refused_before_anything_runs(self):
+        closed = self.directory / "closed"
+        closed.mkdir(mode=0o555)
+        program = self.directory / "clatter"
+        shutil.copy(CLATTER, program)
+        self.directory.chmod(0o755)
+        as_nobody = {"user": 65534, "group": 65534} if os.geteuid() == 0 else {}
+        for output, reason in ((closed / "a.h5", "ermission denied"), (self.directory / "none" / "a.h5", "mkdir -p"), (closed, "is a directory"),
+                               ("/dev/full", "is not a regular file"), ("", "empty name")):
+            command = self.command(output=output)
+            command[0] = program
+            if output == "":
+                command[command.index("-o") + 1] = ""
+            result = subprocess.run(command, capture_output=True, text=True, **as_nobody)
+            self.assertEqual(result.returncode, 74, (output, result.stderr))
+            self.assertIn(reason, result.stderr)
+        self.assertEqual(list(closed.iterdir()), [])
+        closed.rmdir()
+        program.unlink()
+        self.assertEqual(self.files(), ["a.toml"])
+
+    def test_memory_that_runs_out_is_an_error_and_leaves_nothing(self):
+        words = ("--set", "sweep.nu=linspace(0.5,1.5,3000)", "--set", "sweep.xs=linspace(0.2,4,3000)")
+        result = subprocess.run(self.command(*words), capture_output=True, text=True, timeout=300,
+                                preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_AS, (2**29, 2**29)))
+        self.assertEqual(result.returncode, 2, result.stderr)
+        self.assertIn("don't fit into memory", result.stderr)
+        self.assertEqual(self.files(), ["a.toml"])
+
+    def test_a_sweep_that_no_machine_holds_is_refused_with_the_numbers(self):
+        words = ("--set", "sweep.nu=linspace(0.5,1.5,1000)", "--set", "sweep.xs=linspace(0.2,4,1000)", "--set", "observe.trajectory=1000000")
+        result = self.run_command(*words)
+        self.assertEqual(result.returncode, 2, result.stderr)
+        self.assertRegex(result.stderr, r"the results of 1000000 points, .* take \S+ TiB, this machine has \S+ [GT]iB; .*--shard")
+        plan = subprocess.run([CLATTER, "plan", self.config, *words], capture_output=True, text=True)
+        self.assertIn("TiB", plan.stdout)
+        self.assertEqual(self.files(), ["a.toml"])
+
+    def test_a_merge_on_a_full_disk_leaves_the_shards_and_no_output(self):
+        for number in range(2):
+            self.assertEqual(self.run_command("--shard", f"{number}/2", output=self.directory / f"{number}.h5").returncode, 0)
+        before = self.files()
+        command = [CLATTER, "merge", "-o", self.output, self.directory / "0.h5", self.directory / "1.h5"]
+        for size in (0, 1000, len(self.whole) - 1):
+            result = subprocess.run(command, capture_output=True, text=True,
+                                    preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (size, size)))
+            self.assertEqual(result.returncode, 74)
+            self.assertEqual(self.files(), before)
+        self.assertEqual(subprocess.run(command, capture_output=True).returncode, 0)
+        self.assertEqual(self.output.read_bytes(), self.whole)
+
+
+if __name__ == "__main__":
+    unittest.main()
