@@ -1,4 +1,4 @@
-# Sourced by reproduce.sh, test.sh, bench.sh and regress.sh: the Debian 12 packages that they need, and how the missing ones are installed.
+# Sourced by the scripts that need them: the Debian 12 packages for each purpose, and how the missing ones are installed.
 # shellcheck shell=bash disable=SC2034  # its lists are used by those who source it
 
 # libgtest-dev is among the build's, since the preset configures the tests too: one configuration for both scripts.
@@ -7,6 +7,7 @@ BUILD_PACKAGES=(g++ cmake ninja-build pkg-config libhdf5-dev libboost-program-op
 PLOT_PACKAGES=(python3 python3-h5py python3-numpy python3-matplotlib)
 TEST_PACKAGES=(python3-xarray python3-h5netcdf python3-netcdf4 netcdf-bin hdf5-tools)
 BENCH_PACKAGES=(libbenchmark-dev libsundials-dev python3)
+SLURM_PACKAGES=(slurm-wlm munge)
 
 is_installed() {
   [[ $(dpkg-query -W -f='${db:Status-Status}' "$1" 2>/dev/null) == installed ]]
