@@ -29,12 +29,6 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t shown = 5;  ///< lines of a long list
 
-/// Instruction sets of one width of rounding give the same bits.
-bool same_bits(const std::string& one, const std::string& other) {
-  const auto fused = [](const std::string& name) { return name == "avx2" || name == "avx512"; };
-  return one == other || (fused(one) && fused(other));
-}
-
 [[noreturn]] void refuse_pair(const ShardHead& one, const ShardHead& other, const std::string& what,
                               const std::string& way_out) {
   throw IoError("'" + other.path + "' and '" + one.path + "' " + what + "; " + way_out);
@@ -58,7 +52,7 @@ void check_origins(const std::vector<ShardHead>& heads) {
     if (head.schema != first.schema || head.version != first.version || head.git_commit != first.git_commit ||
         head.compiler != first.compiler)
       refuse_pair(first, head, "were written by different builds of clatter", "run all shards with one program");
-    if (!same_bits(head.instruction_set, first.instruction_set))
+    if (head.instruction_set != first.instruction_set)
       refuse_pair(first, head,
                   "were computed with different instruction sets (" + head.instruction_set + ", " +
                       first.instruction_set + "), which round differently",

@@ -113,7 +113,7 @@ int run_config(const Arguments& arguments) {
   Journal journal(output,
                   {.config = config.text,
                    .program = std::string(version()).append(" ").append(git_commit()),
-                   .arch = std::string(name_of(arch)),
+                   .arch = std::string(rounding_of(arch)),
                    .shard = shard ? text_of(*shard) : ""},
                   begin, [&](std::span<const std::byte> results) {
                     if (!sweep.restore(results))

@@ -22,7 +22,7 @@ class BusyError : public std::runtime_error {
 struct JournalKey {
   std::string config;   ///< the complete configuration, as TOML
   std::string program;  ///< its version
-  std::string arch;     ///< the instruction set, on which the last bits depend
+  std::string arch;     ///< the instruction sets that give its bits (`rounding_of`)
   std::string shard;    ///< "K/N"; empty: the whole sweep
 
   bool operator==(const JournalKey&) const = default;

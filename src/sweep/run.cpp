@@ -303,7 +303,8 @@ RunResult SweepRun::result() {
   result_.failed_points = columns_.failed_points();
   result_.figure = columns_.figure();
   if (shard_)
-    result_.figure.attributes = {{"shard", text_of(*shard_)}, {"instruction_set", std::string(name_of(result_.arch))}};
+    result_.figure.attributes = {{"shard", text_of(*shard_)},
+                                 {"instruction_set", std::string(rounding_of(result_.arch))}};
   return std::move(result_);
 }
 
