@@ -13,7 +13,7 @@ class WrongCommandLines(CommandLine):
         cases = [
             ([], "no command; see `clatter --help`"),
             (["rnu", config], "unknown command 'rnu'; did you mean 'run'?"),
-            (["frobnicate"], "the commands are: run, plan, accuracy, info, defaults, help"),
+            (["frobnicate"], "the commands are: run, plan, accuracy, merge, info, defaults, help"),
             (["--verbose"], "unknown option '--verbose' before the command"),
             (["run"], "CONFIG is missing; write: clatter run CONFIG"),
             (["run", config, config], "unexpected argument 'a.toml'"),
