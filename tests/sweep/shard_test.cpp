@@ -87,7 +87,7 @@ TEST(Shard, figures_make_that_of_the_whole_sweep_bit_for_bit) {
   for (const auto& follow : every_follow) {
     const Sweep sweep = any_sweep(follow);
     const Figure whole = run(sweep, {.threads = 1}).figure;
-    for (const std::size_t of : {1, 2, 3, 7, 40}) {
+    for (const std::size_t of : {1U, 2U, 3U, 7U, 40U}) {
       Columns columns(sweep);
       for (std::size_t number = of; number-- > 0;) {
         Figure part = shard_figure(sweep, {number, of}, {.threads = static_cast<int>(1 + number % 3)});
