@@ -71,8 +71,8 @@ std::string arange(const Arguments& arguments, std::vector<double>& values) {
     return "an empty axis: no value from " + number_text(a) + " to " + number_text(b) +
            ", which is excluded, in steps of " + number_text(step);
   if (std::string mistake = wrong_count(count); !mistake.empty()) return mistake;
-  values.resize(static_cast<std::size_t>(count));
-  for (std::size_t i = 0; i < values.size(); ++i) values[i] = a + static_cast<double>(i) * step;
+  values.resize(static_cast<std::size_t>(count), a);  // a itself: -0 plus 0 would lose its sign
+  for (std::size_t i = 1; i < values.size(); ++i) values[i] = a + static_cast<double>(i) * step;
   return {};
 }
 

@@ -4,15 +4,17 @@
 #include <array>
 #include <cerrno>
 #include <cstring>
-#include <new>
 #include <sstream>
 #include <stdexcept>
+#include <utility>
 
 #include "io/error.hpp"
 #include "io/figure_file.hpp"
+#include "io/guarded.hpp"
 #include "io/hdf5_attributes.hpp"
 #include "io/hdf5_handle.hpp"
 #include "io/hdf5_soundness.hpp"
+#include "io/summary_bytes.hpp"
 
 namespace clatter {
 namespace {
@@ -29,16 +31,16 @@ using hdf5::text_attribute;
   refuse(path, "cannot be read: " + why, "if it is damaged, run its configuration again");
 }
 
-/// Says in plain words what HDF5 would call "unable to open file".
-void require_regular_file(const std::string& path) {
+/// The size of a file; says in plain words what HDF5 would call "unable to open file".
+std::uint64_t size_of(const std::string& path) {
   struct stat status {};
   if (::stat(path.c_str(), &status) != 0) refuse(path, std::strerror(errno), "check the name");
   if (S_ISDIR(status.st_mode)) refuse(path, "is a directory", "name a file in it");
   if (!S_ISREG(status.st_mode)) refuse(path, "is not a regular file", "name an output of clatter");
+  return static_cast<std::uint64_t>(status.st_size);
 }
 
 Handle open(const std::string& path) {
-  require_regular_file(path);
   const htri_t is_hdf5 = H5Fis_hdf5(path.c_str());
   if (is_hdf5 == 0) refuse(path, "is not an HDF5 file", "name an output of clatter");
   if (is_hdf5 < 0) throw hdf5::Failure{};
@@ -169,17 +171,25 @@ FileSummary summary_of(const Handle& file, const std::string& path) {
   return summary;
 }
 
-}  // namespace
-
-FileSummary read_summary(const std::string& path) try {
+/// Reads with the library, whatever may come of it.
+FileSummary unguarded_summary(const std::string& path) try {
   const hdf5::QuietErrors quiet;
   return summary_of(open(path), path);
 } catch (const hdf5::Failure& failure) {
   refuse_damaged(path, failure.what());
-} catch (const std::bad_alloc&) {
-  refuse_damaged(path, "it asks for more memory than there is");
 } catch (const std::length_error&) {
   refuse_damaged(path, "it holds an impossible length");
+}
+
+}  // namespace
+
+FileSummary read_summary(const std::string& path) try {
+  const GuardLimits limits = limits_for(size_of(path));
+  auto summary = summary_from(guarded([&] { return bytes_of(unguarded_summary(path)); }, limits));
+  if (!summary) refuse_damaged(path, "it disturbs the memory of the HDF5 library");
+  return std::move(*summary);
+} catch (const GuardedDeath& death) {
+  refuse_damaged(path, death.what());
 }
 
 }  // namespace clatter

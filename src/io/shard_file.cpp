@@ -3,11 +3,13 @@
 #include <hdf5_hl.h>
 
 #include <cstdint>
-#include <new>
+#include <exception>
+#include <filesystem>
 #include <optional>
 #include <vector>
 
 #include "io/error.hpp"
+#include "io/guarded.hpp"
 #include "io/hdf5_attributes.hpp"
 #include "io/hdf5_handle.hpp"
 #include "io/seal.hpp"
@@ -19,6 +21,10 @@ using hdf5::checked;
 using hdf5::Handle;
 using hdf5::text_attribute;
 
+[[noreturn]] void refuse(const std::string& path, const std::string& why) {
+  throw IoError("'" + path + "' cannot be read: " + why + "; run its shard again");
+}
+
 /// Passes on what a function of an open file gives; whatever stops HDF5 becomes an IoError.
 template <typename Read>
 auto read_file(const std::string& path, Read read) try {
@@ -26,7 +32,7 @@ auto read_file(const std::string& path, Read read) try {
   const Handle file{H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose};
   return read(file);
 } catch (const hdf5::Failure& failure) {
-  throw IoError("'" + path + "' cannot be read: " + failure.what() + "; run its shard again");
+  refuse(path, failure.what());
 }
 
 Handle dataset_in(const Handle& file, const std::string& name) {
@@ -59,16 +65,11 @@ herr_t add_variable(hid_t file, const char* name, const H5L_info_t*, void* figur
   if (length_of(dataset) > 0 && H5Dget_storage_size(dataset) == 0) return 0;  // a dimension's name alone
   static_cast<Figure*>(figure)->variables.push_back({name, {}, column_of(dataset), "", ""});
   return 0;
-} catch (const hdf5::Failure&) {
-  return -1;
-} catch (const std::bad_alloc&) {
+} catch (const std::exception&) {  // the library, which calls this, isn't made for them
   return -1;
 }
 
-}  // namespace
-
-ShardHead read_shard_head(const std::string& path) {
-  require_sealed(path);
+ShardHead head_of(const std::string& path) {
   return read_file(path, [&](const Handle& file) {
     const std::optional<Shard> shard = shard_named(text_attribute(file, "shard"));
     if (!shard) throw hdf5::Failure("it doesn't say which shard it is");
@@ -85,6 +86,22 @@ ShardHead read_shard_head(const std::string& path) {
       head.impacts = length_of(dataset_in(file, "impact_tau"));
     return head;
   });
+}
+
+}  // namespace
+
+/// A child process reads all of it first: the seal tells damage, but a file may be anyone's.
+ShardHead read_shard_head(const std::string& path) try {
+  require_sealed(path);
+  (void)guarded(
+      [&] {
+        (void)head_of(path), (void)read_shard(path);
+        return std::string();
+      },
+      limits_for(std::filesystem::file_size(path)));
+  return head_of(path);
+} catch (const GuardedDeath& death) {
+  refuse(path, death.what());
 }
 
 Figure read_shard(const std::string& path) {

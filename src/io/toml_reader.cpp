@@ -83,6 +83,16 @@ std::string way_out(std::string_view description) {
   return "; a line is KEY = VALUE, and texts and expressions stand in quotes: nu = \"linspace(0.5, 1.5, 501)\"";
 }
 
+/// toml++ counts the end of the text on from the end of a line that is over: goes back to what is there.
+Place within(Place place, std::string_view text) {
+  const Place end = place_of(place.source, text, text.size());
+  if (place.line >= end.line) return {end.source, end.line, std::min(place.column, end.column)};
+  std::size_t begin = 0;
+  for (int line = 1; line < place.line; ++line) begin = text.find('\n', begin) + 1;
+  place.column = std::min(place.column, 1 + characters(text.substr(begin, text.find('\n', begin) - begin)));
+  return place;
+}
+
 /// toml++ reports a repeated key and a number beyond all bounds at their end: goes back to their first character.
 Place start_of_token(Place place, std::string_view text, std::string_view description) {
   const bool at_end = description.find("redefine") != std::string_view::npos ||
@@ -115,7 +125,7 @@ toml::table parse(const std::string& file, std::string_view text) {
   try {
     return toml::parse(text, std::string_view(file));
   } catch (const toml::parse_error& error) {
-    const Place place = place_at(file, error.source().begin);
+    const Place place = within(place_at(file, error.source().begin), text);
     fail(start_of_token(place, text, error.description()),
          corrected(std::string(error.description())) + way_out(error.description()));
   }

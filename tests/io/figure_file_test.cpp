@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <optional>
@@ -13,6 +14,7 @@
 #include <utility>
 
 #include "io/error.hpp"
+#include "support/lookup3.hpp"
 
 namespace clatter {
 namespace {
@@ -216,16 +218,30 @@ TEST_F(FigureFile, a_truncated_file_is_refused_at_every_length) {
 
 TEST_F(FigureFile, a_damaged_file_is_read_or_refused_but_ends_no_process_and_holds_none_up) {
   const std::vector<std::byte> whole = bytes_of(sweep(5, 7), configuration());
-  const auto read_all = [&] {
-    ::alarm(60);  // s; all of them take less than one
-    for (std::size_t place = 0; place + 64 < whole.size(); place += 64) {
-      std::vector<std::byte> damaged = whole;
-      std::fill_n(damaged.begin() + static_cast<std::ptrdiff_t>(place), 64, std::byte{0});
-      static_cast<void>(refusal(write("damaged.h5", damaged)));
-    }
-    ::_exit(0);  // past the leak checker: HDF5 leaks what it has read of a damaged file
-  };
-  EXPECT_EXIT(read_all(), testing::ExitedWithCode(0), "");
+  for (std::size_t place = 0; place + 64 < whole.size(); place += 64) {
+    std::vector<std::byte> damaged = whole;
+    std::fill_n(damaged.begin() + static_cast<std::ptrdiff_t>(place), 64, std::byte{0});
+    static_cast<void>(refusal(write("damaged.h5", damaged)));
+  }
+}
+
+// HDF5 1.10 divides by the length of a record, here 0: whoever damages a file on purpose sets its checksums right.
+TEST_F(FigureFile, a_file_that_makes_the_library_crash_is_refused) {
+  std::vector<std::byte> damaged = bytes_of(sweep(5, 7), configuration());
+  const auto signature = std::as_bytes(std::span{std::string_view{"BTHD"}});
+  const auto found = std::search(damaged.begin(), damaged.end(), signature.begin(), signature.end());
+  ASSERT_NE(found, damaged.end());
+  constexpr std::size_t record_length = 10, checksum = 34;  // HDF5 file format, III.A.2 "Version 2 B-trees", header
+  const std::span<std::byte> tree(found, checksum + 4);
+  const auto sum = [&] { return lookup3({reinterpret_cast<const std::uint8_t*>(tree.data()), checksum}); };
+  std::uint32_t stored = 0;
+  std::memcpy(&stored, &tree[checksum], sizeof stored);
+  ASSERT_EQ(stored, sum());
+  std::fill_n(&tree[record_length], 2, std::byte{0});
+  stored = sum();
+  std::memcpy(&tree[checksum], &stored, sizeof stored);
+  const std::string why = refusal(write("damaged.h5", damaged));
+  EXPECT_NE(why.find("it makes the HDF5 library"), std::string::npos) << why;
 }
 
 }  // namespace

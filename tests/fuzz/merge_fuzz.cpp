@@ -1,0 +1,15 @@
+// `clatter merge` on files that were sealed with their damage: any other damage the seal tells.
+#include <string>
+
+#include "hdf5_target.hpp"
+#include "io/seal.hpp"
+#include "io/shard_file.hpp"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace clatter;
+  const std::string bytes(reinterpret_cast<const char*>(data), size);
+  const std::string sealed = bytes + seal_of(std::as_bytes(std::span(bytes)));
+  fuzz::check_reading({reinterpret_cast<const std::uint8_t*>(sealed.data()), sealed.size()},
+                      [](const std::string& path) { (void)read_shard_head(path); });
+  return 0;
+}

@@ -1,0 +1,92 @@
+// The grammar of values: numbers and axes.
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "finding.hpp"
+#include "io/config.hpp"
+#include "io/value_grammar.hpp"
+
+namespace clatter::fuzz {
+namespace {
+
+SourceText source(std::string_view text) { return {text, {"input", 1, 1}, true}; }
+
+bool same_bits(double left, double right) {
+  return std::bit_cast<std::uint64_t>(left) == std::bit_cast<std::uint64_t>(right) ||
+         (std::isnan(left) && std::isnan(right));  // of which there is one text
+}
+
+void check_number(std::string_view text) {
+  const double value = parse_number(source(text));
+  for (const std::string& again : {number_text(value), toml_number(value)})
+    require(same_bits(parse_number(source(again)), value), again + " is another number than it was made from");
+}
+
+/// Values between two ends, apart from rounding.
+void require_between(std::span<const double> values, double one, double other) {
+  const double slack = 4 * std::numeric_limits<double>::epsilon() * std::max(std::abs(one), std::abs(other)) +
+                       std::numeric_limits<double>::denorm_min();
+  for (const double value : values)
+    require(value >= std::min(one, other) - slack && value <= std::max(one, other) + slack,
+            "a value beyond the ends: " + number_text(value));
+}
+
+/// What a function promises, by its own text: "linspace(a, b, n)".
+void check_function(const AxisValues& axis) {
+  const std::string_view call = std::string_view(axis.text).substr(1, axis.text.size() - 2);
+  std::array<double, 3> arguments{};
+  std::size_t begin = call.find('(') + 1;
+  for (double& argument : arguments) {
+    const std::size_t end = call.find_first_of(",)", begin);
+    argument = parse_number(source(call.substr(begin, end - begin)));
+    begin = end + 1;
+  }
+  const auto [a, b, last] = arguments;
+  require(axis.places.empty(), "places of values that were not written one by one");
+  require(same_bits(axis.values.front(), a), "an axis that doesn't begin with a");
+  require_between(axis.values, a, b);
+  if (call.starts_with("arange")) {
+    const double steps = (b - a) / last;
+    require(std::abs(static_cast<double>(axis.values.size()) - steps) <= 1 + 1e-9 * steps, "not as many steps as fit");
+  } else {
+    require(static_cast<double>(axis.values.size()) == last, "not n values");
+    require(axis.values.size() == 1 || same_bits(axis.values.back(), b), "an axis that doesn't end with b");
+  }
+}
+
+void check_axis(std::string_view text) {
+  const AxisValues axis = parse_axis(source(text));
+  require(!axis.values.empty(), "an axis without values");
+  const bool is_function = axis.text.starts_with('"');
+  if (is_function) {
+    require(static_cast<double>(axis.values.size()) <= max_axis_values, "more values than permitted");
+    check_function(axis);
+  } else {
+    require(axis.places.size() == axis.values.size(), "values of a list without places");
+  }
+  std::string_view again = axis.text;
+  if (is_function) again = again.substr(1, again.size() - 2);
+  const AxisValues second = parse_axis(source(again));
+  require(std::ranges::equal(axis.values, second.values, same_bits), "other values from the text: " + axis.text);
+  require(axis.text == second.text, axis.text + " gives " + second.text);
+}
+
+}  // namespace
+}  // namespace clatter::fuzz
+
+/// The first byte says what the rest is read as.
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) try {
+  if (size == 0) return 0;
+  const std::string_view text(reinterpret_cast<const char*>(data + 1), size - 1);
+  (data[0] & 1U) == 0 ? clatter::fuzz::check_number(text) : clatter::fuzz::check_axis(text);
+  return 0;
+} catch (const clatter::ConfigError&) {
+  return 0;
+}

@@ -1,0 +1,97 @@
+#include "io/guarded.hpp"
+
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <cerrno>
+#include <csignal>
+#include <cstdlib>
+#include <new>
+#include <stdexcept>
+#include <string>
+
+#include "io/error.hpp"
+#include "io/summary_bytes.hpp"
+
+namespace clatter {
+namespace {
+
+/// How a child dies that does this.
+std::string death_of(const std::function<std::string()>& work, const GuardLimits& limits = {}) {
+  try {
+    (void)guarded(work, limits);
+    return "";
+  } catch (const GuardedDeath& death) {
+    return death.what();
+  }
+}
+
+bool has_no_child() { return ::waitpid(-1, nullptr, WNOHANG) == -1 && errno == ECHILD; }
+
+TEST(Guarded, gives_what_the_work_returns) {
+  EXPECT_EQ(guarded([] { return std::string(); }, {}), "");
+  const std::string large(30'000'000, 'x');  // more than a pipe holds
+  EXPECT_TRUE(guarded([&] { return large + std::string("\0y", 2); }, {}) == large + std::string("\0y", 2));
+  EXPECT_TRUE(has_no_child());
+}
+
+TEST(Guarded, leaves_this_process_as_it_is) {
+  int changed = 0;
+  (void)guarded([&] { return std::to_string(++changed); }, {});
+  EXPECT_EQ(changed, 0);
+}
+
+TEST(Guarded, passes_errors_on) {
+  EXPECT_THROW((void)guarded([]() -> std::string { throw IoError("no such file"); }, {}), IoError);
+  EXPECT_THROW((void)guarded([]() -> std::string { throw std::out_of_range("a bug"); }, {}), std::logic_error);
+  EXPECT_NE(death_of([]() -> std::string { throw std::bad_alloc(); }).find("memory"), std::string::npos);
+  EXPECT_TRUE(has_no_child());
+}
+
+TEST(Guarded, outlives_the_work) {
+  EXPECT_NE(death_of([]() -> std::string { std::abort(); }).find("crash (SIGABRT)"), std::string::npos);
+  EXPECT_NE(death_of([]() -> std::string { ::_exit(0); }), "");
+  EXPECT_NE(death_of([]() -> std::string { ::kill(::getpid(), SIGKILL), std::abort(); }).find("killed"),
+            std::string::npos);
+  EXPECT_TRUE(has_no_child());
+}
+
+TEST(Guarded, ends_what_has_no_end) {
+  const auto endless = []() -> std::string {
+    for (std::atomic<int> turn = 0;;) ++turn;
+  };
+  EXPECT_NE(death_of(endless, {.seconds = 1}).find("no end"), std::string::npos);
+  EXPECT_TRUE(has_no_child());
+}
+
+TEST(Guarded, keeps_to_its_memory) {
+  EXPECT_NE(death_of([] { return std::string(100'000'000, 'x'); }, {.memory = 10'000'000}), "");
+  EXPECT_EQ(guarded([] { return std::string(1'000'000, 'x'); }, {.memory = 10'000'000}).size(), 1'000'000U);
+}
+
+TEST(Guarded, works_where_nobody_asks_for_ended_children) {
+  const auto before = std::signal(SIGCHLD, SIG_IGN);
+  EXPECT_EQ(guarded([] { return std::string("done"); }, {}), "done");
+  EXPECT_NE(death_of([]() -> std::string { std::abort(); }), "");
+  std::signal(SIGCHLD, before);
+}
+
+TEST(SummaryBytes, give_the_summary_again_and_nothing_where_some_are_missing) {
+  const FileSummary summary{{{"title", "Größe"}, {"config", std::string(5000, '#')}},
+                            {{"x", "float64", "1", "displacement", {{"nu", 5}, {"sample", 7}}}},
+                            {{"periodic", 4}, {"aperiodic", std::size_t{1} << 40U}}};
+  const std::string bytes = bytes_of(summary);
+  const auto again = summary_from(bytes);
+  ASSERT_TRUE(again);
+  EXPECT_EQ(again->attributes, summary.attributes);
+  EXPECT_EQ(again->status_counts, summary.status_counts);
+  EXPECT_EQ(again->variables.at(0).long_name, "displacement");
+  EXPECT_EQ(again->variables.at(0).dimensions.at(1).length, 7U);
+  for (std::size_t length = 0; length < bytes.size(); ++length) EXPECT_FALSE(summary_from(bytes.substr(0, length)));
+  EXPECT_FALSE(summary_from(bytes + '\0'));
+}
+
+}  // namespace
+}  // namespace clatter
