@@ -33,6 +33,8 @@ class Output:
     def __init__(self, path):
         self.path = path
         with open_clatter(path) as file:
+            if "shard" in file.attrs:
+                raise FileProblem(f"{path}: shard {text(file.attrs['shard'])} of a sweep; join all with 'clatter merge' first")
             self.title = text(file.attrs.get("title", ""))
             self.source = text(file.attrs.get("source", ""))
             self.config = tomllib.loads(text(file.attrs["config"]))

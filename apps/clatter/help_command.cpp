@@ -9,12 +9,14 @@ namespace clatter {
 namespace {
 
 constexpr std::string_view exit_codes = R"(Exit codes
-  0   done
-  1   done, but some points failed; their status says why
-  2   wrong command line or configuration
-  70  a bug in clatter
-  74  a file cannot be read or written
-  130, 143  stopped by SIGINT, SIGTERM
+  0    done
+  1    done, but some points failed; their status says why
+  2    wrong command line or configuration
+  70   a bug in clatter
+  74   a file cannot be read or written
+  75   another run is writing the output
+  124  --max-time is over
+  130  stopped by SIGINT; 143: by SIGTERM
 )";
 
 /// Two columns: words, and what they mean.

@@ -43,6 +43,11 @@ Keeper::Keeper(Journal& journal, std::function<void()> save, std::optional<Secon
 }
 
 Keeper::~Keeper() {
+  {
+    const std::lock_guard lock(saving_);
+    if (!finishing_) save_if_possible();
+    finishing_ = true;
+  }
   for (const int number : {SIGINT, SIGTERM})
     if (std::signal(number, SIG_DFL) == SIG_IGN) std::signal(number, SIG_IGN);
   (void)!::write(ends_[1], &over, 1);
@@ -65,24 +70,50 @@ char Keeper::wait() const {
   }
 }
 
+void Keeper::finish() {
+  const std::lock_guard lock(saving_);
+  if (journal_.has_records()) save_if_possible();
+  finishing_ = true;
+}
+
 void Keeper::keep() {
   for (;;) {
     const char came = wait();
     if (came == over) return;
-    try {
-      save_();
-    } catch (const std::exception& error) {
-      leave(io_error, std::string(error.what()).append("\nclatter: stopped"));
+    const std::lock_guard lock(saving_);
+    if (finishing_) {
+      end_.reset();
+      if (came == SIGINT || came == SIGTERM)
+        std::cerr << "\nclatter: the output is being written; once more stops at once\n";
+    } else if (came == SIGINT) {
+      stop(128 + SIGINT, "interrupted");
+    } else if (came == SIGTERM) {
+      stop(128 + SIGTERM, "terminated");
+    } else if (came == SIGALRM) {
+      stop(timed_out, "--max-time is over");
+    } else {
+      save();
     }
-    if (came == SIGINT) leave(128 + SIGINT, "interrupted");
-    if (came == SIGTERM) leave(128 + SIGTERM, "terminated");
-    if (came == SIGALRM) leave(timed_out, "--max-time is over");
   }
 }
 
-void Keeper::leave(int code, const std::string& why) {
-  const std::string saved = journal_.leave();
-  std::cerr << "\nclatter: " << why << "; " << saved << std::endl;
+/// Where points can't be kept, the run isn't worth going on with.
+void Keeper::save() try { save_(); } catch (const std::exception& error) {
+  std::cerr << "\nclatter: " << error.what() << "\nclatter: stopped; " << journal_.leave() << std::endl;
+  ::_exit(io_error);
+}
+
+void Keeper::save_if_possible() {
+  try {
+    save_();
+  } catch (const std::exception&) {  // what comes next tells more
+  }
+}
+
+void Keeper::stop(int code, const std::string& why) {
+  std::cerr << "\nclatter: " << why << "; saves what is finished" << std::endl;
+  save();
+  std::cerr << "clatter: " << journal_.leave() << std::endl;
   ::_exit(code);
 }
 

@@ -2,16 +2,18 @@
 
 #include <chrono>
 #include <functional>
+#include <mutex>
 #include <optional>
+#include <string>
 #include <thread>
 
 #include "io/journal.hpp"
 
 namespace clatter {
 
-/// Saves a run's finished points once a second, and where the run has to stop, on SIGINT, SIGTERM or at the end of its
-/// time, ends the process after it: with 130, 143, 124; with 74 where they can't be saved. A second signal ends it at
-/// once.
+/// Saves a run's finished points once a second. Where the run has to stop, on SIGINT, SIGTERM or at the end of its
+/// time, says so, saves, and ends the process: with 130, 143, 124; with 74 where they can't be saved. A second signal
+/// ends it at once.
 class Keeper {
  public:
   using Seconds = std::chrono::duration<double>;
@@ -19,21 +21,29 @@ class Keeper {
   /// `save` writes what was finished since the last time into the journal. Stops the run after `longest`, if that is
   /// given. There may be one keeper at a time.
   Keeper(Journal& journal, std::function<void()> save, std::optional<Seconds> longest);
-  /// The run is over: signals act as by default again.
+  /// Without `finish` before it, the run has failed: saves what it can.
   ~Keeper();
   Keeper(const Keeper&) = delete;
   Keeper& operator=(const Keeper&) = delete;
+
+  /// All points are finished. Saves them, where it can and a journal was begun, should the output find no room; that is
+  /// written next, and a first signal doesn't stop it.
+  void finish();
 
  private:
   using Clock = std::chrono::steady_clock;
 
   void keep();
+  void save();
+  void save_if_possible();
   [[nodiscard]] char wait() const;
-  [[noreturn]] void leave(int code, const std::string& why);
+  [[noreturn]] void stop(int code, const std::string& why);
 
   Journal& journal_;
   std::function<void()> save_;
   std::optional<Clock::time_point> end_;
+  std::mutex saving_;
+  bool finishing_ = false;
   int ends_[2];  ///< of a pipe: signals and the end of the run go into the second
   std::thread thread_;
 };

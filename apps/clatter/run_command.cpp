@@ -70,27 +70,17 @@ std::optional<Keeper::Seconds> longest_of(const Arguments& arguments) {
   return Keeper::Seconds(seconds);
 }
 
-/// Runs what the journal doesn't hold yet, and keeps it there.
-void run_and_keep(SweepRun& sweep, Journal& journal, std::optional<Keeper::Seconds> longest,
-                  const RunOptions& options) {
-  const auto save = [&] {
-    sweep.save([&](std::span<const std::byte> results) { journal.append(results); });
-    journal.sync();
-  };
-  const auto save_if_possible = [&] {
-    try {
-      save();
-    } catch (const IoError&) {  // the run's own end tells more
-    }
-  };
-  try {
-    const Keeper keeper(journal, save, longest);
-    sweep.run(options);
-  } catch (...) {
-    save_if_possible();
-    throw;
-  }
-  if (journal.has_records()) save_if_possible();  // should the output find no room
+JournalKey key_of(const Config& config, Arch arch, const std::optional<Shard>& shard) {
+  return {.config = config.text,
+          .program = std::string(version()).append(" ").append(git_commit()),
+          .arch = std::string(rounding_of(arch)),
+          .shard = shard ? text_of(*shard) : ""};
+}
+
+void run_points(SweepRun& sweep, RunOptions options, bool shown) {
+  const Progress progress(shown);
+  if (shown) options.progress = [&](std::size_t finished, std::size_t total) { progress.show(finished, total); };
+  sweep.run(options);
 }
 
 int run_config(const Arguments& arguments) {
@@ -109,24 +99,22 @@ int run_config(const Arguments& arguments) {
   check_writable(output);
   check_memory(config.sweep, shard);
   if (arguments.has("verbose")) std::cerr << plan_text(plan_of(config.sweep, threads), config.sweep, threads);
+
   SweepRun sweep(config.sweep, shard);
-  Journal journal(output,
-                  {.config = config.text,
-                   .program = std::string(version()).append(" ").append(git_commit()),
-                   .arch = std::string(rounding_of(arch)),
-                   .shard = shard ? text_of(*shard) : ""},
-                  begin, [&](std::span<const std::byte> results) {
-                    if (!sweep.restore(results))
-                      throw IoError("the journal of '" + output + "' doesn't fit the sweep; --restart begins anew");
-                  });
+  Journal journal(output, key_of(config, arch, shard), begin, [&](std::span<const std::byte> results) {
+    if (!sweep.restore(results))
+      throw IoError("the journal of '" + output + "' doesn't fit the sweep; --restart begins anew");
+  });
   if (sweep.restored_points() > 0 && !arguments.has("quiet"))
     std::cerr << "goes on from " << sweep.restored_points() << " finished points\n";
-  {
-    const Progress progress(shown);
-    RunOptions options{.threads = threads, .arch = arch};
-    if (shown) options.progress = [&](std::size_t finished, std::size_t total) { progress.show(finished, total); };
-    run_and_keep(sweep, journal, longest, options);
-  }
+
+  const auto save = [&] {
+    sweep.save([&](std::span<const std::byte> results) { journal.append(results); });
+    journal.sync();
+  };
+  Keeper keeper(journal, save, longest);
+  run_points(sweep, {.threads = threads, .arch = arch}, shown);
+  keeper.finish();
   RunResult result = sweep.result();
   const std::string summary = summary_line(result, output);
   const auto image = shard ? sealed_image : file_image;

@@ -114,6 +114,15 @@ class Faults(StoppedRuns):
                 self.assertEqual(result.returncode, 0, (call, effect, result.stderr))
                 self.assertEqual(self.output.read_bytes(), self.whole, (call, effect))
 
+    @unittest.skipUnless(SHIM, "calls can't be made to fail under a sanitizer")
+    def test_a_signal_while_the_output_is_written_stops_nothing(self):
+        for call in ("write", "fsync", "rename"):
+            result, happened = self.with_fault(f"{call} 1 TERM")
+            self.assertTrue(happened)
+            self.assertEqual(result.returncode, 0, result.stderr)
+            self.assertEqual(self.output.read_bytes(), self.whole)
+            self.begin_anew()
+
     def limited(self, size, *words):
         return subprocess.run(self.command(*words), capture_output=True, text=True, timeout=300,
                               preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (size, size)))

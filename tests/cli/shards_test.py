@@ -3,9 +3,10 @@
 import os
 import re
 import subprocess
+import sys
 import unittest
 
-from command_line import CLATTER, SMALL
+from command_line import CLATTER, SMALL, SOURCE
 from stopped_runs import StoppedRuns
 
 
@@ -135,6 +136,18 @@ class Shards(StoppedRuns):
         self.assert_refused(74, "no directory", "merge", "-o", "none/a.h5", "whole.h5")
         shard = self.shard(0, 1)
         self.assert_refused(2, "is one of the shards", "merge", "-o", shard.name, shard.name)
+
+    def test_a_shard_opens_like_any_output_and_is_not_drawn(self):
+        self.sweep(nu=4, xs=3)
+        shard = self.shard(1, 2)
+        read = "import h5py, sys; f = h5py.File(sys.argv[1]); print(f.attrs['shard'], list(f['point']), f['x_max'].dims[0].keys())"
+        said = subprocess.run([sys.executable, "-c", read, shard], capture_output=True, text=True)  # h5py here would count as memory of runs
+        self.assertEqual(said.stdout, "1/2 [1, 3, 5, 7, 9, 11] ['point']\n", said.stderr)
+        info = self.clatter("info", shard)
+        self.assertIn("[point = 6]", info.stdout)
+        drawn = subprocess.run([sys.executable, SOURCE / "scripts" / "plot.py", shard], capture_output=True, text=True)
+        self.assertEqual(drawn.returncode, 74)
+        self.assertIn("shard 1/2 of a sweep; join all with 'clatter merge' first", drawn.stderr)
 
     def test_wrong_shares_are_refused(self):
         small = self.write("s.toml", SMALL)
