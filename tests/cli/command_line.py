@@ -10,6 +10,8 @@ import unittest
 CLATTER = os.environ["CLATTER"]
 SOURCE = pathlib.Path(os.environ.get("CLATTER_SOURCE", pathlib.Path(__file__).parents[2]))
 
+SANITIZED = os.environ.get("CLATTER_FAULTS") == ""  # such a program takes other memory, and can't have its calls fail
+
 SMALL = """title = "a small sweep"
 [scene]
 f = -1.0

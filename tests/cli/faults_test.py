@@ -11,7 +11,7 @@ import signal
 import subprocess
 import unittest
 
-from command_line import CLATTER
+from command_line import CLATTER, SANITIZED
 from stopped_runs import StoppedRuns
 
 SHIM = os.environ.get("CLATTER_FAULTS")
@@ -212,6 +212,7 @@ class Faults(StoppedRuns):
         program.unlink()
         self.assertEqual(self.files(), ["a.toml"])
 
+    @unittest.skipIf(SANITIZED, "a sanitizer reserves all addresses")
     def test_memory_that_runs_out_is_an_error_and_leaves_nothing(self):
         words = ("--set", "sweep.nu=linspace(0.5,1.5,3000)", "--set", "sweep.xs=linspace(0.2,4,3000)")
         result = subprocess.run(self.command(*words), capture_output=True, text=True, timeout=300,

@@ -32,9 +32,9 @@ class Resume(StoppedRuns):
             self.output.unlink()
 
     def test_killed_at_random_moments_it_loses_nothing_that_was_saved(self):
-        """CLATTER_KILLS: rounds, each from an empty directory to the output (scripts/long_checks.sh kills)."""
+        """CLATTER_KILLS: how many (scripts/long_checks.sh kills)."""
         self.sweep(nu=200, xs=50)
-        self.killed(self.undisturbed(), rounds=int(os.environ.get("CLATTER_KILLS", "4")), seed=8)
+        self.killed(self.undisturbed(), kills=int(os.environ.get("CLATTER_KILLS", "100")), seed=8)
 
     def test_points_are_saved_about_once_a_second_while_it_runs(self):
         self.sweep(nu=400, xs=200)

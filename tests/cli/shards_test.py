@@ -6,7 +6,7 @@ import subprocess
 import sys
 import unittest
 
-from command_line import CLATTER, SMALL, SOURCE
+from command_line import CLATTER, SANITIZED, SMALL, SOURCE
 from stopped_runs import StoppedRuns
 
 
@@ -162,6 +162,7 @@ class Shards(StoppedRuns):
         self.assertEqual(result.returncode, 1, result.stderr)
         self.assertIn("5 failed", result.stderr)
 
+    @unittest.skipIf(SANITIZED, "a sanitizer takes memory of its own")
     def test_memory_is_that_of_the_share_and_for_a_merge_what_it_says(self):
         self.config = self.directory / self.write("a.toml", SMALL.replace("xs = -4.0", "xs = 400.0").replace("1.5, 5)", "1.5, 300000)"))
         base = peak_bytes([CLATTER, "--version"])

@@ -98,16 +98,17 @@ class StoppedRuns(CommandLine):
         self.assertEqual(self.files(), ["a.h5", "a.toml"])
         return self.output.read_bytes(), result.stderr
 
-    def killed(self, whole, rounds, seed):
-        """Kills runs at random moments until one ends, so many times; returns how often one went on from a journal."""
-        moments, resumed = random.Random(seed), 0
-        for _ in range(rounds):
+    def killed(self, whole, kills, seed):
+        """Kills so many runs at random moments, each sweep again and again until it is done; returns how often one went on from a journal."""
+        moments, done, resumed = random.Random(seed), 0, 0
+        while done < kills:
             saved = b""
             for attempt in range(1, 200):
-                code, said = self.stopped(moments.uniform(0, 0.5 * attempt), signal.SIGKILL, threads=moments.choice((1, 2, 3)))
+                code, said = self.stopped(moments.uniform(0, 0.2 * attempt), signal.SIGKILL, threads=moments.choice((1, 2, 3)))
                 resumed += "goes on from" in said
                 if code == 0:
                     break
+                done += 1
                 self.assertEqual(code, -signal.SIGKILL, said)
                 self.assertTrue(not self.output.exists() or self.output.read_bytes() == whole)
                 found = whole_records(self.journal.read_bytes()) if self.journal.exists() else b""
