@@ -145,7 +145,8 @@ TEST(Shard, takes_memory_by_its_points) {
 
 TEST(SavedRun, goes_on_from_whatever_was_saved_to_the_same_bits) {
   for (const auto& follow : {every_follow[0], every_follow[2]}) {
-    const Sweep sweep = any_sweep(follow);
+    Sweep sweep = any_sweep(follow);
+    sweep.dimensions[1][0].values.resize(2);  // every length of what was saved is tried
     const Figure whole = run(sweep, {.threads = 2}).figure;
     SweepRun first(sweep);
     EXPECT_TRUE(saved(first).empty());
@@ -160,7 +161,7 @@ TEST(SavedRun, goes_on_from_whatever_was_saved_to_the_same_bits) {
       const bool fits = again.restore(std::span(all).first(length));
       EXPECT_EQ(fits, length == 0 || again.restored_points() > most || length == all.size()) << length;
       most = std::max(most, again.restored_points());
-      if (!fits || again.restored_points() % 5 != 0) continue;
+      if (!fits || again.restored_points() % 3 != 0) continue;
       const std::size_t restored = again.restored_points();
       again.run({.threads = 3});
       std::size_t left = 0;
