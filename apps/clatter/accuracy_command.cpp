@@ -7,6 +7,7 @@
 #include "config_arguments.hpp"
 #include "interrupt.hpp"
 #include "io/figure_file.hpp"
+#include "io/journal.hpp"
 #include "io/publish.hpp"
 #include "progress.hpp"
 #include "study/study_figure.hpp"
@@ -53,6 +54,7 @@ int run_study(const Arguments& arguments) {
   check_not_config(arguments.operands[0], output);
   check_starts(config, arguments.operands[0]);
   check_writable(output);
+  require_idle(output);
   const Interrupt interrupt;
   const std::vector<PointStudy> points = study_points(config.sweep, arch, arguments.has("json"), shown);
   if (const int signal = Interrupt::signal()) {

@@ -1,10 +1,5 @@
-#include <algorithm>
-#include <cstdint>
 #include <filesystem>
 #include <iostream>
-#include <limits>
-#include <numeric>
-#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -12,143 +7,51 @@
 #include "commands.hpp"
 #include "config_arguments.hpp"
 #include "format.hpp"
-#include "io/config.hpp"
-#include "io/difference.hpp"
 #include "io/error.hpp"
 #include "io/figure_file.hpp"
+#include "io/journal.hpp"
+#include "io/merge.hpp"
 #include "io/publish.hpp"
-#include "io/shard_file.hpp"
-#include "io/version.hpp"
-#include "sweep/columns.hpp"
 #include "sweep/memory.hpp"
 
 namespace clatter {
 namespace {
 
-namespace fs = std::filesystem;
-
-constexpr std::size_t shown = 5;  ///< lines of a long list
-
-[[noreturn]] void refuse_pair(const ShardHead& one, const ShardHead& other, const std::string& what,
-                              const std::string& way_out) {
-  throw IoError("'" + other.path + "' and '" + one.path + "' " + what + "; " + way_out);
-}
-
-/// All shards are of one sweep, and were computed by this very program on one instruction set: else the merged file
-/// would be one that no single run writes.
-void check_origins(const std::vector<ShardHead>& heads) {
-  const ShardHead& first = heads.front();
-  if (first.schema != "clatter/1" || first.version != version() || first.git_commit != git_commit() ||
-      first.compiler != compiler())
-    throw IoError("'" + first.path + "' was written by clatter " + first.version + " (commit " + first.git_commit +
-                  ", " + first.compiler + "), this is " + std::string(version()) + " (commit " +
-                  std::string(git_commit()) + ", " + std::string(compiler()) +
-                  "); merge with the program that ran the shards");
-  for (const ShardHead& head : heads) {
-    if (head.config_sha256 != first.config_sha256 || head.config != first.config)
-      refuse_pair(first, head, "are of different configurations",
-                  "leave out what doesn't belong here:" +
-                      difference({head.path + ": ", head.config}, {first.path + ": ", first.config}));
-    if (head.schema != first.schema || head.version != first.version || head.git_commit != first.git_commit ||
-        head.compiler != first.compiler)
-      refuse_pair(first, head, "were written by different builds of clatter", "run all shards with one program");
-    if (head.instruction_set != first.instruction_set)
-      refuse_pair(first, head,
-                  "were computed with different instruction sets (" + head.instruction_set + ", " +
-                      first.instruction_set + "), which round differently",
-                  "run all shards with one --arch");
-  }
-}
-
-/// Which shards of so many would have the points that nobody has.
-std::string missing_text(const Sweep& sweep, const std::vector<ShardHead>& heads, std::size_t of) {
-  std::vector<char> there(of, 0);
-  for (const ShardHead& head : heads)
-    for (std::size_t number = head.shard.number; number < of; number += head.shard.of) there[number] = 1;
-  std::string text;
-  std::size_t missing = 0;
-  for (std::size_t number = 0; number < of; ++number) {
-    const std::size_t points = Share(sweep, Shard{number, of}).points();
-    if (there[number] != 0 || points == 0 || ++missing > shown) continue;
-    const std::string name = text_of(Shard{number, of});
-    text += (missing > 1 ? "\nshard " : "shard ") + name + ": " + counted(static_cast<double>(points), "point") +
-            " missing: rerun with --shard " + name;
-  }
-  return missing > shown ? text + "\nand " + std::to_string(missing - shown) + " more shards" : text;
-}
-
-/// Every point is there exactly once. Two shards have a branch in common where their numbers agree modulo the greatest
-/// common divisor of their counts.
-void check_points(const Sweep& sweep, const std::vector<ShardHead>& heads) {
-  for (auto one = heads.begin(); one != heads.end(); ++one)
-    for (auto other = heads.begin(); other != one; ++other) {
-      const std::size_t divisor = std::gcd(one->shard.of, other->shard.of);
-      if (one->shard.number % divisor == other->shard.number % divisor)
-        refuse_pair(*other, *one,
-                    "have points in common (shards " + text_of(one->shard) + " and " + text_of(other->shard) + ")",
-                    "leave one of them out");
-    }
-  std::size_t of = 1;
-  for (const ShardHead& head : heads) {
-    of = std::lcm(of, head.shard.of);
-    if (of > Shard::most) throw IoError("the shards are of too many different counts; run all with the same N");
-  }
-  const std::string missing = missing_text(sweep, heads, of);
-  if (!missing.empty()) throw IoError(missing);
-}
-
-/// Bytes that merging takes; throws IoError where this machine hasn't got them.
-double memory_for(const Sweep& sweep, const std::vector<ShardHead>& heads) {
-  std::vector<ShardSize> sizes;
-  for (const ShardHead& head : heads) sizes.push_back({head.shard, head.impacts});
-  const double needed = merge_bytes(sweep, sizes), there = machine_bytes();
-  if (there > 0 && needed > there)
-    throw IoError("merging takes " + bytes_text(needed) + " of memory, this machine has " + bytes_text(there) +
-                  "; merge on a machine that has more");
-  return needed;
-}
-
-std::vector<ShardHead> read_heads(const std::vector<std::string>& paths, const std::string& output) {
-  std::vector<ShardHead> heads;
-  for (const std::string& path : paths) {
+void check_not_shard(const std::vector<std::string>& shards, const std::string& output) {
+  for (const std::string& path : shards) {
     std::error_code error;
-    if (fs::equivalent(path, output, error))
+    if (std::filesystem::equivalent(path, output, error))
       throw UsageError("the output '" + output + "' is one of the shards; name another file with -o");
-    heads.push_back(read_shard_head(path));
   }
-  return heads;
 }
 
-int merge(const Arguments& arguments) {
+void check_memory(double needed) {
+  const double there = machine_bytes();
+  if (there == 0 || needed <= there) return;
+  throw IoError("merging takes " + bytes_text(needed) + " of memory, this machine has " + bytes_text(there) +
+                "; merge on a machine that has more");
+}
+
+int merge_shards(const Arguments& arguments) {
   if (arguments.has("quiet") && arguments.has("verbose"))
     throw UsageError("--quiet beside --verbose; give one of them");
   if (!arguments.has("output")) throw UsageError("no output; name it with -o FILE.h5");
   const std::string output = *arguments.value("output");
   check_writable(output);
-  const std::vector<ShardHead> heads = read_heads(arguments.operands, output);
-  check_origins(heads);
-  const Config config = parse_config(heads.front().config, heads.front().path);
-  check_points(config.sweep, heads);
-  const double memory = memory_for(config.sweep, heads);
+  check_not_shard(arguments.operands, output);
+  require_idle(output);
+  const ShardSet shards = shard_set(arguments.operands);
+  check_memory(shards.bytes);
   if (arguments.has("verbose"))
-    std::cerr << "shards           " << heads.size() << "\ninstruction set  " << heads.front().instruction_set
-              << "\nmemory           " << bytes_text(memory) << '\n';
-  Columns columns(config.sweep);
-  for (const ShardHead& head : heads) {
-    Figure figure = read_shard(head.path);
-    try {
-      columns.take(figure, head.shard);
-    } catch (const std::runtime_error& error) {
-      throw IoError("'" + head.path + "' isn't what a run of its configuration writes: " + error.what() +
-                    "; run shard " + text_of(head.shard) + " again");
-    }
-  }
-  const std::size_t failed = columns.failed_points();
-  publish(output, file_image(columns.figure(), config).bytes);
+    std::cerr << "shards           " << shards.heads.size() << "\ninstruction set  "
+              << shards.heads.front().instruction_set << "\nmemory           " << bytes_text(shards.bytes) << '\n';
+  Merged merged = merge(shards);
+  publish(output, file_image(std::move(merged.figure), shards.config).bytes);
   if (!arguments.has("quiet"))
-    std::cerr << counted(static_cast<double>(size(config.sweep)), "point") << " of "
-              << counted(static_cast<double>(heads.size()), "shard") << ", " << failed << " failed, " << output << '\n';
-  return failed > 0 ? points_failed : done;
+    std::cerr << counted(static_cast<double>(size(shards.config.sweep)), "point") << " of "
+              << counted(static_cast<double>(shards.heads.size()), "shard") << ", " << merged.failed_points
+              << " failed, " << output << '\n';
+  return merged.failed_points > 0 ? points_failed : done;
 }
 
 constexpr std::string_view examples = "  clatter merge -o map_nu_xs.h5 map_nu_xs.*-of-4.h5\n";
@@ -167,7 +70,7 @@ Command merge_command() {
                       {"quiet", 'q', "", "print errors only"},
                       {"verbose", 'v', "", "print the memory that it takes, and with what the shards were computed"},
                       {"help", 'h', "", "print this help"}},
-          .run = merge};
+          .run = merge_shards};
 }
 
 }  // namespace clatter

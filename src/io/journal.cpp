@@ -144,10 +144,22 @@ std::string difference_of(const JournalKey& other, const JournalKey& key) {
   return difference({"its: ", others}, {"this run's: ", ours});
 }
 
+[[noreturn]] void refuse_busy(const fs::path& output) {
+  throw BusyError("'" + output.string() +
+                  "' is being written by another run; wait for its end, or name another output");
+}
+
+fs::path journal_of(const fs::path& output) { return fs::path(output) += ".journal"; }
+
 }  // namespace
 
+void require_idle(const fs::path& output) {
+  const Descriptor file{::open(journal_of(target_of(output)).c_str(), O_RDWR | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK)};
+  if (file.number() >= 0 && ::flock(file.number(), LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) refuse_busy(output);
+}
+
 Journal::Journal(const fs::path& output, JournalKey key, Begin begin, const Take& take)
-    : output_(target_of(output)), path_(fs::path(output_) += ".journal"), key_(std::move(key)) {
+    : output_(target_of(output)), path_(journal_of(output_)), key_(std::move(key)) {
   lock();
   try {
     read(take, begin);
@@ -172,8 +184,7 @@ void Journal::lock() {
       const int error = errno;
       file_ = Descriptor{-1};
       if (error != EWOULDBLOCK) refuse(path_, error);
-      throw BusyError("'" + output_.string() +
-                      "' is being written by another run; wait for its end, or name another output");
+      refuse_busy(output_);
     }
     struct stat opened {
     }, named{};

@@ -18,6 +18,9 @@ class BusyError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// Throws BusyError where a run is writing this output, for what writes it without a journal of its own.
+void require_idle(const std::filesystem::path& output);
+
 /// What has to be the same for a run to go on from a journal.
 struct JournalKey {
   std::string config;   ///< the complete configuration, as TOML

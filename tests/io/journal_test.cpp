@@ -127,6 +127,18 @@ TEST_F(JournalFile, of_two_runs_only_one_has_it) {
   EXPECT_THROW((void)found(), BusyError);
 }
 
+TEST_F(JournalFile, tells_others_that_its_output_is_being_written) {
+  require_idle(output());
+  EXPECT_FALSE(fs::exists(path()));
+  {
+    const Journal journal(output(), key, Journal::Begin::anyhow, [](auto) {});
+    EXPECT_THROW(require_idle(output()), BusyError);
+  }
+  write(three);  // by a run that has ended
+  require_idle(output());
+  EXPECT_EQ(found(), three);
+}
+
 TEST_F(JournalFile, cut_anywhere_gives_its_whole_records) {
   const Records small{"one", "two", "three"};
   write(small);
