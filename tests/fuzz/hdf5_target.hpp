@@ -6,7 +6,6 @@
 #include <fcntl.h>
 #include <pthread.h>
 #include <sanitizer/asan_interface.h>
-#include <sanitizer/common_interface_defs.h>
 #include <sys/mman.h>
 #include <sys/time.h>
 
@@ -47,13 +46,9 @@ inline void keep_report(const char* text) {
   if (report().text.front() == '\0') std::strncpy(report().text.data(), text, report().text.size() - 1);
 }
 
-/// Only the sanitizer for undefined behaviour ends a process without a report to keep.
-inline void before_death() { report().undefined = report().text.front() == '\0'; }
-
 /// In the child: its end is no finding of its own. What takes longer than that is an endless loop for us.
 inline void become_reader() {
   constexpr itimerval soon{{0, 0}, {0, 300'000}};
-  __sanitizer_set_death_callback(before_death);
   __asan_set_error_report_callback(keep_report);
   for (const int number : {SIGABRT, SIGALRM, SIGXCPU}) std::signal(number, SIG_DFL);
   ::setitimer(ITIMER_PROF, &soon, nullptr);
@@ -112,6 +107,9 @@ inline void check_reading(std::span<const std::uint8_t> bytes,
 }
 
 }  // namespace clatter::fuzz
+
+/// Called by the sanitizer for undefined behaviour, which only clatter's code was compiled with.
+extern "C" void __ubsan_on_report() { clatter::fuzz::report().undefined = true; }
 
 extern "C" const char* __asan_default_options() {
   return "detect_leaks=0:symbolize=0:quarantine_size_mb=1:allocator_may_return_null=1:max_allocation_size_mb=2048";
