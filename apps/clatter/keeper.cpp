@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <csignal>
 #include <exception>
@@ -14,32 +15,46 @@
 #include <utility>
 
 #include "commands.hpp"
+#include "io/error.hpp"
 
 namespace clatter {
 namespace {
 
 constexpr char over = 0;  ///< in the pipe, beside the numbers of signals
 
+constexpr std::chrono::seconds interval{1};
+
+constexpr std::array stops{SIGINT, SIGTERM, SIGHUP};
+
 volatile std::sig_atomic_t into = -1;  ///< the pipe of the present keeper
 
 void take(int number) {
   const int before = errno;
-  std::signal(number, SIG_DFL);  // the next one ends the process
+  for (const int stop : stops) std::signal(stop, SIG_DFL);  // the next one ends the process
   const char byte = static_cast<char>(number);
   (void)!::write(into, &byte, 1);
   errno = before;
 }
 
+/// What a shell has told to ignore, as in the background or by nohup, stays ignored.
+void handle_stops(void (*handler)(int)) {
+  for (const int stop : stops)
+    if (std::signal(stop, handler) == SIG_IGN) std::signal(stop, SIG_IGN);
+}
+
 }  // namespace
 
-Keeper::Keeper(Journal& journal, std::function<void()> save, std::optional<Seconds> longest)
-    : journal_(journal), save_(std::move(save)) {
-  if (longest) end_ = Clock::now() + std::chrono::duration_cast<Clock::duration>(*longest);
+Keeper::Keeper(Journal& journal, std::function<void()> save, std::optional<Clock::time_point> end)
+    : journal_(journal), save_(std::move(save)), end_(end) {
   if (::pipe2(ends_, O_CLOEXEC) != 0) throw std::system_error(errno, std::generic_category(), "no pipe");
   into = ends_[1];
-  thread_ = std::thread([this] { keep(); });
-  for (const int number : {SIGINT, SIGTERM})
-    if (std::signal(number, take) == SIG_IGN) std::signal(number, SIG_IGN);  // as a shell wants it in the background
+  try {
+    thread_ = std::thread([this] { keep(); });
+  } catch (const std::system_error& error) {
+    for (const int number : ends_) ::close(number);
+    throw IoError(std::string("no thread can be started: ").append(error.what()).append("; raise ulimit -u"));
+  }
+  handle_stops(take);
 }
 
 Keeper::~Keeper() {
@@ -48,8 +63,7 @@ Keeper::~Keeper() {
     if (!finishing_) save_if_possible();
     finishing_ = true;
   }
-  for (const int number : {SIGINT, SIGTERM})
-    if (std::signal(number, SIG_DFL) == SIG_IGN) std::signal(number, SIG_IGN);
+  handle_stops(SIG_DFL);
   (void)!::write(ends_[1], &over, 1);
   thread_.join();
   for (const int end : ends_) ::close(end);
@@ -59,7 +73,7 @@ Keeper::~Keeper() {
 /// -1: a second has passed.
 char Keeper::wait() const {
   using Milliseconds = std::chrono::milliseconds;
-  const Clock::time_point next = Clock::now() + std::chrono::seconds(1), until = end_ ? std::min(next, *end_) : next;
+  const Clock::time_point next = Clock::now() + interval, until = end_ ? std::min(next, *end_) : next;
   for (;;) {
     const auto left = std::chrono::ceil<Milliseconds>(until - Clock::now());
     if (left.count() <= 0) return end_ && Clock::now() >= *end_ ? char{SIGALRM} : char{-1};
@@ -72,7 +86,7 @@ char Keeper::wait() const {
 
 void Keeper::finish() {
   const std::lock_guard lock(saving_);
-  if (journal_.has_records()) save_if_possible();
+  if (journal_.has_records() || Clock::now() - begin_ > interval) save_if_possible();
   finishing_ = true;
 }
 
@@ -83,12 +97,14 @@ void Keeper::keep() {
     const std::lock_guard lock(saving_);
     if (finishing_) {
       end_.reset();
-      if (came == SIGINT || came == SIGTERM)
+      if (std::ranges::find(stops, came) != stops.end())
         std::cerr << "\nclatter: the output is being written; once more stops at once\n";
     } else if (came == SIGINT) {
       stop(128 + SIGINT, "interrupted");
     } else if (came == SIGTERM) {
       stop(128 + SIGTERM, "terminated");
+    } else if (came == SIGHUP) {
+      stop(128 + SIGHUP, "its terminal is closed");
     } else if (came == SIGALRM) {
       stop(timed_out, "--max-time is over");
     } else {

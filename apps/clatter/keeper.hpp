@@ -11,28 +11,26 @@
 
 namespace clatter {
 
-/// Saves a run's finished points once a second. Where the run has to stop, on SIGINT, SIGTERM or at the end of its
-/// time, says so, saves, and ends the process: with 130, 143, 124; with 74 where they can't be saved. A second signal
-/// ends it at once.
+/// Saves a run's finished points once a second. Where the run has to stop, on SIGINT, SIGTERM, SIGHUP or at the end of
+/// its time, says so, saves, and ends the process: with 130, 143, 129, 124; with 74 where they can't be saved. A second
+/// signal ends it at once.
 class Keeper {
  public:
-  using Seconds = std::chrono::duration<double>;
+  using Clock = std::chrono::steady_clock;
 
-  /// `save` writes what was finished since the last time into the journal. Stops the run after `longest`, if that is
-  /// given. There may be one keeper at a time.
-  Keeper(Journal& journal, std::function<void()> save, std::optional<Seconds> longest);
+  /// `save` writes what was finished since the last time into the journal. Stops the run at `end`, if that is given.
+  /// There may be one keeper at a time. Throws IoError where no thread can be started.
+  Keeper(Journal& journal, std::function<void()> save, std::optional<Clock::time_point> end);
   /// Without `finish` before it, the run has failed: saves what it can.
   ~Keeper();
   Keeper(const Keeper&) = delete;
   Keeper& operator=(const Keeper&) = delete;
 
-  /// All points are finished. Saves them, where it can and a journal was begun, should the output find no room; that is
+  /// All points are finished. Saves them, where it can and the run was long, should the output find no room; that is
   /// written next, and a first signal doesn't stop it.
   void finish();
 
  private:
-  using Clock = std::chrono::steady_clock;
-
   void keep();
   void save();
   void save_if_possible();
@@ -41,6 +39,7 @@ class Keeper {
 
   Journal& journal_;
   std::function<void()> save_;
+  Clock::time_point begin_ = Clock::now();
   std::optional<Clock::time_point> end_;
   std::mutex saving_;
   bool finishing_ = false;

@@ -1,5 +1,8 @@
+#include <fcntl.h>
 #include <malloc.h>
+#include <unistd.h>
 
+#include <cstdlib>
 #include <exception>
 #include <iostream>
 #include <new>
@@ -36,14 +39,30 @@ int run_program(const std::vector<std::string>& words) {
   return done;
 }
 
+/// Opens what isn't open of the standard streams, or a file of ours would be taken for it.
+void open_standard_streams() {
+  int number = 0;
+  while (number >= 0 && number <= STDERR_FILENO) number = ::open("/dev/null", O_RDWR);
+  if (number > STDERR_FILENO) ::close(number);
+}
+
+bool at_its_end = false;
+
+/// A library that calls exit, as OpenMP's does where no thread can be started, would end with the code of a run.
+void refuse_foreign_exit() {
+  if (at_its_end) return;
+  std::cerr
+      << "clatter: stopped by a library that it needs; if threads can't be started, take fewer (--threads) or raise "
+         "ulimit -u\n";
+  ::_exit(io_error);
+}
+
 int report(const char* message, int code) {
   std::cerr << "clatter: " << message << '\n';
   return code;
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+int run_main(int argc, char** argv) {
   mallopt(M_TRIM_THRESHOLD, 64 * 1024 * 1024);  // points come and go by the million: what they free is soon taken again
   try {
     const int code = run_program({argv + 1, argv + argc});
@@ -64,4 +83,14 @@ int main(int argc, char** argv) {
     return report((std::string("a bug in clatter: ") + error.what() + "; please report it with the command").c_str(),
                   internal_error);
   }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  open_standard_streams();
+  std::atexit(refuse_foreign_exit);
+  const int code = run_main(argc, argv);
+  at_its_end = true;
+  return code;
 }

@@ -1,5 +1,6 @@
 #include <filesystem>
 #include <iostream>
+#include <new>
 #include <string>
 #include <utility>
 #include <vector>
@@ -28,11 +29,11 @@ void check_not_shard(const std::vector<std::string>& shards, const std::string& 
 void check_memory(double needed) {
   const double there = machine_bytes();
   if (there == 0 || needed <= there) return;
-  throw IoError("merging takes " + bytes_text(needed) + " of memory, this machine has " + bytes_text(there) +
+  throw IoError("merging takes " + bytes_text(needed) + " of memory, there are " + bytes_text(there) +
                 "; merge on a machine that has more");
 }
 
-int merge_shards(const Arguments& arguments) {
+int merge_shards(const Arguments& arguments) try {
   if (arguments.has("quiet") && arguments.has("verbose"))
     throw UsageError("--quiet beside --verbose; give one of them");
   if (!arguments.has("output")) throw UsageError("no output; name it with -o FILE.h5");
@@ -43,8 +44,8 @@ int merge_shards(const Arguments& arguments) {
   const ShardSet shards = shard_set(arguments.operands);
   check_memory(shards.bytes);
   if (arguments.has("verbose"))
-    std::cerr << "shards           " << shards.heads.size() << "\ninstruction set  "
-              << shards.heads.front().instruction_set << "\nmemory           " << bytes_text(shards.bytes) << '\n';
+    std::cerr << "shards           " << shards.heads.size() << "\nrounding         " << shards.heads.front().rounding
+              << "\nmemory           " << bytes_text(shards.bytes) << '\n';
   Merged merged = merge(shards);
   publish(output, file_image(std::move(merged.figure), shards.config).bytes);
   if (!arguments.has("quiet"))
@@ -52,6 +53,8 @@ int merge_shards(const Arguments& arguments) {
               << counted(static_cast<double>(shards.heads.size()), "shard") << ", " << merged.failed_points
               << " failed, " << output << '\n';
   return merged.failed_points > 0 ? points_failed : done;
+} catch (const std::bad_alloc&) {
+  throw IoError("merging takes more memory than there is; merge where there is more");
 }
 
 constexpr std::string_view examples = "  clatter merge -o map_nu_xs.h5 map_nu_xs.*-of-4.h5\n";

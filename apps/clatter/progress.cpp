@@ -33,7 +33,8 @@ std::string clock_text(double seconds) {
 
 bool stderr_is_terminal() { return isatty(STDERR_FILENO) == 1; }
 
-Progress::Progress(bool shown, const char* counted) : shown_(shown), counted_(counted), color_(color_wanted()) {}
+Progress::Progress(bool shown, const char* counted, std::size_t before)
+    : shown_(shown), counted_(counted), before_(before), color_(color_wanted()) {}
 
 Progress::~Progress() {
   if (shown_) std::fputs(stderr_is_terminal() ? erase_line : "\n", stderr);
@@ -42,7 +43,7 @@ Progress::~Progress() {
 void Progress::show(std::size_t finished, std::size_t total) const {
   if (!shown_ || total == 0) return;
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
-  const double rate = seconds > 0 ? static_cast<double>(finished) / seconds : 0;
+  const double rate = seconds > 0 ? static_cast<double>(finished - before_) / seconds : 0;
   const std::size_t filled = width * finished / total;
   const std::string bar = (color_ ? "\033[32m" : "") + std::string(filled, '#') + (color_ ? "\033[0m" : "") +
                           std::string(width - filled, '.');

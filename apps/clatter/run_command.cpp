@@ -1,5 +1,7 @@
 #include <algorithm>
 #include <charconv>
+#include <chrono>
+#include <csignal>
 #include <filesystem>
 #include <iostream>
 #include <optional>
@@ -22,6 +24,7 @@
 #include "progress.hpp"
 #include "run_report.hpp"
 #include "sweep/memory.hpp"
+#include "sweep/rounding.hpp"
 
 namespace clatter {
 namespace {
@@ -32,7 +35,7 @@ void check_memory(const Sweep& sweep, const std::optional<Shard>& shard) {
   if (there == 0 || needed <= there) return;
   throw UsageError("the results of " + std::to_string(Share(sweep, shard).points()) +
                    " points, and the largest variable of them once more, take " + bytes_text(needed) +
-                   ", this machine has " + bytes_text(there) +
+                   ", there are " + bytes_text(there) +
                    "; sweep fewer points, observe fewer samples and harmonics, or share the points out with --shard");
 }
 
@@ -60,25 +63,27 @@ Journal::Begin begin_of(const Arguments& arguments) {
   return arguments.has("resume") ? Journal::Begin::resume : Journal::Begin::anyhow;
 }
 
-std::optional<Keeper::Seconds> longest_of(const Arguments& arguments) {
+/// When --max-time is over, counted from now.
+std::optional<Keeper::Clock::time_point> end_of(const Arguments& arguments) {
   const std::optional<std::string> word = arguments.value("max-time");
   if (!word) return std::nullopt;
   double seconds = 0;
   const auto [end, error] = std::from_chars(word->data(), word->data() + word->size(), seconds);
   if (error != std::errc{} || end != word->data() + word->size() || !(seconds > 0) || seconds > 1e9)
     throw UsageError("--max-time " + in_quotes(*word) + "; permitted: a number of seconds above 0, up to 1e9");
-  return Keeper::Seconds(seconds);
+  return Keeper::Clock::now() +
+         std::chrono::duration_cast<Keeper::Clock::duration>(std::chrono::duration<double>(seconds));
 }
 
 JournalKey key_of(const Config& config, Arch arch, const std::optional<Shard>& shard) {
   return {.config = config.text,
-          .program = std::string(version()).append(" ").append(git_commit()),
-          .arch = std::string(rounding_of(arch)),
+          .program = std::string(version()).append(" ").append(git_commit()).append(", ").append(compiler()),
+          .rounding = rounding_of(config.sweep, arch),
           .shard = shard ? text_of(*shard) : ""};
 }
 
 void run_points(SweepRun& sweep, RunOptions options, bool shown) {
-  const Progress progress(shown);
+  const Progress progress(shown, "points", sweep.restored_points());
   if (shown) options.progress = [&](std::size_t finished, std::size_t total) { progress.show(finished, total); };
   sweep.run(options);
 }
@@ -86,12 +91,13 @@ void run_points(SweepRun& sweep, RunOptions options, bool shown) {
 int run_config(const Arguments& arguments) {
   if (arguments.has("quiet") && arguments.has("verbose"))
     throw UsageError("--quiet beside --verbose; give one of them");
+  std::signal(SIGPIPE, SIG_IGN);  // that nobody is left to read what is said on stderr is no reason to end
   const std::string began = now();
+  const std::optional<Keeper::Clock::time_point> end = end_of(arguments);
   const Arch arch = arch_of(arguments);
   const int threads = threads_used({.threads = threads_of(arguments)});
   const bool shown = progress_wanted(arguments);
   const Journal::Begin begin = begin_of(arguments);
-  const std::optional<Keeper::Seconds> longest = longest_of(arguments);
   const std::optional<Shard> shard = shard_of(arguments);
   const std::string output = output_of(arguments, shard);
   const Config config = config_of(arguments);
@@ -105,6 +111,8 @@ int run_config(const Arguments& arguments) {
     if (!sweep.restore(results))
       throw IoError("the journal of '" + output + "' doesn't fit the sweep; --restart begins anew");
   });
+  if (!journal.is_locked())
+    std::cerr << "there are no locks here: see that no other run writes '" << output << "' meanwhile\n";
   if (sweep.restored_points() > 0 && !arguments.has("quiet"))
     std::cerr << "goes on from " << sweep.restored_points() << " finished points\n";
 
@@ -112,13 +120,17 @@ int run_config(const Arguments& arguments) {
     sweep.save([&](std::span<const std::byte> results) { journal.append(results); });
     journal.sync();
   };
-  Keeper keeper(journal, save, longest);
+  Keeper keeper(journal, save, end);
   run_points(sweep, {.threads = threads, .arch = arch}, shown);
   keeper.finish();
   RunResult result = sweep.result();
   const std::string summary = summary_line(result, output);
-  const auto image = shard ? sealed_image : file_image;
-  publish(output, image(std::move(result.figure), config).bytes);
+  try {
+    const auto image = shard ? sealed_image : file_image;
+    publish(output, image(std::move(result.figure), config).bytes);
+  } catch (const IoError& error) {
+    throw IoError(std::string(error.what()).append("\nclatter: ").append(journal.leave()));
+  }
   journal.remove();
   if (!arguments.has("quiet")) std::cerr << summary << '\n';
   if (arguments.has("verbose")) std::cerr << details(result, command_line(), began);

@@ -7,10 +7,15 @@
 namespace clatter {
 namespace {
 
+/// The lines of a configuration, each with its section.
 std::vector<std::string> lines_of(const std::string& text) {
   std::vector<std::string> lines;
+  std::string section;
   std::istringstream stream(text);
-  for (std::string line; std::getline(stream, line);) lines.push_back(line);
+  for (std::string line; std::getline(stream, line);) {
+    if (line.starts_with('[')) section = line + ' ';
+    if (!line.empty() && !line.starts_with('[')) lines.push_back(section + line);
+  }
   return lines;
 }
 
@@ -34,6 +39,7 @@ std::string difference(const NamedText& one, const NamedText& other) {
       if (++shown <= most) text.append("\n  ").append(name).append(line);
   };
   show(one.name, only_in(ones, others)), show(other.name, only_in(others, ones));
+  if (shown == 0) text = "\n  the same lines in another order: the first axis varies slowest";
   if (shown > most) text += "\n  and " + std::to_string(shown - most) + " more lines";
   return text;
 }

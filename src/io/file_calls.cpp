@@ -1,5 +1,8 @@
 #include "io/file_calls.hpp"
 
+#include <fcntl.h>
+#include <sys/stat.h>
+
 #include <algorithm>
 #include <cstring>
 
@@ -45,6 +48,19 @@ fs::path target_of(fs::path path) {
     if (error) refuse(path, error.value());
   }
   return path;
+}
+
+bool is_named(const Descriptor& file, const fs::path& path) {
+  struct stat opened {
+  }, named{};
+  return ::fstat(file.number(), &opened) == 0 && ::lstat(path.c_str(), &named) == 0 && opened.st_ino == named.st_ino &&
+         opened.st_dev == named.st_dev;
+}
+
+void sync_directory(const fs::path& file) {
+  const Descriptor directory{::open(directory_of(file).c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)};
+  if (directory.number() < 0 || uninterrupted([&] { return ::fsync(directory.number()); }) == 0) return;
+  if (errno != EINVAL && errno != ENOTSUP) refuse(file, errno);
 }
 
 fs::path directory_of(const fs::path& path) { return path.has_parent_path() ? path.parent_path() : fs::path{"."}; }

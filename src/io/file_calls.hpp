@@ -64,6 +64,13 @@ class IgnoreFileSizeSignal {
   struct sigaction before_ {};
 };
 
+/// Whether an open file still has this name.
+[[nodiscard]] bool is_named(const Descriptor& file, const std::filesystem::path& path);
+
+/// Makes a new or changed name in the directory of a file survive a power cut; a directory that cannot be opened or
+/// synced leaves that to the system.
+void sync_directory(const std::filesystem::path& file);
+
 /// Where a chain of symbolic links ends, whether there is a file or not.
 [[nodiscard]] std::filesystem::path target_of(std::filesystem::path path);
 

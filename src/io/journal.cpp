@@ -80,7 +80,10 @@ class Reader {
     if (head.length > left()) return std::nullopt;
     block_.resize(static_cast<std::size_t>(head.length));
     read(block_);
-    if (crc32_of(block_) != head.crc) damaged(begin);
+    if (crc32_of(block_) != head.crc) {
+      if (left() == 0 && !block_.empty() && block_.back() == std::byte{}) return std::nullopt;  // a power cut
+      damaged(begin);
+    }
     return block_;
   }
 
@@ -114,7 +117,7 @@ class Reader {
 
 Bytes bytes_of(const JournalKey& key) {
   Bytes bytes;
-  for (const std::string* text : {&key.program, &key.arch, &key.shard, &key.config})
+  for (const std::string* text : {&key.program, &key.rounding, &key.shard, &key.config})
     append_number(bytes, std::uint64_t{text->size()}), append_bytes(bytes, bytes_of(*text));
   return bytes;
 }
@@ -122,7 +125,7 @@ Bytes bytes_of(const JournalKey& key) {
 /// The key in a sound header; nothing where its lengths don't fit.
 std::optional<JournalKey> key_of(std::span<const std::byte> bytes) {
   JournalKey key;
-  for (std::string* text : {&key.program, &key.arch, &key.shard, &key.config}) {
+  for (std::string* text : {&key.program, &key.rounding, &key.shard, &key.config}) {
     std::uint64_t length = 0;
     if (bytes.size() < sizeof length) return std::nullopt;
     std::memcpy(&length, bytes.data(), sizeof length);
@@ -137,11 +140,18 @@ std::optional<JournalKey> key_of(std::span<const std::byte> bytes) {
 /// What another key has, and what this run's.
 std::string difference_of(const JournalKey& other, const JournalKey& key) {
   const auto about = [](const JournalKey& of) {
-    return "program " + of.program + "\ninstruction set " + of.arch + '\n' +
+    return "program: " + of.program + "\nrounding: " + of.rounding + '\n' +
            (of.shard.empty() ? "the whole sweep" : "shard " + of.shard) + '\n' + of.config;
   };
   const std::string others = about(other), ours = about(key);
   return difference({"its: ", others}, {"this run's: ", ours});
+}
+
+/// What has the journal's name, and can't be one.
+[[noreturn]] void refuse_place(const fs::path& path, int error) {
+  if (error == ELOOP) refuse(path, "is a symbolic link", "move it away, or name another output");
+  if (error == EISDIR) refuse(path, "is a directory", "move it away, or name another output");
+  refuse(path, error);
 }
 
 [[noreturn]] void refuse_busy(const fs::path& output) {
@@ -164,13 +174,18 @@ Journal::Journal(const fs::path& output, JournalKey key, Begin begin, const Take
   try {
     read(take, begin);
   } catch (...) {
-    if (size_ == 0) ::unlink(path_.c_str());
+    if (size_ == 0) unlink();
     throw;
   }
 }
 
 Journal::~Journal() {
-  if (file_.number() >= 0 && size_ == 0) ::unlink(path_.c_str());
+  if (file_.number() >= 0 && size_ == 0) unlink();
+}
+
+/// Unless someone has removed it: then the name may be another run's.
+void Journal::unlink() const {
+  if (is_named(file_, path_)) ::unlink(path_.c_str());
 }
 
 /// Opens the file that has the journal's name and locks it; the one that was opened may have been removed meanwhile, by
@@ -179,17 +194,14 @@ void Journal::lock() {
   for (;;) {
     file_ = Descriptor{uninterrupted(
         [&] { return ::open(path_.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC | O_NOFOLLOW, 0666); })};
-    if (file_.number() < 0) refuse(path_, errno);
+    if (file_.number() < 0) refuse_place(path_, errno);
     if (uninterrupted([&] { return ::flock(file_.number(), LOCK_EX | LOCK_NB); }) != 0) {
-      const int error = errno;
-      file_ = Descriptor{-1};
-      if (error != EWOULDBLOCK) refuse(path_, error);
-      refuse_busy(output_);
+      if (errno == EWOULDBLOCK) file_ = Descriptor{-1}, refuse_busy(output_);
+      is_locked_ = false;
     }
-    struct stat opened {
-    }, named{};
+    if (!is_named(file_, path_)) continue;
+    struct stat opened {};
     if (::fstat(file_.number(), &opened) != 0) refuse(path_, errno);
-    if (::stat(path_.c_str(), &named) != 0 || named.st_ino != opened.st_ino || named.st_dev != opened.st_dev) continue;
     if (!S_ISREG(opened.st_mode)) refuse(path_, "is not a regular file", "move it away, or name another output");
     size_ = static_cast<std::uint64_t>(opened.st_size);
     return;
@@ -242,18 +254,23 @@ void Journal::append(std::span<const std::byte> record) {
 }
 
 void Journal::sync() {
-  if (!synced_ && uninterrupted([&] { return ::fdatasync(file_.number()); }) != 0) refuse(path_, errno);
-  synced_ = true;
+  if (synced_) return;
+  if (uninterrupted([&] { return ::fdatasync(file_.number()); }) != 0) refuse(path_, errno);
+  if (!named_) sync_directory(path_);
+  synced_ = named_ = true;
 }
 
 std::string Journal::leave() {
-  if (size_ > 0) return "what was finished is in '" + path_.string() + "', from which the same command goes on";
-  ::unlink(path_.c_str());
+  if (!is_named(file_, path_)) return "the journal was removed, and with it what was finished";
+  if (size_ > 0)
+    return "what was finished is in '" + path_.string() +
+           "', from which the same command goes on; so does one with -o FILE after that is moved to FILE.journal";
+  unlink();
   return "nothing was finished yet";
 }
 
 void Journal::remove() {
-  if (::unlink(path_.c_str()) != 0 && errno != ENOENT) refuse(path_, errno);
+  if (is_named(file_, path_) && ::unlink(path_.c_str()) != 0) refuse(path_, errno);
   file_ = Descriptor{-1};
 }
 

@@ -23,10 +23,10 @@ void require_idle(const std::filesystem::path& output);
 
 /// What has to be the same for a run to go on from a journal.
 struct JournalKey {
-  std::string config;   ///< the complete configuration, as TOML
-  std::string program;  ///< its version
-  std::string arch;     ///< the instruction sets that give its bits (`rounding_of`)
-  std::string shard;    ///< "K/N"; empty: the whole sweep
+  std::string config;    ///< the complete configuration, as TOML
+  std::string program;   ///< its version
+  std::string rounding;  ///< what its last bits depend on (`rounding_of`)
+  std::string shard;     ///< "K/N"; empty: the whole sweep
 
   bool operator==(const JournalKey&) const = default;
 };
@@ -59,6 +59,8 @@ class Journal {
   /// Waits until all records are on the disk. Throws IoError.
   void sync();
   [[nodiscard]] bool has_records() const { return size_ > 0; }
+  /// Whether others are kept from this output: some network file systems have no locks.
+  [[nodiscard]] bool is_locked() const { return is_locked_; }
   /// Removes the file, once its records are in the output.
   void remove();
   /// Ends without an output: says what the next run will find. An empty file is removed.
@@ -66,14 +68,16 @@ class Journal {
 
  private:
   void lock();
+  void unlink() const;
   void read(const Take& take, Begin begin);
   [[noreturn]] void refuse_other(const JournalKey& key) const;
 
   std::filesystem::path output_, path_;
   JournalKey key_;
   Descriptor file_{-1};
-  std::uint64_t size_ = 0;  ///< of the file, in whole records
-  bool synced_ = true;
+  std::uint64_t size_ = 0;              ///< of the file, in whole records
+  bool synced_ = true, named_ = false;  ///< is on the disk; so is its name
+  bool is_locked_ = true;
 };
 
 }  // namespace clatter

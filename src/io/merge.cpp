@@ -37,11 +37,9 @@ void check_origins(const std::vector<ShardHead>& heads) {
     if (head.schema != first.schema || head.version != first.version || head.git_commit != first.git_commit ||
         head.compiler != first.compiler)
       refuse_pair(first, head, "were written by different builds of clatter", "run all shards with one program");
-    if (head.instruction_set != first.instruction_set)
-      refuse_pair(first, head,
-                  "were computed with different instruction sets (" + head.instruction_set + ", " +
-                      first.instruction_set + "), which round differently",
-                  "run all shards with one --arch");
+    if (head.rounding != first.rounding)
+      refuse_pair(first, head, "were rounded differently (" + head.rounding + "; " + first.rounding + ")",
+                  "run all shards with one --arch, on machines of one kind");
   }
 }
 

@@ -18,7 +18,7 @@ struct ShardSet {
 };
 
 /// Reads what the shards' files say of themselves. Throws IoError unless they were computed from one configuration by
-/// this very program on one instruction set, and have each point of the sweep exactly once.
+/// this very program with one rounding, and have each point of the sweep exactly once.
 [[nodiscard]] ShardSet shard_set(const std::vector<std::string>& paths);
 
 /// The results of a whole sweep.

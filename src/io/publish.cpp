@@ -62,15 +62,8 @@ fs::path temporary_name(const fs::path& target) {
   return directory_of(target) / name.append(temporary_ending);
 }
 
-bool is_same_file(int number, const fs::path& path) {
-  struct stat opened {
-  }, named{};
-  return ::fstat(number, &opened) == 0 && ::stat(path.c_str(), &named) == 0 && opened.st_ino == named.st_ino &&
-         opened.st_dev == named.st_dev;
-}
-
-bool lock(int number) {
-  return uninterrupted([&] { return ::flock(number, LOCK_EX | LOCK_NB); }) == 0;
+bool lock(const Descriptor& file) {
+  return uninterrupted([&] { return ::flock(file.number(), LOCK_EX | LOCK_NB); }) == 0;
 }
 
 /// Removes what a killed process has left under a temporary name of this target: the file of one that lives is locked.
@@ -83,7 +76,7 @@ void remove_abandoned(const fs::path& target) {
         name.size() != prefix.size() + temporary_letters + temporary_ending.size())
       continue;
     const Descriptor file{::open(entry->path().c_str(), O_WRONLY | O_CLOEXEC | O_NOFOLLOW)};
-    if (file.number() >= 0 && lock(file.number())) ::unlink(entry->path().c_str());
+    if (file.number() >= 0 && lock(file)) ::unlink(entry->path().c_str());
   }
 }
 
@@ -109,30 +102,19 @@ class TemporaryFile {
  private:
   /// Creates the file with the permissions that any new file of the user's has; O_EXCL, so that no other run's is
   /// taken.
-  int create() {
-    while (true) {
-      const int number =
-          uninterrupted([&] { return ::open(path_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666); });
-      if (number < 0 && errno != EEXIST) refuse(target_, errno);
-      if (number >= 0) {
-        lock(number);
-        if (is_same_file(number, path_)) return number;
-        ::close(number);  // removed as abandoned, before it was locked
-      }
-      path_ = temporary_name(target_);
+  Descriptor create() {
+    for (;; path_ = temporary_name(target_)) {
+      Descriptor file{
+          uninterrupted([&] { return ::open(path_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666); })};
+      if (file.number() < 0 && errno != EEXIST) refuse(target_, errno);
+      // Another process may take it for abandoned before it is locked.
+      if (file.number() >= 0 && (lock(file) || errno != EWOULDBLOCK) && is_named(file, path_)) return file;
     }
   }
 
   fs::path target_, path_;
   Descriptor file_;
 };
-
-/// Makes the rename survive a power cut; a directory that cannot be opened or synced leaves that to the system.
-void sync_directory(const fs::path& target) {
-  const Descriptor directory{::open(directory_of(target).c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)};
-  if (directory.number() < 0 || uninterrupted([&] { return ::fsync(directory.number()); }) == 0) return;
-  if (errno != EINVAL && errno != ENOTSUP) refuse(target, errno);
-}
 
 }  // namespace
 

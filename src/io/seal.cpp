@@ -1,6 +1,7 @@
 #include "io/seal.hpp"
 
 #include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -36,6 +37,9 @@ class Pieces {
   explicit Pieces(const std::string& path)
       : path_(path), file_(uninterrupted([&] { return ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK); })) {
     if (file_.number() < 0) refuse_reading(path_, std::strerror(errno), "check the name");
+    struct stat status {};
+    if (::fstat(file_.number(), &status) != 0 || !S_ISREG(status.st_mode))
+      refuse_reading(path_, "is not a regular file", "name files that `clatter run --shard` has written");
   }
 
   /// The next bytes, as many as there are; none at the end.
@@ -72,7 +76,8 @@ void require_sealed(const std::string& path) {
   if (found == seal_of(length, crc)) return;
   if (found.starts_with("\nclatter shard of "))
     refuse_reading(path, "is damaged: its CRC-32 doesn't fit", "copy it again, or run its shard again");
-  refuse_reading(path, "is no whole shard of a sweep", "name files that `clatter run --shard` has written");
+  refuse_reading(path, "is no whole shard of a sweep",
+                 "name files that `clatter run --shard` has written, or copy it again");
 }
 
 }  // namespace clatter

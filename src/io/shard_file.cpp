@@ -2,10 +2,14 @@
 
 #include <hdf5_hl.h>
 
+#include <charconv>
 #include <cstdint>
 #include <exception>
 #include <filesystem>
+#include <functional>
 #include <optional>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "io/error.hpp"
@@ -60,13 +64,47 @@ Column column_of(const Handle& dataset) {
   return H5Tget_sign(type) == H5T_SGN_NONE ? values_of<std::uint8_t>(dataset) : values_of<std::int8_t>(dataset);
 }
 
-herr_t add_variable(hid_t file, const char* name, const H5L_info_t*, void* figure) try {
-  const Handle dataset{H5Dopen2(file, name, H5P_DEFAULT), H5Dclose};
-  if (length_of(dataset) > 0 && H5Dget_storage_size(dataset) == 0) return 0;  // a dimension's name alone
-  static_cast<Figure*>(figure)->variables.push_back({name, {}, column_of(dataset), "", ""});
-  return 0;
-} catch (const std::exception&) {  // the library, which calls this, isn't made for them
-  return -1;
+/// What a walk over the variables does with each, and what stopped it: the library isn't made for exceptions.
+struct Walk {
+  std::function<void(const std::string& name, const Handle& dataset)> visit;
+  std::exception_ptr failure{};
+};
+
+herr_t visit(hid_t file, const char* name, const H5L_info_t*, void* data) {
+  auto& walk = *static_cast<Walk*>(data);
+  try {
+    const Handle dataset{H5Dopen2(file, name, H5P_DEFAULT), H5Dclose};
+    if (length_of(dataset) == 0 || H5Dget_storage_size(dataset) > 0) walk.visit(name, dataset);  // not a bare scale
+    return 0;
+  } catch (...) {
+    walk.failure = std::current_exception();
+    return -1;
+  }
+}
+
+void walk_variables(const Handle& file, decltype(Walk::visit) action) {
+  Walk walk{std::move(action)};
+  const herr_t result = H5Literate(file, H5_INDEX_NAME, H5_ITER_NATIVE, nullptr, visit, &walk);
+  if (walk.failure) std::rethrow_exception(walk.failure);
+  checked(result);
+}
+
+/// Bytes of all values once they are read.
+std::uint64_t bytes_of_values(const std::string& path) {
+  return read_file(path, [](const Handle& file) {
+    double bytes = 0;
+    walk_variables(file, [&](const std::string&, const Handle& dataset) {
+      bytes += sizeof(double) * static_cast<double>(length_of(dataset));
+    });
+    if (bytes > 1e18) throw hdf5::Failure("it holds an impossible length");
+    return static_cast<std::uint64_t>(bytes);
+  });
+}
+
+void try_values(const std::string& path) {
+  read_file(path, [](const Handle& file) {
+    walk_variables(file, [](const std::string&, const Handle& dataset) { (void)column_of(dataset); });
+  });
 }
 
 ShardHead head_of(const std::string& path) {
@@ -81,7 +119,7 @@ ShardHead head_of(const std::string& path) {
                    .compiler = text_attribute(file, "compiler"),
                    .config = text_attribute(file, "config"),
                    .config_sha256 = text_attribute(file, "config_sha256"),
-                   .instruction_set = text_attribute(file, "instruction_set")};
+                   .rounding = text_attribute(file, "rounding")};
     if (checked(H5Lexists(file, "impact_tau", H5P_DEFAULT)) > 0)
       head.impacts = length_of(dataset_in(file, "impact_tau"));
     return head;
@@ -93,12 +131,17 @@ ShardHead head_of(const std::string& path) {
 /// A child process reads all of it first: the seal tells damage, but a file may be anyone's.
 ShardHead read_shard_head(const std::string& path) try {
   require_sealed(path);
-  (void)guarded(
+  const std::uint64_t file_size = std::filesystem::file_size(path);
+  const std::string bytes = guarded(
       [&] {
-        (void)head_of(path), (void)read_shard(path);
-        return std::string();
+        (void)head_of(path);
+        return std::to_string(bytes_of_values(path));
       },
-      limits_for(std::filesystem::file_size(path)));
+      limits_for(file_size));
+  std::uint64_t value_bytes = 0;
+  if (std::from_chars(bytes.data(), bytes.data() + bytes.size(), value_bytes).ec != std::errc{})
+    refuse(path, "it disturbs the memory of the HDF5 library");
+  (void)guarded([&] { return try_values(path), std::string(); }, limits_for(file_size + value_bytes));
   return head_of(path);
 } catch (const GuardedDeath& death) {
   refuse(path, death.what());
@@ -107,7 +150,9 @@ ShardHead read_shard_head(const std::string& path) try {
 Figure read_shard(const std::string& path) {
   return read_file(path, [](const Handle& file) {
     Figure figure;
-    checked(H5Literate(file, H5_INDEX_NAME, H5_ITER_NATIVE, nullptr, add_variable, &figure));
+    walk_variables(file, [&](const std::string& name, const Handle& dataset) {
+      figure.variables.push_back({name, {}, column_of(dataset), "", ""});
+    });
     return figure;
   });
 }

@@ -14,7 +14,7 @@ struct ShardHead {
   Shard shard;
   std::string schema, version, git_commit, compiler;
   std::string config, config_sha256;
-  std::string instruction_set;
+  std::string rounding;     ///< what its last bits depend on
   std::size_t impacts = 0;  ///< in its log
 };
 

@@ -12,9 +12,11 @@ namespace {
 
 constexpr int max_dots = 256;  ///< of one key; toml++ descends once for each part
 
+bool is_ascii(char character) { return static_cast<unsigned char>(character) < 0x80; }
+
 /// The end of a quoted string that begins at `at`; where it is not closed, the end of its line (or text): toml++
 /// reports that.
-std::size_t skip_string(std::string_view text, std::size_t at) {
+std::size_t skip_string(const std::string& file, std::string_view text, std::size_t at) {
   const char quote = text[at];
   const std::string delimiter(text.substr(at, 3) == std::string(3, quote) ? 3 : 1, quote);
   const bool one_line = delimiter.size() == 1;
@@ -22,6 +24,9 @@ std::size_t skip_string(std::string_view text, std::size_t at) {
     if (one_line && text[at] == '\n') return at;
     if (quote == '"' && text[at] == '\\') {
       ++at;
+      const std::size_t next = std::min(text.find_first_not_of(" \t\r\n", at), text.size());
+      if (next < text.size() && !is_ascii(text[next]))  // toml++ looks there for the end of the line
+        fail(place_of(file, text, next), "a character outside ASCII after a backslash; leave the backslash out");
     } else if (text.substr(at, delimiter.size()) == delimiter) {
       at += delimiter.size();
       for (int more = 0; !one_line && more < 2 && at < text.size() && text[at] == quote; ++more)
@@ -76,10 +81,9 @@ void check_toml(const std::string& file, std::string_view text) {
     if (character == '#') {
       at = std::min(text.find('\n', at), text.size());
     } else if ((character == '"' || character == '\'') && !in_word) {
-      at = skip_string(text, at);
+      at = skip_string(file, text, at);
     } else {
-      if (static_cast<unsigned char>(character) >= 0x80)
-        fail(place_of(file, text, at), "a character outside ASCII; put the text in quotes");
+      if (!is_ascii(character)) fail(place_of(file, text, at), "a character outside ASCII; put the text in quotes");
       dots = ends_key(character) ? 0 : dots + (character == '.');
       if (dots > max_dots) fail(place_of(file, text, at), "more than 256 dots in a key; a key is SECTION.NAME");
       if (!in_word) {

@@ -29,11 +29,6 @@ inline constexpr std::array<std::string_view, 4> arch_names{"scalar", "sse2", "a
   return true;
 }
 
-/// The instruction sets that give the same bits as this one, itself included: a name to compare runs by.
-[[nodiscard]] constexpr std::string_view rounding_of(Arch arch) {
-  return arch == Arch::avx2 || arch == Arch::avx512 ? "avx2 or avx512" : name_of(arch);
-}
-
 /// The widest that this machine has.
 [[nodiscard]] inline Arch best_arch() {
   return runs_here(Arch::avx512) ? Arch::avx512 : runs_here(Arch::avx2) ? Arch::avx2 : Arch::sse2;

@@ -1,9 +1,13 @@
 #include "sweep/memory.hpp"
 
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cstdint>
+#include <fstream>
+#include <limits>
+#include <string>
 #include <vector>
 
 #include "sweep/columns.hpp"
@@ -40,8 +44,42 @@ double merge_bytes(const Sweep& sweep, std::span<const ShardSize> shards) {
   return std::max(result_bytes(sweep) + log + largest, building + log + logged * impacts);
 }
 
+namespace {
+
+constexpr double endless = std::numeric_limits<double>::infinity();
+
+/// The least limit of the control groups that this process is in, from its own up to the outermost.
+double group_bytes() {
+  double least = endless;
+  std::ifstream groups("/proc/self/cgroup");
+  for (std::string line; std::getline(groups, line);) {
+    if (!line.starts_with("0::")) continue;  // version 2
+    for (std::string group = line.substr(3);; group.erase(group.rfind('/'))) {
+      double limit = 0;
+      if (std::ifstream(std::string("/sys/fs/cgroup").append(group).append("/memory.max")) >> limit)
+        least = std::min(least, limit);  // else "max", or none
+      if (group.find('/') == std::string::npos) break;
+    }
+  }
+  return least;
+}
+
+double machine_limit() {
+  const double bytes = static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
+  return bytes > 0 ? bytes : endless;
+}
+
+double address_limit() {
+  rlimit limit{};
+  return getrlimit(RLIMIT_AS, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY ? static_cast<double>(limit.rlim_cur)
+                                                                              : endless;
+}
+
+}  // namespace
+
 double machine_bytes() {
-  return std::max(0.0, static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE)));
+  const double bytes = std::min({machine_limit(), group_bytes(), address_limit()});
+  return bytes < endless ? bytes : 0.0;
 }
 
 }  // namespace clatter

@@ -27,7 +27,8 @@ struct ShardSize {
 /// file is built, the columns of the log and the largest variable once more.
 [[nodiscard]] double merge_bytes(const Sweep& sweep, std::span<const ShardSize> shards);
 
-/// Memory of this machine in bytes; 0 where it isn't told.
+/// Memory in bytes that this process may have: of the machine, of its control group (a job of a batch system, a
+/// container), of `ulimit -v`; 0 where it isn't told.
 [[nodiscard]] double machine_bytes();
 
 }  // namespace clatter

@@ -20,6 +20,7 @@
 #include "sweep/lane_points.hpp"
 #include "sweep/plan.hpp"
 #include "sweep/point.hpp"
+#include "sweep/rounding.hpp"
 
 namespace clatter {
 namespace {
@@ -188,7 +189,7 @@ class Team {
   void store(const Task& task, PointResult&& result, std::size_t thread) {
     add(usage_[thread], usage_of(task, result));
     columns_.store(task.slot, std::move(result));
-    if (share_.length() == 1) states_[task.slot] = BranchState::finished;
+    if (!sweep_.follow) states_[task.slot] = BranchState::finished;
     progress_.add_point();
   }
 
@@ -275,15 +276,21 @@ bool SweepRun::restore(std::span<const std::byte> results) {
 void SweepRun::save(const std::function<void(std::span<const std::byte> results)>& write) {
   constexpr std::size_t enough = 256UL * 1024;  // bytes
   std::vector<std::byte> results;
+  std::vector<std::size_t> packed;
+  const auto write_packed = [&] {
+    write(results), results.clear();
+    for (const std::size_t branch : packed) states_[branch] = BranchState::saved;
+    packed.clear();
+  };
   for (std::uint64_t branch = 0; branch < share_.count(); ++branch) {
     if (states_[branch] != BranchState::finished) continue;
     const auto number = std::as_bytes(std::span(&branch, 1));
     results.insert(results.end(), number.begin(), number.end());
     for (std::size_t i = 0; i < share_.length(); ++i) columns_.pack(share_.slot(branch, i), results);
-    states_[branch] = BranchState::saved;
-    if (results.size() >= enough) write(results), results.clear();
+    packed.push_back(branch);
+    if (results.size() >= enough) write_packed();
   }
-  if (!results.empty()) write(results);
+  if (!results.empty()) write_packed();
 }
 
 void SweepRun::run(const RunOptions& options) {
@@ -303,8 +310,7 @@ RunResult SweepRun::result() {
   result_.failed_points = columns_.failed_points();
   result_.figure = columns_.figure();
   if (shard_)
-    result_.figure.attributes = {{"shard", text_of(*shard_)},
-                                 {"instruction_set", std::string(rounding_of(result_.arch))}};
+    result_.figure.attributes = {{"shard", text_of(*shard_)}, {"rounding", rounding_of(sweep_, result_.arch)}};
   return std::move(result_);
 }
 

@@ -143,6 +143,7 @@ class Faults(StoppedRuns):
                 if result.returncode == 74:
                     refused += 1
                     self.assertIn("free some space", result.stderr)
+                    self.assertIn(f"what was finished is in '{self.journal}'" if self.journal.exists() else "nothing was finished", result.stderr)
                 if journal is not None and not self.output.exists():
                     self.assertTrue(self.journal.read_bytes().startswith(journal), context)
                 self.assert_completes(context)
@@ -212,20 +213,36 @@ class Faults(StoppedRuns):
         program.unlink()
         self.assertEqual(self.files(), ["a.toml"])
 
+    @unittest.skipIf(SANITIZED, "a sanitizer needs threads of its own")
+    def test_threads_that_cannot_be_started_are_no_success(self):
+        program = self.directory / "clatter"
+        shutil.copy(CLATTER, program)
+        self.directory.chmod(0o777)
+        as_nobody = {"user": 65534, "group": 65534} if os.geteuid() == 0 else {}
+        for processes in (1, 2):
+            command = self.command(threads=4)
+            command[0] = program
+            result = subprocess.run(command, capture_output=True, text=True, **as_nobody,
+                                    preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_NPROC, (processes, processes)))
+            self.assertEqual(result.returncode, 74, result.stderr)
+            self.assertIn("ulimit -u", result.stderr)
+            self.assertFalse(self.output.exists())
+            self.journal.unlink(missing_ok=True)
+
     @unittest.skipIf(SANITIZED, "a sanitizer reserves all addresses")
     def test_memory_that_runs_out_is_an_error_and_leaves_nothing(self):
         words = ("--set", "sweep.nu=linspace(0.5,1.5,3000)", "--set", "sweep.xs=linspace(0.2,4,3000)")
         result = subprocess.run(self.command(*words), capture_output=True, text=True, timeout=300,
                                 preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_AS, (2**29, 2**29)))
         self.assertEqual(result.returncode, 2, result.stderr)
-        self.assertIn("don't fit into memory", result.stderr)
+        self.assertRegex(result.stderr, "take .* there are 512 MiB|don't fit into memory")
         self.assertEqual(self.files(), ["a.toml"])
 
     def test_a_sweep_that_no_machine_holds_is_refused_with_the_numbers(self):
         words = ("--set", "sweep.nu=linspace(0.5,1.5,1000)", "--set", "sweep.xs=linspace(0.2,4,1000)", "--set", "observe.trajectory=1000000")
         result = self.run_command(*words)
         self.assertEqual(result.returncode, 2, result.stderr)
-        self.assertRegex(result.stderr, r"the results of 1000000 points, .* take \S+ TiB, this machine has \S+ [GT]iB; .*--shard")
+        self.assertRegex(result.stderr, r"the results of 1000000 points, .* take \S+ TiB, there are \S+ [GT]iB; .*--shard")
         plan = subprocess.run([CLATTER, "plan", self.config, *words], capture_output=True, text=True)
         self.assertIn("TiB", plan.stdout)
         self.assertEqual(self.files(), ["a.toml"])

@@ -60,7 +60,7 @@ class Resume(StoppedRuns):
             self.output.unlink()
 
     def test_a_run_that_is_stopped_again_and_again_without_a_point_leaves_nothing(self):
-        self.sweep()
+        self.sweep(nu=3000, xs=1, follow="nu")  # one branch
         result = self.run_command("--max-time", "1e-9")
         self.assertEqual(result.returncode, 124, result.stderr)
         self.assertIn("nothing was finished yet", result.stderr)
@@ -104,6 +104,55 @@ class Resume(StoppedRuns):
         self.assertEqual(result.returncode, 75, result.stderr)
         self.assertIn("another run", result.stderr)
         self.assertEqual(first.wait(), 0)
+
+    def test_closed_standard_streams_and_closed_terminals_lose_nothing(self):
+        self.sweep(nu=200, xs=100)
+        whole = self.undisturbed()
+
+        def close(*files):
+            for file in files:
+                os.close(file)
+
+        for closed in ((0, 1, 2), (2,), (0, 2)):
+            for attempt in range(1, 100):
+                process = subprocess.Popen(self.command(), preexec_fn=lambda: close(*closed))
+                try:
+                    process.wait(0.1 * attempt)
+                except subprocess.TimeoutExpired:
+                    process.terminate()
+                self.assertEqual(process.wait(300), 143)
+                if self.journal.exists():
+                    break
+            self.assertEqual(self.complete()[0], whole, closed)
+            self.output.unlink()
+        reader, writer = os.pipe()
+        os.close(reader)
+        for number, code in ((signal.SIGINT, 130), (signal.SIGHUP, 129)):
+            process = subprocess.Popen(self.command("--progress", "always"), stderr=writer)
+            time.sleep(0.3)
+            process.send_signal(number)
+            self.assertEqual(process.wait(300), code)
+        os.close(writer)
+        self.assertEqual(self.complete()[0], whole)
+
+    def test_a_second_signal_of_any_kind_leaves_at_once(self):
+        self.sweep(nu=400, xs=200)
+        process = subprocess.Popen(self.command(), stderr=subprocess.DEVNULL)
+        time.sleep(0.3)
+        process.send_signal(signal.SIGINT)
+        process.send_signal(signal.SIGTERM)
+        self.assertIn(process.wait(300), (130, 143, -signal.SIGINT, -signal.SIGTERM))
+
+    def test_other_rounding_is_another_run(self):
+        """A mathematical library without fused operations, as on an older processor, gives other last digits."""
+        self.sweep(nu=200, xs=100)
+        older = {**os.environ, "GLIBC_TUNABLES": "glibc.cpu.hwcaps=-AVX2,-FMA,-FMA4,-AVX,-AVX512F"}
+        self.stopped_with_points(signal.SIGTERM)
+        said = subprocess.run(self.command("--max-time", "0.1"), capture_output=True, text=True, env=older)
+        if said.returncode != 74:
+            self.skipTest("this machine's mathematical library has no other rounding")
+        self.assertIn("rounding: sse2, functions ", said.stderr)
+        self.complete()
 
     def test_wrong_wishes_are_refused(self):
         small = self.write("s.toml", SMALL)

@@ -95,7 +95,7 @@ Figure figure(std::size_t points, std::size_t samples) {
             {{"flag_values", flags}, {"flag_meanings", meanings}}},
            {"impact_total", {"nu"}, std::vector<std::int64_t>(points, 7), "impacts", "1"},
            {"x", {"nu", "sample"}, ramp(points * samples), "displacement", "1"}},
-          {{"shard", "0/1"}, {"instruction_set", "sse2"}}};
+          {{"shard", "0/1"}, {"rounding", "sse2"}}};
 }
 
 Figure scalar() { return {{}, {{"x_min", {}, std::vector<double>{-0.5}, "least displacement", "1"}}}; }

@@ -260,11 +260,12 @@ TEST(Guard, keeps_from_toml_what_it_does_not_survive) {
   // quotes that toml++ takes for part of a number or word, or that end a text with quotes at its end
   for (const std::string line :
        {R"(h = 7"""é""")", "h = 7.'é'", R"(h = [1, 7["é"])", R"(h = 7="é")", R"(h = {f = 7"é"})", "h = [1,\n7\"é\"]",
-        R"(title = """a"""" é)", "title = '''a''''' é"})
+        R"(title = """a"""" é)", "title = '''a''''' é", R"(title = """\é""")", "title = \"\"\"\\ \n  é\"\"\""})
     EXPECT_NE(mistake_in("a.toml", "[scene]\n" + line + "\n").find("a character outside ASCII"), std::string::npos)
         << line;
-  for (const std::string text : {R"(title = "é")", "title = '''é''''", R"(title = """a "é""""")", "source = 'é' # é",
-                                 "\"title\" = \"é\"\n[scene]\nxs = 1\n[sweep]\nnu = [ 1,\n 2 ]\nlinked = \"é\""})
+  for (const std::string text :
+       {R"(title = "é")", "title = '''é''''", R"(title = """a "é""""")", R"(title = "\\é")", "source = 'é' # é",
+        "\"title\" = \"é\"\n[scene]\nxs = 1\n[sweep]\nnu = [ 1,\n 2 ]\nlinked = \"é\""})
     EXPECT_EQ(mistake_in("a.toml", text + "\n").find("outside ASCII"), std::string::npos) << text;
   EXPECT_NE(mistake_in("a.toml", "[scene]\nh = \"\x80\"\n").find("a.toml:2:6: a byte that is not UTF-8"),
             std::string::npos);

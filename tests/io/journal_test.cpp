@@ -112,10 +112,10 @@ TEST_F(JournalFile, refuses_another_key_and_says_what_differs) {
   EXPECT_NE(config.find("nu = 3"), std::string::npos) << config;
   EXPECT_EQ(config.find("xs = 2"), std::string::npos) << config;
   EXPECT_NE(config.find("--restart"), std::string::npos) << config;
-  EXPECT_NE(refusal({key.config, "1.1", key.arch, key.shard}).find("1.1"), std::string::npos);
+  EXPECT_NE(refusal({key.config, "1.1", key.rounding, key.shard}).find("1.1"), std::string::npos);
   EXPECT_NE(refusal({key.config, key.program, "sse2", key.shard}).find("sse2"), std::string::npos);
-  EXPECT_NE(refusal({key.config, key.program, key.arch, ""}).find("whole sweep"), std::string::npos);
-  EXPECT_NE(refusal({key.config, key.program, key.arch, "2/3"}).find("shard 2/3"), std::string::npos);
+  EXPECT_NE(refusal({key.config, key.program, key.rounding, ""}).find("whole sweep"), std::string::npos);
+  EXPECT_NE(refusal({key.config, key.program, key.rounding, "2/3"}).find("shard 2/3"), std::string::npos);
   EXPECT_EQ(content(), before);
 }
 

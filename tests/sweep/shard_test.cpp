@@ -191,23 +191,26 @@ TEST(SavedRun, refuses_results_that_are_not_its_own) {
 }
 
 TEST(SavedRun, may_be_saved_while_it_is_at_work) {
-  Sweep sweep = any_sweep();
-  const Figure whole = run(sweep, {.threads = 1}).figure;
-  for (int round = 0; round < 20; ++round) {
-    std::vector<Bytes> pieces;
-    SweepRun first(sweep);
-    {
-      std::jthread saver([&](const std::stop_token& stop) {
-        while (!stop.stop_requested())
-          for (Bytes& piece : saved(first)) pieces.push_back(std::move(piece));
-      });
-      first.run({.threads = 2});
+  Sweep alone = any_sweep(2);  // branches of one point
+  alone.dimensions[2][0].values.resize(1);
+  for (const Sweep& sweep : {any_sweep(), any_sweep(1), alone}) {
+    const Figure whole = run(sweep, {.threads = 1}).figure;
+    for (int round = 0; round < 10; ++round) {
+      std::vector<Bytes> pieces;
+      SweepRun first(sweep);
+      {
+        std::jthread saver([&](const std::stop_token& stop) {
+          while (!stop.stop_requested())
+            for (Bytes& piece : saved(first)) pieces.push_back(std::move(piece));
+        });
+        first.run({.threads = 2});
+      }
+      pieces.resize(pieces.size() * static_cast<std::size_t>(round) / 9);
+      SweepRun again(sweep);
+      for (const Bytes& piece : pieces) ASSERT_TRUE(again.restore(piece));
+      again.run({.threads = 2});
+      expect_same(again.result().figure, whole);
     }
-    pieces.resize(pieces.size() * static_cast<std::size_t>(round) / 19);
-    SweepRun again(sweep);
-    for (const Bytes& piece : pieces) ASSERT_TRUE(again.restore(piece));
-    again.run({.threads = 2});
-    expect_same(again.result().figure, whole);
   }
 }
 
