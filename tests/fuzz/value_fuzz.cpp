@@ -33,9 +33,9 @@ void check_number(std::string_view text) {
 void require_between(std::span<const double> values, double one, double other) {
   const double slack = 4 * std::numeric_limits<double>::epsilon() * std::max(std::abs(one), std::abs(other)) +
                        std::numeric_limits<double>::denorm_min();
+  const double least = std::min(one, other) - slack, most = std::max(one, other) + slack;
   for (const double value : values)
-    require(value >= std::min(one, other) - slack && value <= std::max(one, other) + slack,
-            "a value beyond the ends: " + number_text(value));
+    if (!(value >= least && value <= most)) require(false, "a value beyond the ends: " + number_text(value));
 }
 
 /// What a function promises, by its own text: "linspace(a, b, n)".
