@@ -5,7 +5,6 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
-#include <ranges>
 #include <vector>
 
 #include "dynamics/arc.hpp"
@@ -89,9 +88,16 @@ class Samples {
   [[nodiscard]] bool is_due_before(double end) const { return due_before(end, 1) == 1; }
   /// How many of the next samples, of `most` at most, lie before an instant.
   [[nodiscard]] std::size_t due_before(double end, std::size_t most) const {
-    const auto next = std::views::iota(x_.size(), x_.size() + std::min(most, count_ - x_.size()));
-    const auto behind = std::ranges::partition_point(next, [&](std::size_t i) { return instant(i) < end - rounding_; });
-    return static_cast<std::size_t>(behind - next.begin());
+    std::size_t before = x_.size(), behind = before + std::min(most, count_ - before);
+    while (before < behind) {
+      const std::size_t middle = before + (behind - before) / 2;
+      if (instant(middle) < end - rounding_) {
+        before = middle + 1;
+      } else {
+        behind = middle;
+      }
+    }
+    return before - x_.size();
   }
   void add(const Motion<double>& m) { add(m.x, m.v), ++evaluations_; }
   void add(double x, double v) { x_.push_back(between_stops(x)), v_.push_back(v); }
