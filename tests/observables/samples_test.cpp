@@ -130,7 +130,7 @@ TEST(FourierTransform, finds_a_sum_of_cosines) {
 }
 
 TEST(FourierTransform, a_row_has_the_same_bits_in_either_place_and_beside_any_other) {
-  for (const std::size_t n : {2, 3, 4, 15, 16, 64, 101, 1000, 1001, 4096}) {
+  for (const std::size_t n : std::initializer_list<std::size_t>{2, 3, 4, 15, 16, 64, 101, 1000, 1001, 4096}) {
     Random random(44, n);
     std::vector<double> row = cosine(n), other(n);
     for (double& sample : other) sample = random.uniform(-1e3, 1e3);
