@@ -39,11 +39,11 @@ int run_program(const std::vector<std::string>& words) {
   return done;
 }
 
-/// Opens what isn't open of the standard streams, or a file of ours would be taken for it.
+/// Opens what is closed of the standard streams, or a file of ours would be taken for it. What is written to stdout is
+/// still an error then.
 void open_standard_streams() {
-  int number = 0;
-  while (number >= 0 && number <= STDERR_FILENO) number = ::open("/dev/null", O_RDWR);
-  if (number > STDERR_FILENO) ::close(number);
+  for (int number = STDIN_FILENO; number <= STDERR_FILENO; ++number)
+    if (::fcntl(number, F_GETFD) < 0) (void)::open("/dev/null", number == STDERR_FILENO ? O_WRONLY : O_RDONLY);
 }
 
 bool at_its_end = false;

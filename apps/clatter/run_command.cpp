@@ -129,6 +129,7 @@ int run_config(const Arguments& arguments) {
     const auto image = shard ? sealed_image : file_image;
     publish(output, image(std::move(result.figure), config).bytes);
   } catch (const IoError& error) {
+    if (!journal.has_records()) throw;
     throw IoError(std::string(error.what()).append("\nclatter: ").append(journal.leave()));
   }
   journal.remove();

@@ -1,6 +1,7 @@
 """The command line as shell scripts meet it: exit codes, streams, files, round trips."""
 
 import json
+import os
 import subprocess
 import unittest
 
@@ -105,6 +106,11 @@ class Files(CommandLine):
         for command, words in cases:
             with self.subTest(command=command):
                 self.assert_refused(74, words, *command)
+
+    def test_closed_standard_output_is_an_error(self):
+        result = subprocess.run([CLATTER, "defaults"], preexec_fn=lambda: os.close(1), stderr=subprocess.PIPE, text=True)
+        self.assertEqual(result.returncode, 74, result.stderr)
+        self.assertIn("standard output cannot be written", result.stderr)
 
     def test_full_standard_output_is_an_error(self):
         with open("/dev/full", "w") as full:
