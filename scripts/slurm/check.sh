@@ -52,7 +52,7 @@ say() {
 give_up() {
   local log
   say "WRONG: $*"
-  for log in "$folder"/work/slurm-*.out "$folder"/*.log; do
+  for log in "$folder"/sweep/slurm-*.out "$folder"/*.log; do
     [[ -e $log ]] || continue
     echo "--- the end of $(basename "$log")"
     tail -n 15 "$log"
@@ -96,7 +96,7 @@ until_true() {
 chmod 755 "$folder"
 mkdir -m 700 "$folder/munge"
 mkdir -m 755 "$folder/socket"
-mkdir "$folder/state" "$folder/spool" "$folder/work"
+mkdir "$folder/state" "$folder/spool" "$folder/sweep"
 
 free_port() {
   local port
@@ -158,8 +158,8 @@ node_is_idle() { [[ $(sinfo -h -o %T) == idle ]]; }
 until_true 30 node_is_idle || give_up "no node after 30 s: $(sinfo -h -o '%T %E' 2>&1)"
 
 # Everything is simulated, though most of it could be left out: it is to take some time.
-cd "$folder/work"
-config="$folder/work/a map.toml"  # spaces are to work, too
+cd "$folder/sweep"
+config="$folder/sweep/a map.toml"  # spaces are permitted, too
 configure() {
   cat >"$config" <<END
 [scene]
