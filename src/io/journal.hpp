@@ -47,7 +47,7 @@ class Journal {
   using Take = std::function<void(std::span<const std::byte> record)>;
 
   /// Locks the journal of an output, and lets `take` have each record that is there. Throws BusyError, and IoError:
-  /// where another configuration, program or instruction set has left it, it is damaged, or cannot be read or written.
+  /// where another configuration, shard, program or rounding has left it, it is damaged, or cannot be read or written.
   Journal(const std::filesystem::path& output, JournalKey key, Begin begin, const Take& take);
   /// An empty file is removed.
   ~Journal();

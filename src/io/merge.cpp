@@ -19,7 +19,7 @@ constexpr std::size_t shown = 5;  ///< lines of a long list
   throw IoError("'" + other.path + "' and '" + one.path + "' " + what + "; " + way_out);
 }
 
-/// All shards are of one sweep, and were computed by this very program on one instruction set: else the merged file
+/// All shards are of one sweep, and were computed by this very program with one rounding: else the merged file
 /// would be one that no single run writes.
 void check_origins(const std::vector<ShardHead>& heads) {
   const ShardHead& first = heads.front();
