@@ -72,11 +72,18 @@ double transient_bound(const Oscillator& oscillator, const PhasePoint& transient
   return std::min(energy, decay * std::abs(transient.x) + std::abs(transient.v + slow * transient.x) * creep);
 }
 
-bool fades(const Oscillator& oscillator, const Instant& now, double after, double tolerance) {
-  const PhasePoint response = response_at(oscillator, now.sine, now.cosine);
-  const double scale = std::max(std::abs(oscillator.load + response.x), std::abs(response.v));
-  return oscillator.damping > 0 &&
-         transient_bound(oscillator, transient_of(oscillator, now), after) <= tolerance * scale;
+double fading_time(const Oscillator& oscillator, const PhasePoint& transient, double most) {
+  const double h = oscillator.damping;
+  if (norm(transient.x, transient.v) <= most) return 0;
+  if (h == 0) return std::numeric_limits<double>::infinity();
+  if (rotates(oscillator)) return std::max(0.0, std::log(std::abs(rotation(oscillator, transient)) / most) / h);
+  // for t >= 1/slow the bound is e^{-slow t} (|x| + |v + slow x| min(t, 1/(2 lambda))): solved for the exponent's t
+  const double root = std::sqrt((h - 1) * (h + 1)), slow = 1 / (h + root);
+  const double begin = std::abs(transient.x), creep = std::abs(transient.v + slow * transient.x);
+  double time = 1 / slow;
+  for (int i = 0; i < 8; ++i)
+    time = std::max(1.0, std::log((begin + creep * std::min(time, 1 / (2 * root))) / most)) / slow;
+  return time;
 }
 
 double reach_through_impacts(const Oscillator& oscillator, const Instant& now, double duration) {

@@ -27,9 +27,8 @@ struct PhasePoint {
 /// 0 < h < 1, of its decays for h >= 1, of its energy norm, which never grows.
 [[nodiscard]] double transient_bound(const Oscillator& oscillator, const PhasePoint& transient, double after = 0.0);
 
-/// Whether after a time nothing is left of the transient but a share `tolerance` of the response, of the larger of its
-/// |x| (from zero, load included) and |x'| at this phase.
-[[nodiscard]] bool fades(const Oscillator& oscillator, const Instant& now, double after, double tolerance);
+/// The time after which `transient_bound` is no larger than `most`; infinite where it never is.
+[[nodiscard]] double fading_time(const Oscillator& oscillator, const PhasePoint& transient, double most);
 
 /// Bound of |x - load| from an instant on for a time `duration` (inf: for all time), while no stop interferes; infinite
 /// where nothing bounds the motion. Rounding is allowed for. A bound below `enough` isn't made any sharper.

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 
 #include "dynamics/scene.hpp"
 #include "dynamics/state.hpp"
@@ -30,6 +31,9 @@ struct Observed {
   double turns = 0.0;    ///< its length in forcing periods; without forcing in 2 pi
   double settled = 0.0;  ///< forcing periods simulated before, to find it
   FoundBy found_by = FoundBy::nothing;
+  /// Forcing periods after which the motion from the start is within the tolerance of its steady state, by the rate at
+  /// which it contracts; it may take longer than max_periods. NaN where there is no steady state.
+  double settling = std::numeric_limits<double>::quiet_NaN();
 };
 
 }  // namespace clatter

@@ -17,9 +17,10 @@ template <class Predicate>
   return n;
 }
 
-/// Finds the number of forcing periods after which a motion repeats, from its states at the sections. A repeat has to
-/// go on for as long again: motion that forgets its past on a stop, and is chaotic after it, comes back to
-/// a state to rounding and yet takes another way from there.
+/// Finds the number of forcing periods after which a motion repeats, from its states at the sections. A repeat counts
+/// once all that is still to come of the transient is below the tolerance, not the part of it that n periods take away:
+/// that is small where motion contracts slowly. And it has to go on for as long again: motion that forgets its past on
+/// a stop, and is chaotic after it, comes back to a state to rounding and yet takes another way from there.
 class RepeatFinder {
  public:
   static constexpr std::size_t longest = 64;  ///< forcing periods of the longest motion looked for
@@ -29,10 +30,11 @@ class RepeatFinder {
   explicit RepeatFinder(double tolerance, std::size_t looks_every = 1)
       : tolerance_(tolerance), looks_every_(looks_every) {}
 
-  /// Takes the next section's state; returns the n after which the motion repeats, 0 while it doesn't.
-  [[nodiscard]] std::size_t add(double x, double v) {
+  /// Takes the next section's state, and the logarithm of what the period before it left of a small area of states;
+  /// returns the n after which the motion repeats, 0 while it doesn't.
+  [[nodiscard]] std::size_t add(double x, double v, double log_area) {
     if (size_ == capacity) forget();
-    x_[size_] = x, v_[size_] = v;
+    x_[size_] = x, v_[size_] = v, log_area_[size_] = log_area;
     const std::size_t now = size_++;
     if (candidate_ > 0 && !repeats(now, candidate_, few * tolerance_)) candidate_ = 0;
     if (candidate_ > 0 && --left_ == 0) return shortest(now, std::exchange(candidate_, 0));
@@ -40,7 +42,7 @@ class RepeatFinder {
     waited_ = 0;
     for (std::size_t n = next_within(tolerance_, 1); n > 0; n = next_within(tolerance_, n + 1)) {
       waited_ = looks_every_;  // a hit that doesn't stand may do so at the next section
-      if (!stands(now, n)) continue;
+      if (!stands(now, n) || !settled(now, n)) continue;
       candidate_ = left_ = n;
       break;
     }
@@ -81,12 +83,15 @@ class RepeatFinder {
 
  private:
   static constexpr std::size_t capacity = 512;
-  static constexpr std::size_t block = 8;              ///< states that are looked at together
+  static constexpr std::size_t block = 8;  ///< states that are looked at together
+  static constexpr double rounding = 8 * std::numeric_limits<double>::epsilon();
+  static constexpr double most_left = 1e-8;            ///< of a transient that rounding has stopped
   static constexpr std::ptrdiff_t kept = 2 * longest;  // a divisor's distance reaches back n + n/2 sections
 
   void forget() {
     std::copy(x_.end() - kept, x_.end(), x_.begin());
     std::copy(v_.end() - kept, v_.end(), v_.begin());
+    std::copy(log_area_.end() - kept, log_area_.end(), log_area_.begin());
     size_ = static_cast<std::size_t>(kept);
   }
 
@@ -110,18 +115,42 @@ class RepeatFinder {
     return true;
   }
 
+  /// What n periods leave of the transient: what they have left of the distance, but no less than the modulus of a
+  /// pair of multipliers that shrink areas as these periods did, since distances within a turning pair rise and fall.
+  [[nodiscard]] double rate(std::size_t now, std::size_t n) const {
+    double log_area = 0;
+    for (std::size_t i = 0; i < n; ++i) log_area += log_area_[now - i];
+    const double seen = now >= 2 * n ? distance(now, n) / distance(now - n, n) : 0.0;
+    return std::max(seen, std::exp(log_area / 2));
+  }
+
+  /// Distance to the motion that a hit at n settles to: the sum of what is to come, a geometric series.
+  [[nodiscard]] double left(std::size_t now, std::size_t n) const {
+    const double latest = distance(now, n);
+    if (!(latest > 0)) return 0;
+    const double share = rate(now, n);
+    return share < 1 ? latest / (1 - share) : std::numeric_limits<double>::infinity();
+  }
+
+  /// Whether a hit at n is within the tolerance of the motion that it settles to, or as near as rounding lets it come.
+  [[nodiscard]] bool settled(std::size_t now, std::size_t n) const {
+    if (left(now, n) <= tolerance_) return true;
+    return distance(now, n) <= rounding && !(now >= 2 * n && distance(now, n) < distance(now - n, n));
+  }
+
   /// The period of a hit at n: a divisor whose distance is down to a few tolerances, and shrinks no further, is as near
   /// to a repeat as rounding lets it come (with a multiplier near -1 the states then lock into a cycle of a few hundred
-  /// ulps).
+  /// ulps); the same where that distance is a transient's that rounding has stopped.
   [[nodiscard]] std::size_t shortest(std::size_t now, std::size_t n) const {
-    return least_divisor(n, [&](std::size_t m) { return distance(now, m) < few * tolerance_; });
+    const double near = few * std::max(tolerance_, std::min(left(now, n), most_left));
+    return least_divisor(n, [&](std::size_t m) { return distance(now, m) < near; });
   }
 
   double tolerance_;
   std::size_t looks_every_, waited_ = 0;  ///< sections between two looks, and those since the last
   std::size_t candidate_ = 0, left_ = 0;  ///< a repeat to be confirmed, and the sections until then
   std::size_t size_ = 0;
-  std::array<double, capacity> x_, v_;  ///< the first `size_` are set
+  std::array<double, capacity> x_, v_, log_area_;  ///< the first `size_` are set
 };
 
 }  // namespace clatter

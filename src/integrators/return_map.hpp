@@ -49,8 +49,10 @@ class ReturnMap {
   /// Held by a stop, at the equilibrium, or so near to it that the rest of the motion is below the tolerance.
   [[nodiscard]] bool stands_still(double x, double v, bool held) const {
     const double left = std::max(std::abs(x - equilibrium_), std::abs(v));
-    return held || left == 0.0 || (!conserved_ && left <= tolerance_ * scale_);
+    return held || left == 0.0 || (!conserved_ && left <= least());
   }
+  /// Displacements and velocities that count as none.
+  [[nodiscard]] double least() const { return tolerance_ * scale_; }
 
  private:
   double tolerance_, equilibrium_;

@@ -12,22 +12,25 @@ template <Integrator I>
 [[nodiscard]] Observed settle_by_repetition(I& integrator, State<double> state, const TimePlan& plan,
                                             std::int64_t from) {
   constexpr auto longest = static_cast<std::int64_t>(RepeatFinder::longest);
-  NoObserver nobody;
+  SectionWatch watch(integrator.stops());
   RepeatFinder repeat(plan.tolerance);
   std::array<State<double>, RepeatFinder::longest> recent;
   for (std::int64_t section = 0;; ++section) {
     const auto settled = static_cast<double>(section);
+    const double log_area = watch.passage().log_area - 2 * integrator.flow().h * integrator.period();
     recent[static_cast<std::size_t>(section % longest)] = state;
     if (section >= from) {
-      if (const std::size_t n = repeat.add(state.x, state.v)) {
+      if (const std::size_t n = repeat.add(state.x, state.v, log_area)) {
         const auto chosen = section - static_cast<std::int64_t>(repeat.lowest_of_last(n));
-        return {Status::periodic, recent[static_cast<std::size_t>(chosen % longest)], static_cast<double>(n), settled,
-                FoundBy::repetition};
+        return {Status::periodic,       recent[static_cast<std::size_t>(chosen % longest)],
+                static_cast<double>(n), settled,
+                FoundBy::repetition,    settled};
       }
     }
     if (section == plan.max_periods)
       return {Status::aperiodic, state, static_cast<double>(plan.window), settled, FoundBy::nothing};
-    const Outcome outcome = advance_to_section(integrator, state, state.periods, nobody);
+    watch.begin_section();
+    const Outcome outcome = advance_to_section(integrator, state, state.periods, watch);
     if (outcome != Outcome::completed) return {status_of(outcome), state, 0.0, settled, FoundBy::nothing};
   }
 }

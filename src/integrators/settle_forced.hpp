@@ -58,7 +58,7 @@ class SteadySearch {
     return attractor(state);
   }
   /// Takes note of the forcing period that leads to the next section.
-  void pass_period(std::uint64_t itinerary) { itineraries_[index(0)] = itinerary, ++section_; }
+  void pass_period(const Passage& passage) { passages_[index(0)] = passage, ++section_; }
 
   [[nodiscard]] Observed failure(Outcome outcome, const State<double>& state) const {
     return {status_of(outcome), state, 0.0, simulated(), FoundBy::nothing};
@@ -67,9 +67,11 @@ class SteadySearch {
  private:
   static constexpr double nearest_first = 0.02;  ///< relative distance below which a first attempt pays
   static constexpr std::int64_t long_settling = 128;
+  static constexpr double longest_settling = 0x1p52;  ///< periods; more are more than double can count
   static constexpr std::size_t kept = 2 * RepeatFinder::longest;
 
   [[nodiscard]] std::size_t index(std::size_t ago) const { return (static_cast<std::size_t>(section_) - ago) % kept; }
+  [[nodiscard]] double settled() const { return static_cast<double>(section_); }  ///< forcing periods of the motion
   [[nodiscard]] double simulated() const {
     return static_cast<double>(section_ - taken_) + static_cast<double>(map_.simulated());
   }
@@ -77,21 +79,23 @@ class SteadySearch {
   /// Runs to the next section, or takes it from an approach that has come to nothing.
   [[nodiscard]] Outcome advance(State<double>& state) {
     if (approach_ && next_ < approach_->periods) {
-      itineraries_[index(0)] = approach_->itineraries[next_];
+      passages_[index(0)] = approach_->passages[next_];
       state = approach_->states[++next_];
       ++taken_;
       return Outcome::completed;
     }
     watch_.begin_section();
     const Outcome outcome = advance_to_section(integrator_, state, state.periods, watch_);
-    itineraries_[index(0)] = watch_.itinerary();
+    passages_[index(0)] = watch_.passage();
     return outcome;
   }
 
   /// The forcing periods after which the motion repeats, 0 while it doesn't. In lanes it goes on until the states at
   /// the sections have come as close as rounding lets them, since no Newton step takes them there.
   [[nodiscard]] std::size_t repeats(const State<double>& state) {
-    const std::size_t n = repeat_.add(state.x, state.v);
+    const double log_area =
+        section_ > 0 ? passages_[index(1)].log_area - 2 * integrator_.flow().h * integrator_.period() : 0.0;
+    const std::size_t n = repeat_.add(state.x, state.v, log_area);
     if (!in_lanes_ || (n == 0 && closing_in_ == 0)) return n;
     if (closing_in_ == 0) closing_in_ = n, closest_ = std::numeric_limits<double>::infinity();
     const double distance = repeat_.distance_over(closing_in_);
@@ -102,23 +106,26 @@ class SteadySearch {
   }
 
   [[nodiscard]] Observed repetition(std::size_t n) const {
-    return {Status::periodic, recent_[index(repeat_.lowest_of_last(n))], static_cast<double>(n), simulated(),
-            FoundBy::repetition};
+    return {Status::periodic,       recent_[index(repeat_.lowest_of_last(n))],
+            static_cast<double>(n), simulated(),
+            FoundBy::repetition,    settled()};
   }
 
-  /// The steady forced response, where no stop is in reach from now on and the transient will be gone in time.
+  /// The steady forced response, where no stop is in reach from now on and damping takes away what is left of the
+  /// transient, however long that may take.
   [[nodiscard]] std::optional<Observed> closed_form(const State<double>& state) const {
     const Oscillator& o = scene_.oscillator;
-    if (o.damping == 0 || (section_ > 0 && itineraries_[index(1)] != 0)) return std::nullopt;
+    if (o.damping == 0 || (section_ > 0 && passages_[index(1)].itinerary != 0)) return std::nullopt;
     const auto [sine, cosine] = integrator_.phase(State<double>{});
     const Instant now{state.x - o.load, state.v, sine, cosine};
     if (E.stops() && !out_of_reach(o, now, integrator_.stops())) return std::nullopt;
-    const double time = static_cast<double>(plan_.max_periods - section_) * integrator_.period();
-    if (!fades(o, now, time, plan_.tolerance)) return std::nullopt;
-    const PhasePoint response = response_at(o, sine, cosine);
+    const PhasePoint response = response_at(o, sine, cosine), left = transient_of(o, now);
+    const double x = o.load + response.x, most = plan_.tolerance * std::max(std::abs(x), std::abs(response.v));
+    const double periods = fading_time(o, left, most) / integrator_.period();
+    if (!(periods < longest_settling)) return std::nullopt;
     State<double> steady = state;
-    steady.x = o.load + response.x, steady.v = response.v, steady.left = Side::none;
-    return Observed{Status::periodic, steady, 1.0, simulated(), FoundBy::closed_form};
+    steady.x = x, steady.v = response.v, steady.left = Side::none;
+    return Observed{Status::periodic, steady, 1.0, simulated(), FoundBy::closed_form, settled() + periods};
   }
 
   /// Follows the next n periods together with their derivative where states have begun to contract, and looks for the
@@ -164,12 +171,13 @@ class SteadySearch {
   [[nodiscard]] std::size_t contracting() const {
     for (std::size_t n = repeat_.next_within(nearest_first, 1); n > 0; n = repeat_.next_within(nearest_first, n + 1)) {
       const double now = repeat_.distance_over(n);
-      if (!(now <= near_enough_[n] && now > plan_.tolerance && now < repeat_.distance_over(n, n))) continue;
+      if (!(now <= near_enough_[n] && now > 8 * epsilon<double>() && now < repeat_.distance_over(n, n))) continue;
       if (in_lanes_ && repeats_soon(n)) continue;
-      bool same = true;
+      bool same = true, meets = false;
       for (std::size_t i = 1; same && i <= n && n + i < kept; ++i)
-        same = itineraries_[index(i)] == itineraries_[index(n + i)];
-      if (same) return n;
+        same = passages_[index(i)].itinerary == passages_[index(n + i)].itinerary,
+        meets = meets || passages_[index(i)].itinerary != 0;
+      if (same && meets) return n;
     }
     return 0;
   }
@@ -181,7 +189,8 @@ class SteadySearch {
         least_divisor(orbit.periods, [&](std::size_t m) { return between(start, orbit.states[m]).size() <= limit; });
     const auto lowest = std::ranges::min_element(
         std::span(orbit.states).first(n), {}, [](const State<double>& state) { return std::pair(state.x, state.v); });
-    return {Status::periodic, *lowest, static_cast<double>(n), simulated(), FoundBy::newton};
+    const double settling = settled() + orbit.settling;
+    return {Status::periodic, *lowest, static_cast<double>(n), simulated(), FoundBy::newton, settling};
   }
 
   Exact<double, E>& integrator_;
@@ -199,7 +208,7 @@ class SteadySearch {
   std::int64_t section_ = 0;
   std::int64_t taken_ = 0;                                       ///< sections that were taken from approaches
   std::array<State<double>, kept> recent_{};                     ///< [section modulo kept]
-  std::array<std::uint64_t, kept> itineraries_{};                ///< of the section that begins there
+  std::array<Passage, kept> passages_{};                         ///< of the section that begins there
   std::array<double, RepeatFinder::longest + 1> near_enough_{};  ///< [n]: distance below which an attempt is made
 };
 

@@ -24,10 +24,10 @@ class FreeSearch {
     const std::int64_t most = scene_.time.max_periods;
     for (std::int64_t section = 0;; ++section) {
       const auto settled = static_cast<double>(section);
-      if (stands_still(state)) return {Status::periodic, state, 1.0, settled, FoundBy::standstill};
+      if (stands_still(state)) return {Status::periodic, state, 1.0, settled, FoundBy::standstill, settled};
       if (I::in_closed_form && !all_effects()) {
         const double turns = section == 0 && conservative() ? free_turns(start) : 0.0;
-        if (turns > shortest) return {Status::periodic, start, turns, 0.0, FoundBy::energy};
+        if (turns > shortest) return {Status::periodic, start, turns, 0.0, FoundBy::energy, 0.0};
         if (const auto found = closed_form(state, section)) return *found;
       }
       if (section == most)
@@ -38,7 +38,8 @@ class FreeSearch {
       if (integrator_.holding_stop(state) || (all_effects() && section + 1 < most)) continue;
       const double turns = returns_.free_rotation() ? 1.0 : returns_.period() / integrator_.period();
       if (turns > 0)
-        return {Status::periodic, returns_.conserved() ? start : state, turns, settled + 1, FoundBy::repetition};
+        return {Status::periodic, returns_.conserved() ? start : state, turns, settled + 1, FoundBy::repetition,
+                settled + 1};
     }
   }
 
@@ -65,13 +66,12 @@ class FreeSearch {
     const Instant now{state.x - o.load, state.v, 0.0, 1.0};
     if (I::effects.stops() && !out_of_reach(o, now, integrator_.stops())) return std::nullopt;
     const auto settled = static_cast<double>(section);
-    if (o.damping == 0) return Observed{Status::periodic, state, 1.0, settled, FoundBy::closed_form};
-    const double time = static_cast<double>(scene_.time.max_periods - section) * integrator_.period();
-    const double left = transient_bound(o, transient_of(o, now), time);
-    if (!returns_.stands_still(o.load + left, left, false)) return std::nullopt;
+    if (o.damping == 0) return Observed{Status::periodic, state, 1.0, settled, FoundBy::closed_form, settled};
+    const double end_at = settled + fading_time(o, transient_of(o, now), returns_.least()) / integrator_.period();
+    if (!(end_at <= static_cast<double>(scene_.time.max_periods))) return std::nullopt;
     State<double> end = state;
     end.x = o.load, end.v = 0, end.left = Side::none;
-    return Observed{Status::periodic, end, 1.0, settled, FoundBy::standstill};
+    return Observed{Status::periodic, end, 1.0, settled, FoundBy::standstill, end_at};
   }
 
   static constexpr double shortest = 16 * std::numeric_limits<double>::epsilon();  ///< turns that time can tell apart

@@ -129,7 +129,7 @@ Columns::Columns(const Sweep& sweep, const std::optional<Shard>& shard)
       status_(share_.points(), static_cast<std::uint8_t>(Status::unresolved)),
       impacts_(status_.size(), 0),
       periods_(status_.size(), 0.0),
-      outputs_(outputs_of(sweep.scene.observe)) {
+      outputs_(outputs_of(sweep.scene)) {
   for (const Output& output : outputs_) values_.emplace_back(status_.size() * output.width, no_value);
   if (sweep.scene.observe.impact_log) log_.resize(status_.size());
 }

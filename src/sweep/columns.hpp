@@ -23,9 +23,9 @@ struct Output {
   std::function<void(const PointResult&, double* values)> put;  ///< writes `width` values
 };
 
-/// The variables that a scene's observables give (interface.md, table of variables), the impact log and the integer
-/// ones aside.
-[[nodiscard]] std::vector<Output> outputs_of(const Observe& observe);
+/// The variables that a scene's observables give, the impact log and the integer ones aside, and of steady motion the
+/// estimate of how long it takes to settle.
+[[nodiscard]] std::vector<Output> outputs_of(const Scene& scene);
 
 /// Adds the sweep's dimensions and the coordinates along them.
 void add_axes(const Sweep& sweep, Figure& figure);

@@ -111,12 +111,16 @@ double Crew::Member::x_of(const Lanes& lanes, std::size_t lane, double y) const 
 }
 
 std::optional<Observed> Crew::Member::at_section(const Lanes& lanes, std::size_t lane) {
-  search_->pass_period(std::bit_cast<std::uint64_t>(lanes.section_trace.lane[lane]));
+  const double impacts = exact_.impacts() + lanes.section_impacts.lane[lane];
+  const Stops& stops = exact_.stops();  // which one was hit isn't known: the one that takes less
+  const double kept = std::max(stops.restitution_lower, stops.restitution_upper);
+  search_->pass_period({std::bit_cast<std::uint64_t>(lanes.section_trace.lane[lane]),
+                        2 * std::log(kept) * (impacts - section_impacts_)});
+  section_impacts_ = impacts;
   State<double> state;
   state.x = x_of(lanes, lane, lanes.section_y.lane[lane]);
   state.v = lanes.section_v.lane[lane] * lanes.rate.lane[lane], state.periods = ++sections_;
-  if (exact_.impacts() + lanes.section_impacts.lane[lane] > task_.scene.time.max_impacts)
-    return failure(Outcome::event_budget);
+  if (impacts > task_.scene.time.max_impacts) return failure(Outcome::event_budget);
   return search_->at_section(state);
 }
 

@@ -61,8 +61,9 @@ class Crew::Member {
   State<double> helped_to_{};                                      ///< where the scalar kernel left the lane
   double helped_left_ = std::numeric_limits<double>::quiet_NaN();  ///< its time to the next section then
   std::int64_t sections_ = 0, helped_ = 0;
-  std::int64_t quiet_ = 0;  ///< sections that the lane passes without a report before the next one
-  double impacts_ = 0.0;
+  std::int64_t quiet_ = 0;        ///< sections that the lane passes without a report before the next one
+  double impacts_ = 0.0;          ///< that lanes have met, once the member has left them
+  double section_impacts_ = 0.0;  ///< of lane and scalar kernel, up to the last section
   bool observing_ = false;
   bool coasts_ = false;    ///< no stop can be met under observation any more
   bool gives_up_ = false;  ///< it rested under observation, or failed: only the scalar kernel tells what comes of it

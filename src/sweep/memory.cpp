@@ -16,7 +16,7 @@ namespace clatter {
 
 double result_bytes(const Sweep& sweep, const std::optional<Shard>& shard) {
   double bytes_a_point = sizeof(std::uint8_t) + sizeof(std::int64_t) + sizeof(double);  // status, impacts, periods
-  for (const Output& output : outputs_of(sweep.scene.observe))
+  for (const Output& output : outputs_of(sweep.scene))
     bytes_a_point += static_cast<double>(output.width) * sizeof(double);
   if (shard) bytes_a_point += sizeof(std::int64_t);  // index in the sweep
   return bytes_a_point * static_cast<double>(Share(sweep, shard).points());
@@ -24,7 +24,7 @@ double result_bytes(const Sweep& sweep, const std::optional<Shard>& shard) {
 
 double run_bytes(const Sweep& sweep, const std::optional<Shard>& shard) {
   std::size_t width = 1;
-  for (const Output& output : outputs_of(sweep.scene.observe)) width = std::max(width, output.width);
+  for (const Output& output : outputs_of(sweep.scene)) width = std::max(width, output.width);
   return result_bytes(sweep, shard) +
          static_cast<double>(width * sizeof(double)) * static_cast<double>(Share(sweep, shard).points());
 }

@@ -61,8 +61,12 @@ void add_trajectory(std::vector<Output>& outputs, std::size_t count) {
 
 }  // namespace
 
-std::vector<Output> outputs_of(const Observe& observe) {
+std::vector<Output> outputs_of(const Scene& scene) {
+  const Observe& observe = scene.observe;
   std::vector<Output> outputs;
+  if (scene.time.mode == Mode::steady)
+    outputs.push_back(scalar("settling_estimate", "forcing periods until within the tolerance of the steady motion",
+                             &PointResult::settling_estimate));
   if (observe.extrema) {
     outputs.push_back(scalar("x_min", "minimum displacement", &PointResult::x_min));
     outputs.push_back(scalar("x_max", "maximum displacement", &PointResult::x_max));

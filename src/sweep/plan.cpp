@@ -30,14 +30,13 @@ Scene planned_scene(const Sweep& sweep, const Branches& branches, std::size_t po
   return scene;
 }
 
-/// Whether motion without stops comes to its end, the steady response, free vibration or standstill, within a time.
-bool ends_in_time(const Scene& scene, double time) {
+/// Whether motion without stops comes to its end: the steady response, free vibration, or standstill within a time.
+bool comes_to_its_end(const Scene& scene, double time) {
   const Oscillator& o = scene.oscillator;
+  if (o.forcing != 0) return o.damping > 0;
   const double x = scene.start.displacement - o.load, v = scene.start.velocity;
-  if (o.forcing != 0)
-    return fades(o, {x, v, std::sin(scene.start.phase), std::cos(scene.start.phase)}, time, scene.time.tolerance);
   const double scale = std::max({std::abs(scene.start.displacement), std::abs(v), std::abs(o.load)});
-  return o.damping == 0 || transient_bound(o, {x, v}, time) <= scene.time.tolerance * scale;
+  return o.damping == 0 || fading_time(o, {x, v}, scene.time.tolerance * scale) <= time;
 }
 
 /// Forcing periods of a point. Where nothing is proved: at best a single one is settled and one observed, at worst all
@@ -50,7 +49,7 @@ Estimate periods_of(const Scene& scene, const Effects& effects) {
   if (scene.integration.all_effects)
     return {std::max(1.0, longest - 192) + 1, longest + static_cast<double>(time.window)};
   if (scene.integration.method != Method::exact) return {2, longest + static_cast<double>(time.window)};
-  if (!effects.stops() && ends_in_time(scene, longest * period)) return {1, 1};
+  if (!effects.stops() && comes_to_its_end(scene, longest * period)) return {1, 1};
   if (o.forcing == 0 && o.damping == 0 && !effects.dissipation) return {0, 1};
   return {2, longest * 1.25 + std::min(64.0, longest) + static_cast<double>(time.window)};
 }

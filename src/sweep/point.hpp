@@ -26,7 +26,8 @@ struct PointResult {
   double periods = 0.0;   ///< forcing periods simulated, settling included
   /// Of arcs by the scalar kernel (of the equation by general methods), settling and observables included.
   double evaluations = 0.0;
-  double observed_turns = no_value;  ///< forcing periods observed
+  double settling_estimate = no_value;  ///< forcing periods until the motion is within the tolerance of the steady one
+  double observed_turns = no_value;     ///< forcing periods observed
   double x_min = no_value, x_max = no_value, v_min = no_value, v_max = no_value;
   double base_frequency = no_value;
   Spectrum x_spectrum{}, v_spectrum{};                  ///< shape [harmonic]

@@ -81,6 +81,7 @@ class Point {
  private:
   PointResult result_of(const Observed& observed) {
     result_.status = observed.status, result_.found_by = observed.found_by, result_.periods = observed.settled;
+    result_.settling_estimate = observed.settling;
     result_.impacts = integrator_.impacts();
     result_.evaluations += integrator_.evaluations();
     return std::move(result_);

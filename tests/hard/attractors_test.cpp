@@ -1,0 +1,155 @@
+// No shortcut to the steady motion may end on a motion that the scene itself doesn't settle to: random scenes, light
+// damping near low ratios first, against simulating everything for all of max_periods.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <iostream>
+#include <vector>
+
+#include "dynamics/reach.hpp"
+#include "dynamics/response.hpp"
+#include "support/random.hpp"
+#include "support/runs.hpp"
+#include "support/scene_range.hpp"
+#include "sweep/lane_points.hpp"
+#include "sweep/point.hpp"
+
+namespace clatter {
+namespace {
+
+constexpr double none = std::numeric_limits<double>::infinity();
+
+Scene steady_scene(const Oscillator& oscillator, double lower, double upper, double R) {
+  Scene scene = scene_of(oscillator, lower, upper, R);
+  scene.observe.extrema = scene.observe.period = true;
+  return scene;
+}
+
+double ratio_near(Random& random) {
+  constexpr std::array ratios{1.0 / 3, 0.5, 2.0 / 3, 1.0, 1.5, 2.0, 2.5, 3.0, 4.0};
+  const auto which = static_cast<std::size_t>(random.uniform(0, static_cast<double>(ratios.size())));
+  return ratios[which] * (1 + random.sign() * random.logarithmic(1e-4, 2e-2));
+}
+
+/// A transient that beats slowly against the force, with the stops somewhere in its reach.
+Scene beats(Random& random, double least_h, double most_h) {
+  const double h = random.logarithmic(least_h, most_h), nu = ratio_near(random);
+  const double response = steady_response(h, 1.0, nu).amplitude, transient = response * random.logarithmic(0.1, 10);
+  const double xs = response + transient * random.uniform(0.02, 1.1), angle = random.uniform(0, 2 * pi<double>());
+  Scene scene = steady_scene({h, 1.0, nu, 0.0}, -xs, xs, random.uniform(0.4, 0.97));
+  const PhasePoint start = response_at(scene.oscillator, 0.0, 1.0);
+  scene.start = {std::clamp(start.x + transient * std::cos(angle), -0.999 * xs, 0.999 * xs),
+                 start.v + transient * std::sin(angle), 0.0};
+  scene.time.max_periods = 400 + static_cast<std::int64_t>(45 / (h * period_of(scene.oscillator)));
+  return scene;
+}
+
+Scene start_anywhere(Random& random, Scene scene) {
+  const double low = std::max(scene.stops.lower, -3.0), high = std::min(scene.stops.upper, 3.0);
+  if (random.happens(0.7)) scene.start = {random.uniform(low, high), random.uniform(-2, 2), random.uniform(-3, 3)};
+  if (scene.stops.lower > 0 || scene.stops.upper < 0) scene.start.displacement = (low + high) / 2;
+  return scene;
+}
+
+/// One kind of scene after the other.
+Scene scene_number(std::uint64_t i) {
+  Random random(17, i);
+  const double xs = random.logarithmic(0.1, 5), nu = random.logarithmic(0.3, 6);
+  switch (i % 9) {
+    case 0:
+      return beats(random, 6e-5, 6e-4);
+    case 1:
+      return beats(random, 6e-4, 1e-2);
+    case 2:  // subharmonics with many impacts
+      return start_anywhere(random, steady_scene({random.logarithmic(0.01, 0.3), -1.0, nu, 0.0}, -xs, xs,
+                                                 random.uniform(0.3, 0.95)));
+    case 3:  // nearly elastic
+      return start_anywhere(random, steady_scene({random.logarithmic(1e-3, 0.1), 1.0, nu, 0.0}, -xs, xs,
+                                                 1 - random.logarithmic(1e-4, 0.1)));
+    case 4:  // where Figs. 22 and 23 double their period, or nearly so
+      return steady_scene({random.uniform(0.08, 0.12), -1.0, random.uniform(0.84, 1.0), 0.0}, -xs / xs * 3,
+                          random.uniform(2.9, 4.1), random.uniform(0.6, 0.8));
+    case 5: {  // unlike stops under a load
+      Scene scene = steady_scene({random.logarithmic(1e-3, 0.5), 1.0, nu, random.uniform(-0.5, 0.5)},
+                                 -random.logarithmic(0.1, 3), random.logarithmic(0.1, 3), random.uniform(0.2, 0.9));
+      scene.stops.restitution_upper = random.uniform(0.2, 0.9);
+      return start_anywhere(random, scene);
+    }
+    case 6:  // chatter and rest
+      return start_anywhere(random, steady_scene({random.logarithmic(0.01, 0.3), 1.0, random.uniform(0.1, 1.0), 0.0},
+                                                 -random.uniform(0.05, 0.9), random.uniform(0.05, 0.9),
+                                                 random.uniform(0, 0.8)));
+    case 7:  // one stop
+      return start_anywhere(random, steady_scene({random.logarithmic(1e-3, 0.3), 1.0, nu, 0.0}, -none,
+                                                 random.uniform(-1, 2), random.uniform(0.3, 0.95)));
+    default:  // heavy damping
+      return start_anywhere(random, steady_scene({random.uniform(0.9, 5), 10.0, nu, 0.0}, -xs / 5, xs / 5,
+                                                 random.uniform(0.1, 0.95)));
+  }
+}
+
+PointResult everything(Scene scene) {
+  scene.integration.all_effects = true;
+  Workshop workshop;
+  return run_point(scene, workshop);
+}
+
+bool agree(const PointResult& a, const PointResult& b) {
+  if (a.status != b.status) return false;
+  if (a.status != Status::periodic) return true;  // chaos has no values to compare
+  const double x = 1e-8 * (std::abs(b.x_min) + std::abs(b.x_max)), v = 1e-8 * (std::abs(b.v_min) + std::abs(b.v_max));
+  return a.period_ratio == b.period_ratio && std::abs(a.x_min - b.x_min) <= x && std::abs(a.x_max - b.x_max) <= x &&
+         std::abs(a.v_min - b.v_min) <= v && std::abs(a.v_max - b.v_max) <= v;
+}
+
+/// What the scene settles to from twelve starts that differ from its own in the last digits.
+bool agrees_nearby(const PointResult& found, const Scene& scene) {
+  for (int i = 0; i < 12; ++i) {
+    Scene near = scene;
+    const double angle = i * pi<double>() / 6, size = 1e-14 * std::max(1.0, std::abs(scene.start.velocity));
+    near.start.displacement = std::clamp(near.start.displacement + size * std::cos(angle), scene.stops.lower,
+                                         scene.stops.upper);
+    near.start.velocity += size * std::sin(angle);
+    if (agree(found, everything(near))) return true;
+  }
+  return false;
+}
+
+std::string words(const PointResult& r) {
+  return "status " + std::to_string(static_cast<int>(r.status)) + ", " + std::to_string(r.period_ratio) + " periods, x " +
+         std::to_string(r.x_min) + " ... " + std::to_string(r.x_max) + " after " + std::to_string(r.periods);
+}
+
+TEST(Attractors, no_shortcut_ends_on_another_motion_than_the_scene) {
+  const auto [from, to] = scene_range(360);
+  std::size_t periodic = 0, sensitive = 0, by_newton = 0;
+  for (std::uint64_t i = from; i < to; ++i) {
+    const Scene scene = scene_number(i);
+    const PointResult all = everything(scene);
+    Workshop workshop;
+    std::vector<PointResult> answers{run_point(scene, workshop)};
+    const Task task{0, scene, effects_of(scene)};
+    if (best_arch() != Arch::scalar && can_go_into_lanes(task))
+      answers.push_back(run_in_lanes(task, 1, best_arch(), workshop));
+    periodic += all.status == Status::periodic;
+    for (std::size_t k = 0; k < answers.size(); ++k) {
+      by_newton += answers[k].found_by == FoundBy::newton;
+      if (agree(answers[k], all)) continue;
+      const bool nearby = agrees_nearby(answers[k], scene);
+      sensitive += nearby;
+      EXPECT_TRUE(nearby) << "scene " << i << (k == 0 ? ", scalar: " : ", lanes: ") << words(answers[k]) << "; all effects: "
+                          << words(all) << " by " << found_by_names[static_cast<std::size_t>(answers[k].found_by)];
+    }
+  }
+  std::cout << to - from << " scenes, " << periodic << " periodic, " << by_newton << " answers by Newton's method, "
+            << sensitive << " that 1e-14 of the start decides\n";
+  if (to - from < 100) return;
+  EXPECT_GT(periodic, (to - from) / 2);
+  EXPECT_GT(by_newton, (to - from) / 4);
+}
+
+}  // namespace
+}  // namespace clatter
