@@ -64,13 +64,13 @@ Scene scene_number(std::uint64_t i) {
     case 1:
       return beats(random, 6e-4, 1e-2);
     case 2:  // subharmonics with many impacts
-      return start_anywhere(random, steady_scene({random.logarithmic(0.01, 0.3), -1.0, nu, 0.0}, -xs, xs,
-                                                 random.uniform(0.3, 0.95)));
+      return start_anywhere(
+          random, steady_scene({random.logarithmic(0.01, 0.3), -1.0, nu, 0.0}, -xs, xs, random.uniform(0.3, 0.95)));
     case 3:  // nearly elastic
       return start_anywhere(random, steady_scene({random.logarithmic(1e-3, 0.1), 1.0, nu, 0.0}, -xs, xs,
                                                  1 - random.logarithmic(1e-4, 0.1)));
     case 4:  // where Figs. 22 and 23 double their period, or nearly so
-      return steady_scene({random.uniform(0.08, 0.12), -1.0, random.uniform(0.84, 1.0), 0.0}, -xs / xs * 3,
+      return steady_scene({random.uniform(0.08, 0.12), -1.0, random.uniform(0.84, 1.0), 0.0}, -3.0,
                           random.uniform(2.9, 4.1), random.uniform(0.6, 0.8));
     case 5: {  // unlike stops under a load
       Scene scene = steady_scene({random.logarithmic(1e-3, 0.5), 1.0, nu, random.uniform(-0.5, 0.5)},
@@ -79,28 +79,33 @@ Scene scene_number(std::uint64_t i) {
       return start_anywhere(random, scene);
     }
     case 6:  // chatter and rest
-      return start_anywhere(random, steady_scene({random.logarithmic(0.01, 0.3), 1.0, random.uniform(0.1, 1.0), 0.0},
-                                                 -random.uniform(0.05, 0.9), random.uniform(0.05, 0.9),
-                                                 random.uniform(0, 0.8)));
+      return start_anywhere(
+          random, steady_scene({random.logarithmic(0.01, 0.3), 1.0, random.uniform(0.1, 1.0), 0.0},
+                               -random.uniform(0.05, 0.9), random.uniform(0.05, 0.9), random.uniform(0, 0.8)));
     case 7:  // one stop
       return start_anywhere(random, steady_scene({random.logarithmic(1e-3, 0.3), 1.0, nu, 0.0}, -none,
                                                  random.uniform(-1, 2), random.uniform(0.3, 0.95)));
     default:  // heavy damping
-      return start_anywhere(random, steady_scene({random.uniform(0.9, 5), 10.0, nu, 0.0}, -xs / 5, xs / 5,
-                                                 random.uniform(0.1, 0.95)));
+      return start_anywhere(
+          random, steady_scene({random.uniform(0.9, 5), 10.0, nu, 0.0}, -xs / 5, xs / 5, random.uniform(0.1, 0.95)));
   }
 }
 
-PointResult everything(Scene scene) {
+/// Without shortcuts, for long enough by an estimate of how long the transient lasts.
+PointResult everything(Scene scene, double settling) {
   scene.integration.all_effects = true;
+  if (settling < 1e6)
+    scene.time.max_periods = std::max(scene.time.max_periods, 400 + static_cast<std::int64_t>(1.2 * settling));
   Workshop workshop;
   return run_point(scene, workshop);
 }
 
+/// Whether two answers are the same motion: their values are compared elsewhere; here a graze in a motion that rests,
+/// and forgets it, may multiply an ulp by 1e9.
 bool agree(const PointResult& a, const PointResult& b) {
   if (a.status != b.status) return false;
   if (a.status != Status::periodic) return true;  // chaos has no values to compare
-  const double x = 1e-8 * (std::abs(b.x_min) + std::abs(b.x_max)), v = 1e-8 * (std::abs(b.v_min) + std::abs(b.v_max));
+  const double x = 1e-5 * (std::abs(b.x_min) + std::abs(b.x_max)), v = 1e-5 * (std::abs(b.v_min) + std::abs(b.v_max));
   return a.period_ratio == b.period_ratio && std::abs(a.x_min - b.x_min) <= x && std::abs(a.x_max - b.x_max) <= x &&
          std::abs(a.v_min - b.v_min) <= v && std::abs(a.v_max - b.v_max) <= v;
 }
@@ -110,17 +115,18 @@ bool agrees_nearby(const PointResult& found, const Scene& scene) {
   for (int i = 0; i < 12; ++i) {
     Scene near = scene;
     const double angle = i * pi<double>() / 6, size = 1e-14 * std::max(1.0, std::abs(scene.start.velocity));
-    near.start.displacement = std::clamp(near.start.displacement + size * std::cos(angle), scene.stops.lower,
-                                         scene.stops.upper);
+    near.start.displacement =
+        std::clamp(near.start.displacement + size * std::cos(angle), scene.stops.lower, scene.stops.upper);
     near.start.velocity += size * std::sin(angle);
-    if (agree(found, everything(near))) return true;
+    if (agree(found, everything(near, found.settling_estimate))) return true;
   }
   return false;
 }
 
 std::string words(const PointResult& r) {
-  return "status " + std::to_string(static_cast<int>(r.status)) + ", " + std::to_string(r.period_ratio) + " periods, x " +
-         std::to_string(r.x_min) + " ... " + std::to_string(r.x_max) + " after " + std::to_string(r.periods);
+  return "status " + std::to_string(static_cast<int>(r.status)) + ", " + std::to_string(r.period_ratio) +
+         " periods, x " + std::to_string(r.x_min) + " ... " + std::to_string(r.x_max) + " after " +
+         std::to_string(r.periods);
 }
 
 TEST(Attractors, no_shortcut_ends_on_another_motion_than_the_scene) {
@@ -128,9 +134,9 @@ TEST(Attractors, no_shortcut_ends_on_another_motion_than_the_scene) {
   std::size_t periodic = 0, sensitive = 0, by_newton = 0;
   for (std::uint64_t i = from; i < to; ++i) {
     const Scene scene = scene_number(i);
-    const PointResult all = everything(scene);
     Workshop workshop;
     std::vector<PointResult> answers{run_point(scene, workshop)};
+    const PointResult all = everything(scene, answers[0].settling_estimate);
     const Task task{0, scene, effects_of(scene)};
     if (best_arch() != Arch::scalar && can_go_into_lanes(task))
       answers.push_back(run_in_lanes(task, 1, best_arch(), workshop));
@@ -140,8 +146,9 @@ TEST(Attractors, no_shortcut_ends_on_another_motion_than_the_scene) {
       if (agree(answers[k], all)) continue;
       const bool nearby = agrees_nearby(answers[k], scene);
       sensitive += nearby;
-      EXPECT_TRUE(nearby) << "scene " << i << (k == 0 ? ", scalar: " : ", lanes: ") << words(answers[k]) << "; all effects: "
-                          << words(all) << " by " << found_by_names[static_cast<std::size_t>(answers[k].found_by)];
+      EXPECT_TRUE(nearby) << "scene " << i << (k == 0 ? ", scalar: " : ", lanes: ") << words(answers[k])
+                          << "; all effects: " << words(all) << " by "
+                          << found_by_names[static_cast<std::size_t>(answers[k].found_by)];
     }
   }
   std::cout << to - from << " scenes, " << periodic << " periodic, " << by_newton << " answers by Newton's method, "

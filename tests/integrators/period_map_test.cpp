@@ -35,12 +35,6 @@ double distance(const State<double>& a, const State<double>& b) { return between
 
 double determinant(const Map<double>& D) { return D[0] * D[3] - D[1] * D[2]; }
 
-/// Larger modulus of the two multipliers.
-double spectral_radius(const Map<double>& D) {
-  const double half = (D[0] + D[3]) / 2, product = determinant(D), square = half * half - product;
-  return square < 0 ? std::sqrt(product) : std::abs(half) + std::sqrt(square);
-}
-
 TEST(PeriodMap, newtons_method_finds_the_symmetric_motion_to_rounding) {
   // check 4: u = 0.88861376168497155; a start that is off by d gives an orbit off by d^2, the next by rounding
   const Scene scene = figure(0.5, 1.0);
@@ -51,8 +45,8 @@ TEST(PeriodMap, newtons_method_finds_the_symmetric_motion_to_rounding) {
   ASSERT_GT(approach->gap().size(), 1e-6);  // still far away
   const auto orbit = map.attractor_of(*approach);
   ASSERT_TRUE(orbit);
-  EXPECT_LE(orbit->gap().size(), 8 * ulp);
-  EXPECT_LE(map.simulated(), 1u + 4 + 3);  // the approach, Newton's steps, the neighbours
+  EXPECT_LE(orbit->gap().size(), 32 * ulp);  // what rounding does to a period of motion
+  EXPECT_LE(map.simulated(), 1u + 4 + 1);  // the approach, Newton's steps, the proof
   Recorder record;
   State<double> state = orbit->states[0];
   ASSERT_EQ(advance_to_section(integrator, state, state.periods, record), Outcome::completed);
@@ -99,13 +93,11 @@ TEST(ContractionNorm, shrinks_every_change_by_its_factor_within_the_unit_circle)
     ++found;
     for (int k = 0; k < 20; ++k) {
       const double angle = random.uniform(0, 2 * pi<double>());
-      const Change e{std::cos(angle), std::sin(angle)}, a = measure.across(e);
+      const Change e{std::cos(angle), std::sin(angle)};
       // |e|^2 is no smaller than e's own square, what it is summed from by this factor larger, and D^(2^k) off by the
       // shear times the ulps of 2^k steps
       const double rounding = 1e5 * ulp * larger;
       EXPECT_LE(measure.of(D * e), measure.factor() * measure.of(e) * (1 + rounding)) << i;
-      EXPECT_NEAR(measure.of(a) / measure.of(e), 1, rounding);  // at right angles: a square's diagonals are equal
-      EXPECT_NEAR(measure.of({e.x + a.x, e.v + a.v}) / measure.of({e.x - a.x, e.v - a.v}), 1, rounding) << i;
     }
   }
   EXPECT_GT(found, 1000);
@@ -114,10 +106,7 @@ TEST(ContractionNorm, shrinks_every_change_by_its_factor_within_the_unit_circle)
 TEST(ContractionNorm, measures_changes_whose_squares_vanish_or_overflow) {
   const ContractionNorm measure({0.5, 0.3, -0.2, 0.4});
   const double size = measure.of({0.7, -0.4});
-  for (const double scale : {0x1p-1000, 0x1p900}) {
-    EXPECT_EQ(measure.of({0.7 * scale, -0.4 * scale}), size * scale);
-    EXPECT_NEAR(measure.of(measure.across({0.7 * scale, -0.4 * scale})) / (size * scale), 1, 8 * ulp);
-  }
+  for (const double scale : {0x1p-1000, 0x1p900}) EXPECT_EQ(measure.of({0.7 * scale, -0.4 * scale}), size * scale);
 }
 
 TEST(ContractionNorm, there_is_none_on_or_outside_the_unit_circle) {
@@ -187,7 +176,7 @@ TEST(PeriodMap, only_motion_that_ends_on_the_orbit_is_accepted) {
   EXPECT_GT(coexisting.accepted, 20);
   EXPECT_GT(coexisting.refused, 100);
   EXPECT_EQ(coexisting.wrong, 0);
-  const Basin alone = basin_of(figure(0.5, 1.0), 400, 0.5, 2.0, 1);
+  const Basin alone = basin_of(figure(0.5, 1.0), 2000, 0.5, 2.0, 1);
   EXPECT_GT(alone.accepted, 20);
   EXPECT_GT(alone.refused, 20);
   EXPECT_EQ(alone.wrong, 0);

@@ -152,16 +152,52 @@ TEST(Repeat, forgets_nothing_it_needs) {
   int sections = 0;
   const auto settling = [](int k) { return std::exp(-0.05 * k); };
   for (; found == 0 && sections < 5000; ++sections)
-    found = finder.add(std::cos(2 * pi_ * sections / 64.0) + settling(sections), std::sin(2 * pi_ * sections / 64.0));
+    found =
+        finder.add(std::cos(2 * pi_ * sections / 64.0) + settling(sections), std::sin(2 * pi_ * sections / 64.0), -0.1);
   EXPECT_EQ(found, 64u);
   EXPECT_LT(sections, 800);
+}
+
+/// When and as what a transient passes for a repeat that shrinks by `rate` and turns by `turn` a section, on its way to
+/// the state (1, 0.5).
+struct Repeat {
+  std::size_t n = 0;
+  double left = 0;  ///< of the transient then
+};
+
+Repeat repeat_of(double rate, double turn, double size, int sections = 2000000) {
+  RepeatFinder finder(1e-12);
+  for (int k = 0; k < sections; ++k) {
+    const double left = size * std::pow(rate, k), angle = turn * k;
+    const std::size_t n = finder.add(1 + left * std::cos(angle), 0.5 + left * std::sin(angle), 2 * std::log(rate));
+    if (n > 0) return {n, left};
+  }
+  return {};
+}
+
+TEST(Repeat, counts_what_is_left_of_a_transient_not_what_a_period_takes_of_it) {
+  // a pair of multipliers that turns by a third but for a little, as free motion under a force with nu near 3: after
+  // three periods the state is back to a share 1 - rate^3 of what is left of the transient
+  for (const double rate : {0.5, 0.99, 1 - 1e-3, 1 - 2e-4})
+    for (const double off : {0.0, 1e-5, 1e-3, 0.1}) {
+      const Repeat repeat = repeat_of(rate, 2 * pi_ / 3 + off, 1.0);
+      EXPECT_EQ(repeat.n, 1u) << rate << ", " << off;
+      EXPECT_LE(repeat.left, 4e-12) << rate << ", " << off;  // an ulp of 1 over 1 - rate
+    }
+}
+
+TEST(Repeat, ends_where_rounding_stops_a_transient_and_is_labelled_by_its_limit) {
+  // an ulp of the state is what three periods take of 8e-12, more than the tolerance
+  const Repeat repeat = repeat_of(1 - 1e-5, 2 * pi_ / 3, 1e-9);
+  EXPECT_EQ(repeat.n, 1u);
+  EXPECT_LE(repeat.left, 1e-11);
 }
 
 TEST(Repeat, the_lowest_state_of_the_motion_is_chosen) {
   RepeatFinder finder(1e-12);
   std::size_t found = 0;
   const double x[] = {3.0, -1.0, 2.0};
-  for (int k = 0; found == 0 && k < 100; ++k) found = finder.add(x[k % 3], 0.5);
+  for (int k = 0; found == 0 && k < 100; ++k) found = finder.add(x[k % 3], 0.5, -0.1);
   EXPECT_EQ(found, 3u);
 }
 
