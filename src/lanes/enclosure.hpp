@@ -20,11 +20,14 @@ template <class V>
 struct Range {
   V low, high;
 
-  void include(const V& y) { low = min(low, y), high = max(high, y); }
+  /// A NaN of its own stays, and then no comparison proves anything: where one operand is NaN, min and max give the
+  /// second one.
+  void include(const V& y) { low = min(y, low), high = max(y, high); }
 };
 
 /// Range of a function but for its values at both ends: of the Bernstein coefficients of degree 6 of its quintic
-/// Hermite polynomial, the middle one widened by what the function may differ from it (dynamics/bernstein.hpp).
+/// Hermite polynomial, the middle one widened by what the function may differ from it (dynamics/bernstein.hpp). NaN
+/// where any of these is: the middle one depends on all of them, and stands second.
 template <class V>
 [[nodiscard, gnu::always_inline]] inline Range<V> enclosure(const Ends<V>& e, const V& error) {
   const V b1 = fma(V(1.0 / 6), e.v0, e.y0), b2 = fma(V(1.0 / 30), e.a0, fma(V(1.0 / 3), e.v0, e.y0));

@@ -142,8 +142,9 @@ class Visit {
     reach(stop, g);
     Instant<V>& at = g.at;
     const Range<V> range = enclosure(Ends<V>::scaled(ends(at), g.time), uncertainty.error * sixth_power(g.time));
-    const V low = select(g.crosses, range.low, min(range.low, at.y));
-    const V high = select(g.crosses, range.high, max(range.high, at.y));
+    Range<V> with_end = range;
+    with_end.include(at.y);
+    const V low = select(g.crosses, range.low, with_end.low), high = select(g.crosses, range.high, with_end.high);
     g.good = g.good & (g.time > zero) & (g.time < one) & (low >= row(lanes_.lower) + uncertainty.rounding) &
              (high <= row(lanes_.upper) - uncertainty.rounding);
     const V keep = select(upper_, row(lanes_.keep_upper), row(lanes_.keep_lower)), speed = sign * at.v;

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "lanes/enclosure.hpp"
 #include "lanes/vector.hpp"
 #include "numbers/number.hpp"
 
@@ -49,6 +50,18 @@ TEST(LaneFunctions, decay_is_known_to_two_ulps_of_1) {
                      static_cast<double>(std::abs(first(short_decay(V(x))) - std::exp(-static_cast<long double>(x)))));
   });
   EXPECT_LE(worst, 2 * epsilon<double>());
+}
+
+TEST(Enclosure, is_nan_where_anything_in_it_is_and_stays_so) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  for (int broken = -1; broken < 7; ++broken) {
+    const auto input = [&](int i, double y) { return V(i == broken ? nan : y); };
+    const Ends<V> ends{input(0, 0.1), input(1, 0.5), input(2, -0.2), input(3, 0.3), input(4, 0.1), input(5, -0.3)};
+    Range<V> range = enclosure(ends, input(6, 1e-3));
+    range.include(V(0.3));
+    EXPECT_EQ(std::isnan(first(range.low)), broken >= 0) << broken;
+    EXPECT_EQ(std::isnan(first(range.high)), broken >= 0) << broken;
+  }
 }
 
 TEST(LaneFunctions, nothing_passes_without_time) {

@@ -46,6 +46,39 @@ std::vector<Scene> lane_scenes(std::uint64_t from, std::size_t count) {
   return scenes;
 }
 
+/// A scene of one flight that lasts, far from its stops.
+Scene wide_scene() { return scene_of({0.1, 1.0, 1.5, 0.0}, -100, 100, 0.7); }
+
+TEST_P(LaneVisits, a_step_with_a_nan_in_anything_that_its_proof_rests_on_is_not_proved) {
+  const std::vector<Row Lanes::*> rows{&Lanes::bound,       &Lanes::bound_forced,
+                                       &Lanes::rounding,    &Lanes::free_pp,
+                                       &Lanes::free_pw,     &Lanes::free_wp,
+                                       &Lanes::free_ww,     &Lanes::turn_sine,
+                                       &Lanes::in_phase,    &Lanes::quadrature,
+                                       &Lanes::stiffness,   &Lanes::damping,
+                                       &Lanes::angle,       &Lanes::rate,
+                                       &Lanes::turn_cosine, &Lanes::p,
+                                       &Lanes::w,           &Lanes::sine,
+                                       &Lanes::cosine,      &Lanes::y,
+                                       &Lanes::v,           &Lanes::a,
+                                       &Lanes::lower,       &Lanes::upper};
+  for (const VisitLanes kernel : {visits_of(GetParam()).plain, visits_of(GetParam()).observed})
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      Lanes lanes{};
+      for (std::size_t lane = 0; lane < Row::width; ++lane) {
+        seat(lanes, lane, wide_scene(), wide_scene().stops);
+        watch(lanes, lane, false, false);
+      }
+      const std::size_t broken = i % Row::width, sound = (i + 1) % Row::width;
+      (lanes.*rows[i]).lane[broken] = std::numeric_limits<double>::quiet_NaN();
+      const double left = lanes.left.lane[broken];
+      kernel(lanes);
+      EXPECT_EQ(lanes.left.lane[broken], left) << "row " << i;
+      EXPECT_TRUE(lanes.stuck >> broken & 1) << "row " << i;
+      EXPECT_LT(lanes.left.lane[sound], left) << "row " << i;  // its neighbours get on
+    }
+}
+
 /// The first impacts of a run, as a course.
 Course first_of(const std::vector<Impact>& impacts, std::size_t count, double duration) {
   Course course;
