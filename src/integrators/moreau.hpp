@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <utility>
 
 #include "dynamics/polynomial_arc.hpp"
 #include "integrators/integrator.hpp"
@@ -32,6 +33,7 @@ class Moreau : public Setup<double, E> {
   template <class Observer>
   [[nodiscard]] Outcome advance(State<double>& state, double end, std::int64_t origin, Observer& observer) {
     sine_ = this->phase(state).sine;
+    if (!bounce_off(state, origin, observer)) return Outcome::event_budget;
     while (end - state.turns > 2 * epsilon<double>()) {
       if (!step(state, next_turns(state.turns, end), origin, observer)) return Outcome::event_budget;
     }
@@ -40,6 +42,20 @@ class Moreau : public Setup<double, E> {
   }
 
  private:
+  /// Takes the impact of a mass that stands on a stop and moves into it, as only a start can, before any time passes;
+  /// false where it is one too many.
+  template <class Observer>
+  [[nodiscard]] bool bounce_off(State<double>& state, std::int64_t origin, Observer& observer) {
+    for (const Side side : {Side::lower, Side::upper}) {
+      const auto stop = stop_at<double>(this->stops(), side);
+      if (state.x != stop.place || !(stop.into(state.v) > 0)) continue;
+      const double before = std::exchange(state.v, -stop.restitution * state.v + 0.0);  // no negative zero
+      this->show_impact(state, stop, before, origin, observer);
+      return this->count_impact();
+    }
+    return true;
+  }
+
   /// What a step would do without a stop.
   struct Free {
     double length, sine, v;  ///< in tau; of the force at its end; velocity there

@@ -14,7 +14,7 @@ namespace clatter {
 
 /// Least and greatest displacement and velocity, between the ends of arcs too: every stretch of an arc is either proved
 /// not to pass what was found so far, by the enclosure that finds contacts, or split, at its turning point where it has
-/// one.
+/// one. An arc without length takes no time: the speed of a start into a stop is none that the mass has.
 class Extrema {
  public:
   struct Range {
@@ -26,6 +26,7 @@ class Extrema {
 
   template <Effects E>
   void arc(const Arc<double, E>& arc, double, double length) {
+    if (!(length > 0)) return;
     splits_ = 0;
     const Place from{0.0, arc.start()}, to{length, at(arc, length)};
     include(from.motion);
@@ -35,6 +36,7 @@ class Extrema {
   }
   template <Polynomial A>
   void arc(const A& arc, double, double length) {
+    if (!(length > 0)) return;
     const double part = arc.length() > 0 ? length / arc.length() : 0.0;
     Bernstein<double> rise = arc.rise(), velocity = arc.velocity();
     rise = split_off(rise, part), velocity = split_off(velocity, part);

@@ -15,8 +15,8 @@ namespace {
 /// What the scalar kernel shows while it helps a lane: as the lanes' kernel notes it.
 class HelpWatch {
  public:
-  HelpWatch(Lanes& lanes, std::size_t lane, const Scene& scene, bool observes, bool at_start)
-      : lanes_(lanes), lane_(lane), scene_(scene), observes_(observes), at_start_(at_start) {}
+  HelpWatch(Lanes& lanes, std::size_t lane, const Scene& scene, bool observes)
+      : lanes_(lanes), lane_(lane), scene_(scene), observes_(observes) {}
 
   template <class A>
   void arc(const A& arc, double begin, double length) {
@@ -26,7 +26,7 @@ class HelpWatch {
   void impact(const Impact& impact) {
     const bool upper = impact.side == Side::upper;
     at(lanes_.trace) = 3 * at(lanes_.trace) + (upper ? 2 : 1);
-    if (!observes_ || (at_start_ && !(impact.time > 0))) return;  // that one belongs to what was before
+    if (!observes_) return;
     extrema_.impact(impact);
     count(impact, upper ? 1 : 0);
     const double jump = impact.after - impact.before, step = 1 / at(lanes_.rate);
@@ -61,7 +61,7 @@ class HelpWatch {
   Lanes& lanes_;
   std::size_t lane_;
   const Scene& scene_;
-  bool observes_, at_start_;
+  bool observes_;
   bool rested_ = false;
   Extrema extrema_;
 };
@@ -130,7 +130,19 @@ bool Crew::Member::can_observe(const Observed& observed) {
          lanes_observe(task_.scene);
 }
 
+/// An impact at the very beginning lies outside the observed time: lanes begin after it.
+void Crew::Member::skip_impact_at_start() {
+  State<double>& from = observed_.from;
+  for (const Side side : {Side::lower, Side::upper}) {
+    const Stop<double> stop = stop_at<double>(exact_.stops(), side);
+    if (from.x != stop.place || !(stop.into(from.v) > 0)) continue;
+    from.v = -stop.restitution * from.v, from.left = side, from.rise = 0;
+    return add_impacts(1);
+  }
+}
+
 void Crew::Member::begin_to_observe(Lanes& lanes, std::size_t lane) {
+  skip_impact_at_start();
   settled_ = exact_, settled_impacts_ = impacts_;
   observing_ = true, coasts_ = false, sections_ = helped_ = quiet_ = 0,
   helped_left_ = std::numeric_limits<double>::quiet_NaN();
@@ -194,7 +206,7 @@ void Crew::Member::coast(Lanes& lanes, std::size_t lane) const {
 
 /// Takes a transient through the part of a forcing period that is left after the last section.
 void Crew::Member::finish_period(Lanes& lanes, std::size_t lane, double part) {
-  HelpWatch seen(lanes, lane, task_.scene, true, false);
+  HelpWatch seen(lanes, lane, task_.scene, true);
   gives_up_ = gives_up_ || exact_.advance(helped_to_, part, 0, seen) != Outcome::completed || seen.rested();
   seen.finish();
   lanes.section_y.lane[lane] = helped_to_.x - task_.scene.oscillator.load;
@@ -209,7 +221,7 @@ Outcome Crew::Member::help(Lanes& lanes, std::size_t lane) {
   if (place.x == exact_.stops().upper) state.left = Side::upper;
   if (lanes.left.lane[lane] == helped_left_) state = helped_to_;  // a lane can't hold a release or a short rise
   const double end = std::min(1.0, state.turns + 2 / lanes.period.lane[lane]);
-  HelpWatch seen(lanes, lane, task_.scene, observing_, sections_ == 0);
+  HelpWatch seen(lanes, lane, task_.scene, observing_);
   const Outcome outcome = exact_.advance(state, end, 0, seen);
   ++helped_;
   if (observing_) seen.finish(), gives_up_ = gives_up_ || seen.rested();

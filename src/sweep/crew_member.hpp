@@ -46,6 +46,7 @@ class Crew::Member {
   using Kernel = Exact<double, effects>;
   static constexpr std::int64_t longest_quiet = 15;  ///< sections
 
+  void skip_impact_at_start();
   void finish_period(Lanes& lanes, std::size_t lane, double part);
   [[nodiscard]] bool has_seen_all(const Lanes& lanes, std::size_t lane);
   void coast(Lanes& lanes, std::size_t lane) const;

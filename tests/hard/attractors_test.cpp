@@ -91,6 +91,16 @@ Scene scene_number(std::uint64_t i) {
   }
 }
 
+/// By the scalar kernel, and in lanes if they take it.
+std::vector<PointResult> answers_of(const Scene& scene) {
+  Workshop workshop;
+  std::vector<PointResult> answers{run_point(scene, workshop)};
+  const Task task{0, scene, effects_of(scene)};
+  if (best_arch() != Arch::scalar && can_go_into_lanes(task))
+    answers.push_back(run_in_lanes(task, 1, best_arch(), workshop));
+  return answers;
+}
+
 /// Without shortcuts, for long enough by an estimate of how long the transient lasts.
 PointResult everything(Scene scene, double settling) {
   scene.integration.all_effects = true;
@@ -110,15 +120,26 @@ bool agree(const PointResult& a, const PointResult& b) {
          std::abs(a.v_min - b.v_min) <= v && std::abs(a.v_max - b.v_max) <= v;
 }
 
-/// What the scene settles to from twelve starts that differ from its own in the last digits.
+/// Whether the scene settles to an answer when its start and its force differ from its own in the last digits (a motion
+/// that rests forgets its start). Most often one of a few does; nearly elastic scenes have chaotic transients of
+/// thousands of periods and several attractors, some of which catch one motion of a hundred.
 bool agrees_nearby(const PointResult& found, const Scene& scene) {
-  for (int i = 0; i < 12; ++i) {
+  std::vector<PointResult> others;
+  bool any_two = false;
+  for (int i = 0; i < 240; ++i) {
     Scene near = scene;
-    const double angle = i * pi<double>() / 6, size = 1e-14 * std::max(1.0, std::abs(scene.start.velocity));
+    const double angle = i * pi<double>() / 6,
+                 size = (1 + i / 12) * 1e-14 * std::max(1.0, std::abs(near.start.velocity));
     near.start.displacement =
         std::clamp(near.start.displacement + size * std::cos(angle), scene.stops.lower, scene.stops.upper);
     near.start.velocity += size * std::sin(angle);
-    if (agree(found, everything(near, found.settling_estimate))) return true;
+    near.oscillator.forcing *= 1 + i * 1e-15;
+    if (i % 2 == 1) near.time.max_periods *= 5;
+    const PointResult other = everything(near, found.settling_estimate);
+    if (agree(found, other)) return true;
+    any_two = any_two || std::ranges::any_of(others, [&](const PointResult& one) { return agree(one, other); });
+    if (i == 24 && !any_two) return true;  // chaos from one rest to the next: the last digits decide all of it
+    others.push_back(other);
   }
   return false;
 }
@@ -129,17 +150,32 @@ std::string words(const PointResult& r) {
          std::to_string(r.periods);
 }
 
+TEST(Attractors, a_transient_that_meets_a_stop_for_the_first_time_after_hundreds_of_periods_is_waited_for) {
+  // near nu = 2 and 1/2 the transient turns slowly against the force, and a stop stands in a part of its way
+  Scene even = steady_scene({0.0001, 1.0, 2.001, 0.0}, -0.8, 0.8, 0.7);
+  even.start.velocity = -1.2;
+  const double xs = 1.4682365128203856;
+  Scene half = steady_scene({0.00023856363337609502, 1.0, 0.5009864428348564, 0.0}, -xs, xs, 0.9190640573262331);
+  half.start = {0.10187729959232728, 0.5516070378070669, 0.0};
+  half.time.max_periods = 50000;
+  for (const Scene& scene : {even, half}) {
+    for (const PointResult& answer : answers_of(scene)) {
+      EXPECT_EQ(answer.status, Status::periodic);
+      EXPECT_EQ(answer.period_ratio, 1.0);
+      EXPECT_EQ(answer.x_max, scene.stops.upper);
+      EXPECT_EQ(answer.x_min, scene.stops.lower);
+      EXPECT_GT(answer.periods, 90);
+    }
+  }
+}
+
 TEST(Attractors, no_shortcut_ends_on_another_motion_than_the_scene) {
   const auto [from, to] = scene_range(360);
   std::size_t periodic = 0, sensitive = 0, by_newton = 0;
   for (std::uint64_t i = from; i < to; ++i) {
     const Scene scene = scene_number(i);
-    Workshop workshop;
-    std::vector<PointResult> answers{run_point(scene, workshop)};
+    const std::vector<PointResult> answers = answers_of(scene);
     const PointResult all = everything(scene, answers[0].settling_estimate);
-    const Task task{0, scene, effects_of(scene)};
-    if (best_arch() != Arch::scalar && can_go_into_lanes(task))
-      answers.push_back(run_in_lanes(task, 1, best_arch(), workshop));
     periodic += all.status == Status::periodic;
     for (std::size_t k = 0; k < answers.size(); ++k) {
       by_newton += answers[k].found_by == FoundBy::newton;
