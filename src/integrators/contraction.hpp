@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <utility>
 
 #include "dynamics/tangent.hpp"
 
@@ -52,6 +52,8 @@ class Ellipse {
 
  private:
   friend class ContractionNorm;
+  [[nodiscard]] double area() const { return xx_ * vv_ - xv_ * xv_; }  ///< its square, over pi^2
+
   double xx_ = 0, xv_ = 0, vv_ = 0;
 };
 
@@ -67,54 +69,67 @@ class Ellipse {
   return square < 0 ? std::sqrt(product) : std::abs(half) + std::sqrt(square);
 }
 
-/// A norm in which a map D contracts, and by how much: |e|^2 = e' M e with D' M D - M = -I, so that
-/// |D e|^2 <= (1 - 1/lambda) |e|^2 with M's larger eigenvalue lambda. There is one when both multipliers lie within the
-/// unit circle.
+/// A norm in which a map shrinks changes by little more than its larger multiplier does, by the set of all changes of
+/// size 1: the ellipse with the two eigenvectors as conjugate radii, of a complex pair with real and imaginary part.
+/// Where that is much thinner than need be, the two being nearly the same, the ellipse is along the first one and
+/// across it, so narrow that what a change across adds along it takes no more than half of what the map takes away.
 class ContractionNorm {
  public:
-  explicit ContractionNorm(Map<double> D) {
-    for (int doubling = 0; doubling < 60; ++doubling) {  // M = sum D'^j D^j, twice as many terms each time
-      const double xx = D[0] * (xx_ * D[0] + xv_ * D[2]) + D[2] * (xv_ * D[0] + vv_ * D[2]);
-      const double xv = D[0] * (xx_ * D[1] + xv_ * D[3]) + D[2] * (xv_ * D[1] + vv_ * D[3]);
-      const double vv = D[1] * (xx_ * D[1] + xv_ * D[3]) + D[3] * (xv_ * D[1] + vv_ * D[3]);
-      xx_ += xx, xv_ += xv, vv_ += vv;
-      if (!(xx + vv < most)) return;                                 // it grows without end
-      if (!(xx_ >= 1 && vv_ >= 1 && xx_ * vv_ > xv_ * xv_)) return;  // M >= I: rounding has eaten it
-      if (xx + vv <= std::numeric_limits<double>::epsilon() * (xx_ + vv_)) {
-        const double larger = (xx_ + vv_) / 2 + norm((xx_ - vv_) / 2, xv_);
-        factor_ = std::sqrt(1 - 1 / larger);
-        return;
-      }
-      D = {D[0] * D[0] + D[1] * D[2], D[1] * (D[0] + D[3]), D[2] * (D[0] + D[3]), D[1] * D[2] + D[3] * D[3]};
+  explicit ContractionNorm(const Map<double>& D) {
+    const double half = (D[0] + D[3]) / 2, product = D[0] * D[3] - D[1] * D[2], square = half * half - product;
+    const double root = std::sqrt(std::abs(square)), first = square > 0 ? half + std::copysign(root, half) : half;
+    const double second = square > 0 && first != 0 ? product / first : half;
+    const Change one = square > 0 ? eigenvector(D, first) : turning(D, half, root).first;
+    const Change other = square > 0 ? eigenvector(D, second) : turning(D, half, root).second;
+    const double length = std::hypot(one.x, one.v), x = one.x / length, v = one.v / length;
+    const double coupling = std::abs(x * (D[1] * x - D[0] * v) + v * (D[3] * x - D[2] * v));  // of (-v, x) onto (x, v)
+    const double narrow = std::min(1.0, (1 - spectral_radius(D)) / (2 * coupling));
+    const double area = std::abs(one.x * other.v - one.v * other.x);
+    if (area >= narrow / 4) {
+      unit_ = {one.x * one.x + other.x * other.x, one.x * one.v + other.x * other.v, one.v * one.v + other.v * other.v};
+    } else {
+      const double square_narrow = narrow * narrow;
+      unit_ = {x * x + square_narrow * v * v, x * v * (1 - square_narrow), v * v + square_narrow * x * x};
     }
   }
 
-  /// At most this share of a change is left after the map; 1 where there is no such norm.
-  [[nodiscard]] double factor() const { return factor_; }
   [[nodiscard]] double of(const Change& e) const {
     const double size = e.size();  // divided out: the squares of small changes vanish
     if (!(size > 0)) return size;
     const double x = e.x / size, v = e.v / size;
-    return size * std::sqrt(std::max(0.0, xx_ * x * x + 2 * xv_ * x * v + vv_ * v * v));
+    return size * std::sqrt((unit_.vv_ * x * x - 2 * unit_.xv_ * x * v + unit_.xx_ * v * v) / unit_.area());
   }
   /// Of the largest change in an ellipse.
   [[nodiscard]] double of(const Ellipse& e) const {
-    const double half = (xx_ * e.xx_ + 2 * xv_ * e.xv_ + vv_ * e.vv_) / 2,
-                 area = (e.xx_ * e.vv_ - e.xv_ * e.xv_) * determinant();
-    return std::sqrt(half + std::sqrt(std::max(0.0, half * half - std::max(0.0, area))));
+    const double half = (unit_.vv_ * e.xx_ - 2 * unit_.xv_ * e.xv_ + unit_.xx_ * e.vv_) / (2 * unit_.area());
+    const double product = std::max(0.0, e.area() / unit_.area());
+    return std::sqrt(half + std::sqrt(std::max(0.0, half * half - product)));
   }
   /// All changes up to a size.
   [[nodiscard]] Ellipse disc(double radius) const {
-    const double scale = radius * radius / determinant();
-    return {vv_ * scale, -xv_ * scale, xx_ * scale};
+    const double square = radius * radius;
+    return {square * unit_.xx_, square * unit_.xv_, square * unit_.vv_};
   }
 
  private:
-  [[nodiscard]] double determinant() const { return xx_ * vv_ - xv_ * xv_; }
+  /// Of length 1.
+  [[nodiscard]] static Change eigenvector(const Map<double>& D, double multiplier) {
+    const Change a{D[1], multiplier - D[0]}, b{multiplier - D[3], D[2]};  // each 0 where it isn't one
+    const Change& e = a.size() > b.size() ? a : b;
+    const double length = std::hypot(e.x, e.v);
+    return length > 0 ? Change{e.x / length, e.v / length} : Change{1, 0};
+  }
+  /// Real and imaginary part of the eigenvector to half + i root, of length 1 together.
+  [[nodiscard]] static std::pair<Change, Change> turning(const Map<double>& D, double half, double root) {
+    const bool first = std::abs(D[1]) > std::abs(D[2]);
+    const Change real = first ? Change{D[1], half - D[0]} : Change{half - D[3], D[2]};
+    const Change imaginary = first ? Change{0, root} : Change{root, 0};
+    const double length = std::hypot(real.x, real.v, root);
+    if (!(length > 0)) return {{1, 0}, {0, 1}};
+    return {{real.x / length, real.v / length}, {imaginary.x / length, imaginary.v / length}};
+  }
 
-  static constexpr double most = 1e12;
-  double xx_ = 1, xv_ = 0, vv_ = 1;  ///< M
-  double factor_ = 1;
+  Ellipse unit_;
 };
 
 }  // namespace clatter

@@ -116,8 +116,8 @@ class PeriodMap {
   /// the derivative doesn't tell of them is less than what it takes away.
   [[nodiscard]] std::optional<Orbit> attracting(const State<double>& start, const Orbit& orbit,
                                                 const State<double>& motion) {
+    if (!(spectral_radius(orbit.derivative()) < 1) || !inside(start)) return std::nullopt;
     const ContractionNorm measure(orbit.derivative());
-    if (!(measure.factor() < 1) || !inside(start)) return std::nullopt;
     const double rounding = 64 * epsilon<double>() * size_of(start);
     const double radius = measure.of(between(start, motion)) * (1 + 1e-9) + rounding;
     Neighbourhood neighbourhood(integrator_.stops(), measure.disc(radius), rounding);

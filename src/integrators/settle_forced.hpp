@@ -134,7 +134,7 @@ class SteadySearch {
     const bool under_way = approach_ && next_ < approach_->periods;
     const std::size_t n = under_way || !pays() ? 0 : contracting();
     if (n == 0 || !affordable(n)) return std::nullopt;
-    near_enough_[n] = repeat_.distance_over(n) / 8;  // for the next attempt
+    near_enough_[n] = repeat_.distance_over(n) / 4;  // for the next attempt
     approach_ = map_.follow(state, n), next_ = 0;
     const auto orbit = approach_ ? map_.attractor_of(*approach_) : std::nullopt;
     if (in_lanes_) approach_.reset();
@@ -145,9 +145,11 @@ class SteadySearch {
   /// costs as much as hundreds.
   [[nodiscard]] bool pays() const {
     if (closing_in_ > 0) return false;
-    if (in_lanes_)
-      return section_ >= 64 &&
-             (std::has_single_bit(static_cast<std::uint64_t>(section_)) || section_ + 1 == plan_.max_periods);
+    if (in_lanes_) {
+      const auto section = static_cast<std::uint64_t>(section_);
+      const bool due = std::has_single_bit(section) || (section % 3 == 0 && std::has_single_bit(section / 3));
+      return section >= 64 && (due || section_ + 1 == plan_.max_periods);
+    }
     return section_ <= long_settling || section_ % 8 == 0;
   }
 
@@ -163,7 +165,8 @@ class SteadySearch {
   [[nodiscard]] bool repeats_soon(std::size_t n) const {
     const double now = repeat_.distance_over(n), before = repeat_.distance_over(n, n);
     if (!(before < repeat_.distance_over(n, 2 * n)) && !(now < 1e-3)) return true;
-    const double left = static_cast<double>(n) * std::log(now / plan_.tolerance) / std::log(before / now);
+    const double rounds = std::log(now / plan_.tolerance) / std::log(before / now);
+    const double left = static_cast<double>(n) * (std::max(0.0, rounds) + 2);  // two more to be sure of it
     return left < std::min(400.0, static_cast<double>(plan_.max_periods - section_));
   }
 

@@ -27,7 +27,7 @@ TEST(Memory, is_that_of_the_figure) {
   Sweep sweep;
   sweep.scene.stops = {-1, 1, 0.5, 0.5};
   sweep.dimensions = {{{Parameter::nu, {0.8, 0.9, 1.0}}}, {{Parameter::h, {0.1, 0.2}}}};
-  EXPECT_EQ(result_bytes(sweep), 6 * 17);
+  EXPECT_EQ(result_bytes(sweep), 6 * 25);
   sweep.scene.observe = {.extrema = true, .harmonics = 3, .impacts = true, .trajectory = 10, .period = true};
   EXPECT_EQ(result_bytes(sweep), bytes_of(run(sweep, {}).figure));
 }
@@ -45,7 +45,7 @@ TEST(Memory, of_a_huge_sweep_is_known_without_running_it) {
   const std::vector<double> values(1000, 0.5);
   sweep.dimensions = {{{Parameter::nu, values}}, {{Parameter::h, values}}, {{Parameter::f, values}}};
   sweep.scene.observe.trajectory = 1000;
-  EXPECT_EQ(result_bytes(sweep), 1e9 * (17 + 3 * 8000));
+  EXPECT_EQ(result_bytes(sweep), 1e9 * (25 + 3 * 8000));
 }
 
 }  // namespace

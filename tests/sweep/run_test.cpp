@@ -38,7 +38,7 @@ TEST(Run, stores_nothing_that_is_not_observed) {
   const Figure figure = run(sweep_of(paper_scene(0.5, 1.0), {}), {.threads = 1}).figure;
   std::vector<std::string> names;
   for (const Variable& variable : figure.variables) names.push_back(variable.name);
-  EXPECT_EQ(names, (std::vector<std::string>{"status", "impact_total", "simulated_periods"}));
+  EXPECT_EQ(names, (std::vector<std::string>{"status", "impact_total", "simulated_periods", "settling_estimate"}));
 }
 
 TEST(Run, points_stand_at_their_index_in_every_order_of_axes) {
@@ -131,6 +131,7 @@ TEST(Run, a_failed_point_has_no_values_and_does_not_lead_the_next_astray) {
 TEST(Run, a_failed_point_says_how_far_it_came) {
   Scene scene = paper_scene(0.5, 1.0);  // two impacts a period
   scene.time.max_impacts = 21;
+  scene.integration.shortcuts = false;
   Workshop nothing;
   const PointResult result = run_point(scene, nothing);
   EXPECT_EQ(result.status, Status::event_budget);

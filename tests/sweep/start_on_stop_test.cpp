@@ -25,10 +25,11 @@ Scene mirrored(Scene scene) {
 }
 
 /// The motion from just after the impact is the same, and its own extrema are what is observed.
-void expect_start_after_impact(const Scene& into, const Scene& after, const RunOptions& options) {
+void expect_start_after_impact(const Scene& into, const Scene& after, const RunOptions& options, double tolerance) {
   const Figure figure = run(sweep_of(into, {}), options).figure, same = run(sweep_of(after, {}), options).figure;
   for (const char* const name : {"x_min", "x_max", "v_min", "v_max", "impacts_per_period"})
-    EXPECT_EQ(values(figure, name), values(same, name)) << name;
+    for (std::size_t i = 0; i < values(figure, name).size(); ++i)
+      EXPECT_NEAR(values(figure, name)[i], values(same, name)[i], tolerance) << name;
   EXPECT_LT(values(figure, "v_max")[0], 1.5);
   EXPECT_GT(values(figure, "v_min")[0], -1.5);
   const auto total = [](const Figure& of) {
@@ -39,9 +40,9 @@ void expect_start_after_impact(const Scene& into, const Scene& after, const RunO
 
 TEST(StartOnStop, the_speed_before_its_impact_is_not_observed) {
   for (const Arch arch : {Arch::scalar, Arch::sse2, best_arch()}) {
-    expect_start_after_impact(into_the_upper_stop(2.0), into_the_upper_stop(-0.6), {.threads = 1, .arch = arch});
-    expect_start_after_impact(mirrored(into_the_upper_stop(2.0)), mirrored(into_the_upper_stop(-0.6)),
-                              {.threads = 1, .arch = arch});
+    const RunOptions options{.threads = 1, .arch = arch};  // -0.3 * 2 is an ulp off -0.6
+    expect_start_after_impact(into_the_upper_stop(2.0), into_the_upper_stop(-0.6), options, 1e-13);
+    expect_start_after_impact(mirrored(into_the_upper_stop(2.0)), mirrored(into_the_upper_stop(-0.6)), options, 1e-13);
   }
 }
 
@@ -49,8 +50,8 @@ TEST(StartOnStop, nor_by_general_methods) {
   for (const Method method : {Method::dopri5, Method::moreau}) {
     Scene into = into_the_upper_stop(2.0), after = into_the_upper_stop(-0.6);
     into.integration.method = after.integration.method = method;
-    expect_start_after_impact(into, after, {.threads = 1});
-    expect_start_after_impact(mirrored(into), mirrored(after), {.threads = 1});
+    expect_start_after_impact(into, after, {.threads = 1}, 1e-8);  // the size of steps depends on the start
+    expect_start_after_impact(mirrored(into), mirrored(after), {.threads = 1}, 1e-8);
   }
 }
 
