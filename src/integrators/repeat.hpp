@@ -17,6 +17,20 @@ template <class Predicate>
   return n;
 }
 
+/// Which of two states of a periodic motion its observed period rather begins with: under a force f < 0 the one with
+/// the lesser x, then the lesser v; under f > 0 the greater, so that a mirrored scene begins with the mirrored state.
+class BeginsBefore {
+ public:
+  explicit BeginsBefore(double forcing) : sign_(forcing > 0 ? -1 : 1) {}
+
+  [[nodiscard]] bool operator()(double x, double v, double other_x, double other_v) const {
+    return sign_ * x < sign_ * other_x || (x == other_x && sign_ * v < sign_ * other_v);
+  }
+
+ private:
+  double sign_;
+};
+
 /// Finds the number of forcing periods after which a motion repeats, from its states at the sections. A repeat counts
 /// once all that is still to come of the transient is below the tolerance, not the part of it that n periods take away:
 /// that is small where motion contracts slowly. And it has to go on for as long again: motion that forgets its past on
@@ -70,14 +84,12 @@ class RepeatFinder {
     return m + ago < size_ ? distance(size_ - 1 - ago, m) : std::numeric_limits<double>::infinity();
   }
 
-  /// Index among the last n states, 0 for the newest, of the one with the least x and then the least v.
-  [[nodiscard]] std::size_t lowest_of_last(std::size_t n) const {
+  /// Index among the last n states, 0 for the newest, of the one that the observed period begins with.
+  [[nodiscard]] std::size_t first_of_last(std::size_t n, const BeginsBefore& before) const {
     const std::size_t now = size_ - 1;
     std::size_t best = 0;
-    for (std::size_t i = 1; i < n; ++i) {
-      const std::size_t other = now - i, chosen = now - best;
-      if (x_[other] < x_[chosen] || (x_[other] == x_[chosen] && v_[other] < v_[chosen])) best = i;
-    }
+    for (std::size_t i = 1; i < n; ++i)
+      if (before(x_[now - i], v_[now - i], x_[now - best], v_[now - best])) best = i;
     return best;
   }
 

@@ -21,7 +21,8 @@ template <Integrator I>
     recent[static_cast<std::size_t>(section % longest)] = state;
     if (section >= from) {
       if (const std::size_t n = repeat.add(state.x, state.v, log_area)) {
-        const auto chosen = section - static_cast<std::int64_t>(repeat.lowest_of_last(n));
+        const auto chosen =
+            section - static_cast<std::int64_t>(repeat.first_of_last(n, BeginsBefore(integrator.flow().f)));
         return {Status::periodic,       recent[static_cast<std::size_t>(chosen % longest)],
                 static_cast<double>(n), settled,
                 FoundBy::repetition,    settled};

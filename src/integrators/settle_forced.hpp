@@ -33,6 +33,7 @@ class SteadySearch {
         plan_(scene.time),
         in_lanes_(taken_by == TakenBy::lanes),
         repeat_(scene.time.tolerance, in_lanes_ ? 4 : 1),
+        begins_before_(scene.oscillator.forcing),
         watch_(integrator.stops()),
         map_(integrator, scene.time.tolerance) {
     near_enough_.fill(nearest_first);
@@ -106,7 +107,7 @@ class SteadySearch {
   }
 
   [[nodiscard]] Observed repetition(std::size_t n) const {
-    return {Status::periodic,       recent_[index(repeat_.lowest_of_last(n))],
+    return {Status::periodic,       recent_[index(repeat_.first_of_last(n, begins_before_))],
             static_cast<double>(n), simulated(),
             FoundBy::repetition,    settled()};
   }
@@ -190,10 +191,11 @@ class SteadySearch {
     const double limit = RepeatFinder::few * plan_.tolerance * std::max(std::abs(start.x), std::abs(start.v));
     const std::size_t n =
         least_divisor(orbit.periods, [&](std::size_t m) { return between(start, orbit.states[m]).size() <= limit; });
-    const auto lowest = std::ranges::min_element(
-        std::span(orbit.states).first(n), {}, [](const State<double>& state) { return std::pair(state.x, state.v); });
+    const auto first = std::ranges::min_element(
+        std::span(orbit.states).first(n),
+        [this](const State<double>& a, const State<double>& b) { return begins_before_(a.x, a.v, b.x, b.v); });
     const double settling = settled() + orbit.settling;
-    return {Status::periodic, *lowest, static_cast<double>(n), simulated(), FoundBy::newton, settling};
+    return {Status::periodic, *first, static_cast<double>(n), simulated(), FoundBy::newton, settling};
   }
 
   Exact<double, E>& integrator_;
@@ -201,6 +203,7 @@ class SteadySearch {
   const TimePlan& plan_;
   bool in_lanes_;
   RepeatFinder repeat_;
+  BeginsBefore begins_before_;
   SectionWatch watch_;
   PeriodMap<E> map_;
   std::size_t closing_in_ = 0;     ///< lanes: the forcing periods after which the motion is known to repeat, 0: unknown

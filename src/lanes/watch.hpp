@@ -101,12 +101,13 @@ class Watch {
                                 const Derivatives& derivatives) {
     const V zero(0.0), one(1.0);
     const Range<V> bounds = enclosure(ends, error);
-    const Mask high = bounds.high > range.high + slack, low = bounds.low < range.low - slack;
+    const V over = bounds.high - range.high, under = range.low - bounds.low;
+    const Mask high = !(over <= slack), low = !(under <= slack), upward = over > under;  // the farther one first
     const Mask known = (!(high & low)) & (like(references[0], from, length, slack) | !low) &
                        (like(references[1], from, length, slack) | !high);
     const Mask left = open & !known;
     if (!any(left)) return (!open) | known;
-    const V sign = select(high, -one, one);  // of a greatest or a least value
+    const V sign = select(upward, -one, one);  // of a greatest or a least value
     const Ends<V> below{sign * ends.y0, sign * ends.v0, sign * ends.a0, sign * ends.y1, sign * ends.v1, sign * ends.a1};
     V part = min(max(Quintic<V>(below).least(), zero), one), more;
     Course at;
@@ -130,7 +131,7 @@ class Watch {
     const Mask found = left & (abs(more) <= V(0x1p-10)) & (part > zero) & (part < one) &
                        within(enclosure(before, error * sixth_power(part)), wider, slack) &
                        within(enclosure(after, error * sixth_power(rest)), wider, slack);
-    refer(references[0], found & !high, from, length), refer(references[1], found & high, from, length);
+    refer(references[0], found & !upward, from, length), refer(references[1], found & upward, from, length);
     range = {select(found, wider.low, range.low), select(found, wider.high, range.high)};
     return (!open) | known | found;
   }

@@ -125,6 +125,7 @@ class Extrema {
     if (!turns_once) return {s, m};
     for (int iteration = 0; iteration < 60; ++iteration) {
       const auto [value, slope, curvature] = jet<order>(arc, m);
+      if (slope == 0) break;
       ((slope > 0) == (slope_before > 0) ? low : high) = s;
       double next = s - slope / curvature;
       if (!(next > low && next < high)) next = (low + high) / 2;

@@ -193,7 +193,15 @@ TEST(Repeat, ends_where_rounding_stops_a_transient_and_is_labelled_by_its_limit)
   EXPECT_LE(repeat.left, 1e-11);
 }
 
-TEST(Repeat, the_lowest_state_of_the_motion_is_chosen) {
+TEST(Repeat, the_observed_period_begins_with_the_lowest_state_under_a_negative_force_else_with_the_highest) {
+  RepeatFinder finder(1e-12);
+  const double x[] = {3.0, -1.0, 2.0, 3.0};
+  for (const double each : x) (void)finder.add(each, each == 3.0 ? 0.25 : 0.5, -0.1);
+  EXPECT_EQ(finder.first_of_last(3, BeginsBefore(-1.0)), 2u);
+  EXPECT_EQ(finder.first_of_last(3, BeginsBefore(1.0)), 0u);
+}
+
+TEST(Repeat, a_motion_of_three_periods_is_found) {
   RepeatFinder finder(1e-12);
   std::size_t found = 0;
   const double x[] = {3.0, -1.0, 2.0};
