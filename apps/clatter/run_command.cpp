@@ -140,9 +140,10 @@ int run_config(const Arguments& arguments) {
 
 constexpr std::string_view examples =
     "  clatter run configs/fig22.toml\n"
-    "  clatter run configs/fig22.toml -o coarse.h5 --set sweep.nu='linspace(0.5, 1.5, 51)' --set scene.R=0.5\n"
+    "  clatter run configs/fig22.toml -o coarse.h5 \\\n"
+    "    --set sweep.nu='linspace(0.5, 1.5, 51)' --set scene.R=0.5\n"
     "  clatter run configs/fig22.ini --threads 2 --progress never\n"
-    "  clatter run configs/map_nu_xs.toml --shard 0/4          writes map_nu_xs.0-of-4.h5\n";
+    "  clatter run configs/map_nu_xs.toml --shard 0/4      writes map_nu_xs.0-of-4.h5\n";
 
 }  // namespace
 

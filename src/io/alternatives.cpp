@@ -57,16 +57,11 @@ void check_scene_or_sweep(const Settings& settings) {
   }
 }
 
+/// A stop that isn't given isn't there; that none is was hardly meant.
 void check_stops_given(const Settings& settings) {
-  if (settings.given(xs)) return;
-  const bool lower = settings.given(stop_lower).has_value();
-  const bool upper = settings.given(stop_upper).has_value();
-  if (lower && upper) return;
-  const Place place = settings.place_of_section("scene");
-  if (!lower && !upper)
-    fail(place, "'xs' is missing in [scene]; give xs, or stop_lower and stop_upper (-inf and inf: no stop)");
-  fail(place, name_of(lower ? stop_upper : stop_lower) + " is missing in [scene]; give " + (lower ? "inf" : "-inf") +
-                  " where there is no such stop");
+  if (settings.given(xs) || settings.given(stop_lower) || settings.given(stop_upper)) return;
+  fail(settings.place_of_section("scene"),
+       "'xs' is missing in [scene]; give xs, or stop_lower, stop_upper or both (-inf and inf: no stop)");
 }
 
 /// start_period is the period of free motion without loss between symmetric stops (physics.md, check 1).

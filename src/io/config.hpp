@@ -8,6 +8,8 @@
 
 namespace clatter {
 
+enum class Format { toml, ini };
+
 /// A complete configuration: what is swept, what is observed, how it is written.
 struct Config {
   std::string title;

@@ -70,6 +70,9 @@ struct Settings {
 /// The default of a key that has one, so that defaults and given values take the same way.
 [[nodiscard]] Setting default_setting(const Key& key);
 
+/// The example of a key.
+[[nodiscard]] Setting example_setting(const Key& key);
+
 /// A value of the key's kind within its range, from what was written. Throws ConfigError.
 [[nodiscard]] std::variant<std::string, double, std::int64_t, bool> convert(const Key& key, const RawValue& raw);
 [[nodiscard]] AxisValues convert_axis(const Key& key, const RawValue& raw);

@@ -5,7 +5,7 @@ import os
 import subprocess
 import unittest
 
-from command_line import CLATTER, SMALL, SOURCE, CommandLine
+from command_line import CLATTER, SMALL, CommandLine
 
 
 class WrongCommandLines(CommandLine):
@@ -15,11 +15,18 @@ class WrongCommandLines(CommandLine):
             ([], "no command; see `clatter --help`"),
             (["rnu", config], "unknown command 'rnu'; did you mean 'run'?"),
             (["frobnicate"], "the commands are: run, plan, accuracy, merge, info, defaults, help"),
-            (["--verbose"], "unknown option '--verbose' before the command"),
+            (["--verbose"], "unknown option '--verbose' before the command; write it behind: clatter COMMAND ... --verbose"),
+            (["--verb", "run", config], "unknown option '--verb' before the command; write it behind"),
+            (["--versoin"], "unknown option '--versoin' before the command; did you mean '--version'?"),
+            (["--xyzzyxyzzy"], "unknown option '--xyzzyxyzzy' before the command; see `clatter --help`"),
             (["run"], "CONFIG is missing; write: clatter run CONFIG"),
             (["run", config, config], "unexpected argument 'a.toml'"),
             (["run", config, "--thr", "2"], "unknown option '--thr'; did you mean '--threads'?"),
             (["run", config, "--thread", "2"], "unknown option '--thread'; did you mean '--threads'?"),
+            (["run", config, "--verb"], "unknown option '--verb'; did you mean '--verbose'?"),
+            (["run", config, "-verb"], "unknown option '-verb'; did you mean '--verbose'?"),
+            (["plan", config, "--js"], "unknown option '--js'; did you mean '--json'?"),
+            (["merge", "--verb", "a.h5"], "unknown option '--verb'; did you mean '--verbose'?"),
             (["run", config, "--ouput", "a.h5"], "did you mean '--output'?"),
             (["run", config, "--frobnicate"], "unknown option '--frobnicate'; see `clatter help run`"),
             (["run", config, "-x"], "unknown option '-x'"),
@@ -43,7 +50,6 @@ class WrongCommandLines(CommandLine):
             (["info", "a.h5", "--json", "--config"], "--json beside --config"),
             (["defaults", "toml"], "unexpected argument 'toml'"),
             (["defaults", "--in"], "unknown option '--in'; did you mean '--ini'?"),
-            (["help", "rnu"], "did you mean 'run'?"),
         ]
         for command, words in cases:
             with self.subTest(command=command):
@@ -218,21 +224,6 @@ class Run(CommandLine):
         self.assertEqual(json.loads(summary)["attributes"]["title"], title)
         config_text = self.clatter("info", "a.h5", "--config").stdout
         self.assertEqual(config_text, json.loads(summary)["attributes"]["config"])
-
-
-class Help(CommandLine):
-    def test_is_data_on_stdout(self):
-        for words in (["--help"], ["-h"], ["--version"], ["help"], ["help", "run"], ["run", "--help"], ["help", "plan"], ["info", "-h"],
-                      ["defaults", "--help"], ["help", "help"], ["help", "configuration"]):
-            result = self.clatter(*words)
-            self.assertEqual((result.returncode, result.stderr), (0, ""), words)
-            self.assertTrue(result.stdout, words)
-            self.assertLessEqual(max(map(len, result.stdout.splitlines())), 120, words)
-        self.assertRegex(self.clatter("--version").stdout, r"^clatter \d+\.\d+\.\d+ \(commit \S+, .+\)\n$")
-
-    def test_the_readme_holds_the_reference_of_the_configuration(self):
-        reference = self.clatter("help", "configuration").stdout
-        self.assertIn(reference.strip(), (SOURCE / "README.md").read_text(encoding="utf-8"))
 
 
 if __name__ == "__main__":

@@ -141,11 +141,17 @@ TEST(Config, the_default_configuration_reads_the_same_from_toml_and_ini) {
   EXPECT_EQ(read_as("e.toml", "[scene]\nxs = -1").text, toml);
 }
 
-TEST(Config, one_stop_alone_has_its_restitution_and_the_other_elastic) {
-  const Stops stops = read_as("a.toml", "[scene]\nstop_lower=0\nstop_upper=inf\nR_lower=0.5\n").sweep.scene.stops;
-  EXPECT_EQ(stops.restitution_lower, 0.5);
-  EXPECT_EQ(stops.restitution_upper, 1.0);
-  EXPECT_EQ(stops.upper, infinity);
+TEST(Config, one_stop_alone_has_its_restitution_and_the_other_is_none) {
+  const Config lower = read_as("a.toml", "[scene]\nstop_lower=0\nR_lower=0.5\n");
+  EXPECT_EQ(lower.sweep.scene.stops.lower, 0.0);
+  EXPECT_EQ(lower.sweep.scene.stops.restitution_lower, 0.5);
+  EXPECT_EQ(lower.sweep.scene.stops.restitution_upper, 1.0);
+  EXPECT_EQ(lower.sweep.scene.stops.upper, infinity);
+  EXPECT_EQ(lower.text, read_as("b.toml", "[scene]\nstop_lower=0\nstop_upper=inf\nR_lower=0.5\n").text);
+  const Config upper = read_as("a.ini", "[sweep]\nstop_upper = 1, 2\n");
+  EXPECT_EQ(scene_at(upper.sweep, 1).stops.lower, -infinity);
+  EXPECT_EQ(scene_at(upper.sweep, 1).stops.upper, 2.0);
+  EXPECT_EQ(upper.text, read_as("b.toml", "[scene]\nstop_lower = -inf\n[sweep]\nstop_upper = [1, 2]\n").text);
 }
 
 TEST(Axes, are_in_the_order_of_the_text_not_of_the_alphabet) {
