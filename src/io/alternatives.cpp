@@ -1,6 +1,6 @@
 #include <algorithm>
-#include <array>
 #include <string>
+#include <tuple>
 
 #include "io/consistency.hpp"
 #include "io/suggestion.hpp"
@@ -12,48 +12,32 @@ using enum Parameter;
 
 std::string name_of(Parameter parameter) { return in_quotes(key_of(parameter)); }
 
-/// Whether a place comes after another; the command line after every file.
+/// Whether a place comes after another of the same origin.
 bool later(const Place& left, const Place& right) {
-  const auto rank = [](const Place& place) { return std::array{place.line == 0 ? 1 : 0, place.line, place.column}; };
-  return rank(left) > rank(right);
+  return std::tie(left.line, left.column) > std::tie(right.line, right.column);
 }
 
-bool on_command_line(const Place& place) { return place.line == 0; }
-
-/// How to be rid of the earlier of two settings: no --set can take a line of a file away.
-std::string removal(Parameter earlier, const Place& earlier_place, const Place& later_place) {
-  if (!on_command_line(later_place) || on_command_line(earlier_place)) return "; remove one of them";
-  return "; remove the line of " + name_of(earlier) + ", " + to_string(earlier_place);
-}
+/// Both in the file, or both on the command line: what is in one and on the other, the command line decides.
+bool contradict(const Place& one, const Place& other) { return on_command_line(one) == on_command_line(other); }
 
 /// Two ways of saying the same, at the place of the one that was written last.
 void exclude(const Settings& settings, Parameter one, Parameter other) {
   const auto first = settings.given(one);
   const auto second = settings.given(other);
-  if (!first || !second) return;
+  if (!first || !second || !contradict(first->key_place, second->key_place)) return;
   const bool in_order = later(second->key_place, first->key_place);
-  const Parameter earlier = in_order ? one : other;
-  const Place& earlier_place = (in_order ? first : second)->key_place;
-  const Place& place = (in_order ? second : first)->key_place;
-  fail(place, name_of(in_order ? other : one) + " beside " + name_of(earlier) + removal(earlier, earlier_place, place));
-}
-
-/// An axis may be a single value, which the command line can put in place of the file's axis.
-std::string way_out(const SweptSetting& swept, const Setting& fixed) {
-  const std::string axis = "sweep." + std::string(key_of(swept.parameter));
-  if (on_command_line(swept.key_place) && !on_command_line(fixed.key_place))
-    return removal(swept.parameter, fixed.key_place, swept.key_place);
-  if (on_command_line(fixed.key_place) && !on_command_line(swept.key_place))
-    return "; write --set " + axis + '=' + number_text(std::get<double>(fixed.value));
-  return "; remove one of them (for a single value: " + axis + " = VALUE)";
+  fail((in_order ? second : first)->key_place,
+       name_of(in_order ? other : one) + " beside " + name_of(in_order ? one : other) + "; remove one of them");
 }
 
 void check_scene_or_sweep(const Settings& settings) {
   for (const SweptSetting& swept : settings.axes) {
     const Setting* const fixed = settings.find("scene", key_of(swept.parameter));
-    if (fixed == nullptr) continue;
+    if (fixed == nullptr || !contradict(fixed->key_place, swept.key_place)) continue;
     const Place& place = later(fixed->key_place, swept.key_place) ? fixed->key_place : swept.key_place;
-    fail(place, name_of(swept.parameter) + " in both [scene] and [sweep]" + way_out(swept, *fixed));
+    fail(place, name_of(swept.parameter) +
+                    " in both [scene] and [sweep]; remove one of them (for a single value: sweep." +
+                    std::string(key_of(swept.parameter)) + " = VALUE)");
   }
 }
 
@@ -105,11 +89,14 @@ void check_harmonics(const Settings& settings) {
 
 }  // namespace
 
-void check_alternatives(const Settings& settings) {
+void check_contradictions(const Settings& settings) {
   check_scene_or_sweep(settings);
   for (const Parameter stop : {stop_lower, stop_upper}) exclude(settings, xs, stop);
   for (const Parameter restitution : {R_lower, R_upper}) exclude(settings, R, restitution);
   for (const Parameter start : {x0, v0}) exclude(settings, start_period, start);
+}
+
+void check_alternatives(const Settings& settings) {
   check_stops_given(settings);
   check_start_period(settings);
   check_duration(settings);

@@ -17,6 +17,7 @@ struct Config {
   Sweep sweep;
   int compression = 0;  ///< deflate level of the output, 0 ... 9
   std::string text;     ///< all of it with the defaults filled in, as TOML that runs again (root attribute `config`)
+  std::vector<std::string> notes;  ///< what the command line says in place of the file in another way
 };
 
 /// A mistake of the user's: `what()` is one line, "file:line:column: what is wrong; the way out".

@@ -14,9 +14,12 @@ struct Place {
   int column = 0;      ///< from 1, in characters, not bytes
 };
 
+/// Whether it stands behind --set.
+[[nodiscard]] inline bool on_command_line(const Place& place) { return place.line == 0; }
+
 /// "fig22.toml:7:6", or the command line's words.
 [[nodiscard]] inline std::string to_string(const Place& place) {
-  if (place.line == 0) return place.source;
+  if (on_command_line(place)) return place.source;
   return place.source + ':' + std::to_string(place.line) + ':' + std::to_string(place.column);
 }
 

@@ -113,7 +113,7 @@ Setting default_setting(const Key& key) { return setting_of(key, key.fallback); 
 Setting example_setting(const Key& key) { return setting_of(key, key.example); }
 
 Settings check_keys(RawConfig raw) {
-  Settings settings{std::move(raw.file), std::move(raw.sections), {}, {}};
+  Settings settings{std::move(raw.file), std::move(raw.sections), {}, {}, {}};
   for (const RawSection& section : settings.sections) check_section(section.name, section.place);
   for (const RawEntry& entry : raw.entries) {
     check_section(entry.section, entry.place);
