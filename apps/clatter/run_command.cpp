@@ -25,6 +25,7 @@
 #include "run_report.hpp"
 #include "sweep/memory.hpp"
 #include "sweep/rounding.hpp"
+#include "warnings.hpp"
 
 namespace clatter {
 namespace {
@@ -82,6 +83,12 @@ JournalKey key_of(const Config& config, Arch arch, const std::optional<Shard>& s
           .shard = shard ? text_of(*shard) : ""};
 }
 
+void say_plan(const Config& config, int threads) {
+  const Plan plan = plan_of(config.sweep, threads);
+  std::cerr << plan_text(plan, config.sweep, threads);
+  say_notes(config), warn(plan);
+}
+
 void run_points(SweepRun& sweep, RunOptions options, bool shown) {
   const Progress progress(shown, "points", sweep.restored_points());
   if (shown) options.progress = [&](std::size_t finished, std::size_t total) { progress.show(finished, total); };
@@ -104,7 +111,8 @@ int run_config(const Arguments& arguments) {
   check_not_config(arguments.operands[0], output);
   check_writable(output);
   check_memory(config.sweep, shard);
-  if (arguments.has("verbose")) std::cerr << plan_text(plan_of(config.sweep, threads), config.sweep, threads);
+  if (arguments.has("verbose")) say_plan(config, threads);
+  if (!arguments.has("quiet")) warn(config);
 
   SweepRun sweep(config.sweep, shard);
   Journal journal(output, key_of(config, arch, shard), begin, [&](std::span<const std::byte> results) {

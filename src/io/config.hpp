@@ -10,6 +10,13 @@ namespace clatter {
 
 enum class Format { toml, ini };
 
+/// What looks unintended in a configuration, and is no mistake.
+struct Warning {
+  std::string place;    ///< "fig22.toml:7:6", or the words of a --set
+  std::string section;  ///< of the key
+  std::string text;     ///< what it is; the way out
+};
+
 /// A complete configuration: what is swept, what is observed, how it is written.
 struct Config {
   std::string title;
@@ -17,6 +24,7 @@ struct Config {
   Sweep sweep;
   int compression = 0;  ///< deflate level of the output, 0 ... 9
   std::string text;     ///< all of it with the defaults filled in, as TOML that runs again (root attribute `config`)
+  std::vector<Warning> warnings;
   std::vector<std::string> notes;  ///< what the command line says in place of the file in another way
 };
 

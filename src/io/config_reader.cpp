@@ -103,8 +103,9 @@ Config config_of(RawConfig raw) {
   check_alternatives(settings);
   const AxisGroups groups = group_axes(settings);
   check_stops_and_start(settings, groups);
-  Config config{settings.text("", "title"), settings.text("", "source"), {}, 0, config_text(settings), {}};
+  Config config{settings.text("", "title"), settings.text("", "source"), {}, 0, config_text(settings), {}, {}};
   for (const Displaced& displaced : settings.displaced) config.notes.push_back(to_string(displaced));
+  config.warnings = warnings_of(settings, groups);
   if (config.text.size() > max_config_bytes) refuse_long(settings);
   config.compression = static_cast<int>(settings.integer("output", "compression"));
   config.sweep = sweep_of(settings, groups);

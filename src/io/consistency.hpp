@@ -36,4 +36,7 @@ void check_alternatives(const Settings& settings);
 /// them.
 void check_stops_and_start(const Settings& settings, const AxisGroups& groups);
 
+/// What looks unintended: keys without effect, values twice on an axis, a run that observes nothing.
+[[nodiscard]] std::vector<Warning> warnings_of(const Settings& settings, const AxisGroups& groups);
+
 }  // namespace clatter
