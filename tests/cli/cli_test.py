@@ -78,6 +78,18 @@ class WrongConfigurations(CommandLine):
         self.assert_refused(2, "--set scene.R=2: R = 2 is out of range", "run", config, "--set", "scene.R=2")
         self.assert_refused(2, "--set scene.Q=2: unknown key 'Q' in [scene]", "run", config, "--set", "scene.Q=2")
 
+    def test_an_axis_in_the_scene_and_a_decimal_comma_are_told_apart(self):
+        config = self.write("a.toml", SMALL)
+        axis = "several values are an axis"
+        for name in ("wrong.toml", "wrong.ini"):
+            self.write(name, "[scene]\nxs = 1\nh = [0.05, 0.1]\n")
+            self.assert_refused(2, f"{name}:3:5: h = ", "run", name)
+            self.assert_refused(2, f"{axis}, and its line belongs in [sweep]", "run", name)
+            self.write(name, "[scene]\nxs = 1\nh = 0,1\n")
+            self.assert_refused(2, "a decimal comma? write 0.1", "run", name)
+        self.assert_refused(2, axis + ": --set sweep.h='0.05, 0.1'", "run", config, "--set", "scene.h=0.05, 0.1")
+        self.assert_refused(2, "a decimal comma? write 0.1", "run", config, "--set", "scene.h=0,1")
+
     def test_set_in_another_encoding_is_not_told_to_save_a_file(self):
         config = self.write("a.toml", SMALL)
         self.assert_refused(2, r"--set scene.R=\xff: the byte \xff is not UTF-8", "run", config, "--set", b"scene.R=\xff")

@@ -61,7 +61,7 @@ TEST(Ini, syntax_errors_have_a_place) {
                  {"[scene]\nh # = 1\n", "2:1", "expected KEY = VALUE"},
                  {"title = \"a\n", "1:9", "the closing quote is missing"},
                  {"title = \"a\" b\n", "1:13", "text after the closing quote"},
-                 {"[scene]\nnu = 0.5, x\n", "2:9", ""},
+                 {"[scene]\nnu = 0.5 x\n", "2:10", "expected the end of the value, found 'x'"},
                  {"[scene]\r\nxs = 1\r\nnuu = 1\r\n", "3:1", "did you mean 'nu'?"},
                  {"\xEF\xBB\xBF[scen]\n", "1:2", "unknown section [scen]; did you mean [scene]?"},
                  {"title = ü\n[scene]\nxs = ü\n", "3:6", "expected a number"},
