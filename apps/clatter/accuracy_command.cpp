@@ -87,6 +87,7 @@ Command accuracy_command() {
           .required_operands = 1,
           .options = {output_option,
                       set_option,
+                      ini_option,
                       arch_option,
                       {"json", 0, "", "a JSON object a row in place of the table"},
                       progress_option,

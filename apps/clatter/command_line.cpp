@@ -84,6 +84,12 @@ Arguments collect(const Command& command, const po::parsed_options& parsed) {
   return arguments;
 }
 
+/// Results are no stream: HDF5 is written in places.
+void check_output(const Arguments& arguments) {
+  if (arguments.value("output") == "-")
+    throw UsageError("-o - is no file; HDF5 can't go to standard output: name a file (./- if it is to be called so)");
+}
+
 }  // namespace
 
 std::optional<std::string> Arguments::value(std::string_view option) const {
@@ -116,7 +122,7 @@ Arguments parse_arguments(const Command& command, const std::vector<std::string>
   try {
     const auto parsed = po::command_line_parser(words).options(description).positional(operands).style(style).run();
     Arguments arguments = collect(command, parsed);
-    if (!arguments.has("help")) check_operands(command, arguments.operands);
+    if (!arguments.has("help")) check_operands(command, arguments.operands), check_output(arguments);
     return arguments;
   } catch (const po::error& error) {
     refuse(command, error);

@@ -38,6 +38,7 @@ Command plan_command() {
           .required_operands = 1,
           .options = {{"json", 0, "", "as JSON, warnings too"},
                       set_option,
+                      ini_option,
                       threads_option,
                       {"help", 'h', "", "print this help"}},
           .run = print_plan};

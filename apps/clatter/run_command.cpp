@@ -52,9 +52,9 @@ std::optional<Shard> shard_of(const Arguments& arguments) {
 
 /// What -o names; else the configuration's name with .h5, for a shard with .K-of-N.h5.
 std::string output_of(const Arguments& arguments, const std::optional<Shard>& shard) {
-  if (!shard || arguments.has("output")) return output_of(arguments);
-  const std::string name = std::filesystem::path(arguments.operands[0]).stem().string();
-  return name + '.' + std::to_string(shard->number) + "-of-" + std::to_string(shard->of) + ".h5";
+  const std::string whole = output_of(arguments);
+  if (!shard || arguments.has("output")) return whole;
+  return std::filesystem::path(whole).replace_extension().string() + '.' + std::to_string(shard->number) + "-of-" + std::to_string(shard->of) + ".h5";
 }
 
 Journal::Begin begin_of(const Arguments& arguments) {
@@ -151,6 +151,7 @@ constexpr std::string_view examples =
     "  clatter run configs/fig22.toml -o coarse.h5 \\\n"
     "    --set sweep.nu='linspace(0.5, 1.5, 51)' --set scene.R=0.5\n"
     "  clatter run configs/fig22.ini --threads 2 --progress never\n"
+    "  sed s/0.7/0.5/ configs/fig22.toml | clatter run - -o other.h5\n"
     "  clatter run configs/map_nu_xs.toml --shard 0/4      writes map_nu_xs.0-of-4.h5\n";
 
 }  // namespace
@@ -165,6 +166,7 @@ Command run_command() {
       .required_operands = 1,
       .options = {output_option,
                   set_option,
+                  ini_option,
                   threads_option,
                   arch_option,
                   {"shard", 0, "K/N", "compute points K, K + N, ... alone, K from 0; `clatter merge` joins the files"},

@@ -2,6 +2,7 @@
 
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "sweep/sweep.hpp"
@@ -40,9 +41,13 @@ struct Override {
   std::string value;
 };
 
-/// Reads a configuration; INI where the name ends in .ini in any case, else TOML. Throws ConfigError; IoError where
-/// the file cannot be read.
-[[nodiscard]] Config read_config(const std::string& path, const std::vector<Override>& overrides);
+/// The name of standard input among the operands.
+inline constexpr std::string_view standard_input = "-";
+
+/// Reads a configuration; INI where the name ends in .ini in any case or the format says so, else TOML. Throws
+/// ConfigError; IoError where the file cannot be read.
+[[nodiscard]] Config read_config(const std::string& path, const std::vector<Override>& overrides,
+                                 Format format = Format::toml);
 
 /// Reads a configuration from TOML, such as the complete text of another one; `file` is named in errors.
 [[nodiscard]] Config parse_config(const std::string& text, const std::string& file);

@@ -11,9 +11,12 @@
 namespace clatter {
 namespace {
 
-RawConfig read_raw(const std::string& path) {
-  const std::string text = read_text(path);
-  return has_ending(path, ".ini") ? read_ini(path, text) : read_toml(path, text);
+RawConfig read_raw(const std::string& path, Format format) {
+  const bool from_file = path != standard_input;
+  const std::string name = from_file ? path : "stdin";
+  const std::string text = from_file ? read_text(path) : read_standard_input(name);
+  const bool ini = format == Format::ini || has_ending(path, ".ini");
+  return ini ? read_ini(name, text) : read_toml(name, text);
 }
 
 TimePlan time_plan(const Settings& settings) {
@@ -114,8 +117,8 @@ Config config_of(RawConfig raw) {
 
 }  // namespace
 
-Config read_config(const std::string& path, const std::vector<Override>& overrides) {
-  RawConfig raw = read_raw(path);
+Config read_config(const std::string& path, const std::vector<Override>& overrides, Format format) {
+  RawConfig raw = read_raw(path, format);
   apply_overrides(raw, overrides);
   return config_of(std::move(raw));
 }

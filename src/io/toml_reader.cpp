@@ -161,7 +161,7 @@ RawConfig read_toml(const std::string& file, std::string_view text) {
     add_entries(raw, "", parse(file, text));
   } catch (const ConfigError& error) {
     if (has_ending(file, ".toml")) throw;
-    throw ConfigError(std::string(error.what()) + "; read as TOML, since only names of INI files end in .ini");
+    throw ConfigError(std::string(error.what()) + "; read as TOML; INI is told by --ini, or a name that ends in .ini");
   }
   const auto order = [](const auto& left, const auto& right) {  // toml++ iterates alphabetically
     return std::tuple(left.place.line, left.place.column) < std::tuple(right.place.line, right.place.column);

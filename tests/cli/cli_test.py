@@ -125,6 +125,14 @@ class Files(CommandLine):
             with self.subTest(command=command):
                 self.assert_refused(74, words, *command)
 
+    def test_a_damaged_output_is_said_to_be_so_without_doubt(self):
+        self.clatter("run", self.write("a.toml", SMALL))
+        whole = (self.directory / "a.h5").read_bytes()
+        for length in (100, 2000, len(whole) - 100):  # in the second, a heap of texts is damaged
+            (self.directory / "cut.h5").write_bytes(whole[:length])
+            self.assert_refused(74, "'cut.h5': cannot be read: ", "info", "cut.h5")
+            self.assertRegex(self.clatter("info", "cut.h5").stderr, r"; copy it again, or run its configuration again\n$")
+
     def test_closed_standard_output_is_an_error(self):
         result = subprocess.run([CLATTER, "defaults"], preexec_fn=lambda: os.close(1), stderr=subprocess.PIPE, text=True)
         self.assertEqual(result.returncode, 74, result.stderr)
