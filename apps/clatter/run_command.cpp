@@ -35,8 +35,8 @@ void check_memory(const Sweep& sweep, const std::optional<Shard>& shard) {
   const double needed = run_bytes(sweep, shard), there = machine_bytes();
   if (there == 0 || needed <= there) return;
   throw UsageError("the results of " + std::to_string(Share(sweep, shard).points()) +
-                   " points, and the largest variable of them once more, take " + bytes_text(needed) +
-                   ", there are " + bytes_text(there) +
+                   " points, and the largest variable of them once more, take " + bytes_text(needed) + ", there are " +
+                   bytes_text(there) +
                    "; sweep fewer points, observe fewer samples and harmonics, or share the points out with --shard");
 }
 
@@ -54,7 +54,8 @@ std::optional<Shard> shard_of(const Arguments& arguments) {
 std::string output_of(const Arguments& arguments, const std::optional<Shard>& shard) {
   const std::string whole = output_of(arguments);
   if (!shard || arguments.has("output")) return whole;
-  return std::filesystem::path(whole).replace_extension().string() + '.' + std::to_string(shard->number) + "-of-" + std::to_string(shard->of) + ".h5";
+  return std::filesystem::path(whole).replace_extension().string() + '.' + std::to_string(shard->number) + "-of-" +
+         std::to_string(shard->of) + ".h5";
 }
 
 Journal::Begin begin_of(const Arguments& arguments) {
@@ -132,7 +133,7 @@ int run_config(const Arguments& arguments) {
   run_points(sweep, {.threads = threads, .arch = arch}, shown);
   keeper.finish();
   RunResult result = sweep.result();
-  const std::string summary = summary_line(result, output);
+  const std::string summary = summary_line(result, config.sweep, shard, output);
   try {
     const auto image = shard ? sealed_image : file_image;
     publish(output, image(std::move(result.figure), config).bytes);

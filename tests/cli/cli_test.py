@@ -5,6 +5,8 @@ import os
 import subprocess
 import unittest
 
+import h5py
+import numpy
 from command_line import CLATTER, SMALL, CommandLine
 
 
@@ -212,12 +214,43 @@ class Run(CommandLine):
         self.run_ok(config, "--set", "scene.R=0.5")
         self.assertNotEqual(self.bytes_of("a.h5"), before)
 
-    def test_failed_points_end_with_1_and_are_named_by_number(self):
+    def test_failed_points_end_with_1_and_are_told_by_status_with_an_example(self):
         config = self.write("a.toml", SMALL)
-        result = self.clatter("run", config, "--set", "scene.xs=-1", "--set", "time.max_impacts=1")
+        fail = ["--set", "scene.xs=-1", "--set", "time.max_impacts=1"]
+        result = self.clatter("run", config, *fail)
         self.assertEqual(result.returncode, 1, result.stderr)
-        self.assertRegex(result.stderr, r"^5 points, 5 failed \(number 0, 1, 2, 3, 4; see status\), ")
+        self.assertRegex(result.stderr, r"^5 points, 5 failed \(event_budget: 5, e\.g\. point 0 at nu = 0\.5\), [0-9.e-]+ s, ")
         self.assertIn("a.h5", self.files())
+        one = self.clatter("run", config, *fail, "--set", "scene.nu=1").stderr
+        self.assertRegex(one, r"^1 point, 1 failed \(event_budget: 1, e\.g\. point 0\), ")
+
+    def test_each_status_of_failed_points_is_told(self):
+        config = self.write("a.toml", SMALL)
+        result = self.clatter("run", config, "--set", "scene.xs=-1", "--set", "sweep.v0=1, 1e308",
+                              "--set", "time.max_impacts=3")
+        self.assertEqual(result.returncode, 1, result.stderr)
+        with h5py.File(self.directory / "a.h5") as file:
+            status = file["status"][()]
+            nu, v0 = file["nu"][()], file["v0"][()]
+        names = {16: "event_budget", 17: "not_finite", 18: "unresolved"}
+        kinds = [value for value in names if (status == value).any()]
+        self.assertGreater(len(kinds), 1, status)
+        texts = []
+        for value in kinds:
+            i, j = numpy.argwhere(status == value)[0]
+            texts.append(f"{names[value]}: {(status == value).sum()}, e.g. point {i * status.shape[1] + j} "
+                         f"at nu = {nu[i]:.10g}, v0 = {v0[j]:.10g}")
+        self.assertIn(f"{(status > 15).sum()} failed ({'; '.join(texts)})", result.stderr)
+
+    def test_failed_points_of_shards_have_their_number_in_the_sweep(self):
+        config = self.write("a.toml", SMALL)
+        fail = ["--set", "scene.xs=-1", "--set", "time.max_impacts=1"]
+        said = [self.clatter("run", config, *fail, "--shard", f"{k}/2").stderr for k in (0, 1)]
+        self.assertIn("3 failed (event_budget: 3, e.g. point 0 at nu = 0.5)", said[0])
+        self.assertIn("2 failed (event_budget: 2, e.g. point 1 at nu = 0.75)", said[1])
+        merged = self.clatter("merge", "-o", "m.h5", "a.0-of-2.h5", "a.1-of-2.h5")
+        self.assertEqual(merged.returncode, 1)
+        self.assertIn("5 points of 2 shards, 5 failed (event_budget: 5, e.g. point 0 at nu = 0.5), m.h5", merged.stderr)
 
     def test_info_tells_what_is_inside(self):
         config = self.write("a.toml", SMALL)
