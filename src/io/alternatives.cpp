@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <string>
-#include <tuple>
 
 #include "io/consistency.hpp"
 #include "io/suggestion.hpp"
@@ -9,37 +8,6 @@ namespace clatter {
 namespace {
 
 using enum Parameter;
-
-std::string name_of(Parameter parameter) { return in_quotes(key_of(parameter)); }
-
-/// Whether a place comes after another of the same origin.
-bool later(const Place& left, const Place& right) {
-  return std::tie(left.line, left.column) > std::tie(right.line, right.column);
-}
-
-/// Both in the file, or both on the command line: what is in one and on the other, the command line decides.
-bool contradict(const Place& one, const Place& other) { return on_command_line(one) == on_command_line(other); }
-
-/// Two ways of saying the same, at the place of the one that was written last.
-void exclude(const Settings& settings, Parameter one, Parameter other) {
-  const auto first = settings.given(one);
-  const auto second = settings.given(other);
-  if (!first || !second || !contradict(first->key_place, second->key_place)) return;
-  const bool in_order = later(second->key_place, first->key_place);
-  fail((in_order ? second : first)->key_place,
-       name_of(in_order ? other : one) + " beside " + name_of(in_order ? one : other) + "; remove one of them");
-}
-
-void check_scene_or_sweep(const Settings& settings) {
-  for (const SweptSetting& swept : settings.axes) {
-    const Setting* const fixed = settings.find("scene", key_of(swept.parameter));
-    if (fixed == nullptr || !contradict(fixed->key_place, swept.key_place)) continue;
-    const Place& place = later(fixed->key_place, swept.key_place) ? fixed->key_place : swept.key_place;
-    fail(place, name_of(swept.parameter) +
-                    " in both [scene] and [sweep]; remove one of them (for a single value: sweep." +
-                    std::string(key_of(swept.parameter)) + " = VALUE)");
-  }
-}
 
 /// A stop that isn't given isn't there; that none is was hardly meant.
 void check_stops_given(const Settings& settings) {
@@ -88,13 +56,6 @@ void check_harmonics(const Settings& settings) {
 }
 
 }  // namespace
-
-void check_contradictions(const Settings& settings) {
-  check_scene_or_sweep(settings);
-  for (const Parameter stop : {stop_lower, stop_upper}) exclude(settings, xs, stop);
-  for (const Parameter restitution : {R_lower, R_upper}) exclude(settings, R, restitution);
-  for (const Parameter start : {x0, v0}) exclude(settings, start_period, start);
-}
 
 void check_alternatives(const Settings& settings) {
   check_stops_given(settings);

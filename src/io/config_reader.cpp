@@ -101,7 +101,6 @@ Sweep sweep_of(Settings& settings, const AxisGroups& groups) {
 
 Config config_of(RawConfig raw) {
   Settings settings = check_keys(std::move(raw));
-  check_contradictions(settings);
   let_command_line_win(settings);
   check_alternatives(settings);
   const AxisGroups groups = group_axes(settings);

@@ -22,11 +22,9 @@ using AxisGroups = std::vector<std::vector<std::size_t>>;
 /// dimensions, or a start, which only the first point has.
 [[nodiscard]] std::optional<std::size_t> followed_dimension(const Settings& settings, const AxisGroups& groups);
 
-/// Throws ConfigError where the file, or the command line, says the same in two ways.
-void check_contradictions(const Settings& settings);
-
 /// Takes away what the file says in another way than the command line, be it of [scene] or of [sweep], xs or
-/// stop_lower, and notes it in `displaced`. Of a pair, as xs is of stops, what isn't said anew stays.
+/// stop_lower, and notes it in `displaced`. Of a pair, as xs is of stops, what isn't said anew stays. Throws
+/// ConfigError where the file, or the command line, says the same in two ways.
 void let_command_line_win(Settings& settings);
 
 /// Throws ConfigError where a key is missing that the others need, or does not go with them.

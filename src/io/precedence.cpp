@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <tuple>
 
 #include "io/consistency.hpp"
 #include "io/suggestion.hpp"
@@ -11,6 +12,24 @@ namespace {
 using enum Parameter;
 
 std::string quoted(Parameter parameter) { return in_quotes(key_of(parameter)); }
+
+/// Whether a place comes after another of the same origin.
+bool later(const Place& left, const Place& right) {
+  return std::tie(left.line, left.column) > std::tie(right.line, right.column);
+}
+
+/// Both in the file, or both on the command line: what is in one and on the other, the command line decides.
+bool contradict(const Place& one, const Place& other) { return on_command_line(one) == on_command_line(other); }
+
+/// Two ways of saying the same, at the place of the one that was written last.
+void exclude(const Settings& settings, Parameter one, Parameter other) {
+  const auto first = settings.given(one);
+  const auto second = settings.given(other);
+  if (!first || !second || !contradict(first->key_place, second->key_place)) return;
+  const bool in_order = later(second->key_place, first->key_place);
+  fail((in_order ? second : first)->key_place,
+       quoted(in_order ? other : one) + " beside " + quoted(in_order ? one : other) + "; remove one of them");
+}
 
 bool from_command_line(const std::optional<Given>& given) { return given && on_command_line(given->key_place); }
 bool from_file(const std::optional<Given>& given) { return given && !on_command_line(given->key_place); }
@@ -30,14 +49,18 @@ void note(Settings& settings, Parameter gone, const Place& stands, const Place& 
   settings.displaced.push_back({gone, stands, stood, rest});
 }
 
-/// What the command line says of a parameter comes before what the file says of it in the other section.
-void displace_other_section(Settings& settings, Parameter parameter) {
+/// A parameter is given in [scene] or in [sweep], and on the command line in place of the other section of the file.
+void choose_section(Settings& settings, Parameter parameter) {
   const Setting* const fixed = settings.find("scene", key_of(parameter));
   const auto swept = std::ranges::find(settings.axes, parameter, &SweptSetting::parameter);
   if (fixed == nullptr || swept == settings.axes.end()) return;
-  const bool axis_stands = on_command_line(swept->key_place);
-  note(settings, parameter, axis_stands ? swept->key_place : fixed->key_place,
-       axis_stands ? fixed->key_place : swept->key_place);
+  const Place in_scene = fixed->key_place, in_sweep = swept->key_place;
+  if (contradict(in_scene, in_sweep))
+    fail(later(in_scene, in_sweep) ? in_scene : in_sweep,
+         quoted(parameter) + " in both [scene] and [sweep]; remove one of them (for a single value: sweep." +
+             std::string(key_of(parameter)) + " = VALUE)");
+  const bool axis_stands = on_command_line(in_sweep);
+  note(settings, parameter, axis_stands ? in_sweep : in_scene, axis_stands ? in_scene : in_sweep);
   remove(settings, parameter);
 }
 
@@ -105,11 +128,13 @@ void displace_half(Settings& settings, const Pair& pair, Parameter standing, Par
 
 void let_command_line_win(Settings& settings) {
   for (int parameter = 0; parameter <= static_cast<int>(start_period); ++parameter)
-    displace_other_section(settings, static_cast<Parameter>(parameter));
+    choose_section(settings, static_cast<Parameter>(parameter));
   for (const Pair& pair : pairs) {
+    exclude(settings, pair.both, pair.one), exclude(settings, pair.both, pair.other);
     displace(settings, pair.both, pair.one), displace(settings, pair.both, pair.other);
     displace_half(settings, pair, pair.one, pair.other), displace_half(settings, pair, pair.other, pair.one);
   }
+  for (const Parameter start : {x0, v0}) exclude(settings, start_period, start);
   for (const Parameter start : {x0, v0})
     displace(settings, start_period, start), displace(settings, start, start_period);
 }

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <random>
 
 #include "io/written_config.hpp"
 
@@ -96,6 +97,9 @@ TEST(Precedence, what_the_file_or_the_command_line_says_in_two_ways_stays_a_mist
        "'f' in both [scene] and [sweep]; remove one of them (for a single value: sweep.f = VALUE)");
   says(fixed, {{"scene.R", "1"}, {"scene.R_lower", "1"}}, "'R' beside 'R_lower'; remove one of them");
   says(fixed, {{"scene.xs", "1"}, {"scene.stop_upper", "2"}}, "'xs' beside 'stop_upper'; remove one of them");
+  says(swept, {{"scene.R", "0.5"}, {"sweep.R_lower", "0.1, 0.2"}}, "'R' beside 'R_lower'; remove one of them");
+  says("[scene]\nxs = 1\n[sweep]\nR_lower = [0.1, 0.2]\n", {{"scene.R", "0.5"}, {"scene.R_lower", "1"}},
+       "'R' beside 'R_lower'; remove one of them");
   says(fixed + "stop_upper = 5\n", {{"scene.stop_lower", "-1"}}, "a.toml:5:1: 'stop_upper' beside 'xs'");
 }
 
@@ -104,6 +108,43 @@ TEST(Precedence, an_axis_that_is_gone_is_named_where_it_is_missed) {
             "a.toml:6:10: follow names 'nu', which is no axis of [sweep] beside --set scene.nu=1; add --set "
             "sweep.follow=''");
   EXPECT_EQ(mistake_in("a.toml", swept + "follow = \"nu\"\n", {{"scene.nu", "1"}, {"sweep.follow", "''"}}), "");
+}
+
+/// A configuration and changes that give many keys in many ways, some of them wrong.
+struct Mixture {
+  std::string text;
+  Overrides changes;
+};
+
+Mixture mixture(std::mt19937& random) {
+  std::string in_scene, in_sweep;
+  Overrides changes;
+  for (const char* const key : {"xs", "stop_lower", "stop_upper", "R", "R_lower", "R_upper", "x0", "v0", "nu"}) {
+    const std::string name = key, low = name == "stop_lower" ? "-2" : "0.5", high = name == "stop_lower" ? "-1" : "1";
+    const std::string list = "[" + low + ", " + high + "]";
+    const unsigned choice = random() % 25;
+    if (choice < 6) in_scene += name + " = " + low + '\n';
+    if (choice == 6 || choice == 7) in_sweep += name + " = " + list + '\n';
+    if (choice > 21) changes.push_back({"scene." + name, high});
+    if (choice > 4 && choice < 8)
+      changes.push_back({(choice == 5 ? "sweep." : "scene.") + name, choice == 5 ? list : high});
+  }
+  if (in_sweep.starts_with("xs")) in_sweep += "follow = \"xs\"\n";
+  return {"[scene]\n" + in_scene + "[sweep]\n" + in_sweep, changes};
+}
+
+TEST(Precedence, gives_a_complete_text_that_gives_itself_again) {
+  std::mt19937 random(20);
+  int taken = 0;
+  for (int i = 0; i < 500; ++i) {
+    const Mixture mixed = mixture(random);
+    if (!mistake_in("a.toml", mixed.text, mixed.changes).empty()) continue;
+    const std::string complete = read_as("a.toml", mixed.text, mixed.changes).text;
+    EXPECT_EQ(mistake_in("b.toml", complete), "") << mixed.text;
+    EXPECT_EQ(read_as("b.toml", complete).text, complete) << mixed.text;
+    ++taken;
+  }
+  EXPECT_GT(taken, 100);
 }
 
 TEST(Precedence, nothing_is_noted_where_nothing_gives_way) {
