@@ -122,7 +122,7 @@ Mixture mixture(std::mt19937& random) {
   for (const char* const key : {"xs", "stop_lower", "stop_upper", "R", "R_lower", "R_upper", "x0", "v0", "nu"}) {
     const std::string name = key, low = name == "stop_lower" ? "-2" : "0.5", high = name == "stop_lower" ? "-1" : "1";
     const std::string list = "[" + low + ", " + high + "]";
-    const unsigned choice = random() % 25;
+    const auto choice = random() % 25;
     if (choice < 6) in_scene += name + " = " + low + '\n';
     if (choice == 6 || choice == 7) in_sweep += name + " = " + list + '\n';
     if (choice > 21) changes.push_back({"scene." + name, high});
@@ -136,7 +136,7 @@ Mixture mixture(std::mt19937& random) {
 TEST(Precedence, gives_a_complete_text_that_gives_itself_again) {
   std::mt19937 random(20);
   int taken = 0;
-  for (int i = 0; i < 500; ++i) {
+  for (int i = 0; i < 200; ++i) {
     const Mixture mixed = mixture(random);
     if (!mistake_in("a.toml", mixed.text, mixed.changes).empty()) continue;
     const std::string complete = read_as("a.toml", mixed.text, mixed.changes).text;
@@ -144,7 +144,7 @@ TEST(Precedence, gives_a_complete_text_that_gives_itself_again) {
     EXPECT_EQ(read_as("b.toml", complete).text, complete) << mixed.text;
     ++taken;
   }
-  EXPECT_GT(taken, 100);
+  EXPECT_GT(taken, 40);
 }
 
 TEST(Precedence, nothing_is_noted_where_nothing_gives_way) {
