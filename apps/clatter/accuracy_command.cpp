@@ -11,6 +11,7 @@
 #include "io/publish.hpp"
 #include "progress.hpp"
 #include "study/study_figure.hpp"
+#include "warnings.hpp"
 
 namespace clatter {
 namespace {
@@ -19,6 +20,9 @@ void check_starts(const Config& config, const std::string& file) {
   if (!config.sweep.follow) return;
   throw UsageError(file + ": [sweep] follow: a study starts every point from [scene]; add --set sweep.follow=''");
 }
+
+/// What a study chooses by itself.
+constexpr std::string_view not_read[] = {"observe", "integrator"};
 
 /// Studies all points and prints each; fewer where it was interrupted.
 std::vector<PointStudy> study_points(const Sweep& sweep, Arch arch, bool json, bool shown) {
@@ -55,6 +59,7 @@ int run_study(const Arguments& arguments) {
   check_starts(config, arguments.operands[0]);
   check_writable(output);
   require_idle(output);
+  if (!arguments.has("quiet")) warn(config, not_read);
   const Interrupt interrupt;
   const std::vector<PointStudy> points = study_points(config.sweep, arch, arguments.has("json"), shown);
   if (const int signal = Interrupt::signal()) {
@@ -82,6 +87,7 @@ Command accuracy_command() {
           .required_operands = 1,
           .options = {output_option,
                       set_option,
+                      ini_option,
                       arch_option,
                       {"json", 0, "", "a JSON object a row in place of the table"},
                       progress_option,

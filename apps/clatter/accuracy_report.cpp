@@ -2,24 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <sstream>
 
+#include "coordinates.hpp"
 #include "format.hpp"
 #include "study/study_figure.hpp"
 
 namespace clatter {
 namespace {
-
-/// Calls `take(key, value)` for each axis at a point.
-void each_coordinate(const Sweep& sweep, std::size_t point, const std::function<void(const Axis&, double)>& take) {
-  std::size_t stride = size(sweep);
-  for (const Dimension& dimension : sweep.dimensions) {
-    stride /= length(dimension);
-    const std::size_t index = point / stride % length(dimension);
-    for (const Axis& axis : dimension) take(axis, axis.values[index]);
-  }
-}
 
 struct ColumnTitle {
   const char *top, *bottom;
@@ -123,12 +113,7 @@ std::string horizon_text(const PointStudy& study, bool forced) {
 }  // namespace
 
 std::string study_text(const PointStudy& study, const Sweep& sweep, std::size_t point) {
-  std::string text;
-  each_coordinate(sweep, point, [&](const Axis& axis, double value) {
-    if (!text.empty()) text += ", ";
-    text += key_of(axis.parameter);
-    text += formatted(" = %.10g", value);
-  });
+  std::string text = coordinates_text(sweep, point);
   if (!text.empty()) text += '\n';
   text += horizon_text(study, scene_at(sweep, point).oscillator.forcing != 0);
   text += header();

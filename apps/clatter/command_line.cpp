@@ -28,15 +28,21 @@ po::options_description description_of(const Command& command) {
   return description;
 }
 
-std::string unknown_option(const Command& command, const std::string& written) {
+std::vector<std::string> names_of(const Command& command) {
   std::vector<std::string> names;
   for (const Option& option : command.options) names.push_back("--" + std::string(option.name));
+  return names;
+}
+
+/// The option that was meant, with its dashes; empty where none is near. An abbreviation is refused, not guessed.
+std::string meant(const std::string& written, const std::vector<std::string>& names) {
+  if (written.size() < 3) return {};  // a letter
   const std::vector<std::string_view> views(names.begin(), names.end());
-  const bool is_long = written.starts_with("--");
-  const auto extends = [&](const std::string& name) { return written.size() > 3 && name.starts_with(written); };
-  const auto longer = std::find_if(names.begin(), names.end(), extends);  // an abbreviation is refused, not guessed
-  std::string_view near = is_long ? nearest(written, views) : std::string_view{};
-  if (is_long && near.empty() && longer != names.end()) near = *longer;
+  return std::string(nearest(written.starts_with("--") ? written : '-' + written, views));
+}
+
+std::string unknown_option(const Command& command, const std::string& written) {
+  const std::string near = meant(written, names_of(command));
   const std::string message = "unknown option " + in_quotes(written);
   return near.empty() ? message + help_hint(command) : message + "; did you mean " + in_quotes(near) + "?";
 }
@@ -78,6 +84,12 @@ Arguments collect(const Command& command, const po::parsed_options& parsed) {
   return arguments;
 }
 
+/// Results are no stream: HDF5 is written in places.
+void check_output(const Arguments& arguments) {
+  if (arguments.value("output") == "-")
+    throw UsageError("-o - is no file; HDF5 can't go to standard output: name a file (./- if it is to be called so)");
+}
+
 }  // namespace
 
 std::optional<std::string> Arguments::value(std::string_view option) const {
@@ -90,6 +102,19 @@ std::vector<std::string> Arguments::values(std::string_view option) const {
   return found == options.end() ? std::vector<std::string>{} : found->second;
 }
 
+void refuse_option(const std::string& written) {
+  const std::string message = "unknown option " + in_quotes(written) + " before the command";
+  const std::vector<std::string> own{"--help", "--version"};
+  std::vector<std::string> all = own;
+  for (const Command& command : commands()) {
+    for (const std::string& name : names_of(command)) all.push_back(name);
+  }
+  const std::string near = meant(written, all);
+  if (near.empty()) throw UsageError(message + "; see `clatter --help`");
+  if (std::ranges::find(own, near) != own.end()) throw UsageError(message + "; did you mean " + in_quotes(near) + "?");
+  throw UsageError(message + "; write it behind: clatter COMMAND ... " + near);
+}
+
 Arguments parse_arguments(const Command& command, const std::vector<std::string>& words) {
   const po::options_description description = description_of(command);
   po::positional_options_description operands;
@@ -97,7 +122,7 @@ Arguments parse_arguments(const Command& command, const std::vector<std::string>
   try {
     const auto parsed = po::command_line_parser(words).options(description).positional(operands).style(style).run();
     Arguments arguments = collect(command, parsed);
-    if (!arguments.has("help")) check_operands(command, arguments.operands);
+    if (!arguments.has("help")) check_operands(command, arguments.operands), check_output(arguments);
     return arguments;
   } catch (const po::error& error) {
     refuse(command, error);

@@ -36,6 +36,9 @@ struct Arguments {
 
 struct Command;
 
+/// Throws the UsageError of an option that stands before the command.
+[[noreturn]] void refuse_option(const std::string& written);
+
 /// The words after the subcommand's name. Throws UsageError; abbreviations of options are refused.
 [[nodiscard]] Arguments parse_arguments(const Command& command, const std::vector<std::string>& words);
 

@@ -18,7 +18,7 @@ Config config_of(const Arguments& arguments) {
     }
     overrides.push_back({word.substr(0, sign), word.substr(sign + 1)});
   }
-  return read_config(arguments.operands[0], overrides);
+  return read_config(arguments.operands[0], overrides, arguments.has("ini") ? Format::ini : Format::toml);
 }
 
 int threads_of(const Arguments& arguments) {
@@ -54,6 +54,8 @@ bool progress_wanted(const Arguments& arguments) {
 
 std::string output_of(const Arguments& arguments) {
   const std::filesystem::path config(arguments.operands[0]);
+  if (config == standard_input && !arguments.has("output"))
+    throw UsageError("a configuration from stdin gives the output no name; name it with -o FILE.h5");
   return arguments.value("output").value_or(config.stem().string() + ".h5");
 }
 

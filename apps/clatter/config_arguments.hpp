@@ -9,6 +9,8 @@ namespace clatter {
 /// Options of every command that takes a configuration.
 inline const Option set_option{"set", 0, "KEY=VALUE",
                                "a value in place of the configuration's, e.g. scene.R=0.5; repeatable", true};
+inline const Option ini_option{"ini", 0, "",
+                               "CONFIG, or stdin where that is -, is INI; else TOML unless its name ends in .ini"};
 inline const Option threads_option{"threads", 0, "N", "threads, 1 to 1024; default: as many as the machine offers"};
 
 /// The configuration of the first operand, with what --set changes. Throws UsageError, ConfigError, IoError.
@@ -32,7 +34,7 @@ inline const Option progress_option{"progress", 0, "WHEN", "auto (on a terminal)
 /// Whether progress is to be shown. Throws UsageError.
 [[nodiscard]] bool progress_wanted(const Arguments& arguments);
 
-/// The file that -o names, or the configuration's name with .h5.
+/// The file that -o names, or the configuration's name with .h5. Throws UsageError where there is neither.
 [[nodiscard]] std::string output_of(const Arguments& arguments);
 
 /// Results must not take the place of the configuration. Throws UsageError.

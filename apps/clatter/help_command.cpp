@@ -2,8 +2,8 @@
 #include <iostream>
 
 #include "commands.hpp"
-#include "io/defaults.hpp"
-#include "io/suggestion.hpp"
+#include "help_topics.hpp"
+#include "io/wrapped.hpp"
 
 namespace clatter {
 namespace {
@@ -19,69 +19,71 @@ constexpr std::string_view exit_codes = R"(Exit codes
   130  stopped by SIGINT; 143: by SIGTERM
 )";
 
-/// Two columns: words, and what they mean.
-std::string line(std::string_view left, std::string_view right) {
-  constexpr std::size_t column = 34;
-  std::string text = "  " + std::string(left);
-  text.resize(std::max(text.size() + 2, column), ' ');
-  return text + std::string(right) + '\n';
+/// Words, and what they mean.
+using Row = std::pair<std::string, std::string_view>;
+
+/// Two columns, as wide as the words call for.
+std::string table(const std::vector<Row>& rows) {
+  std::size_t column = 0;
+  for (const auto& [left, right] : rows) column = std::max(column, left.size() + 4);
+  std::string text;
+  for (const auto& [left, right] : rows) {
+    std::string words = "  " + left;
+    words.resize(column, ' ');
+    text += words + wrapped(right, column);
+  }
+  return text;
 }
 
-std::string option_line(const Option& option) {
+Row row_of(const Option& option) {
   const std::string letter = option.letter != 0 ? std::string{'-', option.letter, ',', ' '} : "    ";
   const std::string argument = option.argument.empty() ? "" : ' ' + std::string(option.argument);
-  return line(letter + "--" + std::string(option.name) + argument, option.help);
+  return {letter + "--" + std::string(option.name) + argument, option.help};
 }
 
 int print_help(const Arguments& arguments) {
-  if (arguments.operands.empty()) {
-    std::cout << program_help();
-  } else if (arguments.operands[0] == "configuration") {
-    std::cout << configuration_reference();
-  } else {
-    std::vector<std::string_view> topics{"configuration"};
-    for (const Command& command : commands()) topics.push_back(command.name);
-    const std::string& topic = arguments.operands[0];
-    if (std::find(topics.begin(), topics.end(), topic) == topics.end()) {
-      throw UsageError("no help on " + in_quotes(topic) + suggestion(topic, topics, "; there is help on: "));
-    }
-    std::cout << command_help(find_command(topic));
-  }
+  std::cout << (arguments.operands.empty() ? program_help() : help_on(arguments.operands[0]));
   return done;
 }
 
 constexpr std::string_view examples =
     "  clatter help run\n"
-    "  clatter help configuration\n";
+    "  clatter help configuration\n"
+    "  clatter help R                also scene.R, sweep.R, [scene], linspace\n";
 
 }  // namespace
 
 std::string command_help(const Command& command) {
-  std::string text = "clatter " + std::string(command.usage) + "\n\n" + std::string(command.summary) + "\n\nOptions\n";
-  for (const Option& option : command.options) text += option_line(option);
-  return text + "\nExamples\n" + std::string(command.examples);
+  std::vector<Row> rows;
+  for (const Option& option : command.options) rows.push_back(row_of(option));
+  return "clatter " + std::string(command.usage) + "\n\n" + wrapped(command.summary, 0) + "\nOptions\n" + table(rows) +
+         "\nExamples\n" + std::string(command.examples);
 }
 
 std::string program_help() {
-  std::string text = "clatter: exact sweeps of oscillators between rigid stops\n\nCommands\n";
-  for (const Command& command : commands()) text += line(command.usage, command.summary);
-  text += line("--version", "print version, commit and compiler");
-  text += line("--help", "print this help");
-  text += '\n' + std::string(exit_codes) + "\nExamples\n";
-  text +=
-      "  clatter run configs/fig22.toml\n"
-      "  clatter run configs/fig22.toml -o coarse.h5 --set sweep.nu='linspace(0.5, 1.5, 51)'\n"
-      "  clatter info fig22.h5\n"
-      "  clatter help configuration\n";
-  return text;
+  std::vector<Row> rows;
+  for (const Command& command : commands()) rows.emplace_back(command.usage, command.summary);
+  rows.emplace_back("--version", "print version, commit and compiler");
+  rows.emplace_back("--help", "print this help");
+  return "clatter: exact sweeps of oscillators between rigid stops\n\nCommands\n" + table(rows) + '\n' +
+         std::string(exit_codes) +
+         "\nExamples\n"
+         "  clatter run configs/fig22.toml\n"
+         "  clatter run configs/fig22.toml -o coarse.h5 \\\n"
+         "    --set sweep.nu='linspace(0.5, 1.5, 51)'\n"
+         "  clatter info fig22.h5\n"
+         "  clatter help configuration\n"
+         "  clatter help R\n";
 }
 
 Command help_command() {
   return {.name = "help",
-          .usage = "help [COMMAND]",
-          .summary = "print the help of a command, or of the configuration's keys",
+          .usage = "help [COMMAND|KEY]",
+          .summary =
+              "print the help of a command, of a key of the configuration with an example, or of all "
+              "keys: configuration",
           .examples = examples,
-          .operands = {"COMMAND"},
+          .operands = {"COMMAND|KEY"},
           .required_operands = 0,
           .options = {{"help", 'h', "", "print this help"}},
           .run = print_help};

@@ -30,8 +30,7 @@ int run_program(const std::vector<std::string>& words) {
     std::cout << "clatter " << version() << " (commit " << git_commit() << ", " << compiler() << ")\n";
     return done;
   }
-  if (words[0].starts_with('-'))
-    throw UsageError("unknown option '" + words[0] + "' before the command; see `clatter --help`");
+  if (words[0].starts_with('-')) refuse_option(words[0]);
   const Command& command = find_command(words[0]);
   const Arguments arguments = parse_arguments(command, {words.begin() + 1, words.end()});
   if (!arguments.has("help")) return command.run(arguments);

@@ -7,6 +7,7 @@
 
 #include "commands.hpp"
 #include "config_arguments.hpp"
+#include "failures.hpp"
 #include "format.hpp"
 #include "io/error.hpp"
 #include "io/figure_file.hpp"
@@ -47,11 +48,12 @@ int merge_shards(const Arguments& arguments) try {
     std::cerr << "shards           " << shards.heads.size() << "\nrounding         " << shards.heads.front().rounding
               << "\nmemory           " << bytes_text(shards.bytes) << '\n';
   Merged merged = merge(shards);
+  const std::string failures = failures_text(merged.figure, shards.config.sweep);
   publish(output, file_image(std::move(merged.figure), shards.config).bytes);
   if (!arguments.has("quiet"))
     std::cerr << counted(static_cast<double>(size(shards.config.sweep)), "point") << " of "
-              << counted(static_cast<double>(shards.heads.size()), "shard") << ", " << merged.failed_points
-              << " failed, " << output << '\n';
+              << counted(static_cast<double>(shards.heads.size()), "shard") << ", " << failures << ", " << output
+              << '\n';
   return merged.failed_points > 0 ? points_failed : done;
 } catch (const std::bad_alloc&) {
   throw IoError("merging takes more memory than there is; merge where there is more");

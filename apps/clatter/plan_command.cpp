@@ -4,6 +4,7 @@
 #include "config_arguments.hpp"
 #include "plan_report.hpp"
 #include "sweep/run.hpp"
+#include "warnings.hpp"
 
 namespace clatter {
 namespace {
@@ -11,9 +12,14 @@ namespace {
 int print_plan(const Arguments& arguments) {
   const int threads = threads_used({.threads = threads_of(arguments)});
   const Config config = config_of(arguments);
-  const Plan plan = plan_of(config.sweep, threads);
-  const auto report = arguments.has("json") ? plan_json : plan_text;
-  std::cout << report(plan, config.sweep, threads);
+  Plan plan = plan_of(config.sweep, threads);
+  if (arguments.has("json")) {
+    join_warnings(plan, config);
+    std::cout << plan_json(plan, config.sweep, threads);
+  } else {
+    std::cout << plan_text(plan, config.sweep, threads) << std::flush;
+    say_notes(config), warn(config), warn(plan);
+  }
   return done;
 }
 
@@ -30,7 +36,11 @@ Command plan_command() {
           .examples = examples,
           .operands = {"CONFIG"},
           .required_operands = 1,
-          .options = {{"json", 0, "", "as JSON"}, set_option, threads_option, {"help", 'h', "", "print this help"}},
+          .options = {{"json", 0, "", "as JSON, warnings too"},
+                      set_option,
+                      ini_option,
+                      threads_option,
+                      {"help", 'h', "", "print this help"}},
           .run = print_plan};
 }
 

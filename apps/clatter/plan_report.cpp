@@ -109,7 +109,6 @@ std::string plan_text(const Plan& plan, const Sweep& sweep, int threads) {
                              (sweep.scene.observe.impact_log ? ", and 25 bytes an impact of the log" : ""));
   text += line("memory", bytes_text(plan.memory_bytes) + " at the end" +
                              (plan.machine_bytes > 0 ? ", of " + bytes_text(plan.machine_bytes) : ""));
-  for (const std::string& warning : plan.warnings) text += "warning: " + warning + '\n';
   return text;
 }
 

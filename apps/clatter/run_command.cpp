@@ -25,6 +25,7 @@
 #include "run_report.hpp"
 #include "sweep/memory.hpp"
 #include "sweep/rounding.hpp"
+#include "warnings.hpp"
 
 namespace clatter {
 namespace {
@@ -34,8 +35,8 @@ void check_memory(const Sweep& sweep, const std::optional<Shard>& shard) {
   const double needed = run_bytes(sweep, shard), there = machine_bytes();
   if (there == 0 || needed <= there) return;
   throw UsageError("the results of " + std::to_string(Share(sweep, shard).points()) +
-                   " points, and the largest variable of them once more, take " + bytes_text(needed) +
-                   ", there are " + bytes_text(there) +
+                   " points, and the largest variable of them once more, take " + bytes_text(needed) + ", there are " +
+                   bytes_text(there) +
                    "; sweep fewer points, observe fewer samples and harmonics, or share the points out with --shard");
 }
 
@@ -51,9 +52,10 @@ std::optional<Shard> shard_of(const Arguments& arguments) {
 
 /// What -o names; else the configuration's name with .h5, for a shard with .K-of-N.h5.
 std::string output_of(const Arguments& arguments, const std::optional<Shard>& shard) {
-  if (!shard || arguments.has("output")) return output_of(arguments);
-  const std::string name = std::filesystem::path(arguments.operands[0]).stem().string();
-  return name + '.' + std::to_string(shard->number) + "-of-" + std::to_string(shard->of) + ".h5";
+  const std::string whole = output_of(arguments);
+  if (!shard || arguments.has("output")) return whole;
+  return std::filesystem::path(whole).replace_extension().string() + '.' + std::to_string(shard->number) + "-of-" +
+         std::to_string(shard->of) + ".h5";
 }
 
 Journal::Begin begin_of(const Arguments& arguments) {
@@ -82,6 +84,12 @@ JournalKey key_of(const Config& config, Arch arch, const std::optional<Shard>& s
           .shard = shard ? text_of(*shard) : ""};
 }
 
+void say_plan(const Config& config, int threads) {
+  const Plan plan = plan_of(config.sweep, threads);
+  std::cerr << plan_text(plan, config.sweep, threads);
+  say_notes(config), warn(plan);
+}
+
 void run_points(SweepRun& sweep, RunOptions options, bool shown) {
   const Progress progress(shown, "points", sweep.restored_points());
   if (shown) options.progress = [&](std::size_t finished, std::size_t total) { progress.show(finished, total); };
@@ -104,7 +112,8 @@ int run_config(const Arguments& arguments) {
   check_not_config(arguments.operands[0], output);
   check_writable(output);
   check_memory(config.sweep, shard);
-  if (arguments.has("verbose")) std::cerr << plan_text(plan_of(config.sweep, threads), config.sweep, threads);
+  if (arguments.has("verbose")) say_plan(config, threads);
+  if (!arguments.has("quiet")) warn(config);
 
   SweepRun sweep(config.sweep, shard);
   Journal journal(output, key_of(config, arch, shard), begin, [&](std::span<const std::byte> results) {
@@ -124,7 +133,7 @@ int run_config(const Arguments& arguments) {
   run_points(sweep, {.threads = threads, .arch = arch}, shown);
   keeper.finish();
   RunResult result = sweep.result();
-  const std::string summary = summary_line(result, output);
+  const std::string summary = summary_line(result, config.sweep, shard, output);
   try {
     const auto image = shard ? sealed_image : file_image;
     publish(output, image(std::move(result.figure), config).bytes);
@@ -140,9 +149,11 @@ int run_config(const Arguments& arguments) {
 
 constexpr std::string_view examples =
     "  clatter run configs/fig22.toml\n"
-    "  clatter run configs/fig22.toml -o coarse.h5 --set sweep.nu='linspace(0.5, 1.5, 51)' --set scene.R=0.5\n"
+    "  clatter run configs/fig22.toml -o coarse.h5 \\\n"
+    "    --set sweep.nu='linspace(0.5, 1.5, 51)' --set scene.R=0.5\n"
     "  clatter run configs/fig22.ini --threads 2 --progress never\n"
-    "  clatter run configs/map_nu_xs.toml --shard 0/4          writes map_nu_xs.0-of-4.h5\n";
+    "  sed s/0.7/0.5/ configs/fig22.toml | clatter run - -o other.h5\n"
+    "  clatter run configs/map_nu_xs.toml --shard 0/4      writes map_nu_xs.0-of-4.h5\n";
 
 }  // namespace
 
@@ -156,6 +167,7 @@ Command run_command() {
       .required_operands = 1,
       .options = {output_option,
                   set_option,
+                  ini_option,
                   threads_option,
                   arch_option,
                   {"shard", 0, "K/N", "compute points K, K + N, ... alone, K from 0; `clatter merge` joins the files"},

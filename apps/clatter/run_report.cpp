@@ -3,35 +3,16 @@
 #include <unistd.h>
 
 #include <array>
-#include <cstdint>
 #include <ctime>
 #include <fstream>
 #include <iterator>
-#include <variant>
 
-#include "dynamics/scene.hpp"
+#include "failures.hpp"
 #include "format.hpp"
 #include "sweep/plan.hpp"
 
 namespace clatter {
 namespace {
-
-constexpr std::size_t shown_points = 5;
-
-/// The numbers of the first failed points, from 0, in the order of the file.
-std::string failed_numbers(const Figure& figure) {
-  std::string numbers;
-  std::size_t count = 0;
-  for (const Variable& variable : figure.variables) {
-    const auto* const status = std::get_if<std::vector<std::uint8_t>>(&variable.values);
-    if (variable.name != "status" || status == nullptr) continue;
-    for (std::size_t i = 0; i < status->size(); ++i) {
-      if (!failed(static_cast<Status>((*status)[i])) || ++count > shown_points) continue;
-      numbers += (numbers.empty() ? "" : ", ") + std::to_string(i);
-    }
-  }
-  return count > shown_points ? numbers + ", …" : numbers;
-}
 
 /// What lanes took, where any ran.
 std::string lanes_text(const LaneWork& work) {
@@ -69,11 +50,10 @@ std::string usage_text(const std::vector<Usage>& usage) {
 
 }  // namespace
 
-std::string summary_line(const RunResult& result, const std::string& output) {
-  std::string text =
-      counted(static_cast<double>(result.points), "point") + ", " + std::to_string(result.failed_points) + " failed";
-  if (result.failed_points > 0) text += " (number " + failed_numbers(result.figure) + "; see status)";
-  return text + ", " + formatted("%.3g", result.seconds) + " s, " + output;
+std::string summary_line(const RunResult& result, const Sweep& sweep, const std::optional<Shard>& shard,
+                         const std::string& output) {
+  return counted(static_cast<double>(result.points), "point") + ", " + failures_text(result.figure, sweep, shard) +
+         ", " + formatted("%.3g", result.seconds) + " s, " + output;
 }
 
 std::string details(const RunResult& result, const std::string& command, const std::string& began) {

@@ -1,13 +1,15 @@
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "sweep/run.hpp"
 
 namespace clatter {
 
-/// The line that ends a run: points, those that failed by number, seconds, file.
-[[nodiscard]] std::string summary_line(const RunResult& result, const std::string& output);
+/// The line that ends a run: points, failures, seconds, file.
+[[nodiscard]] std::string summary_line(const RunResult& result, const Sweep& sweep, const std::optional<Shard>& shard,
+                                       const std::string& output);
 
 /// What -v adds: what it took, where and when; none of it goes into the file.
 [[nodiscard]] std::string details(const RunResult& result, const std::string& command_line, const std::string& began);

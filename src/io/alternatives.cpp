@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <array>
 #include <string>
 
 #include "io/consistency.hpp"
@@ -10,63 +9,11 @@ namespace {
 
 using enum Parameter;
 
-std::string name_of(Parameter parameter) { return in_quotes(key_of(parameter)); }
-
-/// Whether a place comes after another; the command line after every file.
-bool later(const Place& left, const Place& right) {
-  const auto rank = [](const Place& place) { return std::array{place.line == 0 ? 1 : 0, place.line, place.column}; };
-  return rank(left) > rank(right);
-}
-
-bool on_command_line(const Place& place) { return place.line == 0; }
-
-/// How to be rid of the earlier of two settings: no --set can take a line of a file away.
-std::string removal(Parameter earlier, const Place& earlier_place, const Place& later_place) {
-  if (!on_command_line(later_place) || on_command_line(earlier_place)) return "; remove one of them";
-  return "; remove the line of " + name_of(earlier) + ", " + to_string(earlier_place);
-}
-
-/// Two ways of saying the same, at the place of the one that was written last.
-void exclude(const Settings& settings, Parameter one, Parameter other) {
-  const auto first = settings.given(one);
-  const auto second = settings.given(other);
-  if (!first || !second) return;
-  const bool in_order = later(second->key_place, first->key_place);
-  const Parameter earlier = in_order ? one : other;
-  const Place& earlier_place = (in_order ? first : second)->key_place;
-  const Place& place = (in_order ? second : first)->key_place;
-  fail(place, name_of(in_order ? other : one) + " beside " + name_of(earlier) + removal(earlier, earlier_place, place));
-}
-
-/// An axis may be a single value, which the command line can put in place of the file's axis.
-std::string way_out(const SweptSetting& swept, const Setting& fixed) {
-  const std::string axis = "sweep." + std::string(key_of(swept.parameter));
-  if (on_command_line(swept.key_place) && !on_command_line(fixed.key_place))
-    return removal(swept.parameter, fixed.key_place, swept.key_place);
-  if (on_command_line(fixed.key_place) && !on_command_line(swept.key_place))
-    return "; write --set " + axis + '=' + number_text(std::get<double>(fixed.value));
-  return "; remove one of them (for a single value: " + axis + " = VALUE)";
-}
-
-void check_scene_or_sweep(const Settings& settings) {
-  for (const SweptSetting& swept : settings.axes) {
-    const Setting* const fixed = settings.find("scene", key_of(swept.parameter));
-    if (fixed == nullptr) continue;
-    const Place& place = later(fixed->key_place, swept.key_place) ? fixed->key_place : swept.key_place;
-    fail(place, name_of(swept.parameter) + " in both [scene] and [sweep]" + way_out(swept, *fixed));
-  }
-}
-
+/// A stop that isn't given isn't there; that none is was hardly meant.
 void check_stops_given(const Settings& settings) {
-  if (settings.given(xs)) return;
-  const bool lower = settings.given(stop_lower).has_value();
-  const bool upper = settings.given(stop_upper).has_value();
-  if (lower && upper) return;
-  const Place place = settings.place_of_section("scene");
-  if (!lower && !upper)
-    fail(place, "'xs' is missing in [scene]; give xs, or stop_lower and stop_upper (-inf and inf: no stop)");
-  fail(place, name_of(lower ? stop_upper : stop_lower) + " is missing in [scene]; give " + (lower ? "inf" : "-inf") +
-                  " where there is no such stop");
+  if (settings.given(xs) || settings.given(stop_lower) || settings.given(stop_upper)) return;
+  fail(settings.place_of_section("scene"),
+       "'xs' is missing in [scene]; give xs, or stop_lower, stop_upper or both (-inf and inf: no stop)");
 }
 
 /// start_period is the period of free motion without loss between symmetric stops (physics.md, check 1).
@@ -111,10 +58,6 @@ void check_harmonics(const Settings& settings) {
 }  // namespace
 
 void check_alternatives(const Settings& settings) {
-  check_scene_or_sweep(settings);
-  for (const Parameter stop : {stop_lower, stop_upper}) exclude(settings, xs, stop);
-  for (const Parameter restitution : {R_lower, R_upper}) exclude(settings, R, restitution);
-  for (const Parameter start : {x0, v0}) exclude(settings, start_period, start);
   check_stops_given(settings);
   check_start_period(settings);
   check_duration(settings);

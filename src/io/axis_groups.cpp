@@ -8,21 +8,6 @@
 namespace clatter {
 namespace {
 
-/// The names between the commas.
-std::vector<std::string> split_names(std::string_view text) {
-  std::vector<std::string> names;
-  constexpr std::string_view blanks = " \t";
-  for (std::size_t begin = 0; begin <= text.size();) {
-    const std::size_t end = std::min(text.find(',', begin), text.size());
-    std::string_view name = text.substr(begin, end - begin);
-    name.remove_prefix(std::min(name.find_first_not_of(blanks), name.size()));
-    name = name.substr(0, name.find_last_not_of(blanks) + 1);
-    names.emplace_back(name);
-    begin = end + 1;
-  }
-  return names;
-}
-
 bool is_blank(std::string_view text) { return text.find_first_not_of(" \t") == std::string_view::npos; }
 
 std::size_t axis_of(const Settings& settings, const Setting& setting, std::string_view name) {
@@ -30,9 +15,14 @@ std::size_t axis_of(const Settings& settings, const Setting& setting, std::strin
   for (const SweptSetting& swept : settings.axes) names.push_back(key_of(swept.parameter));
   const auto found = std::find(names.begin(), names.end(), name);
   if (found != names.end()) return static_cast<std::size_t>(found - names.begin());
+  const std::string message =
+      std::string(setting.key->name) + " names " + in_quotes(name) + ", which is no axis of [sweep]";
+  const auto gone = std::ranges::find(settings.displaced, parameter_of(name), &Displaced::gone);
+  if (gone != settings.displaced.end())
+    fail(setting.place, message + " beside " + to_string(gone->stands) + "; add --set sweep." +
+                            std::string(setting.key->name) + "=''");
   const std::string way_out = names.empty() ? "; [sweep] has no axes" : suggestion(name, names, "; the axes are: ");
-  fail(setting.place,
-       std::string(setting.key->name) + " names " + in_quotes(name) + ", which is no axis of [sweep]" + way_out);
+  fail(setting.place, message + way_out);
 }
 
 std::string name_of(const SweptSetting& swept) { return std::string(key_of(swept.parameter)); }
@@ -78,6 +68,20 @@ void check_no_start(const Settings& settings, const Setting& follow, const std::
 }
 
 }  // namespace
+
+std::vector<std::string> split_names(std::string_view text) {
+  std::vector<std::string> names;
+  constexpr std::string_view blanks = " \t";
+  for (std::size_t begin = 0; begin <= text.size();) {
+    const std::size_t end = std::min(text.find(',', begin), text.size());
+    std::string_view name = text.substr(begin, end - begin);
+    name.remove_prefix(std::min(name.find_first_not_of(blanks), name.size()));
+    name = name.substr(0, name.find_last_not_of(blanks) + 1);
+    names.emplace_back(name);
+    begin = end + 1;
+  }
+  return names;
+}
 
 AxisGroups group_axes(const Settings& settings) {
   const std::vector<std::size_t> linked = linked_axes(settings);

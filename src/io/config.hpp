@@ -2,11 +2,21 @@
 
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "sweep/sweep.hpp"
 
 namespace clatter {
+
+enum class Format { toml, ini };
+
+/// What looks unintended in a configuration, and is no mistake.
+struct Warning {
+  std::string place;    ///< "fig22.toml:7:6", or the words of a --set
+  std::string section;  ///< of the key
+  std::string text;     ///< what it is; the way out
+};
 
 /// A complete configuration: what is swept, what is observed, how it is written.
 struct Config {
@@ -15,6 +25,8 @@ struct Config {
   Sweep sweep;
   int compression = 0;  ///< deflate level of the output, 0 ... 9
   std::string text;     ///< all of it with the defaults filled in, as TOML that runs again (root attribute `config`)
+  std::vector<Warning> warnings;
+  std::vector<std::string> notes;  ///< what the command line says in place of the file in another way
 };
 
 /// A mistake of the user's: `what()` is one line, "file:line:column: what is wrong; the way out".
@@ -29,9 +41,13 @@ struct Override {
   std::string value;
 };
 
-/// Reads a configuration; INI where the name ends in .ini in any case, else TOML. Throws ConfigError; IoError where
-/// the file cannot be read.
-[[nodiscard]] Config read_config(const std::string& path, const std::vector<Override>& overrides);
+/// The name of standard input among the operands.
+inline constexpr std::string_view standard_input = "-";
+
+/// Reads a configuration; INI where the name ends in .ini in any case or the format says so, else TOML. Throws
+/// ConfigError; IoError where the file cannot be read.
+[[nodiscard]] Config read_config(const std::string& path, const std::vector<Override>& overrides,
+                                 Format format = Format::toml);
 
 /// Reads a configuration from TOML, such as the complete text of another one; `file` is named in errors.
 [[nodiscard]] Config parse_config(const std::string& text, const std::string& file);

@@ -11,9 +11,12 @@
 namespace clatter {
 namespace {
 
-RawConfig read_raw(const std::string& path) {
-  const std::string text = read_text(path);
-  return has_ending(path, ".ini") ? read_ini(path, text) : read_toml(path, text);
+RawConfig read_raw(const std::string& path, Format format) {
+  const bool from_file = path != standard_input;
+  const std::string name = from_file ? path : "stdin";
+  const std::string text = from_file ? read_text(path) : read_standard_input(name);
+  const bool ini = format == Format::ini || has_ending(path, ".ini");
+  return ini ? read_ini(name, text) : read_toml(name, text);
 }
 
 TimePlan time_plan(const Settings& settings) {
@@ -98,10 +101,13 @@ Sweep sweep_of(Settings& settings, const AxisGroups& groups) {
 
 Config config_of(RawConfig raw) {
   Settings settings = check_keys(std::move(raw));
+  let_command_line_win(settings);
   check_alternatives(settings);
   const AxisGroups groups = group_axes(settings);
   check_stops_and_start(settings, groups);
-  Config config{settings.text("", "title"), settings.text("", "source"), {}, 0, config_text(settings)};
+  Config config{settings.text("", "title"), settings.text("", "source"), {}, 0, config_text(settings), {}, {}};
+  for (const Displaced& displaced : settings.displaced) config.notes.push_back(to_string(displaced));
+  config.warnings = warnings_of(settings, groups);
   if (config.text.size() > max_config_bytes) refuse_long(settings);
   config.compression = static_cast<int>(settings.integer("output", "compression"));
   config.sweep = sweep_of(settings, groups);
@@ -110,8 +116,8 @@ Config config_of(RawConfig raw) {
 
 }  // namespace
 
-Config read_config(const std::string& path, const std::vector<Override>& overrides) {
-  RawConfig raw = read_raw(path);
+Config read_config(const std::string& path, const std::vector<Override>& overrides, Format format) {
+  RawConfig raw = read_raw(path, format);
   apply_overrides(raw, overrides);
   return config_of(std::move(raw));
 }

@@ -19,6 +19,7 @@ bool default_counts(const Settings& settings, const Key& key) {
   const bool each_stop = settings.given(R_lower) || settings.given(R_upper);
   if (key.other == "R") return each_stop;
   if (key.name == "R") return !each_stop;
+  if (key.other == "xs") return !settings.given(xs);
   if (key.name == "x0" || key.name == "v0") return !settings.given(start_period);
   return key.has_default();
 }

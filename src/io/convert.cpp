@@ -1,6 +1,9 @@
+#include <algorithm>
 #include <cmath>
 #include <type_traits>
 
+#include "io/axis_functions.hpp"
+#include "io/comma.hpp"
 #include "io/settings.hpp"
 #include "io/suggestion.hpp"
 
@@ -25,6 +28,29 @@ std::string found(const RawValue& raw) {
   fail(raw.place, std::string(key.name) + " = " + found(raw) + "; permitted: " + permitted(key) + way_out);
 }
 
+/// Whether a text means several values.
+bool is_axis(std::string_view text) {
+  const auto names = axis_function_names();
+  const bool calls = std::ranges::any_of(names, [&](std::string_view name) { return text.starts_with(name); });
+  return calls || text.starts_with('[') || text.find(',') != std::string_view::npos;
+}
+
+/// Where several values belong: a key of [scene] has them as an axis.
+std::string home_of_axis(const Key& key, const RawValue& raw) {
+  if (key.section != "scene") return "; one value, since only keys of [scene] can be axes";
+  const auto* const text = std::get_if<std::string>(&raw.data);
+  if (!on_command_line(raw.place) || text == nullptr)
+    return "; several values are an axis, and its line belongs in [sweep]";
+  return "; several values are an axis: --set sweep." + std::string(key.name) + "='" + *text + '\'';
+}
+
+/// One value is needed; several, or a number with a comma, are told what to become.
+void check_single(const Key& key, const RawValue& raw) {
+  const auto* const text = std::get_if<std::string>(&raw.data);
+  if (std::holds_alternative<RawList>(raw.data)) wrong_kind(key, raw, home_of_axis(key, raw));
+  if (text != nullptr && is_axis(*text)) wrong_kind(key, raw, comma_hint(*text, key.kind) + home_of_axis(key, raw));
+}
+
 SourceText source_text(const std::string& text, const RawValue& raw) {
   SourceText source{text, raw.place, raw.untyped || raw.inset > 0};
   source.place.column += raw.inset;
@@ -43,10 +69,10 @@ double number_of(const Key& key, const RawValue& raw) {
   return parse_number(source_text(*text, raw));
 }
 
-void check_range(const Key& key, double value, const Place& place) {
+void check_range(const Key& key, double value, const Place& place, const std::string& hint = "") {
   if (contains(key.range, value)) return;
   const char* const fault = std::isfinite(value) ? " is out of range" : " is not finite";
-  fail(place, std::string(key.name) + " = " + number_text(value) + fault + "; permitted: " + permitted(key));
+  fail(place, std::string(key.name) + " = " + number_text(value) + fault + "; permitted: " + permitted(key) + hint);
 }
 
 std::int64_t integer_of(const Key& key, const RawValue& raw) {
@@ -105,6 +131,7 @@ AxisValues unchecked_axis(const Key& key, const RawValue& raw) {
 }  // namespace
 
 std::variant<std::string, double, std::int64_t, bool> convert(const Key& key, const RawValue& raw) {
+  if (key.kind == Kind::number || key.kind == Kind::integer) check_single(key, raw);
   switch (key.kind) {
     case Kind::number:
       return in_range(key, number_of(key, raw), raw.place);
@@ -127,8 +154,10 @@ AxisValues convert_axis(const Key& key, const RawValue& raw) {
   if (static_cast<double>(axis.values.size()) > max_axis_values) {
     fail(raw.place, std::to_string(axis.values.size()) + " values; permitted: at most " + number_text(max_axis_values));
   }
+  const auto* const text = std::get_if<std::string>(&raw.data);
+  const std::string hint = text == nullptr ? "" : comma_hint(*text);
   for (std::size_t i = 0; i < axis.values.size(); ++i) {
-    check_range(key, axis.values[i], i < axis.places.size() ? axis.places[i] : raw.place);
+    check_range(key, axis.values[i], i < axis.places.size() ? axis.places[i] : raw.place, hint);
   }
   return axis;
 }

@@ -28,7 +28,7 @@ using hdf5::text_attribute;
 }
 
 [[noreturn]] void refuse_damaged(const std::string& path, const std::string& why) {
-  refuse(path, "cannot be read: " + why, "if it is damaged, run its configuration again");
+  refuse(path, "cannot be read: " + why, "copy it again, or run its configuration again");
 }
 
 /// The size of a file; says in plain words what HDF5 would call "unable to open file".

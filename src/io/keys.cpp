@@ -27,102 +27,110 @@ constexpr std::array<std::string_view, 2> effects{"required", "all"};
 
 using enum Kind;
 
+constexpr std::string_view a_force = "f = 1.0\n", stops = "xs = 1.0\n", a_stop_axis = "xs = \"linspace(1, 2, 11)\"\n",
+                           is_transient = "mode = \"transient\"\n", observed_harmonics = "harmonics = 3\n",
+                           by_moreau = "method = \"moreau\"\n";
+
+/// A key that has no effect without these lines.
+constexpr Key with(std::string_view lines, Key key) {
+  key.beside = lines;
+  return key;
+}
+
+constexpr Key one_of(std::span<const std::string_view> choices, Key key) {
+  key.choices = choices;
+  return key;
+}
+
+/// A key whose value is that of another key where it isn't in use.
+constexpr Key or_as(std::string_view other, Key key) {
+  key.other = other;
+  return key;
+}
+
 constexpr std::array all_keys{
-    Key{"", "title", text, "", "what the configuration shows; the output file keeps it"},
-    Key{"", "source", text, "", "where it comes from, e.g. a DOI; the output file keeps it"},
+    Key{"", "title", text, "", "My sweep", "what the configuration shows; the output file keeps it"},
+    Key{"", "source", text, "", "doi:10.5755/j02.mech.32277",
+        "where it comes from, e.g. a DOI; the output file keeps it"},
 
-    Key{"scene", "h", number, "0", "damping ratio: 2 h is the factor of x'", not_negative},
-    Key{"scene", "f", number, "0", "force amplitude over stiffness; negative: a phase shift of pi", any},
-    Key{"scene", "nu", number, "1", "excitation frequency over natural frequency", positive},
-    Key{"scene", "phase", number, "0", "phase of the force at tau = 0, rad; pi/2: a cosine", any},
-    Key{"scene", "R", number, "1", "restitution of velocity on both stops", zero_to_one},
-    Key{"scene", "xs", number, "", "symmetric stops at -|xs| and +|xs|", not_zero, {}, "-1.0"},
-    Key{"scene", "stop_lower", number, "", "lower stop, in place of xs; -inf: none", any_or_infinite, {}, "-1.0"},
-    Key{"scene", "stop_upper", number, "", "upper stop, in place of xs; inf: none", any_or_infinite, {}, "inf"},
-    Key{"scene", "R_lower", number, "1", "restitution of the lower stop, in place of R", zero_to_one, {}, "1.0", "R"},
-    Key{"scene", "R_upper", number, "1", "restitution of the upper stop, in place of R", zero_to_one, {}, "1.0", "R"},
-    Key{"scene", "load", number, "0", "constant force over stiffness", any},
-    Key{"scene", "x0", number, "0", "displacement at tau = 0, between the stops", any},
-    Key{"scene", "v0", number, "0", "velocity at tau = 0", any},
-    Key{"scene",
-        "start_period",
-        number,
-        "",
-        "period of the motion to start on, just after its contact with the lower stop; "
-        "in place of x0 and v0, where h = f = load = 0, R = 1 and xs is given",
-        Range{.low = 0, .high = 2 * std::numbers::pi, .open = true},
-        {},
-        "3.0"},
+    Key{"scene", "h", number, "0", "0.05", "damping ratio: 2 h is the factor of x'", not_negative},
+    Key{"scene", "f", number, "0", "-1", "force amplitude over stiffness; negative: a phase shift of pi", any},
+    with(a_force, Key{"scene", "nu", number, "1", "1.2", "excitation frequency over natural frequency", positive}),
+    with(a_force, Key{"scene", "phase", number, "0", "0.5", "phase of the force at tau = 0, rad; pi/2: a cosine", any}),
+    with(stops, Key{"scene", "R", number, "1", "0.7", "restitution of velocity on both stops", zero_to_one}),
+    Key{"scene", "xs", number, "", "-1", "symmetric stops at -|xs| and +|xs|", not_zero},
+    or_as("xs",
+          Key{"scene", "stop_lower", number, "-inf", "-1", "lower stop, in place of xs; -inf: none", any_or_infinite}),
+    or_as("xs",
+          Key{"scene", "stop_upper", number, "inf", "2", "upper stop, in place of xs; inf: none", any_or_infinite}),
+    with(stops, or_as("R", Key{"scene", "R_lower", number, "1", "0.5", "restitution of the lower stop, in place of R",
+                               zero_to_one})),
+    with(stops, or_as("R", Key{"scene", "R_upper", number, "1", "0.5", "restitution of the upper stop, in place of R",
+                               zero_to_one})),
+    Key{"scene", "load", number, "0", "-0.2", "constant force over stiffness", any},
+    Key{"scene", "x0", number, "0", "0.2", "displacement at tau = 0, between the stops", any},
+    Key{"scene", "v0", number, "0", "-1.5", "velocity at tau = 0", any},
+    with(stops, Key{"scene", "start_period", number, "", "3",
+                    "period of the motion to start on, just after its contact with the lower stop; in place of x0 and "
+                    "v0, where h = f = load = 0, R = 1 and xs is given",
+                    Range{.low = 0, .high = 2 * std::numbers::pi, .open = true}}),
 
-    Key{"sweep", "linked", names, "",
-        "axes of equal length that run together instead of crossing, e.g. nu, f; the first names the dimension"},
-    Key{"sweep", "follow", names, "",
-        "one axis (or linked ones) along which each point starts from the end of the one before"},
+    with("xs = [1.0, 2.0]\nR = [0.7, 0.5]\n",
+         Key{"sweep", "linked", names, "", "xs, R",
+             "axes of equal length that run together instead of crossing, e.g. nu, f; the first names the dimension"}),
+    with(a_stop_axis, Key{"sweep", "follow", names, "", "xs",
+                          "one axis (or linked ones) along which each point starts from the end of the one before"}),
 
-    Key{"time",
-        "mode",
-        choice,
-        "steady",
-        "steady: run until the motion repeats, observe one period; transient: observe from tau = 0",
-        {},
-        modes},
-    Key{"time", "max_periods", integer, "5000", "steady: forcing periods after which settling is given up",
+    with("duration = 63.0\n",
+         one_of(modes,
+                Key{"time", "mode", choice, "steady", "transient",
+                    "steady: run until the motion repeats, observe one period; transient: observe from tau = 0"})),
+    Key{"time", "max_periods", integer, "5000", "1000", "steady: forcing periods after which settling is given up",
         Range{.low = 1, .high = 1e12}},
-    Key{"time", "window", integer, "64", "steady: forcing periods observed of a motion that does not repeat",
+    Key{"time", "window", integer, "64", "16", "steady: forcing periods observed of a motion that does not repeat",
         Range{.low = 1, .high = 1e9}},
-    Key{"time", "duration", number, "0", "transient: observed time in tau; greater than 0 there", not_negative},
-    Key{"time", "tolerance", number, "1e-12", "steady: distance of the states at a repeat",
+    with(is_transient, Key{"time", "duration", number, "0", "63",
+                           "transient: observed time in tau; greater than 0 there", not_negative}),
+    Key{"time", "tolerance", number, "1e-12", "1e-9", "steady: distance of the states at a repeat",
         Range{.low = 0, .high = 1, .open = true}},
-    Key{"time", "max_impacts", integer, "1e8", "impacts after which a point is given up, with the status event_budget",
-        Range{.low = 1, .high = 1e15}},
+    Key{"time", "max_impacts", integer, "1e8", "1e6",
+        "impacts after which a point is given up, with the status event_budget", Range{.low = 1, .high = 1e15}},
 
-    Key{"observe", "extrema", flag, "false", "x_min x_max v_min v_max, exact, between samples too"},
-    Key{"observe", "harmonics", integer, "0", "constant part and amplitudes 1 ... K of x and of x'; 0: none",
+    Key{"observe", "extrema", flag, "false", "true", "x_min x_max v_min v_max, exact, between samples too"},
+    Key{"observe", "harmonics", integer, "0", "3", "constant part and amplitudes 1 ... K of x and of x'; 0: none",
         Range{.low = 0, .high = 1e5}},
-    Key{"observe",
-        "harmonics_method",
-        choice,
-        "fft",
-        "fft: from samples, by FFTW; exact: from the arcs, without aliasing",
-        {},
-        harmonics_methods},
-    Key{"observe", "harmonics_samples", integer, "4096", "FFT samples over the observed time",
-        Range{.low = 2, .high = 16777216}},
-    Key{"observe", "impacts", flag, "false",
+    with(observed_harmonics,
+         one_of(harmonics_methods, Key{"observe", "harmonics_method", choice, "fft", "exact",
+                                       "fft: from samples, by FFTW; exact: from the arcs, without aliasing"})),
+    with(observed_harmonics, Key{"observe", "harmonics_samples", integer, "4096", "8192",
+                                 "FFT samples over the observed time", Range{.low = 2, .high = 16777216}}),
+    Key{"observe", "impacts", flag, "false", "true",
         "per stop: impacts per period, velocity before and after the first, share of time at rest"},
-    Key{"observe", "impact_log", flag, "false", "every observed impact"},
-    Key{"observe", "trajectory", integer, "0", "samples of tau, x, x' over the observed time; 0: none",
+    Key{"observe", "impact_log", flag, "false", "true", "every observed impact"},
+    Key{"observe", "trajectory", integer, "0", "2001", "samples of tau, x, x' over the observed time; 0: none",
         Range{.low = 2, .high = 1e7, .or_zero = true}},
-    Key{"observe", "period", flag, "false", "period of the motion, in tau and in forcing periods"},
-    Key{"observe", "stability", flag, "false", "multipliers of the periodic motion, largest Lyapunov exponent"},
+    Key{"observe", "period", flag, "false", "true", "period of the motion, in tau and in forcing periods"},
+    Key{"observe", "stability", flag, "false", "true", "multipliers of the periodic motion, largest Lyapunov exponent"},
 
-    Key{"integrator",
-        "method",
-        choice,
-        "exact",
-        "exact: closed-form arcs, proved contacts; to compare with, dopri5: Dormand-Prince pair of orders 5 and 4, "
-        "contacts on its dense output; moreau: Moreau-Jean time stepping",
-        {},
-        method_names},
-    Key{"integrator", "tolerance", number, "1e-10",
-        "dopri5: error of a step, relative to the size of the motion that start, force and stops suggest",
-        Range{.low = 1e-14, .high = 0.1}},
-    Key{"integrator", "step", number, "1e-3", "moreau: in forcing periods, without forcing in 2 pi",
-        Range{.low = 1e-9, .high = 1}},
-    Key{"integrator", "theta", number, "0.5",
-        "moreau: weight of a step's end; 1/2: the trapezoidal rule, 1: implicit Euler; below 1/2 stable only for "
-        "short steps",
-        zero_to_one},
-    Key{"integrator",
-        "effects",
-        choice,
-        "required",
-        "required: simulate what a scene calls for; all: to compare with, simulate every effect, run max_periods, and "
-        "look for the repeat only then",
-        {},
-        effects},
+    one_of(method_names, Key{"integrator", "method", choice, "exact", "dopri5",
+                             "exact: closed-form arcs, proved contacts; to compare with, dopri5: Dormand-Prince pair "
+                             "of orders 5 and 4, contacts on its dense output; moreau: Moreau-Jean time stepping"}),
+    with("method = \"dopri5\"\n",
+         Key{"integrator", "tolerance", number, "1e-10", "1e-8",
+             "dopri5: error of a step, relative to the size of the motion that start, force and stops suggest",
+             Range{.low = 1e-14, .high = 0.1}}),
+    with(by_moreau, Key{"integrator", "step", number, "1e-3", "1e-4",
+                        "moreau: in forcing periods, without forcing in 2 pi", Range{.low = 1e-9, .high = 1}}),
+    with(by_moreau, Key{"integrator", "theta", number, "0.5", "1",
+                        "moreau: weight of a step's end; 1/2: the trapezoidal rule, 1: implicit Euler; below 1/2 "
+                        "stable only for short steps",
+                        zero_to_one}),
+    one_of(effects, Key{"integrator", "effects", choice, "required", "all",
+                        "required: simulate what a scene calls for; all: to compare with, simulate every effect, run "
+                        "max_periods, and look for the repeat only then"}),
 
-    Key{"output", "compression", integer, "0", "deflate level of the output file; 0: none", Range{.low = 0, .high = 9}},
+    Key{"output", "compression", integer, "0", "4", "deflate level of the output file; 0: none",
+        Range{.low = 0, .high = 9}},
 };
 
 constexpr std::array<std::string_view, 6> all_sections{"scene", "sweep", "time", "observe", "integrator", "output"};

@@ -28,11 +28,12 @@ struct Key {
   std::string_view name;
   Kind kind = Kind::number;
   std::string_view fallback;  ///< the default, as in INI; empty: none (a text: the empty text)
+  std::string_view example;   ///< another value, as in INI
   std::string_view help;      ///< its meaning, without the range
   Range range{};
   std::span<const std::string_view> choices{};
-  std::string_view example{};  ///< a value to show where the key is not in use
-  std::string_view other{};    ///< the key that gives the value where this one is not in use; the default is its too
+  std::string_view other{};   ///< the key that gives the value where this one is not in use; the default is its too
+  std::string_view beside{};  ///< TOML lines of its section without which it has no effect
 
   /// Whether the key has a value where neither it nor an alternative is given.
   [[nodiscard]] bool has_default() const {

@@ -14,18 +14,25 @@ struct Place {
   int column = 0;      ///< from 1, in characters, not bytes
 };
 
+/// Whether it stands behind --set.
+[[nodiscard]] inline bool on_command_line(const Place& place) { return place.line == 0; }
+
 /// "fig22.toml:7:6", or the command line's words.
 [[nodiscard]] inline std::string to_string(const Place& place) {
-  if (place.line == 0) return place.source;
+  if (on_command_line(place)) return place.source;
   return place.source + ':' + std::to_string(place.line) + ':' + std::to_string(place.column);
 }
 
-/// Ends the reading with a mistake of the user's at a place, in one line whatever the text held.
+/// A message in one line, whatever a text or the name of a file in it holds.
+[[nodiscard]] inline std::string one_line(std::string message) {
+  std::ranges::replace_if(
+      message, [](unsigned char c) { return c < 0x20 || c == 0x7F; }, '?');
+  return message;
+}
+
+/// Ends the reading with a mistake of the user's at a place.
 [[noreturn]] inline void fail(const Place& place, const std::string& message) {
-  std::string line = to_string(place) + ": " + message;
-  std::replace_if(
-      line.begin(), line.end(), [](unsigned char c) { return c < 0x20 || c == 0x7F; }, '?');
-  throw ConfigError(line);
+  throw ConfigError(one_line(to_string(place) + ": " + message));
 }
 
 }  // namespace clatter

@@ -51,6 +51,11 @@ const Key& known_key(const RawEntry& entry) {
   fail(entry.place, "unknown key " + in_quotes(entry.key) + ' ' + shown(entry.section) + way_out);
 }
 
+/// A setting as if it were written in INI.
+Setting setting_of(const Key& key, std::string_view value) {
+  return {&key, convert(key, {std::string(value), {"the table of keys"}, true, 0}), {}, {}};
+}
+
 template <typename Value>
 Value value_of(const Settings& settings, std::string_view section, std::string_view name) {
   const Setting* const given = settings.find(section, name);
@@ -103,12 +108,12 @@ Place Settings::place_of_section(std::string_view name) const {
   return {file, 1, 1};
 }
 
-Setting default_setting(const Key& key) {
-  return {&key, convert(key, {std::string(key.fallback), {"default"}, true, 0}), {}, {}};
-}
+Setting default_setting(const Key& key) { return setting_of(key, key.fallback); }
+
+Setting example_setting(const Key& key) { return setting_of(key, key.example); }
 
 Settings check_keys(RawConfig raw) {
-  Settings settings{std::move(raw.file), std::move(raw.sections), {}, {}};
+  Settings settings{std::move(raw.file), std::move(raw.sections), {}, {}, {}};
   for (const RawSection& section : settings.sections) check_section(section.name, section.place);
   for (const RawEntry& entry : raw.entries) {
     check_section(entry.section, entry.place);

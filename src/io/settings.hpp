@@ -42,12 +42,23 @@ struct Given {
   [[nodiscard]] const Place& place_of(std::size_t index) const { return index < places.size() ? places[index] : place; }
 };
 
+/// A setting of the file in whose place one of the command line stands.
+struct Displaced {
+  Parameter gone = Parameter::nu;
+  Place stands, stood;
+  std::string rest;  ///< ", which stays as 'stop_lower'", or nothing
+};
+
+/// "--set scene.stop_upper=2 in place of 'xs', fig22.toml:7:1, which stays as 'stop_lower'"
+[[nodiscard]] std::string to_string(const Displaced& displaced);
+
 /// A configuration whose keys and values are right one by one; how they go together is checked afterwards.
 struct Settings {
   std::string file;
   std::vector<RawSection> sections;
   std::vector<Setting> values;     ///< only what was given
   std::vector<SweptSetting> axes;  ///< in the order of the text
+  std::vector<Displaced> displaced{};
 
   [[nodiscard]] const Setting* find(std::string_view section, std::string_view name) const;
 
@@ -69,6 +80,9 @@ struct Settings {
 
 /// The default of a key that has one, so that defaults and given values take the same way.
 [[nodiscard]] Setting default_setting(const Key& key);
+
+/// The example of a key.
+[[nodiscard]] Setting example_setting(const Key& key);
 
 /// A value of the key's kind within its range, from what was written. Throws ConfigError.
 [[nodiscard]] std::variant<std::string, double, std::int64_t, bool> convert(const Key& key, const RawValue& raw);

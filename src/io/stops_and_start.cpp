@@ -27,7 +27,8 @@ std::optional<std::size_t> dimension_of(const Given& given, const AxisGroups& gr
 
 Quantity quantity(const Settings& settings, const AxisGroups& groups, Parameter parameter) {
   const auto given = settings.given(parameter);
-  if (!given) return {std::string(key_of(parameter)), {0.0}, std::nullopt, std::nullopt};
+  if (!given)
+    return {std::string(key_of(parameter)), {settings.number("scene", key_of(parameter))}, std::nullopt, std::nullopt};
   return {std::string(key_of(parameter)),
           {given->values.begin(), given->values.end()},
           given,
@@ -46,8 +47,8 @@ using Permitted = bool (*)(double, double);
 
 [[noreturn]] void refuse(const Quantity& low, std::size_t i, const Quantity& high, std::size_t j,
                          const std::string& rule) {
-  const bool at_low = low.name == "x0" ? low.given.has_value() : high.name != "x0" || !high.given;
-  const Place& place = at_low ? low.given->place_of(i) : high.given->place_of(j);
+  const bool at_high = !low.given || (high.name == "x0" && high.given);
+  const Place& place = at_high ? high.given->place_of(j) : low.given->place_of(i);
   fail(place, low.name + " = " + number_text(low.values[i]) + " and " + high.name + " = " +
                   number_text(high.values[j]) + "; permitted: " + rule);
 }

@@ -35,6 +35,16 @@ std::size_t edit_distance(std::string_view from, std::string_view to) {
   return last.back();
 }
 
+/// The shortest name that begins with what was written, three letters at least; empty where none does.
+std::string_view completed(const std::string& written, std::span<const std::string_view> names) {
+  std::string_view best;
+  if (written.size() < 3) return best;
+  for (const std::string_view name : names) {
+    if (lower_case(name).starts_with(written) && (best.empty() || name.size() < best.size())) best = name;
+  }
+  return best;
+}
+
 }  // namespace
 
 std::string in_quotes(std::string_view text) {
@@ -48,10 +58,12 @@ std::string in_quotes(std::string_view text) {
 
 std::string_view nearest(std::string_view written, std::span<const std::string_view> names) {
   if (written.size() > max_quoted) return {};
-  std::string_view best;
+  const std::string lower = lower_case(written);
+  std::string_view best = completed(lower, names);
+  if (!best.empty()) return best;
   std::size_t best_distance = written.size() / 3 + 1;  // one slip in a short word, more in a longer one
   for (const std::string_view name : names) {
-    const std::size_t distance = edit_distance(lower_case(written), lower_case(name));
+    const std::size_t distance = edit_distance(lower, lower_case(name));
     if (distance > best_distance || distance >= name.size() || (!best.empty() && distance == best_distance)) continue;
     best = name;
     best_distance = distance;

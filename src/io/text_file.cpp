@@ -1,5 +1,7 @@
 #include "io/text_file.hpp"
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <array>
 #include <cctype>
@@ -9,8 +11,10 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <utility>
 
 #include "io/error.hpp"
+#include "io/file_calls.hpp"
 
 namespace clatter {
 namespace {
@@ -66,6 +70,16 @@ std::string read_pieces(std::istream& stream) {
   return text;
 }
 
+/// The bytes of a configuration as text, or an error.
+std::string as_text(const std::string& name, std::string bytes) {
+  if (bytes.find('\0') != std::string::npos)
+    unreadable(name, "it holds NUL bytes, so it is no text; a configuration is UTF-8 text");
+  if (bytes.size() > max_config_bytes)
+    throw ConfigError(name + ":1:1: more than 1 MiB; write long lists as linspace, logspace or arange");
+  if (bytes.starts_with("\xEF\xBB\xBF")) bytes.erase(0, 3);
+  return bytes;
+}
+
 }  // namespace
 
 bool has_ending(std::string_view name, std::string_view ending) {
@@ -81,12 +95,19 @@ std::string read_text(const std::string& path) {
   if (!stream) unreadable(path, std::strerror(errno));
   std::string text = read_pieces(stream);
   if (stream.bad()) unreadable(path, std::strerror(errno));
-  if (text.find('\0') != std::string::npos)
-    unreadable(path, "it holds NUL bytes, so it is no text; a configuration is UTF-8 text");
-  if (text.size() > max_config_bytes)
-    throw ConfigError(path + ":1:1: more than 1 MiB; write long lists as linspace, logspace or arange");
-  if (text.starts_with("\xEF\xBB\xBF")) text.erase(0, 3);
-  return text;
+  return as_text(path, std::move(text));
+}
+
+std::string read_standard_input(const std::string& name) {
+  std::string text;
+  std::array<char, 16 * 1024> piece;
+  while (text.size() <= max_config_bytes) {
+    const ssize_t count = uninterrupted([&] { return ::read(STDIN_FILENO, piece.data(), piece.size()); });
+    if (count < 0) unreadable(name, std::strerror(errno));
+    if (count == 0) break;
+    text.append(piece.data(), static_cast<std::size_t>(count));
+  }
+  return as_text(name, std::move(text));
 }
 
 int characters(std::string_view text) {

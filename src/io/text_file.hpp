@@ -16,6 +16,9 @@ inline constexpr std::size_t max_config_bytes = std::size_t{1} << 20;
 /// The whole file, without a byte-order mark. Throws IoError where it cannot be read or isn't text.
 [[nodiscard]] std::string read_text(const std::string& path);
 
+/// All of standard input, in the same way; `name` stands for it in errors.
+[[nodiscard]] std::string read_standard_input(const std::string& name);
+
 /// The place of a byte of a text: lines end with \n, columns count characters.
 [[nodiscard]] Place place_of(const std::string& file, std::string_view text, std::size_t offset);
 

@@ -6,6 +6,8 @@
 #define TOML_ASSERT(expression) ((void)0)  // toml++ 3.3 aborts on "[*", where an error follows anyway
 #include <toml++/toml.h>
 
+#include "io/comma.hpp"
+#include "io/keys.hpp"
 #include "io/raw_config.hpp"
 #include "io/text_file.hpp"
 #include "io/toml_guard.hpp"
@@ -76,8 +78,30 @@ void add_entries(RawConfig& raw, const std::string& section, const toml::table& 
   }
 }
 
+std::string_view line_of(const Place& place, std::string_view text) {
+  std::size_t begin = 0;
+  for (int line = 1; line < place.line; ++line) begin = text.find('\n', begin) + 1;
+  return text.substr(begin, text.find('\n', begin) - begin);
+}
+
+/// What a comma at a place was to be: a point, or part of a list without brackets; empty where there is none.
+std::string way_out_of_comma(const Place& place, std::string_view text) {
+  const std::string_view line = line_of(place, text);
+  std::size_t comma = line.find(',');
+  while (comma != std::string_view::npos && 1 + characters(line.substr(0, comma)) < place.column)
+    comma = line.find(',', comma + 1);
+  if (comma == std::string_view::npos || 1 + characters(line.substr(0, comma)) > place.column) return {};
+  const std::size_t begin = line.rfind('=', comma) + 1;  // npos + 1 is 0
+  const std::string_view name = without_blanks(line.substr(0, begin - (begin > 0)));
+  const auto key = std::ranges::find(keys(), name, &Key::name);
+  const std::string hint =
+      comma_hint(line.substr(begin, line.find('#', comma) - begin), key == keys().end() ? Kind::number : key->kind);
+  return hint.empty() ? "; several values are an axis, in brackets and in [sweep]: nu = [0.8, 1.2]" : hint;
+}
+
 /// What a syntax error of toml++ leaves to guess.
-std::string way_out(std::string_view description) {
+std::string way_out(std::string_view description, const Place& place, std::string_view text) {
+  if (const std::string comma = way_out_of_comma(place, text); !comma.empty()) return comma;
   if (description.find("redefine") != std::string_view::npos) return "; each section and each key is given once";
   if (description.find("not representable") != std::string_view::npos) return "; the number is too large";
   return "; a line is KEY = VALUE, and texts and expressions stand in quotes: nu = \"linspace(0.5, 1.5, 501)\"";
@@ -87,9 +111,7 @@ std::string way_out(std::string_view description) {
 Place within(Place place, std::string_view text) {
   const Place end = place_of(place.source, text, text.size());
   if (place.line >= end.line) return {end.source, end.line, std::min(place.column, end.column)};
-  std::size_t begin = 0;
-  for (int line = 1; line < place.line; ++line) begin = text.find('\n', begin) + 1;
-  place.column = std::min(place.column, 1 + characters(text.substr(begin, text.find('\n', begin) - begin)));
+  place.column = std::min(place.column, 1 + characters(line_of(place, text)));
   return place;
 }
 
@@ -99,10 +121,9 @@ Place start_of_token(Place place, std::string_view text, std::string_view descri
                       description.find("could not be interpreted") != std::string_view::npos ||
                       description.find("not representable") != std::string_view::npos;
   if (!at_end) return place;
-  std::size_t line_begin = 0;
-  for (int line = 1; line < place.line; ++line) line_begin = text.find('\n', line_begin) + 1;
+  const std::string_view line = line_of(place, text);
   const auto part_of_token = [&](int column) {
-    const char character = text[line_begin + static_cast<std::size_t>(column) - 1];
+    const char character = line[static_cast<std::size_t>(column) - 1];
     return std::string_view(" \t=,[").find(character) == std::string_view::npos;
   };
   while (place.column > 1 && !part_of_token(place.column - 1)) --place.column;
@@ -127,7 +148,7 @@ toml::table parse(const std::string& file, std::string_view text) {
   } catch (const toml::parse_error& error) {
     const Place place = within(place_at(file, error.source().begin), text);
     fail(start_of_token(place, text, error.description()),
-         corrected(std::string(error.description())) + way_out(error.description()));
+         corrected(std::string(error.description())) + way_out(error.description(), place, text));
   }
 }
 
@@ -140,7 +161,7 @@ RawConfig read_toml(const std::string& file, std::string_view text) {
     add_entries(raw, "", parse(file, text));
   } catch (const ConfigError& error) {
     if (has_ending(file, ".toml")) throw;
-    throw ConfigError(std::string(error.what()) + "; read as TOML, since only names of INI files end in .ini");
+    throw ConfigError(std::string(error.what()) + "; read as TOML; INI is told by --ini, or a name that ends in .ini");
   }
   const auto order = [](const auto& left, const auto& right) {  // toml++ iterates alphabetically
     return std::tuple(left.place.line, left.place.column) < std::tuple(right.place.line, right.place.column);

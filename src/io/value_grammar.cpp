@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "io/axis_functions.hpp"
+#include "io/comma.hpp"
 #include "io/suggestion.hpp"
 #include "io/text_file.hpp"
 
@@ -140,7 +141,8 @@ class Parser {
       arguments[i] = product();
     }
     if (!accept(')'))
-      fail_here("expected ')' after the three arguments of " + std::string(function->usage) + ", " + found());
+      fail_here("expected ')' after the three arguments of " + std::string(function->usage) + ", " + found() +
+                comma_hint_within(source_.text));
     AxisValues axis;
     if (const std::string mistake = function->evaluate(arguments, axis.values); !mistake.empty())
       fail_at(begin, mistake);

@@ -209,10 +209,6 @@ void warn(const Sweep& sweep, const Survey& survey, Plan& plan) {
     plan.warnings.emplace_back(
         "the output is larger than the memory of this machine: clatter run will refuse; sweep fewer points, or observe "
         "fewer samples and harmonics");
-  if (plan.observed.empty())
-    plan.warnings.emplace_back(
-        "nothing is observed: the file will tell no more than status, impacts and periods; switch "
-        "on e.g. observe.extrema");
   if (survey.lasting)
     plan.warnings.emplace_back(
         "without damping and loss at impacts a transient never fades: forced points run for all of max_periods unless "

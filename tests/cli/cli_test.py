@@ -5,7 +5,9 @@ import os
 import subprocess
 import unittest
 
-from command_line import CLATTER, SMALL, SOURCE, CommandLine
+import h5py
+import numpy
+from command_line import CLATTER, SMALL, CommandLine
 
 
 class WrongCommandLines(CommandLine):
@@ -15,11 +17,18 @@ class WrongCommandLines(CommandLine):
             ([], "no command; see `clatter --help`"),
             (["rnu", config], "unknown command 'rnu'; did you mean 'run'?"),
             (["frobnicate"], "the commands are: run, plan, accuracy, merge, info, defaults, help"),
-            (["--verbose"], "unknown option '--verbose' before the command"),
+            (["--verbose"], "unknown option '--verbose' before the command; write it behind: clatter COMMAND ... --verbose"),
+            (["--verb", "run", config], "unknown option '--verb' before the command; write it behind"),
+            (["--versoin"], "unknown option '--versoin' before the command; did you mean '--version'?"),
+            (["--xyzzyxyzzy"], "unknown option '--xyzzyxyzzy' before the command; see `clatter --help`"),
             (["run"], "CONFIG is missing; write: clatter run CONFIG"),
             (["run", config, config], "unexpected argument 'a.toml'"),
             (["run", config, "--thr", "2"], "unknown option '--thr'; did you mean '--threads'?"),
             (["run", config, "--thread", "2"], "unknown option '--thread'; did you mean '--threads'?"),
+            (["run", config, "--verb"], "unknown option '--verb'; did you mean '--verbose'?"),
+            (["run", config, "-verb"], "unknown option '-verb'; did you mean '--verbose'?"),
+            (["plan", config, "--js"], "unknown option '--js'; did you mean '--json'?"),
+            (["merge", "--verb", "a.h5"], "unknown option '--verb'; did you mean '--verbose'?"),
             (["run", config, "--ouput", "a.h5"], "did you mean '--output'?"),
             (["run", config, "--frobnicate"], "unknown option '--frobnicate'; see `clatter help run`"),
             (["run", config, "-x"], "unknown option '-x'"),
@@ -43,7 +52,6 @@ class WrongCommandLines(CommandLine):
             (["info", "a.h5", "--json", "--config"], "--json beside --config"),
             (["defaults", "toml"], "unexpected argument 'toml'"),
             (["defaults", "--in"], "unknown option '--in'; did you mean '--ini'?"),
-            (["help", "rnu"], "did you mean 'run'?"),
         ]
         for command, words in cases:
             with self.subTest(command=command):
@@ -71,6 +79,18 @@ class WrongConfigurations(CommandLine):
         config = self.write("a.toml", SMALL)
         self.assert_refused(2, "--set scene.R=2: R = 2 is out of range", "run", config, "--set", "scene.R=2")
         self.assert_refused(2, "--set scene.Q=2: unknown key 'Q' in [scene]", "run", config, "--set", "scene.Q=2")
+
+    def test_an_axis_in_the_scene_and_a_decimal_comma_are_told_apart(self):
+        config = self.write("a.toml", SMALL)
+        axis = "several values are an axis"
+        for name in ("wrong.toml", "wrong.ini"):
+            self.write(name, "[scene]\nxs = 1\nh = [0.05, 0.1]\n")
+            self.assert_refused(2, f"{name}:3:5: h = ", "run", name)
+            self.assert_refused(2, f"{axis}, and its line belongs in [sweep]", "run", name)
+            self.write(name, "[scene]\nxs = 1\nh = 0,1\n")
+            self.assert_refused(2, "a decimal comma? write 0.1", "run", name)
+        self.assert_refused(2, axis + ": --set sweep.h='0.05, 0.1'", "run", config, "--set", "scene.h=0.05, 0.1")
+        self.assert_refused(2, "a decimal comma? write 0.1", "run", config, "--set", "scene.h=0,1")
 
     def test_set_in_another_encoding_is_not_told_to_save_a_file(self):
         config = self.write("a.toml", SMALL)
@@ -106,6 +126,14 @@ class Files(CommandLine):
         for command, words in cases:
             with self.subTest(command=command):
                 self.assert_refused(74, words, *command)
+
+    def test_a_damaged_output_is_said_to_be_so_without_doubt(self):
+        self.clatter("run", self.write("a.toml", SMALL))
+        whole = (self.directory / "a.h5").read_bytes()
+        for length in (100, 2000, len(whole) - 100):  # in the second, a heap of texts is damaged
+            (self.directory / "cut.h5").write_bytes(whole[:length])
+            self.assert_refused(74, "'cut.h5': cannot be read: ", "info", "cut.h5")
+            self.assertRegex(self.clatter("info", "cut.h5").stderr, r"; copy it again, or run its configuration again\n$")
 
     def test_closed_standard_output_is_an_error(self):
         result = subprocess.run([CLATTER, "defaults"], preexec_fn=lambda: os.close(1), stderr=subprocess.PIPE, text=True)
@@ -186,12 +214,43 @@ class Run(CommandLine):
         self.run_ok(config, "--set", "scene.R=0.5")
         self.assertNotEqual(self.bytes_of("a.h5"), before)
 
-    def test_failed_points_end_with_1_and_are_named_by_number(self):
+    def test_failed_points_end_with_1_and_are_told_by_status_with_an_example(self):
         config = self.write("a.toml", SMALL)
-        result = self.clatter("run", config, "--set", "scene.xs=-1", "--set", "time.max_impacts=1")
+        fail = ["--set", "scene.xs=-1", "--set", "time.max_impacts=1"]
+        result = self.clatter("run", config, *fail)
         self.assertEqual(result.returncode, 1, result.stderr)
-        self.assertRegex(result.stderr, r"^5 points, 5 failed \(number 0, 1, 2, 3, 4; see status\), ")
+        self.assertRegex(result.stderr, r"^5 points, 5 failed \(event_budget: 5, e\.g\. point 0 at nu = 0\.5\), [0-9.e-]+ s, ")
         self.assertIn("a.h5", self.files())
+        one = self.clatter("run", config, *fail, "--set", "scene.nu=1").stderr
+        self.assertRegex(one, r"^1 point, 1 failed \(event_budget: 1, e\.g\. point 0\), ")
+
+    def test_each_status_of_failed_points_is_told(self):
+        config = self.write("a.toml", SMALL)
+        result = self.clatter("run", config, "--set", "scene.xs=-1", "--set", "sweep.v0=1, 1e308",
+                              "--set", "time.max_impacts=3")
+        self.assertEqual(result.returncode, 1, result.stderr)
+        with h5py.File(self.directory / "a.h5") as file:
+            status = file["status"][()]
+            nu, v0 = file["nu"][()], file["v0"][()]
+        names = {16: "event_budget", 17: "not_finite", 18: "unresolved"}
+        kinds = [value for value in names if (status == value).any()]
+        self.assertGreater(len(kinds), 1, status)
+        texts = []
+        for value in kinds:
+            i, j = numpy.argwhere(status == value)[0]
+            texts.append(f"{names[value]}: {(status == value).sum()}, e.g. point {i * status.shape[1] + j} "
+                         f"at nu = {nu[i]:.10g}, v0 = {v0[j]:.10g}")
+        self.assertIn(f"{(status > 15).sum()} failed ({'; '.join(texts)})", result.stderr)
+
+    def test_failed_points_of_shards_have_their_number_in_the_sweep(self):
+        config = self.write("a.toml", SMALL)
+        fail = ["--set", "scene.xs=-1", "--set", "time.max_impacts=1"]
+        said = [self.clatter("run", config, *fail, "--shard", f"{k}/2").stderr for k in (0, 1)]
+        self.assertIn("3 failed (event_budget: 3, e.g. point 0 at nu = 0.5)", said[0])
+        self.assertIn("2 failed (event_budget: 2, e.g. point 1 at nu = 0.75)", said[1])
+        merged = self.clatter("merge", "-o", "m.h5", "a.0-of-2.h5", "a.1-of-2.h5")
+        self.assertEqual(merged.returncode, 1)
+        self.assertIn("5 points of 2 shards, 5 failed (event_budget: 5, e.g. point 0 at nu = 0.5), m.h5", merged.stderr)
 
     def test_info_tells_what_is_inside(self):
         config = self.write("a.toml", SMALL)
@@ -218,21 +277,6 @@ class Run(CommandLine):
         self.assertEqual(json.loads(summary)["attributes"]["title"], title)
         config_text = self.clatter("info", "a.h5", "--config").stdout
         self.assertEqual(config_text, json.loads(summary)["attributes"]["config"])
-
-
-class Help(CommandLine):
-    def test_is_data_on_stdout(self):
-        for words in (["--help"], ["-h"], ["--version"], ["help"], ["help", "run"], ["run", "--help"], ["help", "plan"], ["info", "-h"],
-                      ["defaults", "--help"], ["help", "help"], ["help", "configuration"]):
-            result = self.clatter(*words)
-            self.assertEqual((result.returncode, result.stderr), (0, ""), words)
-            self.assertTrue(result.stdout, words)
-            self.assertLessEqual(max(map(len, result.stdout.splitlines())), 120, words)
-        self.assertRegex(self.clatter("--version").stdout, r"^clatter \d+\.\d+\.\d+ \(commit \S+, .+\)\n$")
-
-    def test_the_readme_holds_the_reference_of_the_configuration(self):
-        reference = self.clatter("help", "configuration").stdout
-        self.assertIn(reference.strip(), (SOURCE / "README.md").read_text(encoding="utf-8"))
 
 
 if __name__ == "__main__":

@@ -64,6 +64,7 @@ inline void check_configuration(const std::string& name, const std::string& text
     require(size(second.sweep) == size(first.sweep), "the complete text has another number of points");
     require(second.sweep.follow == first.sweep.follow && second.compression == first.compression,
             "the complete text has other settings");
+    require(second.warnings.size() <= first.warnings.size(), "the complete text is warned of, the text isn't");
     require(std::ranges::equal(first.sweep.dimensions, second.sweep.dimensions, same_dimension),
             "the complete text has other axes");
   } catch (const ConfigError& error) {

@@ -24,10 +24,8 @@ TEST(Together, alternatives_exclude_each_other) {
 TEST(Together, what_is_missing_is_missed_at_its_section) {
   const std::vector<Wrong> table{
       {"", "1:1", "'xs' is missing in [scene]"},
-      {"[time]\nwindow = 1\n", "1:1", "'xs' is missing in [scene]; give xs, or stop_lower and stop_upper"},
+      {"[time]\nwindow = 1\n", "1:1", "'xs' is missing in [scene]; give xs, or stop_lower, stop_upper or both"},
       {"\n [scene]\nf = 1\n", "2:3", "'xs' is missing"},
-      {"[scene]\nstop_lower = -inf\n", "1:2", "'stop_upper' is missing in [scene]; give inf"},
-      {"[scene]\nstop_upper = 1\n", "1:2", "'stop_lower' is missing in [scene]; give -inf"},
       {"[scene]\nxs = 1\n[time]\nmode = \"transient\"\n", "3:2", "'duration' is missing in [time]"},
       {"[scene]\nxs = 1\n[time]\nmode = \"transient\"\nduration = 0\n", "5:12",
        "duration = 0 is out of range; permitted: > 0"},
@@ -41,6 +39,11 @@ TEST(Together, the_start_is_between_stops_in_order) {
       {"[scene]\nstop_lower = 2\nstop_upper = 1\n", "2:14",
        "stop_lower = 2 and stop_upper = 1; permitted: stop_lower < stop_upper"},
       {"[scene]\nstop_lower = 1\nstop_upper = 1\n", "2:14", "permitted: stop_lower < stop_upper"},
+      {"[scene]\nstop_lower = inf\n", "2:14",
+       "stop_lower = inf and stop_upper = inf; permitted: stop_lower < stop_upper"},
+      {"[scene]\nstop_upper = -inf\n", "2:14", "stop_lower = -inf and stop_upper = -inf"},
+      {"[scene]\nstop_upper = -1\n", "2:14", "x0 = 0 and stop_upper = -1; permitted: a start between the stops"},
+      {"[scene]\nx0 = -2\n[sweep]\nstop_lower = [-3, -1]\n", "2:6", "stop_lower = -1 and x0 = -2"},
       {"[scene]\nstop_lower = inf\nstop_upper = -inf\n", "2:14", "permitted: stop_lower < stop_upper"},
       {"[scene]\nxs = -1\nx0 = 1.5\n", "3:6",
        "x0 = 1.5 and |xs| = 1; permitted: a start between the stops, -|xs| <= x0 <= |xs|"},

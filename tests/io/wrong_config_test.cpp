@@ -82,7 +82,7 @@ TEST(EveryKey, of_the_wrong_kind_says_what_is_permitted) {
       expect_wrong_value(key, "1979-05-27", "a date", "toml");
       expect_wrong_value(key, "true", "expected a number", "ini");
       expect_wrong_value(key, "many", "expected a number", "ini");
-      expect_wrong_value(key, "[1]", "expected a number", "ini");
+      expect_wrong_value(key, "[1]", words, "ini");
     } else if (key.kind == Kind::flag) {
       for (const char* value : {"1", "yes", "True"}) expect_wrong_value(key, value, words, "ini");
       for (const char* value : {"1", "\"true\"", "0.0", "[true]"}) expect_wrong_value(key, value, words, "toml");

@@ -1,0 +1,17 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+
+#include "sweep/figure.hpp"
+#include "sweep/share.hpp"
+
+namespace clatter {
+
+/// "2 failed (event_budget: 2, e.g. point 0 at nu = 0.5)": how many points of a run failed, with which status how
+/// often, and of each the first, by its number in the sweep from 0.
+[[nodiscard]] std::string failures_text(const Figure& figure, const Sweep& sweep,
+                                        const std::optional<Shard>& shard = {});
+
+}  // namespace clatter

@@ -1,0 +1,11 @@
+#pragma once
+
+#include <string>
+
+namespace clatter {
+
+/// The help on a topic: a command, a key, a section, a function of values, or the whole configuration. Throws
+/// UsageError where there is none.
+[[nodiscard]] std::string help_on(const std::string& topic);
+
+}  // namespace clatter
