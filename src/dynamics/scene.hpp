@@ -77,16 +77,18 @@ enum class Status : std::uint8_t {
   periodic = 0,
   aperiodic = 1,
   transient = 2,
+  grazing = 3,  ///< periodic, but touches a stop within rounding: its stability doesn't exist
   event_budget = 16,
   not_finite = 17,
   unresolved = 18
 };
 
 /// Every status and its name.
-inline constexpr std::array<std::pair<Status, std::string_view>, 6> status_names{
+inline constexpr std::array<std::pair<Status, std::string_view>, 7> status_names{
     {{Status::periodic, "periodic"},
      {Status::aperiodic, "aperiodic"},
      {Status::transient, "transient"},
+     {Status::grazing, "grazing"},
      {Status::event_budget, "event_budget"},
      {Status::not_finite, "not_finite"},
      {Status::unresolved, "unresolved"}}};

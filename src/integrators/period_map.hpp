@@ -7,9 +7,9 @@
 #include <limits>
 #include <optional>
 
+#include "dynamics/neighbourhood.hpp"
 #include "integrators/contraction.hpp"
 #include "integrators/exact.hpp"
-#include "integrators/neighbourhood.hpp"
 #include "integrators/repeat.hpp"
 #include "integrators/run.hpp"
 #include "integrators/section_watch.hpp"

@@ -6,25 +6,39 @@
 #include <numbers>
 #include <utility>
 
+#include "dynamics/neighbourhood.hpp"
+#include "dynamics/polynomial_arc.hpp"
 #include "dynamics/tangent.hpp"
 
 namespace clatter {
 
 /// How small changes of a motion grow: the multipliers of a period and the largest Lyapunov exponent, impacts and rests
-/// included (physics: saltation matrices, Nordmark & Piiroinen 2009).
+/// included (physics: saltation matrices, Nordmark & Piiroinen 2009). A motion that grazes a stop to within rounding
+/// has none: a touch more or less decides whether there is an impact, after which changes grow as the root of their
+/// size.
 class Stability {
  public:
   using Complex = std::complex<double>;
 
-  explicit Stability(const Stops& stops) : tangent_(stops) {}
+  /// `rounding` is what displacements and velocities may be off by.
+  Stability(const Stops& stops, double rounding) : tangent_(stops), nearby_(stops, Ellipse::disc(rounding), rounding) {}
 
   template <class A>
   void arc(const A& arc, double begin, double length) {
     tangent_.arc(arc, begin, length);
     ++evaluations_;
+    if constexpr (Polynomial<A>) {
+      exact_ = false;
+    } else {
+      nearby_.arc(arc, begin, length);
+    }
   }
-  void rest(const Rest& rest) { tangent_.rest(rest); }
-  void impact(const Impact& impact) { tangent_.impact(impact); }
+  void rest(const Rest& rest) { tangent_.rest(rest), rests_ = true; }
+  void impact(const Impact& impact) { tangent_.impact(impact), nearby_.impact(impact); }
+
+  /// Whether motions that differ from this one by rounding meet other stops. After a rest nothing differs; and what
+  /// general methods give isn't known to rounding.
+  [[nodiscard]] bool grazes() const { return exact_ && !rests_ && !nearby_.holds(); }
 
   /// Ends the observed time, one period. Unforced motion (`autonomous`) is periodic only when it loses nothing; a shift
   /// of time along it, and one to a neighbouring speed, stay what they are: both multipliers are 1.
@@ -33,6 +47,7 @@ class Stability {
       first_ = second_ = 1.0, exponent_ = 0.0;
       return;
     }
+    if (grazes()) return;
     const Map<double> map = tangent_.mantissa();
     const double product = tangent_.mantissa_determinant(), half = (map[0] + map[3]) / 2,
                  square = half * half - product;
@@ -55,6 +70,8 @@ class Stability {
  private:
   static constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   Tangent<double> tangent_;
+  Neighbourhood nearby_;
+  bool exact_ = true, rests_ = false;
   Complex first_{nan, nan}, second_{nan, nan};
   double exponent_ = nan;
   double evaluations_ = 0.0;

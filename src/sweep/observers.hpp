@@ -19,7 +19,7 @@ namespace clatter {
 /// The observers that a scene asks for; each is called once an arc, and costs nothing where it is absent.
 class Observers {
  public:
-  Observers(const Scene& scene, double total, double base_frequency) {
+  Observers(const Scene& scene, const Observed& observed, double total, double base_frequency) {
     const Observe& observe = scene.observe;
     if (observe.extrema) extrema.emplace();
     if (observe.impacts || observe.period) impacts.emplace();
@@ -29,7 +29,7 @@ class Observers {
       const auto count = static_cast<std::size_t>(observe.trajectory);
       trajectory.emplace(count, total / static_cast<double>(count - 1), AtImpact::after, scene.stops);
     }
-    if (observe.stability) stability.emplace(scene.stops);
+    if (observe.stability) stability.emplace(scene.stops, uncertainty_of(scene, observed));
     if (observe.harmonics == 0) return;
     if (observe.harmonics_method == HarmonicsMethod::exact) {
       exact_harmonics.emplace(static_cast<std::size_t>(observe.harmonics), base_frequency);
@@ -89,6 +89,15 @@ class Observers {
   std::optional<Stability> stability;
 
  private:
+  /// How far displacements and velocities may be off: by rounding, and after a repeat by the tolerance of that.
+  [[nodiscard]] static double uncertainty_of(const Scene& scene, const Observed& observed) {
+    double size = std::abs(observed.from.x) + std::abs(observed.from.v);
+    for (const double stop : {scene.stops.lower, scene.stops.upper})
+      if (std::isfinite(stop)) size = std::max(size, std::abs(stop));
+    const double tolerance = observed.found_by == FoundBy::repetition ? scene.time.tolerance : 0.0;
+    return (64 * epsilon<double>() + tolerance) * size;
+  }
+
   template <class Function>
   void each(Function&& function) {
     if (extrema && !in_closed_form_) function(*extrema);

@@ -51,7 +51,7 @@ class Point {
     result_.base_frequency = once_ || !forced ? 2 * pi<double>() * base_turns_ / total_ : scene_.oscillator.frequency;
     if (const double given = scene_.observe.base_frequency; given > 0)
       result_.base_frequency = given, base_turns_ = given * total_ / (2 * pi<double>());
-    return Observers(scene_, total_, result_.base_frequency);
+    return Observers(scene_, observed_, total_, result_.base_frequency);
   }
 
   /// The result, once the observers have seen the motion up to `state`.
@@ -74,6 +74,8 @@ class Point {
     collect(observers, total_, base_turns_);
     if (observers.impacts) collect_impacts(*observers.impacts, total_, once_ ? 1.0 : observed_.turns);
     Observed complete = observed_;
+    if (observers.stability && complete.status == Status::periodic && forced && observers.stability->grazes())
+      complete.status = Status::grazing;
     complete.settled += observed_.turns;
     return result_of(complete);
   }

@@ -183,7 +183,7 @@ TEST(PolynomialArcs, multipliers_are_those_of_the_closed_form) {
   for (const double tolerance : {1e-6, 1e-9, 1e-12}) {
     const Scene scene = with_tolerance(paper_scene(0.5, 0.7, 1.0), tolerance);
     DormandPrince<general_effects(0.1)> integrator(scene);
-    Stability stability(scene.stops);
+    Stability stability(scene.stops, 64 * epsilon<double>());
     observe_by(integrator, scene, [&](double total, auto run) {
       run(stability);
       stability.finish_period(total, false);

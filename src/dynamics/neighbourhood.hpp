@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <utility>
 
 #include "dynamics/contact.hpp"
+#include "dynamics/ellipse.hpp"
 #include "dynamics/impact.hpp"
-#include "integrators/contraction.hpp"
 
 namespace clatter {
 
@@ -28,12 +30,13 @@ class Neighbourhood {
   void arc(const A& arc, double begin, double length) {
     if (!holds_) return;
     const auto& flow = arc.flow();
+    h_ = flow.h, shake_ = std::abs(flow.f) * flow.nu;
+    if (!std::exchange(begun_, true)) begin_beside_stop(arc.start());
     const double from = std::max(0.0, clear_from_ - begin);
     if (approached_ == Side::none && from < length) clear(arc, begin, from, length);
     const auto p = flow.propagator(length);
     const Map<double> free{p.a, p.b, -p.b, p.c};
     told_ = told_.mapped(free), untold_ = untold_.mapped(free);
-    h_ = flow.h, shake_ = std::abs(flow.f) * flow.nu;
     force_ = flow.load + flow.acceleration(0.0, 0.0, arc.phase_after(length).sine);
   }
   void rest(const Rest&) { holds_ = false; }  // which impacts of a chatter are taken changes with the start
@@ -58,6 +61,16 @@ class Neighbourhood {
     if (!(share <= 0.5)) return {infinity, infinity, infinity};
     const double most = (acceleration + time * (shake_ + speed)) / (1 - share);
     return {most, shake_ + speed + most * (time + 2 * h_), std::exp(2 * h_ * time)};
+  }
+
+  /// A motion that begins on a stop, or just beside it, is on its way from there.
+  void begin_beside_stop(const Motion<double>& start) {
+    for (const Side side : {Side::lower, Side::upper}) {
+      const Stop<double> stop = stop_at<double>(stops_, side);
+      if (!(std::abs(start.x - stop.place) <= reach_ && stop.into(start.v) < 0)) continue;
+      holds_ = depart(0, std::abs(start.v), std::abs(start.a), 0);
+      return;
+    }
   }
 
   /// Looks whether the flight, from a part of this arc on, keeps clear of both stops, or comes near to one of them.
@@ -92,15 +105,15 @@ class Neighbourhood {
     told_ = told_.mapped(saltation), untold_ = untold_.mapped(saltation);
     const double rest = norm(rest_x, rest_v);
     untold_.add(Ellipse::disc(rest + c * near.growth * s * (told_.size() + untold_.size() + rest)));
-    return depart(impact, R * u, a, wait);
+    return depart(impact.time, R * u, a, wait);
   }
 
   /// Whether the mass gets away from the stop, and not into the other one, before the flight is looked at.
-  [[nodiscard]] bool depart(const Impact& impact, double speed, double acceleration, double waited) {
+  [[nodiscard]] bool depart(double time, double speed, double acceleration, double waited) {
     reach_ = course(speed, acceleration, waited).growth * size();
     const double wait = std::max(waited, 2 * reach_ / speed);
     const Course away = course(speed, acceleration, wait);
-    approached_ = Side::none, clear_from_ = impact.time + wait;
+    approached_ = Side::none, clear_from_ = time + wait;
     return away.acceleration * wait + reach_ <= speed / 2 &&
            (speed + away.acceleration * wait) * wait + reach_ < stops_.upper - stops_.lower;
   }
@@ -116,6 +129,7 @@ class Neighbourhood {
   Side approached_ = Side::none;          ///< the stop that some of the motions may have met already
   double approached_at_ = 0.0;            ///< since when
   double h_ = 0, shake_ = 0, force_ = 0;  ///< damping, |f| nu, and the force at the end of the last arc
+  bool begun_ = false;
   bool holds_ = true;
 };
 
