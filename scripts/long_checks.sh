@@ -10,6 +10,7 @@ Runs the long form of a test in tests/hard or tests/cli; build first (scripts/te
   random       COUNT scenes with chatter and rest against 50 digits            (default 10000; about 0.1 s each)
   arcs         COUNT arcs of every scale against 50 digits                     (default 10000000; about 0.1 ms each)
   properties   what must hold for COUNT scenes that nobody chose               (default 1000000; about 4 ms each)
+  attractors   COUNT steady scenes with every shortcut and with none           (default 10000; about 0.1 s each)
   drift        the speed of contact over COUNT conservative impacts            (default 100000000; about 1 us each)
   kills        COUNT runs killed, each sweep again and again until it is done  (default 1000; about 0.5 s each)
   disks        a sweep on disks that are full at COUNT sizes                   (default 100; about 1 s each)
@@ -21,6 +22,7 @@ case "${1-}" in
   random) filter='*RandomScenes*' count=10000 ;;
   arcs) filter='Arcs.agree*' count=10000000 ;;
   properties) filter='Properties.*' count=1000000 ;;
+  attractors) filter='Attractors.no_shortcut*' count=10000 ;;
   drift) filter='Long.conservative*' count=100000000 ;;
   kills) filter=resume_test.Resume.test_killed_at_random_moments_it_loses_nothing_that_was_saved count=1000 ;;
   disks) filter=faults_test.Faults.test_a_disk_that_is_full_at_any_size_loses_nothing count=100 ;;

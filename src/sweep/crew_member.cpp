@@ -220,9 +220,11 @@ Outcome Crew::Member::help(Lanes& lanes, std::size_t lane) {
   if (place.x == exact_.stops().lower) state.left = Side::lower;
   if (place.x == exact_.stops().upper) state.left = Side::upper;
   if (lanes.left.lane[lane] == helped_left_) state = helped_to_;  // a lane can't hold a release or a short rise
-  const double end = std::min(1.0, state.turns + 2 / lanes.period.lane[lane]);
+  double end = std::min(1.0, state.turns + 2 / lanes.period.lane[lane]);
   HelpWatch seen(lanes, lane, task_.scene, observing_);
-  const Outcome outcome = exact_.advance(state, end, 0, seen);
+  Outcome outcome = exact_.advance(state, end, 0, seen);
+  // all motion from the same release is the same: so that it is so to the last bit, it goes on to the section here
+  if (outcome == Outcome::completed && seen.rested()) outcome = exact_.advance(state, end = 1.0, 0, seen);
   ++helped_;
   if (observing_) seen.finish(), gives_up_ = gives_up_ || seen.rested();
   if (end == 1.0) {

@@ -122,24 +122,24 @@ bool agree(const PointResult& a, const PointResult& b) {
 
 /// Whether the scene settles to an answer when its start and its force differ from its own in the last digits (a motion
 /// that rests forgets its start). Most often one of a few does; nearly elastic scenes have chaotic transients of
-/// thousands of periods and several attractors, some of which catch one motion of a hundred.
+/// thousands of periods and several attractors, some of which catch one motion of a hundred. Where chaos leads from one
+/// rest to the next, the last digits decide all of the motion, and hardly two of these answers agree.
 bool agrees_nearby(const PointResult& found, const Scene& scene) {
-  std::vector<PointResult> others;
-  bool any_two = false;
-  for (int i = 0; i < 240; ++i) {
+  std::vector<PointResult> distinct;
+  for (std::size_t i = 0; i < 240; ++i) {
     Scene near = scene;
-    const double angle = i * pi<double>() / 6,
-                 size = (1 + i / 12) * 1e-14 * std::max(1.0, std::abs(near.start.velocity));
+    const double number = static_cast<double>(i), angle = number * pi<double>() / 6;
+    const double size = (1 + number / 12) * 1e-14 * std::max(1.0, std::abs(near.start.velocity));
     near.start.displacement =
         std::clamp(near.start.displacement + size * std::cos(angle), scene.stops.lower, scene.stops.upper);
     near.start.velocity += size * std::sin(angle);
-    near.oscillator.forcing *= 1 + i * 1e-15;
+    near.oscillator.forcing *= 1 + number * 1e-15;
     if (i % 2 == 1) near.time.max_periods *= 5;
     const PointResult other = everything(near, found.settling_estimate);
     if (agree(found, other)) return true;
-    any_two = any_two || std::ranges::any_of(others, [&](const PointResult& one) { return agree(one, other); });
-    if (i == 24 && !any_two) return true;  // chaos from one rest to the next: the last digits decide all of it
-    others.push_back(other);
+    if (std::ranges::none_of(distinct, [&](const PointResult& one) { return agree(one, other); }))
+      distinct.push_back(other);
+    if (i == 23 && distinct.size() >= 8) return true;
   }
   return false;
 }
