@@ -9,7 +9,7 @@ from plot_panels import (APERIODIC, MAP_LIMIT, chosen_points, curves, impact_clo
                          phase_plane, scalars, spectrum, time_history, value_map)
 from plot_style import label, legend_above, new_figure, number, symbol
 
-BOOKKEEPING = ("status", "impact_total", "simulated_periods", "impact_count", "base_frequency")
+BOOKKEEPING = ("status", "impact_total", "simulated_periods", "settling_estimate", "impact_count", "base_frequency")
 TOGETHER = (("x_min", "x_max"), ("v_min", "v_max"), ("v_before", "v_after"))  # results that share a panel
 RECORDS = ("tau", "x", "v")
 ORDER = ("x_min", "x_max", "v_min", "v_max", "period_ratio", "period", "eigenfrequency", "velocity_ratio",

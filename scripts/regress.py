@@ -11,7 +11,7 @@ import h5py
 import numpy
 
 ROWS = 11  # of each variable in a text baseline: its points are far from tangencies, past which the last bits decide
-SETTLING = ("impact_total", "simulated_periods")  # how long it took to get there: work, and no property of the motion
+SETTLING = ("impact_total", "simulated_periods", "settling_estimate")  # how long it took to get there: work, and no property of the motion
 REFERENCES = ("DIMENSION_LIST", "REFERENCE_LIST")  # attributes that point at other variables
 APERIODIC = 1
 

@@ -23,7 +23,7 @@ where it is, what h5diff says (same, differs, - for text), the verdict (agrees, 
 off by more than $tolerance, NaN beside a number, and a variable, shape, type or attribute that isn't the same. Only these may differ, and
 the line says "but for" them:
   - values at points that are aperiodic in both: chaos makes another motion of any other rounding; their status counts,
-  - impact_total and simulated_periods: how long settling took is no property of the motion,
+  - impact_total, simulated_periods and settling_estimate: how long settling took is no property of the motion,
   - phases by whole turns, or where the amplitude is 0.
 
 Environment: CLATTER, the program (default: build/release/apps/clatter/clatter); CLATTER_ARCH, its instruction set. Pin it where other machines

@@ -29,7 +29,7 @@ class Plan(CommandLine):
         self.assertFalse(with_stops["chatter and rest"]["required"])
         self.assertEqual(plan["groups"][0]["periods"], [4, 4])  # the closed form, one period observed at each
         self.assertLess(*plan["groups"][1]["periods"])
-        self.assertEqual(plan["output_bytes"], 5 * (1 + 8 + 8 + 8 * 8))
+        self.assertEqual(plan["output_bytes"], 5 * (1 + 8 + 8 + 8 + 8 * 8))
         self.assertEqual(plan["warnings"], [])
 
     def test_says_the_same_before_a_verbose_run(self):
