@@ -47,8 +47,9 @@ class EventDriven : public Setup<N, E> {
       state.x = contact.motion.x, state.v = contact.motion.v, state.rise = contact.motion.rise, state.released = false;
       if (contact.side == Side::none && contact.elapsed == horizon) break;
       if (contact.side == Side::none) continue;
+      const bool touches = state.v == 0;  // no impact
       rebound(state, stop_at<Number>(this->stops(), contact.side), end, origin, observer);
-      if (!this->count_impact()) return Outcome::event_budget;
+      if (!touches && !this->count_impact()) return Outcome::event_budget;
     }
     state.turns = end;
     return this->outcome_of(state);
@@ -76,7 +77,7 @@ class EventDriven : public Setup<N, E> {
     state.left = stop.side, state.rise = 0;
     if (stop.into(before) > 0) state.v = -stop.restitution * before;
     if (state.v == 0) state.v = 0;  // no negative zero
-    this->show_impact(state, stop, before, origin, observer);
+    if (before != 0) this->show_impact(state, stop, before, origin, observer);
     if (!E.rest || state.v == 0) return;
     const auto left =
         chatter_time(this->flow(), stop, pressing(this->flow(), stop, this->phase(state)), Number(-stop.into(state.v)));

@@ -1,4 +1,5 @@
-// A start that stands on a stop and moves into it: the observed time (0, T] begins after that impact.
+// What counts as an impact: not that of a start into a stop, which comes before the observed time, and no touch at
+// speed 0.
 
 #include <gtest/gtest.h>
 
@@ -53,6 +54,46 @@ TEST(StartOnStop, nor_by_general_methods) {
     expect_start_after_impact(into, after, {.threads = 1}, 1e-8);  // the size of steps depends on the start
     expect_start_after_impact(mirrored(into), mirrored(after), {.threads = 1}, 1e-8);
   }
+}
+
+/// Free motion of amplitude 1 with the stops exactly there.
+Scene touching(Mode mode, double R) {
+  Scene scene;
+  scene.stops = {-1, 1, R, R};
+  scene.start.velocity = 1;
+  scene.time.mode = mode, scene.time.duration = 3;  // up to the first touch; later ones hang on rounding
+  scene.observe.extrema = scene.observe.impacts = scene.observe.impact_log = scene.observe.period = true;
+  return scene;
+}
+
+TEST(Touch, at_speed_0_is_no_impact) {
+  for (const Mode mode : {Mode::transient, Mode::steady})
+    for (const double R : {0.0, 0.7, 1.0}) {
+      if (mode == Mode::steady && R < 1) continue;
+      const RunResult result = run(sweep_of(touching(mode, R), {}), {.threads = 1});
+      EXPECT_EQ(values(result.figure, "impacts_per_period"), (std::vector<double>{0, 0})) << R;
+      EXPECT_TRUE(values(result.figure, "impact_tau").empty()) << R;
+      EXPECT_TRUE(std::isnan(values(result.figure, "velocity_ratio")[0])) << R;
+      EXPECT_EQ(values(result.figure, "x_max")[0], 1.0);
+      if (mode == Mode::steady) {
+        EXPECT_NEAR(values(result.figure, "period")[0], 2 * pi<double>(), 1e-14);
+      }
+    }
+}
+
+TEST(Chatter, that_is_summed_from_its_first_rebound_has_that_one_impact) {
+  // pressed by its load: 1e-9 of speed is a chatter of 1e-9 of the time, below what its impacts could move
+  Scene scene;
+  scene.oscillator = {0.1, 0.0, 1.0, 2.0};
+  scene.stops = {-5, 1, 0.5, 0.5};
+  scene.start = {1.0, -1e-9, 0.0};
+  scene.time.mode = Mode::transient, scene.time.duration = 1;
+  scene.observe.extrema = scene.observe.impacts = true;
+  const Figure figure = run(sweep_of(scene, {}), {.threads = 1}).figure;
+  EXPECT_EQ(values(figure, "impacts_per_period")[1], 1);
+  EXPECT_NEAR(values(figure, "v_before")[1], 1e-9, 1e-15);
+  EXPECT_NEAR(values(figure, "v_after")[1], -0.5e-9, 1e-15);
+  EXPECT_NEAR(values(figure, "rest_fraction")[1], 1, 1e-8);
 }
 
 }  // namespace
