@@ -8,7 +8,7 @@
 #include "interrupt.hpp"
 #include "io/figure_file.hpp"
 #include "io/journal.hpp"
-#include "io/publish.hpp"
+#include "io/output_place.hpp"
 #include "progress.hpp"
 #include "study/study_figure.hpp"
 
@@ -49,11 +49,11 @@ bool any_failed(const std::vector<PointStudy>& points) {
 int run_study(const Arguments& arguments) {
   const Arch arch = arch_of(arguments);
   const bool shown = progress_wanted(arguments);
-  const std::string output = output_of(arguments);
+  const std::string output = output_of(arguments, ".accuracy.h5");
   const Config config = config_of(arguments);
   check_not_config(arguments.operands[0], output);
   check_starts(config, arguments.operands[0]);
-  check_writable(output);
+  const OutputPlace place(output, {.is_study = true, .title = config.title}, arguments.has("force"));
   require_idle(output);
   const Interrupt interrupt;
   const std::vector<PointStudy> points = study_points(config.sweep, arch, arguments.has("json"), shown);
@@ -62,7 +62,7 @@ int run_study(const Arguments& arguments) {
               << " is not written\n";
     return 128 + signal;
   }
-  publish(output, file_image(study_figure(config.sweep, points), config).bytes);
+  place.publish(file_image(study_figure(config.sweep, points), config).bytes);
   if (!arguments.has("quiet")) std::cerr << output << '\n';
   return any_failed(points) ? points_failed : done;
 }
@@ -80,7 +80,9 @@ Command accuracy_command() {
           .examples = examples,
           .operands = {"CONFIG"},
           .required_operands = 1,
-          .options = {output_option,
+          .options = {{"output", 'o', "FILE.h5",
+                       "where the results go; default: the configuration's name with .accuracy.h5, here"},
+                      force_option,
                       set_option,
                       arch_option,
                       {"json", 0, "", "a JSON object a row in place of the table"},

@@ -52,9 +52,9 @@ bool progress_wanted(const Arguments& arguments) {
   throw UsageError("--progress " + in_quotes(when) + "; permitted: auto, always, never");
 }
 
-std::string output_of(const Arguments& arguments) {
+std::string output_of(const Arguments& arguments, const std::string& ending) {
   const std::filesystem::path config(arguments.operands[0]);
-  return arguments.value("output").value_or(config.stem().string() + ".h5");
+  return arguments.value("output").value_or(config.stem().string() + ending);
 }
 
 void check_not_config(const std::string& config, const std::string& output) {

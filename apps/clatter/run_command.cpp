@@ -2,7 +2,6 @@
 #include <charconv>
 #include <chrono>
 #include <csignal>
-#include <filesystem>
 #include <iostream>
 #include <optional>
 #include <span>
@@ -16,7 +15,7 @@
 #include "io/error.hpp"
 #include "io/figure_file.hpp"
 #include "io/journal.hpp"
-#include "io/publish.hpp"
+#include "io/output_place.hpp"
 #include "io/suggestion.hpp"
 #include "io/version.hpp"
 #include "keeper.hpp"
@@ -34,8 +33,8 @@ void check_memory(const Sweep& sweep, const std::optional<Shard>& shard) {
   const double needed = run_bytes(sweep, shard), there = machine_bytes();
   if (there == 0 || needed <= there) return;
   throw UsageError("the results of " + std::to_string(Share(sweep, shard).points()) +
-                   " points, and the largest variable of them once more, take " + bytes_text(needed) +
-                   ", there are " + bytes_text(there) +
+                   " points, and the largest variable of them once more, take " + bytes_text(needed) + ", there are " +
+                   bytes_text(there) +
                    "; sweep fewer points, observe fewer samples and harmonics, or share the points out with --shard");
 }
 
@@ -51,9 +50,8 @@ std::optional<Shard> shard_of(const Arguments& arguments) {
 
 /// What -o names; else the configuration's name with .h5, for a shard with .K-of-N.h5.
 std::string output_of(const Arguments& arguments, const std::optional<Shard>& shard) {
-  if (!shard || arguments.has("output")) return output_of(arguments);
-  const std::string name = std::filesystem::path(arguments.operands[0]).stem().string();
-  return name + '.' + std::to_string(shard->number) + "-of-" + std::to_string(shard->of) + ".h5";
+  if (!shard) return output_of(arguments, ".h5");
+  return output_of(arguments, '.' + std::to_string(shard->number) + "-of-" + std::to_string(shard->of) + ".h5");
 }
 
 Journal::Begin begin_of(const Arguments& arguments) {
@@ -102,7 +100,8 @@ int run_config(const Arguments& arguments) {
   const std::string output = output_of(arguments, shard);
   const Config config = config_of(arguments);
   check_not_config(arguments.operands[0], output);
-  check_writable(output);
+  const OutputPlace place(output, {.shard = shard ? text_of(*shard) : "", .title = config.title},
+                          arguments.has("force"));
   check_memory(config.sweep, shard);
   if (arguments.has("verbose")) std::cerr << plan_text(plan_of(config.sweep, threads), config.sweep, threads);
 
@@ -127,7 +126,7 @@ int run_config(const Arguments& arguments) {
   const std::string summary = summary_line(result, output);
   try {
     const auto image = shard ? sealed_image : file_image;
-    publish(output, image(std::move(result.figure), config).bytes);
+    place.publish(image(std::move(result.figure), config).bytes);
   } catch (const IoError& error) {
     if (!journal.has_records()) throw;
     throw IoError(std::string(error.what()).append("\nclatter: ").append(journal.leave()));
@@ -155,6 +154,7 @@ Command run_command() {
       .operands = {"CONFIG"},
       .required_operands = 1,
       .options = {output_option,
+                  force_option,
                   set_option,
                   threads_option,
                   arch_option,
