@@ -48,8 +48,43 @@ class Build(unittest.TestCase):
         build = source / "build" / "release"
         run("cmake", "--build", build, "--target", "probe", "clatter_version")
         run(build / "probe")
-        self.assertIn('git_commit() { return "unknown"; }', (build / "src" / "io" / "version.cpp").read_text())
+        self.assertRegex((build / "src" / "io" / "version.cpp").read_text(), r'git_commit\(\) { return "(unknown|[0-9a-f]{40})"; }')
         self.assertEqual(libraries(build), libraries(CLATTER.parents[2]))
+
+    @unittest.skipUnless(shutil.which("git"), "there is no git here")
+    def test_the_commit_is_that_of_git_or_of_the_archive(self):
+        parts = (".gitattributes", "src/io/version.cmake", "src/io/version.cpp.in")
+        repository, archive = self.folder / "a repository", self.folder / "an archive"
+        for part in parts:
+            (repository / part).parent.mkdir(parents=True, exist_ok=True)
+            shutil.copy(SOURCE / part, repository / part)
+        script = repository / parts[1]
+        script.write_text(re.sub(r'"[0-9a-f]{40}"', '"$Format:%H$"', script.read_text()))  # these sources may be an archive
+        archive.mkdir()
+
+        def git(*words):
+            return run("git", "-c", "user.name=a", "-c", "user.email=a@b.c", *words, folder=repository).strip()
+
+        git("init", "-q")
+        self.assertEqual(self.commit(repository), "unknown")
+        git("add", ".")
+        git("commit", "-q", "-m", "all")
+        head = git("rev-parse", "HEAD")
+        git("archive", "-o", archive / "a.tar", "HEAD")
+        run("tar", "-xf", "a.tar", folder=archive)
+        self.assertEqual(self.commit(repository), head)
+        self.assertEqual(self.commit(archive), head)
+        (repository / parts[-1]).write_text("@GIT_COMMIT@\n")
+        self.assertEqual(self.commit(repository), head + "-dirty")
+
+    def commit(self, source):
+        """What a build of this folder would take for its commit."""
+        output = self.folder / "version.cpp"
+        template = self.folder / "template"
+        template.write_text("@GIT_COMMIT@")
+        run("cmake", "-D", f"SOURCE_DIR={source}", "-D", f"TEMPLATE={template}", "-D", f"OUTPUT={output}", "-P",
+            source / "src" / "io" / "version.cmake")
+        return output.read_text().strip()
 
 
 if __name__ == "__main__":
