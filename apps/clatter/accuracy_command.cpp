@@ -1,5 +1,7 @@
+#include <chrono>
 #include <csignal>
 #include <iostream>
+#include <optional>
 #include <vector>
 
 #include "accuracy_report.hpp"
@@ -23,13 +25,20 @@ void check_starts(const Config& config, const std::string& file) {
 /// Studies all points and prints each; fewer where it was interrupted.
 std::vector<PointStudy> study_points(const Sweep& sweep, Arch arch, bool json, bool shown) {
   const std::vector<Trial> trials = trials_of(sweep.scene.time.mode, arch);
-  const Progress progress(shown, "runs");
+  Progress progress(shown, "runs");
   StudyOptions options{.stopped = [] { return Interrupt::signal() != 0; }};
-  std::size_t finished = 0;
-  const std::size_t total = size(sweep) * steps_of(trials.size(), options);
-  progress.show(0, total);
-  options.progress = [&] { progress.show(++finished, total); };
   std::vector<PointStudy> points;
+  std::size_t finished = 0;
+  const auto total = static_cast<double>(size(sweep) * steps_of(trials.size(), options));
+  progress.show(0, total, std::nullopt);
+  const auto begin = std::chrono::steady_clock::now();
+  options.progress =
+      [&](std::optional<double> seconds_left) {  // a point that isn't begun takes as long as those that are
+        const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - begin;
+        const auto begun = static_cast<double>(points.size() + 1), all = static_cast<double>(size(sweep));
+        if (seconds_left) *seconds_left += (passed.count() + *seconds_left) * (all - begun) / begun;
+        progress.show(static_cast<double>(++finished), total, seconds_left);
+      };
   for (std::size_t point = 0; point < size(sweep); ++point) {
     PointStudy of_point = study(scene_at(sweep, point), trials, options);
     if (Interrupt::signal() != 0) break;

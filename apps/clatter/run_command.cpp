@@ -81,8 +81,11 @@ JournalKey key_of(const Config& config, Arch arch, const std::optional<Shard>& s
 }
 
 void run_points(SweepRun& sweep, RunOptions options, bool shown) {
-  const Progress progress(shown, "points", sweep.restored_points());
-  if (shown) options.progress = [&](std::size_t finished, std::size_t total) { progress.show(finished, total); };
+  Progress progress(shown, "points", static_cast<double>(sweep.restored_points()));
+  if (shown)
+    options.progress = [&](std::size_t finished, std::size_t total) {
+      progress.show(static_cast<double>(finished), static_cast<double>(total));
+    };
   sweep.run(options);
 }
 
