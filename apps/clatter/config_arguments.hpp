@@ -27,7 +27,7 @@ inline const Option arch_option{"arch", 0, "NAME",
 /// Options of the commands that write a file.
 inline const Option output_option{"output", 'o', "FILE.h5",
                                   "where the results go; default: the configuration's name with .h5, here"};
-inline const Option force_option{"force", 0, "", "replace the file that has the output's name, whatever it is"};
+inline const Option force_option{"force", 0, "", "replace any file that has the output's name"};
 inline const Option progress_option{"progress", 0, "WHEN", "auto (on a terminal), always, never"};
 
 /// Whether progress is to be shown. Throws UsageError.

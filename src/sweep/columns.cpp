@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-#include <ranges>
+#include <span>
 #include <stdexcept>
 #include <type_traits>
 
@@ -114,7 +114,7 @@ void name_linked_axes(const Sweep& sweep, Figure& figure) {
     std::string linked;
     for (const Dimension& dimension : sweep.dimensions) {
       if (std::ranges::find(variable.dimensions, name_of(dimension)) == variable.dimensions.end()) continue;
-      for (const Axis& axis : dimension | std::views::drop(1))
+      for (const Axis& axis : std::span(dimension).subspan(1))
         linked.append(linked.empty() ? "" : " ").append(key_of(axis.parameter));
     }
     if (!linked.empty()) variable.attributes.emplace_back("coordinates", linked);
