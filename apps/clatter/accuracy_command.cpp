@@ -32,13 +32,13 @@ std::vector<PointStudy> study_points(const Sweep& sweep, Arch arch, bool json, b
   const auto total = static_cast<double>(size(sweep) * steps_of(trials.size(), options));
   progress.show(0, total, std::nullopt);
   const auto begin = std::chrono::steady_clock::now();
-  options.progress =
-      [&](std::optional<double> seconds_left) {  // a point that isn't begun takes as long as those that are
-        const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - begin;
-        const auto begun = static_cast<double>(points.size() + 1), all = static_cast<double>(size(sweep));
-        if (seconds_left) *seconds_left += (passed.count() + *seconds_left) * (all - begun) / begun;
-        progress.show(static_cast<double>(++finished), total, seconds_left);
-      };
+  // Points that are not begun take as long as the others.
+  options.progress = [&](std::optional<double> seconds_left) {
+    const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - begin;
+    const auto begun = static_cast<double>(points.size() + 1), all = static_cast<double>(size(sweep));
+    if (seconds_left) *seconds_left += (passed.count() + *seconds_left) / begun * (all - begun);
+    progress.show(static_cast<double>(++finished), total, seconds_left);
+  };
   for (std::size_t point = 0; point < size(sweep); ++point) {
     PointStudy of_point = study(scene_at(sweep, point), trials, options);
     if (Interrupt::signal() != 0) break;

@@ -33,8 +33,8 @@ void check_memory(const Sweep& sweep, const std::optional<Shard>& shard) {
   const double needed = run_bytes(sweep, shard), there = machine_bytes();
   if (there == 0 || needed <= there) return;
   throw UsageError("the results of " + std::to_string(Share(sweep, shard).points()) +
-                   " points, and the largest variable of them once more, take " + bytes_text(needed) + ", there are " +
-                   bytes_text(there) +
+                   " points, and the largest variable of them once more, take " + bytes_text(needed) +
+                   ", there are " + bytes_text(there) +
                    "; sweep fewer points, observe fewer samples and harmonics, or share the points out with --shard");
 }
 

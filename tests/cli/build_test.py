@@ -48,7 +48,8 @@ class Build(unittest.TestCase):
         build = source / "build" / "release"
         run("cmake", "--build", build, "--target", "probe", "clatter_version")
         run(build / "probe")
-        self.assertRegex((build / "src" / "io" / "version.cpp").read_text(), r'git_commit\(\) { return "(unknown|[0-9a-f]{40})"; }')
+        version = (build / "src" / "io" / "version.cpp").read_text()
+        self.assertRegex(version, r'git_commit\(\) { return "(unknown|[0-9a-f]{40})"; }')
         self.assertEqual(libraries(build), libraries(CLATTER.parents[2]))
 
     @unittest.skipUnless(shutil.which("git"), "there is no git here")
@@ -59,7 +60,8 @@ class Build(unittest.TestCase):
             (repository / part).parent.mkdir(parents=True, exist_ok=True)
             shutil.copy(SOURCE / part, repository / part)
         script = repository / parts[1]
-        script.write_text(re.sub(r'"[0-9a-f]{40}"', '"$Format:%H$"', script.read_text()))  # these sources may be an archive
+        # These sources may be an archive themselves.
+        script.write_text(re.sub(r'"[0-9a-f]{40}"', '"$Format:%H$"', script.read_text()))
         archive.mkdir()
 
         def git(*words):

@@ -60,7 +60,8 @@ class Faults(StoppedRuns):
         self.assertEqual(content, self.whole, (context, said))
 
     def with_fault(self, fault, *words):
-        environment = {**os.environ, "LD_PRELOAD": str(self.shim), "CLATTER_FAULT": fault, "CLATTER_FAULT_DONE": str(self.marker)}
+        environment = {**os.environ, "LD_PRELOAD": str(self.shim), "CLATTER_FAULT": fault,
+                       "CLATTER_FAULT_DONE": str(self.marker)}
         self.marker.unlink(missing_ok=True)
         result = subprocess.run(self.command(*words, threads=1), capture_output=True, text=True, timeout=300, env=environment)
         happened = self.marker.exists()

@@ -13,7 +13,7 @@ from matplotlib import image
 CLATTER = os.environ["CLATTER"]
 SOURCE = Path(os.environ["CLATTER_SOURCE"])
 PLOT = ["/usr/bin/python3", SOURCE / "scripts" / "plot.py"]
-WARNINGS = ("-W", "default::UserWarning", "-W", "default::RuntimeWarning")  # of Python, which plot.py is silent about otherwise
+WARNINGS = ("-W", "default::UserWarning", "-W", "default::RuntimeWarning")  # else plot.py is silent about them
 
 # name: (configuration, --set ..., exit code of the run): one of each kind of picture, with few points
 KINDS = {
@@ -81,7 +81,8 @@ class Pictures(unittest.TestCase):
                 self.assertGreater(sum(1 for element in drawing.iter() if element.tag.endswith("}path")), 20)
 
     def test_warnings_of_libraries_are_not_the_users(self):
-        command = [CLATTER, "run", SOURCE / "configs" / "fig18.toml", "-o", self.folder / "unseen.h5", "--set", "title=\N{SNOWMAN}\u632f"]
+        command = [CLATTER, "run", SOURCE / "configs" / "fig18.toml", "-o", self.folder / "unseen.h5"]
+        command += ["--set", "title=\N{SNOWMAN}\u632f"]
         subprocess.run(command, check=True, capture_output=True)
         self.assertIn("missing from current font", plot(self.folder / "unseen.h5", warnings=WARNINGS).stderr)
         self.assertEqual(plot(self.folder / "unseen.h5").stderr, "")
@@ -126,7 +127,8 @@ class Pictures(unittest.TestCase):
         with h5py.File(self.folder / "damaged.h5", "w") as file:
             file.attrs.update({"clatter_schema": "clatter/1", "config": "no = configuration ="})
             file["status"] = [0]
-        for name, reason in (("pipe.h5", "not a regular file"), ("damaged.h5", "damaged ("), ("missing.h5", "no such file"), ("text.h5", "not an HDF5 file"), ("folder.h5", "a folder"),
+        for name, reason in (("pipe.h5", "not a regular file"), ("damaged.h5", "damaged ("),
+                             ("missing.h5", "no such file"), ("text.h5", "not an HDF5 file"), ("folder.h5", "a folder"),
                              ("foreign.h5", "not a clatter/1 file"), ("later.h5", "clatter/2")):
             with self.subTest(name):
                 result = plot(self.folder / name)

@@ -1,4 +1,4 @@
-"""What an output may take the place of: an older one of the same command, shard and title, and with --force anything."""
+"""What an output may take the place of: an older one of the same command, shard and title; with --force, anything."""
 
 import shutil
 import unittest
@@ -7,7 +7,8 @@ import h5py
 
 from command_line import SMALL, SOURCE, CommandLine
 
-STUDY = SMALL.partition("[sweep]")[0].replace("xs = -4.0", "xs = -0.5") + "[time]\nwindow = 1\nmax_impacts = 1\n"  # over in no time: it fails
+# Over in no time, since all of it fails.
+STUDY = SMALL.partition("[sweep]")[0].replace("xs = -4.0", "xs = -0.5") + "[time]\nwindow = 1\nmax_impacts = 1\n"
 REMEDY = "name another with -o, move that one away, or replace it with --force"
 
 
@@ -47,7 +48,8 @@ class Replace(CommandLine):
         for name in ("foreign.h5", "cut.h5", "text.h5", "link.h5"):
             for words in (("run", self.config), ("accuracy", self.write("b.toml", STUDY))):
                 content = (self.directory / name).read_bytes()
-                self.assert_kept(name, "the file that is there is no output of clatter, or a damaged one", *words, "-o", name)
+                self.assert_kept(name, "the file that is there is no output of clatter, or a damaged one",
+                                 *words, "-o", name)
                 (self.directory / name).write_bytes(content)
 
     def test_an_empty_file_holds_nothing_that_could_be_lost(self):
@@ -93,7 +95,8 @@ class Replace(CommandLine):
         self.assert_kept("a.h5", "the file that is there has shard 1/2 of a sweep, this one all points",
                          "merge", "-o", "a.h5", *shards)
         self.write("letter", "not to be lost")
-        self.assert_kept("letter", "the file that is there is no output of clatter, or a damaged one", "merge", "-o", "letter", *shards)
+        self.assert_kept("letter", "the file that is there is no output of clatter, or a damaged one",
+                         "merge", "-o", "letter", *shards)
 
     def test_what_is_read_is_never_replaced(self):
         self.assert_refused(2, "is the configuration itself", "run", self.config, "-o", self.config, "--force")
