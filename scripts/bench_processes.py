@@ -63,7 +63,7 @@ def main():
     with tempfile.TemporaryDirectory() as folder:
         def command(config, *options):
             chosen = ["--arch", arguments.arch] if arguments.arch else []
-            return [clatter, "run", config, "-o", f"{folder}/{config.stem}.h5", "--progress", "never", "-q", *chosen, *options]
+            return [clatter, "run", config, "-o", f"{folder}/{config.stem}.h5", "--force", "--progress", "never", "-q", *chosen, *options]
 
         results = [measured("start", [command(ONE_POINT)], 4 * arguments.repetitions, environment),
                    measured("figures", [command(config) for config in FIGURES], arguments.repetitions, environment),

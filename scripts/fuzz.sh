@@ -56,19 +56,20 @@ rm -rf "$build/corpus"
 TMPDIR=$scratch "$build/tests/fuzz/fuzz_seeds" configs "$build/corpus"
 mkdir -p "$build/findings"
 
-options_of() {
+# Sets `options` to those of one fuzzer.
+choose_options() {
   case "$1" in
-    toml | ini) echo "-max_len=8192 -dict=$build/corpus/words" ;;
-    value) echo "-max_len=256 -dict=$build/corpus/words" ;;
-    journal) echo "-max_len=4096" ;;
-    *) echo "-max_len=65536 -mutate_depth=2" ;;  # files, whose own mutations change several places at once
+    toml | ini) options=(-max_len=8192 -dict="$build/corpus/words") ;;
+    value) options=(-max_len=256 -dict="$build/corpus/words") ;;
+    journal) options=(-max_len=4096) ;;
+    *) options=(-max_len=65536 -mutate_depth=2) ;;  # files, whose own mutations change several places at once
   esac
 }
 
 # A log of its own for each fuzzer: they run side by side.
 run() {
   local options
-  read -ra options <<<"$(options_of "$1")"
+  choose_options "$1"
   mkdir -p "$build/grown/$1"
   TMPDIR=$scratch "$build/tests/fuzz/$1_fuzz" "${options[@]}" -max_total_time="$seconds" -timeout=25 -rss_limit_mb=2048 \
     -print_final_stats=1 -artifact_prefix="$build/findings/$1-" "$build/grown/$1" "$build/corpus/$1" >"$build/$1.log" 2>&1
@@ -99,6 +100,6 @@ for name in "${found[@]}"; do
   echo
   echo "$name: $(grep -m 1 -E '^finding: |ERROR: |runtime error: |^terminate called' "$log" || echo "see $log")"
   artifact=$(sed -n 's/.*Test unit written to //p' "$log" | tail -n 1)
-  [[ -z $artifact ]] || echo "again: $build/tests/fuzz/${name}_fuzz $artifact"
+  [[ -z $artifact ]] || printf 'again: %q %q\n' "$build/tests/fuzz/${name}_fuzz" "$artifact"
 done
 ((${#found[@]} == 0))

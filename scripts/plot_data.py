@@ -3,6 +3,7 @@
 import re
 import tomllib
 from dataclasses import dataclass
+from pathlib import Path
 
 import h5py
 import numpy as np
@@ -32,6 +33,14 @@ class Output:
 
     def __init__(self, path):
         self.path = path
+        try:
+            self.read(path)
+        except (OSError, LookupError, RuntimeError, TypeError, ValueError) as error:
+            raise FileProblem(f"{path}: damaged ({error}); run its configuration again") from None
+        self.axes = tuple(name for name in self["status"].dims if name != "row")
+        self.scene = self.config.get("scene", {})
+
+    def read(self, path):
         with open_clatter(path) as file:
             if "shard" in file.attrs:
                 raise FileProblem(f"{path}: shard {text(file.attrs['shard'])} of a sweep; join all with 'clatter merge' first")
@@ -42,8 +51,6 @@ class Output:
                               if isinstance(item, h5py.Dataset) and not is_bare_dimension(item)}
             self.meanings = flag_meanings(file["status"])
             self.methods = flag_meanings(file["method"]) if "method" in file else {}
-        self.axes = tuple(name for name in self["status"].dims if name != "row")
-        self.scene = self.config.get("scene", {})
 
     def __contains__(self, name):
         return name in self.variables
@@ -112,12 +119,16 @@ class Output:
 
 def open_clatter(path):
     """Opens the file, or says in one line what is wrong with it."""
+    if not path:
+        raise FileProblem(f"'': an empty name; {WANTED}")
+    if Path(path).is_dir():
+        raise FileProblem(f"{path}: a folder, not a file; name the .h5 files in it")
+    if Path(path).exists() and not Path(path).is_file():
+        raise FileProblem(f"{path}: not a regular file; {WANTED}")
     try:
         file = h5py.File(path, "r")
     except FileNotFoundError:
         raise FileProblem(f"{path}: no such file; make it with 'clatter run CONFIG -o {path}'") from None
-    except IsADirectoryError:
-        raise FileProblem(f"{path}: a folder, not a file; name the .h5 files in it") from None
     except PermissionError:
         raise FileProblem(f"{path}: not readable; check its permissions") from None
     except OSError:

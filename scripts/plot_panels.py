@@ -87,7 +87,7 @@ def curves(output, name, group, axes):
     name_statuses(axes, output, name, shown=shown)
     axes.set_ylabel(common_label(output, [result for result, _, _ in group]))
     if first == "period_ratio":
-        axes.set_ylim(0.5, axes.dataLim.y1 + 0.5)
+        axes.set_ylim(0.5, (axes.dataLim.y1 if np.isfinite(axes.dataLim.y1) else 1) + 0.5)  # none may have a period
     if first in ("period_ratio", "impacts_per_period"):
         axes.yaxis.set_major_locator(ticker.MaxNLocator(integer=True))
     if first == "rest_fraction":
@@ -193,7 +193,7 @@ def impact_log(output, index, axes, period=None):
             axes.plot(times[hit], before[hit], ls="none", marker=marker, ms=4.5 if len(times) < 40 else 3.0,
                       color=color, label=title)
     axes.margins(y=0.1)
-    axes.set_xlim(0.0, end)
+    axes.set_xlim(0.0, end if end is None or np.isfinite(end) else None)
     axes.set_xlabel(label(output, "tau"))
     axes.set_ylabel(label(output, "v_before"))
     legend_above(axes)
@@ -250,12 +250,14 @@ def value_map(output, figure, axes, names, title, values, status):
     """A result over two axes in colours; hatched where motion has no period, black where the point failed."""
     slow, fast = names
     values = np.where(status >= FIRST_FAILURE, np.nan, values.astype(float))
+    finite = values[np.isfinite(values)]
+    low, high = (finite.min(), finite.max()) if finite.size else (0.0, 0.0)
     shades = {"cmap": "viridis"}
-    if np.nanmin(values) < 0.0 < np.nanmax(values):
-        most = np.nanmax(np.abs(values))
+    if low < 0.0 < high:
+        most = max(-low, high)
         shades = {"cmap": "RdBu_r", "vmin": -most, "vmax": most}
-    elif np.nanmin(values) == np.nanmax(values):
-        shades |= {"vmin": min(0.0, np.nanmin(values)), "vmax": max(1.0, np.nanmax(values))}
+    elif low == high:
+        shades |= {"vmin": min(0.0, low), "vmax": max(1.0, high)}
     place = (output.values(slow), output.values(fast))
     mesh = axes.pcolormesh(*place, values.T, shading="nearest", rasterized=True, **shades)
     figure.colorbar(mesh, ax=axes, label=title, pad=0.02)

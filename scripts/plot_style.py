@@ -139,7 +139,7 @@ def set_axis(axes, output, name, vertical=False):
     values = output.values(name)
     if is_geometric(values):
         (axes.set_yscale if vertical else axes.set_xscale)("log")
-    if len(values) > 1:
+    if values.min() < values.max():
         (axes.set_ylim if vertical else axes.set_xlim)(values.min(), values.max())
     (axes.set_ylabel if vertical else axes.set_xlabel)(label(output, name))
 

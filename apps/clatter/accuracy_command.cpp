@@ -1,5 +1,7 @@
+#include <chrono>
 #include <csignal>
 #include <iostream>
+#include <optional>
 #include <vector>
 
 #include "accuracy_report.hpp"
@@ -8,7 +10,7 @@
 #include "interrupt.hpp"
 #include "io/figure_file.hpp"
 #include "io/journal.hpp"
-#include "io/publish.hpp"
+#include "io/output_place.hpp"
 #include "progress.hpp"
 #include "study/study_figure.hpp"
 #include "warnings.hpp"
@@ -27,13 +29,20 @@ constexpr std::string_view not_read[] = {"observe", "integrator"};
 /// Studies all points and prints each; fewer where it was interrupted.
 std::vector<PointStudy> study_points(const Sweep& sweep, Arch arch, bool json, bool shown) {
   const std::vector<Trial> trials = trials_of(sweep.scene.time.mode, arch);
-  const Progress progress(shown, "runs");
+  Progress progress(shown, "runs");
   StudyOptions options{.stopped = [] { return Interrupt::signal() != 0; }};
-  std::size_t finished = 0;
-  const std::size_t total = size(sweep) * steps_of(trials.size(), options);
-  progress.show(0, total);
-  options.progress = [&] { progress.show(++finished, total); };
   std::vector<PointStudy> points;
+  std::size_t finished = 0;
+  const auto total = static_cast<double>(size(sweep) * steps_of(trials.size(), options));
+  progress.show(0, total, std::nullopt);
+  const auto begin = std::chrono::steady_clock::now();
+  // Points that are not begun take as long as the others.
+  options.progress = [&](std::optional<double> seconds_left) {
+    const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - begin;
+    const auto begun = static_cast<double>(points.size() + 1), all = static_cast<double>(size(sweep));
+    if (seconds_left) *seconds_left += (passed.count() + *seconds_left) / begun * (all - begun);
+    progress.show(static_cast<double>(++finished), total, seconds_left);
+  };
   for (std::size_t point = 0; point < size(sweep); ++point) {
     PointStudy of_point = study(scene_at(sweep, point), trials, options);
     if (Interrupt::signal() != 0) break;
@@ -53,11 +62,11 @@ bool any_failed(const std::vector<PointStudy>& points) {
 int run_study(const Arguments& arguments) {
   const Arch arch = arch_of(arguments);
   const bool shown = progress_wanted(arguments);
-  const std::string output = output_of(arguments);
+  const std::string output = output_of(arguments, ".accuracy.h5");
   const Config config = config_of(arguments);
   check_not_config(arguments.operands[0], output);
   check_starts(config, arguments.operands[0]);
-  check_writable(output);
+  const OutputPlace place(output, {.is_study = true, .title = config.title}, arguments.has("force"));
   require_idle(output);
   if (!arguments.has("quiet")) warn(config, not_read);
   const Interrupt interrupt;
@@ -67,7 +76,7 @@ int run_study(const Arguments& arguments) {
               << " is not written\n";
     return 128 + signal;
   }
-  publish(output, file_image(study_figure(config.sweep, points), config).bytes);
+  place.publish(file_image(study_figure(config.sweep, points), config).bytes);
   if (!arguments.has("quiet")) std::cerr << output << '\n';
   return any_failed(points) ? points_failed : done;
 }
@@ -85,7 +94,8 @@ Command accuracy_command() {
           .examples = examples,
           .operands = {"CONFIG"},
           .required_operands = 1,
-          .options = {output_option,
+          .options = {{"output", 'o', "FILE.h5", "where the results go; default: NAME.accuracy.h5, here"},
+                      force_option,
                       set_option,
                       ini_option,
                       arch_option,

@@ -52,11 +52,11 @@ bool progress_wanted(const Arguments& arguments) {
   throw UsageError("--progress " + in_quotes(when) + "; permitted: auto, always, never");
 }
 
-std::string output_of(const Arguments& arguments) {
+std::string output_of(const Arguments& arguments, const std::string& ending) {
   const std::filesystem::path config(arguments.operands[0]);
   if (config == standard_input && !arguments.has("output"))
     throw UsageError("a configuration from stdin gives the output no name; name it with -o FILE.h5");
-  return arguments.value("output").value_or(config.stem().string() + ".h5");
+  return arguments.value("output").value_or(config.stem().string() + ending);
 }
 
 void check_not_config(const std::string& config, const std::string& output) {

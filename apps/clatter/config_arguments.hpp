@@ -29,13 +29,14 @@ inline const Option arch_option{"arch", 0, "NAME",
 /// Options of the commands that write a file.
 inline const Option output_option{"output", 'o', "FILE.h5",
                                   "where the results go; default: the configuration's name with .h5, here"};
+inline const Option force_option{"force", 0, "", "replace any file that has the output's name"};
 inline const Option progress_option{"progress", 0, "WHEN", "auto (on a terminal), always, never"};
 
 /// Whether progress is to be shown. Throws UsageError.
 [[nodiscard]] bool progress_wanted(const Arguments& arguments);
 
-/// The file that -o names, or the configuration's name with .h5. Throws UsageError where there is neither.
-[[nodiscard]] std::string output_of(const Arguments& arguments);
+/// The file that -o names, or the configuration's name with this ending. Throws UsageError where there is neither.
+[[nodiscard]] std::string output_of(const Arguments& arguments, const std::string& ending);
 
 /// Results must not take the place of the configuration. Throws UsageError.
 void check_not_config(const std::string& config, const std::string& output);

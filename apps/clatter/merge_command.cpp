@@ -13,6 +13,7 @@
 #include "io/figure_file.hpp"
 #include "io/journal.hpp"
 #include "io/merge.hpp"
+#include "io/output_place.hpp"
 #include "io/publish.hpp"
 #include "sweep/memory.hpp"
 
@@ -43,13 +44,14 @@ int merge_shards(const Arguments& arguments) try {
   check_not_shard(arguments.operands, output);
   require_idle(output);
   const ShardSet shards = shard_set(arguments.operands);
+  const OutputPlace place(output, {.title = shards.config.title}, arguments.has("force"));
   check_memory(shards.bytes);
   if (arguments.has("verbose"))
     std::cerr << "shards           " << shards.heads.size() << "\nrounding         " << shards.heads.front().rounding
               << "\nmemory           " << bytes_text(shards.bytes) << '\n';
   Merged merged = merge(shards);
   const std::string failures = failures_text(merged.figure, shards.config.sweep);
-  publish(output, file_image(std::move(merged.figure), shards.config).bytes);
+  place.publish(file_image(std::move(merged.figure), shards.config).bytes);
   if (!arguments.has("quiet"))
     std::cerr << counted(static_cast<double>(size(shards.config.sweep)), "point") << " of "
               << counted(static_cast<double>(shards.heads.size()), "shard") << ", " << failures << ", " << output
@@ -72,6 +74,7 @@ Command merge_command() {
           .repeats_last = true,
           .required_operands = 1,
           .options = {{"output", 'o', "FILE.h5", "where the whole sweep goes"},
+                      force_option,
                       {"quiet", 'q', "", "print errors only"},
                       {"verbose", 'v', "", "print the memory that it takes, and with what the shards were computed"},
                       {"help", 'h', "", "print this help"}},

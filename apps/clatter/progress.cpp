@@ -3,10 +3,13 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cmath>
+#include <cstddef>
 #include <cstdio>
 #include <cstdlib>
 #include <string>
 #include <string_view>
+#include <system_error>
 
 namespace clatter {
 namespace {
@@ -23,7 +26,7 @@ bool color_wanted() {
 }
 
 std::string clock_text(double seconds) {
-  const auto whole = static_cast<long long>(std::min(seconds, 1e9));
+  const auto whole = static_cast<long long>(std::ceil(std::min(seconds, 1e9)));
   char text[48];
   std::snprintf(text, sizeof text, "%lld:%02lld:%02lld", whole / 3600, whole / 60 % 60, whole % 60);
   return text;
@@ -33,23 +36,67 @@ std::string clock_text(double seconds) {
 
 bool stderr_is_terminal() { return isatty(STDERR_FILENO) == 1; }
 
-Progress::Progress(bool shown, const char* counted, std::size_t before)
-    : shown_(shown), counted_(counted), before_(before), color_(color_wanted()) {}
+Progress::Progress(bool shown, const char* counted, double before)
+    : shown_(shown), counted_(counted), before_(before), color_(color_wanted()), finished_(before), pace_(before) {
+  if (!shown_) return;
+  try {
+    ticker_ = std::thread([this] { tick(); });
+  } catch (const std::system_error&) {  // then the bar moves with what is finished alone
+  }
+}
 
 Progress::~Progress() {
+  {
+    const std::lock_guard lock(mutex_);
+    over_ = true;
+  }
+  wake_.notify_one();
+  if (ticker_.joinable()) ticker_.join();
   if (shown_) std::fputs(stderr_is_terminal() ? erase_line : "\n", stderr);
 }
 
-void Progress::show(std::size_t finished, std::size_t total) const {
-  if (!shown_ || total == 0) return;
-  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
-  const double rate = seconds > 0 ? static_cast<double>(finished - before_) / seconds : 0;
-  const std::size_t filled = width * finished / total;
+void Progress::show(double finished, double total) {
+  if (!shown_ || !(total > 0)) return;
+  const std::lock_guard lock(mutex_);
+  finished_ = finished, total_ = total;
+  pace_.add(now(), finished);
+  draw();
+}
+
+void Progress::show(double finished, double total, std::optional<double> seconds_left) {
+  {
+    const std::lock_guard lock(mutex_);
+    is_told_ = true;
+    told_end_ = seconds_left ? std::optional(now() + *seconds_left) : std::nullopt;
+  }
+  show(finished, total);
+}
+
+/// Lets time pass in the bar where nothing is finished for long.
+void Progress::tick() {
+  std::unique_lock lock(mutex_);
+  while (!wake_.wait_for(lock, std::chrono::seconds(1), [&] { return over_; }))
+    if (total_ > 0) draw();
+}
+
+double Progress::now() const {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
+}
+
+std::optional<double> Progress::seconds_left() const {
+  if (!is_told_) return pace_.at(now(), total_);
+  return told_end_ ? std::optional(std::abs(*told_end_ - now())) : std::nullopt;
+}
+
+void Progress::draw() const {
+  const double share = finished_ / total_, seconds = now();
+  const auto filled = static_cast<std::size_t>(share * static_cast<double>(width));
   const std::string bar = (color_ ? "\033[32m" : "") + std::string(filled, '#') + (color_ ? "\033[0m" : "") +
                           std::string(width - filled, '.');
-  const std::string left = rate > 0 ? clock_text(static_cast<double>(total - finished) / rate) : "-:--:--";
-  std::fprintf(stderr, "\r[%s] %3zu %%  %zu/%zu %s  %.0f %s/s  %s left", bar.c_str(), 100 * finished / total, finished,
-               total, counted_, rate, counted_, left.c_str());
+  const std::optional<double> left = seconds_left();
+  std::fprintf(stderr, "\r[%s] %3.0f %%  %.0f/%.0f %s  %.0f %s/s  %s left", bar.c_str(), std::floor(100 * share),
+               std::floor(finished_), total_, counted_, seconds > 0 ? (finished_ - before_) / seconds : 0.0, counted_,
+               left ? clock_text(*left).c_str() : "-:--:--");
   std::fflush(stderr);
 }
 

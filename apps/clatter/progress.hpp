@@ -1,7 +1,12 @@
 #pragma once
 
 #include <chrono>
-#include <cstddef>
+#include <condition_variable>
+#include <mutex>
+#include <optional>
+#include <thread>
+
+#include "sweep/time_left.hpp"
 
 namespace clatter {
 
@@ -9,19 +14,36 @@ namespace clatter {
 class Progress {
  public:
   /// `before`: what was finished at the beginning, which tells nothing of the speed.
-  explicit Progress(bool shown, const char* counted = "points", std::size_t before = 0);
+  explicit Progress(bool shown, const char* counted = "points", double before = 0);
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
   ~Progress();
 
-  void show(std::size_t finished, std::size_t total) const;
+  /// So much is finished of a whole, parts included; any thread may call it.
+  void show(double finished, double total);
+  /// The same, by one who knows how many seconds the rest takes.
+  void show(double finished, double total, std::optional<double> seconds_left);
 
  private:
+  void tick();
+  void draw() const;
+  [[nodiscard]] double now() const;
+  [[nodiscard]] std::optional<double> seconds_left() const;
+
   bool shown_;
   const char* counted_;
-  std::size_t before_;
+  double before_;
   bool color_;
   std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
+
+  std::mutex mutex_;  ///< of all that follows
+  double finished_, total_ = 0;
+  TimeLeft pace_;
+  bool is_told_ = false;
+  std::optional<double> told_end_{};  ///< when all is finished, as somebody says
+  bool over_ = false;
+  std::condition_variable wake_;
+  std::thread ticker_;
 };
 
 /// Whether stderr is a terminal.

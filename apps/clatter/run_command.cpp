@@ -2,7 +2,6 @@
 #include <charconv>
 #include <chrono>
 #include <csignal>
-#include <filesystem>
 #include <iostream>
 #include <optional>
 #include <span>
@@ -16,7 +15,7 @@
 #include "io/error.hpp"
 #include "io/figure_file.hpp"
 #include "io/journal.hpp"
-#include "io/publish.hpp"
+#include "io/output_place.hpp"
 #include "io/suggestion.hpp"
 #include "io/version.hpp"
 #include "keeper.hpp"
@@ -52,10 +51,8 @@ std::optional<Shard> shard_of(const Arguments& arguments) {
 
 /// What -o names; else the configuration's name with .h5, for a shard with .K-of-N.h5.
 std::string output_of(const Arguments& arguments, const std::optional<Shard>& shard) {
-  const std::string whole = output_of(arguments);
-  if (!shard || arguments.has("output")) return whole;
-  return std::filesystem::path(whole).replace_extension().string() + '.' + std::to_string(shard->number) + "-of-" +
-         std::to_string(shard->of) + ".h5";
+  if (!shard) return output_of(arguments, ".h5");
+  return output_of(arguments, '.' + std::to_string(shard->number) + "-of-" + std::to_string(shard->of) + ".h5");
 }
 
 Journal::Begin begin_of(const Arguments& arguments) {
@@ -91,8 +88,11 @@ void say_plan(const Config& config, int threads) {
 }
 
 void run_points(SweepRun& sweep, RunOptions options, bool shown) {
-  const Progress progress(shown, "points", sweep.restored_points());
-  if (shown) options.progress = [&](std::size_t finished, std::size_t total) { progress.show(finished, total); };
+  Progress progress(shown, "points", static_cast<double>(sweep.restored_points()));
+  if (shown)
+    options.progress = [&](std::size_t finished, std::size_t total) {
+      progress.show(static_cast<double>(finished), static_cast<double>(total));
+    };
   sweep.run(options);
 }
 
@@ -110,7 +110,8 @@ int run_config(const Arguments& arguments) {
   const std::string output = output_of(arguments, shard);
   const Config config = config_of(arguments);
   check_not_config(arguments.operands[0], output);
-  check_writable(output);
+  const OutputPlace place(output, {.shard = shard ? text_of(*shard) : "", .title = config.title},
+                          arguments.has("force"));
   check_memory(config.sweep, shard);
   if (arguments.has("verbose")) say_plan(config, threads);
   if (!arguments.has("quiet")) warn(config);
@@ -136,7 +137,7 @@ int run_config(const Arguments& arguments) {
   const std::string summary = summary_line(result, config.sweep, shard, output);
   try {
     const auto image = shard ? sealed_image : file_image;
-    publish(output, image(std::move(result.figure), config).bytes);
+    place.publish(image(std::move(result.figure), config).bytes);
   } catch (const IoError& error) {
     if (!journal.has_records()) throw;
     throw IoError(std::string(error.what()).append("\nclatter: ").append(journal.leave()));
@@ -166,6 +167,7 @@ Command run_command() {
       .operands = {"CONFIG"},
       .required_operands = 1,
       .options = {output_option,
+                  force_option,
                   set_option,
                   ini_option,
                   threads_option,

@@ -40,7 +40,7 @@ export CLATTER
 steps
 install_missing "${SLURM_PACKAGES[@]}"
 
-folder=$(mktemp -d)
+folder=$(TMPDIR=/tmp mktemp -d)  # slurm.conf has no quotes for a blank in TMPDIR
 daemons=()
 began=$SECONDS
 

@@ -93,8 +93,11 @@ class TemporaryFile {
 
   void write(std::span<const std::byte> bytes) { write_all(file_, bytes, target_); }
 
-  void become_target() {
+  void sync() {
     if (uninterrupted([&] { return ::fsync(file_.number()); }) != 0 || !file_.close()) refuse(target_, errno);
+  }
+
+  void become_target() {
     if (::rename(path_.c_str(), target_.c_str()) != 0) refuse(target_, errno);
     path_.clear();
   }
@@ -125,13 +128,15 @@ void check_writable(const std::string& path) {
   check_directory(target);
 }
 
-void publish(const std::string& path, std::span<const std::byte> bytes) {
+void publish(const std::string& path, std::span<const std::byte> bytes, const std::function<void()>& before_rename) {
   check_writable(path);
   const IgnoreFileSizeSignal ignore;
   const fs::path target = target_of(path);
   remove_abandoned(target);
   TemporaryFile file{target};
   file.write(bytes);
+  file.sync();
+  before_rename();
   file.become_target();
   sync_directory(target);
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <span>
 #include <string>
 
@@ -13,6 +14,8 @@ void check_writable(const std::string& path);
 /// Makes `bytes` appear at `path` completely or not at all: temporary file beside it, fsync, rename, fsync of the
 /// directory. A symbolic link is followed, as by a redirection of the shell: it stays, and the file that it names is
 /// replaced. Throws IoError and removes the temporary file where that fails; an older file is then untouched.
-void publish(const std::string& path, std::span<const std::byte> bytes);
+/// `before_rename` may throw, too: it is the last to see an older file.
+void publish(
+    const std::string& path, std::span<const std::byte> bytes, const std::function<void()>& before_rename = [] {});
 
 }  // namespace clatter

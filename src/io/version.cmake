@@ -1,4 +1,5 @@
 # Writes version.cpp at every build; configure_file leaves the file alone when nothing has changed, so nothing is compiled again.
+set(ARCHIVED "$Format:%H$")  # git archive puts the commit here (.gitattributes), as those do who offer archives for download
 execute_process(
   COMMAND git describe --always --dirty --abbrev=40 --exclude=*
   WORKING_DIRECTORY ${SOURCE_DIR}
@@ -7,6 +8,9 @@ execute_process(
   ERROR_QUIET
   RESULT_VARIABLE failed)
 if(failed OR NOT EXISTS ${SOURCE_DIR}/.git)
+  string(REGEX MATCH "^[0-9a-f]+$" GIT_COMMIT "${ARCHIVED}")
+endif()
+if(NOT GIT_COMMIT)
   set(GIT_COMMIT unknown)
 endif()
 configure_file(${TEMPLATE} ${OUTPUT} @ONLY)

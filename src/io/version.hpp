@@ -7,7 +7,8 @@ namespace clatter {
 /// The project's version, e.g. "0.1.0".
 [[nodiscard]] std::string_view version();
 
-/// The commit it was built from, with "-dirty" where files had changed; "unknown" outside git.
+/// The commit it was built from, with "-dirty" where files had changed; that of the archive where there is no git, else
+/// "unknown".
 [[nodiscard]] std::string_view git_commit();
 
 /// The compiler that built it, e.g. "GNU 12.2.0".

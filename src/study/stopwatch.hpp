@@ -16,7 +16,7 @@ class Stopwatch {
   /// Lets a trial run often enough to be measured; a slow one is measured in the first rounds only. `run` is told how
   /// often, and says how many forcing periods that took.
   void measure(const std::function<double(int times)>& run, int round) {
-    if ((round > 0 && seconds_ > 5) || (round > 2 && seconds_ > 1)) return;
+    if (is_left_out(seconds_, round)) return;
     const auto begin = std::chrono::steady_clock::now();
     const double periods = run(batch_);
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
@@ -24,11 +24,23 @@ class Stopwatch {
     if (round >= 0) ns_per_period_.push_back(1e9 * seconds / periods);
     batch_ = static_cast<int>(std::clamp(shortest / seconds_, 1.0, 1e6));
   }
+  /// Of one run, as last measured.
+  [[nodiscard]] double seconds() const { return seconds_; }
+  /// How long a measurement lasts of a trial that takes so long; 0: it never runs.
+  [[nodiscard]] static double lasts(double seconds, int round) {
+    if (seconds == 0 || is_left_out(seconds, round)) return 0;
+    return round < 0 ? seconds : std::max(shortest, seconds);
+  }
+
   [[nodiscard]] double median() { return quantile(0.5); }
   [[nodiscard]] double spread() { return ns_per_period_.size() > 1 ? quantile(0.75) - quantile(0.25) : no_value; }
 
  private:
   static constexpr double shortest = 2e-3;  // seconds
+
+  [[nodiscard]] static bool is_left_out(double seconds, int round) {
+    return (round > 0 && seconds > 5) || (round > 2 && seconds > 1);
+  }
 
   [[nodiscard]] double quantile(double share) {
     if (ns_per_period_.empty()) return no_value;

@@ -1,12 +1,14 @@
 #include "study/study.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <complex>
 #include <optional>
 #include <span>
 
 #include "study/comparison.hpp"
+#include "study/forecast.hpp"
 #include "study/references.hpp"
 #include "study/stopwatch.hpp"
 #include "sweep/lane_points.hpp"
@@ -175,22 +177,23 @@ class Bench {
 /// The study of one scene.
 class Study {
  public:
-  Study(const Scene& scene, const StudyOptions& options) : scene_(scene), options_(options) {
+  Study(const Scene& scene, const std::vector<Trial>& trials, const StudyOptions& options)
+      : scene_(scene), trials_(trials), options_(options), forecast_(trials, options.rounds) {
     scene_.integration.method = Method::exact, scene_.integration.all_effects = false;
     scene_.observe = {};
   }
 
-  PointStudy run(const std::vector<Trial>& trials) {
+  PointStudy run() {
     if (!stopped()) references_ = references_of(scene_, options_.stopped);
     std::vector<Prepared> prepared;
-    for (const Trial& trial : trials) prepared.push_back(prepare(trial, scene_, references_));
+    for (const Trial& trial : trials_) prepared.push_back(prepare(trial, scene_, references_));
     PointStudy study{.asked = references_.asked,
                      .horizon = references_.horizon,
                      .impacts = references_.count(Event::Kind::impact),
                      .rests = references_.count(Event::Kind::rest),
                      .steady_periods = references_.periodic ? references_.steady_periods : no_value,
                      .rows = {}};
-    for (const Prepared& trial : prepared) study.rows.push_back(row_of(trial));
+    for (const Prepared& trial : prepared) study.rows.push_back(row_of(trial, study.rows.size()));
     measure(prepared, study.rows);
     return study;
   }
@@ -198,19 +201,19 @@ class Study {
  private:
   [[nodiscard]] bool stopped() const { return options_.stopped && options_.stopped(); }
   void step() const {
-    if (options_.progress) options_.progress();
+    if (options_.progress) options_.progress(forecast_.seconds_left());
   }
 
-  [[nodiscard]] StudyRow row_of(const Prepared& prepared) const {
+  [[nodiscard]] StudyRow row_of(const Prepared& prepared, std::size_t number) {
     StudyRow row{.trial = prepared.trial, .status = references_.not_run};
     const bool empty = prepared.silent.time.mode == Mode::transient && !(prepared.silent.time.duration > 0);
     if (stopped()) return row;
-    if (empty) {
-      step();
-      return row;
+    const auto begin = std::chrono::steady_clock::now();
+    if (!empty) {
+      Bench bench(prepared.observed.observe);
+      if (const std::optional<PointResult> result = result_of(prepared, bench.workshop())) take(prepared, *result, row);
     }
-    Bench bench(prepared.observed.observe);
-    if (const std::optional<PointResult> result = result_of(prepared, bench.workshop())) take(prepared, *result, row);
+    forecast_.ran(number, std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
     step();
     return row;
   }
@@ -255,7 +258,7 @@ class Study {
   }
 
   /// All trials in turn, so that what disturbs the machine disturbs them alike.
-  void measure(const std::vector<Prepared>& prepared, std::vector<StudyRow>& rows) const {
+  void measure(const std::vector<Prepared>& prepared, std::vector<StudyRow>& rows) {
     std::vector<Stopwatch> stopwatches(prepared.size());
     for (int round = -1; round < options_.rounds; ++round) {  // the first one warms up
       for (std::size_t i = 0; i < prepared.size(); ++i) {
@@ -266,6 +269,7 @@ class Study {
           const auto run = [&](int times) { return run_silently(prepared[i], bench.workshop(), times); };
           stopwatches[i].measure(run, round);
         }
+        forecast_.measured(i, round, stopwatches[i].seconds());
         if (round >= 0) step();
       }
     }
@@ -274,7 +278,9 @@ class Study {
   }
 
   Scene scene_;
+  const std::vector<Trial>& trials_;
   const StudyOptions& options_;
+  Forecast forecast_;
   References references_{};
 };
 
@@ -285,7 +291,7 @@ std::size_t steps_of(std::size_t rows, const StudyOptions& options) {
 }
 
 PointStudy study(const Scene& scene, const std::vector<Trial>& trials, const StudyOptions& options) {
-  return Study(scene, options).run(trials);
+  return Study(scene, trials, options).run();
 }
 
 }  // namespace clatter

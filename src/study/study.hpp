@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "study/trial.hpp"
@@ -41,9 +42,10 @@ struct PointStudy {
 };
 
 struct StudyOptions {
-  int rounds = 9;                    ///< measurements of time a row, at most
-  std::function<void()> progress{};  ///< called after every trial and every round
-  std::function<bool()> stopped{};   ///< asked before every run; once true, nothing more is run
+  int rounds = 9;  ///< measurements of time a row, at most
+  /// Called after every trial and every round, with the seconds that the rest takes, once they can be told.
+  std::function<void(std::optional<double> seconds_left)> progress{};
+  std::function<bool()> stopped{};  ///< asked before every run; once true, nothing more is run
 };
 
 /// Calls of `progress` in the study of a point, so many rows.

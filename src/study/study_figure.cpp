@@ -90,6 +90,7 @@ Figure study_figure(const Sweep& sweep, const std::vector<PointStudy>& points) {
       for (const StudyRow& row : point.rows) values.push_back(row.*value);
     figure.variables.push_back({name, over_rows, std::move(values), long_name, "1"});
   }
+  name_linked_axes(sweep, figure);
   return figure;
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <span>
 #include <stdexcept>
 #include <type_traits>
 
@@ -101,6 +102,22 @@ void add_axes(const Sweep& sweep, Figure& figure) {
                                   axis.values,
                                   long_name_of(axis.parameter),
                                   axis.parameter == Parameter::phase ? "rad" : "1"});
+  }
+}
+
+void name_linked_axes(const Sweep& sweep, Figure& figure) {
+  std::vector<std::string> axes;
+  for (const Dimension& dimension : sweep.dimensions)
+    for (const Axis& axis : dimension) axes.emplace_back(key_of(axis.parameter));
+  for (Variable& variable : figure.variables) {
+    if (std::ranges::find(axes, variable.name) != axes.end()) continue;
+    std::string linked;
+    for (const Dimension& dimension : sweep.dimensions) {
+      if (std::ranges::find(variable.dimensions, name_of(dimension)) == variable.dimensions.end()) continue;
+      for (const Axis& axis : std::span(dimension).subspan(1))
+        linked.append(linked.empty() ? "" : " ").append(key_of(axis.parameter));
+    }
+    if (!linked.empty()) variable.attributes.emplace_back("coordinates", linked);
   }
 }
 
@@ -273,6 +290,7 @@ Figure Columns::figure() {
         {output.name, std::move(dimensions), std::move(values_[i]), output.long_name, output.units});
   }
   if (sweep_.scene.observe.impact_log) add_impact_log(figure);
+  name_linked_axes(sweep_, figure);
   return figure;
 }
 

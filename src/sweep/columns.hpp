@@ -30,6 +30,10 @@ struct Output {
 /// Adds the sweep's dimensions and the coordinates along them.
 void add_axes(const Sweep& sweep, Figure& figure);
 
+/// Names the axes that are linked to others in the variables over their dimensions, by which readers know them for
+/// coordinates (CF conventions, 5). To be called when all variables are there.
+void name_linked_axes(const Sweep& sweep, Figure& figure);
+
 /// Names of the sweep's dimensions.
 [[nodiscard]] std::vector<std::string> axis_names(const Sweep& sweep);
 

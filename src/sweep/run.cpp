@@ -21,23 +21,25 @@
 #include "sweep/plan.hpp"
 #include "sweep/point.hpp"
 #include "sweep/rounding.hpp"
+#include "sweep/scatter.hpp"
 
 namespace clatter {
 namespace {
 
-/// Calls the user's progress function a few times a second, from one thread at a time.
+/// Calls the user's progress function a few times a second, and for every hundredth of the whole, from one thread at a
+/// time.
 class Progress {
  public:
   Progress(const RunOptions& options, std::size_t total, std::size_t done)
-      : report_(options.progress), total_(total), done_(done) {}
+      : report_(options.progress), total_(total), done_(done), reported_(done) {}
 
   void add_point() {
     if (!report_) return;
     const std::lock_guard lock(mutex_);
     ++done_;
     const auto now = Clock::now();
-    if (now - last_ <= std::chrono::milliseconds(200) && done_ != total_) return;
-    last_ = now;
+    if (now - last_ <= std::chrono::milliseconds(200) && 100 * (done_ - reported_) < total_ && done_ != total_) return;
+    last_ = now, reported_ = done_;
     report_(done_, total_);
   }
 
@@ -45,7 +47,7 @@ class Progress {
   using Clock = std::chrono::steady_clock;
   const std::function<void(std::size_t, std::size_t)>& report_;
   std::mutex mutex_;
-  std::size_t total_, done_;
+  std::size_t total_, done_, reported_;
   Clock::time_point last_{};
 };
 
@@ -88,6 +90,7 @@ class Team {
         chunk_(sweep.follow
                    ? 1
                    : std::clamp<std::size_t>(share_.count() / (64 * static_cast<std::size_t>(threads)), 1, 64)),
+        chunks_((share_.count() + chunk_ - 1) / chunk_),
         arch_(options.arch),
         in_lanes_(options.arch != Arch::scalar && lanes_can_run(sweep)),
         workshops_(static_cast<std::size_t>(threads)),
@@ -146,9 +149,13 @@ class Team {
   };
   /// Branches that no thread has begun; nothing where none is left, or another thread has failed.
   std::optional<Chunk> next_chunk() {
-    const std::size_t begin = begun_.fetch_add(chunk_);
-    if (stopped_ || begin >= share_.count()) return std::nullopt;
-    return Chunk{begin, std::min(begin + chunk_, share_.count())};
+    for (;;) {
+      const std::size_t turn = turn_.fetch_add(1);
+      if (stopped_ || turn >= chunks_.turns()) return std::nullopt;
+      const auto number = chunks_.number(turn);
+      if (!number) continue;
+      return Chunk{*number * chunk_, std::min((*number + 1) * chunk_, share_.count())};
+    }
   }
 
   [[nodiscard]] bool is_restored(std::size_t branch) const { return states_[branch] == BranchState::saved; }
@@ -240,9 +247,10 @@ class Team {
   Progress progress_;
   std::optional<FourierTransform> transform_;
   std::size_t chunk_;  ///< branches that a thread takes at once
+  Scatter chunks_;     ///< the order of the chunks
   Arch arch_;
   bool in_lanes_;
-  std::atomic<std::size_t> begun_ = 0;     ///< branches that a thread has taken
+  std::atomic<std::size_t> turn_ = 0;      ///< the next one of the chunks
   std::vector<Workshop> workshops_;        ///< [thread]
   std::vector<std::vector<Usage>> usage_;  ///< [thread]
   LaneWork lane_work_;

@@ -78,7 +78,7 @@ class Study(Studies):
         result = self.study(config, "--json", "--progress", "always")
         *_, bar, output = result.stderr.splitlines()
         self.assertRegex(bar, r"^\[#{30}\] 100 %  610/610 runs  .* runs/s  .* left$")
-        self.assertEqual(output, "a.h5")
+        self.assertEqual(output, "a.accuracy.h5")
         rows = objects(result.stdout)
         self.assertEqual([row["method"] for row in rows], METHODS + REPEATS)
         for row in rows:
@@ -102,9 +102,9 @@ class Study(Studies):
                 self.assertLess(lanes[key], 1e-13, key)
             self.assertEqual((lanes["missed"], lanes["doubled"]), (0, 0))
         self.assertEqual([row["setting"] for row in rows[2:13]], [1 / 10**n for n in range(3, 14)])
-        self.assert_file_holds("a.h5", rows)
-        self.reads_with_named_axes("a.h5")
-        self.repeats("a.h5")
+        self.assert_file_holds("a.accuracy.h5", rows)
+        self.reads_with_named_axes("a.accuracy.h5")
+        self.repeats("a.accuracy.h5")
 
     def reads_with_named_axes(self, name):
         with xarray.open_dataset(self.directory / name, engine="h5netcdf") as file:
@@ -119,8 +119,8 @@ class Study(Studies):
         """The configuration in the file gives the same file, but for times; the table has a line a row."""
         self.write("again.toml", self.clatter("info", name, "--config").stdout)
         result = self.study("again.toml")
-        self.assertEqual(result.stderr, "again.h5\n")  # no bar without a terminal
-        with h5py.File(self.directory / name) as one, h5py.File(self.directory / "again.h5") as other:
+        self.assertEqual(result.stderr, "again.accuracy.h5\n")  # no bar without a terminal
+        with h5py.File(self.directory / name) as one, h5py.File(self.directory / "again.accuracy.h5") as other:
             self.assertEqual(set(one), set(other))
             self.assertEqual(one.attrs["config"], other.attrs["config"])
             for variable in set(one) - TIMES:
@@ -160,7 +160,7 @@ class Study(Studies):
             self.assertEqual([row[key] for key in KEYS if key.startswith("error")], [None] * 4)
             self.assertGreaterEqual(row["status"], 16)
             self.assertEqual(row["horizon"], 0)
-        self.assert_file_holds("a.h5", rows)
+        self.assert_file_holds("a.accuracy.h5", rows)
         table = self.study(config, "-o", "b.h5", code=1).stdout
         self.assertIn("not compared", table)
         self.assertEqual(table.count("  event_budget\n"), 61)
@@ -172,11 +172,11 @@ class Study(Studies):
                 rows = objects(self.study(config, "--json", *words, code=1, arch=variable).stdout)
                 self.assertEqual([(place, row["arch"]) for place, row in enumerate(rows) if row["arch"] != "scalar"],
                                  [(place, name) for place in LANES])
-                self.assert_file_holds("a.h5", rows)
+                self.assert_file_holds("a.accuracy.h5", rows)
         rows = objects(self.study(config, "--json", "--arch", "scalar", code=1).stdout)
         self.assertEqual({row["arch"] for row in rows}, {"scalar"})
         self.assertEqual(len(rows), 59)
-        self.assert_file_holds("a.h5", rows)
+        self.assert_file_holds("a.accuracy.h5", rows)
 
     def test_of_points_that_lanes_leave_to_the_scalar_kernel_says_so(self):
         scene = SCENE.replace("h = 0.1\n", "")
@@ -185,7 +185,7 @@ class Study(Studies):
         sentence = r"^(exact|steady) +\w+  not in lanes: this motion is left to the scalar kernel$"
         self.assertEqual(re.findall(sentence, table, re.MULTILINE), ["exact", "steady"])
         self.assertLess(table.index("h = 2"), table.index("not in lanes"))
-        with h5py.File(self.directory / "a.h5") as file:
+        with h5py.File(self.directory / "a.accuracy.h5") as file:
             for key in ("error_extrema", "error_harmonics", "missed", "impacts", "simulated_periods", "ns_per_period"):
                 self.assertEqual(np.isnan(file[key][:, list(LANES)]).tolist(), [[False, False], [True, True]], key)
             self.assertLess(file["status"][()].max(), 16)
@@ -200,7 +200,7 @@ class Study(Studies):
             time.sleep(0.01)
         self.assertEqual(process.returncode, 1, process.communicate())
         process.communicate()
-        self.assertEqual(self.files(), ["a.h5", "a.toml"])
+        self.assertEqual(self.files(), ["a.accuracy.h5", "a.toml"])
 
 
 class Interrupts(Studies):
@@ -227,18 +227,19 @@ class Interrupts(Studies):
         self.write("a.toml", STEADY + "[sweep]\nnu = [0.9, 1.0, 1.1]\n")
         code, out, err = self.interrupted(signal.SIGINT, "stderr", b" runs ", "--progress", "always")
         self.assertEqual((code, out), (130, ""), err)
-        self.assertIn("stopped after 0 of 3 points; a.h5 is not written\n", err)
+        self.assertIn("stopped after 0 of 3 points; a.accuracy.h5 is not written\n", err)
         self.assertEqual(self.files(), ["a.toml"])
 
     def test_sigterm_after_the_first_point_keeps_what_was_printed_and_the_older_file(self):
-        self.write("a.toml", STEADY + "[sweep]\nnu = [0.9, 1.0, 1.1]\n")
-        self.write("a.h5", "an older file")
+        config = self.write("a.toml", STEADY + "[sweep]\nnu = [0.9, 1.0, 1.1]\n")
+        self.study(config, "--set", "time.max_impacts=1", code=1)
+        older = (self.directory / "a.accuracy.h5").read_bytes()
         code, out, err = self.interrupted(signal.SIGTERM, "stdout", b"\n", "--json")
         self.assertEqual(code, 143, err)
-        finished = int(re.fullmatch(NOTED + r"stopped after ([12]) of 3 points; a\.h5 is not written\n", err)[1])
+        finished = int(re.fullmatch(NOTED + r"stopped after ([12]) of 3 points; a\.accuracy\.h5 is not written\n", err)[1])
         self.assertEqual([row["point"] for row in objects(out)], [0] * 61 + [1] * 61 * (finished - 1))
-        self.assertEqual(self.files(), ["a.h5", "a.toml"])
-        self.assertEqual((self.directory / "a.h5").read_text(), "an older file")
+        self.assertEqual(self.files(), ["a.accuracy.h5", "a.toml"])
+        self.assertEqual((self.directory / "a.accuracy.h5").read_bytes(), older)
 
 
 class Refusals(Studies):
@@ -274,10 +275,10 @@ class Methods(CommandLine):
         config = self.write("a.toml", SMALL + "harmonics = 3\nimpacts = true\ntrajectory = 11\n")
         shapes, largest = {}, {}
         for method in ("exact", "dopri5", "moreau"):
-            result = self.clatter("run", config, "-q", "-o", "a.h5", f"--set=integrator.method={method}",
+            result = self.clatter("run", config, "-q", "-o", "a.accuracy.h5", f"--set=integrator.method={method}",
                                   "--set", "time.tolerance=1e-9")
             self.assertEqual((result.returncode, result.stdout, result.stderr), (0, "", ""), method)
-            with h5py.File(self.directory / "a.h5") as file:
+            with h5py.File(self.directory / "a.accuracy.h5") as file:
                 shapes[method] = {name: (file[name].shape, file[name].dtype) for name in file}
                 largest[method] = file["x_max"][()]
         self.assertIn("v_amplitude", shapes["exact"])

@@ -13,6 +13,7 @@ from matplotlib import image
 CLATTER = os.environ["CLATTER"]
 SOURCE = Path(os.environ["CLATTER_SOURCE"])
 PLOT = ["/usr/bin/python3", SOURCE / "scripts" / "plot.py"]
+WARNINGS = ("-W", "default::UserWarning", "-W", "default::RuntimeWarning")  # else plot.py is silent about them
 
 # name: (configuration, --set ..., exit code of the run): one of each kind of picture, with few points
 KINDS = {
@@ -32,13 +33,19 @@ KINDS = {
                           "observe.extrema=false"], 0),
     "cube": ("map_nu_xs", ["sweep.nu=[0.9, 1]", "sweep.xs=[3, 4]", "sweep.phase=[0, 1]", "time.max_impacts=200",
                            "observe.impacts=false"], 1),
+    "equal": ("asymmetric", ["sweep.nu=[1, 1]"], 0),
+    "equals": ("map_nu_xs", ["sweep.nu=[1, 1]", "sweep.xs=[3, 3]", "time.max_periods=100"], 0),
+    "lost": ("map_nu_xs", ["sweep.nu=[0.9, 1, 1.1]", "sweep.xs=[0.1, 0.2]", "time.max_impacts=1"], 1),
+    "lost_point": ("fig18", ["time.max_impacts=1"], 1),
+    "lost_motion": ("fig18", ["time.max_impacts=1", "observe.trajectory=0"], 1),
+    "aperiodic": ("asymmetric", ["sweep.nu=[0.9, 1, 1.1]", "time.max_periods=3"], 0),
     "bare": ("asymmetric", ["sweep.nu=[0.5, 1, 2]", "observe.extrema=false", "observe.impacts=false",
                             "observe.period=false"], 0),
 }
 
 
-def plot(*arguments):
-    return subprocess.run([*PLOT, *arguments], capture_output=True, text=True)
+def plot(*arguments, warnings=()):
+    return subprocess.run([PLOT[0], *warnings, *PLOT[1:], *arguments], capture_output=True, text=True)
 
 
 class Pictures(unittest.TestCase):
@@ -52,7 +59,7 @@ class Pictures(unittest.TestCase):
             result = subprocess.run([*command, "--progress", "never"], capture_output=True, text=True)
             assert result.returncode == code, (name, result.returncode, result.stderr)
         cls.files = [cls.folder / f"{name}.h5" for name in KINDS]
-        cls.result = plot(*cls.files)
+        cls.result = plot(*cls.files, warnings=WARNINGS)
 
     @classmethod
     def tearDownClass(cls):
@@ -73,6 +80,13 @@ class Pictures(unittest.TestCase):
                 drawing = xml.etree.ElementTree.parse(self.folder / f"{name}.svg")
                 self.assertGreater(sum(1 for element in drawing.iter() if element.tag.endswith("}path")), 20)
 
+    def test_warnings_of_libraries_are_not_the_users(self):
+        command = [CLATTER, "run", SOURCE / "configs" / "fig18.toml", "-o", self.folder / "unseen.h5"]
+        command += ["--set", "title=\N{SNOWMAN}\u632f"]
+        subprocess.run(command, check=True, capture_output=True)
+        self.assertIn("missing from current font", plot(self.folder / "unseen.h5", warnings=WARNINGS).stderr)
+        self.assertEqual(plot(self.folder / "unseen.h5").stderr, "")
+
     def test_a_second_run_gives_the_same_bytes(self):
         names = ("free", "extrema", "followed")
         again = self.folder / "new" / "folder"
@@ -91,6 +105,17 @@ class Pictures(unittest.TestCase):
             self.assertEqual([file.name for file in (self.folder / turn).iterdir()], ["ratio.pdf"])
         self.assertEqual(*((self.folder / turn / "ratio.pdf").read_bytes() for turn in ("one", "two")))
 
+    def test_files_may_follow_the_formats(self):
+        ratio, free = self.folder / "ratio.h5", self.folder / "free.h5"
+        for words, names in ((["--format", "pdf", ratio], ["ratio.pdf"]),
+                             (["--format", "svg", "pdf", ratio], ["ratio.svg", "ratio.pdf"]),
+                             ([ratio, "--format", "pdf", "svg"], ["ratio.pdf", "ratio.svg"]),
+                             ([ratio, "--format", "pdf", free], ["ratio.pdf", "free.pdf"])):
+            with self.subTest(words):
+                folder = self.folder / "formats"
+                result = plot("-o", folder, *words)
+                self.assertEqual(result.stdout.split(), [str(folder / name) for name in names], result.stderr)
+
     def test_files_that_are_not_clatters_are_refused_in_one_line(self):
         (self.folder / "text.h5").write_text("no HDF5\n")
         with h5py.File(self.folder / "foreign.h5", "w") as file:
@@ -98,7 +123,12 @@ class Pictures(unittest.TestCase):
         with h5py.File(self.folder / "later.h5", "w") as file:
             file.attrs["clatter_schema"] = "clatter/2"
         (self.folder / "folder.h5").mkdir()
-        for name, reason in (("missing.h5", "no such file"), ("text.h5", "not an HDF5 file"), ("folder.h5", "a folder"),
+        os.mkfifo(self.folder / "pipe.h5")
+        with h5py.File(self.folder / "damaged.h5", "w") as file:
+            file.attrs.update({"clatter_schema": "clatter/1", "config": "no = configuration ="})
+            file["status"] = [0]
+        for name, reason in (("pipe.h5", "not a regular file"), ("damaged.h5", "damaged ("),
+                             ("missing.h5", "no such file"), ("text.h5", "not an HDF5 file"), ("folder.h5", "a folder"),
                              ("foreign.h5", "not a clatter/1 file"), ("later.h5", "clatter/2")):
             with self.subTest(name):
                 result = plot(self.folder / name)
@@ -107,12 +137,18 @@ class Pictures(unittest.TestCase):
                 self.assertIn(f"{self.folder / name}: ", result.stderr)
                 self.assertIn(reason, result.stderr)
 
+    def test_an_empty_name_is_refused_in_one_line(self):
+        result = plot("")
+        self.assertEqual(result.returncode, 74)
+        self.assertRegex(result.stderr, r"^plot.py: '': an empty name; .*\n$")
+
     def test_a_folder_that_cannot_be_made_is_an_error(self):
         result = plot(self.folder / "ratio.h5", "-o", self.folder / "ratio.h5" / "inside")
         self.assertEqual((result.returncode, result.stderr.count("\n")), (74, 1))
 
     def test_wrong_command_lines(self):
-        for arguments in ([], ["--nonsense", "a.h5"], ["a.h5", "--format", "gif"], ["a.h5", "--form", "svg"]):
+        for arguments in ([], ["--nonsense", "a.h5"], ["a.h5", "--format", "gif"], ["a.h5", "--form", "svg"],
+                          ["--format", "a.h5"], ["a.h5", "--format", "svg", "gif"], ["--format", "svg"]):
             with self.subTest(arguments):
                 result = plot(*arguments)
                 self.assertEqual(result.returncode, 2)

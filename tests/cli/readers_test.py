@@ -137,6 +137,17 @@ class Readers(unittest.TestCase):
         with h5py.File(path) as file:
             self.assertEqual(list(file["f"]), [-1.0, -1.1, -1.2])
 
+    def test_linked_axes_are_coordinates_of_what_runs_along_them(self):
+        linked = quoted("nu, f, load")
+        sweep = {"nu": [0.9, 1.0, 1.1], "f": [-1.0, -1.1, -1.2], "load": [0, 0.1, 0.2], "R": [0.5, 0.7], "linked": linked}
+        path = self.run_clatter(toml(sweep=sweep, observe={"extrema": True, "impacts": True, "impact_log": True}))
+        for engine in ("h5netcdf", "netcdf4"):
+            with self.subTest(engine=engine), xarray.open_dataset(path, engine=engine) as data:
+                self.assertEqual(set(data.coords), {"nu", "f", "load", "R", "stop"})
+                self.assertEqual(set(data.x_max.coords), {"nu", "f", "load", "R"})
+                self.assertEqual(set(data.impact_tau.coords), set())
+                self.assertEqual(float(data.x_max.swap_dims(nu="f").sel(f=-1.1, R=0.5)), float(data.x_max[1, 0]))
+
     def test_no_axes_give_scalars(self):
         self.assert_contents(self.run_clatter(toml(observe={"extrema": True})), {}, {
             **{name: ((), kind) for name, kind in ALWAYS.items()},

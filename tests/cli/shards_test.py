@@ -62,6 +62,13 @@ class Shards(StoppedRuns):
             shards = [self.shard(k, 4, threads=1 + k % 3, interrupted=k == 2) for k in range(4)]
             self.assertEqual(self.merged(shards), whole, follow)
 
+    def test_linked_axes_are_merged_as_coordinates(self):
+        self.config = self.directory / self.write("a.toml", SMALL.replace("f = -1.0\n", "").replace(
+            "[observe]", 'f = "linspace(-1, -2, 5)"\nR = [0.5, 0.7]\nlinked = "nu, f"\n[observe]').replace("R = 0.7\n", ""))
+        whole = self.undisturbed()
+        self.assertIn(b"coordinates", whole)
+        self.assertEqual(self.merged([self.shard(k, 3) for k in range(3)]), whole)
+
     def test_shards_of_different_counts_merge_where_they_make_a_whole(self):
         self.sweep(nu=10, xs=7)
         whole = self.undisturbed()

@@ -206,7 +206,7 @@ TEST(Study, makes_as_much_progress_as_it_said) {
   for (const int rounds : {0, 1, 3}) {
     for (const Scene& scene : {smooth_scene(), transient_scene(), unforced_scene(), failing_scene()}) {
       std::size_t steps = 0;
-      const StudyOptions options{.rounds = rounds, .progress = [&] { ++steps; }};
+      const StudyOptions options{.rounds = rounds, .progress = [&](auto) { ++steps; }};
       const auto rows = study(scene, one_of_each(), options).rows;
       EXPECT_EQ(steps, steps_of(rows.size(), options)) << rounds << " rounds, f = " << scene.oscillator.forcing
                                                        << ", at most " << scene.time.max_impacts << " impacts";
@@ -217,7 +217,7 @@ TEST(Study, makes_as_much_progress_as_it_said) {
 TEST(Study, stopped_before_it_begins_runs_nothing) {
   std::size_t steps = 0;
   const PointStudy found =
-      study(smooth_scene(), one_of_each(), {.progress = [&] { ++steps; }, .stopped = [] { return true; }});
+      study(smooth_scene(), one_of_each(), {.progress = [&](auto) { ++steps; }, .stopped = [] { return true; }});
   EXPECT_EQ(steps, 0u);
   EXPECT_EQ(found.rows.size(), one_of_each().size());
   for (const StudyRow& row : found.rows) {
@@ -236,7 +236,7 @@ TEST(Study, stops_wherever_it_is_told_to) {
     std::size_t questions = 0, steps = 0, steps_after = 0;
     bool told = false;
     const StudyOptions options{.rounds = 1,
-                               .progress = [&] { ++steps, steps_after += told; },
+                               .progress = [&](auto) { ++steps, steps_after += told; },
                                .stopped = [&] { return told = ++questions >= last; }};
     (void)study(smooth_scene(), one_of_each(), options);
     EXPECT_EQ(steps_after, 0u) << "told at question " << last;

@@ -110,6 +110,15 @@ TEST(StudyFigure, names_the_instruction_set_of_each_row) {
   EXPECT_EQ(std::get<std::string>(arch.attributes[1].second), "scalar sse2 avx2 avx512");
 }
 
+TEST(StudyFigure, names_linked_axes_as_coordinates) {
+  Sweep sweep = sweep_of(smooth_scene(), {});
+  sweep.dimensions = {{{Parameter::nu, {0.9, 1.0}}, {Parameter::f, {1.0, 2.0}}}};
+  const Figure figure = study_figure(sweep, std::vector<PointStudy>(2));
+  for (const char* name : {"status", "horizon", "missed"})
+    EXPECT_EQ(find(figure, name)->attributes.back(), (Attribute{"coordinates", "f"})) << name;
+  for (const char* name : {"nu", "f", "setting"}) EXPECT_TRUE(find(figure, name)->attributes.empty()) << name;
+}
+
 TEST(StudyFigure, of_one_point_has_rows_alone) {
   const Sweep sweep = sweep_of(smooth_scene(), {});
   const std::vector<PointStudy> points{study(smooth_scene(), {{Studied::exact, no_setting}}, {.rounds = 0})};

@@ -124,7 +124,7 @@ TEST_P(StudyInLanes, that_fails_says_why) {
 
 TEST_P(StudyInLanes, gives_the_same_bits_but_for_times_which_every_row_has) {
   std::size_t steps = 0;
-  const StudyOptions options{.rounds = 2, .progress = [&] { ++steps; }};
+  const StudyOptions options{.rounds = 2, .progress = [&](auto) { ++steps; }};
   const PointStudy timed = both(smooth_scene(), options), untimed = both(smooth_scene());
   EXPECT_EQ(steps, steps_of(4, options));
   for (std::size_t i = 0; i < 4; ++i) {
