@@ -90,9 +90,7 @@ void say_plan(const Config& config, int threads) {
 void run_points(SweepRun& sweep, RunOptions options, bool shown) {
   Progress progress(shown, "points", static_cast<double>(sweep.restored_points()));
   if (shown)
-    options.progress = [&](std::size_t finished, std::size_t total) {
-      progress.show(static_cast<double>(finished), static_cast<double>(total));
-    };
+    options.progress = [&](double finished, std::size_t total) { progress.show(finished, static_cast<double>(total)); };
   sweep.run(options);
 }
 
@@ -115,6 +113,7 @@ int run_config(const Arguments& arguments) {
   check_memory(config.sweep, shard);
   if (arguments.has("verbose")) say_plan(config, threads);
   if (!arguments.has("quiet")) warn(config);
+  if (!arguments.has("quiet") && !arguments.has("verbose")) warn_of_dearest_point(config.sweep);
 
   SweepRun sweep(config.sweep, shard);
   Journal journal(output, key_of(config, arch, shard), begin, [&](std::span<const std::byte> results) {

@@ -4,6 +4,7 @@
 #include <iostream>
 
 #include "io/place.hpp"
+#include "sweep/dearest_point.hpp"
 
 namespace clatter {
 
@@ -16,6 +17,10 @@ void warn(const Config& config, std::span<const std::string_view> but) {
 
 void warn(const Plan& plan) {
   for (const std::string& warning : plan.warnings) std::cerr << "warning: " << warning << '\n';
+}
+
+void warn_of_dearest_point(const Sweep& sweep) {
+  if (const auto warning = clatter::warning_of_dearest_point(sweep)) std::cerr << "warning: " << *warning << '\n';
 }
 
 void say_notes(const Config& config) {

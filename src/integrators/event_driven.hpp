@@ -31,6 +31,7 @@ class EventDriven : public Setup<N, E> {
   template <class Observer>
   [[nodiscard]] Outcome advance(State<Number>& state, const Number& end, std::int64_t origin, Observer& observer) {
     while (end - state.turns > 2 * epsilon<Number>()) {  // fly, find the contact, rebound: the whole algorithm
+      this->report(state);
       if (const auto stop = this->holding_stop(state)) {
         rest(state, *stop, end, origin, observer);
         continue;

@@ -1,8 +1,11 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <concepts>
 #include <cstdint>
+#include <functional>
+#include <limits>
 #include <optional>
 
 #include "dynamics/impact.hpp"
@@ -33,7 +36,18 @@ class Setup {
       : flow_(scene.oscillator),
         stops_(in_reach),
         budget_(scene.time.max_impacts),
+        longest_(scene.time.mode == Mode::transient ? scene.time.duration / static_cast<double>(flow_.period)
+                                                    : static_cast<double>(scene.time.max_periods)),
         start_turns_(turns_of(scene.start.phase)) {}
+
+  /// Called with the share of what a run may come to, some times a second in a long one.
+  using Listener = std::function<void(double share)>;
+
+  /// Tells somebody, if there is anybody, how far the run has come.
+  void report_to(const Listener* listener) {
+    listener_ = listener != nullptr && *listener ? listener : nullptr;
+    next_report_ = listener_ != nullptr ? evaluations_ + between_reports : infinity;
+  }
 
   [[nodiscard]] const Flow<Number, E.arc()>& flow() const { return flow_; }
   [[nodiscard]] const Stops& stops() const { return stops_; }          ///< that contacts are looked for with
@@ -71,6 +85,13 @@ class Setup {
   /// Takes note of an impact; whether the budget allows for it.
   [[nodiscard]] bool count_impact() { return ++impacts_ <= budget_; }
   void count_evaluations(double count) { evaluations_ += count; }
+  void report(const State<Number>& state) {
+    if (evaluations_ < next_report_) [[likely]]
+      return;
+    const double turns = static_cast<double>(state.periods) + static_cast<double>(state.turns);
+    (*listener_)(std::min(1.0, std::max(impacts_ / budget_, turns / longest_)));
+    next_report_ = evaluations_ + between_reports;
+  }
 
   template <class Observer>
   void show_impact(const State<Number>& state, const Stop<Number>& stop, const Number& before, std::int64_t origin,
@@ -86,6 +107,9 @@ class Setup {
   }
 
  private:
+  static constexpr double between_reports = 1 << 18;  ///< evaluations: a tenth of a second or so
+  static constexpr double infinity = std::numeric_limits<double>::infinity();
+
   [[nodiscard]] static Number turns_of(double phase) {
     using std::atan2, std::cos, std::sin;
     const Number angle(phase);
@@ -95,9 +119,12 @@ class Setup {
   Flow<Number, E.arc()> flow_;
   Stops stops_;
   double budget_;
+  double longest_;  ///< forcing periods that a run may take
   Number start_turns_;
   double impacts_ = 0.0;
   double evaluations_ = 0.0;
+  const Listener* listener_ = nullptr;
+  double next_report_ = infinity;  ///< evaluations
 };
 
 /// What runs a scene: it advances a state to a phase and shows observers arcs, impacts and rests on the way. Observers

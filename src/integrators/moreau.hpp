@@ -35,6 +35,7 @@ class Moreau : public Setup<double, E> {
     sine_ = this->phase(state).sine;
     if (!bounce_off(state, origin, observer)) return Outcome::event_budget;
     while (end - state.turns > 2 * epsilon<double>()) {
+      this->report(state);
       if (!step(state, next_turns(state.turns, end), origin, observer)) return Outcome::event_budget;
     }
     state.turns = end;

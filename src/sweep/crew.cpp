@@ -15,6 +15,8 @@ std::size_t taken_from(LaneSet& set) {
   return lane;
 }
 
+constexpr std::uint64_t between_looks = 1 << 17;  ///< visits: some tenth of a second
+
 }  // namespace
 
 Crew::Crew(const Visits& visits, Workshop& workshop, Next next, Take take)
@@ -27,6 +29,7 @@ void Crew::run() {
   for (;;) {
     fill();
     if (settling_.taken + observing_.taken == 0) return;
+    if (++visits_made_ % between_looks == 0) take_stock();
     const bool observe = observing_.taken == Row::width || settling_.taken == 0;  // a full bench costs no more
     if (observe) {
       visit(observing_, visits_.observed);
@@ -34,6 +37,24 @@ void Crew::run() {
       visit(settling_, visits_.plain);
     }
   }
+}
+
+/// Looks at points that are long at work between two sections: whether they have spent their budget, and how far all
+/// have come.
+void Crew::take_stock() {
+  double shares = 0;
+  for (Bench* const bench : {&settling_, &observing_})
+    for (std::size_t lane = 0; lane < Row::width; ++lane) {
+      if (!bench->members[lane]) continue;
+      if (bench->members[lane]->has_spent_budget(bench->lanes.impacts.lane[lane])) {
+        const std::unique_ptr<Member> left = leave(*bench, lane, bench->lanes.impacts.lane[lane]);
+        take_(left->task(), left->result(workshop_));
+        if (bench == &observing_) observe_next(lane);
+      } else {
+        shares += bench->members[lane]->share(bench->lanes, lane);
+      }
+    }
+  if (workshop_.progress) workshop_.progress(shares);
 }
 
 /// Lets the next points settle in free lanes, unless many wait to be observed.

@@ -42,6 +42,7 @@ class Crew {
   };
 
   void visit(Bench& bench, VisitLanes kernel);
+  void take_stock();
   void help(Bench& bench, std::size_t lane);
   void look(Bench& bench);
   void look(Bench& bench, std::size_t lane);
@@ -58,6 +59,7 @@ class Crew {
   Bench settling_, observing_;
   std::vector<std::unique_ptr<Member>> waiting_;  ///< to be observed; as many as there are lanes, at most some more
   bool exhausted_ = false;                        ///< there are no more points
+  std::uint64_t visits_made_ = 0;
 };
 
 }  // namespace clatter

@@ -101,7 +101,9 @@ std::optional<Observed> Crew::Member::begin(Lanes& lanes, std::size_t lane) {
 
 Observed Crew::Member::failure(Outcome outcome) const {
   Observed failed{.status = status_of(outcome)};
-  return search_ ? search_->failure(outcome, {}) : failed;
+  if (search_) failed = search_->failure(outcome, {});
+  if (observing_) failed.settled += static_cast<double>(sections_);
+  return failed;
 }
 
 double Crew::Member::x_of(const Lanes& lanes, std::size_t lane, double y) const {
@@ -112,6 +114,7 @@ double Crew::Member::x_of(const Lanes& lanes, std::size_t lane, double y) const 
 
 std::optional<Observed> Crew::Member::at_section(const Lanes& lanes, std::size_t lane) {
   const double impacts = exact_.impacts() + lanes.section_impacts.lane[lane];
+  if (impacts > task_.scene.time.max_impacts) return failure(Outcome::event_budget);
   const Stops& stops = exact_.stops();  // which one was hit isn't known: the one that takes less
   const double kept = std::max(stops.restitution_lower, stops.restitution_upper);
   search_->pass_period({std::bit_cast<std::uint64_t>(lanes.section_trace.lane[lane]),
@@ -120,7 +123,6 @@ std::optional<Observed> Crew::Member::at_section(const Lanes& lanes, std::size_t
   State<double> state;
   state.x = x_of(lanes, lane, lanes.section_y.lane[lane]);
   state.v = lanes.section_v.lane[lane] * lanes.rate.lane[lane], state.periods = ++sections_;
-  if (impacts > task_.scene.time.max_impacts) return failure(Outcome::event_budget);
   return search_->at_section(state);
 }
 
@@ -153,18 +155,27 @@ void Crew::Member::begin_to_observe(Lanes& lanes, std::size_t lane) {
   watch(lanes, lane, std::floor(observed_.turns) == 1, observed_.status != Status::periodic);
 }
 
+/// However late that is seen, the point fails with the same numbers: of the last section before its budget was spent.
+bool Crew::Member::has_spent_budget(double impacts) {
+  if (exact_.impacts() + impacts_ + impacts <= task_.scene.time.max_impacts) return false;
+  observed_ = failure(Outcome::event_budget), gives_up_ = true;
+  return true;
+}
+
 bool Crew::Member::ends(Lanes& lanes, std::size_t lane) {
+  if (has_spent_budget(lanes.section_impacts.lane[lane])) return true;
   sections_ += 1 + std::exchange(quiet_, 0);
   const double whole = std::floor(observed_.turns), left = whole - static_cast<double>(sections_);
   const bool over = left == 0 || has_seen_all(lanes, lane);
   if (left > 0 && over) coast(lanes, lane);
-  if (left == 0 && observed_.turns > whole) finish_period(lanes, lane, observed_.turns - whole);
+  if (left == 0 && observed_.turns > whole) {
+    finish_period(lanes, lane, observed_.turns - whole);
+    if (has_spent_budget(lanes.section_impacts.lane[lane])) return true;
+  }
   lanes.ends.lane[lane] = left == 1 || coasts_ ? 1 : 0;
   lanes.clips.lane[lane] = left == 1 && observed_.status != Status::periodic ? 1 : 0;
   if (left > 1 && !coasts_) quiet_ = std::min({sections_ / 4, longest_quiet, static_cast<std::int64_t>(left) - 2});
   lanes.quiet.lane[lane] = static_cast<double>(quiet_);
-  gives_up_ =
-      gives_up_ || exact_.impacts() + impacts_ + lanes.section_impacts.lane[lane] > task_.scene.time.max_impacts;
   return over || gives_up_;
 }
 
@@ -245,10 +256,18 @@ Outcome Crew::Member::help(Lanes& lanes, std::size_t lane) {
   return outcome;
 }
 
+double Crew::Member::share(const Lanes& lanes, std::size_t lane) const {
+  const TimePlan& time = task_.scene.time;
+  const double impacts = exact_.impacts() + impacts_ + lanes.impacts.lane[lane];
+  const double longest = observing_ ? observed_.turns : static_cast<double>(time.max_periods);
+  return std::min(1.0, std::max(impacts / time.max_impacts, static_cast<double>(sections_) / longest));
+}
+
 PointResult Crew::Member::result(Workshop& workshop) const {
   const Kernel& kernel = settled_ ? *settled_ : exact_;  // what lanes have observed in vain doesn't count
   PointResult result = Point(task_.scene, workshop, kernel).observe(observed_);
   result.impacts += settled_ ? settled_impacts_ : impacts_;
+  if (observed_.status == Status::event_budget) result.impacts = task_.scene.time.max_impacts + 1;
   if (failed(result.status) || result.impacts <= task_.scene.time.max_impacts) return result;
   PointResult over = Point(task_.scene, workshop, kernel).observe(failure(Outcome::event_budget));
   over.impacts = result.impacts, over.periods = result.periods, over.evaluations = result.evaluations;

@@ -37,6 +37,11 @@ class Crew::Member {
   /// Whether the scalar kernel alone would be quicker, or has to observe.
   [[nodiscard]] bool needs_no_lane() const { return gives_up_ || helped_ > 64 + 2 * sections_; }
 
+  /// Whether so many impacts that the lane has met are too many; the point has failed then.
+  [[nodiscard]] bool has_spent_budget(double impacts);
+  /// The share done of all that the point may come to.
+  [[nodiscard]] double share(const Lanes& lanes, std::size_t lane) const;
+
   void add_impacts(double impacts) { impacts_ += impacts; }    ///< that a lane met
   [[nodiscard]] PointResult result(Workshop& workshop) const;  ///< observed by the scalar kernel
   [[nodiscard]] PointResult result(const Lanes& lanes, std::size_t lane, Workshop& workshop) const;

@@ -10,6 +10,7 @@
 #include "dynamics/contact.hpp"
 #include "dynamics/reach.hpp"
 #include "sweep/branches.hpp"
+#include "sweep/dearest_point.hpp"
 #include "sweep/fork_join.hpp"
 #include "sweep/memory.hpp"
 #include "sweep/point.hpp"
@@ -213,6 +214,7 @@ void warn(const Sweep& sweep, const Survey& survey, Plan& plan) {
     plan.warnings.emplace_back(
         "without damping and loss at impacts a transient never fades: forced points run for all of max_periods unless "
         "they start on a periodic motion; for a given time write mode = transient");
+  if (const auto warning = warning_of_dearest_point(sweep)) plan.warnings.push_back(*warning);
 }
 
 }  // namespace

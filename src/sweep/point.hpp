@@ -46,6 +46,8 @@ struct PointResult {
 struct Workshop {
   const FourierTransform* transform = nullptr;  ///< of harmonics_samples samples; null where none are observed
   std::unique_ptr<FourierTransform::Workspace, void (*)(FourierTransform::Workspace*)> workspace{nullptr, nullptr};
+  /// Hears now and then what share of all that they may come to the points at work have done, added up.
+  std::function<void(double share)> progress{};
 };
 
 /// The effects that a point is run with: what its scene requires; all where that is asked for, or the method is a

@@ -15,7 +15,9 @@ template <Integrator I>
 class Point {
  public:
   Point(const Scene& scene, Workshop& workshop, const I& integrator)
-      : scene_(scene), workshop_(workshop), integrator_(integrator) {}
+      : scene_(scene), workshop_(workshop), integrator_(integrator) {
+    integrator_.report_to(&workshop.progress);
+  }
 
   PointResult run() {
     State<double> state;

@@ -8,6 +8,7 @@
 #include <cstring>
 #include <exception>
 #include <mutex>
+#include <numeric>
 #include <optional>
 #include <ranges>
 #include <span>
@@ -30,24 +31,38 @@ namespace {
 /// time.
 class Progress {
  public:
-  Progress(const RunOptions& options, std::size_t total, std::size_t done)
-      : report_(options.progress), total_(total), done_(done), reported_(done) {}
+  Progress(const RunOptions& options, std::size_t threads, std::size_t total, std::size_t done)
+      : report_(options.progress), total_(total), done_(done), reported_(done), parts_(threads, 0.0) {}
 
-  void add_point() {
+  void add_point(std::size_t thread) {
     if (!report_) return;
     const std::lock_guard lock(mutex_);
-    ++done_;
+    ++done_, parts_[thread] = 0;
     const auto now = Clock::now();
     if (now - last_ <= std::chrono::milliseconds(200) && 100 * (done_ - reported_) < total_ && done_ != total_) return;
-    last_ = now, reported_ = done_;
-    report_(done_, total_);
+    report(now);
+  }
+
+  /// What a thread has done of the points that it is at work on.
+  void add_part(std::size_t thread, double part) {
+    const std::lock_guard lock(mutex_);
+    parts_[thread] = part;
+    if (const auto now = Clock::now(); now - last_ > std::chrono::milliseconds(200)) report(now);
   }
 
  private:
   using Clock = std::chrono::steady_clock;
-  const std::function<void(std::size_t, std::size_t)>& report_;
+
+  void report(Clock::time_point now) {
+    last_ = now, reported_ = done_;
+    const double parts = std::accumulate(parts_.begin(), parts_.end(), 0.0);
+    report_(std::min(static_cast<double>(done_) + parts, static_cast<double>(total_)), total_);
+  }
+
+  const std::function<void(double, std::size_t)>& report_;
   std::mutex mutex_;
   std::size_t total_, done_, reported_;
+  std::vector<double> parts_;  ///< [thread]
   Clock::time_point last_{};
 };
 
@@ -86,7 +101,7 @@ class Team {
         share_(share),
         columns_(columns),
         states_(states),
-        progress_(options, share.points(), restored),
+        progress_(options, static_cast<std::size_t>(threads), share.points(), restored),
         chunk_(sweep.follow
                    ? 1
                    : std::clamp<std::size_t>(share_.count() / (64 * static_cast<std::size_t>(threads)), 1, 64)),
@@ -95,10 +110,13 @@ class Team {
         in_lanes_(options.arch != Arch::scalar && lanes_can_run(sweep)),
         workshops_(static_cast<std::size_t>(threads)),
         usage_(static_cast<std::size_t>(threads)) {
+    for (std::size_t thread = 0; options.progress && thread < workshops_.size(); ++thread)
+      workshops_[thread].progress = [this, thread](double part) { progress_.add_part(thread, part); };
     const Observe& observe = sweep.scene.observe;
     if (observe.harmonics == 0 || observe.harmonics_method != HarmonicsMethod::fft) return;
     transform_.emplace(static_cast<std::size_t>(observe.harmonics_samples));
-    for (Workshop& workshop : workshops_) workshop = {&*transform_, transform_->workspace()};
+    for (Workshop& workshop : workshops_)
+      workshop.transform = &*transform_, workshop.workspace = transform_->workspace();
   }
 
   /// Runs every branch; results go by index, so their bits don't depend on which thread runs what.
@@ -197,7 +215,7 @@ class Team {
     add(usage_[thread], usage_of(task, result));
     columns_.store(task.slot, std::move(result));
     if (!sweep_.follow) states_[task.slot] = BranchState::finished;
-    progress_.add_point();
+    progress_.add_point(thread);
   }
 
   /// Runs the points of a branch, each from the end of the one before.

@@ -21,7 +21,7 @@ namespace clatter {
 
 struct RunOptions {
   int threads = 0;  ///< OpenMP threads; 0: as many as the machine offers
-  std::function<void(std::size_t done, std::size_t total)>
+  std::function<void(double done, std::size_t total)>
       progress{};           ///< called from one thread at a time, a few times a second and for every hundredth
   Arch arch = best_arch();  ///< instruction set of the points that lanes can take
 };

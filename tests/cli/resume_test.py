@@ -128,7 +128,7 @@ class Resume(StoppedRuns):
         reader, writer = os.pipe()
         os.close(reader)
         for number, code in ((signal.SIGINT, 130), (signal.SIGHUP, 129)):
-            process = subprocess.Popen(self.command("--progress", "always"), stderr=writer)
+            process = subprocess.Popen(self.command("--progress", "always", "--restart"), stderr=writer)
             time.sleep(0.3)
             process.send_signal(number)
             self.assertEqual(process.wait(300), code)
