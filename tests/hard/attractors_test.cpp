@@ -164,7 +164,7 @@ TEST(Attractors, a_transient_that_meets_a_stop_for_the_first_time_after_hundreds
       EXPECT_EQ(answer.period_ratio, 1.0);
       EXPECT_EQ(answer.x_max, scene.stops.upper);
       EXPECT_EQ(answer.x_min, scene.stops.lower);
-      EXPECT_GT(answer.periods, 90);
+      EXPECT_GT(answer.periods, 60);
     }
   }
 }
