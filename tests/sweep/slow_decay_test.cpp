@@ -1,0 +1,73 @@
+// A transient that decays slowly and turns with the force by thirds of a period, as free motion does near nu = 3: after
+// three periods it is back to a thousandth of what is left of it. It has to be gone before the motion counts as
+// settled, whoever looks for the repeat, and the period is one.
+
+#include <gtest/gtest.h>
+
+#include "dynamics/response.hpp"
+#include "sweep/point.hpp"
+
+namespace clatter {
+namespace {
+
+Scene decaying(double nu) {
+  Scene scene;
+  scene.oscillator = {2e-4, 1.0, nu, 0.0};
+  scene.stops = {-2, 2, 0.7, 0.7};
+  scene.start = {0.3, 0.2, 0.0};
+  scene.time.max_periods = 100000;
+  scene.observe = {.extrema = true, .period = true};
+  return scene;
+}
+
+void expect_settled(const Scene& scene, const PointResult& result, double tolerance) {
+  const double A = steady_response(2e-4, 1.0, scene.oscillator.frequency).amplitude;
+  EXPECT_EQ(result.status, Status::periodic);
+  EXPECT_EQ(result.period_ratio, 1.0);
+  EXPECT_NEAR(result.x_max, A, tolerance);
+  EXPECT_NEAR(result.x_min, -A, tolerance);
+  EXPECT_GT(result.settling_estimate, 50000);  // 27.6/(h T)
+}
+
+TEST(SlowDecay, is_waited_for_by_repetition) {
+  for (const double nu : {2.9995, 3.0, 3.001}) {
+    Scene scene = decaying(nu);
+    scene.integration.shortcuts = false;
+    Workshop workshop;
+    expect_settled(scene, run_point(scene, workshop), 3e-12);
+  }
+}
+
+TEST(SlowDecay, is_waited_for_with_all_effects) {
+  for (const double nu : {2.9995, 3.0, 3.001}) {
+    Scene scene = decaying(nu);
+    scene.integration.all_effects = true;
+    Workshop workshop;
+    expect_settled(scene, run_point(scene, workshop), 3e-12);
+    scene.time.max_periods = 45000;  // 1e-9 of it is left
+    EXPECT_EQ(run_point(scene, workshop).status, Status::aperiodic);
+  }
+}
+
+TEST(SlowDecay, is_waited_for_by_a_general_method) {
+  Scene scene = decaying(3.0);
+  scene.integration.method = Method::dopri5, scene.integration.tolerance = 1e-12;
+  Workshop workshop;
+  expect_settled(scene, run_point(scene, workshop), 1e-9);
+}
+
+TEST(SlowDecay, is_known_at_once_in_closed_form_with_its_estimate) {
+  const Scene scene = decaying(3.0);
+  Workshop workshop;
+  const PointResult result = run_point(scene, workshop);
+  expect_settled(scene, result, 1e-15);
+  EXPECT_EQ(result.periods, 1.0);
+  Scene slower = scene;  // it settles, but nobody waits for it
+  slower.oscillator.damping = 1e-10;
+  const PointResult late = run_point(slower, workshop);
+  EXPECT_EQ(late.status, Status::periodic);
+  EXPECT_GT(late.settling_estimate, 1e11);
+}
+
+}  // namespace
+}  // namespace clatter
