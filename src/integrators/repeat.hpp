@@ -96,7 +96,8 @@ class RepeatFinder {
  private:
   static constexpr std::size_t capacity = 512;
   static constexpr std::size_t block = 8;  ///< states that are looked at together
-  static constexpr double rounding = 8 * std::numeric_limits<double>::epsilon();
+  static constexpr double ulps = 8 * std::numeric_limits<double>::epsilon();
+  static constexpr double rounding = 512 * std::numeric_limits<double>::epsilon();  ///< of a period with its impacts
   static constexpr double most_left = 1e-8;            ///< of a transient that rounding has stopped
   static constexpr std::ptrdiff_t kept = 2 * longest;  // a divisor's distance reaches back n + n/2 sections
 
@@ -127,27 +128,39 @@ class RepeatFinder {
     return true;
   }
 
-  /// What n periods leave of the transient: what they have left of the distance, but no less than the modulus of a
-  /// pair of multipliers that shrink areas as these periods did, since distances within a turning pair rise and fall.
-  [[nodiscard]] double rate(std::size_t now, std::size_t n) const {
+  /// What n periods leave of the size of a pair of multipliers that shrinks areas as these periods did.
+  [[nodiscard]] double area_rate(std::size_t now, std::size_t n) const {
     double log_area = 0;
     for (std::size_t i = 0; i < n; ++i) log_area += log_area_[now - i];
-    const double seen = now >= 2 * n ? distance(now, n) / distance(now - n, n) : 0.0;
-    return std::max(seen, std::exp(log_area / 2));
+    return std::exp(log_area / 2);
   }
 
-  /// Distance to the motion that a hit at n settles to: the sum of what is to come, a geometric series.
+  /// Distance to the motion that a hit at n settles to: the sum of what is to come, a geometric series. Its rate is
+  /// what n periods have left of the distance, but no less than `area_rate`, since within a turning pair distances rise
+  /// and fall.
   [[nodiscard]] double left(std::size_t now, std::size_t n) const {
     const double latest = distance(now, n);
     if (!(latest > 0)) return 0;
-    const double share = rate(now, n);
-    return share < 1 ? latest / (1 - share) : std::numeric_limits<double>::infinity();
+    const double seen = now >= 2 * n ? latest / distance(now - n, n) : 0.0, rate = std::max(seen, area_rate(now, n));
+    return rate < 1 ? latest / (1 - rate) : std::numeric_limits<double>::infinity();
   }
 
   /// Whether a hit at n is within the tolerance of the motion that it settles to, or as near as rounding lets it come.
-  [[nodiscard]] bool settled(std::size_t now, std::size_t n) const {
+  [[nodiscard]] bool settled(std::size_t now, std::size_t n) {
     if (left(now, n) <= tolerance_) return true;
-    return distance(now, n) <= rounding && !(now >= 2 * n && distance(now, n) < distance(now - n, n));
+    const double latest = distance(now, n);
+    if (latest <= ulps && !(now >= 2 * n && latest < distance(now - n, n))) return true;
+    return latest <= rounding && stalls(latest, n, area_rate(now, n));
+  }
+
+  /// Whether the distance at n has got no less for as long as a pair of multipliers takes to quarter it, or 16 rounds.
+  [[nodiscard]] bool stalls(double latest, std::size_t n, double rate) {
+    if (stalled_n_ != n || latest < closest_) {
+      stalled_n_ = n, closest_ = latest, stalled_for_ = 0;
+      return false;
+    }
+    return static_cast<double>(++stalled_for_) >
+           static_cast<double>(n) * std::max(16.0, -std::log(4.0) / std::log(rate));
   }
 
   /// The period of a hit at n: a divisor whose distance is down to a few tolerances, and shrinks no further, is as near
@@ -159,8 +172,10 @@ class RepeatFinder {
   }
 
   double tolerance_;
-  std::size_t looks_every_, waited_ = 0;  ///< sections between two looks, and those since the last
-  std::size_t candidate_ = 0, left_ = 0;  ///< a repeat to be confirmed, and the sections until then
+  std::size_t looks_every_, waited_ = 0;         ///< sections between two looks, and those since the last
+  std::size_t candidate_ = 0, left_ = 0;         ///< a repeat to be confirmed, and the sections until then
+  std::size_t stalled_n_ = 0, stalled_for_ = 0;  ///< a hit that gets no nearer, and the sections since it did
+  double closest_ = 0.0;                         ///< its least distance
   std::size_t size_ = 0;
   std::array<double, capacity> x_, v_, log_area_;  ///< the first `size_` are set
 };

@@ -146,11 +146,9 @@ class SteadySearch {
   /// costs as much as hundreds.
   [[nodiscard]] bool pays() const {
     if (closing_in_ > 0) return false;
-    if (in_lanes_) {
-      const auto section = static_cast<std::uint64_t>(section_);
-      const bool due = std::has_single_bit(section) || (section % 3 == 0 && std::has_single_bit(section / 3));
-      return section >= 64 && (due || section_ + 1 == plan_.max_periods);
-    }
+    if (in_lanes_)
+      return section_ >= 64 &&
+             (std::has_single_bit(static_cast<std::uint64_t>(section_)) || section_ + 1 == plan_.max_periods);
     return section_ <= long_settling || section_ % 8 == 0;
   }
 

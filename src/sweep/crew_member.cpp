@@ -86,7 +86,9 @@ bool lanes_observe(const Scene& scene) {
 }  // namespace
 
 Crew::Member::Member(const Task& task)
-    : task_(task), exact_(task_.scene, stops_in_reach(task_.scene.stops, task_.effects)) {}
+    : task_(task),
+      exact_(task_.scene, stops_in_reach(task_.scene.stops, task_.effects)),
+      log_area_(2 * std::log(std::max(exact_.stops().restitution_lower, exact_.stops().restitution_upper))) {}
 
 std::optional<Observed> Crew::Member::begin(Lanes& lanes, std::size_t lane) {
   State<double> state;
@@ -115,10 +117,8 @@ double Crew::Member::x_of(const Lanes& lanes, std::size_t lane, double y) const 
 std::optional<Observed> Crew::Member::at_section(const Lanes& lanes, std::size_t lane) {
   const double impacts = exact_.impacts() + lanes.section_impacts.lane[lane];
   if (impacts > task_.scene.time.max_impacts) return failure(Outcome::event_budget);
-  const Stops& stops = exact_.stops();  // which one was hit isn't known: the one that takes less
-  const double kept = std::max(stops.restitution_lower, stops.restitution_upper);
-  search_->pass_period({std::bit_cast<std::uint64_t>(lanes.section_trace.lane[lane]),
-                        2 * std::log(kept) * (impacts - section_impacts_)});
+  search_->pass_period(
+      {std::bit_cast<std::uint64_t>(lanes.section_trace.lane[lane]), log_area_ * (impacts - section_impacts_)});
   section_impacts_ = impacts;
   State<double> state;
   state.x = x_of(lanes, lane, lanes.section_y.lane[lane]);

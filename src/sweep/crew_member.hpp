@@ -60,6 +60,8 @@ class Crew::Member {
 
   Task task_;
   Kernel exact_;
+  double
+      log_area_;  ///< logarithm of the area that an impact leaves, on the stop that takes less: which it is isn't known
   std::optional<SteadySearch<effects>> search_{};  ///< a transient needs none
   Observed observed_{};
   std::optional<Kernel> settled_{};                                ///< the scalar kernel before lanes began to observe
