@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 
 #include "integrators/settle_forced.hpp"
 #include "integrators/settle_unforced.hpp"
@@ -36,6 +37,15 @@ template <Integrator I>
   }
 }
 
+/// The section from which on all effects look for a repeat: early enough before max_periods to find a motion of 64
+/// periods, and to see that rounding keeps a slow transient from getting any nearer (`RepeatFinder`).
+template <Integrator I>
+[[nodiscard]] std::int64_t last_look(const I& integrator, const TimePlan& plan) {
+  const double decay = integrator.flow().h * integrator.period(), half = static_cast<double>(plan.max_periods) / 2;
+  const double slow = decay > 0 ? std::min(half, 3 * std::log(4.0) / decay) : 0.0;
+  return plan.max_periods - static_cast<std::int64_t>(3 * RepeatFinder::longest) - static_cast<std::int64_t>(slow);
+}
+
 /// The time to observe of a scene that starts from `state`. General methods know no shortcut; nor is one taken where
 /// all effects are asked for, to compare with: it is run for all of max_periods then, and a repeat looked for at their
 /// end.
@@ -47,9 +57,8 @@ template <Integrator I>
   const bool forced = E.forcing != Forcing::none && scene.oscillator.forcing != 0;
   if (!forced) return FreeSearch(integrator, scene).run(state);
   if constexpr (E.forcing != Forcing::none) {
-    constexpr auto longest = static_cast<std::int64_t>(RepeatFinder::longest);
     if (scene.integration.all_effects)
-      return settle_by_repetition(integrator, state, scene.time, scene.time.max_periods - 3 * longest);
+      return settle_by_repetition(integrator, state, scene.time, last_look(integrator, scene.time));
     if constexpr (I::in_closed_form)
       if (scene.integration.shortcuts) return SteadySearch<E>(integrator, scene).run(state);
     return settle_by_repetition(integrator, state, scene.time, 0);

@@ -47,8 +47,10 @@ Estimate periods_of(const Scene& scene, const Effects& effects) {
   const Oscillator& o = scene.oscillator;
   const double longest = static_cast<double>(time.max_periods), period = period_of(o);
   if (time.mode == Mode::transient) return {time.duration / period, time.duration / period};
-  if (scene.integration.all_effects)
-    return {std::max(1.0, longest - 192) + 1, longest + static_cast<double>(time.window)};
+  if (scene.integration.all_effects) {
+    const double slow = o.damping > 0 ? std::min(longest / 2, 3 * std::log(4.0) / (o.damping * period)) : 0.0;
+    return {std::max(1.0, longest - 192 - slow) + 1, longest + static_cast<double>(time.window)};
+  }
   if (scene.integration.method != Method::exact) return {2, longest + static_cast<double>(time.window)};
   if (!effects.stops() && comes_to_its_end(scene, longest * period)) return {1, 1};
   if (o.forcing == 0 && o.damping == 0 && !effects.dissipation) return {0, 1};
