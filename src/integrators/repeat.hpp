@@ -55,9 +55,10 @@ class RepeatFinder {
     if (candidate_ > 0 && --left_ == 0) return shortest(now, std::exchange(candidate_, 0));
     if (candidate_ > 0 || ++waited_ < looks_every_) return 0;
     waited_ = 0;
-    for (std::size_t n = next_within(tolerance_, 1); n > 0; n = next_within(tolerance_, n + 1)) {
+    const std::size_t least = next_within(tolerance_, 1);
+    for (std::size_t n = least; n > 0; n = next_within(tolerance_, n + 1)) {
       waited_ = looks_every_;  // a hit that doesn't stand may do so at the next section
-      if (!stands(now, n) || !settled(now, n)) continue;
+      if (!stands(now, n) || !(settled(now, n) || (n == least && stalls(now, n)))) continue;
       candidate_ = left_ = n;
       break;
     }
@@ -98,7 +99,7 @@ class RepeatFinder {
   static constexpr std::size_t capacity = 512;
   static constexpr std::size_t block = 8;  ///< states that are looked at together
   static constexpr double ulps = 8 * std::numeric_limits<double>::epsilon();
-  static constexpr double rounding = 512 * std::numeric_limits<double>::epsilon();  ///< of a period with its impacts
+  static constexpr double rounding = 2048 * std::numeric_limits<double>::epsilon();  ///< of a period with its impacts
   static constexpr double most_left = 1e-8;            ///< of a transient that rounding has stopped
   static constexpr std::ptrdiff_t kept = 2 * longest;  // a divisor's distance reaches back n + n/2 sections
 
@@ -147,15 +148,17 @@ class RepeatFinder {
   }
 
   /// Whether a hit at n is within the tolerance of the motion that it settles to, or as near as rounding lets it come.
-  [[nodiscard]] bool settled(std::size_t now, std::size_t n) {
+  [[nodiscard]] bool settled(std::size_t now, std::size_t n) const {
     if (left(now, n) <= tolerance_) return true;
     const double latest = distance(now, n);
-    if (latest <= ulps && !(now >= 2 * n && latest < distance(now - n, n))) return true;
-    return latest <= rounding && stalls(latest, n, area_rate(now, n));
+    return latest <= ulps && !(now >= 2 * n && latest < distance(now - n, n));
   }
 
-  /// Whether the distance at n has got no less for as long as a pair of multipliers takes to quarter it, or 16 rounds.
-  [[nodiscard]] bool stalls(double latest, std::size_t n, double rate) {
+  /// Whether the distance at the least hit, down to what rounding does to a period, has got no less for as long as a
+  /// pair of multipliers takes to quarter it, or 16 rounds.
+  [[nodiscard]] bool stalls(std::size_t now, std::size_t n) {
+    const double latest = distance(now, n), rate = area_rate(now, n);
+    if (!(latest <= rounding)) return false;
     if (stalled_n_ != n || latest < closest_) {
       stalled_n_ = n, closest_ = latest, stalled_for_ = 0;
       return false;
