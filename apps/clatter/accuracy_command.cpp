@@ -11,6 +11,7 @@
 #include "io/figure_file.hpp"
 #include "io/journal.hpp"
 #include "io/output_place.hpp"
+#include "io/utf8.hpp"
 #include "progress.hpp"
 #include "study/study_figure.hpp"
 #include "warnings.hpp"
@@ -72,12 +73,12 @@ int run_study(const Arguments& arguments) {
   const Interrupt interrupt;
   const std::vector<PointStudy> points = study_points(config.sweep, arch, arguments.has("json"), shown);
   if (const int signal = Interrupt::signal()) {
-    std::cerr << "stopped after " << points.size() << " of " << size(config.sweep) << " points; " << output
+    std::cerr << "stopped after " << points.size() << " of " << size(config.sweep) << " points; " << printable(output)
               << " is not written\n";
     return 128 + signal;
   }
   place.publish(file_image(study_figure(config.sweep, points), config).bytes);
-  if (!arguments.has("quiet")) std::cerr << output << '\n';
+  if (!arguments.has("quiet")) std::cerr << printable(output) << '\n';
   return any_failed(points) ? points_failed : done;
 }
 

@@ -1,9 +1,13 @@
 #include "format.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdio>
+#include <string_view>
+
+#include "io/utf8.hpp"
 
 namespace clatter {
 
@@ -24,18 +28,31 @@ std::string bytes_text(double bytes) {
   return formatted("%.4g", bytes) + ' ' + units[unit];
 }
 
+namespace {
+
+/// A character as JSON escapes it, by its UTF-16 units.
+std::string json_escape(std::string_view character) {
+  if (character.size() == 1 && (character[0] == '"' || character[0] == '\\')) return {'\\', character[0]};
+  const auto unit = static_cast<unsigned>(code_point(character));  // all that are obeyed have one unit
+  std::array<char, 8> escaped{};
+  std::snprintf(escaped.data(), escaped.size(), "\\u%04x", unit);
+  return escaped.data();
+}
+
+}  // namespace
+
 std::string json_text(const std::string& text) {
   std::string quoted = "\"";
-  for (const char character : text) {
-    if (character == '"' || character == '\\') {
-      quoted += {'\\', character};
-    } else if (static_cast<unsigned char>(character) < 0x20 || character == 0x7F) {
-      std::array<char, 8> escaped{};
-      std::snprintf(escaped.data(), escaped.size(), "\\u%04x", static_cast<unsigned>(character));
-      quoted += escaped.data();
-    } else {
+  for (std::string_view left = text; !left.empty();) {
+    const std::size_t length = utf8_length(left);
+    const std::string_view character = left.substr(0, std::max<std::size_t>(length, 1));
+    if (length == 0)
+      quoted += "\\ufffd";
+    else if (character == "\"" || character == "\\" || is_obeyed(character))
+      quoted += json_escape(character);
+    else
       quoted += character;
-    }
+    left.remove_prefix(character.size());
   }
   return quoted + '"';
 }

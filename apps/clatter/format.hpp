@@ -13,7 +13,7 @@ namespace clatter {
 /// "12.5 KiB", "1.25 GiB".
 [[nodiscard]] std::string bytes_text(double bytes);
 
-/// A text as JSON, quotes included.
+/// A text as JSON, quotes included; bytes that are no UTF-8 become U+FFFD, since JSON has no bytes.
 [[nodiscard]] std::string json_text(const std::string& text);
 
 /// A number as JSON, which knows no infinity: null.

@@ -1,3 +1,5 @@
+#include <unistd.h>
+
 #include <algorithm>
 #include <iostream>
 
@@ -5,7 +7,7 @@
 #include "info_json.hpp"
 #include "io/error.hpp"
 #include "io/figure_file.hpp"
-#include "io/text_file.hpp"
+#include "io/utf8.hpp"
 
 namespace clatter {
 namespace {
@@ -59,12 +61,13 @@ void print_text(const FileSummary& summary) {
   for (const auto& [meaning, count] : summary.status_counts) std::cout << "  " << column(meaning, 12) << count << '\n';
 }
 
+/// As it is, so that it runs again; a terminal is shown all of it, and obeys nothing.
 void print_config(const std::string& path, const FileSummary& summary) {
   const auto& attributes = summary.attributes;
   const auto config =
       std::find_if(attributes.begin(), attributes.end(), [](const auto& pair) { return pair.first == "config"; });
-  if (config == attributes.end()) throw IoError(path + ": holds no configuration; was it written by clatter?");
-  std::cout << config->second;
+  if (config == attributes.end()) throw IoError(quoted_name(path) + " holds no configuration; was it written by clatter?");
+  std::cout << (::isatty(STDOUT_FILENO) != 0 ? printable_lines(config->second) : config->second);
 }
 
 int print_info(const Arguments& arguments) {

@@ -16,6 +16,7 @@
 
 #include "commands.hpp"
 #include "io/error.hpp"
+#include "io/utf8.hpp"
 
 namespace clatter {
 namespace {
@@ -115,7 +116,8 @@ void Keeper::keep() {
 
 /// Where points can't be kept, the run isn't worth going on with.
 void Keeper::save() try { save_(); } catch (const std::exception& error) {
-  std::cerr << "\nclatter: " << error.what() << "\nclatter: stopped; " << journal_.leave() << std::endl;
+  std::cerr << "\nclatter: " << printable_lines(error.what()) << "\nclatter: stopped; " << printable(journal_.leave())
+            << std::endl;
   ::_exit(io_error);
 }
 
@@ -129,7 +131,7 @@ void Keeper::save_if_possible() {
 void Keeper::stop(int code, const std::string& why) {
   std::cerr << "\nclatter: " << why << "; saves what is finished" << std::endl;
   save();
-  std::cerr << "clatter: " << journal_.leave() << std::endl;
+  std::cerr << "clatter: " << printable(journal_.leave()) << std::endl;
   ::_exit(code);
 }
 

@@ -13,6 +13,7 @@
 #include "io/config.hpp"
 #include "io/error.hpp"
 #include "io/journal.hpp"
+#include "io/utf8.hpp"
 #include "io/version.hpp"
 
 namespace {
@@ -56,8 +57,9 @@ void refuse_foreign_exit() {
   ::_exit(io_error);
 }
 
-int report(const char* message, int code) {
-  std::cerr << "clatter: " << message << '\n';
+/// Messages may tell what is in files of others.
+int report(const std::string& message, int code) {
+  std::cerr << "clatter: " << printable_lines(message) << '\n';
   return code;
 }
 
@@ -79,7 +81,7 @@ int run_main(int argc, char** argv) {
   } catch (const std::bad_alloc&) {
     return report("the results don't fit into memory; sweep fewer points, or observe less", usage_error);
   } catch (const std::exception& error) {
-    return report((std::string("a bug in clatter: ") + error.what() + "; please report it with the command").c_str(),
+    return report(std::string("a bug in clatter: ") + error.what() + "; please report it with the command",
                   internal_error);
   }
 }

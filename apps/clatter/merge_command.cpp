@@ -15,6 +15,7 @@
 #include "io/merge.hpp"
 #include "io/output_place.hpp"
 #include "io/publish.hpp"
+#include "io/utf8.hpp"
 #include "sweep/memory.hpp"
 
 namespace clatter {
@@ -24,7 +25,7 @@ void check_not_shard(const std::vector<std::string>& shards, const std::string& 
   for (const std::string& path : shards) {
     std::error_code error;
     if (std::filesystem::equivalent(path, output, error))
-      throw UsageError("the output '" + output + "' is one of the shards; name another file with -o");
+      throw UsageError("the output " + quoted_name(output) + " is one of the shards; name another file with -o");
   }
 }
 
@@ -47,15 +48,15 @@ int merge_shards(const Arguments& arguments) try {
   const OutputPlace place(output, {.title = shards.config.title}, arguments.has("force"));
   check_memory(shards.bytes);
   if (arguments.has("verbose"))
-    std::cerr << "shards           " << shards.heads.size() << "\nrounding         " << shards.heads.front().rounding
-              << "\nmemory           " << bytes_text(shards.bytes) << '\n';
+    std::cerr << "shards           " << shards.heads.size() << "\nrounding         "
+              << printable(shards.heads.front().rounding) << "\nmemory           " << bytes_text(shards.bytes) << '\n';
   Merged merged = merge(shards);
   const std::string failures = failures_text(merged.figure, shards.config.sweep);
   place.publish(file_image(std::move(merged.figure), shards.config).bytes);
   if (!arguments.has("quiet"))
     std::cerr << counted(static_cast<double>(size(shards.config.sweep)), "point") << " of "
-              << counted(static_cast<double>(shards.heads.size()), "shard") << ", " << failures << ", " << output
-              << '\n';
+              << counted(static_cast<double>(shards.heads.size()), "shard") << ", " << failures << ", "
+              << printable(output) << '\n';
   return merged.failed_points > 0 ? points_failed : done;
 } catch (const std::bad_alloc&) {
   throw IoError("merging takes more memory than there is; merge where there is more");

@@ -17,6 +17,7 @@
 #include "io/journal.hpp"
 #include "io/output_place.hpp"
 #include "io/suggestion.hpp"
+#include "io/utf8.hpp"
 #include "io/version.hpp"
 #include "keeper.hpp"
 #include "plan_report.hpp"
@@ -116,12 +117,13 @@ int run_config(const Arguments& arguments) {
   if (!arguments.has("quiet") && !arguments.has("verbose")) warn_of_dearest_point(config.sweep);
 
   SweepRun sweep(config.sweep, shard);
-  Journal journal(output, key_of(config, arch, shard), begin, [&](std::span<const std::byte> results) {
-    if (!sweep.restore(results))
-      throw IoError("the journal of '" + output + "' doesn't fit the sweep; --restart begins anew");
-  });
+  Journal journal(
+      output, key_of(config, arch, shard), sweep.most_saved(), begin, [&](std::span<const std::byte> results) {
+        if (!sweep.restore(results))
+          throw IoError("the journal of " + quoted_name(output) + " doesn't fit the sweep; --restart begins anew");
+      });
   if (!journal.is_locked())
-    std::cerr << "there are no locks here: see that no other run writes '" << output << "' meanwhile\n";
+    std::cerr << "there are no locks here: see that no other run writes " << quoted_name(output) << " meanwhile\n";
   if (sweep.restored_points() > 0 && !arguments.has("quiet"))
     std::cerr << "goes on from " << sweep.restored_points() << " finished points\n";
 
@@ -136,7 +138,8 @@ int run_config(const Arguments& arguments) {
   const std::string summary = summary_line(result, config.sweep, shard, output);
   try {
     const auto image = shard ? sealed_image : file_image;
-    place.publish(image(std::move(result.figure), config).bytes);
+    place.publish(image(std::move(result.figure), config).bytes,
+                  [&](std::uint64_t bytes) { journal.give_back(bytes); });
   } catch (const IoError& error) {
     if (!journal.has_records()) throw;
     throw IoError(std::string(error.what()).append("\nclatter: ").append(journal.leave()));

@@ -9,6 +9,7 @@
 
 #include "failures.hpp"
 #include "format.hpp"
+#include "io/utf8.hpp"
 #include "sweep/plan.hpp"
 
 namespace clatter {
@@ -53,13 +54,14 @@ std::string usage_text(const std::vector<Usage>& usage) {
 std::string summary_line(const RunResult& result, const Sweep& sweep, const std::optional<Shard>& shard,
                          const std::string& output) {
   return counted(static_cast<double>(result.points), "point") + ", " + failures_text(result.figure, sweep, shard) +
-         ", " + formatted("%.3g", result.seconds) + " s, " + output;
+         ", " + formatted("%.3g", result.seconds) + " s, " + printable(output);
 }
 
 std::string details(const RunResult& result, const std::string& command, const std::string& began) {
   return usage_text(result.usage) + "threads          " + std::to_string(result.threads) + "\ninstruction set  " +
          std::string(name_of(result.arch)) + lanes_text(result.lanes) + "\nhost             " + host() +
-         "\ncommand line     " + command + "\nbegan            " + began + "\nended            " + now() + '\n';
+         "\ncommand line     " + printable(command) + "\nbegan            " + began + "\nended            " + now() +
+         '\n';
 }
 
 std::string now() {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <iostream>
 
-#include "io/place.hpp"
+#include "io/utf8.hpp"
 #include "sweep/dearest_point.hpp"
 
 namespace clatter {
@@ -11,12 +11,12 @@ namespace clatter {
 void warn(const Config& config, std::span<const std::string_view> but) {
   for (const Warning& warning : config.warnings) {
     if (std::ranges::find(but, warning.section) != but.end()) continue;
-    std::cerr << one_line(warning.place + ": warning: " + warning.text) << '\n';
+    std::cerr << printable(warning.place + ": warning: " + warning.text) << '\n';
   }
 }
 
 void warn(const Plan& plan) {
-  for (const std::string& warning : plan.warnings) std::cerr << "warning: " << warning << '\n';
+  for (const std::string& warning : plan.warnings) std::cerr << "warning: " << printable(warning) << '\n';
 }
 
 void warn_of_dearest_point(const Sweep& sweep) {
@@ -24,7 +24,7 @@ void warn_of_dearest_point(const Sweep& sweep) {
 }
 
 void say_notes(const Config& config) {
-  for (const std::string& note : config.notes) std::cerr << one_line(note) << '\n';
+  for (const std::string& note : config.notes) std::cerr << printable(note) << '\n';
 }
 
 void join_warnings(Plan& plan, const Config& config) {

@@ -4,6 +4,8 @@
 #include <sstream>
 #include <vector>
 
+#include "io/utf8.hpp"
+
 namespace clatter {
 namespace {
 
@@ -36,7 +38,7 @@ std::string difference(const NamedText& one, const NamedText& other) {
   std::size_t shown = 0;
   const auto show = [&](const std::string& name, const std::vector<std::string>& lines) {
     for (const std::string& line : lines)
-      if (++shown <= most) text.append("\n  ").append(name).append(line);
+      if (++shown <= most) text.append("\n  ").append(name).append(printable(line));
   };
   show(one.name, only_in(ones, others)), show(other.name, only_in(others, ones));
   if (shown == 0) text = "\n  the same lines in another order: the first axis varies slowest";

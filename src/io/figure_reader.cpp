@@ -1,9 +1,7 @@
 #include <hdf5_hl.h>
-#include <sys/stat.h>
 
 #include <array>
-#include <cerrno>
-#include <cstring>
+#include <optional>
 #include <sstream>
 #include <stdexcept>
 #include <utility>
@@ -13,8 +11,13 @@
 #include "io/guarded.hpp"
 #include "io/hdf5_attributes.hpp"
 #include "io/hdf5_handle.hpp"
+#include "io/hdf5_plain.hpp"
+#include "io/hdf5_shape.hpp"
 #include "io/hdf5_soundness.hpp"
+#include "io/input_file.hpp"
 #include "io/summary_bytes.hpp"
+#include "io/utf8.hpp"
+#include "sweep/share.hpp"
 
 namespace clatter {
 namespace {
@@ -24,20 +27,11 @@ using hdf5::Handle;
 using hdf5::text_attribute;
 
 [[noreturn]] void refuse(const std::string& path, const std::string& why, const std::string& way_out) {
-  throw IoError{"'" + path + "': " + why + "; " + way_out};
+  throw IoError{quoted_name(path) + ": " + why + "; " + way_out};
 }
 
 [[noreturn]] void refuse_damaged(const std::string& path, const std::string& why) {
   refuse(path, "cannot be read: " + why, "copy it again, or run its configuration again");
-}
-
-/// The size of a file; says in plain words what HDF5 would call "unable to open file".
-std::uint64_t size_of(const std::string& path) {
-  struct stat status {};
-  if (::stat(path.c_str(), &status) != 0) refuse(path, std::strerror(errno), "check the name");
-  if (S_ISDIR(status.st_mode)) refuse(path, "is a directory", "name a file in it");
-  if (!S_ISREG(status.st_mode)) refuse(path, "is not a regular file", "name an output of clatter");
-  return static_cast<std::uint64_t>(status.st_size);
 }
 
 Handle open(const std::string& path) {
@@ -45,7 +39,7 @@ Handle open(const std::string& path) {
   if (is_hdf5 == 0) refuse(path, "is not an HDF5 file", "name an output of clatter");
   if (is_hdf5 < 0) throw hdf5::Failure{};
   hdf5::require_sound_heaps(path);
-  return {H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose};
+  return hdf5::open_plain(path);
 }
 
 /// The name of an object at the root, without its slash.
@@ -78,27 +72,12 @@ std::vector<std::pair<std::string, std::string>> root_attributes(hid_t file) {
   return attributes;
 }
 
-std::vector<hsize_t> shape_of(hid_t dataset) {
-  const Handle space{H5Dget_space(dataset), H5Sclose};
-  std::vector<hsize_t> shape(static_cast<std::size_t>(checked(H5Sget_simple_extent_ndims(space))));
-  if (!shape.empty()) checked(H5Sget_simple_extent_dims(space, shape.data(), nullptr));
-  return shape;
-}
-
 /// "float64" and the like, as numpy and xarray call them.
 std::string type_name(hid_t dataset) {
   const Handle type{H5Dget_type(dataset), H5Tclose};
   const std::string bits = std::to_string(8 * H5Tget_size(type));
-  switch (H5Tget_class(type)) {
-    case H5T_FLOAT:
-      return "float" + bits;
-    case H5T_INTEGER:
-      return (H5Tget_sign(type) == H5T_SGN_NONE ? "uint" : "int") + bits;
-    case H5T_STRING:
-      return "string";
-    default:
-      return "other";
-  }
+  if (H5Tget_class(type) == H5T_FLOAT) return "float" + bits;
+  return (H5Tget_sign(type) == H5T_SGN_NONE ? "uint" : "int") + bits;
 }
 
 herr_t keep_name(hid_t, unsigned, hid_t scale, void* name) try {
@@ -111,7 +90,7 @@ herr_t keep_name(hid_t, unsigned, hid_t scale, void* name) try {
 std::vector<NamedLength> dimensions_of(hid_t dataset, const std::string& variable) {
   const bool is_scale = checked(H5DSis_scale(dataset)) > 0;
   std::vector<NamedLength> dimensions;
-  for (const hsize_t length : shape_of(dataset)) {
+  for (const hsize_t length : hdf5::shape_of(dataset)) {
     std::string name = is_scale ? variable : "";
     const auto d = static_cast<unsigned>(dimensions.size());
     if (!is_scale) checked(H5DSiterate_scales(dataset, d, nullptr, keep_name, &name));
@@ -126,13 +105,32 @@ bool is_bare_scale(hid_t dataset) {
   return text_attribute(dataset, "NAME").starts_with("This is a netCDF dimension but not a netCDF variable.");
 }
 
+/// How many points there should be, as the configuration in the file says; nothing where it is of another version and
+/// cannot be read.
+std::optional<std::size_t> points_told(hid_t file, const std::string& path) try {
+  const Config config = parse_config(text_attribute(file, "config"), path);
+  const std::string shard = text_attribute(file, "shard");
+  return Share(config.sweep, shard.empty() ? std::nullopt : shard_named(shard)).points();
+} catch (const ConfigError&) {
+  return std::nullopt;
+}
+
+/// Nobody has to read more than there can be: a short file may claim any number of values.
+void require_points(const FileSummary::Entry& status, const std::optional<std::size_t>& told) {
+  double points = 1;
+  for (const NamedLength& dimension : status.dimensions)
+    if (dimension.name != "row") points *= static_cast<double>(dimension.length);  // of `clatter accuracy`
+  if (told && points != static_cast<double>(*told))
+    throw hdf5::Failure("its 'status' is of other points than the " + std::to_string(*told) + " of its configuration");
+}
+
 /// How many values of a variable have each of its flags, in the order of flag_values.
 std::vector<std::pair<std::string, std::size_t>> flag_counts(hid_t dataset) {
-  const Handle space{H5Dget_space(dataset), H5Sclose};
-  std::vector<std::uint8_t> values(static_cast<std::size_t>(checked(H5Sget_simple_extent_npoints(space))));
-  if (!values.empty()) checked(H5Dread(dataset, H5T_NATIVE_UINT8, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()));
   std::array<std::size_t, 256> counts{};
-  for (const std::uint8_t value : values) ++counts[value];
+  std::vector<std::uint8_t> values(hdf5::largest_block);
+  hdf5::read_blocks(dataset, H5T_NATIVE_UINT8, values.data(), [&](std::size_t count) {
+    for (std::size_t i = 0; i < count; ++i) ++counts[values[i]];
+  });
   std::istringstream meanings{text_attribute(dataset, "flag_meanings")};
   std::vector<std::pair<std::string, std::size_t>> result;
   for (const std::uint8_t flag : hdf5::byte_attribute(dataset, "flag_values")) {
@@ -149,12 +147,14 @@ std::string link_name(hid_t file, H5_index_t order, hsize_t index) {
   return name;
 }
 
-void add_object(FileSummary& summary, hid_t file, const std::string& name) {
-  const Handle object{H5Oopen(file, name.c_str(), H5P_DEFAULT), H5Oclose};
-  if (H5Iget_type(object) != H5I_DATASET || is_bare_scale(object)) return;
-  summary.variables.push_back({name, type_name(object), text_attribute(object, "units"),
-                               text_attribute(object, "long_name"), dimensions_of(object, name)});
-  if (name == "status") summary.status_counts = flag_counts(object);
+void add_variable(FileSummary& summary, hid_t file, const std::string& name, const std::string& path) {
+  const Handle dataset{H5Dopen2(file, name.c_str(), H5P_DEFAULT), H5Dclose};
+  if (is_bare_scale(dataset)) return;
+  summary.variables.push_back({name, type_name(dataset), text_attribute(dataset, "units"),
+                               text_attribute(dataset, "long_name"), dimensions_of(dataset, name)});
+  if (name != "status") return;
+  require_points(summary.variables.back(), points_told(file, path));
+  summary.status_counts = flag_counts(dataset);
 }
 
 FileSummary summary_of(const Handle& file, const std::string& path) {
@@ -167,7 +167,7 @@ FileSummary summary_of(const Handle& file, const std::string& path) {
   H5G_info_t group;
   checked(H5Gget_info(file, &group));
   const H5_index_t order = order_of(file, H5Pget_link_creation_order);
-  for (hsize_t i = 0; i < group.nlinks; ++i) add_object(summary, file, link_name(file, order, i));
+  for (hsize_t i = 0; i < group.nlinks; ++i) add_variable(summary, file, link_name(file, order, i), path);
   return summary;
 }
 
@@ -184,7 +184,7 @@ FileSummary unguarded_summary(const std::string& path) try {
 }  // namespace
 
 FileSummary read_summary(const std::string& path) try {
-  const GuardLimits limits = limits_for(size_of(path));
+  const GuardLimits limits = limits_for(open_input(path, "an output of clatter").stored_bytes);
   auto summary = summary_from(guarded([&] { return bytes_of(unguarded_summary(path)); }, limits));
   if (!summary) refuse_damaged(path, "it disturbs the memory of the HDF5 library");
   return std::move(*summary);

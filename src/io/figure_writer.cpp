@@ -14,6 +14,7 @@
 #include "io/hdf5_attributes.hpp"
 #include "io/hdf5_handle.hpp"
 #include "io/hdf5_image.hpp"
+#include "io/hdf5_shape.hpp"
 #include "io/seal.hpp"
 #include "io/sha256.hpp"
 #include "io/version.hpp"
@@ -24,17 +25,14 @@ namespace {
 using hdf5::checked;
 using hdf5::Handle;
 using hdf5::put;
+using hdf5::Shape;
 using hdf5::type_of;
 using hdf5::ValueType;
-using Shape = std::vector<hsize_t>;
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 /// From this size on an array is deflated: below it, the index of the chunks takes what deflating saves.
 constexpr std::size_t worth_compressing = 16UL * 1024;  // bytes
-
-/// The size of the chunk cache that every reader has: larger chunks are inflated again for every access.
-constexpr std::size_t largest_chunk = 1024UL * 1024;  // bytes
 
 /// By this much the file grows in memory at least: few steps, and little to clear for a small file.
 constexpr std::size_t growth = 64UL * 1024;  // bytes
@@ -54,24 +52,6 @@ Shape shape_of(const Variable& variable, const Figure& figure) {
   return shape;
 }
 
-std::size_t count(const Shape& shape) {
-  std::size_t product = 1;
-  for (const hsize_t length : shape) product *= length;
-  return product;
-}
-
-/// As many of the fastest dimensions as fit whole, the next one in equal parts, so that none is mostly empty.
-Shape chunks_of(const Shape& shape, std::size_t value_size) {
-  Shape chunks(shape.size(), 1);
-  hsize_t room = largest_chunk / value_size;
-  for (std::size_t d = shape.size(); d-- > 0 && room > 1;) {
-    const hsize_t parts = (shape[d] + room - 1) / room;
-    chunks[d] = (shape[d] + parts - 1) / parts;
-    room /= chunks[d];
-  }
-  return chunks;
-}
-
 /// Creation order, so that readers list attributes as they were written; no times, or no two files would be equal.
 Handle dataset_properties() {
   Handle properties{H5Pcreate(H5P_DATASET_CREATE), H5Pclose};
@@ -81,8 +61,8 @@ Handle dataset_properties() {
 }
 
 void compress(const Handle& properties, const Shape& shape, std::size_t value_size, int level) {
-  if (level == 0 || count(shape) * value_size < worth_compressing) return;
-  const Shape chunks = chunks_of(shape, value_size);
+  if (level == 0 || hdf5::count(shape) * value_size < worth_compressing) return;
+  const Shape chunks = hdf5::blocks_of(shape, value_size);
   checked(H5Pset_chunk(properties, static_cast<int>(chunks.size()), chunks.data()));
   checked(H5Pset_shuffle(properties));
   checked(H5Pset_deflate(properties, static_cast<unsigned>(level)));
@@ -97,7 +77,7 @@ Handle dataspace_of(const Shape& shape) {
 template <typename Value>
 Handle write_values(hid_t file, const Variable& variable, const Shape& shape, const std::vector<Value>& values,
                     int level) {
-  if (values.size() != count(shape)) throw std::logic_error{variable.name + ": values don't fill its dimensions"};
+  if (values.size() != hdf5::count(shape)) throw std::logic_error{variable.name + ": values don't fill its dimensions"};
   const ValueType type = type_of(Value{});
   const Handle properties = dataset_properties();
   compress(properties, shape, sizeof(Value), level);

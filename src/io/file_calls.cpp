@@ -7,6 +7,7 @@
 #include <cstring>
 
 #include "io/error.hpp"
+#include "io/utf8.hpp"
 
 namespace clatter {
 
@@ -34,7 +35,7 @@ std::string way_out_of(int error) {
 }  // namespace
 
 void refuse(const fs::path& path, const std::string& why, const std::string& way_out) {
-  throw IoError{"cannot write '" + path.string() + "': " + why + "; " + way_out};
+  throw IoError{"cannot write " + quoted_name(path.string()) + ": " + why + "; " + way_out};
 }
 
 void refuse(const fs::path& path, int error) { refuse(path, std::strerror(error), way_out_of(error)); }

@@ -1,12 +1,14 @@
 #include "io/guarded.hpp"
 
 #include <fcntl.h>
+#include <poll.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <cstdio>
 #include <cstring>
 #include <new>
@@ -135,9 +137,24 @@ class Child {
   pid_t id_;
 };
 
-/// Reads until `to` is full; false where the child ends before.
-bool receive(const Descriptor& pipe, std::span<std::byte> to) {
+using Clock = std::chrono::steady_clock;
+
+/// Waits until there is something to read, or the other end is closed; false at the end of the time.
+bool has_come(const Descriptor& pipe, Clock::time_point end) {
+  for (;;) {
+    const auto left = std::chrono::ceil<std::chrono::milliseconds>(end - Clock::now()).count();
+    if (left <= 0) return false;
+    pollfd waiting{pipe.number(), POLLIN, 0};
+    const int ready = ::poll(&waiting, 1, static_cast<int>(std::min<std::int64_t>(left, 1'000'000)));
+    if (ready > 0 || (ready < 0 && errno != EINTR)) return true;
+  }
+}
+
+/// Reads until `to` is full; false where the child ends before. Throws GuardedDeath at the end of the time.
+bool receive(const Descriptor& pipe, std::span<std::byte> to, const GuardLimits& limits, Clock::time_point end) {
   while (!to.empty()) {
+    if (!has_come(pipe, end))
+      throw GuardedDeath{"reading it hasn't ended within " + std::to_string(limits.wall_seconds) + " s"};
     const ssize_t got = uninterrupted([&] { return ::read(pipe.number(), to.data(), to.size()); });
     if (got <= 0) return false;
     to = to.subspan(static_cast<std::size_t>(got));
@@ -145,10 +162,11 @@ bool receive(const Descriptor& pipe, std::span<std::byte> to) {
   return true;
 }
 
-std::string reason(std::optional<int> status) {
+std::string reason(std::optional<int> status, const GuardLimits& limits) {
   if (!status || !WIFSIGNALED(*status)) return "it makes the HDF5 library end";
   const int number = WTERMSIG(*status);
-  if (number == SIGXCPU) return "the HDF5 library comes to no end with it";
+  if (number == SIGXCPU)
+    return "reading it hasn't ended within " + std::to_string(limits.seconds) + " s of processor time";
   if (number == SIGKILL) return "the HDF5 library was killed while it read it, perhaps since memory ran out";
   const char* const name = ::sigabbrev_np(number);
   return std::string("it makes the HDF5 library crash (SIG") + (name == nullptr ? "?" : name) + ')';
@@ -156,10 +174,11 @@ std::string reason(std::optional<int> status) {
 
 }  // namespace
 
-GuardLimits limits_for(std::uint64_t file_size) {
+GuardLimits limits_for(std::uint64_t stored_bytes) {
   GuardLimits limits;
-  limits.memory += 2 * file_size;
-  limits.seconds += file_size >> 24U;
+  limits.memory += 2 * stored_bytes;
+  limits.seconds += stored_bytes >> 24U;
+  limits.wall_seconds += stored_bytes >> 20U;  // a slow network's
   return limits;
 }
 
@@ -177,12 +196,15 @@ std::string guarded(const std::function<std::string()>& work, const GuardLimits&
   }
   Child child{id};
   (void)to.close();
+  const Clock::time_point end = Clock::now() + std::chrono::seconds{limits.wall_seconds};
   Head head{};
   std::string bytes;
-  if (!receive(from, std::as_writable_bytes(std::span(&head, 1)))) throw GuardedDeath{reason(child.wait())};
+  if (!receive(from, std::as_writable_bytes(std::span(&head, 1)), limits, end))
+    throw GuardedDeath{reason(child.wait(), limits)};
   if (head.length > limits.memory) throw GuardedDeath{"the HDF5 library makes more of it than it can hold"};
   bytes.resize(static_cast<std::size_t>(head.length));
-  if (!receive(from, std::as_writable_bytes(std::span(bytes)))) throw GuardedDeath{reason(child.wait())};
+  if (!receive(from, std::as_writable_bytes(std::span(bytes)), limits, end))
+    throw GuardedDeath{reason(child.wait(), limits)};
   (void)child.wait();
   if (head.outcome == Outcome::io_error) throw IoError{bytes};
   if (head.outcome == Outcome::no_memory) throw GuardedDeath{"it asks for more memory than there is"};

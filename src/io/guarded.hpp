@@ -17,10 +17,12 @@ class GuardedDeath : public std::runtime_error {
 struct GuardLimits {
   std::uint64_t memory = std::uint64_t{2} << 30U;  ///< bytes, beyond what this process has
   std::uint64_t seconds = 30;                      ///< of processor time
+  std::uint64_t wall_seconds = 120;                ///< until it has to answer
 };
 
-/// What suffices to read a file, several times over: by its size, as it may be compressed.
-[[nodiscard]] GuardLimits limits_for(std::uint64_t file_size);
+/// What suffices to read a file, several times over: by the room that it takes on its disk, since a length is easily
+/// claimed.
+[[nodiscard]] GuardLimits limits_for(std::uint64_t stored_bytes);
 
 /// Runs `work` in a child process and gives what it returns: HDF5 1.10 crashes on some damaged files, reads others for
 /// ever, and takes all memory for others, which none of its callers can prevent. Takes about a millisecond.

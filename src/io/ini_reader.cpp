@@ -7,6 +7,7 @@
 #include "io/keys.hpp"
 #include "io/raw_config.hpp"
 #include "io/text_file.hpp"
+#include "io/utf8.hpp"
 
 namespace clatter {
 namespace {

@@ -14,6 +14,7 @@
 #include "io/crc32.hpp"
 #include "io/difference.hpp"
 #include "io/error.hpp"
+#include "io/utf8.hpp"
 
 namespace clatter {
 namespace {
@@ -21,6 +22,9 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::string_view magic = "clatter journal 1\n";
+
+/// No configuration is as long as that, with what else the header has.
+constexpr std::uint64_t most_header = 16UL * 1024 * 1024;  // bytes
 
 using Bytes = std::vector<std::byte>;
 
@@ -68,8 +72,8 @@ class Reader {
     }
   }
 
-  /// The next block; nothing: it is torn off. Throws IoError where it is damaged.
-  std::optional<std::span<const std::byte>> block() {
+  /// What the next block says of itself; nothing: it is torn off. Throws IoError where it is damaged.
+  std::optional<BlockHead> head() {
     const std::uint64_t begin = at_;
     BlockHead head{};
     if (left() < sizeof head) return std::nullopt;
@@ -77,10 +81,18 @@ class Reader {
     const auto summed = std::as_bytes(std::span(&head, 1)).first(offsetof(BlockHead, check));
     if (head.length == 0 && head.crc == 0 && head.check == 0 && only_zeros_left()) return std::nullopt;
     if (crc32_of(summed) != head.check) damaged(begin);
-    if (head.length > left()) return std::nullopt;
-    block_.resize(static_cast<std::size_t>(head.length));
+    return head.length > left() ? std::nullopt : std::optional(head);
+  }
+
+  /// The next block, as `head`; one of more than `most_bytes` is damaged, too.
+  std::optional<std::span<const std::byte>> block(std::uint64_t most_bytes) {
+    const std::uint64_t begin = at_;
+    const std::optional<BlockHead> next = head();
+    if (!next) return std::nullopt;
+    if (next->length > most_bytes) damaged(begin);
+    block_.resize(static_cast<std::size_t>(next->length));
     read(block_);
-    if (crc32_of(block_) != head.crc) {
+    if (crc32_of(block_) != next->crc) {
       if (left() == 0 && !block_.empty() && block_.back() == std::byte{}) return std::nullopt;  // a power cut
       damaged(begin);
     }
@@ -88,22 +100,35 @@ class Reader {
   }
 
   [[noreturn]] void damaged(std::uint64_t where) const {
-    throw IoError("'" + path_.string() + "' is damaged at byte " + std::to_string(where) +
+    throw IoError(quoted_name(path_.string()) + " is damaged at byte " + std::to_string(where) +
                   ": what it holds of an earlier run can't be trusted; --restart begins anew, without it");
   }
 
  private:
-  /// What a power cut may leave of the last records.
+  /// What a power cut may leave of the last records. Passes over holes, in which nothing is stored, without reading
+  /// them.
   bool only_zeros_left() {
-    std::byte next{};
-    while (left() > 0 && next == std::byte{}) read(std::span(&next, 1));
-    return next == std::byte{};
+    while (left() > 0) {
+      if (buffered_.empty() && !skip_hole()) return true;
+      std::byte next{};
+      read(std::span(&next, 1));
+      if (next != std::byte{}) return false;
+    }
+    return true;
+  }
+
+  /// Goes on to the next data; false where there are none.
+  bool skip_hole() {
+    const off_t data = ::lseek(file_.number(), static_cast<off_t>(at_), SEEK_DATA);
+    if (data >= 0) at_ = std::min(static_cast<std::uint64_t>(data), size_);
+    return data >= 0 || errno != ENXIO;  // some file systems don't tell
   }
 
   void fill() {
     const ssize_t got = uninterrupted([&] { return ::read(file_.number(), buffer_.data(), buffer_.size()); });
     if (got <= 0)
-      throw IoError("cannot read '" + path_.string() + "': " + (got < 0 ? std::strerror(errno) : "it became shorter") +
+      throw IoError("cannot read " + quoted_name(path_.string()) + ": " +
+                    (got < 0 ? std::strerror(errno) : "it became shorter") +
                     "; try again, or begin anew with --restart");
     buffered_ = std::span<const std::byte>(buffer_).first(static_cast<std::size_t>(got));
   }
@@ -140,8 +165,8 @@ std::optional<JournalKey> key_of(std::span<const std::byte> bytes) {
 /// What another key has, and what this run's.
 std::string difference_of(const JournalKey& other, const JournalKey& key) {
   const auto about = [](const JournalKey& of) {
-    return "program: " + of.program + "\nrounding: " + of.rounding + '\n' +
-           (of.shard.empty() ? "the whole sweep" : "shard " + of.shard) + '\n' + of.config;
+    return "program: " + printable(of.program) + "\nrounding: " + printable(of.rounding) + '\n' +
+           (of.shard.empty() ? "the whole sweep" : "shard " + printable(of.shard)) + '\n' + of.config;
   };
   const std::string others = about(other), ours = about(key);
   return difference({"its: ", others}, {"this run's: ", ours});
@@ -155,8 +180,8 @@ std::string difference_of(const JournalKey& other, const JournalKey& key) {
 }
 
 [[noreturn]] void refuse_busy(const fs::path& output) {
-  throw BusyError("'" + output.string() +
-                  "' is being written by another run; wait for its end, or name another output");
+  throw BusyError(quoted_name(output.string()) +
+                  " is being written by another run; wait for its end, or name another output");
 }
 
 fs::path journal_of(const fs::path& output) { return fs::path(output) += ".journal"; }
@@ -164,15 +189,17 @@ fs::path journal_of(const fs::path& output) { return fs::path(output) += ".journ
 }  // namespace
 
 void require_idle(const fs::path& output) {
-  const Descriptor file{::open(journal_of(target_of(output)).c_str(), O_RDWR | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK)};
+  const fs::path path = journal_of(target_of(output));
+  const Descriptor file{::open(path.c_str(), O_RDWR | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK)};
+  if (file.number() < 0 && errno != ENOENT) refuse_place(path, errno);
   if (file.number() >= 0 && ::flock(file.number(), LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) refuse_busy(output);
 }
 
-Journal::Journal(const fs::path& output, JournalKey key, Begin begin, const Take& take)
+Journal::Journal(const fs::path& output, JournalKey key, std::uint64_t most_bytes, Begin begin, const Take& take)
     : output_(target_of(output)), path_(journal_of(output_)), key_(std::move(key)) {
   lock();
   try {
-    read(take, begin);
+    read(take, most_bytes, begin);
   } catch (...) {
     if (size_ == 0) unlink();
     throw;
@@ -208,33 +235,35 @@ void Journal::lock() {
   }
 }
 
-void Journal::read(const Take& take, Begin begin) {
+void Journal::read(const Take& take, std::uint64_t most_bytes, Begin begin) {
   Reader reader(file_, size_, path_);
   std::array<char, magic.size()> first{};
   const std::span<char> found = std::span(first).first(std::min<std::size_t>(first.size(), reader.left()));
   reader.read(std::as_writable_bytes(found));
   if (std::string_view(found.data(), found.size()) != magic.substr(0, found.size()))
-    throw IoError("'" + path_.string() + "' is no journal of clatter; move it away, or name another output");
+    throw IoError(quoted_name(path_.string()) + " is no journal of clatter; move it away, or name another output");
   std::uint64_t whole = 0;  // bytes up to the end of the last whole record
-  const auto header = begin == Begin::restart || found.size() < magic.size() ? std::nullopt : reader.block();
+  const bool is_anew = begin == Begin::restart || found.size() < magic.size();
+  const auto header = is_anew ? std::nullopt : reader.block(most_header);
   if (header) {
     const auto key = key_of(*header);
     if (!key) reader.damaged(magic.size());
-    for (auto record = reader.block(); record; record = reader.block()) {
-      if (*key != key_) refuse_other(*key);
+    if (*key != key_ && reader.head()) refuse_other(*key);
+    while (const auto record = *key == key_ ? reader.block(most_bytes) : std::nullopt) {
       take(*record);
-      whole = reader.at();
+      ends_.push_back(whole = reader.at());
     }
   }
   if (begin == Begin::resume && whole == 0)
-    throw IoError("there is nothing to resume: '" + path_.string() + "' holds no finished points; leave --resume out");
+    throw IoError("there is nothing to resume: " + quoted_name(path_.string()) +
+                  " holds no finished points; leave --resume out");
   if (uninterrupted([&] { return ::ftruncate(file_.number(), static_cast<off_t>(whole)); }) != 0) refuse(path_, errno);
   size_ = whole;
 }
 
 void Journal::refuse_other(const JournalKey& key) const {
-  throw IoError("'" + path_.string() +
-                "' holds what an earlier run of something else had finished:" + difference_of(key, key_) +
+  throw IoError(quoted_name(path_.string()) +
+                " holds what an earlier run of something else had finished:" + difference_of(key, key_) +
                 "\nrun that again to complete it, begin anew with --restart, or name another output");
 }
 
@@ -250,7 +279,7 @@ void Journal::append(std::span<const std::byte> record) {
     (void)!::ftruncate(file_.number(), static_cast<off_t>(size_));  // else the next run cuts it
     throw;
   }
-  size_ += bytes.size() + record.size();
+  ends_.push_back(size_ += bytes.size() + record.size());
 }
 
 void Journal::sync() {
@@ -260,13 +289,23 @@ void Journal::sync() {
   synced_ = named_ = true;
 }
 
+void Journal::give_back(std::uint64_t bytes) {
+  if (bytes > size_) return;
+  const std::uint64_t most = size_ - bytes;
+  while (!ends_.empty() && ends_.back() > most) ends_.pop_back();
+  size_ = ends_.empty() ? 0 : ends_.back();
+  gave_back_ = true;
+  if (uninterrupted([&] { return ::ftruncate(file_.number(), static_cast<off_t>(size_)); }) != 0) refuse(path_, errno);
+}
+
 std::string Journal::leave() {
   if (!is_named(file_, path_)) return "the journal was removed, and with it what was finished";
   if (size_ > 0)
-    return "what was finished is in '" + path_.string() +
-           "', from which the same command goes on; so does one with -o FILE after that is moved to FILE.journal";
+    return (gave_back_ ? "a part of what was finished is in " : "what was finished is in ") + quoted_name(path_.string()) +
+           ", from which the same command goes on; so does one with -o FILE after that is moved to FILE.journal";
   unlink();
-  return "nothing was finished yet";
+  return gave_back_ ? "the journal had made room for the output, and what was finished has to be run again"
+                    : "nothing was finished yet";
 }
 
 void Journal::remove() {

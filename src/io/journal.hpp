@@ -7,6 +7,7 @@
 #include <span>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include "io/file_calls.hpp"
 
@@ -46,9 +47,10 @@ class Journal {
   };
   using Take = std::function<void(std::span<const std::byte> record)>;
 
-  /// Locks the journal of an output, and lets `take` have each record that is there. Throws BusyError, and IoError:
-  /// where another configuration, shard, program or rounding has left it, it is damaged, or cannot be read or written.
-  Journal(const std::filesystem::path& output, JournalKey key, Begin begin, const Take& take);
+  /// Locks the journal of an output, and lets `take` have each record that is there; this run's records have at most
+  /// `most_bytes`. Throws BusyError, and IoError: where another configuration, shard, program or rounding has left it,
+  /// it is damaged, or cannot be read or written.
+  Journal(const std::filesystem::path& output, JournalKey key, std::uint64_t most_bytes, Begin begin, const Take& take);
   /// An empty file is removed.
   ~Journal();
   Journal(const Journal&) = delete;
@@ -61,6 +63,8 @@ class Journal {
   [[nodiscard]] bool has_records() const { return size_ > 0; }
   /// Whether others are kept from this output: some network file systems have no locks.
   [[nodiscard]] bool is_locked() const { return is_locked_; }
+  /// Gives the room of its last records back, at least so many bytes, if it has as many. The records before stay.
+  void give_back(std::uint64_t bytes);
   /// Removes the file, once its records are in the output.
   void remove();
   /// Ends without an output: says what the next run will find. An empty file is removed.
@@ -69,15 +73,17 @@ class Journal {
  private:
   void lock();
   void unlink() const;
-  void read(const Take& take, Begin begin);
+  void read(const Take& take, std::uint64_t most_bytes, Begin begin);
   [[noreturn]] void refuse_other(const JournalKey& key) const;
 
   std::filesystem::path output_, path_;
   JournalKey key_;
   Descriptor file_{-1};
   std::uint64_t size_ = 0;              ///< of the file, in whole records
+  std::vector<std::uint64_t> ends_;     ///< of the records in the file
   bool synced_ = true, named_ = false;  ///< is on the disk; so is its name
   bool is_locked_ = true;
+  bool gave_back_ = false;  ///< records that were finished
 };
 
 }  // namespace clatter

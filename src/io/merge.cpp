@@ -5,6 +5,7 @@
 
 #include "io/difference.hpp"
 #include "io/error.hpp"
+#include "io/utf8.hpp"
 #include "io/version.hpp"
 #include "sweep/columns.hpp"
 #include "sweep/memory.hpp"
@@ -16,7 +17,7 @@ constexpr std::size_t shown = 5;  ///< lines of a long list
 
 [[noreturn]] void refuse_pair(const ShardHead& one, const ShardHead& other, const std::string& what,
                               const std::string& way_out) {
-  throw IoError("'" + other.path + "' and '" + one.path + "' " + what + "; " + way_out);
+  throw IoError(quoted_name(other.path) + " and " + quoted_name(one.path) + ' ' + what + "; " + way_out);
 }
 
 /// All shards are of one sweep, and were computed by this very program with one rounding: else the merged file
@@ -25,20 +26,21 @@ void check_origins(const std::vector<ShardHead>& heads) {
   const ShardHead& first = heads.front();
   if (first.schema != "clatter/1" || first.version != version() || first.git_commit != git_commit() ||
       first.compiler != compiler())
-    throw IoError("'" + first.path + "' was written by clatter " + first.version + " (commit " + first.git_commit +
-                  ", " + first.compiler + "), this is " + std::string(version()) + " (commit " +
-                  std::string(git_commit()) + ", " + std::string(compiler()) +
+    throw IoError(quoted_name(first.path) + " was written by clatter " + printable(first.version) + " (commit " +
+                  printable(first.git_commit) + ", " + printable(first.compiler) + "), this is " +
+                  std::string(version()) + " (commit " + std::string(git_commit()) + ", " + std::string(compiler()) +
                   "); merge with the program that ran the shards");
   for (const ShardHead& head : heads) {
     if (head.config_sha256 != first.config_sha256 || head.config != first.config)
       refuse_pair(first, head, "are of different configurations",
-                  "leave out what doesn't belong here:" +
-                      difference({head.path + ": ", head.config}, {first.path + ": ", first.config}));
+                  "leave out what doesn't belong here:" + difference({printable(head.path) + ": ", head.config},
+                                                                     {printable(first.path) + ": ", first.config}));
     if (head.schema != first.schema || head.version != first.version || head.git_commit != first.git_commit ||
         head.compiler != first.compiler)
       refuse_pair(first, head, "were written by different builds of clatter", "run all shards with one program");
     if (head.rounding != first.rounding)
-      refuse_pair(first, head, "were rounded differently (" + head.rounding + "; " + first.rounding + ")",
+      refuse_pair(first, head,
+                  "were rounded differently (" + printable(head.rounding) + "; " + printable(first.rounding) + ")",
                   "run all shards with one --arch, on machines of one kind");
   }
 }
@@ -105,7 +107,7 @@ Merged merge(const ShardSet& shards) {
     try {
       columns.take(figure, head.shard);
     } catch (const std::runtime_error& error) {
-      throw IoError("'" + head.path + "' isn't what a run of its configuration writes: " + error.what() +
+      throw IoError(quoted_name(head.path) + " isn't what a run of its configuration writes: " + error.what() +
                     "; run shard " + text_of(head.shard) + " again");
     }
   }

@@ -3,6 +3,7 @@
 #include "io/guarded.hpp"
 #include "io/hdf5_attributes.hpp"
 #include "io/hdf5_handle.hpp"
+#include "io/hdf5_plain.hpp"
 
 namespace clatter {
 namespace {
@@ -11,17 +12,10 @@ using hdf5::checked;
 using hdf5::Handle;
 using hdf5::text_attribute;
 
-/// Without locks: some file systems have none, and a reader elsewhere is no hindrance.
-Handle open(const std::string& path) {
-  const Handle access{H5Pcreate(H5P_FILE_ACCESS), H5Pclose};
-  checked(H5Pset_file_locking(access, false, true));
-  return {H5Fopen(path.c_str(), H5F_ACC_RDONLY, access), H5Fclose};
-}
-
 /// The origin as a text, for it has to come out of a child process: kind, shard and title, a NUL between them.
 std::string origin_text(const std::string& path) try {
   const hdf5::QuietErrors quiet;
-  const Handle file = open(path);
+  const Handle file = hdf5::open_plain(path);
   if (text_attribute(file, "clatter_schema") != "clatter/1") return {};
   std::string text = checked(H5Lexists(file, "ns_per_period", H5P_DEFAULT)) > 0 ? "study" : "run";
   return text.append(1, '\0')
@@ -35,7 +29,7 @@ std::string origin_text(const std::string& path) try {
 }  // namespace
 
 std::optional<Origin> origin_of(const std::string& path) try {
-  constexpr GuardLimits few{.memory = std::uint64_t{256} << 20U, .seconds = 1};
+  constexpr GuardLimits few{.memory = std::uint64_t{256} << 20U, .seconds = 1, .wall_seconds = 10};
   const std::string text = guarded([&] { return origin_text(path); }, few);
   const std::size_t kind = text.find('\0'), shard = text.find('\0', kind + 1);
   if (kind == std::string::npos || shard == std::string::npos) return std::nullopt;

@@ -58,10 +58,11 @@ void OutputPlace::require_replaceable() const {
   if (!why.empty()) refuse(path_, why, "name another with -o, move that one away, or replace it with --force");
 }
 
-void OutputPlace::publish(std::span<const std::byte> bytes) const {
-  clatter::publish(path_, bytes, [&] {
+void OutputPlace::publish(std::span<const std::byte> bytes, const MakeRoom& make_room) const {
+  const auto look_again = [&] {
     if (state() != seen_) require_replaceable();
-  });
+  };
+  clatter::publish(path_, bytes, {.make_room = make_room, .before_rename = look_again});
 }
 
 }  // namespace clatter

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "io/origin.hpp"
+#include "io/publish.hpp"
 
 namespace clatter {
 
@@ -21,7 +22,7 @@ class OutputPlace {
   [[nodiscard]] const std::string& path() const { return path_; }
 
   /// As `publish` does. Throws IoError, too, where meanwhile a file has come that must not be replaced.
-  void publish(std::span<const std::byte> bytes) const;
+  void publish(std::span<const std::byte> bytes, const MakeRoom& make_room = no_room) const;
 
  private:
   /// By what a file is told from another one, and from itself once it has changed: device, inode, size and times.

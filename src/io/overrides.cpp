@@ -2,6 +2,7 @@
 
 #include "io/raw_config.hpp"
 #include "io/text_file.hpp"
+#include "io/utf8.hpp"
 
 namespace clatter {
 namespace {

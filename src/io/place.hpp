@@ -1,9 +1,9 @@
 #pragma once
 
-#include <algorithm>
 #include <string>
 
 #include "io/config.hpp"
+#include "io/utf8.hpp"
 
 namespace clatter {
 
@@ -23,16 +23,9 @@ struct Place {
   return place.source + ':' + std::to_string(place.line) + ':' + std::to_string(place.column);
 }
 
-/// A message in one line, whatever a text or the name of a file in it holds.
-[[nodiscard]] inline std::string one_line(std::string message) {
-  std::ranges::replace_if(
-      message, [](unsigned char c) { return c < 0x20 || c == 0x7F; }, '?');
-  return message;
-}
-
 /// Ends the reading with a mistake of the user's at a place.
 [[noreturn]] inline void fail(const Place& place, const std::string& message) {
-  throw ConfigError(one_line(to_string(place) + ": " + message));
+  throw ConfigError(printable(to_string(place) + ": " + message));
 }
 
 }  // namespace clatter

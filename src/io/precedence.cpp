@@ -11,7 +11,7 @@ namespace {
 
 using enum Parameter;
 
-std::string quoted(Parameter parameter) { return in_quotes(key_of(parameter)); }
+std::string quoted_name(Parameter parameter) { return in_quotes(key_of(parameter)); }
 
 /// Whether a place comes after another of the same origin.
 bool later(const Place& left, const Place& right) {
@@ -28,7 +28,7 @@ void exclude(const Settings& settings, Parameter one, Parameter other) {
   if (!first || !second || !contradict(first->key_place, second->key_place)) return;
   const bool in_order = later(second->key_place, first->key_place);
   fail((in_order ? second : first)->key_place,
-       quoted(in_order ? other : one) + " beside " + quoted(in_order ? one : other) + "; remove one of them");
+       quoted_name(in_order ? other : one) + " beside " + quoted_name(in_order ? one : other) + "; remove one of them");
 }
 
 bool from_command_line(const std::optional<Given>& given) { return given && on_command_line(given->key_place); }
@@ -57,7 +57,7 @@ void choose_section(Settings& settings, Parameter parameter) {
   const Place in_scene = fixed->key_place, in_sweep = swept->key_place;
   if (contradict(in_scene, in_sweep))
     fail(later(in_scene, in_sweep) ? in_scene : in_sweep,
-         quoted(parameter) + " in both [scene] and [sweep]; remove one of them (for a single value: sweep." +
+         quoted_name(parameter) + " in both [scene] and [sweep]; remove one of them (for a single value: sweep." +
              std::string(key_of(parameter)) + " = VALUE)");
   const bool axis_stands = on_command_line(in_sweep);
   note(settings, parameter, axis_stands ? in_sweep : in_scene, axis_stands ? in_scene : in_sweep);
@@ -120,7 +120,7 @@ void displace_half(Settings& settings, const Pair& pair, Parameter standing, Par
   const auto stands = settings.given(standing), stood = settings.given(pair.both);
   if (!from_command_line(stands) || !from_file(stood)) return;
   if (settings.given(remaining)) return displace(settings, standing, pair.both);
-  note(settings, pair.both, stands->key_place, stood->key_place, ", which stays as " + quoted(remaining));
+  note(settings, pair.both, stands->key_place, stood->key_place, ", which stays as " + quoted_name(remaining));
   halve(settings, pair, remaining);
 }
 
@@ -140,7 +140,7 @@ void let_command_line_win(Settings& settings) {
 }
 
 std::string to_string(const Displaced& displaced) {
-  return to_string(displaced.stands) + " in place of " + quoted(displaced.gone) + ", " + to_string(displaced.stood) +
+  return to_string(displaced.stands) + " in place of " + quoted_name(displaced.gone) + ", " + to_string(displaced.stood) +
          displaced.rest;
 }
 

@@ -1,7 +1,5 @@
 #include "io/seal.hpp"
 
-#include <fcntl.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -14,7 +12,8 @@
 
 #include "io/crc32.hpp"
 #include "io/error.hpp"
-#include "io/file_calls.hpp"
+#include "io/input_file.hpp"
+#include "io/utf8.hpp"
 
 namespace clatter {
 namespace {
@@ -28,19 +27,13 @@ std::string seal_of(std::uint64_t length, std::uint32_t crc) {
 }
 
 [[noreturn]] void refuse_reading(const std::string& path, const std::string& why, const std::string& way_out) {
-  throw IoError("'" + path + "': " + why + "; " + way_out);
+  throw IoError(quoted_name(path) + ": " + why + "; " + way_out);
 }
 
 /// Reads all of a file, piece by piece.
 class Pieces {
  public:
-  explicit Pieces(const std::string& path)
-      : path_(path), file_(uninterrupted([&] { return ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK); })) {
-    if (file_.number() < 0) refuse_reading(path_, std::strerror(errno), "check the name");
-    struct stat status {};
-    if (::fstat(file_.number(), &status) != 0 || !S_ISREG(status.st_mode))
-      refuse_reading(path_, "is not a regular file", "name files that `clatter run --shard` has written");
-  }
+  explicit Pieces(const std::string& path) : path_(path), file_(open_input(path, shards_of_clatter).file) {}
 
   /// The next bytes, as many as there are; none at the end.
   std::span<const std::byte> next() {
@@ -77,7 +70,7 @@ void require_sealed(const std::string& path) {
   if (found.starts_with("\nclatter shard of "))
     refuse_reading(path, "is damaged: its CRC-32 doesn't fit", "copy it again, or run its shard again");
   refuse_reading(path, "is no whole shard of a sweep",
-                 "name files that `clatter run --shard` has written, or copy it again");
+                 std::string("name ").append(shards_of_clatter).append(", or copy it again"));
 }
 
 }  // namespace clatter

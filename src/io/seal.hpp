@@ -6,6 +6,9 @@
 
 namespace clatter {
 
+/// Files that have a seal, as errors name them.
+inline constexpr const char* shards_of_clatter = "files that `clatter run --shard` has written";
+
 /// The seal of a file's bytes, to be put behind them: a line with their number and CRC-32, so that a copy that went
 /// wrong isn't taken for results. HDF5 doesn't look behind the end of its own bytes.
 [[nodiscard]] std::string seal_of(std::span<const std::byte> bytes);

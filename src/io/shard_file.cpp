@@ -2,21 +2,26 @@
 
 #include <hdf5_hl.h>
 
-#include <charconv>
 #include <cstdint>
 #include <exception>
-#include <filesystem>
 #include <functional>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "io/config.hpp"
 #include "io/error.hpp"
 #include "io/guarded.hpp"
 #include "io/hdf5_attributes.hpp"
 #include "io/hdf5_handle.hpp"
+#include "io/hdf5_plain.hpp"
+#include "io/hdf5_shape.hpp"
+#include "io/input_file.hpp"
+#include "io/packed.hpp"
 #include "io/seal.hpp"
+#include "io/utf8.hpp"
+#include "sweep/columns.hpp"
 
 namespace clatter {
 namespace {
@@ -26,15 +31,14 @@ using hdf5::Handle;
 using hdf5::text_attribute;
 
 [[noreturn]] void refuse(const std::string& path, const std::string& why) {
-  throw IoError("'" + path + "' cannot be read: " + why + "; run its shard again");
+  throw IoError(quoted_name(path) + " cannot be read: " + why + "; run its shard again");
 }
 
 /// Passes on what a function of an open file gives; whatever stops HDF5 becomes an IoError.
 template <typename Read>
 auto read_file(const std::string& path, Read read) try {
   const hdf5::QuietErrors quiet;
-  const Handle file{H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose};
-  return read(file);
+  return read(hdf5::open_plain(path));
 } catch (const hdf5::Failure& failure) {
   refuse(path, failure.what());
 }
@@ -89,60 +93,91 @@ void walk_variables(const Handle& file, decltype(Walk::visit) action) {
   checked(result);
 }
 
-/// Bytes of all values once they are read.
-std::uint64_t bytes_of_values(const std::string& path) {
-  return read_file(path, [](const Handle& file) {
-    double bytes = 0;
-    walk_variables(file, [&](const std::string&, const Handle& dataset) {
-      bytes += sizeof(double) * static_cast<double>(length_of(dataset));
-    });
-    if (bytes > 1e18) throw hdf5::Failure("it holds an impossible length");
-    return static_cast<std::uint64_t>(bytes);
+/// How many values there are, without reading them.
+std::uint64_t values_in(const Handle& file) {
+  double values = 0;
+  walk_variables(file, [&](const std::string&, const Handle& dataset) {
+    double product = 1;
+    for (const hsize_t length : hdf5::shape_of(dataset)) product *= static_cast<double>(length);
+    values += product;
+  });
+  if (values > 1e18) throw hdf5::Failure("it holds an impossible length");
+  return static_cast<std::uint64_t>(values);
+}
+
+/// Reads all values as `read_shard` does, and keeps none.
+void try_values(const Handle& file) {
+  std::vector<std::byte> memory(hdf5::largest_block);
+  walk_variables(file, [&](const std::string&, const Handle& dataset) {
+    const Handle type{H5Dget_type(dataset), H5Tclose}, native{H5Tget_native_type(type, H5T_DIR_ASCEND), H5Tclose};
+    hdf5::read_blocks(dataset, native, memory.data(), [](std::size_t) {});
   });
 }
 
-void try_values(const std::string& path) {
-  read_file(path, [](const Handle& file) {
-    walk_variables(file, [](const std::string&, const Handle& dataset) { (void)column_of(dataset); });
-  });
+ShardHead head_of(const Handle& file, const std::string& path) {
+  const std::optional<Shard> shard = shard_named(text_attribute(file, "shard"));
+  if (!shard) throw hdf5::Failure("it doesn't say which shard it is");
+  ShardHead head{.path = path,
+                 .shard = *shard,
+                 .schema = text_attribute(file, "clatter_schema"),
+                 .version = text_attribute(file, "clatter_version"),
+                 .git_commit = text_attribute(file, "git_commit"),
+                 .compiler = text_attribute(file, "compiler"),
+                 .config = text_attribute(file, "config"),
+                 .config_sha256 = text_attribute(file, "config_sha256"),
+                 .rounding = text_attribute(file, "rounding"),
+                 .values = values_in(file)};
+  if (checked(H5Lexists(file, "impact_tau", H5P_DEFAULT)) > 0) head.impacts = length_of(dataset_in(file, "impact_tau"));
+  return head;
 }
 
-ShardHead head_of(const std::string& path) {
-  return read_file(path, [&](const Handle& file) {
-    const std::optional<Shard> shard = shard_named(text_attribute(file, "shard"));
-    if (!shard) throw hdf5::Failure("it doesn't say which shard it is");
-    ShardHead head{.path = path,
-                   .shard = *shard,
-                   .schema = text_attribute(file, "clatter_schema"),
-                   .version = text_attribute(file, "clatter_version"),
-                   .git_commit = text_attribute(file, "git_commit"),
-                   .compiler = text_attribute(file, "compiler"),
-                   .config = text_attribute(file, "config"),
-                   .config_sha256 = text_attribute(file, "config_sha256"),
-                   .rounding = text_attribute(file, "rounding")};
-    if (checked(H5Lexists(file, "impact_tau", H5P_DEFAULT)) > 0)
-      head.impacts = length_of(dataset_in(file, "impact_tau"));
-    return head;
-  });
+/// All of a head in one order, for both directions.
+template <typename Pass, typename Head>
+void pass_all(Pass& pass, Head& head) {
+  pass(head.shard.number), pass(head.shard.of), pass(head.impacts), pass(head.values);
+  for (auto* const text : {&head.schema, &head.version, &head.git_commit, &head.compiler, &head.config,
+                           &head.config_sha256, &head.rounding})
+    pass(*text);
+}
+
+/// What a shard claims to have is read into memory, so it must be no more than a run of its configuration writes. One
+/// that this program cannot read is of another version, which the merge will say.
+void require_possible(const ShardHead& head) try {
+  const double most = most_values(parse_config(head.config, head.path).sweep, head.shard);
+  if (static_cast<double>(head.values) > most + logged_values * static_cast<double>(head.impacts))
+    throw hdf5::Failure("it holds more values than a run of its configuration writes");
+} catch (const ConfigError&) {
+}
+
+std::string packed(const ShardHead& head) {
+  Packer packer;
+  pass_all(packer, head);
+  return std::move(packer).bytes();
 }
 
 }  // namespace
 
 /// A child process reads all of it first: the seal tells damage, but a file may be anyone's.
 ShardHead read_shard_head(const std::string& path) try {
-  require_sealed(path);
-  const std::uint64_t file_size = std::filesystem::file_size(path);
+  const GuardLimits limits = limits_for(open_input(path, shards_of_clatter).stored_bytes);
   const std::string bytes = guarded(
       [&] {
-        (void)head_of(path);
-        return std::to_string(bytes_of_values(path));
+        require_sealed(path);
+        return read_file(path, [&](const Handle& file) {
+          const ShardHead head = head_of(file, path);
+          require_possible(head);
+          try_values(file);
+          return packed(head);
+        });
       },
-      limits_for(file_size));
-  std::uint64_t value_bytes = 0;
-  if (std::from_chars(bytes.data(), bytes.data() + bytes.size(), value_bytes).ec != std::errc{})
+      limits);
+  ShardHead head{};
+  head.path = path;
+  Unpacker unpacker(bytes);
+  pass_all(unpacker, head);
+  if (!unpacker.complete() || head.shard.number >= head.shard.of || head.shard.of > Shard::most)
     refuse(path, "it disturbs the memory of the HDF5 library");
-  (void)guarded([&] { return try_values(path), std::string(); }, limits_for(file_size + value_bytes));
-  return head_of(path);
+  return head;
 } catch (const GuardedDeath& death) {
   refuse(path, death.what());
 }

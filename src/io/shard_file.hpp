@@ -1,6 +1,6 @@
 #pragma once
 
-#include <cstddef>
+#include <cstdint>
 #include <string>
 
 #include "sweep/figure.hpp"
@@ -14,8 +14,9 @@ struct ShardHead {
   Shard shard;
   std::string schema, version, git_commit, compiler;
   std::string config, config_sha256;
-  std::string rounding;     ///< what its last bits depend on
-  std::size_t impacts = 0;  ///< in its log
+  std::string rounding;       ///< what its last bits depend on
+  std::uint64_t impacts = 0;  ///< in its log
+  std::uint64_t values = 0;   ///< of all variables
 };
 
 /// Reads what a shard's file says of itself, once its seal is found whole. Throws IoError.

@@ -7,6 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include "io/utf8.hpp"
+
 namespace clatter {
 namespace {
 
@@ -50,10 +52,7 @@ std::string_view completed(const std::string& written, std::span<const std::stri
 std::string in_quotes(std::string_view text) {
   std::size_t length = std::min(text.size(), max_quoted);
   while (length < text.size() && length > 0 && (static_cast<unsigned char>(text[length]) & 0xC0) == 0x80) --length;
-  std::string shown(text.substr(0, length));
-  std::replace_if(
-      shown.begin(), shown.end(), [](unsigned char c) { return c < 0x20 || c == 0x7F; }, '?');
-  return '\'' + shown + (length < text.size() ? "…'" : "'");
+  return '\'' + printable(text.substr(0, length)) + (length < text.size() ? "…'" : "'");
 }
 
 std::string_view nearest(std::string_view written, std::span<const std::string_view> names) {

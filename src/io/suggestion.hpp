@@ -6,7 +6,7 @@
 
 namespace clatter {
 
-/// A text for a message of one line: in single quotes, control characters as '?', cut after 60 bytes.
+/// A text for a message of one line: in single quotes, as `printable` shows it, cut after 60 bytes.
 [[nodiscard]] std::string in_quotes(std::string_view text);
 
 /// The name that was abbreviated, else the one nearest to what was written by edit distance; empty where none is near.

@@ -22,20 +22,11 @@ inline constexpr std::size_t max_config_bytes = std::size_t{1} << 20;
 /// The place of a byte of a text: lines end with \n, columns count characters.
 [[nodiscard]] Place place_of(const std::string& file, std::string_view text, std::size_t offset);
 
-/// Number of characters of UTF-8 text.
-[[nodiscard]] int characters(std::string_view text);
-
 /// The text without the pair of quotes around it, if there is one.
 [[nodiscard]] std::string unquoted(std::string_view text);
 
 /// The text without the blanks around it.
 [[nodiscard]] std::string_view without_blanks(std::string_view text);
-
-/// A text that a terminal shows and does not obey: control characters and bytes that aren't UTF-8 as \x1b.
-[[nodiscard]] std::string printable(std::string_view text);
-
-/// Where the text has its first byte that isn't UTF-8, or npos.
-[[nodiscard]] std::size_t find_not_utf8(std::string_view text);
 
 /// Throws ConfigError at the first control character or byte that isn't UTF-8: neither belongs in a configuration.
 void check_characters(const std::string& file, std::string_view text);

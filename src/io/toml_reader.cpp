@@ -11,6 +11,7 @@
 #include "io/raw_config.hpp"
 #include "io/text_file.hpp"
 #include "io/toml_guard.hpp"
+#include "io/utf8.hpp"
 
 namespace clatter {
 namespace {

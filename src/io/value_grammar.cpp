@@ -12,6 +12,7 @@
 #include "io/comma.hpp"
 #include "io/suggestion.hpp"
 #include "io/text_file.hpp"
+#include "io/utf8.hpp"
 
 namespace clatter {
 namespace {

@@ -138,6 +138,15 @@ std::vector<Attribute> status_flags() {
   return {{"flag_values", values}, {"flag_meanings", meanings}};
 }
 
+double most_values(const Sweep& sweep, const std::optional<Shard>& shard) {
+  double of_point = 5;  // status, impact_total, simulated_periods, index in the sweep, impact_count
+  for (const Output& output : outputs_of(sweep.scene)) of_point += static_cast<double>(output.width);
+  double coordinates = static_cast<double>(sweep.scene.observe.harmonics) + 1 + 2 + 2;  // harmonic, stop, multiplier
+  for (const Dimension& dimension : sweep.dimensions)
+    coordinates += static_cast<double>(dimension.size() * length(dimension));
+  return of_point * static_cast<double>(Share(sweep, shard).points()) + coordinates;
+}
+
 Columns::Columns(const Sweep& sweep, const std::optional<Shard>& shard)
     : sweep_(sweep),
       shard_(shard),
@@ -168,6 +177,14 @@ void Columns::pack(std::size_t slot, std::vector<std::byte>& to) const {
   const std::uint64_t count = log_[slot].size();
   append(to, std::span(&count, 1));
   append(to, std::span<const Impact>(log_[slot]));
+}
+
+double Columns::most_packed() const {
+  double bytes = sizeof(std::uint8_t) + sizeof(std::int64_t) + sizeof(double);
+  for (const Output& output : outputs_) bytes += static_cast<double>(output.width * sizeof(double));
+  if (log_.empty()) return bytes;
+  const double impacts = 2 * static_cast<double>(sweep_.scene.time.max_impacts) + 1e6;  // the budget is looked at late
+  return bytes + sizeof(std::uint64_t) + impacts * sizeof(Impact);
 }
 
 bool Columns::unpack(std::size_t slot, std::span<const std::byte>& from) {

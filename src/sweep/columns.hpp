@@ -40,6 +40,10 @@ void name_linked_axes(const Sweep& sweep, Figure& figure);
 /// Attributes of a `status` that tell what its values mean.
 [[nodiscard]] std::vector<Attribute> status_flags();
 
+/// How many values the variables of a sweep or a shard have at most, its impact log aside; an impact in that has four.
+[[nodiscard]] double most_values(const Sweep& sweep, const std::optional<Shard>& shard);
+inline constexpr double logged_values = 4;
+
 /// The results of all points of a run, by their slots (`Share`), and the figure they make.
 class Columns {
  public:
@@ -51,6 +55,8 @@ class Columns {
 
   /// Appends a point's results, as `unpack` takes them from a run of the same sweep.
   void pack(std::size_t slot, std::vector<std::byte>& to) const;
+  /// The bytes of a point's results at most; those of a log are bounded by time.max_impacts.
+  [[nodiscard]] double most_packed() const;
   /// Takes a point's results off the beginning of `from`; false where they aren't of this sweep, and then nothing is
   /// sure of the point.
   [[nodiscard]] bool unpack(std::size_t slot, std::span<const std::byte>& from);

@@ -45,6 +45,9 @@ void add(std::vector<Usage>& sum, const Usage& part) {
   same->impacts += part.impacts, same->periods += part.periods, same->evaluations += part.evaluations;
 }
 
+/// Results from which on they are written at once.
+constexpr std::size_t enough_to_save = 256UL * 1024;  // bytes
+
 /// Whether points of a sweep may go into lanes: those of the exact method that take every shortcut to their steady
 /// motion, and don't wait for each other.
 bool lanes_can_run(const Sweep& sweep) {
@@ -260,8 +263,12 @@ bool SweepRun::restore(std::span<const std::byte> results) {
   return true;
 }
 
+std::uint64_t SweepRun::most_saved() const {
+  const double branch = sizeof(std::uint64_t) + static_cast<double>(share_.length()) * columns_.most_packed();
+  return static_cast<std::uint64_t>(std::min(1e18, enough_to_save + branch));
+}
+
 void SweepRun::save(const std::function<void(std::span<const std::byte> results)>& write) {
-  constexpr std::size_t enough = 256UL * 1024;  // bytes
   std::vector<std::byte> results;
   std::vector<std::size_t> packed;
   const auto write_packed = [&] {
@@ -275,7 +282,7 @@ void SweepRun::save(const std::function<void(std::span<const std::byte> results)
     results.insert(results.end(), number.begin(), number.end());
     for (std::size_t i = 0; i < share_.length(); ++i) columns_.pack(share_.slot(branch, i), results);
     packed.push_back(branch);
-    if (results.size() >= enough) write_packed();
+    if (results.size() >= enough_to_save) write_packed();
   }
   if (!results.empty()) write_packed();
 }

@@ -73,9 +73,11 @@ class SweepRun {
   /// Runs every point that isn't restored; the same bits for every number of threads, and however many are.
   void run(const RunOptions& options);
 
-  /// Gives `write` the results of branches that were finished since the last time, some at once. Another thread may
-  /// call it while `run` is at work.
+  /// Gives `write` the results of branches that were finished since the last time, some at once, of no more than
+  /// `most_saved` bytes. Another thread may call it while `run` is at work.
   void save(const std::function<void(std::span<const std::byte> results)>& write);
+
+  [[nodiscard]] std::uint64_t most_saved() const;
 
   /// What all points gave; to be called once.
   [[nodiscard]] RunResult result();

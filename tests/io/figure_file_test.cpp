@@ -54,7 +54,7 @@ Config configuration(int compression = 4) {
   Config config;
   config.title = "Größter Ausschlag";
   config.source = "doi:10.5755/j02.mech.32277";
-  config.text = "[scene]\nxs = -4.0\n";
+  config.text = "[scene]\nxs = -4.0\n[sweep]\nnu = [1, 2, 3, 4, 5]\n";
   config.compression = compression;
   return config;
 }
@@ -113,8 +113,9 @@ TEST_F(FigureFile, root_attributes_come_in_the_order_of_the_contract) {
   EXPECT_EQ(names, "Conventions title source clatter_schema clatter_version git_commit config config_sha256 compiler ");
   EXPECT_EQ(summary.attributes[0].second, "CF-1.10");
   EXPECT_EQ(summary.attributes[1].second, "Größter Ausschlag");
-  EXPECT_EQ(summary.attributes[6].second, "[scene]\nxs = -4.0\n");
-  EXPECT_EQ(summary.attributes[7].second, "8c1b716c043a2592b76185aa9bc76211cac444ce98858e0fa77cb9b570854d64");
+  EXPECT_EQ(summary.attributes[6].second, "[scene]\nxs = -4.0\n[sweep]\nnu = [1, 2, 3, 4, 5]\n");
+  EXPECT_EQ(summary.attributes[7].second,
+            "6908d95f47dbf9f66253d392d95c432addd8a28e83a1f8b6243c43f32664d19a");  // sha256sum
 }
 
 TEST_F(FigureFile, points_are_counted_by_status) {

@@ -62,7 +62,15 @@ TEST(Guarded, ends_what_has_no_end) {
   const auto endless = []() -> std::string {
     for (std::atomic<int> turn = 0;;) ++turn;
   };
-  EXPECT_NE(death_of(endless, {.seconds = 1}).find("no end"), std::string::npos);
+  EXPECT_NE(death_of(endless, {.seconds = 1}).find("1 s of processor time"), std::string::npos);
+  EXPECT_TRUE(has_no_child());
+}
+
+TEST(Guarded, ends_what_waits_for_nobody) {
+  const auto waiting = []() -> std::string {
+    for (;;) ::pause();
+  };
+  EXPECT_NE(death_of(waiting, {.wall_seconds = 1}).find("within 1 s"), std::string::npos);
   EXPECT_TRUE(has_no_child());
 }
 

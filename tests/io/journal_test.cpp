@@ -22,6 +22,7 @@ namespace fs = std::filesystem;
 using Records = std::vector<std::string>;
 
 const JournalKey key{"nu = 1\nxs = 2\n", "1.0", "avx2", "1/3"};
+constexpr std::uint64_t most_bytes = 1'000'000;  // of a record
 
 std::string text_of(std::span<const std::byte> bytes) {
   return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
@@ -44,14 +45,14 @@ class JournalFile : public testing::Test {
 
   /// Keeps records as a run does that is then killed.
   void write(const Records& records, Journal::Begin begin = Journal::Begin::anyhow) const {
-    Journal journal(output(), key, begin, [](auto) {});
+    Journal journal(output(), key, most_bytes, begin, [](auto) {});
     for (const std::string& text : records) journal.append(bytes_of(text));
     journal.sync();
   }
   /// What the next run finds.
   [[nodiscard]] Records found(const JournalKey& by = key, Journal::Begin begin = Journal::Begin::anyhow) const {
     Records records;
-    const Journal journal(output(), by, begin,
+    const Journal journal(output(), by, most_bytes, begin,
                           [&](std::span<const std::byte> bytes) { records.push_back(text_of(bytes)); });
     EXPECT_EQ(journal.has_records(), !records.empty());
     return records;
@@ -85,7 +86,7 @@ TEST_F(JournalFile, is_not_there_without_records_nor_after_remove) {
   write({});
   EXPECT_FALSE(fs::exists(path()));
   write(three);
-  Journal(output(), key, Journal::Begin::anyhow, [](auto) {}).remove();
+  Journal(output(), key, most_bytes, Journal::Begin::anyhow, [](auto) {}).remove();
   EXPECT_FALSE(fs::exists(path()));
 }
 
@@ -120,9 +121,9 @@ TEST_F(JournalFile, refuses_another_key_and_says_what_differs) {
 }
 
 TEST_F(JournalFile, of_two_runs_only_one_has_it) {
-  Journal first(output(), key, Journal::Begin::anyhow, [](auto) {});
+  Journal first(output(), key, most_bytes, Journal::Begin::anyhow, [](auto) {});
   first.append(bytes_of("one"));
-  EXPECT_THROW(Journal(output(), key, Journal::Begin::restart, [](auto) {}), BusyError);
+  EXPECT_THROW(Journal(output(), key, most_bytes, Journal::Begin::restart, [](auto) {}), BusyError);
   first.append(bytes_of("two"));
   EXPECT_THROW((void)found(), BusyError);
 }
@@ -131,7 +132,7 @@ TEST_F(JournalFile, tells_others_that_its_output_is_being_written) {
   require_idle(output());
   EXPECT_FALSE(fs::exists(path()));
   {
-    const Journal journal(output(), key, Journal::Begin::anyhow, [](auto) {});
+    const Journal journal(output(), key, most_bytes, Journal::Begin::anyhow, [](auto) {});
     EXPECT_THROW(require_idle(output()), BusyError);
   }
   write(three);  // by a run that has ended
@@ -198,13 +199,68 @@ TEST_F(JournalFile, on_a_full_disk_keeps_what_it_had) {
     const rlimit full{static_cast<rlim_t>(before.size()) + more, limit.rlim_max};
     ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &full), 0);
     {
-      Journal journal(output(), key, Journal::Begin::anyhow, [](auto) {});
+      Journal journal(output(), key, most_bytes, Journal::Begin::anyhow, [](auto) {});
       EXPECT_THROW(journal.append(bytes_of(std::string(100000, 'y'))), IoError) << more;
     }
     ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &limit), 0);
     EXPECT_EQ(content(), before) << more;
   }
   EXPECT_EQ(found(), three);
+}
+
+TEST_F(JournalFile, of_a_tebibyte_of_zeros_is_not_read_to_its_end) {
+  write(three);
+  const std::uintmax_t size = fs::file_size(path());
+  std::error_code error;
+  fs::resize_file(path(), std::uintmax_t{1} << 40U, error);
+  if (error) GTEST_SKIP() << "no sparse files here";
+  EXPECT_EQ(found(), three);
+  EXPECT_EQ(fs::file_size(path()), size);
+}
+
+TEST_F(JournalFile, with_a_longer_record_than_a_run_writes_is_damaged) {
+  write({std::string(most_bytes, 'x')});
+  EXPECT_EQ(found(), Records{std::string(most_bytes, 'x')});
+  write({std::string(most_bytes + 1, 'x')}, Journal::Begin::restart);
+  EXPECT_NE(refusal().find("damaged"), std::string::npos);
+}
+
+TEST_F(JournalFile, shows_a_foreign_key_and_does_not_obey_it) {
+  const JournalKey hostile{"nu = 1\nx = \"\x1b]0;title\a\"\n", "1.0\x1b[2J\nclatter: all is well", "\u202eavx2", ""};
+  {
+    Journal journal(output(), hostile, most_bytes, Journal::Begin::anyhow, [](auto) {});
+    journal.append(bytes_of("one"));
+  }
+  const std::string shown = refusal();
+  EXPECT_EQ(shown.find_first_of("\x1b\a"), std::string::npos) << shown;
+  EXPECT_EQ(shown.find("\u202e"), std::string::npos) << shown;
+  EXPECT_EQ(shown.find("\nclatter:"), std::string::npos) << shown;
+  EXPECT_NE(shown.find("1.0\\x1b[2J\\x0aclatter: all is well"), std::string::npos) << shown;
+}
+
+TEST_F(JournalFile, gives_the_room_of_its_last_records_back) {
+  const std::string large(900'000, 'x');
+  Journal journal(output(), key, most_bytes, Journal::Begin::anyhow, [](auto) {});
+  for (int i = 0; i < 5; ++i) journal.append(bytes_of(large));
+  const std::uintmax_t size = fs::file_size(path());
+  journal.give_back(size + 1);  // more than there is would help nobody
+  EXPECT_EQ(fs::file_size(path()), size);
+  journal.give_back(1'000'000);
+  EXPECT_LE(fs::file_size(path()), size - 1'000'000);
+  EXPECT_GT(fs::file_size(path()), 1'800'000U);
+  EXPECT_NE(journal.leave().find("a part of what was finished"), std::string::npos);
+  journal.give_back(fs::file_size(path()));
+  EXPECT_EQ(fs::file_size(path()), 0U);
+  EXPECT_NE(journal.leave().find("has to be run again"), std::string::npos);
+}
+
+TEST_F(JournalFile, that_cannot_be_looked_at_is_not_idle) {
+  require_idle(output());
+  fs::create_directory(path());
+  EXPECT_THROW(require_idle(output()), IoError);
+  fs::remove(path());
+  fs::create_symlink("elsewhere", path());
+  EXPECT_THROW(require_idle(output()), IoError);
 }
 
 }  // namespace

@@ -33,6 +33,15 @@ class Publish : public testing::Test {
     return {std::istreambuf_iterator<char>{file}, {}};
   }
 
+  void write(const std::string& name, const std::string& text) const {
+    std::ofstream{path(name), std::ios::binary} << text;
+  }
+  [[nodiscard]] struct stat status_of(const std::string& name) const {
+    struct stat status {};
+    EXPECT_EQ(::stat(path(name).c_str(), &status), 0);
+    return status;
+  }
+
   /// What publishing a text throws, or nothing where it succeeds.
   [[nodiscard]] static std::string refusal(const std::string& file, const std::string& text = "new") {
     try {
@@ -59,9 +68,7 @@ TEST_F(Publish, gives_the_permissions_of_any_new_file) {
   const mode_t before = ::umask(027);
   EXPECT_EQ(refusal(path("out.h5")), "");
   ::umask(before);
-  struct stat status {};
-  ASSERT_EQ(::stat(path("out.h5").c_str(), &status), 0);
-  EXPECT_EQ(status.st_mode & 0777U, 0640U);
+  EXPECT_EQ(status_of("out.h5").st_mode & 0777U, 0640U);
 }
 
 /// Lets no file grow beyond some bytes, which is to the writer what a full disk is.
@@ -147,6 +154,60 @@ TEST_F(Publish, names_may_be_as_long_as_the_file_system_permits) {
   const std::string name(255, 'x');
   EXPECT_EQ(refusal(path(name)), "");
   EXPECT_EQ(content(name), "new");
+}
+
+TEST_F(Publish, keeps_mode_and_group_of_what_it_replaces) {
+  EXPECT_EQ(refusal(path("out.h5")), "");
+  const mode_t before = ::umask(077);
+  for (const mode_t mode : {0600U, 0640U, 0664U}) {
+    ASSERT_EQ(::chmod(path("out.h5").c_str(), mode), 0);
+    EXPECT_EQ(refusal(path("out.h5")), "");
+    EXPECT_EQ(status_of("out.h5").st_mode & 0777U, mode);
+  }
+  ::umask(before);
+  if (::chown(path("out.h5").c_str(), 12, 34) != 0) GTEST_SKIP() << "only root may give files away";
+  EXPECT_EQ(refusal(path("out.h5")), "");
+  EXPECT_EQ(status_of("out.h5").st_uid, 12U);
+  EXPECT_EQ(status_of("out.h5").st_gid, 34U);
+}
+
+TEST_F(Publish, removes_what_a_killed_run_has_left) {
+  const std::string begun = "\x89HDF\r\n\x1a\n and so on";
+  for (const std::string& text : {std::string(), begun.substr(0, 3), begun}) {
+    write(".out.h5.clatter-0123abcd.tmp", text);
+    EXPECT_EQ(refusal(path("out.h5")), "");
+    EXPECT_EQ(entries(), 1);
+  }
+}
+
+TEST_F(Publish, touches_nothing_that_it_has_not_written) {
+  for (const char* const name : {".out.h5.backup.tmp", ".out.h5.clatter-notes.tmp", ".out.h5.clatter-mynotes1.tmp"})
+    write(name, "a letter");
+  write(".other.h5.clatter-0123abcd.tmp", "");
+  ASSERT_EQ(::mkfifo(path(".out.h5.clatter-0123abcd.tmp").c_str(), 0666), 0);
+  ASSERT_EQ(::mkfifo(path(".out.h5.abcdef.tmp").c_str(), 0666), 0);
+  fs::create_symlink(".other.h5.clatter-0123abcd.tmp", path(".out.h5.clatter-abcdefgh.tmp"));
+  EXPECT_EQ(refusal(path("out.h5")), "");
+  EXPECT_EQ(entries(), 8);
+}
+
+TEST_F(Publish, of_two_at_once_neither_takes_the_file_of_the_other) {
+  const std::string same(220, 'x');  // of a long name only the beginning is in that of the temporary file
+  for (const std::string& other : {path("out.h5"), path(same + "2")}) {
+    const std::string first = "first", second = "second", target = other == path("out.h5") ? other : path(same + "1");
+    const auto meanwhile = [&] { publish(other, std::as_bytes(std::span{second})); };
+    publish(target, std::as_bytes(std::span{first}), {.before_rename = meanwhile});
+    EXPECT_EQ(content(fs::path(target).filename()), "first");
+  }
+  EXPECT_EQ(content(same + "2"), "second");
+  EXPECT_EQ(entries(), 3);
+}
+
+TEST_F(Publish, asks_for_room_only_if_there_is_too_little) {
+  std::uint64_t asked = 0;
+  const std::string text = "new";
+  publish(path("out.h5"), std::as_bytes(std::span{text}), {.make_room = [&](std::uint64_t bytes) { asked = bytes; }});
+  EXPECT_EQ(asked, 0U);
 }
 
 }  // namespace

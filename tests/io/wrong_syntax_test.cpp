@@ -18,7 +18,7 @@ TEST(Toml, syntax_errors_have_a_place) {
                  {"[scene]\nh = 0.1 0.2\n", "2:9", "KEY = VALUE"},
                  {"[scene]\nh = .5\n", "2:5", "expected decimal digit"},
                  {"title = \"\"\"ä\n", "1:13", "encountered end-of-file"},
-                 {"[observe]\nextrema = t\n", "2:12", "expected 'true', saw 't?'"},
+                 {"[observe]\nextrema = t\n", "2:12", "expected 'true', saw 't\\x0a'"},
                  {"scene = 5\n", "1:1", "unknown key 'scene' before the first section; begin the section with [scene]"},
                  {"[[scene]]\nxs = 1\n", "1:3", "write [scene], in single brackets"},
                  {"[scene]\nxs = 1\n[[sweep]]\nf = [1]\n", "3:3", "write [sweep], in single brackets"},

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <hdf5.h>
+
+#include <cstddef>
+#include <functional>
+#include <vector>
+
+namespace clatter::hdf5 {
+
+/// Lengths of dimensions, the slowest first.
+using Shape = std::vector<hsize_t>;
+
+[[nodiscard]] Shape shape_of(hid_t dataset);
+
+[[nodiscard]] std::size_t count(const Shape& shape);
+
+/// The size of the chunk cache that every reader has: larger chunks are inflated again for every access.
+inline constexpr std::size_t largest_block = 1024UL * 1024;  // bytes
+
+/// The shape of the blocks that an array is written and read in: as many of the fastest dimensions as fit whole, the
+/// next one in equal parts, so that none is mostly empty.
+[[nodiscard]] Shape blocks_of(const Shape& shape, std::size_t value_size);
+
+/// Reads a variable block after block into `memory`, which has room for the values of a type in `largest_block` bytes,
+/// and calls `take(number of values)` after each. Throws Failure.
+void read_blocks(hid_t dataset, hid_t type, void* memory, const std::function<void(std::size_t)>& take);
+
+}  // namespace clatter::hdf5

@@ -1,0 +1,31 @@
+#include "io/input_file.hpp"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+
+#include <cstring>
+
+#include "io/error.hpp"
+#include "io/utf8.hpp"
+
+namespace clatter {
+namespace {
+
+[[noreturn]] void refuse_reading(const std::string& path, const std::string& why, const std::string& way_out) {
+  throw IoError(quoted_name(path) + ": " + why + "; " + way_out);
+}
+
+}  // namespace
+
+InputFile open_input(const std::string& path, const std::string& wanted) {
+  Descriptor file{uninterrupted([&] { return ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK); })};
+  struct stat status {};
+  if (file.number() < 0 || ::fstat(file.number(), &status) != 0)
+    refuse_reading(path, std::strerror(errno), errno == EACCES ? "get permission to read it" : "check the name");
+  if (S_ISDIR(status.st_mode)) refuse_reading(path, "is a directory", "name a file in it");
+  if (!S_ISREG(status.st_mode)) refuse_reading(path, "is not a regular file", "name " + wanted);
+  constexpr std::uint64_t block = 512;  // bytes, as POSIX counts st_blocks on Linux
+  return {std::move(file), block * static_cast<std::uint64_t>(status.st_blocks)};
+}
+
+}  // namespace clatter
