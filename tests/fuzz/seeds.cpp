@@ -13,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "crafted.hpp"
 #include "io/defaults.hpp"
 #include "io/figure_file.hpp"
 #include "io/keys.hpp"
@@ -103,15 +104,20 @@ Figure scalar() { return {{}, {{"x_min", {}, std::vector<double>{-0.5}, "least d
 void write_files(const fs::path& corpus) {
   Config config;
   config.title = "Größter Ausschlag";
-  config.text = "[scene]\nxs = -4.0\n";
+  config.text = "[scene]\nxs = -4.0\n[sweep]\nnu = \"linspace(1, 2, 2)\"\n[observe]\ntrajectory = 2\n";
+  const auto seed = [&](const std::string& name, std::string_view bytes) {
+    for (const char* const reader : file_readers) write_seed(corpus / reader, name, bytes);
+  };
   const auto write = [&](const std::string& name, Figure what, int compression) {
     config.compression = compression;
     const FileImage image = file_image(std::move(what), config);
-    for (const char* const reader : file_readers)
-      write_seed(corpus / reader, name, {reinterpret_cast<const char*>(image.bytes.data()), image.bytes.size()});
+    seed(name, {reinterpret_cast<const char*>(image.bytes.data()), image.bytes.size()});
   };
   write("small", figure(2, 2), 0);
+  for (const auto& [name, bytes] : crafted_files(content_of(corpus / "info" / "small"))) seed(name, bytes);
+  config.text = "[scene]\nxs = -4.0\n[sweep]\nnu = \"linspace(1, 2, 60)\"\n[observe]\ntrajectory = 40\n";
   write("deflated", figure(60, 40), 9);
+  config.text = "[scene]\nxs = -4.0\n";
   write("scalar", scalar(), 0);
   write("empty", {{{"impact", 0}}, {{"impact_tau", {"impact"}, std::vector<double>{}, "time of impact", "1"}}}, 0);
 }
