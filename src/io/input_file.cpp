@@ -24,8 +24,9 @@ InputFile open_input(const std::string& path, const std::string& wanted) {
     refuse_reading(path, std::strerror(errno), errno == EACCES ? "get permission to read it" : "check the name");
   if (S_ISDIR(status.st_mode)) refuse_reading(path, "is a directory", "name a file in it");
   if (!S_ISREG(status.st_mode)) refuse_reading(path, "is not a regular file", "name " + wanted);
-  constexpr std::uint64_t block = 512;  // bytes, as POSIX counts st_blocks on Linux
-  return {std::move(file), block * static_cast<std::uint64_t>(status.st_blocks)};
+  constexpr blkcnt_t block = 512;  // bytes, as Linux counts them
+  const off_t stored = status.st_blocks > 0 ? block * status.st_blocks : status.st_size;  // 0: the system doesn't tell
+  return {std::move(file), static_cast<std::uint64_t>(stored)};
 }
 
 }  // namespace clatter

@@ -218,9 +218,12 @@ void Journal::unlink() const {
 /// Opens the file that has the journal's name and locks it; the one that was opened may have been removed meanwhile, by
 /// the run that held the lock.
 void Journal::lock() {
+  struct stat older {};
+  const mode_t mode = ::stat(output_.c_str(), &older) == 0 ? older.st_mode & 0666 : 0666;  // as private as the output
   for (;;) {
-    file_ = Descriptor{uninterrupted(
-        [&] { return ::open(path_.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC | O_NOFOLLOW, 0666); })};
+    file_ = Descriptor{uninterrupted([&] {
+      return ::open(path_.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK, mode);
+    })};
     if (file_.number() < 0) refuse_place(path_, errno);
     if (uninterrupted([&] { return ::flock(file_.number(), LOCK_EX | LOCK_NB); }) != 0) {
       if (errno == EWOULDBLOCK) file_ = Descriptor{-1}, refuse_busy(output_);

@@ -29,7 +29,7 @@ std::string origin_text(const std::string& path) try {
 }  // namespace
 
 std::optional<Origin> origin_of(const std::string& path) try {
-  constexpr GuardLimits few{.memory = std::uint64_t{256} << 20U, .seconds = 1, .wall_seconds = 10};
+  constexpr GuardLimits few{.memory = std::uint64_t{256} << 20U, .seconds = 1, .wall_seconds = 60};
   const std::string text = guarded([&] { return origin_text(path); }, few);
   const std::size_t kind = text.find('\0'), shard = text.find('\0', kind + 1);
   if (kind == std::string::npos || shard == std::string::npos) return std::nullopt;

@@ -189,6 +189,22 @@ class Faults(StoppedRuns):
                     self.begin_anew(saved)
                     self.assert_completes(context)
 
+    def test_a_disk_that_holds_the_output_and_not_its_journal_is_enough(self):
+        larger = ("--set", "observe.trajectory=100")
+        self.begin_anew()
+        self.assertEqual(self.run_command(*larger).returncode, 0)
+        whole = self.output.read_bytes()
+        self.begin_anew()
+        for attempt in range(1, 200):
+            if self.run_command(*larger, "--max-time", f"{0.01 * attempt:g}", threads=1).returncode == 124 and self.journal.exists():
+                break
+        with self.small_disk(len(whole) * 5 // 4 // 1024) as disk:
+            shutil.copy(self.journal, disk / "a.h5.journal")
+            result = self.run_command(*larger, "--resume", output=disk / "a.h5")
+            self.assertEqual(result.returncode, 0, result.stderr)
+            self.assertEqual((disk / "a.h5").read_bytes(), whole)
+            self.assertEqual([path.name for path in disk.iterdir()], ["a.h5"])
+
     def test_an_output_that_was_there_stays_until_the_new_one_is_whole(self):
         self.assertEqual(self.run_command("--set", "scene.R=0.5").returncode, 0)
         before = self.output.read_bytes()

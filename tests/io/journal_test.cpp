@@ -254,6 +254,13 @@ TEST_F(JournalFile, gives_the_room_of_its_last_records_back) {
   EXPECT_NE(journal.leave().find("has to be run again"), std::string::npos);
 }
 
+TEST_F(JournalFile, is_as_private_as_its_output) {
+  std::ofstream{output()} << "an older one";
+  fs::permissions(output(), fs::perms::owner_read | fs::perms::owner_write);
+  write(three);
+  EXPECT_EQ(fs::status(path()).permissions(), fs::perms::owner_read | fs::perms::owner_write);
+}
+
 TEST_F(JournalFile, that_cannot_be_looked_at_is_not_idle) {
   require_idle(output());
   fs::create_directory(path());
