@@ -1,5 +1,6 @@
 #include <hdf5_hl.h>
 
+#include <algorithm>
 #include <array>
 #include <optional>
 #include <sstream>
@@ -115,17 +116,24 @@ std::optional<std::size_t> points_told(hid_t file, const std::string& path) try 
   return std::nullopt;
 }
 
-/// Nobody has to read more than there can be: a short file may claim any number of values.
-void require_points(const FileSummary::Entry& status, const std::optional<std::size_t>& told) {
-  double points = 1;
-  for (const NamedLength& dimension : status.dimensions)
+/// Nobody has to read more than there can be: a short file may claim any number of values. `told` are the points of its
+/// configuration, and else the room that it takes on its disk has to do.
+void require_possible(const FileSummary::Entry& status, const std::optional<std::size_t>& told,
+                      std::uint64_t stored_bytes) {
+  constexpr double most_deflated = 1032;  // values of a byte, in a byte (zlib's technical details)
+  double points = 1, values = 1;
+  for (const NamedLength& dimension : status.dimensions) {
+    values *= static_cast<double>(dimension.length);
     if (dimension.name != "row") points *= static_cast<double>(dimension.length);  // of `clatter accuracy`
+  }
   if (told && points != static_cast<double>(*told))
     throw hdf5::Failure("its 'status' is of other points than the " + std::to_string(*told) + " of its configuration");
+  if (!told && values > most_deflated * static_cast<double>(stored_bytes))
+    throw hdf5::Failure("its 'status' is longer than a file of its size can hold");
 }
 
 /// How many values of a variable have each of its flags, in the order of flag_values.
-std::vector<std::pair<std::string, std::size_t>> flag_counts(hid_t dataset) {
+std::vector<std::pair<std::string, std::size_t>> flag_counts(const Handle& dataset) {
   std::array<std::size_t, 256> counts{};
   std::vector<std::uint8_t> values(hdf5::largest_block);
   hdf5::read_blocks(dataset, H5T_NATIVE_UINT8, values.data(), [&](std::size_t count) {
@@ -147,17 +155,14 @@ std::string link_name(hid_t file, H5_index_t order, hsize_t index) {
   return name;
 }
 
-void add_variable(FileSummary& summary, hid_t file, const std::string& name, const std::string& path) {
+void add_variable(FileSummary& summary, hid_t file, const std::string& name) {
   const Handle dataset{H5Dopen2(file, name.c_str(), H5P_DEFAULT), H5Dclose};
   if (is_bare_scale(dataset)) return;
   summary.variables.push_back({name, type_name(dataset), text_attribute(dataset, "units"),
                                text_attribute(dataset, "long_name"), dimensions_of(dataset, name)});
-  if (name != "status") return;
-  require_points(summary.variables.back(), points_told(file, path));
-  summary.status_counts = flag_counts(dataset);
 }
 
-FileSummary summary_of(const Handle& file, const std::string& path) {
+FileSummary summary_of(const Handle& file, const std::string& path, std::uint64_t stored_bytes) {
   if (text_attribute(file, "clatter_schema") != "clatter/1") {
     refuse(path, "an HDF5 file, but not one of clatter's (no attribute clatter_schema = \"clatter/1\")",
            "name an output of clatter");
@@ -167,14 +172,18 @@ FileSummary summary_of(const Handle& file, const std::string& path) {
   H5G_info_t group;
   checked(H5Gget_info(file, &group));
   const H5_index_t order = order_of(file, H5Pget_link_creation_order);
-  for (hsize_t i = 0; i < group.nlinks; ++i) add_variable(summary, file, link_name(file, order, i), path);
+  for (hsize_t i = 0; i < group.nlinks; ++i) add_variable(summary, file, link_name(file, order, i));
+  const auto status = std::ranges::find(summary.variables, "status", &FileSummary::Entry::name);
+  if (status == summary.variables.end()) return summary;
+  require_possible(*status, points_told(file, path), stored_bytes);
+  summary.status_counts = flag_counts({H5Dopen2(file, "status", H5P_DEFAULT), H5Dclose});
   return summary;
 }
 
 /// Reads with the library, whatever may come of it.
-FileSummary unguarded_summary(const std::string& path) try {
+FileSummary unguarded_summary(const std::string& path, std::uint64_t stored_bytes) try {
   const hdf5::QuietErrors quiet;
-  return summary_of(open(path), path);
+  return summary_of(open(path), path, stored_bytes);
 } catch (const hdf5::Failure& failure) {
   refuse_damaged(path, failure.what());
 } catch (const std::length_error&) {
@@ -184,8 +193,8 @@ FileSummary unguarded_summary(const std::string& path) try {
 }  // namespace
 
 FileSummary read_summary(const std::string& path) try {
-  const GuardLimits limits = limits_for(open_input(path, "an output of clatter").stored_bytes);
-  auto summary = summary_from(guarded([&] { return bytes_of(unguarded_summary(path)); }, limits));
+  const std::uint64_t stored = open_input(path, "an output of clatter").stored_bytes;
+  auto summary = summary_from(guarded([&] { return bytes_of(unguarded_summary(path, stored)); }, limits_for(stored)));
   if (!summary) refuse_damaged(path, "it disturbs the memory of the HDF5 library");
   return std::move(*summary);
 } catch (const GuardedDeath& death) {

@@ -1,5 +1,7 @@
 #include "io/hdf5_plain.hpp"
 
+#include <vector>
+
 #include "io/utf8.hpp"
 
 namespace clatter::hdf5 {
@@ -38,15 +40,16 @@ void require_own_variable(hid_t file, hsize_t index) {
   if (name.find('/') != std::string::npos) refuse(name, "has a path for its name");
 }
 
+/// Shuffle and deflate, each once at most: a file that is deflated many times over grows without bound.
 void require_own_filters(hid_t properties, const std::string& name) {
+  std::vector<H5Z_filter_t> own{H5Z_FILTER_SHUFFLE, H5Z_FILTER_DEFLATE};
   const auto count = static_cast<unsigned>(checked(H5Pget_nfilters(properties)));
   for (unsigned i = 0; i < count; ++i) {
     unsigned flags = 0, configuration = 0;
     std::size_t values = 0;
     const H5Z_filter_t filter =
         checked(H5Pget_filter2(properties, i, &flags, &values, nullptr, 0, nullptr, &configuration));
-    if (filter != H5Z_FILTER_SHUFFLE && filter != H5Z_FILTER_DEFLATE)
-      refuse(name, "passes through filter " + std::to_string(filter));
+    if (std::erase(own, filter) == 0) refuse(name, "passes through filter " + std::to_string(filter));
   }
 }
 

@@ -42,6 +42,13 @@ def properties(**settings):
     return created
 
 
+def deflated_twice(points):
+    created = properties(chunk=(points,))
+    for _ in range(2):
+        created.set_filter(h5py.h5z.FILTER_DEFLATE, h5py.h5z.FLAG_MANDATORY, (9,))
+    return created
+
+
 def low_level(file, points, created, kind=h5py.h5t.NATIVE_DOUBLE):
     h5py.h5d.create(file.id, b"x_max", kind, h5py.h5s.create_simple((points,)), created)
 
@@ -89,6 +96,8 @@ CRAFTED = {
     "type": (replace(linked(lambda directory: numpy.dtype("f8"))), "'x_max' is a group or a type, not a variable"),
     "filter": (replace(lambda file, points, directory: file.create_dataset(
         "x_max", data=numpy.zeros(points), chunks=(points,), compression="lzf")), "'x_max' passes through filter 32000"),
+    "deflated twice": (replace(lambda file, points, directory: low_level(
+        file, points, deflated_twice(points))), "'x_max' passes through filter 1"),
     "compact": (replace(lambda file, points, directory: low_level(
         file, points, properties(layout=h5py.h5d.COMPACT))), "'x_max' is stored compactly"),
     "texts": (replace(lambda file, points, directory: file.create_dataset("x_max", data=["a"] * points)),
@@ -187,10 +196,15 @@ class HostileFiles(CommandLine):
             del file["status"]
             created = properties(alloc_time=h5py.h5d.ALLOC_TIME_EARLY, fill_time=h5py.h5d.FILL_TIME_NEVER)
             h5py.h5d.create(file.id, b"status", h5py.h5t.NATIVE_UINT8, h5py.h5s.create_simple((4 << 30,)), created)
+        def grow_unread(file, directory):
+            grow(file, directory)
+            file.attrs["config"] = "of another version"
         name = self.craft("a.h5", grow)
         self.assertLess((self.directory / name).stat().st_blocks * 512, 1 << 20)
         before = resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss
         self.assert_refused(74, "its 'status' is of other points than the 5 of its configuration", "info", name)
+        name = self.craft("a.h5", grow_unread)
+        self.assert_refused(74, "its 'status' is longer than a file of its size can hold", "info", name)
         used = resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss
         self.assertLess(max(0, used - before), 256 * 1024)  # KiB
 
