@@ -136,7 +136,7 @@ class Shards(StoppedRuns):
         self.run_command(output=whole)
         self.assert_not_merged([whole], "is no whole shard")
         self.assert_not_merged([self.config], "is no whole shard")
-        self.assert_not_merged([self.directory], "is not a regular file")
+        self.assert_not_merged([self.directory], "is a directory")
         self.assert_not_merged([self.directory / "none.h5"], "No such file")
         self.assert_refused(2, "SHARD.h5 is missing", "merge", "-o", "a.h5")
         self.assert_refused(2, "name it with -o", "merge", "whole.h5")
