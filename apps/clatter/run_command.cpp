@@ -141,7 +141,7 @@ int run_config(const Arguments& arguments) {
     place.publish(image(std::move(result.figure), config).bytes,
                   [&](std::uint64_t bytes) { journal.give_back(bytes); });
   } catch (const IoError& error) {
-    if (!journal.has_records()) throw;
+    if (!journal.had_records()) throw;
     throw IoError(std::string(error.what()).append("\nclatter: ").append(journal.leave()));
   }
   journal.remove();

@@ -219,7 +219,8 @@ void Journal::unlink() const {
 /// the run that held the lock.
 void Journal::lock() {
   struct stat older {};
-  const mode_t mode = ::stat(output_.c_str(), &older) == 0 ? older.st_mode & 0666 : 0666;  // as private as the output
+  const bool is_rerun = ::stat(output_.c_str(), &older) == 0;
+  const mode_t mode = is_rerun ? (older.st_mode & 0666) | 0600 : 0666;  // as private as the output
   for (;;) {
     file_ = Descriptor{uninterrupted([&] {
       return ::open(path_.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK, mode);

@@ -61,6 +61,8 @@ class Journal {
   /// Waits until all records are on the disk. Throws IoError.
   void sync();
   [[nodiscard]] bool has_records() const { return size_ > 0; }
+  /// Whether there is something to say of them: there are some, or their room was given back.
+  [[nodiscard]] bool had_records() const { return has_records() || gave_back_; }
   /// Whether others are kept from this output: some network file systems have no locks.
   [[nodiscard]] bool is_locked() const { return is_locked_; }
   /// Gives the room of its last records back, at least so many bytes, if it has as many. The records before stay.
