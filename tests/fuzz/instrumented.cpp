@@ -2,7 +2,9 @@
 #include "instrumented.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <span>
+#include <vector>
 
 /// The table of instrumented code: a block of it each.
 struct Block {
@@ -14,9 +16,17 @@ extern "C" const Block end_of_blocks asm("__stop___sancov_pcs");
 
 namespace clatter::fuzz {
 
+/// Instrumented code isn't in one piece: functions that run before main come first of all.
 bool is_instrumented(std::uintptr_t address) {
-  static const auto ends = std::ranges::minmax(std::span(&first_block, &end_of_blocks), {}, &Block::address);
-  return address >= ends.min.address && address <= ends.max.address;
+  constexpr std::uintptr_t longest = 4096;  // bytes of a block
+  static const std::vector<std::uintptr_t> blocks = [] {
+    std::vector<std::uintptr_t> all;
+    for (const Block& block : std::span(&first_block, &end_of_blocks)) all.push_back(block.address);
+    std::ranges::sort(all);
+    return all;
+  }();
+  const auto after = std::ranges::upper_bound(blocks, address);
+  return after != blocks.begin() && address - *std::prev(after) < longest;
 }
 
 }  // namespace clatter::fuzz

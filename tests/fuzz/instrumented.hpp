@@ -4,7 +4,7 @@
 
 namespace clatter::fuzz {
 
-/// Whether an address is in instrumented code, which is clatter's and all in one piece.
+/// Whether an address is in instrumented code, which is clatter's.
 [[nodiscard]] bool is_instrumented(std::uintptr_t address);
 
 }  // namespace clatter::fuzz
