@@ -4,6 +4,7 @@ import os
 import stat
 
 import h5py
+import numpy as np
 from h5py import h5d, h5l, h5o, h5t, h5z
 
 WANTED = "give a file that 'clatter run' or 'clatter accuracy' wrote"
@@ -96,4 +97,6 @@ def unlike_clatter(root, name):
 
 
 def text(value):
+    """A text attribute; nccopy makes an array of one out of it."""
+    value = value.item() if isinstance(value, np.ndarray) and value.size == 1 else value
     return value.decode() if isinstance(value, bytes) else str(value)
