@@ -17,9 +17,14 @@ class FileProblem(Exception):
     """A file that cannot be used; the message is one line that names it and the way out."""
 
 
+def printable(value):
+    """A text of a file in one line that moves no cursor."""
+    return repr(text(value))[1:-1]
+
+
 def damaged(path, error):
-    """What a library found, in one line: its words may quote the file."""
-    return FileProblem(f"{path}: damaged ({repr(str(error))[1:-1]}); {ANEW}")
+    """What a library found: its words may quote the file."""
+    return FileProblem(f"{path}: damaged ({printable(error)}); {ANEW}")
 
 
 def open_output(path):
@@ -62,7 +67,7 @@ def require_regular(path):
 def require_schema(path, file):
     schema = text(file.attrs.get("clatter_schema", ""))
     if schema != "clatter/1":
-        found = f"its schema is {schema!r}" if schema else "it has no attribute clatter_schema"
+        found = f"its schema is '{printable(schema)}'" if schema else "it has no attribute clatter_schema"
         raise FileProblem(f"{path}: not a clatter/1 file ({found}); {WANTED}")
 
 

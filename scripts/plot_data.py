@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import h5py
 import numpy as np
 
-from plain_hdf5 import UNREADABLE, FileProblem, damaged, open_output, text
+from plain_hdf5 import UNREADABLE, FileProblem, damaged, open_output, printable, text
 
 PAPER = "10.5755/j02.mech.32277"
 FIRST_FAILURE = 16  # status values from here on are failures
@@ -39,7 +39,8 @@ class Output:
     def read(self, path):
         with open_output(path) as file:
             if "shard" in file.attrs:
-                raise FileProblem(f"{path}: shard {text(file.attrs['shard'])!r} of a sweep; join all with 'clatter merge' first")
+                shard = printable(file.attrs["shard"])
+                raise FileProblem(f"{path}: shard {shard} of a sweep; join all with 'clatter merge' first")
             self.title = text(file.attrs.get("title", ""))
             self.source = text(file.attrs.get("source", ""))
             self.config = tomllib.loads(text(file.attrs["config"]))
