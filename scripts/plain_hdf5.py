@@ -7,6 +7,8 @@ import h5py
 import numpy as np
 from h5py import h5d, h5l, h5o, h5t, h5z
 
+from hdf5_heaps import damaged_heap
+
 WANTED = "give a file that 'clatter run' or 'clatter accuracy' wrote"
 ANEW = "run its configuration again, or get the file anew"
 UNREADABLE = (AttributeError, LookupError, MemoryError, OSError, RuntimeError, TypeError, ValueError)  # of damaged ones
@@ -32,11 +34,14 @@ def open_output(path):
     require_regular(path)
     try:
         file = h5py.File(path, "r")
+        heap = damaged_heap(path)
     except PermissionError:
         raise FileProblem(f"{path}: not readable; check its permissions") from None
     except OSError:
         raise FileProblem(f"{path}: not an HDF5 file; {WANTED}") from None
     try:
+        if heap is not None:
+            raise damaged(path, f"a heap of texts at byte {heap}")
         require_schema(path, file)
         require_plain(path, file)
     except UNREADABLE as error:
