@@ -3,6 +3,7 @@ before a value is read, open nothing but the file itself, and wait for nothing."
 
 import os
 import shutil
+import signal
 import stat
 import subprocess
 import tempfile
@@ -131,8 +132,16 @@ class ForeignFiles(unittest.TestCase):
         yield self.folder / "fifo" / "fig22.h5", "not a regular file"
 
     def run_within_a_minute(self, *words):
-        return subprocess.run(words, capture_output=True, text=True, timeout=60,
-                              env={**os.environ, "CLATTER": str(self.program)})
+        """Ends all that it has started when it waits: else they would wait for ever."""
+        program = subprocess.Popen(words, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
+                                   start_new_session=True, env={**os.environ, "CLATTER": str(self.program)})
+        try:
+            out, err = program.communicate(timeout=60)
+        except subprocess.TimeoutExpired:
+            os.killpg(program.pid, signal.SIGKILL)
+            program.communicate()
+            raise
+        return subprocess.CompletedProcess(words, program.returncode, out, err)
 
     def test_the_secret_would_be_read(self):
         with h5py.File(self.folder / "external" / "fig22.h5") as file:
