@@ -1,10 +1,10 @@
 #include "sweep/survey.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <vector>
 
 #include "dynamics/contact.hpp"
 #include "dynamics/reach.hpp"
@@ -124,7 +124,7 @@ class Surveyor {
 
   const Sweep& sweep_;
   Looked looked_;
-  std::array<Survey, blocks> surveys_;
+  std::vector<Survey> surveys_ = std::vector<Survey>(blocks);
   ForkJoin fork_join_;
 };
 
