@@ -3,18 +3,14 @@
 import re
 import tomllib
 from dataclasses import dataclass
-from pathlib import Path
 
 import h5py
 import numpy as np
 
+from plain_hdf5 import UNREADABLE, FileProblem, damaged, open_output, printable, text
+
 PAPER = "10.5755/j02.mech.32277"
-WANTED = "give a file that 'clatter run' or 'clatter accuracy' wrote"
 FIRST_FAILURE = 16  # status values from here on are failures
-
-
-class FileProblem(Exception):
-    """A file that cannot be used; the message is one line that names it and the way out."""
 
 
 @dataclass
@@ -35,20 +31,20 @@ class Output:
         self.path = path
         try:
             self.read(path)
-        except (OSError, LookupError, RuntimeError, TypeError, ValueError) as error:
-            raise FileProblem(f"{path}: damaged ({error}); run its configuration again") from None
+        except UNREADABLE as error:
+            raise damaged(path, error) from None
         self.axes = tuple(name for name in self["status"].dims if name != "row")
         self.scene = self.config.get("scene", {})
 
     def read(self, path):
-        with open_clatter(path) as file:
+        with open_output(path) as file:
             if "shard" in file.attrs:
-                raise FileProblem(f"{path}: shard {text(file.attrs['shard'])} of a sweep; join all with 'clatter merge' first")
+                shard = printable(file.attrs["shard"])
+                raise FileProblem(f"{path}: shard {shard} of a sweep; join all with 'clatter merge' first")
             self.title = text(file.attrs.get("title", ""))
             self.source = text(file.attrs.get("source", ""))
             self.config = tomllib.loads(text(file.attrs["config"]))
-            self.variables = {name: read_variable(item) for name, item in file.items()
-                              if isinstance(item, h5py.Dataset) and not is_bare_dimension(item)}
+            self.variables = {name: read_variable(item) for name, item in file.items() if not is_bare_dimension(item)}
             self.meanings = flag_meanings(file["status"])
             self.methods = flag_meanings(file["method"]) if "method" in file else {}
 
@@ -115,34 +111,6 @@ class Output:
         first = int(np.sum(counts.ravel()[:flat]))
         part = slice(first, first + int(counts.ravel()[flat]))
         return tuple(self.values(f"impact_{name}")[part] for name in ("tau", "stop", "v_before", "v_after"))
-
-
-def open_clatter(path):
-    """Opens the file, or says in one line what is wrong with it."""
-    if not path:
-        raise FileProblem(f"'': an empty name; {WANTED}")
-    if Path(path).is_dir():
-        raise FileProblem(f"{path}: a folder, not a file; name the .h5 files in it")
-    if Path(path).exists() and not Path(path).is_file():
-        raise FileProblem(f"{path}: not a regular file; {WANTED}")
-    try:
-        file = h5py.File(path, "r")
-    except FileNotFoundError:
-        raise FileProblem(f"{path}: no such file; make it with 'clatter run CONFIG -o {path}'") from None
-    except PermissionError:
-        raise FileProblem(f"{path}: not readable; check its permissions") from None
-    except OSError:
-        raise FileProblem(f"{path}: not an HDF5 file; {WANTED}") from None
-    schema = text(file.attrs.get("clatter_schema", ""))
-    if schema != "clatter/1" or "status" not in file or "config" not in file.attrs:
-        file.close()
-        found = f"its schema is '{schema}'" if schema else "it has no attribute clatter_schema"
-        raise FileProblem(f"{path}: not a clatter/1 file ({found}); {WANTED}")
-    return file
-
-
-def text(value):
-    return value.decode() if isinstance(value, bytes) else str(value)
 
 
 def is_bare_dimension(item):

@@ -32,6 +32,16 @@ int threads_of(const Arguments& arguments) {
   return threads;
 }
 
+std::optional<Shard> shard_of(const Arguments& arguments) {
+  const std::optional<std::string> word = arguments.value("shard");
+  if (!word) return std::nullopt;
+  const std::optional<Shard> shard = shard_named(*word);
+  if (!shard)
+    throw UsageError("--shard " + in_quotes(*word) +
+                     "; permitted: K/N, two whole numbers, K from 0 to N - 1, N up to " + std::to_string(Shard::most));
+  return shard;
+}
+
 Arch arch_of(const Arguments& arguments) {
   const char* const variable = std::getenv("CLATTER_ARCH");
   const std::optional<std::string> option = arguments.value("arch");

@@ -1,8 +1,12 @@
 #pragma once
 
+#include <optional>
+#include <string>
+
 #include "command_line.hpp"
 #include "io/config.hpp"
 #include "numbers/arch.hpp"
+#include "sweep/share.hpp"
 
 namespace clatter {
 
@@ -18,6 +22,9 @@ inline const Option threads_option{"threads", 0, "N", "threads, 1 to 1024; defau
 
 /// What --threads says; 0 where it isn't given. Throws UsageError.
 [[nodiscard]] int threads_of(const Arguments& arguments);
+
+/// What --shard says; nothing where it isn't given. Throws UsageError.
+[[nodiscard]] std::optional<Shard> shard_of(const Arguments& arguments);
 
 inline const Option arch_option{"arch", 0, "NAME",
                                 "instruction set: scalar, sse2, avx2, avx512; default: CLATTER_ARCH, else the widest"};

@@ -2,6 +2,7 @@
 
 #include "commands.hpp"
 #include "config_arguments.hpp"
+#include "memory_check.hpp"
 #include "plan_report.hpp"
 #include "sweep/run.hpp"
 #include "warnings.hpp"
@@ -11,8 +12,10 @@ namespace {
 
 int print_plan(const Arguments& arguments) {
   const int threads = threads_used({.threads = threads_of(arguments)});
+  const std::optional<Shard> shard = shard_of(arguments);
   const Config config = config_of(arguments);
-  Plan plan = plan_of(config.sweep, threads);
+  check_memory(config.sweep, shard);
+  Plan plan = plan_of(config.sweep, threads, shard);
   if (arguments.has("json")) {
     join_warnings(plan, config);
     std::cout << plan_json(plan, config.sweep, threads);
@@ -25,23 +28,26 @@ int print_plan(const Arguments& arguments) {
 
 constexpr std::string_view examples =
     "  clatter plan configs/fig22.toml\n"
-    "  clatter plan configs/fig22.toml --json --set scene.xs=-6\n";
+    "  clatter plan configs/fig22.toml --json --set scene.xs=-6\n"
+    "  clatter plan configs/map_nu_xs.toml --shard 0/4     a quarter of its points\n";
 
 }  // namespace
 
 Command plan_command() {
-  return {.name = "plan",
-          .usage = "plan CONFIG [OPTION]...",
-          .summary = "print what a configuration will simulate and why, and its work; runs nothing",
-          .examples = examples,
-          .operands = {"CONFIG"},
-          .required_operands = 1,
-          .options = {{"json", 0, "", "as JSON, warnings too"},
-                      set_option,
-                      ini_option,
-                      threads_option,
-                      {"help", 'h', "", "print this help"}},
-          .run = print_plan};
+  return {
+      .name = "plan",
+      .usage = "plan CONFIG [OPTION]...",
+      .summary = "print what a configuration will simulate and why, and its work; runs nothing",
+      .examples = examples,
+      .operands = {"CONFIG"},
+      .required_operands = 1,
+      .options = {{"json", 0, "", "as JSON, warnings too"},
+                  set_option,
+                  ini_option,
+                  threads_option,
+                  {"shard", 0, "K/N", "plan points K, K + N, ... alone, K from 0, as `clatter run --shard` takes them"},
+                  {"help", 'h', "", "print this help"}},
+      .run = print_plan};
 }
 
 }  // namespace clatter

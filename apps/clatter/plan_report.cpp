@@ -55,10 +55,20 @@ std::string group_text(const Group& group) {
                      range(group.periods, "%.4g") + " periods, " + range(group.seconds, "%.2g") + " s on one thread");
 }
 
+std::string points_text(const Plan& plan, const Sweep& sweep) {
+  std::string text =
+      line("points", std::to_string(plan.points) +
+                         (plan.shard ? " of " + std::to_string(size(sweep)) + ", shard " + text_of(*plan.shard) : ""));
+  if (plan.sampled_points)
+    text += line("", "looked at " + std::to_string(*plan.sampled_points) + " of " + std::to_string(plan.points) +
+                         " points; counts are estimates");
+  return text;
+}
+
 Estimate seconds_of(const Plan& plan, int threads) {
   Estimate sum;
   for (const Group& group : plan.groups) sum += group.seconds;
-  const double together = std::min(static_cast<double>(threads), static_cast<double>(plan.branches));
+  const double together = std::clamp(static_cast<double>(plan.branches), 1.0, static_cast<double>(threads));
   return {sum.least / together, sum.most / together};
 }
 
@@ -95,8 +105,8 @@ void put_group(std::ostringstream& out, const Group& group) {
 }  // namespace
 
 std::string plan_text(const Plan& plan, const Sweep& sweep, int threads) {
-  std::string text = line("axes", axes_text(sweep)) + line("points", std::to_string(plan.points)) +
-                     line("observed", joined(plan.observed));
+  std::string text =
+      line("axes", axes_text(sweep)) + points_text(plan, sweep) + line("observed", joined(plan.observed));
   const Integration& integration = sweep.scene.integration;
   if (integration.method != Method::exact)
     text += line("method", method_of(sweep) + ": every effect is simulated, whatever the kernel; called for are:");
@@ -114,7 +124,10 @@ std::string plan_text(const Plan& plan, const Sweep& sweep, int threads) {
 
 std::string plan_json(const Plan& plan, const Sweep& sweep, int threads) {
   std::ostringstream out;
-  out << "{\n  \"schema\": \"clatter-plan/1\",\n  \"points\": " << plan.points << ",\n  \"dimensions\": ";
+  out << "{\n  \"schema\": \"clatter-plan/1\",\n  \"shard\": "
+      << (plan.shard ? json_text(text_of(*plan.shard)) : "null") << ",\n  \"points\": " << plan.points
+      << ",\n  \"sampled_points\": " << (plan.sampled_points ? std::to_string(*plan.sampled_points) : "null")
+      << ",\n  \"dimensions\": ";
   list(out, sweep.dimensions, [&](const Dimension& dimension) {
     list(out, dimension, [&](const Axis& axis) {
       out << "{\"key\": " << json_text(std::string(key_of(axis.parameter))) << ", \"length\": " << axis.values.size()

@@ -10,7 +10,6 @@
 
 #include "commands.hpp"
 #include "config_arguments.hpp"
-#include "format.hpp"
 #include "io/config.hpp"
 #include "io/error.hpp"
 #include "io/figure_file.hpp"
@@ -20,35 +19,15 @@
 #include "io/utf8.hpp"
 #include "io/version.hpp"
 #include "keeper.hpp"
+#include "memory_check.hpp"
 #include "plan_report.hpp"
 #include "progress.hpp"
 #include "run_report.hpp"
-#include "sweep/memory.hpp"
 #include "sweep/rounding.hpp"
 #include "warnings.hpp"
 
 namespace clatter {
 namespace {
-
-/// Too late to find out at the end of a run.
-void check_memory(const Sweep& sweep, const std::optional<Shard>& shard) {
-  const double needed = run_bytes(sweep, shard), there = machine_bytes();
-  if (there == 0 || needed <= there) return;
-  throw UsageError("the results of " + std::to_string(Share(sweep, shard).points()) +
-                   " points, and the largest variable of them once more, take " + bytes_text(needed) + ", there are " +
-                   bytes_text(there) +
-                   "; sweep fewer points, observe fewer samples and harmonics, or share the points out with --shard");
-}
-
-std::optional<Shard> shard_of(const Arguments& arguments) {
-  const std::optional<std::string> word = arguments.value("shard");
-  if (!word) return std::nullopt;
-  const std::optional<Shard> shard = shard_named(*word);
-  if (!shard)
-    throw UsageError("--shard " + in_quotes(*word) +
-                     "; permitted: K/N, two whole numbers, K from 0 to N - 1, N up to " + std::to_string(Shard::most));
-  return shard;
-}
 
 /// What -o names; else the configuration's name with .h5, for a shard with .K-of-N.h5.
 std::string output_of(const Arguments& arguments, const std::optional<Shard>& shard) {
@@ -82,8 +61,8 @@ JournalKey key_of(const Config& config, Arch arch, const std::optional<Shard>& s
           .shard = shard ? text_of(*shard) : ""};
 }
 
-void say_plan(const Config& config, int threads) {
-  const Plan plan = plan_of(config.sweep, threads);
+void say_plan(const Config& config, int threads, const std::optional<Shard>& shard) {
+  const Plan plan = plan_of(config.sweep, threads, shard);
   std::cerr << plan_text(plan, config.sweep, threads);
   say_notes(config), warn(plan);
 }
@@ -112,9 +91,9 @@ int run_config(const Arguments& arguments) {
   const OutputPlace place(output, {.shard = shard ? text_of(*shard) : "", .title = config.title},
                           arguments.has("force"));
   check_memory(config.sweep, shard);
-  if (arguments.has("verbose")) say_plan(config, threads);
+  if (arguments.has("verbose")) say_plan(config, threads, shard);
   if (!arguments.has("quiet")) warn(config);
-  if (!arguments.has("quiet") && !arguments.has("verbose")) warn_of_dearest_point(config.sweep);
+  if (!arguments.has("quiet") && !arguments.has("verbose")) warn_of_dearest_point(config.sweep, shard);
 
   SweepRun sweep(config.sweep, shard);
   Journal journal(

@@ -19,8 +19,8 @@ void warn(const Plan& plan) {
   for (const std::string& warning : plan.warnings) std::cerr << "warning: " << printable(warning) << '\n';
 }
 
-void warn_of_dearest_point(const Sweep& sweep) {
-  if (const auto warning = clatter::warning_of_dearest_point(sweep)) std::cerr << "warning: " << *warning << '\n';
+void warn_of_dearest_point(const Sweep& sweep, const std::optional<Shard>& shard) {
+  if (const auto warning = warning_of_dearest_point(sweep, shard)) std::cerr << "warning: " << *warning << '\n';
 }
 
 void say_notes(const Config& config) {

@@ -16,7 +16,7 @@ void warn(const Config& config, std::span<const std::string_view> but = {});
 void warn(const Plan& plan);
 
 /// Says on stderr where a single point may take long, which a plan says, too.
-void warn_of_dearest_point(const Sweep& sweep);
+void warn_of_dearest_point(const Sweep& sweep, const std::optional<Shard>& shard);
 
 /// Says on stderr what --set has put in place of the file's.
 void say_notes(const Config& config);

@@ -8,6 +8,7 @@
 #include "dynamics/required_effects.hpp"
 #include "dynamics/response.hpp"
 #include "sweep/point.hpp"
+#include "sweep/sample.hpp"
 
 namespace clatter {
 namespace {
@@ -54,19 +55,22 @@ double impacts_without_loss(const Scene& scene) {
   return std::min(scene.time.max_impacts, way_of(scene) / (stops.upper - stops.lower));
 }
 
-std::optional<std::string> warning_of_dearest_point(const Sweep& sweep) {
-  constexpr std::size_t most = 10000;
-  const std::size_t points = size(sweep), stride = std::max<std::size_t>(1, points / most);
+std::optional<std::string> warning_of_dearest_point(const Sweep& sweep, const std::optional<Shard>& shard) {
+  const Share share(sweep, shard);
+  const Sample sample(share.points(), 10000);
   double impacts = 0;
   std::size_t dearest = 0;
-  for (std::size_t point = 0; point < points; point += stride)
+  for (std::size_t i = 0; i < sample.size(); ++i) {
+    const std::size_t number = sample[i].number;
+    const std::size_t point = share.point(number / share.length(), number % share.length());
     if (const double of_point = impacts_without_loss(scene_at(sweep, point)); of_point > impacts)
       impacts = of_point, dearest = point;
+  }
   if (!(impacts > 1e5)) return std::nullopt;
   constexpr double evaluations = 2;  // an impact
   const double seconds = impacts * evaluations * seconds_per_evaluation(effects_of(scene_at(sweep, dearest)));
   if (!(seconds > long_time)) return std::nullopt;
-  const std::string which = points > 1 ? "point " + std::to_string(dearest) + " alone" : "the point";
+  const std::string which = size(sweep) > 1 ? "point " + std::to_string(dearest) + " alone" : "the point";
   return which + " may take " + number_text(impacts) + " impacts, some " + number_text(seconds) +
          " s: with R = 1 nothing ends its bouncing; lower time.max_impacts, or take R below 1";
 }

@@ -3,7 +3,7 @@
 #include <optional>
 #include <string>
 
-#include "sweep/sweep.hpp"
+#include "sweep/share.hpp"
 
 namespace clatter {
 
@@ -13,7 +13,8 @@ namespace clatter {
 [[nodiscard]] double impacts_without_loss(const Scene& scene);
 
 /// A sentence for the user before a run in which a single point may take long for that reason, with the remedy; nothing
-/// where none does. Of a large sweep ten thousand points are looked at.
-[[nodiscard]] std::optional<std::string> warning_of_dearest_point(const Sweep& sweep);
+/// where none does. Of a large sweep, or shard, ten thousand points are looked at.
+[[nodiscard]] std::optional<std::string> warning_of_dearest_point(const Sweep& sweep,
+                                                                  const std::optional<Shard>& shard = {});
 
 }  // namespace clatter

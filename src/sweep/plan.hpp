@@ -1,23 +1,15 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "dynamics/required_effects.hpp"
-#include "sweep/sweep.hpp"
+#include "sweep/estimate.hpp"
+#include "sweep/share.hpp"
 
 namespace clatter {
-
-/// The least and the greatest that something can come to.
-struct Estimate {
-  double least = 0.0, most = 0.0;
-
-  Estimate& operator+=(const Estimate& other) {
-    least += other.least, most += other.most;
-    return *this;
-  }
-};
 
 /// Points that call for equal effects.
 struct Group {
@@ -29,20 +21,23 @@ struct Group {
   Estimate seconds;             ///< on one thread, from a short measurement of the kernel
 };
 
-/// What a sweep will do, known before anything runs.
+/// What a sweep, or a shard of it, will do, known before anything runs.
 struct Plan {
+  std::optional<Shard> shard;
   std::size_t points = 0;
-  std::size_t branches = 0;           ///< of them, so many don't wait for others: the rest follow
-  std::vector<std::string> observed;  ///< the observables, e.g. "harmonics 0 ... 3 by FFT of 4096 samples"
-  std::vector<Group> groups;          ///< the cheapest kernel first
-  double output_bytes = 0.0;          ///< of the results before compression; the impact log comes on top
-  double memory_bytes = 0.0;          ///< at the end of a run: results and the file's image of them
-  double machine_bytes = 0.0;         ///< memory of this machine
-  std::vector<std::string> warnings;  ///< what looks unintended, and the remedy
+  std::optional<std::size_t> sampled_points;  ///< so many were looked at, and counts are estimates; empty: all were
+  std::size_t branches = 0;                   ///< of them, so many don't wait for others: the rest follow
+  std::vector<std::string> observed;          ///< the observables, e.g. "harmonics 0 ... 3 by FFT of 4096 samples"
+  std::vector<Group> groups;                  ///< the cheapest kernel first
+  double output_bytes = 0.0;                  ///< of the results before compression; the impact log comes on top
+  double memory_bytes = 0.0;                  ///< at the end of a run: results and the file's image of them
+  double machine_bytes = 0.0;                 ///< memory of this machine
+  std::vector<std::string> warnings;          ///< what looks unintended, and the remedy
 };
 
-/// Groups the points by the effects that they call for and estimates their work, on so many threads; runs none of them.
-[[nodiscard]] Plan plan_of(const Sweep& sweep, int threads);
+/// Groups the points by the effects that they call for and estimates their work, on so many threads; runs none of them,
+/// and looks at a million of them at most.
+[[nodiscard]] Plan plan_of(const Sweep& sweep, int threads, const std::optional<Shard>& shard = {});
 
 /// A compiled set of effects in words, e.g. "light damping, forcing, stops, chatter and rest".
 [[nodiscard]] std::string kernel_name(const Effects& effects);

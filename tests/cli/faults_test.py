@@ -256,17 +256,15 @@ class Faults(StoppedRuns):
         words = ("--set", "sweep.nu=linspace(0.5,1.5,3000)", "--set", "sweep.xs=linspace(0.2,4,3000)")
         result = subprocess.run(self.command(*words), capture_output=True, text=True, timeout=300,
                                 preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_AS, (2**29, 2**29)))
-        self.assertEqual(result.returncode, 2, result.stderr)
-        self.assertRegex(result.stderr, "take .* there are 512 MiB|don't fit into memory")
+        self.assertEqual(result.returncode, 74, result.stderr)
+        self.assertRegex(result.stderr, "take .* there are 512 MiB")
         self.assertEqual(self.files(), ["a.toml"])
 
     def test_a_sweep_that_no_machine_holds_is_refused_with_the_numbers(self):
         words = ("--set", "sweep.nu=linspace(0.5,1.5,1000)", "--set", "sweep.xs=linspace(0.2,4,1000)", "--set", "observe.trajectory=1000000")
         result = self.run_command(*words)
-        self.assertEqual(result.returncode, 2, result.stderr)
+        self.assertEqual(result.returncode, 74, result.stderr)
         self.assertRegex(result.stderr, r"the results of 1000000 points, .* take \S+ TiB, there are \S+ [GT]iB; .*--shard")
-        plan = subprocess.run([CLATTER, "plan", self.config, *words], capture_output=True, text=True)
-        self.assertIn("TiB", plan.stdout)
         self.assertEqual(self.files(), ["a.toml"])
 
     def test_a_merge_on_a_full_disk_leaves_the_shards_and_no_output(self):

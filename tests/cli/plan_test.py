@@ -45,13 +45,47 @@ class Plan(CommandLine):
         far = self.plan(SMALL, "--set", "scene.xs=6")["warnings"]
         self.assertEqual(len(far), 2)
         self.assertRegex(far[0], r"^the lower stop is never reached .* 5 < 6 .*; if impacts are meant, move it nearer")
-        huge = self.plan(SMALL, "--set", "sweep.x0=linspace(-1, 1, 1000000)", "--set", "sweep.nu=1, 1.1",
-                         "--set", "observe.trajectory=10000000")["warnings"]
-        self.assertTrue(any("larger than the memory" in warning for warning in huge), huge)
         nothing = self.plan(SMALL, "--set", "observe.extrema=false", "--set", "observe.period=false")["warnings"]
         self.assertTrue(any("nothing is observed" in warning for warning in nothing), nothing)
         lasting = self.plan(SMALL, "--set", "scene.h=0", "--set", "scene.R=1", "--set", "sweep.nu=1.3")["warnings"]
         self.assertTrue(any("never fades" in warning for warning in lasting), lasting)
+
+    def test_a_large_sweep_is_sampled_and_that_is_said(self):
+        large = ("--set", "sweep.x0=linspace(-1, 1, 2000)", "--set", "sweep.nu=linspace(0.5, 1.5, 600)")
+        said = "looked at 1000000 of 1200000 points; counts are estimates"
+        self.assertIn(f"\n{'':20}{said}\n", self.clatter("plan", self.write("p.toml", SMALL), *large).stdout)
+        for follow in ((), ("--set", "sweep.follow=nu")):
+            plan = self.plan(SMALL, *large, *follow)
+            self.assertEqual((plan["points"], plan["sampled_points"]), (1200000, 1000000))
+            self.assertEqual(sum(group["points"] for group in plan["groups"]), 1200000)
+        self.assertEqual([group["points"] for group in plan["groups"]], [2000, 1198000])  # the first ones of branches
+        self.assertNotIn("looked at", self.clatter("plan", self.write("p.toml", SMALL)).stdout)
+
+    def test_refuses_what_run_refuses_and_plans_a_part_of_it(self):
+        config = self.write("p.toml", SMALL)
+        huge = ("--set", "sweep.x0=linspace(-1, 1, 1000000)", "--set", "observe.trajectory=10000000")
+        run = self.clatter("run", config, *huge)
+        self.assertEqual(run.returncode, 74, run.stderr)
+        self.assertRegex(run.stderr, r"^clatter: the results of 5000000 points, .* TiB, there are .*--shard\n$")
+        for words in ((), ("--json",)):
+            plan = self.clatter("plan", config, *huge, *words)
+            self.assertEqual((plan.returncode, plan.stdout, plan.stderr), (run.returncode, "", run.stderr))
+        part = self.plan(SMALL, *huge, "--shard", "999999/1000000")
+        self.assertEqual((part["shard"], part["points"]), ("999999/1000000", 5))
+
+    def test_shards_are_parts_of_the_whole(self):
+        whole = self.plan(SMALL)
+        self.assertIsNone(whole["shard"])
+        self.assertIsNone(whole["sampled_points"])
+        parts = [self.plan(SMALL, "--shard", f"{number}/2") for number in range(2)]
+        self.assertEqual([part["points"] for part in parts], [3, 2])
+        self.assertEqual(sum(group["points"] for part in parts for group in part["groups"]), 5)
+        self.assertEqual(sum(part["output_bytes"] for part in parts), whole["output_bytes"] + 5 * 8)  # their numbers
+        config = self.write("p.toml", SMALL)
+        text = self.clatter("plan", config, "--shard", "1/2").stdout
+        self.assertIn("\npoints              2 of 5, shard 1/2\n", text)
+        self.assertIn("\npoints              2 of 5, shard 1/2\n", self.clatter("run", config, "-v", "--shard", "1/2").stderr)
+        self.assert_refused(2, "--shard '2/2'; permitted: K/N", "plan", config, "--shard", "2/2")
 
     def test_a_followed_branch_knows_its_first_start_only(self):
         plan = self.plan(SMALL, "--set", "sweep.follow=nu")

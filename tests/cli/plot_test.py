@@ -98,6 +98,18 @@ class Pictures(unittest.TestCase):
                     self.assertEqual((again / f"{name}.{kind}").read_bytes(),
                                      (self.folder / f"{name}.{kind}").read_bytes())
 
+    def test_copies_by_other_programs_give_the_same_bytes(self):
+        for command in (["nccopy", "-k", "nc4"], ["h5repack", "-m", "1", "-f", "GZIP=6"]):
+            folder = self.folder / command[0]
+            folder.mkdir()
+            for name in ("free", "map"):
+                copy = folder / f"{name}.h5"
+                subprocess.run([*command, self.folder / f"{name}.h5", copy], check=True, timeout=60)
+                result = plot(copy, "--format", "svg")
+                self.assertEqual(result.returncode, 0, result.stderr)
+                self.assertEqual(copy.with_suffix(".svg").read_bytes(),
+                                 (self.folder / f"{name}.svg").read_bytes(), command)
+
     def test_pdf_only(self):
         for turn in ("one", "two"):
             result = plot(self.folder / "ratio.h5", "-o", self.folder / turn, "--format", "pdf")

@@ -49,15 +49,15 @@ class Readers(unittest.TestCase):
         self.addCleanup(scratch.cleanup)
         self.scratch = Path(scratch.name)
 
-    def run_clatter(self, config, name="out", threads=1, environment=None):
+    def run_clatter(self, config, name="out", threads=1, environment=None, options=()):
         """Runs a configuration, a text or a path, and returns the path of its output."""
         if isinstance(config, str):
             path = self.scratch / f"{name}.toml"
             path.write_text(config, encoding="utf-8")
             config = path
         output = self.scratch / f"{name}.h5"
-        done = subprocess.run([CLATTER, "run", config, "-o", output, "--threads", str(threads)], capture_output=True,
-                              text=True, check=False, timeout=300, env={**os.environ, **(environment or {})})
+        done = subprocess.run([CLATTER, "run", config, "-o", output, "--threads", str(threads), *options],
+                              capture_output=True, text=True, check=False, timeout=300, env={**os.environ, **(environment or {})})
         self.assertEqual(done.returncode, 0, done.stderr)
         return output
 
@@ -284,6 +284,48 @@ class Readers(unittest.TestCase):
                         numpy.testing.assert_array_equal(data["x"].values, plain["x"][...])
                 two = self.run_clatter(texts[level], "two", threads=2)
                 self.assertEqual(two.read_bytes(), paths[level].read_bytes())
+
+    def outputs_to_copy(self):
+        """Large and small arrays, logs with and without impacts, a point, shards with and without points, deflated."""
+        sweep, log = {"nu": quoted("linspace(0.9, 1.1, 9)")}, {"extrema": True, "impact_log": True}
+        far = {**FORCED, "xs": -100.0}
+        yield self.run_clatter(toml("Größter Ausschlag", sweep=sweep, observe={**log, "trajectory": 2001}), "log")
+        yield self.run_clatter(toml(scene=far, sweep=sweep, observe=log, output={"compression": 4}), "no_impacts")
+        yield self.run_clatter(toml(observe={"extrema": True}), "point")
+        for name, shard in (("shard", "1/2"), ("empty_shard", "10/11")):
+            yield self.run_clatter(toml(sweep=sweep, observe=log), name, options=("--shard", shard))
+        deflated = toml(sweep=sweep, observe={"trajectory": 2001}, output={"compression": 4})
+        yield self.run_clatter(deflated, "deflated")
+
+    def test_copies_of_netcdf4_and_hdf5_hold_the_same(self):
+        """Those of README: for h5repack a chunk can't have the length 0 of an array, hence -m."""
+        def contents(path):
+            command = ["ncdump", "-p", "9,17", "-n", "any", path]
+            return subprocess.run(command, capture_output=True, text=True, check=True, timeout=60).stdout
+
+        for path in self.outputs_to_copy():
+            original = contents(path)
+            for command in ("nccopy -k nc4", "nccopy -d 4 -s", "h5repack", "h5repack -m 1 -f SHUF -f GZIP=4"):
+                with self.subTest(file=path.name, command=command):
+                    copy = self.scratch / "copy.h5"
+                    copy.unlink(missing_ok=True)
+                    subprocess.run([*command.split(), path, copy], capture_output=True, check=True, timeout=60)
+                    self.assertEqual(contents(copy), original)
+                    subprocess.run([CLATTER, "info", copy], capture_output=True, check=True, timeout=60)
+
+    def test_xarray_makes_classic_netcdf_of_outputs(self):
+        """README's way: nccopy can't, since classic files have no texts of variable length. They have one dimension of
+        length 0 at most, of which a shard without points, and so without impacts, has two."""
+        for path in self.outputs_to_copy():
+            if path.stem == "empty_shard":
+                continue
+            copy = self.scratch / "classic.nc"
+            xarray.load_dataset(path).to_netcdf(copy, format="NETCDF3_64BIT")
+            kind = subprocess.run(["ncdump", "-k", copy], capture_output=True, text=True, check=True, timeout=60).stdout
+            self.assertEqual(kind, "64-bit offset\n")
+            with self.subTest(path.name), xarray.open_dataset(path) as one, xarray.open_dataset(copy) as other:
+                self.assertEqual(one.attrs, other.attrs)
+                xarray.testing.assert_equal(one, other)
 
 
 if __name__ == "__main__":

@@ -126,5 +126,100 @@ TEST(Plan, along_a_followed_branch_only_the_first_start_is_known) {
   EXPECT_TRUE(plan.groups[1].effects.lower && plan.groups[1].effects.upper);
 }
 
+std::vector<double> evenly(double first, double last, int number) {
+  std::vector<double> all;
+  for (int i = 0; i < number; ++i) all.push_back(first + (last - first) * i / (number - 1));
+  return all;
+}
+
+/// 2.5 million points of nine or more groups.
+Sweep large_sweep() {
+  return sweep_of(figure(3), {{Parameter::h, evenly(0.0, 2.0, 100)},
+                              {Parameter::f, evenly(-3.5, 0.0, 250)},
+                              {Parameter::nu, evenly(0.5, 1.5, 100)}});
+}
+
+TEST(Plan, of_a_large_sweep_is_that_of_all_points_within_what_a_sample_can_tell) {
+  const Sweep sweep = large_sweep();
+  const Plan sampled = plan_of(sweep, 2);
+  EXPECT_EQ(sampled.sampled_points, 1'000'000u);
+  EXPECT_EQ(sampled.points, 2'500'000u);
+  std::vector<Group> exact;
+  for (std::size_t number = 0; number < 4; ++number) {  // the shards are small enough to be looked at as a whole
+    const Plan part = plan_of(sweep, 2, Shard{number, 4});
+    EXPECT_EQ(part.sampled_points, std::nullopt);
+    EXPECT_EQ(part.points, 625'000u);
+    for (const Group& group : part.groups) {
+      const auto same = std::ranges::find(exact, group.effects, &Group::effects);
+      if (same == exact.end()) {
+        exact.push_back(group);
+      } else {
+        same->points += group.points, same->periods += group.periods;
+      }
+    }
+  }
+  EXPECT_GT(exact.size(), 8u);
+  std::size_t total = 0;
+  for (const Group& group : sampled.groups) {
+    total += group.points;
+    const auto whole = std::ranges::find(exact, group.effects, &Group::effects);
+    ASSERT_NE(whole, exact.end());
+    const double points = static_cast<double>(whole->points), share = points / 2.5e6;
+    const double sigma = 2.5 * std::sqrt(1e6 * share * (1 - share));  // of drawing at random; stretches only lower it
+    EXPECT_NEAR(static_cast<double>(group.points), points, 4 * sigma + 3);
+    EXPECT_NEAR(group.periods.most / whole->periods.most, 1, (4 * sigma + 3) / points);  // equal for all of a group
+  }
+  EXPECT_EQ(total, 2'500'000u);
+}
+
+TEST(Plan, of_a_sample_is_the_same_for_every_number_of_threads) {
+  const Sweep sweep = large_sweep();
+  const Plan one = plan_of(sweep, 1), three = plan_of(sweep, 3);
+  ASSERT_EQ(three.groups.size(), one.groups.size());
+  for (std::size_t i = 0; i < one.groups.size(); ++i) {
+    EXPECT_EQ(three.groups[i].points, one.groups[i].points);
+    EXPECT_EQ(three.groups[i].example, one.groups[i].example);
+    EXPECT_EQ(three.groups[i].periods.least, one.groups[i].periods.least);
+    EXPECT_EQ(three.groups[i].periods.most, one.groups[i].periods.most);
+  }
+}
+
+TEST(Plan, of_a_large_followed_sweep_knows_how_many_points_begin_a_branch) {
+  Sweep sweep = sweep_of(figure(6), {{Parameter::R, {0.5, 0.7}}, {Parameter::nu, evenly(0.5, 1.5, 1'000'000)}});
+  sweep.follow = 1;
+  const Plan plan = plan_of(sweep, 2);
+  EXPECT_EQ(plan.sampled_points, 1'000'000u);
+  ASSERT_EQ(plan.groups.size(), 2u);
+  EXPECT_EQ(plan.groups[0].points, 2u);
+  EXPECT_EQ(plan.groups[1].points, 1'999'998u);
+}
+
+TEST(Plan, of_a_sample_says_so_of_a_stop_that_it_never_meets) {
+  const Sweep sweep =
+      sweep_of(figure(9), {{Parameter::nu, evenly(0.5, 1.5, 2000)}, {Parameter::f, evenly(-1.0, 1.0, 1000)}});
+  const Plan plan = plan_of(sweep, 2);
+  EXPECT_TRUE(warns(plan, "the lower stop is reached at none of the 1000000 points looked at, at the closest |x| <= "));
+  EXPECT_FALSE(warns(plan, "never reached"));
+}
+
+TEST(Plan, of_a_shard_is_that_of_its_points) {
+  const Sweep sweep = sweep_of(figure(3), {{Parameter::nu, frequencies()}});
+  const Shard shard{1, 3};
+  const Plan plan = plan_of(sweep, 1, shard);
+  EXPECT_EQ(plan.points, Share(sweep, shard).points());
+  EXPECT_EQ(plan.branches, plan.points);
+  EXPECT_EQ(plan.output_bytes, result_bytes(sweep, shard));
+  EXPECT_EQ(plan.memory_bytes, run_bytes(sweep, shard));
+  std::size_t points = 0;
+  for (const Group& group : plan.groups) {
+    points += group.points;
+    EXPECT_EQ(group.example % 3, 1u);
+  }
+  EXPECT_EQ(points, plan.points);
+  const Plan empty = plan_of(sweep, 1, Shard{102, 103});
+  EXPECT_EQ(empty.points, 0u);
+  EXPECT_TRUE(empty.groups.empty());
+}
+
 }  // namespace
 }  // namespace clatter

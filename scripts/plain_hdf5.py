@@ -1,0 +1,112 @@
+"""Opens an output of clatter, whoever made the file: nothing in it leads out of it."""
+
+import os
+import stat
+
+import h5py
+import numpy as np
+from h5py import h5d, h5l, h5o, h5t, h5z
+
+from hdf5_heaps import damaged_heap
+
+WANTED = "give a file that 'clatter run' or 'clatter accuracy' wrote"
+ANEW = "run its configuration again, or get the file anew"
+UNREADABLE = (AttributeError, LookupError, MemoryError, OSError, RuntimeError, TypeError, ValueError)  # of damaged ones
+FILTERS = {h5z.FILTER_SHUFFLE, h5z.FILTER_DEFLATE}
+
+
+class FileProblem(Exception):
+    """A file that cannot be used; the message is one line that names it and the way out."""
+
+
+def printable(value):
+    """A text of a file in one line that moves no cursor."""
+    return repr(text(value))[1:-1]
+
+
+def damaged(path, error):
+    """What a library found: its words may quote the file."""
+    return FileProblem(f"{path}: damaged ({printable(error)}); {ANEW}")
+
+
+def open_output(path):
+    """Opens an output whose values all stand in itself, as clatter writes them, or says what is wrong with it."""
+    require_regular(path)
+    try:
+        file = h5py.File(path, "r")
+        heap = damaged_heap(path)
+    except PermissionError:
+        raise FileProblem(f"{path}: not readable; check its permissions") from None
+    except OSError:
+        raise FileProblem(f"{path}: not an HDF5 file; {WANTED}") from None
+    try:
+        if heap is not None:
+            raise damaged(path, f"a heap of texts at byte {heap}")
+        require_schema(path, file)
+        require_plain(path, file)
+    except UNREADABLE as error:
+        file.close()
+        raise damaged(path, error) from None
+    except FileProblem:
+        file.close()
+        raise
+    return file
+
+
+def require_regular(path):
+    """Looks at the file without opening it: a pipe would wait for a writer."""
+    if not path:
+        raise FileProblem(f"'': an empty name; {WANTED}")
+    try:
+        mode = os.stat(path).st_mode
+    except OSError as error:
+        if isinstance(error, FileNotFoundError):
+            raise FileProblem(f"{path}: no such file; make it with 'clatter run CONFIG -o {path}'") from None
+        raise FileProblem(f"{path}: not readable ({error.strerror}); check its name and permissions") from None
+    if stat.S_ISDIR(mode):
+        raise FileProblem(f"{path}: a folder, not a file; name the .h5 files in it")
+    if not stat.S_ISREG(mode):
+        raise FileProblem(f"{path}: not a regular file; {WANTED}")
+
+
+def require_schema(path, file):
+    schema = text(file.attrs.get("clatter_schema", ""))
+    if schema != "clatter/1":
+        found = f"its schema is '{printable(schema)}'" if schema else "it has no attribute clatter_schema"
+        raise FileProblem(f"{path}: not a clatter/1 file ({found}); {WANTED}")
+
+
+def require_plain(path, file):
+    """Refuses what would be read from elsewhere, and whatever else clatter doesn't write."""
+    names = list(file)  # of links, none of which is followed
+    for name in names:
+        unlike = unlike_clatter(file.id, name) if name.isidentifier() else "is no name of a variable"
+        if unlike:
+            raise FileProblem(f"{path}: {name!r} {unlike}, which clatter doesn't write; {ANEW}")
+    if "status" not in names or "config" not in file.attrs:
+        raise FileProblem(f"{path}: not a clatter/1 file (it lacks its status or configuration); {WANTED}")
+
+
+def unlike_clatter(root, name):
+    """How an object at the root differs from all that clatter writes, or None; looks at a link before it follows it."""
+    if root.links.get_info(name.encode()).type != h5l.TYPE_HARD:
+        return "is a link to another place"
+    if h5o.get_info(root, name.encode()).type != h5o.TYPE_DATASET:
+        return "is no dataset"
+    dataset = h5d.open(root, name.encode())  # opens no other file yet
+    properties = dataset.get_create_plist()
+    if properties.get_layout() == h5d.VIRTUAL or properties.get_external_count() > 0:
+        return "has its values in other files"
+    if properties.get_layout() not in (h5d.CONTIGUOUS, h5d.CHUNKED):
+        return "is stored in an unknown layout"
+    if not {properties.get_filter(place)[0] for place in range(properties.get_nfilters())} <= FILTERS:
+        return "has another filter than shuffle and deflate"
+    if dataset.get_type().get_class() not in (h5t.INTEGER, h5t.FLOAT):
+        return "holds something else than numbers"
+    return None
+
+
+def text(value):
+    """A text attribute; nccopy makes an array of one out of it."""
+    value = value.item() if isinstance(value, np.ndarray) and value.size == 1 else value
+    return value.decode() if isinstance(value, bytes) else str(value)

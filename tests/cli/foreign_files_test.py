@@ -1,0 +1,201 @@
+"""What plot.py and regress.sh make of HDF5 files whose makers meant them to be read from elsewhere: they refuse each
+before a value is read, open nothing but the file itself, and wait for nothing."""
+
+import os
+import shutil
+import signal
+import stat
+import subprocess
+import tempfile
+import unittest
+from pathlib import Path
+
+import h5py
+import numpy
+
+from command_line import CLATTER, SMALL, SOURCE
+
+SECRET = "a line that is nobody's business\n"
+POINTS = 5
+PYTHON = "/usr/bin/python3"
+
+
+def replaced(make):
+    """A change of an output: x_max goes, and `make` puts another in its place."""
+    def edit(file, folder):
+        del file["x_max"]
+        make(file, folder)
+    return edit
+
+
+def external(name):
+    """Storage in another file, of one number for each eight bytes."""
+    return replaced(lambda file, folder: file.create_dataset("x_max", (POINTS,), "f8",
+                                                             external=[(str(folder / name), 0, 8 * POINTS)]))
+
+
+def virtual(file, folder):
+    layout = h5py.VirtualLayout((POINTS,), "f8")
+    layout[:] = h5py.VirtualSource(str(folder / "other.h5"), "x_max", (POINTS,))
+    file.create_virtual_dataset("x_max", layout)
+
+
+def growing_virtual(file, folder):
+    """One whose shape already takes its sources to know."""
+    properties = h5py.h5p.create(h5py.h5p.DATASET_CREATE)
+    without_end = h5py.h5s.create_simple((POINTS,), (h5py.h5s.UNLIMITED,))
+    without_end.select_hyperslab((0,), (h5py.h5s.UNLIMITED,), (1,), (1,))
+    properties.set_virtual(without_end, str(folder / "other.h5").encode(), b"x_max", without_end)
+    h5py.h5d.create(file.id, b"x_max", h5py.h5t.IEEE_F64LE, h5py.h5s.create_simple((POINTS,), (h5py.h5s.UNLIMITED,)),
+                    properties)
+
+
+def dataset(**properties):
+    return replaced(lambda file, folder: file.create_dataset("x_max", data=numpy.arange(float(POINTS)), **properties))
+
+
+def linked(link):
+    return replaced(lambda file, folder: file.__setitem__("x_max", link(folder)))
+
+
+def compact(file, folder):
+    properties = h5py.h5p.create(h5py.h5p.DATASET_CREATE)
+    properties.set_layout(h5py.h5d.COMPACT)
+    h5py.h5d.create(file.id, b"x_max", h5py.h5t.IEEE_F64LE, h5py.h5s.create_simple((POINTS,)), properties)
+
+
+def status_link(file, folder):
+    del file["status"]
+    file["status"] = h5py.ExternalLink(str(folder / "other.h5"), "/status")
+
+
+ELSEWHERE, LINK = "'x_max' has its values in other files", "'x_max' is a link to another place"
+CASES = {  # name: (change of an output, what is said of it)
+    "external": (external("secret.txt"), ELSEWHERE),
+    "external_pipe": (external("pipe"), ELSEWHERE),
+    "virtual": (replaced(virtual), ELSEWHERE),
+    "growing_virtual": (replaced(growing_virtual), ELSEWHERE),
+    "external_link": (linked(lambda folder: h5py.ExternalLink(str(folder / "other.h5"), "/x_max")), LINK),
+    "external_link_to_pipe": (linked(lambda folder: h5py.ExternalLink(str(folder / "pipe"), "/x_max")), LINK),
+    "soft_link": (linked(lambda folder: h5py.SoftLink("/x_min")), LINK),
+    "status_link": (status_link, "'status' is a link to another place"),
+    "group": (lambda file, folder: file.create_group("more"), "'more' is no dataset"),
+    "type": (lambda file, folder: file.__setitem__("more", numpy.dtype("f8")), "'more' is no dataset"),
+    "compact": (replaced(compact), "'x_max' is stored in an unknown layout"),
+    "lzf": (dataset(compression="lzf"), "'x_max' has another filter than shuffle and deflate"),
+    "scaled": (dataset(scaleoffset=3), "'x_max' has another filter than shuffle and deflate"),
+    "texts": (lambda file, folder: file.__setitem__("more", ["text"]), "'more' holds something else than numbers"),
+    "references": (lambda file, folder: file.create_dataset("more", (1,), h5py.ref_dtype),
+                   "'more' holds something else than numbers"),
+    "name": (lambda file, folder: file.__setitem__("\x1b[2J\u202e", [1.0]),
+             "'\\x1b[2J\\u202e' is no name of a variable"),
+    "schema": (lambda file, folder: file.attrs.__setitem__("clatter_schema", "\x1b[2J"), "its schema is '\\x1b[2J'"),
+}
+
+
+def can_trace():
+    command = ["strace", "-o", "/dev/null", "true"]
+    return shutil.which("strace") and subprocess.run(command, capture_output=True).returncode == 0
+
+
+class ForeignFiles(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        kept = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(kept.cleanup)
+        cls.folder = Path(kept.name)
+        (cls.folder / "small.toml").write_text(SMALL)
+        output = cls.folder / "other.h5"
+        subprocess.run([CLATTER, "run", cls.folder / "small.toml", "-q", "-o", output], check=True, timeout=60)
+        (cls.folder / "secret.txt").write_text(SECRET * 9)
+        os.mkfifo(cls.folder / "pipe")
+        for name, (edit, _) in CASES.items():
+            path = cls.folder / name / "fig22.h5"
+            path.parent.mkdir()
+            shutil.copy(output, path)
+            with h5py.File(path, "r+") as file:
+                edit(file, cls.folder)
+        torn = cls.folder / "zeros" / "fig22.h5"
+        torn.parent.mkdir()
+        content = output.read_bytes()
+        texts = content.index(b"GCOL") + 64  # after the header and the first text, a block that a disk lost
+        torn.write_bytes(content[:texts] + bytes(128) + content[texts + 128:])
+        (cls.folder / "fifo").mkdir()
+        os.mkfifo(cls.folder / "fifo" / "fig22.h5")
+        cls.program = cls.folder / "clatter"  # has the same output ready for every configuration
+        cls.program.write_text(f'#!/bin/sh\ncp "{output}" "$4"\n')
+        cls.program.chmod(cls.program.stat().st_mode | stat.S_IXUSR)
+
+    def expected(self):
+        yield from ((self.folder / name / "fig22.h5", words) for name, (_, words) in CASES.items())
+        yield self.folder / "zeros" / "fig22.h5", "damaged (a heap of texts at byte "
+        yield self.folder / "fifo" / "fig22.h5", "not a regular file"
+
+    def run_within_a_minute(self, *words):
+        """Ends all that it has started when it waits: else they would wait for ever."""
+        program = subprocess.Popen(words, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
+                                   start_new_session=True, env={**os.environ, "CLATTER": str(self.program)})
+        try:
+            out, err = program.communicate(timeout=60)
+        except subprocess.TimeoutExpired:
+            os.killpg(program.pid, signal.SIGKILL)
+            program.communicate()
+            raise
+        return subprocess.CompletedProcess(words, program.returncode, out, err)
+
+    def test_the_secret_would_be_read(self):
+        with h5py.File(self.folder / "external" / "fig22.h5") as file:
+            self.assertEqual(file["x_max"][()].tobytes().decode(), SECRET[:33] + SECRET[:8 * POINTS - 33])
+
+    def test_plot_refuses_them_in_one_line(self):
+        for path, words in self.expected():
+            with self.subTest(path.parent.name):
+                result = self.run_within_a_minute(PYTHON, SOURCE / "scripts" / "plot.py", path)
+                self.assertEqual((result.returncode, result.stdout), (74, ""), result.stderr)
+                self.assertTrue(result.stderr.startswith(f"plot.py: {path}: "), result.stderr)
+                self.assertIn(words, result.stderr)
+                self.assertRegex(result.stderr, "; (run its configuration again, or get the file anew|give a .*)\n$")
+                self.assertEqual(result.stderr.count("\n"), 1)
+                self.assertEqual([other.name for other in path.parent.iterdir()], ["fig22.h5"])
+
+    def test_regress_finds_them_in_the_baseline(self):
+        for path, words in self.expected():
+            with self.subTest(path.parent.name):
+                result = self.run_within_a_minute(SOURCE / "scripts" / "regress.sh", path.parent)
+                self.assertEqual(result.returncode, 1, result.stderr)
+                row, = (line for line in result.stdout.splitlines() if line.startswith("fig22 "))
+                self.assertEqual(row.split()[1:7], ["-", "-", "-", "-", "-", "differs"])
+                self.assertIn(f"can't be read: {path}: ", row)
+                self.assertIn(words, row)
+                self.assertNotIn(SECRET[:20], result.stdout + result.stderr)
+
+    def test_regress_waits_for_no_text(self):
+        for name in ("fig22.txt", "SHA256SUMS"):
+            baseline = self.folder / f"text_{name}"
+            baseline.mkdir()
+            (baseline / "fig21.txt").write_text("")
+            os.mkfifo(baseline / name)
+            result = self.run_within_a_minute(SOURCE / "scripts" / "regress.sh", baseline)
+            self.assertEqual((result.returncode, result.stdout), (2, ""))
+            self.assertIn(f"{baseline / name} isn't a regular file", result.stderr)
+
+    @unittest.skipUnless(can_trace(), "strace can't be used here")
+    def test_nothing_but_the_file_is_opened(self):
+        trace = self.folder / "trace"
+        tracing = ("strace", "-f", "-qq", "-o", trace, "-e", "trace=open,openat,openat2,execve", PYTHON)
+        scripts = SOURCE / "scripts"
+        program = f"import sys; sys.path.insert(0, '{scripts}'); import plot_data; plot_data.Output(sys.argv[1])"
+        for path, _ in self.expected():
+            table = (scripts / "regress.py", "table", path.parent, path.parent, "1e-9", "fig22")
+            for words in (("-c", program, path), table):
+                with self.subTest(path.parent.name, words=words):
+                    self.run_within_a_minute(*tracing, *words)
+                    calls = [line for line in trace.read_text().splitlines() if "execve" not in line]
+                    self.assertTrue(calls)
+                    inside = {line.split('"')[1] for line in calls if f'"{self.folder}' in line}
+                    self.assertEqual(inside, set() if path.parent.name == "fifo" else {str(path)})
+                    self.assertNotIn("h5diff", trace.read_text())
+
+
+if __name__ == "__main__":
+    unittest.main()
