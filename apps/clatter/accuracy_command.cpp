@@ -21,7 +21,8 @@ namespace {
 
 void check_starts(const Config& config, const std::string& file) {
   if (!config.sweep.follow) return;
-  throw UsageError(file + ": [sweep] follow: a study starts every point from [scene]; add --set sweep.follow=''");
+  throw UsageError(printable(file) +
+                   ": [sweep] follow: a study starts every point from [scene]; add --set sweep.follow=''");
 }
 
 /// What a study chooses by itself.

@@ -30,13 +30,20 @@ std::string bytes_text(double bytes) {
 
 namespace {
 
-/// A character as JSON escapes it, by its UTF-16 units.
-std::string json_escape(std::string_view character) {
-  if (character.size() == 1 && (character[0] == '"' || character[0] == '\\')) return {'\\', character[0]};
-  const auto unit = static_cast<unsigned>(code_point(character));  // all that are obeyed have one unit
-  std::array<char, 8> escaped{};
-  std::snprintf(escaped.data(), escaped.size(), "\\u%04x", unit);
-  return escaped.data();
+/// A character as JSON escapes it, by its units of UTF-16.
+void append_escape(std::string& text, std::string_view character) {
+  if (character == "\"" || character == "\\") {
+    (text += '\\') += character;
+    return;
+  }
+  const auto append_unit = [&](char32_t unit) {
+    constexpr std::string_view digits = "0123456789abcdef";
+    text += "\\u";
+    for (const unsigned shift : {12U, 8U, 4U, 0U}) text += digits[unit >> shift & 0xFU];
+  };
+  const char32_t point = code_point(character);
+  if (point > 0xFFFF) append_unit(0xD800 + ((point - 0x10000) >> 10U));
+  append_unit(point > 0xFFFF ? 0xDC00 + (point & 0x3FFU) : point);
 }
 
 }  // namespace
@@ -49,7 +56,7 @@ std::string json_text(const std::string& text) {
     if (length == 0)
       quoted += "\\ufffd";
     else if (character == "\"" || character == "\\" || is_obeyed(character))
-      quoted += json_escape(character);
+      append_escape(quoted, character);
     else
       quoted += character;
     left.remove_prefix(character.size());

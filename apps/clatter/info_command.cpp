@@ -66,7 +66,8 @@ void print_config(const std::string& path, const FileSummary& summary) {
   const auto& attributes = summary.attributes;
   const auto config =
       std::find_if(attributes.begin(), attributes.end(), [](const auto& pair) { return pair.first == "config"; });
-  if (config == attributes.end()) throw IoError(quoted_name(path) + " holds no configuration; was it written by clatter?");
+  if (config == attributes.end())
+    throw IoError(quoted_name(path) + " holds no configuration; was it written by clatter?");
   std::cout << (::isatty(STDOUT_FILENO) != 0 ? printable_lines(config->second) : config->second);
 }
 

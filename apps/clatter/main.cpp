@@ -72,7 +72,7 @@ int run_main(int argc, char** argv) {
   } catch (const UsageError& error) {
     return report(error.what(), usage_error);
   } catch (const ConfigError& error) {
-    std::cerr << error.what() << '\n';  // begins with the place, as editors expect it
+    std::cerr << printable_lines(error.what()) << '\n';  // begins with the place, as editors expect it
     return usage_error;
   } catch (const IoError& error) {
     return report(error.what(), io_error);

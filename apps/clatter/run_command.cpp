@@ -96,11 +96,11 @@ int run_config(const Arguments& arguments) {
   if (!arguments.has("quiet") && !arguments.has("verbose")) warn_of_dearest_point(config.sweep, shard);
 
   SweepRun sweep(config.sweep, shard);
-  Journal journal(
-      output, key_of(config, arch, shard), sweep.most_saved(), begin, [&](std::span<const std::byte> results) {
-        if (!sweep.restore(results))
-          throw IoError("the journal of " + quoted_name(output) + " doesn't fit the sweep; --restart begins anew");
-      });
+  const RecordLimit limit{sweep.most_saved(), config.sweep.scene.observe.impact_log};
+  Journal journal(output, key_of(config, arch, shard), limit, begin, [&](std::span<const std::byte> results) {
+    if (!sweep.restore(results))
+      throw IoError("the journal of " + quoted_name(output) + " doesn't fit the sweep; --restart begins anew");
+  });
   if (!journal.is_locked())
     std::cerr << "there are no locks here: see that no other run writes " << quoted_name(output) << " meanwhile\n";
   if (sweep.restored_points() > 0 && !arguments.has("quiet"))

@@ -10,7 +10,8 @@ struct NamedText {
   const std::string& text;
 };
 
-/// Lines that only one of two configurations has, the first few of them, each after a line break and `printable`.
+/// Lines that only one of two configurations has, the first few of them, each after a line break, as `excerpt` shows
+/// it.
 [[nodiscard]] std::string difference(const NamedText& one, const NamedText& other);
 
 }  // namespace clatter

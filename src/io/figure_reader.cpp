@@ -40,8 +40,24 @@ Handle open(const std::string& path) {
   if (is_hdf5 == 0) refuse(path, "is not an HDF5 file", "name an output of clatter");
   if (is_hdf5 < 0) throw hdf5::Failure{};
   hdf5::require_sound_heaps(path);
-  return hdf5::open_plain(path);
+  return hdf5::open_file(path);
 }
+
+/// Reads the texts of a file, which may all be the same place in it: in all no more than it can hold otherwise.
+class Texts {
+ public:
+  explicit Texts(std::uint64_t stored_bytes) : left_(2 * stored_bytes + 16UL * 1024 * 1024) {}
+
+  [[nodiscard]] std::string of(hid_t object, const std::string& name) {
+    std::string text = text_attribute(object, name);
+    if (text.size() > left_) throw hdf5::Failure("it holds more text than its size can hold");
+    left_ -= text.size();
+    return text;
+  }
+
+ private:
+  std::uint64_t left_;
+};
 
 /// The name of an object at the root, without its slash.
 std::string object_name(hid_t object) {
@@ -51,11 +67,11 @@ std::string object_name(hid_t object) {
 }
 
 /// The order of creation, where the file keeps it: a tool that has copied the file may have dropped it.
-H5_index_t order_of(hid_t file, herr_t (*get)(hid_t, unsigned*)) {
+H5_index_t attribute_order(hid_t file) {
   const Handle root{H5Gopen2(file, "/", H5P_DEFAULT), H5Gclose};
   const Handle properties{H5Gget_create_plist(root), H5Pclose};  // the file's own list forgets the order
   unsigned flags = 0;
-  checked(get(properties, &flags));
+  checked(H5Pget_attr_creation_order(properties, &flags));
   return (flags & H5P_CRT_ORDER_INDEXED) != 0 ? H5_INDEX_CRT_ORDER : H5_INDEX_NAME;
 }
 
@@ -64,12 +80,12 @@ herr_t collect_name(hid_t, const char* name, const H5A_info_t*, void* names) {
   return 0;
 }
 
-std::vector<std::pair<std::string, std::string>> root_attributes(hid_t file) {
+std::vector<std::pair<std::string, std::string>> root_attributes(hid_t file, Texts& texts) {
   std::vector<std::string> names;
-  checked(H5Aiterate2(file, order_of(file, H5Pget_attr_creation_order), H5_ITER_INC, nullptr, collect_name, &names));
+  checked(H5Aiterate2(file, attribute_order(file), H5_ITER_INC, nullptr, collect_name, &names));
   std::vector<std::pair<std::string, std::string>> attributes;
   attributes.reserve(names.size());
-  for (const std::string& name : names) attributes.emplace_back(name, text_attribute(file, name));
+  for (const std::string& name : names) attributes.emplace_back(name, texts.of(file, name));
   return attributes;
 }
 
@@ -117,10 +133,9 @@ std::optional<std::size_t> points_told(hid_t file, const std::string& path) try 
 }
 
 /// Nobody has to read more than there can be: a short file may claim any number of values. `told` are the points of its
-/// configuration, and else the room that it takes on its disk has to do.
+/// configuration.
 void require_possible(const FileSummary::Entry& status, const std::optional<std::size_t>& told,
                       std::uint64_t stored_bytes) {
-  constexpr double most_deflated = 1032;  // values of a byte, in a byte (zlib's technical details)
   double points = 1, values = 1;
   for (const NamedLength& dimension : status.dimensions) {
     values *= static_cast<double>(dimension.length);
@@ -128,7 +143,7 @@ void require_possible(const FileSummary::Entry& status, const std::optional<std:
   }
   if (told && points != static_cast<double>(*told))
     throw hdf5::Failure("its 'status' is of other points than the " + std::to_string(*told) + " of its configuration");
-  if (!told && values > most_deflated * static_cast<double>(stored_bytes))
+  if (values > hdf5::most_deflated * static_cast<double>(stored_bytes))
     throw hdf5::Failure("its 'status' is longer than a file of its size can hold");
 }
 
@@ -148,18 +163,11 @@ std::vector<std::pair<std::string, std::size_t>> flag_counts(const Handle& datas
   return result;
 }
 
-std::string link_name(hid_t file, H5_index_t order, hsize_t index) {
-  const ssize_t length = checked(H5Lget_name_by_idx(file, ".", order, H5_ITER_INC, index, nullptr, 0, H5P_DEFAULT));
-  std::string name(static_cast<std::size_t>(length), '\0');
-  checked(H5Lget_name_by_idx(file, ".", order, H5_ITER_INC, index, name.data(), name.size() + 1, H5P_DEFAULT));
-  return name;
-}
-
-void add_variable(FileSummary& summary, hid_t file, const std::string& name) {
-  const Handle dataset{H5Dopen2(file, name.c_str(), H5P_DEFAULT), H5Dclose};
+void add_variable(FileSummary& summary, hid_t file, const std::string& name, Texts& texts) {
+  const Handle dataset = hdf5::open_variable(file, name);
   if (is_bare_scale(dataset)) return;
-  summary.variables.push_back({name, type_name(dataset), text_attribute(dataset, "units"),
-                               text_attribute(dataset, "long_name"), dimensions_of(dataset, name)});
+  summary.variables.push_back({name, type_name(dataset), texts.of(dataset, "units"), texts.of(dataset, "long_name"),
+                               dimensions_of(dataset, name)});
 }
 
 FileSummary summary_of(const Handle& file, const std::string& path, std::uint64_t stored_bytes) {
@@ -168,15 +176,13 @@ FileSummary summary_of(const Handle& file, const std::string& path, std::uint64_
            "name an output of clatter");
   }
   FileSummary summary;
-  summary.attributes = root_attributes(file);
-  H5G_info_t group;
-  checked(H5Gget_info(file, &group));
-  const H5_index_t order = order_of(file, H5Pget_link_creation_order);
-  for (hsize_t i = 0; i < group.nlinks; ++i) add_variable(summary, file, link_name(file, order, i));
+  Texts texts(stored_bytes);
+  summary.attributes = root_attributes(file, texts);
+  for (const std::string& name : hdf5::variables_in(file)) add_variable(summary, file, name, texts);
   const auto status = std::ranges::find(summary.variables, "status", &FileSummary::Entry::name);
   if (status == summary.variables.end()) return summary;
   require_possible(*status, points_told(file, path), stored_bytes);
-  summary.status_counts = flag_counts({H5Dopen2(file, "status", H5P_DEFAULT), H5Dclose});
+  summary.status_counts = flag_counts(hdf5::open_variable(file, "status"));
   return summary;
 }
 

@@ -77,6 +77,7 @@ void become_child(pid_t parent, const GuardLimits& limits) {
   for (const int number : {SIGINT, SIGTERM, SIGHUP, SIGQUIT}) std::signal(number, SIG_IGN);  // the parent decides
   if (!sanitized) die_quietly();
   lower_limit(RLIMIT_CPU, limits.seconds);
+  if (!sanitized) lower_limit(RLIMIT_FSIZE, 0);  // it has nothing to write, whatever may take hold of it
   const auto taken = address_space();
   if (!sanitized && taken) lower_limit(RLIMIT_AS, *taken + limits.memory);
 }

@@ -2,6 +2,8 @@
 
 #include <string>
 
+#include "io/utf8.hpp"
+
 namespace clatter::hdf5 {
 namespace {
 
@@ -15,7 +17,7 @@ std::string reason() {
   std::string text;
   H5Ewalk2(H5E_DEFAULT, H5E_WALK_UPWARD, keep_first, &text);
   H5Eclear2(H5E_DEFAULT);
-  return text.empty() ? "the HDF5 library gives no reason" : text;
+  return text.empty() ? "the HDF5 library gives no reason" : printable(text);  // it may quote names of the file
 }
 
 }  // namespace

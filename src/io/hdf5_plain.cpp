@@ -1,14 +1,16 @@
 #include "io/hdf5_plain.hpp"
 
-#include <vector>
+#include <algorithm>
+#include <cstdint>
+#include <tuple>
 
 #include "io/utf8.hpp"
 
 namespace clatter::hdf5 {
 namespace {
 
-/// More than any output has; looking at each takes time for all before it.
-constexpr hsize_t most_variables = 1000;
+/// More than any output has.
+constexpr std::size_t most_variables = 1000;
 
 /// The message in the header of an object that lists external files (HDF5 file format, IV.A.2.h).
 constexpr unsigned external_files_message = 7;
@@ -17,27 +19,16 @@ constexpr unsigned external_files_message = 7;
   throw Failure("'" + printable(name) + "' " + why + ", which clatter doesn't write");
 }
 
-std::string name_of(hid_t file, hsize_t index) {
-  const auto get = [&](char* to, std::size_t room) {
-    return checked(H5Lget_name_by_idx(file, ".", H5_INDEX_NAME, H5_ITER_INC, index, to, room, H5P_DEFAULT));
-  };
-  std::string name(static_cast<std::size_t>(get(nullptr, 0)), '\0');
-  (void)get(name.data(), name.size() + 1);
-  return name;
-}
-
 /// Looks at a link, and at the object behind it only if that is in this file.
-void require_own_variable(hid_t file, hsize_t index) {
-  const std::string name = name_of(file, index);
+void require_own_object(hid_t file, const std::string& name) {
+  if (name.empty() || name == "." || name.find('/') != std::string::npos) refuse(name, "is a path");
   H5L_info_t link;
-  checked(H5Lget_info_by_idx(file, ".", H5_INDEX_NAME, H5_ITER_INC, index, &link, H5P_DEFAULT));
+  checked(H5Lget_info(file, name.c_str(), &link, H5P_DEFAULT));
   if (link.type != H5L_TYPE_HARD) refuse(name, "is a link to something else");
   H5O_info_t object;
-  checked(H5Oget_info_by_idx2(file, ".", H5_INDEX_NAME, H5_ITER_INC, index, &object, H5O_INFO_BASIC | H5O_INFO_HDR,
-                              H5P_DEFAULT));
+  checked(H5Oget_info_by_name2(file, name.c_str(), &object, H5O_INFO_BASIC | H5O_INFO_HDR, H5P_DEFAULT));
   if (object.type != H5O_TYPE_DATASET) refuse(name, "is a group or a type, not a variable");
   if ((object.hdr.mesg.present >> external_files_message & 1U) != 0) refuse(name, "has its values in another file");
-  if (name.find('/') != std::string::npos) refuse(name, "has a path for its name");
 }
 
 /// Shuffle and deflate, each once at most: a file that is deflated many times over grows without bound.
@@ -53,8 +44,7 @@ void require_own_filters(hid_t properties, const std::string& name) {
   }
 }
 
-void require_own_storage(hid_t file, const std::string& name) {
-  const Handle dataset{H5Dopen2(file, name.c_str(), H5P_DEFAULT), H5Dclose};
+void require_own_storage(hid_t dataset, const std::string& name) {
   const Handle properties{H5Dget_create_plist(dataset), H5Pclose};
   const H5D_layout_t layout = H5Pget_layout(properties);
   if (layout == H5D_VIRTUAL || checked(H5Pget_external_count(properties)) > 0)
@@ -66,25 +56,49 @@ void require_own_storage(hid_t file, const std::string& name) {
   if (kind != H5T_INTEGER && kind != H5T_FLOAT) refuse(name, "holds no numbers");
 }
 
-void require_plain(hid_t file) {
-  H5G_info_t root;
-  checked(H5Gget_info(file, &root));
-  if (root.nlinks > most_variables) throw Failure("it has " + std::to_string(root.nlinks) + " variables");
-  for (hsize_t index = 0; index < root.nlinks; ++index) require_own_variable(file, index);
-  for (hsize_t index = 0; index < root.nlinks; ++index) require_own_storage(file, name_of(file, index));
+struct Link {
+  std::int64_t order;  ///< of creation, 0: not kept
+  std::string name;
+};
+
+herr_t collect(hid_t, const char* name, const H5L_info_t* link, void* to) {
+  auto& links = *static_cast<std::vector<Link>*>(to);
+  links.push_back({link->corder_valid ? link->corder : 0, name});
+  return links.size() > most_variables ? 1 : 0;
 }
 
 }  // namespace
 
 /// Without locks: some file systems have none, and outputs are replaced as a whole. Without plugins, which are
-/// programs.
-Handle open_plain(const std::string& path) {
+/// programs, and without links to other files.
+Handle open_file(const std::string& path) {
   checked(H5PLset_loading_state(0));
+  if (checked(H5Lis_registered(H5L_TYPE_EXTERNAL)) > 0) checked(H5Lunregister(H5L_TYPE_EXTERNAL));
   const Handle access{H5Pcreate(H5P_FILE_ACCESS), H5Pclose};
   checked(H5Pset_file_locking(access, false, true));
-  Handle file{H5Fopen(path.c_str(), H5F_ACC_RDONLY, access), H5Fclose};
-  require_plain(file);
-  return file;
+  return {H5Fopen(path.c_str(), H5F_ACC_RDONLY, access), H5Fclose};
+}
+
+std::vector<std::string> variables_in(hid_t file) {
+  std::vector<Link> links;
+  checked(H5Literate(file, H5_INDEX_NAME, H5_ITER_NATIVE, nullptr, collect, &links));
+  if (links.size() > most_variables) throw Failure("it has more than " + std::to_string(most_variables) + " variables");
+  H5G_info_t root;
+  checked(H5Gget_info(file, &root));
+  if (root.nlinks != links.size()) throw Failure("its list of variables is damaged");
+  std::ranges::sort(links, {}, [](const Link& link) { return std::tie(link.order, link.name); });
+  std::vector<std::string> names;
+  for (const Link& link : links) names.push_back(link.name);
+  for (const std::string& name : names) require_own_object(file, name);
+  for (const std::string& name : names) (void)open_variable(file, name);
+  return names;
+}
+
+Handle open_variable(hid_t file, const std::string& name) {
+  require_own_object(file, name);
+  Handle dataset{H5Dopen2(file, name.c_str(), H5P_DEFAULT), H5Dclose};
+  require_own_storage(dataset, name);
+  return dataset;
 }
 
 }  // namespace clatter::hdf5

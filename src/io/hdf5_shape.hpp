@@ -18,6 +18,9 @@ using Shape = std::vector<hsize_t>;
 /// The size of the chunk cache that every reader has: larger chunks are inflated again for every access.
 inline constexpr std::size_t largest_block = 1024UL * 1024;  // bytes
 
+/// A byte of a file gives no more bytes than that when it is inflated (zlib's technical details).
+inline constexpr double most_deflated = 1032;
+
 /// The shape of the blocks that an array is written and read in: as many of the fastest dimensions as fit whole, the
 /// next one in equal parts, so that none is mostly empty.
 [[nodiscard]] Shape blocks_of(const Shape& shape, std::size_t value_size);

@@ -1,7 +1,6 @@
 #include "io/input_file.hpp"
 
 #include <fcntl.h>
-#include <sys/stat.h>
 
 #include <cstring>
 
@@ -17,6 +16,11 @@ namespace {
 
 }  // namespace
 
+std::uint64_t stored_bytes(const struct stat& status) {
+  constexpr blkcnt_t block = 512;  // bytes, as Linux counts them
+  return static_cast<std::uint64_t>(status.st_blocks > 0 ? block * status.st_blocks : status.st_size);
+}
+
 InputFile open_input(const std::string& path, const std::string& wanted) {
   Descriptor file{uninterrupted([&] { return ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK); })};
   struct stat status {};
@@ -24,9 +28,7 @@ InputFile open_input(const std::string& path, const std::string& wanted) {
     refuse_reading(path, std::strerror(errno), errno == EACCES ? "get permission to read it" : "check the name");
   if (S_ISDIR(status.st_mode)) refuse_reading(path, "is a directory", "name a file in it");
   if (!S_ISREG(status.st_mode)) refuse_reading(path, "is not a regular file", "name " + wanted);
-  constexpr blkcnt_t block = 512;  // bytes, as Linux counts them
-  const off_t stored = status.st_blocks > 0 ? block * status.st_blocks : status.st_size;  // 0: the system doesn't tell
-  return {std::move(file), static_cast<std::uint64_t>(stored)};
+  return {std::move(file), stored_bytes(status)};
 }
 
 }  // namespace clatter

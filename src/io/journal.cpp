@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cstring>
+#include <limits>
 #include <optional>
 #include <string_view>
 #include <utility>
@@ -14,6 +15,7 @@
 #include "io/crc32.hpp"
 #include "io/difference.hpp"
 #include "io/error.hpp"
+#include "io/input_file.hpp"
 #include "io/utf8.hpp"
 
 namespace clatter {
@@ -24,7 +26,7 @@ namespace fs = std::filesystem;
 constexpr std::string_view magic = "clatter journal 1\n";
 
 /// No configuration is as long as that, with what else the header has.
-constexpr std::uint64_t most_header = 16UL * 1024 * 1024;  // bytes
+constexpr double most_header = 8UL * 1024 * 1024;  // bytes
 
 using Bytes = std::vector<std::byte>;
 
@@ -72,24 +74,24 @@ class Reader {
     }
   }
 
-  /// What the next block says of itself; nothing: it is torn off. Throws IoError where it is damaged.
-  std::optional<BlockHead> head() {
+  /// What the next block says of itself; nothing: it is torn off. Throws IoError where it is damaged, or of more than
+  /// `most_bytes`.
+  std::optional<BlockHead> head(double most_bytes) {
     const std::uint64_t begin = at_;
     BlockHead head{};
     if (left() < sizeof head) return std::nullopt;
     read(std::as_writable_bytes(std::span(&head, 1)));
     const auto summed = std::as_bytes(std::span(&head, 1)).first(offsetof(BlockHead, check));
     if (head.length == 0 && head.crc == 0 && head.check == 0 && only_zeros_left()) return std::nullopt;
-    if (crc32_of(summed) != head.check) damaged(begin);
+    if (crc32_of(summed) != head.check || static_cast<double>(head.length) > most_bytes) damaged(begin);
     return head.length > left() ? std::nullopt : std::optional(head);
   }
 
-  /// The next block, as `head`; one of more than `most_bytes` is damaged, too.
-  std::optional<std::span<const std::byte>> block(std::uint64_t most_bytes) {
+  /// The next block, as `head`.
+  std::optional<std::span<const std::byte>> block(double most_bytes) {
     const std::uint64_t begin = at_;
-    const std::optional<BlockHead> next = head();
+    const std::optional<BlockHead> next = head(most_bytes);
     if (!next) return std::nullopt;
-    if (next->length > most_bytes) damaged(begin);
     block_.resize(static_cast<std::size_t>(next->length));
     read(block_);
     if (crc32_of(block_) != next->crc) {
@@ -190,16 +192,16 @@ fs::path journal_of(const fs::path& output) { return fs::path(output) += ".journ
 
 void require_idle(const fs::path& output) {
   const fs::path path = journal_of(target_of(output));
-  const Descriptor file{::open(path.c_str(), O_RDWR | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK)};
+  const Descriptor file{::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK)};
   if (file.number() < 0 && errno != ENOENT) refuse_place(path, errno);
-  if (file.number() >= 0 && ::flock(file.number(), LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) refuse_busy(output);
+  if (file.number() >= 0 && ::flock(file.number(), LOCK_SH | LOCK_NB) != 0 && errno == EWOULDBLOCK) refuse_busy(output);
 }
 
-Journal::Journal(const fs::path& output, JournalKey key, std::uint64_t most_bytes, Begin begin, const Take& take)
+Journal::Journal(const fs::path& output, JournalKey key, const RecordLimit& limit, Begin begin, const Take& take)
     : output_(target_of(output)), path_(journal_of(output_)), key_(std::move(key)) {
   lock();
   try {
-    read(take, most_bytes, begin);
+    read(take, limit, begin);
   } catch (...) {
     if (size_ == 0) unlink();
     throw;
@@ -234,12 +236,12 @@ void Journal::lock() {
     struct stat opened {};
     if (::fstat(file_.number(), &opened) != 0) refuse(path_, errno);
     if (!S_ISREG(opened.st_mode)) refuse(path_, "is not a regular file", "move it away, or name another output");
-    size_ = static_cast<std::uint64_t>(opened.st_size);
+    size_ = static_cast<std::uint64_t>(opened.st_size), stored_ = stored_bytes(opened);
     return;
   }
 }
 
-void Journal::read(const Take& take, std::uint64_t most_bytes, Begin begin) {
+void Journal::read(const Take& take, const RecordLimit& limit, Begin begin) {
   Reader reader(file_, size_, path_);
   std::array<char, magic.size()> first{};
   const std::span<char> found = std::span(first).first(std::min<std::size_t>(first.size(), reader.left()));
@@ -252,7 +254,9 @@ void Journal::read(const Take& take, std::uint64_t most_bytes, Begin begin) {
   if (header) {
     const auto key = key_of(*header);
     if (!key) reader.damaged(magic.size());
-    if (*key != key_ && reader.head()) refuse_other(*key);
+    // Where zeros are stored as holes, a log may be longer than its file; but not beyond all measure.
+    const double most_bytes = limit.bytes + (limit.has_log ? 1000.0 * static_cast<double>(stored_) : 0.0);
+    if (*key != key_ && reader.head(std::numeric_limits<double>::infinity())) refuse_other(*key);
     while (const auto record = *key == key_ ? reader.block(most_bytes) : std::nullopt) {
       take(*record);
       ends_.push_back(whole = reader.at());
@@ -305,7 +309,8 @@ void Journal::give_back(std::uint64_t bytes) {
 std::string Journal::leave() {
   if (!is_named(file_, path_)) return "the journal was removed, and with it what was finished";
   if (size_ > 0)
-    return (gave_back_ ? "a part of what was finished is in " : "what was finished is in ") + quoted_name(path_.string()) +
+    return (gave_back_ ? "a part of what was finished is in " : "what was finished is in ") +
+           quoted_name(path_.string()) +
            ", from which the same command goes on; so does one with -o FILE after that is moved to FILE.journal";
   unlink();
   return gave_back_ ? "the journal had made room for the output, and what was finished has to be run again"

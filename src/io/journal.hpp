@@ -32,6 +32,12 @@ struct JournalKey {
   bool operator==(const JournalKey&) const = default;
 };
 
+/// The bytes that a run's record has at most.
+struct RecordLimit {
+  double bytes = 0.0;
+  bool has_log = false;  ///< beside an impact log, which is as long as it is: only the file's size bounds it
+};
+
 /// What a run has finished, kept beside its output until that is written, in OUTPUT.journal: a header with the key,
 /// then records of bytes, all under CRC-32. It grows only at its end. As long as there is a Journal, the file is locked
 /// (`flock`), by which a second run on the same output is told.
@@ -47,10 +53,10 @@ class Journal {
   };
   using Take = std::function<void(std::span<const std::byte> record)>;
 
-  /// Locks the journal of an output, and lets `take` have each record that is there; this run's records have at most
-  /// `most_bytes`. Throws BusyError, and IoError: where another configuration, shard, program or rounding has left it,
-  /// it is damaged, or cannot be read or written.
-  Journal(const std::filesystem::path& output, JournalKey key, std::uint64_t most_bytes, Begin begin, const Take& take);
+  /// Locks the journal of an output, and lets `take` have each record that is there; a longer one than `limit` is
+  /// damaged. Throws BusyError, and IoError: where another configuration, shard, program or rounding has left it, it is
+  /// damaged, or cannot be read or written.
+  Journal(const std::filesystem::path& output, JournalKey key, const RecordLimit& limit, Begin begin, const Take& take);
   /// An empty file is removed.
   ~Journal();
   Journal(const Journal&) = delete;
@@ -75,13 +81,14 @@ class Journal {
  private:
   void lock();
   void unlink() const;
-  void read(const Take& take, std::uint64_t most_bytes, Begin begin);
+  void read(const Take& take, const RecordLimit& limit, Begin begin);
   [[noreturn]] void refuse_other(const JournalKey& key) const;
 
   std::filesystem::path output_, path_;
   JournalKey key_;
   Descriptor file_{-1};
   std::uint64_t size_ = 0;              ///< of the file, in whole records
+  std::uint64_t stored_ = 0;            ///< bytes that it took on its disk when it was opened
   std::vector<std::uint64_t> ends_;     ///< of the records in the file
   bool synced_ = true, named_ = false;  ///< is on the disk; so is its name
   bool is_locked_ = true;

@@ -26,9 +26,9 @@ void check_origins(const std::vector<ShardHead>& heads) {
   const ShardHead& first = heads.front();
   if (first.schema != "clatter/1" || first.version != version() || first.git_commit != git_commit() ||
       first.compiler != compiler())
-    throw IoError(quoted_name(first.path) + " was written by clatter " + printable(first.version) + " (commit " +
-                  printable(first.git_commit) + ", " + printable(first.compiler) + "), this is " +
-                  std::string(version()) + " (commit " + std::string(git_commit()) + ", " + std::string(compiler()) +
+    throw IoError(quoted_name(first.path) + " was written by clatter " + excerpt(first.version) + " (commit " +
+                  excerpt(first.git_commit) + ", " + excerpt(first.compiler) + "), this is " + std::string(version()) +
+                  " (commit " + std::string(git_commit()) + ", " + std::string(compiler()) +
                   "); merge with the program that ran the shards");
   for (const ShardHead& head : heads) {
     if (head.config_sha256 != first.config_sha256 || head.config != first.config)
@@ -40,7 +40,7 @@ void check_origins(const std::vector<ShardHead>& heads) {
       refuse_pair(first, head, "were written by different builds of clatter", "run all shards with one program");
     if (head.rounding != first.rounding)
       refuse_pair(first, head,
-                  "were rounded differently (" + printable(head.rounding) + "; " + printable(first.rounding) + ")",
+                  "were rounded differently (" + excerpt(head.rounding) + "; " + excerpt(first.rounding) + ")",
                   "run all shards with one --arch, on machines of one kind");
   }
 }

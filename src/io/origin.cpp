@@ -15,7 +15,8 @@ using hdf5::text_attribute;
 /// The origin as a text, for it has to come out of a child process: kind, shard and title, a NUL between them.
 std::string origin_text(const std::string& path) try {
   const hdf5::QuietErrors quiet;
-  const Handle file = hdf5::open_plain(path);
+  const Handle file = hdf5::open_file(path);
+  (void)hdf5::variables_in(file);
   if (text_attribute(file, "clatter_schema") != "clatter/1") return {};
   std::string text = checked(H5Lexists(file, "ns_per_period", H5P_DEFAULT)) > 0 ? "study" : "run";
   return text.append(1, '\0')

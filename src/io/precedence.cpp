@@ -140,8 +140,8 @@ void let_command_line_win(Settings& settings) {
 }
 
 std::string to_string(const Displaced& displaced) {
-  return to_string(displaced.stands) + " in place of " + quoted_name(displaced.gone) + ", " + to_string(displaced.stood) +
-         displaced.rest;
+  return to_string(displaced.stands) + " in place of " + quoted_name(displaced.gone) + ", " +
+         to_string(displaced.stood) + displaced.rest;
 }
 
 }  // namespace clatter

@@ -3,7 +3,6 @@
 #include <hdf5_hl.h>
 
 #include <cstdint>
-#include <exception>
 #include <functional>
 #include <optional>
 #include <string>
@@ -38,13 +37,10 @@ using hdf5::text_attribute;
 template <typename Read>
 auto read_file(const std::string& path, Read read) try {
   const hdf5::QuietErrors quiet;
-  return read(hdf5::open_plain(path));
+  const Handle file = hdf5::open_file(path);
+  return read(file);
 } catch (const hdf5::Failure& failure) {
   refuse(path, failure.what());
-}
-
-Handle dataset_in(const Handle& file, const std::string& name) {
-  return {H5Dopen2(file, name.c_str(), H5P_DEFAULT), H5Dclose};
 }
 
 std::size_t length_of(const Handle& dataset) {
@@ -68,29 +64,12 @@ Column column_of(const Handle& dataset) {
   return H5Tget_sign(type) == H5T_SGN_NONE ? values_of<std::uint8_t>(dataset) : values_of<std::int8_t>(dataset);
 }
 
-/// What a walk over the variables does with each, and what stopped it: the library isn't made for exceptions.
-struct Walk {
-  std::function<void(const std::string& name, const Handle& dataset)> visit;
-  std::exception_ptr failure{};
-};
-
-herr_t visit(hid_t file, const char* name, const H5L_info_t*, void* data) {
-  auto& walk = *static_cast<Walk*>(data);
-  try {
-    const Handle dataset{H5Dopen2(file, name, H5P_DEFAULT), H5Dclose};
-    if (length_of(dataset) == 0 || H5Dget_storage_size(dataset) > 0) walk.visit(name, dataset);  // not a bare scale
-    return 0;
-  } catch (...) {
-    walk.failure = std::current_exception();
-    return -1;
+void walk_variables(const Handle& file,
+                    const std::function<void(const std::string& name, const Handle& dataset)>& visit) {
+  for (const std::string& name : hdf5::variables_in(file)) {
+    const Handle dataset = hdf5::open_variable(file, name);
+    if (length_of(dataset) == 0 || H5Dget_storage_size(dataset) > 0) visit(name, dataset);  // not a bare scale
   }
-}
-
-void walk_variables(const Handle& file, decltype(Walk::visit) action) {
-  Walk walk{std::move(action)};
-  const herr_t result = H5Literate(file, H5_INDEX_NAME, H5_ITER_NATIVE, nullptr, visit, &walk);
-  if (walk.failure) std::rethrow_exception(walk.failure);
-  checked(result);
 }
 
 /// How many values there are, without reading them.
@@ -127,7 +106,8 @@ ShardHead head_of(const Handle& file, const std::string& path) {
                  .config_sha256 = text_attribute(file, "config_sha256"),
                  .rounding = text_attribute(file, "rounding"),
                  .values = values_in(file)};
-  if (checked(H5Lexists(file, "impact_tau", H5P_DEFAULT)) > 0) head.impacts = length_of(dataset_in(file, "impact_tau"));
+  if (checked(H5Lexists(file, "impact_tau", H5P_DEFAULT)) > 0)
+    head.impacts = length_of(hdf5::open_variable(file, "impact_tau"));
   return head;
 }
 
@@ -140,11 +120,15 @@ void pass_all(Pass& pass, Head& head) {
     pass(*text);
 }
 
-/// What a shard claims to have is read into memory, so it must be no more than a run of its configuration writes. One
-/// that this program cannot read is of another version, which the merge will say.
-void require_possible(const ShardHead& head) try {
-  const double most = most_values(parse_config(head.config, head.path).sweep, head.shard);
-  if (static_cast<double>(head.values) > most + logged_values * static_cast<double>(head.impacts))
+/// What a shard claims to have is read into memory, so it must be no more than its size can hold and a run of its
+/// configuration writes. One that this program cannot read is of another version, which the merge will say.
+void require_possible(const ShardHead& head, std::uint64_t stored_bytes) try {
+  const auto values = static_cast<double>(head.values);
+  if (values > hdf5::most_deflated * static_cast<double>(stored_bytes))
+    throw hdf5::Failure("it holds more values than its size can hold");
+  const Sweep sweep = parse_config(head.config, head.path).sweep;
+  const double logged = sweep.scene.observe.impact_log ? logged_values * static_cast<double>(head.impacts) : 0.0;
+  if (values > most_values(sweep, head.shard) + logged)
     throw hdf5::Failure("it holds more values than a run of its configuration writes");
 } catch (const ConfigError&) {
 }
@@ -159,18 +143,18 @@ std::string packed(const ShardHead& head) {
 
 /// A child process reads all of it first: the seal tells damage, but a file may be anyone's.
 ShardHead read_shard_head(const std::string& path) try {
-  const GuardLimits limits = limits_for(open_input(path, shards_of_clatter).stored_bytes);
+  const std::uint64_t stored = open_input(path, shards_of_clatter).stored_bytes;
   const std::string bytes = guarded(
       [&] {
         require_sealed(path);
         return read_file(path, [&](const Handle& file) {
           const ShardHead head = head_of(file, path);
-          require_possible(head);
+          require_possible(head, stored);
           try_values(file);
           return packed(head);
         });
       },
-      limits);
+      limits_for(stored));
   ShardHead head{};
   head.path = path;
   Unpacker unpacker(bytes);

@@ -57,8 +57,8 @@ bool begins_as_output(const Descriptor& file) {
 /// Whether a process of this user has left the file when it was killed: the file of one that lives is locked.
 bool is_abandoned(const Descriptor& file) {
   struct stat status {};
-  return ::fstat(file.number(), &status) == 0 && S_ISREG(status.st_mode) && status.st_uid == ::geteuid() &&
-         begins_as_output(file) && lock(file);
+  return ::fstat(file.number(), &status) == 0 && S_ISREG(status.st_mode) &&
+         (status.st_uid == ::geteuid() || ::geteuid() == 0) && begins_as_output(file) && lock(file);
 }
 
 /// Whom a file belongs to and who may read it.
@@ -123,7 +123,8 @@ void TemporaryFile::become_target() {
 /// Creates the file with the permissions of any new file of the user's, or closed to others until it takes over those
 /// of an older one; O_EXCL, so that no other run's is taken.
 Descriptor TemporaryFile::create() {
-  const mode_t mode = access_of(target_) ? 0600 : 0666;
+  const std::optional<Access> older = access_of(target_);
+  const mode_t mode = older ? (older->mode & 0666U) | 0600U : 0666U;
   for (;; path_ = temporary_name(target_)) {
     Descriptor file{
         uninterrupted([&] { return ::open(path_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, mode); })};

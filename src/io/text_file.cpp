@@ -47,7 +47,7 @@ std::string as_text(const std::string& name, std::string bytes) {
   if (bytes.find('\0') != std::string::npos)
     unreadable(name, "it holds NUL bytes, so it is no text; a configuration is UTF-8 text");
   if (bytes.size() > max_config_bytes)
-    throw ConfigError(name + ":1:1: more than 1 MiB; write long lists as linspace, logspace or arange");
+    fail({name, 1, 1}, "more than 1 MiB; write long lists as linspace, logspace or arange");
   if (bytes.starts_with("\xEF\xBB\xBF")) bytes.erase(0, 3);
   return bytes;
 }

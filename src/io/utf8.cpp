@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <iterator>
 
 namespace clatter {
 namespace {
@@ -11,15 +10,15 @@ std::uint8_t byte(char character) { return static_cast<std::uint8_t>(character);
 
 bool is_continuation(char character) { return (byte(character) & 0xC0) == 0x80; }
 
-/// Characters that turn the direction of the text after them, or begin a line as \n does (Unicode, UAX 9 and 14).
-bool is_direction_or_line(std::string_view text) {
-  constexpr std::string_view all[] = {"\u061c", "\u200e", "\u200f", "\u2028", "\u2029", "\u202a", "\u202b",
-                                      "\u202c", "\u202d", "\u202e", "\u2066", "\u2067", "\u2068", "\u2069"};
-  return std::ranges::find(all, text) != std::end(all);
-}
+struct Range {
+  char32_t first, last;
+};
 
-/// The controls of ISO 6429 beyond ASCII, U+0080 ... U+009F, which terminals obey as they do ESC.
-bool is_c1(std::string_view text) { return text.size() > 1 && byte(text[0]) == 0xC2 && byte(text[1]) < 0xA0; }
+/// Control characters of ASCII and ISO 6429; what turns the direction of a text or begins a line; what has no width, by
+/// which a name can look like another one (Unicode, UAX 9, 14 and UTS 39).
+constexpr Range obeyed[] = {{0, 0x1F},        {0x7F, 0x9F},     {0xAD, 0xAD},     {0x61C, 0x61C},
+                            {0x180E, 0x180E}, {0x200B, 0x200B}, {0x200E, 0x200F}, {0x2028, 0x202E},
+                            {0x2060, 0x206F}, {0xFEFF, 0xFEFF}, {0xFFF9, 0xFFFB}, {0xE0000, 0xE007F}};
 
 void append_hexadecimal(std::string& text, std::string_view bytes) {
   constexpr std::string_view digits = "0123456789abcdef";
@@ -57,7 +56,9 @@ int characters(std::string_view text) {
 }
 
 bool is_obeyed(std::string_view character) {
-  return byte(character[0]) < 0x20 || byte(character[0]) == 0x7F || is_c1(character) || is_direction_or_line(character);
+  const char32_t point = code_point(character);
+  if (point > 0x1F && point < 0x7F) return false;
+  return std::ranges::any_of(obeyed, [&](const Range& range) { return range.first <= point && point <= range.last; });
 }
 
 std::string printable(std::string_view text) {
@@ -73,6 +74,13 @@ std::string printable(std::string_view text) {
     at += character.size();
   }
   return shown;
+}
+
+std::string excerpt(std::string_view text) {
+  constexpr std::size_t most = 200;  // bytes
+  std::size_t length = std::min(text.size(), most);
+  while (length < text.size() && length > 0 && is_continuation(text[length])) --length;
+  return printable(text.substr(0, length)) + (length < text.size() ? "…" : "");
 }
 
 std::string quoted_name(std::string_view text) { return '\'' + printable(text) + '\''; }

@@ -179,12 +179,10 @@ void Columns::pack(std::size_t slot, std::vector<std::byte>& to) const {
   append(to, std::span<const Impact>(log_[slot]));
 }
 
-double Columns::most_packed() const {
+double Columns::packed_bytes() const {
   double bytes = sizeof(std::uint8_t) + sizeof(std::int64_t) + sizeof(double);
   for (const Output& output : outputs_) bytes += static_cast<double>(output.width * sizeof(double));
-  if (log_.empty()) return bytes;
-  const double impacts = 2 * static_cast<double>(sweep_.scene.time.max_impacts) + 1e6;  // the budget is looked at late
-  return bytes + sizeof(std::uint64_t) + impacts * sizeof(Impact);
+  return log_.empty() ? bytes : bytes + sizeof(std::uint64_t);
 }
 
 bool Columns::unpack(std::size_t slot, std::span<const std::byte>& from) {
@@ -194,7 +192,7 @@ bool Columns::unpack(std::size_t slot, std::span<const std::byte>& from) {
     whole = take_off(from, std::span(values_[i]).subspan(slot * outputs_[i].width, outputs_[i].width));
   std::uint64_t count = 0;
   if (!whole || log_.empty()) return whole;
-  if (!take_off(from, std::span(&count, 1)) || count > from.size()) return false;
+  if (!take_off(from, std::span(&count, 1)) || count > from.size() / sizeof(Impact)) return false;
   log_[slot].resize(static_cast<std::size_t>(count));
   return take_off(from, std::span(log_[slot]));
 }

@@ -55,8 +55,8 @@ class Columns {
 
   /// Appends a point's results, as `unpack` takes them from a run of the same sweep.
   void pack(std::size_t slot, std::vector<std::byte>& to) const;
-  /// The bytes of a point's results at most; those of a log are bounded by time.max_impacts.
-  [[nodiscard]] double most_packed() const;
+  /// The bytes of a point's results, the impacts in its log aside.
+  [[nodiscard]] double packed_bytes() const;
   /// Takes a point's results off the beginning of `from`; false where they aren't of this sweep, and then nothing is
   /// sure of the point.
   [[nodiscard]] bool unpack(std::size_t slot, std::span<const std::byte>& from);

@@ -263,9 +263,8 @@ bool SweepRun::restore(std::span<const std::byte> results) {
   return true;
 }
 
-std::uint64_t SweepRun::most_saved() const {
-  const double branch = sizeof(std::uint64_t) + static_cast<double>(share_.length()) * columns_.most_packed();
-  return static_cast<std::uint64_t>(std::min(1e18, enough_to_save + branch));
+double SweepRun::most_saved() const {
+  return enough_to_save + sizeof(std::uint64_t) + static_cast<double>(share_.length()) * columns_.packed_bytes();
 }
 
 void SweepRun::save(const std::function<void(std::span<const std::byte> results)>& write) {

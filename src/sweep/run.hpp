@@ -74,10 +74,10 @@ class SweepRun {
   void run(const RunOptions& options);
 
   /// Gives `write` the results of branches that were finished since the last time, some at once, of no more than
-  /// `most_saved` bytes. Another thread may call it while `run` is at work.
+  /// `most_saved` bytes beside the impact log. Another thread may call it while `run` is at work.
   void save(const std::function<void(std::span<const std::byte> results)>& write);
 
-  [[nodiscard]] std::uint64_t most_saved() const;
+  [[nodiscard]] double most_saved() const;
 
   /// What all points gave; to be called once.
   [[nodiscard]] RunResult result();

@@ -212,9 +212,11 @@ class HostileFiles(CommandLine):
         def grow(file, directory):
             del file["x_max"]
             file.create_dataset("x_max", (1 << 40,), "f8", chunks=(1 << 10,))[:1] = 0.0
-        name = self.craft("a.0-of-2.h5", grow)
-        self.assert_refused(74, "it holds more values than a run of its configuration writes", "merge", "-o", "new.h5",
-                            name, "a.1-of-2.h5")
+        def add_log(file, directory):
+            file.create_dataset("impact_tau", data=numpy.zeros(100))
+        for change, words in ((grow, "its size can hold"), (add_log, "a run of its configuration writes")):
+            name = self.craft("a.0-of-2.h5", change)
+            self.assert_refused(74, f"it holds more values than {words}", "merge", "-o", "new.h5", name, "a.1-of-2.h5")
 
     def test_a_terminal_obeys_nothing_of_a_shard(self):
         def mark(attribute):

@@ -26,7 +26,7 @@ inline std::string journal_path() { return scratch().path("a.h5.journal"); }
 /// Opens the journal as a run does; its records. Adds some more.
 inline Records open_journal(Journal::Begin begin, const Records& more = {}) {
   Records records;
-  Journal journal(scratch().path("a.h5"), journal_key, 1UL << 20, begin, [&](std::span<const std::byte> bytes) {
+  Journal journal(scratch().path("a.h5"), journal_key, {1e6}, begin, [&](std::span<const std::byte> bytes) {
     records.emplace_back(reinterpret_cast<const char*>(bytes.data()), bytes.size());
   });
   require(journal.has_records() == !records.empty(), "a journal that doesn't know whether it has records");

@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "io/crc32.hpp"
 #include "io/error.hpp"
 
 namespace clatter {
@@ -22,12 +23,21 @@ namespace fs = std::filesystem;
 using Records = std::vector<std::string>;
 
 const JournalKey key{"nu = 1\nxs = 2\n", "1.0", "avx2", "1/3"};
-constexpr std::uint64_t most_bytes = 1'000'000;  // of a record
+constexpr std::size_t most_bytes = 1'000'000;  // of a record
+constexpr RecordLimit usual{most_bytes};
 
 std::string text_of(std::span<const std::byte> bytes) {
   return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 std::span<const std::byte> bytes_of(const std::string& text) { return std::as_bytes(std::span(text)); }
+
+/// The head of a block, with a sound checksum of its own.
+std::string zeros_head(std::uint64_t length) {
+  std::string head(reinterpret_cast<const char*>(&length), sizeof length);
+  head.append(4, '\0');
+  const std::uint32_t check = crc32_of(bytes_of(head));
+  return head.append(reinterpret_cast<const char*>(&check), sizeof check);
+}
 
 /// A directory of its own for each test, since ctest runs them side by side.
 class JournalFile : public testing::Test {
@@ -45,14 +55,14 @@ class JournalFile : public testing::Test {
 
   /// Keeps records as a run does that is then killed.
   void write(const Records& records, Journal::Begin begin = Journal::Begin::anyhow) const {
-    Journal journal(output(), key, most_bytes, begin, [](auto) {});
+    Journal journal(output(), key, usual, begin, [](auto) {});
     for (const std::string& text : records) journal.append(bytes_of(text));
     journal.sync();
   }
   /// What the next run finds.
   [[nodiscard]] Records found(const JournalKey& by = key, Journal::Begin begin = Journal::Begin::anyhow) const {
     Records records;
-    const Journal journal(output(), by, most_bytes, begin,
+    const Journal journal(output(), by, usual, begin,
                           [&](std::span<const std::byte> bytes) { records.push_back(text_of(bytes)); });
     EXPECT_EQ(journal.has_records(), !records.empty());
     return records;
@@ -86,7 +96,7 @@ TEST_F(JournalFile, is_not_there_without_records_nor_after_remove) {
   write({});
   EXPECT_FALSE(fs::exists(path()));
   write(three);
-  Journal(output(), key, most_bytes, Journal::Begin::anyhow, [](auto) {}).remove();
+  Journal(output(), key, usual, Journal::Begin::anyhow, [](auto) {}).remove();
   EXPECT_FALSE(fs::exists(path()));
 }
 
@@ -121,9 +131,9 @@ TEST_F(JournalFile, refuses_another_key_and_says_what_differs) {
 }
 
 TEST_F(JournalFile, of_two_runs_only_one_has_it) {
-  Journal first(output(), key, most_bytes, Journal::Begin::anyhow, [](auto) {});
+  Journal first(output(), key, usual, Journal::Begin::anyhow, [](auto) {});
   first.append(bytes_of("one"));
-  EXPECT_THROW(Journal(output(), key, most_bytes, Journal::Begin::restart, [](auto) {}), BusyError);
+  EXPECT_THROW(Journal(output(), key, usual, Journal::Begin::restart, [](auto) {}), BusyError);
   first.append(bytes_of("two"));
   EXPECT_THROW((void)found(), BusyError);
 }
@@ -132,7 +142,7 @@ TEST_F(JournalFile, tells_others_that_its_output_is_being_written) {
   require_idle(output());
   EXPECT_FALSE(fs::exists(path()));
   {
-    const Journal journal(output(), key, most_bytes, Journal::Begin::anyhow, [](auto) {});
+    const Journal journal(output(), key, usual, Journal::Begin::anyhow, [](auto) {});
     EXPECT_THROW(require_idle(output()), BusyError);
   }
   write(three);  // by a run that has ended
@@ -199,7 +209,7 @@ TEST_F(JournalFile, on_a_full_disk_keeps_what_it_had) {
     const rlimit full{static_cast<rlim_t>(before.size()) + more, limit.rlim_max};
     ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &full), 0);
     {
-      Journal journal(output(), key, most_bytes, Journal::Begin::anyhow, [](auto) {});
+      Journal journal(output(), key, usual, Journal::Begin::anyhow, [](auto) {});
       EXPECT_THROW(journal.append(bytes_of(std::string(100000, 'y'))), IoError) << more;
     }
     ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &limit), 0);
@@ -225,10 +235,22 @@ TEST_F(JournalFile, with_a_longer_record_than_a_run_writes_is_damaged) {
   EXPECT_NE(refusal().find("damaged"), std::string::npos);
 }
 
+TEST_F(JournalFile, with_a_log_has_no_longer_record_than_it_can_hold) {
+  constexpr RecordLimit with_log{most_bytes, true};
+  Records records;
+  const auto take = [&](std::span<const std::byte> bytes) { records.push_back(text_of(bytes)); };
+  write({std::string(5 * most_bytes, 'x')});
+  (void)Journal(output(), key, with_log, Journal::Begin::anyhow, take);
+  EXPECT_EQ(records, Records{std::string(5 * most_bytes, 'x')});
+  overwrite(content().substr(0, content().size() - 5 * most_bytes - 16) + zeros_head(std::uint64_t{1} << 36U));
+  fs::resize_file(path(), fs::file_size(path()) + (std::uintmax_t{1} << 36U));
+  EXPECT_THROW(Journal(output(), key, with_log, Journal::Begin::anyhow, take), IoError);
+}
+
 TEST_F(JournalFile, shows_a_foreign_key_and_does_not_obey_it) {
   const JournalKey hostile{"nu = 1\nx = \"\x1b]0;title\a\"\n", "1.0\x1b[2J\nclatter: all is well", "\u202eavx2", ""};
   {
-    Journal journal(output(), hostile, most_bytes, Journal::Begin::anyhow, [](auto) {});
+    Journal journal(output(), hostile, usual, Journal::Begin::anyhow, [](auto) {});
     journal.append(bytes_of("one"));
   }
   const std::string shown = refusal();
@@ -240,7 +262,7 @@ TEST_F(JournalFile, shows_a_foreign_key_and_does_not_obey_it) {
 
 TEST_F(JournalFile, gives_the_room_of_its_last_records_back) {
   const std::string large(900'000, 'x');
-  Journal journal(output(), key, most_bytes, Journal::Begin::anyhow, [](auto) {});
+  Journal journal(output(), key, usual, Journal::Begin::anyhow, [](auto) {});
   for (int i = 0; i < 5; ++i) journal.append(bytes_of(large));
   const std::uintmax_t size = fs::file_size(path());
   journal.give_back(size + 1);  // more than there is would help nobody
