@@ -16,6 +16,7 @@
 
 #include "commands.hpp"
 #include "io/error.hpp"
+#include "io/file_calls.hpp"
 
 namespace clatter {
 namespace {
@@ -46,7 +47,7 @@ void handle_stops(void (*handler)(int)) {
 
 Keeper::Keeper(Journal& journal, std::function<void()> save, std::optional<Clock::time_point> end)
     : journal_(journal), save_(std::move(save)), end_(end) {
-  if (::pipe2(ends_, O_CLOEXEC) != 0) throw std::system_error(errno, std::generic_category(), "no pipe");
+  if (::pipe2(ends_, O_CLOEXEC) != 0) throw IoError("no pipe can be made: " + reason_and_way_out(errno, ""));
   into = ends_[1];
   try {
     thread_ = std::thread([this] { keep(); });

@@ -19,7 +19,7 @@ class Keeper {
   using Clock = std::chrono::steady_clock;
 
   /// `save` writes what was finished since the last time into the journal. Stops the run at `end`, if that is given.
-  /// There may be one keeper at a time. Throws IoError where no thread can be started.
+  /// There may be one keeper at a time. Throws IoError where there can be no pipe or thread.
   Keeper(Journal& journal, std::function<void()> save, std::optional<Clock::time_point> end);
   /// Without `finish` before it, the run has failed: saves what it can.
   ~Keeper();

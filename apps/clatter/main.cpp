@@ -2,6 +2,7 @@
 #include <malloc.h>
 #include <unistd.h>
 
+#include <csignal>
 #include <cstdlib>
 #include <exception>
 #include <iostream>
@@ -14,6 +15,7 @@
 #include "io/error.hpp"
 #include "io/journal.hpp"
 #include "io/version.hpp"
+#include "sweep/stack.hpp"
 
 namespace {
 
@@ -52,7 +54,7 @@ void refuse_foreign_exit() {
   if (at_its_end) return;
   std::cerr
       << "clatter: stopped by a library that it needs; if threads can't be started, take fewer (--threads) or raise "
-         "ulimit -u\n";
+         "ulimit -u and ulimit -v\n";
   ::_exit(io_error);
 }
 
@@ -64,6 +66,7 @@ int report(const char* message, int code) {
 int run_main(int argc, char** argv) {
   mallopt(M_TRIM_THRESHOLD, 64 * 1024 * 1024);  // points come and go by the million: what they free is soon taken again
   try {
+    require_main_stack();
     const int code = run_program({argv + 1, argv + argc});
     std::cout.flush();
     return std::cout ? code : report("standard output cannot be written; is its disk full?", io_error);
@@ -74,10 +77,12 @@ int run_main(int argc, char** argv) {
     return usage_error;
   } catch (const IoError& error) {
     return report(error.what(), io_error);
+  } catch (const LimitError& error) {
+    return report(error.what(), io_error);
   } catch (const BusyError& error) {
     return report(error.what(), busy);
   } catch (const std::bad_alloc&) {
-    return report("the results don't fit into memory; sweep fewer points, or observe less", usage_error);
+    return report(no_memory("it ran out").what(), io_error);
   } catch (const std::exception& error) {
     return report((std::string("a bug in clatter: ") + error.what() + "; please report it with the command").c_str(),
                   internal_error);
@@ -87,6 +92,7 @@ int run_main(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  std::signal(SIGXFSZ, SIG_IGN);  // a write beyond `ulimit -f`, to stderr too, then fails as on a full disk
   open_standard_streams();
   std::atexit(refuse_foreign_exit);
   const int code = run_main(argc, argv);

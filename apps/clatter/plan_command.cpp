@@ -2,6 +2,7 @@
 
 #include "commands.hpp"
 #include "config_arguments.hpp"
+#include "memory_check.hpp"
 #include "plan_report.hpp"
 #include "sweep/run.hpp"
 #include "warnings.hpp"
@@ -13,6 +14,7 @@ int print_plan(const Arguments& arguments) {
   const int threads = threads_used({.threads = threads_of(arguments)});
   const Config config = config_of(arguments);
   Plan plan = plan_of(config.sweep, threads);
+  plan.need = with_configuration(plan.need, config);
   if (arguments.has("json")) {
     join_warnings(plan, config);
     std::cout << plan_json(plan, config.sweep, threads);

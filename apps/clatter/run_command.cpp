@@ -3,6 +3,7 @@
 #include <chrono>
 #include <csignal>
 #include <iostream>
+#include <new>
 #include <optional>
 #include <span>
 #include <string>
@@ -19,25 +20,15 @@
 #include "io/suggestion.hpp"
 #include "io/version.hpp"
 #include "keeper.hpp"
+#include "memory_check.hpp"
 #include "plan_report.hpp"
 #include "progress.hpp"
 #include "run_report.hpp"
-#include "sweep/memory.hpp"
 #include "sweep/rounding.hpp"
 #include "warnings.hpp"
 
 namespace clatter {
 namespace {
-
-/// Too late to find out at the end of a run.
-void check_memory(const Sweep& sweep, const std::optional<Shard>& shard) {
-  const double needed = run_bytes(sweep, shard), there = machine_bytes();
-  if (there == 0 || needed <= there) return;
-  throw UsageError("the results of " + std::to_string(Share(sweep, shard).points()) +
-                   " points, and the largest variable of them once more, take " + bytes_text(needed) + ", there are " +
-                   bytes_text(there) +
-                   "; sweep fewer points, observe fewer samples and harmonics, or share the points out with --shard");
-}
 
 std::optional<Shard> shard_of(const Arguments& arguments) {
   const std::optional<std::string> word = arguments.value("shard");
@@ -81,8 +72,10 @@ JournalKey key_of(const Config& config, Arch arch, const std::optional<Shard>& s
           .shard = shard ? text_of(*shard) : ""};
 }
 
-void say_plan(const Config& config, int threads) {
-  const Plan plan = plan_of(config.sweep, threads);
+/// The plan of the whole sweep; the memory is that of the shard.
+void say_plan(const Config& config, const std::optional<Shard>& shard, int threads) {
+  Plan plan = plan_of(config.sweep, threads);
+  plan.need = with_configuration(shard ? memory_need(config.sweep, shard, threads) : plan.need, config);
   std::cerr << plan_text(plan, config.sweep, threads);
   say_notes(config), warn(plan);
 }
@@ -93,6 +86,9 @@ void run_points(SweepRun& sweep, RunOptions options, bool shown) {
     options.progress = [&](double finished, std::size_t total) { progress.show(finished, static_cast<double>(total)); };
   sweep.run(options);
 }
+
+/// What the next run will find where this one has failed; nothing if it has saved nothing.
+std::string left_in(Journal& journal) { return journal.has_records() ? "\nclatter: " + journal.leave() : ""; }
 
 int run_config(const Arguments& arguments) {
   if (arguments.has("quiet") && arguments.has("verbose"))
@@ -110,8 +106,8 @@ int run_config(const Arguments& arguments) {
   check_not_config(arguments.operands[0], output);
   const OutputPlace place(output, {.shard = shard ? text_of(*shard) : "", .title = config.title},
                           arguments.has("force"));
-  check_memory(config.sweep, shard);
-  if (arguments.has("verbose")) say_plan(config, threads);
+  check_memory(config, shard, threads);
+  if (arguments.has("verbose")) say_plan(config, shard, threads);
   if (!arguments.has("quiet")) warn(config);
   if (!arguments.has("quiet") && !arguments.has("verbose")) warn_of_dearest_point(config.sweep);
 
@@ -125,21 +121,24 @@ int run_config(const Arguments& arguments) {
   if (sweep.restored_points() > 0 && !arguments.has("quiet"))
     std::cerr << "goes on from " << sweep.restored_points() << " finished points\n";
 
-  const auto save = [&] {
-    sweep.save([&](std::span<const std::byte> results) { journal.append(results); });
-    journal.sync();
-  };
-  Keeper keeper(journal, save, end);
-  run_points(sweep, {.threads = threads, .arch = arch}, shown);
-  keeper.finish();
-  RunResult result = sweep.result();
-  const std::string summary = summary_line(result, config.sweep, shard, output);
+  RunResult result;
+  std::string summary;
   try {
+    const auto save = [&] {
+      sweep.save([&](std::span<const std::byte> results) { journal.append(results); });
+      journal.sync();
+    };
+    Keeper keeper(journal, save, end);
+    run_points(sweep, {.threads = threads, .arch = arch}, shown);
+    keeper.finish();
+    result = sweep.result();
+    summary = summary_line(result, config.sweep, shard, output);
     const auto image = shard ? sealed_image : file_image;
     place.publish(image(std::move(result.figure), config).bytes);
   } catch (const IoError& error) {
-    if (!journal.has_records()) throw;
-    throw IoError(std::string(error.what()).append("\nclatter: ").append(journal.leave()));
+    throw IoError(error.what() + left_in(journal));
+  } catch (const std::bad_alloc&) {
+    throw IoError(no_memory("it ran out").what() + left_in(journal));
   }
   journal.remove();
   if (!arguments.has("quiet")) std::cerr << summary << '\n';

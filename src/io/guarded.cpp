@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <array>
+#include <csignal>
 #include <cstdio>
 #include <cstring>
 #include <new>
@@ -37,8 +38,8 @@ struct Head {
 };
 
 [[noreturn]] void refuse_child(int error) {
-  throw IoError{std::string("no process can be started to read a file: ") + std::strerror(error) +
-                "; end some others and try again"};
+  throw IoError{"no process can be started to read a file: " +
+                reason_and_way_out(error, "end some others and try again")};
 }
 
 // --- the child --------------------------------------------------------------

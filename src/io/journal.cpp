@@ -242,7 +242,6 @@ void Journal::append(std::span<const std::byte> record) {
   Bytes bytes;
   if (size_ == 0) append_bytes(bytes, bytes_of(magic)), append_block(bytes, bytes_of(key_));
   append_number(bytes, head_of(record));
-  const IgnoreFileSizeSignal ignore;
   synced_ = false;
   try {
     write_all(file_, bytes, path_), write_all(file_, record, path_);

@@ -130,7 +130,6 @@ void check_writable(const std::string& path) {
 
 void publish(const std::string& path, std::span<const std::byte> bytes, const std::function<void()>& before_rename) {
   check_writable(path);
-  const IgnoreFileSizeSignal ignore;
   const fs::path target = target_of(path);
   remove_abandoned(target);
   TemporaryFile file{target};

@@ -36,7 +36,7 @@ class Pieces {
  public:
   explicit Pieces(const std::string& path)
       : path_(path), file_(uninterrupted([&] { return ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK); })) {
-    if (file_.number() < 0) refuse_reading(path_, std::strerror(errno), "check the name");
+    if (file_.number() < 0) throw IoError("'" + path_ + "': " + reason_and_way_out(errno, "check the name"));
     struct stat status {};
     if (::fstat(file_.number(), &status) != 0 || !S_ISREG(status.st_mode))
       refuse_reading(path_, "is not a regular file", "name files that `clatter run --shard` has written");

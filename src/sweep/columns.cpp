@@ -1,5 +1,7 @@
 #include "sweep/columns.hpp"
 
+#include <malloc.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -156,7 +158,7 @@ void Columns::store(std::size_t slot, PointResult&& result) {
   impacts_[slot] = static_cast<std::int64_t>(result.impacts);
   periods_[slot] = result.periods;
   for (std::size_t i = 0; i < outputs_.size(); ++i) outputs_[i].put(result, &values_[i][slot * outputs_[i].width]);
-  if (!log_.empty()) log_[slot] = std::move(result.log);
+  if (!log_.empty()) log_[slot] = std::move(result.log), log_[slot].shrink_to_fit();  // it grew by doubling
 }
 
 void Columns::pack(std::size_t slot, std::vector<std::byte>& to) const {
@@ -267,6 +269,8 @@ void Columns::add_impact_log(Figure& figure) {
     }
     std::vector<Impact>().swap(impacts);
   }
+  log_ = {};
+  malloc_trim(0);  // blocks that lay between others stay with the process else
   const std::vector<std::string> along{"impact"};
   figure.dimensions.push_back({"impact", tau.size()});
   figure.variables.push_back({"impact_count", along_, std::move(counts), "impacts in the log of the point", "1"});

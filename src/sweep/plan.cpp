@@ -12,7 +12,7 @@
 #include "sweep/branches.hpp"
 #include "sweep/dearest_point.hpp"
 #include "sweep/fork_join.hpp"
-#include "sweep/memory.hpp"
+#include "sweep/memory_limits.hpp"
 #include "sweep/point.hpp"
 
 namespace clatter {
@@ -208,10 +208,11 @@ void warn_of_stop(const Sweep& sweep, const StopSeen& stop, const std::string& n
 void warn(const Sweep& sweep, const Survey& survey, Plan& plan) {
   warn_of_stop(sweep, survey.lower, "lower stop", plan);
   warn_of_stop(sweep, survey.upper, "upper stop", plan);
-  if (plan.machine_bytes > 0 && plan.memory_bytes > plan.machine_bytes)
+  if (plan.need.memory > plan.machine_bytes)
     plan.warnings.emplace_back(
-        "the output is larger than the memory of this machine: clatter run will refuse; sweep fewer points, or observe "
-        "fewer samples and harmonics");
+        "a run takes more memory than there is: clatter run will refuse; sweep fewer points, observe less, or share "
+        "the "
+        "points out with --shard");
   if (survey.lasting)
     plan.warnings.emplace_back(
         "without damping and loss at impacts a transient never fades: forced points run for all of max_periods unless "
@@ -255,9 +256,8 @@ Plan plan_of(const Sweep& sweep, int threads) {
                            .periods = group.periods,
                            .seconds = {group.work.least * seconds, group.work.most * seconds}});
   }
-  plan.output_bytes = result_bytes(sweep);
-  plan.memory_bytes = run_bytes(sweep);
-  plan.machine_bytes = machine_bytes();
+  plan.need = memory_need(sweep, std::nullopt, threads);
+  plan.machine_bytes = memory_limit(threads).bytes;
   warn(sweep, survey, plan);
   return plan;
 }

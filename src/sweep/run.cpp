@@ -22,6 +22,7 @@
 #include "sweep/point.hpp"
 #include "sweep/rounding.hpp"
 #include "sweep/scatter.hpp"
+#include "sweep/stack.hpp"
 #include "sweep/sweep_progress.hpp"
 
 namespace clatter {
@@ -111,6 +112,7 @@ class Team {
   void work(std::size_t thread) noexcept {
     const ForkJoin::Member member(fork_join_);
     try {
+      if (thread > 0) require_thread_stack();  // the main thread's is looked at when the program begins
       if (in_lanes_) {
         run_crew(thread);
       } else {
