@@ -1,5 +1,6 @@
 #include <fcntl.h>
 #include <malloc.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include <csignal>
@@ -65,8 +66,10 @@ int report(const char* message, int code) {
 
 int run_main(int argc, char** argv) {
   mallopt(M_TRIM_THRESHOLD, 64 * 1024 * 1024);  // points come and go by the million: what they free is soon taken again
+  rlimit addresses{};
+  if (::getrlimit(RLIMIT_AS, &addresses) == 0 && addresses.rlim_cur != RLIM_INFINITY)
+    mallopt(M_ARENA_MAX, 1);  // a heap for each thread would reserve 64 MiB of the few addresses
   try {
-    require_main_stack();
     const int code = run_program({argv + 1, argv + argc});
     std::cout.flush();
     return std::cout ? code : report("standard output cannot be written; is its disk full?", io_error);
@@ -95,6 +98,10 @@ int main(int argc, char** argv) {
   std::signal(SIGXFSZ, SIG_IGN);  // a write beyond `ulimit -f`, to stderr too, then fails as on a full disk
   open_standard_streams();
   std::atexit(refuse_foreign_exit);
+  if (const std::string fault = fault_of_main_stack(); !fault.empty()) {
+    at_its_end = true;
+    return report(fault.c_str(), io_error);
+  }
   const int code = run_main(argc, argv);
   at_its_end = true;
   return code;

@@ -42,6 +42,13 @@ struct Head {
                 reason_and_way_out(error, "end some others and try again")};
 }
 
+/// A child that can't open what it needs would blame the file that it is to read.
+void require_descriptors(const Descriptor& any) {
+  const auto another = [&] { return Descriptor{::dup(any.number())}; };
+  const std::array<Descriptor, 3> needed{another(), another(), another()};  // the file, HDF5's second look, /dev/null
+  if (needed.back().number() < 0) refuse_child(errno);
+}
+
 // --- the child --------------------------------------------------------------
 
 void lower_limit(decltype(RLIMIT_AS) resource, rlim_t most) {
@@ -168,6 +175,7 @@ std::string guarded(const std::function<std::string()>& work, const GuardLimits&
   std::array<int, 2> ends{};
   if (::pipe2(ends.data(), O_CLOEXEC) != 0) refuse_child(errno);
   const Descriptor from{ends[0]};
+  require_descriptors(from);
   Descriptor to{ends[1]};
   const pid_t parent = ::getpid();
   const pid_t id = ::fork();

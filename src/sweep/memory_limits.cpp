@@ -41,8 +41,11 @@ std::string unescaped(std::string_view text) {
   return path;
 }
 
-bool names(std::string_view list, std::string_view name) {
-  return ("," + std::string(list) + ",").find("," + std::string(name) + ",") != std::string::npos;
+bool names(const std::string& list, std::string_view name) {
+  std::istringstream words(list);
+  for (std::string word; std::getline(words, word, ',');)
+    if (word == name) return true;
+  return false;
 }
 
 /// "31 23 0:28 /group /sys/fs/cgroup rw - cgroup2 cgroup2 rw" (proc_pid_mountinfo(5)).
@@ -117,7 +120,7 @@ std::vector<MemoryLimit> group_limits(const fs::path& root) {
     const std::size_t list = line.find(':') + 1, group = line.find(':', list) + 1;
     if (list == 0 || group == 0) continue;
     const bool is_version_2 = line.starts_with("0::");
-    if (!is_version_2 && !names(std::string_view(line).substr(list, group - 1 - list), "memory")) continue;
+    if (!is_version_2 && !names(line.substr(list, group - 1 - list), "memory")) continue;
     for (const GroupMount& mount : mounts)
       if (mount.is_version_2 == is_version_2)
         add_limits(root / fs::path(mount.place).relative_path(), below(line.substr(group), mount.shown),
@@ -127,10 +130,9 @@ std::vector<MemoryLimit> group_limits(const fs::path& root) {
 }
 
 std::vector<MemoryLimit> address_limits(double addresses, double data, const ProcessSize& now, int threads) {
-  constexpr double arena = 0x1p26;  // addresses that glibc reserves for the heap of a thread
   const double stacks = threads * stack_of_thread();
   // What is resident now, the need counts; what isn't takes addresses beside it.
-  const double left = addresses - (now.addresses - now.resident) - stacks - threads * arena;
+  const double left = addresses - (now.addresses - now.resident) - stacks;
   return {{std::max(0.0, left), "ulimit -v leaves"},
           {std::max(0.0, data - (now.data - now.resident) - stacks), "ulimit -d leaves"}};
 }

@@ -112,7 +112,6 @@ class Team {
   void work(std::size_t thread) noexcept {
     const ForkJoin::Member member(fork_join_);
     try {
-      if (thread > 0) require_thread_stack();  // the main thread's is looked at when the program begins
       if (in_lanes_) {
         run_crew(thread);
       } else {
@@ -286,6 +285,7 @@ void SweepRun::run(const RunOptions& options) {
   const auto begin = std::chrono::steady_clock::now();
   const auto threads = static_cast<std::size_t>(threads_used(options));
   result_.threads = static_cast<int>(std::clamp<std::size_t>(share_.count(), 1, threads));  // others would wait
+  require_thread_stacks(result_.threads);
   Team team(sweep_, share_, options, result_.threads, columns_, states_, restored_);
   team.run();
   team.rethrow();

@@ -1,11 +1,15 @@
 #include "sweep/stack.hpp"
 
+#include <omp.h>
 #include <pthread.h>
 #include <sys/resource.h>
 
+#include <atomic>
 #include <cstdint>
 #include <cstdlib>
 #include <string>
+
+#include "sweep/fork_join.hpp"
 
 namespace clatter {
 namespace {
@@ -37,21 +41,45 @@ Stack stack_of_thread() {
   return stack;
 }
 
+/// The smallest stack of the threads of a parallel region; the main thread's isn't one of them.
+class SmallestStack {
+ public:
+  CLATTER_PARALLEL_REGION std::size_t of(int threads) {
+    region_.fork();
+#pragma omp parallel num_threads(threads)
+    look(omp_get_thread_num() > 0);
+    region_.join();
+    return smallest_;
+  }
+
+ private:
+  void look(bool is_started) noexcept {
+    const ForkJoin::Member member(region_);
+    constexpr std::size_t begun = std::size_t{32} << 10U;  // the thread's own data, and the calls up to here
+    const Stack stack = stack_of_thread();
+    if (!is_started || stack.left + begun >= needed_stack) return;
+    for (std::size_t before = smallest_; stack.size < before && !smallest_.compare_exchange_weak(before, stack.size);) {
+    }
+  }
+
+  ForkJoin region_;
+  std::atomic<std::size_t> smallest_ = needed_stack;
+};
+
 }  // namespace
 
-void require_main_stack() {
+std::string fault_of_main_stack() {
   rlimit limit{};
-  if (getrlimit(RLIMIT_STACK, &limit) != 0 || limit.rlim_cur >= needed_stack) return;
-  throw LimitError("the stack is too small: ulimit -s permits " + kibibytes(limit.rlim_cur) + ", " +
-                   kibibytes(needed_stack) + " are needed; raise it, e.g. ulimit -s 8192");
+  if (getrlimit(RLIMIT_STACK, &limit) != 0 || limit.rlim_cur >= needed_stack) return {};
+  return "the stack is too small: ulimit -s permits " + kibibytes(limit.rlim_cur) + ", " + kibibytes(needed_stack) +
+         " are needed; raise it, e.g. ulimit -s 8192";
 }
 
-void require_thread_stack() {
-  constexpr std::size_t begun = std::size_t{32} << 10U;  // the thread's own data, and the calls up to here
-  const Stack stack = stack_of_thread();
-  if (stack.left + begun >= needed_stack) return;
+void require_thread_stacks(int threads) {
+  const std::size_t size = SmallestStack().of(threads);
+  if (size >= needed_stack) return;
   const std::string name = stack_variable();
-  throw LimitError("the stack of a thread is too small: " + name + " gives it " + kibibytes(stack.size) + ", " +
+  throw LimitError("the stack of a thread is too small: " + name + " gives it " + kibibytes(size) + ", " +
                    kibibytes(needed_stack) + " are needed; " +
                    (name == "ulimit -s" ? "raise it, e.g. ulimit -s 8192" : "unset " + name + ", or set it to 8M"));
 }

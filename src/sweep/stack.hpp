@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <stdexcept>
+#include <string>
 
 namespace clatter {
 
@@ -15,11 +16,11 @@ class LimitError : public std::runtime_error {
 /// Bytes of stack that each thread must have: four times what the deepest calls have been seen to take.
 inline constexpr std::size_t needed_stack = std::size_t{512} << 10U;
 
-/// Throws LimitError where the stack of the main thread, which has what `ulimit -s` permits, is too small: the first
-/// deep call would end the process.
-void require_main_stack();
+/// Why the stack of the main thread, which has what `ulimit -s` permits, is too small, and the way out; empty if it
+/// suffices. No exception, which would need more of it than there may be.
+[[nodiscard]] std::string fault_of_main_stack();
 
-/// The same for the thread that calls it, which has what it was started with.
-void require_thread_stack();
+/// Throws LimitError where the threads that a run starts have too little: the first deep call would end the process.
+void require_thread_stacks(int threads);
 
 }  // namespace clatter

@@ -29,17 +29,27 @@ class Plan(CommandLine):
         self.assertFalse(with_stops["chatter and rest"]["required"])
         self.assertEqual(plan["groups"][0]["periods"], [4, 4])  # the closed form, one period observed at each
         self.assertLess(*plan["groups"][1]["periods"])
-        self.assertEqual(plan["output_bytes"], 5 * (1 + 8 + 8 + 8 + 8 * 8))
+        self.assertEqual(plan["output_bytes"], 5 * 8 + 5 * (1 + 8 + 8 + 8 + 8 * 8))  # the axis, the results
+        self.assertEqual(plan["estimated_log_bytes"], 0)
         self.assertEqual(plan["warnings"], [])
 
     def test_says_the_same_before_a_verbose_run(self):
         config = self.write("a.toml", SMALL)
         text = self.clatter("plan", config, "--threads", "1").stdout
         run = self.clatter("run", config, "-v", "--threads", "1").stderr
-        without_times = [line for line in text.splitlines() if " s on " not in line]
+        without_times = [line for line in text.splitlines() if " s on " not in line and not line.startswith("memory ")]
         self.assertGreater(len(without_times), 20)
         for line in without_times:
             self.assertIn(line, run)
+
+    def test_an_impact_log_is_estimated_and_said_to_be(self):
+        logged = SMALL + "impact_log = true\n"
+        plan = self.plan(logged)
+        self.assertGreater(plan["estimated_log_bytes"], 0)
+        self.assertGreater(plan["memory_bytes"], plan["estimated_log_bytes"])
+        text = self.clatter("plan", self.write("p.toml", logged)).stdout
+        self.assertRegex(text, r"(?m)^output .* before compression, the impact log by an estimate$")
+        self.assertRegex(text, r"(?m)^memory .*MiB, by an estimate of the impact log: \S+ ")
 
     def test_warns_of_what_looks_unintended(self):
         far = self.plan(SMALL, "--set", "scene.xs=6")["warnings"]
@@ -47,7 +57,7 @@ class Plan(CommandLine):
         self.assertRegex(far[0], r"^the lower stop is never reached .* 5 < 6 .*; if impacts are meant, move it nearer")
         huge = self.plan(SMALL, "--set", "sweep.x0=linspace(-1, 1, 1000000)", "--set", "sweep.nu=1, 1.1",
                          "--set", "observe.trajectory=10000000")["warnings"]
-        self.assertTrue(any("larger than the memory" in warning for warning in huge), huge)
+        self.assertTrue(any("more memory than there is" in warning for warning in huge), huge)
         nothing = self.plan(SMALL, "--set", "observe.extrema=false", "--set", "observe.period=false")["warnings"]
         self.assertTrue(any("nothing is observed" in warning for warning in nothing), nothing)
         lasting = self.plan(SMALL, "--set", "scene.h=0", "--set", "scene.R=1", "--set", "sweep.nu=1.3")["warnings"]
