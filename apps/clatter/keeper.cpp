@@ -10,6 +10,7 @@
 #include <csignal>
 #include <exception>
 #include <iostream>
+#include <new>
 #include <string>
 #include <system_error>
 #include <utility>
@@ -115,8 +116,14 @@ void Keeper::keep() {
 }
 
 /// Where points can't be kept, the run isn't worth going on with.
-void Keeper::save() try { save_(); } catch (const std::exception& error) {
-  std::cerr << "\nclatter: " << error.what() << "\nclatter: stopped; " << journal_.leave() << std::endl;
+void Keeper::save() try { save_(); } catch (const std::bad_alloc&) {
+  give_up(no_memory("it ran out").what());
+} catch (const std::exception& error) {
+  give_up(error.what());
+}
+
+void Keeper::give_up(const char* why) {
+  std::cerr << "\nclatter: " << why << "\nclatter: stopped; " << journal_.leave() << std::endl;
   ::_exit(io_error);
 }
 

@@ -35,6 +35,7 @@ class Keeper {
   void save();
   void save_if_possible();
   [[nodiscard]] char wait() const;
+  [[noreturn]] void give_up(const char* why);
   [[noreturn]] void stop(int code, const std::string& why);
 
   Journal& journal_;

@@ -9,42 +9,58 @@
 namespace clatter {
 namespace {
 
-constexpr std::size_t most_points = 32;
-constexpr double most_impacts = 16384;  ///< of a point
+/// How much is run for the estimate: some milliseconds, by general methods a good part of a second.
+struct Trial {
+  std::size_t points = 32;
+  double impacts = 16384;         ///< of a point
+  double periods = 64;            ///< of a transient
+  std::int64_t to_settle = 2048;  ///< periods until motion counts as aperiodic
+  std::int64_t window = 16;       ///< periods of aperiodic motion
+};
 
-/// Impacts in the observed time of a point. Where that is long they are counted in its first periods, for many periods
-/// as if they went on like that.
-double impacts_of(Scene scene) {
+Trial trial_of(const Integration& integration) {
+  if (integration.method == Method::exact) return {};
+  return {.points = 4, .periods = 4, .to_settle = 16, .window = 4};
+}
+
+/// Impacts in the time of a transient, as if it went on like its first periods.
+double impacts_of_transient(Scene scene, const Trial& trial) {
   TimePlan& time = scene.time;
-  const bool is_exact = scene.integration.method == Method::exact;
-  const double budget = time.max_impacts, periods = is_exact ? 64 : 4, whole = time.duration;
-  scene.observe = {.impact_log = true};
-  scene.integration.all_effects = false;
-  time.max_impacts = std::min(budget, most_impacts);
-  if (time.mode == Mode::transient) {
-    time.duration = std::min(whole, periods * period_of(scene.oscillator));
-  } else {
-    time.max_periods = std::min(time.max_periods, static_cast<std::int64_t>(4 * periods));
-  }
+  const double budget = time.max_impacts, whole = time.duration, period = period_of(scene.oscillator);
+  time.max_impacts = std::min(budget, trial.impacts), time.duration = std::min(whole, trial.periods * period);
   Workshop workshop;
   const PointResult result = run_point(scene, workshop);
-  if (time.mode == Mode::steady) return static_cast<double>(result.log.size());
-  const double simulated = result.periods * period_of(scene.oscillator);
+  const double simulated = std::min(result.periods * period, time.duration);
   const double impacts = failed(result.status) ? result.impacts : static_cast<double>(result.log.size());
-  return simulated > 0 ? std::min(budget, impacts * whole / std::min(simulated, time.duration)) : impacts;
+  return simulated > 0 ? std::min(budget, impacts * whole / simulated) : impacts;
+}
+
+/// Impacts in a period of the motion that it settles on; in the window if it comes to none.
+double impacts_of_steady_motion(Scene scene, const Trial& trial) {
+  TimePlan& time = scene.time;
+  const auto window = static_cast<double>(time.window);
+  time.max_impacts = std::min(time.max_impacts, trial.impacts);
+  time.max_periods = std::min(time.max_periods, trial.to_settle), time.window = std::min(time.window, trial.window);
+  Workshop workshop;
+  const PointResult result = run_point(scene, workshop);
+  const auto impacts = static_cast<double>(result.log.size());
+  return result.status == Status::aperiodic ? impacts * window / static_cast<double>(time.window) : impacts;
 }
 
 }  // namespace
 
 double expected_impacts(const Sweep& sweep, const std::optional<Shard>& shard) {
+  const Trial trial = trial_of(sweep.scene.integration);
   const Share share(sweep, shard);
-  const std::size_t points = share.points(), looked_at = std::min(points, most_points);
+  const std::size_t points = share.points(), looked_at = std::min(points, trial.points);
   double impacts = 0;
   for (std::size_t i = 0; i < looked_at; ++i) {
     const std::size_t slot = (2 * i + 1) * points / (2 * looked_at);  // the middles of equal parts
     Scene scene = scene_at(sweep, share.point(slot / share.length(), slot % share.length()));
     start_from(scene, std::nullopt);
-    impacts += impacts_of(scene);
+    scene.observe = {.impact_log = true}, scene.integration.all_effects = false;
+    impacts += scene.time.mode == Mode::transient ? impacts_of_transient(scene, trial)
+                                                  : impacts_of_steady_motion(scene, trial);
   }
   return looked_at == 0 ? 0.0 : impacts * static_cast<double>(points) / static_cast<double>(looked_at);
 }
