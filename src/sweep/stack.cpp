@@ -16,11 +16,11 @@ namespace {
 
 std::string kibibytes(std::size_t bytes) { return std::to_string(bytes >> 10U) + " KiB"; }
 
-/// The variable that gave the threads of OpenMP their stacks; libgomp's own comes first.
-const char* stack_variable() {
+/// The variable that gives the threads of OpenMP their stacks, libgomp's own before the other; empty: there is none.
+std::string stack_variable() {
   for (const char* const name : {"GOMP_STACKSIZE", "OMP_STACKSIZE"})
     if (std::getenv(name) != nullptr) return name;
-  return "ulimit -s";
+  return {};
 }
 
 /// The whole stack of this thread, and what is left of it; all there is where the system doesn't tell.
@@ -76,12 +76,12 @@ std::string fault_of_main_stack() {
 }
 
 void require_thread_stacks(int threads) {
+  const std::string name = stack_variable();
+  if (name.empty()) return;  // they have what the main thread may have
   const std::size_t size = SmallestStack().of(threads);
   if (size >= needed_stack) return;
-  const std::string name = stack_variable();
   throw LimitError("the stack of a thread is too small: " + name + " gives it " + kibibytes(size) + ", " +
-                   kibibytes(needed_stack) + " are needed; " +
-                   (name == "ulimit -s" ? "raise it, e.g. ulimit -s 8192" : "unset " + name + ", or set it to 8M"));
+                   kibibytes(needed_stack) + " are needed; " + "unset " + name + ", or set it to 8M");
 }
 
 }  // namespace clatter
