@@ -87,8 +87,28 @@ void run_points(SweepRun& sweep, RunOptions options, bool shown) {
   sweep.run(options);
 }
 
-/// What the next run will find where this one has failed; nothing if it has saved nothing.
-std::string left_in(Journal& journal) { return journal.has_records() ? "\nclatter: " + journal.leave() : ""; }
+void say_beginning(const Journal& journal, const SweepRun& sweep, const std::string& output, bool quiet) {
+  if (!journal.is_locked())
+    std::cerr << "there are no locks here: see that no other run writes '" << output << "' meanwhile\n";
+  if (sweep.restored_points() > 0 && !quiet)
+    std::cerr << "goes on from " << sweep.restored_points() << " finished points\n";
+}
+
+/// Does the work of a run. If that fails, the keeper saves what it can, and the error says what the next run will find.
+template <typename Work>
+void keeping(std::optional<Keeper>& keeper, Journal& journal, Work work) {
+  const auto failed = [&](const IoError& error) {
+    keeper.reset();
+    return IoError(error.what() + (journal.has_records() ? "\nclatter: " + journal.leave() : ""));
+  };
+  try {
+    work();
+  } catch (const IoError& error) {
+    throw failed(error);
+  } catch (const std::bad_alloc&) {
+    throw failed(no_memory("it ran out"));
+  }
+}
 
 int run_config(const Arguments& arguments) {
   if (arguments.has("quiet") && arguments.has("verbose"))
@@ -116,30 +136,24 @@ int run_config(const Arguments& arguments) {
     if (!sweep.restore(results))
       throw IoError("the journal of '" + output + "' doesn't fit the sweep; --restart begins anew");
   });
-  if (!journal.is_locked())
-    std::cerr << "there are no locks here: see that no other run writes '" << output << "' meanwhile\n";
-  if (sweep.restored_points() > 0 && !arguments.has("quiet"))
-    std::cerr << "goes on from " << sweep.restored_points() << " finished points\n";
+  say_beginning(journal, sweep, output, arguments.has("quiet"));
 
+  const auto save = [&] {
+    sweep.save([&](std::span<const std::byte> results) { journal.append(results); });
+    journal.sync();
+  };
   RunResult result;
   std::string summary;
-  try {
-    const auto save = [&] {
-      sweep.save([&](std::span<const std::byte> results) { journal.append(results); });
-      journal.sync();
-    };
-    Keeper keeper(journal, save, end);
+  std::optional<Keeper> keeper;
+  keeping(keeper, journal, [&] {
+    keeper.emplace(journal, save, end);
     run_points(sweep, {.threads = threads, .arch = arch}, shown);
-    keeper.finish();
+    keeper->finish();
     result = sweep.result();
     summary = summary_line(result, config.sweep, shard, output);
     const auto image = shard ? sealed_image : file_image;
     place.publish(image(std::move(result.figure), config).bytes);
-  } catch (const IoError& error) {
-    throw IoError(error.what() + left_in(journal));
-  } catch (const std::bad_alloc&) {
-    throw IoError(no_memory("it ran out").what() + left_in(journal));
-  }
+  });
   journal.remove();
   if (!arguments.has("quiet")) std::cerr << summary << '\n';
   if (arguments.has("verbose")) std::cerr << details(result, command_line(), began);

@@ -175,8 +175,8 @@ std::string guarded(const std::function<std::string()>& work, const GuardLimits&
   std::array<int, 2> ends{};
   if (::pipe2(ends.data(), O_CLOEXEC) != 0) refuse_child(errno);
   const Descriptor from{ends[0]};
-  require_descriptors(from);
   Descriptor to{ends[1]};
+  require_descriptors(from);
   const pid_t parent = ::getpid();
   const pid_t id = ::fork();
   if (id < 0) refuse_child(errno);

@@ -161,6 +161,12 @@ void Columns::store(std::size_t slot, PointResult&& result) {
   if (!log_.empty()) log_[slot] = std::move(result.log), log_[slot].shrink_to_fit();  // it grew by doubling
 }
 
+std::size_t Columns::packed_size(std::size_t slot) const {
+  std::size_t bytes = sizeof status_[slot] + sizeof impacts_[slot] + sizeof periods_[slot];
+  for (const Output& output : outputs_) bytes += output.width * sizeof(double);
+  return log_.empty() ? bytes : bytes + sizeof(std::uint64_t) + log_[slot].size() * sizeof(Impact);
+}
+
 void Columns::pack(std::size_t slot, std::vector<std::byte>& to) const {
   append(to, std::span(&status_[slot], 1)), append(to, std::span(&impacts_[slot], 1));
   append(to, std::span(&periods_[slot], 1));

@@ -49,6 +49,8 @@ class Columns {
   /// Stores a point's result; different points may be stored at the same time.
   void store(std::size_t slot, PointResult&& result);
 
+  /// Bytes that `pack` appends for a point.
+  [[nodiscard]] std::size_t packed_size(std::size_t slot) const;
   /// Appends a point's results, as `unpack` takes them from a run of the same sweep.
   void pack(std::size_t slot, std::vector<std::byte>& to) const;
   /// Takes a point's results off the beginning of `from`; false where they aren't of this sweep, and then nothing is

@@ -26,10 +26,10 @@ struct Parts {
   double coordinates = 0.0;  ///< all of the file
   double results = 0.0;      ///< all but the log
   double largest = 0.0;      ///< variable of the file
-  double impacts = 0.0;      ///< of the log
+  double impacts = 0.0;      ///< of the log: their number
+  double counts = 0.0;       ///< of the log: how many each point has
 
   [[nodiscard]] double logged_in_file() const { return impacts * logged + counts; }
-  double counts = 0.0;  ///< impact_count
 };
 
 void add_coordinates(const Sweep& sweep, bool is_shard, Parts& parts) {
@@ -61,14 +61,17 @@ Parts parts_of(const Sweep& sweep, const std::optional<Shard>& shard, double imp
   return parts;
 }
 
-/// The log while points come, each with its own, and while its columns are made of that. Blocks of a long log go back
-/// to the system one after the other meanwhile.
-double log_bytes(const Sweep& sweep, const Parts& parts) {
+/// The log while points come, each with its own.
+double held_log_bytes(const Sweep& sweep, const Parts& parts) {
   if (!sweep.scene.observe.impact_log) return 0.0;
-  const double held = parts.impacts * sizeof(Impact), columns = parts.logged_in_file();
-  const bool alone = held >= lone_block * parts.points;
-  return sizeof(std::vector<Impact>) * parts.points +
-         (alone ? std::max(held, columns) : held + heap * parts.points + columns);
+  return (sizeof(std::vector<Impact>) + heap) * parts.points + sizeof(Impact) * parts.impacts;
+}
+
+/// The log while its columns are made of it. Blocks of long ones go back to the system one after the other meanwhile.
+double log_bytes(const Sweep& sweep, const Parts& parts) {
+  const double held = held_log_bytes(sweep, parts), columns = parts.logged_in_file();
+  const bool alone = sizeof(Impact) * parts.impacts >= lone_block * parts.points;
+  return alone ? std::max(held, columns) : held + columns;
 }
 
 /// What the points of one thread share, and hold on their way.
@@ -80,9 +83,9 @@ double workshop_bytes(const Observe& observe) {
   return values * value;
 }
 
-/// Branches that wait for being saved, in a buffer that doubles.
+/// A branch that is packed to be saved.
 double saving_bytes(const Sweep& sweep, const Parts& parts, double log) {
-  return sweep.follow && parts.branches > 0 ? 2 * (parts.results + log) / parts.branches : 0.0;
+  return sweep.follow && parts.branches > 0 ? (parts.results + log) / parts.branches : 0.0;
 }
 
 /// While the file is built: coordinates and results are in one place or the other, the largest variable in both.
@@ -119,7 +122,7 @@ double merge_bytes(const Sweep& sweep, std::span<const ShardSize> shards) {
     largest = std::max(largest, shard.coordinates + shard.results + shard.logged_in_file());
   }
   const Parts parts = parts_of(sweep, std::nullopt, impacts);
-  const double log = log_bytes(sweep, parts), reading = parts.results + log - parts.logged_in_file() + largest;
+  const double log = log_bytes(sweep, parts), reading = parts.results + held_log_bytes(sweep, parts) + largest;
   return before_bytes(parts, 0) + std::max({reading, parts.coordinates + parts.results + log, building_bytes(parts)});
 }
 

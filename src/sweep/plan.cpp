@@ -210,9 +210,7 @@ void warn(const Sweep& sweep, const Survey& survey, Plan& plan) {
   warn_of_stop(sweep, survey.upper, "upper stop", plan);
   if (plan.need.memory > plan.machine_bytes)
     plan.warnings.emplace_back(
-        "a run takes more memory than there is: clatter run will refuse; sweep fewer points, observe less, or share "
-        "the "
-        "points out with --shard");
+        "a run takes more memory than there is: clatter run will refuse; sweep fewer points, or observe less");
   if (survey.lasting)
     plan.warnings.emplace_back(
         "without damping and loss at impacts a transient never fades: forced points run for all of max_periods unless "

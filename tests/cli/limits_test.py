@@ -66,6 +66,7 @@ class OpenFiles(Limits):
 
 
 class Stacks(Limits):
+    @unittest.skipIf(SANITIZED, "a sanitizer needs a stack of its own")
     def test_of_the_main_thread(self):
         for kibibytes in (16, 64, 256):
             for command in (["run", self.config], ["plan", self.config], ["accuracy", self.config], ["info", "a.h5"]):
