@@ -13,7 +13,8 @@ constexpr std::string_view exit_codes = R"(Exit codes
   1    done, but some points failed; their status says why
   2    wrong command line or configuration
   70   a bug in clatter
-  74   a file cannot be read or written
+  74   a file cannot be read or written, or the system doesn't give what is
+       needed: memory, threads, stacks, open files
   75   another run is writing the output
   124  --max-time is over
   130  stopped by SIGINT; 143: by SIGTERM

@@ -10,12 +10,14 @@
 #include <csignal>
 #include <exception>
 #include <iostream>
+#include <new>
 #include <string>
 #include <system_error>
 #include <utility>
 
 #include "commands.hpp"
 #include "io/error.hpp"
+#include "io/file_calls.hpp"
 #include "io/utf8.hpp"
 
 namespace clatter {
@@ -47,7 +49,7 @@ void handle_stops(void (*handler)(int)) {
 
 Keeper::Keeper(Journal& journal, std::function<void()> save, std::optional<Clock::time_point> end)
     : journal_(journal), save_(std::move(save)), end_(end) {
-  if (::pipe2(ends_, O_CLOEXEC) != 0) throw std::system_error(errno, std::generic_category(), "no pipe");
+  if (::pipe2(ends_, O_CLOEXEC) != 0) throw IoError("no pipe can be made: " + reason_and_way_out(errno, ""));
   into = ends_[1];
   try {
     thread_ = std::thread([this] { keep(); });
@@ -115,8 +117,14 @@ void Keeper::keep() {
 }
 
 /// Where points can't be kept, the run isn't worth going on with.
-void Keeper::save() try { save_(); } catch (const std::exception& error) {
-  std::cerr << "\nclatter: " << printable_lines(error.what()) << "\nclatter: stopped; " << printable(journal_.leave())
+void Keeper::save() try { save_(); } catch (const std::bad_alloc&) {
+  give_up(no_memory("it ran out").what());
+} catch (const std::exception& error) {
+  give_up(error.what());
+}
+
+void Keeper::give_up(const char* why) {
+  std::cerr << "\nclatter: " << printable_lines(why) << "\nclatter: stopped; " << printable(journal_.leave())
             << std::endl;
   ::_exit(io_error);
 }

@@ -19,7 +19,7 @@ class Keeper {
   using Clock = std::chrono::steady_clock;
 
   /// `save` writes what was finished since the last time into the journal. Stops the run at `end`, if that is given.
-  /// There may be one keeper at a time. Throws IoError where no thread can be started.
+  /// There may be one keeper at a time. Throws IoError where there can be no pipe or thread.
   Keeper(Journal& journal, std::function<void()> save, std::optional<Clock::time_point> end);
   /// Without `finish` before it, the run has failed: saves what it can.
   ~Keeper();
@@ -35,6 +35,7 @@ class Keeper {
   void save();
   void save_if_possible();
   [[nodiscard]] char wait() const;
+  [[noreturn]] void give_up(const char* why);
   [[noreturn]] void stop(int code, const std::string& why);
 
   Journal& journal_;

@@ -1,7 +1,9 @@
 #include <fcntl.h>
 #include <malloc.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
+#include <csignal>
 #include <cstdlib>
 #include <exception>
 #include <iostream>
@@ -15,6 +17,7 @@
 #include "io/journal.hpp"
 #include "io/utf8.hpp"
 #include "io/version.hpp"
+#include "sweep/stack.hpp"
 
 namespace {
 
@@ -53,7 +56,7 @@ void refuse_foreign_exit() {
   if (at_its_end) return;
   std::cerr
       << "clatter: stopped by a library that it needs; if threads can't be started, take fewer (--threads) or raise "
-         "ulimit -u\n";
+         "ulimit -u and ulimit -v\n";
   ::_exit(io_error);
 }
 
@@ -65,6 +68,9 @@ int report(const std::string& message, int code) {
 
 int run_main(int argc, char** argv) {
   mallopt(M_TRIM_THRESHOLD, 64 * 1024 * 1024);  // points come and go by the million: what they free is soon taken again
+  rlimit addresses{};
+  if (::getrlimit(RLIMIT_AS, &addresses) == 0 && addresses.rlim_cur != RLIM_INFINITY)
+    mallopt(M_ARENA_MAX, 1);  // a heap for each thread would reserve 64 MiB of the few addresses
   try {
     const int code = run_program({argv + 1, argv + argc});
     std::cout.flush();
@@ -76,10 +82,12 @@ int run_main(int argc, char** argv) {
     return usage_error;
   } catch (const IoError& error) {
     return report(error.what(), io_error);
+  } catch (const LimitError& error) {
+    return report(error.what(), io_error);
   } catch (const BusyError& error) {
     return report(error.what(), busy);
   } catch (const std::bad_alloc&) {
-    return report("the results don't fit into memory; sweep fewer points, or observe less", usage_error);
+    return report(no_memory("it ran out").what(), io_error);
   } catch (const std::exception& error) {
     return report(std::string("a bug in clatter: ") + error.what() + "; please report it with the command",
                   internal_error);
@@ -89,8 +97,13 @@ int run_main(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  std::signal(SIGXFSZ, SIG_IGN);  // a write beyond `ulimit -f`, to stderr too, then fails as on a full disk
   open_standard_streams();
   std::atexit(refuse_foreign_exit);
+  if (const std::string fault = fault_of_main_stack(); !fault.empty()) {
+    at_its_end = true;
+    return report(fault.c_str(), io_error);
+  }
   const int code = run_main(argc, argv);
   at_its_end = true;
   return code;

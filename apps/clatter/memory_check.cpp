@@ -1,20 +1,36 @@
 #include "memory_check.hpp"
 
+#include <algorithm>
 #include <string>
 
 #include "format.hpp"
 #include "io/error.hpp"
-#include "sweep/memory.hpp"
+#include "sweep/memory_limits.hpp"
 
 namespace clatter {
+namespace {
 
-void check_memory(const Sweep& sweep, const std::optional<Shard>& shard) {
-  const double needed = run_bytes(sweep, shard), there = machine_bytes();
-  if (there == 0 || needed <= there) return;
-  throw IoError("the results of " + std::to_string(Share(sweep, shard).points()) +
-                " points, and the largest variable of them once more, take " + bytes_text(needed) + ", there are " +
-                bytes_text(there) +
-                "; sweep fewer points, observe fewer samples and harmonics, or share the points out with --shard");
+void check(const std::string& what, double needed, int threads) {
+  const MemoryLimit limit = memory_limit(threads);
+  if (needed > limit.bytes) throw no_memory(what + ", " + limit.name + ' ' + bytes_text(limit.bytes));
 }
+
+}  // namespace
+
+MemoryNeed with_configuration(MemoryNeed need, const Config& config) {
+  constexpr double copies = 4;  // in it, in the key of the journal, in the file, and on its way there
+  need.memory = std::max(need.memory + copies * static_cast<double>(config.text.size()), peak_bytes());
+  return need;
+}
+
+void check_memory(const Config& config, const std::optional<Shard>& shard, int threads) {
+  const MemoryNeed need = with_configuration(memory_need(config.sweep, shard, threads), config);
+  std::string what =
+      counted(static_cast<double>(Share(config.sweep, shard).points()), "point") + " take " + bytes_text(need.memory);
+  if (need.log > 0) what += " with an impact log of some " + bytes_text(need.log);
+  check(what, need.memory, threads);
+}
+
+void check_merge_memory(double bytes) { check("merging takes " + bytes_text(bytes), bytes, 0); }
 
 }  // namespace clatter

@@ -2,11 +2,19 @@
 
 #include <optional>
 
-#include "sweep/share.hpp"
+#include "io/config.hpp"
+#include "sweep/memory.hpp"
 
 namespace clatter {
 
-/// Throws IoError where a run's results don't fit into memory: too late to find out at its end.
-void check_memory(const Sweep& sweep, const std::optional<Shard>& shard);
+/// The need of a run with what its configuration takes besides the sweep: as a text; if reading it has taken more than
+/// all the rest, that.
+[[nodiscard]] MemoryNeed with_configuration(MemoryNeed need, const Config& config);
+
+/// Throws IoError where a run would not fit into memory: too late to find out at its end.
+void check_memory(const Config& config, const std::optional<Shard>& shard, int threads);
+
+/// Throws IoError where merging, which takes so many bytes, would not fit.
+void check_merge_memory(double bytes);
 
 }  // namespace clatter

@@ -1,6 +1,5 @@
 #include <filesystem>
 #include <iostream>
-#include <new>
 #include <string>
 #include <utility>
 #include <vector>
@@ -9,14 +8,13 @@
 #include "config_arguments.hpp"
 #include "failures.hpp"
 #include "format.hpp"
-#include "io/error.hpp"
 #include "io/figure_file.hpp"
 #include "io/journal.hpp"
 #include "io/merge.hpp"
 #include "io/output_place.hpp"
 #include "io/publish.hpp"
 #include "io/utf8.hpp"
-#include "sweep/memory.hpp"
+#include "memory_check.hpp"
 
 namespace clatter {
 namespace {
@@ -29,14 +27,7 @@ void check_not_shard(const std::vector<std::string>& shards, const std::string& 
   }
 }
 
-void check_memory(double needed) {
-  const double there = machine_bytes();
-  if (there == 0 || needed <= there) return;
-  throw IoError("merging takes " + bytes_text(needed) + " of memory, there are " + bytes_text(there) +
-                "; merge on a machine that has more");
-}
-
-int merge_shards(const Arguments& arguments) try {
+int merge_shards(const Arguments& arguments) {
   if (arguments.has("quiet") && arguments.has("verbose"))
     throw UsageError("--quiet beside --verbose; give one of them");
   if (!arguments.has("output")) throw UsageError("no output; name it with -o FILE.h5");
@@ -46,7 +37,7 @@ int merge_shards(const Arguments& arguments) try {
   require_idle(output);
   const ShardSet shards = shard_set(arguments.operands);
   const OutputPlace place(output, {.title = shards.config.title}, arguments.has("force"));
-  check_memory(shards.bytes);
+  check_merge_memory(shards.bytes);
   if (arguments.has("verbose"))
     std::cerr << "shards           " << shards.heads.size() << "\nrounding         "
               << printable(shards.heads.front().rounding) << "\nmemory           " << bytes_text(shards.bytes) << '\n';
@@ -58,8 +49,6 @@ int merge_shards(const Arguments& arguments) try {
               << counted(static_cast<double>(shards.heads.size()), "shard") << ", " << failures << ", "
               << printable(output) << '\n';
   return merged.failed_points > 0 ? points_failed : done;
-} catch (const std::bad_alloc&) {
-  throw IoError("merging takes more memory than there is; merge where there is more");
 }
 
 constexpr std::string_view examples = "  clatter merge -o map_nu_xs.h5 map_nu_xs.*-of-4.h5\n";

@@ -14,8 +14,9 @@ int print_plan(const Arguments& arguments) {
   const int threads = threads_used({.threads = threads_of(arguments)});
   const std::optional<Shard> shard = shard_of(arguments);
   const Config config = config_of(arguments);
-  check_memory(config.sweep, shard);
+  check_memory(config, shard, threads);
   Plan plan = plan_of(config.sweep, threads, shard);
+  plan.need = with_configuration(plan.need, config);
   if (arguments.has("json")) {
     join_warnings(plan, config);
     std::cout << plan_json(plan, config.sweep, threads);

@@ -1,6 +1,7 @@
 #include "plan_report.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <sstream>
 #include <string_view>
 
@@ -115,10 +116,12 @@ std::string plan_text(const Plan& plan, const Sweep& sweep, int threads) {
   for (const Group& group : plan.groups) text += group_text(group);
   text += '\n' + line("estimated time", range(seconds_of(plan, threads), "%.2g") + " s on " +
                                             counted(threads, "thread") + ", without the observables");
-  text += line("output", bytes_text(plan.output_bytes) + " before compression" +
-                             (sweep.scene.observe.impact_log ? ", and 25 bytes an impact of the log" : ""));
-  text += line("memory", bytes_text(plan.memory_bytes) + " at the end" +
-                             (plan.machine_bytes > 0 ? ", of " + bytes_text(plan.machine_bytes) : ""));
+  const MemoryNeed& need = plan.need;
+  text += line("output", bytes_text(need.output) + " before compression" +
+                             (need.log > 0 ? ", the impact log by an estimate" : ""));
+  text += line("memory", bytes_text(need.memory) +
+                             (need.log > 0 ? ", by an estimate of the impact log: " + bytes_text(need.log) : "") +
+                             (std::isfinite(plan.machine_bytes) ? ", of " + bytes_text(plan.machine_bytes) : ""));
   return text;
 }
 
@@ -143,8 +146,9 @@ std::string plan_json(const Plan& plan, const Sweep& sweep, int threads) {
       << ",\n  \"all_effects\": " << (sweep.scene.integration.all_effects ? "true" : "false") << ",\n  \"groups\": ";
   list(out, plan.groups, [&](const Group& group) { put_group(out, group); });
   out << ",\n  \"threads\": " << threads << ",\n  \"seconds\": " << estimate_json(seconds_of(plan, threads))
-      << ",\n  \"output_bytes\": " << json_number(plan.output_bytes)
-      << ",\n  \"memory_bytes\": " << json_number(plan.memory_bytes)
+      << ",\n  \"output_bytes\": " << json_number(plan.need.output)
+      << ",\n  \"memory_bytes\": " << json_number(plan.need.memory)
+      << ",\n  \"estimated_log_bytes\": " << json_number(plan.need.log)
       << ",\n  \"machine_bytes\": " << json_number(plan.machine_bytes) << ",\n  \"warnings\": ";
   list(out, plan.warnings, [&](const std::string& warning) { out << json_text(warning); });
   out << "\n}\n";

@@ -3,6 +3,7 @@
 #include <chrono>
 #include <csignal>
 #include <iostream>
+#include <new>
 #include <optional>
 #include <span>
 #include <string>
@@ -62,7 +63,8 @@ JournalKey key_of(const Config& config, Arch arch, const std::optional<Shard>& s
 }
 
 void say_plan(const Config& config, int threads, const std::optional<Shard>& shard) {
-  const Plan plan = plan_of(config.sweep, threads, shard);
+  Plan plan = plan_of(config.sweep, threads, shard);
+  plan.need = with_configuration(plan.need, config);
   std::cerr << plan_text(plan, config.sweep, threads);
   say_notes(config), warn(plan);
 }
@@ -72,6 +74,29 @@ void run_points(SweepRun& sweep, RunOptions options, bool shown) {
   if (shown)
     options.progress = [&](double finished, std::size_t total) { progress.show(finished, static_cast<double>(total)); };
   sweep.run(options);
+}
+
+void say_beginning(const Journal& journal, const SweepRun& sweep, const std::string& output, bool quiet) {
+  if (!journal.is_locked())
+    std::cerr << "there are no locks here: see that no other run writes " << quoted_name(output) << " meanwhile\n";
+  if (sweep.restored_points() > 0 && !quiet)
+    std::cerr << "goes on from " << sweep.restored_points() << " finished points\n";
+}
+
+/// Does the work of a run. If that fails, the keeper saves what it can, and the error says what the next run will find.
+template <typename Work>
+void keeping(std::optional<Keeper>& keeper, Journal& journal, Work work) {
+  const auto failed = [&](const IoError& error) {
+    keeper.reset();
+    return IoError(error.what() + (journal.had_records() ? "\nclatter: " + journal.leave() : ""));
+  };
+  try {
+    work();
+  } catch (const IoError& error) {
+    throw failed(error);
+  } catch (const std::bad_alloc&) {
+    throw failed(no_memory("it ran out"));
+  }
 }
 
 int run_config(const Arguments& arguments) {
@@ -90,7 +115,7 @@ int run_config(const Arguments& arguments) {
   check_not_config(arguments.operands[0], output);
   const OutputPlace place(output, {.shard = shard ? text_of(*shard) : "", .title = config.title},
                           arguments.has("force"));
-  check_memory(config.sweep, shard);
+  check_memory(config, shard, threads);
   if (arguments.has("verbose")) say_plan(config, threads, shard);
   if (!arguments.has("quiet")) warn(config);
   if (!arguments.has("quiet") && !arguments.has("verbose")) warn_of_dearest_point(config.sweep, shard);
@@ -101,28 +126,25 @@ int run_config(const Arguments& arguments) {
     if (!sweep.restore(results))
       throw IoError("the journal of " + quoted_name(output) + " doesn't fit the sweep; --restart begins anew");
   });
-  if (!journal.is_locked())
-    std::cerr << "there are no locks here: see that no other run writes " << quoted_name(output) << " meanwhile\n";
-  if (sweep.restored_points() > 0 && !arguments.has("quiet"))
-    std::cerr << "goes on from " << sweep.restored_points() << " finished points\n";
+  say_beginning(journal, sweep, output, arguments.has("quiet"));
 
   const auto save = [&] {
     sweep.save([&](std::span<const std::byte> results) { journal.append(results); });
     journal.sync();
   };
-  Keeper keeper(journal, save, end);
-  run_points(sweep, {.threads = threads, .arch = arch}, shown);
-  keeper.finish();
-  RunResult result = sweep.result();
-  const std::string summary = summary_line(result, config.sweep, shard, output);
-  try {
+  RunResult result;
+  std::string summary;
+  std::optional<Keeper> keeper;
+  keeping(keeper, journal, [&] {
+    keeper.emplace(journal, save, end);
+    run_points(sweep, {.threads = threads, .arch = arch}, shown);
+    keeper->finish();
+    result = sweep.result();
+    summary = summary_line(result, config.sweep, shard, output);
     const auto image = shard ? sealed_image : file_image;
     place.publish(image(std::move(result.figure), config).bytes,
                   [&](std::uint64_t bytes) { journal.give_back(bytes); });
-  } catch (const IoError& error) {
-    if (!journal.had_records()) throw;
-    throw IoError(std::string(error.what()).append("\nclatter: ").append(journal.leave()));
-  }
+  });
   journal.remove();
   if (!arguments.has("quiet")) std::cerr << summary << '\n';
   if (arguments.has("verbose")) std::cerr << details(result, command_line(), began);

@@ -119,16 +119,6 @@ Handle write_bare_scale(hid_t file, const NamedLength& dimension) {
   return scale;
 }
 
-Handle write_scale(hid_t file, const NamedLength& dimension, const Figure& figure, int level) {
-  const auto found = std::find_if(figure.variables.begin(), figure.variables.end(),
-                                  [&](const Variable& variable) { return variable.name == dimension.name; });
-  if (found == figure.variables.end()) return write_bare_scale(file, dimension);
-  if (!is_coordinate(*found)) throw std::logic_error{found->name + ": a variable with the name of a dimension"};
-  Handle scale = write_variable(file, *found, figure, level);
-  checked(H5DSset_scale(scale, dimension.name.c_str()));
-  return scale;
-}
-
 /// Gives the values' memory back; clearing would keep it.
 void release(Column& values) {
   std::visit(
@@ -137,6 +127,18 @@ void release(Column& values) {
         held.shrink_to_fit();
       },
       values);
+}
+
+/// Takes the values of a coordinate out of the figure.
+Handle write_scale(hid_t file, const NamedLength& dimension, Figure& figure, int level) {
+  const auto found = std::find_if(figure.variables.begin(), figure.variables.end(),
+                                  [&](const Variable& variable) { return variable.name == dimension.name; });
+  if (found == figure.variables.end()) return write_bare_scale(file, dimension);
+  if (!is_coordinate(*found)) throw std::logic_error{found->name + ": a variable with the name of a dimension"};
+  Handle scale = write_variable(file, *found, figure, level);
+  checked(H5DSset_scale(scale, dimension.name.c_str()));
+  release(found->values);
+  return scale;
 }
 
 /// Scales first: netCDF numbers the dimensions in their order of creation. Takes the values out of the figure.
@@ -192,9 +194,9 @@ std::size_t build(hdf5::Image& image, Figure& figure, const Config& config) {
   return static_cast<std::size_t>(checked(H5Fget_file_image(file, nullptr, 0)));
 }
 
+/// Nothing but memory is needed.
 [[noreturn]] void refuse(const std::string& why) {
-  throw IoError{"the output file cannot be built in memory: " + why +
-                "; all of it must fit there, so a smaller sweep or fewer samples may fit"};
+  throw no_memory("the output file, all of which must fit there, cannot be built (" + why + ')');
 }
 
 FileImage image_of(Figure& figure, const Config& config, bool sealed) try {
@@ -207,7 +209,7 @@ FileImage image_of(Figure& figure, const Config& config, bool sealed) try {
 } catch (const hdf5::Failure& failure) {
   refuse(failure.what());
 } catch (const std::bad_alloc&) {
-  refuse("there is not enough");
+  refuse("there is none left");
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 #include "io/file_calls.hpp"
 
 #include <fcntl.h>
+#include <sys/resource.h>
 #include <sys/stat.h>
 
 #include <algorithm>
@@ -38,7 +39,17 @@ void refuse(const fs::path& path, const std::string& why, const std::string& way
   throw IoError{"cannot write " + quoted_name(path.string()) + ": " + why + "; " + way_out};
 }
 
-void refuse(const fs::path& path, int error) { refuse(path, std::strerror(error), way_out_of(error)); }
+void refuse(const fs::path& path, int error) {
+  throw IoError{"cannot write '" + path.string() + "': " + reason_and_way_out(error, way_out_of(error))};
+}
+
+std::string reason_and_way_out(int error, const std::string& way_out) {
+  rlimit limit{};
+  if (error == EMFILE && ::getrlimit(RLIMIT_NOFILE, &limit) == 0)
+    return "too many open files (ulimit -n is " + std::to_string(limit.rlim_cur) + "); raise it";
+  if (error == ENFILE) return "the system has no more open files to give; end some processes, or try again later";
+  return way_out.empty() ? std::strerror(error) : std::strerror(error) + ("; " + way_out);
+}
 
 fs::path target_of(fs::path path) {
   constexpr int most_links = 40;  // as in Linux's own look-up

@@ -3,7 +3,6 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <csignal>
 #include <cstddef>
 #include <filesystem>
 #include <span>
@@ -15,6 +14,10 @@ namespace clatter {
 /// Throws the IoError of a file that cannot be written.
 [[noreturn]] void refuse(const std::filesystem::path& path, const std::string& why, const std::string& way_out);
 [[noreturn]] void refuse(const std::filesystem::path& path, int error);
+
+/// Why a system call failed, and the way out, which is another one where the system has no more open files to give;
+/// none: an empty one.
+[[nodiscard]] std::string reason_and_way_out(int error, const std::string& way_out);
 
 /// Repeats a system call that a signal interrupted.
 template <typename Call>
@@ -45,23 +48,6 @@ class Descriptor {
 
  private:
   int number_;
-};
-
-/// Makes a write beyond the limit of `ulimit -f` return EFBIG as on a full disk: the signal would end the process at
-/// once.
-class IgnoreFileSizeSignal {
- public:
-  IgnoreFileSizeSignal() {
-    struct sigaction ignore {};
-    ignore.sa_handler = SIG_IGN;
-    ::sigaction(SIGXFSZ, &ignore, &before_);
-  }
-  IgnoreFileSizeSignal(const IgnoreFileSizeSignal&) = delete;
-  IgnoreFileSizeSignal& operator=(const IgnoreFileSizeSignal&) = delete;
-  ~IgnoreFileSizeSignal() { ::sigaction(SIGXFSZ, &before_, nullptr); }
-
- private:
-  struct sigaction before_ {};
 };
 
 /// Whether an open file still has this name.

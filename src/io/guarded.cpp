@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <csignal>
 #include <cstdio>
 #include <cstring>
 #include <new>
@@ -39,8 +40,15 @@ struct Head {
 };
 
 [[noreturn]] void refuse_child(int error) {
-  throw IoError{std::string("no process can be started to read a file: ") + std::strerror(error) +
-                "; end some others and try again"};
+  throw IoError{"no process can be started to read a file: " +
+                reason_and_way_out(error, "end some others and try again")};
+}
+
+/// A child that can't open what it needs would blame the file that it is to read.
+void require_descriptors(const Descriptor& any) {
+  const auto another = [&] { return Descriptor{::dup(any.number())}; };
+  const std::array<Descriptor, 3> needed{another(), another(), another()};  // the file, HDF5's second look, /dev/null
+  if (needed.back().number() < 0) refuse_child(errno);
 }
 
 // --- the child --------------------------------------------------------------
@@ -188,6 +196,7 @@ std::string guarded(const std::function<std::string()>& work, const GuardLimits&
   if (::pipe2(ends.data(), O_CLOEXEC) != 0) refuse_child(errno);
   const Descriptor from{ends[0]};
   Descriptor to{ends[1]};
+  require_descriptors(from);
   const pid_t parent = ::getpid();
   const pid_t id = ::fork();
   if (id < 0) refuse_child(errno);

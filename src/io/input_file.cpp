@@ -2,7 +2,7 @@
 
 #include <fcntl.h>
 
-#include <cstring>
+#include <cerrno>
 
 #include "io/error.hpp"
 #include "io/utf8.hpp"
@@ -24,8 +24,10 @@ std::uint64_t stored_bytes(const struct stat& status) {
 InputFile open_input(const std::string& path, const std::string& wanted) {
   Descriptor file{uninterrupted([&] { return ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK); })};
   struct stat status {};
-  if (file.number() < 0 || ::fstat(file.number(), &status) != 0)
-    refuse_reading(path, std::strerror(errno), errno == EACCES ? "get permission to read it" : "check the name");
+  if (file.number() < 0 || ::fstat(file.number(), &status) != 0) {
+    const char* const way_out = errno == EACCES ? "get permission to read it" : "check the name";
+    throw IoError(quoted_name(path) + ": " + reason_and_way_out(errno, way_out));
+  }
   if (S_ISDIR(status.st_mode)) refuse_reading(path, "is a directory", "name a file in it");
   if (!S_ISREG(status.st_mode)) refuse_reading(path, "is not a regular file", "name " + wanted);
   return {std::move(file), stored_bytes(status)};

@@ -181,6 +181,11 @@ std::string difference_of(const JournalKey& other, const JournalKey& key) {
   refuse(path, error);
 }
 
+void require_regular(const fs::path& path, mode_t mode) {
+  if (S_ISDIR(mode)) refuse_place(path, EISDIR);
+  if (!S_ISREG(mode)) refuse(path, "is not a regular file", "move it away, or name another output");
+}
+
 [[noreturn]] void refuse_busy(const fs::path& output) {
   throw BusyError(quoted_name(output.string()) +
                   " is being written by another run; wait for its end, or name another output");
@@ -193,8 +198,11 @@ fs::path journal_of(const fs::path& output) { return fs::path(output) += ".journ
 void require_idle(const fs::path& output) {
   const fs::path path = journal_of(target_of(output));
   const Descriptor file{::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK)};
-  if (file.number() < 0 && errno != ENOENT) refuse_place(path, errno);
-  if (file.number() >= 0 && ::flock(file.number(), LOCK_SH | LOCK_NB) != 0 && errno == EWOULDBLOCK) refuse_busy(output);
+  if (file.number() < 0 && errno == ENOENT) return;
+  struct stat opened {};
+  if (file.number() < 0 || ::fstat(file.number(), &opened) != 0) refuse_place(path, errno);
+  require_regular(path, opened.st_mode);
+  if (::flock(file.number(), LOCK_SH | LOCK_NB) != 0 && errno == EWOULDBLOCK) refuse_busy(output);
 }
 
 Journal::Journal(const fs::path& output, JournalKey key, const RecordLimit& limit, Begin begin, const Take& take)
@@ -235,7 +243,7 @@ void Journal::lock() {
     if (!is_named(file_, path_)) continue;
     struct stat opened {};
     if (::fstat(file_.number(), &opened) != 0) refuse(path_, errno);
-    if (!S_ISREG(opened.st_mode)) refuse(path_, "is not a regular file", "move it away, or name another output");
+    require_regular(path_, opened.st_mode);
     size_ = static_cast<std::uint64_t>(opened.st_size), stored_ = stored_bytes(opened);
     return;
   }
@@ -279,7 +287,6 @@ void Journal::append(std::span<const std::byte> record) {
   Bytes bytes;
   if (size_ == 0) append_bytes(bytes, bytes_of(magic)), append_block(bytes, bytes_of(key_));
   append_number(bytes, head_of(record));
-  const IgnoreFileSizeSignal ignore;
   synced_ = false;
   try {
     write_all(file_, bytes, path_), write_all(file_, record, path_);

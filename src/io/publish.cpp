@@ -64,7 +64,6 @@ void check_writable(const std::string& path) {
 
 void publish(const std::string& path, std::span<const std::byte> bytes, const PublishSteps& steps) {
   check_writable(path);
-  const IgnoreFileSizeSignal ignore;
   const fs::path target = target_of(path);
   remove_abandoned(target);
   const std::uint64_t needed = bytes.size() + bytes.size() / 64 + 64UL * 1024;  // with what a file system notes of it

@@ -64,9 +64,9 @@ std::string read_text(const std::string& path) {
   std::error_code error;
   if (std::filesystem::is_directory(path, error)) unreadable(path, "it is a directory; name a file");
   std::ifstream stream(path, std::ios::binary);
-  if (!stream) unreadable(path, std::strerror(errno));
+  if (!stream) unreadable(path, reason_and_way_out(errno, ""));
   std::string text = read_pieces(stream);
-  if (stream.bad()) unreadable(path, std::strerror(errno));
+  if (stream.bad()) unreadable(path, reason_and_way_out(errno, ""));
   return as_text(path, std::move(text));
 }
 
@@ -75,7 +75,7 @@ std::string read_standard_input(const std::string& name) {
   std::array<char, 16 * 1024> piece;
   while (text.size() <= max_config_bytes) {
     const ssize_t count = uninterrupted([&] { return ::read(STDIN_FILENO, piece.data(), piece.size()); });
-    if (count < 0) unreadable(name, std::strerror(errno));
+    if (count < 0) unreadable(name, reason_and_way_out(errno, ""));
     if (count == 0) break;
     text.append(piece.data(), static_cast<std::size_t>(count));
   }

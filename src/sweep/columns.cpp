@@ -1,5 +1,7 @@
 #include "sweep/columns.hpp"
 
+#include <malloc.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -165,7 +167,17 @@ void Columns::store(std::size_t slot, PointResult&& result) {
   impacts_[slot] = static_cast<std::int64_t>(result.impacts);
   periods_[slot] = result.periods;
   for (std::size_t i = 0; i < outputs_.size(); ++i) outputs_[i].put(result, &values_[i][slot * outputs_[i].width]);
-  if (!log_.empty()) log_[slot] = std::move(result.log);
+  if (!log_.empty()) log_[slot] = std::move(result.log), log_[slot].shrink_to_fit();  // it grew by doubling
+}
+
+std::size_t Columns::packed_size_without_log() const {
+  std::size_t bytes = sizeof(std::uint8_t) + sizeof(std::int64_t) + sizeof(double);
+  for (const Output& output : outputs_) bytes += output.width * sizeof(double);
+  return log_.empty() ? bytes : bytes + sizeof(std::uint64_t);
+}
+
+std::size_t Columns::packed_size(std::size_t slot) const {
+  return packed_size_without_log() + (log_.empty() ? 0 : log_[slot].size() * sizeof(Impact));
 }
 
 void Columns::pack(std::size_t slot, std::vector<std::byte>& to) const {
@@ -177,12 +189,6 @@ void Columns::pack(std::size_t slot, std::vector<std::byte>& to) const {
   const std::uint64_t count = log_[slot].size();
   append(to, std::span(&count, 1));
   append(to, std::span<const Impact>(log_[slot]));
-}
-
-double Columns::packed_bytes() const {
-  double bytes = sizeof(std::uint8_t) + sizeof(std::int64_t) + sizeof(double);
-  for (const Output& output : outputs_) bytes += static_cast<double>(output.width * sizeof(double));
-  return log_.empty() ? bytes : bytes + sizeof(std::uint64_t);
 }
 
 bool Columns::unpack(std::size_t slot, std::span<const std::byte>& from) {
@@ -282,6 +288,8 @@ void Columns::add_impact_log(Figure& figure) {
     }
     std::vector<Impact>().swap(impacts);
   }
+  log_ = {};
+  malloc_trim(0);  // blocks that lay between others stay with the process else
   const std::vector<std::string> along{"impact"};
   figure.dimensions.push_back({"impact", tau.size()});
   figure.variables.push_back({"impact_count", along_, std::move(counts), "impacts in the log of the point", "1"});

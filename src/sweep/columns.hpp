@@ -53,10 +53,11 @@ class Columns {
   /// Stores a point's result; different points may be stored at the same time.
   void store(std::size_t slot, PointResult&& result);
 
+  /// Bytes that `pack` appends for a point.
+  [[nodiscard]] std::size_t packed_size(std::size_t slot) const;
+  [[nodiscard]] std::size_t packed_size_without_log() const;
   /// Appends a point's results, as `unpack` takes them from a run of the same sweep.
   void pack(std::size_t slot, std::vector<std::byte>& to) const;
-  /// The bytes of a point's results, the impacts in its log aside.
-  [[nodiscard]] double packed_bytes() const;
   /// Takes a point's results off the beginning of `from`; false where they aren't of this sweep, and then nothing is
   /// sure of the point.
   [[nodiscard]] bool unpack(std::size_t slot, std::span<const std::byte>& from);

@@ -9,13 +9,19 @@
 
 namespace clatter {
 
-/// Bytes that the results of a sweep, or of a shard, take; the impact log, whose length nobody knows beforehand, comes
-/// on top.
-[[nodiscard]] double result_bytes(const Sweep& sweep, const std::optional<Shard>& shard = {});
+/// Bytes that a run takes, known before it begins.
+struct MemoryNeed {
+  double output = 0.0;  ///< of the file before compression: results and coordinates
+  double memory = 0.0;  ///< at its most, the program included, so that what cannot fit is refused before hours of work
+  double log = 0.0;     ///< of memory, the impact log: an estimate, since nobody knows its length beforehand
+};
 
-/// Bytes in memory at the end of a run, so that a sweep that cannot fit is refused before hours of computing: the
-/// results, each variable of which leaves once it is in the file's image, and the largest of them in both places.
-[[nodiscard]] double run_bytes(const Sweep& sweep, const std::optional<Shard>& shard = {});
+/// The need of a sweep, or of a shard.
+[[nodiscard]] MemoryNeed memory_need(const Sweep& sweep, const std::optional<Shard>& shard = {}, int threads = 1);
+
+/// The same for a log of so many impacts.
+[[nodiscard]] MemoryNeed memory_need(const Sweep& sweep, const std::optional<Shard>& shard, int threads,
+                                     double impacts);
 
 /// A shard and the length of its impact log.
 struct ShardSize {
@@ -23,12 +29,7 @@ struct ShardSize {
   std::size_t impacts = 0;
 };
 
-/// Bytes that merging shards takes: those of a run, its impact log, and the largest shard beside them; or, when the
-/// file is built, the columns of the log and the largest variable once more.
+/// Bytes that merging shards takes: those of a run that has all results already, and the largest shard beside them.
 [[nodiscard]] double merge_bytes(const Sweep& sweep, std::span<const ShardSize> shards);
-
-/// Memory in bytes that this process may have: of the machine, of its control group (a job of a batch system, a
-/// container), of `ulimit -v`; 0 where it isn't told.
-[[nodiscard]] double machine_bytes();
 
 }  // namespace clatter

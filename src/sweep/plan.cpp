@@ -6,7 +6,7 @@
 
 #include "sweep/branches.hpp"
 #include "sweep/dearest_point.hpp"
-#include "sweep/memory.hpp"
+#include "sweep/memory_limits.hpp"
 #include "sweep/point.hpp"
 #include "sweep/survey.hpp"
 
@@ -98,9 +98,8 @@ Plan plan_of(const Sweep& sweep, int threads, const std::optional<Shard>& shard)
                            .periods = group.periods,
                            .seconds = group.work * seconds_of_work(example, group.effects)});
   }
-  plan.output_bytes = result_bytes(sweep, shard);
-  plan.memory_bytes = run_bytes(sweep, shard);
-  plan.machine_bytes = machine_bytes();
+  plan.need = memory_need(sweep, shard, threads);
+  plan.machine_bytes = memory_limit(threads).bytes;
   warn(sweep, survey, plan);
   return plan;
 }

@@ -7,6 +7,7 @@
 
 #include "dynamics/required_effects.hpp"
 #include "sweep/estimate.hpp"
+#include "sweep/memory.hpp"
 #include "sweep/share.hpp"
 
 namespace clatter {
@@ -29,9 +30,8 @@ struct Plan {
   std::size_t branches = 0;                   ///< of them, so many don't wait for others: the rest follow
   std::vector<std::string> observed;          ///< the observables, e.g. "harmonics 0 ... 3 by FFT of 4096 samples"
   std::vector<Group> groups;                  ///< the cheapest kernel first
-  double output_bytes = 0.0;                  ///< of the results before compression; the impact log comes on top
-  double memory_bytes = 0.0;                  ///< at the end of a run: results and the file's image of them
-  double machine_bytes = 0.0;                 ///< memory of this machine
+  MemoryNeed need;                            ///< of a run
+  double machine_bytes = 0.0;                 ///< memory that a run may have
   std::vector<std::string> warnings;          ///< what looks unintended, and the remedy
 };
 

@@ -22,6 +22,7 @@
 #include "sweep/point.hpp"
 #include "sweep/rounding.hpp"
 #include "sweep/scatter.hpp"
+#include "sweep/stack.hpp"
 #include "sweep/sweep_progress.hpp"
 
 namespace clatter {
@@ -264,7 +265,8 @@ bool SweepRun::restore(std::span<const std::byte> results) {
 }
 
 double SweepRun::most_saved() const {
-  return enough_to_save + sizeof(std::uint64_t) + static_cast<double>(share_.length()) * columns_.packed_bytes();
+  return enough_to_save + sizeof(std::uint64_t) +
+         static_cast<double>(share_.length()) * static_cast<double>(columns_.packed_size_without_log());
 }
 
 void SweepRun::save(const std::function<void(std::span<const std::byte> results)>& write) {
@@ -277,6 +279,9 @@ void SweepRun::save(const std::function<void(std::span<const std::byte> results)
   };
   for (std::uint64_t branch = 0; branch < share_.count(); ++branch) {
     if (states_[branch] != BranchState::finished) continue;
+    std::size_t more = sizeof branch;
+    for (std::size_t i = 0; i < share_.length(); ++i) more += columns_.packed_size(share_.slot(branch, i));
+    if (more > enough_to_save) results.reserve(results.size() + more);  // a buffer that doubles would take up to twice as much
     const auto number = std::as_bytes(std::span(&branch, 1));
     results.insert(results.end(), number.begin(), number.end());
     for (std::size_t i = 0; i < share_.length(); ++i) columns_.pack(share_.slot(branch, i), results);
@@ -290,6 +295,7 @@ void SweepRun::run(const RunOptions& options) {
   const auto begin = std::chrono::steady_clock::now();
   const auto threads = static_cast<std::size_t>(threads_used(options));
   result_.threads = static_cast<int>(std::clamp<std::size_t>(share_.count(), 1, threads));  // others would wait
+  require_thread_stacks(result_.threads);
   Team team(sweep_, share_, options, result_.threads, columns_, states_, restored_);
   team.run();
   team.rethrow();

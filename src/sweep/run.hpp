@@ -70,7 +70,8 @@ class SweepRun {
   [[nodiscard]] bool restore(std::span<const std::byte> results);
   [[nodiscard]] std::size_t restored_points() const { return restored_; }
 
-  /// Runs every point that isn't restored; the same bits for every number of threads, and however many are.
+  /// Runs every point that isn't restored; the same bits for every number of threads, and however many are. Throws
+  /// LimitError before the first where the threads have too small stacks.
   void run(const RunOptions& options);
 
   /// Gives `write` the results of branches that were finished since the last time, some at once, of no more than

@@ -102,7 +102,7 @@ class WrongConfigurations(CommandLine):
         text = SMALL.replace("f = -1.0\n", "").replace("h = 0.1\n", "")
         self.write("huge.toml", text)
         for command in ("run", "plan"):
-            self.assert_refused(74, "the results of 1000000000 points", command, "huge.toml", *axes,
+            self.assert_refused(74, "not enough memory: 1000000000 points take", command, "huge.toml", *axes,
                                 "--set", "observe.trajectory=1000000")
         result = self.clatter("run", config, "--set", "observe.trajectory=2")
         self.assertEqual(result.returncode, 0, result.stderr)

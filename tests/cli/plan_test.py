@@ -29,17 +29,27 @@ class Plan(CommandLine):
         self.assertFalse(with_stops["chatter and rest"]["required"])
         self.assertEqual(plan["groups"][0]["periods"], [4, 4])  # the closed form, one period observed at each
         self.assertLess(*plan["groups"][1]["periods"])
-        self.assertEqual(plan["output_bytes"], 5 * (1 + 8 + 8 + 8 + 8 * 8))
+        self.assertEqual(plan["output_bytes"], 5 * 8 + 5 * (1 + 8 + 8 + 8 + 8 * 8))  # the axis, the results
+        self.assertEqual(plan["estimated_log_bytes"], 0)
         self.assertEqual(plan["warnings"], [])
 
     def test_says_the_same_before_a_verbose_run(self):
         config = self.write("a.toml", SMALL)
         text = self.clatter("plan", config, "--threads", "1").stdout
         run = self.clatter("run", config, "-v", "--threads", "1").stderr
-        without_times = [line for line in text.splitlines() if " s on " not in line]
+        without_times = [line for line in text.splitlines() if " s on " not in line and not line.startswith("memory ")]
         self.assertGreater(len(without_times), 20)
         for line in without_times:
             self.assertIn(line, run)
+
+    def test_an_impact_log_is_estimated_and_said_to_be(self):
+        logged = SMALL + "impact_log = true\n"
+        plan = self.plan(logged)
+        self.assertGreater(plan["estimated_log_bytes"], 0)
+        self.assertGreater(plan["memory_bytes"], plan["estimated_log_bytes"])
+        text = self.clatter("plan", self.write("p.toml", logged)).stdout
+        self.assertRegex(text, r"(?m)^output .* before compression, the impact log by an estimate$")
+        self.assertRegex(text, r"(?m)^memory .*MiB, by an estimate of the impact log: \S+ ")
 
     def test_warns_of_what_looks_unintended(self):
         far = self.plan(SMALL, "--set", "scene.xs=6")["warnings"]
@@ -66,7 +76,7 @@ class Plan(CommandLine):
         huge = ("--set", "sweep.x0=linspace(-1, 1, 1000000)", "--set", "observe.trajectory=10000000")
         run = self.clatter("run", config, *huge)
         self.assertEqual(run.returncode, 74, run.stderr)
-        self.assertRegex(run.stderr, r"^clatter: the results of 5000000 points, .* TiB, there are .*--shard\n$")
+        self.assertRegex(run.stderr, r"^clatter: not enough memory: 5000000 points take \S+ TiB.*--shard.*\n$")
         for words in ((), ("--json",)):
             plan = self.clatter("plan", config, *huge, *words)
             self.assertEqual((plan.returncode, plan.stdout, plan.stderr), (run.returncode, "", run.stderr))
@@ -80,7 +90,7 @@ class Plan(CommandLine):
         parts = [self.plan(SMALL, "--shard", f"{number}/2") for number in range(2)]
         self.assertEqual([part["points"] for part in parts], [3, 2])
         self.assertEqual(sum(group["points"] for part in parts for group in part["groups"]), 5)
-        self.assertEqual(sum(part["output_bytes"] for part in parts), whole["output_bytes"] + 5 * 8)  # their numbers
+        self.assertEqual(sum(part["output_bytes"] for part in parts), whole["output_bytes"] + 2 * 5 * 8)  # their numbers, and the axis in each
         config = self.write("p.toml", SMALL)
         text = self.clatter("plan", config, "--shard", "1/2").stdout
         self.assertIn("\npoints              2 of 5, shard 1/2\n", text)

@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "sweep/figures.hpp"
-#include "sweep/memory.hpp"
+#include "sweep/memory_limits.hpp"
 
 namespace clatter {
 namespace {
@@ -79,9 +79,9 @@ TEST(Plan, the_least_work_of_transients_and_of_conservative_motion_is_the_most) 
 TEST(Plan, memory_is_that_of_the_run) {
   const Sweep sweep = sweep_of(figure(3), {{Parameter::nu, frequencies()}});
   const Plan plan = plan_of(sweep, 1);
-  EXPECT_EQ(plan.output_bytes, result_bytes(sweep));
-  EXPECT_EQ(plan.memory_bytes, run_bytes(sweep));
-  EXPECT_EQ(plan.machine_bytes, machine_bytes());
+  EXPECT_EQ(plan.need.output, memory_need(sweep).output);
+  EXPECT_EQ(plan.need.memory, memory_need(sweep).memory);
+  EXPECT_EQ(plan.machine_bytes, memory_limit(1).bytes);
 }
 
 TEST(Plan, a_stop_that_no_point_reaches_is_named_with_the_closest_of_all_groups) {
@@ -208,8 +208,8 @@ TEST(Plan, of_a_shard_is_that_of_its_points) {
   const Plan plan = plan_of(sweep, 1, shard);
   EXPECT_EQ(plan.points, Share(sweep, shard).points());
   EXPECT_EQ(plan.branches, plan.points);
-  EXPECT_EQ(plan.output_bytes, result_bytes(sweep, shard));
-  EXPECT_EQ(plan.memory_bytes, run_bytes(sweep, shard));
+  EXPECT_EQ(plan.need.output, memory_need(sweep, shard, 1).output);
+  EXPECT_EQ(plan.need.memory, memory_need(sweep, shard, 1).memory);
   std::size_t points = 0;
   for (const Group& group : plan.groups) {
     points += group.points;
