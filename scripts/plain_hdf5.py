@@ -12,6 +12,7 @@ from hdf5_heaps import damaged_heap
 WANTED = "give a file that 'clatter run' or 'clatter accuracy' wrote"
 ANEW = "run its configuration again, or get the file anew"
 UNREADABLE = (AttributeError, LookupError, MemoryError, OSError, RuntimeError, TypeError, ValueError)  # of damaged ones
+MOST_DEFLATED = 1032  # bytes that one byte gives when it is inflated (zlib's technical details)
 FILTERS = {h5z.FILTER_SHUFFLE, h5z.FILTER_DEFLATE}
 
 
@@ -29,11 +30,20 @@ def damaged(path, error):
     return FileProblem(f"{path}: damaged ({printable(error)}); {ANEW}")
 
 
+class Output(h5py.File):
+    """Looks at each variable that is asked for, too: the indexes of a damaged file needn't agree on what there is."""
+
+    def __getitem__(self, name):
+        if name != "/":  # the file itself, which has attributes
+            require_variable(self.filename, self, name)
+        return super().__getitem__(name)
+
+
 def open_output(path):
     """Opens an output whose values all stand in itself, as clatter writes them, or says what is wrong with it."""
     require_regular(path)
     try:
-        file = h5py.File(path, "r")
+        file = Output(path, "r")
         heap = damaged_heap(path)
     except PermissionError:
         raise FileProblem(f"{path}: not readable; check its permissions") from None
@@ -80,14 +90,18 @@ def require_plain(path, file):
     """Refuses what would be read from elsewhere, and whatever else clatter doesn't write."""
     names = list(file)  # of links, none of which is followed
     for name in names:
-        unlike = unlike_clatter(file.id, name) if name.isidentifier() else "is no name of a variable"
-        if unlike:
-            raise FileProblem(f"{path}: {name!r} {unlike}, which clatter doesn't write; {ANEW}")
+        require_variable(path, file, name)
     if "status" not in names or "config" not in file.attrs:
         raise FileProblem(f"{path}: not a clatter/1 file (it lacks its status or configuration); {WANTED}")
 
 
-def unlike_clatter(root, name):
+def require_variable(path, file, name):
+    unlike = unlike_clatter(path, file.id, name) if name.isidentifier() else "is no name of a variable"
+    if unlike:
+        raise FileProblem(f"{path}: {name!r} {unlike}, which clatter doesn't write; {ANEW}")
+
+
+def unlike_clatter(path, root, name):
     """How an object at the root differs from all that clatter writes, or None; looks at a link before it follows it."""
     if root.links.get_info(name.encode()).type != h5l.TYPE_HARD:
         return "is a link to another place"
@@ -99,11 +113,20 @@ def unlike_clatter(root, name):
         return "has its values in other files"
     if properties.get_layout() not in (h5d.CONTIGUOUS, h5d.CHUNKED):
         return "is stored in an unknown layout"
-    if not {properties.get_filter(place)[0] for place in range(properties.get_nfilters())} <= FILTERS:
-        return "has another filter than shuffle and deflate"
+    filters = [properties.get_filter(place)[0] for place in range(properties.get_nfilters())]
+    if not FILTERS.issuperset(filters) or len(set(filters)) < len(filters):
+        return "has other filters than shuffle and deflate, each once"
     if dataset.get_type().get_class() not in (h5t.INTEGER, h5t.FLOAT):
         return "holds something else than numbers"
+    if dataset.get_space().get_simple_extent_npoints() > MOST_DEFLATED * stored_bytes(path):
+        return "has more values than the file can hold"
     return None
+
+
+def stored_bytes(path):
+    """The room that a file takes on its disk; its length, where the file system doesn't tell."""
+    status = os.stat(path)
+    return 512 * status.st_blocks or status.st_size
 
 
 def text(value):

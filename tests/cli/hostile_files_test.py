@@ -14,99 +14,44 @@ import h5py
 import numpy
 
 from command_line import CLATTER, SANITIZED, SMALL, CommandLine
+from crafted_files import CHANGES, CONTROLS, SECRET, claim, hide_variables, make_surroundings
 
-SECRET = b"root:x:0:0:secret\n" * 8
-DOES_NOT = ", which clatter doesn't write; "
-CONTROLS = "\x1b]0;title\x07\x1b[2J\u202e\u009b\nclatter: all is well"
+ELSEWHERE, LINK = "'x_max' has its values in another file", "'x_max' is a link to something else"
+NO_NUMBERS = "'x_max' holds no numbers"
+REASONS = {  # what is said of each
+    "external": ELSEWHERE,
+    "external_pipe": ELSEWHERE,
+    "virtual": ELSEWHERE,
+    "growing_virtual": ELSEWHERE,
+    "external_link": LINK,
+    "external_link_to_pipe": LINK,
+    "soft_link": LINK,
+    "dangling_link": LINK,
+    "status_link": "'status' is a link to something else",
+    "group": "'x_max' is a group or a type, not a variable",
+    "link_in_group": "'hidden' is a group or a type, not a variable",
+    "type": "'x_max' is a group or a type, not a variable",
+    "lzf": "'x_max' passes through filter 32000",
+    "scaled": "'x_max' passes through filter 6",
+    "checked": "'x_max' passes through filter 3",
+    "deflated_twice": "'x_max' passes through filter 1",
+    "compact": "'x_max' is stored compactly",
+    "texts": NO_NUMBERS,
+    "references": NO_NUMBERS,
+    "name": "'a\\x1b]0;title\\x07\\x1b[2J\\xe2\\x80\\xae\\xc2\\x9b\\x0aclatter: all is well' is a group",
+    "hidden": "its list of variables is damaged",
+}
+CASES = {**CHANGES,
+         "name": lambda file, directory: file.create_group("a" + CONTROLS),
+         "hidden": CHANGES["external_link"],
+         "hidden_storage": CHANGES["external"]}
+REASONS["hidden_storage"] = REASONS["hidden"]
 
 
 def seal(path):
     """Puts the seal of a shard behind a file's bytes."""
     content = path.read_bytes()
     path.write_bytes(content + b"\nclatter shard of %20d bytes, CRC-32 %08x\n" % (len(content), zlib.crc32(content)))
-
-
-def replace(make):
-    """A way to craft a file: another x_max, of as many values."""
-    def craft(file, directory):
-        points = len(file["x_max"])
-        del file["x_max"]
-        make(file, points, directory)
-    return craft
-
-
-def properties(**settings):
-    created = h5py.h5p.create(h5py.h5p.DATASET_CREATE)
-    for name, value in settings.items():
-        getattr(created, "set_" + name)(value)
-    return created
-
-
-def deflated_twice(points):
-    created = properties(chunk=(points,))
-    for _ in range(2):
-        created.set_filter(h5py.h5z.FILTER_DEFLATE, h5py.h5z.FLAG_MANDATORY, (9,))
-    return created
-
-
-def low_level(file, points, created, kind=h5py.h5t.NATIVE_DOUBLE):
-    h5py.h5d.create(file.id, b"x_max", kind, h5py.h5s.create_simple((points,)), created)
-
-
-def virtual(file, points, directory):
-    layout = h5py.VirtualLayout(shape=(points,), dtype="f8")
-    layout[:] = h5py.VirtualSource(directory / "other.h5", "x_max", shape=(points,))
-    file.create_virtual_dataset("x_max", layout)
-
-
-def printf_virtual(file, points, directory):
-    layout = h5py.VirtualLayout(shape=(points,), dtype="f8", maxshape=(None,))
-    source = h5py.VirtualSource(directory / "other.h5", "x_max", shape=(points,), maxshape=(None,))
-    layout[:h5py.h5s.UNLIMITED] = source[:h5py.h5s.UNLIMITED]
-    file.create_virtual_dataset("x_max", layout)
-
-
-def external(name):
-    return lambda file, points, directory: file.create_dataset(
-        "x_max", (points,), "f8", external=[(os.path.join(directory, name), 0, h5py.h5f.UNLIMITED)])
-
-
-def linked(link):
-    return lambda file, points, directory: file.__setitem__("x_max", link(directory))
-
-
-# Name, how x_max is made, and the reason that is given.
-CRAFTED = {
-    "external storage": (replace(external("secret")), "'x_max' has its values in another file"),
-    "external storage in a FIFO": (replace(external("fifo")), "'x_max' has its values in another file"),
-    "external link": (replace(linked(lambda directory: h5py.ExternalLink(str(directory / "other.h5"), "x_max"))),
-                      "'x_max' is a link to something else"),
-    "external link to a FIFO": (replace(linked(lambda directory: h5py.ExternalLink(str(directory / "fifo"), "x_max"))),
-                                "'x_max' is a link to something else"),
-    "soft link": (replace(linked(lambda directory: h5py.SoftLink("/x_min"))), "'x_max' is a link to something else"),
-    "dangling link": (replace(linked(lambda directory: h5py.SoftLink("/none"))),
-                      "'x_max' is a link to something else"),
-    "virtual": (replace(virtual), "'x_max' has its values in another file"),
-    "growing virtual": (replace(printf_virtual), "'x_max' has its values in another file"),
-    "group": (replace(lambda file, points, directory: file.create_group("x_max")),
-              "'x_max' is a group or a type, not a variable"),
-    "link within a group": (lambda file, directory: file.create_group("hidden").__setitem__(
-        "status", h5py.ExternalLink(str(directory / "other.h5"), "x_max")),
-        "'hidden' is a group or a type, not a variable"),
-    "type": (replace(linked(lambda directory: numpy.dtype("f8"))), "'x_max' is a group or a type, not a variable"),
-    "filter": (replace(lambda file, points, directory: file.create_dataset(
-        "x_max", data=numpy.zeros(points), chunks=(points,), compression="lzf")), "'x_max' passes through filter 32000"),
-    "deflated twice": (replace(lambda file, points, directory: low_level(
-        file, points, deflated_twice(points))), "'x_max' passes through filter 1"),
-    "compact": (replace(lambda file, points, directory: low_level(
-        file, points, properties(layout=h5py.h5d.COMPACT))), "'x_max' is stored compactly"),
-    "texts": (replace(lambda file, points, directory: file.create_dataset("x_max", data=["a"] * points)),
-              "'x_max' holds no numbers"),
-    "references": (replace(lambda file, points, directory: file.create_dataset(
-        "x_max", data=[file["x_min"].ref] * points, dtype=h5py.ref_dtype)), "'x_max' holds no numbers"),
-    "text in lines": (lambda file, directory: file.create_group("a" + CONTROLS),
-                      "'a\\x1b]0;title\\x07\\x1b[2J\\xe2\\x80\\xae\\xc2\\x9b\\x0aclatter: all is well' is a group"),
-}
 
 
 class HostileFiles(CommandLine):
@@ -116,23 +61,27 @@ class HostileFiles(CommandLine):
         self.run_whole("run", self.config)
         for shard in ("0/2", "1/2"):
             self.run_whole("run", self.config, "--shard", shard)
-        (self.directory / "secret").write_bytes(SECRET)
-        os.mkfifo(self.directory / "fifo")
-        with h5py.File(self.directory / "other.h5", "w") as file:
-            file["x_max"] = numpy.full(5, 12345.678)
+        make_surroundings(self.directory)
 
     def run_whole(self, *words):
         result = self.clatter(*words)
         self.assertEqual(result.returncode, 0, result.stderr)
 
-    def craft(self, original, change, name="crafted.h5"):
-        path = self.directory / name
+    def craft(self, original, change, hide=False):
+        path = self.directory / "crafted.h5"
         shutil.copy(self.directory / original, path)
         with h5py.File(path, "r+") as file:
             change(file, self.directory)
+        if hide:
+            hide_variables(path)
         if "-of-" in original:
             seal(path)
-        return name
+        return path.name
+
+    def each_crafted(self, original):
+        for kind, change in CASES.items():
+            with self.subTest(kind):
+                yield self.craft(original, change, kind.startswith("hidden")), REASONS[kind]
 
     def opened(self, *command):
         """The files in the directory of the test that a command has opened, by strace."""
@@ -154,38 +103,32 @@ class HostileFiles(CommandLine):
 
     def assert_tells_nothing(self, result):
         for text in (result.stdout, result.stderr):
-            self.assertNotIn("secret", text)
+            self.assertNotIn(SECRET[:8], text)
             self.assertNotIn("12345", text)
 
     def test_nothing_but_the_file_is_read(self):
-        for kind, (change, reason) in CRAFTED.items():
-            with self.subTest(kind):
-                name = self.craft("a.h5", change)
-                for words in (["info", name], ["info", name, "--json"], ["info", name, "--config"]):
-                    self.assert_refused(74, f"'{name}': cannot be read: {reason}", *words)
-                self.assert_tells_nothing(self.clatter("info", name))
-                self.assert_reads_only({name}, "info", name)
+        for name, reason in self.each_crafted("a.h5"):
+            for words in (["info", name], ["info", name, "--json"], ["info", name, "--config"]):
+                self.assert_refused(74, f"'{name}': cannot be read: {reason}", *words)
+            self.assert_tells_nothing(self.clatter("info", name))
+            self.assert_reads_only({name}, "info", name)
 
     def test_nothing_but_the_shards_is_merged(self):
-        for kind, (change, reason) in CRAFTED.items():
-            with self.subTest(kind):
-                name = self.craft("a.0-of-2.h5", change)
-                words = ["merge", "-o", "merged.h5", name, "a.1-of-2.h5"]
-                self.assert_refused(74, f"'{name}' cannot be read: {reason}", *words)
-                self.assert_tells_nothing(self.clatter(*words))
-                self.assert_reads_only({name}, *words)
+        for name, reason in self.each_crafted("a.0-of-2.h5"):
+            words = ["merge", "-o", "merged.h5", name, "a.1-of-2.h5"]
+            self.assert_refused(74, f"'{name}' cannot be read: {reason}", *words)
+            self.assert_tells_nothing(self.clatter(*words))
+            self.assert_reads_only({name}, *words)
 
     def test_nothing_but_the_file_is_looked_at_before_it_is_replaced(self):
-        for kind, (change, _) in CRAFTED.items():
-            with self.subTest(kind):
-                name = self.craft("a.h5", change)
-                words = ["run", self.config, "-o", name]
-                self.assert_refused(74, "is no output of clatter, or a damaged one", *words)
-                self.assert_reads_only({name, self.config, "."}, *words)
+        for name, _ in self.each_crafted("a.h5"):
+            words = ["run", self.config, "-o", name]
+            self.assert_refused(74, "is no output of clatter, or a damaged one", *words)
+            self.assert_reads_only({name, self.config}, *words)
 
     def test_what_is_no_regular_file_is_not_waited_for(self):
-        (self.directory / "link.h5").symlink_to("fifo")
-        for name in ("fifo", "link.h5"):
+        (self.directory / "link.h5").symlink_to("pipe")
+        for name in ("pipe", "link.h5"):
             self.assert_refused(74, f"'{name}': is not a regular file", "info", name)
             self.assert_refused(74, f"'{name}': is not a regular file", "merge", "-o", "new.h5", name)
             self.assert_refused(74, "is not a regular file", "run", self.config, "-o", name)
@@ -193,18 +136,25 @@ class HostileFiles(CommandLine):
     @unittest.skipIf(SANITIZED, "a sanitizer takes memory of its own")
     def test_a_claimed_length_is_not_read(self):
         def grow(file, directory):
-            del file["status"]
-            created = properties(alloc_time=h5py.h5d.ALLOC_TIME_EARLY, fill_time=h5py.h5d.FILL_TIME_NEVER)
-            h5py.h5d.create(file.id, b"status", h5py.h5t.NATIVE_UINT8, h5py.h5s.create_simple((4 << 30,)), created)
+            claim("status", (4 << 30,), file)
+
         def grow_unread(file, directory):
             grow(file, directory)
             file.attrs["config"] = "of another version"
+
+        def grow_rows(file, directory):
+            claim("status", (1 << 30, 5), file)
+            file["row"] = numpy.zeros(1)
+            file["row"].make_scale("row")
+            for place, scale in enumerate((file["row"], file["nu"])):
+                file["status"].dims[place].attach_scale(scale)
         name = self.craft("a.h5", grow)
         self.assertLess((self.directory / name).stat().st_blocks * 512, 1 << 20)
         before = resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss
         self.assert_refused(74, "its 'status' is of other points than the 5 of its configuration", "info", name)
-        name = self.craft("a.h5", grow_unread)
-        self.assert_refused(74, "its 'status' is longer than a file of its size can hold", "info", name)
+        for change in (grow_unread, grow_rows):
+            name = self.craft("a.h5", change)
+            self.assert_refused(74, "its 'status' is longer than a file of its size can hold", "info", name)
         used = resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss
         self.assertLess(max(0, used - before), 256 * 1024)  # KiB
 
@@ -282,6 +232,29 @@ class HostileFiles(CommandLine):
             result = self.clatter(*words)
             self.assertNotEqual(result.returncode, 0)
             self.assert_harmless(result.stderr)
+
+    def test_a_terminal_obeys_no_name_of_a_configuration(self):
+        name = "a" + CONTROLS + ".toml"
+        self.write(name, SMALL.replace("[sweep]", '[sweep]\nfollow = "nu"'))
+        for words in (["accuracy", name, "-o", "b.h5"], ["run", name, "--set", "scene.R=2"]):
+            self.assert_harmless(self.clatter(*words).stderr)
+        self.write(name, "#" * (1 << 20))
+        for command in ("run", "plan"):
+            result = self.clatter(command, name)
+            self.assertEqual(result.returncode, 2)
+            self.assertEqual(result.stderr.count("\n"), 1)
+            self.assert_harmless(result.stderr)
+
+    @unittest.skipIf(SANITIZED, "a sanitizer reserves all addresses")
+    def test_a_journal_of_one_long_section_takes_no_memory(self):
+        config = "[" + "s" * (1 << 20) + "]\n" + "a\n" * 100_000  # as lines with their section 100 GiB
+        (self.directory / "b.h5.journal").write_bytes(self.journal("1.0", "avx2", "", config))
+        result = subprocess.run([CLATTER, "run", self.config, "-o", "b.h5"], cwd=self.directory, text=True, timeout=60,
+                                capture_output=True,
+                                preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_AS, (2 << 30, 2 << 30)))
+        self.assertEqual(result.returncode, 74)
+        self.assertIn("holds what an earlier run of something else had finished", result.stderr)
+        self.assertLess(len(result.stderr), 10_000)
 
     def test_a_long_sparse_journal_is_not_read_to_its_end(self):
         path = self.directory / "b.h5.journal"

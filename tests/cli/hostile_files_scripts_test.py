@@ -11,86 +11,43 @@ import unittest
 from pathlib import Path
 
 import h5py
-import numpy
 
 from command_line import CLATTER, SMALL, SOURCE
+from crafted_files import CHANGES, SECRET, claim, hide_variables, make_surroundings
 
-SECRET = "a line that is nobody's business\n"
-POINTS = 5
 PYTHON = "/usr/bin/python3"
-
-
-def replaced(make):
-    """A change of an output: x_max goes, and `make` puts another in its place."""
-    def edit(file, folder):
-        del file["x_max"]
-        make(file, folder)
-    return edit
-
-
-def external(name):
-    """Storage in another file, of one number for each eight bytes."""
-    return replaced(lambda file, folder: file.create_dataset("x_max", (POINTS,), "f8",
-                                                             external=[(str(folder / name), 0, 8 * POINTS)]))
-
-
-def virtual(file, folder):
-    layout = h5py.VirtualLayout((POINTS,), "f8")
-    layout[:] = h5py.VirtualSource(str(folder / "other.h5"), "x_max", (POINTS,))
-    file.create_virtual_dataset("x_max", layout)
-
-
-def growing_virtual(file, folder):
-    """One whose shape already takes its sources to know."""
-    properties = h5py.h5p.create(h5py.h5p.DATASET_CREATE)
-    without_end = h5py.h5s.create_simple((POINTS,), (h5py.h5s.UNLIMITED,))
-    without_end.select_hyperslab((0,), (h5py.h5s.UNLIMITED,), (1,), (1,))
-    properties.set_virtual(without_end, str(folder / "other.h5").encode(), b"x_max", without_end)
-    h5py.h5d.create(file.id, b"x_max", h5py.h5t.IEEE_F64LE, h5py.h5s.create_simple((POINTS,), (h5py.h5s.UNLIMITED,)),
-                    properties)
-
-
-def dataset(**properties):
-    return replaced(lambda file, folder: file.create_dataset("x_max", data=numpy.arange(float(POINTS)), **properties))
-
-
-def linked(link):
-    return replaced(lambda file, folder: file.__setitem__("x_max", link(folder)))
-
-
-def compact(file, folder):
-    properties = h5py.h5p.create(h5py.h5p.DATASET_CREATE)
-    properties.set_layout(h5py.h5d.COMPACT)
-    h5py.h5d.create(file.id, b"x_max", h5py.h5t.IEEE_F64LE, h5py.h5s.create_simple((POINTS,)), properties)
-
-
-def status_link(file, folder):
-    del file["status"]
-    file["status"] = h5py.ExternalLink(str(folder / "other.h5"), "/status")
-
-
 ELSEWHERE, LINK = "'x_max' has its values in other files", "'x_max' is a link to another place"
-CASES = {  # name: (change of an output, what is said of it)
-    "external": (external("secret.txt"), ELSEWHERE),
-    "external_pipe": (external("pipe"), ELSEWHERE),
-    "virtual": (replaced(virtual), ELSEWHERE),
-    "growing_virtual": (replaced(growing_virtual), ELSEWHERE),
-    "external_link": (linked(lambda folder: h5py.ExternalLink(str(folder / "other.h5"), "/x_max")), LINK),
-    "external_link_to_pipe": (linked(lambda folder: h5py.ExternalLink(str(folder / "pipe"), "/x_max")), LINK),
-    "soft_link": (linked(lambda folder: h5py.SoftLink("/x_min")), LINK),
-    "status_link": (status_link, "'status' is a link to another place"),
-    "group": (lambda file, folder: file.create_group("more"), "'more' is no dataset"),
-    "type": (lambda file, folder: file.__setitem__("more", numpy.dtype("f8")), "'more' is no dataset"),
-    "compact": (replaced(compact), "'x_max' is stored in an unknown layout"),
-    "lzf": (dataset(compression="lzf"), "'x_max' has another filter than shuffle and deflate"),
-    "scaled": (dataset(scaleoffset=3), "'x_max' has another filter than shuffle and deflate"),
-    "texts": (lambda file, folder: file.__setitem__("more", ["text"]), "'more' holds something else than numbers"),
-    "references": (lambda file, folder: file.create_dataset("more", (1,), h5py.ref_dtype),
-                   "'more' holds something else than numbers"),
-    "name": (lambda file, folder: file.__setitem__("\x1b[2J\u202e", [1.0]),
-             "'\\x1b[2J\\u202e' is no name of a variable"),
-    "schema": (lambda file, folder: file.attrs.__setitem__("clatter_schema", "\x1b[2J"), "its schema is '\\x1b[2J'"),
+FILTER = "'x_max' has other filters than shuffle and deflate, each once"
+NO_NUMBERS = "'x_max' holds something else than numbers"
+REASONS = {  # what is said of each
+    "external": ELSEWHERE,
+    "external_pipe": ELSEWHERE,
+    "virtual": ELSEWHERE,
+    "growing_virtual": ELSEWHERE,
+    "external_link": LINK,
+    "external_link_to_pipe": LINK,
+    "soft_link": LINK,
+    "dangling_link": LINK,
+    "status_link": "'status' is a link to another place",
+    "group": "'x_max' is no dataset",
+    "link_in_group": "'hidden' is no dataset",
+    "type": "'x_max' is no dataset",
+    "lzf": FILTER,
+    "scaled": FILTER,
+    "checked": FILTER,
+    "deflated_twice": FILTER,
+    "compact": "'x_max' is stored in an unknown layout",
+    "texts": NO_NUMBERS,
+    "references": NO_NUMBERS,
+    "name": "'a\\x1b]0;title\\x07\\x1b[2J\\u202e\\x9b\\nclatter: all is well' is no name of a variable",
+    "schema": "its schema is '\\x1b[2J'",
+    "claimed": "'status' has more values than the file can hold",
+    "hidden": "it lacks its status or configuration",
 }
+CASES = {**CHANGES,
+         "schema": lambda file, folder: file.attrs.__setitem__("clatter_schema", "\x1b[2J"),
+         "claimed": lambda file, folder: claim("status", (4 << 30,), file),
+         "hidden": CHANGES["external_link"]}
 
 
 def can_trace():
@@ -105,16 +62,17 @@ class ForeignFiles(unittest.TestCase):
         cls.addClassCleanup(kept.cleanup)
         cls.folder = Path(kept.name)
         (cls.folder / "small.toml").write_text(SMALL)
-        output = cls.folder / "other.h5"
+        output = cls.folder / "sound.h5"
         subprocess.run([CLATTER, "run", cls.folder / "small.toml", "-q", "-o", output], check=True, timeout=60)
-        (cls.folder / "secret.txt").write_text(SECRET * 9)
-        os.mkfifo(cls.folder / "pipe")
-        for name, (edit, _) in CASES.items():
+        make_surroundings(cls.folder)
+        for name, change in CASES.items():
             path = cls.folder / name / "fig22.h5"
             path.parent.mkdir()
             shutil.copy(output, path)
             with h5py.File(path, "r+") as file:
-                edit(file, cls.folder)
+                change(file, cls.folder)
+            if name == "hidden":
+                hide_variables(path)
         torn = cls.folder / "zeros" / "fig22.h5"
         torn.parent.mkdir()
         content = output.read_bytes()
@@ -127,7 +85,7 @@ class ForeignFiles(unittest.TestCase):
         cls.program.chmod(cls.program.stat().st_mode | stat.S_IXUSR)
 
     def expected(self):
-        yield from ((self.folder / name / "fig22.h5", words) for name, (_, words) in CASES.items())
+        yield from ((self.folder / name / "fig22.h5", words) for name, words in REASONS.items())
         yield self.folder / "zeros" / "fig22.h5", "damaged (a heap of texts at byte "
         yield self.folder / "fifo" / "fig22.h5", "not a regular file"
 
@@ -145,7 +103,7 @@ class ForeignFiles(unittest.TestCase):
 
     def test_the_secret_would_be_read(self):
         with h5py.File(self.folder / "external" / "fig22.h5") as file:
-            self.assertEqual(file["x_max"][()].tobytes().decode(), SECRET[:33] + SECRET[:8 * POINTS - 33])
+            self.assertEqual(file["x_max"][()].tobytes().decode(), SECRET[:33] + SECRET[:8 * 5 - 33])
 
     def test_plot_refuses_them_in_one_line(self):
         for path, words in self.expected():
