@@ -100,6 +100,8 @@ bool flag_of(const Key& key, const RawValue& raw) {
 std::string text_of(const Key& key, const RawValue& raw) {
   const auto* const text = std::get_if<std::string>(&raw.data);
   if (text == nullptr) wrong_kind(key, raw, ", in quotes");
+  if (text->find('\0') != std::string::npos)
+    fail(raw.place, std::string(key.name) + ": permitted: a text without NUL characters, at which a file would end it");
   return *text;
 }
 

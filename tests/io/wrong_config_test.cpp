@@ -181,6 +181,12 @@ TEST(EveryCount, that_is_a_fraction_is_refused) {
   }
 }
 
+TEST(EveryText, with_a_nul_is_refused_since_a_file_ends_it_there) {
+  for (const Key& key : keys()) {
+    if (key.kind == Kind::text) expect_wrong_value(key, "\"a\\u0000b\"", "without NUL characters", "toml");
+  }
+}
+
 TEST(EveryAxis, is_checked_like_the_scene) {
   for (const Key& key : keys()) {
     if (key.section != "scene") continue;
