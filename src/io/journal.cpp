@@ -12,10 +12,10 @@
 #include <string_view>
 #include <utility>
 
-#include "io/crc32.hpp"
 #include "io/difference.hpp"
 #include "io/error.hpp"
 #include "io/input_file.hpp"
+#include "io/journal_blocks.hpp"
 #include "io/utf8.hpp"
 
 namespace clatter {
@@ -28,119 +28,7 @@ constexpr std::string_view magic = "clatter journal 1\n";
 /// No configuration is as long as that, with what else the header has.
 constexpr double most_header = 8UL * 1024 * 1024;  // bytes
 
-using Bytes = std::vector<std::byte>;
-
 std::span<const std::byte> bytes_of(std::string_view text) { return std::as_bytes(std::span(text)); }
-
-void append_bytes(Bytes& to, std::span<const std::byte> bytes) { to.insert(to.end(), bytes.begin(), bytes.end()); }
-
-template <class Number>
-void append_number(Bytes& to, Number number) {
-  append_bytes(to, std::as_bytes(std::span(&number, 1)));
-}
-
-/// A block of bytes in the file: its length and CRC-32 before it.
-struct BlockHead {
-  std::uint64_t length;
-  std::uint32_t crc;
-  std::uint32_t check;  ///< the CRC-32 of the two before, so that a damaged length isn't taken for a torn tail
-};
-
-BlockHead head_of(std::span<const std::byte> block) {
-  BlockHead head{block.size(), crc32_of(block), 0};
-  head.check = crc32_of(std::as_bytes(std::span(&head, 1)).first(offsetof(BlockHead, check)));
-  return head;
-}
-
-void append_block(Bytes& to, std::span<const std::byte> block) {
-  append_number(to, head_of(block));
-  append_bytes(to, block);
-}
-
-/// Reads a file from its beginning.
-class Reader {
- public:
-  Reader(const Descriptor& file, std::uint64_t size, const fs::path& path) : file_(file), size_(size), path_(path) {}
-
-  [[nodiscard]] std::uint64_t at() const { return at_; }
-  [[nodiscard]] std::uint64_t left() const { return size_ - at_; }
-
-  void read(std::span<std::byte> to) {
-    while (!to.empty()) {
-      if (buffered_.empty()) fill();
-      const std::size_t some = std::min(to.size(), buffered_.size());
-      std::ranges::copy(buffered_.first(some), to.begin());
-      to = to.subspan(some), buffered_ = buffered_.subspan(some), at_ += some;
-    }
-  }
-
-  /// What the next block says of itself; nothing: it is torn off. Throws IoError where it is damaged, or of more than
-  /// `most_bytes`.
-  std::optional<BlockHead> head(double most_bytes) {
-    const std::uint64_t begin = at_;
-    BlockHead head{};
-    if (left() < sizeof head) return std::nullopt;
-    read(std::as_writable_bytes(std::span(&head, 1)));
-    const auto summed = std::as_bytes(std::span(&head, 1)).first(offsetof(BlockHead, check));
-    if (head.length == 0 && head.crc == 0 && head.check == 0 && only_zeros_left()) return std::nullopt;
-    if (crc32_of(summed) != head.check || static_cast<double>(head.length) > most_bytes) damaged(begin);
-    return head.length > left() ? std::nullopt : std::optional(head);
-  }
-
-  /// The next block, as `head`.
-  std::optional<std::span<const std::byte>> block(double most_bytes) {
-    const std::uint64_t begin = at_;
-    const std::optional<BlockHead> next = head(most_bytes);
-    if (!next) return std::nullopt;
-    block_.resize(static_cast<std::size_t>(next->length));
-    read(block_);
-    if (crc32_of(block_) != next->crc) {
-      if (left() == 0 && !block_.empty() && block_.back() == std::byte{}) return std::nullopt;  // a power cut
-      damaged(begin);
-    }
-    return block_;
-  }
-
-  [[noreturn]] void damaged(std::uint64_t where) const {
-    throw IoError(quoted_name(path_.string()) + " is damaged at byte " + std::to_string(where) +
-                  ": what it holds of an earlier run can't be trusted; --restart begins anew, without it");
-  }
-
- private:
-  /// What a power cut may leave of the last records. Passes over holes, in which nothing is stored, without reading
-  /// them.
-  bool only_zeros_left() {
-    while (left() > 0) {
-      if (buffered_.empty() && !skip_hole()) return true;
-      std::byte next{};
-      read(std::span(&next, 1));
-      if (next != std::byte{}) return false;
-    }
-    return true;
-  }
-
-  /// Goes on to the next data; false where there are none.
-  bool skip_hole() {
-    const off_t data = ::lseek(file_.number(), static_cast<off_t>(at_), SEEK_DATA);
-    if (data >= 0) at_ = std::min(static_cast<std::uint64_t>(data), size_);
-    return data >= 0 || errno != ENXIO;  // some file systems don't tell
-  }
-
-  void fill() {
-    const ssize_t got = uninterrupted([&] { return ::read(file_.number(), buffer_.data(), buffer_.size()); });
-    if (got <= 0)
-      throw IoError("cannot read " + quoted_name(path_.string()) + ": " +
-                    (got < 0 ? std::strerror(errno) : "it became shorter") +
-                    "; try again, or begin anew with --restart");
-    buffered_ = std::span<const std::byte>(buffer_).first(static_cast<std::size_t>(got));
-  }
-
-  const Descriptor& file_;
-  std::uint64_t size_, at_ = 0;
-  const fs::path& path_;
-  Bytes buffer_ = Bytes(std::size_t{1} << 18), block_;
-  std::span<const std::byte> buffered_;
-};
 
 Bytes bytes_of(const JournalKey& key) {
   Bytes bytes;
@@ -250,7 +138,7 @@ void Journal::lock() {
 }
 
 void Journal::read(const Take& take, const RecordLimit& limit, Begin begin) {
-  Reader reader(file_, size_, path_);
+  BlockReader reader(file_, size_, path_);
   std::array<char, magic.size()> first{};
   const std::span<char> found = std::span(first).first(std::min<std::size_t>(first.size(), reader.left()));
   reader.read(std::as_writable_bytes(found));
