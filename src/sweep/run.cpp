@@ -281,7 +281,8 @@ void SweepRun::save(const std::function<void(std::span<const std::byte> results)
     if (states_[branch] != BranchState::finished) continue;
     std::size_t more = sizeof branch;
     for (std::size_t i = 0; i < share_.length(); ++i) more += columns_.packed_size(share_.slot(branch, i));
-    if (more > enough_to_save) results.reserve(results.size() + more);  // a buffer that doubles would take up to twice as much
+    if (more > enough_to_save)
+      results.reserve(results.size() + more);  // a buffer that doubles would take up to twice as much
     const auto number = std::as_bytes(std::span(&branch, 1));
     results.insert(results.end(), number.begin(), number.end());
     for (std::size_t i = 0; i < share_.length(); ++i) columns_.pack(share_.slot(branch, i), results);
