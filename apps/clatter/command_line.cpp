@@ -4,7 +4,7 @@
 #include <boost/program_options.hpp>
 
 #include "commands.hpp"
-#include "io/suggestion.hpp"
+#include "config/suggestion.hpp"
 
 namespace clatter {
 namespace {

@@ -1,6 +1,6 @@
 #include "commands.hpp"
 
-#include "io/suggestion.hpp"
+#include "config/suggestion.hpp"
 
 namespace clatter {
 

@@ -6,7 +6,7 @@
 #include <cstdlib>
 #include <filesystem>
 
-#include "io/suggestion.hpp"
+#include "config/suggestion.hpp"
 #include "progress.hpp"
 
 namespace clatter {

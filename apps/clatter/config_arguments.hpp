@@ -4,7 +4,7 @@
 #include <string>
 
 #include "command_line.hpp"
-#include "io/config.hpp"
+#include "config/config.hpp"
 #include "numbers/arch.hpp"
 #include "sweep/share.hpp"
 

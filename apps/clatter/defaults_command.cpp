@@ -1,7 +1,7 @@
 #include <iostream>
 
 #include "commands.hpp"
-#include "io/defaults.hpp"
+#include "config/defaults.hpp"
 
 namespace clatter {
 namespace {

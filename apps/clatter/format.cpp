@@ -7,7 +7,7 @@
 #include <cstdio>
 #include <string_view>
 
-#include "io/utf8.hpp"
+#include "storage/utf8.hpp"
 
 namespace clatter {
 

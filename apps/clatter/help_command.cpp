@@ -2,8 +2,8 @@
 #include <iostream>
 
 #include "commands.hpp"
+#include "config/wrapped.hpp"
 #include "help_topics.hpp"
-#include "io/wrapped.hpp"
 
 namespace clatter {
 namespace {

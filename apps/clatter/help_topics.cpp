@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "commands.hpp"
-#include "io/axis_functions.hpp"
-#include "io/reference.hpp"
-#include "io/suggestion.hpp"
+#include "config/axis_functions.hpp"
+#include "config/reference.hpp"
+#include "config/suggestion.hpp"
 
 namespace clatter {
 namespace {

@@ -5,9 +5,9 @@
 
 #include "commands.hpp"
 #include "info_json.hpp"
-#include "io/error.hpp"
-#include "io/figure_file.hpp"
-#include "io/utf8.hpp"
+#include "results/figure_file.hpp"
+#include "storage/error.hpp"
+#include "storage/utf8.hpp"
 
 namespace clatter {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "io/figure_file.hpp"
+#include "results/figure_file.hpp"
 
 namespace clatter {
 

@@ -16,9 +16,9 @@
 #include <utility>
 
 #include "commands.hpp"
-#include "io/error.hpp"
-#include "io/file_calls.hpp"
-#include "io/utf8.hpp"
+#include "storage/error.hpp"
+#include "storage/file_calls.hpp"
+#include "storage/utf8.hpp"
 
 namespace clatter {
 namespace {

@@ -7,7 +7,7 @@
 #include <string>
 #include <thread>
 
-#include "io/journal.hpp"
+#include "storage/journal.hpp"
 
 namespace clatter {
 

@@ -12,11 +12,11 @@
 #include <vector>
 
 #include "commands.hpp"
-#include "io/config.hpp"
-#include "io/error.hpp"
-#include "io/journal.hpp"
-#include "io/utf8.hpp"
-#include "io/version.hpp"
+#include "config/config.hpp"
+#include "results/version.hpp"
+#include "storage/error.hpp"
+#include "storage/journal.hpp"
+#include "storage/utf8.hpp"
 #include "sweep/stack.hpp"
 
 namespace {

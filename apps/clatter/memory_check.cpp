@@ -4,7 +4,7 @@
 #include <string>
 
 #include "format.hpp"
-#include "io/error.hpp"
+#include "storage/error.hpp"
 #include "sweep/memory_limits.hpp"
 
 namespace clatter {

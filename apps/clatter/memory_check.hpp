@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "io/config.hpp"
+#include "config/config.hpp"
 #include "sweep/memory.hpp"
 
 namespace clatter {

@@ -8,13 +8,13 @@
 #include "config_arguments.hpp"
 #include "failures.hpp"
 #include "format.hpp"
-#include "io/figure_file.hpp"
-#include "io/journal.hpp"
-#include "io/merge.hpp"
-#include "io/output_place.hpp"
-#include "io/publish.hpp"
-#include "io/utf8.hpp"
 #include "memory_check.hpp"
+#include "results/figure_file.hpp"
+#include "results/merge.hpp"
+#include "results/output_place.hpp"
+#include "storage/journal.hpp"
+#include "storage/publish.hpp"
+#include "storage/utf8.hpp"
 
 namespace clatter {
 namespace {

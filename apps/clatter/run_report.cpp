@@ -9,7 +9,7 @@
 
 #include "failures.hpp"
 #include "format.hpp"
-#include "io/utf8.hpp"
+#include "storage/utf8.hpp"
 #include "sweep/plan.hpp"
 
 namespace clatter {

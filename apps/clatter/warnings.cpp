@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <iostream>
 
-#include "io/utf8.hpp"
+#include "storage/utf8.hpp"
 #include "sweep/dearest_point.hpp"
 
 namespace clatter {

@@ -3,7 +3,7 @@
 #include <span>
 #include <string_view>
 
-#include "io/config.hpp"
+#include "config/config.hpp"
 #include "sweep/plan.hpp"
 
 namespace clatter {

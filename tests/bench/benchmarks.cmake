@@ -28,7 +28,7 @@ foreach(bench rates growth figures solvers)
   add_executable(${bench}_bench ${bench}_bench.cpp)
   target_link_libraries(${bench}_bench PRIVATE bench_support)
 endforeach()
-target_link_libraries(figures_bench PRIVATE clatter_io)
+target_link_libraries(figures_bench PRIVATE clatter_config)
 target_compile_definitions(figures_bench PRIVATE CLATTER_SOURCE="${PROJECT_SOURCE_DIR}")
 target_sources(solvers_bench PRIVATE lean_odeint.cpp reference.cpp)
 # As their users would compile them, for the machine at hand; clatter itself isn't.

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "bench/unit.hpp"
-#include "io/config.hpp"
+#include "config/config.hpp"
 #include "sweep/run.hpp"
 
 namespace clatter::bench {

@@ -1,4 +1,5 @@
-"""Folders of src include only their right-hand neighbours: apps -> io -> study -> sweep -> {integrators, observables, lanes} -> dynamics -> numbers."""
+"""Folders of src include only their right-hand neighbours: apps -> {results, study} -> config -> sweep ->
+{integrators, observables, lanes} -> dynamics -> numbers, and results, config -> storage."""
 
 import os
 import re
@@ -15,16 +16,20 @@ BELOW = {  # folder: what it may include besides itself
     "lanes": {"dynamics", "numbers"},
     "sweep": {"integrators", "observables", "lanes", "dynamics", "numbers"},
     "study": {"sweep", "integrators", "observables", "lanes", "dynamics", "numbers"},
-    "io": {"study", "sweep", "integrators", "observables", "lanes", "dynamics", "numbers"},
-    "apps": {"io", "study", "sweep", "integrators", "observables", "lanes", "dynamics", "numbers"},
+    "storage": set(),
+    "config": {"storage", "sweep", "integrators", "observables", "lanes", "dynamics", "numbers"},
+    "results": {"config", "storage", "sweep", "integrators", "observables", "lanes", "dynamics", "numbers"},
+    "apps": {"results", "config", "storage", "study", "sweep", "integrators", "observables", "lanes", "dynamics", "numbers"},
 }
 KNOWN_TO = {  # library header: the only folder that sees it
     r"fftw3": {"observables"},
     r"omp\.h": {"sweep"},
-    r"hdf5|H5|toml": {"io"},
-    r"boost/program_options": {"io", "apps"},
+    r"hdf5|H5": {"results"},
+    r"toml": {"config"},
+    r"zlib": {"storage"},
+    r"boost/program_options": {"config", "apps"},
     r"boost/multiprecision": {"numbers"},
-    r"nettle": {"io"},
+    r"nettle": {"results"},
     r"xsimd": {"lanes"},
 }
 

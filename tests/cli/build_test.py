@@ -54,7 +54,7 @@ class Build(unittest.TestCase):
 
     @unittest.skipUnless(shutil.which("git"), "there is no git here")
     def test_the_commit_is_that_of_git_or_of_the_archive(self):
-        parts = (".gitattributes", "src/io/version.cmake", "src/io/version.cpp.in")
+        parts = (".gitattributes", "src/results/version.cmake", "src/results/version.cpp.in")
         repository, archive = self.folder / "a repository", self.folder / "an archive"
         for part in parts:
             (repository / part).parent.mkdir(parents=True, exist_ok=True)

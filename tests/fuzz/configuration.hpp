@@ -7,10 +7,10 @@
 #include <string>
 #include <string_view>
 
-#include "io/config.hpp"
-#include "io/error.hpp"
-#include "io/text_file.hpp"
+#include "config/config.hpp"
+#include "config/text_file.hpp"
 #include "scratch.hpp"
+#include "storage/error.hpp"
 #include "sweep/sweep.hpp"
 
 namespace clatter::fuzz {

@@ -24,9 +24,9 @@
 
 #include "hdf5_damage.hpp"
 #include "instrumented.hpp"
-#include "io/error.hpp"
-#include "io/figure_file.hpp"
+#include "results/figure_file.hpp"
 #include "scratch.hpp"
+#include "storage/error.hpp"
 
 namespace clatter::fuzz {
 

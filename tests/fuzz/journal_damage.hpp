@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
-#include "io/journal.hpp"
 #include "scratch.hpp"
+#include "storage/journal.hpp"
 
 namespace clatter::fuzz {
 

@@ -3,8 +3,8 @@
 #include <cstring>
 #include <optional>
 
-#include "io/error.hpp"
 #include "journal_damage.hpp"
+#include "storage/error.hpp"
 
 namespace clatter::fuzz {
 namespace {

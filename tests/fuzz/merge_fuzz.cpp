@@ -2,8 +2,8 @@
 #include <string>
 
 #include "hdf5_target.hpp"
-#include "io/seal.hpp"
-#include "io/shard_file.hpp"
+#include "results/seal.hpp"
+#include "results/shard_file.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace clatter;

@@ -13,11 +13,11 @@
 #include <utility>
 #include <vector>
 
+#include "config/defaults.hpp"
+#include "config/keys.hpp"
 #include "crafted.hpp"
-#include "io/defaults.hpp"
-#include "io/figure_file.hpp"
-#include "io/keys.hpp"
 #include "journal_damage.hpp"
+#include "results/figure_file.hpp"
 
 namespace clatter::fuzz {
 namespace {

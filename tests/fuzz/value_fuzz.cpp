@@ -9,9 +9,9 @@
 #include <string>
 #include <string_view>
 
+#include "config/config.hpp"
+#include "config/value_grammar.hpp"
 #include "finding.hpp"
-#include "io/config.hpp"
-#include "io/value_grammar.hpp"
 
 namespace clatter::fuzz {
 namespace {

@@ -1,0 +1,121 @@
+#include <algorithm>
+#include <string>
+#include <string_view>
+
+#include "config/consistency.hpp"
+#include "config/suggestion.hpp"
+
+namespace clatter {
+namespace {
+
+bool is_blank(std::string_view text) { return text.find_first_not_of(" \t") == std::string_view::npos; }
+
+std::size_t axis_of(const Settings& settings, const Setting& setting, std::string_view name) {
+  std::vector<std::string_view> names;
+  for (const SweptSetting& swept : settings.axes) names.push_back(key_of(swept.parameter));
+  const auto found = std::find(names.begin(), names.end(), name);
+  if (found != names.end()) return static_cast<std::size_t>(found - names.begin());
+  const std::string message =
+      std::string(setting.key->name) + " names " + in_quotes(name) + ", which is no axis of [sweep]";
+  const auto gone = std::ranges::find(settings.displaced, parameter_of(name), &Displaced::gone);
+  if (gone != settings.displaced.end())
+    fail(setting.place, message + " beside " + to_string(gone->stands) + "; add --set sweep." +
+                            std::string(setting.key->name) + "=''");
+  const std::string way_out = names.empty() ? "; [sweep] has no axes" : suggestion(name, names, "; the axes are: ");
+  fail(setting.place, message + way_out);
+}
+
+std::string name_of(const SweptSetting& swept) { return std::string(key_of(swept.parameter)); }
+
+/// The axes that a key names, each once.
+std::vector<std::size_t> named_axes(const Settings& settings, const Setting* setting) {
+  if (setting == nullptr || is_blank(std::get<std::string>(setting->value))) return {};
+  std::vector<std::size_t> axes;
+  for (const std::string& name : split_names(std::get<std::string>(setting->value))) {
+    const std::size_t axis = axis_of(settings, *setting, name);
+    if (std::find(axes.begin(), axes.end(), axis) != axes.end())
+      fail(setting->place,
+           std::string(setting->key->name) + " names " + in_quotes(name) + " twice; name each axis once");
+    axes.push_back(axis);
+  }
+  return axes;
+}
+
+std::vector<std::size_t> linked_axes(const Settings& settings) {
+  const Setting* const setting = settings.find("sweep", "linked");
+  const std::vector<std::size_t> linked = named_axes(settings, setting);
+  if (linked.size() == 1) fail(setting->place, "linked names one axis; name at least two, e.g. \"nu, f\", or none");
+  for (const std::size_t axis : linked) {
+    const SweptSetting& first = settings.axes[linked.front()];
+    const SweptSetting& other = settings.axes[axis];
+    if (other.axis.values.size() == first.axis.values.size()) continue;
+    fail(setting->place, "linked axes of different lengths: " + name_of(first) + " has " +
+                             std::to_string(first.axis.values.size()) + " values, " + name_of(other) + " has " +
+                             std::to_string(other.axis.values.size()) + "; give them equally many");
+  }
+  return linked;
+}
+
+/// Along a start all points but the first would carry a coordinate that they don't start from.
+void check_no_start(const Settings& settings, const Setting& follow, const std::vector<std::size_t>& group) {
+  for (const std::size_t axis : group) {
+    const Parameter parameter = settings.axes[axis].parameter;
+    using enum Parameter;
+    if (parameter != phase && parameter != x0 && parameter != v0 && parameter != start_period) continue;
+    fail(follow.place, "follow along " + in_quotes(key_of(parameter)) +
+                           ", which only the first point would start from; follow another axis, or none");
+  }
+}
+
+}  // namespace
+
+std::vector<std::string> split_names(std::string_view text) {
+  std::vector<std::string> names;
+  constexpr std::string_view blanks = " \t";
+  for (std::size_t begin = 0; begin <= text.size();) {
+    const std::size_t end = std::min(text.find(',', begin), text.size());
+    std::string_view name = text.substr(begin, end - begin);
+    name.remove_prefix(std::min(name.find_first_not_of(blanks), name.size()));
+    name = name.substr(0, name.find_last_not_of(blanks) + 1);
+    names.emplace_back(name);
+    begin = end + 1;
+  }
+  return names;
+}
+
+AxisGroups group_axes(const Settings& settings) {
+  const std::vector<std::size_t> linked = linked_axes(settings);
+  AxisGroups groups;
+  double points = 1;
+  for (std::size_t axis = 0; axis < settings.axes.size(); ++axis) {
+    const bool is_linked = std::find(linked.begin(), linked.end(), axis) != linked.end();
+    if (is_linked && axis != linked.front()) continue;  // its dimension stands where the axis that names it stands
+    groups.push_back(is_linked ? linked : std::vector<std::size_t>{axis});
+    points *= static_cast<double>(settings.axes[axis].axis.values.size());
+    if (points > max_points)
+      fail(settings.axes[axis].place,
+           "a sweep of " + number_text(points) + " points; permitted: at most " + number_text(max_points));
+  }
+  return groups;
+}
+
+std::optional<std::size_t> followed_dimension(const Settings& settings, const AxisGroups& groups) {
+  const Setting* const setting = settings.find("sweep", "follow");
+  const std::vector<std::size_t> axes = named_axes(settings, setting);
+  if (axes.empty()) return std::nullopt;
+  const auto holds = [](const auto& group, std::size_t axis) {
+    return std::find(group.begin(), group.end(), axis) != group.end();
+  };
+  const auto followed =
+      std::find_if(groups.begin(), groups.end(), [&](const auto& group) { return holds(group, axes.front()); });
+  for (const std::size_t axis : axes) {
+    if (holds(*followed, axis)) continue;
+    fail(setting->place, "follow names " + in_quotes(name_of(settings.axes[axes.front()])) + " and " +
+                             in_quotes(name_of(settings.axes[axis])) +
+                             ", which are not linked; follow one axis, or name both in linked too");
+  }
+  check_no_start(settings, *setting, *followed);
+  return static_cast<std::size_t>(followed - groups.begin());
+}
+
+}  // namespace clatter

@@ -1,0 +1,127 @@
+#include <algorithm>
+#include <utility>
+
+#include "config/config.hpp"
+#include "config/config_text.hpp"
+#include "config/consistency.hpp"
+#include "config/raw_config.hpp"
+#include "config/settings.hpp"
+#include "config/text_file.hpp"
+
+namespace clatter {
+namespace {
+
+RawConfig read_raw(const std::string& path, Format format) {
+  const bool from_file = path != standard_input;
+  const std::string name = from_file ? path : "stdin";
+  const std::string text = from_file ? read_text(path) : read_standard_input(name);
+  const bool ini = format == Format::ini || has_ending(path, ".ini");
+  return ini ? read_ini(name, text) : read_toml(name, text);
+}
+
+TimePlan time_plan(const Settings& settings) {
+  return {.mode = settings.text("time", "mode") == "transient" ? Mode::transient : Mode::steady,
+          .max_periods = settings.integer("time", "max_periods"),
+          .window = settings.integer("time", "window"),
+          .duration = settings.number("time", "duration"),
+          .tolerance = settings.number("time", "tolerance"),
+          .max_impacts = static_cast<double>(settings.integer("time", "max_impacts"))};
+}
+
+Observe observe(const Settings& settings) {
+  return {.extrema = settings.flag("observe", "extrema"),
+          .harmonics = settings.integer("observe", "harmonics"),
+          .harmonics_method =
+              settings.text("observe", "harmonics_method") == "exact" ? HarmonicsMethod::exact : HarmonicsMethod::fft,
+          .harmonics_samples = settings.integer("observe", "harmonics_samples"),
+          .impacts = settings.flag("observe", "impacts"),
+          .impact_log = settings.flag("observe", "impact_log"),
+          .trajectory = settings.integer("observe", "trajectory"),
+          .period = settings.flag("observe", "period"),
+          .stability = settings.flag("observe", "stability")};
+}
+
+Method method(const std::string& name) {
+  return static_cast<Method>(std::ranges::find(method_names, name) - method_names.begin());
+}
+
+Integration integration(const Settings& settings) {
+  return {.method = method(settings.text("integrator", "method")),
+          .tolerance = settings.number("integrator", "tolerance"),
+          .step = settings.number("integrator", "step"),
+          .theta = settings.number("integrator", "theta"),
+          .all_effects = settings.text("integrator", "effects") == "all"};
+}
+
+/// The scene before any axis is applied; what has no default stays as Scene has it.
+Scene scene_of(const Settings& settings) {
+  Scene scene;
+  scene.time = time_plan(settings);
+  scene.observe = observe(settings);
+  scene.integration = integration(settings);
+  for (const Key& key : keys()) {
+    const auto parameter = parameter_of(key.name);
+    if (key.section != "scene" || !parameter || *parameter == Parameter::start_period) continue;
+    const Setting* const given = settings.find("scene", key.name);
+    if (given != nullptr) set(scene, *parameter, std::get<double>(given->value));
+  }
+  return scene;
+}
+
+Sweep sweep_of(Settings& settings, const AxisGroups& groups) {
+  Sweep sweep{scene_of(settings), {}, followed_dimension(settings, groups), std::nullopt};
+  if (const Setting* const start = settings.find("scene", "start_period"))
+    sweep.start_period = std::get<double>(start->value);
+  for (const std::vector<std::size_t>& group : groups) {
+    Dimension& dimension = sweep.dimensions.emplace_back();
+    for (const std::size_t axis : group) {
+      SweptSetting& swept = settings.axes[axis];
+      dimension.push_back({swept.parameter, std::move(swept.axis.values)});
+    }
+  }
+  return sweep;
+}
+
+/// A configuration whose complete text would be too long to be read again, at the longest of its values.
+[[noreturn]] void refuse_long(const Settings& settings) {
+  std::size_t longest = 0;
+  Place place{settings.file, 1, 1};
+  std::string name, way_out;
+  const auto compare = [&](std::string_view key, const Place& key_place, std::size_t length, const char* remedy) {
+    if (length > longest) longest = length, place = key_place, name = key, way_out = remedy;
+  };
+  for (const Setting& setting : settings.values)
+    compare(setting.key->name, setting.key_place, toml_value(setting).size(), "shorten it");
+  for (const SweptSetting& swept : settings.axes)
+    compare(key_of(swept.parameter), swept.key_place, swept.axis.text.size(),
+            "write it as linspace, logspace or arange");
+  fail(place, "the complete configuration is more than 1 MiB, of which '" + name + "' takes " +
+                  std::to_string(longest) + " bytes; " + way_out);
+}
+
+Config config_of(RawConfig raw) {
+  Settings settings = check_keys(std::move(raw));
+  let_command_line_win(settings);
+  check_alternatives(settings);
+  const AxisGroups groups = group_axes(settings);
+  check_stops_and_start(settings, groups);
+  Config config{settings.text("", "title"), settings.text("", "source"), {}, 0, config_text(settings), {}, {}};
+  for (const Displaced& displaced : settings.displaced) config.notes.push_back(to_string(displaced));
+  config.warnings = warnings_of(settings, groups);
+  if (config.text.size() > max_config_bytes) refuse_long(settings);
+  config.compression = static_cast<int>(settings.integer("output", "compression"));
+  config.sweep = sweep_of(settings, groups);
+  return config;
+}
+
+}  // namespace
+
+Config read_config(const std::string& path, const std::vector<Override>& overrides, Format format) {
+  RawConfig raw = read_raw(path, format);
+  apply_overrides(raw, overrides);
+  return config_of(std::move(raw));
+}
+
+Config parse_config(const std::string& text, const std::string& file) { return config_of(read_toml(file, text)); }
+
+}  // namespace clatter

@@ -1,0 +1,83 @@
+#include "config/config_text.hpp"
+
+#include <array>
+#include <type_traits>
+
+namespace clatter {
+namespace {
+
+using enum Parameter;
+
+bool is_swept(const Settings& settings, std::string_view name) {
+  const auto parameter = parameter_of(name);
+  const auto given = parameter ? settings.given(*parameter) : std::nullopt;
+  return given && given->axis;
+}
+
+/// Whether the default of a key belongs in the text: not beside the alternative that was given.
+bool default_counts(const Settings& settings, const Key& key) {
+  const bool each_stop = settings.given(R_lower) || settings.given(R_upper);
+  if (key.other == "R") return each_stop;
+  if (key.name == "R") return !each_stop;
+  if (key.other == "xs") return !settings.given(xs);
+  if (key.name == "x0" || key.name == "v0") return !settings.given(start_period);
+  return key.has_default();
+}
+
+/// The lines of one section; axes come first, in their order.
+std::string section_text(const Settings& settings, std::string_view section) {
+  std::string text;
+  const auto add = [&](std::string_view name, const std::string& value) {
+    text += std::string(name) + " = " + value + '\n';
+  };
+  if (section == "sweep") {
+    for (const SweptSetting& swept : settings.axes) add(key_of(swept.parameter), swept.axis.text);
+  }
+  for (const Key& key : keys()) {
+    if (key.section != section || (section == "scene" && is_swept(settings, key.name))) continue;
+    if (const Setting* const given = settings.find(section, key.name)) {
+      add(key.name, toml_value(*given));
+    } else if (default_counts(settings, key)) {
+      add(key.name, toml_value(default_setting(key)));
+    }
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string toml_value(const Setting& setting) {
+  const auto text = [](const auto& value) -> std::string {
+    using Value = std::decay_t<decltype(value)>;
+    if constexpr (std::is_same_v<Value, std::string>) return toml_text(value);
+    if constexpr (std::is_same_v<Value, double>) return toml_number(value);
+    if constexpr (std::is_same_v<Value, std::int64_t>) return std::to_string(value);
+    if constexpr (std::is_same_v<Value, bool>) return value ? "true" : "false";
+  };
+  return std::visit(text, setting.value);
+}
+
+std::string toml_text(std::string_view text) {
+  std::string quoted = "\"";
+  for (const char character : text) {
+    const auto byte = static_cast<unsigned char>(character);
+    if (character == '"' || character == '\\') {
+      quoted += {'\\', character};
+    } else if (byte < 0x20 || byte == 0x7F) {
+      constexpr std::string_view digits = "0123456789ABCDEF";
+      quoted += {'\\', 'u', '0', '0', digits[byte / 16], digits[byte % 16]};
+    } else {
+      quoted += character;
+    }
+  }
+  return quoted + '"';
+}
+
+std::string config_text(const Settings& settings) {
+  std::string text = section_text(settings, "");
+  for (const std::string_view section : sections())
+    text += "\n[" + std::string(section) + "]\n" + section_text(settings, section);
+  return text;
+}
+
+}  // namespace clatter

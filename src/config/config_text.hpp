@@ -1,0 +1,20 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "config/settings.hpp"
+
+namespace clatter {
+
+/// The complete configuration as TOML: every key that has a value, defaults filled in, of alternatives only those that
+/// were given.
+[[nodiscard]] std::string config_text(const Settings& settings);
+
+/// The value of a setting as TOML.
+[[nodiscard]] std::string toml_value(const Setting& setting);
+
+/// A TOML text in quotes.
+[[nodiscard]] std::string toml_text(std::string_view text);
+
+}  // namespace clatter

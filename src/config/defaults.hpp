@@ -1,0 +1,12 @@
+#pragma once
+
+#include <string>
+
+#include "config/config.hpp"
+
+namespace clatter {
+
+/// A complete commented configuration that runs: every key with its default, its meaning and what it permits.
+[[nodiscard]] std::string default_config(Format format);
+
+}  // namespace clatter

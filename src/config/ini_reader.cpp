@@ -1,0 +1,160 @@
+#include <algorithm>
+#include <boost/program_options.hpp>
+#include <sstream>
+#include <stdexcept>
+#include <utility>
+
+#include "config/keys.hpp"
+#include "config/raw_config.hpp"
+#include "config/text_file.hpp"
+#include "storage/utf8.hpp"
+
+namespace clatter {
+namespace {
+
+constexpr std::string_view blanks = " \t\r";
+constexpr char stand_in = '\x01';  ///< for a '#' that Boost would take for a comment; check_characters leaves it free
+
+/// A part of a line that knows its column.
+struct Part {
+  std::string_view line;
+  std::size_t begin = 0;
+  std::size_t end = 0;
+
+  [[nodiscard]] std::string_view text() const { return line.substr(begin, end - begin); }
+};
+
+Part trimmed(Part part) {
+  while (part.begin < part.end && blanks.find(part.line[part.begin]) != std::string_view::npos) ++part.begin;
+  while (part.end > part.begin && blanks.find(part.line[part.end - 1]) != std::string_view::npos) --part.end;
+  return part;
+}
+
+bool is_blank_or_comment(std::string_view text) {
+  const std::size_t first = text.find_first_not_of(blanks);
+  return first == std::string_view::npos || text[first] == ';' || text[first] == '#';
+}
+
+/// Goes through the lines of INI text: notes the place of everything and leaves to Boost plain KEY = VALUE lines
+/// without comments.
+class IniScanner {
+ public:
+  explicit IniScanner(const std::string& file) : raw_{file, {}, {}} {}
+
+  void scan(std::string_view line) {
+    ++line_;
+    const Part content = trimmed({line, 0, line.size()});
+    if (is_blank_or_comment(content.text())) return;
+    if (content.text().front() == '[') {
+      scan_section(content);
+    } else {
+      scan_entry(content);
+    }
+  }
+
+  /// Entries without their values, which Boost reads from plain().
+  [[nodiscard]] RawConfig& raw() { return raw_; }
+  [[nodiscard]] const std::string& plain() const { return plain_; }
+
+ private:
+  [[nodiscard]] Place place(const Part& part) const {
+    return {raw_.file, line_, 1 + characters(part.line.substr(0, part.begin))};
+  }
+
+  /// A part as Boost may see it.
+  [[nodiscard]] static std::string plain(const Part& part) {
+    std::string text(part.text());
+    std::replace(text.begin(), text.end(), '#', stand_in);
+    return text;
+  }
+
+  void scan_section(const Part& content) {
+    const std::size_t close = content.line.find(']', content.begin);
+    if (close == std::string_view::npos) fail(place(content), "the section's ']' is missing; write e.g. [scene]");
+    const Part rest{content.line, close + 1, content.end};
+    if (!is_blank_or_comment(rest.text())) fail(place(trimmed(rest)), "text after the section's ']'; begin a new line");
+    const Part name = trimmed({content.line, content.begin + 1, close});
+    if (name.text().empty()) fail(place(content), "a section without a name; write e.g. [scene]");
+    for (const RawSection& section : raw_.sections) {
+      if (section.name != name.text()) continue;
+      fail(place(name), "section [" + section.name + "] again; it began at line " + std::to_string(section.place.line));
+    }
+    raw_.sections.push_back({std::string(name.text()), place(name)});
+    plain_ += '[' + plain(name) + "]\n";
+  }
+
+  void scan_entry(const Part& content) {
+    const std::size_t sign = content.line.find_first_of("=;#", content.begin);
+    if (sign == std::string_view::npos || content.line[sign] != '=') {
+      fail(place(content), "expected KEY = VALUE or [section], found '" + std::string(content.text()) + "'");
+    }
+    const Part key = trimmed({content.line, content.begin, sign});
+    if (key.text().empty()) fail(place(content), "a key is missing before '='");
+    add_entry(key, value_part(key.text(), trimmed({content.line, sign + 1, content.end})));
+  }
+
+  /// The value without the comment that follows it.
+  [[nodiscard]] Part value_part(std::string_view key, Part value) const {
+    const std::string_view text = value.text();
+    if (text.starts_with('"') || text.starts_with('\'')) {
+      const std::size_t close = text.find(text.front(), 1);
+      if (close == std::string_view::npos) fail(place(value), "the closing quote is missing");
+      const Part rest{value.line, value.begin + close + 1, value.end};
+      if (!is_blank_or_comment(rest.text()))
+        fail(place(trimmed(rest)), "text after the closing quote; quote the whole value, or nothing");
+      value.end = rest.begin;
+      return value;
+    }
+    const bool free_text = is_free_text(raw_.sections.empty() ? "" : raw_.sections.back().name, key);
+    for (std::size_t at = value.begin; at < value.end; ++at) {
+      const bool after_blank = blanks.find(value.line[at - 1]) != std::string_view::npos;
+      const bool begins_comment = value.line[at] == ';' || value.line[at] == '#';
+      if (begins_comment && (after_blank || !free_text)) value.end = at;  // a title may hold "a;b"
+    }
+    return trimmed(value);
+  }
+
+  void add_entry(const Part& key, const Part& value) {
+    const std::string section = raw_.sections.empty() ? "" : raw_.sections.back().name;
+    for (const RawEntry& entry : raw_.entries) {
+      if (entry.section != section || entry.key != key.text()) continue;
+      fail(place(key), "key '" + entry.key + "' again; it was given at line " + std::to_string(entry.place.line));
+    }
+    RawValue raw_value{{}, place(value), true, value.text().find_first_of("\"'") == 0 ? 1 : 0};
+    raw_.entries.push_back({section, std::string(key.text()), place(key), std::move(raw_value)});
+    plain_ += plain(key) + '=' + plain(value) + '\n';
+  }
+
+  RawConfig raw_;
+  std::string plain_;
+  int line_ = 0;
+};
+
+/// A value as it was written, from what Boost read of it.
+std::string written(std::string value) {
+  std::replace(value.begin(), value.end(), stand_in, '#');
+  return unquoted(value);
+}
+
+}  // namespace
+
+RawConfig read_ini(const std::string& file, std::string_view text) {
+  check_characters(file, text);
+  IniScanner scanner(file);
+  for (std::size_t begin = 0; begin < text.size();) {
+    const std::size_t end = std::min(text.find('\n', begin), text.size());
+    scanner.scan(text.substr(begin, end - begin));
+    begin = end + 1;
+  }
+  std::istringstream plain(scanner.plain());
+  const boost::program_options::options_description none;
+  const auto parsed = boost::program_options::parse_config_file(plain, none, true);
+  RawConfig raw = std::move(scanner.raw());
+  if (parsed.options.size() != raw.entries.size())
+    throw std::logic_error("the INI scanner and Boost's parser disagree");
+  for (std::size_t i = 0; i < raw.entries.size(); ++i)
+    raw.entries[i].value.data = written(parsed.options[i].value.at(0));
+  return raw;
+}
+
+}  // namespace clatter

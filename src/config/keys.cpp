@@ -1,0 +1,212 @@
+#include "config/keys.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "config/suggestion.hpp"
+#include "config/value_grammar.hpp"
+#include "dynamics/scene.hpp"
+
+namespace clatter {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+constexpr Range any{};
+constexpr Range any_or_infinite{.infinite = true};
+constexpr Range not_negative{.low = 0};
+constexpr Range positive{.low = 0, .open = true};
+constexpr Range not_zero{.not_zero = true};
+constexpr Range zero_to_one{.low = 0, .high = 1};
+
+constexpr std::array<std::string_view, 2> modes{"steady", "transient"};
+constexpr std::array<std::string_view, 2> harmonics_methods{"fft", "exact"};
+constexpr std::array<std::string_view, 2> effects{"required", "all"};
+
+using enum Kind;
+
+constexpr std::string_view a_force = "f = 1.0\n", stops = "xs = 1.0\n", a_stop_axis = "xs = \"linspace(1, 2, 11)\"\n",
+                           is_transient = "mode = \"transient\"\n", observed_harmonics = "harmonics = 3\n",
+                           by_moreau = "method = \"moreau\"\n";
+
+/// A key that has no effect without these lines.
+constexpr Key with(std::string_view lines, Key key) {
+  key.beside = lines;
+  return key;
+}
+
+constexpr Key one_of(std::span<const std::string_view> choices, Key key) {
+  key.choices = choices;
+  return key;
+}
+
+/// A key whose value is that of another key where it isn't in use.
+constexpr Key or_as(std::string_view other, Key key) {
+  key.other = other;
+  return key;
+}
+
+constexpr std::array all_keys{
+    Key{"", "title", text, "", "My sweep", "what the configuration shows; the output file keeps it"},
+    Key{"", "source", text, "", "doi:10.5755/j02.mech.32277",
+        "where it comes from, e.g. a DOI; the output file keeps it"},
+
+    Key{"scene", "h", number, "0", "0.05", "damping ratio: 2 h is the factor of x'", not_negative},
+    Key{"scene", "f", number, "0", "-1", "force amplitude over stiffness; negative: a phase shift of pi", any},
+    with(a_force, Key{"scene", "nu", number, "1", "1.2", "excitation frequency over natural frequency", positive}),
+    with(a_force, Key{"scene", "phase", number, "0", "0.5", "phase of the force at tau = 0, rad; pi/2: a cosine", any}),
+    with(stops, Key{"scene", "R", number, "1", "0.7", "restitution of velocity on both stops", zero_to_one}),
+    Key{"scene", "xs", number, "", "-1", "symmetric stops at -|xs| and +|xs|", not_zero},
+    or_as("xs",
+          Key{"scene", "stop_lower", number, "-inf", "-1", "lower stop, in place of xs; -inf: none", any_or_infinite}),
+    or_as("xs",
+          Key{"scene", "stop_upper", number, "inf", "2", "upper stop, in place of xs; inf: none", any_or_infinite}),
+    with(stops, or_as("R", Key{"scene", "R_lower", number, "1", "0.5", "restitution of the lower stop, in place of R",
+                               zero_to_one})),
+    with(stops, or_as("R", Key{"scene", "R_upper", number, "1", "0.5", "restitution of the upper stop, in place of R",
+                               zero_to_one})),
+    Key{"scene", "load", number, "0", "-0.2", "constant force over stiffness", any},
+    Key{"scene", "x0", number, "0", "0.2", "displacement at tau = 0, between the stops", any},
+    Key{"scene", "v0", number, "0", "-1.5", "velocity at tau = 0", any},
+    with(stops, Key{"scene", "start_period", number, "", "3",
+                    "period of the motion to start on, just after its contact with the lower stop; in place of x0 and "
+                    "v0, where h = f = load = 0, R = 1 and xs is given",
+                    Range{.low = 0, .high = 2 * std::numbers::pi, .open = true}}),
+
+    with("xs = [1.0, 2.0]\nR = [0.7, 0.5]\n",
+         Key{"sweep", "linked", names, "", "xs, R",
+             "axes of equal length that run together instead of crossing, e.g. nu, f; the first names the dimension"}),
+    with(a_stop_axis, Key{"sweep", "follow", names, "", "xs",
+                          "one axis (or linked ones) along which each point starts from the end of the one before"}),
+
+    with("duration = 63.0\n",
+         one_of(modes,
+                Key{"time", "mode", choice, "steady", "transient",
+                    "steady: run until the motion repeats, observe one period; transient: observe from tau = 0"})),
+    Key{"time", "max_periods", integer, "5000", "1000", "steady: forcing periods after which settling is given up",
+        Range{.low = 1, .high = 1e12}},
+    Key{"time", "window", integer, "64", "16", "steady: forcing periods observed of a motion that does not repeat",
+        Range{.low = 1, .high = 1e9}},
+    with(is_transient, Key{"time", "duration", number, "0", "63",
+                           "transient: observed time in tau; greater than 0 there", not_negative}),
+    Key{"time", "tolerance", number, "1e-12", "1e-9", "steady: distance of the states at a repeat",
+        Range{.low = 0, .high = 1, .open = true}},
+    Key{"time", "max_impacts", integer, "1e8", "1e6",
+        "impacts after which a point is given up, with the status event_budget", Range{.low = 1, .high = 1e15}},
+
+    Key{"observe", "extrema", flag, "false", "true", "x_min x_max v_min v_max, exact, between samples too"},
+    Key{"observe", "harmonics", integer, "0", "3", "constant part and amplitudes 1 ... K of x and of x'; 0: none",
+        Range{.low = 0, .high = 1e5}},
+    with(observed_harmonics,
+         one_of(harmonics_methods, Key{"observe", "harmonics_method", choice, "fft", "exact",
+                                       "fft: from samples, by FFTW; exact: from the arcs, without aliasing"})),
+    with(observed_harmonics, Key{"observe", "harmonics_samples", integer, "4096", "8192",
+                                 "FFT samples over the observed time", Range{.low = 2, .high = 16777216}}),
+    Key{"observe", "impacts", flag, "false", "true",
+        "per stop: impacts per period, velocity before and after the first, share of time at rest"},
+    Key{"observe", "impact_log", flag, "false", "true", "every observed impact"},
+    Key{"observe", "trajectory", integer, "0", "2001", "samples of tau, x, x' over the observed time; 0: none",
+        Range{.low = 2, .high = 1e7, .or_zero = true}},
+    Key{"observe", "period", flag, "false", "true", "period of the motion, in tau and in forcing periods"},
+    Key{"observe", "stability", flag, "false", "true", "multipliers of the periodic motion, largest Lyapunov exponent"},
+
+    one_of(method_names, Key{"integrator", "method", choice, "exact", "dopri5",
+                             "exact: closed-form arcs, proved contacts; to compare with, dopri5: Dormand-Prince pair "
+                             "of orders 5 and 4, contacts on its dense output; moreau: Moreau-Jean time stepping"}),
+    with("method = \"dopri5\"\n",
+         Key{"integrator", "tolerance", number, "1e-10", "1e-8",
+             "dopri5: error of a step, relative to the size of the motion that start, force and stops suggest",
+             Range{.low = 1e-14, .high = 0.1}}),
+    with(by_moreau, Key{"integrator", "step", number, "1e-3", "1e-4",
+                        "moreau: in forcing periods, without forcing in 2 pi", Range{.low = 1e-9, .high = 1}}),
+    with(by_moreau, Key{"integrator", "theta", number, "0.5", "1",
+                        "moreau: weight of a step's end; 1/2: the trapezoidal rule, 1: implicit Euler; below 1/2 "
+                        "stable only for short steps",
+                        zero_to_one}),
+    one_of(effects, Key{"integrator", "effects", choice, "required", "all",
+                        "required: simulate what a scene calls for; all: to compare with, simulate every effect, run "
+                        "max_periods, and look for the repeat only then"}),
+
+    Key{"output", "compression", integer, "0", "4", "deflate level of the output file; 0: none",
+        Range{.low = 0, .high = 9}},
+};
+
+constexpr std::array<std::string_view, 6> all_sections{"scene", "sweep", "time", "observe", "integrator", "output"};
+
+/// A bound as people write it: 1e9, not 1e+09, and 1e-9, not 1e-09.
+std::string bound_text(double bound) {
+  if (bound == 2 * std::numbers::pi) return "2*pi";
+  std::string number = number_text(bound);
+  const std::size_t at = number.find('e');
+  if (at == std::string::npos) return number;
+  if (number[at + 2] == '0') number.erase(at + 2, 1);
+  if (number[at + 1] == '+') number.erase(at + 1, 1);
+  return number;
+}
+
+std::string describe(const Range& range) {
+  if (range.infinite) return "any number, -inf or inf";
+  if (range.not_zero) return "any number but 0";
+  if (range.low == -infinity) return "any number";
+  const std::string low = bound_text(range.low);
+  const std::string zero = range.or_zero ? "0 or " : "";
+  if (range.high == infinity) return zero + (range.open ? "> " : ">= ") + low;
+  const std::string high = bound_text(range.high);
+  return range.open ? "> " + low + " and < " + high : zero + low + " ... " + high;
+}
+
+}  // namespace
+
+std::span<const Key> keys() { return all_keys; }
+
+std::span<const std::string_view> sections() { return all_sections; }
+
+const Key* find_key(std::string_view section, std::string_view name) {
+  for (const Key& key : all_keys) {
+    const bool axis = section == "sweep" && key.section == "scene";
+    if (key.name == name && (key.section == section || axis)) return &key;
+  }
+  return nullptr;
+}
+
+std::vector<std::string_view> key_names(std::string_view section) {
+  std::vector<std::string_view> names_of_section;
+  for (const Key& key : all_keys) {
+    if (find_key(section, key.name) == &key) names_of_section.push_back(key.name);
+  }
+  return names_of_section;
+}
+
+bool is_free_text(std::string_view section, std::string_view name) {
+  const Key* const key = find_key(section, name);
+  return key != nullptr && key->kind == text;
+}
+
+bool contains(const Range& range, double value) {
+  if (std::isinf(value)) return range.infinite;
+  if (value == 0 && range.or_zero) return true;
+  if (value == 0 && range.not_zero) return false;
+  return range.open ? value > range.low && value < range.high : value >= range.low && value <= range.high;
+}
+
+std::string permitted(const Key& key) {
+  switch (key.kind) {
+    case text:
+      return "text";
+    case names:
+      return "names of axes";
+    case flag:
+      return "true or false";
+    case choice:
+      return joined(key.choices);
+    case integer:
+      return "a whole number, " + describe(key.range);
+    case number:
+      break;
+  }
+  return describe(key.range);
+}
+
+}  // namespace clatter

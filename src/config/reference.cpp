@@ -1,0 +1,115 @@
+#include "config/reference.hpp"
+
+#include "config/config_text.hpp"
+#include "config/settings.hpp"
+#include "config/wrapped.hpp"
+
+namespace clatter {
+namespace {
+
+constexpr std::string_view values = R"text(Values, in TOML, in INI and after --set:
+  0.5   2*pi   -pi/2   a number; pi may stand as a number or factor (in TOML in
+                       quotes: "2*pi")
+  linspace(a, b, n)    n values from a to b in equal steps, both included
+  logspace(a, b, n)    n values from a to b (not exponents) in equal ratios; a
+                       and b of the same sign
+  arange(a, b, step)   a, a + step, ... ; b is excluded
+  [a, b, c]            a list; in INI and after --set the brackets may be left
+                       out
+
+In TOML the functions stand in quotes: nu = "linspace(0.5, 1.5, 501)". In INI
+quotes around a value are dropped, comments begin with ; or #, and a title or
+source that holds one of them after a blank needs quotes. An axis has at most
+10 million values, a sweep 1000 million points, a configuration 1 MiB.
+)text";
+
+/// The default in words.
+std::string fallback(const Key& key) {
+  const std::string other(key.other);
+  if (!other.empty()) return std::string(key.fallback) + ", or " + other + " where that is given";
+  if (!key.has_default()) return "none";
+  return key.fallback.empty() ? "empty" : std::string(key.fallback);
+}
+
+std::string permitted_and_default(const Key& key) { return permitted(key) + "; default: " + fallback(key); }
+
+std::string entry(const Key& key) {
+  constexpr std::size_t indent = 21;
+  std::string name = "  " + std::string(key.name);
+  name.resize(indent, ' ');
+  return name + wrapped(key.help, indent) + std::string(indent, ' ') + wrapped(permitted_and_default(key), indent);
+}
+
+std::string header(std::string_view section) {
+  return section.empty() ? "Before the first section\n" : '[' + std::string(section) + "]\n";
+}
+
+/// Every line moved to the right.
+std::string indented(std::string_view lines) {
+  std::string text;
+  for (std::size_t begin = 0; begin < lines.size();) {
+    const std::size_t end = lines.find('\n', begin) + 1;
+    (text += end - begin > 1 ? "  " : "") += lines.substr(begin, end - begin);
+    begin = end;
+  }
+  return text;
+}
+
+/// Ten steps up to a key's example.
+std::string example_axis(const Key& key) {
+  const double end = std::get<double>(example_setting(key).value);
+  return "linspace(" + number_text(end / 2) + ", " + number_text(end) + ", 11)";
+}
+
+/// A command that gives a key a value.
+std::string set_command(std::string_view section, const Key& key, const std::string& value) {
+  const bool plain = value.find_first_of(" (") == std::string::npos;
+  return "  clatter run mine.toml --set " + std::string(section) + (section.empty() ? "" : ".") +
+         std::string(key.name) + '=' + (plain ? value : '\'' + value + '\'') + '\n';
+}
+
+}  // namespace
+
+std::string_view value_reference() { return values; }
+
+std::string section_reference(std::string_view section) {
+  std::string text = header(section);
+  if (section == "sweep") {
+    text += "  any key of [scene] an axis, one a line; the first varies slowest; every\n" + std::string(21, ' ') +
+            "combination of the axes is a point\n";
+  }
+  for (const Key& key : keys()) {
+    if (key.section == section) text += entry(key);
+  }
+  return text;
+}
+
+std::string configuration_reference() {
+  std::string text = section_reference("") + '\n';
+  for (const std::string_view section : sections()) text += section_reference(section) + '\n';
+  return text + std::string(values);
+}
+
+std::string key_example(const Key& key) {
+  const std::string line = std::string(key.name) + " = " + toml_value(example_setting(key)) + '\n';
+  return key.section.empty() ? line : header(key.section) + std::string(key.beside) + line;
+}
+
+std::string axis_example(const Key& key) {
+  const std::string beside = key.beside.empty() ? "" : header(key.section) + std::string(key.beside) + '\n';
+  return beside + header("sweep") + std::string(key.name) + " = " + toml_text(example_axis(key)) + '\n';
+}
+
+std::string key_reference(const Key& key) {
+  const std::string place =
+      key.section.empty() ? ", before the first section" : " in [" + std::string(key.section) + ']';
+  std::string text = std::string(key.name) + place + "\n  " + wrapped(key.help, 2) + "  " +
+                     wrapped(permitted_and_default(key), 2) + "\nExample\n" + indented(key_example(key)) + '\n' +
+                     set_command(key.section, key, std::string(key.example));
+  if (key.section == "scene")
+    text +=
+        "\nAs an axis of a sweep\n" + indented(axis_example(key)) + '\n' + set_command("sweep", key, example_axis(key));
+  return text;
+}
+
+}  // namespace clatter

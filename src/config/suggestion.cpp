@@ -1,0 +1,85 @@
+#include "config/suggestion.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <cstddef>
+#include <numeric>
+#include <utility>
+#include <vector>
+
+#include "storage/utf8.hpp"
+
+namespace clatter {
+namespace {
+
+constexpr std::size_t max_quoted = 60;
+
+std::string lower_case(std::string_view text) {
+  std::string lower(text);
+  std::transform(lower.begin(), lower.end(), lower.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return lower;
+}
+
+/// Insertions, deletions, replacements and exchanges of neighbours that lead from one word to the other (Damerau 1964).
+std::size_t edit_distance(std::string_view from, std::string_view to) {
+  std::vector<std::size_t> before_last, last(to.size() + 1), row(to.size() + 1);
+  std::iota(last.begin(), last.end(), std::size_t{0});
+  for (std::size_t i = 1; i <= from.size(); ++i) {
+    row[0] = i;
+    for (std::size_t j = 1; j <= to.size(); ++j) {
+      row[j] = std::min({last[j] + 1, row[j - 1] + 1, last[j - 1] + (from[i - 1] != to[j - 1])});
+      if (i > 1 && j > 1 && from[i - 1] == to[j - 2] && from[i - 2] == to[j - 1])
+        row[j] = std::min(row[j], before_last[j - 2] + 1);
+    }
+    before_last = std::exchange(last, row);
+  }
+  return last.back();
+}
+
+/// The shortest name that begins with what was written, three letters at least; empty where none does.
+std::string_view completed(const std::string& written, std::span<const std::string_view> names) {
+  std::string_view best;
+  if (written.size() < 3) return best;
+  for (const std::string_view name : names) {
+    if (lower_case(name).starts_with(written) && (best.empty() || name.size() < best.size())) best = name;
+  }
+  return best;
+}
+
+}  // namespace
+
+std::string in_quotes(std::string_view text) {
+  std::size_t length = std::min(text.size(), max_quoted);
+  while (length < text.size() && length > 0 && (static_cast<unsigned char>(text[length]) & 0xC0) == 0x80) --length;
+  return '\'' + printable(text.substr(0, length)) + (length < text.size() ? "…'" : "'");
+}
+
+std::string_view nearest(std::string_view written, std::span<const std::string_view> names) {
+  if (written.size() > max_quoted) return {};
+  const std::string lower = lower_case(written);
+  std::string_view best = completed(lower, names);
+  if (!best.empty()) return best;
+  std::size_t best_distance = written.size() / 3 + 1;  // one slip in a short word, more in a longer one
+  for (const std::string_view name : names) {
+    const std::size_t distance = edit_distance(lower, lower_case(name));
+    if (distance > best_distance || distance >= name.size() || (!best.empty() && distance == best_distance)) continue;
+    best = name;
+    best_distance = distance;
+  }
+  return best;
+}
+
+std::string joined(std::span<const std::string_view> names) {
+  std::string text;
+  for (const std::string_view name : names) (text += text.empty() ? "" : ", ") += name;
+  return text;
+}
+
+std::string suggestion(std::string_view written, std::span<const std::string_view> names, std::string_view otherwise) {
+  const std::string_view name = nearest(written, names);
+  if (name.empty()) return std::string(otherwise) + joined(names);
+  return "; did you mean '" + std::string(name) + "'?";
+}
+
+}  // namespace clatter

@@ -1,0 +1,113 @@
+#include "config/text_file.hpp"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <utility>
+
+#include "storage/error.hpp"
+#include "storage/file_calls.hpp"
+#include "storage/utf8.hpp"
+
+namespace clatter {
+namespace {
+
+[[noreturn]] void unreadable(const std::string& path, const std::string& reason) {
+  throw IoError(printable(path) + ": cannot be read: " + reason);
+}
+
+bool is_control(std::string_view text) {
+  const char first = text[0];
+  if (first == '\t' || first == '\n') return false;
+  if (first == '\r') return text.size() < 2 || text[1] != '\n';
+  return static_cast<unsigned char>(first) < 0x20 || first == 0x7F;
+}
+
+/// Reads until there is more than is permitted; room for that much at once takes longer to clear than most files to
+/// read.
+std::string read_pieces(std::istream& stream) {
+  std::string text;
+  std::array<char, 16 * 1024> piece;
+  while (stream && text.size() <= max_config_bytes) {
+    stream.read(piece.data(), piece.size());
+    text.append(piece.data(), static_cast<std::size_t>(stream.gcount()));
+  }
+  return text;
+}
+
+/// The bytes of a configuration as text, or an error.
+std::string as_text(const std::string& name, std::string bytes) {
+  if (bytes.find('\0') != std::string::npos)
+    unreadable(name, "it holds NUL bytes, so it is no text; a configuration is UTF-8 text");
+  if (bytes.size() > max_config_bytes)
+    fail({name, 1, 1}, "more than 1 MiB; write long lists as linspace, logspace or arange");
+  if (bytes.starts_with("\xEF\xBB\xBF")) bytes.erase(0, 3);
+  return bytes;
+}
+
+}  // namespace
+
+bool has_ending(std::string_view name, std::string_view ending) {
+  if (name.size() < ending.size()) return false;
+  return std::equal(ending.begin(), ending.end(), name.end() - static_cast<std::ptrdiff_t>(ending.size()),
+                    [](char left, char right) { return left == std::tolower(static_cast<unsigned char>(right)); });
+}
+
+std::string read_text(const std::string& path) {
+  std::error_code error;
+  if (std::filesystem::is_directory(path, error)) unreadable(path, "it is a directory; name a file");
+  std::ifstream stream(path, std::ios::binary);
+  if (!stream) unreadable(path, reason_and_way_out(errno, ""));
+  std::string text = read_pieces(stream);
+  if (stream.bad()) unreadable(path, reason_and_way_out(errno, ""));
+  return as_text(path, std::move(text));
+}
+
+std::string read_standard_input(const std::string& name) {
+  std::string text;
+  std::array<char, 16 * 1024> piece;
+  while (text.size() <= max_config_bytes) {
+    const ssize_t count = uninterrupted([&] { return ::read(STDIN_FILENO, piece.data(), piece.size()); });
+    if (count < 0) unreadable(name, reason_and_way_out(errno, ""));
+    if (count == 0) break;
+    text.append(piece.data(), static_cast<std::size_t>(count));
+  }
+  return as_text(name, std::move(text));
+}
+
+Place place_of(const std::string& file, std::string_view text, std::size_t offset) {
+  const std::string_view before = text.substr(0, offset);
+  const std::size_t line_begin = before.rfind('\n') + 1;  // npos + 1 is 0: the first line
+  const auto line = 1 + std::count(before.begin(), before.end(), '\n');
+  return {file, static_cast<int>(line), 1 + characters(before.substr(line_begin))};
+}
+
+std::string unquoted(std::string_view text) {
+  const bool pair = text.size() >= 2 && (text.front() == '"' || text.front() == '\'') && text.back() == text.front();
+  return std::string(pair ? text.substr(1, text.size() - 2) : text);
+}
+
+std::string_view without_blanks(std::string_view text) {
+  constexpr std::string_view blanks = " \t\r\n";
+  text.remove_prefix(std::min(text.find_first_not_of(blanks), text.size()));
+  return text.substr(0, text.find_last_not_of(blanks) + 1);
+}
+
+void check_characters(const std::string& file, std::string_view text) {
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t length = utf8_length(text.substr(at));
+    if (length == 0) fail(place_of(file, text, at), "a byte that is not UTF-8; save the file as UTF-8");
+    if (is_control(text.substr(at)))
+      fail(place_of(file, text, at), "a control character; only tabs and line ends are permitted");
+    at += length;
+  }
+}
+
+}  // namespace clatter

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "config/place.hpp"
+
+namespace clatter {
+
+/// The largest configuration that is read.
+inline constexpr std::size_t max_config_bytes = std::size_t{1} << 20;
+
+/// Whether a file's name ends so, in any case; `ending` in lower case.
+[[nodiscard]] bool has_ending(std::string_view name, std::string_view ending);
+
+/// The whole file, without a byte-order mark. Throws IoError where it cannot be read or isn't text.
+[[nodiscard]] std::string read_text(const std::string& path);
+
+/// All of standard input, in the same way; `name` stands for it in errors.
+[[nodiscard]] std::string read_standard_input(const std::string& name);
+
+/// The place of a byte of a text: lines end with \n, columns count characters.
+[[nodiscard]] Place place_of(const std::string& file, std::string_view text, std::size_t offset);
+
+/// The text without the pair of quotes around it, if there is one.
+[[nodiscard]] std::string unquoted(std::string_view text);
+
+/// The text without the blanks around it.
+[[nodiscard]] std::string_view without_blanks(std::string_view text);
+
+/// Throws ConfigError at the first control character or byte that isn't UTF-8: neither belongs in a configuration.
+void check_characters(const std::string& file, std::string_view text);
+
+}  // namespace clatter

@@ -1,0 +1,98 @@
+#include "config/toml_guard.hpp"
+
+#include <algorithm>
+#include <cstddef>
+#include <string>
+
+#include "config/place.hpp"
+#include "config/text_file.hpp"
+
+namespace clatter {
+namespace {
+
+constexpr int max_dots = 256;  ///< of one key; toml++ descends once for each part
+
+bool is_ascii(char character) { return static_cast<unsigned char>(character) < 0x80; }
+
+/// The end of a quoted string that begins at `at`; where it is not closed, the end of its line (or text): toml++
+/// reports that.
+std::size_t skip_string(const std::string& file, std::string_view text, std::size_t at) {
+  const char quote = text[at];
+  const std::string delimiter(text.substr(at, 3) == std::string(3, quote) ? 3 : 1, quote);
+  const bool one_line = delimiter.size() == 1;
+  for (at += delimiter.size(); at < text.size(); ++at) {
+    if (one_line && text[at] == '\n') return at;
+    if (quote == '"' && text[at] == '\\') {
+      ++at;
+      const std::size_t next = std::min(text.find_first_not_of(" \t\r\n", at), text.size());
+      if (next < text.size() && !is_ascii(text[next]))  // toml++ looks there for the end of the line
+        fail(place_of(file, text, next), "a character outside ASCII after a backslash; leave the backslash out");
+    } else if (text.substr(at, delimiter.size()) == delimiter) {
+      at += delimiter.size();
+      for (int more = 0; !one_line && more < 2 && at < text.size() && text[at] == quote; ++more)
+        ++at;  // its last words
+      return at;
+    }
+  }
+  return text.size();
+}
+
+bool ends_key(char character) { return std::string_view("\n=,[{").find(character) != std::string_view::npos; }
+
+/// What ends a number or a bare word for toml++, and nothing else does: quotes and brackets are read on over.
+bool ends_value(char character) { return std::string_view(" \t\n\r#,]}").find(character) != std::string_view::npos; }
+
+bool opens_value(char character) { return std::string_view("=[{,").find(character) != std::string_view::npos; }
+
+/// Which of key and value comes next, as far as toml++ gets: it ends at the first mistake.
+class Context {
+ public:
+  [[nodiscard]] bool in_value() const { return in_value_; }
+
+  void read(char character) {
+    if (character == '\n' && open_.empty()) in_value_ = false;
+    if (!in_value_ && character == '=') {
+      in_value_ = true;
+    } else if (in_value_ && (character == '[' || character == '{')) {
+      open_ += character;
+      in_value_ = character == '[';
+    } else if ((character == ']' || character == '}') && !open_.empty()) {
+      open_.pop_back();
+      in_value_ = true;
+    } else if (character == ',' && !open_.empty()) {
+      in_value_ = open_.back() == '[';
+    }
+  }
+
+ private:
+  std::string open_;  ///< brackets
+  bool in_value_ = false;
+};
+
+}  // namespace
+
+void check_toml(const std::string& file, std::string_view text) {
+  int dots = 0;
+  Context context;
+  bool in_word = false;  // of a value, where quotes mean nothing
+  for (std::size_t at = 0; at < text.size();) {
+    const char character = text[at];
+    in_word = in_word && !ends_value(character);
+    if (character == '#') {
+      at = std::min(text.find('\n', at), text.size());
+    } else if ((character == '"' || character == '\'') && !in_word) {
+      at = skip_string(file, text, at);
+    } else {
+      if (!is_ascii(character)) fail(place_of(file, text, at), "a character outside ASCII; put the text in quotes");
+      dots = ends_key(character) ? 0 : dots + (character == '.');
+      if (dots > max_dots) fail(place_of(file, text, at), "more than 256 dots in a key; a key is SECTION.NAME");
+      if (!in_word) {
+        context.read(character);
+        in_word = context.in_value() && !ends_value(character) && !opens_value(character);
+      }
+      ++at;
+    }
+  }
+}
+
+}  // namespace clatter

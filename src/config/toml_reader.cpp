@@ -1,0 +1,175 @@
+#include <algorithm>
+#include <array>
+#include <tuple>
+#include <utility>
+
+#define TOML_ASSERT(expression) ((void)0)  // toml++ 3.3 aborts on "[*", where an error follows anyway
+#include <toml++/toml.h>
+
+#include "config/comma.hpp"
+#include "config/keys.hpp"
+#include "config/raw_config.hpp"
+#include "config/text_file.hpp"
+#include "config/toml_guard.hpp"
+#include "storage/utf8.hpp"
+
+namespace clatter {
+namespace {
+
+Place place_at(const std::string& file, const toml::source_position& position) {
+  return {file, static_cast<int>(position.line), static_cast<int>(position.column)};
+}
+
+/// What a type is called where no key takes it.
+std::string name_of(toml::node_type type) {
+  switch (type) {
+    case toml::node_type::table:
+      return "a table";
+    case toml::node_type::date:
+      return "a date";
+    case toml::node_type::time:
+      return "a time";
+    case toml::node_type::date_time:
+      return "a date and time";
+    default:
+      return "a value of another kind";
+  }
+}
+
+/// The width of the opening quote of a text that fills its region, so that its characters have columns; else 0.
+int inset_of(const std::string& text, const toml::source_region& region) {
+  const bool plain =
+      region.begin.line == region.end.line &&
+      static_cast<int>(region.end.column) - static_cast<int>(region.begin.column) == characters(text) + 2;
+  return plain ? 1 : 0;
+}
+
+RawValue raw_value(const std::string& file, const toml::node& node) {
+  RawValue value;
+  value.place = place_at(file, node.source().begin);
+  if (const auto* const text = node.as_string()) {
+    value.data = text->get();
+    value.inset = inset_of(text->get(), node.source());
+  } else if (const auto* const flag = node.as_boolean()) {
+    value.data = flag->get();
+  } else if (const auto* const integer = node.as_integer()) {
+    value.data = integer->get();
+  } else if (const auto* const number = node.as_floating_point()) {
+    value.data = number->get();
+  } else if (const auto* const array = node.as_array()) {
+    RawList list;
+    for (const toml::node& element : *array) list.push_back(raw_value(file, element));
+    value.data = std::move(list);
+  } else {
+    value.data = Unsupported{name_of(node.type())};
+  }
+  return value;
+}
+
+void add_entries(RawConfig& raw, const std::string& section, const toml::table& table) {
+  for (auto&& [key, node] : table) {
+    const toml::table* const inner = node.as_table();
+    if (section.empty() && inner != nullptr) {
+      raw.sections.push_back({std::string(key.str()), place_at(raw.file, key.source().begin)});
+      add_entries(raw, std::string(key.str()), *inner);
+    } else {
+      raw.entries.push_back(
+          {section, std::string(key.str()), place_at(raw.file, key.source().begin), raw_value(raw.file, node)});
+    }
+  }
+}
+
+std::string_view line_of(const Place& place, std::string_view text) {
+  std::size_t begin = 0;
+  for (int line = 1; line < place.line; ++line) begin = text.find('\n', begin) + 1;
+  return text.substr(begin, text.find('\n', begin) - begin);
+}
+
+/// What a comma at a place was to be: a point, or part of a list without brackets; empty where there is none.
+std::string way_out_of_comma(const Place& place, std::string_view text) {
+  const std::string_view line = line_of(place, text);
+  std::size_t comma = line.find(',');
+  while (comma != std::string_view::npos && 1 + characters(line.substr(0, comma)) < place.column)
+    comma = line.find(',', comma + 1);
+  if (comma == std::string_view::npos || 1 + characters(line.substr(0, comma)) > place.column) return {};
+  const std::size_t begin = line.rfind('=', comma) + 1;  // npos + 1 is 0
+  const std::string_view name = without_blanks(line.substr(0, begin - (begin > 0)));
+  const auto key = std::ranges::find(keys(), name, &Key::name);
+  const std::string hint =
+      comma_hint(line.substr(begin, line.find('#', comma) - begin), key == keys().end() ? Kind::number : key->kind);
+  return hint.empty() ? "; several values are an axis, in brackets and in [sweep]: nu = [0.8, 1.2]" : hint;
+}
+
+/// What a syntax error of toml++ leaves to guess.
+std::string way_out(std::string_view description, const Place& place, std::string_view text) {
+  if (const std::string comma = way_out_of_comma(place, text); !comma.empty()) return comma;
+  if (description.find("redefine") != std::string_view::npos) return "; each section and each key is given once";
+  if (description.find("not representable") != std::string_view::npos) return "; the number is too large";
+  return "; a line is KEY = VALUE, and texts and expressions stand in quotes: nu = \"linspace(0.5, 1.5, 501)\"";
+}
+
+/// toml++ counts the end of the text on from the end of a line that is over: goes back to what is there.
+Place within(Place place, std::string_view text) {
+  const Place end = place_of(place.source, text, text.size());
+  if (place.line >= end.line) return {end.source, end.line, std::min(place.column, end.column)};
+  place.column = std::min(place.column, 1 + characters(line_of(place, text)));
+  return place;
+}
+
+/// toml++ reports a repeated key and a number beyond all bounds at their end: goes back to their first character.
+Place start_of_token(Place place, std::string_view text, std::string_view description) {
+  const bool at_end = description.find("redefine") != std::string_view::npos ||
+                      description.find("could not be interpreted") != std::string_view::npos ||
+                      description.find("not representable") != std::string_view::npos;
+  if (!at_end) return place;
+  const std::string_view line = line_of(place, text);
+  const auto part_of_token = [&](int column) {
+    const char character = line[static_cast<std::size_t>(column) - 1];
+    return std::string_view(" \t=,[").find(character) == std::string_view::npos;
+  };
+  while (place.column > 1 && !part_of_token(place.column - 1)) --place.column;
+  while (place.column > 1 && part_of_token(place.column - 1)) --place.column;
+  return place;
+}
+
+/// toml++ 3.3 writes the beginning of an escape twice in the keys that it quotes, and the blank after a key.
+std::string corrected(std::string description) {
+  if (description.find("redefine") == std::string::npos) return description;
+  for (const std::string_view twice : {"\\u\\u", "\\U\\U"}) {
+    for (std::size_t at = 0; (at = description.find(twice, at)) != std::string::npos;) description.erase(at, 2);
+  }
+  if (description.ends_with(" '")) description.erase(description.size() - 2, 1);
+  return description;
+}
+
+toml::table parse(const std::string& file, std::string_view text) {
+  check_toml(file, text);
+  try {
+    return toml::parse(text, std::string_view(file));
+  } catch (const toml::parse_error& error) {
+    const Place place = within(place_at(file, error.source().begin), text);
+    fail(start_of_token(place, text, error.description()),
+         corrected(std::string(error.description())) + way_out(error.description(), place, text));
+  }
+}
+
+}  // namespace
+
+RawConfig read_toml(const std::string& file, std::string_view text) {
+  check_characters(file, text);
+  RawConfig raw{file, {}, {}};
+  try {
+    add_entries(raw, "", parse(file, text));
+  } catch (const ConfigError& error) {
+    if (has_ending(file, ".toml")) throw;
+    throw ConfigError(std::string(error.what()) + "; read as TOML; INI is told by --ini, or a name that ends in .ini");
+  }
+  const auto order = [](const auto& left, const auto& right) {  // toml++ iterates alphabetically
+    return std::tuple(left.place.line, left.place.column) < std::tuple(right.place.line, right.place.column);
+  };
+  std::sort(raw.entries.begin(), raw.entries.end(), order);
+  std::sort(raw.sections.begin(), raw.sections.end(), order);
+  return raw;
+}
+
+}  // namespace clatter

@@ -1,0 +1,183 @@
+#include "config/value_grammar.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <charconv>
+#include <cmath>
+#include <numbers>
+#include <optional>
+
+#include "config/axis_functions.hpp"
+#include "config/comma.hpp"
+#include "config/suggestion.hpp"
+#include "config/text_file.hpp"
+#include "storage/utf8.hpp"
+
+namespace clatter {
+namespace {
+
+constexpr std::string_view blanks = " \t\r\n";
+
+/// Reads a value from its first character to its last, by recursive descent.
+class Parser {
+ public:
+  explicit Parser(const SourceText& source) : source_(source) { skip_blanks(); }
+
+  [[nodiscard]] double whole_number() {
+    const double value = product();
+    expect_end();
+    return value;
+  }
+
+  [[nodiscard]] AxisValues axis() {
+    if (at_end()) fail_here("an empty axis; give at least one value");
+    const std::size_t begin = at_;
+    const std::string_view name = word();
+    AxisValues axis = peek('(') ? call(name, begin) : (at_ = begin, list());
+    expect_end();
+    return axis;
+  }
+
+ private:
+  [[nodiscard]] bool at_end() const { return at_ == source_.text.size(); }
+  [[nodiscard]] bool peek(char character) const { return !at_end() && source_.text[at_] == character; }
+  [[nodiscard]] std::string_view rest() const { return source_.text.substr(at_); }
+
+  void skip_blanks() { at_ = std::min(source_.text.find_first_not_of(blanks, at_), source_.text.size()); }
+
+  bool accept(char character) {
+    if (!peek(character)) return false;
+    ++at_;
+    skip_blanks();
+    return true;
+  }
+
+  [[noreturn]] void fail_at(std::size_t offset, const std::string& message) const {
+    Place place = source_.place;
+    if (source_.columns) place.column += characters(source_.text.substr(0, offset));
+    fail(place, message);
+  }
+
+  [[noreturn]] void fail_here(const std::string& message) const { fail_at(at_, message); }
+
+  /// What stands here, for a message.
+  [[nodiscard]] std::string found() const {
+    return at_end() ? "found the end of the value" : "found " + in_quotes(rest());
+  }
+
+  void expect_end() const {
+    if (!at_end()) fail_here("expected the end of the value, " + found());
+  }
+
+  std::string_view word() {
+    const std::size_t begin = at_;
+    while (!at_end() && std::isalpha(static_cast<unsigned char>(source_.text[at_])) != 0) ++at_;
+    const std::string_view name = source_.text.substr(begin, at_ - begin);
+    skip_blanks();
+    return name;
+  }
+
+  [[nodiscard]] double product() {
+    double value = factor();
+    while (peek('*') || peek('/')) {
+      const bool times = peek('*');
+      ++at_;
+      skip_blanks();
+      const double right = factor();
+      value = times ? value * right : value / right;
+    }
+    return value;
+  }
+
+  [[nodiscard]] double factor() {
+    const std::size_t begin = at_;
+    const bool negative = peek('-');
+    if (!accept('-')) accept('+');
+    const double value = unsigned_number(begin);
+    return negative ? -value : value;
+  }
+
+  [[nodiscard]] double unsigned_number(std::size_t begin) {
+    double value = std::numbers::pi;
+    if (rest().starts_with("pi")) {
+      at_ += 2;
+    } else {
+      if (peek('-') || peek('+')) fail_at(begin, "expected a number, found two signs");
+      const char* const first = source_.text.data() + at_;
+      const auto [end, error] = std::from_chars(first, source_.text.data() + source_.text.size(), value);
+      if (error == std::errc::result_out_of_range)
+        fail_at(begin, in_quotes(rest()) + " is beyond the range of double precision");
+      if (error != std::errc{}) fail_at(begin, "expected a number, such as 0.5 or 2*pi, " + found());
+      at_ += static_cast<std::size_t>(end - first);
+    }
+    skip_blanks();
+    return value;
+  }
+
+  [[nodiscard]] AxisValues list() {
+    const bool bracket = accept('[');
+    AxisValues axis;
+    if (bracket && accept(']')) fail_at(0, "an empty axis; give at least one value");
+    do {
+      Place place = source_.place;
+      if (source_.columns) place.column += characters(source_.text.substr(0, at_));
+      axis.places.push_back(place);
+      axis.values.push_back(product());
+    } while (accept(','));
+    if (bracket && !accept(']')) fail_here("expected ',' or ']', " + found());
+    axis.text = toml_list(axis.values);
+    return axis;
+  }
+
+  [[nodiscard]] AxisValues call(std::string_view name, std::size_t begin) {
+    const std::optional<AxisFunction> function = axis_function(name);
+    if (!function) {
+      fail_at(begin, "unknown function " + in_quotes(name) + suggestion(name, axis_function_names(), "; permitted: "));
+    }
+    accept('(');
+    std::array<double, 3> arguments{};
+    for (std::size_t i = 0; i < arguments.size(); ++i) {
+      if (i > 0 && !accept(',')) fail_here("expected ',' in " + std::string(function->usage) + ", " + found());
+      arguments[i] = product();
+    }
+    if (!accept(')'))
+      fail_here("expected ')' after the three arguments of " + std::string(function->usage) + ", " + found() +
+                comma_hint_within(source_.text));
+    AxisValues axis;
+    if (const std::string mistake = function->evaluate(arguments, axis.values); !mistake.empty())
+      fail_at(begin, mistake);
+    axis.text = '"' + std::string(name) + '(' + number_text(arguments[0]) + ", " + number_text(arguments[1]) + ", " +
+                number_text(arguments[2]) + ")\"";
+    return axis;
+  }
+
+  const SourceText& source_;
+  std::size_t at_ = 0;
+};
+
+}  // namespace
+
+double parse_number(const SourceText& source) { return Parser(source).whole_number(); }
+
+AxisValues parse_axis(const SourceText& source) { return Parser(source).axis(); }
+
+std::string number_text(double value) {
+  std::array<char, 32> buffer{};
+  const auto [end, error] = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value);
+  return {buffer.data(), end};
+}
+
+std::string toml_number(double value) {
+  std::string text = number_text(value);
+  if (text.find_first_not_of("-0123456789") == std::string::npos) text += ".0";
+  return text;
+}
+
+std::string toml_list(const std::vector<double>& values) {
+  std::string text;
+  for (const double value : values) text += (text.empty() ? "[" : ", ") + toml_number(value);
+  return text + ']';
+}
+
+}  // namespace clatter

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "config/place.hpp"
+
+namespace clatter {
+
+/// A text that is to mean a number or an axis, and where it stands.
+struct SourceText {
+  std::string_view text;
+  Place place;           ///< of its first character
+  bool columns = false;  ///< the text stands in one line there, so that a mistake inside has a column of its own
+};
+
+/// The values of an axis and the text that gives them again.
+struct AxisValues {
+  std::vector<double> values;
+  std::vector<Place> places;  ///< of each element of a list; empty for linspace, logspace, arange
+  std::string text;           ///< TOML: "\"linspace(0.5, 1.5, 501)\"" or "[1.0, 2.0]"
+};
+
+/// The most values an axis has, and the most points a sweep has.
+inline constexpr double max_axis_values = 1e7;
+inline constexpr double max_points = 1e9;
+
+/// A number, where `pi` may stand as a number or factor: 0.5, pi, -2*pi/3, inf. Throws ConfigError.
+[[nodiscard]] double parse_number(const SourceText& source);
+
+/// linspace(a, b, n), logspace(a, b, n), arange(a, b, step), or numbers between commas in optional brackets. Throws
+/// ConfigError.
+[[nodiscard]] AxisValues parse_axis(const SourceText& source);
+
+/// The shortest text that reads back to the same number.
+[[nodiscard]] std::string number_text(double value);
+
+/// The same, as a TOML float: 1.0, not 1.
+[[nodiscard]] std::string toml_number(double value);
+
+/// TOML text of a list of numbers.
+[[nodiscard]] std::string toml_list(const std::vector<double>& values);
+
+}  // namespace clatter

@@ -1,0 +1,70 @@
+#include <algorithm>
+#include <numeric>
+#include <optional>
+#include <string>
+
+#include "config/consistency.hpp"
+#include "config/without_effect.hpp"
+
+namespace clatter {
+namespace {
+
+/// Whether a key of [observe] says what is observed, and not how.
+bool is_observable(const Key& key) {
+  return key.section == "observe" && key.name != "harmonics_method" && key.name != "harmonics_samples";
+}
+
+/// A run that observes nothing; whoever writes that of every observable means it, as `clatter defaults` does.
+void warn_of_nothing_observed(const Settings& settings, std::vector<Warning>& warnings) {
+  bool each_written = true;
+  for (const Key& key : keys()) {
+    if (!is_observable(key)) continue;
+    const Setting* const given = settings.find(key.section, key.name);
+    if (given != nullptr && given->value != default_setting(key).value) return;
+    each_written = each_written && given != nullptr;
+  }
+  if (each_written) return;
+  warnings.push_back({to_string(settings.place_of_section("observe")), "observe",
+                      "nothing is observed: the file will tell no more than status, impacts and periods; write e.g. "
+                      "extrema = true in [observe]"});
+}
+
+/// The index of a value that was there before; a function that repeats one does so at once.
+std::optional<std::size_t> repeated(const AxisValues& axis) {
+  const std::vector<double>& values = axis.values;
+  std::vector<std::size_t> order(values.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  if (!axis.places.empty()) std::ranges::stable_sort(order, {}, [&](std::size_t index) { return values[index]; });
+  std::optional<std::size_t> first;
+  for (std::size_t i = 1; i < order.size(); ++i) {
+    if (values[order[i]] == values[order[i - 1]]) first = std::min(first.value_or(order[i]), order[i]);
+  }
+  return first;
+}
+
+/// A value twice on an axis that crosses the others means all its points twice; linked and followed axes may well come
+/// back to a value.
+void warn_of_repeats(const Settings& settings, const AxisGroups& groups, std::vector<Warning>& warnings) {
+  const auto followed = followed_dimension(settings, groups);
+  for (std::size_t dimension = 0; dimension < groups.size(); ++dimension) {
+    if (groups[dimension].size() > 1 || dimension == followed) continue;
+    const SweptSetting& swept = settings.axes[groups[dimension].front()];
+    const auto index = repeated(swept.axis);
+    if (!index) continue;
+    const Place& place = *index < swept.axis.places.size() ? swept.axis.places[*index] : swept.place;
+    warnings.push_back({to_string(place), "sweep",
+                        std::string(key_of(swept.parameter)) + " = " + number_text(swept.axis.values[*index]) +
+                            " again, which computes the same points twice; give each value once"});
+  }
+}
+
+}  // namespace
+
+std::vector<Warning> warnings_of(const Settings& settings, const AxisGroups& groups) {
+  std::vector<Warning> warnings = keys_without_effect(settings);
+  warn_of_repeats(settings, groups, warnings);
+  warn_of_nothing_observed(settings, warnings);
+  return warnings;
+}
+
+}  // namespace clatter

@@ -1,0 +1,110 @@
+#include "config/without_effect.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace clatter {
+namespace {
+
+using enum Parameter;
+
+bool transient(const Settings& settings) { return settings.text("time", "mode") == "transient"; }
+bool steady(const Settings& settings) { return !transient(settings); }
+
+bool no_harmonics(const Settings& settings) { return settings.integer("observe", "harmonics") == 0; }
+bool exact_harmonics(const Settings& settings) { return settings.text("observe", "harmonics_method") == "exact"; }
+
+bool not_by(const Settings& settings, std::string_view method) {
+  return settings.text("integrator", "method") != method;
+}
+bool not_dopri5(const Settings& settings) { return not_by(settings, "dopri5"); }
+bool not_moreau(const Settings& settings) { return not_by(settings, "moreau"); }
+/// A general method simulates every effect, and a transient has no repeat to look for.
+bool all_anyway(const Settings& settings) { return transient(settings) && not_by(settings, "exact"); }
+
+/// Whether a parameter has such a value at every point, or isn't given.
+template <typename Test>
+bool everywhere(const Settings& settings, Parameter parameter, Test test) {
+  const auto given = settings.given(parameter);
+  return !given || std::ranges::all_of(given->values, test);
+}
+bool unforced(const Settings& settings) {
+  return everywhere(settings, f, [](double value) { return value == 0; });
+}
+bool absent(const Settings& settings, Parameter stop) {
+  return !settings.given(xs) && everywhere(settings, stop, [](double value) { return std::isinf(value); });
+}
+bool no_lower(const Settings& settings) { return absent(settings, stop_lower); }
+bool no_upper(const Settings& settings) { return absent(settings, stop_upper); }
+bool no_stops(const Settings& settings) { return no_lower(settings) && no_upper(settings); }
+
+/// A transient has no period; all that `period` then gives is the ratio of velocities at symmetric stops.
+bool no_period(const Settings& settings) {
+  if (steady(settings) || settings.given(xs)) return false;
+  const auto lower = settings.given(stop_lower), upper = settings.given(stop_upper);
+  if (!lower || !upper) return true;
+  return !lower->axis && !upper->axis && lower->values[0] != -upper->values[0];
+}
+
+/// Where a key has no effect, and how it would have one.
+struct Rule {
+  std::string_view section, name;
+  bool (*holds)(const Settings&);
+  std::string_view where, remedy;
+};
+
+constexpr std::string_view in_transient = "in a transient", or_steady = "write mode = \"steady\" in [time]";
+constexpr std::string_view no_force = "without a force", or_force = "give a force f";
+constexpr std::string_view or_stops = "give xs, stop_lower or stop_upper";
+constexpr std::string_view no_harmonic = "without harmonics", or_harmonics = "write e.g. harmonics = 3";
+constexpr std::string_view only_moreau = "without method = \"moreau\"", or_moreau = "write that in [integrator]";
+
+constexpr Rule rules[] = {
+    {"scene", "nu", unforced, no_force, or_force},
+    {"scene", "phase", unforced, no_force, or_force},
+    {"scene", "R", no_stops, "without stops", or_stops},
+    {"scene", "R_lower", no_lower, "without a lower stop", "give stop_lower"},
+    {"scene", "R_upper", no_upper, "without an upper stop", "give stop_upper"},
+    {"time", "max_periods", transient, in_transient, or_steady},
+    {"time", "window", transient, in_transient, or_steady},
+    {"time", "tolerance", transient, in_transient, or_steady},
+    {"time", "max_impacts", no_stops, "without stops", or_stops},
+    {"time", "duration", steady, "without mode = \"transient\"", "write that in [time]"},
+    {"observe", "harmonics_method", no_harmonics, no_harmonic, or_harmonics},
+    {"observe", "harmonics_samples", no_harmonics, no_harmonic, or_harmonics},
+    {"observe", "harmonics_samples", exact_harmonics, "with harmonics_method = \"exact\"",
+     "write harmonics_method = \"fft\""},
+    {"observe", "period", no_period, "in a transient, which has none: its values will be NaN", or_steady},
+    {"integrator", "tolerance", not_dopri5, "without method = \"dopri5\"",
+     "write that in [integrator]; that of repeats is tolerance in [time]"},
+    {"integrator", "step", not_moreau, only_moreau, or_moreau},
+    {"integrator", "theta", not_moreau, only_moreau, or_moreau},
+    {"integrator", "effects", all_anyway, "on a transient by a general method, which simulates every effect",
+     "write method = \"exact\""},
+};
+
+/// A warning where a key has no effect.
+void look_at(const Settings& settings, const Key& key, const Place& place, std::vector<Warning>& warnings) {
+  for (const Rule& rule : rules) {
+    if (rule.section != key.section || rule.name != key.name || !rule.holds(settings)) continue;
+    warnings.push_back({to_string(place), std::string(key.section),
+                        '\'' + std::string(key.name) + "' has no effect " + std::string(rule.where) +
+                            "; leave it out, or " + std::string(rule.remedy)});
+    return;
+  }
+}
+
+}  // namespace
+
+std::vector<Warning> keys_without_effect(const Settings& settings) {
+  std::vector<Warning> warnings;
+  for (const Setting& setting : settings.values) {
+    const bool is_default = !setting.key->fallback.empty() && setting.value == default_setting(*setting.key).value;
+    if (!is_default) look_at(settings, *setting.key, setting.key_place, warnings);
+  }
+  for (const SweptSetting& swept : settings.axes)
+    look_at(settings, *find_key("scene", key_of(swept.parameter)), swept.key_place, warnings);
+  return warnings;
+}
+
+}  // namespace clatter

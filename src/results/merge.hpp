@@ -1,0 +1,33 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "config/config.hpp"
+#include "results/shard_file.hpp"
+#include "sweep/figure.hpp"
+
+namespace clatter {
+
+/// Shards that make a whole sweep.
+struct ShardSet {
+  std::vector<ShardHead> heads;
+  Config config;
+  double bytes = 0.0;  ///< of memory that merging takes
+};
+
+/// Reads what the shards' files say of themselves. Throws IoError unless they were computed from one configuration by
+/// this very program with one rounding, and have each point of the sweep exactly once.
+[[nodiscard]] ShardSet shard_set(const std::vector<std::string>& paths);
+
+/// The results of a whole sweep.
+struct Merged {
+  Figure figure;
+  std::size_t failed_points = 0;
+};
+
+/// Reads all results: the figure that a single run gives, bit for bit. Throws IoError, std::bad_alloc.
+[[nodiscard]] Merged merge(const ShardSet& shards);
+
+}  // namespace clatter

@@ -1,0 +1,68 @@
+#include "results/output_place.hpp"
+
+#include <sys/stat.h>
+
+#include <optional>
+#include <utility>
+
+#include "config/suggestion.hpp"
+#include "storage/file_calls.hpp"
+#include "storage/publish.hpp"
+
+namespace clatter {
+namespace {
+
+/// Why an output must not take the place of another file; empty where it may.
+std::string difference(const std::optional<Origin>& there, const Origin& ours) {
+  const auto command = [](const Origin& origin) { return origin.is_study ? "`clatter accuracy`" : "`clatter run`"; };
+  const auto part = [](const Origin& origin) {
+    return origin.shard.empty() ? std::string("all points") : "shard " + origin.shard;
+  };
+  if (!there) return "the file that is there is no output of clatter, or a damaged one";
+  if (there->is_study != ours.is_study)
+    return std::string("the file that is there is an output of ")
+        .append(command(*there))
+        .append(", this is one of ")
+        .append(command(ours));
+  if (there->shard != ours.shard)
+    return "the file that is there has " + part(*there) + " of a sweep, this one " + part(ours);
+  if (there->title != ours.title)
+    return "the file that is there has the title " + in_quotes(there->title) + ", this one " + in_quotes(ours.title);
+  return {};
+}
+
+}  // namespace
+
+OutputPlace::OutputPlace(std::string path, Origin origin, bool force)
+    : path_(std::move(path)), origin_(std::move(origin)), force_(force), seen_(state()) {
+  check_writable(path_);
+  require_replaceable();
+}
+
+/// Nothing where there is no file, or nothing in it that could be lost.
+std::optional<OutputPlace::State> OutputPlace::state() const {
+  struct stat file {};
+  if (::stat(path_.c_str(), &file) != 0 || file.st_size == 0) return std::nullopt;
+  return State{static_cast<std::int64_t>(file.st_dev),
+               static_cast<std::int64_t>(file.st_ino),
+               file.st_size,
+               file.st_mtim.tv_sec,
+               file.st_mtim.tv_nsec,
+               file.st_ctim.tv_sec,
+               file.st_ctim.tv_nsec};
+}
+
+void OutputPlace::require_replaceable() const {
+  if (force_ || !state()) return;
+  const std::string why = difference(origin_of(path_), origin_);
+  if (!why.empty()) refuse(path_, why, "name another with -o, move that one away, or replace it with --force");
+}
+
+void OutputPlace::publish(std::span<const std::byte> bytes, const MakeRoom& make_room) const {
+  const auto look_again = [&] {
+    if (state() != seen_) require_replaceable();
+  };
+  clatter::publish(path_, bytes, {.make_room = make_room, .before_rename = look_again});
+}
+
+}  // namespace clatter

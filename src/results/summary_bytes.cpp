@@ -1,0 +1,36 @@
+#include "results/summary_bytes.hpp"
+
+#include <utility>
+
+#include "storage/packed.hpp"
+
+namespace clatter {
+namespace {
+
+/// All of a summary in one order, for both directions.
+template <typename Pass, typename Summary>
+void pass_all(Pass& pass, Summary& summary) {
+  const auto pair = [](auto& each, auto& item) { each(item.first), each(item.second); };
+  const auto dimension = [](auto& each, auto& item) { each(item.name), each(item.length); };
+  const auto entry = [&](auto& each, auto& item) {
+    each(item.name), each(item.type), each(item.units), each(item.long_name), each(item.dimensions, dimension);
+  };
+  pass(summary.attributes, pair), pass(summary.variables, entry), pass(summary.status_counts, pair);
+}
+
+}  // namespace
+
+std::string bytes_of(const FileSummary& summary) {
+  Packer packer;
+  pass_all(packer, summary);
+  return std::move(packer).bytes();
+}
+
+std::optional<FileSummary> summary_from(std::string_view bytes) {
+  Unpacker unpacker(bytes);
+  FileSummary summary;
+  pass_all(unpacker, summary);
+  return unpacker.complete() ? std::optional(std::move(summary)) : std::nullopt;
+}
+
+}  // namespace clatter

@@ -1,0 +1,137 @@
+#include "storage/temporary_file.hpp"
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <optional>
+#include <random>
+#include <string>
+#include <string_view>
+#include <system_error>
+#include <utility>
+
+namespace clatter {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::string_view temporary_mark = ".clatter-", temporary_ending = ".tmp";
+constexpr std::size_t temporary_letters = 8;
+
+/// A hidden name beside the target, since rename is atomic only within one file system; this is how it begins.
+std::string temporary_prefix(const fs::path& target) {
+  constexpr std::size_t longest = 200;  // leaves room for the rest of the 255 bytes of a name
+  return std::string{'.'}.append(target.filename().string(), 0, longest).append(temporary_mark);
+}
+
+fs::path temporary_name(const fs::path& target) {
+  constexpr std::string_view letters = "abcdefghijklmnopqrstuvwxyz0123456789";
+  std::random_device random;
+  std::uniform_int_distribution<std::size_t> letter{0, letters.size() - 1};
+  std::string name = temporary_prefix(target);
+  for (std::size_t i = 0; i < temporary_letters; ++i) name += letters[letter(random)];
+  return directory_of(target) / name.append(temporary_ending);
+}
+
+bool is_temporary_name(const std::string& name, const std::string& prefix) {
+  return name.starts_with(prefix) && name.ends_with(temporary_ending) &&
+         name.size() == prefix.size() + temporary_letters + temporary_ending.size();
+}
+
+bool lock(const Descriptor& file) {
+  return uninterrupted([&] { return ::flock(file.number(), LOCK_EX | LOCK_NB); }) == 0;
+}
+
+/// Whether a file may be the beginning of an output: empty, or with the first bytes of HDF5.
+bool begins_as_output(const Descriptor& file) {
+  constexpr std::string_view signature = "\x89HDF\r\n\x1a\n";
+  std::array<char, signature.size()> first{};
+  const ssize_t got = uninterrupted([&] { return ::pread(file.number(), first.data(), first.size(), 0); });
+  return got >= 0 && signature.starts_with(std::string_view(first.data(), static_cast<std::size_t>(got)));
+}
+
+/// Whether a process of this user has left the file when it was killed: the file of one that lives is locked.
+bool is_abandoned(const Descriptor& file) {
+  struct stat status {};
+  return ::fstat(file.number(), &status) == 0 && S_ISREG(status.st_mode) &&
+         (status.st_uid == ::geteuid() || ::geteuid() == 0) && begins_as_output(file) && lock(file);
+}
+
+/// Whom a file belongs to and who may read it.
+struct Access {
+  mode_t mode;
+  uid_t owner;
+  gid_t group;
+};
+
+/// That of the file at a place; nothing where there is none.
+std::optional<Access> access_of(const fs::path& path) {
+  struct stat status {};
+  if (::stat(path.c_str(), &status) != 0) return std::nullopt;
+  return Access{status.st_mode & 0777, status.st_uid, status.st_gid};
+}
+
+/// Gives a file the owner, group and mode of the one it replaces, as far as that is permitted; another group gets no
+/// more than everybody has.
+void take_over(const Descriptor& file, const Access& access) {
+  mode_t mode = access.mode;
+  if (::fchown(file.number(), access.owner, access.group) != 0 &&
+      ::fchown(file.number(), static_cast<uid_t>(-1), access.group) != 0)
+    mode &= 0707U | (mode & 07U) << 3U;
+  (void)::fchmod(file.number(), mode);  // some file systems know no modes
+}
+
+}  // namespace
+
+void remove_abandoned(const fs::path& target) {
+  const std::string prefix = temporary_prefix(target);
+  std::error_code error;
+  for (fs::directory_iterator entry(directory_of(target), error), end; !error && entry != end; entry.increment(error)) {
+    const fs::path& path = entry->path();
+    std::error_code unknown;
+    if (!is_temporary_name(path.filename().string(), prefix) ||
+        entry->symlink_status(unknown).type() != fs::file_type::regular)
+      continue;
+    const Descriptor file{::open(path.c_str(), O_RDWR | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK)};
+    if (file.number() >= 0 && is_abandoned(file) && is_named(file, path)) ::unlink(path.c_str());
+  }
+}
+
+TemporaryFile::TemporaryFile(fs::path target)
+    : target_{std::move(target)}, path_{temporary_name(target_)}, file_{create()} {}
+
+TemporaryFile::~TemporaryFile() {
+  if (!path_.empty()) ::unlink(path_.c_str());
+}
+
+void TemporaryFile::write(std::span<const std::byte> bytes) { write_all(file_, bytes, target_); }
+
+void TemporaryFile::sync() {
+  if (uninterrupted([&] { return ::fsync(file_.number()); }) != 0) refuse(target_, errno);
+}
+
+void TemporaryFile::become_target() {
+  if (const std::optional<Access> older = access_of(target_)) take_over(file_, *older);
+  if (::rename(path_.c_str(), target_.c_str()) != 0) refuse(target_, errno);
+  path_.clear();
+}
+
+/// Creates the file with the permissions of any new file of the user's, or closed to others until it takes over those
+/// of an older one; O_EXCL, so that no other run's is taken.
+Descriptor TemporaryFile::create() {
+  const std::optional<Access> older = access_of(target_);
+  const mode_t mode = older ? (older->mode & 0666U) | 0600U : 0666U;
+  for (;; path_ = temporary_name(target_)) {
+    Descriptor file{
+        uninterrupted([&] { return ::open(path_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, mode); })};
+    if (file.number() < 0 && errno != EEXIST) refuse(target_, errno);
+    // Another process may take it for abandoned before it is locked.
+    if (file.number() >= 0 && (lock(file) || errno != EWOULDBLOCK) && is_named(file, path_)) return file;
+  }
+}
+
+}  // namespace clatter

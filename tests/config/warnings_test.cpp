@@ -1,0 +1,149 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "config/defaults.hpp"
+#include "config/written_config.hpp"
+
+namespace clatter {
+namespace {
+
+using Lines = std::vector<std::string>;
+
+/// The warnings of a configuration as "3:1: words", or "--set …: words".
+Lines warnings_of(const std::string& name, const std::string& text, const std::vector<Override>& changes = {}) {
+  const TemporaryDirectory directory;
+  Lines lines;
+  for (const Warning& warning : read_config(directory.file(name, text), changes).warnings) {
+    const std::string file = directory.prefix() + name + ':';
+    const bool in_file = warning.place.starts_with(file);
+    lines.push_back((in_file ? warning.place.substr(file.size()) : warning.place) + ": " + warning.text);
+  }
+  return lines;
+}
+
+/// A configuration that observes something.
+std::string observing(const std::string& text) { return text + "[output]\n[observe]\nextrema = true\n"; }
+
+void expect_warning(const std::string& text, const std::string& place, const std::string& words) {
+  for (const std::string name : {"a.toml", "a.ini"}) {
+    const Lines lines = warnings_of(name, text);
+    ASSERT_EQ(lines.size(), 1u) << text;
+    EXPECT_TRUE(lines[0].starts_with(place + ": ")) << lines[0];
+    EXPECT_NE(lines[0].find(words), std::string::npos) << lines[0];
+  }
+}
+
+void expect_none(const std::string& text) {
+  for (const std::string name : {"a.toml", "a.ini"})
+    for (const std::string& line : warnings_of(name, text)) ADD_FAILURE() << text << "\ngave " << line;
+}
+
+const std::string scene = "[scene]\nxs = 1\nf = 1\n";                                  // lines 1 to 3
+const std::string transient = scene + "[time]\nmode = \"transient\"\nduration = 9\n";  // lines 1 to 6
+
+TEST(WithoutEffect, keys_of_the_other_mode_are_warned_of) {
+  expect_warning(observing(scene + "[time]\nduration = 9\n"), "5:1",
+                 "'duration' has no effect without mode = \"transient\"; leave it out, or write that in [time]");
+  expect_warning(observing(transient + "window = 16\n"), "7:1",
+                 "'window' has no effect in a transient; leave it out, or write mode = \"steady\" in [time]");
+  expect_warning(observing(transient + "max_periods = 100\n"), "7:1", "'max_periods' has no effect in a transient");
+  expect_warning(observing(transient + "tolerance = 1e-9\n"), "7:1", "'tolerance' has no effect in a transient");
+  expect_none(observing(transient + "max_impacts = 100\n"));
+  expect_none(observing(scene + "[time]\nwindow = 16\nmax_periods = 100\ntolerance = 1e-9\n"));
+}
+
+TEST(WithoutEffect, keys_of_other_methods_are_warned_of) {
+  const std::string integrator = scene + "[integrator]\n";
+  expect_warning(observing(integrator + "theta = 1\n"), "5:1",
+                 "'theta' has no effect without method = \"moreau\"; leave it out, or write that in [integrator]");
+  expect_warning(observing(integrator + "step = 0.01\n"), "5:1", "'step' has no effect without method = \"moreau\"");
+  expect_warning(observing(integrator + "tolerance = 1e-8\n"), "5:1", "that of repeats is tolerance in [time]");
+  expect_warning(observing(integrator + "method = \"dopri5\"\nstep = 0.01\n"), "6:1", "'step' has no effect");
+  expect_warning(observing(integrator + "method = \"moreau\"\ntolerance = 1e-8\n"), "6:1", "'tolerance' has no effect");
+  expect_warning(observing(transient + "[integrator]\nmethod = \"dopri5\"\neffects = \"all\"\n"), "9:1",
+                 "'effects' has no effect on a transient by a general method");
+  expect_none(observing(integrator + "method = \"dopri5\"\ntolerance = 1e-8\neffects = \"all\"\n"));
+  expect_none(observing(integrator + "method = \"moreau\"\nstep = 0.01\ntheta = 1\n"));
+  expect_none(observing(transient + "[integrator]\neffects = \"all\"\n"));
+}
+
+TEST(WithoutEffect, settings_of_harmonics_that_are_not_observed_are_warned_of) {
+  const std::string observe = scene + "[observe]\nextrema = true\n";
+  expect_warning(observe + "harmonics_samples = 512\n", "6:1",
+                 "'harmonics_samples' has no effect without harmonics; leave it out, or write e.g. harmonics = 3");
+  expect_warning(observe + "harmonics_method = \"exact\"\n", "6:1", "'harmonics_method' has no effect without");
+  expect_warning(observe + "harmonics = 3\nharmonics_method = \"exact\"\nharmonics_samples = 512\n", "8:1",
+                 "'harmonics_samples' has no effect with harmonics_method = \"exact\"; leave it out, or write "
+                 "harmonics_method = \"fft\"");
+  expect_none(observe + "harmonics = 3\nharmonics_samples = 512\n");
+  expect_none(observe + "harmonics = 3\nharmonics_method = \"exact\"\n");
+}
+
+TEST(WithoutEffect, frequency_and_phase_without_a_force_are_warned_of) {
+  const std::string free = "[scene]\nxs = 1\n";
+  expect_warning(observing(free + "nu = 2\n"), "3:1", "'nu' has no effect without a force; leave it out, or give");
+  expect_warning(observing(free + "f = 0\nphase = 1\n"), "4:1", "'phase' has no effect without a force");
+  expect_warning(observing(free + "[sweep]\nnu = [1, 2]\n"), "4:1", "'nu' has no effect without a force");
+  expect_none(observing(free + "nu = 2\n[sweep]\nf = [0, 1]\n"));
+}
+
+TEST(WithoutEffect, restitution_without_its_stop_is_warned_of) {
+  expect_warning(observing("[scene]\nstop_upper = 1\nR_lower = 0.5\n"), "3:1",
+                 "'R_lower' has no effect without a lower stop; leave it out, or give stop_lower");
+  expect_warning(observing("[scene]\nstop_upper = inf\nstop_lower = -1\nR_upper = 0.5\n"), "4:1",
+                 "'R_upper' has no effect without an upper stop");
+  expect_warning(observing("[scene]\nstop_upper = inf\nR = 0.5\n"), "3:1", "'R' has no effect without stops");
+  expect_warning(observing("[scene]\nstop_upper = inf\n[time]\nmax_impacts = 9\n"), "4:1", "'max_impacts' has no");
+  expect_none(observing("[scene]\nstop_upper = 1\nR = 0.5\n"));
+  expect_none(observing("[scene]\nR_lower = 0.5\n[sweep]\nstop_lower = [-inf, -1]\n"));
+}
+
+TEST(WithoutEffect, the_period_of_a_transient_is_warned_of) {
+  const std::string time = "[time]\nmode = \"transient\"\nduration = 9\n[observe]\nperiod = true\n";
+  expect_warning("[scene]\nstop_upper = 1\n" + time, "7:1", "'period' has no effect in a transient, which has none");
+  expect_warning("[scene]\nstop_lower = -2\nstop_upper = 1\n" + time, "8:1", "'period' has no effect");
+  expect_none("[scene]\nxs = 1\n" + time);  // the ratio of velocities
+  expect_none("[scene]\nstop_lower = -1\nstop_upper = 1\n" + time);
+}
+
+TEST(WithoutEffect, is_said_of_set_in_its_words) {
+  EXPECT_EQ(
+      warnings_of("a.toml", observing(scene), {{"time.duration", "9"}}),
+      Lines{"--set time.duration=9: 'duration' has no effect without mode = \"transient\"; leave it out, or write "
+            "that in [time]"});
+}
+
+TEST(Observing, nothing_is_warned_of_unless_every_observable_is_written_as_off) {
+  expect_warning("[scene]\nxs = 1\n", "1:1", "nothing is observed");
+  expect_warning("[scene]\nxs = 1\n[observe]\nextrema = false\n", "3:2", "write e.g. extrema = true in [observe]");
+  const std::string off =
+      "[scene]\nxs = 1\n[observe]\nextrema = false\nharmonics = 0\nimpacts = false\nimpact_log = false\n"
+      "trajectory = 0\nperiod = false\n";
+  expect_warning(off, "3:2", "nothing is observed");
+  expect_none(off + "stability = false\n");
+}
+
+TEST(Repeats, on_a_crossing_axis_are_warned_of) {
+  expect_warning(observing(scene + "[sweep]\nnu = [0.8, 0.9, 0.8, 0.9]\n"), "5:17",
+                 "nu = 0.8 again, which computes the same points twice; give each value once");
+  expect_warning(observing(scene + "[sweep]\nnu = \"linspace(1, 1, 3)\"\n"), "5:6", "nu = 1 again");
+  expect_warning(observing(scene + "[sweep]\nh = [0, 1]\nx0 = [-0.0, 0.0]\n"), "6:13", "x0 = 0 again");
+  expect_none(observing(scene + "[sweep]\nnu = [0.8, 0.9]\nh = [0.8, 0.9]\n"));
+}
+
+TEST(Repeats, on_linked_and_followed_axes_are_right) {
+  expect_none(observing(scene + "[sweep]\nnu = [0.8, 0.8]\nh = [0.1, 0.2]\nlinked = \"nu, h\"\n"));
+  expect_none(observing(scene + "[sweep]\nnu = [0.8, 0.9, 0.8]\nfollow = \"nu\"\n"));
+}
+
+TEST(Warnings, are_none_where_every_default_is_written) {
+  expect_none(default_config(Format::toml));
+  EXPECT_EQ(warnings_of("a.ini", default_config(Format::ini)), Lines{});
+  for (const std::string& text : {observing(transient), observing("[scene]\nstop_upper = 1\nR = 0.5\n"),
+                                  observing(scene + "[integrator]\nmethod = \"moreau\"\n")})
+    EXPECT_EQ(warnings_of("a.toml", read_as("b.toml", text).text), Lines{}) << text;
+}
+
+}  // namespace
+}  // namespace clatter

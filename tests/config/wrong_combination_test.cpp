@@ -1,0 +1,132 @@
+#include "config/wrong_table.hpp"
+
+namespace clatter {
+namespace {
+
+const std::string both = "[scene]\nxs = 1\n[sweep]\nnu = [1, 2]\n";
+
+TEST(Together, alternatives_exclude_each_other) {
+  const std::vector<Wrong> table{
+      {both + "xs = [1]\n", "5:1", "'xs' in both [scene] and [sweep]; remove one of them"},
+      {"[sweep]\nnu = [1]\n[scene]\nxs = 1\n nu = 1\n", "5:2", "'nu' in both [scene] and [sweep]"},
+      {"[scene]\nxs = 1\nstop_lower = -1\n", "3:1", "'stop_lower' beside 'xs'"},
+      {"[scene]\nstop_lower = -1\nstop_upper = 1\nxs = 1\n", "4:1", "'xs' beside 'stop_lower'"},
+      {both + "stop_upper = [1]\n", "5:1", "'stop_upper' beside 'xs'"},
+      {"[scene]\nxs = 1\nR = 1\nR_lower = 1\n", "4:1", "'R_lower' beside 'R'"},
+      {"[scene]\nxs = 1\nR_upper = 1\n[sweep]\nR = [1]\n", "5:1", "'R' beside 'R_upper'"},
+      {"[scene]\nxs = 1\nstart_period = 3\nx0 = 0\n", "4:1", "'x0' beside 'start_period'"},
+      {"[scene]\nxs = 1\nv0 = 1\n[sweep]\nstart_period = [3]\n", "5:1", "'start_period' beside 'v0'"},
+  };
+  expect_all("a.toml", table);
+  expect_all("a.ini", table);
+}
+
+TEST(Together, what_is_missing_is_missed_at_its_section) {
+  const std::vector<Wrong> table{
+      {"", "1:1", "'xs' is missing in [scene]"},
+      {"[time]\nwindow = 1\n", "1:1", "'xs' is missing in [scene]; give xs, or stop_lower, stop_upper or both"},
+      {"\n [scene]\nf = 1\n", "2:3", "'xs' is missing"},
+      {"[scene]\nxs = 1\n[time]\nmode = \"transient\"\n", "3:2", "'duration' is missing in [time]"},
+      {"[scene]\nxs = 1\n[time]\nmode = \"transient\"\nduration = 0\n", "5:12",
+       "duration = 0 is out of range; permitted: > 0"},
+  };
+  expect_all("a.toml", table);
+  expect_all("a.ini", table);
+}
+
+TEST(Together, the_start_is_between_stops_in_order) {
+  const std::vector<Wrong> table{
+      {"[scene]\nstop_lower = 2\nstop_upper = 1\n", "2:14",
+       "stop_lower = 2 and stop_upper = 1; permitted: stop_lower < stop_upper"},
+      {"[scene]\nstop_lower = 1\nstop_upper = 1\n", "2:14", "permitted: stop_lower < stop_upper"},
+      {"[scene]\nstop_lower = inf\n", "2:14",
+       "stop_lower = inf and stop_upper = inf; permitted: stop_lower < stop_upper"},
+      {"[scene]\nstop_upper = -inf\n", "2:14", "stop_lower = -inf and stop_upper = -inf"},
+      {"[scene]\nstop_upper = -1\n", "2:14", "x0 = 0 and stop_upper = -1; permitted: a start between the stops"},
+      {"[scene]\nx0 = -2\n[sweep]\nstop_lower = [-3, -1]\n", "2:6", "stop_lower = -1 and x0 = -2"},
+      {"[scene]\nstop_lower = inf\nstop_upper = -inf\n", "2:14", "permitted: stop_lower < stop_upper"},
+      {"[scene]\nxs = -1\nx0 = 1.5\n", "3:6",
+       "x0 = 1.5 and |xs| = 1; permitted: a start between the stops, -|xs| <= x0 <= |xs|"},
+      {"[scene]\nxs = -1\nx0 = -1.5\n", "3:6", "-|xs| = -1 and x0 = -1.5; permitted: a start between the stops"},
+      {"[scene]\nstop_lower = 0.5\nstop_upper = 1\n", "2:14", "stop_lower = 0.5 and x0 = 0"},
+      {"[scene]\nstop_lower = -2\nstop_upper = -1\n", "3:14", "x0 = 0 and stop_upper = -1"},
+      {"[scene]\nx0 = 0.5\n[sweep]\nxs = [1, -0.25, 2]\n", "2:6", "x0 = 0.5 and |xs| = 0.25"},
+      {"[scene]\nxs = 1\n[sweep]\nx0 = [0, 1, 2]\n", "4:13", "x0 = 2 and |xs| = 1"},
+      {"[sweep]\nxs = [2, 1]\nx0 = [1, 2]\nlinked = \"xs, x0\"\n", "3:10", "x0 = 2 and |xs| = 1"},
+  };
+  expect_all("a.toml", table);
+  expect_all("a.ini", table);
+}
+
+TEST(Together, start_period_belongs_to_free_motion_between_symmetric_stops) {
+  const std::string start = "[scene]\nxs = 1\nstart_period = 3\n";
+  const std::vector<Wrong> table{
+      {start + "h = 0.1\n", "4:5", "h = 0.1 beside 'start_period'; permitted: 0"},
+      {start + "f = 1\n", "4:5", "f = 1 beside 'start_period'; permitted: 0"},
+      {start + "load = 1\n", "4:8", "load = 1 beside 'start_period'"},
+      {start + "R = 0.5\n", "4:5", "R = 0.5 beside 'start_period'; permitted: 1"},
+      {start + "R_upper = 0.5\n", "4:11", "R_upper = 0.5 beside 'start_period'"},
+      {start + "[sweep]\nh = [0, 0.1]\n", "5:9", "h = 0.1 beside 'start_period'"},
+      {"[scene]\nstop_lower = -1\nstop_upper = 1\nstart_period = 3\n", "4:1", "'start_period' without 'xs'"},
+  };
+  expect_all("a.toml", table);
+  expect_all("a.ini", table);
+}
+
+TEST(Together, linked_and_follow_name_axes) {
+  const std::vector<Wrong> table{
+      {both + "linked = \"nu\"\n", "5:10", "linked names one axis"},
+      {both + "linked = \"nu, nu\"\n", "5:10", "linked names 'nu' twice"},
+      {both + "linked = \"nu, g\"\n", "5:10", "linked names 'g', which is no axis of [sweep]; the axes are: nu"},
+      {both + "linked = \"nu, h\"\nh = [1, 2, 3]\n", "5:10",
+       "linked axes of different lengths: nu has 2 values, h has 3"},
+      {both + "linked = \"nu,\"\n", "5:10", "linked names ''"},
+      {both + "follow = \"nuu\"\n", "5:10", "follow names 'nuu', which is no axis of [sweep]; did you mean 'nu'?"},
+      {both + "follow = \"xs\"\n", "5:10", "follow names 'xs', which is no axis of [sweep]"},
+      {"[scene]\nxs = 1\n[sweep]\nfollow = \"nu\"\n", "4:10", "[sweep] has no axes"},
+  };
+  expect_all("a.toml", table);
+  expect_all("a.ini", table);
+}
+
+TEST(Together, follow_takes_linked_axes_and_no_others) {
+  const std::string axes = both + "h = [1, 2]\nf = [1, 2]\n";  // nu, h and f, lines 4 to 6
+  const std::vector<Wrong> table{
+      {axes + "follow = \"nu,rubbish\"\n", "7:10", "follow names 'rubbish', which is no axis of [sweep]"},
+      {axes + "follow = \"nu, nu\"\n", "7:10", "follow names 'nu' twice; name each axis once"},
+      {axes + "follow = \"nu, f\"\n", "7:10",
+       "follow names 'nu' and 'f', which are not linked; follow one axis, or name both in linked too"},
+      {axes + "linked = \"nu, h\"\nfollow = \"h, f\"\n", "8:10", "follow names 'h' and 'f', which are not linked"},
+  };
+  expect_all("a.toml", table);
+  expect_all("a.ini", table);
+  EXPECT_EQ(mistake_in("a.toml", axes + "linked = \"nu, f\"\nfollow = \"f, nu\"\n"), "");
+}
+
+TEST(Together, follow_goes_along_no_start) {
+  const std::vector<Wrong> table{
+      {both + "phase = [0, 1]\nfollow = \"phase\"\n", "6:10",
+       "follow along 'phase', which only the first point would start from; follow another axis, or none"},
+      {both + "x0 = [0, 1]\nfollow = \"x0\"\n", "6:10", "follow along 'x0'"},
+      {both + "v0 = [0, 1]\nlinked = \"nu, v0\"\nfollow = \"nu\"\n", "7:10", "follow along 'v0'"},
+      {both + "start_period = [1, 2]\nfollow = \"start_period\"\n", "6:10", "follow along 'start_period'"},
+  };
+  expect_all("a.toml", table);
+  expect_all("a.ini", table);
+  EXPECT_EQ(mistake_in("a.toml", both + "v0 = [0, 1]\nfollow = \"nu\"\n"), "");  // each start has a branch of its own
+}
+
+TEST(Together, sizes_are_bounded) {
+  const std::string million = "\"linspace(1, 2, 1000000)\"\n";
+  const std::vector<Wrong> table{
+      {"[scene]\nxs = 1\n[sweep]\nnu = " + million + "f = " + million, "5:5",
+       "a sweep of 1e+12 points; permitted: at most 1e+09"},
+      {"[scene]\nxs = 1\n[observe]\nharmonics = 2048\n", "4:13", "less than half of harmonics_samples"},
+      {"[scene]\nxs = 1\n[observe]\ntrajectory = 1\n", "4:14", "permitted: a whole number, 0 or 2 ... 1e7"},
+  };
+  expect_all("a.toml", table);
+  expect_all("a.ini", table);
+}
+
+}  // namespace
+}  // namespace clatter

@@ -1,0 +1,152 @@
+#include "results/output_place.hpp"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
+#include <vector>
+
+#include "results/figure_file.hpp"
+#include "storage/error.hpp"
+
+namespace clatter {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A directory of its own for each test, since ctest runs them side by side.
+class Replacing : public testing::Test {
+ protected:
+  Replacing() { fs::create_directories(directory_); }
+  ~Replacing() override { fs::remove_all(directory_); }
+
+  [[nodiscard]] std::string path() const { return (directory_ / "out.h5").string(); }
+
+  void write(const std::string& content) const { std::ofstream{path(), std::ios::binary} << content; }
+
+  [[nodiscard]] std::string content() const {
+    std::ifstream file{path(), std::ios::binary};
+    return {std::istreambuf_iterator<char>{file}, {}};
+  }
+
+  [[nodiscard]] std::size_t files() const {
+    return static_cast<std::size_t>(std::distance(fs::directory_iterator{directory_}, fs::directory_iterator{}));
+  }
+
+ private:
+  fs::path directory_ = fs::path{testing::TempDir()} / ("clatter_replacing_" + std::to_string(::getpid()) + "_" +
+                                                        testing::UnitTest::GetInstance()->current_test_info()->name());
+};
+
+/// The bytes of an output: of a run, of a shard, or, with its variable of times, of a study.
+std::string output(const Origin& origin) {
+  Config config;
+  config.title = origin.title;
+  Figure figure{{}, {{origin.is_study ? "ns_per_period" : "x_min", {}, std::vector<double>{1.0}, "", "1"}}};
+  if (!origin.shard.empty()) figure.attributes = {{"shard", origin.shard}};
+  const FileImage image = file_image(std::move(figure), config);
+  return {reinterpret_cast<const char*>(image.bytes.data()), image.bytes.size()};
+}
+
+const Origin run{.title = "größter Ausschlag"}, study{.is_study = true, .title = run.title},
+    shard{.shard = "1/3", .title = run.title}, other{.title = "another"};
+
+void publish_new(const OutputPlace& place) {
+  const std::string bytes = "new";
+  place.publish(std::as_bytes(std::span(bytes)));
+}
+
+TEST_F(Replacing, an_output_tells_its_origin) {
+  for (const Origin& origin : {run, study, shard, other, Origin{}}) {
+    write(output(origin));
+    EXPECT_EQ(origin_of(path()), origin) << origin.title;
+  }
+}
+
+TEST_F(Replacing, what_is_no_output_has_no_origin) {
+  EXPECT_EQ(origin_of(path()), std::nullopt);
+  write("[scene]\nxs = 1\n");
+  EXPECT_EQ(origin_of(path()), std::nullopt);
+  std::string foreign = output(run);
+  foreign.replace(foreign.find("clatter/1"), 9, "flatter/1");
+  write(foreign);
+  EXPECT_EQ(origin_of(path()), std::nullopt);
+}
+
+TEST_F(Replacing, of_a_truncated_output_no_length_has_an_origin) {
+  const std::string whole = output(run);
+  for (std::size_t size = 0; size < whole.size(); size += 61) {
+    write(whole.substr(0, size));
+    EXPECT_EQ(origin_of(path()), std::nullopt) << size << " of " << whole.size() << " bytes";
+  }
+}
+
+TEST_F(Replacing, a_damaged_output_ends_no_process_and_holds_none_up) {
+  const std::string whole = output(run);
+  for (std::size_t place = 0; place < whole.size(); place += 64) {
+    std::string damaged = whole;
+    damaged.replace(place, std::min<std::size_t>(64, whole.size() - place), 64, '\0');
+    write(damaged);
+    EXPECT_NO_THROW(static_cast<void>(origin_of(path()))) << place;
+  }
+}
+
+TEST_F(Replacing, every_origin_gives_way_to_itself_alone) {
+  const std::vector<Origin> origins{run, study, shard, other};
+  for (const Origin& there : origins)
+    for (const Origin& ours : origins) {
+      write(output(there));
+      if (there == ours) {
+        publish_new(OutputPlace(path(), ours, false));
+        EXPECT_EQ(content(), "new");
+      } else {
+        EXPECT_THROW(OutputPlace(path(), ours, false), IoError);
+        EXPECT_EQ(content(), output(there));
+      }
+    }
+}
+
+TEST_F(Replacing, force_replaces_anything) {
+  write("a letter");
+  publish_new(OutputPlace(path(), run, true));
+  EXPECT_EQ(content(), "new");
+}
+
+TEST_F(Replacing, a_file_that_has_come_meanwhile_is_kept) {
+  const OutputPlace place(path(), run, false);
+  write("a letter");
+  EXPECT_THROW(publish_new(place), IoError);
+  EXPECT_EQ(content(), "a letter");
+  EXPECT_EQ(files(), 1U);  // no temporary one
+}
+
+TEST_F(Replacing, an_output_that_has_become_another_file_meanwhile_is_kept) {
+  write(output(run));
+  const OutputPlace place(path(), run, false);
+  write("a letter");
+  EXPECT_THROW(publish_new(place), IoError);
+  EXPECT_EQ(content(), "a letter");
+}
+
+TEST_F(Replacing, an_output_of_the_same_origin_that_has_come_meanwhile_gives_way) {
+  const OutputPlace place(path(), run, false);
+  write(output(run));
+  publish_new(place);
+  EXPECT_EQ(content(), "new");
+}
+
+TEST_F(Replacing, a_title_is_shown_without_its_control_characters) {
+  write(output({.title = "a\x1b]0;b\n"}));
+  try {
+    const OutputPlace place(path(), run, false);
+    ADD_FAILURE() << "it isn't refused";
+  } catch (const IoError& error) {
+    EXPECT_NE(std::string(error.what()).find("'a\\x1b]0;b\\x0a'"), std::string::npos) << error.what();
+  }
+}
+
+}  // namespace
+}  // namespace clatter
