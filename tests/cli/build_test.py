@@ -48,7 +48,7 @@ class Build(unittest.TestCase):
         build = source / "build" / "release"
         run("cmake", "--build", build, "--target", "probe", "clatter_version")
         run(build / "probe")
-        version = (build / "src" / "io" / "version.cpp").read_text()
+        version = (build / "src" / "results" / "version.cpp").read_text()
         self.assertRegex(version, r'git_commit\(\) { return "(unknown|[0-9a-f]{40})"; }')
         self.assertEqual(libraries(build), libraries(CLATTER.parents[2]))
 
@@ -85,7 +85,7 @@ class Build(unittest.TestCase):
         template = self.folder / "template"
         template.write_text("@GIT_COMMIT@")
         run("cmake", "-D", f"SOURCE_DIR={source}", "-D", f"TEMPLATE={template}", "-D", f"OUTPUT={output}", "-P",
-            source / "src" / "io" / "version.cmake")
+            source / "src" / "results" / "version.cmake")
         return output.read_text().strip()
 
 
