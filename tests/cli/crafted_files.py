@@ -1,14 +1,24 @@
 """Outputs that were made to harm their reader: changes of a sound one, by which HDF5 would open other files, wait, run
 foreign filters or read what isn't there. The folder of a test has `other.h5`, `secret` and `pipe` for them."""
 
+import functools
 import os
+import shutil
 import struct
+import subprocess
 
 import h5py
 import numpy
 
 SECRET = "a line that is nobody's business\n"
 CONTROLS = "\x1b]0;title\x07\x1b[2J\u202e\u009b\nclatter: all is well"
+
+
+@functools.cache
+def can_trace():
+    """Whether strace is there and permitted."""
+    command = ["strace", "-qq", "-o", "/dev/null", "true"]
+    return shutil.which("strace") is not None and subprocess.run(command, capture_output=True).returncode == 0
 
 
 def make_surroundings(folder):

@@ -13,7 +13,7 @@ from pathlib import Path
 import h5py
 
 from command_line import CLATTER, SMALL, SOURCE
-from crafted_files import CHANGES, SECRET, claim, hide_variables, make_surroundings
+from crafted_files import CHANGES, SECRET, can_trace, claim, hide_variables, make_surroundings
 
 PYTHON = "/usr/bin/python3"
 ELSEWHERE, LINK = "'x_max' has its values in other files", "'x_max' is a link to another place"
@@ -48,11 +48,6 @@ CASES = {**CHANGES,
          "schema": lambda file, folder: file.attrs.__setitem__("clatter_schema", "\x1b[2J"),
          "claimed": lambda file, folder: claim("status", (4 << 30,), file),
          "hidden": CHANGES["external_link"]}
-
-
-def can_trace():
-    command = ["strace", "-o", "/dev/null", "true"]
-    return shutil.which("strace") and subprocess.run(command, capture_output=True).returncode == 0
 
 
 class ForeignFiles(unittest.TestCase):

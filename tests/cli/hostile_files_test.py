@@ -14,7 +14,7 @@ import h5py
 import numpy
 
 from command_line import CLATTER, SANITIZED, SMALL, CommandLine
-from crafted_files import CHANGES, CONTROLS, SECRET, claim, hide_variables, make_surroundings
+from crafted_files import CHANGES, CONTROLS, SECRET, can_trace, claim, hide_variables, make_surroundings
 
 ELSEWHERE, LINK = "'x_max' has its values in another file", "'x_max' is a link to something else"
 NO_NUMBERS = "'x_max' holds no numbers"
@@ -94,9 +94,8 @@ class HostileFiles(CommandLine):
         return {name for name in names if not name.startswith(system)}, result
 
     def assert_reads_only(self, allowed, *command):
-        if SANITIZED or shutil.which("strace") is None or subprocess.run(
-                ["strace", "-qq", "-o", "/dev/null", "true"], capture_output=True).returncode != 0:
-            return  # what was read shows in no output, in any case
+        if SANITIZED or not can_trace():
+            return  # that nothing of them shows in an output is tested in any case
         names, result = self.opened(*command)
         self.assertLessEqual({name.removeprefix(str(self.directory) + "/") for name in names}, allowed,
                              (command, result.stderr))
@@ -105,6 +104,11 @@ class HostileFiles(CommandLine):
         for text in (result.stdout, result.stderr):
             self.assertNotIn(SECRET[:8], text)
             self.assertNotIn("12345", text)
+
+    @unittest.skipIf(SANITIZED or not can_trace(), "no strace: what is opened can't be told here")
+    def test_an_opened_file_is_noticed(self):
+        names, _ = self.opened("plan", self.config)
+        self.assertEqual(names, {self.config})
 
     def test_nothing_but_the_file_is_read(self):
         for name, reason in self.each_crafted("a.h5"):
