@@ -4,24 +4,24 @@
 #include <optional>
 #include <vector>
 
+#include "accuracy/accuracy_dataset.hpp"
 #include "accuracy_report.hpp"
 #include "commands.hpp"
-#include "config_arguments.hpp"
-#include "interrupt.hpp"
+#include "common_options.hpp"
 #include "progress.hpp"
-#include "results/figure_file.hpp"
+#include "results/dataset_file.hpp"
 #include "results/output_place.hpp"
+#include "signals.hpp"
 #include "storage/journal.hpp"
 #include "storage/utf8.hpp"
-#include "study/study_figure.hpp"
 #include "warnings.hpp"
 
-namespace clatter {
+namespace clatter::app {
 namespace {
 
-void check_starts(const Config& config, const std::string& file) {
+void check_starts(const config::Config& config, const std::string& file) {
   if (!config.sweep.follow) return;
-  throw UsageError(printable(file) +
+  throw UsageError(storage::printable(file) +
                    ": [sweep] follow: a study starts every point from [scene]; add --set sweep.follow=''");
 }
 
@@ -29,11 +29,12 @@ void check_starts(const Config& config, const std::string& file) {
 constexpr std::string_view not_read[] = {"observe", "integrator"};
 
 /// Studies all points and prints each; fewer where it was interrupted.
-std::vector<PointStudy> study_points(const Sweep& sweep, Arch arch, bool json, bool shown) {
-  const std::vector<Trial> trials = trials_of(sweep.scene.time.mode, arch);
+std::vector<accuracy::PointAccuracy> study_points(const sweep::Sweep& sweep, lanes::InstructionSet arch, bool json,
+                                                  bool shown) {
+  const std::vector<accuracy::Trial> trials = accuracy::trials_of(sweep.scene.time.mode, arch);
   Progress progress(shown, "runs");
-  StudyOptions options{.stopped = [] { return Interrupt::signal() != 0; }};
-  std::vector<PointStudy> points;
+  accuracy::AccuracyOptions options{.stopped = [] { return Interrupt::signal() != 0; }};
+  std::vector<accuracy::PointAccuracy> points;
   std::size_t finished = 0;
   const auto total = static_cast<double>(size(sweep) * steps_of(trials.size(), options));
   progress.show(0, total, std::nullopt);
@@ -46,7 +47,7 @@ std::vector<PointStudy> study_points(const Sweep& sweep, Arch arch, bool json, b
     progress.show(static_cast<double>(++finished), total, seconds_left);
   };
   for (std::size_t point = 0; point < size(sweep); ++point) {
-    PointStudy of_point = study(scene_at(sweep, point), trials, options);
+    accuracy::PointAccuracy of_point = study(scene_at(sweep, point), trials, options);
     if (Interrupt::signal() != 0) break;
     std::cout << (json ? study_json : study_text)(of_point, sweep, point) << std::flush;
     points.push_back(std::move(of_point));
@@ -54,32 +55,32 @@ std::vector<PointStudy> study_points(const Sweep& sweep, Arch arch, bool json, b
   return points;
 }
 
-bool any_failed(const std::vector<PointStudy>& points) {
-  for (const PointStudy& point : points)
-    for (const StudyRow& row : point.rows)
-      if (row.trial.studied == Studied::exact && failed(row.status)) return true;
+bool any_failed(const std::vector<accuracy::PointAccuracy>& points) {
+  for (const accuracy::PointAccuracy& point : points)
+    for (const accuracy::WorkPrecision& row : point.rows)
+      if (row.trial.studied == accuracy::TestedMethod::exact && failed(row.status)) return true;
   return false;
 }
 
 int run_study(const Arguments& arguments) {
-  const Arch arch = arch_of(arguments);
+  const lanes::InstructionSet arch = arch_of(arguments);
   const bool shown = progress_wanted(arguments);
   const std::string output = output_of(arguments, ".accuracy.h5");
-  const Config config = config_of(arguments);
+  const config::Config config = config_of(arguments);
   check_not_config(arguments.operands[0], output);
   check_starts(config, arguments.operands[0]);
-  const OutputPlace place(output, {.is_study = true, .title = config.title}, arguments.has("force"));
-  require_idle(output);
+  const results::OutputPlace place(output, {.is_study = true, .title = config.title}, arguments.has("force"));
+  storage::require_idle(output);
   if (!arguments.has("quiet")) warn(config, not_read);
   const Interrupt interrupt;
-  const std::vector<PointStudy> points = study_points(config.sweep, arch, arguments.has("json"), shown);
+  const std::vector<accuracy::PointAccuracy> points = study_points(config.sweep, arch, arguments.has("json"), shown);
   if (const int signal = Interrupt::signal()) {
-    std::cerr << "stopped after " << points.size() << " of " << size(config.sweep) << " points; " << printable(output)
-              << " is not written\n";
+    std::cerr << "stopped after " << points.size() << " of " << size(config.sweep) << " points; "
+              << storage::printable(output) << " is not written\n";
     return 128 + signal;
   }
-  place.publish(file_image(study_figure(config.sweep, points), config).bytes);
-  if (!arguments.has("quiet")) std::cerr << printable(output) << '\n';
+  place.write_atomically(results::file_image(accuracy_dataset(config.sweep, points), config).bytes);
+  if (!arguments.has("quiet")) std::cerr << storage::printable(output) << '\n';
   return any_failed(points) ? points_failed : done;
 }
 
@@ -108,4 +109,4 @@ Command accuracy_command() {
           .run = run_study};
 }
 
-}  // namespace clatter
+}  // namespace clatter::app

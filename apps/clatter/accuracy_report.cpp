@@ -4,11 +4,11 @@
 #include <cmath>
 #include <sstream>
 
+#include "accuracy/accuracy_dataset.hpp"
 #include "coordinates.hpp"
 #include "format.hpp"
-#include "study/study_figure.hpp"
 
-namespace clatter {
+namespace clatter::app {
 namespace {
 
 struct ColumnTitle {
@@ -32,8 +32,9 @@ constexpr ColumnTitle titles[] = {{"", "arch", 8},
                                   {"ns per", "period", 10},
                                   {"its", "spread", 10}};
 
-std::string status_name(Status status) {
-  return std::string(std::ranges::find(status_names, status, &std::pair<Status, std::string_view>::first)->second);
+std::string status_name(steady::Status status) {
+  return std::string(
+      std::ranges::find(steady::status_names, status, &std::pair<steady::Status, std::string_view>::first)->second);
 }
 
 std::string right(std::string text, std::size_t width) {
@@ -53,29 +54,29 @@ std::string header() {
 }
 
 /// Whether a scene was to go into lanes and did not.
-bool left_out(const StudyRow& row, const PointStudy& study) {
-  const bool run = row.trial.studied >= Studied::steady || study.horizon > 0;
-  return row.trial.arch != Arch::scalar && run && std::isnan(row.simulated_periods);
+bool left_out(const accuracy::WorkPrecision& row, const accuracy::PointAccuracy& study) {
+  const bool run = row.trial.studied >= accuracy::TestedMethod::steady || study.horizon > 0;
+  return row.trial.arch != lanes::InstructionSet::scalar && run && std::isnan(row.simulated_periods);
 }
 
 /// What keeps a row from being compared.
-std::string remark(const StudyRow& row, const PointStudy& study) {
-  const bool steady = row.trial.studied >= Studied::steady;
-  if (failed(row.status) || (steady && row.status == Status::aperiodic)) return "  " + status_name(row.status);
+std::string remark(const accuracy::WorkPrecision& row, const accuracy::PointAccuracy& study) {
+  const bool steady = row.trial.studied >= accuracy::TestedMethod::steady;
+  if (failed(row.status) || (steady && row.status == steady::Status::aperiodic)) return "  " + status_name(row.status);
   return steady && study.steady_periods > 0 && row.observed_periods != study.steady_periods
              ? "  period " + formatted("%.6g", row.observed_periods)
              : "";
 }
 
-std::string row_text(const StudyRow& row, const PointStudy& study) {
+std::string row_text(const accuracy::WorkPrecision& row, const accuracy::PointAccuracy& study) {
   std::size_t column = 0;
-  std::string text = left(std::string(studied_names[static_cast<std::size_t>(row.trial.studied)]));
+  std::string text = left(std::string(accuracy::studied_names[static_cast<std::size_t>(row.trial.studied)]));
   const auto put = [&](const char* format, double value) {
     text += right(std::isnan(value) ? "-" : formatted(format, value), titles[column++].width);
   };
   text += right(std::string(name_of(row.trial.arch)), titles[column++].width);
   if (left_out(row, study)) return text + "  not in lanes: this motion is left to the scalar kernel\n";
-  put(row.trial.studied == Studied::harmonics_fft ? "%.0f" : "%.0e", row.trial.setting);
+  put(row.trial.studied == accuracy::TestedMethod::harmonics_fft ? "%.0f" : "%.0e", row.trial.setting);
   for (const double error :
        {row.contact_time, row.contact_speed, row.rest, row.extrema, row.harmonics, row.v_harmonics})
     put("%.1e", error);
@@ -86,11 +87,11 @@ std::string row_text(const StudyRow& row, const PointStudy& study) {
 }
 
 /// What the errors are taken from.
-std::string horizon_text(const PointStudy& study, bool forced) {
+std::string horizon_text(const accuracy::PointAccuracy& study, bool forced) {
   const std::string events = counted(study.impacts, "impact") + " and " + counted(study.rests, "rest");
   const std::string asked = formatted("%.6g", study.asked) + (forced ? " forcing period" : " turn") +
                             (study.asked == 1 ? "" : "s") + (forced ? "" : " of 2 pi");
-  const Status status = study.rows.front().status;
+  const steady::Status status = study.rows.front().status;
   std::string text;
   if (failed(status))
     text = "not compared, since the run fails: " + status_name(status);
@@ -112,32 +113,33 @@ std::string horizon_text(const PointStudy& study, bool forced) {
 
 }  // namespace
 
-std::string study_text(const PointStudy& study, const Sweep& sweep, std::size_t point) {
+std::string study_text(const accuracy::PointAccuracy& study, const sweep::Sweep& sweep, std::size_t point) {
   std::string text = coordinates_text(sweep, point);
   if (!text.empty()) text += '\n';
   text += horizon_text(study, scene_at(sweep, point).oscillator.forcing != 0);
   text += header();
-  for (const StudyRow& row : study.rows) text += row_text(row, study);
+  for (const accuracy::WorkPrecision& row : study.rows) text += row_text(row, study);
   return text + '\n';
 }
 
-std::string study_json(const PointStudy& study, const Sweep& sweep, std::size_t point) {
+std::string study_json(const accuracy::PointAccuracy& study, const sweep::Sweep& sweep, std::size_t point) {
   std::ostringstream out;
-  for (const StudyRow& row : study.rows) {
+  for (const accuracy::WorkPrecision& row : study.rows) {
     const auto put = [&](const std::string& name, double value) {
       out << ", \"" << name << "\": " << json_number(value);
     };
-    out << "{\"method\": " << json_text(std::string(studied_names[static_cast<std::size_t>(row.trial.studied)]));
+    out << "{\"method\": "
+        << json_text(std::string(accuracy::studied_names[static_cast<std::size_t>(row.trial.studied)]));
     put("setting", row.trial.setting);
     out << ", \"arch\": " << json_text(std::string(name_of(row.trial.arch)));
-    for (const auto& [name, long_name, value] : row_variables()) put(name, row.*value);
+    for (const auto& [name, long_name, value] : accuracy::row_variables()) put(name, row.*value);
     out << ", \"status\": " << static_cast<int>(row.status) << ", \"point\": " << point;
     each_coordinate(sweep, point,
-                    [&](const Axis& axis, double value) { put(std::string(key_of(axis.parameter)), value); });
-    for (const auto& [name, long_name, value] : point_variables()) put(name, study.*value);
+                    [&](const sweep::Axis& axis, double value) { put(std::string(key_of(axis.parameter)), value); });
+    for (const auto& [name, long_name, value] : accuracy::point_variables()) put(name, study.*value);
     out << "}\n";
   }
   return out.str();
 }
 
-}  // namespace clatter
+}  // namespace clatter::app

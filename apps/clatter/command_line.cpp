@@ -6,7 +6,7 @@
 #include "commands.hpp"
 #include "config/suggestion.hpp"
 
-namespace clatter {
+namespace clatter::app {
 namespace {
 
 namespace po = boost::program_options;
@@ -38,13 +38,13 @@ std::vector<std::string> names_of(const Command& command) {
 std::string meant(const std::string& written, const std::vector<std::string>& names) {
   if (written.size() < 3) return {};  // a letter
   const std::vector<std::string_view> views(names.begin(), names.end());
-  return std::string(nearest(written.starts_with("--") ? written : '-' + written, views));
+  return std::string(config::nearest(written.starts_with("--") ? written : '-' + written, views));
 }
 
 std::string unknown_option(const Command& command, const std::string& written) {
   const std::string near = meant(written, names_of(command));
-  const std::string message = "unknown option " + in_quotes(written);
-  return near.empty() ? message + help_hint(command) : message + "; did you mean " + in_quotes(near) + "?";
+  const std::string message = "unknown option " + config::in_quotes(written);
+  return near.empty() ? message + help_hint(command) : message + "; did you mean " + config::in_quotes(near) + "?";
 }
 
 /// Boost's mistakes as one line with the way out.
@@ -61,8 +61,8 @@ void check_operands(const Command& command, const std::vector<std::string>& oper
                      std::string(command.usage));
   }
   if (operands.size() > command.operands.size() && !command.repeats_last) {
-    throw UsageError("unexpected argument " + in_quotes(operands[command.operands.size()]) + "; write: clatter " +
-                     std::string(command.usage));
+    throw UsageError("unexpected argument " + config::in_quotes(operands[command.operands.size()]) +
+                     "; write: clatter " + std::string(command.usage));
   }
 }
 
@@ -103,7 +103,7 @@ std::vector<std::string> Arguments::values(std::string_view option) const {
 }
 
 void refuse_option(const std::string& written) {
-  const std::string message = "unknown option " + in_quotes(written) + " before the command";
+  const std::string message = "unknown option " + config::in_quotes(written) + " before the command";
   const std::vector<std::string> own{"--help", "--version"};
   std::vector<std::string> all = own;
   for (const Command& command : commands()) {
@@ -111,7 +111,8 @@ void refuse_option(const std::string& written) {
   }
   const std::string near = meant(written, all);
   if (near.empty()) throw UsageError(message + "; see `clatter --help`");
-  if (std::ranges::find(own, near) != own.end()) throw UsageError(message + "; did you mean " + in_quotes(near) + "?");
+  if (std::ranges::find(own, near) != own.end())
+    throw UsageError(message + "; did you mean " + config::in_quotes(near) + "?");
   throw UsageError(message + "; write it behind: clatter COMMAND ... " + near);
 }
 
@@ -129,4 +130,4 @@ Arguments parse_arguments(const Command& command, const std::vector<std::string>
   }
 }
 
-}  // namespace clatter
+}  // namespace clatter::app

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-namespace clatter {
+namespace clatter::app {
 
 /// A wrong command line; `what()` is one line that ends with the way out.
 class UsageError : public std::runtime_error {
@@ -42,4 +42,4 @@ struct Command;
 /// The words after the subcommand's name. Throws UsageError; abbreviations of options are refused.
 [[nodiscard]] Arguments parse_arguments(const Command& command, const std::vector<std::string>& words);
 
-}  // namespace clatter
+}  // namespace clatter::app

@@ -2,7 +2,7 @@
 
 #include "config/suggestion.hpp"
 
-namespace clatter {
+namespace clatter::app {
 
 std::span<const Command> commands() {
   static const std::vector<Command> all{run_command(),  plan_command(),     accuracy_command(), merge_command(),
@@ -16,7 +16,8 @@ const Command& find_command(std::string_view name) {
     if (command.name == name) return command;
     names.push_back(command.name);
   }
-  throw UsageError("unknown command " + in_quotes(name) + suggestion(name, names, "; the commands are: "));
+  throw UsageError("unknown command " + config::in_quotes(name) +
+                   config::suggestion(name, names, "; the commands are: "));
 }
 
-}  // namespace clatter
+}  // namespace clatter::app

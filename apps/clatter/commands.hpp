@@ -7,7 +7,7 @@
 
 #include "command_line.hpp"
 
-namespace clatter {
+namespace clatter::app {
 
 /// How a command ends; scripts are written against these numbers.
 enum ExitCode : int {
@@ -51,4 +51,4 @@ struct Command {
 [[nodiscard]] std::string program_help();
 [[nodiscard]] std::string command_help(const Command& command);
 
-}  // namespace clatter
+}  // namespace clatter::app

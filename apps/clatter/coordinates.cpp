@@ -2,24 +2,25 @@
 
 #include "format.hpp"
 
-namespace clatter {
+namespace clatter::app {
 
-void each_coordinate(const Sweep& sweep, std::size_t point, const std::function<void(const Axis&, double)>& take) {
+void each_coordinate(const sweep::Sweep& sweep, std::size_t point,
+                     const std::function<void(const sweep::Axis&, double)>& take) {
   std::size_t stride = size(sweep);
-  for (const Dimension& dimension : sweep.dimensions) {
+  for (const sweep::Dimension& dimension : sweep.dimensions) {
     stride /= length(dimension);
     const std::size_t index = point / stride % length(dimension);
-    for (const Axis& axis : dimension) take(axis, axis.values[index]);
+    for (const sweep::Axis& axis : dimension) take(axis, axis.values[index]);
   }
 }
 
-std::string coordinates_text(const Sweep& sweep, std::size_t point) {
+std::string coordinates_text(const sweep::Sweep& sweep, std::size_t point) {
   std::string text;
-  each_coordinate(sweep, point, [&](const Axis& axis, double value) {
+  each_coordinate(sweep, point, [&](const sweep::Axis& axis, double value) {
     (text += text.empty() ? "" : ", ") += key_of(axis.parameter);
     text += formatted(" = %.10g", value);
   });
   return text;
 }
 
-}  // namespace clatter
+}  // namespace clatter::app

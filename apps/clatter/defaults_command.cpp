@@ -3,11 +3,11 @@
 #include "commands.hpp"
 #include "config/defaults.hpp"
 
-namespace clatter {
+namespace clatter::app {
 namespace {
 
 int print_defaults(const Arguments& arguments) {
-  std::cout << default_config(arguments.has("ini") ? Format::ini : Format::toml);
+  std::cout << default_config(arguments.has("ini") ? config::Format::ini : config::Format::toml);
   return done;
 }
 
@@ -28,4 +28,4 @@ Command defaults_command() {
           .run = print_defaults};
 }
 
-}  // namespace clatter
+}  // namespace clatter::app

@@ -4,14 +4,14 @@
 #include <optional>
 #include <string>
 
-#include "sweep/figure.hpp"
+#include "sweep/dataset.hpp"
 #include "sweep/share.hpp"
 
-namespace clatter {
+namespace clatter::app {
 
 /// "2 failed (event_budget: 2, e.g. point 0 at nu = 0.5)": how many points of a run failed, with which status how
 /// often, and of each the first, by its number in the sweep from 0.
-[[nodiscard]] std::string failures_text(const Figure& figure, const Sweep& sweep,
-                                        const std::optional<Shard>& shard = {});
+[[nodiscard]] std::string failures_text(const sweep::Dataset& dataset, const sweep::Sweep& sweep,
+                                        const std::optional<sweep::Shard>& shard = {});
 
-}  // namespace clatter
+}  // namespace clatter::app

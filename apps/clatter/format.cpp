@@ -9,7 +9,7 @@
 
 #include "storage/utf8.hpp"
 
-namespace clatter {
+namespace clatter::app {
 
 std::string formatted(const char* format, double value) {
   std::array<char, 64> text{};
@@ -41,7 +41,7 @@ void append_escape(std::string& text, std::string_view character) {
     text += "\\u";
     for (const unsigned shift : {12U, 8U, 4U, 0U}) text += digits[unit >> shift & 0xFU];
   };
-  const char32_t point = code_point(character);
+  const char32_t point = storage::code_point(character);
   if (point > 0xFFFF) append_unit(0xD800 + ((point - 0x10000) >> 10U));
   append_unit(point > 0xFFFF ? 0xDC00 + (point & 0x3FFU) : point);
 }
@@ -51,11 +51,11 @@ void append_escape(std::string& text, std::string_view character) {
 std::string json_text(const std::string& text) {
   std::string quoted = "\"";
   for (std::string_view left = text; !left.empty();) {
-    const std::size_t length = utf8_length(left);
+    const std::size_t length = storage::utf8_length(left);
     const std::string_view character = left.substr(0, std::max<std::size_t>(length, 1));
     if (length == 0)
       quoted += "\\ufffd";
-    else if (character == "\"" || character == "\\" || is_obeyed(character))
+    else if (character == "\"" || character == "\\" || storage::is_obeyed(character))
       append_escape(quoted, character);
     else
       quoted += character;
@@ -66,4 +66,4 @@ std::string json_text(const std::string& text) {
 
 std::string json_number(double value) { return std::isfinite(value) ? formatted("%.17g", value) : "null"; }
 
-}  // namespace clatter
+}  // namespace clatter::app

@@ -2,7 +2,7 @@
 
 #include <string>
 
-namespace clatter {
+namespace clatter::app {
 
 /// A number by a printf format for one double.
 [[nodiscard]] std::string formatted(const char* format, double value);
@@ -19,4 +19,4 @@ namespace clatter {
 /// A number as JSON, which knows no infinity: null.
 [[nodiscard]] std::string json_number(double value);
 
-}  // namespace clatter
+}  // namespace clatter::app

@@ -5,7 +5,7 @@
 #include "config/wrapped.hpp"
 #include "help_topics.hpp"
 
-namespace clatter {
+namespace clatter::app {
 namespace {
 
 constexpr std::string_view exit_codes = R"(Exit codes
@@ -31,7 +31,7 @@ std::string table(const std::vector<Row>& rows) {
   for (const auto& [left, right] : rows) {
     std::string words = "  " + left;
     words.resize(column, ' ');
-    text += words + wrapped(right, column);
+    text += words + config::wrapped(right, column);
   }
   return text;
 }
@@ -57,8 +57,8 @@ constexpr std::string_view examples =
 std::string command_help(const Command& command) {
   std::vector<Row> rows;
   for (const Option& option : command.options) rows.push_back(row_of(option));
-  return "clatter " + std::string(command.usage) + "\n\n" + wrapped(command.summary, 0) + "\nOptions\n" + table(rows) +
-         "\nExamples\n" + std::string(command.examples);
+  return "clatter " + std::string(command.usage) + "\n\n" + config::wrapped(command.summary, 0) + "\nOptions\n" +
+         table(rows) + "\nExamples\n" + std::string(command.examples);
 }
 
 std::string program_help() {
@@ -90,4 +90,4 @@ Command help_command() {
           .run = print_help};
 }
 
-}  // namespace clatter
+}  // namespace clatter::app

@@ -9,7 +9,7 @@
 #include "config/reference.hpp"
 #include "config/suggestion.hpp"
 
-namespace clatter {
+namespace clatter::app {
 namespace {
 
 constexpr std::string_view whole = "configuration";
@@ -19,23 +19,23 @@ bool contains(std::span<const std::string_view> names, std::string_view name) {
 }
 
 /// The keys that a topic names: "R", "scene.R"; "tolerance" names two.
-std::vector<const Key*> keys_named(std::string_view topic) {
-  std::vector<const Key*> named;
+std::vector<const config::Key*> keys_named(std::string_view topic) {
+  std::vector<const config::Key*> named;
   const std::size_t dot = topic.find('.');
   if (dot != std::string_view::npos) {
-    const Key* const key = find_key(topic.substr(0, dot), topic.substr(dot + 1));
+    const config::Key* const key = config::find_key(topic.substr(0, dot), topic.substr(dot + 1));
     if (key != nullptr) named.push_back(key);
     return named;
   }
-  for (const Key& key : keys()) {
+  for (const config::Key& key : config::keys()) {
     if (key.name == topic) named.push_back(&key);
   }
   return named;
 }
 
-std::string references(const std::vector<const Key*>& named) {
+std::string references(const std::vector<const config::Key*>& named) {
   std::string text;
-  for (const Key* const key : named) (text += text.empty() ? "" : "\n\n") += key_reference(*key);
+  for (const config::Key* const key : named) (text += text.empty() ? "" : "\n\n") += key_reference(*key);
   return text;
 }
 
@@ -44,24 +44,24 @@ std::vector<std::string> topics() {
   std::vector<std::string> all;
   for (const Command& command : commands()) all.emplace_back(command.name);
   all.emplace_back(whole);
-  for (const Key& key : keys()) all.emplace_back(key.name);
-  for (const std::string_view section : sections()) {
+  for (const config::Key& key : config::keys()) all.emplace_back(key.name);
+  for (const std::string_view section : config::sections()) {
     all.emplace_back(section);
-    for (const std::string_view name : key_names(section))
+    for (const std::string_view name : config::key_names(section))
       all.push_back(std::string(section) + '.' + std::string(name));
   }
-  for (const std::string_view function : axis_function_names()) all.emplace_back(function);
+  for (const std::string_view function : config::axis_function_names()) all.emplace_back(function);
   return all;
 }
 
 [[noreturn]] void refuse(const std::string& topic) {
   const std::vector<std::string> all = topics();
   const std::vector<std::string_view> names(all.begin(), all.end());
-  if (const std::string_view near = nearest(topic, names); !near.empty())
-    throw UsageError("no help on " + in_quotes(topic) + "; did you mean '" + std::string(near) + "'?");
+  if (const std::string_view near = config::nearest(topic, names); !near.empty())
+    throw UsageError("no help on " + config::in_quotes(topic) + "; did you mean '" + std::string(near) + "'?");
   std::vector<std::string_view> first{whole};
   for (const Command& command : commands()) first.push_back(command.name);
-  throw UsageError("no help on " + in_quotes(topic) + "; there is help on: " + joined(first) +
+  throw UsageError("no help on " + config::in_quotes(topic) + "; there is help on: " + config::joined(first) +
                    ", and on every section and key");
 }
 
@@ -69,16 +69,16 @@ std::vector<std::string> topics() {
 
 std::string help_on(const std::string& topic) {
   std::string_view name = topic;
-  if (name == whole) return configuration_reference();
+  if (name == whole) return config::configuration_reference();
   for (const Command& command : commands()) {
     if (command.name == name) return command_help(command);
   }
-  const std::vector<const Key*> named = keys_named(name);
+  const std::vector<const config::Key*> named = keys_named(name);
   if (!named.empty()) return references(named);
-  if (contains(axis_function_names(), name)) return std::string(value_reference());
+  if (contains(config::axis_function_names(), name)) return std::string(config::value_reference());
   if (name.starts_with('[') && name.ends_with(']')) name = name.substr(1, name.size() - 2);
-  if (contains(sections(), name)) return section_reference(name);
+  if (contains(config::sections(), name)) return config::section_reference(name);
   refuse(topic);
 }
 
-}  // namespace clatter
+}  // namespace clatter::app

@@ -2,10 +2,10 @@
 
 #include <string>
 
-namespace clatter {
+namespace clatter::app {
 
 /// The help on a topic: a command, a key, a section, a function of values, or the whole configuration. Throws
 /// UsageError where there is none.
 [[nodiscard]] std::string help_on(const std::string& topic);
 
-}  // namespace clatter
+}  // namespace clatter::app

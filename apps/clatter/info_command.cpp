@@ -5,11 +5,11 @@
 
 #include "commands.hpp"
 #include "info_json.hpp"
-#include "results/figure_file.hpp"
+#include "results/dataset_file.hpp"
 #include "storage/error.hpp"
 #include "storage/utf8.hpp"
 
-namespace clatter {
+namespace clatter::app {
 namespace {
 
 std::string column(std::string text, std::size_t width) {
@@ -17,15 +17,15 @@ std::string column(std::string text, std::size_t width) {
   return text + "  ";
 }
 
-std::string shape_text(const FileSummary::Entry& entry) {
+std::string shape_text(const results::FileSummary::Entry& entry) {
   std::string text;
-  for (const NamedLength& dimension : entry.dimensions) {
+  for (const sweep::NamedLength& dimension : entry.dimensions) {
     text += (text.empty() ? "[" : ", ") + dimension.name + " = " + std::to_string(dimension.length);
   }
   return text.empty() ? "scalar" : text + ']';
 }
 
-void print_variables(const FileSummary& summary) {
+void print_variables(const results::FileSummary& summary) {
   std::size_t name_width = 0, shape_width = 0;
   for (const auto& entry : summary.variables) {
     name_width = std::max(name_width, entry.name.size());
@@ -39,19 +39,19 @@ void print_variables(const FileSummary& summary) {
 }
 
 /// The summary with every text such that a terminal shows it and does not obey it: the file may be anyone's.
-FileSummary harmless(FileSummary summary) {
-  const auto clean = [](std::string& text) { text = printable(text); };
+results::FileSummary harmless(results::FileSummary summary) {
+  const auto clean = [](std::string& text) { text = storage::printable(text); };
   for (auto& [name, value] : summary.attributes) clean(name), clean(value);
-  for (FileSummary::Entry& entry : summary.variables) {
+  for (results::FileSummary::Entry& entry : summary.variables) {
     for (std::string* const text : {&entry.name, &entry.type, &entry.units, &entry.long_name}) clean(*text);
-    for (NamedLength& dimension : entry.dimensions) clean(dimension.name);
+    for (sweep::NamedLength& dimension : entry.dimensions) clean(dimension.name);
   }
   for (auto& [meaning, count] : summary.status_counts) clean(meaning);
   return summary;
 }
 
 /// For people; a script takes --json.
-void print_text(const FileSummary& summary) {
+void print_text(const results::FileSummary& summary) {
   for (const auto& [name, value] : summary.attributes) {
     if (name != "config") std::cout << column(name, 16) << value << '\n';
   }
@@ -62,19 +62,19 @@ void print_text(const FileSummary& summary) {
 }
 
 /// As it is, so that it runs again; a terminal is shown all of it, and obeys nothing.
-void print_config(const std::string& path, const FileSummary& summary) {
+void print_config(const std::string& path, const results::FileSummary& summary) {
   const auto& attributes = summary.attributes;
   const auto config =
       std::find_if(attributes.begin(), attributes.end(), [](const auto& pair) { return pair.first == "config"; });
   if (config == attributes.end())
-    throw IoError(quoted_name(path) + " holds no configuration; was it written by clatter?");
-  std::cout << (::isatty(STDOUT_FILENO) != 0 ? printable_lines(config->second) : config->second);
+    throw storage::IoError(storage::quoted_name(path) + " holds no configuration; was it written by clatter?");
+  std::cout << (::isatty(STDOUT_FILENO) != 0 ? storage::printable_lines(config->second) : config->second);
 }
 
 int print_info(const Arguments& arguments) {
   if (arguments.has("json") && arguments.has("config")) throw UsageError("--json beside --config; give one of them");
   const std::string& path = arguments.operands[0];
-  const FileSummary summary = read_summary(path);
+  const results::FileSummary summary = results::read_summary(path);
   if (arguments.has("config")) {
     print_config(path, summary);
   } else if (arguments.has("json")) {
@@ -104,4 +104,4 @@ Command info_command() {
           .run = print_info};
 }
 
-}  // namespace clatter
+}  // namespace clatter::app

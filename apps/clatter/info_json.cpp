@@ -2,7 +2,7 @@
 
 #include "format.hpp"
 
-namespace clatter {
+namespace clatter::app {
 namespace {
 
 /// The members or elements between commas, each on a line of its own.
@@ -13,9 +13,9 @@ std::string lines(const Range& range, const Print& print) {
   return text + (text.empty() ? "" : "\n  ");
 }
 
-std::string entry_json(const FileSummary::Entry& entry) {
+std::string entry_json(const results::FileSummary::Entry& entry) {
   std::string names, shape;
-  for (const NamedLength& dimension : entry.dimensions) {
+  for (const sweep::NamedLength& dimension : entry.dimensions) {
     names += (names.empty() ? "" : ", ") + json_text(dimension.name);
     shape += (shape.empty() ? "" : ", ") + std::to_string(dimension.length);
   }
@@ -26,11 +26,11 @@ std::string entry_json(const FileSummary::Entry& entry) {
 
 }  // namespace
 
-std::string json(const FileSummary& summary) {
+std::string json(const results::FileSummary& summary) {
   const auto attribute = [](const auto& pair) { return json_text(pair.first) + ": " + json_text(pair.second); };
   const auto count = [](const auto& pair) { return json_text(pair.first) + ": " + std::to_string(pair.second); };
   return "{\n  \"attributes\": {" + lines(summary.attributes, attribute) + "},\n  \"variables\": [" +
          lines(summary.variables, entry_json) + "],\n  \"status\": {" + lines(summary.status_counts, count) + "}\n}\n";
 }
 
-}  // namespace clatter
+}  // namespace clatter::app

@@ -2,11 +2,11 @@
 
 #include <string>
 
-#include "results/figure_file.hpp"
+#include "results/dataset_file.hpp"
 
-namespace clatter {
+namespace clatter::app {
 
 /// A file's summary as JSON: attributes, dimensions, variables, number of points by status.
-[[nodiscard]] std::string json(const FileSummary& summary);
+[[nodiscard]] std::string json(const results::FileSummary& summary);
 
-}  // namespace clatter
+}  // namespace clatter::app

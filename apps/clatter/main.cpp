@@ -17,11 +17,12 @@
 #include "storage/error.hpp"
 #include "storage/journal.hpp"
 #include "storage/utf8.hpp"
-#include "sweep/stack.hpp"
+#include "sweep/thread_stacks.hpp"
 
 namespace {
 
 using namespace clatter;
+using namespace clatter::app;
 
 /// --help and --version stand in place of a command.
 int run_program(const std::vector<std::string>& words) {
@@ -31,7 +32,8 @@ int run_program(const std::vector<std::string>& words) {
     return done;
   }
   if (words[0] == "--version") {
-    std::cout << "clatter " << version() << " (commit " << git_commit() << ", " << compiler() << ")\n";
+    std::cout << "clatter " << results::version() << " (commit " << results::git_commit() << ", " << results::compiler()
+              << ")\n";
     return done;
   }
   if (words[0].starts_with('-')) refuse_option(words[0]);
@@ -62,7 +64,7 @@ void refuse_foreign_exit() {
 
 /// Messages may tell what is in files of others.
 int report(const std::string& message, int code) {
-  std::cerr << "clatter: " << printable_lines(message) << '\n';
+  std::cerr << "clatter: " << storage::printable_lines(message) << '\n';
   return code;
 }
 
@@ -77,17 +79,17 @@ int run_main(int argc, char** argv) {
     return std::cout ? code : report("standard output cannot be written; is its disk full?", io_error);
   } catch (const UsageError& error) {
     return report(error.what(), usage_error);
-  } catch (const ConfigError& error) {
-    std::cerr << printable_lines(error.what()) << '\n';  // begins with the place, as editors expect it
+  } catch (const config::ConfigError& error) {
+    std::cerr << storage::printable_lines(error.what()) << '\n';  // begins with the place, as editors expect it
     return usage_error;
-  } catch (const IoError& error) {
+  } catch (const storage::IoError& error) {
     return report(error.what(), io_error);
-  } catch (const LimitError& error) {
+  } catch (const sweep::LimitError& error) {
     return report(error.what(), io_error);
-  } catch (const BusyError& error) {
+  } catch (const storage::BusyError& error) {
     return report(error.what(), busy);
   } catch (const std::bad_alloc&) {
-    return report(no_memory("it ran out").what(), io_error);
+    return report(storage::no_memory("it ran out").what(), io_error);
   } catch (const std::exception& error) {
     return report(std::string("a bug in clatter: ") + error.what() + "; please report it with the command",
                   internal_error);
@@ -100,7 +102,7 @@ int main(int argc, char** argv) {
   std::signal(SIGXFSZ, SIG_IGN);  // a write beyond `ulimit -f`, to stderr too, then fails as on a full disk
   open_standard_streams();
   std::atexit(refuse_foreign_exit);
-  if (const std::string fault = fault_of_main_stack(); !fault.empty()) {
+  if (const std::string fault = sweep::fault_of_main_stack(); !fault.empty()) {
     at_its_end = true;
     return report(fault.c_str(), io_error);
   }

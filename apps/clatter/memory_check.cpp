@@ -4,33 +4,33 @@
 #include <string>
 
 #include "format.hpp"
+#include "plan/available_memory.hpp"
 #include "storage/error.hpp"
-#include "sweep/memory_limits.hpp"
 
-namespace clatter {
+namespace clatter::app {
 namespace {
 
 void check(const std::string& what, double needed, int threads) {
-  const MemoryLimit limit = memory_limit(threads);
-  if (needed > limit.bytes) throw no_memory(what + ", " + limit.name + ' ' + bytes_text(limit.bytes));
+  const plan::MemoryLimit limit = plan::memory_limit(threads);
+  if (needed > limit.bytes) throw storage::no_memory(what + ", " + limit.name + ' ' + bytes_text(limit.bytes));
 }
 
 }  // namespace
 
-MemoryNeed with_configuration(MemoryNeed need, const Config& config) {
+plan::MemoryNeed with_configuration(plan::MemoryNeed need, const config::Config& config) {
   constexpr double copies = 4;  // in it, in the key of the journal, in the file, and on its way there
-  need.memory = std::max(need.memory + copies * static_cast<double>(config.text.size()), peak_bytes());
+  need.memory = std::max(need.memory + copies * static_cast<double>(config.text.size()), plan::peak_bytes());
   return need;
 }
 
-void check_memory(const Config& config, const std::optional<Shard>& shard, int threads) {
-  const MemoryNeed need = with_configuration(memory_need(config.sweep, shard, threads), config);
-  std::string what =
-      counted(static_cast<double>(Share(config.sweep, shard).points()), "point") + " take " + bytes_text(need.memory);
+void check_memory(const config::Config& config, const std::optional<sweep::Shard>& shard, int threads) {
+  const plan::MemoryNeed need = with_configuration(plan::memory_need(config.sweep, shard, threads), config);
+  std::string what = counted(static_cast<double>(sweep::Share(config.sweep, shard).points()), "point") + " take " +
+                     bytes_text(need.memory);
   if (need.log > 0) what += " with an impact log of some " + bytes_text(need.log);
   check(what, need.memory, threads);
 }
 
 void check_merge_memory(double bytes) { check("merging takes " + bytes_text(bytes), bytes, 0); }
 
-}  // namespace clatter
+}  // namespace clatter::app

@@ -5,25 +5,26 @@
 #include <vector>
 
 #include "commands.hpp"
-#include "config_arguments.hpp"
+#include "common_options.hpp"
 #include "failures.hpp"
 #include "format.hpp"
 #include "memory_check.hpp"
-#include "results/figure_file.hpp"
+#include "results/dataset_file.hpp"
 #include "results/merge.hpp"
 #include "results/output_place.hpp"
+#include "storage/atomic_write.hpp"
 #include "storage/journal.hpp"
-#include "storage/publish.hpp"
 #include "storage/utf8.hpp"
 
-namespace clatter {
+namespace clatter::app {
 namespace {
 
 void check_not_shard(const std::vector<std::string>& shards, const std::string& output) {
   for (const std::string& path : shards) {
     std::error_code error;
     if (std::filesystem::equivalent(path, output, error))
-      throw UsageError("the output " + quoted_name(output) + " is one of the shards; name another file with -o");
+      throw UsageError("the output " + storage::quoted_name(output) +
+                       " is one of the shards; name another file with -o");
   }
 }
 
@@ -32,22 +33,23 @@ int merge_shards(const Arguments& arguments) {
     throw UsageError("--quiet beside --verbose; give one of them");
   if (!arguments.has("output")) throw UsageError("no output; name it with -o FILE.h5");
   const std::string output = *arguments.value("output");
-  check_writable(output);
+  storage::check_writable(output);
   check_not_shard(arguments.operands, output);
-  require_idle(output);
-  const ShardSet shards = shard_set(arguments.operands);
-  const OutputPlace place(output, {.title = shards.config.title}, arguments.has("force"));
+  storage::require_idle(output);
+  const results::ShardSet shards = results::shard_set(arguments.operands);
+  const results::OutputPlace place(output, {.title = shards.config.title}, arguments.has("force"));
   check_merge_memory(shards.bytes);
   if (arguments.has("verbose"))
     std::cerr << "shards           " << shards.heads.size() << "\nrounding         "
-              << printable(shards.heads.front().rounding) << "\nmemory           " << bytes_text(shards.bytes) << '\n';
-  Merged merged = merge(shards);
-  const std::string failures = failures_text(merged.figure, shards.config.sweep);
-  place.publish(file_image(std::move(merged.figure), shards.config).bytes);
+              << storage::printable(shards.heads.front().rounding) << "\nmemory           " << bytes_text(shards.bytes)
+              << '\n';
+  results::Merged merged = merge(shards);
+  const std::string failures = failures_text(merged.dataset, shards.config.sweep);
+  place.write_atomically(results::file_image(std::move(merged.dataset), shards.config).bytes);
   if (!arguments.has("quiet"))
     std::cerr << counted(static_cast<double>(size(shards.config.sweep)), "point") << " of "
               << counted(static_cast<double>(shards.heads.size()), "shard") << ", " << failures << ", "
-              << printable(output) << '\n';
+              << storage::printable(output) << '\n';
   return merged.failed_points > 0 ? points_failed : done;
 }
 
@@ -71,4 +73,4 @@ Command merge_command() {
           .run = merge_shards};
 }
 
-}  // namespace clatter
+}  // namespace clatter::app

@@ -1,21 +1,21 @@
 #include <iostream>
 
 #include "commands.hpp"
-#include "config_arguments.hpp"
+#include "common_options.hpp"
 #include "memory_check.hpp"
 #include "plan_report.hpp"
 #include "sweep/run.hpp"
 #include "warnings.hpp"
 
-namespace clatter {
+namespace clatter::app {
 namespace {
 
 int print_plan(const Arguments& arguments) {
-  const int threads = threads_used({.threads = threads_of(arguments)});
-  const std::optional<Shard> shard = shard_of(arguments);
-  const Config config = config_of(arguments);
+  const int threads = sweep::threads_used({.threads = threads_of(arguments)});
+  const std::optional<sweep::Shard> shard = shard_of(arguments);
+  const config::Config config = config_of(arguments);
   check_memory(config, shard, threads);
-  Plan plan = plan_of(config.sweep, threads, shard);
+  plan::Plan plan = plan::plan_of(config.sweep, threads, shard);
   plan.need = with_configuration(plan.need, config);
   if (arguments.has("json")) {
     join_warnings(plan, config);
@@ -51,4 +51,4 @@ Command plan_command() {
       .run = print_plan};
 }
 
-}  // namespace clatter
+}  // namespace clatter::app

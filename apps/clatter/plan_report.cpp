@@ -7,7 +7,7 @@
 
 #include "format.hpp"
 
-namespace clatter {
+namespace clatter::app {
 namespace {
 
 /// A line of a two-column text; an empty title continues the line before.
@@ -17,19 +17,19 @@ std::string line(std::string_view title, const std::string& text) {
   return left + text + '\n';
 }
 
-std::string range(const Estimate& estimate, const char* format) {
+std::string range(const plan::Bounds& estimate, const char* format) {
   const std::string least = formatted(format, estimate.least), most = formatted(format, estimate.most);
   return least == most ? least : least + " ... " + most;
 }
 
-std::string axis_text(const Axis& axis) {
+std::string axis_text(const sweep::Axis& axis) {
   return std::string(key_of(axis.parameter)) + " (" + std::to_string(axis.values.size()) + " from " +
          formatted("%.10g", axis.values.front()) + " to " + formatted("%.10g", axis.values.back()) + ')';
 }
 
-std::string axes_text(const Sweep& sweep) {
+std::string axes_text(const sweep::Sweep& sweep) {
   std::string text;
-  for (const Dimension& dimension : sweep.dimensions) {
+  for (const sweep::Dimension& dimension : sweep.dimensions) {
     text += text.empty() ? "" : " x ";
     for (std::size_t i = 0; i < dimension.size(); ++i) text += (i > 0 ? " with " : "") + axis_text(dimension[i]);
   }
@@ -43,20 +43,20 @@ std::string joined(const std::vector<std::string>& names) {
   return text.empty() ? "nothing" : text;
 }
 
-std::string method_of(const Sweep& sweep) {
-  return std::string(method_names[static_cast<std::size_t>(sweep.scene.integration.method)]);
+std::string method_of(const sweep::Sweep& sweep) {
+  return std::string(stepping::method_names[static_cast<std::size_t>(sweep.scene.integration.method)]);
 }
 
-std::string group_text(const Group& group) {
-  std::string text =
-      '\n' + line(counted(static_cast<double>(group.points), "point"), "kernel: " + kernel_name(group.effects));
-  for (const Reason& reason : group.reasons)
+std::string group_text(const plan::Group& group) {
+  std::string text = '\n' + line(counted(static_cast<double>(group.points), "point"),
+                                 "kernel: " + plan::effect_set_name(group.effects));
+  for (const plan::Reason& reason : group.reasons)
     text += line("  " + reason.effect, (reason.required ? "yes  " : "no   ") + reason.why);
   return text + line("  work",
                      range(group.periods, "%.4g") + " periods, " + range(group.seconds, "%.2g") + " s on one thread");
 }
 
-std::string points_text(const Plan& plan, const Sweep& sweep) {
+std::string points_text(const plan::Plan& plan, const sweep::Sweep& sweep) {
   std::string text =
       line("points", std::to_string(plan.points) +
                          (plan.shard ? " of " + std::to_string(size(sweep)) + ", shard " + text_of(*plan.shard) : ""));
@@ -66,9 +66,9 @@ std::string points_text(const Plan& plan, const Sweep& sweep) {
   return text;
 }
 
-Estimate seconds_of(const Plan& plan, int threads) {
-  Estimate sum;
-  for (const Group& group : plan.groups) sum += group.seconds;
+plan::Bounds seconds_of(const plan::Plan& plan, int threads) {
+  plan::Bounds sum;
+  for (const plan::Group& group : plan.groups) sum += group.seconds;
   const double together = std::clamp(static_cast<double>(plan.branches), 1.0, static_cast<double>(threads));
   return {sum.least / together, sum.most / together};
 }
@@ -86,17 +86,18 @@ void list(std::ostringstream& out, const Range& range, const Print& print) {
   out << ']';
 }
 
-std::string estimate_json(const Estimate& estimate) {
+std::string estimate_json(const plan::Bounds& estimate) {
   std::ostringstream out;
   out << '[' << json_number(estimate.least) << ", " << json_number(estimate.most) << ']';
   return out.str();
 }
 
-void put_group(std::ostringstream& out, const Group& group) {
+void put_group(std::ostringstream& out, const plan::Group& group) {
   out << "\n    {\"points\": " << group.points << ", \"example\": " << group.example
-      << ", \"kernel\": " << json_text(kernel_name(group.effects)) << ", \"periods\": " << estimate_json(group.periods)
-      << ", \"seconds\": " << estimate_json(group.seconds) << ", \"effects\": ";
-  list(out, group.reasons, [&](const Reason& reason) {
+      << ", \"kernel\": " << json_text(plan::effect_set_name(group.effects))
+      << ", \"periods\": " << estimate_json(group.periods) << ", \"seconds\": " << estimate_json(group.seconds)
+      << ", \"effects\": ";
+  list(out, group.reasons, [&](const plan::Reason& reason) {
     out << "\n      {\"effect\": " << json_text(reason.effect)
         << ", \"required\": " << (reason.required ? "true" : "false") << ", \"why\": " << json_text(reason.why) << '}';
   });
@@ -105,34 +106,34 @@ void put_group(std::ostringstream& out, const Group& group) {
 
 }  // namespace
 
-std::string plan_text(const Plan& plan, const Sweep& sweep, int threads) {
+std::string plan_text(const plan::Plan& plan, const sweep::Sweep& sweep, int threads) {
   std::string text =
       line("axes", axes_text(sweep)) + points_text(plan, sweep) + line("observed", joined(plan.observed));
-  const Integration& integration = sweep.scene.integration;
-  if (integration.method != Method::exact)
+  const stepping::Integration& integration = sweep.scene.integration;
+  if (integration.method != stepping::Method::exact)
     text += line("method", method_of(sweep) + ": every effect is simulated, whatever the kernel; called for are:");
   else if (integration.all_effects)
     text += line("effects", "all are simulated, for all of max_periods (integrator.effects = all); called for are:");
-  for (const Group& group : plan.groups) text += group_text(group);
+  for (const plan::Group& group : plan.groups) text += group_text(group);
   text += '\n' + line("estimated time", range(seconds_of(plan, threads), "%.2g") + " s on " +
                                             counted(threads, "thread") + ", without the observables");
-  const MemoryNeed& need = plan.need;
+  const plan::MemoryNeed& need = plan.need;
   text += line("output", bytes_text(need.output) + " before compression" +
                              (need.log > 0 ? ", the impact log by an estimate" : ""));
   text += line("memory", bytes_text(need.memory) +
                              (need.log > 0 ? ", by an estimate of the impact log: " + bytes_text(need.log) : "") +
-                             (std::isfinite(plan.machine_bytes) ? ", of " + bytes_text(plan.machine_bytes) : ""));
+                             (std::isfinite(plan.available_memory) ? ", of " + bytes_text(plan.available_memory) : ""));
   return text;
 }
 
-std::string plan_json(const Plan& plan, const Sweep& sweep, int threads) {
+std::string plan_json(const plan::Plan& plan, const sweep::Sweep& sweep, int threads) {
   std::ostringstream out;
   out << "{\n  \"schema\": \"clatter-plan/1\",\n  \"shard\": "
       << (plan.shard ? json_text(text_of(*plan.shard)) : "null") << ",\n  \"points\": " << plan.points
       << ",\n  \"sampled_points\": " << (plan.sampled_points ? std::to_string(*plan.sampled_points) : "null")
       << ",\n  \"dimensions\": ";
-  list(out, sweep.dimensions, [&](const Dimension& dimension) {
-    list(out, dimension, [&](const Axis& axis) {
+  list(out, sweep.dimensions, [&](const sweep::Dimension& dimension) {
+    list(out, dimension, [&](const sweep::Axis& axis) {
       out << "{\"key\": " << json_text(std::string(key_of(axis.parameter))) << ", \"length\": " << axis.values.size()
           << ", \"first\": " << json_number(axis.values.front()) << ", \"last\": " << json_number(axis.values.back())
           << '}';
@@ -144,15 +145,15 @@ std::string plan_json(const Plan& plan, const Sweep& sweep, int threads) {
   list(out, plan.observed, [&](const std::string& name) { out << json_text(name); });
   out << ",\n  \"method\": " << json_text(method_of(sweep))
       << ",\n  \"all_effects\": " << (sweep.scene.integration.all_effects ? "true" : "false") << ",\n  \"groups\": ";
-  list(out, plan.groups, [&](const Group& group) { put_group(out, group); });
+  list(out, plan.groups, [&](const plan::Group& group) { put_group(out, group); });
   out << ",\n  \"threads\": " << threads << ",\n  \"seconds\": " << estimate_json(seconds_of(plan, threads))
       << ",\n  \"output_bytes\": " << json_number(plan.need.output)
       << ",\n  \"memory_bytes\": " << json_number(plan.need.memory)
       << ",\n  \"estimated_log_bytes\": " << json_number(plan.need.log)
-      << ",\n  \"machine_bytes\": " << json_number(plan.machine_bytes) << ",\n  \"warnings\": ";
+      << ",\n  \"machine_bytes\": " << json_number(plan.available_memory) << ",\n  \"warnings\": ";
   list(out, plan.warnings, [&](const std::string& warning) { out << json_text(warning); });
   out << "\n}\n";
   return out.str();
 }
 
-}  // namespace clatter
+}  // namespace clatter::app

@@ -2,14 +2,14 @@
 
 #include <string>
 
-#include "sweep/plan.hpp"
+#include "plan/plan.hpp"
 
-namespace clatter {
+namespace clatter::app {
 
 /// A plan for people.
-[[nodiscard]] std::string plan_text(const Plan& plan, const Sweep& sweep, int threads);
+[[nodiscard]] std::string plan_text(const plan::Plan& plan, const sweep::Sweep& sweep, int threads);
 
 /// A plan for scripts, schema "clatter-plan/1" (README, "What a sweep will do").
-[[nodiscard]] std::string plan_json(const Plan& plan, const Sweep& sweep, int threads);
+[[nodiscard]] std::string plan_json(const plan::Plan& plan, const sweep::Sweep& sweep, int threads);
 
-}  // namespace clatter
+}  // namespace clatter::app

@@ -11,7 +11,7 @@
 #include <string_view>
 #include <system_error>
 
-namespace clatter {
+namespace clatter::app {
 namespace {
 
 constexpr std::size_t width = 30;
@@ -100,4 +100,4 @@ void Progress::draw() const {
   std::fflush(stderr);
 }
 
-}  // namespace clatter
+}  // namespace clatter::app

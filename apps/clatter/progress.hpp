@@ -8,7 +8,7 @@
 
 #include "sweep/time_left.hpp"
 
-namespace clatter {
+namespace clatter::app {
 
 /// A bar on stderr with points, or what else is counted, per second and the time left; it erases itself at its end.
 class Progress {
@@ -38,7 +38,7 @@ class Progress {
 
   std::mutex mutex_;  ///< of all that follows
   double finished_, total_ = 0;
-  TimeLeft pace_;
+  sweep::TimeLeft pace_;
   bool is_told_ = false;
   std::optional<double> told_end_{};  ///< when all is finished, as somebody says
   bool over_ = false;
@@ -49,4 +49,4 @@ class Progress {
 /// Whether stderr is a terminal.
 [[nodiscard]] bool stderr_is_terminal();
 
-}  // namespace clatter
+}  // namespace clatter::app

@@ -9,93 +9,100 @@
 #include <string>
 #include <utility>
 
+#include "checkpointer.hpp"
 #include "commands.hpp"
+#include "common_options.hpp"
 #include "config/config.hpp"
 #include "config/suggestion.hpp"
-#include "config_arguments.hpp"
-#include "keeper.hpp"
 #include "memory_check.hpp"
 #include "plan_report.hpp"
 #include "progress.hpp"
-#include "results/figure_file.hpp"
+#include "results/dataset_file.hpp"
 #include "results/output_place.hpp"
 #include "results/version.hpp"
 #include "run_report.hpp"
 #include "storage/error.hpp"
 #include "storage/journal.hpp"
 #include "storage/utf8.hpp"
-#include "sweep/rounding.hpp"
+#include "sweep/rounding_fingerprint.hpp"
 #include "warnings.hpp"
 
-namespace clatter {
+namespace clatter::app {
 namespace {
 
 /// What -o names; else the configuration's name with .h5, for a shard with .K-of-N.h5.
-std::string output_of(const Arguments& arguments, const std::optional<Shard>& shard) {
+std::string output_of(const Arguments& arguments, const std::optional<sweep::Shard>& shard) {
   if (!shard) return output_of(arguments, ".h5");
   return output_of(arguments, '.' + std::to_string(shard->number) + "-of-" + std::to_string(shard->of) + ".h5");
 }
 
-Journal::Begin begin_of(const Arguments& arguments) {
+storage::Journal::Begin begin_of(const Arguments& arguments) {
   if (arguments.has("resume") && arguments.has("restart"))
     throw UsageError("--resume beside --restart; give one of them");
-  if (arguments.has("restart")) return Journal::Begin::restart;
-  return arguments.has("resume") ? Journal::Begin::resume : Journal::Begin::anyhow;
+  if (arguments.has("restart")) return storage::Journal::Begin::restart;
+  return arguments.has("resume") ? storage::Journal::Begin::resume : storage::Journal::Begin::anyhow;
 }
 
 /// When --max-time is over, counted from now.
-std::optional<Keeper::Clock::time_point> end_of(const Arguments& arguments) {
+std::optional<Checkpointer::Clock::time_point> end_of(const Arguments& arguments) {
   const std::optional<std::string> word = arguments.value("max-time");
   if (!word) return std::nullopt;
   double seconds = 0;
   const auto [end, error] = std::from_chars(word->data(), word->data() + word->size(), seconds);
   if (error != std::errc{} || end != word->data() + word->size() || !(seconds > 0) || seconds > 1e9)
-    throw UsageError("--max-time " + in_quotes(*word) + "; permitted: a number of seconds above 0, up to 1e9");
-  return Keeper::Clock::now() +
-         std::chrono::duration_cast<Keeper::Clock::duration>(std::chrono::duration<double>(seconds));
+    throw UsageError("--max-time " + config::in_quotes(*word) + "; permitted: a number of seconds above 0, up to 1e9");
+  return Checkpointer::Clock::now() +
+         std::chrono::duration_cast<Checkpointer::Clock::duration>(std::chrono::duration<double>(seconds));
 }
 
-JournalKey key_of(const Config& config, Arch arch, const std::optional<Shard>& shard) {
+storage::JournalKey key_of(const config::Config& config, lanes::InstructionSet arch,
+                           const std::optional<sweep::Shard>& shard) {
   return {.config = config.text,
-          .program = std::string(version()).append(" ").append(git_commit()).append(", ").append(compiler()),
-          .rounding = rounding_of(config.sweep, arch),
+          .program = std::string(results::version())
+                         .append(" ")
+                         .append(results::git_commit())
+                         .append(", ")
+                         .append(results::compiler()),
+          .rounding = sweep::rounding_fingerprint(config.sweep, arch),
           .shard = shard ? text_of(*shard) : ""};
 }
 
-void say_plan(const Config& config, int threads, const std::optional<Shard>& shard) {
-  Plan plan = plan_of(config.sweep, threads, shard);
+void say_plan(const config::Config& config, int threads, const std::optional<sweep::Shard>& shard) {
+  plan::Plan plan = plan::plan_of(config.sweep, threads, shard);
   plan.need = with_configuration(plan.need, config);
   std::cerr << plan_text(plan, config.sweep, threads);
   say_notes(config), warn(plan);
 }
 
-void run_points(SweepRun& sweep, RunOptions options, bool shown) {
+void run_points(sweep::SweepRun& sweep, sweep::RunOptions options, bool shown) {
   Progress progress(shown, "points", static_cast<double>(sweep.restored_points()));
   if (shown)
     options.progress = [&](double finished, std::size_t total) { progress.show(finished, static_cast<double>(total)); };
   sweep.run(options);
 }
 
-void say_beginning(const Journal& journal, const SweepRun& sweep, const std::string& output, bool quiet) {
+void say_beginning(const storage::Journal& journal, const sweep::SweepRun& sweep, const std::string& output,
+                   bool quiet) {
   if (!journal.is_locked())
-    std::cerr << "there are no locks here: see that no other run writes " << quoted_name(output) << " meanwhile\n";
+    std::cerr << "there are no locks here: see that no other run writes " << storage::quoted_name(output)
+              << " meanwhile\n";
   if (sweep.restored_points() > 0 && !quiet)
     std::cerr << "goes on from " << sweep.restored_points() << " finished points\n";
 }
 
 /// Does the work of a run. If that fails, the keeper saves what it can, and the error says what the next run will find.
 template <typename Work>
-void keeping(std::optional<Keeper>& keeper, Journal& journal, Work work) {
-  const auto failed = [&](const IoError& error) {
-    keeper.reset();
-    return IoError(error.what() + (journal.had_records() ? "\nclatter: " + journal.leave() : ""));
+void keeping(std::optional<Checkpointer>& checkpointer, storage::Journal& journal, Work work) {
+  const auto failed = [&](const storage::IoError& error) {
+    checkpointer.reset();
+    return storage::IoError(error.what() + (journal.had_records() ? "\nclatter: " + journal.leave() : ""));
   };
   try {
     work();
-  } catch (const IoError& error) {
+  } catch (const storage::IoError& error) {
     throw failed(error);
   } catch (const std::bad_alloc&) {
-    throw failed(no_memory("it ran out"));
+    throw failed(storage::no_memory("it ran out"));
   }
 }
 
@@ -104,27 +111,28 @@ int run_config(const Arguments& arguments) {
     throw UsageError("--quiet beside --verbose; give one of them");
   std::signal(SIGPIPE, SIG_IGN);  // that nobody is left to read what is said on stderr is no reason to end
   const std::string began = now();
-  const std::optional<Keeper::Clock::time_point> end = end_of(arguments);
-  const Arch arch = arch_of(arguments);
-  const int threads = threads_used({.threads = threads_of(arguments)});
+  const std::optional<Checkpointer::Clock::time_point> end = end_of(arguments);
+  const lanes::InstructionSet arch = arch_of(arguments);
+  const int threads = sweep::threads_used({.threads = threads_of(arguments)});
   const bool shown = progress_wanted(arguments);
-  const Journal::Begin begin = begin_of(arguments);
-  const std::optional<Shard> shard = shard_of(arguments);
+  const storage::Journal::Begin begin = begin_of(arguments);
+  const std::optional<sweep::Shard> shard = shard_of(arguments);
   const std::string output = output_of(arguments, shard);
-  const Config config = config_of(arguments);
+  const config::Config config = config_of(arguments);
   check_not_config(arguments.operands[0], output);
-  const OutputPlace place(output, {.shard = shard ? text_of(*shard) : "", .title = config.title},
-                          arguments.has("force"));
+  const results::OutputPlace place(output, {.shard = shard ? text_of(*shard) : "", .title = config.title},
+                                   arguments.has("force"));
   check_memory(config, shard, threads);
   if (arguments.has("verbose")) say_plan(config, threads, shard);
   if (!arguments.has("quiet")) warn(config);
   if (!arguments.has("quiet") && !arguments.has("verbose")) warn_of_dearest_point(config.sweep, shard);
 
-  SweepRun sweep(config.sweep, shard);
-  const RecordLimit limit{sweep.most_saved(), config.sweep.scene.observe.impact_log};
-  Journal journal(output, key_of(config, arch, shard), limit, begin, [&](std::span<const std::byte> results) {
+  sweep::SweepRun sweep(config.sweep, shard);
+  const storage::RecordLimit limit{sweep.most_saved(), config.sweep.scene.observe.impact_log};
+  storage::Journal journal(output, key_of(config, arch, shard), limit, begin, [&](std::span<const std::byte> results) {
     if (!sweep.restore(results))
-      throw IoError("the journal of " + quoted_name(output) + " doesn't fit the sweep; --restart begins anew");
+      throw storage::IoError("the journal of " + storage::quoted_name(output) +
+                             " doesn't fit the sweep; --restart begins anew");
   });
   say_beginning(journal, sweep, output, arguments.has("quiet"));
 
@@ -132,18 +140,18 @@ int run_config(const Arguments& arguments) {
     sweep.save([&](std::span<const std::byte> results) { journal.append(results); });
     journal.sync();
   };
-  RunResult result;
+  sweep::RunResult result;
   std::string summary;
-  std::optional<Keeper> keeper;
-  keeping(keeper, journal, [&] {
-    keeper.emplace(journal, save, end);
+  std::optional<Checkpointer> checkpointer;
+  keeping(checkpointer, journal, [&] {
+    checkpointer.emplace(journal, save, end);
     run_points(sweep, {.threads = threads, .arch = arch}, shown);
-    keeper->finish();
+    checkpointer->finish();
     result = sweep.result();
     summary = summary_line(result, config.sweep, shard, output);
-    const auto image = shard ? sealed_image : file_image;
-    place.publish(image(std::move(result.figure), config).bytes,
-                  [&](std::uint64_t bytes) { journal.give_back(bytes); });
+    const auto image = shard ? results::image_with_checksum : results::file_image;
+    place.write_atomically(image(std::move(result.dataset), config).bytes,
+                           [&](std::uint64_t bytes) { journal.give_back(bytes); });
   });
   journal.remove();
   if (!arguments.has("quiet")) std::cerr << summary << '\n';
@@ -186,4 +194,4 @@ Command run_command() {
       .run = run_config};
 }
 
-}  // namespace clatter
+}  // namespace clatter::app

@@ -9,14 +9,14 @@
 
 #include "failures.hpp"
 #include "format.hpp"
+#include "plan/plan.hpp"
 #include "storage/utf8.hpp"
-#include "sweep/plan.hpp"
 
-namespace clatter {
+namespace clatter::app {
 namespace {
 
 /// What lanes took, where any ran.
-std::string lanes_text(const LaneWork& work) {
+std::string lanes_text(const sweep::LaneWork& work) {
   if (work.proved == 0) return "";
   return "; lanes: steps " + formatted("%.6g", work.proved) + ", contacts looked for " +
          formatted("%.6g", work.refined);
@@ -28,19 +28,20 @@ std::string host() {
 }
 
 /// What each group of points took, and all of them.
-std::string usage_text(const std::vector<Usage>& usage) {
+std::string usage_text(const std::vector<sweep::WorkStats>& usage) {
   std::string text;
   double impacts = 0, periods = 0, evaluations = 0;
   for (std::size_t group = 0; group < usage.size(); ++group) {
-    const Usage& used = usage[group];
+    const sweep::WorkStats& used = usage[group];
     text += (group == 0 ? "groups           " : "                 ") +
-            counted(static_cast<double>(used.points), "point") + " by the kernel: " + kernel_name(used.effects) +
-            "; forcing periods " + formatted("%.6g", used.periods) + ", impacts " + formatted("%.0f", used.impacts) +
-            ", evaluations " + formatted("%.0f", used.evaluations);
+            counted(static_cast<double>(used.points), "point") +
+            " by the kernel: " + plan::effect_set_name(used.effects) + "; forcing periods " +
+            formatted("%.6g", used.periods) + ", impacts " + formatted("%.0f", used.impacts) + ", evaluations " +
+            formatted("%.0f", used.evaluations);
     std::string found;
     for (std::size_t i = 0; i < used.found_by.size(); ++i)
       if (used.found_by[i] > 0)
-        found += (found.empty() ? "; settled: " : ", ") + std::string(found_by_names[i]) + ' ' +
+        found += (found.empty() ? "; settled: " : ", ") + std::string(steady::found_by_names[i]) + ' ' +
                  std::to_string(used.found_by[i]);
     text += found + '\n';
     impacts += used.impacts, periods += used.periods, evaluations += used.evaluations;
@@ -51,17 +52,17 @@ std::string usage_text(const std::vector<Usage>& usage) {
 
 }  // namespace
 
-std::string summary_line(const RunResult& result, const Sweep& sweep, const std::optional<Shard>& shard,
-                         const std::string& output) {
-  return counted(static_cast<double>(result.points), "point") + ", " + failures_text(result.figure, sweep, shard) +
-         ", " + formatted("%.3g", result.seconds) + " s, " + printable(output);
+std::string summary_line(const sweep::RunResult& result, const sweep::Sweep& sweep,
+                         const std::optional<sweep::Shard>& shard, const std::string& output) {
+  return counted(static_cast<double>(result.points), "point") + ", " + failures_text(result.dataset, sweep, shard) +
+         ", " + formatted("%.3g", result.seconds) + " s, " + storage::printable(output);
 }
 
-std::string details(const RunResult& result, const std::string& command, const std::string& began) {
+std::string details(const sweep::RunResult& result, const std::string& command, const std::string& began) {
   return usage_text(result.usage) + "threads          " + std::to_string(result.threads) + "\ninstruction set  " +
          std::string(name_of(result.arch)) + lanes_text(result.lanes) + "\nhost             " + host() +
-         "\ncommand line     " + printable(command) + "\nbegan            " + began + "\nended            " + now() +
-         '\n';
+         "\ncommand line     " + storage::printable(command) + "\nbegan            " + began + "\nended            " +
+         now() + '\n';
 }
 
 std::string now() {
@@ -83,4 +84,4 @@ std::string command_line() {
   return words;
 }
 
-}  // namespace clatter
+}  // namespace clatter::app

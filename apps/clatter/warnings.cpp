@@ -3,34 +3,34 @@
 #include <algorithm>
 #include <iostream>
 
+#include "plan/dearest_point.hpp"
 #include "storage/utf8.hpp"
-#include "sweep/dearest_point.hpp"
 
-namespace clatter {
+namespace clatter::app {
 
-void warn(const Config& config, std::span<const std::string_view> but) {
-  for (const Warning& warning : config.warnings) {
+void warn(const config::Config& config, std::span<const std::string_view> but) {
+  for (const config::Warning& warning : config.warnings) {
     if (std::ranges::find(but, warning.section) != but.end()) continue;
-    std::cerr << printable(warning.place + ": warning: " + warning.text) << '\n';
+    std::cerr << storage::printable(warning.location + ": warning: " + warning.text) << '\n';
   }
 }
 
-void warn(const Plan& plan) {
-  for (const std::string& warning : plan.warnings) std::cerr << "warning: " << printable(warning) << '\n';
+void warn(const plan::Plan& plan) {
+  for (const std::string& warning : plan.warnings) std::cerr << "warning: " << storage::printable(warning) << '\n';
 }
 
-void warn_of_dearest_point(const Sweep& sweep, const std::optional<Shard>& shard) {
-  if (const auto warning = warning_of_dearest_point(sweep, shard)) std::cerr << "warning: " << *warning << '\n';
+void warn_of_dearest_point(const sweep::Sweep& sweep, const std::optional<sweep::Shard>& shard) {
+  if (const auto warning = plan::warning_of_dearest_point(sweep, shard)) std::cerr << "warning: " << *warning << '\n';
 }
 
-void say_notes(const Config& config) {
-  for (const std::string& note : config.notes) std::cerr << printable(note) << '\n';
+void say_notes(const config::Config& config) {
+  for (const std::string& note : config.notes) std::cerr << storage::printable(note) << '\n';
 }
 
-void join_warnings(Plan& plan, const Config& config) {
+void join_warnings(plan::Plan& plan, const config::Config& config) {
   std::vector<std::string> all;
-  for (const Warning& warning : config.warnings) all.push_back(warning.place + ": " + warning.text);
+  for (const config::Warning& warning : config.warnings) all.push_back(warning.location + ": " + warning.text);
   plan.warnings.insert(plan.warnings.begin(), all.begin(), all.end());
 }
 
-}  // namespace clatter
+}  // namespace clatter::app

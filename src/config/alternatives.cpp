@@ -4,10 +4,10 @@
 #include "config/consistency.hpp"
 #include "config/suggestion.hpp"
 
-namespace clatter {
+namespace clatter::config {
 namespace {
 
-using enum Parameter;
+using enum sweep::Parameter;
 
 /// A stop that isn't given isn't there; that none is was hardly meant.
 void check_stops_given(const Settings& settings) {
@@ -20,20 +20,21 @@ void check_stops_given(const Settings& settings) {
 void check_start_period(const Settings& settings) {
   const auto start = settings.given(start_period);
   if (!start) return;
-  const auto demand = [&](Parameter parameter, double value) {
+  const auto demand = [&](sweep::Parameter parameter, double value) {
     const auto given = settings.given(parameter);
     if (!given) return;
     for (std::size_t i = 0; i < given->values.size(); ++i) {
       if (given->values[i] == value) continue;
-      fail(given->place_of(i), std::string(key_of(parameter)) + " = " + number_text(given->values[i]) +
-                                   " beside 'start_period'; permitted: " + number_text(value) +
-                                   ", or x0 and v0 in place of start_period");
+      fail(given->location_of(i), std::string(key_of(parameter)) + " = " + number_text(given->values[i]) +
+                                      " beside 'start_period'; permitted: " + number_text(value) +
+                                      ", or x0 and v0 in place of start_period");
     }
   };
-  for (const Parameter parameter : {h, f, load}) demand(parameter, 0);
-  for (const Parameter parameter : {R, R_lower, R_upper}) demand(parameter, 1);
+  for (const sweep::Parameter parameter : {h, f, load}) demand(parameter, 0);
+  for (const sweep::Parameter parameter : {R, R_lower, R_upper}) demand(parameter, 1);
   if (!settings.given(xs))
-    fail(start->key_place, "'start_period' without 'xs'; give the stops by xs, or x0 and v0 in place of start_period");
+    fail(start->key_location,
+         "'start_period' without 'xs'; give the stops by xs, or x0 and v0 in place of start_period");
 }
 
 void check_duration(const Settings& settings) {
@@ -41,7 +42,7 @@ void check_duration(const Settings& settings) {
   const Setting* const given = settings.find("time", "duration");
   if (given == nullptr)
     fail(settings.place_of_section("time"), "'duration' is missing in [time]; mode = transient needs a duration > 0");
-  fail(given->place, "duration = 0 is out of range; permitted: > 0 where mode = transient");
+  fail(given->location, "duration = 0 is out of range; permitted: > 0 where mode = transient");
 }
 
 /// The FFT of N samples knows the harmonics below N/2.
@@ -50,7 +51,7 @@ void check_harmonics(const Settings& settings) {
   const std::int64_t samples = settings.integer("observe", "harmonics_samples");
   if (settings.text("observe", "harmonics_method") != "fft" || 2 * highest < samples) return;
   if (highest == 0) return;
-  fail(settings.find("observe", "harmonics")->place,
+  fail(settings.find("observe", "harmonics")->location,
        "harmonics = " + std::to_string(highest) + " from " + std::to_string(samples) +
            " samples; permitted: less than half of harmonics_samples, or harmonics_method = exact");
 }
@@ -64,4 +65,4 @@ void check_alternatives(const Settings& settings) {
   check_harmonics(settings);
 }
 
-}  // namespace clatter
+}  // namespace clatter::config

@@ -7,7 +7,7 @@
 
 #include "config/value_grammar.hpp"
 
-namespace clatter {
+namespace clatter::config {
 namespace {
 
 using Arguments = std::array<double, 3>;
@@ -92,4 +92,4 @@ std::optional<AxisFunction> axis_function(std::string_view name) {
 
 std::span<const std::string_view> axis_function_names() { return names; }
 
-}  // namespace clatter
+}  // namespace clatter::config

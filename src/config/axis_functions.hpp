@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-namespace clatter {
+namespace clatter::config {
 
 /// A function that gives an axis its values from three numbers.
 struct AxisFunction {
@@ -21,4 +21,4 @@ struct AxisFunction {
 
 [[nodiscard]] std::span<const std::string_view> axis_function_names();
 
-}  // namespace clatter
+}  // namespace clatter::config

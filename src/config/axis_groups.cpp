@@ -5,7 +5,7 @@
 #include "config/consistency.hpp"
 #include "config/suggestion.hpp"
 
-namespace clatter {
+namespace clatter::config {
 namespace {
 
 bool is_blank(std::string_view text) { return text.find_first_not_of(" \t") == std::string_view::npos; }
@@ -17,12 +17,12 @@ std::size_t axis_of(const Settings& settings, const Setting& setting, std::strin
   if (found != names.end()) return static_cast<std::size_t>(found - names.begin());
   const std::string message =
       std::string(setting.key->name) + " names " + in_quotes(name) + ", which is no axis of [sweep]";
-  const auto gone = std::ranges::find(settings.displaced, parameter_of(name), &Displaced::gone);
+  const auto gone = std::ranges::find(settings.displaced, sweep::parameter_of(name), &Displaced::gone);
   if (gone != settings.displaced.end())
-    fail(setting.place, message + " beside " + to_string(gone->stands) + "; add --set sweep." +
-                            std::string(setting.key->name) + "=''");
+    fail(setting.location, message + " beside " + to_string(gone->stands) + "; add --set sweep." +
+                               std::string(setting.key->name) + "=''");
   const std::string way_out = names.empty() ? "; [sweep] has no axes" : suggestion(name, names, "; the axes are: ");
-  fail(setting.place, message + way_out);
+  fail(setting.location, message + way_out);
 }
 
 std::string name_of(const SweptSetting& swept) { return std::string(key_of(swept.parameter)); }
@@ -34,7 +34,7 @@ std::vector<std::size_t> named_axes(const Settings& settings, const Setting* set
   for (const std::string& name : split_names(std::get<std::string>(setting->value))) {
     const std::size_t axis = axis_of(settings, *setting, name);
     if (std::find(axes.begin(), axes.end(), axis) != axes.end())
-      fail(setting->place,
+      fail(setting->location,
            std::string(setting->key->name) + " names " + in_quotes(name) + " twice; name each axis once");
     axes.push_back(axis);
   }
@@ -44,14 +44,14 @@ std::vector<std::size_t> named_axes(const Settings& settings, const Setting* set
 std::vector<std::size_t> linked_axes(const Settings& settings) {
   const Setting* const setting = settings.find("sweep", "linked");
   const std::vector<std::size_t> linked = named_axes(settings, setting);
-  if (linked.size() == 1) fail(setting->place, "linked names one axis; name at least two, e.g. \"nu, f\", or none");
+  if (linked.size() == 1) fail(setting->location, "linked names one axis; name at least two, e.g. \"nu, f\", or none");
   for (const std::size_t axis : linked) {
     const SweptSetting& first = settings.axes[linked.front()];
     const SweptSetting& other = settings.axes[axis];
     if (other.axis.values.size() == first.axis.values.size()) continue;
-    fail(setting->place, "linked axes of different lengths: " + name_of(first) + " has " +
-                             std::to_string(first.axis.values.size()) + " values, " + name_of(other) + " has " +
-                             std::to_string(other.axis.values.size()) + "; give them equally many");
+    fail(setting->location, "linked axes of different lengths: " + name_of(first) + " has " +
+                                std::to_string(first.axis.values.size()) + " values, " + name_of(other) + " has " +
+                                std::to_string(other.axis.values.size()) + "; give them equally many");
   }
   return linked;
 }
@@ -59,11 +59,11 @@ std::vector<std::size_t> linked_axes(const Settings& settings) {
 /// Along a start all points but the first would carry a coordinate that they don't start from.
 void check_no_start(const Settings& settings, const Setting& follow, const std::vector<std::size_t>& group) {
   for (const std::size_t axis : group) {
-    const Parameter parameter = settings.axes[axis].parameter;
-    using enum Parameter;
+    const sweep::Parameter parameter = settings.axes[axis].parameter;
+    using enum sweep::Parameter;
     if (parameter != phase && parameter != x0 && parameter != v0 && parameter != start_period) continue;
-    fail(follow.place, "follow along " + in_quotes(key_of(parameter)) +
-                           ", which only the first point would start from; follow another axis, or none");
+    fail(follow.location, "follow along " + in_quotes(key_of(parameter)) +
+                              ", which only the first point would start from; follow another axis, or none");
   }
 }
 
@@ -93,7 +93,7 @@ AxisGroups group_axes(const Settings& settings) {
     groups.push_back(is_linked ? linked : std::vector<std::size_t>{axis});
     points *= static_cast<double>(settings.axes[axis].axis.values.size());
     if (points > max_points)
-      fail(settings.axes[axis].place,
+      fail(settings.axes[axis].location,
            "a sweep of " + number_text(points) + " points; permitted: at most " + number_text(max_points));
   }
   return groups;
@@ -110,12 +110,12 @@ std::optional<std::size_t> followed_dimension(const Settings& settings, const Ax
       std::find_if(groups.begin(), groups.end(), [&](const auto& group) { return holds(group, axes.front()); });
   for (const std::size_t axis : axes) {
     if (holds(*followed, axis)) continue;
-    fail(setting->place, "follow names " + in_quotes(name_of(settings.axes[axes.front()])) + " and " +
-                             in_quotes(name_of(settings.axes[axis])) +
-                             ", which are not linked; follow one axis, or name both in linked too");
+    fail(setting->location, "follow names " + in_quotes(name_of(settings.axes[axes.front()])) + " and " +
+                                in_quotes(name_of(settings.axes[axis])) +
+                                ", which are not linked; follow one axis, or name both in linked too");
   }
   check_no_start(settings, *setting, *followed);
   return static_cast<std::size_t>(followed - groups.begin());
 }
 
-}  // namespace clatter
+}  // namespace clatter::config

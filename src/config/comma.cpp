@@ -5,7 +5,7 @@
 
 #include "config/text_file.hpp"
 
-namespace clatter {
+namespace clatter::config {
 namespace {
 
 bool is_digit(char character) { return std::isdigit(static_cast<unsigned char>(character)) != 0; }
@@ -52,4 +52,4 @@ std::string comma_hint_within(std::string_view text) {
   return {};
 }
 
-}  // namespace clatter
+}  // namespace clatter::config

@@ -5,7 +5,7 @@
 
 #include "config/keys.hpp"
 
-namespace clatter {
+namespace clatter::config {
 
 /// "; a decimal comma? write 0.1" where a text is a number but for a comma, as 0,1 is; for whole numbers "; write it
 /// without commas: 10000"; else nothing.
@@ -14,4 +14,4 @@ namespace clatter {
 /// The same for the first such number among others, as in linspace(0,5, 1,5, 501).
 [[nodiscard]] std::string comma_hint_within(std::string_view text);
 
-}  // namespace clatter
+}  // namespace clatter::config

@@ -7,22 +7,22 @@
 
 #include "sweep/sweep.hpp"
 
-namespace clatter {
+namespace clatter::config {
 
 enum class Format { toml, ini };
 
 /// What looks unintended in a configuration, and is no mistake.
 struct Warning {
-  std::string place;    ///< "fig22.toml:7:6", or the words of a --set
-  std::string section;  ///< of the key
-  std::string text;     ///< what it is; the way out
+  std::string location;  ///< "fig22.toml:7:6", or the words of a --set
+  std::string section;   ///< of the key
+  std::string text;      ///< what it is; the way out
 };
 
 /// A complete configuration: what is swept, what is observed, how it is written.
 struct Config {
   std::string title;
   std::string source;
-  Sweep sweep;
+  sweep::Sweep sweep;
   int compression = 0;  ///< deflate level of the output, 0 ... 9
   std::string text;     ///< all of it with the defaults filled in, as TOML that runs again (root attribute `config`)
   std::vector<Warning> warnings;
@@ -52,4 +52,4 @@ inline constexpr std::string_view standard_input = "-";
 /// Reads a configuration from TOML, such as the complete text of another one; `file` is named in errors.
 [[nodiscard]] Config parse_config(const std::string& text, const std::string& file);
 
-}  // namespace clatter
+}  // namespace clatter::config

@@ -4,14 +4,14 @@
 #include "config/config.hpp"
 #include "config/config_text.hpp"
 #include "config/consistency.hpp"
-#include "config/raw_config.hpp"
+#include "config/parsed_config.hpp"
 #include "config/settings.hpp"
 #include "config/text_file.hpp"
 
-namespace clatter {
+namespace clatter::config {
 namespace {
 
-RawConfig read_raw(const std::string& path, Format format) {
+ParsedConfig read_raw(const std::string& path, Format format) {
   const bool from_file = path != standard_input;
   const std::string name = from_file ? path : "stdin";
   const std::string text = from_file ? read_text(path) : read_standard_input(name);
@@ -19,8 +19,8 @@ RawConfig read_raw(const std::string& path, Format format) {
   return ini ? read_ini(name, text) : read_toml(name, text);
 }
 
-TimePlan time_plan(const Settings& settings) {
-  return {.mode = settings.text("time", "mode") == "transient" ? Mode::transient : Mode::steady,
+steady::TimeSettings time_plan(const Settings& settings) {
+  return {.mode = settings.text("time", "mode") == "transient" ? steady::Mode::transient : steady::Mode::steady,
           .max_periods = settings.integer("time", "max_periods"),
           .window = settings.integer("time", "window"),
           .duration = settings.number("time", "duration"),
@@ -28,11 +28,12 @@ TimePlan time_plan(const Settings& settings) {
           .max_impacts = static_cast<double>(settings.integer("time", "max_impacts"))};
 }
 
-Observe observe(const Settings& settings) {
+observables::Observe observe(const Settings& settings) {
   return {.extrema = settings.flag("observe", "extrema"),
           .harmonics = settings.integer("observe", "harmonics"),
-          .harmonics_method =
-              settings.text("observe", "harmonics_method") == "exact" ? HarmonicsMethod::exact : HarmonicsMethod::fft,
+          .harmonics_method = settings.text("observe", "harmonics_method") == "exact"
+                                  ? observables::HarmonicsMethod::exact
+                                  : observables::HarmonicsMethod::fft,
           .harmonics_samples = settings.integer("observe", "harmonics_samples"),
           .impacts = settings.flag("observe", "impacts"),
           .impact_log = settings.flag("observe", "impact_log"),
@@ -41,11 +42,12 @@ Observe observe(const Settings& settings) {
           .stability = settings.flag("observe", "stability")};
 }
 
-Method method(const std::string& name) {
-  return static_cast<Method>(std::ranges::find(method_names, name) - method_names.begin());
+stepping::Method method(const std::string& name) {
+  return static_cast<stepping::Method>(std::ranges::find(stepping::method_names, name) -
+                                       stepping::method_names.begin());
 }
 
-Integration integration(const Settings& settings) {
+stepping::Integration integration(const Settings& settings) {
   return {.method = method(settings.text("integrator", "method")),
           .tolerance = settings.number("integrator", "tolerance"),
           .step = settings.number("integrator", "step"),
@@ -53,27 +55,27 @@ Integration integration(const Settings& settings) {
           .all_effects = settings.text("integrator", "effects") == "all"};
 }
 
-/// The scene before any axis is applied; what has no default stays as Scene has it.
-Scene scene_of(const Settings& settings) {
-  Scene scene;
+/// The scene before any axis is applied; what has no default stays as Problem has it.
+point::Problem scene_of(const Settings& settings) {
+  point::Problem scene;
   scene.time = time_plan(settings);
   scene.observe = observe(settings);
   scene.integration = integration(settings);
   for (const Key& key : keys()) {
-    const auto parameter = parameter_of(key.name);
-    if (key.section != "scene" || !parameter || *parameter == Parameter::start_period) continue;
+    const auto parameter = sweep::parameter_of(key.name);
+    if (key.section != "scene" || !parameter || *parameter == sweep::Parameter::start_period) continue;
     const Setting* const given = settings.find("scene", key.name);
-    if (given != nullptr) set(scene, *parameter, std::get<double>(given->value));
+    if (given != nullptr) sweep::set(scene, *parameter, std::get<double>(given->value));
   }
   return scene;
 }
 
-Sweep sweep_of(Settings& settings, const AxisGroups& groups) {
-  Sweep sweep{scene_of(settings), {}, followed_dimension(settings, groups), std::nullopt};
+sweep::Sweep sweep_of(Settings& settings, const AxisGroups& groups) {
+  sweep::Sweep sweep{scene_of(settings), {}, followed_dimension(settings, groups), std::nullopt};
   if (const Setting* const start = settings.find("scene", "start_period"))
     sweep.start_period = std::get<double>(start->value);
   for (const std::vector<std::size_t>& group : groups) {
-    Dimension& dimension = sweep.dimensions.emplace_back();
+    sweep::Dimension& dimension = sweep.dimensions.emplace_back();
     for (const std::size_t axis : group) {
       SweptSetting& swept = settings.axes[axis];
       dimension.push_back({swept.parameter, std::move(swept.axis.values)});
@@ -85,21 +87,22 @@ Sweep sweep_of(Settings& settings, const AxisGroups& groups) {
 /// A configuration whose complete text would be too long to be read again, at the longest of its values.
 [[noreturn]] void refuse_long(const Settings& settings) {
   std::size_t longest = 0;
-  Place place{settings.file, 1, 1};
+  SourceLocation location{settings.file, 1, 1};
   std::string name, way_out;
-  const auto compare = [&](std::string_view key, const Place& key_place, std::size_t length, const char* remedy) {
-    if (length > longest) longest = length, place = key_place, name = key, way_out = remedy;
+  const auto compare = [&](std::string_view key, const SourceLocation& key_location, std::size_t length,
+                           const char* remedy) {
+    if (length > longest) longest = length, location = key_location, name = key, way_out = remedy;
   };
   for (const Setting& setting : settings.values)
-    compare(setting.key->name, setting.key_place, toml_value(setting).size(), "shorten it");
+    compare(setting.key->name, setting.key_location, toml_value(setting).size(), "shorten it");
   for (const SweptSetting& swept : settings.axes)
-    compare(key_of(swept.parameter), swept.key_place, swept.axis.text.size(),
+    compare(key_of(swept.parameter), swept.key_location, swept.axis.text.size(),
             "write it as linspace, logspace or arange");
-  fail(place, "the complete configuration is more than 1 MiB, of which '" + name + "' takes " +
-                  std::to_string(longest) + " bytes; " + way_out);
+  fail(location, "the complete configuration is more than 1 MiB, of which '" + name + "' takes " +
+                     std::to_string(longest) + " bytes; " + way_out);
 }
 
-Config config_of(RawConfig raw) {
+Config config_of(ParsedConfig raw) {
   Settings settings = check_keys(std::move(raw));
   let_command_line_win(settings);
   check_alternatives(settings);
@@ -117,11 +120,11 @@ Config config_of(RawConfig raw) {
 }  // namespace
 
 Config read_config(const std::string& path, const std::vector<Override>& overrides, Format format) {
-  RawConfig raw = read_raw(path, format);
+  ParsedConfig raw = read_raw(path, format);
   apply_overrides(raw, overrides);
   return config_of(std::move(raw));
 }
 
 Config parse_config(const std::string& text, const std::string& file) { return config_of(read_toml(file, text)); }
 
-}  // namespace clatter
+}  // namespace clatter::config

@@ -3,13 +3,13 @@
 #include <array>
 #include <type_traits>
 
-namespace clatter {
+namespace clatter::config {
 namespace {
 
-using enum Parameter;
+using enum sweep::Parameter;
 
 bool is_swept(const Settings& settings, std::string_view name) {
-  const auto parameter = parameter_of(name);
+  const auto parameter = sweep::parameter_of(name);
   const auto given = parameter ? settings.given(*parameter) : std::nullopt;
   return given && given->axis;
 }
@@ -80,4 +80,4 @@ std::string config_text(const Settings& settings) {
   return text;
 }
 
-}  // namespace clatter
+}  // namespace clatter::config

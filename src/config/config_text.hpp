@@ -5,7 +5,7 @@
 
 #include "config/settings.hpp"
 
-namespace clatter {
+namespace clatter::config {
 
 /// The complete configuration as TOML: every key that has a value, defaults filled in, of alternatives only those that
 /// were given.
@@ -17,4 +17,4 @@ namespace clatter {
 /// A TOML text in quotes.
 [[nodiscard]] std::string toml_text(std::string_view text);
 
-}  // namespace clatter
+}  // namespace clatter::config

@@ -7,7 +7,7 @@
 
 #include "config/settings.hpp"
 
-namespace clatter {
+namespace clatter::config {
 
 /// The names between the commas of `linked` or `follow`.
 [[nodiscard]] std::vector<std::string> split_names(std::string_view text);
@@ -37,4 +37,4 @@ void check_stops_and_start(const Settings& settings, const AxisGroups& groups);
 /// What looks unintended: keys without effect, values twice on an axis, a run that observes nothing.
 [[nodiscard]] std::vector<Warning> warnings_of(const Settings& settings, const AxisGroups& groups);
 
-}  // namespace clatter
+}  // namespace clatter::config

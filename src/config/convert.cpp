@@ -7,25 +7,25 @@
 #include "config/settings.hpp"
 #include "config/suggestion.hpp"
 
-namespace clatter {
+namespace clatter::config {
 namespace {
 
 /// What was found, for a message.
-std::string found(const RawValue& raw) {
+std::string found(const ParsedValue& raw) {
   const auto describe = [](const auto& data) -> std::string {
     using Data = std::decay_t<decltype(data)>;
     if constexpr (std::is_same_v<Data, std::string>) return data.empty() ? "nothing" : "the text " + in_quotes(data);
     if constexpr (std::is_same_v<Data, bool>) return data ? "true" : "false";
     if constexpr (std::is_same_v<Data, std::int64_t>) return "the number " + std::to_string(data);
     if constexpr (std::is_same_v<Data, double>) return "the number " + number_text(data);
-    if constexpr (std::is_same_v<Data, RawList>) return "a list";
+    if constexpr (std::is_same_v<Data, ParsedList>) return "a list";
     if constexpr (std::is_same_v<Data, Unsupported>) return data.name;
   };
   return std::visit(describe, raw.data);
 }
 
-[[noreturn]] void wrong_kind(const Key& key, const RawValue& raw, const std::string& way_out = "") {
-  fail(raw.place, std::string(key.name) + " = " + found(raw) + "; permitted: " + permitted(key) + way_out);
+[[noreturn]] void wrong_kind(const Key& key, const ParsedValue& raw, const std::string& way_out = "") {
+  fail(raw.location, std::string(key.name) + " = " + found(raw) + "; permitted: " + permitted(key) + way_out);
 }
 
 /// Whether a text means several values.
@@ -36,29 +36,29 @@ bool is_axis(std::string_view text) {
 }
 
 /// Where several values belong: a key of [scene] has them as an axis.
-std::string home_of_axis(const Key& key, const RawValue& raw) {
+std::string home_of_axis(const Key& key, const ParsedValue& raw) {
   if (key.section != "scene") return "; one value, since only keys of [scene] can be axes";
   const auto* const text = std::get_if<std::string>(&raw.data);
-  if (!on_command_line(raw.place) || text == nullptr)
+  if (!on_command_line(raw.location) || text == nullptr)
     return "; several values are an axis, and its line belongs in [sweep]";
   return "; several values are an axis: --set sweep." + std::string(key.name) + "='" + *text + '\'';
 }
 
 /// One value is needed; several, or a number with a comma, are told what to become.
-void check_single(const Key& key, const RawValue& raw) {
+void check_single(const Key& key, const ParsedValue& raw) {
   const auto* const text = std::get_if<std::string>(&raw.data);
-  if (std::holds_alternative<RawList>(raw.data)) wrong_kind(key, raw, home_of_axis(key, raw));
+  if (std::holds_alternative<ParsedList>(raw.data)) wrong_kind(key, raw, home_of_axis(key, raw));
   if (text != nullptr && is_axis(*text)) wrong_kind(key, raw, comma_hint(*text, key.kind) + home_of_axis(key, raw));
 }
 
-SourceText source_text(const std::string& text, const RawValue& raw) {
-  SourceText source{text, raw.place, raw.untyped || raw.inset > 0};
-  source.place.column += raw.inset;
+SourceText source_text(const std::string& text, const ParsedValue& raw) {
+  SourceText source{text, raw.location, raw.untyped || raw.inset > 0};
+  source.location.column += raw.inset;
   return source;
 }
 
 /// A number as written: in TOML a text is one only where it holds pi, since "0.5" in quotes is a text by mistake.
-double number_of(const Key& key, const RawValue& raw) {
+double number_of(const Key& key, const ParsedValue& raw) {
   if (const auto* const integer = std::get_if<std::int64_t>(&raw.data)) return static_cast<double>(*integer);
   if (const auto* const number = std::get_if<double>(&raw.data)) return *number;
   const auto* const text = std::get_if<std::string>(&raw.data);
@@ -69,43 +69,44 @@ double number_of(const Key& key, const RawValue& raw) {
   return parse_number(source_text(*text, raw));
 }
 
-void check_range(const Key& key, double value, const Place& place, const std::string& hint = "") {
+void check_range(const Key& key, double value, const SourceLocation& location, const std::string& hint = "") {
   if (contains(key.range, value)) return;
   const char* const fault = std::isfinite(value) ? " is out of range" : " is not finite";
-  fail(place, std::string(key.name) + " = " + number_text(value) + fault + "; permitted: " + permitted(key) + hint);
+  fail(location, std::string(key.name) + " = " + number_text(value) + fault + "; permitted: " + permitted(key) + hint);
 }
 
-std::int64_t integer_of(const Key& key, const RawValue& raw) {
+std::int64_t integer_of(const Key& key, const ParsedValue& raw) {
   const double value = number_of(key, raw);
   if (std::isfinite(value) && value != std::floor(value)) {
-    fail(raw.place,
+    fail(raw.location,
          std::string(key.name) + " = " + number_text(value) + " is a fraction; permitted: " + permitted(key));
   }
-  check_range(key, value, raw.place);
+  check_range(key, value, raw.location);
   return static_cast<std::int64_t>(value);
 }
 
-double in_range(const Key& key, double value, const Place& place) {
-  check_range(key, value, place);
+double in_range(const Key& key, double value, const SourceLocation& location) {
+  check_range(key, value, location);
   return value;
 }
 
-bool flag_of(const Key& key, const RawValue& raw) {
+bool flag_of(const Key& key, const ParsedValue& raw) {
   if (const auto* const flag = std::get_if<bool>(&raw.data)) return *flag;
   const auto* const text = std::get_if<std::string>(&raw.data);
   if (text == nullptr || !raw.untyped || (*text != "true" && *text != "false")) wrong_kind(key, raw);
   return *text == "true";
 }
 
-std::string text_of(const Key& key, const RawValue& raw) {
+std::string text_of(const Key& key, const ParsedValue& raw) {
   const auto* const text = std::get_if<std::string>(&raw.data);
   if (text == nullptr) wrong_kind(key, raw, ", in quotes");
   if (text->find('\0') != std::string::npos)
-    fail(raw.place, std::string(key.name) + ": permitted: a text without NUL characters, at which a file would end it");
+    fail(raw.location,
+         std::string(key.name) + ": permitted: a text without NUL characters, at which a file would end it");
   return *text;
 }
 
-std::string choice_of(const Key& key, const RawValue& raw) {
+std::string choice_of(const Key& key, const ParsedValue& raw) {
   std::string text = text_of(key, raw);
   for (const std::string_view choice : key.choices) {
     if (choice == text) return text;
@@ -114,29 +115,29 @@ std::string choice_of(const Key& key, const RawValue& raw) {
   wrong_kind(key, raw, near.empty() ? "" : "; did you mean '" + std::string(near) + "'?");
 }
 
-AxisValues list_of(const Key& key, const RawList& list) {
+AxisValues list_of(const Key& key, const ParsedList& list) {
   AxisValues axis;
-  for (const RawValue& element : list) {
+  for (const ParsedValue& element : list) {
     axis.values.push_back(number_of(key, element));
-    axis.places.push_back(element.place);
+    axis.locations.push_back(element.location);
   }
   axis.text = toml_list(axis.values);
   return axis;
 }
 
-AxisValues unchecked_axis(const Key& key, const RawValue& raw) {
-  if (const auto* const list = std::get_if<RawList>(&raw.data)) return list_of(key, *list);
+AxisValues unchecked_axis(const Key& key, const ParsedValue& raw) {
+  if (const auto* const list = std::get_if<ParsedList>(&raw.data)) return list_of(key, *list);
   if (const auto* const text = std::get_if<std::string>(&raw.data)) return parse_axis(source_text(*text, raw));
   return list_of(key, {raw});
 }
 
 }  // namespace
 
-std::variant<std::string, double, std::int64_t, bool> convert(const Key& key, const RawValue& raw) {
+std::variant<std::string, double, std::int64_t, bool> convert(const Key& key, const ParsedValue& raw) {
   if (key.kind == Kind::number || key.kind == Kind::integer) check_single(key, raw);
   switch (key.kind) {
     case Kind::number:
-      return in_range(key, number_of(key, raw), raw.place);
+      return in_range(key, number_of(key, raw), raw.location);
     case Kind::integer:
       return integer_of(key, raw);
     case Kind::flag:
@@ -150,18 +151,19 @@ std::variant<std::string, double, std::int64_t, bool> convert(const Key& key, co
   return text_of(key, raw);
 }
 
-AxisValues convert_axis(const Key& key, const RawValue& raw) {
+AxisValues convert_axis(const Key& key, const ParsedValue& raw) {
   AxisValues axis = unchecked_axis(key, raw);
-  if (axis.values.empty()) fail(raw.place, "an empty axis; give " + std::string(key.name) + " at least one value");
+  if (axis.values.empty()) fail(raw.location, "an empty axis; give " + std::string(key.name) + " at least one value");
   if (static_cast<double>(axis.values.size()) > max_axis_values) {
-    fail(raw.place, std::to_string(axis.values.size()) + " values; permitted: at most " + number_text(max_axis_values));
+    fail(raw.location,
+         std::to_string(axis.values.size()) + " values; permitted: at most " + number_text(max_axis_values));
   }
   const auto* const text = std::get_if<std::string>(&raw.data);
   const std::string hint = text == nullptr ? "" : comma_hint(*text);
   for (std::size_t i = 0; i < axis.values.size(); ++i) {
-    check_range(key, axis.values[i], i < axis.places.size() ? axis.places[i] : raw.place, hint);
+    check_range(key, axis.values[i], i < axis.locations.size() ? axis.locations[i] : raw.location, hint);
   }
   return axis;
 }
 
-}  // namespace clatter
+}  // namespace clatter::config

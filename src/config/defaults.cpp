@@ -7,7 +7,7 @@
 #include "config/settings.hpp"
 #include "config/wrapped.hpp"
 
-namespace clatter {
+namespace clatter::config {
 namespace {
 
 constexpr std::string_view toml_head =
@@ -53,4 +53,4 @@ std::string default_config(Format format) {
   return text;
 }
 
-}  // namespace clatter
+}  // namespace clatter::config

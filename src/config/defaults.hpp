@@ -4,9 +4,9 @@
 
 #include "config/config.hpp"
 
-namespace clatter {
+namespace clatter::config {
 
 /// A complete commented configuration that runs: every key with its default, its meaning and what it permits.
 [[nodiscard]] std::string default_config(Format format);
 
-}  // namespace clatter
+}  // namespace clatter::config

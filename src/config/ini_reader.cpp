@@ -5,11 +5,11 @@
 #include <utility>
 
 #include "config/keys.hpp"
-#include "config/raw_config.hpp"
+#include "config/parsed_config.hpp"
 #include "config/text_file.hpp"
 #include "storage/utf8.hpp"
 
-namespace clatter {
+namespace clatter::config {
 namespace {
 
 constexpr std::string_view blanks = " \t\r";
@@ -53,12 +53,12 @@ class IniScanner {
   }
 
   /// Entries without their values, which Boost reads from plain().
-  [[nodiscard]] RawConfig& raw() { return raw_; }
+  [[nodiscard]] ParsedConfig& raw() { return raw_; }
   [[nodiscard]] const std::string& plain() const { return plain_; }
 
  private:
-  [[nodiscard]] Place place(const Part& part) const {
-    return {raw_.file, line_, 1 + characters(part.line.substr(0, part.begin))};
+  [[nodiscard]] SourceLocation location(const Part& part) const {
+    return {raw_.file, line_, 1 + storage::characters(part.line.substr(0, part.begin))};
   }
 
   /// A part as Boost may see it.
@@ -70,26 +70,28 @@ class IniScanner {
 
   void scan_section(const Part& content) {
     const std::size_t close = content.line.find(']', content.begin);
-    if (close == std::string_view::npos) fail(place(content), "the section's ']' is missing; write e.g. [scene]");
+    if (close == std::string_view::npos) fail(location(content), "the section's ']' is missing; write e.g. [scene]");
     const Part rest{content.line, close + 1, content.end};
-    if (!is_blank_or_comment(rest.text())) fail(place(trimmed(rest)), "text after the section's ']'; begin a new line");
+    if (!is_blank_or_comment(rest.text()))
+      fail(location(trimmed(rest)), "text after the section's ']'; begin a new line");
     const Part name = trimmed({content.line, content.begin + 1, close});
-    if (name.text().empty()) fail(place(content), "a section without a name; write e.g. [scene]");
-    for (const RawSection& section : raw_.sections) {
+    if (name.text().empty()) fail(location(content), "a section without a name; write e.g. [scene]");
+    for (const ParsedSection& section : raw_.sections) {
       if (section.name != name.text()) continue;
-      fail(place(name), "section [" + section.name + "] again; it began at line " + std::to_string(section.place.line));
+      fail(location(name),
+           "section [" + section.name + "] again; it began at line " + std::to_string(section.location.line));
     }
-    raw_.sections.push_back({std::string(name.text()), place(name)});
+    raw_.sections.push_back({std::string(name.text()), location(name)});
     plain_ += '[' + plain(name) + "]\n";
   }
 
   void scan_entry(const Part& content) {
     const std::size_t sign = content.line.find_first_of("=;#", content.begin);
     if (sign == std::string_view::npos || content.line[sign] != '=') {
-      fail(place(content), "expected KEY = VALUE or [section], found '" + std::string(content.text()) + "'");
+      fail(location(content), "expected KEY = VALUE or [section], found '" + std::string(content.text()) + "'");
     }
     const Part key = trimmed({content.line, content.begin, sign});
-    if (key.text().empty()) fail(place(content), "a key is missing before '='");
+    if (key.text().empty()) fail(location(content), "a key is missing before '='");
     add_entry(key, value_part(key.text(), trimmed({content.line, sign + 1, content.end})));
   }
 
@@ -98,10 +100,10 @@ class IniScanner {
     const std::string_view text = value.text();
     if (text.starts_with('"') || text.starts_with('\'')) {
       const std::size_t close = text.find(text.front(), 1);
-      if (close == std::string_view::npos) fail(place(value), "the closing quote is missing");
+      if (close == std::string_view::npos) fail(location(value), "the closing quote is missing");
       const Part rest{value.line, value.begin + close + 1, value.end};
       if (!is_blank_or_comment(rest.text()))
-        fail(place(trimmed(rest)), "text after the closing quote; quote the whole value, or nothing");
+        fail(location(trimmed(rest)), "text after the closing quote; quote the whole value, or nothing");
       value.end = rest.begin;
       return value;
     }
@@ -116,16 +118,16 @@ class IniScanner {
 
   void add_entry(const Part& key, const Part& value) {
     const std::string section = raw_.sections.empty() ? "" : raw_.sections.back().name;
-    for (const RawEntry& entry : raw_.entries) {
+    for (const ParsedEntry& entry : raw_.entries) {
       if (entry.section != section || entry.key != key.text()) continue;
-      fail(place(key), "key '" + entry.key + "' again; it was given at line " + std::to_string(entry.place.line));
+      fail(location(key), "key '" + entry.key + "' again; it was given at line " + std::to_string(entry.location.line));
     }
-    RawValue raw_value{{}, place(value), true, value.text().find_first_of("\"'") == 0 ? 1 : 0};
-    raw_.entries.push_back({section, std::string(key.text()), place(key), std::move(raw_value)});
+    ParsedValue raw_value{{}, location(value), true, value.text().find_first_of("\"'") == 0 ? 1 : 0};
+    raw_.entries.push_back({section, std::string(key.text()), location(key), std::move(raw_value)});
     plain_ += plain(key) + '=' + plain(value) + '\n';
   }
 
-  RawConfig raw_;
+  ParsedConfig raw_;
   std::string plain_;
   int line_ = 0;
 };
@@ -138,7 +140,7 @@ std::string written(std::string value) {
 
 }  // namespace
 
-RawConfig read_ini(const std::string& file, std::string_view text) {
+ParsedConfig read_ini(const std::string& file, std::string_view text) {
   check_characters(file, text);
   IniScanner scanner(file);
   for (std::size_t begin = 0; begin < text.size();) {
@@ -149,7 +151,7 @@ RawConfig read_ini(const std::string& file, std::string_view text) {
   std::istringstream plain(scanner.plain());
   const boost::program_options::options_description none;
   const auto parsed = boost::program_options::parse_config_file(plain, none, true);
-  RawConfig raw = std::move(scanner.raw());
+  ParsedConfig raw = std::move(scanner.raw());
   if (parsed.options.size() != raw.entries.size())
     throw std::logic_error("the INI scanner and Boost's parser disagree");
   for (std::size_t i = 0; i < raw.entries.size(); ++i)
@@ -157,4 +159,4 @@ RawConfig read_ini(const std::string& file, std::string_view text) {
   return raw;
 }
 
-}  // namespace clatter
+}  // namespace clatter::config

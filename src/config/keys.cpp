@@ -7,19 +7,19 @@
 
 #include "config/suggestion.hpp"
 #include "config/value_grammar.hpp"
-#include "dynamics/scene.hpp"
+#include "point/problem.hpp"
 
-namespace clatter {
+namespace clatter::config {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-constexpr Range any{};
-constexpr Range any_or_infinite{.infinite = true};
-constexpr Range not_negative{.low = 0};
-constexpr Range positive{.low = 0, .open = true};
-constexpr Range not_zero{.not_zero = true};
-constexpr Range zero_to_one{.low = 0, .high = 1};
+constexpr AllowedRange any{};
+constexpr AllowedRange any_or_infinite{.infinite = true};
+constexpr AllowedRange not_negative{.low = 0};
+constexpr AllowedRange positive{.low = 0, .open = true};
+constexpr AllowedRange not_zero{.not_zero = true};
+constexpr AllowedRange zero_to_one{.low = 0, .high = 1};
 
 constexpr std::array<std::string_view, 2> modes{"steady", "transient"};
 constexpr std::array<std::string_view, 2> harmonics_methods{"fft", "exact"};
@@ -73,7 +73,7 @@ constexpr std::array all_keys{
     with(stops, Key{"scene", "start_period", number, "", "3",
                     "period of the motion to start on, just after its contact with the lower stop; in place of x0 and "
                     "v0, where h = f = load = 0, R = 1 and xs is given",
-                    Range{.low = 0, .high = 2 * std::numbers::pi, .open = true}}),
+                    AllowedRange{.low = 0, .high = 2 * std::numbers::pi, .open = true}}),
 
     with("xs = [1.0, 2.0]\nR = [0.7, 0.5]\n",
          Key{"sweep", "linked", names, "", "xs, R",
@@ -86,41 +86,42 @@ constexpr std::array all_keys{
                 Key{"time", "mode", choice, "steady", "transient",
                     "steady: run until the motion repeats, observe one period; transient: observe from tau = 0"})),
     Key{"time", "max_periods", integer, "5000", "1000", "steady: forcing periods after which settling is given up",
-        Range{.low = 1, .high = 1e12}},
+        AllowedRange{.low = 1, .high = 1e12}},
     Key{"time", "window", integer, "64", "16", "steady: forcing periods observed of a motion that does not repeat",
-        Range{.low = 1, .high = 1e9}},
+        AllowedRange{.low = 1, .high = 1e9}},
     with(is_transient, Key{"time", "duration", number, "0", "63",
                            "transient: observed time in tau; greater than 0 there", not_negative}),
     Key{"time", "tolerance", number, "1e-12", "1e-9", "steady: distance of the states at a repeat",
-        Range{.low = 0, .high = 1, .open = true}},
+        AllowedRange{.low = 0, .high = 1, .open = true}},
     Key{"time", "max_impacts", integer, "1e8", "1e6",
-        "impacts after which a point is given up, with the status event_budget", Range{.low = 1, .high = 1e15}},
+        "impacts after which a point is given up, with the status event_budget", AllowedRange{.low = 1, .high = 1e15}},
 
     Key{"observe", "extrema", flag, "false", "true", "x_min x_max v_min v_max, exact, between samples too"},
     Key{"observe", "harmonics", integer, "0", "3", "constant part and amplitudes 1 ... K of x and of x'; 0: none",
-        Range{.low = 0, .high = 1e5}},
+        AllowedRange{.low = 0, .high = 1e5}},
     with(observed_harmonics,
          one_of(harmonics_methods, Key{"observe", "harmonics_method", choice, "fft", "exact",
                                        "fft: from samples, by FFTW; exact: from the arcs, without aliasing"})),
     with(observed_harmonics, Key{"observe", "harmonics_samples", integer, "4096", "8192",
-                                 "FFT samples over the observed time", Range{.low = 2, .high = 16777216}}),
+                                 "FFT samples over the observed time", AllowedRange{.low = 2, .high = 16777216}}),
     Key{"observe", "impacts", flag, "false", "true",
         "per stop: impacts per period, velocity before and after the first, share of time at rest"},
     Key{"observe", "impact_log", flag, "false", "true", "every observed impact"},
     Key{"observe", "trajectory", integer, "0", "2001", "samples of tau, x, x' over the observed time; 0: none",
-        Range{.low = 2, .high = 1e7, .or_zero = true}},
+        AllowedRange{.low = 2, .high = 1e7, .or_zero = true}},
     Key{"observe", "period", flag, "false", "true", "period of the motion, in tau and in forcing periods"},
     Key{"observe", "stability", flag, "false", "true", "multipliers of the periodic motion, largest Lyapunov exponent"},
 
-    one_of(method_names, Key{"integrator", "method", choice, "exact", "dopri5",
-                             "exact: closed-form arcs, proved contacts; to compare with, dopri5: Dormand-Prince pair "
-                             "of orders 5 and 4, contacts on its dense output; moreau: Moreau-Jean time stepping"}),
+    one_of(stepping::method_names,
+           Key{"integrator", "method", choice, "exact", "dopri5",
+               "exact: closed-form arcs, proved contacts; to compare with, dopri5: Dormand-Prince pair "
+               "of orders 5 and 4, contacts on its dense output; moreau: Moreau-Jean time stepping"}),
     with("method = \"dopri5\"\n",
          Key{"integrator", "tolerance", number, "1e-10", "1e-8",
              "dopri5: error of a step, relative to the size of the motion that start, force and stops suggest",
-             Range{.low = 1e-14, .high = 0.1}}),
+             AllowedRange{.low = 1e-14, .high = 0.1}}),
     with(by_moreau, Key{"integrator", "step", number, "1e-3", "1e-4",
-                        "moreau: in forcing periods, without forcing in 2 pi", Range{.low = 1e-9, .high = 1}}),
+                        "moreau: in forcing periods, without forcing in 2 pi", AllowedRange{.low = 1e-9, .high = 1}}),
     with(by_moreau, Key{"integrator", "theta", number, "0.5", "1",
                         "moreau: weight of a step's end; 1/2: the trapezoidal rule, 1: implicit Euler; below 1/2 "
                         "stable only for short steps",
@@ -130,7 +131,7 @@ constexpr std::array all_keys{
                         "max_periods, and look for the repeat only then"}),
 
     Key{"output", "compression", integer, "0", "4", "deflate level of the output file; 0: none",
-        Range{.low = 0, .high = 9}},
+        AllowedRange{.low = 0, .high = 9}},
 };
 
 constexpr std::array<std::string_view, 6> all_sections{"scene", "sweep", "time", "observe", "integrator", "output"};
@@ -146,7 +147,7 @@ std::string bound_text(double bound) {
   return number;
 }
 
-std::string describe(const Range& range) {
+std::string describe(const AllowedRange& range) {
   if (range.infinite) return "any number, -inf or inf";
   if (range.not_zero) return "any number but 0";
   if (range.low == -infinity) return "any number";
@@ -184,7 +185,7 @@ bool is_free_text(std::string_view section, std::string_view name) {
   return key != nullptr && key->kind == text;
 }
 
-bool contains(const Range& range, double value) {
+bool contains(const AllowedRange& range, double value) {
   if (std::isinf(value)) return range.infinite;
   if (value == 0 && range.or_zero) return true;
   if (value == 0 && range.not_zero) return false;
@@ -209,4 +210,4 @@ std::string permitted(const Key& key) {
   return describe(key.range);
 }
 
-}  // namespace clatter
+}  // namespace clatter::config

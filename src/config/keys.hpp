@@ -7,12 +7,12 @@
 #include <string_view>
 #include <vector>
 
-namespace clatter {
+namespace clatter::config {
 
 enum class Kind : std::uint8_t { text, names, number, integer, flag, choice };
 
 /// The numbers that a key takes.
-struct Range {
+struct AllowedRange {
   double low = -std::numeric_limits<double>::infinity();
   double high = std::numeric_limits<double>::infinity();
   bool open = false;      ///< the ends themselves are excluded
@@ -30,7 +30,7 @@ struct Key {
   std::string_view fallback;  ///< the default, as in INI; empty: none (a text: the empty text)
   std::string_view example;   ///< another value, as in INI
   std::string_view help;      ///< its meaning, without the range
-  Range range{};
+  AllowedRange range{};
   std::span<const std::string_view> choices{};
   std::string_view other{};   ///< the key that gives the value where this one is not in use; the default is its too
   std::string_view beside{};  ///< TOML lines of its section without which it has no effect
@@ -56,9 +56,9 @@ struct Key {
 /// Whether an INI value is free text, in which ';' and '#' begin a comment only after a blank.
 [[nodiscard]] bool is_free_text(std::string_view section, std::string_view name);
 
-[[nodiscard]] bool contains(const Range& range, double value);
+[[nodiscard]] bool contains(const AllowedRange& range, double value);
 
 /// What a key permits, for messages and for the help: "> 0", "0 ... 1", "true or false".
 [[nodiscard]] std::string permitted(const Key& key);
 
-}  // namespace clatter
+}  // namespace clatter::config

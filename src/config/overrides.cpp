@@ -1,10 +1,10 @@
 #include <algorithm>
 
-#include "config/raw_config.hpp"
+#include "config/parsed_config.hpp"
 #include "config/text_file.hpp"
 #include "storage/utf8.hpp"
 
-namespace clatter {
+namespace clatter::config {
 namespace {
 
 std::string words_of(const Override& change) { return "--set " + change.key + '=' + change.value; }
@@ -12,32 +12,32 @@ std::string words_of(const Override& change) { return "--set " + change.key + '=
 /// The words of the command line are in the encoding of the terminal, or of the script.
 void check_words(const Override& change) {
   const std::string words = words_of(change);
-  const std::size_t wrong = find_not_utf8(words);
+  const std::size_t wrong = storage::find_not_utf8(words);
   if (wrong != std::string::npos) {
-    fail({printable(words), 0, 0},
-         "the byte " + printable(words.substr(wrong, 1)) +
+    fail({storage::printable(words), 0, 0},
+         "the byte " + storage::printable(words.substr(wrong, 1)) +
              " is not UTF-8; use a terminal (or a script) in UTF-8, or put the text in a file");
   }
   check_characters("--set", change.key + '=' + change.value);
 }
 
-RawEntry entry_of(const Override& change) {
-  const Place place{words_of(change), 0, 0};
+ParsedEntry entry_of(const Override& change) {
+  const SourceLocation location{words_of(change), 0, 0};
   const std::string key(without_blanks(change.key));
   const std::size_t dot = key.find('.');
   const bool top_level = dot == std::string::npos;
-  RawEntry entry{top_level ? "" : key.substr(0, dot), top_level ? key : key.substr(dot + 1), place, {}};
-  entry.value = {unquoted(without_blanks(change.value)), place, true, 0};
+  ParsedEntry entry{top_level ? "" : key.substr(0, dot), top_level ? key : key.substr(dot + 1), location, {}};
+  entry.value = {unquoted(without_blanks(change.value)), location, true, 0};
   return entry;
 }
 
 }  // namespace
 
-void apply_overrides(RawConfig& raw, const std::vector<Override>& overrides) {
+void apply_overrides(ParsedConfig& raw, const std::vector<Override>& overrides) {
   for (const Override& change : overrides) {
     check_words(change);
-    RawEntry entry = entry_of(change);
-    const auto same = std::find_if(raw.entries.begin(), raw.entries.end(), [&](const RawEntry& other) {
+    ParsedEntry entry = entry_of(change);
+    const auto same = std::find_if(raw.entries.begin(), raw.entries.end(), [&](const ParsedEntry& other) {
       return other.section == entry.section && other.key == entry.key;
     });
     if (same == raw.entries.end()) {
@@ -48,4 +48,4 @@ void apply_overrides(RawConfig& raw, const std::vector<Override>& overrides) {
   }
 }
 
-}  // namespace clatter
+}  // namespace clatter::config

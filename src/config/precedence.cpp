@@ -6,55 +6,58 @@
 #include "config/consistency.hpp"
 #include "config/suggestion.hpp"
 
-namespace clatter {
+namespace clatter::config {
 namespace {
 
-using enum Parameter;
+using enum sweep::Parameter;
 
-std::string quoted_name(Parameter parameter) { return in_quotes(key_of(parameter)); }
+std::string quoted_name(sweep::Parameter parameter) { return in_quotes(key_of(parameter)); }
 
 /// Whether a place comes after another of the same origin.
-bool later(const Place& left, const Place& right) {
+bool later(const SourceLocation& left, const SourceLocation& right) {
   return std::tie(left.line, left.column) > std::tie(right.line, right.column);
 }
 
 /// Both in the file, or both on the command line: what is in one and on the other, the command line decides.
-bool contradict(const Place& one, const Place& other) { return on_command_line(one) == on_command_line(other); }
+bool contradict(const SourceLocation& one, const SourceLocation& other) {
+  return on_command_line(one) == on_command_line(other);
+}
 
 /// Two ways of saying the same, at the place of the one that was written last.
-void exclude(const Settings& settings, Parameter one, Parameter other) {
+void exclude(const Settings& settings, sweep::Parameter one, sweep::Parameter other) {
   const auto first = settings.given(one);
   const auto second = settings.given(other);
-  if (!first || !second || !contradict(first->key_place, second->key_place)) return;
-  const bool in_order = later(second->key_place, first->key_place);
-  fail((in_order ? second : first)->key_place,
+  if (!first || !second || !contradict(first->key_location, second->key_location)) return;
+  const bool in_order = later(second->key_location, first->key_location);
+  fail((in_order ? second : first)->key_location,
        quoted_name(in_order ? other : one) + " beside " + quoted_name(in_order ? one : other) + "; remove one of them");
 }
 
-bool from_command_line(const std::optional<Given>& given) { return given && on_command_line(given->key_place); }
-bool from_file(const std::optional<Given>& given) { return given && !on_command_line(given->key_place); }
+bool from_command_line(const std::optional<Given>& given) { return given && on_command_line(given->key_location); }
+bool from_file(const std::optional<Given>& given) { return given && !on_command_line(given->key_location); }
 
 /// Takes away what the file says of a parameter, in [scene] or in [sweep].
-void remove(Settings& settings, Parameter parameter) {
+void remove(Settings& settings, sweep::Parameter parameter) {
   std::erase_if(settings.values, [&](const Setting& setting) {
     return setting.key->section == "scene" && setting.key->name == key_of(parameter) &&
-           !on_command_line(setting.key_place);
+           !on_command_line(setting.key_location);
   });
   std::erase_if(settings.axes, [&](const SweptSetting& swept) {
-    return swept.parameter == parameter && !on_command_line(swept.key_place);
+    return swept.parameter == parameter && !on_command_line(swept.key_location);
   });
 }
 
-void note(Settings& settings, Parameter gone, const Place& stands, const Place& stood, const std::string& rest = "") {
+void note(Settings& settings, sweep::Parameter gone, const SourceLocation& stands, const SourceLocation& stood,
+          const std::string& rest = "") {
   settings.displaced.push_back({gone, stands, stood, rest});
 }
 
 /// A parameter is given in [scene] or in [sweep], and on the command line in place of the other section of the file.
-void choose_section(Settings& settings, Parameter parameter) {
+void choose_section(Settings& settings, sweep::Parameter parameter) {
   const Setting* const fixed = settings.find("scene", key_of(parameter));
   const auto swept = std::ranges::find(settings.axes, parameter, &SweptSetting::parameter);
   if (fixed == nullptr || swept == settings.axes.end()) return;
-  const Place in_scene = fixed->key_place, in_sweep = swept->key_place;
+  const SourceLocation in_scene = fixed->key_location, in_sweep = swept->key_location;
   if (contradict(in_scene, in_sweep))
     fail(later(in_scene, in_sweep) ? in_scene : in_sweep,
          quoted_name(parameter) + " in both [scene] and [sweep]; remove one of them (for a single value: sweep." +
@@ -65,15 +68,15 @@ void choose_section(Settings& settings, Parameter parameter) {
 }
 
 /// A parameter of the command line comes before another one of the file.
-void displace(Settings& settings, Parameter standing, Parameter gone) {
+void displace(Settings& settings, sweep::Parameter standing, sweep::Parameter gone) {
   const auto stands = settings.given(standing), stood = settings.given(gone);
   if (!from_command_line(stands) || !from_file(stood)) return;
-  note(settings, gone, stands->key_place, stood->key_place);
+  note(settings, gone, stands->key_location, stood->key_location);
   remove(settings, gone);
 }
 
 /// `linked` and `follow` name an axis as it is called now.
-void rename(Settings& settings, Parameter from, Parameter to) {
+void rename(Settings& settings, sweep::Parameter from, sweep::Parameter to) {
   for (Setting& setting : settings.values) {
     if (setting.key->kind != Kind::names) continue;
     std::vector<std::string> names = split_names(std::get<std::string>(setting.value));
@@ -85,20 +88,20 @@ void rename(Settings& settings, Parameter from, Parameter to) {
 
 /// A key that gives two values, and the keys of each; `half` makes its value one of theirs.
 struct Pair {
-  Parameter both;
-  Parameter one, other;
-  double (*half)(Parameter, double);
+  sweep::Parameter both;
+  sweep::Parameter one, other;
+  double (*half)(sweep::Parameter, double);
 };
 
-double same(Parameter, double value) { return value; }
-double stop_of(Parameter side, double xs_value) {
+double same(sweep::Parameter, double value) { return value; }
+double stop_of(sweep::Parameter side, double xs_value) {
   return side == stop_lower ? -std::abs(xs_value) : std::abs(xs_value);
 }
 
 constexpr Pair pairs[] = {{xs, stop_lower, stop_upper, stop_of}, {R, R_lower, R_upper, same}};
 
 /// What a key of two values says becomes that of one of them.
-void halve(Settings& settings, const Pair& pair, Parameter remaining) {
+void halve(Settings& settings, const Pair& pair, sweep::Parameter remaining) {
   for (Setting& setting : settings.values) {
     if (setting.key->section != "scene" || setting.key->name != key_of(pair.both)) continue;
     setting.key = find_key("scene", key_of(remaining));
@@ -116,11 +119,11 @@ void halve(Settings& settings, const Pair& pair, Parameter remaining) {
 }
 
 /// One of two values from the command line leaves the other as the file has it.
-void displace_half(Settings& settings, const Pair& pair, Parameter standing, Parameter remaining) {
+void displace_half(Settings& settings, const Pair& pair, sweep::Parameter standing, sweep::Parameter remaining) {
   const auto stands = settings.given(standing), stood = settings.given(pair.both);
   if (!from_command_line(stands) || !from_file(stood)) return;
   if (settings.given(remaining)) return displace(settings, standing, pair.both);
-  note(settings, pair.both, stands->key_place, stood->key_place, ", which stays as " + quoted_name(remaining));
+  note(settings, pair.both, stands->key_location, stood->key_location, ", which stays as " + quoted_name(remaining));
   halve(settings, pair, remaining);
 }
 
@@ -128,14 +131,14 @@ void displace_half(Settings& settings, const Pair& pair, Parameter standing, Par
 
 void let_command_line_win(Settings& settings) {
   for (int parameter = 0; parameter <= static_cast<int>(start_period); ++parameter)
-    choose_section(settings, static_cast<Parameter>(parameter));
+    choose_section(settings, static_cast<sweep::Parameter>(parameter));
   for (const Pair& pair : pairs) {
     exclude(settings, pair.both, pair.one), exclude(settings, pair.both, pair.other);
     displace(settings, pair.both, pair.one), displace(settings, pair.both, pair.other);
     displace_half(settings, pair, pair.one, pair.other), displace_half(settings, pair, pair.other, pair.one);
   }
-  for (const Parameter start : {x0, v0}) exclude(settings, start_period, start);
-  for (const Parameter start : {x0, v0})
+  for (const sweep::Parameter start : {x0, v0}) exclude(settings, start_period, start);
+  for (const sweep::Parameter start : {x0, v0})
     displace(settings, start_period, start), displace(settings, start, start_period);
 }
 
@@ -144,4 +147,4 @@ std::string to_string(const Displaced& displaced) {
          to_string(displaced.stood) + displaced.rest;
 }
 
-}  // namespace clatter
+}  // namespace clatter::config

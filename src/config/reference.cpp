@@ -4,7 +4,7 @@
 #include "config/settings.hpp"
 #include "config/wrapped.hpp"
 
-namespace clatter {
+namespace clatter::config {
 namespace {
 
 constexpr std::string_view values = R"text(Values, in TOML, in INI and after --set:
@@ -101,9 +101,9 @@ std::string axis_example(const Key& key) {
 }
 
 std::string key_reference(const Key& key) {
-  const std::string place =
+  const std::string location =
       key.section.empty() ? ", before the first section" : " in [" + std::string(key.section) + ']';
-  std::string text = std::string(key.name) + place + "\n  " + wrapped(key.help, 2) + "  " +
+  std::string text = std::string(key.name) + location + "\n  " + wrapped(key.help, 2) + "  " +
                      wrapped(permitted_and_default(key), 2) + "\nExample\n" + indented(key_example(key)) + '\n' +
                      set_command(key.section, key, std::string(key.example));
   if (key.section == "scene")
@@ -112,4 +112,4 @@ std::string key_reference(const Key& key) {
   return text;
 }
 
-}  // namespace clatter
+}  // namespace clatter::config

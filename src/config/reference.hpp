@@ -5,7 +5,7 @@
 
 #include "config/keys.hpp"
 
-namespace clatter {
+namespace clatter::config {
 
 /// The reference of the configuration as plain text: `clatter help configuration`, and the README's.
 [[nodiscard]] std::string configuration_reference();
@@ -25,4 +25,4 @@ namespace clatter {
 /// Lines of TOML in which a key of [scene] is an axis.
 [[nodiscard]] std::string axis_example(const Key& key);
 
-}  // namespace clatter
+}  // namespace clatter::config

@@ -6,15 +6,15 @@
 
 #include "config/suggestion.hpp"
 
-namespace clatter {
+namespace clatter::config {
 namespace {
 
-void check_section(const std::string& name, const Place& place) {
+void check_section(const std::string& name, const SourceLocation& location) {
   const auto known = sections();
   if (name.empty() || std::find(known.begin(), known.end(), name) != known.end()) return;
   const std::string near(nearest(name, known));
-  fail(place, "unknown section [" + name + "]" +
-                  (near.empty() ? "; permitted: " + joined(known) : "; did you mean [" + near + "]?"));
+  fail(location, "unknown section [" + name + "]" +
+                     (near.empty() ? "; permitted: " + joined(known) : "; did you mean [" + near + "]?"));
 }
 
 std::string shown(std::string_view section) {
@@ -33,22 +33,22 @@ std::string home_of(std::string_view name) {
 }
 
 /// [[sweep]] in place of [sweep].
-void check_brackets(const RawEntry& entry) {
+void check_brackets(const ParsedEntry& entry) {
   const auto known = sections();
-  const auto* const list = std::get_if<RawList>(&entry.value.data);
+  const auto* const list = std::get_if<ParsedList>(&entry.value.data);
   if (!entry.section.empty() || list == nullptr || list->empty()) return;
   if (!std::holds_alternative<Unsupported>(list->front().data)) return;
   if (std::find(known.begin(), known.end(), entry.key) == known.end()) return;
-  fail(entry.place, "[[" + entry.key + "]] begins a list of tables, a section is one table; write [" + entry.key +
-                        "], in single brackets");
+  fail(entry.location, "[[" + entry.key + "]] begins a list of tables, a section is one table; write [" + entry.key +
+                           "], in single brackets");
 }
 
-const Key& known_key(const RawEntry& entry) {
+const Key& known_key(const ParsedEntry& entry) {
   if (const Key* const key = find_key(entry.section, entry.key)) return *key;
   const std::vector<std::string_view> names = key_names(entry.section);
   std::string way_out = nearest(entry.key, names).empty() ? home_of(entry.key) : "";
   if (way_out.empty()) way_out = suggestion(entry.key, names, "; permitted: ");
-  fail(entry.place, "unknown key " + in_quotes(entry.key) + ' ' + shown(entry.section) + way_out);
+  fail(entry.location, "unknown key " + in_quotes(entry.key) + ' ' + shown(entry.section) + way_out);
 }
 
 /// A setting as if it were written in INI.
@@ -74,15 +74,15 @@ const Setting* Settings::find(std::string_view section, std::string_view name) c
   return nullptr;
 }
 
-std::optional<Given> Settings::given(Parameter parameter) const {
+std::optional<Given> Settings::given(sweep::Parameter parameter) const {
   for (std::size_t i = 0; i < axes.size(); ++i) {
     const SweptSetting& swept = axes[i];
     if (swept.parameter == parameter)
-      return Given{swept.axis.values, swept.axis.places, swept.key_place, swept.place, i};
+      return Given{swept.axis.values, swept.axis.locations, swept.key_location, swept.location, i};
   }
   const Setting* const fixed = find("scene", key_of(parameter));
   if (fixed == nullptr) return std::nullopt;
-  return Given{{&std::get<double>(fixed->value), 1}, {}, fixed->key_place, fixed->place, std::nullopt};
+  return Given{{&std::get<double>(fixed->value), 1}, {}, fixed->key_location, fixed->location, std::nullopt};
 }
 
 std::string Settings::text(std::string_view section, std::string_view name) const {
@@ -101,9 +101,9 @@ bool Settings::flag(std::string_view section, std::string_view name) const {
   return value_of<bool>(*this, section, name);
 }
 
-Place Settings::place_of_section(std::string_view name) const {
-  for (const RawSection& section : sections) {
-    if (section.name == name) return section.place;
+SourceLocation Settings::place_of_section(std::string_view name) const {
+  for (const ParsedSection& section : sections) {
+    if (section.name == name) return section.location;
   }
   return {file, 1, 1};
 }
@@ -112,21 +112,21 @@ Setting default_setting(const Key& key) { return setting_of(key, key.fallback); 
 
 Setting example_setting(const Key& key) { return setting_of(key, key.example); }
 
-Settings check_keys(RawConfig raw) {
+Settings check_keys(ParsedConfig raw) {
   Settings settings{std::move(raw.file), std::move(raw.sections), {}, {}, {}};
-  for (const RawSection& section : settings.sections) check_section(section.name, section.place);
-  for (const RawEntry& entry : raw.entries) {
-    check_section(entry.section, entry.place);
+  for (const ParsedSection& section : settings.sections) check_section(section.name, section.location);
+  for (const ParsedEntry& entry : raw.entries) {
+    check_section(entry.section, entry.location);
     check_brackets(entry);
     const Key& key = known_key(entry);
     if (entry.section == "sweep" && key.section == "scene") {
-      settings.axes.push_back(
-          {parameter_of(key.name).value(), convert_axis(key, entry.value), entry.place, entry.value.place});
+      settings.axes.push_back({sweep::parameter_of(key.name).value(), convert_axis(key, entry.value), entry.location,
+                               entry.value.location});
     } else {
-      settings.values.push_back({&key, convert(key, entry.value), entry.place, entry.value.place});
+      settings.values.push_back({&key, convert(key, entry.value), entry.location, entry.value.location});
     }
   }
   return settings;
 }
 
-}  // namespace clatter
+}  // namespace clatter::config

@@ -9,43 +9,45 @@
 #include <vector>
 
 #include "config/keys.hpp"
-#include "config/raw_config.hpp"
+#include "config/parsed_config.hpp"
 #include "config/value_grammar.hpp"
 #include "sweep/parameter.hpp"
 
-namespace clatter {
+namespace clatter::config {
 
 /// A key that has been given a value of its kind within its range.
 struct Setting {
   const Key* key = nullptr;
   std::variant<std::string, double, std::int64_t, bool> value;
-  Place key_place;
-  Place place;  ///< of the value
+  SourceLocation key_location;
+  SourceLocation location;  ///< of the value
 };
 
 /// A key of [sweep] that has been given values, each within the key's range.
 struct SweptSetting {
-  Parameter parameter = Parameter::nu;
+  sweep::Parameter parameter = sweep::Parameter::nu;
   AxisValues axis;
-  Place key_place;
-  Place place;
+  SourceLocation key_location;
+  SourceLocation location;
 };
 
 /// What is written of a parameter, be it in [scene] or in [sweep].
 struct Given {
   std::span<const double> values;
-  std::span<const Place> places;  ///< of the elements of a list; else empty
-  Place key_place;
-  Place place;                      ///< of the value, or of all values
+  std::span<const SourceLocation> locations;  ///< of the elements of a list; else empty
+  SourceLocation key_location;
+  SourceLocation location;          ///< of the value, or of all values
   std::optional<std::size_t> axis;  ///< its index among the axes
 
-  [[nodiscard]] const Place& place_of(std::size_t index) const { return index < places.size() ? places[index] : place; }
+  [[nodiscard]] const SourceLocation& location_of(std::size_t index) const {
+    return index < locations.size() ? locations[index] : location;
+  }
 };
 
 /// A setting of the file in whose place one of the command line stands.
 struct Displaced {
-  Parameter gone = Parameter::nu;
-  Place stands, stood;
+  sweep::Parameter gone = sweep::Parameter::nu;
+  SourceLocation stands, stood;
   std::string rest;  ///< ", which stays as 'stop_lower'", or nothing
 };
 
@@ -55,7 +57,7 @@ struct Displaced {
 /// A configuration whose keys and values are right one by one; how they go together is checked afterwards.
 struct Settings {
   std::string file;
-  std::vector<RawSection> sections;
+  std::vector<ParsedSection> sections;
   std::vector<Setting> values;     ///< only what was given
   std::vector<SweptSetting> axes;  ///< in the order of the text
   std::vector<Displaced> displaced{};
@@ -63,7 +65,7 @@ struct Settings {
   [[nodiscard]] const Setting* find(std::string_view section, std::string_view name) const;
 
   /// What is given for a parameter, or nothing.
-  [[nodiscard]] std::optional<Given> given(Parameter parameter) const;
+  [[nodiscard]] std::optional<Given> given(sweep::Parameter parameter) const;
 
   /// The value of a key of that type: what was given, or the default.
   [[nodiscard]] std::string text(std::string_view section, std::string_view name) const;
@@ -72,11 +74,11 @@ struct Settings {
   [[nodiscard]] bool flag(std::string_view section, std::string_view name) const;
 
   /// Where a key that is missing belongs: the section's header, or the beginning of the file.
-  [[nodiscard]] Place place_of_section(std::string_view name) const;
+  [[nodiscard]] SourceLocation place_of_section(std::string_view name) const;
 };
 
 /// Takes every entry through the table of keys. Throws ConfigError at the first unknown key or wrong value.
-[[nodiscard]] Settings check_keys(RawConfig raw);
+[[nodiscard]] Settings check_keys(ParsedConfig raw);
 
 /// The default of a key that has one, so that defaults and given values take the same way.
 [[nodiscard]] Setting default_setting(const Key& key);
@@ -85,7 +87,7 @@ struct Settings {
 [[nodiscard]] Setting example_setting(const Key& key);
 
 /// A value of the key's kind within its range, from what was written. Throws ConfigError.
-[[nodiscard]] std::variant<std::string, double, std::int64_t, bool> convert(const Key& key, const RawValue& raw);
-[[nodiscard]] AxisValues convert_axis(const Key& key, const RawValue& raw);
+[[nodiscard]] std::variant<std::string, double, std::int64_t, bool> convert(const Key& key, const ParsedValue& raw);
+[[nodiscard]] AxisValues convert_axis(const Key& key, const ParsedValue& raw);
 
-}  // namespace clatter
+}  // namespace clatter::config

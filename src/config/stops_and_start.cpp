@@ -4,10 +4,10 @@
 
 #include "config/consistency.hpp"
 
-namespace clatter {
+namespace clatter::config {
 namespace {
 
-using enum Parameter;
+using enum sweep::Parameter;
 
 /// A place on the x axis at every point of the sweep: a stop or the start.
 struct Quantity {
@@ -25,7 +25,7 @@ std::optional<std::size_t> dimension_of(const Given& given, const AxisGroups& gr
   return std::nullopt;
 }
 
-Quantity quantity(const Settings& settings, const AxisGroups& groups, Parameter parameter) {
+Quantity quantity(const Settings& settings, const AxisGroups& groups, sweep::Parameter parameter) {
   const auto given = settings.given(parameter);
   if (!given)
     return {std::string(key_of(parameter)), {settings.number("scene", key_of(parameter))}, std::nullopt, std::nullopt};
@@ -48,9 +48,9 @@ using Permitted = bool (*)(double, double);
 [[noreturn]] void refuse(const Quantity& low, std::size_t i, const Quantity& high, std::size_t j,
                          const std::string& rule) {
   const bool at_high = !low.given || (high.name == "x0" && high.given);
-  const Place& place = at_high ? high.given->place_of(j) : low.given->place_of(i);
-  fail(place, low.name + " = " + number_text(low.values[i]) + " and " + high.name + " = " +
-                  number_text(high.values[j]) + "; permitted: " + rule);
+  const SourceLocation& location = at_high ? high.given->location_of(j) : low.given->location_of(i);
+  fail(location, low.name + " = " + number_text(low.values[i]) + " and " + high.name + " = " +
+                     number_text(high.values[j]) + "; permitted: " + rule);
 }
 
 /// Two quantities that vary together are compared value by value, else the largest of the lower with the smallest of
@@ -91,4 +91,4 @@ void check_stops_and_start(const Settings& settings, const AxisGroups& groups) {
   compare(start, upper, not_above, rule);
 }
 
-}  // namespace clatter
+}  // namespace clatter::config

@@ -9,7 +9,7 @@
 
 #include "storage/utf8.hpp"
 
-namespace clatter {
+namespace clatter::config {
 namespace {
 
 constexpr std::size_t max_quoted = 60;
@@ -52,7 +52,7 @@ std::string_view completed(const std::string& written, std::span<const std::stri
 std::string in_quotes(std::string_view text) {
   std::size_t length = std::min(text.size(), max_quoted);
   while (length < text.size() && length > 0 && (static_cast<unsigned char>(text[length]) & 0xC0) == 0x80) --length;
-  return '\'' + printable(text.substr(0, length)) + (length < text.size() ? "…'" : "'");
+  return '\'' + storage::printable(text.substr(0, length)) + (length < text.size() ? "…'" : "'");
 }
 
 std::string_view nearest(std::string_view written, std::span<const std::string_view> names) {
@@ -82,4 +82,4 @@ std::string suggestion(std::string_view written, std::span<const std::string_vie
   return "; did you mean '" + std::string(name) + "'?";
 }
 
-}  // namespace clatter
+}  // namespace clatter::config

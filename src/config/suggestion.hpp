@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-namespace clatter {
+namespace clatter::config {
 
 /// A text for a message of one line: in single quotes, as `printable` shows it, cut after 60 bytes.
 [[nodiscard]] std::string in_quotes(std::string_view text);
@@ -19,4 +19,4 @@ namespace clatter {
 /// "h, f, nu"
 [[nodiscard]] std::string joined(std::span<const std::string_view> names);
 
-}  // namespace clatter
+}  // namespace clatter::config

@@ -16,11 +16,11 @@
 #include "storage/file_calls.hpp"
 #include "storage/utf8.hpp"
 
-namespace clatter {
+namespace clatter::config {
 namespace {
 
 [[noreturn]] void unreadable(const std::string& path, const std::string& reason) {
-  throw IoError(printable(path) + ": cannot be read: " + reason);
+  throw storage::IoError(storage::printable(path) + ": cannot be read: " + reason);
 }
 
 bool is_control(std::string_view text) {
@@ -64,9 +64,9 @@ std::string read_text(const std::string& path) {
   std::error_code error;
   if (std::filesystem::is_directory(path, error)) unreadable(path, "it is a directory; name a file");
   std::ifstream stream(path, std::ios::binary);
-  if (!stream) unreadable(path, reason_and_way_out(errno, ""));
+  if (!stream) unreadable(path, storage::reason_and_way_out(errno, ""));
   std::string text = read_pieces(stream);
-  if (stream.bad()) unreadable(path, reason_and_way_out(errno, ""));
+  if (stream.bad()) unreadable(path, storage::reason_and_way_out(errno, ""));
   return as_text(path, std::move(text));
 }
 
@@ -74,19 +74,19 @@ std::string read_standard_input(const std::string& name) {
   std::string text;
   std::array<char, 16 * 1024> piece;
   while (text.size() <= max_config_bytes) {
-    const ssize_t count = uninterrupted([&] { return ::read(STDIN_FILENO, piece.data(), piece.size()); });
-    if (count < 0) unreadable(name, reason_and_way_out(errno, ""));
+    const ssize_t count = storage::uninterrupted([&] { return ::read(STDIN_FILENO, piece.data(), piece.size()); });
+    if (count < 0) unreadable(name, storage::reason_and_way_out(errno, ""));
     if (count == 0) break;
     text.append(piece.data(), static_cast<std::size_t>(count));
   }
   return as_text(name, std::move(text));
 }
 
-Place place_of(const std::string& file, std::string_view text, std::size_t offset) {
+SourceLocation location_of(const std::string& file, std::string_view text, std::size_t offset) {
   const std::string_view before = text.substr(0, offset);
   const std::size_t line_begin = before.rfind('\n') + 1;  // npos + 1 is 0: the first line
   const auto line = 1 + std::count(before.begin(), before.end(), '\n');
-  return {file, static_cast<int>(line), 1 + characters(before.substr(line_begin))};
+  return {file, static_cast<int>(line), 1 + storage::characters(before.substr(line_begin))};
 }
 
 std::string unquoted(std::string_view text) {
@@ -102,12 +102,12 @@ std::string_view without_blanks(std::string_view text) {
 
 void check_characters(const std::string& file, std::string_view text) {
   for (std::size_t at = 0; at < text.size();) {
-    const std::size_t length = utf8_length(text.substr(at));
-    if (length == 0) fail(place_of(file, text, at), "a byte that is not UTF-8; save the file as UTF-8");
+    const std::size_t length = storage::utf8_length(text.substr(at));
+    if (length == 0) fail(location_of(file, text, at), "a byte that is not UTF-8; save the file as UTF-8");
     if (is_control(text.substr(at)))
-      fail(place_of(file, text, at), "a control character; only tabs and line ends are permitted");
+      fail(location_of(file, text, at), "a control character; only tabs and line ends are permitted");
     at += length;
   }
 }
 
-}  // namespace clatter
+}  // namespace clatter::config

@@ -3,9 +3,9 @@
 #include <string>
 #include <string_view>
 
-#include "config/place.hpp"
+#include "config/source_location.hpp"
 
-namespace clatter {
+namespace clatter::config {
 
 /// The largest configuration that is read.
 inline constexpr std::size_t max_config_bytes = std::size_t{1} << 20;
@@ -20,7 +20,7 @@ inline constexpr std::size_t max_config_bytes = std::size_t{1} << 20;
 [[nodiscard]] std::string read_standard_input(const std::string& name);
 
 /// The place of a byte of a text: lines end with \n, columns count characters.
-[[nodiscard]] Place place_of(const std::string& file, std::string_view text, std::size_t offset);
+[[nodiscard]] SourceLocation location_of(const std::string& file, std::string_view text, std::size_t offset);
 
 /// The text without the pair of quotes around it, if there is one.
 [[nodiscard]] std::string unquoted(std::string_view text);
@@ -31,4 +31,4 @@ inline constexpr std::size_t max_config_bytes = std::size_t{1} << 20;
 /// Throws ConfigError at the first control character or byte that isn't UTF-8: neither belongs in a configuration.
 void check_characters(const std::string& file, std::string_view text);
 
-}  // namespace clatter
+}  // namespace clatter::config

@@ -4,10 +4,10 @@
 #include <cstddef>
 #include <string>
 
-#include "config/place.hpp"
+#include "config/source_location.hpp"
 #include "config/text_file.hpp"
 
-namespace clatter {
+namespace clatter::config {
 namespace {
 
 constexpr int max_dots = 256;  ///< of one key; toml++ descends once for each part
@@ -26,7 +26,7 @@ std::size_t skip_string(const std::string& file, std::string_view text, std::siz
       ++at;
       const std::size_t next = std::min(text.find_first_not_of(" \t\r\n", at), text.size());
       if (next < text.size() && !is_ascii(text[next]))  // toml++ looks there for the end of the line
-        fail(place_of(file, text, next), "a character outside ASCII after a backslash; leave the backslash out");
+        fail(location_of(file, text, next), "a character outside ASCII after a backslash; leave the backslash out");
     } else if (text.substr(at, delimiter.size()) == delimiter) {
       at += delimiter.size();
       for (int more = 0; !one_line && more < 2 && at < text.size() && text[at] == quote; ++more)
@@ -83,9 +83,9 @@ void check_toml(const std::string& file, std::string_view text) {
     } else if ((character == '"' || character == '\'') && !in_word) {
       at = skip_string(file, text, at);
     } else {
-      if (!is_ascii(character)) fail(place_of(file, text, at), "a character outside ASCII; put the text in quotes");
+      if (!is_ascii(character)) fail(location_of(file, text, at), "a character outside ASCII; put the text in quotes");
       dots = ends_key(character) ? 0 : dots + (character == '.');
-      if (dots > max_dots) fail(place_of(file, text, at), "more than 256 dots in a key; a key is SECTION.NAME");
+      if (dots > max_dots) fail(location_of(file, text, at), "more than 256 dots in a key; a key is SECTION.NAME");
       if (!in_word) {
         context.read(character);
         in_word = context.in_value() && !ends_value(character) && !opens_value(character);
@@ -95,4 +95,4 @@ void check_toml(const std::string& file, std::string_view text) {
   }
 }
 
-}  // namespace clatter
+}  // namespace clatter::config

@@ -3,10 +3,10 @@
 #include <string>
 #include <string_view>
 
-namespace clatter {
+namespace clatter::config {
 
 /// Throws ConfigError at what toml++ 3.3 does not survive: non-ASCII characters outside comments and quotes, and keys
 /// of very many parts.
 void check_toml(const std::string& file, std::string_view text);
 
-}  // namespace clatter
+}  // namespace clatter::config

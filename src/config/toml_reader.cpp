@@ -8,15 +8,15 @@
 
 #include "config/comma.hpp"
 #include "config/keys.hpp"
-#include "config/raw_config.hpp"
+#include "config/parsed_config.hpp"
 #include "config/text_file.hpp"
 #include "config/toml_guard.hpp"
 #include "storage/utf8.hpp"
 
-namespace clatter {
+namespace clatter::config {
 namespace {
 
-Place place_at(const std::string& file, const toml::source_position& position) {
+SourceLocation place_at(const std::string& file, const toml::source_position& position) {
   return {file, static_cast<int>(position.line), static_cast<int>(position.column)};
 }
 
@@ -40,13 +40,13 @@ std::string name_of(toml::node_type type) {
 int inset_of(const std::string& text, const toml::source_region& region) {
   const bool plain =
       region.begin.line == region.end.line &&
-      static_cast<int>(region.end.column) - static_cast<int>(region.begin.column) == characters(text) + 2;
+      static_cast<int>(region.end.column) - static_cast<int>(region.begin.column) == storage::characters(text) + 2;
   return plain ? 1 : 0;
 }
 
-RawValue raw_value(const std::string& file, const toml::node& node) {
-  RawValue value;
-  value.place = place_at(file, node.source().begin);
+ParsedValue raw_value(const std::string& file, const toml::node& node) {
+  ParsedValue value;
+  value.location = place_at(file, node.source().begin);
   if (const auto* const text = node.as_string()) {
     value.data = text->get();
     value.inset = inset_of(text->get(), node.source());
@@ -57,7 +57,7 @@ RawValue raw_value(const std::string& file, const toml::node& node) {
   } else if (const auto* const number = node.as_floating_point()) {
     value.data = number->get();
   } else if (const auto* const array = node.as_array()) {
-    RawList list;
+    ParsedList list;
     for (const toml::node& element : *array) list.push_back(raw_value(file, element));
     value.data = std::move(list);
   } else {
@@ -66,7 +66,7 @@ RawValue raw_value(const std::string& file, const toml::node& node) {
   return value;
 }
 
-void add_entries(RawConfig& raw, const std::string& section, const toml::table& table) {
+void add_entries(ParsedConfig& raw, const std::string& section, const toml::table& table) {
   for (auto&& [key, node] : table) {
     const toml::table* const inner = node.as_table();
     if (section.empty() && inner != nullptr) {
@@ -79,19 +79,19 @@ void add_entries(RawConfig& raw, const std::string& section, const toml::table& 
   }
 }
 
-std::string_view line_of(const Place& place, std::string_view text) {
+std::string_view line_of(const SourceLocation& location, std::string_view text) {
   std::size_t begin = 0;
-  for (int line = 1; line < place.line; ++line) begin = text.find('\n', begin) + 1;
+  for (int line = 1; line < location.line; ++line) begin = text.find('\n', begin) + 1;
   return text.substr(begin, text.find('\n', begin) - begin);
 }
 
 /// What a comma at a place was to be: a point, or part of a list without brackets; empty where there is none.
-std::string way_out_of_comma(const Place& place, std::string_view text) {
-  const std::string_view line = line_of(place, text);
+std::string way_out_of_comma(const SourceLocation& location, std::string_view text) {
+  const std::string_view line = line_of(location, text);
   std::size_t comma = line.find(',');
-  while (comma != std::string_view::npos && 1 + characters(line.substr(0, comma)) < place.column)
+  while (comma != std::string_view::npos && 1 + storage::characters(line.substr(0, comma)) < location.column)
     comma = line.find(',', comma + 1);
-  if (comma == std::string_view::npos || 1 + characters(line.substr(0, comma)) > place.column) return {};
+  if (comma == std::string_view::npos || 1 + storage::characters(line.substr(0, comma)) > location.column) return {};
   const std::size_t begin = line.rfind('=', comma) + 1;  // npos + 1 is 0
   const std::string_view name = without_blanks(line.substr(0, begin - (begin > 0)));
   const auto key = std::ranges::find(keys(), name, &Key::name);
@@ -101,35 +101,35 @@ std::string way_out_of_comma(const Place& place, std::string_view text) {
 }
 
 /// What a syntax error of toml++ leaves to guess.
-std::string way_out(std::string_view description, const Place& place, std::string_view text) {
-  if (const std::string comma = way_out_of_comma(place, text); !comma.empty()) return comma;
+std::string way_out(std::string_view description, const SourceLocation& location, std::string_view text) {
+  if (const std::string comma = way_out_of_comma(location, text); !comma.empty()) return comma;
   if (description.find("redefine") != std::string_view::npos) return "; each section and each key is given once";
   if (description.find("not representable") != std::string_view::npos) return "; the number is too large";
   return "; a line is KEY = VALUE, and texts and expressions stand in quotes: nu = \"linspace(0.5, 1.5, 501)\"";
 }
 
 /// toml++ counts the end of the text on from the end of a line that is over: goes back to what is there.
-Place within(Place place, std::string_view text) {
-  const Place end = place_of(place.source, text, text.size());
-  if (place.line >= end.line) return {end.source, end.line, std::min(place.column, end.column)};
-  place.column = std::min(place.column, 1 + characters(line_of(place, text)));
-  return place;
+SourceLocation within(SourceLocation location, std::string_view text) {
+  const SourceLocation end = location_of(location.source, text, text.size());
+  if (location.line >= end.line) return {end.source, end.line, std::min(location.column, end.column)};
+  location.column = std::min(location.column, 1 + storage::characters(line_of(location, text)));
+  return location;
 }
 
 /// toml++ reports a repeated key and a number beyond all bounds at their end: goes back to their first character.
-Place start_of_token(Place place, std::string_view text, std::string_view description) {
+SourceLocation start_of_token(SourceLocation location, std::string_view text, std::string_view description) {
   const bool at_end = description.find("redefine") != std::string_view::npos ||
                       description.find("could not be interpreted") != std::string_view::npos ||
                       description.find("not representable") != std::string_view::npos;
-  if (!at_end) return place;
-  const std::string_view line = line_of(place, text);
+  if (!at_end) return location;
+  const std::string_view line = line_of(location, text);
   const auto part_of_token = [&](int column) {
     const char character = line[static_cast<std::size_t>(column) - 1];
     return std::string_view(" \t=,[").find(character) == std::string_view::npos;
   };
-  while (place.column > 1 && !part_of_token(place.column - 1)) --place.column;
-  while (place.column > 1 && part_of_token(place.column - 1)) --place.column;
-  return place;
+  while (location.column > 1 && !part_of_token(location.column - 1)) --location.column;
+  while (location.column > 1 && part_of_token(location.column - 1)) --location.column;
+  return location;
 }
 
 /// toml++ 3.3 writes the beginning of an escape twice in the keys that it quotes, and the blank after a key.
@@ -147,17 +147,17 @@ toml::table parse(const std::string& file, std::string_view text) {
   try {
     return toml::parse(text, std::string_view(file));
   } catch (const toml::parse_error& error) {
-    const Place place = within(place_at(file, error.source().begin), text);
-    fail(start_of_token(place, text, error.description()),
-         corrected(std::string(error.description())) + way_out(error.description(), place, text));
+    const SourceLocation location = within(place_at(file, error.source().begin), text);
+    fail(start_of_token(location, text, error.description()),
+         corrected(std::string(error.description())) + way_out(error.description(), location, text));
   }
 }
 
 }  // namespace
 
-RawConfig read_toml(const std::string& file, std::string_view text) {
+ParsedConfig read_toml(const std::string& file, std::string_view text) {
   check_characters(file, text);
-  RawConfig raw{file, {}, {}};
+  ParsedConfig raw{file, {}, {}};
   try {
     add_entries(raw, "", parse(file, text));
   } catch (const ConfigError& error) {
@@ -165,11 +165,12 @@ RawConfig read_toml(const std::string& file, std::string_view text) {
     throw ConfigError(std::string(error.what()) + "; read as TOML; INI is told by --ini, or a name that ends in .ini");
   }
   const auto order = [](const auto& left, const auto& right) {  // toml++ iterates alphabetically
-    return std::tuple(left.place.line, left.place.column) < std::tuple(right.place.line, right.place.column);
+    return std::tuple(left.location.line, left.location.column) <
+           std::tuple(right.location.line, right.location.column);
   };
   std::sort(raw.entries.begin(), raw.entries.end(), order);
   std::sort(raw.sections.begin(), raw.sections.end(), order);
   return raw;
 }
 
-}  // namespace clatter
+}  // namespace clatter::config

@@ -14,7 +14,7 @@
 #include "config/text_file.hpp"
 #include "storage/utf8.hpp"
 
-namespace clatter {
+namespace clatter::config {
 namespace {
 
 constexpr std::string_view blanks = " \t\r\n";
@@ -54,9 +54,9 @@ class Parser {
   }
 
   [[noreturn]] void fail_at(std::size_t offset, const std::string& message) const {
-    Place place = source_.place;
-    if (source_.columns) place.column += characters(source_.text.substr(0, offset));
-    fail(place, message);
+    SourceLocation location = source_.location;
+    if (source_.columns) location.column += storage::characters(source_.text.substr(0, offset));
+    fail(location, message);
   }
 
   [[noreturn]] void fail_here(const std::string& message) const { fail_at(at_, message); }
@@ -120,9 +120,9 @@ class Parser {
     AxisValues axis;
     if (bracket && accept(']')) fail_at(0, "an empty axis; give at least one value");
     do {
-      Place place = source_.place;
-      if (source_.columns) place.column += characters(source_.text.substr(0, at_));
-      axis.places.push_back(place);
+      SourceLocation location = source_.location;
+      if (source_.columns) location.column += storage::characters(source_.text.substr(0, at_));
+      axis.locations.push_back(location);
       axis.values.push_back(product());
     } while (accept(','));
     if (bracket && !accept(']')) fail_here("expected ',' or ']', " + found());
@@ -180,4 +180,4 @@ std::string toml_list(const std::vector<double>& values) {
   return text + ']';
 }
 
-}  // namespace clatter
+}  // namespace clatter::config

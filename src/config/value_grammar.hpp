@@ -4,22 +4,22 @@
 #include <string_view>
 #include <vector>
 
-#include "config/place.hpp"
+#include "config/source_location.hpp"
 
-namespace clatter {
+namespace clatter::config {
 
 /// A text that is to mean a number or an axis, and where it stands.
 struct SourceText {
   std::string_view text;
-  Place place;           ///< of its first character
-  bool columns = false;  ///< the text stands in one line there, so that a mistake inside has a column of its own
+  SourceLocation location;  ///< of its first character
+  bool columns = false;     ///< the text stands in one line there, so that a mistake inside has a column of its own
 };
 
 /// The values of an axis and the text that gives them again.
 struct AxisValues {
   std::vector<double> values;
-  std::vector<Place> places;  ///< of each element of a list; empty for linspace, logspace, arange
-  std::string text;           ///< TOML: "\"linspace(0.5, 1.5, 501)\"" or "[1.0, 2.0]"
+  std::vector<SourceLocation> locations;  ///< of each element of a list; empty for linspace, logspace, arange
+  std::string text;                       ///< TOML: "\"linspace(0.5, 1.5, 501)\"" or "[1.0, 2.0]"
 };
 
 /// The most values an axis has, and the most points a sweep has.
@@ -42,4 +42,4 @@ inline constexpr double max_points = 1e9;
 /// TOML text of a list of numbers.
 [[nodiscard]] std::string toml_list(const std::vector<double>& values);
 
-}  // namespace clatter
+}  // namespace clatter::config

@@ -6,7 +6,7 @@
 #include "config/consistency.hpp"
 #include "config/without_effect.hpp"
 
-namespace clatter {
+namespace clatter::config {
 namespace {
 
 /// Whether a key of [observe] says what is observed, and not how.
@@ -34,7 +34,7 @@ std::optional<std::size_t> repeated(const AxisValues& axis) {
   const std::vector<double>& values = axis.values;
   std::vector<std::size_t> order(values.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
-  if (!axis.places.empty()) std::ranges::stable_sort(order, {}, [&](std::size_t index) { return values[index]; });
+  if (!axis.locations.empty()) std::ranges::stable_sort(order, {}, [&](std::size_t index) { return values[index]; });
   std::optional<std::size_t> first;
   for (std::size_t i = 1; i < order.size(); ++i) {
     if (values[order[i]] == values[order[i - 1]]) first = std::min(first.value_or(order[i]), order[i]);
@@ -51,8 +51,9 @@ void warn_of_repeats(const Settings& settings, const AxisGroups& groups, std::ve
     const SweptSetting& swept = settings.axes[groups[dimension].front()];
     const auto index = repeated(swept.axis);
     if (!index) continue;
-    const Place& place = *index < swept.axis.places.size() ? swept.axis.places[*index] : swept.place;
-    warnings.push_back({to_string(place), "sweep",
+    const SourceLocation& location =
+        *index < swept.axis.locations.size() ? swept.axis.locations[*index] : swept.location;
+    warnings.push_back({to_string(location), "sweep",
                         std::string(key_of(swept.parameter)) + " = " + number_text(swept.axis.values[*index]) +
                             " again, which computes the same points twice; give each value once"});
   }
@@ -67,4 +68,4 @@ std::vector<Warning> warnings_of(const Settings& settings, const AxisGroups& gro
   return warnings;
 }
 
-}  // namespace clatter
+}  // namespace clatter::config

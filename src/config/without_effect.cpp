@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-namespace clatter {
+namespace clatter::config {
 namespace {
 
-using enum Parameter;
+using enum sweep::Parameter;
 
 bool transient(const Settings& settings) { return settings.text("time", "mode") == "transient"; }
 bool steady(const Settings& settings) { return !transient(settings); }
@@ -24,14 +24,14 @@ bool all_anyway(const Settings& settings) { return transient(settings) && not_by
 
 /// Whether a parameter has such a value at every point, or isn't given.
 template <typename Test>
-bool everywhere(const Settings& settings, Parameter parameter, Test test) {
+bool everywhere(const Settings& settings, sweep::Parameter parameter, Test test) {
   const auto given = settings.given(parameter);
   return !given || std::ranges::all_of(given->values, test);
 }
 bool unforced(const Settings& settings) {
   return everywhere(settings, f, [](double value) { return value == 0; });
 }
-bool absent(const Settings& settings, Parameter stop) {
+bool absent(const Settings& settings, sweep::Parameter stop) {
   return !settings.given(xs) && everywhere(settings, stop, [](double value) { return std::isinf(value); });
 }
 bool no_lower(const Settings& settings) { return absent(settings, stop_lower); }
@@ -84,10 +84,10 @@ constexpr Rule rules[] = {
 };
 
 /// A warning where a key has no effect.
-void look_at(const Settings& settings, const Key& key, const Place& place, std::vector<Warning>& warnings) {
+void look_at(const Settings& settings, const Key& key, const SourceLocation& location, std::vector<Warning>& warnings) {
   for (const Rule& rule : rules) {
     if (rule.section != key.section || rule.name != key.name || !rule.holds(settings)) continue;
-    warnings.push_back({to_string(place), std::string(key.section),
+    warnings.push_back({to_string(location), std::string(key.section),
                         '\'' + std::string(key.name) + "' has no effect " + std::string(rule.where) +
                             "; leave it out, or " + std::string(rule.remedy)});
     return;
@@ -100,11 +100,11 @@ std::vector<Warning> keys_without_effect(const Settings& settings) {
   std::vector<Warning> warnings;
   for (const Setting& setting : settings.values) {
     const bool is_default = !setting.key->fallback.empty() && setting.value == default_setting(*setting.key).value;
-    if (!is_default) look_at(settings, *setting.key, setting.key_place, warnings);
+    if (!is_default) look_at(settings, *setting.key, setting.key_location, warnings);
   }
   for (const SweptSetting& swept : settings.axes)
-    look_at(settings, *find_key("scene", key_of(swept.parameter)), swept.key_place, warnings);
+    look_at(settings, *find_key("scene", key_of(swept.parameter)), swept.key_location, warnings);
   return warnings;
 }
 
-}  // namespace clatter
+}  // namespace clatter::config

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace clatter {
+namespace clatter::config {
 
 std::string wrapped(std::string_view text, std::string_view margin) {
   const std::size_t width = help_width - margin.size();
@@ -18,4 +18,4 @@ std::string wrapped(std::string_view text, std::string_view margin) {
   return (lines += text) += '\n';
 }
 
-}  // namespace clatter
+}  // namespace clatter::config

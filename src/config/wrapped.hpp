@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-namespace clatter {
+namespace clatter::config {
 
 /// The columns of a terminal; every help page keeps within them.
 inline constexpr std::size_t help_width = 80;
@@ -18,4 +18,4 @@ inline constexpr std::size_t help_width = 80;
   return wrapped(text, std::string(indent, ' '));
 }
 
-}  // namespace clatter
+}  // namespace clatter::config

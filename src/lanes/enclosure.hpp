@@ -2,22 +2,22 @@
 
 #include "lanes/vector.hpp"
 
-namespace clatter {
+namespace clatter::lanes {
 
 /// A function at both ends of a stretch of time, over that time: value, first and second derivative.
 template <class V>
-struct Ends {
+struct HermiteData {
   V y0, v0, a0, y1, v1, a1;
 
   /// From derivatives by a time of which the stretch is `length`.
-  static Ends scaled(const Ends& e, const V& length) {
+  static HermiteData scaled(const HermiteData& e, const V& length) {
     const V square = length * length;
     return {e.y0, e.v0 * length, e.a0 * square, e.y1, e.v1 * length, e.a1 * square};
   }
 };
 
 template <class V>
-struct Range {
+struct Interval {
   V low, high;
 
   /// A NaN of its own stays, and then no comparison proves anything: where one operand is NaN, min and max give the
@@ -25,11 +25,11 @@ struct Range {
   void include(const V& y) { low = min(y, low), high = max(y, high); }
 };
 
-/// Range of a function but for its values at both ends: of the Bernstein coefficients of degree 6 of its quintic
+/// Interval of a function but for its values at both ends: of the Bernstein coefficients of degree 6 of its quintic
 /// Hermite polynomial, the middle one widened by what the function may differ from it (dynamics/bernstein.hpp). NaN
 /// where any of these is: the middle one depends on all of them, and stands second.
 template <class V>
-[[nodiscard, gnu::always_inline]] inline Range<V> enclosure(const Ends<V>& e, const V& error) {
+[[nodiscard, gnu::always_inline]] inline Interval<V> enclosure(const HermiteData<V>& e, const V& error) {
   const V b1 = fma(V(1.0 / 6), e.v0, e.y0), b2 = fma(V(1.0 / 30), e.a0, fma(V(1.0 / 3), e.v0, e.y0));
   const V b5 = fnma(V(1.0 / 6), e.v1, e.y1), b4 = fma(V(1.0 / 30), e.a1, fnma(V(1.0 / 3), e.v1, e.y1));
   const V b3 = fma(V(1.0 / 40), e.a0 + e.a1, fma(V(0.2), e.v0 - e.v1, (e.y0 + e.y1) * 0.5));
@@ -38,9 +38,9 @@ template <class V>
 
 /// The quintic Hermite polynomial itself, by powers of the part t of the stretch.
 template <class V>
-class Quintic {
+class QuinticHermite {
  public:
-  explicit Quintic(const Ends<V>& e)
+  explicit QuinticHermite(const HermiteData<V>& e)
       : c0_(e.y0), c1_(e.v0), c2_(e.a0 * 0.5), y1_(e.y1), v1_(e.v1), half_a1_(e.a1 * 0.5) {
     const V D = y1_ - c0_;
     c3_ = fma(V(10.0), D, half_a1_ - fma(V(6.0), c1_, fma(V(4.0), v1_, c2_ * 3.0)));
@@ -112,4 +112,4 @@ template <class V>
   return square * square * square;
 }
 
-}  // namespace clatter
+}  // namespace clatter::lanes

@@ -3,7 +3,7 @@
 #include <array>
 #include <cstddef>
 
-namespace clatter {
+namespace clatter::lanes {
 
 /// The inverse factorials 1/(first + 2 i)!, i = 0 ... count - 1, of alternating sign.
 template <std::size_t count>
@@ -55,4 +55,4 @@ template <class V>
   return V(1.0) - less;
 }
 
-}  // namespace clatter
+}  // namespace clatter::lanes

@@ -4,7 +4,7 @@
 #include <utility>
 #include <xsimd/xsimd.hpp>
 
-namespace clatter {
+namespace clatter::lanes {
 
 template <class A>
 struct PairMask;
@@ -145,4 +145,4 @@ int count(const PairMask<A>& m) {
   return __builtin_popcount(bits(m));
 }
 
-}  // namespace clatter
+}  // namespace clatter::lanes

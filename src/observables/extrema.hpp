@@ -5,12 +5,12 @@
 #include <cmath>
 #include <limits>
 
-#include "dynamics/arc.hpp"
-#include "dynamics/bernstein.hpp"
-#include "dynamics/polynomial_arc.hpp"
-#include "dynamics/stops.hpp"
+#include "math/bernstein.hpp"
+#include "model/stops.hpp"
+#include "motion/arc.hpp"
+#include "motion/polynomial_arc.hpp"
 
-namespace clatter {
+namespace clatter::observables {
 
 /// Least and greatest displacement and velocity, between the ends of arcs too: every stretch of an arc is either proved
 /// not to pass what was found so far, by the enclosure that finds contacts, or split, at its turning point where it has
@@ -25,7 +25,7 @@ class Extrema {
   };
 
   template <Effects E>
-  void arc(const Arc<double, E>& arc, double, double length) {
+  void arc(const motion::Arc<double, E>& arc, double, double length) {
     if (!(length > 0)) return;
     splits_ = 0;
     const Place from{0.0, arc.start()}, to{length, at(arc, length)};
@@ -34,13 +34,13 @@ class Extrema {
     search<0>(arc, from, to);
     search<1>(arc, from, to);
   }
-  template <Polynomial A>
+  template <motion::Polynomial A>
   void arc(const A& arc, double, double length) {
     if (!(length > 0)) return;
     const double part = arc.length() > 0 ? length / arc.length() : 0.0;
-    Bernstein<double> rise = arc.rise(), velocity = arc.velocity();
-    rise = split_off(rise, part), velocity = split_off(velocity, part);
-    include(x_, rise, arc.anchor(), most_halvings);
+    Bernstein<double> offset = arc.offset(), velocity = arc.velocity();
+    offset = split_off(offset, part), velocity = split_off(velocity, part);
+    include(x_, offset, arc.anchor(), most_halvings);
     include(v_, velocity, 0.0, most_halvings);
     ++evaluations_;
   }
@@ -48,8 +48,10 @@ class Extrema {
   void include(const Range& x, const Range& v) {
     x_.include(x.low), x_.include(x.high), v_.include(v.low), v_.include(v.high);
   }
-  void rest(const Rest& rest) { x_.include(rest.place), v_.include(0.0); }
-  void impact(const Impact& impact) { x_.include(impact.place), v_.include(impact.before), v_.include(impact.after); }
+  void rest(const motion::Rest& rest) { x_.include(rest.position), v_.include(0.0); }
+  void impact(const motion::Impact& impact) {
+    x_.include(impact.position), v_.include(impact.before), v_.include(impact.after);
+  }
 
   /// Cut at the stops, which the end of an arc meets only to rounding, or by time stepping to the length of a step.
   [[nodiscard]] Range displacement(const Stops& stops) const {
@@ -64,15 +66,15 @@ class Extrema {
 
   struct Place {
     double s;
-    Motion<double> motion;
+    motion::Motion<double> motion;
   };
 
   template <Effects E>
-  Motion<double> at(const Arc<double, E>& arc, double s) {
+  motion::Motion<double> at(const motion::Arc<double, E>& arc, double s) {
     ++evaluations_;
     return arc.at(s);
   }
-  void include(const Motion<double>& m) { x_.include(m.x), v_.include(m.v); }
+  void include(const motion::Motion<double>& m) { x_.include(m.x), v_.include(m.v); }
 
   /// A polynomial over a step, which lies within the range of its coefficients.
   static void include(Range& range, Bernstein<double> y, double offset, int halvings) {
@@ -88,17 +90,17 @@ class Extrema {
 
   /// What is searched (order 0: displacement, 1: velocity) with its first two derivatives.
   template <int order, Effects E>
-  static std::array<double, 3> jet(const Arc<double, E>& arc, const Motion<double>& m) {
+  static std::array<double, 3> jet(const motion::Arc<double, E>& arc, const motion::Motion<double>& m) {
     if constexpr (order == 0) return {m.x, m.v, m.a};
-    return {m.v, m.a, arc.flow().jerk(m)};
+    return {m.v, m.a, arc.constants().jerk(m)};
   }
 
   template <int order, Effects E>
-  void search(const Arc<double, E>& arc, const Place& from, const Place& to) {
+  void search(const motion::Arc<double, E>& arc, const Place& from, const Place& to) {
     const Range& range = order == 0 ? x_ : v_;
     const double step = to.s - from.s;
     const auto left = jet<order>(arc, from.motion), right = jet<order>(arc, to.motion);
-    const double error = hermite_error(arc.flow().sixth_bound(from.motion, step, order));
+    const double error = hermite_error(arc.constants().sixth_bound(from.motion, step, order));
     Bernstein<double> c = hermite<double>(step, right[0] - left[0], {left[1], right[1]}, {left[2], right[2]});
     const double middle = c[3];
     c[3] = middle + error;
@@ -117,11 +119,11 @@ class Extrema {
   /// The turning point where the slope changes sign between two places, by Newton's iteration within a bracket; else
   /// the middle.
   template <int order, Effects E>
-  Place split(const Arc<double, E>& arc, const Place& from, const Place& to) {
+  Place split(const motion::Arc<double, E>& arc, const Place& from, const Place& to) {
     double low = from.s, high = to.s, s = (low + high) / 2;
     const double slope_before = jet<order>(arc, from.motion)[1], slope_after = jet<order>(arc, to.motion)[1];
-    Motion<double> m = at(arc, s);
-    const bool turns_once = slope_before * slope_after < 0 && (to.s - from.s) * arc.flow().rate < 4;
+    motion::Motion<double> m = at(arc, s);
+    const bool turns_once = slope_before * slope_after < 0 && (to.s - from.s) * arc.constants().rate < 4;
     if (!turns_once) return {s, m};
     for (int iteration = 0; iteration < 60; ++iteration) {
       const auto [value, slope, curvature] = jet<order>(arc, m);
@@ -142,4 +144,4 @@ class Extrema {
   double evaluations_ = 0.0;
 };
 
-}  // namespace clatter
+}  // namespace clatter::observables

@@ -6,7 +6,7 @@
 #include <cassert>
 #include <new>
 
-namespace clatter {
+namespace clatter::observables {
 namespace {
 
 /// From row to row of samples; even, so that every row is aligned as the first.
@@ -76,4 +76,4 @@ auto FourierTransform::transform(const Rows<double>& samples, Workspace& workspa
   return sums;
 }
 
-}  // namespace clatter
+}  // namespace clatter::observables

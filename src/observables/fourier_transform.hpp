@@ -6,7 +6,7 @@
 #include <memory>
 #include <span>
 
-namespace clatter {
+namespace clatter::observables {
 
 /// A plan for the transforms of `batch` rows of `size` real samples each, all at once, made once; `transform` may then
 /// run in any number of threads.
@@ -34,4 +34,4 @@ class FourierTransform {
   std::unique_ptr<Plan> plan_;
 };
 
-}  // namespace clatter
+}  // namespace clatter::observables

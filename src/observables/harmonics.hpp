@@ -9,11 +9,11 @@
 #include <span>
 #include <vector>
 
-#include "dynamics/arc.hpp"
-#include "dynamics/polynomial_arc.hpp"
-#include "dynamics/reach.hpp"
+#include "model/displacement_bound.hpp"
+#include "motion/arc.hpp"
+#include "motion/polynomial_arc.hpp"
 
-namespace clatter {
+namespace clatter::observables {
 
 /// Amplitude and phase of the constant part and the harmonics, shape [harmonic]: a_0 signed, its phase NaN.
 struct Spectrum {
@@ -44,23 +44,23 @@ class ExactHarmonics {
   /// Harmonics 0 ... K of the base frequency, over the observed time.
   ExactHarmonics(std::size_t highest, double base_frequency) : base_(base_frequency), x_(highest + 1) {}
 
-  template <Polynomial A>
+  template <motion::Polynomial A>
   void arc(const A& arc, double begin, double length) {
     if (!(begin > 0.0)) first_x_ = arc.start().x;
     for (std::size_t k = 0; k < x_.size(); ++k) {
       const double w = base_ * static_cast<double>(k);
-      x_[k] += length * (arc.flow().rate + w) < 1 ? quadrature<10>(arc, w, begin, length)
-                                                  : quadrature<20>(arc, w, begin, length);
+      x_[k] += length * (arc.constants().rate + w) < 1 ? quadrature<10>(arc, w, begin, length)
+                                                       : quadrature<20>(arc, w, begin, length);
     }
   }
   template <Effects E>
-  void arc(const Arc<double, E>& arc, double begin, double length) {
-    const Motion<double>& first = arc.start();
-    const Motion<double> last = arc.at(length);
+  void arc(const motion::Arc<double, E>& arc, double begin, double length) {
+    const motion::Motion<double>& first = arc.start();
+    const motion::Motion<double> last = arc.at(length);
     ++evaluations_;
     if (!(begin > 0.0)) first_x_ = first.x;
     for (std::size_t k = 0; k < x_.size(); ++k) {
-      const double w = base_ * static_cast<double>(k), h = arc.flow().h;
+      const double w = base_ * static_cast<double>(k), h = arc.constants().h;
       const Complex z = impedance(h, w);
       if (resonates(z)) {
         x_[k] += quadrature<20>(arc, w, begin, length);
@@ -72,14 +72,14 @@ class ExactHarmonics {
       x_[k] += (force(arc, w, length) * turn(w * begin) - ends) / z;
     }
   }
-  void rest(const Rest& rest) {
-    if (!(rest.time > 0.0)) first_x_ = rest.place;
+  void rest(const motion::Rest& rest) {
+    if (!(rest.time > 0.0)) first_x_ = rest.position;
     for (std::size_t k = 0; k < x_.size(); ++k) {
       const double w = base_ * static_cast<double>(k);
-      x_[k] += rest.place * turn(w * rest.time) * wave(-w, rest.length);
+      x_[k] += rest.position * turn(w * rest.time) * wave(-w, rest.length);
     }
   }
-  void impact(const Impact&) {}
+  void impact(const motion::Impact&) {}
 
   /// All flights of whole forcing periods at once, without rest: the terms at the ends of arcs cancel but for the jumps
   /// of the velocity, whose sums with e^{-iw tau}, w = k nu, are given, shape [harmonic]. Nowhere may Z be small.
@@ -130,13 +130,14 @@ class ExactHarmonics {
 
   /// Integral of the force times e^{-i w s} over an arc.
   template <Effects E>
-  [[nodiscard]] static Complex force(const Arc<double, E>& arc, double w, double length) {
-    const auto& flow = arc.flow();
-    Complex sum = flow.load * wave(-w, length);
+  [[nodiscard]] static Complex force(const motion::Arc<double, E>& arc, double w, double length) {
+    const auto& constants = arc.constants();
+    Complex sum = constants.load * wave(-w, length);
     if constexpr (E.forcing != Forcing::none) {
       const Complex phase(arc.start().cosine, arc.start().sine);
-      const Complex difference = phase * wave(flow.nu - w, length) - std::conj(phase) * wave(-flow.nu - w, length);
-      sum += flow.f * difference / Complex(0, 2);
+      const Complex difference =
+          phase * wave(constants.nu - w, length) - std::conj(phase) * wave(-constants.nu - w, length);
+      sum += constants.f * difference / Complex(0, 2);
     }
     return sum;
   }
@@ -145,7 +146,7 @@ class ExactHarmonics {
   template <unsigned points, class A>  // points: even
   [[nodiscard]] Complex quadrature(const A& arc, double w, double begin, double length) {
     using Rule = boost::math::quadrature::gauss<double, points>;
-    const auto panels = static_cast<std::size_t>(std::ceil(length * (arc.flow().rate + w) / 4));
+    const auto panels = static_cast<std::size_t>(std::ceil(length * (arc.constants().rate + w) / 4));
     const double half = length / static_cast<double>(panels) / 2;
     Complex sum = 0;
     evaluations_ += static_cast<double>(panels) * points;
@@ -166,4 +167,4 @@ class ExactHarmonics {
   std::vector<Complex> x_, v_;
 };
 
-}  // namespace clatter
+}  // namespace clatter::observables

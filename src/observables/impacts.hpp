@@ -5,9 +5,9 @@
 #include <limits>
 #include <vector>
 
-#include "dynamics/state.hpp"
+#include "motion/state.hpp"
 
-namespace clatter {
+namespace clatter::observables {
 
 /// Index of a stop in results: 0 the lower, 1 the upper one.
 [[nodiscard]] constexpr std::size_t index_of(Side side) { return side == Side::upper ? 1 : 0; }
@@ -26,10 +26,10 @@ class Impacts {
   void arc(const A&, double, double length) {
     flown_ = flown_ || length > 0;
   }
-  void rest(const Rest& rest) {
+  void rest(const motion::Rest& rest) {
     if (rest.held) stops_[index_of(rest.side)].rest_time += rest.length;
   }
-  void impact(const Impact& impact) {
+  void impact(const motion::Impact& impact) {
     OfStop& stop = stops_[index_of(impact.side)];
     if (stop.count == 0.0) stop.before = impact.before, stop.after = impact.after;
     stop.count += 1.0;
@@ -58,13 +58,13 @@ class ImpactLog {
  public:
   template <class A>
   void arc(const A&, double, double) {}
-  void rest(const Rest&) {}
-  void impact(const Impact& impact) { impacts_.push_back(impact); }
+  void rest(const motion::Rest&) {}
+  void impact(const motion::Impact& impact) { impacts_.push_back(impact); }
 
-  [[nodiscard]] std::vector<Impact>& impacts() { return impacts_; }
+  [[nodiscard]] std::vector<motion::Impact>& impacts() { return impacts_; }
 
  private:
-  std::vector<Impact> impacts_;
+  std::vector<motion::Impact> impacts_;
 };
 
 /// Keeps every rest and completed chatter.
@@ -72,13 +72,13 @@ class RestLog {
  public:
   template <class A>
   void arc(const A&, double, double) {}
-  void rest(const Rest& rest) { rests_.push_back(rest); }
-  void impact(const Impact&) {}
+  void rest(const motion::Rest& rest) { rests_.push_back(rest); }
+  void impact(const motion::Impact&) {}
 
-  [[nodiscard]] std::vector<Rest>& rests() { return rests_; }
+  [[nodiscard]] std::vector<motion::Rest>& rests() { return rests_; }
 
  private:
-  std::vector<Rest> rests_;
+  std::vector<motion::Rest> rests_;
 };
 
-}  // namespace clatter
+}  // namespace clatter::observables

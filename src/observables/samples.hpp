@@ -7,10 +7,10 @@
 #include <limits>
 #include <vector>
 
-#include "dynamics/arc.hpp"
-#include "dynamics/stops.hpp"
+#include "model/stops.hpp"
+#include "motion/arc.hpp"
 
-namespace clatter {
+namespace clatter::observables {
 
 /// What a sample that falls on an impact shows as its velocity.
 enum class AtImpact { after, mean };
@@ -36,29 +36,29 @@ class Samples {
   /// Of an arc in closed form one sample in so many is evaluated, and those after it from there by steps of 1, 2, ...
   /// spacings; of an arc so short that its every digit counts each one is. All arcs are of one oscillator.
   template <Effects E>
-  void arc(const Arc<double, E>& arc, double begin, double length) {
-    const std::size_t most = length * arc.flow().rate > 0.25 ? steps_.size() : 0;
+  void arc(const motion::Arc<double, E>& arc, double begin, double length) {
+    const std::size_t most = length * arc.constants().rate > 0.25 ? steps_.size() : 0;
     while (is_due_before(begin + length)) {
-      const Motion<double> here = arc.at(std::max(0.0, due() - begin));
+      const motion::Motion<double> here = arc.at(std::max(0.0, due() - begin));
       add(here);
       const std::size_t more = due_before(begin + length, most);
       for (; steps_made_ < more; ++steps_made_)
-        steps_[steps_made_] = arc.flow().step(static_cast<double>(steps_made_ + 1) * spacing_);
+        steps_[steps_made_] = arc.constants().step(static_cast<double>(steps_made_ + 1) * spacing_);
       const std::size_t first = x_.size();
       x_.resize(first + more), v_.resize(first + more);
       for (std::size_t i = 0; i < more; ++i) {
-        const Motion<double> m = arc.moved(here, steps_[i]);
+        const motion::Motion<double> m = arc.moved(here, steps_[i]);
         x_[first + i] = between_stops(m.x), v_[first + i] = m.v;
       }
       evaluations_ += more;
     }
   }
-  void rest(const Rest& rest) {
-    while (is_due_before(rest.time + rest.length)) add(rest.place, 0.0);
+  void rest(const motion::Rest& rest) {
+    while (is_due_before(rest.time + rest.length)) add(rest.position, 0.0);
   }
-  void impact(const Impact& impact) {
+  void impact(const motion::Impact& impact) {
     last_ = impact;
-    while (due() <= impact.time + rounding_ && x_.size() < count_) add(impact.place, at(impact));
+    while (due() <= impact.time + rounding_ && x_.size() < count_) add(impact.position, at(impact));
   }
 
   /// Ends the observed time, of length `total`, in a state; in periodic motion an impact at its end is one at its
@@ -82,7 +82,7 @@ class Samples {
  private:
   [[nodiscard]] double due() const { return instant(x_.size()); }
   [[nodiscard]] double instant(std::size_t i) const { return static_cast<double>(i) * spacing_; }
-  [[nodiscard]] double at(const Impact& impact) const {
+  [[nodiscard]] double at(const motion::Impact& impact) const {
     return at_impact_ == AtImpact::after ? impact.after : (impact.before + impact.after) / 2;
   }
   [[nodiscard]] bool is_due_before(double end) const { return due_before(end, 1) == 1; }
@@ -99,7 +99,7 @@ class Samples {
     }
     return before - x_.size();
   }
-  void add(const Motion<double>& m) { add(m.x, m.v), ++evaluations_; }
+  void add(const motion::Motion<double>& m) { add(m.x, m.v), ++evaluations_; }
   void add(double x, double v) { x_.push_back(between_stops(x)), v_.push_back(v); }
   /// An arc's end may round past; Moreau's time stepping goes past by up to a step.
   [[nodiscard]] double between_stops(double x) const { return std::clamp(x, stops_.lower, stops_.upper); }
@@ -108,10 +108,10 @@ class Samples {
   double spacing_, rounding_;
   AtImpact at_impact_;
   Stops stops_;
-  Impact last_{-std::numeric_limits<double>::infinity(), Side::none, 0, 0, 0};
-  std::array<Step<double>, 63> steps_;  ///< over 1, 2, ... spacings; as many are made as an arc asks for
+  motion::Impact last_{-std::numeric_limits<double>::infinity(), Side::none, 0, 0, 0};
+  std::array<motion::Step<double>, 63> steps_;  ///< over 1, 2, ... spacings; as many are made as an arc asks for
   std::size_t steps_made_ = 0, evaluations_ = 0;
   std::vector<double> x_, v_;
 };
 
-}  // namespace clatter
+}  // namespace clatter::observables

@@ -6,11 +6,11 @@
 #include <numbers>
 #include <utility>
 
-#include "dynamics/neighbourhood.hpp"
-#include "dynamics/polynomial_arc.hpp"
-#include "dynamics/tangent.hpp"
+#include "motion/neighbourhood.hpp"
+#include "motion/polynomial_arc.hpp"
+#include "motion/tangent_map.hpp"
 
-namespace clatter {
+namespace clatter::observables {
 
 /// How small changes of a motion grow: the multipliers of a period and the largest Lyapunov exponent, impacts and rests
 /// included (physics: saltation matrices, Nordmark & Piiroinen 2009). A motion that grazes a stop to within rounding
@@ -21,20 +21,21 @@ class Stability {
   using Complex = std::complex<double>;
 
   /// `rounding` is what displacements and velocities may be off by.
-  Stability(const Stops& stops, double rounding) : tangent_(stops), nearby_(stops, Ellipse::disc(rounding), rounding) {}
+  Stability(const Stops& stops, double rounding)
+      : tangent_(stops), nearby_(stops, motion::Ellipse::disc(rounding), rounding) {}
 
   template <class A>
   void arc(const A& arc, double begin, double length) {
     tangent_.arc(arc, begin, length);
     ++evaluations_;
-    if constexpr (Polynomial<A>) {
+    if constexpr (motion::Polynomial<A>) {
       exact_ = false;
     } else {
       nearby_.arc(arc, begin, length);
     }
   }
-  void rest(const Rest& rest) { tangent_.rest(rest), rests_ = true; }
-  void impact(const Impact& impact) { tangent_.impact(impact), nearby_.impact(impact); }
+  void rest(const motion::Rest& rest) { tangent_.rest(rest), rests_ = true; }
+  void impact(const motion::Impact& impact) { tangent_.impact(impact), nearby_.impact(impact); }
 
   /// Whether motions that differ from this one by rounding meet other stops. After a rest nothing differs; and what
   /// general methods give isn't known to rounding.
@@ -48,15 +49,16 @@ class Stability {
       return;
     }
     if (grazes()) return;
-    const Map<double> map = tangent_.mantissa();
+    const motion::Jacobian<double> map = tangent_.mantissa();
     const double product = tangent_.mantissa_determinant(), half = (map[0] + map[3]) / 2,
                  square = half * half - product;
     first_ = square < 0 ? Complex(half, std::sqrt(-square)) : half + std::copysign(std::sqrt(square), half);
     second_ = square < 0 ? std::conj(first_) : first_ == 0.0 ? first_ : product / first_;
     exponent_ = (std::log(std::abs(first_)) + tangent_.exponent() * std::numbers::ln2) / total;
     for (Complex* const multiplier : {&first_, &second_})
-      *multiplier = {Tangent<double>::scaled(multiplier->real(), tangent_.exponent()),
-                     Tangent<double>::scaled(multiplier->imag(), tangent_.exponent()) + 0.0};  // no negative zero
+      *multiplier = {
+          motion::TangentMap<double>::scaled(multiplier->real(), tangent_.exponent()),
+          motion::TangentMap<double>::scaled(multiplier->imag(), tangent_.exponent()) + 0.0};  // no negative zero
   }
 
   /// Ends the observed time of motion without a period: the exponent along it.
@@ -69,12 +71,12 @@ class Stability {
 
  private:
   static constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-  Tangent<double> tangent_;
-  Neighbourhood nearby_;
+  motion::TangentMap<double> tangent_;
+  motion::Neighbourhood nearby_;
   bool exact_ = true, rests_ = false;
   Complex first_{nan, nan}, second_{nan, nan};
   double exponent_ = nan;
   double evaluations_ = 0.0;
 };
 
-}  // namespace clatter
+}  // namespace clatter::observables

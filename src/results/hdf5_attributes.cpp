@@ -2,7 +2,7 @@
 
 #include "results/hdf5_handle.hpp"
 
-namespace clatter::hdf5 {
+namespace clatter::results::detail {
 namespace {
 
 Handle text_type() {
@@ -72,4 +72,4 @@ std::vector<std::uint8_t> byte_attribute(hid_t object, const std::string& name) 
   return values;
 }
 
-}  // namespace clatter::hdf5
+}  // namespace clatter::results::detail

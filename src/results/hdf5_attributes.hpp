@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace clatter::hdf5 {
+namespace clatter::results::detail {
 
 /// How values lie in the file, the same on every machine, and in memory.
 struct ValueType {
@@ -32,4 +32,4 @@ void put(hid_t object, const std::string& name, const std::vector<std::uint8_t>&
 /// The small integers of an attribute such as flag_values; empty where there is none.
 [[nodiscard]] std::vector<std::uint8_t> byte_attribute(hid_t object, const std::string& name);
 
-}  // namespace clatter::hdf5
+}  // namespace clatter::results::detail

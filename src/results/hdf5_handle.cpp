@@ -4,7 +4,7 @@
 
 #include "storage/utf8.hpp"
 
-namespace clatter::hdf5 {
+namespace clatter::results::detail {
 namespace {
 
 /// Keeps the description of the record that was pushed first: where the failure arose, not what it made fail.
@@ -17,11 +17,12 @@ std::string reason() {
   std::string text;
   H5Ewalk2(H5E_DEFAULT, H5E_WALK_UPWARD, keep_first, &text);
   H5Eclear2(H5E_DEFAULT);
-  return text.empty() ? "the HDF5 library gives no reason" : printable(text);  // it may quote names of the file
+  return text.empty() ? "the HDF5 library gives no reason"
+                      : storage::printable(text);  // it may quote names of the file
 }
 
 }  // namespace
 
 Failure::Failure() : std::runtime_error{reason()} {}
 
-}  // namespace clatter::hdf5
+}  // namespace clatter::results::detail

@@ -5,7 +5,7 @@
 #include <stdexcept>
 #include <utility>
 
-namespace clatter::hdf5 {
+namespace clatter::results::detail {
 
 /// A file that the HDF5 library cannot read or write; `what()` is the reason.
 class Failure : public std::runtime_error {
@@ -58,4 +58,4 @@ class Handle {
   herr_t (*close_)(hid_t);
 };
 
-}  // namespace clatter::hdf5
+}  // namespace clatter::results::detail

@@ -6,7 +6,7 @@
 
 #include "results/hdf5_handle.hpp"
 
-namespace clatter::hdf5 {
+namespace clatter::results::detail {
 namespace {
 
 /// Takes memory that this program may free; what HDF5 allocates itself, only HDF5 may.
@@ -45,4 +45,4 @@ std::span<const std::byte> Image::append(std::size_t size, std::span<const std::
   return first(size + bytes.size());
 }
 
-}  // namespace clatter::hdf5
+}  // namespace clatter::results::detail

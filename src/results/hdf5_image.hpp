@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <span>
 
-namespace clatter::hdf5 {
+namespace clatter::results::detail {
 
 /// Memory that the core driver builds a file in and leaves here, finished, when the file is closed: H5Fget_file_image
 /// would take the size of the file once more. It outlives the file.
@@ -29,4 +29,4 @@ class Image {
   void* bytes_ = nullptr;
 };
 
-}  // namespace clatter::hdf5
+}  // namespace clatter::results::detail

@@ -6,7 +6,7 @@
 
 #include "storage/utf8.hpp"
 
-namespace clatter::hdf5 {
+namespace clatter::results::detail {
 namespace {
 
 /// More than any output has.
@@ -16,7 +16,7 @@ constexpr std::size_t most_variables = 1000;
 constexpr unsigned external_files_message = 7;
 
 [[noreturn]] void refuse(const std::string& name, const std::string& why) {
-  throw Failure("'" + printable(name) + "' " + why + ", which clatter doesn't write");
+  throw Failure("'" + storage::printable(name) + "' " + why + ", which clatter doesn't write");
 }
 
 /// Looks at a link, and at the object behind it only if that is in this file.
@@ -101,4 +101,4 @@ Handle open_variable(hid_t file, const std::string& name) {
   return dataset;
 }
 
-}  // namespace clatter::hdf5
+}  // namespace clatter::results::detail

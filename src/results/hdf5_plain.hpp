@@ -5,7 +5,7 @@
 
 #include "results/hdf5_handle.hpp"
 
-namespace clatter::hdf5 {
+namespace clatter::results::detail {
 
 // Readers of files of whatever origin. Such a file may hold nothing but what clatter writes: variables at the root, of
 // numbers, stored in the file itself, contiguous or in chunks, with no filters but shuffle and deflate. Anything else
@@ -21,4 +21,4 @@ namespace clatter::hdf5 {
 /// Opens a variable, if it is such a one: the indexes of a file needn't agree on what there is.
 [[nodiscard]] Handle open_variable(hid_t file, const std::string& name);
 
-}  // namespace clatter::hdf5
+}  // namespace clatter::results::detail

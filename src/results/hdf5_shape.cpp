@@ -4,7 +4,7 @@
 
 #include "results/hdf5_handle.hpp"
 
-namespace clatter::hdf5 {
+namespace clatter::results::detail {
 namespace {
 
 /// Goes on to the next block, the fastest dimension first; false after the last one.
@@ -60,4 +60,4 @@ void read_blocks(hid_t dataset, hid_t type, void* memory, const std::function<vo
   } while (advance(begin, blocks, shape));
 }
 
-}  // namespace clatter::hdf5
+}  // namespace clatter::results::detail

@@ -6,7 +6,7 @@
 #include <functional>
 #include <vector>
 
-namespace clatter::hdf5 {
+namespace clatter::results::detail {
 
 /// Lengths of dimensions, the slowest first.
 using Shape = std::vector<hsize_t>;
@@ -29,4 +29,4 @@ inline constexpr double most_deflated = 1032;
 /// and calls `take(number of values)` after each. Throws Failure.
 void read_blocks(hid_t dataset, hid_t type, void* memory, const std::function<void(std::size_t)>& take);
 
-}  // namespace clatter::hdf5
+}  // namespace clatter::results::detail

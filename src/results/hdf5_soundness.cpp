@@ -15,7 +15,7 @@
 #include "results/hdf5_handle.hpp"
 #include "storage/file_calls.hpp"
 
-namespace clatter::hdf5 {
+namespace clatter::results::detail {
 namespace {
 
 using namespace std::string_view_literals;
@@ -48,7 +48,7 @@ class Parts {
   [[nodiscard]] std::string_view read(std::uint64_t begin, std::span<char> to) const {
     std::size_t got = 0;
     while (got < to.size()) {
-      const ssize_t more = uninterrupted(
+      const ssize_t more = storage::uninterrupted(
           [&] { return ::pread(file_.number(), to.data() + got, to.size() - got, static_cast<off_t>(begin + got)); });
       if (more < 0) throw Failure{"it cannot be read"};
       if (more == 0) break;
@@ -66,7 +66,7 @@ class Parts {
   }
 
  private:
-  Descriptor file_;
+  storage::Descriptor file_;
   std::uint64_t size_ = 0;
 };
 
@@ -111,4 +111,4 @@ void require_sound_heaps(const std::string& path) {
   }
 }
 
-}  // namespace clatter::hdf5
+}  // namespace clatter::results::detail

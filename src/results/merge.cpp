@@ -3,59 +3,63 @@
 #include <numeric>
 #include <stdexcept>
 
+#include "plan/memory_need.hpp"
 #include "results/version.hpp"
-#include "storage/difference.hpp"
+#include "storage/config_diff.hpp"
 #include "storage/error.hpp"
 #include "storage/utf8.hpp"
-#include "sweep/columns.hpp"
-#include "sweep/memory.hpp"
+#include "sweep/result_store.hpp"
 
-namespace clatter {
+namespace clatter::results {
 namespace {
 
 constexpr std::size_t shown = 5;  ///< lines of a long list
 
-[[noreturn]] void refuse_pair(const ShardHead& one, const ShardHead& other, const std::string& what,
+[[noreturn]] void refuse_pair(const ShardHeader& one, const ShardHeader& other, const std::string& what,
                               const std::string& way_out) {
-  throw IoError(quoted_name(other.path) + " and " + quoted_name(one.path) + ' ' + what + "; " + way_out);
+  throw storage::IoError(storage::quoted_name(other.path) + " and " + storage::quoted_name(one.path) + ' ' + what +
+                         "; " + way_out);
 }
 
 /// All shards are of one sweep, and were computed by this very program with one rounding: else the merged file
 /// would be one that no single run writes.
-void check_origins(const std::vector<ShardHead>& heads) {
-  const ShardHead& first = heads.front();
+void check_origins(const std::vector<ShardHeader>& heads) {
+  const ShardHeader& first = heads.front();
   if (first.schema != "clatter/1" || first.version != version() || first.git_commit != git_commit() ||
       first.compiler != compiler())
-    throw IoError(quoted_name(first.path) + " was written by clatter " + excerpt(first.version) + " (commit " +
-                  excerpt(first.git_commit) + ", " + excerpt(first.compiler) + "), this is " + std::string(version()) +
-                  " (commit " + std::string(git_commit()) + ", " + std::string(compiler()) +
-                  "); merge with the program that ran the shards");
-  for (const ShardHead& head : heads) {
+    throw storage::IoError(storage::quoted_name(first.path) + " was written by clatter " +
+                           storage::excerpt(first.version) + " (commit " + storage::excerpt(first.git_commit) + ", " +
+                           storage::excerpt(first.compiler) + "), this is " + std::string(version()) + " (commit " +
+                           std::string(git_commit()) + ", " + std::string(compiler()) +
+                           "); merge with the program that ran the shards");
+  for (const ShardHeader& head : heads) {
     if (head.config_sha256 != first.config_sha256 || head.config != first.config)
       refuse_pair(first, head, "are of different configurations",
-                  "leave out what doesn't belong here:" + difference({printable(head.path) + ": ", head.config},
-                                                                     {printable(first.path) + ": ", first.config}));
+                  "leave out what doesn't belong here:" +
+                      storage::config_diff({storage::printable(head.path) + ": ", head.config},
+                                           {storage::printable(first.path) + ": ", first.config}));
     if (head.schema != first.schema || head.version != first.version || head.git_commit != first.git_commit ||
         head.compiler != first.compiler)
       refuse_pair(first, head, "were written by different builds of clatter", "run all shards with one program");
     if (head.rounding != first.rounding)
       refuse_pair(first, head,
-                  "were rounded differently (" + excerpt(head.rounding) + "; " + excerpt(first.rounding) + ")",
+                  "were rounded differently (" + storage::excerpt(head.rounding) + "; " +
+                      storage::excerpt(first.rounding) + ")",
                   "run all shards with one --arch, on machines of one kind");
   }
 }
 
 /// Which shards of so many would have the points that nobody has.
-std::string missing_text(const Sweep& sweep, const std::vector<ShardHead>& heads, std::size_t of) {
+std::string missing_text(const sweep::Sweep& sweep, const std::vector<ShardHeader>& heads, std::size_t of) {
   std::vector<char> there(of, 0);
-  for (const ShardHead& head : heads)
+  for (const ShardHeader& head : heads)
     for (std::size_t number = head.shard.number; number < of; number += head.shard.of) there[number] = 1;
   std::string text;
   std::size_t missing = 0;
   for (std::size_t number = 0; number < of; ++number) {
-    const std::size_t points = Share(sweep, Shard{number, of}).points();
+    const std::size_t points = sweep::Share(sweep, sweep::Shard{number, of}).points();
     if (there[number] != 0 || points == 0 || ++missing > shown) continue;
-    const std::string name = text_of(Shard{number, of});
+    const std::string name = text_of(sweep::Shard{number, of});
     text += (missing > 1 ? "\nshard " : "shard ") + name + ": " + std::to_string(points) +
             (points == 1 ? " point" : " points") + " missing: rerun with --shard " + name;
   }
@@ -64,7 +68,7 @@ std::string missing_text(const Sweep& sweep, const std::vector<ShardHead>& heads
 
 /// Every point is there exactly once. Two shards have a branch in common where their numbers agree modulo the greatest
 /// common divisor of their counts.
-void check_points(const Sweep& sweep, const std::vector<ShardHead>& heads) {
+void check_points(const sweep::Sweep& sweep, const std::vector<ShardHeader>& heads) {
   for (auto one = heads.begin(); one != heads.end(); ++one)
     for (auto other = heads.begin(); other != one; ++other) {
       const std::size_t divisor = std::gcd(one->shard.of, other->shard.of);
@@ -74,17 +78,18 @@ void check_points(const Sweep& sweep, const std::vector<ShardHead>& heads) {
                     "leave one of them out");
     }
   std::size_t of = 1;
-  for (const ShardHead& head : heads) {
+  for (const ShardHeader& head : heads) {
     of = std::lcm(of, head.shard.of);
-    if (of > Shard::most) throw IoError("the shards are of too many different counts; run all with the same N");
+    if (of > sweep::Shard::most)
+      throw storage::IoError("the shards are of too many different counts; run all with the same N");
   }
   const std::string missing = missing_text(sweep, heads, of);
-  if (!missing.empty()) throw IoError(missing);
+  if (!missing.empty()) throw storage::IoError(missing);
 }
 
-double bytes_for(const Sweep& sweep, const std::vector<ShardHead>& heads) {
-  std::vector<ShardSize> sizes;
-  for (const ShardHead& head : heads) sizes.push_back({head.shard, head.impacts});
+double bytes_for(const sweep::Sweep& sweep, const std::vector<ShardHeader>& heads) {
+  std::vector<plan::ShardSize> sizes;
+  for (const ShardHeader& head : heads) sizes.push_back({head.shard, head.impacts});
   return merge_bytes(sweep, sizes);
 }
 
@@ -92,27 +97,27 @@ double bytes_for(const Sweep& sweep, const std::vector<ShardHead>& heads) {
 
 ShardSet shard_set(const std::vector<std::string>& paths) {
   ShardSet set;
-  for (const std::string& path : paths) set.heads.push_back(read_shard_head(path));
+  for (const std::string& path : paths) set.heads.push_back(read_shard_header(path));
   check_origins(set.heads);
-  set.config = parse_config(set.heads.front().config, set.heads.front().path);
+  set.config = config::parse_config(set.heads.front().config, set.heads.front().path);
   check_points(set.config.sweep, set.heads);
   set.bytes = bytes_for(set.config.sweep, set.heads);
   return set;
 }
 
 Merged merge(const ShardSet& shards) {
-  Columns columns(shards.config.sweep);
-  for (const ShardHead& head : shards.heads) {
-    Figure figure = read_shard(head.path);
+  sweep::ResultStore columns(shards.config.sweep);
+  for (const ShardHeader& head : shards.heads) {
+    sweep::Dataset dataset = read_shard(head.path);
     try {
-      columns.take(figure, head.shard);
+      columns.take(dataset, head.shard);
     } catch (const std::runtime_error& error) {
-      throw IoError(quoted_name(head.path) + " isn't what a run of its configuration writes: " + error.what() +
-                    "; run shard " + text_of(head.shard) + " again");
+      throw storage::IoError(storage::quoted_name(head.path) + " isn't what a run of its configuration writes: " +
+                             error.what() + "; run shard " + text_of(head.shard) + " again");
     }
   }
   const std::size_t failed_points = columns.failed_points();
-  return {columns.figure(), failed_points};
+  return {columns.dataset(), failed_points};
 }
 
-}  // namespace clatter
+}  // namespace clatter::results

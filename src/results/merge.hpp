@@ -6,14 +6,14 @@
 
 #include "config/config.hpp"
 #include "results/shard_file.hpp"
-#include "sweep/figure.hpp"
+#include "sweep/dataset.hpp"
 
-namespace clatter {
+namespace clatter::results {
 
 /// Shards that make a whole sweep.
 struct ShardSet {
-  std::vector<ShardHead> heads;
-  Config config;
+  std::vector<ShardHeader> heads;
+  config::Config config;
   double bytes = 0.0;  ///< of memory that merging takes
 };
 
@@ -23,11 +23,11 @@ struct ShardSet {
 
 /// The results of a whole sweep.
 struct Merged {
-  Figure figure;
+  sweep::Dataset dataset;
   std::size_t failed_points = 0;
 };
 
 /// Reads all results: the figure that a single run gives, bit for bit. Throws IoError, std::bad_alloc.
 [[nodiscard]] Merged merge(const ShardSet& shards);
 
-}  // namespace clatter
+}  // namespace clatter::results

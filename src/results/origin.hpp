@@ -3,7 +3,7 @@
 #include <optional>
 #include <string>
 
-namespace clatter {
+namespace clatter::results {
 
 /// By what an output is told from others.
 struct Origin {
@@ -18,4 +18,4 @@ struct Origin {
 /// however large it is. Throws IoError where no process can be started to read it.
 [[nodiscard]] std::optional<Origin> origin_of(const std::string& path);
 
-}  // namespace clatter
+}  // namespace clatter::results

@@ -6,10 +6,10 @@
 #include <utility>
 
 #include "config/suggestion.hpp"
+#include "storage/atomic_write.hpp"
 #include "storage/file_calls.hpp"
-#include "storage/publish.hpp"
 
-namespace clatter {
+namespace clatter::results {
 namespace {
 
 /// Why an output must not take the place of another file; empty where it may.
@@ -27,7 +27,8 @@ std::string difference(const std::optional<Origin>& there, const Origin& ours) {
   if (there->shard != ours.shard)
     return "the file that is there has " + part(*there) + " of a sweep, this one " + part(ours);
   if (there->title != ours.title)
-    return "the file that is there has the title " + in_quotes(there->title) + ", this one " + in_quotes(ours.title);
+    return "the file that is there has the title " + config::in_quotes(there->title) + ", this one " +
+           config::in_quotes(ours.title);
   return {};
 }
 
@@ -35,7 +36,7 @@ std::string difference(const std::optional<Origin>& there, const Origin& ours) {
 
 OutputPlace::OutputPlace(std::string path, Origin origin, bool force)
     : path_(std::move(path)), origin_(std::move(origin)), force_(force), seen_(state()) {
-  check_writable(path_);
+  storage::check_writable(path_);
   require_replaceable();
 }
 
@@ -55,14 +56,14 @@ std::optional<OutputPlace::State> OutputPlace::state() const {
 void OutputPlace::require_replaceable() const {
   if (force_ || !state()) return;
   const std::string why = difference(origin_of(path_), origin_);
-  if (!why.empty()) refuse(path_, why, "name another with -o, move that one away, or replace it with --force");
+  if (!why.empty()) storage::refuse(path_, why, "name another with -o, move that one away, or replace it with --force");
 }
 
-void OutputPlace::publish(std::span<const std::byte> bytes, const MakeRoom& make_room) const {
+void OutputPlace::write_atomically(std::span<const std::byte> bytes, const storage::MakeRoom& make_room) const {
   const auto look_again = [&] {
     if (state() != seen_) require_replaceable();
   };
-  clatter::publish(path_, bytes, {.make_room = make_room, .before_rename = look_again});
+  storage::write_atomically(path_, bytes, {.make_room = make_room, .before_rename = look_again});
 }
 
-}  // namespace clatter
+}  // namespace clatter::results

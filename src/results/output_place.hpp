@@ -8,9 +8,9 @@
 #include <string>
 
 #include "results/origin.hpp"
-#include "storage/publish.hpp"
+#include "storage/atomic_write.hpp"
 
-namespace clatter {
+namespace clatter::results {
 
 /// Where an output goes. It takes the place of an older one of the same command, shard and title, as when a
 /// configuration is run again; any other file that is there would be lost, and is kept.
@@ -22,7 +22,7 @@ class OutputPlace {
   [[nodiscard]] const std::string& path() const { return path_; }
 
   /// As `publish` does. Throws IoError, too, where meanwhile a file has come that must not be replaced.
-  void publish(std::span<const std::byte> bytes, const MakeRoom& make_room = no_room) const;
+  void write_atomically(std::span<const std::byte> bytes, const storage::MakeRoom& make_room = storage::no_room) const;
 
  private:
   /// By what a file is told from another one, and from itself once it has changed: device, inode, size and times.
@@ -37,4 +37,4 @@ class OutputPlace {
   std::optional<State> seen_;  ///< of the file that was there before the run
 };
 
-}  // namespace clatter
+}  // namespace clatter::results

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace clatter {
+namespace clatter::results {
 
 std::string sha256(std::string_view text) {
   constexpr std::string_view digits = "0123456789abcdef";
@@ -21,4 +21,4 @@ std::string sha256(std::string_view text) {
   return hex;
 }
 
-}  // namespace clatter
+}  // namespace clatter::results

@@ -3,15 +3,15 @@
 #include <cstdint>
 #include <string>
 
-#include "sweep/figure.hpp"
+#include "sweep/dataset.hpp"
 #include "sweep/share.hpp"
 
-namespace clatter {
+namespace clatter::results {
 
 /// What a shard's file says of itself.
-struct ShardHead {
+struct ShardHeader {
   std::string path;
-  Shard shard;
+  sweep::Shard shard;
   std::string schema, version, git_commit, compiler;
   std::string config, config_sha256;
   std::string rounding;       ///< what its last bits depend on
@@ -20,9 +20,9 @@ struct ShardHead {
 };
 
 /// Reads what a shard's file says of itself, once its seal is found whole. Throws IoError.
-[[nodiscard]] ShardHead read_shard_head(const std::string& path);
+[[nodiscard]] ShardHeader read_shard_header(const std::string& path);
 
 /// Reads the variables of a shard, names and values alone. Throws IoError.
-[[nodiscard]] Figure read_shard(const std::string& path);
+[[nodiscard]] sweep::Dataset read_shard(const std::string& path);
 
-}  // namespace clatter
+}  // namespace clatter::results

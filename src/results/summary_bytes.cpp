@@ -4,7 +4,7 @@
 
 #include "storage/packed.hpp"
 
-namespace clatter {
+namespace clatter::results {
 namespace {
 
 /// All of a summary in one order, for both directions.
@@ -21,16 +21,16 @@ void pass_all(Pass& pass, Summary& summary) {
 }  // namespace
 
 std::string bytes_of(const FileSummary& summary) {
-  Packer packer;
+  storage::Packer packer;
   pass_all(packer, summary);
   return std::move(packer).bytes();
 }
 
 std::optional<FileSummary> summary_from(std::string_view bytes) {
-  Unpacker unpacker(bytes);
+  storage::Unpacker unpacker(bytes);
   FileSummary summary;
   pass_all(unpacker, summary);
   return unpacker.complete() ? std::optional(std::move(summary)) : std::nullopt;
 }
 
-}  // namespace clatter
+}  // namespace clatter::results

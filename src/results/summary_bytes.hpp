@@ -4,9 +4,9 @@
 #include <string>
 #include <string_view>
 
-#include "results/figure_file.hpp"
+#include "results/dataset_file.hpp"
 
-namespace clatter {
+namespace clatter::results {
 
 /// A summary as bytes, to pass from one process to another.
 [[nodiscard]] std::string bytes_of(const FileSummary& summary);
@@ -14,4 +14,4 @@ namespace clatter {
 /// The summary again; nothing where the bytes are none, as a process may send them whose memory was disturbed.
 [[nodiscard]] std::optional<FileSummary> summary_from(std::string_view bytes);
 
-}  // namespace clatter
+}  // namespace clatter::results

@@ -2,7 +2,7 @@
 
 #include <string_view>
 
-namespace clatter {
+namespace clatter::results {
 
 /// The project's version, e.g. "0.1.0".
 [[nodiscard]] std::string_view version();
@@ -14,4 +14,4 @@ namespace clatter {
 /// The compiler that built it, e.g. "GNU 12.2.0".
 [[nodiscard]] std::string_view compiler();
 
-}  // namespace clatter
+}  // namespace clatter::results

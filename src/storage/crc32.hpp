@@ -4,9 +4,9 @@
 #include <cstdint>
 #include <span>
 
-namespace clatter {
+namespace clatter::storage {
 
 /// CRC-32 (that of zlib) of bytes that come after those with the CRC-32 `before`.
 [[nodiscard]] std::uint32_t crc32_of(std::span<const std::byte> bytes, std::uint32_t before = 0);
 
-}  // namespace clatter
+}  // namespace clatter::storage

@@ -3,7 +3,7 @@
 #include <stdexcept>
 #include <string>
 
-namespace clatter {
+namespace clatter::storage {
 
 /// A file that cannot be read or written; `what()` names it, the reason and the way out (exit code 74).
 class IoError : public std::runtime_error {
@@ -17,4 +17,4 @@ class IoError : public std::runtime_error {
                  "; sweep fewer points, observe less, share the points out with --shard, or go where there is more");
 }
 
-}  // namespace clatter
+}  // namespace clatter::storage

@@ -10,7 +10,7 @@
 #include "storage/error.hpp"
 #include "storage/utf8.hpp"
 
-namespace clatter {
+namespace clatter::storage {
 
 namespace fs = std::filesystem;
 
@@ -89,4 +89,4 @@ void write_all(const Descriptor& file, std::span<const std::byte> bytes, const f
   }
 }
 
-}  // namespace clatter
+}  // namespace clatter::storage

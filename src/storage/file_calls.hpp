@@ -9,7 +9,7 @@
 #include <string>
 #include <utility>
 
-namespace clatter {
+namespace clatter::storage {
 
 /// Throws the IoError of a file that cannot be written.
 [[noreturn]] void refuse(const std::filesystem::path& path, const std::string& why, const std::string& way_out);
@@ -65,4 +65,4 @@ void sync_directory(const std::filesystem::path& file);
 /// Writes all of the bytes. Throws IoError, for the file that is to be named.
 void write_all(const Descriptor& file, std::span<const std::byte> bytes, const std::filesystem::path& named);
 
-}  // namespace clatter
+}  // namespace clatter::storage

@@ -7,7 +7,7 @@
 #include "storage/error.hpp"
 #include "storage/utf8.hpp"
 
-namespace clatter {
+namespace clatter::storage {
 namespace {
 
 [[noreturn]] void refuse_reading(const std::string& path, const std::string& why, const std::string& way_out) {
@@ -33,4 +33,4 @@ InputFile open_input(const std::string& path, const std::string& wanted) {
   return {std::move(file), stored_bytes(status)};
 }
 
-}  // namespace clatter
+}  // namespace clatter::storage

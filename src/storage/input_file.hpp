@@ -7,7 +7,7 @@
 
 #include "storage/file_calls.hpp"
 
-namespace clatter {
+namespace clatter::storage {
 
 /// A file to be read, and the room that it takes on its disk: of a sparse file less than its length.
 struct InputFile {
@@ -22,4 +22,4 @@ struct InputFile {
 /// `wanted` says which file is meant to be named, e.g. "an output of clatter".
 [[nodiscard]] InputFile open_input(const std::string& path, const std::string& wanted);
 
-}  // namespace clatter
+}  // namespace clatter::storage

@@ -12,13 +12,13 @@
 #include <string_view>
 #include <utility>
 
-#include "storage/difference.hpp"
+#include "storage/config_diff.hpp"
 #include "storage/error.hpp"
 #include "storage/input_file.hpp"
 #include "storage/journal_blocks.hpp"
 #include "storage/utf8.hpp"
 
-namespace clatter {
+namespace clatter::storage {
 namespace {
 
 namespace fs = std::filesystem;
@@ -59,7 +59,7 @@ std::string difference_of(const JournalKey& other, const JournalKey& key) {
            (of.shard.empty() ? "the whole sweep" : "shard " + printable(of.shard)) + '\n' + of.config;
   };
   const std::string others = about(other), ours = about(key);
-  return difference({"its: ", others}, {"this run's: ", ours});
+  return config_diff({"its: ", others}, {"this run's: ", ours});
 }
 
 /// What has the journal's name, and can't be one.
@@ -93,7 +93,7 @@ void require_idle(const fs::path& output) {
   if (::flock(file.number(), LOCK_SH | LOCK_NB) != 0 && errno == EWOULDBLOCK) refuse_busy(output);
 }
 
-Journal::Journal(const fs::path& output, JournalKey key, const RecordLimit& limit, Begin begin, const Take& take)
+Journal::Journal(const fs::path& output, JournalKey key, const RecordLimit& limit, Begin begin, const ResultSink& take)
     : output_(target_of(output)), path_(journal_of(output_)), key_(std::move(key)) {
   lock();
   try {
@@ -137,7 +137,7 @@ void Journal::lock() {
   }
 }
 
-void Journal::read(const Take& take, const RecordLimit& limit, Begin begin) {
+void Journal::read(const ResultSink& take, const RecordLimit& limit, Begin begin) {
   BlockReader reader(file_, size_, path_);
   std::array<char, magic.size()> first{};
   const std::span<char> found = std::span(first).first(std::min<std::size_t>(first.size(), reader.left()));
@@ -174,7 +174,7 @@ void Journal::refuse_other(const JournalKey& key) const {
 void Journal::append(std::span<const std::byte> record) {
   Bytes bytes;
   if (size_ == 0) append_bytes(bytes, bytes_of(magic)), append_block(bytes, bytes_of(key_));
-  append_number(bytes, head_of(record));
+  append_number(bytes, header_of(record));
   synced_ = false;
   try {
     write_all(file_, bytes, path_), write_all(file_, record, path_);
@@ -217,4 +217,4 @@ void Journal::remove() {
   file_ = Descriptor{-1};
 }
 
-}  // namespace clatter
+}  // namespace clatter::storage

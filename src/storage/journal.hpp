@@ -11,7 +11,7 @@
 
 #include "storage/file_calls.hpp"
 
-namespace clatter {
+namespace clatter::storage {
 
 /// Another run is writing the same output (exit code 75).
 class BusyError : public std::runtime_error {
@@ -51,12 +51,13 @@ class Journal {
     resume,   ///< from the records; an error where there are none
     restart,  ///< anew
   };
-  using Take = std::function<void(std::span<const std::byte> record)>;
+  using ResultSink = std::function<void(std::span<const std::byte> record)>;
 
   /// Locks the journal of an output, and lets `take` have each record that is there; a longer one than `limit` is
   /// damaged. Throws BusyError, and IoError: where another configuration, shard, program or rounding has left it, it is
   /// damaged, or cannot be read or written.
-  Journal(const std::filesystem::path& output, JournalKey key, const RecordLimit& limit, Begin begin, const Take& take);
+  Journal(const std::filesystem::path& output, JournalKey key, const RecordLimit& limit, Begin begin,
+          const ResultSink& take);
   /// An empty file is removed.
   ~Journal();
   Journal(const Journal&) = delete;
@@ -81,7 +82,7 @@ class Journal {
  private:
   void lock();
   void unlink() const;
-  void read(const Take& take, const RecordLimit& limit, Begin begin);
+  void read(const ResultSink& take, const RecordLimit& limit, Begin begin);
   [[noreturn]] void refuse_other(const JournalKey& key) const;
 
   std::filesystem::path output_, path_;
@@ -95,4 +96,4 @@ class Journal {
   bool gave_back_ = false;  ///< records that were finished
 };
 
-}  // namespace clatter
+}  // namespace clatter::storage

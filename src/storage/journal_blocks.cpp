@@ -9,7 +9,7 @@
 #include "storage/error.hpp"
 #include "storage/utf8.hpp"
 
-namespace clatter {
+namespace clatter::storage {
 namespace {
 
 /// The bytes of a head that its own checksum is of.
@@ -21,14 +21,14 @@ std::span<const std::byte> summed(const BlockHead& head) {
 
 void append_bytes(Bytes& to, std::span<const std::byte> bytes) { to.insert(to.end(), bytes.begin(), bytes.end()); }
 
-BlockHead head_of(std::span<const std::byte> block) {
+BlockHead header_of(std::span<const std::byte> block) {
   BlockHead head{block.size(), crc32_of(block), 0};
   head.check = crc32_of(summed(head));
   return head;
 }
 
 void append_block(Bytes& to, std::span<const std::byte> block) {
-  append_number(to, head_of(block));
+  append_number(to, header_of(block));
   append_bytes(to, block);
 }
 
@@ -95,4 +95,4 @@ void BlockReader::fill() {
   buffered_ = std::span<const std::byte>(buffer_).first(static_cast<std::size_t>(got));
 }
 
-}  // namespace clatter
+}  // namespace clatter::storage

@@ -9,7 +9,7 @@
 
 #include "storage/file_calls.hpp"
 
-namespace clatter {
+namespace clatter::storage {
 
 using Bytes = std::vector<std::byte>;
 
@@ -27,7 +27,7 @@ struct BlockHead {
   std::uint32_t check;  ///< the CRC-32 of the two before, so that a damaged length isn't taken for a torn tail
 };
 
-[[nodiscard]] BlockHead head_of(std::span<const std::byte> block);
+[[nodiscard]] BlockHead header_of(std::span<const std::byte> block);
 
 void append_block(Bytes& to, std::span<const std::byte> block);
 
@@ -65,4 +65,4 @@ class BlockReader {
   std::span<const std::byte> buffered_;
 };
 
-}  // namespace clatter
+}  // namespace clatter::storage

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-namespace clatter {
+namespace clatter::storage {
 
 /// Appends numbers and texts to bytes, by which one process passes them to another.
 class Packer {
@@ -63,4 +63,4 @@ class Unpacker {
   bool sound_ = true;
 };
 
-}  // namespace clatter
+}  // namespace clatter::storage

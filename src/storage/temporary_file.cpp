@@ -14,7 +14,7 @@
 #include <system_error>
 #include <utility>
 
-namespace clatter {
+namespace clatter::storage {
 namespace {
 
 namespace fs = std::filesystem;
@@ -134,4 +134,4 @@ Descriptor TemporaryFile::create() {
   }
 }
 
-}  // namespace clatter
+}  // namespace clatter::storage

@@ -6,7 +6,7 @@
 
 #include "storage/file_calls.hpp"
 
-namespace clatter {
+namespace clatter::storage {
 
 /// Removes what a killed process has left under a temporary name of this target; any other file stays.
 void remove_abandoned(const std::filesystem::path& target);
@@ -32,4 +32,4 @@ class TemporaryFile {
   Descriptor file_;
 };
 
-}  // namespace clatter
+}  // namespace clatter::storage

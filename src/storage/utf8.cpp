@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cstdint>
 
-namespace clatter {
+namespace clatter::storage {
 namespace {
 
 std::uint8_t byte(char character) { return static_cast<std::uint8_t>(character); }
@@ -104,4 +104,4 @@ std::size_t find_not_utf8(std::string_view text) {
   return std::string_view::npos;
 }
 
-}  // namespace clatter
+}  // namespace clatter::storage

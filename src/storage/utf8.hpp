@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-namespace clatter {
+namespace clatter::storage {
 
 /// Bytes of the UTF-8 character that begins the text, 0 where none does; the text isn't empty.
 [[nodiscard]] std::size_t utf8_length(std::string_view text);
@@ -35,4 +35,4 @@ namespace clatter {
 /// Where the text has its first byte that isn't UTF-8, or npos.
 [[nodiscard]] std::size_t find_not_utf8(std::string_view text);
 
-}  // namespace clatter
+}  // namespace clatter::storage

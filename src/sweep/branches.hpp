@@ -6,7 +6,7 @@
 
 #include "sweep/sweep.hpp"
 
-namespace clatter {
+namespace clatter::sweep {
 
 /// Points that run one after the other: along `follow` a whole branch, else a single point.
 struct Branches {
@@ -14,9 +14,9 @@ struct Branches {
 
   explicit Branches(const Sweep& sweep) : count(size(sweep)) {
     if (!sweep.follow) return;
-    length = clatter::length(sweep.dimensions[*sweep.follow]);
+    length = clatter::sweep::length(sweep.dimensions[*sweep.follow]);
     for (std::size_t d = *sweep.follow + 1; d < sweep.dimensions.size(); ++d)
-      stride *= clatter::length(sweep.dimensions[d]);
+      stride *= clatter::sweep::length(sweep.dimensions[d]);
     count /= length;
   }
   /// Index of the i-th point of a branch.
@@ -29,9 +29,9 @@ struct Branches {
 
 /// Starts a point of a branch where the one before was left, or from the scene where that failed; a state outside
 /// narrower stops moves onto the stop, its velocity kept.
-inline void start_from(Scene& scene, const std::optional<Start>& end) {
+inline void start_from(point::Problem& scene, const std::optional<Start>& end) {
   if (end) scene.start = *end;
   scene.start.displacement = std::clamp(scene.start.displacement, scene.stops.lower, scene.stops.upper);
 }
 
-}  // namespace clatter
+}  // namespace clatter::sweep

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstddef>
 
-namespace clatter {
+namespace clatter::sweep {
 namespace {
 
 using enum Parameter;
@@ -23,7 +23,7 @@ void set_symmetric_stops(Stops& stops, double xs_value) {
 
 /// The start just after the contact with the lower stop (check 1: a quarter of the period leads from x = 0 to the
 /// stop's image).
-void set_start(Scene& scene, double period) {
+void set_start(point::Problem& scene, double period) {
   scene.start.displacement = scene.stops.lower;
   scene.start.velocity = scene.stops.upper / std::tan(period / 4);
 }
@@ -38,7 +38,7 @@ std::optional<Parameter> parameter_of(std::string_view key) {
   return static_cast<Parameter>(found - keys.begin());
 }
 
-void set(Scene& scene, Parameter parameter, double value) {
+void set(point::Problem& scene, Parameter parameter, double value) {
   switch (parameter) {
     case h:
       scene.oscillator.damping = value;
@@ -85,4 +85,4 @@ void set(Scene& scene, Parameter parameter, double value) {
   }
 }
 
-}  // namespace clatter
+}  // namespace clatter::sweep

@@ -3,9 +3,9 @@
 #include <optional>
 #include <string_view>
 
-#include "dynamics/scene.hpp"
+#include "point/problem.hpp"
 
-namespace clatter {
+namespace clatter::sweep {
 
 /// A number of the scene that a sweep can vary, named by its key in [scene].
 enum class Parameter { h, f, nu, phase, R, xs, stop_lower, stop_upper, R_lower, R_upper, load, x0, v0, start_period };
@@ -19,6 +19,6 @@ enum class Parameter { h, f, nu, phase, R, xs, stop_lower, stop_upper, R_lower, 
 /// Puts a value in its place in the scene. `xs` sets both stops to -|xs| and +|xs|, `R` both restitutions;
 /// `start_period` sets x0 and v0 from the lower stop, v0 = |xs| cot(start_period / 4) (physics.md, check 1), so it is
 /// set after the stops.
-void set(Scene& scene, Parameter parameter, double value);
+void set(point::Problem& scene, Parameter parameter, double value);
 
-}  // namespace clatter
+}  // namespace clatter::sweep

@@ -1,7 +1,5 @@
 #include "sweep/run.hpp"
 
-#include <omp.h>
-
 #include <algorithm>
 #include <atomic>
 #include <chrono>
@@ -13,34 +11,33 @@
 #include <span>
 #include <vector>
 
+#include "lanes/run_in_lanes.hpp"
+#include "lanes/scheduler.hpp"
+#include "point/point.hpp"
 #include "sweep/branches.hpp"
-#include "sweep/columns.hpp"
-#include "sweep/crew.hpp"
-#include "sweep/fork_join.hpp"
-#include "sweep/lane_points.hpp"
-#include "sweep/plan.hpp"
-#include "sweep/point.hpp"
-#include "sweep/rounding.hpp"
+#include "sweep/parallel.hpp"
+#include "sweep/result_store.hpp"
+#include "sweep/rounding_fingerprint.hpp"
 #include "sweep/scatter.hpp"
-#include "sweep/stack.hpp"
 #include "sweep/sweep_progress.hpp"
+#include "sweep/thread_stacks.hpp"
 
-namespace clatter {
+namespace clatter::sweep {
 namespace {
 
-Usage usage_of(const Task& task, const PointResult& result) {
-  Usage usage{.effects = task.effects,
-              .points = 1,
-              .impacts = result.impacts,
-              .periods = result.periods,
-              .evaluations = result.evaluations};
+WorkStats usage_of(const point::WorkItem& item, const point::PointResult& result) {
+  WorkStats usage{.effects = item.effects,
+                  .points = 1,
+                  .impacts = result.impacts,
+                  .periods = result.periods,
+                  .evaluations = result.evaluations};
   usage.found_by[static_cast<std::size_t>(result.found_by)] = 1;
   return usage;
 }
 
-void add(std::vector<Usage>& sum, const Usage& part) {
-  auto same = std::ranges::find(sum, part.effects, &Usage::effects);
-  if (same == sum.end()) same = sum.insert(sum.end(), Usage{.effects = part.effects});
+void add(std::vector<WorkStats>& sum, const WorkStats& part) {
+  auto same = std::ranges::find(sum, part.effects, &WorkStats::effects);
+  if (same == sum.end()) same = sum.insert(sum.end(), WorkStats{.effects = part.effects});
   same->points += part.points;
   for (std::size_t i = 0; i < part.found_by.size(); ++i) same->found_by[i] += part.found_by[i];
   same->impacts += part.impacts, same->periods += part.periods, same->evaluations += part.evaluations;
@@ -52,16 +49,17 @@ constexpr std::size_t enough_to_save = 256UL * 1024;  // bytes
 /// Whether points of a sweep may go into lanes: those of the exact method that take every shortcut to their steady
 /// motion, and don't wait for each other.
 bool lanes_can_run(const Sweep& sweep) {
-  const Integration& integration = sweep.scene.integration;
-  return integration.method == Method::exact && integration.shortcuts && !integration.all_effects && !sweep.follow;
+  const stepping::Integration& integration = sweep.scene.integration;
+  return integration.method == stepping::Method::exact && integration.shortcuts && !integration.all_effects &&
+         !sweep.follow;
 }
 
 /// The threads that run a sweep, and what they share.
-class Team {
+class WorkerPool {
  public:
   /// Branches that are saved are left out; `restored` is how many points they have.
-  Team(const Sweep& sweep, const Share& share, const RunOptions& options, int threads, Columns& columns,
-       std::vector<std::atomic<BranchState>>& states, std::size_t restored)
+  WorkerPool(const Sweep& sweep, const Share& share, const RunOptions& options, int threads, ResultStore& columns,
+             std::vector<std::atomic<BranchState>>& states, std::size_t restored)
       : sweep_(sweep),
         share_(share),
         columns_(columns),
@@ -72,32 +70,29 @@ class Team {
                    : std::clamp<std::size_t>(share_.count() / (64 * static_cast<std::size_t>(threads)), 1, 64)),
         chunks_((share_.count() + chunk_ - 1) / chunk_),
         arch_(options.arch),
-        in_lanes_(options.arch != Arch::scalar && lanes_can_run(sweep)),
-        workshops_(static_cast<std::size_t>(threads)),
+        in_lanes_(options.arch != lanes::InstructionSet::scalar && lanes_can_run(sweep)),
+        scratches_(static_cast<std::size_t>(threads)),
         usage_(static_cast<std::size_t>(threads)) {
-    for (std::size_t thread = 0; options.progress && thread < workshops_.size(); ++thread)
-      workshops_[thread].progress = [this, thread](double part) { progress_.add_part(thread, part); };
-    const Observe& observe = sweep.scene.observe;
-    if (observe.harmonics == 0 || observe.harmonics_method != HarmonicsMethod::fft) return;
+    for (std::size_t thread = 0; options.progress && thread < scratches_.size(); ++thread)
+      scratches_[thread].progress = [this, thread](double part) { progress_.add_part(thread, part); };
+    const observables::Observe& observe = sweep.scene.observe;
+    if (observe.harmonics == 0 || observe.harmonics_method != observables::HarmonicsMethod::fft) return;
     transform_.emplace(static_cast<std::size_t>(observe.harmonics_samples));
-    for (Workshop& workshop : workshops_)
-      workshop.transform = &*transform_, workshop.workspace = transform_->workspace();
+    for (point::ThreadScratch& scratch : scratches_)
+      scratch.transform = &*transform_, scratch.workspace = transform_->workspace();
   }
 
   /// Runs every branch; results go by index, so their bits don't depend on which thread runs what.
-  CLATTER_PARALLEL_REGION void run() {
-    fork_join_.fork();
-#pragma omp parallel num_threads(threads())
-    work(static_cast<std::size_t>(omp_get_thread_num()));
-    fork_join_.join();
+  void run() {
+    on_each_thread(static_cast<int>(scratches_.size()), [this](std::size_t thread) { work(thread); });
   }
 
   /// What all threads took, the cheapest kernel first.
-  [[nodiscard]] std::vector<Usage> usage() const {
-    std::vector<Usage> sum;
-    for (const std::vector<Usage>& of_thread : usage_)
-      for (const Usage& part : of_thread) add(sum, part);
-    std::ranges::sort(sum, cheaper, &Usage::effects);
+  [[nodiscard]] std::vector<WorkStats> usage() const {
+    std::vector<WorkStats> sum;
+    for (const std::vector<WorkStats>& of_thread : usage_)
+      for (const WorkStats& part : of_thread) add(sum, part);
+    std::ranges::sort(sum, cheaper, &WorkStats::effects);
     return sum;
   }
 
@@ -109,11 +104,8 @@ class Team {
   }
 
  private:
-  [[nodiscard]] int threads() const { return static_cast<int>(workshops_.size()); }
-
   /// What one thread does: chunk after chunk, until none is left.
   void work(std::size_t thread) noexcept {
-    const ForkJoin::Member member(fork_join_);
     try {
       if (in_lanes_) {
         run_crew(thread);
@@ -144,17 +136,19 @@ class Team {
   [[nodiscard]] bool is_restored(std::size_t branch) const { return states_[branch] == BranchState::saved; }
 
   /// The point that a branch of one is.
-  Task task_of(std::size_t branch) const {
-    Task task{branch, scene_at(sweep_, share_.point(branch, 0)), {}};
-    task.effects = effects_of(task.scene);
-    return task;
+  point::WorkItem task_of(std::size_t branch) const {
+    point::WorkItem item{branch, scene_at(sweep_, share_.point(branch, 0)), {}};
+    item.effects = effects_of(item.scene);
+    return item;
   }
 
   /// Runs the points that fit in lanes, and one by one between them those that don't.
   void run_crew(std::size_t thread) {
-    const auto take = [&](const Task& task, PointResult&& result) { store(task, std::move(result), thread); };
+    const auto take = [&](const point::WorkItem& item, point::PointResult&& result) {
+      store(item, std::move(result), thread);
+    };
     Chunk chunk{0, 0};
-    const auto next = [&]() -> std::optional<Task> {
+    const auto next = [&]() -> std::optional<point::WorkItem> {
       for (;; ++chunk.begin) {
         if (chunk.begin == chunk.end) {
           const auto other = next_chunk();
@@ -162,24 +156,24 @@ class Team {
           chunk = *other;
         }
         if (is_restored(chunk.begin)) continue;
-        const Task task = task_of(chunk.begin);
-        if (can_go_into_lanes(task)) {
+        const point::WorkItem item = task_of(chunk.begin);
+        if (lanes::accepts(item)) {
           ++chunk.begin;
-          return task;
+          return item;
         }
-        run_batch({&task, 1}, workshops_[thread], take);
+        run_batch({&item, 1}, scratches_[thread], take);
       }
     };
-    Crew crew(visits_of(arch_), workshops_[thread], next, take);
+    lanes::Scheduler crew(step_functions_of(arch_), scratches_[thread], next, take);
     crew.run();
     const std::lock_guard lock(mutex_);
     lane_work_.proved += crew.proved(), lane_work_.refined += crew.refined();
   }
 
-  void store(const Task& task, PointResult&& result, std::size_t thread) {
-    add(usage_[thread], usage_of(task, result));
-    columns_.store(task.slot, std::move(result));
-    if (!sweep_.follow) states_[task.slot] = BranchState::finished;
+  void store(const point::WorkItem& item, point::PointResult&& result, std::size_t thread) {
+    add(usage_[thread], usage_of(item, result));
+    columns_.store(item.local_index, std::move(result));
+    if (!sweep_.follow) states_[item.local_index] = BranchState::finished;
     progress_.add_point(thread);
   }
 
@@ -187,12 +181,12 @@ class Team {
   void run_branch(std::size_t branch, std::size_t thread) {
     std::optional<Start> end;
     for (std::size_t i = 0; i < share_.length(); ++i) {
-      Task task{share_.slot(branch, i), scene_at(sweep_, share_.point(branch, i)), {}};
-      start_from(task.scene, end);
-      task.effects = effects_of(task.scene);
-      run_batch({&task, 1}, workshops_[thread], [&](const Task&, PointResult&& result) {
+      point::WorkItem item{share_.local_index(branch, i), scene_at(sweep_, share_.point(branch, i)), {}};
+      start_from(item.scene, end);
+      item.effects = effects_of(item.scene);
+      run_batch({&item, 1}, scratches_[thread], [&](const point::WorkItem&, point::PointResult&& result) {
         end = failed(result.status) ? std::nullopt : std::optional<Start>(result.end);
-        store(task, std::move(result), thread);
+        store(item, std::move(result), thread);
       });
     }
     states_[branch] = BranchState::finished;
@@ -208,44 +202,45 @@ class Team {
 
   /// Runs points that don't depend on each other, those of equal kernels together.
   void run_points(const Chunk& chunk, std::size_t thread) {
-    std::vector<Task> tasks;
-    tasks.reserve(chunk.end - chunk.begin);
+    std::vector<point::WorkItem> items;
+    items.reserve(chunk.end - chunk.begin);
     for (std::size_t branch = chunk.begin; branch < chunk.end; ++branch)
-      if (!is_restored(branch)) tasks.push_back(task_of(branch));
-    const auto kernel = [](const Task& task) { return kernel_of(task.effects); };
-    std::ranges::stable_sort(tasks, {}, kernel);
-    for (std::span<const Task> left(tasks); !left.empty();) {
-      const auto other = std::ranges::find_if(left, [&](const Task& task) { return kernel(task) != kernel(left[0]); });
+      if (!is_restored(branch)) items.push_back(task_of(branch));
+    const auto kernel = [](const point::WorkItem& item) { return effect_set_of(item.effects); };
+    std::ranges::stable_sort(items, {}, kernel);
+    for (std::span<const point::WorkItem> left(items); !left.empty();) {
+      const auto other =
+          std::ranges::find_if(left, [&](const point::WorkItem& item) { return kernel(item) != kernel(left[0]); });
       const auto batch = static_cast<std::size_t>(other - left.begin());
-      run_batch(left.first(batch), workshops_[thread],
-                [&](const Task& task, PointResult&& result) { store(task, std::move(result), thread); });
+      run_batch(left.first(batch), scratches_[thread], [&](const point::WorkItem& item, point::PointResult&& result) {
+        store(item, std::move(result), thread);
+      });
       left = left.subspan(batch);
     }
   }
 
   const Sweep& sweep_;
   const Share& share_;
-  Columns& columns_;
+  ResultStore& columns_;
   std::vector<std::atomic<BranchState>>& states_;  ///< [branch]
   SweepProgress progress_;
-  std::optional<FourierTransform> transform_;
+  std::optional<observables::FourierTransform> transform_;
   std::size_t chunk_;  ///< branches that a thread takes at once
   Scatter chunks_;     ///< the order of the chunks
-  Arch arch_;
+  lanes::InstructionSet arch_;
   bool in_lanes_;
-  std::atomic<std::size_t> turn_ = 0;      ///< the next one of the chunks
-  std::vector<Workshop> workshops_;        ///< [thread]
-  std::vector<std::vector<Usage>> usage_;  ///< [thread]
+  std::atomic<std::size_t> turn_ = 0;            ///< the next one of the chunks
+  std::vector<point::ThreadScratch> scratches_;  ///< [thread]
+  std::vector<std::vector<WorkStats>> usage_;    ///< [thread]
   LaneWork lane_work_;
   std::mutex mutex_;
   std::exception_ptr failure_;
   std::atomic<bool> stopped_ = false;  ///< by a failure: what is left isn't begun
-  ForkJoin fork_join_;
 };
 
 }  // namespace
 
-int threads_used(const RunOptions& options) { return options.threads > 0 ? options.threads : omp_get_max_threads(); }
+int threads_used(const RunOptions& options) { return options.threads > 0 ? options.threads : default_threads(); }
 
 SweepRun::SweepRun(const Sweep& sweep, const std::optional<Shard>& shard)
     : sweep_(sweep), shard_(shard), share_(sweep, shard), columns_(sweep, shard), states_(share_.count()) {}
@@ -258,7 +253,7 @@ bool SweepRun::restore(std::span<const std::byte> results) {
     results = results.subspan(sizeof branch);
     if (branch >= share_.count() || states_[branch] != BranchState::open) return false;
     for (std::size_t i = 0; i < share_.length(); ++i)
-      if (!columns_.unpack(share_.slot(branch, i), results)) return false;
+      if (!columns_.unpack(share_.local_index(branch, i), results)) return false;
     states_[branch] = BranchState::saved, restored_ += share_.length();
   }
   return true;
@@ -280,12 +275,12 @@ void SweepRun::save(const std::function<void(std::span<const std::byte> results)
   for (std::uint64_t branch = 0; branch < share_.count(); ++branch) {
     if (states_[branch] != BranchState::finished) continue;
     std::size_t more = sizeof branch;
-    for (std::size_t i = 0; i < share_.length(); ++i) more += columns_.packed_size(share_.slot(branch, i));
+    for (std::size_t i = 0; i < share_.length(); ++i) more += columns_.packed_size(share_.local_index(branch, i));
     if (more > enough_to_save)
       results.reserve(results.size() + more);  // a buffer that doubles would take up to twice as much
     const auto number = std::as_bytes(std::span(&branch, 1));
     results.insert(results.end(), number.begin(), number.end());
-    for (std::size_t i = 0; i < share_.length(); ++i) columns_.pack(share_.slot(branch, i), results);
+    for (std::size_t i = 0; i < share_.length(); ++i) columns_.pack(share_.local_index(branch, i), results);
     packed.push_back(branch);
     if (results.size() >= enough_to_save) write_packed();
   }
@@ -297,7 +292,7 @@ void SweepRun::run(const RunOptions& options) {
   const auto threads = static_cast<std::size_t>(threads_used(options));
   result_.threads = static_cast<int>(std::clamp<std::size_t>(share_.count(), 1, threads));  // others would wait
   require_thread_stacks(result_.threads);
-  Team team(sweep_, share_, options, result_.threads, columns_, states_, restored_);
+  WorkerPool team(sweep_, share_, options, result_.threads, columns_, states_, restored_);
   team.run();
   team.rethrow();
   result_.usage = team.usage();
@@ -308,9 +303,10 @@ void SweepRun::run(const RunOptions& options) {
 RunResult SweepRun::result() {
   result_.points = share_.points();
   result_.failed_points = columns_.failed_points();
-  result_.figure = columns_.figure();
+  result_.dataset = columns_.dataset();
   if (shard_)
-    result_.figure.attributes = {{"shard", text_of(*shard_)}, {"rounding", rounding_of(sweep_, result_.arch)}};
+    result_.dataset.attributes = {{"shard", text_of(*shard_)},
+                                  {"rounding", rounding_fingerprint(sweep_, result_.arch)}};
   return std::move(result_);
 }
 
@@ -320,4 +316,4 @@ RunResult run(const Sweep& sweep, const RunOptions& options) {
   return sweep_run.result();
 }
 
-}  // namespace clatter
+}  // namespace clatter::sweep

@@ -9,34 +9,34 @@
 #include <span>
 #include <vector>
 
-#include "dynamics/effects.hpp"
-#include "integrators/observed.hpp"
-#include "numbers/arch.hpp"
-#include "sweep/columns.hpp"
-#include "sweep/figure.hpp"
+#include "lanes/instruction_set.hpp"
+#include "model/effects.hpp"
+#include "steady/observed_time.hpp"
+#include "sweep/dataset.hpp"
+#include "sweep/result_store.hpp"
 #include "sweep/share.hpp"
 #include "sweep/sweep.hpp"
 
-namespace clatter {
+namespace clatter::sweep {
 
 struct RunOptions {
   int threads = 0;  ///< OpenMP threads; 0: as many as the machine offers
   std::function<void(double done, std::size_t total)>
-      progress{};           ///< called from one thread at a time, a few times a second and for every hundredth
-  Arch arch = best_arch();  ///< instruction set of the points that lanes can take
+      progress{};  ///< called from one thread at a time, a few times a second and for every hundredth
+  lanes::InstructionSet arch = lanes::widest_instruction_set();  ///< instruction set of the points that lanes can take
 };
 
 /// The threads that a run with these options uses.
 [[nodiscard]] int threads_used(const RunOptions& options);
 
 /// What the points of equal effects took.
-struct Usage {
+struct WorkStats {
   Effects effects;
   std::size_t points = 0;
-  std::array<std::size_t, found_by_names.size()> found_by{};  ///< points by how their observed time was found
-  double impacts = 0.0;                                       ///< simulated
-  double periods = 0.0;                                       ///< forcing periods simulated
-  double evaluations = 0.0;                                   ///< of arcs by the scalar kernel
+  std::array<std::size_t, steady::found_by_names.size()> found_by{};  ///< points by how their observed time was found
+  double impacts = 0.0;                                               ///< simulated
+  double periods = 0.0;                                               ///< forcing periods simulated
+  double evaluations = 0.0;                                           ///< of arcs by the scalar kernel
 };
 
 /// Work in SIMD lanes: lanes times steps that were to be proved free of contact, and times contacts that were looked
@@ -47,14 +47,14 @@ struct LaneWork {
 
 /// The results of a sweep and what they took.
 struct RunResult {
-  Figure figure;                  ///< coordinates, status, impact_total, simulated_periods, then what is observed
+  Dataset dataset;                ///< coordinates, status, impact_total, simulated_periods, then what is observed
   std::size_t points = 0;         ///< points of the sweep, or of the shard
   std::size_t failed_points = 0;  ///< points with a status from event_budget on
   int threads = 1;                ///< threads that were used
   double seconds = 0.0;           ///< wall time of the points
-  std::vector<Usage> usage;       ///< the cheapest kernel first
-  Arch arch = Arch::scalar;       ///< instruction set that was used
-  LaneWork lanes;                 ///< what it took in SIMD lanes
+  std::vector<WorkStats> usage;   ///< the cheapest kernel first
+  lanes::InstructionSet arch = lanes::InstructionSet::scalar;  ///< instruction set that was used
+  LaneWork lanes;                                              ///< what it took in SIMD lanes
 };
 
 /// What has become of a branch of points.
@@ -87,7 +87,7 @@ class SweepRun {
   const Sweep& sweep_;
   std::optional<Shard> shard_;
   Share share_;
-  Columns columns_;
+  ResultStore columns_;
   std::vector<std::atomic<BranchState>> states_;  ///< [branch]
   std::size_t restored_ = 0;
   RunResult result_;
@@ -96,4 +96,4 @@ class SweepRun {
 /// Runs every point of a sweep.
 [[nodiscard]] RunResult run(const Sweep& sweep, const RunOptions& options);
 
-}  // namespace clatter
+}  // namespace clatter::sweep

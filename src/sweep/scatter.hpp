@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <optional>
 
-namespace clatter {
+namespace clatter::sweep {
 
 /// The numbers below `count`, each once, scattered: of dear and cheap points that lie together, any beginning has its
 /// share, so that it tells how long the rest takes.
@@ -29,4 +29,4 @@ class Scatter {
   unsigned bits_;
 };
 
-}  // namespace clatter
+}  // namespace clatter::sweep

@@ -2,7 +2,7 @@
 
 #include <charconv>
 
-namespace clatter {
+namespace clatter::sweep {
 
 std::string text_of(const Shard& shard) { return std::to_string(shard.number).append("/") + std::to_string(shard.of); }
 
@@ -16,4 +16,4 @@ std::optional<Shard> shard_named(std::string_view text) {
   return shard;
 }
 
-}  // namespace clatter
+}  // namespace clatter::sweep

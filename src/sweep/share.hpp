@@ -7,7 +7,7 @@
 
 #include "sweep/branches.hpp"
 
-namespace clatter {
+namespace clatter::sweep {
 
 /// One of several runs that share a sweep: it has the branches `number`, `number + of`, … of it.
 struct Shard {
@@ -36,7 +36,7 @@ class Share {
     return branches_.point(shard_.number + n * shard_.of, i);
   }
   /// How many points of this run have a smaller index in the sweep. Where each branch is one point, that is n.
-  [[nodiscard]] std::size_t slot(std::size_t n, std::size_t i) const {
+  [[nodiscard]] std::size_t local_index(std::size_t n, std::size_t i) const {
     const std::size_t block = (shard_.number + n * shard_.of) / branches_.stride * branches_.stride;
     const std::size_t first = before(block), beside = before(block + branches_.stride) - first;
     return first * branches_.length + i * beside + (n - first);
@@ -53,4 +53,4 @@ class Share {
   std::size_t count_;
 };
 
-}  // namespace clatter
+}  // namespace clatter::sweep

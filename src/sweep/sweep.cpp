@@ -1,6 +1,6 @@
 #include "sweep/sweep.hpp"
 
-namespace clatter {
+namespace clatter::sweep {
 
 std::size_t size(const Sweep& sweep) {
   std::size_t points = 1;
@@ -8,8 +8,8 @@ std::size_t size(const Sweep& sweep) {
   return points;
 }
 
-Scene scene_at(const Sweep& sweep, std::size_t point) {
-  Scene scene = sweep.scene;
+point::Problem scene_at(const Sweep& sweep, std::size_t point) {
+  point::Problem scene = sweep.scene;
   std::optional<double> start_period = sweep.start_period;
   for (auto dimension = sweep.dimensions.rbegin(); dimension != sweep.dimensions.rend(); ++dimension) {
     const std::size_t index = point % length(*dimension);
@@ -26,4 +26,4 @@ Scene scene_at(const Sweep& sweep, std::size_t point) {
   return scene;
 }
 
-}  // namespace clatter
+}  // namespace clatter::sweep

@@ -4,10 +4,10 @@
 #include <optional>
 #include <vector>
 
-#include "dynamics/scene.hpp"
+#include "point/problem.hpp"
 #include "sweep/parameter.hpp"
 
-namespace clatter {
+namespace clatter::sweep {
 
 /// One swept parameter and its values.
 struct Axis {
@@ -20,7 +20,7 @@ using Dimension = std::vector<Axis>;
 
 /// Every combination of the dimensions' values; the first dimension varies slowest.
 struct Sweep {
-  Scene scene;                        ///< the scene that the axes vary
+  point::Problem scene;               ///< the scene that the axes vary
   std::vector<Dimension> dimensions;  ///< empty: one point
   std::optional<std::size_t> follow;  ///< the dimension along which each point starts from the end of the one before
   std::optional<double>
@@ -33,6 +33,6 @@ struct Sweep {
 [[nodiscard]] std::size_t size(const Sweep& sweep);
 
 /// The scene of a point, 0 <= point < size(sweep), in row-major order of the dimensions.
-[[nodiscard]] Scene scene_at(const Sweep& sweep, std::size_t point);
+[[nodiscard]] point::Problem scene_at(const Sweep& sweep, std::size_t point);
 
-}  // namespace clatter
+}  // namespace clatter::sweep

@@ -10,7 +10,7 @@
 
 #include "sweep/run.hpp"
 
-namespace clatter {
+namespace clatter::sweep {
 
 /// Calls the user's progress function a few times a second, and for every hundredth of the whole, from one thread at a
 /// time.
@@ -51,4 +51,4 @@ class SweepProgress {
   Clock::time_point last_{};
 };
 
-}  // namespace clatter
+}  // namespace clatter::sweep

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <optional>
 
-namespace clatter {
+namespace clatter::sweep {
 
 /// How long the rest of some work takes, told from how it has gone on: what was done in the first half of the time
 /// counts a quarter, so that dear parts at the beginning are soon forgotten.
@@ -34,4 +34,4 @@ class TimeLeft {
   int times_ = 0;    ///< that something more was finished
 };
 
-}  // namespace clatter
+}  // namespace clatter::sweep

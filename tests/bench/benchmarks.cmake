@@ -1,6 +1,6 @@
 # What each effect costs.
 add_executable(effects_ladder effects_ladder.cpp)
-target_link_libraries(effects_ladder PRIVATE clatter_integrators benchmark::benchmark)
+target_link_libraries(effects_ladder PRIVATE clatter_steady benchmark::benchmark)
 
 # The unit of time: xsimd's batched sincos, of each instruction set by itself, contracted as compilers do by default.
 find_path(XSIMD_INCLUDE_DIR xsimd/xsimd.hpp)
@@ -20,7 +20,7 @@ foreach(arch sse2 avx2 avx512)
   target_compile_options(sincos_${arch} PRIVATE ${flags_${arch}} -ffp-contract=fast)
   target_include_directories(sincos_${arch} PRIVATE ${PROJECT_SOURCE_DIR}/tests)
   target_include_directories(sincos_${arch} SYSTEM PRIVATE ${XSIMD_INCLUDE_DIR})
-  target_link_libraries(sincos_${arch} PRIVATE clatter_numbers)
+  target_link_libraries(sincos_${arch} PRIVATE clatter_lanes)
   target_sources(bench_support PRIVATE $<TARGET_OBJECTS:sincos_${arch}>)
 endforeach()
 

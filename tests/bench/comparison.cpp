@@ -23,7 +23,7 @@ struct Sequence {
 };
 
 constexpr double share = 0.01;  // of the time to the nearest other impact, on whichever stop
-std::vector<double> rooms(const std::vector<Event>& impacts, double duration) {
+std::vector<double> rooms(const std::vector<accuracy::Event>& impacts, double duration) {
   std::vector<double> result(impacts.size(), share * duration);
   for (std::size_t i = 1; i < impacts.size(); ++i) {
     const double room = (impacts[i].time - impacts[i - 1].time) * share;
@@ -32,17 +32,17 @@ std::vector<double> rooms(const std::vector<Event>& impacts, double duration) {
   return result;
 }
 
-Sequence sequence_of(const Course& course, Side side) {
-  std::vector<Event> impacts;
-  for (const Event& event : course.events)
-    if (event.kind == Event::Kind::impact) impacts.push_back(event);
+Sequence sequence_of(const accuracy::RunRecord& course, Side side) {
+  std::vector<accuracy::Event> impacts;
+  for (const accuracy::Event& event : course.events)
+    if (event.kind == accuracy::Event::Kind::impact) impacts.push_back(event);
   const std::vector<double> room = rooms(impacts, course.duration);
   Sequence sequence;
   for (std::size_t i = 0; i < impacts.size(); ++i)
     if (impacts[i].side == side) sequence.impacts.push_back({impacts[i].time, room[i]});
-  for (const Event& event : course.events) {  // its ends may be off by as much as times may
+  for (const accuracy::Event& event : course.events) {  // its ends may be off by as much as times may
     const double slack = 1e-3 * event.length;
-    if (event.kind != Event::Kind::impact && event.side == side)
+    if (event.kind != accuracy::Event::Kind::impact && event.side == side)
       sequence.stays.push_back({event.time - slack, event.time + event.length + slack});
   }
   return sequence;
@@ -86,17 +86,17 @@ class Matching {
 };
 
 /// What errors of the displacement are relative to.
-double size_of(const Course& course, const Stops& stops) {
+double size_of(const accuracy::RunRecord& course, const Stops& stops) {
   return course.events.empty() ? std::hypot(course.x, course.v) : (stops.upper - stops.lower) / 2;
 }
 
 }  // namespace
 
-Comparison compare(const SolverRun& run, const Course& course, const Stops& stops) {
+Comparison compare(const SolverRun& run, const accuracy::RunRecord& course, const Stops& stops) {
   Comparison result;
   for (const Side side : {Side::lower, Side::upper}) {
     std::vector<double> times;
-    for (const Event& impact : run.impacts())
+    for (const accuracy::Event& impact : run.impacts())
       if (impact.side == side) times.push_back(impact.time);
     Sequence sequence = sequence_of(course, side);
     result.expected += sequence.impacts.size();

@@ -23,6 +23,6 @@ struct Comparison {
   double error_x = std::numeric_limits<double>::quiet_NaN();
 };
 
-[[nodiscard]] Comparison compare(const SolverRun& run, const Course& course, const Stops& stops);
+[[nodiscard]] Comparison compare(const SolverRun& run, const accuracy::RunRecord& course, const Stops& stops);
 
 }  // namespace clatter::bench

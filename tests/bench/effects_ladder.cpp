@@ -9,9 +9,10 @@
 #include <utility>
 #include <vector>
 
-#include "dynamics/required_effects.hpp"
-#include "integrators/exact.hpp"
-#include "integrators/run.hpp"
+#include "model/required_effects.hpp"
+#include "point/problem.hpp"
+#include "stepping/exact.hpp"
+#include "stepping/run.hpp"
 
 namespace clatter::bench {
 namespace {
@@ -19,7 +20,7 @@ namespace {
 /// A scene, and what it is compared with.
 struct Rung {
   std::string left_out;  ///< the effect that the scene lacks and the rung above has
-  Scene scene;           ///< run from its start
+  point::Problem scene;  ///< run from its start
   Effects kept_in;       ///< the scene's own effects and the one that is left out
   double periods;        ///< of one run, in forcing periods, without forcing of 2 pi
 };
@@ -40,7 +41,7 @@ constexpr double until_rest = 5;  // pressed without forcing: then at rest for g
 
 Rung rung(std::string left_out, PutBack put_back, const Oscillator& oscillator, const Stops& between,
           const Start& start = {}, double periods = long_run) {
-  Scene scene;
+  point::Problem scene;
   scene.oscillator = oscillator, scene.stops = between, scene.start = start;
   Effects kept_in = required_effects(scene);
   put_back(kept_in);
@@ -99,18 +100,19 @@ std::string words(const Effects& effects) {
   return text.empty() ? "none" : text.substr(2);
 }
 
-struct CountRests : NoObserver {
-  void rest(const Rest& stretch) { rests += stretch.held ? 1 : 0; }
+struct CountRests : stepping::NoObserver {
+  void rest(const motion::Rest& stretch) { rests += stretch.held ? 1 : 0; }
   double rests = 0;
 };
 
 /// Runs a rung's scene from its start; the integrator knows what it took.
 template <Effects kernel, class Observer>
-Exact<double, kernel> run_once(const Rung& rung, const Stops& in_reach, Observer& observer, benchmark::State& state) {
-  Exact<double, kernel> integrator(rung.scene, in_reach);
-  State<double> now;
+stepping::Exact<double, kernel> run_once(const Rung& rung, const Stops& in_reach, Observer& observer,
+                                         benchmark::State& state) {
+  stepping::Exact<double, kernel> integrator(rung.scene, in_reach);
+  motion::State<double> now;
   now.x = rung.scene.start.displacement, now.v = rung.scene.start.velocity;
-  if (run_for(integrator, now, rung.periods, observer) != Outcome::completed)
+  if (run_for(integrator, now, rung.periods, observer) != stepping::Outcome::completed)
     state.SkipWithError("the run did not complete");
   benchmark::DoNotOptimize(now);
   return integrator;
@@ -121,23 +123,23 @@ void time_as(benchmark::State& state, const Rung& rung, const Effects& effects) 
   using benchmark::Counter;
   const Stops in_reach = stops_in_reach(rung.scene.stops, effects);
   with_effects(effects, [&]<Effects kernel>() {
-    NoObserver nobody;
+    stepping::NoObserver nobody;
     for ([[maybe_unused]] auto _ : state) (void)run_once<kernel>(rung, in_reach, nobody, state);
     CountRests counted;
-    const Exact<double, kernel> integrator = run_once<kernel>(rung, in_reach, counted, state);
+    const stepping::Exact<double, kernel> integrator = run_once<kernel>(rung, in_reach, counted, state);
     state.counters["impacts"] = integrator.impacts() / rung.periods;
     state.counters["evaluations"] = integrator.evaluations() / rung.periods;
     state.counters["rests"] = counted.rests / rung.periods;
   });
   state.counters["time"] = Counter(rung.periods, Counter::kIsIterationInvariantRate | Counter::kInvert);
-  state.counters["kernel"] = static_cast<double>(kernel_of(effects));
+  state.counters["kernel"] = static_cast<double>(effect_set_of(effects));
   state.SetLabel(words(required_effects(rung.scene)));
 }
 
 /// Whether a rung's scene runs through the same code on the same stops.
 bool same_run(const Rung& rung, const Effects& a, const Effects& b) {
   const Stops with_a = stops_in_reach(rung.scene.stops, a), with_b = stops_in_reach(rung.scene.stops, b);
-  return kernel_of(a) == kernel_of(b) && with_a.lower == with_b.lower && with_a.upper == with_b.upper;
+  return effect_set_of(a) == effect_set_of(b) && with_a.lower == with_b.lower && with_a.upper == with_b.upper;
 }
 
 /// Benchmarks called e.g. "1/resonance/own" and "1/resonance/kept in, all".

@@ -12,20 +12,20 @@
 namespace clatter::bench {
 namespace {
 
-std::vector<Sweep> figures() {
-  std::vector<Sweep> sweeps;
+std::vector<sweep::Sweep> figures() {
+  std::vector<sweep::Sweep> sweeps;
   for (int number = 2; number <= 23; ++number) {
     std::string path(CLATTER_SOURCE "/configs/fig");
     path.append(number < 10 ? "0" : "").append(std::to_string(number)).append(".toml");
-    sweeps.push_back(read_config(path, {}).sweep);
+    sweeps.push_back(config::read_config(path, {}).sweep);
   }
   return sweeps;
 }
 
-void time_figures(benchmark::State& state, const std::vector<Sweep>& sweeps, Arch arch) {
+void time_figures(benchmark::State& state, const std::vector<sweep::Sweep>& sweeps, lanes::InstructionSet arch) {
   using benchmark::Counter;
   for ([[maybe_unused]] auto _ : state)
-    for (const Sweep& sweep : sweeps) benchmark::DoNotOptimize(run(sweep, {.arch = arch}));
+    for (const sweep::Sweep& sweep : sweeps) benchmark::DoNotOptimize(run(sweep, {.arch = arch}));
   state.counters["time"] = Counter(1, Counter::kIsIterationInvariantRate | Counter::kInvert);
 }
 
@@ -34,8 +34,8 @@ void time_figures(benchmark::State& state, const std::vector<Sweep>& sweeps, Arc
 
 int main(int count, char** arguments) {
   using namespace clatter::bench;
-  for (const clatter::Arch arch : archs_here())
-    benchmark::RegisterBenchmark(("figures/" + std::string(clatter::name_of(arch))).c_str(),
+  for (const clatter::lanes::InstructionSet arch : archs_here())
+    benchmark::RegisterBenchmark(("figures/" + std::string(clatter::lanes::name_of(arch))).c_str(),
                                  [arch, sweeps = figures()](auto& state) { time_figures(state, sweeps, arch); })
         ->UseRealTime()
         ->Unit(benchmark::kMillisecond);

@@ -55,8 +55,9 @@ void print(const hard::Case& one, const Solver& solver, const SolverRun& run, co
 }
 
 void measure(const hard::Case& one) {
-  const Course course = course_of(one.scene, one.duration);
-  if (course.outcome != Outcome::completed) throw std::runtime_error("clatter fails on " + one.row + ", " + one.what);
+  const accuracy::RunRecord course = accuracy::record_of(one.scene, one.duration);
+  if (course.outcome != stepping::Outcome::completed)
+    throw std::runtime_error("clatter fails on " + one.row + ", " + one.what);
   for (const Solver& solver : solvers) {
     SolverRun run(one.scene, one.duration);
     solver.run(run);

@@ -13,7 +13,7 @@ namespace clatter::bench {
 namespace {
 
 /// Runs a sweep; the counter `time` is for each of `parts`. Of one thread it is the time that the thread ran.
-benchmark::internal::Benchmark* add(const std::string& name, const Sweep& sweep, double parts, int threads = 1) {
+benchmark::internal::Benchmark* add(const std::string& name, const sweep::Sweep& sweep, double parts, int threads = 1) {
   using benchmark::Counter;
   const auto time = [=](benchmark::State& state) {
     for ([[maybe_unused]] auto _ : state) benchmark::DoNotOptimize(run(sweep, {.threads = threads}));

@@ -54,7 +54,7 @@ void check(int flag) {
 /// CVODE, set up for a run.
 class Run {
  public:
-  Run(const Scene& scene, double tolerance)
+  Run(const point::Problem& scene, double tolerance)
       : problem_{Equation(scene), scene.stops, scene.oscillator.damping},
         duration_(scene.time.duration),
         run_{scene.start.displacement, scene.start.displacement} {
@@ -123,6 +123,6 @@ class Run {
 
 }  // namespace
 
-Transient cvode_transient(const Scene& scene, double tolerance) { return Run(scene, tolerance).to_end(); }
+Transient cvode_transient(const point::Problem& scene, double tolerance) { return Run(scene, tolerance).to_end(); }
 
 }  // namespace clatter::bench

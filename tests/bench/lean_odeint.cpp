@@ -25,7 +25,7 @@ struct Crossing {
 
 class Run {
  public:
-  Run(const Scene& scene, double tolerance, Looks looks)
+  Run(const point::Problem& scene, double tolerance, Looks looks)
       : equation_(scene),
         stops_(scene.stops),
         duration_(scene.time.duration),
@@ -80,9 +80,9 @@ class Run {
   /// Looks near a turning point, from where a parabola leads to it.
   double beyond_at_turn(double from, double near, double slope) {
     const auto [x, v] = at(near);
-    const double turn = near - v / slope, place = x - v * v / (2 * slope);
-    if (looks_ == Looks::turns && beyond(place) && beyond(at(turn)[0])) return turn;
-    if (turn < duration_) run_.pass(place);
+    const double turn = near - v / slope, position = x - v * v / (2 * slope);
+    if (looks_ == Looks::turns && beyond(position) && beyond(at(turn)[0])) return turn;
+    if (turn < duration_) run_.pass(position);
     return from;
   }
 
@@ -90,24 +90,24 @@ class Run {
   bool rebound(double from, double to) {
     const Phase y = at(to);
     const bool upper = y[0] > stops_.upper;
-    const double place = upper ? stops_.upper : stops_.lower;
-    const auto [tau, v] = crossing(from, to, y, place);
+    const double position = upper ? stops_.upper : stops_.lower;
+    const auto [tau, v] = crossing(from, to, y, position);
     if (tau >= duration_) return false;
-    run_.pass(place);
+    run_.pass(position);
     const double restitution = upper ? stops_.restitution_upper : stops_.restitution_lower;
-    stepper_.initialize(Phase{place, -restitution * v}, tau, stepper_.current_time_step());
+    stepper_.initialize(Phase{position, -restitution * v}, tau, stepper_.current_time_step());
     return true;
   }
 
   /// From y at `beyond`, where the mass is beyond a stop.
-  [[nodiscard]] Crossing crossing(double inside, double beyond, Phase y, double place) const {
-    const bool upper = y[0] > place;
+  [[nodiscard]] Crossing crossing(double inside, double beyond, Phase y, double position) const {
+    const bool upper = y[0] > position;
     for (double tau = beyond;;) {
-      double next = tau - (y[0] - place) / y[1];
+      double next = tau - (y[0] - position) / y[1];
       if (!(next > inside && next < beyond)) next = inside + (beyond - inside) / 2;
       if (std::abs(next - tau) <= 0.01 * tolerance_ || next == inside || next == beyond) return {next, y[1]};
       tau = next, y = at(tau);
-      ((y[0] > place) == upper ? beyond : inside) = tau;
+      ((y[0] > position) == upper ? beyond : inside) = tau;
     }
   }
 
@@ -121,7 +121,7 @@ class Run {
 
 }  // namespace
 
-Transient odeint_transient(const Scene& scene, double tolerance, Looks looks) {
+Transient odeint_transient(const point::Problem& scene, double tolerance, Looks looks) {
   return Run(scene, tolerance, looks).to_end();
 }
 

@@ -13,12 +13,12 @@ namespace {
 
 constexpr double periods = 300;  // of each point, on average
 
-void time_sweep(benchmark::State& state, const Sweep& sweep, Arch arch) {
+void time_sweep(benchmark::State& state, const sweep::Sweep& sweep, lanes::InstructionSet arch) {
   using benchmark::Counter;
   Work work;
-  LaneWork lanes;
+  sweep::LaneWork lanes;
   for ([[maybe_unused]] auto _ : state) {
-    const RunResult result = run(sweep, {.threads = 1, .arch = arch});
+    const sweep::RunResult result = run(sweep, {.threads = 1, .arch = arch});
     work = work_of(result), lanes = result.lanes;
   }
   const auto per = Counter::kIsIterationInvariantRate | Counter::kInvert;
@@ -30,8 +30,8 @@ void time_sweep(benchmark::State& state, const Sweep& sweep, Arch arch) {
   state.counters["refined_period"] = lanes.refined / work.periods;
 }
 
-void add(const std::string& name, const Sweep& sweep) {
-  for (const Arch arch : archs_here())
+void add(const std::string& name, const sweep::Sweep& sweep) {
+  for (const lanes::InstructionSet arch : archs_here())
     benchmark::RegisterBenchmark((name + '/' + std::string(name_of(arch))).c_str(), [=](benchmark::State& state) {
       time_sweep(state, sweep, arch);
     })->Unit(benchmark::kMillisecond);

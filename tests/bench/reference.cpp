@@ -13,13 +13,14 @@ namespace clatter::bench {
 namespace {
 
 template <class Number>
-const std::vector<Number>& values(const RunResult& result, std::string_view name) {
-  return std::get<std::vector<Number>>(std::ranges::find(result.figure.variables, name, &Variable::name)->values);
+const std::vector<Number>& values(const sweep::RunResult& result, std::string_view name) {
+  return std::get<std::vector<Number>>(
+      std::ranges::find(result.dataset.variables, name, &sweep::Variable::name)->values);
 }
 
-std::vector<Transient> exact(Sweep sweep) {
+std::vector<Transient> exact(sweep::Sweep sweep) {
   sweep.scene.observe.trajectory = 2;  // the start and the end
-  const RunResult result = run(sweep, {.threads = 1, .arch = Arch::scalar});
+  const sweep::RunResult result = run(sweep, {.threads = 1, .arch = lanes::InstructionSet::scalar});
   const auto &low = values<double>(result, "x_min"), &high = values<double>(result, "x_max");
   const auto &x = values<double>(result, "x"), &v = values<double>(result, "v");
   std::vector<Transient> motions;
@@ -27,9 +28,9 @@ std::vector<Transient> exact(Sweep sweep) {
   return motions;
 }
 
-std::vector<std::uint8_t> steady_status(Sweep sweep) {
-  sweep.scene.time.mode = Mode::steady;
-  return values<std::uint8_t>(run(sweep, {.threads = 1, .arch = Arch::scalar}), "status");
+std::vector<std::uint8_t> steady_status(sweep::Sweep sweep) {
+  sweep.scene.time.mode = steady::Mode::steady;
+  return values<std::uint8_t>(run(sweep, {.threads = 1, .arch = lanes::InstructionSet::scalar}), "status");
 }
 
 double difference(const Transient& one, const Transient& other) {
@@ -41,15 +42,15 @@ constexpr double room = 1e-3;  // that a solver may be off by, over |xs|
 
 }  // namespace
 
-Reference::Reference(const Sweep& sweep) : whole_(sweep), beginning_(sweep), at_end_(exact(sweep)) {
+Reference::Reference(const sweep::Sweep& sweep) : whole_(sweep), beginning_(sweep), at_end_(exact(sweep)) {
   beginning_.scene.time.duration = std::min(sweep.scene.time.duration, 10 * 2 * std::numbers::pi);
   early_ = exact(beginning_);
-  Sweep displaced = sweep;
+  sweep::Sweep displaced = sweep;
   displaced.scene.start.displacement = 1e-13;
   const std::vector<Transient> moved = exact(displaced);
   const std::vector<std::uint8_t> status = steady_status(sweep);
   for (std::size_t i = 0; i < at_end_.size(); ++i)
-    determined_.push_back(status[i] == static_cast<std::uint8_t>(Status::periodic) &&
+    determined_.push_back(status[i] == static_cast<std::uint8_t>(steady::Status::periodic) &&
                           difference(moved[i], at_end_[i]) < 1e-6);
 }
 

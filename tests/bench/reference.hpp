@@ -10,7 +10,7 @@
 namespace clatter::bench {
 
 /// A general solver at a tolerance.
-using Solver = std::function<Transient(const Scene&)>;
+using Solver = std::function<Transient(const point::Problem&)>;
 
 /// At how many points of a sweep a solver is wrong, and how far off it is at the others.
 struct Verdict {
@@ -26,7 +26,7 @@ struct Verdict {
 /// its beginning only, 10 * 2 pi, in which a displacement grows a hundredfold at most.
 class Reference {
  public:
-  explicit Reference(const Sweep& sweep);
+  explicit Reference(const sweep::Sweep& sweep);
 
   /// Of a solver that made `runs` of the points; it runs once more from the start where beginnings are compared.
   [[nodiscard]] Verdict judge(const Solver& solver, const std::vector<Transient>& runs) const;
@@ -34,7 +34,7 @@ class Reference {
   [[nodiscard]] std::size_t undetermined() const;  ///< points that are compared over their beginning only
 
  private:
-  Sweep whole_, beginning_;
+  sweep::Sweep whole_, beginning_;
   std::vector<Transient> at_end_, early_;
   std::vector<bool> determined_;
 };

@@ -12,24 +12,24 @@ namespace clatter::bench {
 namespace {
 
 /// xsimd's name of an instruction set.
-template <Arch arch>
+template <lanes::InstructionSet arch>
 struct Named;
 template <>
-struct Named<Arch::sse2> {
+struct Named<lanes::InstructionSet::sse2> {
   using Type = xsimd::sse2;
 };
 template <>
-struct Named<Arch::avx2> {
+struct Named<lanes::InstructionSet::avx2> {
   using Type = xsimd::fma3<xsimd::avx2>;
 };
 template <>
-struct Named<Arch::avx512> {
+struct Named<lanes::InstructionSet::avx512> {
   using Type = xsimd::avx512dq;
 };
 
 }  // namespace
 
-template <Arch arch>
+template <lanes::InstructionSet arch>
 void sincos(Sines& of) {
   using Batch = xsimd::batch<double, typename Named<arch>::Type>;
   for (std::size_t i = 0; i < Sines::count; i += Batch::size) {
@@ -38,6 +38,6 @@ void sincos(Sines& of) {
   }
 }
 
-template void sincos<Arch::CLATTER_SINCOS_ARCH>(Sines&);
+template void sincos<lanes::InstructionSet::CLATTER_SINCOS_ARCH>(Sines&);
 
 }  // namespace clatter::bench

@@ -2,7 +2,7 @@
 
 #include <cstddef>
 
-#include "numbers/arch.hpp"
+#include "lanes/instruction_set.hpp"
 
 namespace clatter::bench {
 
@@ -13,11 +13,11 @@ struct alignas(64) Sines {
 };
 
 /// Batched xsimd sincos of one instruction set; only where it runs.
-template <Arch arch>
+template <lanes::InstructionSet arch>
 void sincos(Sines& of);
 
-extern template void sincos<Arch::sse2>(Sines&);
-extern template void sincos<Arch::avx2>(Sines&);
-extern template void sincos<Arch::avx512>(Sines&);
+extern template void sincos<lanes::InstructionSet::sse2>(Sines&);
+extern template void sincos<lanes::InstructionSet::avx2>(Sines&);
+extern template void sincos<lanes::InstructionSet::avx512>(Sines&);
 
 }  // namespace clatter::bench

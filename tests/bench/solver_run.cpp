@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "dynamics/impact.hpp"
+#include "motion/contact_force.hpp"
 
 namespace clatter::bench {
 namespace {
@@ -13,7 +13,7 @@ constexpr std::int64_t most_right_hand_sides = 10'000'000;
 constexpr std::size_t most_contacts = 200'000;
 constexpr std::size_t most_standing = 1000;  // contacts in succession without a step in time
 
-double size_of(const Scene& scene) {
+double size_of(const point::Problem& scene) {
   const double half = (scene.stops.upper - scene.stops.lower) / 2;
   const double moves = std::max({std::abs(scene.oscillator.forcing), std::abs(scene.oscillator.load),
                                  std::abs(scene.start.displacement), std::abs(scene.start.velocity)});
@@ -22,7 +22,7 @@ double size_of(const Scene& scene) {
 
 }  // namespace
 
-SolverRun::SolverRun(const Scene& scene, double duration)
+SolverRun::SolverRun(const point::Problem& scene, double duration)
     : scene_(scene),
       duration_(duration),
       size_(size_of(scene)),
@@ -74,10 +74,10 @@ bool SolverRun::creeps() const {
 Values SolverRun::contact(double tau, Side side, double v) {
   if (contacts_.empty() || tau > contacts_.back() * (1 + epsilon<double>())) moved_on_ = contacts_.size();
   contacts_.push_back(tau);
-  const auto stop = stop_at<double>(scene_.stops, side);
-  if (!(stop.into(v) > 0)) return {stop.place, v};
-  impacts_.push_back({Event::Kind::impact, side, tau, std::abs(v), 0.0});
-  return {stop.place, -stop.restitution * v};
+  const auto stop = motion::stop_at<double>(scene_.stops, side);
+  if (!(stop.into(v) > 0)) return {stop.position, v};
+  impacts_.push_back({accuracy::Event::Kind::impact, side, tau, std::abs(v), 0.0});
+  return {stop.position, -stop.restitution * v};
 }
 
 void SolverRun::see(double tau, double x) {

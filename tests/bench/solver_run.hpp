@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "dynamics/scene.hpp"
+#include "point/problem.hpp"
 #include "support/deviation.hpp"
 
 namespace clatter::bench {
@@ -24,7 +24,7 @@ class SolverRun {
  public:
   enum class Outcome : std::uint8_t { running, completed, stuck, failed };
 
-  SolverRun(const Scene& scene, double duration);
+  SolverRun(const point::Problem& scene, double duration);
 
   // What a solver asks for.
   [[nodiscard]] const Values& start() const { return start_; }  ///< after the reflection, if there was one
@@ -45,9 +45,9 @@ class SolverRun {
 
   // What became of it.
   [[nodiscard]] Outcome outcome() const { return outcome_; }
-  [[nodiscard]] const std::string& why() const { return why_; }                 ///< it did not complete; else empty
-  [[nodiscard]] double gave_up_at() const { return gave_up_at_; }               ///< tau; completed: NaN
-  [[nodiscard]] const std::vector<Event>& impacts() const { return impacts_; }  ///< in the order of time
+  [[nodiscard]] const std::string& why() const { return why_; }    ///< it did not complete; else empty
+  [[nodiscard]] double gave_up_at() const { return gave_up_at_; }  ///< tau; completed: NaN
+  [[nodiscard]] const std::vector<accuracy::Event>& impacts() const { return impacts_; }  ///< in the order of time
   [[nodiscard]] double penetration() const;  ///< largest seen, over half the distance of the stops; NaN: no stops
   [[nodiscard]] double end() const { return end_; }  ///< x at the end; NaN where it was not reached
   [[nodiscard]] std::int64_t right_hand_sides() const { return right_hand_sides_; }
@@ -58,14 +58,14 @@ class SolverRun {
   [[nodiscard]] double acceleration(double tau, const Values& y) const;
   [[nodiscard]] double half_distance() const { return (scene_.stops.upper - scene_.stops.lower) / 2; }
 
-  Scene scene_;
+  point::Problem scene_;
   double duration_;
   double size_;  ///< of the motion: half the distance of the stops, or what the start and the force suggest if smaller
   Values start_;
   Outcome outcome_ = Outcome::running;
   std::string why_{};
   double gave_up_at_ = std::numeric_limits<double>::quiet_NaN();
-  std::vector<Event> impacts_{};
+  std::vector<accuracy::Event> impacts_{};
   std::vector<double> contacts_{};  ///< times of all contacts, impacts or not
   std::size_t moved_on_ = 0;        ///< the last contact that came after the one before
   double deepest_ = 0.0;

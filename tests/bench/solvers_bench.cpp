@@ -17,8 +17,8 @@ namespace {
 constexpr std::size_t points = 200;
 constexpr double periods = 300;  // of each point, on average
 
-const Sweep& sweep() {
-  static const Sweep sweep = transients(xs_23, points, periods);
+const sweep::Sweep& sweep() {
+  static const sweep::Sweep sweep = transients(xs_23, points, periods);
   return sweep;
 }
 
@@ -32,7 +32,7 @@ void count_time(benchmark::State& state) {
   state.counters["time"] = Counter(points * periods, Counter::kIsIterationInvariantRate | Counter::kInvert);
 }
 
-void time_clatter(benchmark::State& state, Arch arch) {
+void time_clatter(benchmark::State& state, lanes::InstructionSet arch) {
   for ([[maybe_unused]] auto _ : state) benchmark::DoNotOptimize(run(sweep(), {.threads = 1, .arch = arch}));
   count_time(state);
 }
@@ -49,7 +49,7 @@ void time_solver(benchmark::State& state, const Solver& solver) {
   state.counters["undetermined"] = static_cast<double>(reference().undetermined());
 }
 
-void add_clatter(Arch arch) {
+void add_clatter(lanes::InstructionSet arch) {
   const std::string name = "clatter/" + std::string(name_of(arch));
   benchmark::RegisterBenchmark(name.c_str(), [arch](benchmark::State& state) { time_clatter(state, arch); });
 }
@@ -60,7 +60,7 @@ void add_solver(const std::string& name, const Run& transient) {
   for (const double tolerance : {1e-6, 1e-7, 1e-8, 1e-9, 1e-10, 1e-11, 1e-12}) {
     char text[16];
     std::snprintf(text, sizeof text, "/%.0e", tolerance);
-    const Solver solver = [=](const Scene& scene) { return transient(scene, tolerance); };
+    const Solver solver = [=](const point::Problem& scene) { return transient(scene, tolerance); };
     benchmark::RegisterBenchmark((name + text).c_str(), [=](benchmark::State& state) {
       time_solver(state, solver);
     })->Unit(benchmark::kMillisecond);
@@ -72,7 +72,7 @@ void add_solver(const std::string& name, const Run& transient) {
 
 int main(int count, char** arguments) {
   using namespace clatter::bench;
-  for (const clatter::Arch arch : archs_here()) add_clatter(arch);
+  for (const clatter::lanes::InstructionSet arch : archs_here()) add_clatter(arch);
   add_solver("Odeint",
              [](const auto& scene, double tolerance) { return odeint_transient(scene, tolerance, Looks::ends); });
   add_solver("Odeint with turns",

@@ -6,11 +6,11 @@
 namespace clatter::bench {
 namespace {
 
-Scene scene_between(double xs) {
-  Scene scene;
+point::Problem scene_between(double xs) {
+  point::Problem scene;
   scene.oscillator = {.damping = 0.1, .forcing = -1.0};
-  set(scene, Parameter::xs, xs);
-  set(scene, Parameter::R, 0.7);
+  set(scene, sweep::Parameter::xs, xs);
+  set(scene, sweep::Parameter::R, 0.7);
   scene.observe.extrema = true;
   return scene;
 }
@@ -23,29 +23,29 @@ std::vector<double> linspace(double a, double b, std::size_t n) {
   return values;
 }
 
-Sweep transients(double xs, std::size_t points, double periods) {
-  Sweep sweep;
+sweep::Sweep transients(double xs, std::size_t points, double periods) {
+  sweep::Sweep sweep;
   sweep.scene = scene_between(xs);
-  sweep.scene.time.mode = Mode::transient;
+  sweep.scene.time.mode = steady::Mode::transient;
   sweep.scene.time.duration = periods * 2 * std::numbers::pi;
-  sweep.dimensions = {{{Parameter::nu, linspace(0.5, 1.5, points)}}};
+  sweep.dimensions = {{{sweep::Parameter::nu, linspace(0.5, 1.5, points)}}};
   return sweep;
 }
 
-Sweep map(std::size_t n) {
-  Sweep sweep;
+sweep::Sweep map(std::size_t n) {
+  sweep::Sweep sweep;
   sweep.scene = scene_between(1.0);
   sweep.scene.time.max_periods = 500;
   sweep.scene.observe.harmonics = 3;
-  sweep.scene.observe.harmonics_method = HarmonicsMethod::exact;
+  sweep.scene.observe.harmonics_method = observables::HarmonicsMethod::exact;
   sweep.scene.observe.period = true;
-  sweep.dimensions = {{{Parameter::nu, linspace(0.5, 1.5, n)}}, {{Parameter::xs, linspace(0.2, 4.0, n)}}};
+  sweep.dimensions = {{{sweep::Parameter::nu, linspace(0.5, 1.5, n)}}, {{sweep::Parameter::xs, linspace(0.2, 4.0, n)}}};
   return sweep;
 }
 
-Work work_of(const RunResult& result) {
+Work work_of(const sweep::RunResult& result) {
   Work work;
-  for (const Usage& usage : result.usage) work.impacts += usage.impacts, work.periods += usage.periods;
+  for (const sweep::WorkStats& usage : result.usage) work.impacts += usage.impacts, work.periods += usage.periods;
   return work;
 }
 

@@ -14,19 +14,19 @@ namespace clatter::bench {
 /// The oscillator of the paper's figures, f = -1, h = 0.1, R = 0.7, from rest between stops at -|xs| and |xs|, over
 /// frequencies 0.5 ... 1.5. Extrema are observed from the start, for `periods` forcing periods on average: for the same
 /// time at every frequency, periods * 2 pi.
-[[nodiscard]] Sweep transients(double xs, std::size_t points, double periods);
+[[nodiscard]] sweep::Sweep transients(double xs, std::size_t points, double periods);
 
 inline constexpr double xs_18 = -0.5;  ///< of Fig. 18: two impacts in a forcing period
 inline constexpr double xs_23 = -3.0;  ///< of Fig. 23: impacts at resonance only, grazing and chaos beside it
 
 /// The map of the same oscillator over frequencies 0.5 ... 1.5 and stops 0.2 ... 4, n of each: extrema, harmonics 0 ...
 /// 3 from the arcs and the period of the steady motion, which is given up after 500 forcing periods.
-[[nodiscard]] Sweep map(std::size_t n);
+[[nodiscard]] sweep::Sweep map(std::size_t n);
 
 /// What a run simulated, all points together.
 struct Work {
   double impacts = 0.0, periods = 0.0;
 };
-[[nodiscard]] Work work_of(const RunResult& result);
+[[nodiscard]] Work work_of(const sweep::RunResult& result);
 
 }  // namespace clatter::bench

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstdint>
 
-#include "dynamics/scene.hpp"
+#include "point/problem.hpp"
 
 namespace clatter::bench {
 
@@ -14,7 +14,7 @@ struct Transient {
   double x_min = 0.0, x_max = 0.0;
   double x = 0.0, v = 0.0;  ///< at the end
 
-  void pass(double place) { x_min = std::min(x_min, place), x_max = std::max(x_max, place); }
+  void pass(double position) { x_min = std::min(x_min, position), x_max = std::max(x_max, position); }
 };
 
 /// Displacement and velocity.
@@ -23,7 +23,7 @@ using Phase = std::array<double, 2>;
 /// x'' = f sin(nu tau + phase) - 2 h x' - x + load, as its user writes it for a general solver.
 class Equation {
  public:
-  explicit Equation(const Scene& scene) : of_(scene.oscillator), phase_(scene.start.phase) {}
+  explicit Equation(const point::Problem& scene) : of_(scene.oscillator), phase_(scene.start.phase) {}
 
   [[nodiscard]] double acceleration(double tau, double x, double v) const {
     return of_.forcing * std::sin(of_.frequency * tau + phase_) - 2 * of_.damping * v - x + of_.load;
@@ -38,9 +38,9 @@ class Equation {
 enum class Looks : std::uint8_t { ends, turns };
 
 /// Boost.Odeint: Dormand and Prince's pair of orders 5 and 4, impacts on its dense output.
-[[nodiscard]] Transient odeint_transient(const Scene& scene, double tolerance, Looks looks);
+[[nodiscard]] Transient odeint_transient(const point::Problem& scene, double tolerance, Looks looks);
 
 /// SUNDIALS CVODE: Adams' methods, the gaps and the velocity as root functions; only where CLATTER_CVODE is defined.
-[[nodiscard]] Transient cvode_transient(const Scene& scene, double tolerance);
+[[nodiscard]] Transient cvode_transient(const point::Problem& scene, double tolerance);
 
 }  // namespace clatter::bench

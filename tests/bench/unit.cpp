@@ -11,7 +11,7 @@
 namespace clatter::bench {
 namespace {
 
-template <Arch arch>
+template <lanes::InstructionSet arch>
 void time_sincos(benchmark::State& state) {
   Sines of;
   for (std::size_t i = 0; i < Sines::count; ++i) of.angles[i] = -3 + 6 * static_cast<double>(i) / (Sines::count - 1);
@@ -24,26 +24,30 @@ void time_sincos(benchmark::State& state) {
   state.counters["time"] = Counter(Sines::count, Counter::kIsIterationInvariantRate | Counter::kInvert);
 }
 
-template <Arch arch>
+template <lanes::InstructionSet arch>
 void add_sincos() {
-  if (runs_here(arch))
+  if (is_supported(arch))
     benchmark::RegisterBenchmark(("sincos/" + std::string(name_of(arch))).c_str(), time_sincos<arch>);
 }
 
 }  // namespace
 
-std::vector<Arch> archs_here() {
-  std::vector<Arch> result;
-  for (const Arch arch : {Arch::scalar, Arch::sse2, Arch::avx2, Arch::avx512})
-    if (runs_here(arch)) result.push_back(arch);
+std::vector<lanes::InstructionSet> archs_here() {
+  std::vector<lanes::InstructionSet> result;
+  for (const lanes::InstructionSet arch : {lanes::InstructionSet::scalar, lanes::InstructionSet::sse2,
+                                           lanes::InstructionSet::avx2, lanes::InstructionSet::avx512})
+    if (is_supported(arch)) result.push_back(arch);
   return result;
 }
 
-void add_unit() { add_sincos<Arch::sse2>(), add_sincos<Arch::avx2>(), add_sincos<Arch::avx512>(); }
+void add_unit() {
+  add_sincos<lanes::InstructionSet::sse2>(), add_sincos<lanes::InstructionSet::avx2>(),
+      add_sincos<lanes::InstructionSet::avx512>();
+}
 
 int run_benchmarks(int count, char** arguments) {
   add_unit();
-  benchmark::AddCustomContext("best", std::string(name_of(best_arch())));
+  benchmark::AddCustomContext("best", std::string(lanes::name_of(lanes::widest_instruction_set())));
   benchmark::Initialize(&count, arguments);
   if (benchmark::ReportUnrecognizedArguments(count, arguments)) return 2;
   benchmark::RunSpecifiedBenchmarks();

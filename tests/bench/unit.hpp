@@ -2,12 +2,12 @@
 
 #include <vector>
 
-#include "numbers/arch.hpp"
+#include "lanes/instruction_set.hpp"
 
 namespace clatter::bench {
 
 /// The instruction sets of this machine, scalar first.
-[[nodiscard]] std::vector<Arch> archs_here();
+[[nodiscard]] std::vector<lanes::InstructionSet> archs_here();
 
 /// Adds the unit that times are given in as benchmarks of their own, "sincos/sse2" and so on for each instruction set
 /// here: one batched xsimd sincos for each element, the counter `time`.

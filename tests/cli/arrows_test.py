@@ -1,5 +1,6 @@
-"""Folders of src include only their right-hand neighbours: apps -> {results, study} -> config -> sweep ->
-{integrators, observables, lanes} -> dynamics -> numbers, and results, config -> storage."""
+"""Rooms of src include only their right-hand neighbours, and each has its own namespace:
+apps -> { config, results } -> { accuracy, plan } -> sweep -> lanes -> point -> { steady, observables }
+-> { stepping, motion } -> model -> math, and config, results -> storage, results -> config."""
 
 import os
 import re
@@ -8,67 +9,132 @@ import unittest
 from pathlib import Path
 
 SOURCE = Path(os.environ["CLATTER_SOURCE"])
-BELOW = {  # folder: what it may include besides itself
-    "numbers": set(),
-    "dynamics": {"numbers"},
-    "integrators": {"dynamics", "numbers"},
-    "observables": {"dynamics", "numbers"},
-    "lanes": {"dynamics", "numbers"},
-    "sweep": {"integrators", "observables", "lanes", "dynamics", "numbers"},
-    "study": {"sweep", "integrators", "observables", "lanes", "dynamics", "numbers"},
+NEXT = {  # room: its right-hand neighbours; what these may include, it may include too
+    "math": set(),
+    "model": {"math"},
+    "motion": {"model"},
+    "stepping": {"motion"},
+    "steady": {"stepping"},
+    "observables": {"motion"},
+    "point": {"steady", "observables"},
+    "lanes": {"point"},
+    "sweep": {"lanes"},
+    "plan": {"sweep"},
+    "accuracy": {"sweep"},
     "storage": set(),
-    "config": {"storage", "sweep", "integrators", "observables", "lanes", "dynamics", "numbers"},
-    "results": {"config", "storage", "sweep", "integrators", "observables", "lanes", "dynamics", "numbers"},
-    "apps": {"results", "config", "storage", "study", "sweep", "integrators", "observables", "lanes", "dynamics", "numbers"},
+    "config": {"plan", "accuracy", "storage"},
+    "results": {"config"},
+    "apps": {"results"},
 }
-KNOWN_TO = {  # library header: the only folder that sees it
+KNOWN_TO = {  # library header: the only rooms that see it
     r"fftw3": {"observables"},
     r"omp\.h": {"sweep"},
     r"hdf5|H5": {"results"},
     r"toml": {"config"},
     r"zlib": {"storage"},
     r"boost/program_options": {"config", "apps"},
-    r"boost/multiprecision": {"numbers"},
+    r"boost/multiprecision": {"math"},
+    r"boost/numeric/odeint": {"stepping"},
     r"nettle": {"results"},
     r"xsimd": {"lanes"},
 }
+WORDS_OF_ALL = {"math", "model"}  # their namespaces are inline: every room says Scene, Effects, pi without their name
+
+
+def below(room):
+    """All rooms that a room may include."""
+    found = set()
+    for neighbour in NEXT[room]:
+        found |= {neighbour} | below(neighbour)
+    return found
+
+
+def sources(root):
+    """Every source file below `root`, with its room."""
+    for path in sorted([*root.glob("src/*/*.?pp"), *root.glob("apps/*/*.?pp")]):
+        parts = path.relative_to(root).parts
+        yield path, "apps" if parts[0] == "apps" else parts[1]
 
 
 def wrong_includes(root):
     """Every include against the arrows below `root`, as 'file:line: include'."""
     wrong = []
-    for path in sorted([*root.glob("src/*/*.?pp"), *root.glob("apps/*/*.?pp")]):
-        folder = path.relative_to(root).parts[0 if path.is_relative_to(root / "apps") else 1]
+    for path, room in sources(root):
+        permitted = below(room) | {room}
         for number, line in enumerate(path.read_text(encoding="utf-8").splitlines(), 1):
             include = re.match(r'\s*#\s*include\s*(["<])([^">]+)', line)
             if not include:
                 continue
             target = include[2].split("/")[0]
-            against = target in BELOW and target != folder and target not in BELOW[folder]
-            foreign = any(re.match(library, include[2]) and folder not in seen for library, seen in KNOWN_TO.items())
+            against = include[1] == '"' and target in NEXT and target not in permitted
+            foreign = any(re.match(library, include[2]) and room not in seen for library, seen in KNOWN_TO.items())
             if against or foreign:
                 wrong.append(f"{path.relative_to(root)}:{number}: {include[2]}")
     return wrong
+
+
+def wrong_namespaces(root):
+    """Every namespace below `root` that isn't its room's, or `detail` in it, and every room that opens another's."""
+    wrong = []
+    for path, room in sources(root):
+        name = "app" if room == "apps" else room
+        own = rf"namespace clatter::(inline )?{name}(::detail)? \{{" if room in WORDS_OF_ALL else rf"namespace clatter::{name}(::detail)? \{{"
+        for number, line in enumerate(path.read_text(encoding="utf-8").splitlines(), 1):
+            opened = line.startswith("namespace clatter") and not re.fullmatch(own, line)
+            borrowed = re.match(r"\s*using namespace (?!clatter|std::|boost)", line)
+            if opened or borrowed:
+                wrong.append(f"{path.relative_to(root)}:{number}: {line.strip()}")
+    return wrong
+
+
+def touched_lanes(root):
+    """Every line outside the room of lanes that reaches into a lane's array."""
+    return [
+        f"{path.relative_to(root)}:{number}"
+        for path, room in sources(root)
+        if room != "lanes"
+        for number, line in enumerate(path.read_text(encoding="utf-8").splitlines(), 1)
+        if ".lane[" in line
+    ]
 
 
 class Arrows(unittest.TestCase):
     def test_no_include_points_against_the_arrows(self):
         self.assertEqual(wrong_includes(SOURCE), [])
 
-    def test_an_include_against_the_arrows_is_found(self):
+    def test_every_room_has_its_own_namespace(self):
+        self.assertEqual(wrong_namespaces(SOURCE), [])
+
+    def test_every_room_is_known(self):
+        self.assertEqual({path.name for path in (SOURCE / "src").iterdir() if path.is_dir()} | {"apps"}, set(NEXT))
+
+    def test_only_lanes_touch_the_array_of_a_lane(self):
+        self.assertEqual(touched_lanes(SOURCE), [])
+
+    def test_what_is_against_the_rules_is_found(self):
         with tempfile.TemporaryDirectory() as folder:
             root = Path(folder)
             for name, text in {
-                "src/dynamics/a.hpp": '#include "numbers/number.hpp"\n#include "sweep/run.hpp"\n',
-                "src/observables/b.hpp": '#include "integrators/exact.hpp"\n',
-                "src/sweep/c.cpp": "#include <hdf5.h>\n#include <omp.h>\n",
+                "src/motion/a.hpp": '#include "math/number.hpp"\n#include "sweep/run.hpp"\nnamespace clatter::motion {\n',
+                "src/observables/b.hpp": '#include "stepping/exact.hpp"\nnamespace clatter {\n',
+                "src/model/d.hpp": "namespace clatter::inline model {\nnamespace clatter::model {\nnamespace clatter::math {\n",
+                "src/sweep/c.cpp": "#include <hdf5.h>\n#include <omp.h>\nusing namespace lanes;\nx.lane[0] = 1;\n",
             }.items():
                 (root / name).parent.mkdir(parents=True, exist_ok=True)
                 (root / name).write_text(text)
             self.assertEqual(
                 wrong_includes(root),
-                ["src/dynamics/a.hpp:2: sweep/run.hpp", "src/observables/b.hpp:1: integrators/exact.hpp", "src/sweep/c.cpp:1: hdf5.h"],
+                ["src/motion/a.hpp:2: sweep/run.hpp", "src/observables/b.hpp:1: stepping/exact.hpp", "src/sweep/c.cpp:1: hdf5.h"],
             )
+            self.assertEqual(
+                wrong_namespaces(root),
+                [
+                    "src/model/d.hpp:3: namespace clatter::math {",
+                    "src/observables/b.hpp:2: namespace clatter {",
+                    "src/sweep/c.cpp:3: using namespace lanes;",
+                ],
+            )
+            self.assertEqual(touched_lanes(root), ["src/sweep/c.cpp:4"])
 
 
 if __name__ == "__main__":

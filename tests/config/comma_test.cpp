@@ -2,7 +2,7 @@
 
 #include "config/wrong_table.hpp"
 
-namespace clatter {
+namespace clatter::config {
 namespace {
 
 TEST(Comma, in_a_number_is_told_from_a_list) {
@@ -67,4 +67,4 @@ TEST(Axis, of_another_section_is_none) {
 }
 
 }  // namespace
-}  // namespace clatter
+}  // namespace clatter::config

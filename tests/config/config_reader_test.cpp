@@ -7,7 +7,7 @@
 #include "config/written_config.hpp"
 #include "storage/error.hpp"
 
-namespace clatter {
+namespace clatter::config {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -47,7 +47,7 @@ TEST(Config, means_what_it_says) {
   EXPECT_EQ(config.source, "doi:10.5755/j02.mech.32277, Fig. 22");
   EXPECT_EQ(config.compression, 0);
   EXPECT_EQ(size(config.sweep), 501u);
-  const Scene scene = scene_at(config.sweep, 250);
+  const point::Problem scene = scene_at(config.sweep, 250);
   EXPECT_EQ(scene.oscillator.frequency, 1.0);
   EXPECT_EQ(scene.oscillator.forcing, -1.0);
   EXPECT_EQ(scene.stops.lower, -4.0);
@@ -58,11 +58,11 @@ TEST(Config, means_what_it_says) {
 }
 
 TEST(Config, has_the_documented_defaults) {
-  const Scene scene = read_as("a.toml", "[scene]\nxs = 1\n").sweep.scene;
+  const point::Problem scene = read_as("a.toml", "[scene]\nxs = 1\n").sweep.scene;
   EXPECT_EQ(scene.oscillator.damping, 0.0);
   EXPECT_EQ(scene.oscillator.frequency, 1.0);
   EXPECT_EQ(scene.stops.restitution_lower, 1.0);
-  EXPECT_EQ(scene.time.mode, Mode::steady);
+  EXPECT_EQ(scene.time.mode, steady::Mode::steady);
   EXPECT_EQ(scene.time.max_periods, 5000);
   EXPECT_EQ(scene.time.window, 64);
   EXPECT_EQ(scene.time.tolerance, 1e-12);
@@ -107,7 +107,7 @@ TEST(Config, text_has_both_restitutions_where_one_is_given) {
   EXPECT_EQ(none.find("R_"), std::string::npos) << none;
   EXPECT_NE(none.find("\nR = 1.0\n"), std::string::npos) << none;
   for (const std::string& text : {fixed, swept}) {
-    const Scene scene = scene_at(read_as("b.toml", text).sweep, 0);
+    const point::Problem scene = scene_at(read_as("b.toml", text).sweep, 0);
     EXPECT_EQ(scene.stops.restitution_lower, text == fixed ? 1.0 : 0.5);
     EXPECT_EQ(scene.stops.restitution_upper, text == fixed ? 0.5 : 1.0);
   }
@@ -157,18 +157,18 @@ TEST(Config, one_stop_alone_has_its_restitution_and_the_other_is_none) {
 TEST(Axes, are_in_the_order_of_the_text_not_of_the_alphabet) {
   const Config config = read_as("a.toml", "[scene]\nxs = 1\n[sweep]\nnu = [1, 2]\nh = [0.1]\nf = [1, 2, 3]\n");
   ASSERT_EQ(config.sweep.dimensions.size(), 3u);
-  EXPECT_EQ(config.sweep.dimensions[0][0].parameter, Parameter::nu);
-  EXPECT_EQ(config.sweep.dimensions[1][0].parameter, Parameter::h);
-  EXPECT_EQ(config.sweep.dimensions[2][0].parameter, Parameter::f);
+  EXPECT_EQ(config.sweep.dimensions[0][0].parameter, sweep::Parameter::nu);
+  EXPECT_EQ(config.sweep.dimensions[1][0].parameter, sweep::Parameter::h);
+  EXPECT_EQ(config.sweep.dimensions[2][0].parameter, sweep::Parameter::f);
 }
 
 TEST(Axes, linked_ones_are_one_dimension_named_by_the_first) {
   const Config config =
       read_as("a.ini", "[scene]\nxs=1\n[sweep]\nnu = 1, 2\nh = 0.1, 0.2, 0.3\nf = 5, 6\nlinked = f, nu\nfollow = nu\n");
   ASSERT_EQ(config.sweep.dimensions.size(), 2u);
-  EXPECT_EQ(config.sweep.dimensions[0][0].parameter, Parameter::h);
-  EXPECT_EQ(config.sweep.dimensions[1][0].parameter, Parameter::f);  // stands where f stands
-  EXPECT_EQ(config.sweep.dimensions[1][1].parameter, Parameter::nu);
+  EXPECT_EQ(config.sweep.dimensions[0][0].parameter, sweep::Parameter::h);
+  EXPECT_EQ(config.sweep.dimensions[1][0].parameter, sweep::Parameter::f);  // stands where f stands
+  EXPECT_EQ(config.sweep.dimensions[1][1].parameter, sweep::Parameter::nu);
   EXPECT_EQ(config.sweep.follow, 1u);  // following one follows them all
   EXPECT_EQ(size(config.sweep), 6u);
 }
@@ -198,7 +198,7 @@ TEST(Set, replaces_an_axis_in_its_place_and_adds_one_at_the_end) {
   const Config config = read_as("a.toml", text, {{"sweep.f", "[1, 2, 3]"}, {"sweep.nu", "5"}});
   ASSERT_EQ(config.sweep.dimensions.size(), 3u);
   EXPECT_EQ(config.sweep.dimensions[0][0].values, std::vector{5.0});
-  EXPECT_EQ(config.sweep.dimensions[2][0].parameter, Parameter::f);
+  EXPECT_EQ(config.sweep.dimensions[2][0].parameter, sweep::Parameter::f);
 }
 
 TEST(Set, gives_the_text_of_the_file_that_says_the_same) {
@@ -229,12 +229,12 @@ TEST(Set, mistakes_name_the_words_of_the_command_line) {
 
 TEST(File, that_cannot_be_read_is_named_with_the_reason) {
   const TemporaryDirectory directory;
-  EXPECT_THROW((void)read_config(directory.prefix() + "none.toml", {}), IoError);
-  EXPECT_THROW((void)read_config(directory.prefix(), {}), IoError);
-  EXPECT_THROW((void)read_config(directory.file("nul.toml", std::string("h = 1\0", 6)), {}), IoError);
+  EXPECT_THROW((void)read_config(directory.prefix() + "none.toml", {}), storage::IoError);
+  EXPECT_THROW((void)read_config(directory.prefix(), {}), storage::IoError);
+  EXPECT_THROW((void)read_config(directory.file("nul.toml", std::string("h = 1\0", 6)), {}), storage::IoError);
   try {
     (void)read_config("/none.toml", {});
-  } catch (const IoError& error) {
+  } catch (const storage::IoError& error) {
     EXPECT_EQ(std::string(error.what()), "/none.toml: cannot be read: No such file or directory");
   }
 }
@@ -265,4 +265,4 @@ TEST(Guard, keeps_from_toml_what_it_does_not_survive) {
 }
 
 }  // namespace
-}  // namespace clatter
+}  // namespace clatter::config

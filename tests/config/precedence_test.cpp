@@ -5,7 +5,7 @@
 
 #include "config/written_config.hpp"
 
-namespace clatter {
+namespace clatter::config {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -153,4 +153,4 @@ TEST(Precedence, nothing_is_noted_where_nothing_gives_way) {
 }
 
 }  // namespace
-}  // namespace clatter
+}  // namespace clatter::config

@@ -6,7 +6,7 @@
 #include "config/wrapped.hpp"
 #include "config/written_config.hpp"
 
-namespace clatter {
+namespace clatter::config {
 namespace {
 
 /// The configuration of an example, with stops where it has none, and something observed.
@@ -18,7 +18,7 @@ Config config_of(const std::string& example) {
 }
 
 void expect_effective(const Config& config) {
-  for (const Warning& warning : config.warnings) ADD_FAILURE() << warning.place << ": " << warning.text;
+  for (const Warning& warning : config.warnings) ADD_FAILURE() << warning.location << ": " << warning.text;
 }
 
 TEST(Examples, of_every_key_are_configurations_in_which_it_has_an_effect) {
@@ -57,4 +57,4 @@ TEST(Wrapped, breaks_at_blanks_before_the_81st_column) {
 }
 
 }  // namespace
-}  // namespace clatter
+}  // namespace clatter::config

@@ -6,7 +6,7 @@
 #include <limits>
 #include <numbers>
 
-namespace clatter {
+namespace clatter::config {
 namespace {
 
 using std::numbers::pi;
@@ -130,4 +130,4 @@ TEST(Mistake, is_found_at_its_column) {
 }
 
 }  // namespace
-}  // namespace clatter
+}  // namespace clatter::config

@@ -5,7 +5,7 @@
 #include "config/defaults.hpp"
 #include "config/written_config.hpp"
 
-namespace clatter {
+namespace clatter::config {
 namespace {
 
 using Lines = std::vector<std::string>;
@@ -16,8 +16,8 @@ Lines warnings_of(const std::string& name, const std::string& text, const std::v
   Lines lines;
   for (const Warning& warning : read_config(directory.file(name, text), changes).warnings) {
     const std::string file = directory.prefix() + name + ':';
-    const bool in_file = warning.place.starts_with(file);
-    lines.push_back((in_file ? warning.place.substr(file.size()) : warning.place) + ": " + warning.text);
+    const bool in_file = warning.location.starts_with(file);
+    lines.push_back((in_file ? warning.location.substr(file.size()) : warning.location) + ": " + warning.text);
   }
   return lines;
 }
@@ -25,11 +25,11 @@ Lines warnings_of(const std::string& name, const std::string& text, const std::v
 /// A configuration that observes something.
 std::string observing(const std::string& text) { return text + "[output]\n[observe]\nextrema = true\n"; }
 
-void expect_warning(const std::string& text, const std::string& place, const std::string& words) {
+void expect_warning(const std::string& text, const std::string& location, const std::string& words) {
   for (const std::string name : {"a.toml", "a.ini"}) {
     const Lines lines = warnings_of(name, text);
     ASSERT_EQ(lines.size(), 1u) << text;
-    EXPECT_TRUE(lines[0].starts_with(place + ": ")) << lines[0];
+    EXPECT_TRUE(lines[0].starts_with(location + ": ")) << lines[0];
     EXPECT_NE(lines[0].find(words), std::string::npos) << lines[0];
   }
 }
@@ -146,4 +146,4 @@ TEST(Warnings, are_none_where_every_default_is_written) {
 }
 
 }  // namespace
-}  // namespace clatter
+}  // namespace clatter::config

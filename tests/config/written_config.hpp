@@ -9,7 +9,7 @@
 
 #include "config/config.hpp"
 
-namespace clatter {
+namespace clatter::config {
 
 /// A directory that lives as long as the test, so that tests can run side by side.
 class TemporaryDirectory {
@@ -54,4 +54,4 @@ inline std::string mistake_in(const std::string& name, const std::string& text,
   return {};
 }
 
-}  // namespace clatter
+}  // namespace clatter::config

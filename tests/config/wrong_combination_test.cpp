@@ -1,6 +1,6 @@
 #include "config/wrong_table.hpp"
 
-namespace clatter {
+namespace clatter::config {
 namespace {
 
 const std::string both = "[scene]\nxs = 1\n[sweep]\nnu = [1, 2]\n";
@@ -129,4 +129,4 @@ TEST(Together, sizes_are_bounded) {
 }
 
 }  // namespace
-}  // namespace clatter
+}  // namespace clatter::config

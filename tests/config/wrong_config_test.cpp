@@ -6,7 +6,7 @@
 #include "config/value_grammar.hpp"
 #include "config/written_config.hpp"
 
-namespace clatter {
+namespace clatter::config {
 namespace {
 
 /// A configuration that is right but for its fourth line, which stands in the section.
@@ -23,8 +23,9 @@ void expect_mistake(const Key& key, const std::string& section, const std::strin
   for (const std::string name : {"a.toml", "a.ini"}) {
     if (formats != "both" && !name.ends_with(formats)) continue;
     const std::string mistake = mistake_in(name, config_with(section, line));
-    const std::string place = name + ":4:" + std::to_string(column) + ": ";
-    EXPECT_TRUE(mistake.starts_with(place)) << key.name << ": " << line << "\ngave " << mistake << "\nnot at " << place;
+    const std::string location = name + ":4:" + std::to_string(column) + ": ";
+    EXPECT_TRUE(mistake.starts_with(location))
+        << key.name << ": " << line << "\ngave " << mistake << "\nnot at " << location;
     EXPECT_NE(mistake.find(words), std::string::npos) << line << "\ngave " << mistake << "\nwithout " << words;
     EXPECT_EQ(mistake.find('\n'), std::string::npos) << mistake;
   }
@@ -118,7 +119,7 @@ TEST(EveryNumber, out_of_its_range_is_refused_with_the_range) {
   int bounded = 0;
   for (const Key& key : keys()) {
     if (!is_numeric(key)) continue;
-    const Range& range = key.range;
+    const AllowedRange& range = key.range;
     const std::string words = "out of range; permitted: " + permitted(key);
     if (range.not_zero) expect_wrong_value(key, "0", words);
     if (std::isfinite(range.low)) expect_wrong_value(key, "-1", words);
@@ -164,14 +165,16 @@ TEST(Integrator, settings_beyond_what_converges_are_refused) {
 TEST(Integrator, settings_within_their_ranges_are_taken) {
   const auto integrator = [](const std::string& lines) { return "[scene]\nxs = 1\n[integrator]\n" + lines; };
   for (const std::string name : {"a.toml", "a.ini"}) {
-    const Integration taken = read_as(name, integrator("method = \"moreau\"\nstep = 1\ntheta = 0\ntolerance = 0.1\n"))
-                                  .sweep.scene.integration;
-    EXPECT_EQ(taken.method, Method::moreau);
+    const stepping::Integration taken =
+        read_as(name, integrator("method = \"moreau\"\nstep = 1\ntheta = 0\ntolerance = 0.1\n"))
+            .sweep.scene.integration;
+    EXPECT_EQ(taken.method, stepping::Method::moreau);
     EXPECT_EQ(taken.step, 1.0);
     EXPECT_EQ(taken.theta, 0.0);
     EXPECT_EQ(taken.tolerance, 0.1);
-    EXPECT_EQ(read_as(name, integrator("method = \"dopri5\"\n")).sweep.scene.integration.method, Method::dopri5);
-    EXPECT_EQ(read_as(name, integrator("")).sweep.scene.integration.method, Method::exact);
+    EXPECT_EQ(read_as(name, integrator("method = \"dopri5\"\n")).sweep.scene.integration.method,
+              stepping::Method::dopri5);
+    EXPECT_EQ(read_as(name, integrator("")).sweep.scene.integration.method, stepping::Method::exact);
   }
 }
 
@@ -211,4 +214,4 @@ TEST(EveryAxis, is_checked_like_the_scene) {
 }
 
 }  // namespace
-}  // namespace clatter
+}  // namespace clatter::config

@@ -37,8 +37,8 @@ inline void require_place(const std::string& path, std::string_view text, const 
 inline bool has_large_axes(std::string_view text) { return std::ranges::count(text, '(') > 3; }
 
 /// Whether two dimensions have the same bits.
-inline bool same_dimension(const Dimension& left, const Dimension& right) {
-  return std::ranges::equal(left, right, [](const Axis& one, const Axis& other) {
+inline bool same_dimension(const sweep::Dimension& left, const sweep::Dimension& right) {
+  return std::ranges::equal(left, right, [](const sweep::Axis& one, const sweep::Axis& other) {
     return one.parameter == other.parameter &&
            std::ranges::equal(std::as_bytes(std::span(one.values)), std::as_bytes(std::span(other.values)));
   });
@@ -48,17 +48,17 @@ inline bool same_dimension(const Dimension& left, const Dimension& right) {
 inline void check_configuration(const std::string& name, const std::string& text) {
   if (has_large_axes(text)) return;
   const std::string path = write(name, text);
-  Config first;
+  config::Config first;
   try {
     first = read_config(path, {});
-  } catch (const ConfigError& error) {
+  } catch (const config::ConfigError& error) {
     return require_place(path, text, error.what());
-  } catch (const IoError&) {  // not text
+  } catch (const storage::IoError&) {  // not text
     return require(text.find('\0') != std::string::npos, "a file that can't be read");
   }
   const std::string complete = write("complete.toml", first.text);
   try {
-    const Config second = read_config(complete, {});
+    const config::Config second = read_config(complete, {});
     require(second.text == first.text, "the complete text gives another:\n" + first.text + "\n---\n" + second.text);
     require(second.title == first.title && second.source == first.source, "the complete text has other texts");
     require(size(second.sweep) == size(first.sweep), "the complete text has another number of points");
@@ -67,7 +67,7 @@ inline void check_configuration(const std::string& name, const std::string& text
     require(second.warnings.size() <= first.warnings.size(), "the complete text is warned of, the text isn't");
     require(std::ranges::equal(first.sweep.dimensions, second.sweep.dimensions, same_dimension),
             "the complete text has other axes");
-  } catch (const ConfigError& error) {
+  } catch (const config::ConfigError& error) {
     finding(std::string("the complete text doesn't read again: ") + error.what() + '\n' + first.text);
   }
 }

@@ -24,7 +24,7 @@
 
 #include "hdf5_damage.hpp"
 #include "instrumented.hpp"
-#include "results/figure_file.hpp"
+#include "results/dataset_file.hpp"
 #include "scratch.hpp"
 #include "storage/error.hpp"
 
@@ -95,7 +95,7 @@ inline void check_reading(std::span<const std::uint8_t> bytes,
   std::string reason = "read";
   try {
     read(path);
-  } catch (const IoError& error) {
+  } catch (const storage::IoError& error) {
     reason = error.what();
     require(reason.find(path) != reason.npos, "a message that doesn't name the file: " + reason);
   }

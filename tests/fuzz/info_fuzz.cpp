@@ -1,6 +1,6 @@
 // `clatter info` on damaged files.
 #include "hdf5_target.hpp"
-#include "results/figure_file.hpp"
+#include "results/dataset_file.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   clatter::fuzz::check_reading({data, size}, [](const std::string& path) { (void)clatter::read_summary(path); });

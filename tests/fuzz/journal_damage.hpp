@@ -16,7 +16,7 @@ namespace clatter::fuzz {
 
 using Records = std::vector<std::string>;
 
-inline const JournalKey journal_key{"[scene]\nxs = -4.0\n", "0.1.0", "avx2", ""};
+inline const storage::JournalKey journal_key{"[scene]\nxs = -4.0\n", "0.1.0", "avx2", ""};
 
 /// Of no bytes, few, more, and again few, so that damage meets heads as well as blocks.
 inline Records written_records() { return {"seven", "", std::string(300, 'x'), "three", std::string(40, '\0')}; }
@@ -24,9 +24,9 @@ inline Records written_records() { return {"seven", "", std::string(300, 'x'), "
 inline std::string journal_path() { return scratch().path("a.h5.journal"); }
 
 /// Opens the journal as a run does; its records. Adds some more.
-inline Records open_journal(Journal::Begin begin, const Records& more = {}) {
+inline Records open_journal(storage::Journal::Begin begin, const Records& more = {}) {
   Records records;
-  Journal journal(scratch().path("a.h5"), journal_key, {1e6}, begin, [&](std::span<const std::byte> bytes) {
+  storage::Journal journal(scratch().path("a.h5"), journal_key, {1e6}, begin, [&](std::span<const std::byte> bytes) {
     records.emplace_back(reinterpret_cast<const char*>(bytes.data()), bytes.size());
   });
   require(journal.has_records() == !records.empty(), "a journal that doesn't know whether it has records");
@@ -36,13 +36,13 @@ inline Records open_journal(Journal::Begin begin, const Records& more = {}) {
 
 /// The bytes of a sound journal.
 inline std::string sound_journal() {
-  (void)open_journal(Journal::Begin::restart, written_records());
+  (void)open_journal(storage::Journal::Begin::restart, written_records());
   return content(journal_path());
 }
 
 /// What happens to the bytes of a journal: what is done, where, and how much of it.
 struct Damage {
-  enum Kind : std::uint8_t { cut, flip, zeros, append, append_zeros, repeat, remove, kinds };
+  enum config::Kind : std::uint8_t { cut, flip, zeros, append, append_zeros, repeat, remove, kinds };
 
   std::uint8_t kind;
   std::array<std::uint8_t, 2> place;

@@ -10,11 +10,11 @@ namespace clatter::fuzz {
 namespace {
 
 /// The journal's records, or nothing where it is refused; then it has to be left as it is.
-std::optional<Records> records_of(const std::string& bytes, Journal::Begin begin) {
+std::optional<Records> records_of(const std::string& bytes, storage::Journal::Begin begin) {
   (void)write("a.h5.journal", bytes);
   try {
     return open_journal(begin);
-  } catch (const IoError&) {
+  } catch (const storage::IoError&) {
     if (!bytes.empty()) require(content(journal_path()) == bytes, "a journal that was refused has changed");
     return std::nullopt;
   }
@@ -23,10 +23,11 @@ std::optional<Records> records_of(const std::string& bytes, Journal::Begin begin
 /// Where it wasn't refused, it can be added to and gives everything again.
 void require_goes_on(const Records& records) {
   const Records more{"nine", ""};
-  require(open_journal(Journal::Begin::anyhow, more) == records, "a journal gives other records the second time");
+  require(open_journal(storage::Journal::Begin::anyhow, more) == records,
+          "a journal gives other records the second time");
   Records all = records;
   all.insert(all.end(), more.begin(), more.end());
-  require(open_journal(Journal::Begin::resume) == all, "a journal lost what was added to it");
+  require(open_journal(storage::Journal::Begin::resume) == all, "a journal lost what was added to it");
 }
 
 /// The header of a sound journal as a record: a copy of it among the records is as sound as they are.
@@ -53,7 +54,7 @@ void check(std::span<const std::uint8_t> input) {
   static const std::string sound = sound_journal();
   const std::uint8_t first = input.empty() ? std::uint8_t{0} : input.front();
   const std::span<const std::uint8_t> rest = input.subspan(std::min<std::size_t>(1, input.size()));
-  const auto begin = static_cast<Journal::Begin>(first / 2 % 3);
+  const auto begin = static_cast<storage::Journal::Begin>(first / 2 % 3);
   if ((first & raw_journal) != 0) {
     const auto records = records_of(std::string(rest.begin(), rest.end()), begin);
     if (records) require_goes_on(*records);
@@ -65,7 +66,7 @@ void check(std::span<const std::uint8_t> input) {
   if (moved) written.push_back(header_record(sound));
   const auto records = records_of(bytes, begin);
   if (!records) return;
-  require(begin != Journal::Begin::restart || records->empty(), "records in spite of --restart");
+  require(begin != storage::Journal::Begin::restart || records->empty(), "records in spite of --restart");
   for (const std::string& record : *records)
     require(std::ranges::find(written, record) != written.end(), "a record that was never written");
   require(moved || (records->size() <= written.size() && std::equal(records->begin(), records->end(), written.begin())),

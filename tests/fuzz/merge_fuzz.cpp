@@ -2,14 +2,14 @@
 #include <string>
 
 #include "hdf5_target.hpp"
-#include "results/seal.hpp"
+#include "results/checksum_trailer.hpp"
 #include "results/shard_file.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace clatter;
   const std::string bytes(reinterpret_cast<const char*>(data), size);
-  const std::string sealed = bytes + seal_of(std::as_bytes(std::span(bytes)));
-  fuzz::check_reading({reinterpret_cast<const std::uint8_t*>(sealed.data()), sealed.size()},
-                      [](const std::string& path) { (void)read_shard_head(path); });
+  const std::string sealed = bytes + checksum_trailer_of(std::as_bytes(std::span(bytes)));
+  check_reading({reinterpret_cast<const std::uint8_t*>(sealed.data()), sealed.size()},
+                [](const std::string& path) { (void)read_shard_header(path); });
   return 0;
 }

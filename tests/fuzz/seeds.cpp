@@ -17,7 +17,7 @@
 #include "config/keys.hpp"
 #include "crafted.hpp"
 #include "journal_damage.hpp"
-#include "results/figure_file.hpp"
+#include "results/dataset_file.hpp"
 
 namespace clatter::fuzz {
 namespace {
@@ -59,15 +59,15 @@ void write_configurations(const fs::path& configs, const fs::path& corpus) {
     write_seed(corpus / "value", "number" + std::to_string(++number), '\0' + value);
     write_seed(corpus / "value", "axis" + std::to_string(number), '\1' + value);
   }
-  write_seed(corpus / "toml", "defaults", default_config(Format::toml));
-  write_seed(corpus / "ini", "defaults", default_config(Format::ini));
+  write_seed(corpus / "toml", "defaults", default_config(config::Format::toml));
+  write_seed(corpus / "ini", "defaults", default_config(config::Format::ini));
 }
 
 /// Words for libFuzzer to put in: all that a configuration can say.
 void write_dictionary(const fs::path& corpus) {
   std::set<std::string> words{"linspace(", "logspace(", "arange(", "pi", "inf", "nan", "true", "false", "[[", "]]"};
   for (const std::string_view section : sections()) words.insert('[' + std::string(section) + ']');
-  for (const Key& key : keys()) {
+  for (const config::Key& key : keys()) {
     words.insert(std::string(key.name) + " = ");
     words.insert(key.choices.begin(), key.choices.end());
   }
@@ -83,7 +83,7 @@ std::vector<double> ramp(std::size_t size) {
 }
 
 /// What a file can have: coordinates, scales without one, flags, integers, texts short and long, deflated values.
-Figure figure(std::size_t points, std::size_t samples) {
+sweep::Dataset figure(std::size_t points, std::size_t samples) {
   const std::vector<std::uint8_t> flags{0, 1, 2, 16, 17, 18};
   const std::string meanings = "periodic aperiodic transient event_budget not_finite unresolved";
   return {{{"nu", points}, {"sample", samples}},
@@ -99,18 +99,18 @@ Figure figure(std::size_t points, std::size_t samples) {
           {{"shard", "0/1"}, {"rounding", "sse2"}}};
 }
 
-Figure scalar() { return {{}, {{"x_min", {}, std::vector<double>{-0.5}, "least displacement", "1"}}}; }
+sweep::Dataset scalar() { return {{}, {{"x_min", {}, std::vector<double>{-0.5}, "least displacement", "1"}}}; }
 
 void write_files(const fs::path& corpus) {
-  Config config;
+  config::Config config;
   config.title = "Größter Ausschlag";
   config.text = "[scene]\nxs = -4.0\n[sweep]\nnu = \"linspace(1, 2, 2)\"\n[observe]\ntrajectory = 2\n";
   const auto seed = [&](const std::string& name, std::string_view bytes) {
     for (const char* const reader : file_readers) write_seed(corpus / reader, name, bytes);
   };
-  const auto write = [&](const std::string& name, Figure what, int compression) {
+  const auto write = [&](const std::string& name, sweep::Dataset what, int compression) {
     config.compression = compression;
-    const FileImage image = file_image(std::move(what), config);
+    const results::FileImage image = file_image(std::move(what), config);
     seed(name, {reinterpret_cast<const char*>(image.bytes.data()), image.bytes.size()});
   };
   write("small", figure(2, 2), 0);

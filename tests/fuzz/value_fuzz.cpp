@@ -16,7 +16,7 @@
 namespace clatter::fuzz {
 namespace {
 
-SourceText source(std::string_view text) { return {text, {"input", 1, 1}, true}; }
+config::SourceText source(std::string_view text) { return {text, {"input", 1, 1}, true}; }
 
 bool same_bits(double left, double right) {
   return std::bit_cast<std::uint64_t>(left) == std::bit_cast<std::uint64_t>(right) ||
@@ -39,7 +39,7 @@ void require_between(std::span<const double> values, double one, double other) {
 }
 
 /// What a function promises, by its own text: "linspace(a, b, n)".
-void check_function(const AxisValues& axis) {
+void check_function(const config::AxisValues& axis) {
   const std::string_view call = std::string_view(axis.text).substr(1, axis.text.size() - 2);
   std::array<double, 3> arguments{};
   std::size_t begin = call.find('(') + 1;
@@ -62,7 +62,7 @@ void check_function(const AxisValues& axis) {
 }
 
 void check_axis(std::string_view text) {
-  const AxisValues axis = parse_axis(source(text));
+  const config::AxisValues axis = parse_axis(source(text));
   require(!axis.values.empty(), "an axis without values");
   const bool is_function = axis.text.starts_with('"');
   if (is_function) {
@@ -73,7 +73,7 @@ void check_axis(std::string_view text) {
   }
   std::string_view again = axis.text;
   if (is_function) again = again.substr(1, again.size() - 2);
-  const AxisValues second = parse_axis(source(again));
+  const config::AxisValues second = parse_axis(source(again));
   require(std::ranges::equal(axis.values, second.values, same_bits), "other values from the text: " + axis.text);
   require(axis.text == second.text, axis.text + " gives " + second.text);
 }

@@ -6,7 +6,8 @@
 #include <limits>
 #include <numbers>
 
-#include "integrators/settle.hpp"
+#include "point/problem.hpp"
+#include "steady/find_steady.hpp"
 #include "support/random.hpp"
 
 namespace clatter::hard {
@@ -14,11 +15,11 @@ namespace clatter::hard {
 /// A scene that nobody chose, drawn by its index alone, and the time in tau it is run for.
 struct AnyScene {
   std::uint64_t index;
-  Scene scene;
+  point::Problem scene;
   double duration;
 };
 
-inline double any_damping(Random& random) {
+inline double any_damping(support::Random& random) {
   const double kind = random.uniform(0, 1);
   if (kind < 0.15) return 0;
   if (kind < 0.20) return 1 + random.sign() * random.logarithmic(1e-14, 1e-2);
@@ -26,20 +27,20 @@ inline double any_damping(Random& random) {
   return random.logarithmic(1e-3, 3);
 }
 
-inline Oscillator any_oscillator(Random& random) {
+inline Oscillator any_oscillator(support::Random& random) {
   const double h = any_damping(random), f = random.happens(0.1) ? 0 : random.sign() * random.logarithmic(0.05, 5);
   const double nu =
       random.happens(0.1) ? 1 + random.sign() * random.logarithmic(1e-15, 0.1) : random.logarithmic(0.1, 10);
   return {h, f, nu, random.happens(0.5) ? 0 : random.uniform(-1.5, 1.5)};
 }
 
-inline double any_restitution(Random& random) {
+inline double any_restitution(support::Random& random) {
   const double kind = random.uniform(0, 1);
   return kind < 0.1 ? 0 : kind < 0.2 ? 1 : random.uniform(kind < 0.3 ? 0.9 : 0, 1);
 }
 
 /// Two unequal stops around 0 or both on one side of it, or one stop.
-inline Stops any_stops(Random& random) {
+inline Stops any_stops(support::Random& random) {
   constexpr double none = std::numeric_limits<double>::infinity();
   const double kind = random.uniform(0, 1), sign = random.sign(), near = random.logarithmic(1e-3, 3),
                far = random.logarithmic(1e-3, 3), R_lower = any_restitution(random), R_upper = any_restitution(random);
@@ -51,7 +52,7 @@ inline Stops any_stops(Random& random) {
 }
 
 /// Between the stops, or on one of them: at rest, moving in or moving out.
-inline Start any_start(Random& random, const Stops& stops) {
+inline Start any_start(support::Random& random, const Stops& stops) {
   const double low = std::isfinite(stops.lower) ? stops.lower : stops.upper - 3;
   const double high = std::isfinite(stops.upper) ? stops.upper : stops.lower + 3;
   const double x = random.uniform(low, high), v = random.sign() * random.logarithmic(1e-2, 3);
@@ -62,12 +63,12 @@ inline Start any_start(Random& random, const Stops& stops) {
 }
 
 [[nodiscard]] inline AnyScene any_scene(std::uint64_t index) {
-  Random random(20230, index);
-  Scene scene;
+  support::Random random(20230, index);
+  point::Problem scene;
   scene.oscillator = any_oscillator(random);
   scene.stops = any_stops(random);
   scene.start = any_start(random, scene.stops);
-  scene.time.mode = Mode::transient;
+  scene.time.mode = steady::Mode::transient;
   scene.time.max_impacts = 2e3;
   scene.time.duration = scene.oscillator.forcing == 0 ? 20.0 : 3.3 * 2 * std::numbers::pi / scene.oscillator.frequency;
   return {index, scene, scene.time.duration};
@@ -77,35 +78,36 @@ inline Start any_start(Random& random, const Stops& stops) {
 struct Watcher {
   template <class A>
   void arc(const A&, double, double) {}
-  void rest(const Rest&) {}
-  void impact(const Impact&) {}
-  void section(const State<double>&) {}  ///< the end of a section, and of the run
+  void rest(const motion::Rest&) {}
+  void impact(const motion::Impact&) {}
+  void section(const motion::State<double>&) {}  ///< the end of a section, and of the run
 };
 
 /// Runs a scene from its start, from section to section, for its duration.
 template <class Integrator, class W>
-[[nodiscard]] Outcome watch(Integrator& integrator, State<double>& state, double duration, W& watcher) {
+[[nodiscard]] stepping::Outcome watch(Integrator& integrator, motion::State<double>& state, double duration,
+                                      W& watcher) {
   for (double turns = duration / integrator.period(); turns > 0; turns -= 1) {
-    const Outcome outcome = integrator.advance(state, std::min(turns, 1.0), state.periods, watcher);
-    if (outcome != Outcome::completed) return outcome;
+    const stepping::Outcome outcome = integrator.advance(state, std::min(turns, 1.0), state.periods, watcher);
+    if (outcome != stepping::Outcome::completed) return outcome;
     watcher.section(state);
     if (turns >= 1) state.turns = 0, ++state.periods;
   }
-  return Outcome::completed;
+  return stepping::Outcome::completed;
 }
 
-[[nodiscard]] inline State<double> start_of(const Scene& scene) {
-  State<double> state;
+[[nodiscard]] inline motion::State<double> start_of(const point::Problem& scene) {
+  motion::State<double> state;
   state.x = scene.start.displacement, state.v = scene.start.velocity;
   return state;
 }
 
 /// Runs a scene under the eyes of a watcher.
 template <class W>
-[[nodiscard]] Outcome watch(const AnyScene& any, W& watcher) {
+[[nodiscard]] stepping::Outcome watch(const AnyScene& any, W& watcher) {
   return with_any_stops(any.scene.oscillator, [&]<Effects effects>() {
-    Exact<double, effects> integrator(any.scene);
-    State<double> state = start_of(any.scene);
+    stepping::Exact<double, effects> integrator(any.scene, limits_of(any.scene));
+    motion::State<double> state = start_of(any.scene);
     return watch(integrator, state, any.duration, watcher);
   });
 }

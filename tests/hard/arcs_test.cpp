@@ -7,7 +7,7 @@
 #include <iomanip>
 #include <iostream>
 
-#include "numbers/fifty_digits.hpp"
+#include "math/fifty_digits.hpp"
 #include "support/motion.hpp"
 #include "support/random.hpp"
 #include "support/scene_range.hpp"
@@ -17,14 +17,14 @@ namespace {
 
 struct ArcScene {
   Oscillator oscillator;
-  ArcStart start;
+  support::ArcStart start;
   double s;  ///< length of the arc: at most a forcing period, as in every run
 };
 
 /// Everything log-uniform: h from 1e-300 to 1e3 and to both sides of 1, nu from 1e-6 to 1e6 and to both sides of 1 down
 /// to an ulp, lengths from 1e-12 to 1e12 and forces, loads and speeds a thousand times more or less.
 ArcScene random_arc(std::uint64_t index) {
-  Random random(20234, index);
+  support::Random random(20234, index);
   const double kind = random.uniform(0, 1), ulp = epsilon<double>();
   const double h = kind < 0.1    ? 0
                    : kind < 0.3  ? random.logarithmic(1e-300, 1e-3)
@@ -45,9 +45,9 @@ ArcScene random_arc(std::uint64_t index) {
 /// Errors of displacement, velocity, acceleration and rise, each over its natural scale: what start, load and force
 /// make of it, in the time that there is and with the damping that there is.
 struct ArcError {
-  double x, v, a, rise;
+  double x, v, a, offset;
 
-  [[nodiscard]] double largest() const { return std::max({x, v, a, rise}); }
+  [[nodiscard]] double largest() const { return std::max({x, v, a, offset}); }
 };
 
 ArcError error_of(const ArcScene& scene) {
@@ -60,9 +60,9 @@ ArcError error_of(const ArcScene& scene) {
   const double response = f * std::min(1 / std::hypot((1 - nu) * (1 + nu), 2 * h * nu), s * s / 2);
   const double moved = v0 * acting + response, x = std::max(x0, size(exact.x)) + load + moved,
                v = v0 + size(exact.v) + (x0 + load + f) * acting, a = x + f + 2 * h * v,
-               rise = moved + std::max(size(exact.rise), (x0 + load) * std::min(s * s / 2, 1.0));
+               offset = moved + std::max(size(exact.offset), (x0 + load) * std::min(s * s / 2, 1.0));
   return {size(rounded.x - exact.x) / x, size(rounded.v - exact.v) / v, size(rounded.a - exact.a) / a,
-          size(rounded.rise - exact.rise) / rise};
+          size(rounded.offset - exact.offset) / offset};
 }
 
 std::ostream& operator<<(std::ostream& out, const ArcScene& scene) {
@@ -73,7 +73,7 @@ std::ostream& operator<<(std::ostream& out, const ArcScene& scene) {
 }
 
 TEST(Arcs, agree_with_fifty_digits_on_random_scenes) {
-  const SceneRange range = scene_range(100'000);
+  const support::SceneRange range = support::scene_range(100'000);
   double worst = 0;
   std::uint64_t worst_index = range.from;
   for (std::uint64_t index = range.from; index < range.to; ++index) {

@@ -9,30 +9,30 @@ namespace {
 
 constexpr double pi_ = std::numbers::pi, infinity = std::numeric_limits<double>::infinity();
 
-Scene symmetric(const Oscillator& oscillator, double xs, double R) {
-  Scene scene;
+point::Problem symmetric(const Oscillator& oscillator, double xs, double R) {
+  point::Problem scene;
   scene.oscillator = oscillator;
   scene.stops = {-xs, xs, R, R};
   return scene;
 }
 
-Scene starting(Scene scene, const Start& start) {
+point::Problem starting(point::Problem scene, const Start& start) {
   scene.start = start;
   return scene;
 }
 
 /// On the linear steady state of h = 0.1, f = 1, nu = 1.5, the stops at its amplitude times 1 - past.
-Scene grazing(double past) {
+point::Problem grazing(double past) {
   const double amplitude = 0.777909841584413976;
   return starting(symmetric({0.1, 1.0, 1.5, 0.0}, amplitude * (1 - past), 0.7),
                   {-0.181543116490166415, -1.13464447806354009, 0.0});
 }
 
 /// Pressed onto the upper stop by a load, from the middle between the stops.
-Scene pressed(double R) { return symmetric({0.0, 0.0, 1.0, 1.0}, 0.5, R); }
+point::Problem pressed(double R) { return symmetric({0.0, 0.0, 1.0, 1.0}, 0.5, R); }
 
 /// Free vibration through |x'| = 1.5 between stops at 0.75: a contact at asin(0.5) and then every 2 asin(0.5).
-Scene free_vibration() { return starting(symmetric({0.0, 0.0, 1.0, 0.0}, 0.75, 1.0), {0.0, 1.5, 0.0}); }
+point::Problem free_vibration() { return starting(symmetric({0.0, 0.0, 1.0, 0.0}, 0.75, 1.0), {0.0, 1.5, 0.0}); }
 
 const Oscillator slow_force{0.1, 1.0, 0.5, 0.0};  // with stops at 0.5: chatter and rest
 const double chatter_end = 4.4158803670592697;    // of slow_force, R = 0.5, from rest
@@ -40,7 +40,7 @@ const double chatter_end = 4.4158803670592697;    // of slow_force, R = 0.5, fro
 std::vector<Case> all_cases() {
   const double graze_period = 2 * pi_ / 1.5, half_period = 2 * pi_;
   std::vector<Case> all;
-  const auto add = [&all](const char* row, const char* what, const Scene& scene, double duration) {
+  const auto add = [&all](const char* row, const char* what, const point::Problem& scene, double duration) {
     all.push_back({row, what, scene, duration});
   };
   add("graze", "1e-2 past", grazing(1e-2), 4 * graze_period);
@@ -58,7 +58,7 @@ std::vector<Case> all_cases() {
   add(
       "chatter_and_rest", "stops of unlike R",
       [] {
-        Scene scene = symmetric({0.05, 1.0, 0.4, -0.2}, 0.3, 0.8);
+        point::Problem scene = symmetric({0.05, 1.0, 0.4, -0.2}, 0.3, 0.8);
         scene.stops.restitution_upper = 0.3;
         return scene;
       }(),

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "dynamics/scene.hpp"
+#include "point/problem.hpp"
 
 namespace clatter::hard {
 
@@ -11,7 +11,7 @@ namespace clatter::hard {
 struct Case {
   std::string row;   ///< of the table of hard cases, and the name of the file that tests it
   std::string what;  ///< which one of the row
-  Scene scene;
+  point::Problem scene;
   double duration;
 };
 

@@ -13,13 +13,13 @@ TEST(ChatterAndRest, agrees_with_fifty_digits) { expect_agreement("chatter_and_r
 
 TEST(ChatterAndRest, has_its_known_times) {
   const Case& one = case_of("chatter_and_rest", "R = 0.5");
-  const Course course = course_of(one.scene, 9.0);
-  const auto& events = course.events;
+  const accuracy::RunRecord record = accuracy::record_of(one.scene, 9.0);
+  const auto& events = record.events;
   EXPECT_NEAR(events.at(0).time, 2.0515931595927638, 1e-14);
   EXPECT_NEAR(events.at(0).speed, 0.57647176137699961, 1e-14);
   EXPECT_NEAR(events.at(1).time, 3.1907700695690808, 1e-14);
-  const Event &rest = events.at(events.size() - 2), &last = events.back();
-  ASSERT_EQ(rest.kind, Event::Kind::rest);
+  const accuracy::Event &rest = events.at(events.size() - 2), &last = events.back();
+  ASSERT_EQ(rest.kind, accuracy::Event::Kind::rest);
   EXPECT_NEAR(rest.time, 4.4158803670592697, 1e-14);
   EXPECT_NEAR(rest.time + rest.length, 5 * std::numbers::pi / 3, 1e-14);
   EXPECT_EQ(last.side, Side::lower);

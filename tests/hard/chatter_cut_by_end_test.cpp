@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "hard/measure.hpp"
-#include "integrators/exact.hpp"
-#include "integrators/run.hpp"
+#include "stepping/exact.hpp"
+#include "stepping/run.hpp"
 
 namespace clatter::hard {
 namespace {
@@ -14,30 +14,30 @@ TEST(ChatterCutByEnd, agrees_with_fifty_digits) { expect_agreement("chatter_cut_
 TEST(ChatterCutByEnd, ends_in_flight_however_near_the_end_of_the_chatter_is) {
   for (const char* what : {"in its first flight", "1e-3 before its end", "1e-9 before its end"}) {
     const Case& one = case_of("chatter_cut_by_end", what);
-    const Course course = course_of(one.scene, one.duration);
-    for (const Event& event : course.events) EXPECT_EQ(event.kind, Event::Kind::impact) << what;
-    EXPECT_NE(course.v, 0.0) << what;
-    EXPECT_LE(course.x, one.scene.stops.upper) << what;
+    const accuracy::RunRecord record = accuracy::record_of(one.scene, one.duration);
+    for (const accuracy::Event& event : record.events) EXPECT_EQ(event.kind, accuracy::Event::Kind::impact) << what;
+    EXPECT_NE(record.v, 0.0) << what;
+    EXPECT_LE(record.x, one.scene.stops.upper) << what;
   }
 }
 
 TEST(ChatterCutByEnd, leaves_the_motion_after_it_as_it_is) {
   // sections cut the run wherever they lie: put one 1e-4 ... 1e-13 before the end of the chatter
   const Case& whole = case_of("chatter_and_rest", "R = 0.5");
-  const Event expected = course_of(whole.scene, 9.0).events.back();
+  const accuracy::Event expected = accuracy::record_of(whole.scene, 9.0).events.back();
   const double chatter_end = 4.4158803670592697, period = 2 * pi<double>() / whole.scene.oscillator.frequency;
   for (double before : {1e-4, 1e-7, 1e-10, 1e-13}) {
-    Scene scene = whole.scene;
+    point::Problem scene = whole.scene;
     const auto cut = [&]<Effects effects>() {
-      Exact<double, effects> integrator(scene);
-      State<double> state;
-      NoObserver nobody;
-      EXPECT_EQ(integrator.advance(state, (chatter_end - before) / period, 0, nobody), Outcome::completed);
-      EXPECT_EQ(integrator.advance(state, (expected.time + 1e-3) / period, 0, nobody), Outcome::completed);
+      stepping::Exact<double, effects> integrator(scene, limits_of(scene));
+      motion::State<double> state;
+      stepping::NoObserver nobody;
+      EXPECT_EQ(integrator.advance(state, (chatter_end - before) / period, 0, nobody), stepping::Outcome::completed);
+      EXPECT_EQ(integrator.advance(state, (expected.time + 1e-3) / period, 0, nobody), stepping::Outcome::completed);
       return state;
     };
-    const State<double> state = cut.operator()<kernels::complete(Damping::light, Forcing::regular)>();
-    const Course uncut = course_of(scene, expected.time + 1e-3);
+    const motion::State<double> state = cut.operator()<effect_sets::complete(Damping::light, Forcing::regular)>();
+    const accuracy::RunRecord uncut = accuracy::record_of(scene, expected.time + 1e-3);
     EXPECT_NEAR(state.x, uncut.x, 1e-14) << before;
     EXPECT_NEAR(state.v, uncut.v, 1e-14) << before;
   }

@@ -11,9 +11,9 @@ TEST(ChatterUnderFastForce, agrees_with_fifty_digits) { expect_agreement("chatte
 
 TEST(ChatterUnderFastForce, is_not_completed_while_the_force_turns_round) {
   for (const Case& one : cases_of("chatter_under_fast_force")) {
-    const Course course = course_of(one.scene, one.duration);
-    EXPECT_GE(course.events.size(), 2u) << one.what;
-    for (const Event& event : course.events) EXPECT_EQ(event.kind, Event::Kind::impact) << one.what;
+    const accuracy::RunRecord record = accuracy::record_of(one.scene, one.duration);
+    EXPECT_GE(record.events.size(), 2u) << one.what;
+    for (const accuracy::Event& event : record.events) EXPECT_EQ(event.kind, accuracy::Event::Kind::impact) << one.what;
   }
 }
 

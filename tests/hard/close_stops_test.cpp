@@ -20,10 +20,10 @@ TEST(CloseStops, agrees_with_fifty_digits) {
 
 TEST(CloseStops, are_hit_one_after_the_other_with_R_times_the_speed) {
   const Case& one = case_of("close_stops", "2e-9 apart, R = 0.9");
-  const Course course = course_of(one.scene, one.duration);
-  ASSERT_GT(course.events.size(), 30u);
-  for (std::size_t i = 1; i < course.events.size(); ++i) {
-    const Event &before = course.events[i - 1], &event = course.events[i];
+  const accuracy::RunRecord record = accuracy::record_of(one.scene, one.duration);
+  ASSERT_GT(record.events.size(), 30u);
+  for (std::size_t i = 1; i < record.events.size(); ++i) {
+    const accuracy::Event &before = record.events[i - 1], &event = record.events[i];
     EXPECT_EQ(sign_of(event.side), -sign_of(before.side));
     EXPECT_NEAR(event.speed, 0.9 * before.speed, 1e-6 * before.speed);  // the force has 1e-6 of time to act
     if (i == 1) {

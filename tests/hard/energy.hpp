@@ -13,10 +13,11 @@ namespace clatter::hard {
 /// take out, is what E has grown by.
 class EnergyBooks : public Watcher {
  public:
-  explicit EnergyBooks(const Scene& scene) : EnergyBooks(scene, scene.start.displacement, scene.start.velocity) {}
+  explicit EnergyBooks(const point::Problem& scene)
+      : EnergyBooks(scene, scene.start.displacement, scene.start.velocity) {}
 
   /// Of a motion that is at displacement x and velocity v when it is first seen.
-  EnergyBooks(const Scene& scene, double x, double v)
+  EnergyBooks(const point::Problem& scene, double x, double v)
       : oscillator_(scene.oscillator), begin_(energy(x, v)), before_(begin_) {
     meet(x, v);
   }
@@ -29,20 +30,20 @@ class EnergyBooks : public Watcher {
       meet(m.x, m.v);
       return f * m.v * m.sine - 2 * h * m.v * m.v;
     };
-    gain(integral(arc, length, 2 * arc.flow().rate, power, size), size);
+    gain(integral(arc, length, 2 * arc.constants().rate, power, size), size);
   }
-  void impact(const Impact& impact) {
-    meet(impact.place, impact.before);
+  void impact(const motion::Impact& impact) {
+    meet(impact.position, impact.before);
     const double loss = (impact.before - impact.after) * (impact.before + impact.after) / 2;
     gain(-loss, loss);
     rebound_ = impact.after;
   }
-  void rest(const Rest&) {  // a chatter takes what its last rebound left; before other rests that is nothing
+  void rest(const motion::Rest&) {  // a chatter takes what its last rebound left; before other rests that is nothing
     const double left = rebound_ * rebound_ / 2;
     gain(-left, left);
     rebound_ = 0;
   }
-  void section(const State<double>& state) {
+  void section(const motion::State<double>& state) {
     meet(state.x, state.v);
     const double now = energy(state.x, state.v);
     all_gained_ += gained_, all_moved_ += moved_;

@@ -15,7 +15,7 @@ TEST(GrazeFromRest, agrees_with_fifty_digits) { expect_agreement("graze_from_res
 TEST(GrazeFromRest, contact_is_where_the_closed_form_meets_the_stop) {
   for (const char* what : {"1e-2 past", "1e-6 past", "1e-12 past"}) {
     const Case& one = case_of("graze_from_rest", what);
-    const Event contact = course_of(one.scene, one.duration).events.at(0);
+    const accuracy::Event contact = accuracy::record_of(one.scene, one.duration).events.at(0);
     const long double tau = contact.time, x = (2 * sinl(tau) - sinl(2 * tau)) / 3,
                       v = 2 * (cosl(tau) - cosl(2 * tau)) / 3;
     EXPECT_LT(contact.time, 2 * std::numbers::pi / 3) << what;  // until there x grows: this contact is the first
@@ -27,7 +27,7 @@ TEST(GrazeFromRest, contact_is_where_the_closed_form_meets_the_stop) {
 
 TEST(GrazeFromRest, a_miss_by_1e_12_is_a_miss) {
   const Case& miss = case_of("graze_from_rest", "missed by 1e-12");
-  EXPECT_TRUE(course_of(miss.scene, miss.duration).events.empty());
+  EXPECT_TRUE(accuracy::record_of(miss.scene, miss.duration).events.empty());
 }
 
 }  // namespace

@@ -21,7 +21,7 @@ TEST(Graze, first_contact_has_its_time_and_speed) {
               {"1e-6 past", 1e-6, 0.88922475492920602},
               {"1e-10 past", 1e-10, 0.89015813595893962}};
   for (const auto& [what, past, time] : rows) {
-    const Event first = course_of(case_of("graze", what).scene, 1.0).events.at(0);
+    const accuracy::Event first = accuracy::record_of(case_of("graze", what).scene, 1.0).events.at(0);
     const double speed = nu * amplitude * std::sqrt(past * (2 - past));
     EXPECT_EQ(first.side, Side::lower);
     // an ulp of the amplitude moves the time by it over the speed, and the speed by the acceleration times that
@@ -33,9 +33,9 @@ TEST(Graze, first_contact_has_its_time_and_speed) {
 
 TEST(Graze, a_miss_by_1e_12_is_a_miss_ten_thousand_times) {
   const Case& miss = case_of("graze", "missed by 1e-12");
-  const Course course = course_of(miss.scene, miss.duration);
-  EXPECT_EQ(course.outcome, Outcome::completed);
-  EXPECT_TRUE(course.events.empty());
+  const accuracy::RunRecord record = accuracy::record_of(miss.scene, miss.duration);
+  EXPECT_EQ(record.outcome, stepping::Outcome::completed);
+  EXPECT_TRUE(record.events.empty());
 }
 
 }  // namespace

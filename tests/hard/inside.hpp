@@ -13,7 +13,7 @@ namespace clatter::hard {
 /// that a section cuts keeps the scale it had before.
 class BeyondStops : public Watcher {
  public:
-  explicit BeyondStops(const Scene& scene) : oscillator_(scene.oscillator), stops_(scene.stops) {}
+  explicit BeyondStops(const point::Problem& scene) : oscillator_(scene.oscillator), stops_(scene.stops) {}
 
   template <class A>
   void arc(const A& arc, double, double length) {
@@ -21,8 +21,8 @@ class BeyondStops : public Watcher {
     look(arc, length);
     flight_ = scale_;
   }
-  void impact(const Impact&) { flight_ = 0; }
-  void rest(const Rest&) { flight_ = 0; }
+  void impact(const motion::Impact&) { flight_ = 0; }
+  void rest(const motion::Rest&) { flight_ = 0; }
 
   [[nodiscard]] double ulps() const { return ulps_; }
 
@@ -33,7 +33,7 @@ class BeyondStops : public Watcher {
   void look(const A& arc, double s) {
     const auto m = arc.at(s);
     const auto& start = arc.start();
-    const double amplitude = arc.flow().response.amplitude, f = std::abs(oscillator_.forcing);
+    const double amplitude = arc.constants().response.amplitude, f = std::abs(oscillator_.forcing);
     const double response = (amplitude > 0 ? amplitude : f * s) * (1 + oscillator_.frequency * s);  // f s: resonance
     scale_ = std::max(flight_, std::abs(oscillator_.load) + std::abs(arc.anchor()) + response + std::abs(start.free_x) +
                                    std::abs(start.free_v) + std::abs(m.v) * s);
@@ -51,13 +51,13 @@ class ToldPlaces : public Watcher {
  public:
   explicit ToldPlaces(const Stops& stops) : stops_(stops) {}
 
-  void rest(const Rest& rest) {
-    right_ = right_ && rest.place == (rest.side == Side::upper ? stops_.upper : stops_.lower);
+  void rest(const motion::Rest& rest) {
+    right_ = right_ && rest.position == (rest.side == Side::upper ? stops_.upper : stops_.lower);
   }
-  void impact(const Impact& impact) {
-    right_ = right_ && impact.place == (impact.side == Side::upper ? stops_.upper : stops_.lower);
+  void impact(const motion::Impact& impact) {
+    right_ = right_ && impact.position == (impact.side == Side::upper ? stops_.upper : stops_.lower);
   }
-  void section(const State<double>& state) { see(state.x); }
+  void section(const motion::State<double>& state) { see(state.x); }
   void see(double x) { right_ = right_ && x >= stops_.lower && x <= stops_.upper; }
 
   [[nodiscard]] bool right() const { return right_; }

@@ -7,7 +7,7 @@
 #include <iostream>
 
 #include "hard/measure.hpp"
-#include "integrators/settle.hpp"
+#include "steady/find_steady.hpp"
 
 namespace clatter::hard {
 namespace {
@@ -18,8 +18,8 @@ struct Drift {
 
   template <class A>
   void arc(const A&, double, double) {}
-  void rest(const Rest&) {}
-  void impact(const Impact& impact) {
+  void rest(const motion::Rest&) {}
+  void impact(const motion::Impact& impact) {
     slowest = std::min(slowest, std::abs(impact.before)), fastest = std::max(fastest, std::abs(impact.before));
     last = impact.time, ++count;
   }
@@ -35,10 +35,11 @@ TEST(Long, conservative_impacts_neither_gain_nor_lose_speed) {
   Case one = case_of("long", "conservative impacts");
   const double count = impacts_to_take(), between = 2 * std::asin(0.5);
   one.scene.time.max_impacts = 2 * count;
-  Exact<double, kernels::complete(Damping::none, Forcing::none)> integrator(one.scene);
-  State<double> state{0.0, one.scene.start.velocity};
+  stepping::Exact<double, effect_sets::complete(Damping::none, Forcing::none)> integrator(one.scene,
+                                                                                          limits_of(one.scene));
+  motion::State<double> state{0.0, one.scene.start.velocity};
   Drift drift;
-  ASSERT_EQ(run_for(integrator, state, count * between / integrator.period(), drift), Outcome::completed);
+  ASSERT_EQ(run_for(integrator, state, count * between / integrator.period(), drift), stepping::Outcome::completed);
   EXPECT_EQ(drift.count, count);
   const double speed = std::sqrt(1.5 * 1.5 - 0.75 * 0.75), off = std::max(drift.fastest - speed, speed - drift.slowest);
   std::cout << count << " impacts, speed off by " << off / speed << ", last time by "
@@ -46,8 +47,8 @@ TEST(Long, conservative_impacts_neither_gain_nor_lose_speed) {
   EXPECT_LE(off / speed, 1e-10 * count / 1e8);  // a rounding an impact, were they all of one sign
   EXPECT_NEAR(drift.last / ((count - 0.5) * between), 1.0, 1e-10 * count / 1e8);
   Measured m;
-  m.course.outcome = Outcome::completed, m.course.impacts = drift.count,
-  m.course.evaluations = integrator.evaluations();
+  m.record.outcome = stepping::Outcome::completed, m.record.impacts = drift.count,
+  m.record.evaluations = integrator.evaluations();
   m.error = off / speed;
   report(one, m);
 }
@@ -55,14 +56,15 @@ TEST(Long, conservative_impacts_neither_gain_nor_lose_speed) {
 TEST(Long, ten_million_forcing_periods_keep_the_phase) {
   // on the linear steady state the mass is at every section where it was at the first; a phase off by 1e-15 would show
   const Case& one = case_of("long", "1e7 forcing periods");
-  Exact<double, kernels::complete(Damping::light, Forcing::regular)> integrator(one.scene);
-  State<double> state{one.scene.start.displacement, one.scene.start.velocity};
-  NoObserver nobody;
-  ASSERT_EQ(run_for(integrator, state, 1e7, nobody), Outcome::completed);
+  stepping::Exact<double, effect_sets::complete(Damping::light, Forcing::regular)> integrator(one.scene,
+                                                                                              limits_of(one.scene));
+  motion::State<double> state{one.scene.start.displacement, one.scene.start.velocity};
+  stepping::NoObserver nobody;
+  ASSERT_EQ(run_for(integrator, state, 1e7, nobody), stepping::Outcome::completed);
   EXPECT_EQ(state.periods, 10'000'000);
   EXPECT_EQ(state.turns, 0.0);
   Measured m;
-  m.course.outcome = Outcome::completed, m.course.evaluations = integrator.evaluations();
+  m.record.outcome = stepping::Outcome::completed, m.record.evaluations = integrator.evaluations();
   m.error = std::max(std::abs(state.x - one.scene.start.displacement), std::abs(state.v - one.scene.start.velocity));
   EXPECT_LE(m.error, 1e-15);
   report(one, m);

@@ -11,7 +11,7 @@
 namespace clatter::hard {
 namespace {
 
-const char* name_of(Outcome outcome) {
+const char* name_of(stepping::Outcome outcome) {
   static const char* const names[] = {"completed", "event_budget", "not_finite", "unresolved"};
   return names[static_cast<int>(outcome)];
 }
@@ -23,20 +23,20 @@ void report(const Case& one, const Measured& m) {
   if (name == nullptr) return;
   std::ofstream file(name, std::ios::app);
   file << "{\"row\": \"" << one.row << "\", \"what\": \"" << one.what << "\", \"outcome\": \""
-       << name_of(m.course.outcome) << "\", \"impacts\": " << m.course.impacts << ", \"rests\": " << m.rests
-       << ", \"evaluations\": " << m.course.evaluations << ", \"error\": " << m.error << ", \"one_ulp\": " << m.one_ulp
+       << name_of(m.record.outcome) << "\", \"impacts\": " << m.record.impacts << ", \"rests\": " << m.rests
+       << ", \"evaluations\": " << m.record.evaluations << ", \"error\": " << m.error << ", \"one_ulp\": " << m.one_ulp
        << "}\n";
   if (!file.flush()) throw std::runtime_error(std::string("cannot write ") + name);
 }
 
 Measured expect_agreement(const Case& one, double rounding) {
   Measured m;
-  m.course = course_of(one.scene, one.duration);
-  const Course reference = reference_of(one.scene, one.duration);
-  const Deviation d = deviation(m.course, reference);
-  m.error = d.largest(), m.one_ulp = conditioning(one.scene, reference);
+  m.record = accuracy::record_of(one.scene, one.duration);
+  const accuracy::RunRecord reference = accuracy::reference_of(one.scene, one.duration);
+  const support::Deviation d = support::deviation(m.record, reference);
+  m.error = d.largest(), m.one_ulp = support::conditioning(one.scene, reference);
   m.impacts = d.impacts, m.chatters = d.chatters, m.rests = d.rests;
-  EXPECT_EQ(m.course.outcome, Outcome::completed) << one.row << ", " << one.what;
+  EXPECT_EQ(m.record.outcome, stepping::Outcome::completed) << one.row << ", " << one.what;
   EXPECT_TRUE(d.same_events) << one.row << ", " << one.what << ": " << d.difference;
   EXPECT_LE(m.error, 64 * std::max(m.one_ulp, rounding)) << one.row << ", " << one.what;
   report(one, m);

@@ -10,7 +10,7 @@ namespace clatter::hard {
 
 /// What a hard case gave: the figures of its line in the README.
 struct Measured {
-  Course course;
+  accuracy::RunRecord record;
   double error = 0.0;  ///< largest error of a time, a speed or the end, each relative (see Deviation)
   double one_ulp = std::numeric_limits<double>::quiet_NaN();  ///< what moving the inputs by one ulp does to the same;
                                                               ///< NaN: not measured

@@ -30,12 +30,12 @@ TEST(NearElasticChatter, ends_where_the_sum_of_its_flights_says) {
     const Case& one = case_of("near_elastic_chatter", what);
     const double R = one.scene.stops.restitution_upper, end = static_cast<double>(end_of_chatter(R));
     Measured m;
-    m.course = course_of(one.scene, one.duration);
-    ASSERT_EQ(m.course.outcome, Outcome::completed) << what;
-    ASSERT_EQ(m.course.events.back().kind, Event::Kind::rest) << what;
-    for (const Event& event : m.course.events) {
-      if (event.kind == Event::Kind::impact) ++m.impacts;
-      if (event.kind != Event::Kind::rest || m.rests == 1) continue;  // the others go on with it
+    m.record = accuracy::record_of(one.scene, one.duration);
+    ASSERT_EQ(m.record.outcome, stepping::Outcome::completed) << what;
+    ASSERT_EQ(m.record.events.back().kind, accuracy::Event::Kind::rest) << what;
+    for (const accuracy::Event& event : m.record.events) {
+      if (event.kind == accuracy::Event::Kind::impact) ++m.impacts;
+      if (event.kind != accuracy::Event::Kind::rest || m.rests == 1) continue;  // the others go on with it
       m.rests = 1;
       m.error = std::abs(event.time - end) / one.duration;
       EXPECT_NEAR(event.time / end, 1.0, 1e-12) << what;
@@ -45,7 +45,7 @@ TEST(NearElasticChatter, ends_where_the_sum_of_its_flights_says) {
         std::abs(static_cast<double>(end_of_chatter(R * (1 - epsilon<double>())) - end_of_chatter(R))) / one.duration;
     EXPECT_LE(m.error, 64 * m.one_ulp) << what;
     // speeds fall by R from 1 to the cube root of rounding times 1 - R, where the sum is as good as its flights
-    EXPECT_LE(m.course.impacts, 30 / (1 - R)) << what;
+    EXPECT_LE(m.record.impacts, 30 / (1 - R)) << what;
     if (one.what != "R = 0.99") report(one, m);
   }
 }

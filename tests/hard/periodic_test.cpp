@@ -22,7 +22,7 @@ constexpr std::size_t highest = 3;  ///< harmonic
 
 /// A period of a motion, seen in three ways.
 struct Period : Watcher {
-  Period(const Scene& scene, const State<double>& from, double length, double base_)
+  Period(const point::Problem& scene, const motion::State<double>& from, double length, double base_)
       : base(base_), by_parts(highest, base_), books(scene, from.x, from.v), total(length) {}
 
   template <class A>
@@ -32,32 +32,32 @@ struct Period : Watcher {
       const double w = base * static_cast<double>(k);
       double part = 0;
       by_quadrature[k] += integral(
-                              arc, length, arc.flow().rate + w,
+                              arc, length, arc.constants().rate + w,
                               [&](const auto& m, double s) { return m.x * std::polar(1.0, -w * (begin + s)); }, part) /
                           total;
       if (k == 0) size += part / total;
     }
   }
-  void rest(const Rest& rest) { rests = true, by_parts.rest(rest); }
-  void impact(const Impact& impact) { impacts.push_back(impact), books.impact(impact); }
+  void rest(const motion::Rest& rest) { rests = true, by_parts.rest(rest); }
+  void impact(const motion::Impact& impact) { impacts.push_back(impact), books.impact(impact); }
   /// Whether an impact is so soft that its speed is known to the square root of rounding.
   [[nodiscard]] bool grazes() const {
     return std::any_of(impacts.begin(), impacts.end(),
-                       [&](const Impact& i) { return std::abs(i.before) < 1e-6 * size; });
+                       [&](const motion::Impact& i) { return std::abs(i.before) < 1e-6 * size; });
   }
   /// The largest of a displacement and velocity and of the impacts' velocities.
-  [[nodiscard]] double fastest(const State<double>& state) const {
+  [[nodiscard]] double fastest(const motion::State<double>& state) const {
     double largest = std::max(std::abs(state.x), std::abs(state.v));
-    for (const Impact& impact : impacts) largest = std::max(largest, std::abs(impact.before));
+    for (const motion::Impact& impact : impacts) largest = std::max(largest, std::abs(impact.before));
     return largest;
   }
-  void finish(const State<double>& state) { by_parts.finish(state.x, total), books.section(state); }
+  void finish(const motion::State<double>& state) { by_parts.finish(state.x, total), books.section(state); }
 
   double base;
-  ExactHarmonics by_parts;
+  observables::ExactHarmonics by_parts;
   std::array<Complex, highest + 1> by_quadrature{};
   EnergyBooks books;
-  std::vector<Impact> impacts{};
+  std::vector<motion::Impact> impacts{};
   double total, size = 0;  ///< mean of |x|
   bool rests = false;
 };
@@ -68,11 +68,11 @@ struct Shares {
   double size;
 };
 
-Shares shares_of(const Scene& scene, const Period& period, std::size_t k) {
+Shares shares_of(const point::Problem& scene, const Period& period, std::size_t k) {
   const auto& [h, f, nu, load] = scene.oscillator;
   Shares shares{k == 0 ? Complex(load) : k == 1 ? f * std::polar(0.5, scene.start.phase - std::numbers::pi / 2) : 0, 0};
   shares.size = std::abs(shares.sum);
-  for (const Impact& impact : period.impacts) {
+  for (const motion::Impact& impact : period.impacts) {
     const double jump = (impact.after - impact.before) / period.total;
     shares.sum += jump * std::polar(1.0, -period.base * static_cast<double>(k) * impact.time);
     shares.size += std::abs(jump);
@@ -82,7 +82,7 @@ Shares shares_of(const Scene& scene, const Period& period, std::size_t k) {
 
 /// The three ways' largest difference in units of what is allowed: rounding, in the impacts' way of the jumps that are
 /// summed and of the angles, and what the period failed to close by.
-double difference_of_harmonics(const Scene& scene, const Period& period, double gap) {
+double difference_of_harmonics(const point::Problem& scene, const Period& period, double gap) {
   double worst = 0;
   for (std::size_t k = 0; k <= highest; ++k) {
     const double w = period.base * static_cast<double>(k), h = scene.oscillator.damping;
@@ -104,35 +104,36 @@ template <class Check>
 void in_steady_scenes(Check&& check) {
   in_every_scene([&](AnyScene any) {
     if (any.index % 10 != 0) return;
-    any.scene.time.mode = Mode::steady, any.scene.time.max_periods = 300, any.scene.time.max_impacts = 1e4;
+    any.scene.time.mode = steady::Mode::steady, any.scene.time.max_periods = 300, any.scene.time.max_impacts = 1e4;
     any.scene.time.tolerance = 1e-13;
     with_any_stops(any.scene.oscillator, [&]<Effects effects>() {
-      Exact<double, effects> integrator(any.scene);
-      check(any, integrator, settle(integrator, start_of(any.scene), any.scene));
+      stepping::Exact<double, effects> integrator(any.scene, limits_of(any.scene));
+      check(any, integrator,
+            find_steady(integrator, start_of(any.scene), any.scene, any.scene.time, any.scene.integration));
     });
   });
 }
 
 /// Whether a period is seen from just before an impact to just after it.
-bool begins_with_impact(const Scene& scene, const State<double>& from) {
+bool begins_with_impact(const point::Problem& scene, const motion::State<double>& from) {
   return (from.x == scene.stops.lower && from.v < 0) || (from.x == scene.stops.upper && from.v > 0);
 }
 
 TEST(Properties, harmonics_of_a_periodic_motion_follow_from_its_impacts) {
   Tally closes("a period closes"), harmonics("harmonics from the impacts alone"), energy("work done over a period");
   std::uint64_t settled = 0, periodic = 0;
-  in_steady_scenes([&](const AnyScene& any, auto& integrator, const Observed& observed) {
-    ++settled, periodic += observed.status == Status::periodic;
-    if (observed.status != Status::periodic || observed.found_by == FoundBy::standstill ||
+  in_steady_scenes([&](const AnyScene& any, auto& integrator, const steady::ObservedTime& observed) {
+    ++settled, periodic += observed.status == steady::Status::periodic;
+    if (observed.status != steady::Status::periodic || observed.found_by == steady::FoundBy::standstill ||
         begins_with_impact(any.scene, observed.from))
       return;
     const double total = observed.turns * integrator.period();
     const bool forced = any.scene.oscillator.forcing != 0;
     Period period(any.scene, observed.from, total,
                   forced ? any.scene.oscillator.frequency : 2 * std::numbers::pi / total);
-    State<double> state = observed.from;
-    const Outcome outcome = run_for(integrator, state, observed.turns, period);
-    if (outcome != Outcome::completed) return;  // over budget
+    motion::State<double> state = observed.from;
+    const stepping::Outcome outcome = run_for(integrator, state, observed.turns, period);
+    if (outcome != stepping::Outcome::completed) return;  // over budget
     period.finish(state);
     const double gap = std::max(std::abs(state.x - observed.from.x), std::abs(state.v - observed.from.v));
     closes.take(any, gap / (1e-5 * period.fastest(state)));  // where it ends in a graze; others far better

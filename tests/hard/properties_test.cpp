@@ -7,11 +7,11 @@
 #include <limits>
 #include <vector>
 
-#include "dynamics/tangent.hpp"
 #include "hard/energy.hpp"
 #include "hard/inside.hpp"
 #include "hard/rescan.hpp"
 #include "hard/tally.hpp"
+#include "motion/tangent_map.hpp"
 #include "observables/extrema.hpp"
 #include "observables/samples.hpp"
 
@@ -24,8 +24,8 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 struct Contents : Watcher {
   std::uint64_t impacts = 0, rests = 0, chatters = 0;
 
-  void rest(const Rest& rest) { ++(rest.held ? rests : chatters); }
-  void impact(const Impact&) { ++impacts; }
+  void rest(const motion::Rest& rest) { ++(rest.held ? rests : chatters); }
+  void impact(const motion::Impact&) { ++impacts; }
 };
 
 TEST(Properties, scenes_are_completed_and_hold_all_that_motion_is_made_of) {
@@ -34,9 +34,10 @@ TEST(Properties, scenes_are_completed_and_hold_all_that_motion_is_made_of) {
   std::uint64_t scenes = 0, unfinished = 0, hit = 0;
   in_every_scene([&](const AnyScene& any) {
     Contents contents;
-    const Outcome outcome = watch(any, contents);
-    resolved.take(any, outcome == Outcome::completed || outcome == Outcome::event_budget ? 0 : infinity);
-    ++scenes, hit += contents.impacts > 0, unfinished += outcome == Outcome::event_budget;
+    const stepping::Outcome outcome = watch(any, contents);
+    resolved.take(any,
+                  outcome == stepping::Outcome::completed || outcome == stepping::Outcome::event_budget ? 0 : infinity);
+    ++scenes, hit += contents.impacts > 0, unfinished += outcome == stepping::Outcome::event_budget;
     all.impacts += contents.impacts, all.rests += contents.rests, all.chatters += contents.chatters;
   });
   resolved.conclude(1);
@@ -63,17 +64,19 @@ TEST(Properties, arcs_stay_between_the_stops_to_two_ulps) {
 /// Shows a motion to what the program's users see it by.
 struct Told : ToldPlaces {
   Told(const AnyScene& any)
-      : ToldPlaces(any.scene.stops), samples(100, any.duration / 99, AtImpact::after, any.scene.stops) {}
+      : ToldPlaces(any.scene.stops), samples(100, any.duration / 99, observables::AtImpact::after, any.scene.stops) {}
 
   template <class A>
   void arc(const A& arc, double begin, double length) {
     extrema.arc(arc, begin, length), samples.arc(arc, begin, length);
   }
-  void rest(const Rest& rest) { extrema.rest(rest), samples.rest(rest), ToldPlaces::rest(rest); }
-  void impact(const Impact& impact) { extrema.impact(impact), samples.impact(impact), ToldPlaces::impact(impact); }
+  void rest(const motion::Rest& rest) { extrema.rest(rest), samples.rest(rest), ToldPlaces::rest(rest); }
+  void impact(const motion::Impact& impact) {
+    extrema.impact(impact), samples.impact(impact), ToldPlaces::impact(impact);
+  }
 
-  Extrema extrema;
-  Samples samples;
+  observables::Extrema extrema;
+  observables::Samples samples;
 };
 
 TEST(Properties, no_place_outside_the_stops_is_told) {
@@ -81,9 +84,9 @@ TEST(Properties, no_place_outside_the_stops_is_told) {
   in_every_scene([&](const AnyScene& any) {
     Told told(any);
     with_any_stops(any.scene.oscillator, [&]<Effects effects>() {
-      Exact<double, effects> integrator(any.scene);
-      State<double> state = start_of(any.scene);
-      if (run_for(integrator, state, any.duration / integrator.period(), told) == Outcome::completed)
+      stepping::Exact<double, effects> integrator(any.scene, limits_of(any.scene));
+      motion::State<double> state = start_of(any.scene);
+      if (run_for(integrator, state, any.duration / integrator.period(), told) == stepping::Outcome::completed)
         told.section(state);
     });
     const auto range = told.extrema.displacement(any.scene.stops);
@@ -106,13 +109,13 @@ struct Order : Watcher {
   void arc(const A&, double begin, double) {
     right = right && begin >= last_impact;
   }
-  void rest(const Rest& rest) { right = right && rest.time >= last_impact && rest.length >= 0; }
-  void impact(const Impact& impact) {
+  void rest(const motion::Rest& rest) { right = right && rest.time >= last_impact && rest.length >= 0; }
+  void impact(const motion::Impact& impact) {
     right = right && impact.time > last_impact;
     last_impact = impact.time;
     ++impacts;
   }
-  void section(const State<double>&) { last_impact = -infinity; }  // times count from the next one
+  void section(const motion::State<double>&) { last_impact = -infinity; }  // times count from the next one
 
   double last_impact = -infinity;
   std::uint64_t impacts = 0;
@@ -142,32 +145,32 @@ TEST(Properties, energy_balances_over_every_period) {
 }
 
 TEST(Properties, no_impact_is_missed) {
-  Tally missed("no impact that Taylor steps see is missed"), place("places that Taylor steps come to"),
+  Tally missed("no impact that Taylor steps see is missed"), position("places that Taylor steps come to"),
       speed("velocities that Taylor steps come to"), pressed("mass at rest is pressed"),
       broken("motion goes on where and when it was");
   in_every_scene([&](const AnyScene& any) {
     Rescan rescan(any.scene);
     (void)watch(any, rescan);
-    missed.take(any, rescan.missed), place.take(any, rescan.place), speed.take(any, rescan.speed);
+    missed.take(any, rescan.missed), position.take(any, rescan.position), speed.take(any, rescan.speed);
     pressed.take(any, rescan.pressed), broken.take(any, rescan.broken);
   });
-  for (const Tally* tally : {&missed, &place, &speed, &pressed, &broken}) tally->conclude(1);
+  for (const Tally* tally : {&missed, &position, &speed, &pressed, &broken}) tally->conclude(1);
 }
 
 /// The tangent map of a motion, and what its determinant must be.
 struct Area : Watcher {
-  explicit Area(const Scene& scene) : damping(scene.oscillator.damping), tangent(scene.stops) {}
+  explicit Area(const point::Problem& scene) : damping(scene.oscillator.damping), tangent(scene.stops) {}
 
   template <class A>
   void arc(const A& arc, double begin, double length) {
     tangent.arc(arc, begin, length);
     // an arc's determinant e^{-2hs} is a difference of products that heavy damping makes larger than it
-    const auto p = arc.flow().propagator(length);
+    const auto p = arc.constants().propagator(length);
     const double decayed = 2 * damping * length;
     rounding += (1 + decayed) * (1 + (std::abs(p.a * p.c) + p.b * p.b) * std::exp(decayed));
   }
-  void rest(const Rest&) { smooth = false; }
-  void impact(const Impact& impact) {
+  void rest(const motion::Rest&) { smooth = false; }
+  void impact(const motion::Impact& impact) {
     tangent.impact(impact);
     smooth = smooth && impact.before * sign_of(impact.side) > 0 && impact.after != 0;
     ++(impact.side == Side::upper ? on_upper : on_lower);
@@ -183,7 +186,7 @@ struct Area : Watcher {
   }
 
   double damping;
-  Tangent<double> tangent;
+  motion::TangentMap<double> tangent;
   double on_lower = 0, on_upper = 0, rounding = 0;
   bool smooth = true;  ///< no rest, no impact without a rebound
 };
@@ -192,7 +195,7 @@ TEST(Properties, areas_shrink_by_damping_and_restitution_alone) {
   Tally tally("determinant of the tangent map");
   in_every_scene([&](const AnyScene& any) {
     Area area(any.scene);
-    if (watch(any, area) != Outcome::completed || !area.smooth || area.on_lower + area.on_upper == 0) return;
+    if (watch(any, area) != stepping::Outcome::completed || !area.smooth || area.on_lower + area.on_upper == 0) return;
     const double expected = area.expected(any), allowed = 4 * epsilon<double>() * (area.rounding + std::abs(expected));
     if (allowed > 1e-6 || expected < -600) return;  // nothing left of it in doubles
     tally.take(any, std::abs(std::log(area.tangent.determinant()) - expected) / allowed);
@@ -208,14 +211,14 @@ struct Trace : Watcher {
   void arc(const A& arc, double begin, double length) {
     add({begin, length, scale * arc.start().x, scale * arc.start().v, 0});
   }
-  void rest(const Rest& rest) {
-    add({rest.time, rest.length, double(sign * sign_of(rest.side)), scale * rest.place, double(rest.held)});
+  void rest(const motion::Rest& rest) {
+    add({rest.time, rest.length, double(sign * sign_of(rest.side)), scale * rest.position, double(rest.held)});
   }
-  void impact(const Impact& impact) {
+  void impact(const motion::Impact& impact) {
     add({impact.time, double(sign * sign_of(impact.side)), scale * impact.before, scale * impact.after,
-         scale * impact.place});
+         scale * impact.position});
   }
-  void section(const State<double>& state) { add({scale * state.x, scale * state.v, state.turns, 0, 0}); }
+  void section(const motion::State<double>& state) { add({scale * state.x, scale * state.v, state.turns, 0, 0}); }
   void add(const std::array<double, 5>& row) { rows.push_back(row); }
 
   int sign;
@@ -224,7 +227,8 @@ struct Trace : Watcher {
 };
 
 AnyScene mirrored(AnyScene any) {
-  auto& [oscillator, stops, start, time, observe, integration] = any.scene;
+  Scene& scene = any.scene;
+  auto& [oscillator, stops, start] = scene;
   oscillator.forcing *= -1, oscillator.load *= -1;
   stops = {-stops.upper, -stops.lower, stops.restitution_upper, stops.restitution_lower};
   start.displacement *= -1, start.velocity *= -1;
@@ -232,7 +236,8 @@ AnyScene mirrored(AnyScene any) {
 }
 
 AnyScene scaled(AnyScene any, double by) {
-  auto& [oscillator, stops, start, time, observe, integration] = any.scene;
+  Scene& scene = any.scene;
+  auto& [oscillator, stops, start] = scene;
   for (double* length :
        {&oscillator.forcing, &oscillator.load, &stops.lower, &stops.upper, &start.displacement, &start.velocity})
     *length *= by;
@@ -243,8 +248,8 @@ AnyScene scaled(AnyScene any, double by) {
 Trace traced(const AnyScene& any, int sign, double scale, std::int64_t sections = 0) {
   Trace trace(sign, scale);
   with_any_stops(any.scene.oscillator, [&]<Effects effects>() {
-    Exact<double, effects> integrator(any.scene);
-    State<double> state = start_of(any.scene);
+    stepping::Exact<double, effects> integrator(any.scene, limits_of(any.scene));
+    motion::State<double> state = start_of(any.scene);
     state.periods = sections;
     (void)watch(integrator, state, any.duration, trace);
   });

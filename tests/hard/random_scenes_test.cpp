@@ -14,9 +14,9 @@ namespace clatter::hard {
 namespace {
 
 /// Damping none to heavy, two stops with a restitution each, a load in half of them.
-Scene random_scene(std::uint64_t index) {
-  Random random(20230, index);
-  Scene scene;
+point::Problem random_scene(std::uint64_t index) {
+  support::Random random(20230, index);
+  point::Problem scene;
   scene.oscillator = {random.happens(0.2) ? 0.0 : random.logarithmic(1e-2, 3),
                       random.sign() * random.logarithmic(0.1, 3), random.logarithmic(0.2, 4),
                       random.happens(0.5) ? 0.0 : random.uniform(-0.5, 0.5)};
@@ -31,21 +31,22 @@ Scene random_scene(std::uint64_t index) {
 class RandomScenes : public testing::TestWithParam<std::uint64_t> {};
 
 TEST_P(RandomScenes, agree_with_fifty_digits_in_every_impact_and_rest) {
-  const SceneRange range = scene_range(1000);
+  const support::SceneRange range = support::scene_range(1000);
   std::size_t scenes = 0, impacts = 0, chatters = 0, rests = 0;
   double worst = 0, worst_ratio = 0;
   std::uint64_t worst_index = 0;
   for (std::uint64_t index = range.from + GetParam(); index < range.to; index += 4) {
-    const Scene scene = random_scene(index);
+    const point::Problem scene = random_scene(index);
     const double duration = 3.3 * 2 * pi<double>() / scene.oscillator.frequency;
-    const Course course = course_of(scene, duration), reference = reference_of(scene, duration);
-    const Deviation d = deviation(course, reference);
-    EXPECT_EQ(course.outcome, Outcome::completed);
-    EXPECT_TRUE(d.same_events) << d.difference << "\n" << configuration_of(scene, duration);
+    const accuracy::RunRecord record = accuracy::record_of(scene, duration),
+                              reference = accuracy::reference_of(scene, duration);
+    const support::Deviation d = support::deviation(record, reference);
+    EXPECT_EQ(record.outcome, stepping::Outcome::completed);
+    EXPECT_TRUE(d.same_events) << d.difference << "\n" << support::configuration_of(scene, duration);
     // a rounding an impact; where the motion separates, what the rounding of the inputs does
-    if (const double rounding = (16 + course.impacts) * epsilon<double>(); d.largest() > rounding) {
-      const double one_ulp = conditioning(scene, reference);
-      EXPECT_LE(d.largest(), std::max(rounding, 64 * one_ulp)) << configuration_of(scene, duration);
+    if (const double rounding = (16 + record.impacts) * epsilon<double>(); d.largest() > rounding) {
+      const double one_ulp = support::conditioning(scene, reference);
+      EXPECT_LE(d.largest(), std::max(rounding, 64 * one_ulp)) << support::configuration_of(scene, duration);
       worst_ratio = std::max(worst_ratio, d.largest() / one_ulp);
     }
     if (d.largest() > worst) worst = d.largest(), worst_index = index;

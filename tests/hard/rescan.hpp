@@ -14,7 +14,7 @@ namespace clatter::hard {
 /// what rounding allows: `ulps` of the sizes of the sums that form a place, a velocity or a force.
 class Rescan : public Watcher {
  public:
-  explicit Rescan(const Scene& scene)
+  explicit Rescan(const point::Problem& scene)
       : oscillator_(scene.oscillator),
         stops_(scene.stops),
         phase_(scene.start.phase),
@@ -27,44 +27,44 @@ class Rescan : public Watcher {
     if (flying_ || m.x != x_ || m.v != v_) broken = infinity;  // it begins where the motion was
     check_phase(m, begin);
     anchor_ = arc.anchor();
-    flight_ = TaylorScan(oscillator_, anchor_).fly({m.rise, m.v, m.sine, m.cosine}, length);
-    allow(m, length, arc.flow().rate);
+    flight_ = TaylorScan(oscillator_, anchor_).fly({m.offset, m.v, m.sine, m.cosine}, length);
+    allow(m, length, arc.constants().rate);
     raise(missed,
           ratio(std::max(rise_of(stops_.lower) - flight_.lowest, flight_.highest - rise_of(stops_.upper)), near_));
     flying_ = true, rebound_ = 0;
   }
-  void impact(const Impact& impact) {
+  void impact(const motion::Impact& impact) {
     const bool upper = impact.side == Side::upper, moving_in = upper ? impact.before > 0 : impact.before < 0;
     const double R = upper ? stops_.restitution_upper : stops_.restitution_lower;
     if (impact.after != (moving_in ? -R * impact.before : impact.before)) broken = infinity;
-    raise(place, ratio(std::abs(rise_of(impact.place) - flight_.end.rise), near_));
+    raise(position, ratio(std::abs(rise_of(impact.position) - flight_.end.offset), near_));
     // where the place is known to d, v^2 is known to 2 a d
     const double soft = acceleration_ * near_ / std::max(std::abs(impact.before), std::sqrt(acceleration_ * near_));
     raise(speed, ratio(std::abs(impact.before - flight_.end.v), fast_ + soft));
-    x_ = impact.place, v_ = impact.after, rebound_ = impact.after;
+    x_ = impact.position, v_ = impact.after, rebound_ = impact.after;
     flying_ = false;
   }
-  void rest(const Rest& rest) {
+  void rest(const motion::Rest& rest) {
     if (rest.held || rebound_ != 0)
       check_pressed(rest);
     else
       check_hover(rest);
-    x_ = rest.place, v_ = 0, rebound_ = 0;
+    x_ = rest.position, v_ = 0, rebound_ = 0;
   }
-  void section(const State<double>& state) {
+  void section(const motion::State<double>& state) {
     if (flying_) {
-      raise(place, ratio(std::abs(rise_of(state.x) - flight_.end.rise), whole_));
+      raise(position, ratio(std::abs(rise_of(state.x) - flight_.end.offset), whole_));
       raise(speed, ratio(std::abs(state.v - flight_.end.v), fast_));
     }
     if (!flying_ && (state.x != x_ || state.v != v_)) broken = infinity;
     x_ = state.x, v_ = state.v, flying_ = false, rebound_ = 0;
   }
 
-  double missed = 0;   ///< penetration of a stop
-  double place = 0;    ///< distance of an arc's end from the stop that is hit, or from the place that is told
-  double speed = 0;    ///< the same of its velocity
-  double pressed = 0;  ///< force that pulls a resting mass off its stop
-  double broken = 0;   ///< an arc that doesn't begin where the last ended, or at another phase; an impact against eq. 4
+  double missed = 0;    ///< penetration of a stop
+  double position = 0;  ///< distance of an arc's end from the stop that is hit, or from the place that is told
+  double speed = 0;     ///< the same of its velocity
+  double pressed = 0;   ///< force that pulls a resting mass off its stop
+  double broken = 0;  ///< an arc that doesn't begin where the last ended, or at another phase; an impact against eq. 4
 
  private:
   using Real = TaylorScan::Real;
@@ -85,7 +85,7 @@ class Rescan : public Watcher {
     const double response =
         f == 0 ? 0 : std::abs(f) * std::min(1 / std::hypot((1 - nu) * (1 + nu), 2 * h * nu), 16 + length);
     const double part = std::min(1.0, length), terms = length * rate > 0.25 ? response * part : 0;
-    const double way = std::abs(m.rise) + std::abs(m.v) * part;  // as far as it comes without a force
+    const double way = std::abs(m.offset) + std::abs(m.v) * part;  // as far as it comes without a force
     acceleration_ = std::abs(load - anchor_) + way + std::abs(f) + 2 * h * std::abs(m.v);
     const double unit = ulps * epsilon<double>();
     near_ = unit * (way + acceleration_ * part * part + terms);
@@ -104,16 +104,16 @@ class Rescan : public Watcher {
   }
 
   /// The force on a mass at rest, f sin(theta) + load - x, into its stop.
-  [[nodiscard]] Real force(const Rest& rest, Real sine) const {
-    return sign_of(rest.side) * (oscillator_.forcing * sine + (static_cast<Real>(oscillator_.load) - rest.place));
+  [[nodiscard]] Real force(const motion::Rest& rest, Real sine) const {
+    return sign_of(rest.side) * (oscillator_.forcing * sine + (static_cast<Real>(oscillator_.load) - rest.position));
   }
-  [[nodiscard]] double force_rounding(const Rest& rest) const {
+  [[nodiscard]] double force_rounding(const motion::Rest& rest) const {
     return ulps * epsilon<double>() *
-           (std::abs(oscillator_.forcing) + std::abs(oscillator_.load) + std::abs(rest.place));
+           (std::abs(oscillator_.forcing) + std::abs(oscillator_.load) + std::abs(rest.position));
   }
 
   /// The force presses all the time, at its least as well.
-  void check_pressed(const Rest& rest) {
+  void check_pressed(const motion::Rest& rest) {
     constexpr int looks = 16;
     Real least =
         std::min(force(rest, std::sin(angle(rest.time))), force(rest, std::sin(angle(rest.time + rest.length))));
@@ -123,7 +123,7 @@ class Rescan : public Watcher {
   }
 
   /// The force is so small that the mass would not move by rounding.
-  void check_hover(const Rest& rest) {
+  void check_hover(const motion::Rest& rest) {
     const Real largest = std::max(std::abs(force(rest, std::sin(angle(rest.time)))),
                                   std::abs(force(rest, std::sin(angle(rest.time + rest.length)))));
     raise(pressed, ratio(largest * rest.length * rest.length / 2, force_rounding(rest)));

@@ -17,10 +17,11 @@ TEST(Resonance, grows_as_its_closed_form_and_is_approached_continuously) {
     const double expected = -(tau * std::cos(tau) - std::sin(tau)) / 2;
     for (double h : {0.0, 1e-300, 1e-17})
       for (double nu : {std::nextafter(1.0, 0.0), 1.0, std::nextafter(1.0, 2.0)}) {
-        Scene scene = one.scene;
+        point::Problem scene = one.scene;
         scene.oscillator.damping = h, scene.oscillator.frequency = nu;
         // of tau/2, what both h = 1e-17 and an ulp of nu change by 1e-16 tau, and the duration's rounding by tau ulps
-        EXPECT_NEAR(course_of(scene, tau).x, expected, 1e-12 * tau / 2) << "h = " << h << ", nu - 1 = " << nu - 1;
+        EXPECT_NEAR(accuracy::record_of(scene, tau).x, expected, 1e-12 * tau / 2)
+            << "h = " << h << ", nu - 1 = " << nu - 1;
       }
   }
 }

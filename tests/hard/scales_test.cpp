@@ -17,8 +17,9 @@ TEST(Scales, agrees_with_fifty_digits) {
 
 TEST(Scales, a_vanishing_force_is_no_force) {
   const Case &none = case_of("scales", "f = 0"), &tiny = case_of("scales", "f = 1e-300");
-  const Course without = course_of(none.scene, none.duration), with = course_of(tiny.scene, tiny.duration);
-  const Deviation d = deviation(with, without);
+  const accuracy::RunRecord without = accuracy::record_of(none.scene, none.duration),
+                            with = accuracy::record_of(tiny.scene, tiny.duration);
+  const support::Deviation d = support::deviation(with, without);
   EXPECT_TRUE(d.same_events) << d.difference;
   EXPECT_GT(d.impacts, 0u);
   EXPECT_LT(d.largest(), 1e-13);  // it changes nothing but the formulas, which round on their own

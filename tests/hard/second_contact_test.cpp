@@ -13,11 +13,11 @@ TEST(SecondContact, agrees_with_fifty_digits) { expect_agreement("second_contact
 TEST(SecondContact, follows_every_release) {
   for (const char* what : {"let go for 2e-3", "let go for 1e-6"}) {
     const Case& one = case_of("second_contact", what);
-    const Course course = course_of(one.scene, one.duration);
+    const accuracy::RunRecord record = accuracy::record_of(one.scene, one.duration);
     std::size_t releases = 0;
-    for (std::size_t i = 0; i + 1 < course.events.size(); ++i) {
-      const Event &rest = course.events[i], &next = course.events[i + 1];
-      if (rest.kind != Event::Kind::rest || next.kind != Event::Kind::impact) continue;
+    for (std::size_t i = 0; i + 1 < record.events.size(); ++i) {
+      const accuracy::Event &rest = record.events[i], &next = record.events[i + 1];
+      if (rest.kind != accuracy::Event::Kind::rest || next.kind != accuracy::Event::Kind::impact) continue;
       ++releases;
       EXPECT_EQ(next.side, rest.side) << what;
       EXPECT_LT(next.time - rest.time - rest.length, 0.01) << what;

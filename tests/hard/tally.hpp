@@ -14,7 +14,7 @@
 namespace clatter::hard {
 
 /// The scenes of a test: 10^4, or those that CLATTER_SCENES names.
-[[nodiscard]] inline SceneRange tested_scenes() { return scene_range(10000); }
+[[nodiscard]] inline support::SceneRange tested_scenes() { return support::scene_range(10000); }
 
 template <class Check>
 void in_every_scene(Check&& check) {
@@ -33,7 +33,7 @@ class Tally {
     if (!(deviation <= worst_)) worst_ = deviation, worst_index_ = any.index;
     if (deviation <= 1 || ++failed_ > shown) return;
     ADD_FAILURE() << property_ << ": " << deviation << " of what is allowed, in scene " << any.index << "\n"
-                  << configuration_of(any.scene, any.duration);
+                  << support::configuration_of(any.scene, any.duration);
   }
 
   /// Fails where scenes failed, or where fewer than this share of them had anything to check.

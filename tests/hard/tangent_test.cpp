@@ -1,19 +1,19 @@
 // The tangent map against differences of neighbouring motions, made in 50 digits: nothing in them knows a derivative.
 
-#include "dynamics/tangent.hpp"
+#include "motion/tangent_map.hpp"
 
 #include <gtest/gtest.h>
 
 #include "hard/tally.hpp"
-#include "numbers/fifty_digits.hpp"
+#include "math/fifty_digits.hpp"
 
 namespace clatter::hard {
 namespace {
 
 /// Whether a motion has a derivative by its start, and few enough impacts to be run in 50 digits.
 struct Smooth : Watcher {
-  void rest(const Rest&) { smooth = false; }
-  void impact(const Impact& impact) {
+  void rest(const motion::Rest&) { smooth = false; }
+  void impact(const motion::Impact& impact) {
     smooth = smooth && impact.before * sign_of(impact.side) > 0 && impact.after != 0;
     ++impacts;
   }
@@ -23,16 +23,18 @@ struct Smooth : Watcher {
 
 bool suits(const AnyScene& any) {
   Smooth seen;
-  return watch(any, seen) == Outcome::completed && seen.smooth && seen.impacts > 0 && seen.impacts <= 20;
+  return watch(any, seen) == stepping::Outcome::completed && seen.smooth && seen.impacts > 0 && seen.impacts <= 20;
 }
 
 /// Where a scene has come to in 50 digits from a start moved by (dx, dv).
 template <Effects E, class Observer>
-State<FiftyDigits> end_of(const AnyScene& any, const FiftyDigits& dx, const FiftyDigits& dv, Observer& observer) {
-  Exact<FiftyDigits, E> integrator(any.scene);
-  State<FiftyDigits> state;
+motion::State<FiftyDigits> end_of(const AnyScene& any, const FiftyDigits& dx, const FiftyDigits& dv,
+                                  Observer& observer) {
+  stepping::Exact<FiftyDigits, E> integrator(any.scene, limits_of(any.scene));
+  motion::State<FiftyDigits> state;
   state.x = any.scene.start.displacement + dx, state.v = any.scene.start.velocity + dv;
-  EXPECT_EQ(run_for(integrator, state, FiftyDigits(any.duration / integrator.period()), observer), Outcome::completed);
+  EXPECT_EQ(run_for(integrator, state, FiftyDigits(any.duration / integrator.period()), observer),
+            stepping::Outcome::completed);
   return state;
 }
 
@@ -42,12 +44,12 @@ double deviation_of_tangent(const AnyScene& any) {
   const auto& [lower, upper, R_lower, R_upper] = any.scene.stops;
   const double x = any.scene.start.displacement;
   const FiftyDigits step(x - lower > upper - x ? "-1e-20" : "1e-20");  // away from the stop it may start on
-  Tangent<FiftyDigits> tangent(any.scene.stops);
-  NoObserver nobody;
+  motion::TangentMap<FiftyDigits> tangent(any.scene.stops);
+  stepping::NoObserver nobody;
   const auto end = end_of<E>(any, 0, 0, tangent);
   const auto by_x = end_of<E>(any, step, 0, nobody), by_v = end_of<E>(any, 0, step, nobody);
-  const Map<FiftyDigits> map = tangent.map(), expected{(by_x.x - end.x) / step, (by_v.x - end.x) / step,
-                                                       (by_x.v - end.v) / step, (by_v.v - end.v) / step};
+  const motion::Jacobian<FiftyDigits> map = tangent.map(), expected{(by_x.x - end.x) / step, (by_v.x - end.x) / step,
+                                                                    (by_x.v - end.v) / step, (by_v.v - end.v) / step};
   FiftyDigits difference = 0, largest = 0;
   for (std::size_t i = 0; i < map.size(); ++i) {
     difference = std::max(difference, FiftyDigits(abs(map[i] - expected[i])));

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstddef>
 
-#include "dynamics/oscillator.hpp"
+#include "model/oscillator.hpp"
 
 namespace clatter::hard {
 
@@ -16,13 +16,13 @@ class TaylorScan {
   using Real = long double;
 
   /// Motion at an instant, the displacement counted from an anchor.
-  struct Instant {
-    Real rise, v, sine, cosine;
+  struct PhaseState {
+    Real offset, v, sine, cosine;
   };
 
   /// Where a flight ends, and how far it went either way on its way there.
   struct Flight {
-    Instant end;
+    PhaseState end;
     Real lowest, highest;  ///< of the rise
   };
 
@@ -33,15 +33,15 @@ class TaylorScan {
         pull_(static_cast<Real>(oscillator.load) - anchor),
         rate_(std::max({Real(1), 2 * h_, f_ == 0 ? Real(0) : nu_})) {}
 
-  [[nodiscard]] Flight fly(const Instant& start, double length) const {
-    Flight flight{start, start.rise, start.rise};
+  [[nodiscard]] Flight fly(const PhaseState& start, double length) const {
+    Flight flight{start, start.offset, start.offset};
     const auto steps = static_cast<long>(std::ceil(length * rate_));  // 1/24! is far below rounding
     if (steps == 0) return flight;
     const Real step = static_cast<Real>(length) / static_cast<Real>(steps);
     const int looks = std::max(4, static_cast<int>(std::ceil(16 * step * rate_)));
     const Real sine = std::sin(nu_ * step), cosine = std::cos(nu_ * step);
     for (long i = 0; i < steps; ++i) {
-      const Instant& m = flight.end;
+      const PhaseState& m = flight.end;
       const Jet last = look(series(m, step), looks, flight);
       flight.end = {last[0], last[1] / step, m.sine * cosine + m.cosine * sine, m.cosine * cosine - m.sine * sine};
     }
@@ -54,14 +54,14 @@ class TaylorScan {
   using Jet = std::array<Real, 4>;             ///< value and first three derivatives
 
   /// From the equation's own recurrence, with the force's series beside it.
-  [[nodiscard]] Series series(const Instant& m, Real d) const {
+  [[nodiscard]] Series series(const PhaseState& m, Real d) const {
     static const std::array<Real, order> inverse = [] {
       std::array<Real, order> table{};
       for (std::size_t k = 0; k + 1 < order; ++k) table[k] = 1 / static_cast<Real>((k + 1) * (k + 2));
       return table;
     }();
     const Real square = d * d, friction = 2 * h_ * d, turn = nu_ * d;
-    Series c{m.rise, m.v * d};
+    Series c{m.offset, m.v * d};
     Real force = f_ * square, drive = m.sine, next = m.cosine;
     for (std::size_t k = 0; k + 2 <= order; ++k) {
       const auto n = static_cast<Real>(k + 1);
@@ -95,8 +95,8 @@ class TaylorScan {
     return u;
   }
 
-  static void include(Real rise, Flight& flight) {
-    flight.lowest = std::min(flight.lowest, rise), flight.highest = std::max(flight.highest, rise);
+  static void include(Real offset, Flight& flight) {
+    flight.lowest = std::min(flight.lowest, offset), flight.highest = std::max(flight.highest, offset);
   }
 
   /// Looks at a step's places, turning points, and pairs of turning points between two looks: there the velocity's own

@@ -6,9 +6,9 @@
 
 #include "lanes/enclosure.hpp"
 #include "lanes/vector.hpp"
-#include "numbers/number.hpp"
+#include "math/number.hpp"
 
-namespace clatter {
+namespace clatter::lanes {
 namespace {
 
 using V = Pair<xsimd::sse2>;
@@ -56,8 +56,9 @@ TEST(Enclosure, is_nan_where_anything_in_it_is_and_stays_so) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   for (int broken = -1; broken < 7; ++broken) {
     const auto input = [&](int i, double y) { return V(i == broken ? nan : y); };
-    const Ends<V> ends{input(0, 0.1), input(1, 0.5), input(2, -0.2), input(3, 0.3), input(4, 0.1), input(5, -0.3)};
-    Range<V> range = enclosure(ends, input(6, 1e-3));
+    const HermiteData<V> ends{input(0, 0.1), input(1, 0.5), input(2, -0.2),
+                              input(3, 0.3), input(4, 0.1), input(5, -0.3)};
+    Interval<V> range = enclosure(ends, input(6, 1e-3));
     range.include(V(0.3));
     EXPECT_EQ(std::isnan(first(range.low)), broken >= 0) << broken;
     EXPECT_EQ(std::isnan(first(range.high)), broken >= 0) << broken;
@@ -71,4 +72,4 @@ TEST(LaneFunctions, nothing_passes_without_time) {
 }
 
 }  // namespace
-}  // namespace clatter
+}  // namespace clatter::lanes

@@ -3,15 +3,15 @@
 #include <bit>
 #include <vector>
 
-#include "integrators/exact.hpp"
-#include "lanes/seat.hpp"
+#include "lanes/lane_view.hpp"
+#include "stepping/exact.hpp"
 #include "support/runs.hpp"
 
-namespace clatter {
+namespace clatter::lanes {
 
 /// The scalar kernel that lanes share their arcs with.
-inline constexpr Effects lane_effects = kernels::complete(Damping::light, Forcing::regular);
-using LaneExact = Exact<double, lane_effects>;
+inline constexpr Effects lane_effects = effect_sets::complete(Damping::light, Forcing::regular);
+using LaneExact = stepping::Exact<double, lane_effects>;
 
 /// A section as a lane reports it.
 struct Section {
@@ -20,33 +20,34 @@ struct Section {
 
 /// What a lane met on its own, up to where it got stuck or had enough.
 struct LaneRun {
-  std::vector<Impact> impacts{};  ///< times in tau since the start
+  std::vector<motion::Impact> impacts{};  ///< times in tau since the start
   std::vector<Section> sections{};
-  bool stuck = false;
-  LanePlace stuck_at{};
+  bool to_scalar = false;
+  LaneState stuck_at{};
   std::int64_t visits = 0;
 };
 
 /// Reads an impact off a lane: it stands on a stop with the velocity after it.
-inline Impact impact_of(const Lanes& lanes, std::size_t lane, const Scene& scene, double sections) {
-  const LanePlace place = place_of(lanes, lane, scene);
-  const bool upper = place.x == scene.stops.upper;
+inline motion::Impact impact_of(const BlockState& lanes, std::size_t lane, const point::Problem& scene,
+                                double sections) {
+  const LaneState position = place_of(lanes, lane, scene);
+  const bool upper = position.x == scene.stops.upper;
   const double R = upper ? scene.stops.restitution_upper : scene.stops.restitution_lower;
-  return {(sections + place.turns) * period_of(scene.oscillator), upper ? Side::upper : Side::lower, -place.v / R,
-          place.v, place.x};
+  return {(sections + position.turns) * period_of(scene.oscillator), upper ? Side::upper : Side::lower, -position.v / R,
+          position.v, position.x};
 }
 
 /// Takes scenes side by side until each has met so many impacts, passed so many sections, or is stuck.
-inline std::vector<LaneRun> run_lanes(const std::vector<Scene>& scenes, VisitLanes kernel, std::size_t impacts,
-                                      std::size_t sections) {
-  Lanes lanes{};
+inline std::vector<LaneRun> run_lanes(const std::vector<point::Problem>& scenes, StepFunction kernel,
+                                      std::size_t impacts, std::size_t sections) {
+  BlockState lanes{};
   std::vector<LaneRun> runs(scenes.size());
-  for (std::size_t i = 0; i < Row::width; ++i) vacate(lanes, i);
-  for (std::size_t i = 0; i < scenes.size(); ++i) seat(lanes, i, scenes[i], scenes[i].stops);
+  for (std::size_t i = 0; i < LaneArray::width; ++i) clear_lane(lanes, i);
+  for (std::size_t i = 0; i < scenes.size(); ++i) load_lane(lanes, i, scenes[i], scenes[i].stops);
   std::vector<bool> done(scenes.size(), false);
   for (std::size_t left = scenes.size(); left > 0;) {
-    std::vector<double> before(lanes.impacts.lane, lanes.impacts.lane + Row::width);
-    lanes.arrived = lanes.stuck = 0;
+    std::vector<double> before(lanes.impacts.lane, lanes.impacts.lane + LaneArray::width);
+    lanes.arrived = lanes.to_scalar = 0;
     kernel(lanes);
     for (std::size_t i = 0; i < scenes.size(); ++i) {
       if (done[i]) continue;
@@ -57,10 +58,11 @@ inline std::vector<LaneRun> run_lanes(const std::vector<Scene>& scenes, VisitLan
             {scenes[i].oscillator.load + lanes.section_y.lane[i], lanes.section_v.lane[i] * lanes.rate.lane[i]});
       if (lanes.impacts.lane[i] > before[i])
         run.impacts.push_back(impact_of(lanes, i, scenes[i], static_cast<double>(run.sections.size())));
-      run.stuck = lanes.stuck >> i & 1;
-      if (run.stuck) run.stuck_at = place_of(lanes, i, scenes[i]);
-      done[i] = run.stuck || run.impacts.size() >= impacts || run.sections.size() >= sections || run.visits > 100000;
-      if (done[i]) vacate(lanes, i), --left;
+      run.to_scalar = lanes.to_scalar >> i & 1;
+      if (run.to_scalar) run.stuck_at = place_of(lanes, i, scenes[i]);
+      done[i] =
+          run.to_scalar || run.impacts.size() >= impacts || run.sections.size() >= sections || run.visits > 100000;
+      if (done[i]) clear_lane(lanes, i), --left;
     }
   }
   return runs;
@@ -68,17 +70,17 @@ inline std::vector<LaneRun> run_lanes(const std::vector<Scene>& scenes, VisitLan
 
 /// The scalar kernel's impacts and sections of the same scene, for so many forcing periods.
 struct ScalarRun {
-  Recorder record{};
+  support::Recorder record{};
   std::vector<Section> sections{};
 };
 
-inline ScalarRun run_scalar(const Scene& scene, std::size_t sections) {
+inline ScalarRun run_scalar(const point::Problem& scene, std::size_t sections) {
   ScalarRun run;
   LaneExact exact(scene);
-  State<double> state;
+  motion::State<double> state;
   state.x = scene.start.displacement, state.v = scene.start.velocity;
   for (std::size_t i = 0; i < sections; ++i) {
-    if (advance_to_section(exact, state, 0, run.record) != Outcome::completed) break;
+    if (advance_to_section(exact, state, 0, run.record) != stepping::Outcome::completed) break;
     run.sections.push_back({state.x, state.v});
   }
   return run;
@@ -88,7 +90,7 @@ inline ScalarRun run_scalar(const Scene& scene, std::size_t sections) {
 inline constexpr unsigned move_signs[] = {0, 21, 42, 63};
 
 /// A scene whose inputs are moved by an ulp each.
-inline Scene moved(Scene scene, unsigned signs) {
+inline point::Problem moved(point::Problem scene, unsigned signs) {
   unsigned i = 0;
   for (double* value : {&scene.oscillator.damping, &scene.oscillator.frequency, &scene.oscillator.forcing,
                         &scene.stops.lower, &scene.stops.upper, &scene.start.velocity})
@@ -96,4 +98,4 @@ inline Scene moved(Scene scene, unsigned signs) {
   return scene;
 }
 
-}  // namespace clatter
+}  // namespace clatter::lanes

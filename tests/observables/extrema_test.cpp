@@ -4,7 +4,7 @@
 
 #include "observables/runs.hpp"
 
-namespace clatter {
+namespace clatter::observables {
 namespace {
 
 TEST(Extrema, without_impact_they_are_the_amplitude_of_the_forced_response) {
@@ -32,18 +32,18 @@ struct Scan {
       x.include(m.x), v.include(m.v);
     }
   }
-  void rest(const Rest&) {}
-  void impact(const Impact&) { ++hits; }
+  void rest(const motion::Rest&) {}
+  void impact(const motion::Impact&) { ++hits; }
 };
 
 TEST(Extrema, are_never_passed_by_a_dense_scan_and_never_far_from_it) {
   int hits = 0;
   for (double nu : {0.37, 0.9, 2.3})
     for (double load : {0.0, 0.4}) {
-      Scene scene = paper_scene(0.8, 0.6, nu);
+      point::Problem scene = paper_scene(0.8, 0.6, nu);
       scene.oscillator.load = load;
       scene.stops.upper = std::numeric_limits<double>::infinity();
-      scene.time.mode = Mode::transient;
+      scene.time.mode = steady::Mode::transient;
       scene.time.duration = 60.0;
       Extrema extrema;
       Scan scan;
@@ -66,10 +66,10 @@ TEST(Extrema, are_never_passed_by_a_dense_scan_and_never_far_from_it) {
 
 TEST(Extrema, of_a_long_arc_are_found_among_thousands_of_its_oscillations) {
   // an undamped oscillation on a force so slow that one arc holds thousands of turns: the highest is where both are
-  Scene scene;
+  point::Problem scene;
   scene.oscillator = {0.0, 1.0, 1e-4, 0.0};
   scene.start.velocity = 0.5;
-  scene.time.mode = Mode::transient;
+  scene.time.mode = steady::Mode::transient;
   scene.time.duration = 2 * 3.141592653589793 / 1e-4;
   Extrema extrema;
   observe(scene, [&](double, auto run) { run(extrema); });
@@ -82,7 +82,7 @@ TEST(Extrema, of_a_long_arc_are_found_among_thousands_of_its_oscillations) {
 }
 
 TEST(Extrema, of_heavily_damped_and_slow_motion_are_exact) {
-  Scene scene;
+  point::Problem scene;
   scene.oscillator = {1e3, 1.0, 1e-3, 0.1};
   scene.time.tolerance = 1e-13;
   Extrema extrema;
@@ -93,4 +93,4 @@ TEST(Extrema, of_heavily_damped_and_slow_motion_are_exact) {
 }
 
 }  // namespace
-}  // namespace clatter
+}  // namespace clatter::observables

@@ -7,13 +7,13 @@
 #include "observables/impacts.hpp"
 #include "observables/runs.hpp"
 
-namespace clatter {
+namespace clatter::observables {
 namespace {
 
 using Complex = std::complex<double>;
 
 /// Harmonics 0 ... K of a scene's observed time, from its arcs; log gets the impacts.
-ExactHarmonics harmonics_of(const Scene& scene, std::size_t highest, ImpactLog& log, double& total) {
+ExactHarmonics harmonics_of(const point::Problem& scene, std::size_t highest, ImpactLog& log, double& total) {
   std::optional<ExactHarmonics> harmonics;
   total = observe(scene, [&](double length, auto run) {
     harmonics.emplace(highest,
@@ -30,7 +30,7 @@ TEST(Harmonics, equal_those_of_the_impacts_alone) {
     double xs, R, nu, load;
   } scenes[] = {{0.5, 0.7, 1.0, 0.0}, {0.3, 0.7, 1.0, 0.0}, {0.6, 0.8, 1.3, 0.1}, {3.0, 0.7, 0.868, 0.0}};
   for (const auto& [xs, R, nu, load] : scenes) {
-    Scene scene = paper_scene(xs, R, nu);
+    point::Problem scene = paper_scene(xs, R, nu);
     scene.oscillator.load = load;
     ImpactLog log;
     double total = 0.0;
@@ -41,7 +41,7 @@ TEST(Harmonics, equal_those_of_the_impacts_alone) {
       Complex sum = k == 0   ? Complex(load)
                     : k == 1 ? Complex(0, 0.5)
                              : Complex(0);  // f = -1: -sin = Re(i e^{i nu tau})
-      for (const Impact& impact : log.impacts())
+      for (const motion::Impact& impact : log.impacts())
         sum += (impact.after - impact.before) / total * std::polar(1.0, -w * impact.time);
       const Complex expected = sum / Complex(1 - w * w, 0.2 * w);
       // settled to 1e-14, and a factor of |v|/|Z| <= 5 for both
@@ -73,9 +73,9 @@ TEST(Harmonics, of_free_vibration_between_stops_have_their_closed_form) {
 
 TEST(Harmonics, quadrature_at_a_resonance_and_integration_by_parts_agree) {
   // the same lightly damped motion, seen at frequencies just either side of the switch between the two
-  Scene scene = paper_scene(1.0, 0.7, 0.6);
+  point::Problem scene = paper_scene(1.0, 0.7, 0.6);
   scene.oscillator.damping = 0.01;
-  scene.time.mode = Mode::transient;
+  scene.time.mode = steady::Mode::transient;
   scene.time.duration = 37.0;
   const double edge = std::sqrt(1 - 1.0 / 8);  // |Z| = 1/8 up to h^2
   const auto at = [&](double w) {
@@ -96,7 +96,7 @@ TEST(Harmonics, quadrature_at_a_resonance_and_integration_by_parts_agree) {
 
 TEST(Harmonics, see_rests_too) {
   // a mass held on the upper stop all the time: constant part = its place, nothing else
-  Scene scene = paper_scene(0.5, 0.5, 1.0);
+  point::Problem scene = paper_scene(0.5, 0.5, 1.0);
   scene.oscillator.load = 3.0;
   scene.start.displacement = 0.5;
   ImpactLog log;
@@ -109,7 +109,7 @@ TEST(Harmonics, see_rests_too) {
 /// f <x' sin(nu tau)> - 2h <x'^2> times the length, by Gauss-Legendre panels.
 struct Work {
   double input = 0.0, friction = 0.0, impacts = 0.0;
-  const Scene& scene;
+  const point::Problem& scene;
 
   template <class A>
   void arc(const A& arc, double, double length) {
@@ -124,13 +124,15 @@ struct Work {
           friction += half * Rule::weights()[i] * 2 * scene.oscillator.damping * m.v * m.v;
         }
   }
-  void rest(const Rest&) {}
-  void impact(const Impact& impact) { impacts += (impact.before * impact.before - impact.after * impact.after) / 2; }
+  void rest(const motion::Rest&) {}
+  void impact(const motion::Impact& impact) {
+    impacts += (impact.before * impact.before - impact.after * impact.after) / 2;
+  }
 };
 
 TEST(Harmonics, energy_of_a_periodic_motion_balances) {
   for (double xs : {0.3, 0.5}) {  // check 7
-    const Scene scene = paper_scene(xs, 0.7, 1.0);
+    const point::Problem scene = paper_scene(xs, 0.7, 1.0);
     Work work{.scene = scene};
     observe(scene, [&](double, auto run) { run(work); });
     EXPECT_GT(work.impacts, 0.1);
@@ -139,4 +141,4 @@ TEST(Harmonics, energy_of_a_periodic_motion_balances) {
 }
 
 }  // namespace
-}  // namespace clatter
+}  // namespace clatter::observables

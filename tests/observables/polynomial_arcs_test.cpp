@@ -8,15 +8,15 @@
 #include <numbers>
 #include <optional>
 
-#include "integrators/dormand_prince.hpp"
 #include "observables/extrema.hpp"
 #include "observables/harmonics.hpp"
 #include "observables/runs.hpp"
 #include "observables/samples.hpp"
 #include "observables/stability.hpp"
+#include "stepping/dormand_prince.hpp"
 #include "support/random.hpp"
 
-namespace clatter {
+namespace clatter::observables {
 namespace {
 
 constexpr double ulp = std::numeric_limits<double>::epsilon();
@@ -25,7 +25,7 @@ constexpr Stops no_stops{};
 using Complex = std::complex<double>;
 
 /// Its arcs have no equation that matters here.
-const Flow<double, effects> flow({0.1, 1.0, 1.3, 0.0});
+const motion::ArcConstants<double, effects> constants({0.1, 1.0, 1.3, 0.0});
 
 /// Coefficients in u, to degree 6, as a Bernstein polynomial.
 Bernstein<double> by_powers(const std::array<double, 7>& a) {
@@ -40,7 +40,7 @@ Bernstein<double> by_powers(const std::array<double, 7>& a) {
   return c;
 }
 
-Bernstein<double> any_polynomial(Random& random) {
+Bernstein<double> any_polynomial(support::Random& random) {
   Bernstein<double> c;
   for (double& coefficient : c) coefficient = random.uniform(-1, 1);
   return c;
@@ -48,13 +48,13 @@ Bernstein<double> any_polynomial(Random& random) {
 
 TEST(PolynomialArcs, extrema_inside_a_step_are_found_to_rounding) {
   for (std::uint64_t i = 0; i < 300; ++i) {
-    Random random(41, i);
+    support::Random random(41, i);
     const double u = random.uniform(0.05, 0.95), top = random.uniform(-3, 3), bend = random.logarithmic(1e-6, 10);
     const double anchor = random.uniform(-2, 2), length = random.logarithmic(1e-3, 2);
     // rise: top - bend (u - u0)^2, velocity: the same turned over
-    const auto rise = by_powers({top - bend * u * u, 2 * bend * u, -bend}),
+    const auto offset = by_powers({top - bend * u * u, 2 * bend * u, -bend}),
                velocity = by_powers({bend * u * u - top, -2 * bend * u, bend});
-    const PolynomialArc<effects> arc(flow, anchor, 0.0, length, rise, velocity);
+    const motion::PolynomialArc<effects> arc(constants, anchor, 0.0, length, offset, velocity);
     Extrema extrema;
     extrema.arc(arc, 0.0, length);
     // a coefficient's rounding, and what is left undecided
@@ -68,8 +68,8 @@ TEST(PolynomialArcs, extrema_inside_a_step_are_found_to_rounding) {
 
 TEST(PolynomialArcs, extrema_after_the_end_of_a_cut_step_do_not_count) {
   // rise 1 - (u - 3/4)^2, cut at 1/2 and at 7/8
-  const auto rise = by_powers({7.0 / 16, 1.5, -1});
-  const PolynomialArc<effects> arc(flow, 0.0, 0.0, 2.0, rise, by_powers({0, 1}));
+  const auto offset = by_powers({7.0 / 16, 1.5, -1});
+  const motion::PolynomialArc<effects> arc(constants, 0.0, 0.0, 2.0, offset, by_powers({0, 1}));
   Extrema before, behind;
   before.arc(arc, 0.0, 1.0);
   behind.arc(arc, 0.0, 1.75);
@@ -81,8 +81,8 @@ TEST(PolynomialArcs, extrema_after_the_end_of_a_cut_step_do_not_count) {
 
 TEST(PolynomialArcs, extrema_of_any_polynomial_are_never_passed_and_always_reached) {
   for (std::uint64_t i = 0; i < 300; ++i) {
-    Random random(42, i);
-    const PolynomialArc<effects> arc(flow, 0.0, 0.0, 1.0, any_polynomial(random), any_polynomial(random));
+    support::Random random(42, i);
+    const motion::PolynomialArc<effects> arc(constants, 0.0, 0.0, 1.0, any_polynomial(random), any_polynomial(random));
     const double length = random.uniform(0.1, 1);
     Extrema extrema;
     extrema.arc(arc, 0.0, length);
@@ -119,14 +119,14 @@ Complex integral(Function&& y, double w, double begin, double length) {
 TEST(PolynomialArcs, harmonics_are_those_of_a_much_finer_quadrature) {
   constexpr std::size_t highest = 24;
   for (std::uint64_t i = 0; i < 60; ++i) {
-    Random random(43, i);
+    support::Random random(43, i);
     const double base = random.logarithmic(0.1, 3);
     ExactHarmonics harmonics(highest, base);
     std::vector<Complex> expected(highest + 1);
     double begin = 0;
     for (int k = 0; k < 6; ++k) {
       const double step = random.logarithmic(1e-3, 4), length = step * (k % 2 == 0 ? 1.0 : random.uniform(0, 1));
-      const PolynomialArc<effects> arc(flow, 0.3, 0.0, step, any_polynomial(random), {});
+      const motion::PolynomialArc<effects> arc(constants, 0.3, 0.0, step, any_polynomial(random), {});
       harmonics.arc(arc, begin, length);
       for (std::size_t n = 0; n <= highest; ++n)
         expected[n] += integral([&](double s) { return arc.at(s).x; }, base * static_cast<double>(n), begin, length);
@@ -140,9 +140,9 @@ TEST(PolynomialArcs, harmonics_are_those_of_a_much_finer_quadrature) {
 
 TEST(PolynomialArcs, harmonics_of_the_velocity_are_those_of_the_derivative) {
   // pieces of one polynomial and its derivative over 0 ... 3: x' is the velocity everywhere
-  const auto rise = by_powers({0.2, -1, 3, 0.5, -4, 1, 0.3});
+  const auto offset = by_powers({0.2, -1, 3, 0.5, -4, 1, 0.3});
   const auto velocity = by_powers({-1.0 / 3, 2, 0.5, -16.0 / 3, 5.0 / 3, 0.6, 0});
-  const PolynomialArc<effects> arc(flow, 0.1, 0.0, 3.0, rise, velocity);
+  const motion::PolynomialArc<effects> arc(constants, 0.1, 0.0, 3.0, offset, velocity);
   const double base = 2 * std::numbers::pi / 3;
   ExactHarmonics harmonics(4, base);
   harmonics.arc(arc, 0.0, 3.0);
@@ -157,8 +157,8 @@ TEST(PolynomialArcs, harmonics_of_the_velocity_are_those_of_the_derivative) {
 TEST(PolynomialArcs, samples_lie_on_their_polynomials_and_the_last_on_the_end) {
   const double third = 1.0 / 3;
   Samples samples(7, third, AtImpact::after, no_stops);
-  const PolynomialArc<effects> first(flow, 0.5, 0.0, 2.0, by_powers({0, 1, 1}), by_powers({4, 0, 0, 1}));
-  const PolynomialArc<effects> second(flow, -1.0, 0.0, 5.0, by_powers({1, 0, 2}), by_powers({0, 3}));
+  const motion::PolynomialArc<effects> first(constants, 0.5, 0.0, 2.0, by_powers({0, 1, 1}), by_powers({4, 0, 0, 1}));
+  const motion::PolynomialArc<effects> second(constants, -1.0, 0.0, 5.0, by_powers({1, 0, 2}), by_powers({0, 3}));
   samples.arc(first, 0.0, 1.1);  // of their steps only the beginnings
   samples.arc(second, 1.1, 0.9);
   samples.finish(7.0, 8.0, 2.0, false);
@@ -173,7 +173,7 @@ TEST(PolynomialArcs, samples_lie_on_their_polynomials_and_the_last_on_the_end) {
   EXPECT_EQ(samples.velocity()[6], 8.0);
 }
 
-Scene with_tolerance(Scene scene, double tolerance) {
+point::Problem with_tolerance(point::Problem scene, double tolerance) {
   scene.integration.tolerance = tolerance;
   return scene;
 }
@@ -181,8 +181,8 @@ Scene with_tolerance(Scene scene, double tolerance) {
 TEST(PolynomialArcs, multipliers_are_those_of_the_closed_form) {
   // check 5, in twelve digits; the motion is as far off as its steps
   for (const double tolerance : {1e-6, 1e-9, 1e-12}) {
-    const Scene scene = with_tolerance(paper_scene(0.5, 0.7, 1.0), tolerance);
-    DormandPrince<general_effects(0.1)> integrator(scene);
+    const point::Problem scene = with_tolerance(paper_scene(0.5, 0.7, 1.0), tolerance);
+    stepping::DormandPrince<general_effects(0.1)> integrator(scene, scene.integration, limits_of(scene));
     Stability stability(scene.stops, 64 * epsilon<double>());
     observe_by(integrator, scene, [&](double total, auto run) {
       run(stability);
@@ -197,7 +197,7 @@ TEST(PolynomialArcs, multipliers_are_those_of_the_closed_form) {
 }
 
 TEST(PolynomialArcs, extrema_and_harmonics_come_as_near_to_the_exact_ones_as_the_motion) {
-  const Scene scene = paper_scene(0.6, 0.8, 1.3);
+  const point::Problem scene = paper_scene(0.6, 0.8, 1.3);
   std::optional<ExactHarmonics> expected;
   Extrema exact;
   observe(scene, [&](double total, auto run) {
@@ -205,7 +205,7 @@ TEST(PolynomialArcs, extrema_and_harmonics_come_as_near_to_the_exact_ones_as_the
     expected->finish(run(*expected, exact).x, total);
   });
   for (const double tolerance : {1e-5, 1e-8, 1e-11}) {
-    DormandPrince<general_effects(0.1)> integrator(with_tolerance(scene, tolerance));
+    stepping::DormandPrince<general_effects(0.1)> integrator(scene, with_tolerance(scene, tolerance).integration);
     std::optional<ExactHarmonics> harmonics;
     Extrema extrema;
     observe_by(integrator, scene, [&](double total, auto run) {
@@ -225,4 +225,4 @@ TEST(PolynomialArcs, extrema_and_harmonics_come_as_near_to_the_exact_ones_as_the
 }
 
 }  // namespace
-}  // namespace clatter
+}  // namespace clatter::observables

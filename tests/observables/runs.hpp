@@ -5,9 +5,10 @@
 #include <tuple>
 #include <type_traits>
 
-#include "integrators/settle.hpp"
+#include "point/problem.hpp"
+#include "steady/find_steady.hpp"
 
-namespace clatter {
+namespace clatter::observables {
 
 /// Passes what happens on to several observers, as the sweep does.
 template <class... Observer>
@@ -18,10 +19,10 @@ struct Both {
   void arc(const A& arc, double begin, double length) {
     std::apply([&](auto&... o) { (o.arc(arc, begin, length), ...); }, observers);
   }
-  void rest(const Rest& rest) {
+  void rest(const motion::Rest& rest) {
     std::apply([&](auto&... o) { (o.rest(rest), ...); }, observers);
   }
-  void impact(const Impact& impact) {
+  void impact(const motion::Impact& impact) {
     std::apply([&](auto&... o) { (o.impact(impact), ...); }, observers);
   }
 };
@@ -29,16 +30,16 @@ struct Both {
 /// The observed time of a scene as an integrator finds it, under the eyes of `make(total)`'s observers; gives its
 /// length.
 template <class Integrator, class Make>
-double observe_by(Integrator& integrator, const Scene& scene, Make&& make) {
-  State<double> state;
+double observe_by(Integrator& integrator, const point::Problem& scene, Make&& make) {
+  motion::State<double> state;
   state.x = scene.start.displacement, state.v = scene.start.velocity;
-  const Observed observed = settle(integrator, state, scene);
+  const steady::ObservedTime observed = find_steady(integrator, state, scene, scene.time, scene.integration);
   const double total = observed.turns * integrator.period();
   state = observed.from;
   make(total, [&](auto&... observer) {
     Both<std::remove_reference_t<decltype(observer)>...> all{{observer...}};
-    const Outcome outcome = run_for(integrator, state, observed.turns, all);
-    if (outcome != Outcome::completed) throw std::runtime_error("the scene was not completed");
+    const stepping::Outcome outcome = run_for(integrator, state, observed.turns, all);
+    if (outcome != stepping::Outcome::completed) throw std::runtime_error("the scene was not completed");
     return state;
   });
   return total;
@@ -46,16 +47,16 @@ double observe_by(Integrator& integrator, const Scene& scene, Make&& make) {
 
 /// The same by the exact integrator.
 template <class Make>
-double observe(const Scene& scene, Make&& make) {
+double observe(const point::Problem& scene, Make&& make) {
   return with_any_stops(scene.oscillator, [&]<Effects effects>() {
-    Exact<double, effects> integrator(scene);
+    stepping::Exact<double, effects> integrator(scene, limits_of(scene));
     return observe_by(integrator, scene, make);
   });
 }
 
 /// x_s, R and nu of a scene of Figs. 14-23: h = 0.1, f = -1, from rest.
-inline Scene paper_scene(double xs, double R, double nu) {
-  Scene scene;
+inline point::Problem paper_scene(double xs, double R, double nu) {
+  point::Problem scene;
   scene.oscillator = {0.1, -1.0, nu, 0.0};
   scene.stops = {-xs, xs, R, R};
   scene.time.tolerance = 1e-14;
@@ -63,11 +64,11 @@ inline Scene paper_scene(double xs, double R, double nu) {
 }
 
 /// Free vibration with |x'| = V at x = 0 between stops at -g and g, from x = 0 with x' = -V.
-inline Scene conservative_scene(double g, double V) {
-  Scene scene;
+inline point::Problem conservative_scene(double g, double V) {
+  point::Problem scene;
   scene.stops = {-g, g, 1.0, 1.0};
   scene.start.velocity = -V;
   return scene;
 }
 
-}  // namespace clatter
+}  // namespace clatter::observables

@@ -5,15 +5,15 @@
 #include <algorithm>
 #include <numbers>
 
-#include "numbers/fifty_digits.hpp"
+#include "math/fifty_digits.hpp"
 #include "observables/fourier_transform.hpp"
 #include "observables/runs.hpp"
 #include "support/random.hpp"
 
-namespace clatter {
+namespace clatter::observables {
 namespace {
 
-Samples samples_of(const Scene& scene, std::size_t count, bool with_end, AtImpact at_impact) {
+Samples samples_of(const point::Problem& scene, std::size_t count, bool with_end, AtImpact at_impact) {
   std::optional<Samples> samples;
   observe(scene, [&](double total, auto run) {
     samples.emplace(count, total / static_cast<double>(with_end ? count - 1 : count), at_impact, scene.stops);
@@ -37,7 +37,7 @@ TEST(Samples, of_free_vibration_lie_on_its_arcs_both_ends_included) {
 }
 
 TEST(Samples, on_an_impact_show_the_velocity_after_it_or_the_mean) {
-  Scene scene = conservative_scene(0.5, 1.0);
+  point::Problem scene = conservative_scene(0.5, 1.0);
   scene.start = {-0.5, std::sqrt(0.75),
                  0.0};  // just after the contact with the lower stop: samples 0, N/2 and N lie on impacts
   Samples trajectory = samples_of(scene, 5, true, AtImpact::after);
@@ -58,10 +58,10 @@ TEST(Samples, never_lie_outside_the_stops) {
 
 /// An arc of an oscillator from (x, v) at the phase (0.6, 0.8).
 template <class Number, Effects E>
-Arc<Number, E> arc_of(const Flow<Number, E>& flow, double x, double v) {
-  Motion<Number> m{Number(0), Number(x), Number(v), Number(0), Number(6) / 10, Number(8) / 10};
-  m.a = flow.acceleration(m.x - flow.load, m.v, m.sine);
-  return {flow, m};
+motion::Arc<Number, E> arc_of(const motion::ArcConstants<Number, E>& constants, double x, double v) {
+  motion::Motion<Number> m{Number(0), Number(x), Number(v), Number(0), Number(6) / 10, Number(8) / 10};
+  m.a = constants.acceleration(m.x - constants.load, m.v, m.sine);
+  return {constants, m};
 }
 
 TEST(Samples, by_steps_from_an_instant_are_as_good_as_evaluated_ones) {
@@ -71,19 +71,19 @@ TEST(Samples, by_steps_from_an_instant_are_as_good_as_evaluated_ones) {
     for (const double f : {0.0, -1.3})
       for (const double nu : {1e-3, 0.3, 1.0, 1.04, 2.7, 30.0})
         with_any_stops({h, f, nu, 0.2}, [&]<Effects effects>() {
-          const Flow<double, effects.arc()> flow({h, f, nu, 0.2});
-          const Flow<FiftyDigits, effects.arc()> exact_flow({h, f, nu, 0.2});
-          const auto arc = arc_of(flow, 0.37, -1.1);
+          const motion::ArcConstants<double, effects.arc()> constants({h, f, nu, 0.2});
+          const motion::ArcConstants<FiftyDigits, effects.arc()> exact_flow({h, f, nu, 0.2});
+          const auto arc = arc_of(constants, 0.37, -1.1);
           const auto exact = arc_of(exact_flow, 0.37, -1.1);
           Samples samples(count, spacing, AtImpact::after, {});
           samples.arc(arc, 0.0, count * spacing);
           for (std::size_t i = 0; i < count; i += 7) {
             const double s = static_cast<double>(i) * spacing;
-            const Motion<FiftyDigits> expected = exact.at(s);
+            const motion::Motion<FiftyDigits> expected = exact.at(s);
             // natural scale: the response and the free motion; the argument of a sine rounds to its ulps; evaluated
             // samples take 0.19 of (8 + argument), these 0.16
-            const double scale = 0.2 + flow.reach(arc.start(), s);
-            const double allowed = 0.25 * std::numeric_limits<double>::epsilon() * (8 + s * flow.rate) * scale;
+            const double scale = 0.2 + constants.reach(arc.start(), s);
+            const double allowed = 0.25 * std::numeric_limits<double>::epsilon() * (8 + s * constants.rate) * scale;
             EXPECT_NEAR(samples.displacement()[i], static_cast<double>(expected.x), allowed)
                 << "h = " << h << ", f = " << f << ", nu = " << nu << ", s = " << s;
             EXPECT_NEAR(samples.velocity()[i], static_cast<double>(expected.v), allowed * std::max(1.0, nu))
@@ -94,13 +94,13 @@ TEST(Samples, by_steps_from_an_instant_are_as_good_as_evaluated_ones) {
 
 TEST(Samples, of_short_flights_are_evaluated_each) {
   // between stops 1e-9 apart: a step from another instant would know the place to an ulp of the response
-  const Flow<double, Effects{Damping::light, Forcing::regular}> flow({0.1, 1.0, 1.5, 0.0});
-  const Arc<double, Effects{Damping::light, Forcing::regular}> arc = arc_of(flow, -5e-10, 1e-5);
+  const motion::ArcConstants<double, Effects{Damping::light, Forcing::regular}> constants({0.1, 1.0, 1.5, 0.0});
+  const motion::Arc<double, Effects{Damping::light, Forcing::regular}> arc = arc_of(constants, -5e-10, 1e-5);
   constexpr double length = 1e-4;
   Samples samples(50, length / 50, AtImpact::after, {-5e-10, 5e-10, 0.7, 0.7});
   samples.arc(arc, 0.0, length);
   for (std::size_t i = 0; i < 50; ++i) {
-    const Motion<double> expected = arc.at(static_cast<double>(i) * (length / 50));
+    const motion::Motion<double> expected = arc.at(static_cast<double>(i) * (length / 50));
     EXPECT_EQ(samples.displacement()[i], std::min(expected.x, 5e-10));
     EXPECT_EQ(samples.velocity()[i], expected.v);
   }
@@ -131,7 +131,7 @@ TEST(FourierTransform, finds_a_sum_of_cosines) {
 
 TEST(FourierTransform, a_row_has_the_same_bits_in_either_place_and_beside_any_other) {
   for (const std::size_t n : std::initializer_list<std::size_t>{2, 3, 4, 15, 16, 64, 101, 1000, 1001, 4096}) {
-    Random random(44, n);
+    support::Random random(44, n);
     std::vector<double> row = cosine(n), other(n);
     for (double& sample : other) sample = random.uniform(-1e3, 1e3);
     const FourierTransform transform(n), again(n);
@@ -143,4 +143,4 @@ TEST(FourierTransform, a_row_has_the_same_bits_in_either_place_and_beside_any_ot
 }
 
 }  // namespace
-}  // namespace clatter
+}  // namespace clatter::observables

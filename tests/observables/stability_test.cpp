@@ -6,11 +6,11 @@
 #include <limits>
 #include <vector>
 
-#include "numbers/fifty_digits.hpp"
+#include "math/fifty_digits.hpp"
 #include "observables/impacts.hpp"
 #include "observables/runs.hpp"
 
-namespace clatter {
+namespace clatter::observables {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity(), ulp = std::numeric_limits<double>::epsilon();
@@ -22,7 +22,7 @@ struct Judged {
   double total = 0.0;
 };
 
-Judged judged(const Scene& scene, bool autonomous = false) {
+Judged judged(const point::Problem& scene, bool autonomous = false) {
   Judged result{Stability(scene.stops, 64 * ulp)};
   result.total = observe(scene, [&](double total, auto&& run) {
     run(result.stability, result.impacts);
@@ -60,8 +60,8 @@ TEST(Stability, multipliers_lose_by_damping_and_restitution_alone) {
   EXPECT_GE(real, 3);
 }
 
-Scene linear_scene(double h, double nu) {
-  Scene scene;
+point::Problem linear_scene(double h, double nu) {
+  point::Problem scene;
   scene.oscillator = {h, 1.0, nu, 0.0};
   return scene;
 }
@@ -103,7 +103,7 @@ TEST(Stability, of_arcs_of_any_length) {
     double h, nu, rate;
   } cases[] = {{0.5, 1e-12, 0.5}, {0.5, 1e-300, 0.5}, {1e6, 1e-3, 1 / (1e6 + std::sqrt(1e12 - 1))}};
   for (const auto& [h, nu, rate] : cases) {
-    Scene scene = paper_scene(10, 0.7, nu);
+    point::Problem scene = paper_scene(10, 0.7, nu);
     scene.oscillator.damping = h;
     // the angle of a long arc is known to an ulp of it, which the logarithm of its map hardly feels
     EXPECT_NEAR(judged(scene).stability.lyapunov() / -rate, 1, 1e-9) << "h " << h << ", nu " << nu;
@@ -114,13 +114,13 @@ TEST(Stability, a_stop_that_is_touched_without_speed_changes_nothing) {
   const Judged found = judged(conservative_scene(1.0, 1.0), true);
   EXPECT_EQ(found.stability.first(), 1.0);
   EXPECT_EQ(found.stability.second(), 1.0);
-  Tangent<double> tangent({-1, 1, 0.7, 0.7});
-  tangent.impact({.time = 1, .side = Side::upper, .before = 0, .after = 0, .place = 1});
-  EXPECT_EQ(tangent.map(), (Map<double>{1, 0, 0, 1}));
+  motion::TangentMap<double> tangent({-1, 1, 0.7, 0.7});
+  tangent.impact({.time = 1, .side = Side::upper, .before = 0, .after = 0, .position = 1});
+  EXPECT_EQ(tangent.map(), (motion::Jacobian<double>{1, 0, 0, 1}));
 }
 
 TEST(Stability, nothing_is_left_of_a_change_after_a_rest) {
-  Scene scene;
+  point::Problem scene;
   scene.oscillator = {0.1, 1.0, 0.5, 0.0};
   for (const double R : {0.0, 0.2}) {
     scene.stops = {-0.5, 0.5, R, R};
@@ -149,21 +149,21 @@ class Chaos {
   Chaos() : integrator_(paper_scene(3.0, 0.7, 0.95)) {}
 
   template <class Observer>
-  State<Number> after(State<Number> state, int periods, Observer& observer) {
-    EXPECT_EQ(run_for(integrator_, state, Number(periods), observer), Outcome::completed);
+  motion::State<Number> after(motion::State<Number> state, int periods, Observer& observer) {
+    EXPECT_EQ(run_for(integrator_, state, Number(periods), observer), stepping::Outcome::completed);
     return state;
   }
   [[nodiscard]] Number length(int periods) const { return integrator_.period() * periods; }
 
  private:
-  Exact<Number, kernels::complete(Damping::light, Forcing::secular)> integrator_;
+  stepping::Exact<Number, effect_sets::complete(Damping::light, Forcing::secular)> integrator_;
 };
 
 TEST(Stability, of_chaos_is_the_growth_of_the_distance_of_neighbouring_runs) {
   // in 50 digits a distance of 1e-40 grows as a derivative would; both runs start on the attractor
   Chaos<double> chaos;
-  NoObserver nobody;
-  State<double> start = chaos.after({}, 300, nobody);
+  stepping::NoObserver nobody;
+  motion::State<double> start = chaos.after({}, 300, nobody);
   start.periods = 0;
   for (const int periods : {1, 10, 40}) {
     Stability stability(paper_scene(3.0, 0.7, 0.95).stops, 64 * ulp);
@@ -172,7 +172,7 @@ TEST(Stability, of_chaos_is_the_growth_of_the_distance_of_neighbouring_runs) {
     Chaos<FiftyDigits> exact;
     const FiftyDigits step("1e-40");
     const auto from = [&](const FiftyDigits& dx, const FiftyDigits& dv) {
-      State<FiftyDigits> state;
+      motion::State<FiftyDigits> state;
       state.x = start.x + dx, state.v = start.v + dv;
       return exact.after(state, periods, nobody);
     };
@@ -189,8 +189,8 @@ TEST(Stability, of_chaos_is_the_growth_of_the_distance_of_neighbouring_runs) {
 
 TEST(Stability, of_chaos_is_positive_and_overflows_in_no_number_of_periods) {
   Chaos<double> chaos;
-  NoObserver nobody;
-  State<double> state = chaos.after({}, 300, nobody);
+  stepping::NoObserver nobody;
+  motion::State<double> state = chaos.after({}, 300, nobody);
   std::vector<double> exponents;
   Stability whole(paper_scene(3.0, 0.7, 0.95).stops, 64 * ulp);
   constexpr int pieces = 10, periods = 1000;
@@ -215,15 +215,16 @@ TEST(Stability, of_chaos_is_positive_and_overflows_in_no_number_of_periods) {
 }
 
 TEST(Stability, of_a_fading_motion_underflows_in_no_number_of_periods) {
-  Exact<double, kernels::free_of_stops(Damping::light, Forcing::regular)> integrator(linear_scene(0.1, 0.8));
+  stepping::Exact<double, effect_sets::free_of_stops(Damping::light, Forcing::regular)> integrator(
+      linear_scene(0.1, 0.8));
   Stability stability({}, 64 * ulp);
-  State<double> state;
+  motion::State<double> state;
   constexpr int periods = 20000;  // e^{-15708}
-  ASSERT_EQ(run_for(integrator, state, double(periods), stability), Outcome::completed);
+  ASSERT_EQ(run_for(integrator, state, double(periods), stability), stepping::Outcome::completed);
   const double total = integrator.period() * periods;
   stability.finish_window(total);
   EXPECT_NEAR(stability.lyapunov(), -0.1, std::log(1.2) / total);  // a rotation, seen as an ellipse of axes 1 +- h
 }
 
 }  // namespace
-}  // namespace clatter
+}  // namespace clatter::observables

@@ -9,10 +9,10 @@
 #include <string>
 #include <vector>
 
-#include "results/figure_file.hpp"
+#include "results/dataset_file.hpp"
 #include "storage/error.hpp"
 
-namespace clatter {
+namespace clatter::results {
 namespace {
 
 namespace fs = std::filesystem;
@@ -43,11 +43,11 @@ class Replacing : public testing::Test {
 
 /// The bytes of an output: of a run, of a shard, or, with its variable of times, of a study.
 std::string output(const Origin& origin) {
-  Config config;
+  config::Config config;
   config.title = origin.title;
-  Figure figure{{}, {{origin.is_study ? "ns_per_period" : "x_min", {}, std::vector<double>{1.0}, "", "1"}}};
-  if (!origin.shard.empty()) figure.attributes = {{"shard", origin.shard}};
-  const FileImage image = file_image(std::move(figure), config);
+  sweep::Dataset dataset{{}, {{origin.is_study ? "ns_per_period" : "x_min", {}, std::vector<double>{1.0}, "", "1"}}};
+  if (!origin.shard.empty()) dataset.attributes = {{"shard", origin.shard}};
+  const FileImage image = file_image(std::move(dataset), config);
   return {reinterpret_cast<const char*>(image.bytes.data()), image.bytes.size()};
 }
 
@@ -56,7 +56,7 @@ const Origin run{.title = "größter Ausschlag"}, study{.is_study = true, .title
 
 void publish_new(const OutputPlace& place) {
   const std::string bytes = "new";
-  place.publish(std::as_bytes(std::span(bytes)));
+  place.write_atomically(std::as_bytes(std::span(bytes)));
 }
 
 TEST_F(Replacing, an_output_tells_its_origin) {
@@ -103,7 +103,7 @@ TEST_F(Replacing, every_origin_gives_way_to_itself_alone) {
         publish_new(OutputPlace(path(), ours, false));
         EXPECT_EQ(content(), "new");
       } else {
-        EXPECT_THROW(OutputPlace(path(), ours, false), IoError);
+        EXPECT_THROW(OutputPlace(path(), ours, false), storage::IoError);
         EXPECT_EQ(content(), output(there));
       }
     }
@@ -118,7 +118,7 @@ TEST_F(Replacing, force_replaces_anything) {
 TEST_F(Replacing, a_file_that_has_come_meanwhile_is_kept) {
   const OutputPlace place(path(), run, false);
   write("a letter");
-  EXPECT_THROW(publish_new(place), IoError);
+  EXPECT_THROW(publish_new(place), storage::IoError);
   EXPECT_EQ(content(), "a letter");
   EXPECT_EQ(files(), 1U);  // no temporary one
 }
@@ -127,7 +127,7 @@ TEST_F(Replacing, an_output_that_has_become_another_file_meanwhile_is_kept) {
   write(output(run));
   const OutputPlace place(path(), run, false);
   write("a letter");
-  EXPECT_THROW(publish_new(place), IoError);
+  EXPECT_THROW(publish_new(place), storage::IoError);
   EXPECT_EQ(content(), "a letter");
 }
 
@@ -143,10 +143,10 @@ TEST_F(Replacing, a_title_is_shown_without_its_control_characters) {
   try {
     const OutputPlace place(path(), run, false);
     ADD_FAILURE() << "it isn't refused";
-  } catch (const IoError& error) {
+  } catch (const storage::IoError& error) {
     EXPECT_NE(std::string(error.what()).find("'a\\x1b]0;b\\x0a'"), std::string::npos) << error.what();
   }
 }
 
 }  // namespace
-}  // namespace clatter
+}  // namespace clatter::results

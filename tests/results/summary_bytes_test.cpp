@@ -4,7 +4,7 @@
 
 #include <string>
 
-namespace clatter {
+namespace clatter::results {
 namespace {
 
 TEST(SummaryBytes, give_the_summary_again_and_nothing_where_some_are_missing) {
@@ -23,4 +23,4 @@ TEST(SummaryBytes, give_the_summary_again_and_nothing_where_some_are_missing) {
 }
 
 }  // namespace
-}  // namespace clatter
+}  // namespace clatter::results

@@ -7,10 +7,10 @@
 #include <cerrno>
 
 #include "storage/error.hpp"
-#include "storage/guarded.hpp"
 #include "storage/input_file.hpp"
+#include "storage/run_in_child.hpp"
 
-namespace clatter {
+namespace clatter::storage {
 namespace {
 
 /// Leaves no file to be opened.
@@ -58,10 +58,10 @@ TEST(ReasonAndWayOut, of_too_many_open_files_is_the_limit) {
 TEST(ReasonAndWayOut, is_told_by_what_opens_files) {
   for (const std::string& message :
        {message_without_files([] { (void)open_input("/dev/null", "a file"); }),
-        message_without_files([] { (void)guarded([] { return ""; }, {}); }),
+        message_without_files([] { (void)run_in_child([] { return ""; }, {}); }),
         message_without_files([] { refuse("a.h5", ::open("/", O_RDONLY) < 0 ? errno : 0); })})
     EXPECT_NE(message.find("too many open files (ulimit -n is "), std::string::npos) << message;
 }
 
 }  // namespace
-}  // namespace clatter
+}  // namespace clatter::storage

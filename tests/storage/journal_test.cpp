@@ -16,7 +16,7 @@
 #include "storage/crc32.hpp"
 #include "storage/error.hpp"
 
-namespace clatter {
+namespace clatter::storage {
 namespace {
 
 namespace fs = std::filesystem;
@@ -295,4 +295,4 @@ TEST_F(JournalFile, that_cannot_be_looked_at_is_not_idle) {
 }
 
 }  // namespace
-}  // namespace clatter
+}  // namespace clatter::storage

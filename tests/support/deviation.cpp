@@ -6,18 +6,18 @@
 #include <limits>
 #include <sstream>
 
-namespace clatter {
+namespace clatter::support {
 namespace {
 
 /// What happens within rounding of the end of a run may fall on either side of it: this part of its length.
 constexpr double at_the_end = 1e-14;
 
-std::size_t& count_of(Event::Kind kind, Deviation& deviation) {
-  if (kind == Event::Kind::impact) return deviation.impacts;
-  return kind == Event::Kind::chatter ? deviation.chatters : deviation.rests;
+std::size_t& count_of(accuracy::Event::Kind kind, Deviation& deviation) {
+  if (kind == accuracy::Event::Kind::impact) return deviation.impacts;
+  return kind == accuracy::Event::Kind::chatter ? deviation.chatters : deviation.rests;
 }
 
-std::string text(const Event& event) {
+std::string text(const accuracy::Event& event) {
   static const char* const names[] = {"impact", "chatter", "rest"};
   std::ostringstream out;
   out << names[static_cast<int>(event.kind)] << " on " << (event.side == Side::upper ? "upper" : "lower") << " stop at "
@@ -29,23 +29,23 @@ std::string text(const Event& event) {
 
 double Deviation::largest() const { return std::max({time, speed, end}); }
 
-Deviation deviation(const Course& course, const Course& reference) {
-  const auto events = with_rests_joined(course.events), expected = with_rests_joined(reference.events);
+Deviation deviation(const accuracy::RunRecord& record, const accuracy::RunRecord& reference) {
+  const auto events = with_rests_joined(record.events), expected = with_rests_joined(reference.events);
   Deviation result;
   double size_x = std::abs(reference.x), size_v = std::abs(reference.v);
   std::size_t j = 0;
-  for (const Event& event : events) {
-    if (event.kind == Event::Kind::chatter)  // the reference goes on for a while
-      while (j < expected.size() && expected[j].kind == Event::Kind::impact) ++j;
+  for (const accuracy::Event& event : events) {
+    if (event.kind == accuracy::Event::Kind::chatter)  // the reference goes on for a while
+      while (j < expected.size() && expected[j].kind == accuracy::Event::Kind::impact) ++j;
     if (j == expected.size() && event.time >= (1 - at_the_end) * reference.duration) continue;
     if (j == expected.size() || expected[j].kind != event.kind || expected[j].side != event.side) {
       result.difference = text(event) + " against " + (j == expected.size() ? "nothing" : text(expected[j]));
       return result;
     }
-    const Event& other = expected[j++];
+    const accuracy::Event& other = expected[j++];
     const double off = std::abs(event.time - other.time),
                  end_off = std::abs(event.time + event.length - other.time - other.length);
-    result.time = std::max({result.time, event.kind == Event::Kind::chatter ? 0.0 : off, end_off});
+    result.time = std::max({result.time, event.kind == accuracy::Event::Kind::chatter ? 0.0 : off, end_off});
     result.speed = std::max(result.speed, std::abs(event.speed - other.speed));
     size_v = std::max(size_v, other.speed);
     ++count_of(event.kind, result);
@@ -57,14 +57,14 @@ Deviation deviation(const Course& course, const Course& reference) {
   result.time /= reference.duration;
   if (size_v > 0) result.speed /= size_v;
   if (size_x > 0)
-    result.end = std::max(std::abs(course.x - reference.x) / size_x, std::abs(course.v - reference.v) / size_v);
+    result.end = std::max(std::abs(record.x - reference.x) / size_x, std::abs(record.v - reference.v) / size_v);
   return result;
 }
 
-double conditioning(const Scene& scene, const Course& reference) {
+double conditioning(const point::Problem& scene, const accuracy::RunRecord& reference) {
   double worst = 0;
   for (const unsigned signs : {0b010110101u, 0b100111000u}) {
-    Scene moved = scene;
+    point::Problem moved = scene;
     Oscillator& o = moved.oscillator;
     Stops& stops = moved.stops;
     Start& start = moved.start;
@@ -80,13 +80,13 @@ double conditioning(const Scene& scene, const Course& reference) {
     }
     for (double* R : {&stops.restitution_lower, &stops.restitution_upper}) *R = std::min(*R, 1.0);
     start.displacement = std::clamp(start.displacement, stops.lower, stops.upper);
-    const Deviation d = deviation(reference_of(moved, reference.duration), reference);
+    const Deviation d = deviation(accuracy::reference_of(moved, reference.duration), reference);
     worst = std::max(worst, d.same_events ? d.largest() : std::numeric_limits<double>::infinity());
   }
   return worst;
 }
 
-std::string configuration_of(const Scene& s, double duration) {
+std::string configuration_of(const point::Problem& s, double duration) {
   std::ostringstream out;
   out << std::setprecision(17) << "[scene]\nh = " << s.oscillator.damping << "\nf = " << s.oscillator.forcing
       << "\nnu = " << s.oscillator.frequency << "\nload = " << s.oscillator.load << "\nphase = " << s.start.phase
@@ -97,4 +97,4 @@ std::string configuration_of(const Scene& s, double duration) {
   return out.str();
 }
 
-}  // namespace clatter
+}  // namespace clatter::support

@@ -3,9 +3,9 @@
 #include <cstddef>
 #include <string>
 
-#include "study/course.hpp"
+#include "accuracy/run_record.hpp"
 
-namespace clatter {
+namespace clatter::support {
 
 /// How far a course is from its reference. Impacts that the reference takes after the course has completed a chatter
 /// don't count.
@@ -20,13 +20,13 @@ struct Deviation {
   [[nodiscard]] double largest() const;
 };
 
-[[nodiscard]] Deviation deviation(const Course& course, const Course& reference);
+[[nodiscard]] Deviation deviation(const accuracy::RunRecord& record, const accuracy::RunRecord& reference);
 
 /// What the inputs' own rounding does to a run: the largest deviation of the reference when all of them are moved by
 /// one ulp, in one and another combination of signs; infinite where that changes the events.
-[[nodiscard]] double conditioning(const Scene& scene, const Course& reference);
+[[nodiscard]] double conditioning(const point::Problem& scene, const accuracy::RunRecord& reference);
 
 /// The configuration that replays a scene, for a failing test to print.
-[[nodiscard]] std::string configuration_of(const Scene& scene, double duration);
+[[nodiscard]] std::string configuration_of(const point::Problem& scene, double duration);
 
-}  // namespace clatter
+}  // namespace clatter::support

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <span>
 
-namespace clatter {
+namespace clatter::support {
 
 /// The checksum of HDF5's metadata: Jenkins' lookup3, hashlittle().
 inline std::uint32_t lookup3(std::span<const std::uint8_t> bytes) {
@@ -37,4 +37,4 @@ inline std::uint32_t lookup3(std::span<const std::uint8_t> bytes) {
   return c;
 }
 
-}  // namespace clatter
+}  // namespace clatter::support

@@ -4,46 +4,46 @@
 #include <cstddef>
 #include <vector>
 
-#include "dynamics/effects.hpp"
-#include "integrators/run.hpp"
-#include "study/course.hpp"
+#include "accuracy/run_record.hpp"
+#include "model/effects.hpp"
+#include "stepping/run.hpp"
 
-namespace clatter {
+namespace clatter::support {
 
 /// Runs a scene from its start for a time in tau by a general method, DormandPrince or Moreau, under the eyes of an
 /// observer; gives what it leaves the mass in and what it has spent.
 template <template <Effects> class Method, class Observer>
-Course run_by(const Scene& scene, double duration, Observer& observer) {
+accuracy::RunRecord run_by(const point::Problem& scene, double duration, Observer& observer) {
   return with_general_effects(scene.oscillator, [&]<Effects effects>() {
-    Method<effects> integrator(scene);
-    State<double> state;
+    Method<effects> integrator(scene, scene.integration, limits_of(scene));
+    motion::State<double> state;
     state.x = scene.start.displacement, state.v = scene.start.velocity;
-    Course course;
-    course.duration = duration;
-    course.outcome = run_for(integrator, state, duration / integrator.period(), observer);
-    course.x = state.x, course.v = state.v;
-    course.impacts = integrator.impacts(), course.evaluations = integrator.evaluations();
-    return course;
+    accuracy::RunRecord record;
+    record.duration = duration;
+    record.outcome = run_for(integrator, state, duration / integrator.period(), observer);
+    record.x = state.x, record.v = state.v;
+    record.impacts = integrator.impacts(), record.evaluations = integrator.evaluations();
+    return record;
   });
 }
 
 /// Keeps the events of a run.
 struct EventList {
-  std::vector<Event> events{};
+  std::vector<accuracy::Event> events{};
 
   template <class A>
   void arc(const A&, double, double) {}
-  void rest(const Rest& rest) { events.push_back(event_of(rest)); }
-  void impact(const Impact& impact) { events.push_back(event_of(impact)); }
+  void rest(const motion::Rest& rest) { events.push_back(accuracy::event_of(rest)); }
+  void impact(const motion::Impact& impact) { events.push_back(accuracy::event_of(impact)); }
 };
 
 /// The run of a scene by a general method: what course_of gives of the exact one.
 template <template <Effects> class Method>
-Course course_by(const Scene& scene, double duration) {
+accuracy::RunRecord course_by(const point::Problem& scene, double duration) {
   EventList list;
-  Course course = run_by<Method>(scene, duration, list);
-  course.events = std::move(list.events);
-  return course;
+  accuracy::RunRecord record = run_by<Method>(scene, duration, list);
+  record.events = std::move(list.events);
+  return record;
 }
 
 /// The order of y in x: slope of the straight line through (log x, log y), by least squares.
@@ -56,4 +56,4 @@ inline double order_of(const std::vector<double>& x, const std::vector<double>& 
   return (n * sxy - sx * sy) / (n * sxx - sx * sx);
 }
 
-}  // namespace clatter
+}  // namespace clatter::support

@@ -1,9 +1,9 @@
 #pragma once
 
-#include "dynamics/oscillator.hpp"
-#include "dynamics/state.hpp"
+#include "model/oscillator.hpp"
+#include "motion/state.hpp"
 
-namespace clatter {
+namespace clatter::support {
 
 /// Where an arc begins: displacement, velocity, forcing phase in turns.
 struct ArcStart {
@@ -12,10 +12,10 @@ struct ArcStart {
 
 /// Motion a time s after the start of an arc, computed in `Number` (double or FiftyDigits).
 template <class Number>
-[[nodiscard]] Motion<Number> motion_after(const Oscillator& oscillator, const ArcStart& start, double s);
+[[nodiscard]] motion::Motion<Number> motion_after(const Oscillator& oscillator, const ArcStart& start, double s);
 
 /// The same by Taylor steps of the equation of motion alone, in 50 digits: shares no formula with the closed form.
 template <class Number>
-[[nodiscard]] Motion<Number> motion_by_taylor(const Oscillator& oscillator, const ArcStart& start, double s);
+[[nodiscard]] motion::Motion<Number> motion_by_taylor(const Oscillator& oscillator, const ArcStart& start, double s);
 
-}  // namespace clatter
+}  // namespace clatter::support

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <random>
 
-namespace clatter {
+namespace clatter::support {
 
 /// Random numbers of the i-th of a family of test scenes: any one can be drawn again without those before it.
 class Random {
@@ -20,4 +20,4 @@ class Random {
   std::mt19937_64 engine_;
 };
 
-}  // namespace clatter
+}  // namespace clatter::support

@@ -1,14 +1,14 @@
 #include "support/runs.hpp"
 
-#include "numbers/fifty_digits.hpp"
+#include "math/fifty_digits.hpp"
 
-namespace clatter {
+namespace clatter::support {
 
 template <class Number>
-Run<Number> run_scene(const Scene& scene, double duration) {
+Run<Number> run_scene(const point::Problem& scene, double duration) {
   return with_any_stops(scene.oscillator, [&]<Effects effects>() {
     Run<Number> run;
-    Exact<Number, effects> integrator(scene);
+    stepping::Exact<Number, effects> integrator(scene, limits_of(scene));
     run.end.x = scene.start.displacement, run.end.v = scene.start.velocity;
     run.outcome = run_for(integrator, run.end, Number(Number(duration) / integrator.period()), run.record);
     run.evaluations = integrator.evaluations();
@@ -16,15 +16,15 @@ Run<Number> run_scene(const Scene& scene, double duration) {
   });
 }
 
-template Run<double> run_scene(const Scene&, double);
-template Run<FiftyDigits> run_scene(const Scene&, double);
+template Run<double> run_scene(const point::Problem&, double);
+template Run<FiftyDigits> run_scene(const point::Problem&, double);
 
-Steady steady_of(const Scene& scene) {
+Steady steady_of(const point::Problem& scene) {
   return with_any_stops(scene.oscillator, [&]<Effects effects>() {
-    Exact<double, effects> integrator(scene);
-    State<double> state;
+    stepping::Exact<double, effects> integrator(scene, limits_of(scene));
+    motion::State<double> state;
     state.x = scene.start.displacement, state.v = scene.start.velocity;
-    const Observed observed = settle(integrator, state, scene);
+    const steady::ObservedTime observed = find_steady(integrator, state, scene, scene.time, scene.integration);
     Steady steady{.status = observed.status,
                   .length = observed.turns * integrator.period(),
                   .turns = observed.turns,
@@ -32,10 +32,11 @@ Steady steady_of(const Scene& scene) {
                   .found_by = observed.found_by,
                   .from = observed.from};
     state = observed.from;
-    if (!failed(observed.status) && run_for(integrator, state, observed.turns, steady.record) != Outcome::completed)
-      steady.status = Status::unresolved;
+    if (!failed(observed.status) &&
+        run_for(integrator, state, observed.turns, steady.record) != stepping::Outcome::completed)
+      steady.status = steady::Status::unresolved;
     return steady;
   });
 }
 
-}  // namespace clatter
+}  // namespace clatter::support

@@ -2,25 +2,25 @@
 
 #include <vector>
 
-#include "dynamics/scene.hpp"
-#include "integrators/settle.hpp"
+#include "point/problem.hpp"
+#include "steady/find_steady.hpp"
 
-namespace clatter {
+namespace clatter::support {
 
 /// Keeps every impact and rest of a run.
 struct Recorder {
-  std::vector<Impact> impacts{};
-  std::vector<Rest> rests{};
+  std::vector<motion::Impact> impacts{};
+  std::vector<motion::Rest> rests{};
 
   template <class A>
   void arc(const A&, double, double) {}
-  void rest(const Rest& rest) { rests.push_back(rest); }
-  void impact(const Impact& impact) { impacts.push_back(impact); }
+  void rest(const motion::Rest& rest) { rests.push_back(rest); }
+  void impact(const motion::Impact& impact) { impacts.push_back(impact); }
 };
 
 /// A scene with both restitutions equal.
-[[nodiscard]] inline Scene scene_of(const Oscillator& oscillator, double lower, double upper, double R) {
-  Scene scene;
+[[nodiscard]] inline point::Problem scene_of(const Oscillator& oscillator, double lower, double upper, double R) {
+  point::Problem scene;
   scene.oscillator = oscillator;
   scene.stops = {lower, upper, R, R};
   return scene;
@@ -30,26 +30,26 @@ struct Recorder {
 template <class Number = double>
 struct Run {
   Recorder record{};
-  State<Number> end{};
-  Outcome outcome = Outcome::unresolved;
+  motion::State<Number> end{};
+  stepping::Outcome outcome = stepping::Outcome::unresolved;
   double evaluations = 0.0;
 };
 
 /// Number: double or FiftyDigits.
 template <class Number = double>
-[[nodiscard]] Run<Number> run_scene(const Scene& scene, double duration);
+[[nodiscard]] Run<Number> run_scene(const point::Problem& scene, double duration);
 
 /// The observed time of a scene, and what happens in it.
 struct Steady {
-  Status status = Status::unresolved;
+  steady::Status status = steady::Status::unresolved;
   double length = 0.0;   ///< of the observed time, in tau
   double turns = 0.0;    ///< the same in forcing periods
   double settled = 0.0;  ///< forcing periods simulated before
-  FoundBy found_by = FoundBy::nothing;
-  State<double> from{};
+  steady::FoundBy found_by = steady::FoundBy::nothing;
+  motion::State<double> from{};
   Recorder record{};
 };
 
-[[nodiscard]] Steady steady_of(const Scene& scene);
+[[nodiscard]] Steady steady_of(const point::Problem& scene);
 
-}  // namespace clatter
+}  // namespace clatter::support

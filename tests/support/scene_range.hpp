@@ -5,7 +5,7 @@
 #include <stdexcept>
 #include <string>
 
-namespace clatter {
+namespace clatter::support {
 
 /// Which of a family of random scenes a test draws: from ... to - 1.
 struct SceneRange {
@@ -22,4 +22,4 @@ inline SceneRange scene_range(std::uint64_t count) {
   return {std::stoull(range.substr(0, colon)), std::stoull(range.substr(colon + 1))};
 }
 
-}  // namespace clatter
+}  // namespace clatter::support

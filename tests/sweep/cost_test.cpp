@@ -9,8 +9,8 @@
 #include <new>
 #include <vector>
 
+#include "point/point.hpp"
 #include "sweep/figures.hpp"
-#include "sweep/point.hpp"
 
 namespace {
 std::atomic<long> allocated{0};  ///< calls of operator new in this program
@@ -29,68 +29,69 @@ void operator delete(void* memory) noexcept { std::free(memory); }
 void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
 void operator delete(void* memory, const std::nothrow_t&) noexcept { std::free(memory); }
 
-namespace clatter {
+namespace clatter::sweep {
 namespace {
 
 /// A point, what it allocated, and what it was evaluated for beyond a point of which nothing is observed.
 struct Cost {
-  PointResult result;
+  point::PointResult result;
   long allocations = 0;
   double evaluations = 0.0;
 };
 
-Cost cost_of(const Scene& scene, Workshop& workshop) {
-  Scene silent = scene;
+Cost cost_of(const point::Problem& scene, point::ThreadScratch& scratch) {
+  point::Problem silent = scene;
   silent.observe = {};
   Cost cost;
-  const double nothing = run_point(silent, workshop).evaluations;
+  const double nothing = run_point(silent, scratch).evaluations;
   const long before = allocated;
-  cost.result = run_point(scene, workshop);
+  cost.result = run_point(scene, scratch);
   cost.allocations = allocated - before;
   cost.evaluations = cost.result.evaluations - nothing;
   return cost;
 }
 
-Cost cost_of(const Scene& scene) {
-  Workshop none;
+Cost cost_of(const point::Problem& scene) {
+  point::ThreadScratch none;
   return cost_of(scene, none);
 }
 
 /// The symmetric motion of example 4: two impacts a period, so three arcs from section to section.
-Scene symmetric() { return paper_scene(0.5, 1.0); }
+point::Problem symmetric() { return paper_scene(0.5, 1.0); }
 constexpr double arcs = 3, impacts = 2;
 
-Scene observing(Scene scene, const Observe& observe) {
+point::Problem observing(point::Problem scene, const observables::Observe& observe) {
   scene.observe = observe;
   return scene;
 }
 
 TEST(Cost, extrema_allocate_nothing_in_any_number_of_periods) {
-  const Observe extrema{.extrema = true};
+  const observables::Observe extrema{.extrema = true};
   for (const std::int64_t periods : {50, 500, 5000}) {
-    Scene chaos = observing(paper_scene(3.0, 0.95), extrema);
+    point::Problem chaos = observing(paper_scene(3.0, 0.95), extrema);
     chaos.time.max_periods = periods, chaos.time.window = periods;
     const Cost cost = cost_of(chaos);
-    EXPECT_EQ(cost.result.status, Status::aperiodic);
+    EXPECT_EQ(cost.result.status, steady::Status::aperiodic);
     EXPECT_GT(cost.result.impacts, static_cast<double>(periods));
     EXPECT_EQ(cost.allocations, 0);
   }
-  Scene rests = observing(paper_scene(0.5, 0.5), extrema), free = rests;
+  point::Problem rests = observing(paper_scene(0.5, 0.5), extrema), free = rests;
   rests.stops.restitution_lower = rests.stops.restitution_upper = 0.0;
   free.oscillator = {0.0, 0.0, 1.0, 0.0}, free.start.velocity = 1.0;
-  for (const Scene& scene : {observing(symmetric(), extrema), observing(paper_scene(6, 1), extrema), rests, free}) {
+  for (const point::Problem& scene :
+       {observing(symmetric(), extrema), observing(paper_scene(6, 1), extrema), rests, free}) {
     const Cost cost = cost_of(scene);
-    EXPECT_EQ(cost.result.status, Status::periodic);
+    EXPECT_EQ(cost.result.status, steady::Status::periodic);
     EXPECT_LT(cost.result.x_min, cost.result.x_max);
     EXPECT_EQ(cost.allocations, 0);
-    Scene all = scene;
+    point::Problem all = scene;
     all.integration.all_effects = true;
     EXPECT_EQ(cost_of(all).allocations, 0);
   }
 }
 
 TEST(Cost, numbers_of_a_period_allocate_nothing) {
-  const Observe numbers{.extrema = true, .impacts = true, .period = true, .stability = true};
+  const observables::Observe numbers{.extrema = true, .impacts = true, .period = true, .stability = true};
   EXPECT_EQ(cost_of(observing(symmetric(), numbers)).allocations, 0);
 }
 
@@ -98,12 +99,15 @@ TEST(Cost, what_is_kept_is_allocated_once) {
   // a log grows by doubling: two impacts, two steps; a trajectory is x, x' and the times
   EXPECT_EQ(cost_of(observing(symmetric(), {.impact_log = true})).allocations, 2);
   EXPECT_EQ(cost_of(observing(symmetric(), {.trajectory = 1000})).allocations, 3);
-  EXPECT_GT(cost_of(observing(symmetric(), {.harmonics = 5, .harmonics_method = HarmonicsMethod::exact})).allocations,
+  EXPECT_GT(cost_of(observing(symmetric(), {.harmonics = 5, .harmonics_method = observables::HarmonicsMethod::exact}))
+                .allocations,
             0);
 }
 
 TEST(Cost, impacts_and_period_are_seen_without_an_evaluation) {
-  for (const Observe& observe : {Observe{.impacts = true}, Observe{.impact_log = true}, Observe{.period = true}})
+  for (const observables::Observe& observe :
+       {observables::Observe{.impacts = true}, observables::Observe{.impact_log = true},
+        observables::Observe{.period = true}})
     EXPECT_EQ(cost_of(observing(symmetric(), observe)).evaluations, 0);
   EXPECT_EQ(cost_of(observing(symmetric(), {.impact_log = true})).result.log.size(), impacts);
 }
@@ -111,8 +115,8 @@ TEST(Cost, impacts_and_period_are_seen_without_an_evaluation) {
 TEST(Cost, stability_and_exact_harmonics_look_once_at_an_arc) {
   EXPECT_EQ(cost_of(observing(symmetric(), {.stability = true})).evaluations, arcs);
   // the harmonic at the resonance, k = 1 with |1 - w^2 + 2ihw| = 0.2, is far enough from it for the closed form
-  Scene away = symmetric();
-  away.observe = {.harmonics = 20, .harmonics_method = HarmonicsMethod::exact};
+  point::Problem away = symmetric();
+  away.observe = {.harmonics = 20, .harmonics_method = observables::HarmonicsMethod::exact};
   EXPECT_EQ(cost_of(away).evaluations, arcs);
   // with h = 0.05 it is within 1/8: panels of 20 points, each of 4 radians of nu + 1 = 2 over a period of 2 pi
   away.oscillator.damping = 0.05;
@@ -127,9 +131,9 @@ TEST(Cost, samples_are_evaluated_once_each_and_not_on_impacts) {
     EXPECT_EQ(cost.evaluations, static_cast<double>(count - 1));  // the last is the end of the run
     EXPECT_EQ(cost.result.x.size(), static_cast<std::size_t>(count));
   }
-  const FourierTransform transform(4096);
-  Workshop workshop{&transform, transform.workspace()};
-  const Cost cost = cost_of(observing(symmetric(), {.harmonics = 5}), workshop);
+  const observables::FourierTransform transform(4096);
+  point::ThreadScratch scratch{&transform, transform.workspace()};
+  const Cost cost = cost_of(observing(symmetric(), {.harmonics = 5}), scratch);
   EXPECT_EQ(cost.evaluations, 4096);
   EXPECT_EQ(cost.result.x_spectrum.amplitude.size(), 6u);
 }
@@ -142,42 +146,46 @@ TEST(Cost, extrema_look_at_an_arc_a_few_times) {
 }
 
 TEST(Cost, is_the_sum_of_what_is_observed) {
-  const FourierTransform transform(4096);
-  Workshop workshop{&transform, transform.workspace()};
-  const Observe each[] = {{.extrema = true},  {.harmonics = 5}, {.impacts = true},  {.impact_log = true},
-                          {.trajectory = 77}, {.period = true}, {.stability = true}};
-  const Observe all{.extrema = true,
-                    .harmonics = 5,
-                    .impacts = true,
-                    .impact_log = true,
-                    .trajectory = 77,
-                    .period = true,
-                    .stability = true};
-  for (const Scene& scene : {symmetric(), paper_scene(6, 1), paper_scene(4, 1)}) {
+  const observables::FourierTransform transform(4096);
+  point::ThreadScratch scratch{&transform, transform.workspace()};
+  const observables::Observe each[] = {{.extrema = true},  {.harmonics = 5}, {.impacts = true},  {.impact_log = true},
+                                       {.trajectory = 77}, {.period = true}, {.stability = true}};
+  const observables::Observe all{.extrema = true,
+                                 .harmonics = 5,
+                                 .impacts = true,
+                                 .impact_log = true,
+                                 .trajectory = 77,
+                                 .period = true,
+                                 .stability = true};
+  for (const point::Problem& scene : {symmetric(), paper_scene(6, 1), paper_scene(4, 1)}) {
     double sum = 0, flown = -1;
-    for (const Observe& observe : each) {
-      const double cost = cost_of(observing(scene, observe), workshop).evaluations;
+    for (const observables::Observe& observe : each) {
+      const double cost = cost_of(observing(scene, observe), scratch).evaluations;
       sum += cost, flown += cost > 0 ? 1 : 0;
     }
     const bool response = scene.stops.upper == 6;  // flown once for all who have to see it, by its only arc
-    EXPECT_EQ(cost_of(observing(scene, all), workshop).evaluations, sum - (response ? flown : 0));
+    EXPECT_EQ(cost_of(observing(scene, all), scratch).evaluations, sum - (response ? flown : 0));
   }
 }
 
 TEST(Cost, of_a_response_that_meets_no_stop_is_nothing_but_for_those_who_need_its_course) {
-  const Observe free{
-      .extrema = true, .harmonics = 5, .harmonics_method = HarmonicsMethod::exact, .impacts = true, .period = true};
-  Scene scene = paper_scene(6, 1.1);
+  const observables::Observe free{.extrema = true,
+                                  .harmonics = 5,
+                                  .harmonics_method = observables::HarmonicsMethod::exact,
+                                  .impacts = true,
+                                  .period = true};
+  point::Problem scene = paper_scene(6, 1.1);
   scene.oscillator.load = 0.3, scene.start.phase = 0.7;
-  const PointResult result = cost_of(observing(scene, free)).result;
-  EXPECT_EQ(result.found_by, FoundBy::closed_form);
+  const point::PointResult result = cost_of(observing(scene, free)).result;
+  EXPECT_EQ(result.found_by, steady::FoundBy::closed_form);
   EXPECT_EQ(result.evaluations, 0);
   scene.integration.shortcuts = false;  // flies
-  const PointResult flown = cost_of(observing(scene, free)).result;
+  const point::PointResult flown = cost_of(observing(scene, free)).result;
   EXPECT_GT(flown.evaluations, 0);
-  for (const auto value : {&PointResult::x_min, &PointResult::x_max, &PointResult::v_min, &PointResult::v_max})
+  for (const auto value :
+       {&point::PointResult::x_min, &point::PointResult::x_max, &point::PointResult::v_min, &point::PointResult::v_max})
     EXPECT_NEAR(result.*value, flown.*value, 1e-11);  // what it calls a repeat
-  for (const auto spectrum : {&PointResult::x_spectrum, &PointResult::v_spectrum})
+  for (const auto spectrum : {&point::PointResult::x_spectrum, &point::PointResult::v_spectrum})
     for (std::size_t k = 0; k <= 5; ++k) {
       EXPECT_NEAR((result.*spectrum).amplitude[k], (flown.*spectrum).amplitude[k], 1e-11) << k;
       if (k == 1) {
@@ -189,7 +197,7 @@ TEST(Cost, of_a_response_that_meets_no_stop_is_nothing_but_for_those_who_need_it
 }
 
 TEST(Cost, nothing_is_kept_that_is_not_asked_for) {
-  const PointResult result = cost_of(observing(symmetric(), {.extrema = true})).result;
+  const point::PointResult result = cost_of(observing(symmetric(), {.extrema = true})).result;
   EXPECT_TRUE(result.log.empty() && result.tau.empty() && result.x.empty() && result.v.empty());
   EXPECT_TRUE(result.x_spectrum.amplitude.empty() && result.v_spectrum.amplitude.empty());
   for (const double value : {result.impacts_per_period[0], result.period, result.lyapunov, result.multiplier_re[0]})
@@ -199,24 +207,24 @@ TEST(Cost, nothing_is_kept_that_is_not_asked_for) {
 TEST(Cost, motion_out_of_reach_of_its_stops_is_one_arc) {
   // Fig. 20: in closed form nothing is run to find the steady motion, and one arc is a period of it
   const Cost cost = cost_of(observing(paper_scene(6, 1), {.stability = true}));
-  EXPECT_EQ(cost.result.found_by, FoundBy::closed_form);
+  EXPECT_EQ(cost.result.found_by, steady::FoundBy::closed_form);
   EXPECT_EQ(cost.result.periods, 1);
   EXPECT_EQ(cost.result.evaluations, 1 + 1);  // the arc's end, and its derivative
-  Scene silent = paper_scene(6, 1);
+  point::Problem silent = paper_scene(6, 1);
   silent.integration.all_effects = true;
   EXPECT_GT(cost_of(silent).result.evaluations, 1000);
 }
 
 TEST(Cost, conservative_motion_is_run_for_its_one_period) {
-  Scene scene;
+  point::Problem scene;
   scene.stops = {-0.749, 0.749, 1.0, 1.0}, scene.start.velocity = -1.5;
   scene.observe.stability = true;
   const Cost cost = cost_of(scene);
-  EXPECT_EQ(cost.result.found_by, FoundBy::energy);
+  EXPECT_EQ(cost.result.found_by, steady::FoundBy::energy);
   EXPECT_EQ(cost.result.impacts, 2);
   EXPECT_EQ(cost.evaluations, arcs);
   EXPECT_LE(cost.result.evaluations, arcs * 20);
 }
 
 }  // namespace
-}  // namespace clatter
+}  // namespace clatter::sweep

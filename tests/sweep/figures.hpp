@@ -8,43 +8,43 @@
 
 #include "sweep/run.hpp"
 
-namespace clatter {
+namespace clatter::sweep {
 
-/// Scene of Figs. 14-23: h = 0.1, f = -1, R = 0.7, from rest.
-inline Scene paper_scene(double xs, double nu) {
-  Scene scene;
+/// Problem of Figs. 14-23: h = 0.1, f = -1, R = 0.7, from rest.
+inline point::Problem paper_scene(double xs, double nu) {
+  point::Problem scene;
   scene.oscillator = {0.1, -1.0, nu, 0.0};
   scene.stops = {-xs, xs, 0.7, 0.7};
   return scene;
 }
 
 /// The variable of a name; null where there is none.
-inline const Variable* find(const Figure& figure, const std::string& name) {
+inline const Variable* find(const Dataset& figure, const std::string& name) {
   const auto found =
       std::find_if(figure.variables.begin(), figure.variables.end(), [&](const Variable& v) { return v.name == name; });
   return found == figure.variables.end() ? nullptr : &*found;
 }
 
 /// The values of a variable of numbers. Throws std::out_of_range where there is none.
-inline const std::vector<double>& values(const Figure& figure, const std::string& name) {
+inline const std::vector<double>& values(const Dataset& figure, const std::string& name) {
   const Variable* variable = find(figure, name);
   if (!variable) throw std::out_of_range("no variable " + name);
   return std::get<std::vector<double>>(variable->values);
 }
 
-inline std::vector<std::uint8_t> statuses(const Figure& figure) {
+inline std::vector<std::uint8_t> statuses(const Dataset& figure) {
   return std::get<std::vector<std::uint8_t>>(find(figure, "status")->values);
 }
 
 /// A sweep whose axes cross.
-inline Sweep sweep_of(const Scene& scene, std::vector<Axis> axes) {
+inline Sweep sweep_of(const point::Problem& scene, std::vector<Axis> axes) {
   Sweep sweep{.scene = scene, .dimensions = {}, .follow = {}};
   for (Axis& axis : axes) sweep.dimensions.push_back({std::move(axis)});
   return sweep;
 }
 
 /// The same bits, NaN included.
-inline void expect_same(const Figure& a, const Figure& b) {
+inline void expect_same(const Dataset& a, const Dataset& b) {
   ASSERT_EQ(a.variables.size(), b.variables.size());
   for (std::size_t i = 0; i < a.variables.size(); ++i) {
     ASSERT_EQ(a.variables[i].name, b.variables[i].name);
@@ -58,4 +58,4 @@ inline void expect_same(const Figure& a, const Figure& b) {
   }
 }
 
-}  // namespace clatter
+}  // namespace clatter::sweep

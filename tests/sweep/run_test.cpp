@@ -8,14 +8,14 @@
 #include <cstring>
 #include <numbers>
 
+#include "point/point.hpp"
 #include "sweep/figures.hpp"
-#include "sweep/point.hpp"
 
-namespace clatter {
+namespace clatter::sweep {
 namespace {
 
 TEST(Run, gives_the_same_bits_for_every_number_of_threads) {
-  Scene scene = paper_scene(3.0, 1.0);
+  point::Problem scene = paper_scene(3.0, 1.0);
   scene.time.max_periods = 400;  // some points stay aperiodic
   scene.observe = {.extrema = true,
                    .harmonics = 2,
@@ -27,41 +27,41 @@ TEST(Run, gives_the_same_bits_for_every_number_of_threads) {
   Axis nu{Parameter::nu, {}};
   for (int i = 0; i < 40; ++i) nu.values.push_back(0.8 + 0.01 * i);
   const Sweep sweep = sweep_of(scene, {nu, {Parameter::R, {0.5, 0.7}}});
-  const Figure one = run(sweep, {.threads = 1}).figure;
-  for (int threads : {2, 3, 8}) expect_same(one, run(sweep, {.threads = threads}).figure);
+  const Dataset one = run(sweep, {.threads = 1}).dataset;
+  for (int threads : {2, 3, 8}) expect_same(one, run(sweep, {.threads = threads}).dataset);
   const auto status = statuses(one);
   EXPECT_GT(std::count(status.begin(), status.end(), 0), 0);
   EXPECT_GT(std::count(status.begin(), status.end(), 1), 0);
 }
 
 TEST(Run, stores_nothing_that_is_not_observed) {
-  const Figure figure = run(sweep_of(paper_scene(0.5, 1.0), {}), {.threads = 1}).figure;
+  const Dataset figure = run(sweep_of(paper_scene(0.5, 1.0), {}), {.threads = 1}).dataset;
   std::vector<std::string> names;
   for (const Variable& variable : figure.variables) names.push_back(variable.name);
   EXPECT_EQ(names, (std::vector<std::string>{"status", "impact_total", "simulated_periods", "settling_estimate"}));
 }
 
 TEST(Run, points_stand_at_their_index_in_every_order_of_axes) {
-  Scene scene = paper_scene(6.0, 1.0);
+  point::Problem scene = paper_scene(6.0, 1.0);
   scene.observe.extrema = true;
   const Axis nu{Parameter::nu, {0.6, 0.9, 1.4}}, f{Parameter::f, {1.0, 2.0}};
-  const Figure a = run(sweep_of(scene, {nu, f}), {}).figure, b = run(sweep_of(scene, {f, nu}), {}).figure;
+  const Dataset a = run(sweep_of(scene, {nu, f}), {}).dataset, b = run(sweep_of(scene, {f, nu}), {}).dataset;
   for (std::size_t i = 0; i < 3; ++i)
     for (std::size_t j = 0; j < 2; ++j) EXPECT_EQ(values(a, "x_max")[i * 2 + j], values(b, "x_max")[j * 3 + i]);
 }
 
 TEST(Run, follow_starts_where_the_point_before_ended_with_its_phase) {
   // a transient of two equal points, one after the other, is one transient of twice the length
-  Scene scene = paper_scene(0.5, 1.3);
+  point::Problem scene = paper_scene(0.5, 1.3);
   scene.start = {0.1, 0.2, 0.4};
-  scene.time.mode = Mode::transient;
+  scene.time.mode = steady::Mode::transient;
   scene.time.duration = 7.7;  // no whole number of periods: the phase has to come along
   scene.observe.trajectory = 12;
   Sweep halves = sweep_of(scene, {{Parameter::R, {0.7, 0.7}}});
   halves.follow = 0;
   scene.time.duration *= 2;
   scene.observe.trajectory = 23;
-  const Figure two = run(halves, {}).figure, whole = run(sweep_of(scene, {}), {}).figure;
+  const Dataset two = run(halves, {}).dataset, whole = run(sweep_of(scene, {}), {}).dataset;
   for (std::size_t i = 0; i < 12; ++i) {
     EXPECT_NEAR(values(two, "x")[i], values(whole, "x")[i], 1e-13);
     EXPECT_NEAR(values(two, "x")[12 + i], values(whole, "x")[11 + i], 1e-13);
@@ -71,7 +71,7 @@ TEST(Run, follow_starts_where_the_point_before_ended_with_its_phase) {
 
 TEST(Run, follow_stays_on_its_branch_upwards_and_downwards) {
   // stops that the linear resonance reaches: between the two folds the branch depends on where one comes from
-  Scene scene = paper_scene(3.0, 1.0);
+  point::Problem scene = paper_scene(3.0, 1.0);
   scene.stops.restitution_lower = scene.stops.restitution_upper = 0.95;
   scene.observe.extrema = scene.observe.impacts = true;
   Axis up{Parameter::nu, {}};
@@ -80,7 +80,7 @@ TEST(Run, follow_stays_on_its_branch_upwards_and_downwards) {
   std::reverse(down.values.begin(), down.values.end());
   Sweep a = sweep_of(scene, {up}), b = sweep_of(scene, {down});
   a.follow = b.follow = 0;
-  const Figure rising = run(a, {}).figure, falling = run(b, {}).figure;
+  const Dataset rising = run(a, {}).dataset, falling = run(b, {}).dataset;
   const std::size_t n = up.values.size();
   std::size_t apart = 0;
   for (std::size_t i = 0; i < n; ++i)
@@ -92,14 +92,14 @@ TEST(Run, follow_stays_on_its_branch_upwards_and_downwards) {
 }
 
 TEST(Run, follow_moves_a_state_outside_narrower_stops_onto_the_stop) {
-  Scene scene = paper_scene(3.0, 1.0);
-  scene.time.mode = Mode::transient;
+  point::Problem scene = paper_scene(3.0, 1.0);
+  scene.time.mode = steady::Mode::transient;
   scene.time.duration = 30.0;
   scene.observe.extrema = true;
   scene.observe.trajectory = 2;
   Sweep sweep = sweep_of(scene, {{Parameter::xs, {3.0, 0.01}}});
   sweep.follow = 0;
-  const Figure figure = run(sweep, {}).figure;
+  const Dataset figure = run(sweep, {}).dataset;
   EXPECT_EQ(std::abs(values(figure, "x")[2]), 0.01);
   ASSERT_GT(values(figure, "v")[1] * values(figure, "x")[2], 0.0);  // it moves into the stop,
   EXPECT_DOUBLE_EQ(values(figure, "v")[2],
@@ -108,33 +108,33 @@ TEST(Run, follow_moves_a_state_outside_narrower_stops_onto_the_stop) {
 }
 
 TEST(Run, a_failed_point_has_no_values_and_does_not_lead_the_next_astray) {
-  Scene scene = paper_scene(0.5, 1.0);
+  point::Problem scene = paper_scene(0.5, 1.0);
   scene.time.max_impacts = 40;
   scene.observe = {.extrema = true, .impacts = true, .impact_log = true, .trajectory = 3, .period = true};
   Sweep sweep = sweep_of(scene, {{Parameter::xs, {0.01, 6.0}}});
   sweep.follow = 0;
   const RunResult result = run(sweep, {});
-  EXPECT_EQ(statuses(result.figure), (std::vector<std::uint8_t>{16, 0}));
+  EXPECT_EQ(statuses(result.dataset), (std::vector<std::uint8_t>{16, 0}));
   EXPECT_EQ(result.failed_points, 1u);
   for (const char* name : {"x_min", "x_max", "v_min", "v_max", "period", "period_ratio"}) {
-    EXPECT_TRUE(std::isnan(values(result.figure, name)[0])) << name;
-    EXPECT_FALSE(std::isnan(values(result.figure, name)[1])) << name;
+    EXPECT_TRUE(std::isnan(values(result.dataset, name)[0])) << name;
+    EXPECT_FALSE(std::isnan(values(result.dataset, name)[1])) << name;
   }
   Sweep alone = sweep_of(scene, {{Parameter::xs, {6.0}}});
-  EXPECT_EQ(values(result.figure, "x_max")[1], values(run(alone, {}).figure, "x_max")[0]);
+  EXPECT_EQ(values(result.dataset, "x_max")[1], values(run(alone, {}).dataset, "x_max")[0]);
   sweep.dimensions[0][0].values = {0.01, 0.5};  // starting anew from a scene that narrower stops have come past
   sweep.scene.start.displacement = 0.8;
   sweep.scene.time.max_impacts = 100;
-  EXPECT_EQ(statuses(run(sweep, {}).figure), (std::vector<std::uint8_t>{16, 0}));
+  EXPECT_EQ(statuses(run(sweep, {}).dataset), (std::vector<std::uint8_t>{16, 0}));
 }
 
 TEST(Run, a_failed_point_says_how_far_it_came) {
-  Scene scene = paper_scene(0.5, 1.0);  // two impacts a period
+  point::Problem scene = paper_scene(0.5, 1.0);  // two impacts a period
   scene.time.max_impacts = 21;
   scene.integration.shortcuts = false;
-  Workshop nothing;
-  const PointResult result = run_point(scene, nothing);
-  EXPECT_EQ(result.status, Status::event_budget);
+  point::ThreadScratch nothing;
+  const point::PointResult result = run_point(scene, nothing);
+  EXPECT_EQ(result.status, steady::Status::event_budget);
   EXPECT_EQ(result.impacts, 22.0);
   EXPECT_NEAR(result.periods, 10.0, 1.0);
 }
@@ -156,7 +156,7 @@ TEST(Run, progress_reaches_the_total_along_a_branch_too) {
 }
 
 /// Sum over the harmonics of the distance between two spectra.
-double distance(const Spectrum& a, const Spectrum& b) {
+double distance(const observables::Spectrum& a, const observables::Spectrum& b) {
   double sum = std::abs(a.amplitude[0] - b.amplitude[0]);
   for (std::size_t k = 1; k < a.amplitude.size(); ++k)
     sum += std::abs(std::polar(a.amplitude[k], a.phase[k]) - std::polar(b.amplitude[k], b.phase[k]));
@@ -164,20 +164,20 @@ double distance(const Spectrum& a, const Spectrum& b) {
 }
 
 TEST(Run, sampled_harmonics_approach_the_exact_ones_as_fast_as_theory_says) {
-  Scene scene = paper_scene(0.5, 1.0);  // Fig. 18
+  point::Problem scene = paper_scene(0.5, 1.0);  // Fig. 18
   scene.observe.harmonics = 5;
-  scene.observe.harmonics_method = HarmonicsMethod::exact;
-  Workshop nothing;
-  const PointResult exact = run_point(scene, nothing);
-  scene.observe.harmonics_method = HarmonicsMethod::fft;
+  scene.observe.harmonics_method = observables::HarmonicsMethod::exact;
+  point::ThreadScratch nothing;
+  const point::PointResult exact = run_point(scene, nothing);
+  scene.observe.harmonics_method = observables::HarmonicsMethod::fft;
   // the error depends on where the impacts fall between samples: the mean over sizes in a row
   const auto errors = [&](std::int64_t samples) {
     double x = 0.0, v = 0.0;
     for (std::int64_t n = samples; n < samples + 16; ++n) {
       scene.observe.harmonics_samples = n;
-      const FourierTransform transform(static_cast<std::size_t>(n));
-      Workshop workshop{&transform, transform.workspace()};
-      const PointResult sampled = run_point(scene, workshop);
+      const observables::FourierTransform transform(static_cast<std::size_t>(n));
+      point::ThreadScratch scratch{&transform, transform.workspace()};
+      const point::PointResult sampled = run_point(scene, scratch);
       x += distance(sampled.x_spectrum, exact.x_spectrum) / 16;
       v += distance(sampled.v_spectrum, exact.v_spectrum) / 16;
     }
@@ -190,54 +190,57 @@ TEST(Run, sampled_harmonics_approach_the_exact_ones_as_fast_as_theory_says) {
 }
 
 TEST(Run, harmonics_beyond_half_the_sampling_rate_have_no_value) {
-  Scene scene = paper_scene(3.0, 0.868);  // Fig. 23: two forcing periods, so harmonic k is the transform's 2k-th
+  point::Problem scene =
+      paper_scene(3.0, 0.868);  // Fig. 23: two forcing periods, so harmonic k is the transform's 2k-th
   scene.observe.harmonics = 4;
   scene.observe.harmonics_samples = 14;
-  const FourierTransform transform(14);
-  Workshop workshop{&transform, transform.workspace()};
-  const PointResult result = run_point(scene, workshop);
+  const observables::FourierTransform transform(14);
+  point::ThreadScratch scratch{&transform, transform.workspace()};
+  const point::PointResult result = run_point(scene, scratch);
   for (std::size_t k = 0; k <= 4; ++k) EXPECT_EQ(std::isnan(result.x_spectrum.amplitude[k]), 2 * 2 * k >= 14) << k;
 }
 
 TEST(Run, too_few_samples_for_the_base_frequency_give_no_harmonics_at_all) {
-  Scene scene = paper_scene(3.0, 0.9);  // Fig. 23: aperiodic, so the samples are shared by the periods of the window
+  point::Problem scene =
+      paper_scene(3.0, 0.9);  // Fig. 23: aperiodic, so the samples are shared by the periods of the window
   scene.time.max_periods = 20;
   scene.time.window = 32;
   scene.observe.harmonics = 1;
   for (std::int64_t samples : {64, 66}) {
     scene.observe.harmonics_samples = samples;
-    const FourierTransform transform(static_cast<std::size_t>(samples));
-    Workshop workshop{&transform, transform.workspace()};
-    const PointResult result = run_point(scene, workshop);
-    ASSERT_EQ(result.status, Status::aperiodic);
+    const observables::FourierTransform transform(static_cast<std::size_t>(samples));
+    point::ThreadScratch scratch{&transform, transform.workspace()};
+    const point::PointResult result = run_point(scene, scratch);
+    ASSERT_EQ(result.status, steady::Status::aperiodic);
     for (double amplitude : result.v_spectrum.amplitude) EXPECT_EQ(std::isnan(amplitude), samples == 64);
   }
 }
 
 TEST(Run, observed_time_is_described) {
-  Scene scene = paper_scene(3.0, 0.868);
-  scene.observe = {.harmonics = 1, .harmonics_method = HarmonicsMethod::exact, .impacts = true, .period = true};
-  Workshop nothing;
-  const PointResult forced = run_point(scene, nothing);
+  point::Problem scene = paper_scene(3.0, 0.868);
+  scene.observe = {
+      .harmonics = 1, .harmonics_method = observables::HarmonicsMethod::exact, .impacts = true, .period = true};
+  point::ThreadScratch nothing;
+  const point::PointResult forced = run_point(scene, nothing);
   EXPECT_EQ(forced.period_ratio, 2.0);
   EXPECT_EQ(forced.base_frequency, 0.868);
   EXPECT_NEAR(forced.period, 4 * std::numbers::pi / 0.868, 1e-14);
   EXPECT_TRUE(std::isnan(forced.eigenfrequency));
-  scene.time.mode = Mode::transient;
+  scene.time.mode = steady::Mode::transient;
   scene.time.duration = 20.0;
-  const PointResult transient = run_point(scene, nothing);
-  EXPECT_EQ(transient.status, Status::transient);
+  const point::PointResult transient = run_point(scene, nothing);
+  EXPECT_EQ(transient.status, steady::Status::transient);
   EXPECT_DOUBLE_EQ(transient.base_frequency, 2 * std::numbers::pi / 20);
   EXPECT_TRUE(std::isnan(transient.period) && std::isnan(transient.period_ratio));
-  Scene held = paper_scene(0.5, 1.0);
+  point::Problem held = paper_scene(0.5, 1.0);
   held.oscillator = {0.1, 0.0, 1.0, 2.0};
   held.observe = scene.observe;
-  const PointResult still = run_point(held, nothing);
-  EXPECT_EQ(still.status, Status::periodic);
+  const point::PointResult still = run_point(held, nothing);
+  EXPECT_EQ(still.status, steady::Status::periodic);
   EXPECT_TRUE(std::isnan(still.period));
   EXPECT_EQ(still.rest_fraction[1], 1.0);
   EXPECT_EQ(still.rest_fraction[0], 0.0);
 }
 
 }  // namespace
-}  // namespace clatter
+}  // namespace clatter::sweep

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-namespace clatter {
+namespace clatter::sweep {
 namespace {
 
 std::vector<std::size_t> order_of(std::size_t count) {
@@ -45,4 +45,4 @@ TEST(Scatter, any_beginning_has_its_share_of_every_part) {
 }
 
 }  // namespace
-}  // namespace clatter
+}  // namespace clatter::sweep

@@ -8,19 +8,19 @@
 #include <thread>
 #include <vector>
 
-#include "sweep/columns.hpp"
+#include "plan/memory_need.hpp"
 #include "sweep/figures.hpp"
-#include "sweep/memory.hpp"
+#include "sweep/result_store.hpp"
 #include "sweep/run.hpp"
 
-namespace clatter {
+namespace clatter::sweep {
 namespace {
 
 using Bytes = std::vector<std::byte>;
 
 /// 30 points of every kind: periodic, aperiodic, with chatter and with no impact at all; each observable.
 Sweep any_sweep(std::optional<std::size_t> follow = {}) {
-  Scene scene = paper_scene(0.5, 1.0);
+  point::Problem scene = paper_scene(0.5, 1.0);
   scene.time.max_periods = 300;
   scene.observe = {.extrema = true,
                    .harmonics = 2,
@@ -36,10 +36,10 @@ Sweep any_sweep(std::optional<std::size_t> follow = {}) {
   return sweep;
 }
 
-Figure shard_figure(const Sweep& sweep, const Shard& shard, const RunOptions& options = {}) {
+Dataset shard_figure(const Sweep& sweep, const Shard& shard, const RunOptions& options = {}) {
   SweepRun run(sweep, shard);
   run.run(options);
-  return run.result().figure;
+  return run.result().dataset;
 }
 
 /// What a run hands over to be kept, piece by piece.
@@ -72,8 +72,8 @@ TEST(Shard, has_each_point_once_in_ascending_order_and_whole_branches) {
         for (std::size_t n = 0; n < share.count(); ++n)
           for (std::size_t i = 0; i < share.length(); ++i) {
             ASSERT_EQ(share.point(n, i), branches.point(number + n * of, i));
-            ASSERT_LT(share.slot(n, i), points.size());
-            points[share.slot(n, i)] = share.point(n, i);
+            ASSERT_LT(share.local_index(n, i), points.size());
+            points[share.local_index(n, i)] = share.point(n, i);
             ++owners[share.point(n, i)];
           }
         EXPECT_TRUE(std::ranges::is_sorted(points, std::ranges::less_equal{})) << number << '/' << of;
@@ -86,40 +86,40 @@ TEST(Shard, has_each_point_once_in_ascending_order_and_whole_branches) {
 TEST(Shard, figures_make_that_of_the_whole_sweep_bit_for_bit) {
   for (const auto& follow : every_follow) {
     const Sweep sweep = any_sweep(follow);
-    const Figure whole = run(sweep, {.threads = 1}).figure;
+    const Dataset whole = run(sweep, {.threads = 1}).dataset;
     for (const std::size_t of : {1U, 2U, 3U, 7U, 40U}) {
-      Columns columns(sweep);
+      ResultStore columns(sweep);
       for (std::size_t number = of; number-- > 0;) {
-        Figure part = shard_figure(sweep, {number, of}, {.threads = static_cast<int>(1 + number % 3)});
+        Dataset part = shard_figure(sweep, {number, of}, {.threads = static_cast<int>(1 + number % 3)});
         columns.take(part, {number, of});
       }
-      expect_same(whole, columns.figure());
+      expect_same(whole, columns.dataset());
     }
   }
 }
 
 TEST(Shard, figure_of_another_one_is_refused) {
   const Sweep sweep = any_sweep();
-  const auto refusal = [&](Figure figure, const Shard& shard = {0, 2}) -> std::string {
+  const auto refusal = [&](Dataset figure, const Shard& shard = {0, 2}) -> std::string {
     try {
-      Columns(sweep).take(figure, shard);
+      ResultStore(sweep).take(figure, shard);
       return "";
     } catch (const std::runtime_error& error) {
       return error.what();
     }
   };
-  const Figure figure = shard_figure(sweep, {0, 2});
+  const Dataset figure = shard_figure(sweep, {0, 2});
   EXPECT_EQ(refusal(figure), "");
   EXPECT_NE(refusal(figure, {1, 2}).find("points"), std::string::npos);
   EXPECT_NE(refusal(figure, {0, 3}).find("points"), std::string::npos);
-  EXPECT_NE(refusal(run(sweep, {}).figure).find("'point'"), std::string::npos);
+  EXPECT_NE(refusal(run(sweep, {}).dataset).find("'point'"), std::string::npos);
   for (const Variable& variable : figure.variables) {
     if (variable.dimensions == std::vector{variable.name} && variable.name != "point") continue;  // not read
-    Figure without = figure, longer = figure, other = figure;
+    Dataset without = figure, longer = figure, other = figure;
     const auto at = &variable - figure.variables.data();
     without.variables.erase(without.variables.begin() + at);
     std::visit([](auto& values) { values.push_back({}); }, longer.variables[static_cast<std::size_t>(at)].values);
-    Column& values = other.variables[static_cast<std::size_t>(at)].values;
+    ValueArray& values = other.variables[static_cast<std::size_t>(at)].values;
     if (std::holds_alternative<std::vector<double>>(values))
       values = std::vector<std::int64_t>();
     else
@@ -138,7 +138,7 @@ TEST(Shard, takes_memory_by_its_points) {
     for (const Variable& variable : shard_figure(sweep, shard).variables)
       bytes += std::visit([](const auto& held) { return static_cast<double>(held.size() * sizeof held[0]); },
                           variable.values);
-    EXPECT_EQ(memory_need(sweep, shard).output, bytes) << shard.number;
+    EXPECT_EQ(plan::memory_need(sweep, shard).output, bytes) << shard.number;
   }
 }
 
@@ -146,7 +146,7 @@ TEST(SavedRun, goes_on_from_whatever_was_saved_to_the_same_bits) {
   for (const auto& follow : {every_follow[0], every_follow[2]}) {
     Sweep sweep = any_sweep(follow);
     sweep.dimensions[1][0].values.resize(2);  // every length of what was saved is tried
-    const Figure whole = run(sweep, {.threads = 2}).figure;
+    const Dataset whole = run(sweep, {.threads = 2}).dataset;
     SweepRun first(sweep);
     EXPECT_TRUE(saved(first).empty());
     first.run({.threads = 2});
@@ -164,14 +164,14 @@ TEST(SavedRun, goes_on_from_whatever_was_saved_to_the_same_bits) {
       const std::size_t restored = again.restored_points();
       again.run({.threads = 3});
       std::size_t left = 0;
-      for (const Usage& usage : again.result().usage) left += usage.points;
+      for (const WorkStats& usage : again.result().usage) left += usage.points;
       EXPECT_EQ(left, size(sweep) - restored);
     }
     EXPECT_EQ(most, size(sweep));
     SweepRun half(sweep);
     ASSERT_TRUE(half.restore(all));
     half.run({});
-    expect_same(half.result().figure, whole);
+    expect_same(half.result().dataset, whole);
   }
 }
 
@@ -193,7 +193,7 @@ TEST(SavedRun, may_be_saved_while_it_is_at_work) {
   Sweep alone = any_sweep(2);  // branches of one point
   alone.dimensions[2][0].values.resize(1);
   for (const Sweep& sweep : {any_sweep(), any_sweep(1), alone}) {
-    const Figure whole = run(sweep, {.threads = 1}).figure;
+    const Dataset whole = run(sweep, {.threads = 1}).dataset;
     for (int round = 0; round < 10; ++round) {
       std::vector<Bytes> pieces;
       SweepRun first(sweep);
@@ -208,10 +208,10 @@ TEST(SavedRun, may_be_saved_while_it_is_at_work) {
       SweepRun again(sweep);
       for (const Bytes& piece : pieces) ASSERT_TRUE(again.restore(piece));
       again.run({.threads = 2});
-      expect_same(again.result().figure, whole);
+      expect_same(again.result().dataset, whole);
     }
   }
 }
 
 }  // namespace
-}  // namespace clatter
+}  // namespace clatter::sweep

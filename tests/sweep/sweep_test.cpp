@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace clatter {
+namespace clatter::sweep {
 namespace {
 
 using enum Parameter;
@@ -24,7 +24,7 @@ TEST(Sweep, the_first_dimension_varies_slowest) {
   ASSERT_EQ(size(sweep), 6u);
   for (std::size_t i = 0; i < 2; ++i) {
     for (std::size_t j = 0; j < 3; ++j) {
-      const Scene scene = scene_at(sweep, 3 * i + j);
+      const point::Problem scene = scene_at(sweep, 3 * i + j);
       EXPECT_EQ(scene.oscillator.frequency, 1.0 + static_cast<double>(i));
       EXPECT_EQ(scene.stops.upper, 3.0 + static_cast<double>(j));
     }
@@ -48,7 +48,7 @@ TEST(Parameter, every_key_leads_to_its_parameter_and_back) {
 
 TEST(Parameter, the_sign_of_xs_does_not_matter) {
   for (const double value : {-0.75, 0.75}) {
-    Scene scene;
+    point::Problem scene;
     set(scene, xs, value);
     EXPECT_EQ(scene.stops.lower, -0.75);
     EXPECT_EQ(scene.stops.upper, 0.75);
@@ -56,7 +56,7 @@ TEST(Parameter, the_sign_of_xs_does_not_matter) {
 }
 
 TEST(Parameter, R_sets_both_restitutions_and_each_stop_can_have_its_own) {
-  Scene scene;
+  point::Problem scene;
   set(scene, R, 0.7);
   set(scene, R_upper, 0.3);
   EXPECT_EQ(scene.stops.restitution_lower, 0.7);
@@ -64,7 +64,7 @@ TEST(Parameter, R_sets_both_restitutions_and_each_stop_can_have_its_own) {
 }
 
 TEST(Parameter, every_other_one_has_its_own_place) {
-  Scene scene;
+  point::Problem scene;
   set(scene, phase, 1);
   set(scene, load, 2);
   set(scene, x0, 3);
@@ -82,7 +82,7 @@ TEST(Parameter, every_other_one_has_its_own_place) {
 TEST(StartPeriod, starts_on_the_lower_stop_with_the_speed_of_the_motion_that_has_this_period) {
   // check 1 of the physics: T = 4 arcsin(g/V) and |x'| at contact sqrt(V^2 - g^2), so that v0 = g cot(T/4)
   const double g = 0.75, V = 1.3;
-  Scene scene;
+  point::Problem scene;
   set(scene, xs, -g);
   set(scene, start_period, 4 * std::asin(g / V));
   EXPECT_EQ(scene.start.displacement, -g);
@@ -97,11 +97,11 @@ TEST(StartPeriod, follows_the_stops_whether_it_is_fixed_or_swept) {
   swept.dimensions = {{{start_period, {std::numbers::pi}}},
                       {{xs, {-1, -2}}}};  // before xs in the text, after it in the scene
   for (const Sweep& sweep : {fixed, swept}) {
-    const Scene scene = scene_at(sweep, 1);
+    const point::Problem scene = scene_at(sweep, 1);
     EXPECT_EQ(scene.start.displacement, -2);
     EXPECT_NEAR(scene.start.velocity, 2.0, 1e-15);  // cot(pi/4) = 1
   }
 }
 
 }  // namespace
-}  // namespace clatter
+}  // namespace clatter::sweep

@@ -8,7 +8,7 @@
 
 #include "support/random.hpp"
 
-namespace clatter {
+namespace clatter::sweep {
 namespace {
 
 /// The worst of what is told against the truth, as a factor, while points of such costs are run one after the other:
@@ -36,7 +36,7 @@ TEST(TimeLeft, of_points_that_cost_the_same_is_right) {
 
 TEST(TimeLeft, of_points_in_no_order_is_right_within_a_factor_of_three) {
   for (const std::uint64_t i : {1U, 2U, 3U, 4U, 5U}) {
-    Random random(1, i);
+    support::Random random(1, i);
     std::vector<double> seconds(3000);
     for (double& cost : seconds) cost = random.logarithmic(1e-5, 1e-1);
     EXPECT_LT(worst_factor(seconds, 0.05), 3.0) << i;
@@ -99,4 +99,4 @@ TEST(TimeLeft, is_nothing_at_the_end_however_soon_that_comes) {
 }
 
 }  // namespace
-}  // namespace clatter
+}  // namespace clatter::sweep

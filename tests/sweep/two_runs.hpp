@@ -11,32 +11,32 @@
 #include "support/random.hpp"
 #include "sweep/figures.hpp"
 
-namespace clatter {
+namespace clatter::sweep {
 
 /// Scenes that share their time plan and observers, each a point of a sweep.
-inline Sweep sweep_over(const std::vector<Scene>& scenes) {
+inline Sweep sweep_over(const std::vector<point::Problem>& scenes) {
   const auto axis = [&scenes](Parameter parameter, const auto& value) {
     Axis one{parameter, {}};
-    for (const Scene& scene : scenes) one.values.push_back(value(scene));
+    for (const point::Problem& scene : scenes) one.values.push_back(value(scene));
     return one;
   };
-  const Dimension dimension{axis(Parameter::nu, [](const Scene& s) { return s.oscillator.frequency; }),
-                            axis(Parameter::h, [](const Scene& s) { return s.oscillator.damping; }),
-                            axis(Parameter::f, [](const Scene& s) { return s.oscillator.forcing; }),
-                            axis(Parameter::load, [](const Scene& s) { return s.oscillator.load; }),
-                            axis(Parameter::stop_lower, [](const Scene& s) { return s.stops.lower; }),
-                            axis(Parameter::stop_upper, [](const Scene& s) { return s.stops.upper; }),
-                            axis(Parameter::R_lower, [](const Scene& s) { return s.stops.restitution_lower; }),
-                            axis(Parameter::R_upper, [](const Scene& s) { return s.stops.restitution_upper; }),
-                            axis(Parameter::x0, [](const Scene& s) { return s.start.displacement; }),
-                            axis(Parameter::v0, [](const Scene& s) { return s.start.velocity; }),
-                            axis(Parameter::phase, [](const Scene& s) { return s.start.phase; })};
+  const Dimension dimension{axis(Parameter::nu, [](const point::Problem& s) { return s.oscillator.frequency; }),
+                            axis(Parameter::h, [](const point::Problem& s) { return s.oscillator.damping; }),
+                            axis(Parameter::f, [](const point::Problem& s) { return s.oscillator.forcing; }),
+                            axis(Parameter::load, [](const point::Problem& s) { return s.oscillator.load; }),
+                            axis(Parameter::stop_lower, [](const point::Problem& s) { return s.stops.lower; }),
+                            axis(Parameter::stop_upper, [](const point::Problem& s) { return s.stops.upper; }),
+                            axis(Parameter::R_lower, [](const point::Problem& s) { return s.stops.restitution_lower; }),
+                            axis(Parameter::R_upper, [](const point::Problem& s) { return s.stops.restitution_upper; }),
+                            axis(Parameter::x0, [](const point::Problem& s) { return s.start.displacement; }),
+                            axis(Parameter::v0, [](const point::Problem& s) { return s.start.velocity; }),
+                            axis(Parameter::phase, [](const point::Problem& s) { return s.start.phase; })};
   return {.scene = scenes.front(), .dimensions = {dimension}, .follow = {}};
 }
 
 /// A point's place in the figure of a run.
 struct RunPoint {
-  const Figure& figure;
+  const Dataset& figure;
   std::size_t index;
 
   [[nodiscard]] std::uint8_t status() const { return statuses(figure)[index]; }
@@ -112,8 +112,8 @@ inline Apart compare(const RunPoint& a, const RunPoint& b) {
 }
 
 /// The scene with its inputs moved by 1e-15 of them, up or down as the index has it.
-inline Scene moved(Scene scene, std::uint64_t index) {
-  Random random(15, index);
+inline point::Problem moved(point::Problem scene, std::uint64_t index) {
+  support::Random random(15, index);
   Oscillator& o = scene.oscillator;
   Stops& stops = scene.stops;
   Start& start = scene.start;
@@ -132,13 +132,14 @@ inline Scene moved(Scene scene, std::uint64_t index) {
 
 /// What moving the inputs by 1e-15 does to what the scalar kernel gives; infinite where it changes the status or a
 /// count.
-inline double sensitivity(const Scene& scene, const RunPoint& unmoved) {
+inline double sensitivity(const point::Problem& scene, const RunPoint& unmoved) {
   double worst = 0;
   for (std::uint64_t index = 0; index < 8 && std::isfinite(worst); ++index) {
-    const Figure other = run(sweep_of(moved(scene, index), {}), {.threads = 1, .arch = Arch::scalar}).figure;
+    const Dataset other =
+        run(sweep_of(moved(scene, index), {}), {.threads = 1, .arch = lanes::InstructionSet::scalar}).dataset;
     worst = std::max(worst, compare({other, 0}, unmoved).by);
   }
   return worst;
 }
 
-}  // namespace clatter
+}  // namespace clatter::sweep

@@ -1,0 +1,59 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "accuracy/tested_method.hpp"
+#include "point/point.hpp"
+
+namespace clatter::accuracy {
+
+/// A row of a study: what a method and its setting give and cost. NaN: does not apply, or there is nothing to compare;
+/// all of it where lanes leave the scene to the scalar kernel. In lanes impacts are counted only, without their times.
+struct WorkPrecision {
+  Trial trial;
+  steady::Status status = steady::Status::unresolved;
+  double contact_time = point::no_value;   ///< largest error of an impact's time, in forcing periods
+  double contact_speed = point::no_value;  ///< largest error of an impact's speed, over the largest speed
+  double rest = point::no_value;           ///< largest error of a rest's beginning or end, in forcing periods
+  double extrema = point::no_value;        ///< error of the least and greatest x and x', over the largest |x| and |x'|
+  double harmonics = point::no_value;      ///< of x: error of the complex amplitudes 1 ... 3, over the largest of them
+  double v_harmonics = point::no_value;    ///< the same of x'
+  double missed = point::no_value, doubled = point::no_value;  ///< impacts; in lanes by their count on each stop
+  double rests_missed = point::no_value;
+  double impacts = point::no_value;            ///< simulated
+  double simulated_periods = point::no_value;  ///< forcing periods, settling included
+  double observed_periods = point::no_value;   ///< forcing periods observed: of periodic motion its period
+  double evaluations = point::no_value;        ///< of arcs by the scalar kernel; of the equation by general methods
+  double ns_per_period = point::no_value;  ///< median wall time of a forcing period on one thread, in ns; in lanes of a
+                                           ///< full crew that runs the same point, over its number
+  double ns_spread = point::no_value;      ///< interquartile range of it; NaN where it was measured once
+};
+
+/// What accuracy costs at one point of a sweep. Forcing periods; without forcing 2 pi.
+struct PointAccuracy {
+  double asked = 0.0;                       ///< periods to compare: the duration of a transient, else the window
+  double horizon = 0.0;                     ///< periods compared: as long as double and 50 digits agree
+  double impacts = 0.0;                     ///< of the reference within the horizon
+  double rests = 0.0;                       ///< of the reference within the horizon
+  double steady_periods = point::no_value;  ///< period of the steady motion that repeats are compared with; NaN: none
+  std::vector<WorkPrecision> rows;
+};
+
+struct AccuracyOptions {
+  int rounds = 9;  ///< measurements of time a row, at most
+  /// Called after every trial and every round, with the seconds that the rest takes, once they can be told.
+  std::function<void(std::optional<double> seconds_left)> progress{};
+  std::function<bool()> stopped{};  ///< asked before every run; once true, nothing more is run
+};
+
+/// Calls of `progress` in the study of a point, so many rows.
+[[nodiscard]] std::size_t steps_of(std::size_t rows, const AccuracyOptions& options);
+
+/// Studies a scene: every trial's error against 50 digits, and its time, in turn with all others. Rows are incomplete
+/// where it was stopped.
+[[nodiscard]] PointAccuracy study(const point::Problem& scene, const std::vector<Trial>& trials,
+                                  const AccuracyOptions& options);
+
+}  // namespace clatter::accuracy

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string_view>
+#include <vector>
+
+#include "lanes/instruction_set.hpp"
+#include "point/problem.hpp"
+
+namespace clatter::accuracy {
+
+/// What a row of a study varies.
+enum class TestedMethod : std::uint8_t {
+  exact,              ///< the exact integrator, over the horizon
+  dopri5,             ///< setting: tolerance
+  moreau,             ///< setting: step, in forcing periods
+  harmonics_exact,    ///< harmonics from the arcs
+  harmonics_fft,      ///< setting: samples
+  steady,             ///< setting: tolerance of the repeat; with closed forms and Newton's method
+  steady_repetition,  ///< the same by repetition alone
+};
+
+/// In the order of Studied.
+inline constexpr std::array<std::string_view, 7> studied_names{
+    "exact", "dopri5", "moreau", "harmonics_exact", "harmonics_fft", "steady", "steady_repetition"};
+
+/// A row before it is run.
+struct Trial {
+  TestedMethod studied = TestedMethod::exact;
+  double setting = 0.0;  ///< NaN where there is none
+  lanes::InstructionSet arch =
+      lanes::InstructionSet::scalar;  ///< instruction set; but for scalar the exact method runs in its lanes
+};
+
+/// A complete study: exact; dopri5 at tolerances 1e-3 ... 1e-13; Moreau's time stepping at steps of 1e-1 ... 1e-5
+/// periods; harmonics, exact and of 2^4 ... 2^20 samples; unless motion is transient, steady detection at tolerances
+/// 1e-3 ... 1e-14. With an instruction set, exact in its lanes beside the first, and steady detection at 1e-12 there.
+[[nodiscard]] std::vector<Trial> trials_of(steady::Mode mode, lanes::InstructionSet arch);
+
+}  // namespace clatter::accuracy

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string_view>
+
+namespace clatter::lanes {
+
+/// Instruction sets that motion is computed with: one point at a time, or 2, 4, 8 in the lanes of a vector.
+enum class InstructionSet : std::uint8_t { scalar, sse2, avx2, avx512 };
+
+/// In the order of Arch.
+inline constexpr std::array<std::string_view, 4> instruction_set_names{"scalar", "sse2", "avx2", "avx512"};
+
+[[nodiscard]] constexpr std::string_view name_of(InstructionSet arch) {
+  return instruction_set_names[static_cast<std::size_t>(arch)];
+}
+
+[[nodiscard]] constexpr std::optional<InstructionSet> instruction_set_named(std::string_view name) {
+  for (std::size_t i = 0; i < instruction_set_names.size(); ++i)
+    if (instruction_set_names[i] == name) return static_cast<InstructionSet>(i);
+  return std::nullopt;
+}
+
+/// Whether this machine and its system have the instruction set. avx2 stands for AVX2 and FMA, avx512 for its parts F
+/// and DQ.
+[[nodiscard]] inline bool is_supported(InstructionSet arch) {
+  if (arch == InstructionSet::avx512) return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq");
+  if (arch == InstructionSet::avx2) return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
+  return true;
+}
+
+/// The widest that this machine has.
+[[nodiscard]] inline InstructionSet widest_instruction_set() {
+  return is_supported(InstructionSet::avx512) ? InstructionSet::avx512
+         : is_supported(InstructionSet::avx2) ? InstructionSet::avx2
+                                              : InstructionSet::sse2;
+}
+
+}  // namespace clatter::lanes

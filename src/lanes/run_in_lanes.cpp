@@ -1,0 +1,27 @@
+#include "lanes/run_in_lanes.hpp"
+
+#include <optional>
+#include <utility>
+
+#include "lanes/scheduler.hpp"
+
+namespace clatter::lanes {
+
+static_assert(lanes_per_block == LaneArray::width);
+
+bool accepts(const point::WorkItem& item) {
+  return (item.effects.stops() || item.scene.time.mode == steady::Mode::transient) && accepts(item.scene);
+}
+
+point::PointResult run_in_lanes(const point::WorkItem& item, std::size_t times, InstructionSet arch,
+                                point::ThreadScratch& scratch) {
+  point::PointResult result;
+  std::size_t begun = 0;
+  const auto next = [&] { return begun++ < times ? std::optional(item) : std::nullopt; };
+  const auto take = [&](const point::WorkItem&, point::PointResult&& of_point) { result = std::move(of_point); };
+  Scheduler crew(step_functions_of(arch), scratch, next, take);
+  crew.run();
+  return result;
+}
+
+}  // namespace clatter::lanes

@@ -1,0 +1,12 @@
+#pragma once
+
+#include <boost/multiprecision/cpp_bin_float.hpp>
+
+namespace clatter::inline math {
+
+/// The reference number type: 50 decimal digits, without expression templates so that the kernel's source needs no
+/// casts.
+using FiftyDigits =
+    boost::multiprecision::number<boost::multiprecision::cpp_bin_float<50>, boost::multiprecision::et_off>;
+
+}  // namespace clatter::inline math

@@ -1,0 +1,172 @@
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <tuple>
+
+#include "model/oscillator.hpp"
+
+namespace clatter::inline model {
+
+/// h = 0, 0 < h < 1, h = 1, h > 1: no decay, a decaying rotation, its limit, two decaying exponentials.
+enum class Damping : std::uint8_t { none, light, critical, heavy };
+
+/// f = 0, away from resonance, at it or so near that the response is nearly secular.
+enum class Forcing : std::uint8_t { none, regular, secular };
+
+/// What a motion is made of. As a template argument it leaves out of the code what is absent, so that it costs nothing.
+struct Effects {
+  Damping damping = Damping::none;
+  Forcing forcing = Forcing::none;
+  bool load = false;                  ///< a constant force
+  bool lower = false, upper = false;  ///< a stop in reach
+  bool dissipation = false;           ///< speed is lost on a stop in reach: R < 1
+  bool rest = false;                  ///< chatter and rest: a stop in reach may be pressed
+
+  [[nodiscard]] constexpr bool stops() const { return lower || upper; }
+
+  /// What the arcs between impacts depend on.
+  [[nodiscard]] constexpr Effects arc() const { return {.damping = damping, .forcing = forcing}; }
+
+  friend constexpr bool operator==(const Effects&, const Effects&) = default;
+};
+
+/// Whether a kernel for `all` simulates whatever `some` calls for.
+[[nodiscard]] constexpr bool contains(const Effects& all, const Effects& some) {
+  const bool decays_twice = some.damping >= Damping::critical;
+  const bool damping =
+      decays_twice ? all.damping == Damping::heavy : all.damping <= Damping::light && all.damping >= some.damping;
+  return damping && all.forcing >= some.forcing && all.load >= some.load && all.lower >= some.lower &&
+         all.upper >= some.upper && all.dissipation >= some.dissipation && all.rest >= some.rest;
+}
+
+namespace effect_sets {
+
+[[nodiscard]] constexpr Effects free_of_stops(Damping damping, Forcing forcing) {
+  return {.damping = damping, .forcing = forcing, .load = true};
+}
+[[nodiscard]] constexpr Effects impacts(Damping damping, Forcing forcing) {
+  return {.damping = damping, .forcing = forcing, .load = true, .lower = true, .upper = true, .dissipation = true};
+}
+[[nodiscard]] constexpr Effects complete(Damping damping, Forcing forcing) {
+  Effects effects = impacts(damping, forcing);
+  effects.rest = true;
+  return effects;
+}
+
+}  // namespace effect_sets
+
+/// The sets of effects that are compiled, the cheaper before the dearer. Not told apart, since telling them apart saves
+/// little: the load (an addition), one stop or two (looked at once a step, not in every evaluation), dissipation (a
+/// multiplication an impact), and critical damping, which is rare. README shows what each effect costs.
+inline constexpr std::array compiled_effects{
+    effect_sets::free_of_stops(Damping::none, Forcing::none),
+    effect_sets::free_of_stops(Damping::light, Forcing::regular),
+    effect_sets::free_of_stops(Damping::heavy, Forcing::regular),
+    effect_sets::free_of_stops(Damping::light, Forcing::secular),
+    effect_sets::impacts(Damping::none, Forcing::none),
+    effect_sets::complete(Damping::none, Forcing::none),
+    effect_sets::impacts(Damping::light, Forcing::none),
+    effect_sets::complete(Damping::light, Forcing::none),
+    effect_sets::complete(Damping::none, Forcing::regular),  // cheaper than light damping without rest
+    effect_sets::impacts(Damping::light, Forcing::regular),
+    effect_sets::complete(Damping::light, Forcing::regular),
+    effect_sets::complete(Damping::none, Forcing::secular),
+    effect_sets::impacts(Damping::light, Forcing::secular),
+    effect_sets::complete(Damping::light, Forcing::secular),
+    effect_sets::complete(Damping::heavy, Forcing::none),
+    effect_sets::complete(Damping::heavy, Forcing::regular),
+};
+
+/// The cheapest compiled set that contains the effects: an index of `compiled_effects`.
+[[nodiscard]] constexpr std::size_t effect_set_of(const Effects& effects) {
+  std::size_t kernel = 0;
+  while (!contains(compiled_effects[kernel], effects)) ++kernel;
+  return kernel;
+}
+
+/// Whether one set of effects stands before another in lists: that of the cheaper kernel, else any fixed order.
+[[nodiscard]] inline bool cheaper(const Effects& one, const Effects& other) {
+  const auto key = [](const Effects& e) {
+    return std::tuple(effect_set_of(e), e.damping, e.forcing, e.load, e.lower, e.upper, e.dissipation, e.rest);
+  };
+  return key(one) < key(other);
+}
+
+/// Distance of i nu from the oscillator's roots below which forced response and transient are formed together. There
+/// each of the two is up to 1/(2 * distance) times larger than the force, and so is the rounding error of their sum
+/// when it is formed from both.
+inline constexpr double secular_distance = 1.0 / 16.0;
+
+/// Every effect that an oscillator of damping h can have; resonance is none of them from h = 1/16 on.
+[[nodiscard]] constexpr Effects all_effects(double h) {
+  if (h >= 1.0) return effect_sets::complete(Damping::heavy, Forcing::regular);
+  return effect_sets::complete(Damping::light, h >= secular_distance ? Forcing::regular : Forcing::secular);
+}
+
+[[nodiscard]] constexpr Damping damping_of(const Oscillator& oscillator) {
+  const double h = oscillator.damping;
+  return h == 0.0 ? Damping::none : h < 1.0 ? Damping::light : h == 1.0 ? Damping::critical : Damping::heavy;
+}
+
+[[nodiscard]] inline Forcing forcing_of(const Oscillator& oscillator) {
+  if (oscillator.forcing == 0.0) return Forcing::none;
+  const bool secular = std::hypot(oscillator.damping, oscillator.frequency - 1.0) < secular_distance;
+  return secular ? Forcing::secular : Forcing::regular;
+}
+
+[[nodiscard]] constexpr bool every_scene_has_a_kernel() {
+  for (const double h : {0.0, secular_distance / 2, secular_distance, 1.0, 2.0})
+    for (const Forcing forcing : {Forcing::none, Forcing::regular, Forcing::secular}) {
+      const bool exists = forcing != Forcing::secular || h < secular_distance;
+      if (exists && !contains(all_effects(h), effect_sets::complete(damping_of({.damping = h}), forcing))) return false;
+    }
+  return true;
+}
+static_assert(every_scene_has_a_kernel());
+
+/// Calls `function.operator()<kernel>()` for the cheapest compiled set that contains the effects.
+template <class Function, std::size_t candidate = 0>
+decltype(auto) with_effects(const Effects& effects, Function&& function) {
+  if constexpr (candidate + 1 < compiled_effects.size()) {
+    if (effect_set_of(effects) != candidate)
+      return with_effects<Function, candidate + 1>(effects, static_cast<Function&&>(function));
+  }
+  return function.template operator()<compiled_effects[candidate]>();
+}
+
+/// What general methods simulate of every scene; damping only tells how small changes of a motion decay.
+[[nodiscard]] constexpr Effects general_effects(double h) {
+  const Damping damping = h == 0 ? Damping::none : h < 1 ? Damping::light : Damping::heavy;
+  return effect_sets::complete(damping, Forcing::regular);
+}
+
+/// Calls `function.operator()<effects>()` for what general methods simulate of an oscillator.
+template <class Function>
+decltype(auto) with_general_effects(const Oscillator& oscillator, Function&& function) {
+  const Damping damping = general_effects(oscillator.damping).damping;
+  if (damping == Damping::none) return function.template operator()<general_effects(0.0)>();
+  if (damping == Damping::light) return function.template operator()<general_effects(0.5)>();
+  return function.template operator()<general_effects(1.0)>();
+}
+
+/// Calls `function.operator()<kernel>()` for an oscillator between any stops: one of the eight complete sets.
+template <class Function>
+decltype(auto) with_any_stops(const Oscillator& oscillator, Function&& function) {
+  const Damping damping = damping_of(oscillator);
+  const Forcing forcing = forcing_of(oscillator);
+  const auto with_damping = [&]<Damping d>() -> decltype(auto) {
+    if (forcing == Forcing::none) return function.template operator()<effect_sets::complete(d, Forcing::none)>();
+    if constexpr (d != Damping::heavy)
+      if (forcing == Forcing::secular)
+        return function.template operator()<effect_sets::complete(d, Forcing::secular)>();
+    return function.template operator()<effect_sets::complete(d, Forcing::regular)>();
+  };
+  if (damping == Damping::none) return with_damping.template operator()<Damping::none>();
+  if (damping == Damping::light) return with_damping.template operator()<Damping::light>();
+  return with_damping.template operator()<Damping::heavy>();
+}
+
+}  // namespace clatter::inline model

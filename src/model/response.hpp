@@ -1,0 +1,29 @@
+#pragma once
+
+#include <cmath>
+
+#include "math/number.hpp"
+
+namespace clatter::inline model {
+
+/// Steady forced response P sin(theta) + Q cos(theta) of eq. 3: P = f(1 - nu^2)/D, Q = -2 h nu f/D,
+/// D = (1 - nu^2)^2 + (2 h nu)^2. Infinite or NaN where there is none: f at h = 0, nu = 1.
+template <class Number>
+struct Response {
+  Number in_phase{}, quadrature{};  ///< P and Q
+  Number amplitude{};               ///< (P^2 + Q^2)^(1/2)
+};
+
+template <class Number>
+[[nodiscard]] Response<Number> steady_response(const Number& h, const Number& f, const Number& nu) {
+  using std::abs, std::max;
+  if (f == 0) return {};
+  const Number stiffness = (1 - nu) * (1 + nu), friction = 2 * h * nu;
+  const Number size =
+      max(Number(abs(stiffness)), friction);  // divided out first, so that its square can't overflow or vanish
+  const Number p = stiffness / size, q = friction / size, determinant = size * (p * p + q * q);
+  const Number in_phase = f * p / determinant, quadrature = -f * q / determinant;
+  return {in_phase, quadrature, norm(in_phase, quadrature)};
+}
+
+}  // namespace clatter::inline model

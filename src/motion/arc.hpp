@@ -1,0 +1,139 @@
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "motion/arc_constants.hpp"
+
+namespace clatter::motion {
+
+/// Motion without impact from a given instant on, in closed form (eq. 3).
+template <class N, Effects E>
+class Arc {
+ public:
+  using Number = N;
+
+  /// Starts at displacement x, velocity v, phase (sine, cosine) and acceleration a, which the equation of motion gives
+  /// or a release makes 0.
+  Arc(const ArcConstants<Number, E>& constants, const Motion<Number>& start) : Arc(constants, start, start.x) {}
+
+  /// Starts `start.rise` away from a place.
+  Arc(const ArcConstants<Number, E>& constants, const Motion<Number>& start, const Number& anchor)
+      : constants_(&constants), anchor_(anchor), start_(with_free_part(start)) {}
+
+  [[nodiscard]] const ArcConstants<Number, E>& constants() const { return *constants_; }
+  [[nodiscard]] const Motion<Number>& start() const { return start_; }
+  [[nodiscard]] const Number& anchor() const { return anchor_; }  ///< the place that `rise` counts from
+
+  /// Motion a time s >= 0 after the start; for short times by Taylor's series, which keeps the relative accuracy of
+  /// `rise`.
+  [[nodiscard]] Motion<Number> at(const Number& s) const {
+    return s * constants_->rate <= Number(0.25) ? near(start_, s) : moved(start_, constants_->step(s));
+  }
+
+  /// The forcing phase a time s after the start.
+  [[nodiscard]] SineCosine<Number> phase_after(const Number& s) const {
+    return turned(start_, turn_by(Number(constants_->nu * s))).phase;
+  }
+
+  /// Motion a step of any length after `m`, an instant of this arc, in closed form; inlined, since samples want nothing
+  /// but place and velocity.
+  [[nodiscard, gnu::always_inline]] inline Motion<Number> moved(const Motion<Number>& m,
+                                                                const Step<Number>& step) const;
+
+  /// Motion a short time d after `m` (d * flow().rate <= 1/4), an instant of this arc, by Taylor's series of the
+  /// equation of motion.
+  [[nodiscard]] Motion<Number> near(const Motion<Number>& m, const Number& d) const;
+
+ private:
+  [[nodiscard]] Motion<Number> with_free_part(Motion<Number> m) const {
+    m.free_x =
+        constants_->from_equilibrium(m.x, anchor_, m.offset) - constants_->response_displacement(m.sine, m.cosine),
+    m.free_v = m.v - constants_->response_velocity(m.sine, m.cosine);
+    if constexpr (E.damping == Damping::heavy) m.fast_x = constants_->fast_mode(m.free_x, m.free_v);
+    return m;
+  }
+  /// A forcing phase and what it differs from the one before by.
+  struct Turned {
+    SineCosine<Number> phase, change;
+  };
+  [[nodiscard]] static Turned turned(const Motion<Number>& m, const SineCosine<Number>& turn);
+
+  const ArcConstants<Number, E>* constants_;
+  Number anchor_;
+  Motion<Number> start_;
+};
+
+template <class Number, Effects E>
+auto Arc<Number, E>::turned(const Motion<Number>& m, const SineCosine<Number>& turn) -> Turned {
+  if constexpr (E.forcing == Forcing::none) return {{m.sine, m.cosine}, {Number(0), Number(0)}};
+  const auto& [s, c] = turn;
+  const SineCosine<Number> change{m.sine * c + m.cosine * s, m.cosine * c - m.sine * s};
+  return {{m.sine + change.sine, m.cosine + change.cosine}, change};
+}
+
+template <class Number, Effects E>
+Motion<Number> Arc<Number, E>::moved(const Motion<Number>& m, const Step<Number>& step) const {
+  using std::abs;
+  const Propagator<Number>& p = step.free;
+  const auto [phase, change] = turned(m, step.turn);
+  const Number forced_x = constants_->response_displacement(phase.sine, phase.cosine);
+  // no difference of places, so that a short flight keeps its digits; the response is linear in sine and cosine
+  Number offset = p.a_rise * m.free_x + p.b * m.free_v + constants_->response_displacement(change.sine, change.cosine);
+  Number free_x = p.a * m.free_x + p.b * m.free_v, free_v = p.c * m.free_v - p.b * m.free_x;
+  if constexpr (E.forcing == Forcing::secular) {
+    const Number response_x = m.cosine * step.displacement.cosine + m.sine * step.displacement.sine;
+    const Number response_v = m.cosine * step.velocity.cosine + m.sine * step.velocity.sine;
+    offset += constants_->f * response_x, free_x += constants_->f * response_x, free_v += constants_->f * response_v;
+  }
+  offset += m.offset;
+  // of two sums for the place the one with the smaller terms: between close stops that is the rise
+  const Number whole = abs(constants_->load) + abs(forced_x) + abs(free_x);
+  const bool rises = abs(anchor_) + abs(offset) < whole;
+  const Number x = rises ? anchor_ + offset : constants_->load + forced_x + free_x;
+  const Number v = constants_->response_velocity(phase.sine, phase.cosine) + free_v;
+  const Number a =
+      E.forcing == Forcing::secular
+          ? constants_->acceleration(rises ? constants_->from_equilibrium(x, anchor_, offset) : free_x, v, phase.sine)
+          : Number(-(p.c * m.free_x + p.d * m.free_v) - constants_->nu * constants_->nu * forced_x);
+  Number fast_x = 0;
+  if constexpr (E.damping == Damping::heavy) fast_x = m.fast_x * step.fast_decay;
+  return {offset, x, v, a, phase.sine, phase.cosine, free_x, free_v, fast_x};
+}
+
+template <class Number, Effects E>
+Motion<Number> Arc<Number, E>::near(const Motion<Number>& m, const Number& d) const {
+  using std::exp;
+  constexpr std::size_t terms = std::numeric_limits<Number>::digits <= 64 ? 13 : 36;  // (1/4)^n / n! below rounding
+  if (!(d > 0)) return m;
+  const Number square = d * d;
+  std::array<Number, terms> t;  // t[k] = x^(k) d^k / k!
+  t[0] = 0, t[1] = m.v * d, t[2] = m.a * square / 2;
+  Number force = constants_->f * square, drive = m.sine, next = m.cosine;  // force: f d^2 (nu d)^k / k!
+  for (std::size_t k = 1; k + 2 < terms; ++k) {
+    Number sum = -square * t[k];
+    if constexpr (E.damping != Damping::none) sum -= 2 * constants_->h * d * (static_cast<double>(k) + 1) * t[k + 1];
+    if constexpr (E.forcing != Forcing::none) {
+      force *= constants_->nu * d / static_cast<double>(k);
+      sum += force * next;
+      const Number turn = -drive;
+      drive = next, next = turn;
+    }
+    t[k + 2] = sum / static_cast<double>((k + 1) * (k + 2));
+  }
+  Number offset = 0, gain = 0;  // from the small terms up
+  for (std::size_t k = terms - 1; k >= 1; --k) {
+    offset += t[k];
+    if (k >= 2) gain += static_cast<double>(k) * t[k];
+  }
+  const SineCosine<Number> phase = turned(m, turn_by(Number(constants_->nu * d))).phase;
+  const Number x = m.x + offset, v = m.v + gain / d;
+  offset += m.offset;
+  const Number a = constants_->acceleration(constants_->from_equilibrium(x, anchor_, offset), v, phase.sine);
+  Motion<Number> end = with_free_part({offset, x, v, a, phase.sine, phase.cosine});
+  if constexpr (E.damping == Damping::heavy) end.fast_x = m.fast_x * exp(-constants_->fast * d);
+  return end;
+}
+
+}  // namespace clatter::motion

@@ -1,0 +1,268 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "math/number.hpp"
+#include "model/effects.hpp"
+#include "model/oscillator.hpp"
+#include "model/response.hpp"
+#include "motion/state.hpp"
+
+namespace clatter::motion {
+
+/// Free motion over a time s: x(s) = A x + B v, v(s) = -B x + C v, and its acceleration -C x - D v.
+template <class Number>
+struct Propagator {
+  Number a, b, c, d;
+  Number a_rise;  ///< A - 1, small for short times
+};
+
+/// What a time s does to every motion of an oscillator.
+template <class Number>
+struct Step {
+  Propagator<Number> free;
+  SineCosine<Number> turn{};                      ///< sine of nu s, and its cosine less 1
+  SineCosine<Number> displacement{}, velocity{};  ///< secular: what the force's sine and cosine give from rest, f = 1
+  Number fast_decay{};                            ///< heavy damping: e^(-fast s)
+};
+
+/// Sine of an angle and its cosine less 1, which is small for small angles.
+template <class Number>
+[[nodiscard]] SineCosine<Number> turn_by(const Number& angle) {
+  using std::cos, std::sin;
+  const Number half = sin(angle / 2);
+  return {2 * half * cos(angle / 2), -2 * half * half};
+}
+
+/// (e^z - 1)/z for z = re + i im with re <= 0, to relative accuracy for every z: the divided difference of the
+/// exponential.
+template <class Number>
+[[nodiscard]] std::array<Number, 2> divided_exponential(const Number& re, const Number& im) {
+  using std::cos, std::exp, std::expm1, std::sin, std::sqrt;
+  const Number square = re * re + im * im;
+  if (square < sqrt(epsilon<Number>())) {  // 1 + z/2 + z^2/6 + z^3/24: the next term is below rounding
+    const Number re2 = (re - im) * (re + im), im2 = 2 * re * im;
+    return {1 + re / 2 + re2 / 6 + (re * re2 - im * im2) / 24, im / 2 + im2 / 6 + (re * im2 + im * re2) / 24};
+  }
+  const Number half = sin(im / 2), u = expm1(re) * cos(im) - 2 * half * half, w = exp(re) * sin(im);
+  return {(u * re + w * im) / square, (w * re - u * im) / square};
+}
+
+/// y z^6; 0 and infinity meet only where y or z is not finite.
+template <class Number>
+[[nodiscard]] Number times_sixth_power(const Number& y, const Number& z) {
+  return y * z * z * z * z * z * z;
+}
+
+/// The constants of an oscillator that all its arcs share, and its free motion and bounds.
+template <class Number, Effects E>
+class ArcConstants {
+  static_assert(E == E.arc());  // nothing else makes another arc
+
+ public:
+  explicit ArcConstants(const Oscillator& oscillator);
+
+  /// Free motion over s >= 0, without cancellation for every h (physics.md, "Motion").
+  [[nodiscard]] Propagator<Number> propagator(const Number& s) const;
+
+  /// All that moves motions on by a time s >= 0 (`Arc::moved`).
+  [[nodiscard]] Step<Number> step(const Number& s) const;
+
+  /// Displacement and velocity of the steady forced response at a phase; the secular kernel leaves the forced part to
+  /// its arcs.
+  [[nodiscard]] Number response_displacement(const Number& sine, const Number& cosine) const {
+    if constexpr (E.forcing == Forcing::regular) return response.in_phase * sine + response.quadrature * cosine;
+    return Number(0);
+  }
+  [[nodiscard]] Number response_velocity(const Number& sine, const Number& cosine) const {
+    if constexpr (E.forcing == Forcing::regular) return nu * (response.in_phase * cosine - response.quadrature * sine);
+    return Number(0);
+  }
+
+  /// Displacement from the load's equilibrium of a mass at x = anchor + offset, by whichever of the two has kept more
+  /// digits of it.
+  [[nodiscard]] Number from_equilibrium(const Number& x, const Number& anchor, const Number& offset) const {
+    using std::abs;
+    const Number from = anchor - load;
+    return abs(from) + abs(offset) < abs(x) ? from + offset : x - load;
+  }
+
+  /// Acceleration from the equation of motion (eq. 3), a `displacement` away from the load's equilibrium.
+  [[nodiscard]] Number acceleration(const Number& displacement, const Number& v, const Number& sine) const {
+    Number sum = -displacement;
+    if constexpr (E.forcing != Forcing::none) sum += f * sine;
+    if constexpr (E.damping != Damping::none) sum -= 2 * h * v;
+    return sum;
+  }
+
+  /// Derivative of the acceleration.
+  [[nodiscard]] Number jerk(const Motion<Number>& m) const {
+    Number sum = -m.v;
+    if constexpr (E.forcing != Forcing::none) sum += f * nu * m.cosine;
+    if constexpr (E.damping != Damping::none) sum -= 2 * h * m.a;
+    return sum;
+  }
+
+  /// Bound of span^6 |y^(6)| from `m` on for a time `span`, for y = x (derivative 0) or y = x' (derivative 1). The
+  /// energy norm of free motion never grows, so its derivatives are bounded by the row of the companion matrix' power;
+  /// heavy damping is also bounded mode by mode, since its fast one dies out.
+  [[nodiscard]] Number sixth_bound(const Motion<Number>& m, const Number& span, int derivative) const;
+
+  /// Bound of |x - load| from `m` on for a time `span`; at resonance the force may raise the energy norm by |f| in a
+  /// unit of time.
+  [[nodiscard]] Number reach(const Motion<Number>& m, const Number& span) const;
+
+  /// Displacement of the fast mode of heavy damping in a free motion (x, v); infinite or NaN at h = 1, where there are
+  /// no two modes.
+  [[nodiscard]] Number fast_mode(const Number& x, const Number& v) const { return -(slow * x + v) / (2 * root); }
+
+  Number h, f, nu, load;      ///< of the oscillator; without forcing nu = 1, so that a period is 2 pi
+  Number root;                ///< lambda = |1 - h^2|^(1/2)
+  Number slow, fast;          ///< decay rates of heavy damping
+  Response<Number> response;  ///< 0 where arcs form it together with the free motion (secular)
+  Number detuning;            ///< nu - lambda, without cancellation
+  Number rate;                ///< the fastest of the motion's frequencies and decay rates
+  Number period;              ///< of the force; without forcing 2 pi
+ private:
+  void bound_derivatives();
+  [[nodiscard]] Number short_rise(const Number& s) const;
+  void respond_from_rest(const Number& s, Step<Number>& step) const;
+
+  Number coarse_root_{}, spare_root_{};   ///< light damping: root is their difference; 1 and the rest while h < 1/2
+  std::array<Number, 2> free_bound_{};    ///< of |x^(6)| and |x^(7)| over the energy norm
+  std::array<Number, 2> forced_bound_{};  ///< secular: of what the force adds to them
+};
+
+template <class Number, Effects E>
+ArcConstants<Number, E>::ArcConstants(const Oscillator& o)
+    : h(o.damping), f(o.forcing), nu(counting_frequency(o)), load(o.load) {
+  using std::abs, std::max, std::sqrt;
+  root = sqrt(abs((1 - h) * (1 + h)));
+  coarse_root_ = select<Number>(h < Number(0.5), Number(1), root);
+  spare_root_ = select<Number>(h < Number(0.5), Number(h * h / (1 + root)), Number(0));
+  fast = h + root;
+  slow = 1 / fast;
+  if constexpr (E.forcing == Forcing::regular) response = steady_response(h, f, nu);
+  detuning = (nu - 1) + h * h / (1 + root);
+  rate = max(nu, max(Number(1), Number(2 * h)));
+  period = 2 * pi<Number>() / nu;
+  bound_derivatives();
+}
+
+template <class Number, Effects E>
+void ArcConstants<Number, E>::bound_derivatives() {
+  using std::abs;
+  Number x_part = 1, v_part = 0;  // x^(k) = x_part x + v_part v + f Im(e^{i theta} (re + i im))
+  Number re = 0, im = 0, next_re = 0, next_im = 0;
+  Number power_re = 1, power_im = 0;  // (i nu)^k
+  for (std::size_t k = 0; k < 8; ++k) {
+    if (k >= 6) free_bound_[k - 6] = norm(x_part, v_part), forced_bound_[k - 6] = abs(f) * norm(re, im);
+    const Number x_next = -v_part, v_next = x_part - 2 * h * v_part;
+    x_part = x_next, v_part = v_next;
+    const Number after_re = -2 * h * next_re - re + power_re, after_im = -2 * h * next_im - im + power_im;
+    re = next_re, im = next_im, next_re = after_re, next_im = after_im;
+    const Number turned = -nu * power_im;
+    power_im = nu * power_re, power_re = turned;
+  }
+}
+
+template <class Number, Effects E>
+Propagator<Number> ArcConstants<Number, E>::propagator(const Number& s) const {
+  using std::cos, std::exp, std::expm1, std::sin;
+  if constexpr (E.damping == Damping::none) {
+    const Number half = sin(s / 2), b = 2 * half * cos(s / 2), a_rise = -2 * half * half;
+    return {1 + a_rise, b, 1 + a_rise, b, a_rise};
+  } else if constexpr (E.damping == Damping::light) {
+    // what the difference of the two products loses is given back: a long arc turns by more than one angle can hold
+    const Number coarse = coarse_root_ * s, spare = spare_root_ * s;
+    const Number angle = coarse - spare, lost = (coarse - angle) - spare;
+    const Number sine = sin(angle / 2), cosine = cos(angle / 2);
+    const Number half = sine + lost / 2 * cosine, other = cosine - lost / 2 * sine;
+    const Number decay = exp(-h * s), turn_rise = -2 * half * half;
+    const Number c = decay * (1 + turn_rise), b = decay * (2 * half * other) / root, v = c - h * b;
+    const Number a_rise = s <= Number(0.25) ? short_rise(s) : expm1(-h * s) * (1 + turn_rise) + turn_rise + h * b;
+    return {c + h * b, b, v, 2 * h * v + b, a_rise};
+  } else {
+    const Number slow_decay = exp(-slow * s), fast_decay = exp(-fast * s), spread = 2 * root * s;
+    const Number b =
+        slow_decay * select<Number>(spread > 0, -expm1(-spread) / (2 * root), s);  // root = 0: critical damping
+    const Number d = 2 * h * fast_decay - slow * slow * b;                         // 2 h slow - 1 = slow^2
+    const Number a_rise = 8 * h * s <= 1 ? short_rise(s) : Number(expm1(-slow * s) + slow * b);
+    return {slow_decay + slow * b, b, fast_decay - slow * b, d, a_rise};
+  }
+}
+
+template <class Number, Effects E>
+Step<Number> ArcConstants<Number, E>::step(const Number& s) const {
+  using std::exp;
+  Step<Number> step{propagator(s)};
+  if constexpr (E.forcing != Forcing::none) step.turn = turn_by(Number(nu * s));
+  if constexpr (E.forcing == Forcing::secular) respond_from_rest(s, step);
+  if constexpr (E.damping == Damping::heavy) step.fast_decay = exp(-fast * s);
+  return step;
+}
+
+/// Displacement and velocity that sin(phase) alone gives after a time s, from rest: Im(e^{i phase} w(s)) with
+/// w(s) = [E(mu) - E(mu*)]/(2 i lambda), E(mu) = (e^{i nu s} - e^{mu s})/(i nu - mu), mu = -h + i lambda; no difference
+/// of large numbers.
+template <class Number, Effects E>
+void ArcConstants<Number, E>::respond_from_rest(const Number& s, Step<Number>& step) const {
+  using std::cos, std::exp, std::sin;
+  const Number& lambda = root;
+  const Number c = cos(nu * s), d = sin(nu * s);
+  const auto [q_re, q_im] = divided_exponential<Number>(-h * s, -detuning * s);
+  const Number near_re = s * (c * q_re - d * q_im), near_im = s * (c * q_im + d * q_re);  // E(mu)
+  const Number decay = exp(-h * s), top_re = c - decay * cos(lambda * s), top_im = d + decay * sin(lambda * s);
+  const Number sum = nu + lambda, square = h * h + sum * sum;
+  const Number far_re = (top_re * h + top_im * sum) / square, far_im = (top_im * h - top_re * sum) / square;  // E(mu*)
+  const Number minus_re = near_re - far_re, minus_im = near_im - far_im, plus_re = near_re + far_re,
+               plus_im = near_im + far_im;
+  const Number w_re = minus_im / (2 * lambda), w_im = -minus_re / (2 * lambda);
+  step.displacement = {w_re, w_im};
+  step.velocity = {plus_re / 2 - h * w_re, plus_im / 2 - h * w_im};  // [mu E(mu) - mu* E(mu*)]/(2 i lambda)
+}
+
+/// A(s) - 1 of a time that is short for the oscillator, though not for a fast force, by Taylor's series: the closed
+/// form is a difference of terms 1/s times larger.
+template <class Number, Effects E>
+Number ArcConstants<Number, E>::short_rise(const Number& s) const {
+  constexpr int terms = std::numeric_limits<Number>::digits <= 64 ? 13 : 36;  // (1/4)^n / n! below rounding
+  Number before = 0, last = -s * s / 2, sum = last;                           // of s^k A^(k)(0) / k!
+  for (int k = 3; k < terms; ++k) {
+    const Number next = -(s * s * before + 2 * h * s * (k - 1) * last) / (k * (k - 1));
+    sum += next, before = last, last = next;
+  }
+  return sum;
+}
+
+template <class Number, Effects E>
+Number ArcConstants<Number, E>::sixth_bound(const Motion<Number>& m, const Number& span, int derivative) const {
+  using std::abs;
+  const auto i = static_cast<std::size_t>(derivative);
+  const auto times = [derivative](const Number& y, const Number& z) { return derivative == 0 ? y : Number(y * z); };
+  Number energy_norm = abs(m.free_x) + abs(m.free_v);
+  if constexpr (E.forcing == Forcing::secular) energy_norm += abs(f) * span;
+  Number bound = times_sixth_power(Number(free_bound_[i] * energy_norm), span);
+  if constexpr (E.damping == Damping::heavy) {
+    const Number slow_part = times(abs(m.free_x - m.fast_x), slow), fast_part = times(abs(m.fast_x), fast);
+    const Number modal =
+        times_sixth_power(slow_part, Number(slow * span)) + times_sixth_power(fast_part, Number(fast * span));
+    bound = select<Number>(modal < bound, modal, bound);  // root = 0: modal is infinite or NaN and is left aside
+  }
+  if constexpr (E.forcing == Forcing::regular)
+    bound += times_sixth_power(times(response.amplitude, nu), Number(nu * span));
+  if constexpr (E.forcing == Forcing::secular) bound += times_sixth_power(forced_bound_[i], span);
+  return bound;
+}
+
+template <class Number, Effects E>
+Number ArcConstants<Number, E>::reach(const Motion<Number>& m, const Number& span) const {
+  using std::abs;
+  Number bound = response.amplitude + norm(m.free_x, m.free_v);
+  if constexpr (E.forcing == Forcing::secular) bound += abs(f) * span;
+  return bound * (1 + 16 * epsilon<Number>());
+}
+
+}  // namespace clatter::motion

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "motion/tangent_map.hpp"
+
+namespace clatter::motion {
+
+/// A small change of a state.
+struct Perturbation {
+  double x = 0.0, v = 0.0;
+
+  [[nodiscard]] double size() const { return std::max(std::abs(x), std::abs(v)); }
+};
+
+[[nodiscard]] inline Perturbation between(const State<double>& from, const State<double>& to) {
+  return {to.x - from.x, to.v - from.v};
+}
+
+[[nodiscard]] inline Perturbation operator*(const Jacobian<double>& map, const Perturbation& c) {
+  return {map[0] * c.x + map[1] * c.v, map[2] * c.x + map[3] * c.v};
+}
+
+/// A set of changes around none: {e : e' E^-1 e <= 1}, by the symmetric matrix E.
+class Ellipse {
+ public:
+  Ellipse() = default;
+  Ellipse(double xx, double xv, double vv) : xx_(xx), xv_(xv), vv_(vv) {}
+  [[nodiscard]] static Ellipse disc(double radius) { return {radius * radius, 0, radius * radius}; }
+
+  [[nodiscard]] double xx() const { return xx_; }  ///< entries of E
+  [[nodiscard]] double xv() const { return xv_; }
+  [[nodiscard]] double vv() const { return vv_; }
+  [[nodiscard]] double area() const { return xx_ * vv_ - xv_ * xv_; }  ///< its square, over pi^2
+  [[nodiscard]] double x() const { return std::sqrt(xx_); }            ///< the largest change of the displacement
+  [[nodiscard]] double v() const { return std::sqrt(vv_); }            ///< and of the velocity
+  /// The larger semi-axis.
+  [[nodiscard]] double size() const { return std::sqrt((xx_ + vv_) / 2 + norm((xx_ - vv_) / 2, xv_)); }
+
+  /// Its image: D E D'.
+  [[nodiscard]] Ellipse mapped(const Jacobian<double>& D) const {
+    const double ax = D[0] * xx_ + D[1] * xv_, av = D[0] * xv_ + D[1] * vv_, bx = D[2] * xx_ + D[3] * xv_,
+                 bv = D[2] * xv_ + D[3] * vv_;
+    return {ax * D[0] + av * D[1], ax * D[2] + av * D[3], bx * D[2] + bv * D[3]};
+  }
+  /// Becomes an ellipse that holds the sums of its changes and those of another: of all such ones that of least trace.
+  void add(const Ellipse& other) {
+    const double mine = std::sqrt(xx_ + vv_), its = std::sqrt(other.xx_ + other.vv_);
+    if (!(mine > 0)) *this = other;
+    if (!(mine > 0 && its > 0)) return;
+    const double p = 1 + its / mine, q = 1 + mine / its;
+    xx_ = p * xx_ + q * other.xx_, xv_ = p * xv_ + q * other.xv_, vv_ = p * vv_ + q * other.vv_;
+  }
+
+ private:
+  double xx_ = 0, xv_ = 0, vv_ = 0;
+};
+
+}  // namespace clatter::motion

@@ -1,0 +1,136 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "motion/contact.hpp"
+#include "motion/contact_force.hpp"
+#include "motion/ellipse.hpp"
+
+namespace clatter::motion {
+
+/// Proves, while it sees a motion, that all motions that begin within an ellipse around its start meet the same stops
+/// in the same order, and encloses how far from it they are then: an ellipse for what the derivative tells of a change,
+/// and one for the rest.
+///
+/// Between impacts the difference of two motions is a free motion, whose energy norm never grows (h >= 0): so a flight
+/// keeps clear of stops where the one that is seen keeps clear of stops that are moved in by that norm. At an impact
+/// with speed u both are thought to go on through the stop for a time |s| <= 2 d/u, d the norm; they are transversal
+/// there if u is at least twice what acceleration and difference can change it by. Then the difference after it is the
+/// saltation matrix times the one before, and the rest is of second order, bounded by Taylor's theorem (`rebound`).
+class Neighbourhood {
+ public:
+  /// All motions within `start`; `rounding` is what places and velocities may be off by.
+  Neighbourhood(const Stops& stops, const Ellipse& start, double rounding)
+      : stops_(stops), told_(start), rounding_(rounding), reach_(start.size() + rounding) {}
+
+  template <class A>
+  void arc(const A& arc, double begin, double length) {
+    if (!holds_) return;
+    const auto& constants = arc.constants();
+    h_ = constants.h, shake_ = std::abs(constants.f) * constants.nu;
+    if (!std::exchange(begun_, true)) begin_beside_stop(arc.start());
+    const double from = std::max(0.0, clear_from_ - begin);
+    if (approached_ == Side::none && from < length) clear(arc, begin, from, length);
+    const auto p = constants.propagator(length);
+    const Jacobian<double> free{p.a, p.b, -p.b, p.c};
+    told_ = told_.mapped(free), untold_ = untold_.mapped(free);
+    force_ = constants.load + constants.acceleration(0.0, 0.0, arc.phase_after(length).sine);
+  }
+  void rest(const Rest&) { holds_ = false; }  // which impacts of a chatter are taken changes with the start
+  void impact(const Impact& impact) {
+    if (holds_) holds_ = approached_ == impact.side && impact.time >= clear_from_ && rebound(impact);
+  }
+
+  /// Whether it is proved up to here; not while the mass is so near to a stop that some of the motions may have met it.
+  [[nodiscard]] bool holds() const { return holds_ && approached_ == Side::none; }
+  [[nodiscard]] const Ellipse& told() const { return told_; }      ///< the derivative's image of the start
+  [[nodiscard]] const Ellipse& untold() const { return untold_; }  ///< what is to be added to it
+
+ private:
+  /// Bounds near an impact, for a time to both sides of it.
+  struct RunRecord {
+    double acceleration, jerk;
+    double growth;  ///< of the energy norm, backwards in time
+  };
+  /// From x''' = f nu cos - x' - 2 h x''. Infinite where the time is too long for that.
+  [[nodiscard]] RunRecord course(double speed, double acceleration, double time) const {
+    const double share = time * time + 2 * h_ * time;
+    if (!(share <= 0.5)) return {infinity, infinity, infinity};
+    const double most = (acceleration + time * (shake_ + speed)) / (1 - share);
+    return {most, shake_ + speed + most * (time + 2 * h_), std::exp(2 * h_ * time)};
+  }
+
+  /// A motion that begins on a stop, or just beside it, is on its way from there.
+  void begin_beside_stop(const Motion<double>& start) {
+    for (const Side side : {Side::lower, Side::upper}) {
+      const Stop<double> stop = stop_at<double>(stops_, side);
+      if (!(std::abs(start.x - stop.position) <= reach_ && stop.into(start.v) < 0)) continue;
+      holds_ = depart(0, std::abs(start.v), std::abs(start.a), 0);
+      return;
+    }
+  }
+
+  /// Looks whether the flight, from a part of this arc on, keeps clear of both stops, or comes near to one of them.
+  template <class A>
+  void clear(const A& arc, double begin, double from, double length) {
+    const Stops inner{stops_.lower + reach_, stops_.upper - reach_, stops_.restitution_lower, stops_.restitution_upper};
+    const auto start = from > 0 ? arc.at(from) : arc.start();
+    holds_ = start.x > inner.lower && start.x < inner.upper;
+    if (!holds_) return;
+    const auto contact = next_contact(A(arc.constants(), start, arc.anchor()), inner, length - from);
+    holds_ = contact.resolved;
+    approached_ = contact.side, approached_at_ = begin + from + contact.elapsed;
+  }
+
+  /// Takes the differences through an impact; whether that is possible.
+  [[nodiscard]] bool rebound(const Impact& impact) {
+    const Stop<double> stop = stop_at<double>(stops_, impact.side);
+    const double u = std::abs(impact.before), R = stop.restitution, force = force_ - impact.position;
+    const double a_before = force - 2 * h_ * impact.before, a_after = force - 2 * h_ * impact.after;
+    const double a = std::max(std::abs(a_before), std::abs(a_after)), c = 1 + 2 * h_, wait = 2 * reach_ / u;
+    const RunRecord near = course(u, a, wait);
+    if (!(near.acceleration * wait + near.growth * reach_ <= u / 2 && impact.time - approached_at_ <= wait))
+      return false;
+
+    const double x = told_.x() + untold_.x() + rounding_, v = told_.v() + untold_.v() + rounding_, d = size();
+    const double slowest = u - near.acceleration * (2 * d / u) - near.growth * d, s = x / slowest;  // |time between|
+    const double missed = v * s + (near.acceleration + c * near.growth * d) * s * s / 2;            // of x + u s = 0
+    const double turn = (R * a_before + a_after) / impact.before;
+    const double rest_x = R * missed + near.acceleration * s * s / 2;
+    const double rest_v = std::abs(turn) * missed + (1 + R) * near.jerk * s * s / 2 + R * c * near.growth * d * s;
+    const Jacobian<double> saltation{-R, 0, turn, -R};
+    told_ = told_.mapped(saltation), untold_ = untold_.mapped(saltation);
+    const double rest = norm(rest_x, rest_v);
+    untold_.add(Ellipse::disc(rest + c * near.growth * s * (told_.size() + untold_.size() + rest)));
+    return depart(impact.time, R * u, a, wait);
+  }
+
+  /// Whether the mass gets away from the stop, and not into the other one, before the flight is looked at.
+  [[nodiscard]] bool depart(double time, double speed, double acceleration, double waited) {
+    reach_ = course(speed, acceleration, waited).growth * size();
+    const double wait = std::max(waited, 2 * reach_ / speed);
+    const RunRecord away = course(speed, acceleration, wait);
+    approached_ = Side::none, clear_from_ = time + wait;
+    return away.acceleration * wait + reach_ <= speed / 2 &&
+           (speed + away.acceleration * wait) * wait + reach_ < stops_.upper - stops_.lower;
+  }
+
+  [[nodiscard]] double size() const { return told_.size() + untold_.size() + rounding_; }
+
+  static constexpr double infinity = std::numeric_limits<double>::infinity();
+  Stops stops_;
+  Ellipse told_, untold_{};
+  double rounding_;
+  double reach_;                          ///< bound of the energy norm of differences in the present flight
+  double clear_from_ = 0.0;               ///< the time until which a flight is near the stop that it began on
+  Side approached_ = Side::none;          ///< the stop that some of the motions may have met already
+  double approached_at_ = 0.0;            ///< since when
+  double h_ = 0, shake_ = 0, force_ = 0;  ///< damping, |f| nu, and the force at the end of the last arc
+  bool begun_ = false;
+  bool holds_ = true;
+};
+
+}  // namespace clatter::motion

@@ -1,0 +1,133 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "motion/arc.hpp"
+#include "motion/contact_force.hpp"
+
+namespace clatter::motion {
+
+/// A linear map of small changes (dx, dv), by rows.
+template <class Number>
+using Jacobian = std::array<Number, 4>;
+
+/// The derivative of a motion by its start: free motion over the arcs; at each impact its saltation matrix
+/// S = [[-R, 0], [(R a- + a+)/v-, -R]] (physics: the impact comes earlier or later; Nordmark 1991); nothing is left of
+/// a change after a rest. Kept as a rotation times a triangle, so that its determinant keeps its digits however far the
+/// two multipliers are apart, times a power of two, so that it can't overflow.
+template <class Number>
+class TangentMap {
+ public:
+  explicit TangentMap(const Stops& stops) : stops_(stops) {}
+
+  template <class A>
+  void arc(const A& arc, double, double length) {
+    const auto& constants = arc.constants();
+    multiply(power_of(constants, Number(length)));
+    h_ = constants.h,
+    force_ = constants.load + constants.acceleration(Number(0), Number(0), arc.phase_after(Number(length)).sine);
+  }
+  void rest(const Rest&) { top_ = shear_ = bottom_ = 0; }
+  void impact(const Impact& impact) {
+    const Number before(impact.before), after(impact.after), R = stop_at<Number>(stops_, impact.side).restitution;
+    if (before == 0) return;  // it touches, and is not reversed
+    const Number a_before = force_ - impact.position - 2 * h_ * before,
+                 a_after = force_ - impact.position - 2 * h_ * after;
+    multiply({{-R, Number(0), (R * a_before + a_after) / before, -R}, R * R});
+  }
+
+  [[nodiscard]] Jacobian<Number> map() const {
+    Jacobian<Number> map = mantissa();
+    for (Number& entry : map) entry = scaled(entry, exponent_);
+    return map;
+  }
+  [[nodiscard]] Number determinant() const { return scaled(mantissa_determinant(), 2 * exponent_); }
+
+  /// The map without its power of two, for what would over- or underflow with it.
+  [[nodiscard]] Jacobian<Number> mantissa() const {
+    return {cosine_ * top_, cosine_ * shear_ - sine_ * bottom_, sine_ * top_, sine_ * shear_ + cosine_ * bottom_};
+  }
+  [[nodiscard]] Number mantissa_determinant() const { return top_ * bottom_; }
+  [[nodiscard]] double exponent() const { return exponent_; }  ///< of two, a whole number
+
+  /// y 2^exponent, 0 or infinite beyond the range of the number.
+  [[nodiscard]] static Number scaled(const Number& y, double exponent) {
+    using std::ldexp;
+    constexpr double most = 1 << 20;
+    return ldexp(y, static_cast<int>(std::clamp(exponent, -most, most)));
+  }
+
+  /// Logarithm of the largest factor by which it stretches a change; -inf where nothing is left of any.
+  [[nodiscard]] Number log_norm() const {
+    using std::abs, std::log, std::sqrt;
+    const Number sum = top_ * top_ + shear_ * shear_ + bottom_ * bottom_, area = 2 * abs(top_ * bottom_);
+    return log((sqrt(sum + area) + sqrt(select<Number>(sum > area, Number(sum - area), Number(0)))) / 2) +
+           Number(exponent_) * log(Number(2));
+  }
+
+ private:
+  /// A map, its determinant kept apart, times 2^exponent.
+  struct Step {
+    Jacobian<Number> map;
+    Number area;
+    double exponent = 0;
+
+    /// Brings the entries near to 1.
+    void rescale() {
+      using std::abs, std::ldexp, std::max;
+      const Number size = max(max(abs(map[0]), abs(map[1])), max(abs(map[2]), abs(map[3])));
+      const int shift =
+          size > 0 && std::isfinite(static_cast<double>(size)) ? std::ilogb(static_cast<double>(size)) : 0;
+      for (Number& entry : map) entry = ldexp(entry, -shift);
+      area = ldexp(area, -2 * shift), exponent += shift;
+    }
+  };
+
+  /// Free motion over a time of any length, as the power of one so short that it doesn't underflow.
+  template <class ArcConstants>
+  [[nodiscard]] static Step power_of(const ArcConstants& constants, const Number& length) {
+    using std::exp;
+    int doublings = 0;
+    Number piece = length;
+    const Number slower = constants.h < 1 ? constants.h : constants.slow;  // the faster decay may vanish
+    for (; slower * piece > 64; ++doublings) piece /= 2;
+    const auto p = constants.propagator(piece);
+    Step step{{p.a, p.b, -p.b, p.c}, exp(-2 * constants.h * piece)};
+    for (; doublings > 0; --doublings) {
+      const auto [a, b, c, d] = step.map;
+      step.map = {a * a + b * c, b * (a + d), c * (a + d), b * c + d * d};
+      step.area *= step.area, step.exponent *= 2;
+      step.rescale();
+    }
+    return step;
+  }
+
+  /// Puts a step after the map: its effect on the two turned directions is turned upright again.
+  void multiply(const Step& step) {
+    using std::abs, std::ldexp;
+    const Jacobian<Number>& f = step.map;
+    const Number x = f[0] * cosine_ + f[1] * sine_, v = f[2] * cosine_ + f[3] * sine_;
+    const Number side_x = f[1] * cosine_ - f[0] * sine_, side_v = f[3] * cosine_ - f[2] * sine_;
+    const Number length = norm(x, v);
+    if (length > 0) cosine_ = x / length, sine_ = v / length;
+    top_ *= length;
+    shear_ = length * shear_ + (cosine_ * side_x + sine_ * side_v) * bottom_;
+    bottom_ *= length > 0 ? Number(step.area / length) : Number(cosine_ * side_v - sine_ * side_x);
+    exponent_ += step.exponent;
+    const Number size = abs(top_) + abs(shear_) + abs(bottom_), far = ldexp(Number(1), 256);
+    const int shift = size > far ? -256 : size > 0 && size < 1 / far ? 256 : 0;
+    if (shift == 0) return;
+    for (Number* const entry : {&top_, &shear_, &bottom_}) *entry = ldexp(*entry, shift);
+    exponent_ -= shift;
+  }
+
+  Stops stops_;
+  Number cosine_ = 1, sine_ = 0;             ///< the rotation
+  Number top_ = 1, shear_ = 0, bottom_ = 1;  ///< the triangle,
+  double exponent_ = 0;                      ///< times 2^exponent
+  Number h_ = 0, force_ = 0;                 ///< damping, and the force at the end of the last arc
+};
+
+}  // namespace clatter::motion

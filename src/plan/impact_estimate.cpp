@@ -1,0 +1,68 @@
+#include "plan/impact_estimate.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "point/point.hpp"
+#include "sweep/branches.hpp"
+
+namespace clatter::plan {
+namespace {
+
+/// How much is run for the estimate: some milliseconds, by general methods a good part of a second.
+struct Trial {
+  std::size_t points = 32;
+  double impacts = 16384;         ///< of a point
+  double periods = 64;            ///< of a transient
+  std::int64_t to_settle = 2048;  ///< periods until motion counts as aperiodic
+  std::int64_t window = 16;       ///< periods of aperiodic motion
+};
+
+Trial trial_of(const stepping::Integration& integration) {
+  if (integration.method == stepping::Method::exact) return {};
+  return {.points = 4, .periods = 4, .to_settle = 16, .window = 4};
+}
+
+/// Impacts in the time of a transient, as if it went on like its first periods.
+double impacts_of_transient(point::Problem scene, const Trial& trial) {
+  steady::TimeSettings& time = scene.time;
+  const double budget = time.max_impacts, whole = time.duration, period = period_of(scene.oscillator);
+  time.max_impacts = std::min(budget, trial.impacts), time.duration = std::min(whole, trial.periods * period);
+  point::ThreadScratch scratch;
+  const point::PointResult result = run_point(scene, scratch);
+  const double simulated = std::min(result.periods * period, time.duration);
+  const double impacts = failed(result.status) ? result.impacts : static_cast<double>(result.log.size());
+  return simulated > 0 ? std::min(budget, impacts * whole / simulated) : impacts;
+}
+
+/// Impacts in a period of the motion that it settles on; in the window if it comes to none.
+double impacts_of_steady_motion(point::Problem scene, const Trial& trial) {
+  steady::TimeSettings& time = scene.time;
+  const auto window = static_cast<double>(time.window);
+  time.max_impacts = std::min(time.max_impacts, trial.impacts);
+  time.max_periods = std::min(time.max_periods, trial.to_settle), time.window = std::min(time.window, trial.window);
+  point::ThreadScratch scratch;
+  const point::PointResult result = run_point(scene, scratch);
+  const auto impacts = static_cast<double>(result.log.size());
+  return result.status == steady::Status::aperiodic ? impacts * window / static_cast<double>(time.window) : impacts;
+}
+
+}  // namespace
+
+double expected_impacts(const sweep::Sweep& sweep, const std::optional<sweep::Shard>& shard) {
+  const Trial trial = trial_of(sweep.scene.integration);
+  const sweep::Share share(sweep, shard);
+  const std::size_t points = share.points(), looked_at = std::min(points, trial.points);
+  double impacts = 0;
+  for (std::size_t i = 0; i < looked_at; ++i) {
+    const std::size_t slot = (2 * i + 1) * points / (2 * looked_at);  // the middles of equal parts
+    point::Problem scene = scene_at(sweep, share.point(slot / share.length(), slot % share.length()));
+    sweep::start_from(scene, std::nullopt);
+    scene.observe = {.impact_log = true}, scene.integration.all_effects = false;
+    impacts += scene.time.mode == steady::Mode::transient ? impacts_of_transient(scene, trial)
+                                                          : impacts_of_steady_motion(scene, trial);
+  }
+  return looked_at == 0 ? 0.0 : impacts * static_cast<double>(points) / static_cast<double>(looked_at);
+}
+
+}  // namespace clatter::plan

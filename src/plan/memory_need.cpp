@@ -1,0 +1,130 @@
+#include "plan/memory_need.hpp"
+
+#include <algorithm>
+#include <cstdint>
+#include <vector>
+
+#include "plan/impact_estimate.hpp"
+#include "sweep/result_store.hpp"
+
+namespace clatter::plan {
+namespace {
+
+constexpr double kibi = 1024;
+constexpr double program = 10.5 * kibi * kibi;  ///< the program and its libraries, with a sweep of a few points
+constexpr double thread = 64 * kibi;            ///< of its stack and heap
+constexpr double value = sizeof(double);
+
+constexpr double logged = 3 * sizeof(double) + sizeof(std::int8_t);  ///< an impact in the file
+constexpr double heap = 2 * sizeof(void*);                           ///< taken with each block
+constexpr double lone_block = 128 * kibi;                            ///< one that is given back to the system alone
+
+/// Everything that is held value by value, in bytes.
+struct Parts {
+  double points = 0.0, branches = 0.0;
+  double axes = 0.0;         ///< coordinates that are axes of the sweep, which holds them too
+  double coordinates = 0.0;  ///< all of the file
+  double results = 0.0;      ///< all but the log
+  double largest = 0.0;      ///< variable of the file
+  double impacts = 0.0;      ///< of the log: their number
+  double counts = 0.0;       ///< of the log: how many each point has
+
+  [[nodiscard]] double logged_in_file() const { return impacts * logged + counts; }
+};
+
+void add_coordinates(const sweep::Sweep& sweep, bool is_shard, Parts& parts) {
+  for (const sweep::Dimension& dimension : sweep.dimensions) {
+    const double axis = value * static_cast<double>(length(dimension));
+    parts.axes += axis * static_cast<double>(dimension.size());
+    parts.largest = std::max(parts.largest, axis);
+  }
+  const observables::Observe& observe = sweep.scene.observe;
+  parts.coordinates = parts.axes;
+  if (is_shard) parts.coordinates += sizeof(std::int64_t) * parts.points;  // index in the sweep
+  if (observe.harmonics > 0) parts.coordinates += sizeof(std::int64_t) * static_cast<double>(observe.harmonics + 1);
+  for (const bool has_pairs : {observe.impacts, observe.stability}) parts.coordinates += has_pairs ? 2 : 0;
+}
+
+Parts parts_of(const sweep::Sweep& sweep, const std::optional<sweep::Shard>& shard, double impacts) {
+  const sweep::Share share(sweep, shard);
+  Parts parts{.points = static_cast<double>(share.points()), .branches = static_cast<double>(share.count())};
+  add_coordinates(sweep, shard.has_value(), parts);
+  parts.results = (sizeof(std::uint8_t) + sizeof(std::int64_t) + value) * parts.points;  // status, impacts, periods
+  parts.largest = std::max(parts.largest, value * parts.points);
+  for (const sweep::OutputVariable& output : sweep::outputs_of(sweep.scene)) {
+    const double bytes = static_cast<double>(output.width) * value * parts.points;
+    parts.results += bytes, parts.largest = std::max(parts.largest, bytes);
+  }
+  if (!sweep.scene.observe.impact_log) return parts;
+  parts.impacts = impacts, parts.counts = sizeof(std::int64_t) * parts.points;
+  parts.largest = std::max(parts.largest, value * impacts);
+  return parts;
+}
+
+/// The log while points come, each with its own.
+double held_log_bytes(const sweep::Sweep& sweep, const Parts& parts) {
+  if (!sweep.scene.observe.impact_log) return 0.0;
+  return (sizeof(std::vector<motion::Impact>) + heap) * parts.points + sizeof(motion::Impact) * parts.impacts;
+}
+
+/// The log while its columns are made of it. Blocks of long ones go back to the system one after the other meanwhile.
+double log_bytes(const sweep::Sweep& sweep, const Parts& parts) {
+  const double held = held_log_bytes(sweep, parts), columns = parts.logged_in_file();
+  const bool alone = sizeof(motion::Impact) * parts.impacts >= lone_block * parts.points;
+  return alone ? std::max(held, columns) : held + columns;
+}
+
+/// What the points of one thread share, and hold on their way.
+double workshop_bytes(const observables::Observe& observe) {
+  double values = 3 * static_cast<double>(observe.trajectory);
+  if (observe.harmonics > 0 && observe.harmonics_method == observables::HarmonicsMethod::fft)
+    values +=
+        6 * static_cast<double>(observe.harmonics_samples);  // samples of x and v, and the transform's rows of them
+  return values * value;
+}
+
+/// A branch that is packed to be saved.
+double saving_bytes(const sweep::Sweep& sweep, const Parts& parts, double log) {
+  return sweep.follow && parts.branches > 0 ? (parts.results + log) / parts.branches : 0.0;
+}
+
+/// While the file is built: coordinates and results are in one place or the other, the largest variable in both.
+double building_bytes(const Parts& parts) {
+  return parts.coordinates + parts.results + parts.logged_in_file() + parts.largest;
+}
+
+double before_bytes(const Parts& parts, int threads) { return program + thread * threads + parts.axes; }
+
+}  // namespace
+
+MemoryNeed memory_need(const sweep::Sweep& sweep, const std::optional<sweep::Shard>& shard, int threads) {
+  const double impacts = sweep.scene.observe.impact_log ? expected_impacts(sweep, shard) : 0.0;
+  return memory_need(sweep, shard, threads, impacts);
+}
+
+MemoryNeed memory_need(const sweep::Sweep& sweep, const std::optional<sweep::Shard>& shard, int threads,
+                       double impacts) {
+  const Parts parts = parts_of(sweep, shard, impacts);
+  const double log = log_bytes(sweep, parts), held = parts.results + parts.branches;  // a byte tells a branch's state
+  const double working = threads * workshop_bytes(sweep.scene.observe);
+  const double running = held + log + std::max(working, saving_bytes(sweep, parts, log));
+  const double collecting = parts.coordinates + held + log;
+  const double building = parts.branches + building_bytes(parts);
+  return {.output = parts.coordinates + parts.results + parts.logged_in_file(),
+          .memory = before_bytes(parts, threads) + std::max({running, collecting, building}),
+          .log = log};
+}
+
+double merge_bytes(const sweep::Sweep& sweep, std::span<const ShardSize> shards) {
+  double impacts = 0.0, largest = 0.0;
+  for (const ShardSize& size : shards) {
+    const Parts shard = parts_of(sweep, size.shard, static_cast<double>(size.impacts));
+    impacts += static_cast<double>(size.impacts);
+    largest = std::max(largest, shard.coordinates + shard.results + shard.logged_in_file());
+  }
+  const Parts parts = parts_of(sweep, std::nullopt, impacts);
+  const double log = log_bytes(sweep, parts), reading = parts.results + held_log_bytes(sweep, parts) + largest;
+  return before_bytes(parts, 0) + std::max({reading, parts.coordinates + parts.results + log, building_bytes(parts)});
+}
+
+}  // namespace clatter::plan

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <span>
+
+#include "sweep/share.hpp"
+#include "sweep/sweep.hpp"
+
+namespace clatter::plan {
+
+/// Bytes that a run takes, known before it begins.
+struct MemoryNeed {
+  double output = 0.0;  ///< of the file before compression: results and coordinates
+  double memory = 0.0;  ///< at its most, the program included, so that what cannot fit is refused before hours of work
+  double log = 0.0;     ///< of memory, the impact log: an estimate, since nobody knows its length beforehand
+};
+
+/// The need of a sweep, or of a shard.
+[[nodiscard]] MemoryNeed memory_need(const sweep::Sweep& sweep, const std::optional<sweep::Shard>& shard = {},
+                                     int threads = 1);
+
+/// The same for a log of so many impacts.
+[[nodiscard]] MemoryNeed memory_need(const sweep::Sweep& sweep, const std::optional<sweep::Shard>& shard, int threads,
+                                     double impacts);
+
+/// A shard and the length of its impact log.
+struct ShardSize {
+  sweep::Shard shard;
+  std::size_t impacts = 0;
+};
+
+/// Bytes that merging shards takes: those of a run that has all results already, and the largest shard beside them.
+[[nodiscard]] double merge_bytes(const sweep::Sweep& sweep, std::span<const ShardSize> shards);
+
+}  // namespace clatter::plan

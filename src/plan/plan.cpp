@@ -1,0 +1,100 @@
+#include "plan/plan.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+#include "plan/available_memory.hpp"
+#include "plan/dearest_point.hpp"
+#include "plan/survey.hpp"
+#include "point/point.hpp"
+#include "sweep/branches.hpp"
+
+namespace clatter::plan {
+namespace {
+
+/// Wall time of a unit of work, by a measurement.
+double seconds_of_work(point::Problem scene, const Effects& effects) {
+  if (scene.integration.method == stepping::Method::exact) return point::seconds_per_evaluation(effects);
+  if (!std::isfinite(scene.start.displacement)) scene.start = {};
+  sweep::start_from(scene, std::nullopt);
+  point::ThreadScratch scratch;
+  return seconds_per_period(scene, scratch);
+}
+
+std::vector<std::string> observed_of(const observables::Observe& observe) {
+  std::vector<std::string> names;
+  if (observe.extrema) names.emplace_back("extrema");
+  if (observe.harmonics > 0) {
+    const bool fft = observe.harmonics_method == observables::HarmonicsMethod::fft;
+    names.push_back("harmonics 0 ... " + std::to_string(observe.harmonics) +
+                    (fft ? " by FFT of " + std::to_string(observe.harmonics_samples) + " samples" : " from the arcs"));
+  }
+  if (observe.impacts) names.emplace_back("impacts");
+  if (observe.impact_log) names.emplace_back("impact log");
+  if (observe.trajectory > 0) names.push_back("trajectory of " + std::to_string(observe.trajectory) + " samples");
+  if (observe.period) names.emplace_back("period");
+  if (observe.stability) names.emplace_back("stability");
+  return names;
+}
+
+/// A stop that is there at some point, but never met by any.
+void warn_of_stop(const sweep::Sweep& sweep, const StopSeen& stop, const std::string& name, Plan& plan) {
+  if (stop.met || stop.closest.ratio < 0) return;
+  const auto reasons = reasons_of(planned_scene(sweep, stop.closest.point));
+  const std::string& why = std::ranges::find(reasons, name, &Reason::effect)->why;
+  const std::string reached =
+      plan.sampled_points ? " is reached at none of the " + std::to_string(*plan.sampled_points) + " points looked at"
+                          : " is never reached at any point";
+  plan.warnings.push_back("the " + name + reached + ", at the closest " + why +
+                          "; if impacts are meant, move it nearer or raise f, x0 or v0");
+}
+
+void warn(const sweep::Sweep& sweep, const Survey& survey, Plan& plan) {
+  warn_of_stop(sweep, survey.lower, "lower stop", plan);
+  warn_of_stop(sweep, survey.upper, "upper stop", plan);
+  if (survey.lasting)
+    plan.warnings.emplace_back(
+        "without damping and loss at impacts a transient never fades: forced points run for all of max_periods unless "
+        "they start on a periodic motion; for a given time write mode = transient");
+  if (const auto warning = warning_of_dearest_point(sweep, plan.shard)) plan.warnings.push_back(*warning);
+}
+
+}  // namespace
+
+std::string effect_set_name(const Effects& effects) {
+  const Effects& kernel = compiled_effects[effect_set_of(effects)];
+  std::string name = kernel.damping == Damping::none    ? "no damping"
+                     : kernel.damping == Damping::light ? "light damping"
+                                                        : "heavy damping";
+  if (kernel.forcing != Forcing::none) name += kernel.forcing == Forcing::regular ? ", forcing" : ", resonant forcing";
+  name += kernel.stops() ? ", impacts" : ", no stops";
+  if (kernel.rest) name += ", chatter and rest";
+  return name;
+}
+
+Plan plan_of(const sweep::Sweep& sweep, int threads, const std::optional<sweep::Shard>& shard) {
+  const sweep::Share share(sweep, shard);
+  Survey survey = survey_of(sweep, share, threads);
+  std::ranges::sort(survey.groups, cheaper, &Collected::effects);
+  Plan plan;
+  plan.shard = shard;
+  plan.points = share.points(), plan.branches = share.count();
+  if (survey.looked_at < plan.points) plan.sampled_points = survey.looked_at;
+  plan.observed = observed_of(sweep.scene.observe);
+  for (const Collected& group : survey.groups) {
+    const point::Problem example = planned_scene(sweep, group.example.point);
+    plan.groups.push_back({.effects = group.effects,
+                           .points = group.points,
+                           .example = group.example.point,
+                           .reasons = reasons_of(example),
+                           .periods = group.periods,
+                           .seconds = group.work * seconds_of_work(example, group.effects)});
+  }
+  plan.need = memory_need(sweep, shard, threads);
+  plan.available_memory = memory_limit(threads).bytes;
+  warn(sweep, survey, plan);
+  return plan;
+}
+
+}  // namespace clatter::plan

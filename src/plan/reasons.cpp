@@ -1,0 +1,121 @@
+#include "plan/reasons.hpp"
+
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+
+#include "model/required_effects.hpp"
+
+namespace clatter::plan {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+std::string text(double value) {
+  std::array<char, 32> digits{};
+  std::snprintf(digits.data(), digits.size(), "%.4g", value);
+  return digits.data();
+}
+
+/// "a < b" or "a >= b" with as many digits as tell the two apart.
+std::string compared(double a, const char* sign, double b) {
+  std::array<char, 64> left{}, right{};
+  for (int digits = 4; digits <= 17; ++digits) {
+    std::snprintf(left.data(), left.size(), "%.*g", digits, a);
+    std::snprintf(right.data(), right.size(), "%.*g", digits, b);
+    if (left != right) break;
+  }
+  return std::string(left.data()) + sign + right.data();
+}
+
+/// "x" is measured from the load's equilibrium.
+std::string displacement(const point::Problem& scene) { return scene.oscillator.load == 0 ? "|x|" : "|x - load|"; }
+
+std::string duration_text(const point::Problem& scene) {
+  return scene.time.mode == steady::Mode::steady ? "for all time" : "until tau = " + text(scene.time.duration);
+}
+
+Reason damping_reason(const Oscillator& oscillator) {
+  const std::string h = "h = " + text(oscillator.damping);
+  switch (damping_of(oscillator)) {
+    case Damping::none:
+      return {"damping", false, "h = 0: no damping"};
+    case Damping::light:
+      return {"damping", true, h + " < 1: free motion is a decaying rotation"};
+    case Damping::critical:
+      return {"damping", true, "h = 1: critical, the limit of rotation and creep"};
+    default:
+      return {"damping", true, h + " > 1: free motion is the sum of a slow and a fast decay"};
+  }
+}
+
+Reason forcing_reason(const Oscillator& oscillator) {
+  if (oscillator.forcing == 0) return {"forcing", false, "f = 0: no forcing"};
+  return {"forcing", true, "f = " + text(oscillator.forcing)};
+}
+
+Reason resonance_reason(const Oscillator& oscillator) {
+  const double distance = std::hypot(oscillator.damping, oscillator.frequency - 1);
+  if (oscillator.forcing == 0) return {"resonance", false, "f = 0: nothing to resonate with"};
+  const std::string what = "hypot(h, nu - 1) = " + text(distance);
+  if (forcing_of(oscillator) == Forcing::secular)
+    return {"resonance", true, what + " < 1/16: response and transient nearly cancel"};
+  return {"resonance", false, what + " >= 1/16: response and transient keep their digits apart"};
+}
+
+Reason load_reason(const Oscillator& oscillator) {
+  if (oscillator.load == 0) return {"load", false, "load = 0"};
+  return {"load", true, "load = " + text(oscillator.load)};
+}
+
+Reason stop_reason(const point::Problem& scene, const Requirements& needs, bool upper) {
+  const std::string name = upper ? "upper stop" : "lower stop";
+  const bool required = upper ? needs.effects.upper : needs.effects.lower;
+  const double gap = upper ? needs.upper_gap : needs.lower_gap;
+  if (std::isinf(gap)) return {name, false, upper ? "stop_upper = inf: no stop" : "stop_lower = -inf: no stop"};
+  const std::string bound = displacement(scene) + " <= ", during = ' ' + duration_text(scene);
+  if (!needs.effects.stops())
+    return {name, false, bound + compared(needs.free_reach, " < ", gap) + during + ": out of reach"};
+  if (!required)
+    return {name, false, bound + compared(needs.reach, " < ", gap) + during + ", impacts included: out of reach"};
+  if (std::isnan(scene.start.displacement))
+    return {name, true, "the start isn't known before the point before has ended"};
+  const double reach =
+      needs.free_reach < gap ? needs.reach : needs.free_reach;  // pushed there by the other stop, or not
+  if (!(reach < infinity)) return {name, true, "nothing bounds " + displacement(scene)};
+  return {name, true, displacement(scene) + " may reach " + compared(reach, " >= ", gap)};
+}
+
+Reason dissipation_reason(const point::Problem& scene, const Effects& effects) {
+  if (!effects.stops()) return {"dissipation", false, "no stop in reach"};
+  if (!effects.dissipation) return {"dissipation", false, "R = 1: impacts keep the speed"};
+  const auto& [lower, upper, R_lower, R_upper] = scene.stops;
+  if (R_lower == R_upper || !effects.lower || !effects.upper)
+    return {"dissipation", true, "R = " + text(effects.lower ? R_lower : R_upper)};
+  return {"dissipation", true, "R = " + text(R_lower) + " and " + text(R_upper)};
+}
+
+Reason rest_reason(const point::Problem& scene, const Requirements& needs) {
+  const std::string effect = "chatter and rest";
+  if (!needs.effects.stops()) return {effect, false, "no stop in reach"};
+  const bool lower_first = needs.effects.lower && (!needs.effects.upper || needs.lower_gap < needs.upper_gap);
+  const double gap = lower_first ? needs.lower_gap : needs.upper_gap;
+  const std::string force = "|f| = " + text(std::abs(scene.oscillator.forcing)) +
+                            (needs.effects.rest ? " >= " : " < ") + text(gap) +
+                            (scene.oscillator.load == 0 ? "" : ", the gap from the load");
+  return {effect, needs.effects.rest,
+          force + (needs.effects.rest ? ": a stop can be pressed" : ": no stop can hold the mass")};
+}
+
+}  // namespace
+
+std::vector<Reason> reasons_of(const point::Problem& scene) {
+  const Requirements needs = requirements_of(scene, duration_of(scene.time));
+  return {damping_reason(scene.oscillator),         forcing_reason(scene.oscillator),
+          resonance_reason(scene.oscillator),       load_reason(scene.oscillator),
+          stop_reason(scene, needs, false),         stop_reason(scene, needs, true),
+          dissipation_reason(scene, needs.effects), rest_reason(scene, needs)};
+}
+
+}  // namespace clatter::plan

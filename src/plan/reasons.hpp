@@ -1,0 +1,20 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "point/problem.hpp"
+
+namespace clatter::plan {
+
+/// An effect, whether a scene calls for it, and why.
+struct Reason {
+  std::string effect;
+  bool required = false;
+  std::string why;  ///< e.g. "|x| <= 5.03 < 6 for all time: out of reach"
+};
+
+/// Every effect of a scene: damping, forcing, resonance, load, lower stop, upper stop, dissipation, chatter and rest.
+[[nodiscard]] std::vector<Reason> reasons_of(const point::Problem& scene);
+
+}  // namespace clatter::plan

@@ -1,0 +1,142 @@
+#include "plan/survey.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include "model/displacement_bound.hpp"
+#include "motion/contact.hpp"
+#include "plan/sample.hpp"
+#include "point/point.hpp"
+#include "sweep/branches.hpp"
+#include "sweep/parallel.hpp"
+
+namespace clatter::plan {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// Whether motion without stops comes to its end: the steady response, free vibration, or standstill within a time.
+bool comes_to_its_end(const point::Problem& scene, double time) {
+  const Oscillator& o = scene.oscillator;
+  if (o.forcing != 0) return o.damping > 0;
+  const double x = scene.start.displacement - o.load, v = scene.start.velocity;
+  const double scale = std::max({std::abs(scene.start.displacement), std::abs(v), std::abs(o.load)});
+  return o.damping == 0 || fading_time(o, {x, v}, scene.time.tolerance * scale) <= time;
+}
+
+/// Forcing periods of a point. Where nothing is proved: at best a single one is settled and one observed, at worst all
+/// of max_periods, what attempts to find the periodic motion may take, and the window.
+Bounds periods_of(const point::Problem& scene, const Effects& effects) {
+  const steady::TimeSettings& time = scene.time;
+  const Oscillator& o = scene.oscillator;
+  const double longest = static_cast<double>(time.max_periods), period = period_of(o);
+  if (time.mode == steady::Mode::transient) return {time.duration / period, time.duration / period};
+  if (scene.integration.all_effects) {
+    const double slow = o.damping > 0 ? std::min(longest / 2, 3 * std::log(4.0) / (o.damping * period)) : 0.0;
+    return {std::max(1.0, longest - 192 - slow) + 1, longest + static_cast<double>(time.window)};
+  }
+  if (scene.integration.method != stepping::Method::exact) return {2, longest + static_cast<double>(time.window)};
+  if (!effects.stops() && comes_to_its_end(scene, longest * period)) return {1, 1};
+  if (o.forcing == 0 && o.damping == 0 && !effects.dissipation) return {0, 1};
+  return {2, longest * 1.25 + std::min(64.0, longest) + static_cast<double>(time.window)};
+}
+
+/// Evaluations of arcs in a forcing period, from the length of the steps that are proved free of contact; two impacts a
+/// period, each worth two. The work of general methods counts in forcing periods.
+double work_of_period(const point::Problem& scene, const Effects& effects) {
+  if (scene.integration.method != stepping::Method::exact) return 1;
+  const double step = motion::longest_step(counting_frequency(scene.oscillator));
+  return effects.stops() ? std::ceil(period_of(scene.oscillator) / step) + 4 : 1;
+}
+
+/// How near motion comes to a stop that it doesn't meet: 1 where it would touch. Negative where there is none.
+double closeness(const Requirements& needs, double gap) {
+  return gap < infinity ? (needs.effects.stops() ? needs.reach : needs.free_reach) / gap : -1;
+}
+
+/// The points of a run that are looked at. Those that begin a branch are drawn by themselves: their start is known,
+/// that of the others isn't, and so both are counted as they are.
+class Looked {
+ public:
+  explicit Looked(const sweep::Share& share)
+      : share_(share),
+        firsts_(share.count(),
+                share.length() == 1 || share.points() <= most_looked_at ? most_looked_at : most_looked_at / 2),
+        others_(share.points() - share.count(), most_looked_at - firsts_.size()) {}
+
+  [[nodiscard]] std::size_t size() const { return firsts_.size() + others_.size(); }
+
+  /// The i-th of them: the number of a point in the sweep, and how many points it stands for.
+  [[nodiscard]] Sample::Draw operator[](std::size_t i) const {
+    if (i < firsts_.size()) return {share_.point(firsts_[i].number, 0), firsts_[i].weight};
+    const auto [number, weight] = others_[i - firsts_.size()];
+    return {share_.point(number % share_.count(), 1 + number / share_.count()), weight};
+  }
+
+ private:
+  sweep::Share share_;
+  Sample firsts_, others_;
+};
+
+void look_at(const sweep::Sweep& sweep, const Sample::Draw& draw, Survey& survey) {
+  const point::Problem scene = planned_scene(sweep, draw.number);
+  const Requirements needs = requirements_of(scene, duration_of(scene.time));
+  const bool required = scene.integration.method == stepping::Method::exact && !scene.integration.all_effects;
+  const Effects effects = required ? needs.effects : effects_of(scene);
+  const Bounds periods = periods_of(scene, effects) * static_cast<double>(draw.weight);
+  const Closest to_lower{needs.effects.lower ? 0 : closeness(needs, needs.lower_gap), draw.number},
+      to_upper{needs.effects.upper ? 0 : closeness(needs, needs.upper_gap), draw.number};
+  Closest example = to_lower;
+  example.add(to_upper);
+  survey.add({effects, draw.weight, example, periods, periods * work_of_period(scene, effects)});
+  survey.lower.add({needs.effects.lower, to_lower}), survey.upper.add({needs.effects.upper, to_upper});
+  survey.lasting = survey.lasting || (scene.time.mode == steady::Mode::steady && scene.oscillator.forcing != 0 &&
+                                      scene.oscillator.damping == 0 && !needs.effects.dissipation);
+}
+
+/// Looks at points on several threads, in blocks that are the same for every number of them, and so are their sums.
+class Surveyor {
+ public:
+  Surveyor(const sweep::Sweep& sweep, const sweep::Share& share) : sweep_(sweep), looked_(share) {}
+
+  Survey run(int threads) {
+    sweep::parallel_for(blocks, threads, [this](std::size_t block) { work(block); });
+    Survey sum;
+    sum.looked_at = looked_.size();
+    for (const Survey& of_block : surveys_) sum.add(of_block);
+    return sum;
+  }
+
+ private:
+  static constexpr std::size_t blocks = 256;
+
+  void work(std::size_t block) {
+    for (std::size_t i = block * looked_.size() / blocks; i < (block + 1) * looked_.size() / blocks; ++i)
+      look_at(sweep_, looked_[i], surveys_[block]);
+  }
+
+  const sweep::Sweep& sweep_;
+  Looked looked_;
+  std::vector<Survey> surveys_ = std::vector<Survey>(blocks);
+};
+
+}  // namespace
+
+point::Problem planned_scene(const sweep::Sweep& sweep, std::size_t point) {
+  point::Problem scene = scene_at(sweep, point);
+  if (sweep::Branches(sweep).begins(point)) {
+    sweep::start_from(scene, std::nullopt);
+  } else {
+    scene.start = {point::no_value, point::no_value, point::no_value};
+  }
+  return scene;
+}
+
+Survey survey_of(const sweep::Sweep& sweep, const sweep::Share& share, int threads) {
+  return Surveyor(sweep, share).run(threads);
+}
+
+}  // namespace clatter::plan

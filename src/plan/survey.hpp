@@ -1,0 +1,75 @@
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <vector>
+
+#include "model/required_effects.hpp"
+#include "plan/bounds.hpp"
+#include "sweep/share.hpp"
+
+namespace clatter::plan {
+
+/// Above so many points a survey looks at a sample of so many.
+inline constexpr std::size_t most_looked_at = 1'000'000;
+
+/// The point that is closest to something, the first of equal ones.
+struct Closest {
+  double ratio = -1;
+  std::size_t point = 0;
+
+  void add(const Closest& other) {
+    if (other.ratio > ratio || (other.ratio == ratio && other.point < point)) *this = other;
+  }
+};
+
+/// A stop over all points.
+struct StopSeen {
+  bool met = false;  ///< by any of them
+  Closest closest;   ///< among those that don't meet it
+
+  void add(const StopSeen& other) { met = met || other.met, closest.add(other.closest); }
+};
+
+/// A group while it is collected.
+struct Collected {
+  Effects effects;
+  std::size_t points = 0;
+  Closest example;
+  Bounds periods, work;
+
+  void add(const Collected& other) {
+    points += other.points;
+    periods += other.periods, work += other.work;
+    example.add(other.example);
+  }
+};
+
+/// What points have to do, whatever their order and division. Of a sample each counts for those that it stands for.
+struct Survey {
+  std::size_t looked_at = 0;  ///< points
+  std::vector<Collected> groups;
+  StopSeen lower, upper;
+  bool lasting = false;  ///< a transient never fades
+
+  void add(const Collected& part) {
+    const auto same = std::ranges::find(groups, part.effects, &Collected::effects);
+    if (same == groups.end()) {
+      groups.push_back(part);
+    } else {
+      same->add(part);
+    }
+  }
+  void add(const Survey& other) {
+    for (const Collected& group : other.groups) add(group);
+    lower.add(other.lower), upper.add(other.upper), lasting = lasting || other.lasting;
+  }
+};
+
+/// A point as the plan sees it; along a followed branch nobody knows where it starts.
+[[nodiscard]] point::Problem planned_scene(const sweep::Sweep& sweep, std::size_t point);
+
+/// Looks at the points of a run, or a sample of them; the same survey for every number of threads.
+[[nodiscard]] Survey survey_of(const sweep::Sweep& sweep, const sweep::Share& share, int threads);
+
+}  // namespace clatter::plan

@@ -1,0 +1,83 @@
+#include "point/point.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <limits>
+#include <utility>
+
+#include "point/general_points.hpp"
+#include "point/point_run.hpp"
+#include "stepping/exact.hpp"
+
+namespace clatter::point {
+
+Effects effects_of(const Problem& scene) {
+  const double h = scene.oscillator.damping;
+  if (scene.integration.method != stepping::Method::exact) return general_effects(h);
+  return scene.integration.all_effects ? all_effects(h) : required_effects(scene, duration_of(scene.time));
+}
+
+void run_batch(std::span<const WorkItem> items, ThreadScratch& scratch,
+               const std::function<void(const WorkItem&, PointResult&&)>& take) {
+  if (items.empty()) return;
+  const stepping::Method method = items.front().scene.integration.method;
+  if (method == stepping::Method::dopri5) {
+    for (const WorkItem& item : items) take(item, run_by_dormand_prince(item.scene, scratch));
+  } else if (method == stepping::Method::moreau) {
+    for (const WorkItem& item : items) take(item, run_by_moreau(item.scene, scratch));
+  } else {
+    with_effects(items.front().effects, [&]<Effects kernel>() {
+      for (const WorkItem& item : items) {
+        const stepping::Exact<double, kernel> integrator(item.scene, stops_in_reach(item.scene.stops, item.effects),
+                                                         limits_of(item.scene));
+        take(item, Point(item.scene, scratch, integrator).run());
+      }
+    });
+  }
+}
+
+PointResult run_point(const Problem& scene, ThreadScratch& scratch) {
+  PointResult result;
+  const WorkItem item{0, scene, effects_of(scene)};
+  run_batch({&item, 1}, scratch, [&](const WorkItem&, PointResult&& of_point) { result = std::move(of_point); });
+  return result;
+}
+
+double seconds_per_period(Problem scene, ThreadScratch& scratch) {
+  constexpr double enough = 5e-3;  // seconds
+  scene.time.mode = steady::Mode::transient;
+  scene.observe = {};
+  for (double periods = 1e-6;; periods *= 10) {
+    scene.time.duration = periods * period_of(scene.oscillator);
+    const auto begin = std::chrono::steady_clock::now();
+    (void)run_point(scene, scratch);
+    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    if (seconds > enough || periods > 5) return seconds / periods;
+  }
+}
+
+double seconds_per_evaluation(const Effects& effects) {
+  return with_effects(effects, []<Effects kernel>() {
+    Problem scene;
+    scene.oscillator.damping = kernel.damping == Damping::none ? 0.0 : kernel.damping == Damping::light ? 0.04 : 2.0;
+    scene.oscillator.forcing = kernel.forcing == Forcing::none ? 0.0 : 1.0;
+    scene.oscillator.frequency = kernel.forcing == Forcing::secular ? 1.03 : 1.3;
+    scene.start.velocity = 1.0;
+    if (kernel.stops()) scene.stops = {-0.5, 0.5, 0.7, 0.7};
+    using Clock = std::chrono::steady_clock;
+    double least = std::numeric_limits<double>::infinity();
+    for (int repetition = 0; repetition < 3; ++repetition) {
+      stepping::Exact<double, kernel> integrator(scene);
+      motion::State<double> state;
+      state.v = scene.start.velocity;
+      stepping::NoObserver nobody;
+      const auto begin = Clock::now();
+      (void)run_for(integrator, state, 50.0, nobody);
+      const double seconds = std::chrono::duration<double>(Clock::now() - begin).count();
+      least = std::min(least, seconds / std::max(1.0, integrator.evaluations()));
+    }
+    return least;
+  });
+}
+
+}  // namespace clatter::point

@@ -1,0 +1,22 @@
+#pragma once
+
+#include "model/scene.hpp"
+#include "observables/observe.hpp"
+#include "steady/time_settings.hpp"
+#include "stepping/integration.hpp"
+
+namespace clatter::point {
+
+/// One point of a sweep: a scene, and all else that its results depend on.
+struct Problem : Scene {
+  steady::TimeSettings time;
+  observables::Observe observe;
+  stepping::Integration integration;
+};
+
+/// What a run of a problem may come to.
+[[nodiscard]] inline stepping::Limits limits_of(const Problem& problem) {
+  return limits_of(problem.time, problem.oscillator);
+}
+
+}  // namespace clatter::point

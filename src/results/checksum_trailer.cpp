@@ -1,0 +1,78 @@
+#include "results/checksum_trailer.hpp"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <cstdio>
+#include <cstring>
+#include <string_view>
+#include <vector>
+
+#include "storage/crc32.hpp"
+#include "storage/error.hpp"
+#include "storage/input_file.hpp"
+#include "storage/utf8.hpp"
+
+namespace clatter::results {
+namespace {
+
+/// Of one length, so that a reader finds its beginning.
+std::string checksum_trailer_of(std::uint64_t length, std::uint32_t crc) {
+  std::array<char, 64> line{};
+  std::snprintf(line.data(), line.size(), "\nclatter shard of %20llu bytes, CRC-32 %08x\n",
+                static_cast<unsigned long long>(length), crc);
+  return line.data();
+}
+
+[[noreturn]] void refuse_reading(const std::string& path, const std::string& why, const std::string& way_out) {
+  throw storage::IoError(storage::quoted_name(path) + ": " + why + "; " + way_out);
+}
+
+/// Reads all of a file, piece by piece.
+class Pieces {
+ public:
+  explicit Pieces(const std::string& path) : path_(path), file_(storage::open_input(path, shards_of_clatter).file) {}
+
+  /// The next bytes, as many as there are; none at the end.
+  std::span<const std::byte> next() {
+    const ssize_t got = storage::uninterrupted([&] { return ::read(file_.number(), buffer_.data(), buffer_.size()); });
+    if (got < 0) refuse_reading(path_, std::strerror(errno), "name a shard's output that can be read");
+    return std::span(buffer_).first(static_cast<std::size_t>(got));
+  }
+
+ private:
+  const std::string& path_;
+  storage::Descriptor file_;
+  std::vector<std::byte> buffer_ = std::vector<std::byte>(std::size_t{1} << 18);
+};
+
+}  // namespace
+
+std::string checksum_trailer_of(std::span<const std::byte> bytes) {
+  return checksum_trailer_of(bytes.size(), storage::crc32_of(bytes));
+}
+
+void require_checksum(const std::string& path) {
+  const std::size_t seal_length = checksum_trailer_of(0, 0).size();
+  Pieces pieces(path);
+  std::uint64_t length = 0;
+  std::uint32_t crc = 0;
+  std::vector<std::byte> held;  // what may be the seal
+  for (auto piece = pieces.next(); !piece.empty(); piece = pieces.next()) {
+    held.insert(held.end(), piece.begin(), piece.end());
+    if (held.size() <= seal_length) continue;
+    const auto content = std::span(held).first(held.size() - seal_length);
+    crc = storage::crc32_of(content, crc), length += content.size();
+    held.erase(held.begin(), held.end() - static_cast<std::ptrdiff_t>(seal_length));
+  }
+  const std::string_view found(reinterpret_cast<const char*>(held.data()), held.size());
+  if (found == checksum_trailer_of(length, crc)) return;
+  if (found.starts_with("\nclatter shard of "))
+    refuse_reading(path, "is damaged: its CRC-32 doesn't fit", "copy it again, or run its shard again");
+  refuse_reading(path, "is no whole shard of a sweep",
+                 std::string("name ").append(shards_of_clatter).append(", or copy it again"));
+}
+
+}  // namespace clatter::results

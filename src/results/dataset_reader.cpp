@@ -1,0 +1,212 @@
+#include <hdf5_hl.h>
+
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <sstream>
+#include <stdexcept>
+#include <utility>
+
+#include "results/dataset_file.hpp"
+#include "results/hdf5_attributes.hpp"
+#include "results/hdf5_handle.hpp"
+#include "results/hdf5_plain.hpp"
+#include "results/hdf5_shape.hpp"
+#include "results/hdf5_soundness.hpp"
+#include "results/summary_bytes.hpp"
+#include "storage/error.hpp"
+#include "storage/input_file.hpp"
+#include "storage/run_in_child.hpp"
+#include "storage/utf8.hpp"
+#include "sweep/share.hpp"
+
+namespace clatter::results {
+namespace {
+
+using detail::checked;
+using detail::Handle;
+using detail::text_attribute;
+
+[[noreturn]] void refuse(const std::string& path, const std::string& why, const std::string& way_out) {
+  throw storage::IoError{storage::quoted_name(path) + ": " + why + "; " + way_out};
+}
+
+[[noreturn]] void refuse_damaged(const std::string& path, const std::string& why) {
+  refuse(path, "cannot be read: " + why, "copy it again, or run its configuration again");
+}
+
+Handle open(const std::string& path) {
+  const htri_t is_hdf5 = H5Fis_hdf5(path.c_str());
+  if (is_hdf5 == 0) refuse(path, "is not an HDF5 file", "name an output of clatter");
+  if (is_hdf5 < 0) throw detail::Failure{};
+  detail::require_sound_heaps(path);
+  return detail::open_file(path);
+}
+
+/// Reads the texts of a file, which may all be the same place in it: in all no more than it can hold otherwise.
+class Texts {
+ public:
+  explicit Texts(std::uint64_t stored_bytes) : left_(2 * stored_bytes + 16UL * 1024 * 1024) {}
+
+  [[nodiscard]] std::string of(hid_t object, const std::string& name) {
+    std::string text = text_attribute(object, name);
+    if (text.size() > left_) throw detail::Failure("it holds more text than its size can hold");
+    left_ -= text.size();
+    return text;
+  }
+
+ private:
+  std::uint64_t left_;
+};
+
+/// The name of an object at the root, without its slash.
+std::string object_name(hid_t object) {
+  std::string path(static_cast<std::size_t>(checked(H5Iget_name(object, nullptr, 0))), '\0');
+  checked(H5Iget_name(object, path.data(), path.size() + 1));
+  return path.substr(path.rfind('/') + 1);
+}
+
+/// The order of creation, where the file keeps it: a tool that has copied the file may have dropped it.
+H5_index_t attribute_order(hid_t file) {
+  const Handle root{H5Gopen2(file, "/", H5P_DEFAULT), H5Gclose};
+  const Handle properties{H5Gget_create_plist(root), H5Pclose};  // the file's own list forgets the order
+  unsigned flags = 0;
+  checked(H5Pget_attr_creation_order(properties, &flags));
+  return (flags & H5P_CRT_ORDER_INDEXED) != 0 ? H5_INDEX_CRT_ORDER : H5_INDEX_NAME;
+}
+
+herr_t collect_name(hid_t, const char* name, const H5A_info_t*, void* names) {
+  static_cast<std::vector<std::string>*>(names)->emplace_back(name);
+  return 0;
+}
+
+std::vector<std::pair<std::string, std::string>> root_attributes(hid_t file, Texts& texts) {
+  std::vector<std::string> names;
+  checked(H5Aiterate2(file, attribute_order(file), H5_ITER_INC, nullptr, collect_name, &names));
+  std::vector<std::pair<std::string, std::string>> attributes;
+  attributes.reserve(names.size());
+  for (const std::string& name : names) attributes.emplace_back(name, texts.of(file, name));
+  return attributes;
+}
+
+/// "float64" and the like, as numpy and xarray call them.
+std::string type_name(hid_t dataset) {
+  const Handle type{H5Dget_type(dataset), H5Tclose};
+  const std::string bits = std::to_string(8 * H5Tget_size(type));
+  if (H5Tget_class(type) == H5T_FLOAT) return "float" + bits;
+  return (H5Tget_sign(type) == H5T_SGN_NONE ? "uint" : "int") + bits;
+}
+
+herr_t keep_name(hid_t, unsigned, hid_t scale, void* name) try {
+  *static_cast<std::string*>(name) = object_name(scale);
+  return 1;  // the first scale is enough
+} catch (const detail::Failure&) {
+  return -1;
+}
+
+std::vector<sweep::NamedLength> dimensions_of(hid_t dataset, const std::string& variable) {
+  const bool is_scale = checked(H5DSis_scale(dataset)) > 0;
+  std::vector<sweep::NamedLength> dimensions;
+  for (const hsize_t length : detail::shape_of(dataset)) {
+    std::string name = is_scale ? variable : "";
+    const auto d = static_cast<unsigned>(dimensions.size());
+    if (!is_scale) checked(H5DSiterate_scales(dataset, d, nullptr, keep_name, &name));
+    dimensions.push_back({name, static_cast<std::size_t>(length)});
+  }
+  return dimensions;
+}
+
+/// A scale that only gives a dimension its name and length.
+bool is_bare_scale(hid_t dataset) {
+  if (checked(H5DSis_scale(dataset)) == 0) return false;
+  return text_attribute(dataset, "NAME").starts_with("This is a netCDF dimension but not a netCDF variable.");
+}
+
+/// How many points there should be, as the configuration in the file says; nothing where it is of another version and
+/// cannot be read.
+std::optional<std::size_t> points_told(hid_t file, const std::string& path) try {
+  const config::Config config = config::parse_config(text_attribute(file, "config"), path);
+  const std::string shard = text_attribute(file, "shard");
+  return sweep::Share(config.sweep, shard.empty() ? std::nullopt : sweep::shard_named(shard)).points();
+} catch (const config::ConfigError&) {
+  return std::nullopt;
+}
+
+/// Nobody has to read more than there can be: a short file may claim any number of values. `told` are the points of its
+/// configuration.
+void require_possible(const FileSummary::Entry& status, const std::optional<std::size_t>& told,
+                      std::uint64_t stored_bytes) {
+  double points = 1, values = 1;
+  for (const sweep::NamedLength& dimension : status.dimensions) {
+    values *= static_cast<double>(dimension.length);
+    if (dimension.name != "row") points *= static_cast<double>(dimension.length);  // of `clatter accuracy`
+  }
+  if (told && points != static_cast<double>(*told))
+    throw detail::Failure("its 'status' is of other points than the " + std::to_string(*told) +
+                          " of its configuration");
+  if (values > detail::most_deflated * static_cast<double>(stored_bytes))
+    throw detail::Failure("its 'status' is longer than a file of its size can hold");
+}
+
+/// How many values of a variable have each of its flags, in the order of flag_values.
+std::vector<std::pair<std::string, std::size_t>> flag_counts(const Handle& dataset) {
+  std::array<std::size_t, 256> counts{};
+  std::vector<std::uint8_t> values(detail::largest_block);
+  detail::read_blocks(dataset, H5T_NATIVE_UINT8, values.data(), [&](std::size_t count) {
+    for (std::size_t i = 0; i < count; ++i) ++counts[values[i]];
+  });
+  std::istringstream meanings{text_attribute(dataset, "flag_meanings")};
+  std::vector<std::pair<std::string, std::size_t>> result;
+  for (const std::uint8_t flag : detail::byte_attribute(dataset, "flag_values")) {
+    std::string meaning;
+    if (meanings >> meaning) result.emplace_back(meaning, counts[flag]);
+  }
+  return result;
+}
+
+void add_variable(FileSummary& summary, hid_t file, const std::string& name, Texts& texts) {
+  const Handle dataset = detail::open_variable(file, name);
+  if (is_bare_scale(dataset)) return;
+  summary.variables.push_back({name, type_name(dataset), texts.of(dataset, "units"), texts.of(dataset, "long_name"),
+                               dimensions_of(dataset, name)});
+}
+
+FileSummary summary_of(const Handle& file, const std::string& path, std::uint64_t stored_bytes) {
+  if (text_attribute(file, "clatter_schema") != "clatter/1") {
+    refuse(path, "an HDF5 file, but not one of clatter's (no attribute clatter_schema = \"clatter/1\")",
+           "name an output of clatter");
+  }
+  FileSummary summary;
+  Texts texts(stored_bytes);
+  summary.attributes = root_attributes(file, texts);
+  for (const std::string& name : detail::variables_in(file)) add_variable(summary, file, name, texts);
+  const auto status = std::ranges::find(summary.variables, "status", &FileSummary::Entry::name);
+  if (status == summary.variables.end()) return summary;
+  require_possible(*status, points_told(file, path), stored_bytes);
+  summary.status_counts = flag_counts(detail::open_variable(file, "status"));
+  return summary;
+}
+
+/// Reads with the library, whatever may come of it.
+FileSummary unguarded_summary(const std::string& path, std::uint64_t stored_bytes) try {
+  const detail::QuietErrors quiet;
+  return summary_of(open(path), path, stored_bytes);
+} catch (const detail::Failure& failure) {
+  refuse_damaged(path, failure.what());
+} catch (const std::length_error&) {
+  refuse_damaged(path, "it holds an impossible length");
+}
+
+}  // namespace
+
+FileSummary read_summary(const std::string& path) try {
+  const std::uint64_t stored = storage::open_input(path, "an output of clatter").stored_bytes;
+  auto summary = summary_from(
+      storage::run_in_child([&] { return bytes_of(unguarded_summary(path, stored)); }, storage::limits_for(stored)));
+  if (!summary) refuse_damaged(path, "it disturbs the memory of the HDF5 library");
+  return std::move(*summary);
+} catch (const storage::ChildFailed& death) {
+  refuse_damaged(path, death.what());
+}
+
+}  // namespace clatter::results

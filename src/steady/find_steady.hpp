@@ -1,0 +1,70 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "steady/forced_search.hpp"
+#include "steady/free_search.hpp"
+#include "stepping/integration.hpp"
+
+namespace clatter::steady {
+
+/// Runs forced motion until it repeats, and looks for that from a section on.
+template <stepping::Integrator I>
+[[nodiscard]] ObservedTime find_repetition(I& integrator, motion::State<double> state, const TimeSettings& time,
+                                           std::int64_t from) {
+  constexpr auto longest = static_cast<std::int64_t>(RepeatFinder::longest);
+  SectionObserver watch(integrator.stops());
+  RepeatFinder repeat(time.tolerance);
+  std::array<motion::State<double>, RepeatFinder::longest> recent;
+  for (std::int64_t section = 0;; ++section) {
+    const auto settled = static_cast<double>(section);
+    const double log_area = watch.passage().log_area - 2 * integrator.constants().h * integrator.period();
+    recent[static_cast<std::size_t>(section % longest)] = state;
+    if (section >= from) {
+      if (const std::size_t n = repeat.add(state.x, state.v, log_area)) {
+        const auto chosen =
+            section - static_cast<std::int64_t>(repeat.first_of_last(n, BeginsBefore(integrator.constants().f)));
+        return {Status::periodic,       recent[static_cast<std::size_t>(chosen % longest)],
+                static_cast<double>(n), settled,
+                FoundBy::repetition,    settled};
+      }
+    }
+    if (section == time.max_periods)
+      return {Status::aperiodic, state, static_cast<double>(time.window), settled, FoundBy::nothing};
+    watch.begin_section();
+    const stepping::Outcome outcome = advance_to_section(integrator, state, state.periods, watch);
+    if (outcome != stepping::Outcome::completed) return {status_of(outcome), state, 0.0, settled, FoundBy::nothing};
+  }
+}
+
+/// The section from which on all effects look for a repeat: early enough before max_periods to find a motion of 64
+/// periods, and to see that rounding keeps a slow transient from getting any nearer (`RepeatFinder`).
+template <stepping::Integrator I>
+[[nodiscard]] std::int64_t last_look(const I& integrator, const TimeSettings& time) {
+  const double decay = integrator.constants().h * integrator.period(), half = static_cast<double>(time.max_periods) / 2;
+  const double slow = decay > 0 ? std::min(half, 3 * std::log(4.0) / decay) : 0.0;
+  return time.max_periods - static_cast<std::int64_t>(3 * RepeatFinder::longest) - static_cast<std::int64_t>(slow);
+}
+
+/// The time to observe of a scene that starts from `state`. General methods know no shortcut; nor is one taken where
+/// all effects are asked for, to compare with: it is run for all of max_periods then, and a repeat looked for at their
+/// end.
+template <stepping::Integrator I>
+[[nodiscard]] ObservedTime find_steady(I& integrator, const motion::State<double>& state, const Scene& scene,
+                                       const TimeSettings& time, const stepping::Integration& integration) {
+  constexpr Effects E = I::effects;
+  if (time.mode == Mode::transient)
+    return {Status::transient, state, time.duration / integrator.period(), 0.0, FoundBy::start};
+  const bool forced = E.forcing != Forcing::none && scene.oscillator.forcing != 0;
+  if (!forced) return FreeSearch(integrator, scene, time, integration.all_effects).run(state);
+  if constexpr (E.forcing != Forcing::none) {
+    if (integration.all_effects) return find_repetition(integrator, state, time, last_look(integrator, time));
+    if constexpr (I::in_closed_form)
+      if (integration.shortcuts) return SteadySearch<E>(integrator, scene, time).run(state);
+    return find_repetition(integrator, state, time, 0);
+  }
+  return {};
+}
+
+}  // namespace clatter::steady

@@ -1,0 +1,222 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <span>
+#include <utility>
+
+#include "model/displacement_bound.hpp"
+#include "steady/observed_time.hpp"
+#include "steady/stroboscopic_map.hpp"
+#include "steady/time_settings.hpp"
+#include "stepping/exact.hpp"
+
+namespace clatter::steady {
+
+/// Who takes a motion from section to section while its steady state is looked for: the search itself, or lanes, where
+/// a forcing period costs so little that plain repetition is the quickest way unless states contract slowly.
+enum class TakenBy : std::uint8_t { itself, lanes };
+
+/// Looks at forced motion, section by section, until its steady state is known, in as few forcing periods as possible:
+/// as the closed form once no stop can be reached any more, by Newton's method once successive states contract, else by
+/// repetition.
+template <Effects E>
+class SteadySearch {
+ public:
+  SteadySearch(stepping::Exact<double, E>& integrator, const Scene& scene, const TimeSettings& time,
+               TakenBy taken_by = TakenBy::itself)
+      : integrator_(integrator),
+        scene_(scene),
+        time_(time),
+        in_lanes_(taken_by == TakenBy::lanes),
+        repeat_(time.tolerance, in_lanes_ ? 4 : 1),
+        begins_before_(scene.oscillator.forcing),
+        watch_(integrator.stops()),
+        map_(integrator, time.tolerance) {
+    near_enough_.fill(nearest_first);
+  }
+
+  /// Runs from `state`, at a section, until the steady state is known.
+  [[nodiscard]] ObservedTime run(motion::State<double> state) {
+    for (;;) {
+      if (const auto found = at_section(state)) return *found;
+      const stepping::Outcome outcome = advance(state);
+      if (outcome != stepping::Outcome::completed) return failure(outcome, state);
+      ++section_;
+    }
+  }
+
+  /// What is known at the next section; nothing: the motion has to go on.
+  [[nodiscard]] std::optional<ObservedTime> at_section(const motion::State<double>& state) {
+    recent_[index(0)] = state;
+    if (const auto found = closed_form(state)) return found;
+    if (const std::size_t n = repeats(state)) return repetition(n);
+    if (section_ == time_.max_periods)
+      return ObservedTime{Status::aperiodic, state, static_cast<double>(time_.window), simulated(), FoundBy::nothing};
+    return attractor(state);
+  }
+  /// Takes note of the forcing period that leads to the next section.
+  void pass_period(const Passage& passage) { passages_[index(0)] = passage, ++section_; }
+
+  [[nodiscard]] ObservedTime failure(stepping::Outcome outcome, const motion::State<double>& state) const {
+    return {status_of(outcome), state, 0.0, simulated(), FoundBy::nothing};
+  }
+
+ private:
+  static constexpr double nearest_first = 0.02;  ///< relative distance below which a first attempt pays
+  static constexpr std::int64_t long_settling = 128;
+  static constexpr double longest_settling = 0x1p52;  ///< periods; more are more than double can count
+  static constexpr std::size_t kept = 2 * RepeatFinder::longest;
+
+  [[nodiscard]] std::size_t index(std::size_t ago) const { return (static_cast<std::size_t>(section_) - ago) % kept; }
+  [[nodiscard]] double settled() const { return static_cast<double>(section_); }  ///< forcing periods of the motion
+  [[nodiscard]] double simulated() const {
+    return static_cast<double>(section_ - taken_) + static_cast<double>(map_.simulated());
+  }
+
+  /// Runs to the next section, or takes it from an approach that has come to nothing.
+  [[nodiscard]] stepping::Outcome advance(motion::State<double>& state) {
+    if (approach_ && next_ < approach_->periods) {
+      passages_[index(0)] = approach_->passages[next_];
+      state = approach_->states[++next_];
+      ++taken_;
+      return stepping::Outcome::completed;
+    }
+    watch_.begin_section();
+    const stepping::Outcome outcome = advance_to_section(integrator_, state, state.periods, watch_);
+    passages_[index(0)] = watch_.passage();
+    return outcome;
+  }
+
+  /// The forcing periods after which the motion repeats, 0 while it doesn't. In lanes it goes on until the states at
+  /// the sections have come as close as rounding lets them, since no Newton step takes them there.
+  [[nodiscard]] std::size_t repeats(const motion::State<double>& state) {
+    const double log_area =
+        section_ > 0 ? passages_[index(1)].log_area - 2 * integrator_.constants().h * integrator_.period() : 0.0;
+    const std::size_t n = repeat_.add(state.x, state.v, log_area);
+    if (!in_lanes_ || (n == 0 && closing_in_ == 0)) return n;
+    if (closing_in_ == 0) closing_in_ = n, closest_ = std::numeric_limits<double>::infinity();
+    const double distance = repeat_.distance_over(closing_in_);
+    if (distance < closest_) closest_ = distance, closest_at_ = section_;
+    const bool as_close_as_it_gets = section_ - closest_at_ > static_cast<std::int64_t>(2 * closing_in_ + 4);
+    const bool close = distance <= 8 * epsilon<double>() || as_close_as_it_gets || section_ == time_.max_periods;
+    return close ? closing_in_ : 0;
+  }
+
+  [[nodiscard]] ObservedTime repetition(std::size_t n) const {
+    return {Status::periodic,       recent_[index(repeat_.first_of_last(n, begins_before_))],
+            static_cast<double>(n), simulated(),
+            FoundBy::repetition,    settled()};
+  }
+
+  /// The steady forced response, where no stop is in reach from now on and damping takes away what is left of the
+  /// transient, however long that may take.
+  [[nodiscard]] std::optional<ObservedTime> closed_form(const motion::State<double>& state) const {
+    const Oscillator& o = scene_.oscillator;
+    if (o.damping == 0 || (section_ > 0 && passages_[index(1)].itinerary != 0)) return std::nullopt;
+    const auto [sine, cosine] = integrator_.phase(motion::State<double>{});
+    const PhaseState now{state.x - o.load, state.v, sine, cosine};
+    if (E.stops() && !out_of_reach(o, now, integrator_.stops())) return std::nullopt;
+    const PhasePoint response = response_at(o, sine, cosine), left = transient_of(o, now);
+    const double x = o.load + response.x, most = time_.tolerance * std::max(std::abs(x), std::abs(response.v));
+    const double periods = fading_time(o, left, most) / integrator_.period();
+    if (!(periods < longest_settling)) return std::nullopt;
+    motion::State<double> steady = state;
+    steady.x = x, steady.v = response.v, steady.left = Side::none;
+    return ObservedTime{Status::periodic, steady, 1.0, simulated(), FoundBy::closed_form, settled() + periods};
+  }
+
+  /// Follows the next n periods together with their derivative where states have begun to contract, and looks for the
+  /// periodic motion that they contract to.
+  [[nodiscard]] std::optional<ObservedTime> attractor(const motion::State<double>& state) {
+    const bool under_way = approach_ && next_ < approach_->periods;
+    const std::size_t n = under_way || !pays() ? 0 : contracting();
+    if (n == 0 || !affordable(n)) return std::nullopt;
+    near_enough_[n] = repeat_.distance_over(n) / 4;  // for the next attempt
+    approach_ = map_.follow(state, n), next_ = 0;
+    const auto orbit = approach_ ? map_.attractor_of(*approach_) : std::nullopt;
+    if (in_lanes_) approach_.reset();
+    return orbit ? std::optional(observed(*orbit)) : std::nullopt;
+  }
+
+  /// Whether it pays to look for contracting states: that costs a tenth of a forcing period, and in lanes an attempt
+  /// costs as much as hundreds.
+  [[nodiscard]] bool pays() const {
+    if (closing_in_ > 0) return false;
+    if (in_lanes_)
+      return section_ >= 64 &&
+             (std::has_single_bit(static_cast<std::uint64_t>(section_)) || section_ + 1 == time_.max_periods);
+    return section_ <= long_settling || section_ % 8 == 0;
+  }
+
+  /// Whether attempts together stay below 64 periods, but no more than max_periods, and a quarter of those of the
+  /// motion.
+  [[nodiscard]] bool affordable(std::size_t n) const {
+    const std::int64_t spent = static_cast<std::int64_t>(map_.simulated() + n * StroboscopicMap<E>::most_turns);
+    return spent <= std::min<std::int64_t>(64, time_.max_periods) + section_ / 4;
+  }
+
+  /// Whether plain repetition will get there before an attempt by Newton's method has paid, as fast as states n apart
+  /// come closer; also where they have not done so for long enough to tell.
+  [[nodiscard]] bool repeats_soon(std::size_t n) const {
+    const double now = repeat_.distance_over(n), before = repeat_.distance_over(n, n);
+    if (!(before < repeat_.distance_over(n, 2 * n)) && !(now < 1e-3)) return true;
+    const double rounds = std::log(now / time_.tolerance) / std::log(before / now);
+    const double left = static_cast<double>(n) * (std::max(0.0, rounds) + 2);  // two more to be sure of it
+    return left < std::min(400.0, static_cast<double>(time_.max_periods - section_));
+  }
+
+  /// The least n for which states n apart come closer, over the same stops in the same order; 0 for none.
+  [[nodiscard]] std::size_t contracting() const {
+    for (std::size_t n = repeat_.next_within(nearest_first, 1); n > 0; n = repeat_.next_within(nearest_first, n + 1)) {
+      const double now = repeat_.distance_over(n);
+      if (!(now <= near_enough_[n] && now > 8 * epsilon<double>() && now < repeat_.distance_over(n, n))) continue;
+      if (in_lanes_ && repeats_soon(n)) continue;
+      bool same = true, meets = false;
+      for (std::size_t i = 1; same && i <= n && n + i < kept; ++i)
+        same = passages_[index(i)].itinerary == passages_[index(n + i)].itinerary,
+        meets = meets || passages_[index(i)].itinerary != 0;
+      if (same && meets) return n;
+    }
+    return 0;
+  }
+
+  [[nodiscard]] ObservedTime observed(const Orbit& orbit) const {
+    const motion::State<double>& start = orbit.states[0];
+    const double limit = RepeatFinder::few * time_.tolerance * std::max(std::abs(start.x), std::abs(start.v));
+    const std::size_t n =
+        least_divisor(orbit.periods, [&](std::size_t m) { return between(start, orbit.states[m]).size() <= limit; });
+    const auto first = std::ranges::min_element(std::span(orbit.states).first(n),
+                                                [this](const motion::State<double>& a, const motion::State<double>& b) {
+                                                  return begins_before_(a.x, a.v, b.x, b.v);
+                                                });
+    const double settling = settled() + orbit.settling;
+    return {Status::periodic, *first, static_cast<double>(n), simulated(), FoundBy::newton, settling};
+  }
+
+  stepping::Exact<double, E>& integrator_;
+  const Scene& scene_;
+  const TimeSettings& time_;
+  bool in_lanes_;
+  RepeatFinder repeat_;
+  BeginsBefore begins_before_;
+  SectionObserver watch_;
+  StroboscopicMap<E> map_;
+  std::size_t closing_in_ = 0;     ///< lanes: the forcing periods after which the motion is known to repeat, 0: unknown
+  double closest_ = 0.0;           ///< distance of states so many sections apart, the least so far
+  std::int64_t closest_at_ = 0;    ///< the section where that was
+  std::optional<Orbit> approach_;  ///< the periods after an attempt
+  std::size_t next_ = 0;           ///< of its sections, the one that comes next
+  std::int64_t section_ = 0;
+  std::int64_t taken_ = 0;                                       ///< sections that were taken from approaches
+  std::array<motion::State<double>, kept> recent_{};             ///< [section modulo kept]
+  std::array<Passage, kept> passages_{};                         ///< of the section that begins there
+  std::array<double, RepeatFinder::longest + 1> near_enough_{};  ///< [n]: distance below which an attempt is made
+};
+
+}  // namespace clatter::steady

@@ -1,0 +1,91 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "model/displacement_bound.hpp"
+#include "steady/free_period.hpp"
+#include "steady/observed_time.hpp"
+#include "steady/return_observer.hpp"
+#include "steady/time_settings.hpp"
+#include "stepping/run.hpp"
+
+namespace clatter::steady {
+
+/// Runs unforced motion until it returns to the same speed on the same stop, turns freely, or comes to stand still;
+/// in closed form, where nothing is lost, its period follows from the start.
+template <stepping::Integrator I>
+class FreeSearch {
+ public:
+  FreeSearch(I& integrator, const Scene& scene, const TimeSettings& time, bool all_effects)
+      : integrator_(integrator),
+        scene_(scene),
+        time_(time),
+        all_effects_(all_effects),
+        returns_(scene, time.tolerance) {}
+
+  [[nodiscard]] ObservedTime run(motion::State<double> state) {
+    const motion::State<double> start = state;
+    const std::int64_t most = time_.max_periods;
+    for (std::int64_t section = 0;; ++section) {
+      const auto settled = static_cast<double>(section);
+      if (stands_still(state)) return {Status::periodic, state, 1.0, settled, FoundBy::standstill, settled};
+      if (I::in_closed_form && !all_effects_) {
+        const double turns = section == 0 && conservative() ? free_turns(start) : 0.0;
+        if (turns > shortest) return {Status::periodic, start, turns, 0.0, FoundBy::energy, 0.0};
+        if (const auto found = closed_form(state, section)) return *found;
+      }
+      if (section == most)
+        return {Status::aperiodic, state, static_cast<double>(time_.window), settled, FoundBy::nothing};
+      returns_.begin_period(integrator_.period());
+      const stepping::Outcome outcome = advance_to_section(integrator_, state, state.periods, returns_);
+      if (outcome != stepping::Outcome::completed) return {status_of(outcome), state, 0.0, settled, FoundBy::nothing};
+      if (integrator_.holding_stop(state) || (all_effects_ && section + 1 < most)) continue;
+      const double turns = returns_.free_rotation() ? 1.0 : returns_.period() / integrator_.period();
+      if (turns > 0)
+        return {Status::periodic, returns_.conserved() ? start : state, turns, settled + 1, FoundBy::repetition,
+                settled + 1};
+    }
+  }
+
+ private:
+  [[nodiscard]] bool stands_still(const motion::State<double>& state) const {
+    return returns_.stands_still(state.x, state.v, integrator_.holding_stop(state).has_value());
+  }
+
+  [[nodiscard]] bool conservative() const {
+    const Stops& stops = integrator_.stops();
+    const auto keeps = [](double position, double R) { return std::isinf(position) || R == 1.0; };
+    return scene_.oscillator.damping == 0 && keeps(stops.lower, stops.restitution_lower) &&
+           keeps(stops.upper, stops.restitution_upper);
+  }
+  [[nodiscard]] double free_turns(const motion::State<double>& start) const {
+    return free_period<double>(scene_.oscillator.load, integrator_.stops(), start.x, start.v) / integrator_.period();
+  }
+
+  /// How the motion ends where no stop is in reach from now on: in free vibration, or at its equilibrium if damping
+  /// takes it there in time.
+  [[nodiscard]] std::optional<ObservedTime> closed_form(const motion::State<double>& state,
+                                                        std::int64_t section) const {
+    const Oscillator& o = scene_.oscillator;
+    const PhaseState now{state.x - o.load, state.v, 0.0, 1.0};
+    if (I::effects.stops() && !out_of_reach(o, now, integrator_.stops())) return std::nullopt;
+    const auto settled = static_cast<double>(section);
+    if (o.damping == 0) return ObservedTime{Status::periodic, state, 1.0, settled, FoundBy::closed_form, settled};
+    const double end_at = settled + fading_time(o, transient_of(o, now), returns_.least()) / integrator_.period();
+    if (!(end_at <= static_cast<double>(time_.max_periods))) return std::nullopt;
+    motion::State<double> end = state;
+    end.x = o.load, end.v = 0, end.left = Side::none;
+    return ObservedTime{Status::periodic, end, 1.0, settled, FoundBy::standstill, end_at};
+  }
+
+  static constexpr double shortest = 16 * std::numeric_limits<double>::epsilon();  ///< turns that time can tell apart
+  I& integrator_;
+  const Scene& scene_;
+  const TimeSettings& time_;
+  bool all_effects_;  ///< takes no shortcut
+  ReturnObserver returns_;
+};
+
+}  // namespace clatter::steady

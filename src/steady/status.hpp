@@ -1,0 +1,47 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string_view>
+#include <utility>
+
+#include "stepping/integrator.hpp"
+
+namespace clatter::steady {
+
+/// What became of a point; from `event_budget` on it has failed.
+enum class Status : std::uint8_t {
+  periodic = 0,
+  aperiodic = 1,
+  transient = 2,
+  grazing = 3,  ///< periodic, but touches a stop within rounding: its stability doesn't exist
+  event_budget = 16,
+  not_finite = 17,
+  unresolved = 18
+};
+
+/// Every status and its name.
+inline constexpr std::array<std::pair<Status, std::string_view>, 7> status_names{
+    {{Status::periodic, "periodic"},
+     {Status::aperiodic, "aperiodic"},
+     {Status::transient, "transient"},
+     {Status::grazing, "grazing"},
+     {Status::event_budget, "event_budget"},
+     {Status::not_finite, "not_finite"},
+     {Status::unresolved, "unresolved"}}};
+
+[[nodiscard]] constexpr bool failed(Status status) { return status >= Status::event_budget; }
+
+/// Of a run that an integrator could not complete.
+[[nodiscard]] constexpr Status status_of(stepping::Outcome failure) {
+  switch (failure) {
+    case stepping::Outcome::event_budget:
+      return Status::event_budget;
+    case stepping::Outcome::not_finite:
+      return Status::not_finite;
+    default:
+      return Status::unresolved;
+  }
+}
+
+}  // namespace clatter::steady

@@ -1,0 +1,141 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <optional>
+
+#include "motion/neighbourhood.hpp"
+#include "steady/contraction.hpp"
+#include "steady/repeat.hpp"
+#include "steady/section_observer.hpp"
+#include "stepping/exact.hpp"
+#include "stepping/run.hpp"
+
+namespace clatter::steady {
+
+/// A periodic motion of n forcing periods: its states at the sections and its derivative.
+struct Orbit {
+  std::size_t periods = 0;
+  std::array<motion::State<double>, RepeatFinder::longest + 1> states{};  ///< the last as computed from the first
+  std::array<motion::Jacobian<double>, RepeatFinder::longest + 1> derivatives{};  ///< of each by the first
+  std::array<Passage, RepeatFinder::longest> passages{};  ///< from each state but the last to the next
+
+  double settling = 0.0;  ///< forcing periods until the motion that approaches it is within the tolerance of it
+
+  [[nodiscard]] motion::Perturbation gap() const { return between(states[0], states[periods]); }
+  [[nodiscard]] const motion::Jacobian<double>& derivative() const { return derivatives[periods]; }
+};
+
+/// The map of states over n forcing periods, its derivative, and Newton's method for its fixed points.
+template <Effects E>
+class StroboscopicMap {
+ public:
+  StroboscopicMap(stepping::Exact<double, E>& integrator, double tolerance)
+      : integrator_(integrator), watch_(integrator.stops()), tolerance_(tolerance) {}
+
+  /// Times that an attempt follows all periods of a motion: the approach, each iteration, the proof.
+  static constexpr std::size_t most_iterations = 4, most_turns = 1 + most_iterations + 1;
+
+  [[nodiscard]] std::size_t simulated() const { return simulated_; }  ///< forcing periods
+
+  /// The motion over n periods from a state, under the eyes of another observer, too; nothing where it fails.
+  template <class Observer>
+  [[nodiscard]] std::optional<Orbit> follow(motion::State<double> state, std::size_t periods, Observer&& also) {
+    Orbit orbit{.periods = periods};
+    orbit.states[0] = state, orbit.derivatives[0] = {1, 0, 0, 1};
+    watch_.differentiate();
+    Pair<Observer> observers{watch_, also};
+    for (std::size_t i = 1; i <= periods; ++i) {
+      ++simulated_;
+      watch_.begin_section();
+      if (advance_to_section(integrator_, state, orbit.states[0].periods, observers) != stepping::Outcome::completed)
+        return std::nullopt;
+      orbit.states[i] = state, orbit.derivatives[i] = watch_.derivative();
+      orbit.passages[i - 1] = watch_.passage();
+    }
+    return orbit;
+  }
+  [[nodiscard]] std::optional<Orbit> follow(const motion::State<double>& state, std::size_t periods) {
+    return follow(state, periods, stepping::NoObserver{});
+  }
+
+  /// The periodic motion that a motion, once round, is settling to: found by Newton's method from where that began, on
+  /// the branch that it is really on (the same stops in the same order), and proved to attract a neighbourhood in which
+  /// the motion is at the end of its round.
+  [[nodiscard]] std::optional<Orbit> attractor_of(const Orbit& approach) {
+    motion::State<double> start = moved(approach.states[0], newton_step(approach.derivative(), approach.gap()));
+    double before = std::numeric_limits<double>::infinity();
+    for (std::size_t iteration = 0; iteration < most_iterations; ++iteration) {
+      if (!inside(start)) return std::nullopt;
+      const std::optional<Orbit> orbit = follow(start, approach.periods);
+      if (!orbit || orbit->passages != approach.passages) return std::nullopt;
+      const double gap = orbit->gap().size();
+      const bool found = gap <= tolerance_ * size_of(start);
+      if (!found && !(gap < before / 4)) return std::nullopt;
+      before = gap;
+      start = moved(start, newton_step(orbit->derivative(), orbit->gap()));
+      if (found) return attracting(start, *orbit, approach.states[approach.periods]);
+    }
+    return std::nullopt;
+  }
+
+ private:
+  /// Two observers of one motion.
+  template <class Observer>
+  struct Pair {
+    SectionObserver& one;
+    Observer& other;
+
+    template <class A>
+    void arc(const A& arc, double begin, double length) {
+      one.arc(arc, begin, length), other.arc(arc, begin, length);
+    }
+    void rest(const motion::Rest& rest) { one.rest(rest), other.rest(rest); }
+    void impact(const motion::Impact& impact) { one.impact(impact), other.impact(impact); }
+  };
+
+  [[nodiscard]] bool inside(const motion::State<double>& state) const {
+    return state.x >= integrator_.stops().lower && state.x <= integrator_.stops().upper && std::isfinite(state.v);
+  }
+
+  [[nodiscard]] static double size_of(const motion::State<double>& state) {
+    return std::max(std::abs(state.x), std::abs(state.v));
+  }
+
+  [[nodiscard]] static motion::State<double> moved(motion::State<double> state, const motion::Perturbation& change) {
+    if (change.x == 0 && change.v == 0) return state;
+    state.x += change.x, state.offset += change.x, state.v += change.v, state.released = false;
+    return state;
+  }
+
+  /// The periodic motion from `start`, if it is proved to attract `motion`: over the disc around it that holds
+  /// `motion`, in a norm in which its derivative contracts, all motions meet the same stops in the same order, and what
+  /// the derivative doesn't tell of them is less than what it takes away.
+  [[nodiscard]] std::optional<Orbit> attracting(const motion::State<double>& start, const Orbit& orbit,
+                                                const motion::State<double>& motion) {
+    if (!(spectral_radius(orbit.derivative()) < 1) || !inside(start)) return std::nullopt;
+    const ContractionNorm measure(orbit.derivative());
+    const double rounding = 64 * epsilon<double>() * size_of(start);
+    const double radius = measure.of(between(start, motion)) * (1 + 1e-9) + rounding;
+    motion::Neighbourhood neighbourhood(integrator_.stops(), measure.disc(radius), rounding);
+    std::optional<Orbit> attractor = follow(start, orbit.periods, neighbourhood);
+    if (!attractor || !neighbourhood.holds()) return std::nullopt;
+    const double left =
+        measure.of(neighbourhood.told()) + measure.of(neighbourhood.untold()) + measure.of(attractor->gap());
+    if (!(left < radius)) return std::nullopt;
+    const double rounds = std::log(between(start, motion).size() / (tolerance_ * size_of(start))) /
+                          -std::log(spectral_radius(orbit.derivative()));
+    attractor->settling = static_cast<double>(orbit.periods) * (1 + std::max(0.0, rounds));
+    return attractor;
+  }
+
+  stepping::Exact<double, E>& integrator_;
+  SectionObserver watch_;
+  double tolerance_;
+  std::size_t simulated_ = 0;
+};
+
+}  // namespace clatter::steady

@@ -1,0 +1,168 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <boost/numeric/odeint/stepper/generation.hpp>
+#include <boost/numeric/odeint/stepper/runge_kutta_dopri5.hpp>
+#include <boost/numeric/odeint/util/odeint_error.hpp>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "motion/polynomial_arc.hpp"
+#include "stepping/event_driven.hpp"
+#include "stepping/integration.hpp"
+
+namespace clatter::stepping {
+
+/// What a general solver's user would take: Boost.Odeint's pair of orders 5 and 4 of Dormand and Prince, with step size
+/// control and dense output, and contacts found on the dense output.
+///
+/// Over a step the dense output of the displacement is a polynomial of degree 5, so its first contact is found for
+/// certain: the Bernstein form shows two crossings of a stop within one step as well as one. A step that touches a stop
+/// without crossing it counts as free of contact. What the polynomial itself doesn't show, by its error, is lost.
+/// Chatter, rest and release follow the exact integrator's rules; displacement is carried as the distance from the last
+/// stop, so that the shortest flights keep their digits.
+///
+/// Each flight and each forcing period begins with a step whose size depends on the state alone: a period is a function
+/// of the state at its beginning, and a motion can repeat.
+template <Effects E>
+class DormandPrince : public EventDriven<DormandPrince<E>, double, E> {
+  using Base = EventDriven<DormandPrince<E>, double, E>;
+
+ public:
+  static constexpr bool in_closed_form = false;
+  using DenseArc = motion::PolynomialArc<E.arc()>;
+
+  explicit DormandPrince(const Scene& scene, const Integration& integration = {}, const Limits& limits = {})
+      : Base(scene, scene.stops, limits),
+        tolerance_(integration.tolerance),
+        stepper_(boost::numeric::odeint::make_dense_output(tolerance_ * size_of(scene), tolerance_, Pair())) {}
+
+  /// The next step's arc, and the contact in it; without one it ends with the step, or at the horizon.
+  [[nodiscard]] Flight<DenseArc> fly(const motion::State<double>& state, const motion::Motion<double>& start,
+                                     double anchor, double horizon) {
+    const bool goes_on = Place{state.x, state.v, state.turns} == reached_;
+    if (!goes_on) begin(state, start, anchor);
+    reached_ = nowhere;
+    Flight<DenseArc> flight{standing(state)};
+    if (const Side side = entered(); side != Side::none) {
+      flight.contact = {side, 0.0, start};
+      flight.contact.motion.x =
+          motion::stop_at<double>(this->stops(), side).position;  // where the step ended, to rounding
+      return flight;
+    }
+    try {
+      flight.arc = step(state, start.a);
+    } catch (const boost::numeric::odeint::odeint_error&) {  // no step is short enough
+      flight.contact = {Side::none, 0.0, start, 0, false};
+      return flight;
+    }
+    motion::Contact<double>& contact = flight.contact = first_contact(flight.arc, horizon);
+    const double turns = state.turns + contact.elapsed / this->period();
+    contact.resolved = this->finite(contact.motion.x) && (contact.side != Side::none || turns > state.turns);
+    if (contact.side == Side::none && contact.elapsed < horizon) reached_ = {contact.motion.x, contact.motion.v, turns};
+    return flight;
+  }
+
+ private:
+  using Values = std::array<double, 2>;  ///< distance from the anchor, velocity
+  using Place = std::array<double, 3>;   ///< x, v, turns
+  static constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  static constexpr Place nowhere{nan, nan, nan};  // equal to no place
+  using Pair = boost::numeric::odeint::runge_kutta_dopri5<Values>;
+  using Stepper = typename boost::numeric::odeint::result_of::make_dense_output<Pair>::type;
+
+  /// What an error of a step is small against besides the motion itself: half the distance of the stops, or what start
+  /// and forces suggest, if that is less.
+  [[nodiscard]] static double size_of(const Scene& scene) {
+    const Oscillator& o = scene.oscillator;
+    const double response = std::abs(o.forcing) / std::max(1.0, o.frequency * o.frequency);
+    const double moves =
+        std::max({response, std::abs(o.load), std::abs(scene.start.displacement), std::abs(scene.start.velocity)});
+    const double size = std::min((scene.stops.upper - scene.stops.lower) / 2, moves);
+    return size > 0 ? size : 1.0;
+  }
+
+  void begin(const motion::State<double>& state, const motion::Motion<double>& start, double anchor) {
+    const auto& constants = this->constants();
+    anchor_ = anchor, angle_ = 2 * pi<double>() * (this->start_turns() + state.turns);
+    double first_step = std::pow(tolerance_, 0.2) / constants.rate / 2;
+    if (state.left != Side::none && start.offset == 0) {  // no longer than a flight that the force ends at once
+      const double leaving = -sign_of(state.left) * start.v, pressed = sign_of(state.left) * start.a;
+      if (leaving > 0 && pressed > 0) first_step = std::min(first_step, 2 * leaving / pressed);
+    }
+    here_ = {start.offset, start.v};
+    stepper_.initialize(here_, 0.0, first_step);
+  }
+
+  [[nodiscard]] double acceleration(const Values& y, double s) {
+    const auto& constants = this->constants();
+    this->count_evaluations(1);
+    const double sine = constants.f == 0 ? 0.0 : std::sin(angle_ + constants.nu * s);
+    return constants.acceleration(constants.from_equilibrium(anchor_ + y[0], anchor_, y[0]), y[1], sine);
+  }
+
+  [[nodiscard]] DenseArc standing(const motion::State<double>& state) const {
+    Bernstein<double> offset, velocity;
+    offset.fill(here_[0]), velocity.fill(here_[1]);
+    return {this->constants(), anchor_, this->start_turns() + state.turns, 0.0, offset, velocity};
+  }
+
+  /// Makes a step from here, where the acceleration is a, and its dense output into an arc.
+  [[nodiscard]] DenseArc step(const motion::State<double>& state, double a) {
+    const auto equation = [this](const Values& y, Values& rate, double s) { rate = {y[1], acceleration(y, s)}; };
+    const auto [from, to] = stepper_.do_step(equation);
+    const double length = to - from;
+    const Values begin = std::exchange(here_, stepper_.current_state());
+    Values third, two_thirds;
+    stepper_.calc_state(from + length / 3, third), stepper_.calc_state(from + 2 * length / 3, two_thirds);
+    const double a_end = acceleration(here_, to);
+    return {this->constants(),
+            anchor_,
+            this->start_turns() + state.turns,
+            length,
+            quintic(length, {begin[0], begin[1]}, {here_[0], here_[1]}, {third[0], two_thirds[0]}),
+            quintic(length, {begin[1], a}, {here_[1], a_end}, {third[1], two_thirds[1]})};
+  }
+
+  /// Distance from the anchor to a stop, positive inside.
+  [[nodiscard]] double gap(Side side) const {
+    return side == Side::upper ? this->stops().upper - anchor_ : anchor_ - this->stops().lower;
+  }
+
+  /// The stop that a mass is on and moves into, if it does.
+  [[nodiscard]] Side entered() const {
+    for (const Side side : {Side::lower, Side::upper})
+      if (gap(side) - sign_of(side) * here_[0] <= 0 && sign_of(side) * here_[1] > 0) return side;
+    return Side::none;
+  }
+
+  /// The first place at which the polynomial goes beyond a stop; else its end, or the horizon.
+  [[nodiscard]] motion::Contact<double> first_contact(const DenseArc& arc, double horizon) const {
+    motion::Contact<double> first{Side::none, std::min(arc.length(), horizon), {}};
+    for (const Side side : {Side::lower, Side::upper}) {
+      if (std::isinf(gap(side))) continue;
+      Bernstein<double> c = arc.offset();
+      for (double& y : c) y = gap(side) - sign_of(side) * y;
+      c[0] = std::max(c[0], 0.0);
+      if (c[0] == 0 && arc.velocity()[0] == 0)  // let go: the force leads away, though the polynomial's error may not
+        c[1] = 0, c[2] = std::max(c[2], 0.0);
+      const auto root = FirstRoot<double>::of(c);
+      if (root && *root * arc.length() <= first.elapsed) first.side = side, first.elapsed = *root * arc.length();
+    }
+    first.motion = arc.at(first.elapsed);
+    if (first.side == Side::none) return first;
+    first.motion.x = motion::stop_at<double>(this->stops(), first.side).position;
+    if (sign_of(first.side) * first.motion.v <= 0) first.motion.v = 0;  // the two polynomials differ by their errors
+    return first;
+  }
+
+  double tolerance_;
+  Stepper stepper_;
+  double anchor_ = 0.0, angle_ = 0.0;  ///< of the present flight: its place of reference, the forcing phase it began at
+  Values here_{};                      ///< where its next step begins
+  Place reached_ = nowhere;            ///< from which the flight goes on
+};
+
+}  // namespace clatter::stepping

@@ -1,0 +1,125 @@
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+
+#include "motion/contact.hpp"
+#include "stepping/integrator.hpp"
+
+namespace clatter::stepping {
+
+/// An arc, and where it ends: at the first contact, or without one at the horizon or, where the method makes several
+/// arcs of it, before.
+template <class A>
+struct Flight {
+  A arc;
+  motion::Contact<typename A::Number> contact{};
+};
+
+/// Event-driven integration: from contact to contact, chatter completed, rests released at their exact time. How it
+/// flies, and how it finds the contact, is the method's: `fly(state, motion, anchor, horizon)`.
+template <class Method, class N, Effects E>
+class EventDriven : public SceneConstants<N, E> {
+  using Base = SceneConstants<N, E>;
+
+ public:
+  using Number = N;
+  using Base::Base;
+
+  /// Runs from `state` to the phase `end`, in turns 0 ... 1 since the last section, and shows observers every arc, rest
+  /// and impact with its time since the section `origin`.
+  template <class Observer>
+  [[nodiscard]] Outcome advance(motion::State<Number>& state, const Number& end, std::int64_t origin,
+                                Observer& observer) {
+    while (end - state.turns > 2 * epsilon<Number>()) {  // fly, find the contact, rebound: the whole algorithm
+      this->report(state);
+      if (const auto stop = this->holding_stop(state)) {
+        rest(state, *stop, end, origin, observer);
+        continue;
+      }
+      const Number horizon = (end - state.turns) * this->period();
+      const auto [arc, contact] = static_cast<Method&>(*this).fly(state, motion(state), anchor(state), horizon);
+      if (!contact.resolved) return this->finite(contact.motion.x) ? Outcome::unresolved : Outcome::not_finite;
+      if (contact.side != Side::none && contact.elapsed == 0 && state.v == 0) {
+        pass_zero_force(state, motion::stop_at<Number>(this->stops(), contact.side), end, origin, observer);
+        continue;
+      }
+      observer.arc(arc, this->time(state, origin), static_cast<double>(contact.elapsed));
+      pass(state, contact.elapsed);
+      state.x = contact.motion.x, state.v = contact.motion.v, state.offset = contact.motion.offset,
+      state.released = false;
+      if (contact.side == Side::none && contact.elapsed == horizon) break;
+      if (contact.side == Side::none) continue;
+      const bool touches = state.v == 0;  // no impact
+      rebound(state, motion::stop_at<Number>(this->stops(), contact.side), end, origin, observer);
+      if (!touches && !this->count_impact()) return Outcome::event_budget;
+    }
+    state.turns = end;
+    return this->outcome_of(state);
+  }
+
+ private:
+  [[nodiscard]] motion::Motion<Number> motion(const motion::State<Number>& state) const {
+    const auto [sine, cosine] = this->phase(state);
+    const Number offset = state.left == Side::none ? Number(0) : state.offset;
+    const Number displacement = this->constants().from_equilibrium(state.x, anchor(state), offset);
+    const Number a = state.released ? Number(0) : this->constants().acceleration(displacement, state.v, sine);
+    return {offset, state.x, state.v, a, sine, cosine};
+  }
+  /// The place that the rise of the present flight counts from.
+  [[nodiscard]] Number anchor(const motion::State<Number>& state) const {
+    return state.left == Side::none ? state.x : motion::stop_at<Number>(this->stops(), state.left).position;
+  }
+  void pass(motion::State<Number>& state, const Number& elapsed) const { state.turns += elapsed / this->period(); }
+
+  /// Reverses the velocity and completes the chatter that may follow.
+  template <class Observer>
+  void rebound(motion::State<Number>& state, const motion::Stop<Number>& stop, const Number& end, std::int64_t origin,
+               Observer& observer) {
+    const Number before = state.v;
+    state.left = stop.side, state.offset = 0;
+    if (stop.into(before) > 0) state.v = -stop.restitution * before;
+    if (state.v == 0) state.v = 0;  // no negative zero
+    if (before != 0) this->show_impact(state, stop, before, origin, observer);
+    if (!E.rest || state.v == 0) return;
+    const auto left = chatter_time(this->constants(), stop, contact_force(this->constants(), stop, this->phase(state)),
+                                   Number(-stop.into(state.v)));
+    if (!left || state.turns + *left / this->period() > end) return;  // a run that ends in a chatter ends in a flight
+    this->show_rest(state, stop, Number(*left / this->period()), false, origin, observer);
+    pass(state, *left);
+    state.v = 0;
+  }
+
+  /// Holds the mass until its release or until `end`, whichever is first.
+  template <class Observer>
+  void rest(motion::State<Number>& state, const motion::Stop<Number>& stop, const Number& end, std::int64_t origin,
+            Observer& observer) {
+    using std::floor;
+    Number until = end;
+    state.left = stop.side, state.offset = 0;
+    if (const auto phase_of_release = release_phase(this->constants(), stop)) {
+      Number release = *phase_of_release - this->start_turns();  // the same number after every rest
+      release -= floor(release);
+      if (release == 1) release = 0;  // rounded up
+      const Number ahead = release - state.turns + (release < state.turns ? 1 : 0);
+      if (ahead > 1 - 16 * epsilon<Number>())
+        release = state.turns;  // it passed within rounding of now, not a whole turn ahead
+      if (release >= state.turns && release <= end) until = release, state.released = true;
+    }
+    this->show_rest(state, stop, Number(until - state.turns), true, origin, observer);
+    state.turns = until;
+  }
+
+  /// Lets time move on where a mass at rest on a stop is neither held nor leaves: the force on it is within rounding of
+  /// 0, out of which it grows in the square root of rounding, while the mass moves by far less than rounding.
+  template <class Observer>
+  void pass_zero_force(motion::State<Number>& state, const motion::Stop<Number>& stop, const Number& end,
+                       std::int64_t origin, Observer& observer) {
+    using std::min, std::sqrt;
+    const Number turns = min(Number(end - state.turns), Number(sqrt(epsilon<Number>())));
+    this->show_rest(state, stop, turns, false, origin, observer);
+    state.turns += turns, state.released = false;
+  }
+};
+
+}  // namespace clatter::stepping

@@ -1,0 +1,37 @@
+#pragma once
+
+#include "motion/arc.hpp"
+#include "stepping/event_driven.hpp"
+
+namespace clatter::stepping {
+
+/// Closed-form arcs and proved first contacts; of effects what E has.
+template <class N, Effects E>
+class Exact : public EventDriven<Exact<N, E>, N, E> {
+ public:
+  using Number = N;
+  static constexpr bool in_closed_form = true;
+
+  explicit Exact(const Scene& scene, const Limits& limits = {}) : Exact(scene, scene.stops, limits) {}
+
+  /// Looks for contacts with the given stops only, the others being out of reach.
+  Exact(const Scene& scene, const Stops& in_reach, const Limits& limits = {})
+      : EventDriven<Exact, N, E>(scene, in_reach, limits) {}
+
+  /// The arc that begins with a motion, and its first contact, or its end at the horizon.
+  [[nodiscard]] Flight<motion::Arc<Number, E.arc()>> fly(const motion::State<Number>&,
+                                                         const motion::Motion<Number>& start, const Number& anchor,
+                                                         const Number& horizon) {
+    Flight<motion::Arc<Number, E.arc()>> flight{motion::Arc<Number, E.arc()>(this->constants(), start, anchor)};
+    if constexpr (E.stops()) {
+      flight.contact = next_contact(flight.arc, this->stops(), horizon);
+    } else {
+      const motion::Motion<Number> there = flight.arc.at(horizon);
+      flight.contact = {Side::none, horizon, there, 1, this->finite(there.x)};
+    }
+    this->count_evaluations(flight.contact.evaluations);
+    return flight;
+  }
+};
+
+}  // namespace clatter::stepping

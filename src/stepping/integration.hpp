@@ -1,0 +1,24 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string_view>
+
+namespace clatter::stepping {
+
+enum class Method : std::uint8_t { exact, dopri5, moreau };
+
+/// In the order of Method.
+inline constexpr std::array<std::string_view, 3> method_names{"exact", "dopri5", "moreau"};
+
+/// How arcs, impacts and rests are computed.
+struct Integration {
+  Method method = Method::exact;
+  double tolerance = 1e-10;  ///< dopri5: error of a step, relative to the motion
+  double step = 1e-3;        ///< moreau: in forcing periods
+  double theta = 0.5;        ///< moreau: share of a step's end in its mean, 0 ... 1
+  bool shortcuts = true;     ///< exact: settle by closed forms and Newton's method where they hold
+  bool all_effects = false;  ///< simulate every effect and take no shortcut, to compare with
+};
+
+}  // namespace clatter::stepping

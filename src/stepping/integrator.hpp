@@ -1,0 +1,148 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <concepts>
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <optional>
+
+#include "model/scene.hpp"
+#include "motion/contact_force.hpp"
+
+namespace clatter::stepping {
+
+/// What stopped an integrator before its time.
+enum class Outcome : std::uint8_t { completed, event_budget, not_finite, unresolved };
+
+/// Sees nothing; what integrators call where nothing is observed.
+struct NoObserver {
+  template <class A>
+  void arc(const A&, double, double) {}
+  void rest(const motion::Rest&) {}
+  void impact(const motion::Impact&) {}
+};
+
+/// What a run may come to.
+struct Limits {
+  double impacts = 1e8;                                      ///< given up beyond them (event_budget)
+  double periods = std::numeric_limits<double>::infinity();  ///< forcing periods, for the report of progress
+};
+
+/// A scene made ready for an integrator: its constants, its clock, and what has been spent on it.
+template <class N, Effects E>
+class SceneConstants {
+ public:
+  using Number = N;
+  static constexpr Effects effects = E;
+
+  /// Meets the given stops only, the others being out of reach.
+  SceneConstants(const Scene& scene, const Stops& in_reach, const Limits& limits)
+      : constants_(scene.oscillator),
+        stops_(in_reach),
+        budget_(limits.impacts),
+        longest_(limits.periods),
+        start_turns_(turns_of(scene.start.phase)) {}
+
+  /// Called with the share of what a run may come to, some times a second in a long one.
+  using Listener = std::function<void(double share)>;
+
+  /// Tells somebody, if there is anybody, how far the run has come.
+  void report_to(const Listener* listener) {
+    listener_ = listener != nullptr && *listener ? listener : nullptr;
+    next_report_ = listener_ != nullptr ? evaluations_ + between_reports : infinity;
+  }
+
+  [[nodiscard]] const motion::ArcConstants<Number, E.arc()>& constants() const { return constants_; }
+  [[nodiscard]] const Stops& stops() const { return stops_; }  ///< that contacts are looked for with
+  [[nodiscard]] const Number& period() const {
+    return constants_.period;
+  }                                                                  ///< forcing period in tau; without forcing 2 pi
+  [[nodiscard]] double impacts() const { return impacts_; }          ///< impacts simulated so far
+  [[nodiscard]] double evaluations() const { return evaluations_; }  ///< of arcs; of the equation by general methods
+
+  /// The stop that holds a mass at rest, if one does.
+  [[nodiscard]] std::optional<motion::Stop<Number>> holding_stop(const motion::State<Number>& state) const {
+    if (!E.rest || state.v != 0 || state.released) return std::nullopt;
+    for (const Side side : {Side::lower, Side::upper}) {
+      const auto stop = motion::stop_at<Number>(stops_, side);
+      if (state.x == stop.position && holds(constants_, stop, phase(state))) return stop;
+    }
+    return std::nullopt;
+  }
+
+  /// Of the force.
+  [[nodiscard]] SineCosine<Number> phase(const motion::State<Number>& state) const {
+    return sine_cosine_of_turns(Number(start_turns_ + state.turns));
+  }
+
+  /// Time since the section `origin`.
+  [[nodiscard]] double time(const motion::State<Number>& state, std::int64_t origin) const {
+    return static_cast<double>((static_cast<double>(state.periods - origin) + state.turns) * constants_.period);
+  }
+
+ protected:
+  [[nodiscard]] static bool finite(const Number& x) { return std::isfinite(static_cast<double>(x)); }
+  [[nodiscard]] static Outcome outcome_of(const motion::State<Number>& state) {
+    return finite(state.x) && finite(state.v) ? Outcome::completed : Outcome::not_finite;
+  }
+  [[nodiscard]] const Number& start_turns() const { return start_turns_; }  ///< forcing phase at tau = 0
+
+  /// Takes note of an impact; whether the budget allows for it.
+  [[nodiscard]] bool count_impact() { return ++impacts_ <= budget_; }
+  void count_evaluations(double count) { evaluations_ += count; }
+  void report(const motion::State<Number>& state) {
+    if (evaluations_ < next_report_) [[likely]]
+      return;
+    const double turns = static_cast<double>(state.periods) + static_cast<double>(state.turns);
+    (*listener_)(std::min(1.0, std::max(impacts_ / budget_, turns / longest_)));
+    next_report_ = evaluations_ + between_reports;
+  }
+
+  template <class Observer>
+  void show_impact(const motion::State<Number>& state, const motion::Stop<Number>& stop, const Number& before,
+                   std::int64_t origin, Observer& observer) const {
+    observer.impact(motion::Impact{time(state, origin), stop.side, static_cast<double>(before),
+                                   static_cast<double>(state.v), static_cast<double>(stop.position)});
+  }
+  template <class Observer>
+  void show_rest(const motion::State<Number>& state, const motion::Stop<Number>& stop, const Number& turns, bool held,
+                 std::int64_t origin, Observer& observer) const {
+    observer.rest(motion::Rest{time(state, origin), static_cast<double>(turns * constants_.period), stop.side,
+                               static_cast<double>(stop.position), held});
+  }
+
+ private:
+  static constexpr double between_reports = 1 << 18;  ///< evaluations: a tenth of a second or so
+  static constexpr double infinity = std::numeric_limits<double>::infinity();
+
+  [[nodiscard]] static Number turns_of(double phase) {
+    using std::atan2, std::cos, std::sin;
+    const Number angle(phase);
+    return atan2(Number(sin(angle)), Number(cos(angle))) / (2 * pi<Number>());
+  }
+
+  motion::ArcConstants<Number, E.arc()> constants_;
+  Stops stops_;
+  double budget_;
+  double longest_;  ///< forcing periods that a run may take
+  Number start_turns_;
+  double impacts_ = 0.0;
+  double evaluations_ = 0.0;
+  const Listener* listener_ = nullptr;
+  double next_report_ = infinity;  ///< evaluations
+};
+
+/// What runs a scene: it advances a state to a phase and shows observers arcs, impacts and rests on the way. Observers
+/// don't know which one runs, and no integrator knows what is observed.
+template <class I>
+concept Integrator = requires(I& integrator, motion::State<typename I::Number>& state, const typename I::Number& end,
+                              NoObserver& observer) {
+  { integrator.advance(state, end, std::int64_t{}, observer) } -> std::same_as<Outcome>;
+  { integrator.holding_stop(state) } -> std::same_as<std::optional<motion::Stop<typename I::Number>>>;
+  { I::in_closed_form } -> std::convertible_to<bool>;  ///< its arcs are exact: shortcuts may rest on them
+  requires std::derived_from<I, SceneConstants<typename I::Number, I::effects>>;
+};
+
+}  // namespace clatter::stepping

@@ -1,0 +1,170 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <utility>
+
+#include "motion/polynomial_arc.hpp"
+#include "stepping/integration.hpp"
+#include "stepping/integrator.hpp"
+
+namespace clatter::stepping {
+
+/// Moreau-Jean time stepping: the theta method with Newton's restitution at the level of velocities (Moreau 1988, Jean
+/// 1999; Acary & Brogliato 2008, ch. 10). Events are not looked for: a step over which the mass, moving on for half of
+/// it, would be beyond a stop ends with the impact law fulfilled.
+///
+/// The place moves with the mean velocity, theta at the end and 1 - theta at the beginning, so the impulse acts
+/// 1 - theta of a step after its beginning, where an impact is shown. Flights shorter than a step can't be told from
+/// rest: a rebound that the force would end within it is none, and the mass lies on the stop. Steps count from the
+/// section, the last one before it is cut there.
+template <Effects E>
+class Moreau : public SceneConstants<double, E> {
+  using Base = SceneConstants<double, E>;
+
+ public:
+  static constexpr bool in_closed_form = false;
+
+  explicit Moreau(const Scene& scene, const Integration& integration = {}, const Limits& limits = {})
+      : Base(scene, scene.stops, limits), step_(integration.step), theta_(integration.theta) {}
+
+  /// Runs from `state` to the phase `end`, in turns 0 ... 1 since the last section, and shows observers every step's
+  /// arcs, rests and impacts with their times since the section `origin`.
+  template <class Observer>
+  [[nodiscard]] Outcome advance(motion::State<double>& state, double end, std::int64_t origin, Observer& observer) {
+    sine_ = this->phase(state).sine;
+    if (!bounce_off(state, origin, observer)) return Outcome::event_budget;
+    while (end - state.turns > 2 * epsilon<double>()) {
+      this->report(state);
+      if (!step(state, next_turns(state.turns, end), origin, observer)) return Outcome::event_budget;
+    }
+    state.turns = end;
+    return this->outcome_of(state);
+  }
+
+ private:
+  /// Takes the impact of a mass that stands on a stop and moves into it, as only a start can, before any time passes;
+  /// false where it is one too many.
+  template <class Observer>
+  [[nodiscard]] bool bounce_off(motion::State<double>& state, std::int64_t origin, Observer& observer) {
+    for (const Side side : {Side::lower, Side::upper}) {
+      const auto stop = motion::stop_at<double>(this->stops(), side);
+      if (state.x != stop.position || !(stop.into(state.v) > 0)) continue;
+      const double before = std::exchange(state.v, -stop.restitution * state.v + 0.0);  // no negative zero
+      this->show_impact(state, stop, before, origin, observer);
+      return this->count_impact();
+    }
+    return true;
+  }
+
+  /// What a step would do without a stop.
+  struct Free {
+    double length, sine, v;  ///< in tau; of the force at its end; velocity there
+  };
+
+  [[nodiscard]] double next_turns(double turns, double end) const {
+    constexpr double least = 1e-6;  // of a step: rounding must not leave a stub
+    const double next = (std::floor(turns / step_ + least) + 1) * step_;
+    return next < end - least * step_ ? next : end;
+  }
+
+  [[nodiscard]] double force(double x, double v, double sine) const {
+    return this->constants().acceleration(x - this->constants().load, v, sine);
+  }
+
+  [[nodiscard]] Free free_step(const motion::State<double>& state, double turns) {
+    const double length = (turns - state.turns) * this->period(), part = theta_ * length;
+    const double sine = this->constants().f == 0 ? 0.0 : std::sin(2 * pi<double>() * (this->start_turns() + turns));
+    const double at_begin = force(state.x, state.v, sine_);
+    const double at_end = force(state.x + (length - part) * state.v, 0.0, sine);  // but for what depends on v there
+    this->count_evaluations(1);
+    return {length, sine,
+            (state.v + (length - part) * at_begin + part * at_end) / (1 + part * (2 * this->constants().h + part))};
+  }
+
+  /// The stop that the mass is beyond in the middle of the step, at its present velocity.
+  [[nodiscard]] Side active(const motion::State<double>& state, double length) const {
+    const double x = state.x + length / 2 * state.v;
+    if (x <= this->stops().lower) return Side::lower;
+    return x >= this->stops().upper ? Side::upper : Side::none;
+  }
+
+  /// A step to the phase `turns`; false where it takes an impact too many.
+  template <class Observer>
+  [[nodiscard]] bool step(motion::State<double>& state, double turns, std::int64_t origin, Observer& observer) {
+    const Free free = free_step(state, turns);
+    const Side side = active(state, free.length);
+    const auto stop = motion::stop_at<double>(this->stops(), side);
+    const bool impulse = side != Side::none && stop.into(free.v) > -stop.restitution * stop.into(state.v);
+    bool affordable = true;
+    if (!impulse) {
+      fly(state, free, origin, observer);
+    } else if (state.v == 0) {
+      rest(state, stop, turns, origin, observer);
+    } else {
+      collide(state, stop, free, origin, observer);
+      affordable = this->count_impact();
+    }
+    state.turns = turns, sine_ = free.sine;
+    return affordable;
+  }
+
+  template <class Observer>
+  void fly(motion::State<double>& state, const Free& free, std::int64_t origin, Observer& observer) const {
+    const double x = state.x + free.length * (theta_ * free.v + (1 - theta_) * state.v);
+    observer.arc(arc(state.turns, free.length, cubic(free.length, {state.x, state.v}, {x, free.v}),
+                     cubic(free.length, {state.v, (free.v - state.v) / free.length},
+                           {free.v, (free.v - state.v) / free.length})),
+                 this->time(state, origin), free.length);
+    state.x = x, state.v = free.v;
+  }
+
+  template <class Observer>
+  void rest(motion::State<double>& state, const motion::Stop<double>& stop, double turns, std::int64_t origin,
+            Observer& observer) {
+    state.x = stop.position;
+    this->show_rest(state, stop, turns - state.turns, true, origin, observer);
+  }
+
+  /// Moves with the velocity before until the impulse, with the one after it from there.
+  template <class Observer>
+  void collide(motion::State<double>& state, const motion::Stop<double>& stop, const Free& free, std::int64_t origin,
+               Observer& observer) const {
+    const double before = stop.into(state.v) > 0 ? state.v : free.v;  // leaving too slowly: pushed back by the force
+    const double pressed = stop.into(force(stop.position, 0.0, free.sine)),
+                 rebound = stop.restitution * stop.into(before);
+    const double after = 2 * rebound > pressed * free.length && stop.into(state.v) > 0 ? -stop.restitution * before : 0;
+    constexpr double least = 1e-6;  // of a step: the impact is the step's, not one of what was before it
+    const double until = std::max(1 - theta_, least) * free.length;
+    drift(state, until, origin, observer);
+    state.v = after + 0.0;  // no negative zero
+    this->show_impact(state, stop, before, origin, observer);
+    if (after == 0) {
+      state.x = stop.position;
+      this->show_rest(state, stop, (free.length - until) / this->period(), true, origin, observer);
+    } else {
+      drift(state, free.length - until, origin, observer);
+    }
+  }
+
+  /// Goes on with the present velocity.
+  template <class Observer>
+  void drift(motion::State<double>& state, double length, std::int64_t origin, Observer& observer) const {
+    const double x = state.x + length * state.v;
+    observer.arc(arc(state.turns, length, cubic(length, {state.x, state.v}, {x, state.v}),
+                     cubic(length, {state.v, 0.0}, {state.v, 0.0})),
+                 this->time(state, origin), length);
+    state.x = x, state.turns += length / this->period();
+  }
+
+  [[nodiscard]] motion::PolynomialArc<E.arc()> arc(double turns, double length, const Bernstein<double>& x,
+                                                   const Bernstein<double>& v) const {
+    return {this->constants(), 0.0, this->start_turns() + turns, length, x, v};
+  }
+
+  double step_, theta_;
+  double sine_ = 0.0;  ///< of the force, at the state
+};
+
+}  // namespace clatter::stepping

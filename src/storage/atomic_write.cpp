@@ -1,0 +1,79 @@
+#include "storage/atomic_write.hpp"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <sys/statvfs.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdint>
+#include <filesystem>
+#include <limits>
+#include <string>
+
+#include "storage/error.hpp"
+#include "storage/file_calls.hpp"
+#include "storage/temporary_file.hpp"
+#include "storage/utf8.hpp"
+
+namespace clatter::storage {
+namespace {
+
+namespace fs = std::filesystem;
+
+void check_directory(const fs::path& path) {
+  const fs::path directory = directory_of(path);
+  struct stat status {};
+  if (::stat(directory.c_str(), &status) != 0) {
+    if (errno != ENOENT) refuse(path, errno);
+    refuse(path, "there is no directory " + quoted_name(directory.string()), "make it with mkdir -p, or name another");
+  }
+  if (!S_ISDIR(status.st_mode)) refuse(path, ENOTDIR);
+  if (::faccessat(AT_FDCWD, directory.c_str(), W_OK | X_OK, AT_EACCESS) != 0) refuse(path, errno);
+}
+
+void check_target(const fs::path& path) {
+  struct stat status {};
+  if (::stat(path.c_str(), &status) != 0) {
+    if (errno != ENOENT) refuse(path, errno);
+    return;
+  }
+  if (S_ISDIR(status.st_mode)) refuse(path, "is a directory", "name a file in it");
+  if (!S_ISREG(status.st_mode)) refuse(path, "is not a regular file, and would be replaced", "name a file");
+  if (::faccessat(AT_FDCWD, path.c_str(), W_OK, AT_EACCESS) != 0) {
+    refuse(path, "an older file there is write-protected", "chmod u+w it, or name another");
+  }
+}
+
+/// Bytes that the file system of a place says it can still take; any number where it says nothing. It doesn't know of
+/// quotas.
+std::uint64_t room_at(const fs::path& target) {
+  struct statvfs system {};
+  if (::statvfs(directory_of(target).c_str(), &system) != 0) return std::numeric_limits<std::uint64_t>::max();
+  return std::uint64_t{system.f_bavail} * system.f_frsize;
+}
+
+}  // namespace
+
+void check_writable(const std::string& path) {
+  if (path.empty()) throw IoError{"the output file has an empty name; name one"};
+  const fs::path target = target_of(path);
+  check_target(target);
+  check_directory(target);
+}
+
+void write_atomically(const std::string& path, std::span<const std::byte> bytes, const PublishSteps& steps) {
+  check_writable(path);
+  const fs::path target = target_of(path);
+  remove_abandoned(target);
+  const std::uint64_t needed = bytes.size() + bytes.size() / 64 + 64UL * 1024;  // with what a file system notes of it
+  if (const std::uint64_t room = room_at(target); room < needed) steps.make_room(needed - room);
+  TemporaryFile file{target};
+  file.write(bytes);
+  file.sync();
+  steps.before_rename();
+  file.become_target();
+  sync_directory(target);
+}
+
+}  // namespace clatter::storage

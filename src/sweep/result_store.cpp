@@ -1,0 +1,329 @@
+#include "sweep/result_store.hpp"
+
+#include <malloc.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <span>
+#include <stdexcept>
+#include <type_traits>
+
+namespace clatter::sweep {
+namespace {
+
+const char* long_name_of(Parameter parameter) {
+  switch (parameter) {
+    case Parameter::h:
+      return "damping ratio";
+    case Parameter::f:
+      return "force amplitude over stiffness";
+    case Parameter::nu:
+      return "excitation over natural frequency";
+    case Parameter::phase:
+      return "forcing phase at tau = 0";
+    case Parameter::R:
+      return "restitution of velocity";
+    case Parameter::xs:
+      return "place of the symmetric stops";
+    case Parameter::stop_lower:
+      return "place of the lower stop";
+    case Parameter::stop_upper:
+      return "place of the upper stop";
+    case Parameter::R_lower:
+      return "restitution of the lower stop";
+    case Parameter::R_upper:
+      return "restitution of the upper stop";
+    case Parameter::load:
+      return "constant force over stiffness";
+    case Parameter::x0:
+      return "displacement at tau = 0";
+    case Parameter::v0:
+      return "velocity at tau = 0";
+    case Parameter::start_period:
+      return "period of the free vibration that the start lies on";
+  }
+  return "";
+}
+
+template <class T>
+requires std::is_trivially_copyable_v<T>
+void append(std::vector<std::byte>& to, std::span<const T> values) {
+  const auto bytes = std::as_bytes(values);
+  to.insert(to.end(), bytes.begin(), bytes.end());
+}
+
+template <class T>
+requires std::is_trivially_copyable_v<T>
+bool take_off(std::span<const std::byte>& from, std::span<T> values) {
+  if (from.size() < values.size_bytes()) return false;
+  std::ranges::copy(from.first(values.size_bytes()), std::as_writable_bytes(values).begin());
+  from = from.subspan(values.size_bytes());
+  return true;
+}
+
+/// The length of the log as a whole, so that its columns are made in one piece.
+std::size_t impacts_in(const std::vector<std::vector<motion::Impact>>& log) {
+  std::size_t impacts = 0;
+  for (const std::vector<motion::Impact>& of_point : log) impacts += of_point.size();
+  return impacts;
+}
+
+/// The values of a variable, where it is there and of this type.
+template <class T>
+std::vector<T>& values_in(Dataset& dataset, const std::string& name) {
+  const auto found = std::ranges::find(dataset.variables, name, &Variable::name);
+  if (found == dataset.variables.end()) throw std::runtime_error("it has no '" + name + "'");
+  auto* const values = std::get_if<std::vector<T>>(&found->values);
+  if (values == nullptr) throw std::runtime_error("its '" + name + "' is of another type");
+  return *values;
+}
+
+void require_length(const std::string& name, std::size_t length, std::size_t wanted) {
+  if (length != wanted) throw std::runtime_error("its '" + name + "' is of another length");
+}
+
+std::vector<std::int64_t> point_numbers(const Share& share) {
+  std::vector<std::int64_t> numbers(share.points());
+  for (std::size_t branch = 0; branch < share.count(); ++branch)
+    for (std::size_t i = 0; i < share.length(); ++i)
+      numbers[share.local_index(branch, i)] = static_cast<std::int64_t>(share.point(branch, i));
+  return numbers;
+}
+
+std::string name_of(const Dimension& dimension) { return std::string(key_of(dimension.front().parameter)); }
+
+}  // namespace
+
+void add_axes(const Sweep& sweep, Dataset& dataset) {
+  for (const Dimension& dimension : sweep.dimensions) {
+    dataset.dimensions.push_back({name_of(dimension), length(dimension)});
+    for (const Axis& axis : dimension)
+      dataset.variables.push_back({std::string(key_of(axis.parameter)),
+                                   {name_of(dimension)},
+                                   axis.values,
+                                   long_name_of(axis.parameter),
+                                   axis.parameter == Parameter::phase ? "rad" : "1"});
+  }
+}
+
+void name_linked_axes(const Sweep& sweep, Dataset& dataset) {
+  std::vector<std::string> axes;
+  for (const Dimension& dimension : sweep.dimensions)
+    for (const Axis& axis : dimension) axes.emplace_back(key_of(axis.parameter));
+  for (Variable& variable : dataset.variables) {
+    if (std::ranges::find(axes, variable.name) != axes.end()) continue;
+    std::string linked;
+    for (const Dimension& dimension : sweep.dimensions) {
+      if (std::ranges::find(variable.dimensions, name_of(dimension)) == variable.dimensions.end()) continue;
+      for (const Axis& axis : std::span(dimension).subspan(1))
+        linked.append(linked.empty() ? "" : " ").append(key_of(axis.parameter));
+    }
+    if (!linked.empty()) variable.attributes.emplace_back("coordinates", linked);
+  }
+}
+
+std::vector<std::string> axis_names(const Sweep& sweep) {
+  std::vector<std::string> names;
+  for (const Dimension& dimension : sweep.dimensions) names.push_back(name_of(dimension));
+  return names;
+}
+
+std::vector<Attribute> status_flags() {
+  std::vector<std::uint8_t> values;
+  std::string meanings;
+  for (const auto& [status, name] : steady::status_names) {
+    values.push_back(static_cast<std::uint8_t>(status));
+    if (!meanings.empty()) meanings += ' ';
+    meanings += name;
+  }
+  return {{"flag_values", values}, {"flag_meanings", meanings}};
+}
+
+double most_values(const Sweep& sweep, const std::optional<Shard>& shard) {
+  double of_point = 5;  // status, impact_total, simulated_periods, index in the sweep, impact_count
+  for (const OutputVariable& output : outputs_of(sweep.scene)) of_point += static_cast<double>(output.width);
+  double coordinates = static_cast<double>(sweep.scene.observe.harmonics) + 1 + 2 + 2;  // harmonic, stop, multiplier
+  for (const Dimension& dimension : sweep.dimensions)
+    coordinates += static_cast<double>(dimension.size() * length(dimension));
+  return of_point * static_cast<double>(Share(sweep, shard).points()) + coordinates;
+}
+
+ResultStore::ResultStore(const Sweep& sweep, const std::optional<Shard>& shard)
+    : sweep_(sweep),
+      shard_(shard),
+      share_(sweep, shard),
+      along_(shard ? std::vector<std::string>{"point"} : axis_names(sweep)),
+      status_(share_.points(), static_cast<std::uint8_t>(steady::Status::unresolved)),
+      impacts_(status_.size(), 0),
+      periods_(status_.size(), 0.0),
+      outputs_(outputs_of(sweep.scene)) {
+  for (const OutputVariable& output : outputs_) values_.emplace_back(status_.size() * output.width, point::no_value);
+  if (sweep.scene.observe.impact_log) log_.resize(status_.size());
+}
+
+void ResultStore::store(std::size_t local_index, point::PointResult&& result) {
+  status_[local_index] = static_cast<std::uint8_t>(result.status);
+  impacts_[local_index] = static_cast<std::int64_t>(result.impacts);
+  periods_[local_index] = result.periods;
+  for (std::size_t i = 0; i < outputs_.size(); ++i)
+    outputs_[i].put(result, &values_[i][local_index * outputs_[i].width]);
+  if (!log_.empty())
+    log_[local_index] = std::move(result.log), log_[local_index].shrink_to_fit();  // it grew by doubling
+}
+
+std::size_t ResultStore::packed_size_without_log() const {
+  std::size_t bytes = sizeof(std::uint8_t) + sizeof(std::int64_t) + sizeof(double);
+  for (const OutputVariable& output : outputs_) bytes += output.width * sizeof(double);
+  return log_.empty() ? bytes : bytes + sizeof(std::uint64_t);
+}
+
+std::size_t ResultStore::packed_size(std::size_t local_index) const {
+  return packed_size_without_log() + (log_.empty() ? 0 : log_[local_index].size() * sizeof(motion::Impact));
+}
+
+void ResultStore::pack(std::size_t local_index, std::vector<std::byte>& to) const {
+  append(to, std::span(&status_[local_index], 1)), append(to, std::span(&impacts_[local_index], 1));
+  append(to, std::span(&periods_[local_index], 1));
+  for (std::size_t i = 0; i < outputs_.size(); ++i)
+    append(to, std::span(values_[i]).subspan(local_index * outputs_[i].width, outputs_[i].width));
+  if (log_.empty()) return;
+  const std::uint64_t count = log_[local_index].size();
+  append(to, std::span(&count, 1));
+  append(to, std::span<const motion::Impact>(log_[local_index]));
+}
+
+bool ResultStore::unpack(std::size_t local_index, std::span<const std::byte>& from) {
+  bool whole = take_off(from, std::span(&status_[local_index], 1)) &&
+               take_off(from, std::span(&impacts_[local_index], 1)) &&
+               take_off(from, std::span(&periods_[local_index], 1));
+  for (std::size_t i = 0; whole && i < outputs_.size(); ++i)
+    whole = take_off(from, std::span(values_[i]).subspan(local_index * outputs_[i].width, outputs_[i].width));
+  std::uint64_t count = 0;
+  if (!whole || log_.empty()) return whole;
+  if (!take_off(from, std::span(&count, 1)) || count > from.size() / sizeof(motion::Impact)) return false;
+  log_[local_index].resize(static_cast<std::size_t>(count));
+  return take_off(from, std::span(log_[local_index]));
+}
+
+void ResultStore::add_coordinates(Dataset& dataset) const {
+  const auto coordinate = [&](std::string name, ValueArray values, std::string long_name) {
+    dataset.variables.push_back({name, {name}, std::move(values), std::move(long_name), "1"});
+  };
+  add_axes(sweep_, dataset);
+  if (shard_) {
+    dataset.dimensions.push_back({"point", share_.points()});
+    coordinate("point", point_numbers(share_), "index of the point in the sweep, row-major over its axes");
+  }
+  const observables::Observe& observe = sweep_.scene.observe;
+  if (observe.harmonics > 0) {
+    std::vector<std::int64_t> numbers(static_cast<std::size_t>(observe.harmonics) + 1);
+    std::iota(numbers.begin(), numbers.end(), 0);
+    dataset.dimensions.push_back({"harmonic", numbers.size()});
+    coordinate("harmonic", numbers, "number of the harmonic, 0: constant part");
+  }
+  if (observe.impacts) {
+    dataset.dimensions.push_back({"stop", 2});
+    coordinate("stop", std::vector<std::int8_t>{-1, 1}, "-1: lower stop, +1: upper stop");
+  }
+  if (observe.trajectory > 0) dataset.dimensions.push_back({"sample", static_cast<std::size_t>(observe.trajectory)});
+  if (observe.stability) {
+    dataset.dimensions.push_back({"multiplier", 2});
+    coordinate("multiplier", std::vector<std::int8_t>{1, 2}, "number of the multiplier, 1: the larger modulus");
+  }
+}
+
+void ResultStore::take(Dataset& dataset, const Shard& shard) {
+  const std::vector<std::int64_t> numbers = point_numbers(Share(sweep_, shard));
+  if (values_in<std::int64_t>(dataset, "point") != numbers)
+    throw std::runtime_error("its points aren't those of its shard");
+  const auto scatter = [&]<class T>(const std::string& name, std::size_t width, std::vector<T>& to) {
+    std::vector<T>& from = values_in<T>(dataset, name);
+    require_length(name, from.size(), numbers.size() * width);
+    for (std::size_t i = 0; i < numbers.size(); ++i)
+      std::ranges::copy(std::span(from).subspan(i * width, width), &to[static_cast<std::size_t>(numbers[i]) * width]);
+    std::vector<T>().swap(from);
+  };
+  scatter("status", 1, status_), scatter("impact_total", 1, impacts_), scatter("simulated_periods", 1, periods_);
+  for (std::size_t i = 0; i < outputs_.size(); ++i) scatter(outputs_[i].name, outputs_[i].width, values_[i]);
+  if (sweep_.scene.observe.impact_log) take_impact_log(dataset, numbers);
+}
+
+void ResultStore::take_impact_log(Dataset& dataset, std::span<const std::int64_t> numbers) {
+  const auto& counts = values_in<std::int64_t>(dataset, "impact_count");
+  const auto& tau = values_in<double>(dataset, "impact_tau");
+  const auto& stops = values_in<std::int8_t>(dataset, "impact_stop");
+  const auto& before = values_in<double>(dataset, "impact_v_before");
+  const auto& after = values_in<double>(dataset, "impact_v_after");
+  require_length("impact_count", counts.size(), numbers.size());
+  require_length("impact_stop", stops.size(), tau.size());
+  require_length("impact_v_before", before.size(), tau.size());
+  require_length("impact_v_after", after.size(), tau.size());
+  std::size_t at = 0;
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    const auto end = at + static_cast<std::size_t>(counts[i]);
+    if (end < at || end > tau.size()) throw std::runtime_error("its 'impact_count' doesn't fit its 'impact_tau'");
+    std::vector<motion::Impact>& log = log_[static_cast<std::size_t>(numbers[i])];
+    log.clear(), log.reserve(end - at);
+    for (; at < end; ++at)
+      log.push_back({tau[at], static_cast<Side>(stops[at]), before[at], after[at], point::no_value});
+  }
+  require_length("impact_tau", tau.size(), at);
+}
+
+void ResultStore::add_always(Dataset& dataset) {
+  dataset.variables.push_back({"status", along_, std::move(status_), "what became of the point", "1"});
+  dataset.variables.back().attributes = status_flags();
+  dataset.variables.push_back({"impact_total", along_, std::move(impacts_), "impacts simulated", "1"});
+  dataset.variables.push_back({"simulated_periods", along_, std::move(periods_), "forcing periods simulated", "1"});
+}
+
+void ResultStore::add_impact_log(Dataset& dataset) {
+  std::vector<std::int64_t> counts;
+  std::vector<double> tau, before, after;
+  std::vector<std::int8_t> stops;
+  const std::size_t total = impacts_in(log_);
+  counts.reserve(log_.size()), tau.reserve(total), before.reserve(total), after.reserve(total), stops.reserve(total);
+  for (std::vector<motion::Impact>& impacts : log_) {
+    counts.push_back(static_cast<std::int64_t>(impacts.size()));
+    for (const motion::Impact& impact : impacts) {
+      tau.push_back(impact.time), before.push_back(impact.before), after.push_back(impact.after);
+      stops.push_back(static_cast<std::int8_t>(impact.side));
+    }
+    std::vector<motion::Impact>().swap(impacts);
+  }
+  log_ = {};
+  malloc_trim(0);  // blocks that lay between others stay with the process else
+  const std::vector<std::string> along{"impact"};
+  dataset.dimensions.push_back({"impact", tau.size()});
+  dataset.variables.push_back({"impact_count", along_, std::move(counts), "impacts in the log of the point", "1"});
+  dataset.variables.back().attributes = {{"sample_dimension", "impact"}};
+  dataset.variables.push_back(
+      {"impact_tau", along, std::move(tau), "time of the impact since the beginning of the observed time", "1"});
+  dataset.variables.push_back({"impact_stop", along, std::move(stops), "stop that is hit, -1: lower, +1: upper", "1"});
+  dataset.variables.push_back({"impact_v_before", along, std::move(before), "velocity before the impact", "1"});
+  dataset.variables.push_back({"impact_v_after", along, std::move(after), "velocity after the impact", "1"});
+}
+
+Dataset ResultStore::dataset() {
+  Dataset dataset;
+  add_coordinates(dataset);
+  add_always(dataset);
+  for (std::size_t i = 0; i < outputs_.size(); ++i) {
+    OutputVariable& output = outputs_[i];
+    std::vector<std::string> dimensions = along_;
+    dimensions.insert(dimensions.end(), output.inner.begin(), output.inner.end());
+    dataset.variables.push_back(
+        {output.name, std::move(dimensions), std::move(values_[i]), output.long_name, output.units});
+  }
+  if (sweep_.scene.observe.impact_log) add_impact_log(dataset);
+  name_linked_axes(sweep_, dataset);
+  return dataset;
+}
+
+std::size_t ResultStore::failed_points() const {
+  return static_cast<std::size_t>(std::count_if(
+      status_.begin(), status_.end(), [](std::uint8_t status) { return failed(static_cast<steady::Status>(status)); }));
+}
+
+}  // namespace clatter::sweep

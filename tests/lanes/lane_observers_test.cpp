@@ -1,0 +1,132 @@
+// What lanes note of the motion that they are observed in, against the observers of the scalar kernel.
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <iostream>
+#include <limits>
+#include <optional>
+
+#include "lanes/lane_run.hpp"
+#include "observables/extrema.hpp"
+#include "observables/impacts.hpp"
+#include "support/deviation.hpp"
+#include "support/random.hpp"
+
+namespace clatter::lanes {
+namespace {
+
+/// Unequal stops under a load, away from grazes of its own.
+point::Problem watched_scene(std::uint64_t index) {
+  support::Random random(161, index);
+  point::Problem scene = support::scene_of(
+      {random.uniform(0.02, 0.4), random.logarithmic(0.5, 3), random.logarithmic(0.3, 4), random.uniform(-0.3, 0.3)},
+      -random.logarithmic(0.2, 3), random.logarithmic(0.2, 3), random.uniform(0.2, 0.9));
+  scene.start = {random.uniform(-0.2, 0.2), random.uniform(-1, 1), random.uniform(0, 6)};
+  return scene;
+}
+
+/// Extrema and impacts up to a number of turns.
+struct Seen {
+  observables::Extrema::Range x, v;
+  std::array<observables::Impacts::OfStop, 2> stops;
+};
+
+/// Two observers of one run.
+struct Both {
+  observables::Extrema extrema;
+  observables::Impacts impacts;
+
+  template <class A>
+  void arc(const A& arc, double begin, double length) {
+    extrema.arc(arc, begin, length), impacts.arc(arc, begin, length);
+  }
+  void rest(const motion::Rest& rest) { extrema.rest(rest); }
+  void impact(const motion::Impact& impact) { extrema.impact(impact), impacts.impact(impact); }
+};
+
+Seen seen_by_scalar(const point::Problem& scene, double turns) {
+  Both both;
+  LaneExact exact(scene);
+  motion::State<double> state;
+  state.x = scene.start.displacement, state.v = scene.start.velocity;
+  EXPECT_EQ(run_for(exact, state, turns, both), stepping::Outcome::completed);
+  return {both.extrema.displacement(scene.stops), both.extrema.velocity(), both.impacts.stops()};
+}
+
+/// The same from a lane, which stops in the middle of a flight, after so many sections; nothing where it gets stuck, or
+/// never does.
+std::optional<Seen> seen_by_lane(const point::Problem& scene, StepFunction kernel, int sections, double& turns) {
+  BlockState lanes{};
+  lanes.extrema = lanes.counts = true;
+  for (std::size_t i = 0; i < LaneArray::width; ++i) clear_lane(lanes, i);
+  load_lane(lanes, 3, scene, scene.stops);
+  watch(lanes, 3, false, false);
+  for (int passed = 0, visits = 0;;) {
+    if (++visits > 200) return std::nullopt;  // it falls into a step in which every visit ends on a stop
+    lanes.arrived = lanes.to_scalar = 0;
+    kernel(lanes);
+    if (lanes.to_scalar != 0) return std::nullopt;
+    passed += lanes.arrived != 0;
+    const LaneState position = place_of(lanes, 3, scene);
+    if (passed < sections || position.x == scene.stops.lower || position.x == scene.stops.upper) continue;
+    turns = passed + position.turns;
+    break;
+  }
+  const double load = scene.oscillator.load, rate = lanes.rate.lane[3];
+  Seen seen{{lanes.y_low.lane[3] + load, lanes.y_high.lane[3] + load},
+            {lanes.v_low.lane[3] * rate, lanes.v_high.lane[3] * rate},
+            {}};
+  for (const std::size_t i : {0, 1})
+    seen.stops[i] = {lanes.count[i].lane[3], lanes.before[i].lane[3] * rate, lanes.after[i].lane[3] * rate, 0.0};
+  return seen;
+}
+
+/// The largest difference of two runs' extrema and first impacts; infinite where they count different impacts.
+double difference(const Seen& a, const Seen& b) {
+  double most = std::max({std::abs(a.x.low - b.x.low), std::abs(a.x.high - b.x.high), std::abs(a.v.low - b.v.low),
+                          std::abs(a.v.high - b.v.high)});
+  for (const std::size_t i : {0, 1}) {
+    if (a.stops[i].count != b.stops[i].count) return std::numeric_limits<double>::infinity();
+    if (a.stops[i].count > 0)
+      most = std::max(
+          {most, std::abs(a.stops[i].before - b.stops[i].before), std::abs(a.stops[i].after - b.stops[i].after)});
+  }
+  return most;
+}
+
+/// To 1e-14 of the motion, some ten roundings an impact, and 32 of what an ulp of the inputs does.
+void expect_same(const Seen& lane, const Seen& scalar, const point::Problem& scene, double turns) {
+  const double off = difference(lane, scalar);
+  const double size = std::max({-scalar.x.low, scalar.x.high, -scalar.v.low, scalar.v.high});
+  if (off <= 1e-14 * size) return;
+  double own = 0;
+  for (const unsigned signs : move_signs)
+    own = std::max(own, difference(seen_by_scalar(moved(scene, signs), turns), scalar));
+  EXPECT_LE(off, 1e-14 * size + 32 * own) << support::configuration_of(scene, 0);
+}
+
+class LaneWatch : public testing::TestWithParam<InstructionSet> {};
+
+TEST_P(LaneWatch, sees_the_extrema_and_impacts_that_the_scalar_observers_see) {
+  if (!is_supported(GetParam())) GTEST_SKIP() << "this machine has no " << name_of(GetParam());
+  std::size_t seen = 0, free = 0;
+  for (std::uint64_t i = 0; i < 2000; ++i) {
+    const point::Problem scene = watched_scene(i);
+    double turns = 0;
+    const auto lane = seen_by_lane(scene, step_functions_of(GetParam()).observed, 2, turns);
+    if (!lane) continue;
+    const Seen scalar = seen_by_scalar(scene, turns);
+    expect_same(*lane, scalar, scene, turns);
+    ++seen, free += scalar.stops[0].count + scalar.stops[1].count == 0;
+  }
+  std::cout << seen << " of 2000 seen to the end, " << free << " without an impact\n";
+  EXPECT_GT(seen, 500u);  // the others chatter or rest, or end each visit on a stop
+}
+
+INSTANTIATE_TEST_SUITE_P(Of, LaneWatch,
+                         testing::Values(InstructionSet::sse2, InstructionSet::avx2, InstructionSet::avx512),
+                         [](const auto& of) { return std::string(name_of(of.param)); });
+
+}  // namespace
+}  // namespace clatter::lanes

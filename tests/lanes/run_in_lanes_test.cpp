@@ -1,0 +1,67 @@
+// A point that a whole crew runs: the result that it has in a sweep, and who had to observe it.
+
+#include "lanes/run_in_lanes.hpp"
+
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+#include "sweep/figures.hpp"
+
+namespace clatter::lanes {
+namespace {
+
+point::WorkItem task_of(const point::Problem& scene) { return {0, scene, effects_of(scene)}; }
+
+point::Problem observed_scene() {
+  point::Problem scene = sweep::paper_scene(0.5, 1.0);
+  scene.observe = {
+      .extrema = true, .harmonics = 3, .harmonics_method = observables::HarmonicsMethod::exact, .impacts = true};
+  return scene;
+}
+
+TEST(LanePoints, are_those_of_a_sweep_however_many_run) {
+  const point::Problem scene = observed_scene();
+  ASSERT_TRUE(accepts(task_of(scene)));
+  const sweep::Dataset figure =
+      sweep::run(sweep::sweep_of(scene, {}), {.threads = 1, .arch = InstructionSet::sse2}).dataset;
+  for (const std::size_t times : {std::size_t{1}, lanes_per_block, 2 * lanes_per_block + 3}) {
+    point::ThreadScratch scratch;
+    const point::PointResult result = run_in_lanes(task_of(scene), times, InstructionSet::sse2, scratch);
+    EXPECT_TRUE(result.in_lanes);
+    EXPECT_EQ(result.status, steady::Status::periodic);
+    EXPECT_EQ(result.v_max, values(figure, "v_max")[0]);
+    EXPECT_EQ(result.periods, values(figure, "simulated_periods")[0]);
+    EXPECT_EQ(result.x_spectrum.amplitude, values(figure, "x_amplitude"));
+  }
+}
+
+TEST(LanePoints, of_a_transient_have_harmonics_of_the_force_alone) {
+  point::Problem scene = observed_scene();
+  scene.time.mode = steady::Mode::transient, scene.time.duration = 5 * 2 * std::numbers::pi;
+  for (const double base : {1.0, 0.2, 0.0}) {  // 0: that of the transient
+    scene.observe.base_frequency = base;
+    point::ThreadScratch scratch;
+    const point::PointResult lanes = run_in_lanes(task_of(scene), lanes_per_block, InstructionSet::sse2, scratch);
+    const point::PointResult scalar = run_point(scene, scratch);
+    EXPECT_EQ(lanes.in_lanes, base == 1.0);
+    EXPECT_FALSE(scalar.in_lanes);
+    for (std::size_t k = 0; k < 4; ++k) {
+      EXPECT_NEAR(lanes.x_spectrum.amplitude[k], scalar.x_spectrum.amplitude[k], 1e-14) << base << ' ' << k;
+      EXPECT_NEAR(lanes.v_spectrum.amplitude[k], scalar.v_spectrum.amplitude[k], 1e-14) << base << ' ' << k;
+    }
+  }
+}
+
+TEST(LanePoints, meet_stops_or_are_transients) {
+  point::Problem scene = observed_scene();
+  scene.stops = {-10, 10, 0.7, 0.7};
+  EXPECT_FALSE(accepts(task_of(scene))) << "a closed form is known";
+  scene.time.mode = steady::Mode::transient, scene.time.duration = 1;
+  EXPECT_TRUE(accepts(task_of(scene)));
+  scene.oscillator.damping = 1;
+  EXPECT_FALSE(accepts(task_of(scene)));
+}
+
+}  // namespace
+}  // namespace clatter::lanes

@@ -1,0 +1,262 @@
+// Impacts and sections that lanes report on their own, against the scalar kernel and against Taylor steps in long
+// double that share no formula with either.
+
+#include <gtest/gtest.h>
+
+#include <iostream>
+#include <limits>
+#include <numbers>
+
+#include "hard/taylor_scan.hpp"
+#include "lanes/lane_run.hpp"
+#include "support/deviation.hpp"
+#include "support/random.hpp"
+
+namespace clatter::lanes {
+namespace {
+
+constexpr double pi_ = std::numbers::pi;
+
+class LaneVisits : public testing::TestWithParam<InstructionSet> {
+ protected:
+  void SetUp() override {
+    if (!is_supported(GetParam())) GTEST_SKIP() << "this machine has no " << name_of(GetParam());
+  }
+};
+
+/// A scene that fits lanes, of any kind.
+point::Problem lane_scene(std::uint64_t index) {
+  support::Random random(160, index);
+  point::Problem scene;
+  do {
+    scene.oscillator = {random.happens(0.2) ? 0 : random.logarithmic(1e-3, 0.9),
+                        random.sign() * random.logarithmic(0.1, 4), random.logarithmic(0.1, 6),
+                        random.happens(0.5) ? 0 : random.uniform(-1, 1)};
+    const double lower = random.logarithmic(0.05, 4), upper = random.logarithmic(0.05, 4);
+    scene.stops = {-lower, upper, random.uniform(0.1, 1), random.uniform(0.1, 1)};
+    scene.start = {random.uniform(-lower, upper), random.uniform(-1, 1), random.uniform(0, 2 * pi_)};
+    if (random.happens(0.1)) scene.stops.upper = std::numeric_limits<double>::infinity();
+  } while (!accepts(scene));
+  return scene;
+}
+
+std::vector<point::Problem> lane_scenes(std::uint64_t from, std::size_t count) {
+  std::vector<point::Problem> scenes;
+  for (std::uint64_t i = from; i < from + count; ++i) scenes.push_back(lane_scene(i));
+  return scenes;
+}
+
+/// A scene of one flight that lasts, far from its stops.
+point::Problem wide_scene() { return support::scene_of({0.1, 1.0, 1.5, 0.0}, -100, 100, 0.7); }
+
+TEST_P(LaneVisits, a_step_with_a_nan_in_anything_that_its_proof_rests_on_is_not_proved) {
+  const std::vector<LaneArray BlockState::*> rows{&BlockState::bound,       &BlockState::bound_forced,
+                                                  &BlockState::rounding,    &BlockState::free_pp,
+                                                  &BlockState::free_pw,     &BlockState::free_wp,
+                                                  &BlockState::free_ww,     &BlockState::turn_sine,
+                                                  &BlockState::in_phase,    &BlockState::quadrature,
+                                                  &BlockState::stiffness,   &BlockState::damping,
+                                                  &BlockState::angle,       &BlockState::rate,
+                                                  &BlockState::turn_cosine, &BlockState::p,
+                                                  &BlockState::w,           &BlockState::sine,
+                                                  &BlockState::cosine,      &BlockState::y,
+                                                  &BlockState::v,           &BlockState::a,
+                                                  &BlockState::lower,       &BlockState::upper};
+  for (const StepFunction kernel : {step_functions_of(GetParam()).plain, step_functions_of(GetParam()).observed})
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      BlockState lanes{};
+      for (std::size_t lane = 0; lane < LaneArray::width; ++lane) {
+        load_lane(lanes, lane, wide_scene(), wide_scene().stops);
+        watch(lanes, lane, false, false);
+      }
+      const std::size_t broken = i % LaneArray::width, sound = (i + 1) % LaneArray::width;
+      (lanes.*rows[i]).lane[broken] = std::numeric_limits<double>::quiet_NaN();
+      const double left = lanes.left.lane[broken];
+      kernel(lanes);
+      EXPECT_EQ(lanes.left.lane[broken], left) << "row " << i;
+      EXPECT_TRUE(lanes.to_scalar >> broken & 1) << "row " << i;
+      EXPECT_LT(lanes.left.lane[sound], left) << "row " << i;  // its neighbours get on
+    }
+}
+
+/// The first impacts of a run, as a course.
+accuracy::RunRecord first_of(const std::vector<motion::Impact>& impacts, std::size_t count, double duration) {
+  accuracy::RunRecord course;
+  course.duration = duration;
+  for (std::size_t i = 0; i < count; ++i) course.events.push_back(accuracy::event_of(impacts[i]));
+  return course;
+}
+
+/// The scalar kernel's runs of a scene whose inputs are moved by an ulp each.
+std::vector<ScalarRun> moved_runs(const point::Problem& scene, std::size_t sections) {
+  std::vector<ScalarRun> runs;
+  for (const unsigned signs : move_signs) runs.push_back(run_scalar(moved(scene, signs), sections));
+  return runs;
+}
+
+/// How far the first impacts of other runs are from these.
+double own_deviation(const std::vector<ScalarRun>& others, const accuracy::RunRecord& course) {
+  double worst = 0;
+  for (const ScalarRun& other : others) {
+    const std::vector<motion::Impact>& impacts = other.record.impacts;
+    if (impacts.size() < course.events.size()) return std::numeric_limits<double>::infinity();
+    const support::Deviation d = support::deviation(first_of(impacts, course.events.size(), course.duration), course);
+    worst = std::max(worst, d.same_events ? d.largest() : std::numeric_limits<double>::infinity());
+  }
+  return worst;
+}
+
+/// Displacement and velocity at the sections, until they are forgotten. They keep the roundings of all steps where
+/// nothing damps them.
+void expect_sections(const point::Problem& scene, const LaneRun& run, const ScalarRun& scalar,
+                     const std::vector<ScalarRun>& others) {
+  const double rate = std::max(1.0, scene.oscillator.frequency), period = period_of(scene.oscillator);
+  double size = 0, own = 0;
+  for (const Section& s : scalar.sections) size = std::max({size, std::abs(s.x), std::abs(s.v) / rate});
+  for (std::size_t k = 0; k < run.sections.size(); ++k) {
+    const auto [x, v] = scalar.sections[k];
+    for (const ScalarRun& other : others)
+      own = std::max({own, std::abs(other.sections[k].x - x), std::abs(other.sections[k].v - v) / rate});
+    if (own > 1e-10 * size) return;
+    const double steps = static_cast<double>(k + 1) * period * rate;
+    const double allowed = (1e-13 + 4 * epsilon<double>() * steps) * size + 32 * own;
+    EXPECT_NEAR(run.sections[k].x, x, allowed) << k << "\n" << support::configuration_of(scene, 0);
+    EXPECT_NEAR(run.sections[k].v, v, allowed * rate) << k << "\n" << support::configuration_of(scene, 0);
+  }
+}
+
+/// What many runs came to.
+struct Sum {
+  std::size_t impacts = 0, sections = 0, to_scalar = 0;
+  double worst = 0;
+};
+
+/// Compares as many of a run's impacts as come before an ulp of the inputs has grown to 1e-10: what is later shows the
+/// growth of roundings alone.
+void expect_same_impacts(const point::Problem& scene, const LaneRun& run, Sum& sum) {
+  const std::size_t sections = run.sections.size() + 4;
+  const ScalarRun scalar = run_scalar(scene, sections);
+  const std::vector<ScalarRun> others = moved_runs(scene, sections);
+  const double duration = static_cast<double>(sections) * period_of(scene.oscillator);
+  std::size_t count = std::min(run.impacts.size(), scalar.record.impacts.size());
+  accuracy::RunRecord expected = first_of(scalar.record.impacts, count, duration);
+  double own = own_deviation(others, expected);
+  for (; own > 1e-10 && count > 0; own = own_deviation(others, expected))
+    count /= 2, expected = first_of(scalar.record.impacts, count, duration);
+  const support::Deviation d = support::deviation(first_of(run.impacts, count, duration), expected);
+  EXPECT_TRUE(d.same_events) << d.difference << "\n" << support::configuration_of(scene, duration);
+  // some ten roundings an impact, each of which acts as one of the inputs does
+  const double allowed = (16 + static_cast<double>(count)) * epsilon<double>() + 32 * own;
+  EXPECT_LE(d.largest(), allowed) << count << " impacts\n" << support::configuration_of(scene, duration);
+  sum.worst = std::max(sum.worst, d.largest() / allowed);
+  sum.impacts += count, sum.sections += run.sections.size(), sum.to_scalar += run.to_scalar;
+  expect_sections(scene, run, scalar, others);
+}
+
+TEST_P(LaneVisits, meet_the_scalar_kernels_first_hundred_impacts) {
+  Sum sum;
+  for (std::uint64_t from = 0; from < 480; from += LaneArray::width) {
+    const std::vector<point::Problem> scenes = lane_scenes(from, LaneArray::width);
+    const std::vector<LaneRun> runs = run_lanes(scenes, step_functions_of(GetParam()).plain, 100, 100);
+    for (std::size_t i = 0; i < scenes.size(); ++i) expect_same_impacts(scenes[i], runs[i], sum);
+  }
+  std::cout << sum.impacts << " impacts, " << sum.sections << " sections, " << sum.to_scalar
+            << " of 480 stuck on the way; at most " << sum.worst << " of what is allowed\n";
+  EXPECT_GT(sum.impacts, 8000u);
+  EXPECT_GT(sum.sections, 8000u);
+}
+
+TEST_P(LaneVisits, miss_no_impact_that_taylor_steps_see) {
+  // every flight between two reported impacts flown again: it stays between the stops and ends on the one it hits
+  double beyond = 0, off = 0;
+  for (std::uint64_t from = 1000; from < 1160; from += 16) {
+    const std::vector<point::Problem> scenes = lane_scenes(from, LaneArray::width);
+    const std::vector<LaneRun> runs = run_lanes(scenes, step_functions_of(GetParam()).plain, 20, 100);
+    for (std::size_t i = 0; i < scenes.size(); ++i) {
+      const Scene& scene = scenes[i];
+      const auto& [o, stops, start] = scene;
+      motion::Impact last{0, Side::none, 0, start.velocity, start.displacement};
+      for (const motion::Impact& impact : runs[i].impacts) {
+        const long double phase = start.phase + static_cast<long double>(o.frequency) * last.time;
+        const auto flight = hard::TaylorScan(o, 0).fly({last.position, last.after, std::sin(phase), std::cos(phase)},
+                                                       impact.time - last.time);
+        // the times carry the rounding of a turn count, at the speed of either end
+        const double size = std::abs(o.forcing) + std::abs(o.load) + std::abs(last.position) + std::abs(last.after);
+        const double slack = 64 * epsilon<double>() * size * std::max(1.0, impact.time) *
+                             std::max(1.0, steady_response(o.damping, o.forcing, o.frequency).amplitude / size);
+        beyond = std::max({beyond, static_cast<double>((stops.lower - flight.lowest) / slack),
+                           static_cast<double>((flight.highest - stops.upper) / slack)});
+        off = std::max(off, static_cast<double>(std::abs(flight.end.offset - impact.position) / slack));
+        last = impact;
+      }
+    }
+  }
+  std::cout << "beyond a stop by " << beyond << ", off it by " << off << " of what rounding allows\n";
+  EXPECT_LE(beyond, 1);
+  EXPECT_LE(off, 1);
+}
+
+TEST_P(LaneVisits, report_what_grazes_as_stuck) {
+  const double amplitude = 0.777909841584413976;
+  for (const double gap : {0.0, 1e-15, -1e-15, -1e-13, 1e-12}) {
+    point::Problem scene = support::scene_of({0.1, 1.0, 1.5, 0.0}, -2.0, amplitude * (1 + gap), 0.7);
+    scene.start = {-0.181543116490166415, -1.13464447806354009, 0.0};
+    const LaneRun run = run_lanes({scene}, step_functions_of(GetParam()).plain, 1, 3)[0];
+    EXPECT_EQ(run.to_scalar, gap < 1e-12) << gap;  // so much, some thousand roundings, it can tell
+    EXPECT_TRUE(run.impacts.empty()) << gap;
+    EXPECT_LE(run.stuck_at.x, scene.stops.upper) << gap;
+  }
+}
+
+TEST_P(LaneVisits, get_every_lane_on) {
+  // just off the lower stop, on an arc whose quintic is least, for Newton's method, 1e-17 of a step from where it is
+  const double stop = 0x1.e7807ca49e781p-3;
+  const point::Problem scene = support::scene_of({0.1, -1.0, 0x1.07b00c4ce07bp-1, 0.0}, -stop, stop, 0.7);
+  BlockState lanes{};
+  for (std::size_t lane = 0; lane < LaneArray::width; ++lane) clear_lane(lanes, lane);
+  load_lane(lanes, 1, scene, scene.stops);
+  lanes.p.lane[1] = 0x1.584ce6d702e79p-2, lanes.w.lane[1] = -0x1.3c0af122d568p+0;
+  lanes.sine.lane[1] = 0x1.2ed29049b0f28p-2, lanes.cosine.lane[1] = -0x1.e9198d9f7dcb6p-1;
+  lanes.y.lane[1] = -0x1.e5dc1ac0bc4dap-3, lanes.v.lane[1] = 0x1.6559d0258a1p-6;
+  lanes.a.lane[1] = -0x1.f1022e7faa118p-3;
+  const double left = lanes.left.lane[1] = 0x1.abb50e872e83fp+1;
+  step_functions_of(GetParam()).plain(lanes);
+  EXPECT_TRUE(lanes.to_scalar != 0 || lanes.left.lane[1] < left - 0.01);
+}
+
+TEST_P(LaneVisits, report_nothing_of_idle_lanes) {
+  BlockState lanes{};
+  for (std::size_t i = 0; i < LaneArray::width; ++i) clear_lane(lanes, i);
+  for (int step_block = 0; step_block < 2000; ++step_block) {
+    lanes.arrived = lanes.to_scalar = 0;
+    (step_block % 2 == 0 ? step_functions_of(GetParam()).plain : step_functions_of(GetParam()).observed)(lanes);
+    ASSERT_EQ(lanes.arrived, 0u) << step_block;
+    ASSERT_EQ(lanes.to_scalar, 0u) << step_block;
+  }
+  for (std::size_t i = 0; i < LaneArray::width; ++i) {
+    EXPECT_EQ(lanes.impacts.lane[i], 0);
+    EXPECT_TRUE(std::isfinite(lanes.y.lane[i]) && std::isfinite(lanes.v.lane[i]));
+  }
+}
+
+TEST_P(LaneVisits, take_a_lane_the_same_way_in_every_place) {
+  const std::vector<point::Problem> scenes = lane_scenes(2000, LaneArray::width);
+  const std::vector<LaneRun> together = run_lanes(scenes, step_functions_of(GetParam()).plain, 50, 50);
+  for (std::size_t i = 0; i < scenes.size(); ++i) {
+    const LaneRun alone = run_lanes({scenes[i]}, step_functions_of(GetParam()).plain, 50, 50)[0];
+    ASSERT_EQ(alone.impacts.size(), together[i].impacts.size());
+    for (std::size_t k = 0; k < alone.impacts.size(); ++k) {
+      EXPECT_EQ(alone.impacts[k].time, together[i].impacts[k].time);
+      EXPECT_EQ(alone.impacts[k].after, together[i].impacts[k].after);
+    }
+    for (std::size_t k = 0; k < std::min(alone.sections.size(), together[i].sections.size()); ++k)
+      EXPECT_EQ(alone.sections[k].v, together[i].sections[k].v);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Of, LaneVisits,
+                         testing::Values(InstructionSet::sse2, InstructionSet::avx2, InstructionSet::avx512),
+                         [](const auto& of) { return std::string(name_of(of.param)); });
+
+}  // namespace
+}  // namespace clatter::lanes

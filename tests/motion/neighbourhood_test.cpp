@@ -1,0 +1,167 @@
+#include "motion/neighbourhood.hpp"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <optional>
+#include <vector>
+
+#include "steady/section_observer.hpp"
+#include "stepping/exact.hpp"
+#include "stepping/run.hpp"
+#include "support/random.hpp"
+#include "support/runs.hpp"
+
+namespace clatter::motion {
+namespace {
+
+constexpr double ulp = std::numeric_limits<double>::epsilon();
+
+State<double> at(double x, double v) {
+  State<double> state;
+  state.x = x, state.v = v;
+  return state;
+}
+
+/// A motion over some turns: its stops in order, its end and its derivative.
+struct Course {
+  std::uint64_t itinerary;
+  State<double> end;
+  Jacobian<double> derivative;
+};
+
+template <Effects kernel>
+std::optional<Course> run(const point::Problem& scene, State<double> state, double turns) {
+  stepping::Exact<double, kernel> integrator(scene);
+  steady::SectionObserver watch(scene.stops);
+  watch.differentiate();
+  if (run_for(integrator, state, turns, watch) != stepping::Outcome::completed) return std::nullopt;
+  return Course{watch.passage().itinerary, state, watch.derivative()};
+}
+
+template <Effects kernel>
+Neighbourhood neighbourhood_of(const point::Problem& scene, State<double> state, double turns, const Ellipse& start) {
+  stepping::Exact<double, kernel> integrator(scene);
+  Neighbourhood neighbourhood(scene.stops, start, 64 * ulp * (std::abs(state.x) + std::abs(state.v)));
+  EXPECT_EQ(run_for(integrator, state, turns, neighbourhood), stepping::Outcome::completed);
+  return neighbourhood;
+}
+
+/// How often a proof was found, and how much larger than needed its enclosures were.
+struct Tally {
+  int proved = 0, refused = 0, with_impacts = 0;
+  double tightest = 0;  ///< of what the derivative doesn't tell, the largest share of its enclosure
+
+  void take(double share) { tightest = std::max(tightest, share); }
+};
+
+/// Random motions between stops, and around each all that begins on an ellipse.
+template <Effects kernel>
+Tally enclose(std::uint64_t seed, double least_h, double most_h) {
+  Tally tally;
+  for (std::uint64_t i = 0; i < 600; ++i) {
+    support::Random random(seed, i);
+    const double g = random.logarithmic(0.2, 2), nu = random.logarithmic(0.3, 3),
+                 h = random.logarithmic(least_h, most_h);
+    point::Problem scene =
+        support::scene_of({h, 1.0, nu, random.uniform(-0.2, 0.2)}, -g, g * random.uniform(0.5, 2), 0);
+    scene.stops.restitution_lower = random.uniform(0.2, 1), scene.stops.restitution_upper = random.uniform(0.2, 1);
+    const State<double> from = at(random.uniform(-0.9 * g, 0.4 * g), random.uniform(-2, 2));
+    const double turns = random.uniform(0.5, 3), size = random.logarithmic(1e-9, 1e-1);
+    const double skew = random.uniform(-0.9, 0.9), wide = random.logarithmic(0.3, 3);
+    const Ellipse start(size * size * wide, size * size * skew, size * size / wide);
+    const std::optional<Course> seen = run<kernel>(scene, from, turns);
+    const Neighbourhood proof = neighbourhood_of<kernel>(scene, from, turns, start);
+    if (!seen || !proof.holds()) {
+      ++tally.refused;
+      continue;
+    }
+    ++tally.proved, tally.with_impacts += seen->itinerary != 0;
+    for (int k = 0; k < 24; ++k) {
+      const double angle = 2 * pi<double>() * k / 24, reach = k % 3 == 0 ? 0.5 : 1.0;
+      const double a = reach * std::sqrt(wide) * size, along = reach * std::cos(angle),
+                   across = reach * std::sin(angle);
+      // L (cos, sin) with the Cholesky factor L of the ellipse
+      const Perturbation change{a * along / reach,
+                                size * (skew / std::sqrt(wide) * along + std::sqrt((1 - skew * skew) / wide) * across)};
+      const std::optional<Course> other = run<kernel>(scene, at(from.x + change.x, from.v + change.v), turns);
+      EXPECT_TRUE(other) << i;
+      if (!other) continue;
+      EXPECT_EQ(other->itinerary, seen->itinerary) << i;
+      const Perturbation told = seen->derivative * change, real = between(seen->end, other->end);
+      const double rounding = 256 * ulp *
+                              (2 + std::abs(seen->derivative[0]) + std::abs(seen->derivative[1]) +
+                               std::abs(seen->derivative[2]) + std::abs(seen->derivative[3]));
+      EXPECT_LE(std::abs(real.x - told.x), proof.untold().x() + rounding) << i << " change " << size;
+      EXPECT_LE(std::abs(real.v - told.v), proof.untold().v() + rounding) << i << " change " << size;
+      EXPECT_LE(std::abs(told.x), proof.told().x() * (1 + 1e-9) + rounding) << i;
+      EXPECT_LE(std::abs(told.v), proof.told().v() * (1 + 1e-9) + rounding) << i;
+      if (proof.untold().v() > 1e3 * rounding) tally.take(std::abs(real.v - told.v) / proof.untold().v());
+    }
+  }
+  return tally;
+}
+
+void expect_proofs(const Tally& tally) {
+  EXPECT_GT(tally.proved, 150);
+  EXPECT_GT(tally.refused, 50);  // large changes, grazes, rests
+  EXPECT_GT(tally.with_impacts, 50);
+  EXPECT_GT(tally.tightest, 0.1);  // bounds, but no far ones
+}
+
+TEST(Neighbourhood, encloses_all_motions_that_begin_in_it) {
+  expect_proofs(enclose<effect_sets::complete(Damping::light, Forcing::regular)>(21, 1e-4, 0.8));
+  expect_proofs(enclose<effect_sets::complete(Damping::light, Forcing::secular)>(22, 1e-4, 0.06));
+  expect_proofs(enclose<effect_sets::complete(Damping::heavy, Forcing::regular)>(23, 1, 4));
+}
+
+TEST(Neighbourhood, a_flight_that_comes_near_a_stop_without_touching_it_is_proved_up_to_its_gap) {
+  // the steady motion of amplitude A with a stop at A (1 + gap): motions off by less than that gap don't touch it
+  constexpr Effects kernel = effect_sets::impacts(Damping::light, Forcing::regular);
+  const Oscillator oscillator{0.1, 1.0, 1.5, 0.0};
+  const double A = 0.777909841584413976, gap = 1e-6;
+  const point::Problem scene = support::scene_of(oscillator, -1.0, A * (1 + gap), 0.7);
+  const State<double> steady = at(-0.181543116490166415, -1.13464447806354009);
+  EXPECT_TRUE(neighbourhood_of<kernel>(scene, steady, 1, Ellipse::disc(0.9 * A * gap)).holds());
+  EXPECT_FALSE(neighbourhood_of<kernel>(scene, steady, 1, Ellipse::disc(1.1 * A * gap)).holds());
+}
+
+TEST(Neighbourhood, nothing_is_proved_of_a_graze_a_rest_or_a_start_on_its_way_into_a_stop) {
+  constexpr Effects kernel = effect_sets::complete(Damping::light, Forcing::regular);
+  const double A = 0.777909841584413976;
+  const State<double> steady = at(-0.181543116490166415, -1.13464447806354009);
+  const point::Problem graze = support::scene_of({0.1, 1.0, 1.5, 0.0}, -A * (1 - 1e-10), 2.0, 0.7);
+  const point::Problem rest = support::scene_of({0.1, 1.0, 0.5, 0.0}, -0.5, 0.5, 0.5);
+  const point::Problem free = support::scene_of({0.1, 1.0, 1.5, 0.0}, -1.0, 1.0, 0.7);
+  const Ellipse changes = Ellipse::disc(1e-9);
+  EXPECT_FALSE(neighbourhood_of<kernel>(graze, steady, 1, changes).holds());
+  EXPECT_FALSE(neighbourhood_of<kernel>(rest, at(0, 0), 1, changes).holds());
+  EXPECT_FALSE(neighbourhood_of<kernel>(free, at(1 - 1e-10, 1), 0.1, changes).holds());
+  EXPECT_FALSE(neighbourhood_of<kernel>(free, at(1 - 1e-10, -1e-9), 0.1, changes).holds());
+  EXPECT_TRUE(neighbourhood_of<kernel>(free, at(1 - 1e-10, -1), 0.1, changes).holds());  // on its way from there
+}
+
+TEST(Ellipse, holds_the_images_and_sums_of_its_changes) {
+  for (std::uint64_t i = 0; i < 500; ++i) {
+    support::Random random(24, i);
+    const auto any = [&] { return random.uniform(-2, 2); };
+    const auto unit = [&] {
+      const double angle = random.uniform(0, 2 * pi<double>());
+      return Perturbation{std::cos(angle), std::sin(angle)};
+    };
+    const Jacobian<double> D{any(), any(), any(), any()}, F{any(), any(), any(), any()};
+    Ellipse sum = Ellipse::disc(1).mapped(D);
+    const Ellipse other = Ellipse::disc(0.3).mapped(F);
+    sum.add(other);
+    for (int k = 0; k < 50; ++k) {
+      const Perturbation d = D * unit(), f = F * unit(), both{d.x + 0.3 * f.x, d.v + 0.3 * f.v};
+      EXPECT_LE(std::abs(both.x), sum.x() * (1 + 8 * ulp));
+      EXPECT_LE(std::abs(both.v), sum.v() * (1 + 8 * ulp));
+      EXPECT_LE(std::hypot(both.x, both.v), sum.size() * (1 + 8 * ulp));
+    }
+  }
+}
+
+}  // namespace
+}  // namespace clatter::motion

@@ -1,0 +1,86 @@
+// What a single point may cost where nothing is lost at the stops, said before the run.
+
+#include "plan/dearest_point.hpp"
+
+#include <gtest/gtest.h>
+
+#include "plan/plan.hpp"
+#include "sweep/figures.hpp"
+
+namespace clatter::plan {
+namespace {
+
+point::Problem transient(const Oscillator& oscillator, double R, double v0) {
+  point::Problem scene;
+  scene.oscillator = oscillator;
+  scene.stops = {-1, 1, R, R};
+  scene.start = {0.5, v0, 0.0};
+  scene.time.mode = steady::Mode::transient, scene.time.duration = 300;
+  return scene;
+}
+
+bool warns(const point::Problem& scene) { return warning_of_dearest_point(sweep::sweep_of(scene, {})).has_value(); }
+
+TEST(DearestPoint, of_a_pressed_mass_without_loss_takes_all_impacts_there_are) {
+  const Oscillator pressed{0.05, 0.3, 1.4, 2.0};
+  EXPECT_EQ(impacts_without_loss(transient(pressed, 1.0, 0.0)), 1e8);
+  EXPECT_TRUE(warns(transient(pressed, 1.0, 0.0)));
+  EXPECT_EQ(impacts_without_loss(transient(pressed, 0.99, 0.0)), 0);
+  EXPECT_FALSE(warns(transient(pressed, 0.99, 0.0)));
+  point::Problem few = transient(pressed, 1.0, 0.0);
+  few.time.max_impacts = 1e4;
+  EXPECT_FALSE(warns(few));
+}
+
+TEST(DearestPoint, of_a_fast_one_takes_what_its_way_is_in_distances_between_the_stops) {
+  const Oscillator free{0.0, 0.0, 1.0, 0.0}, damped{0.1, 0.0, 1.0, 0.0};
+  const point::Problem fast = transient(free, 1.0, 1e5);
+  EXPECT_NEAR(impacts_without_loss(fast) / (1e5 * 300 / 2), 1, 1e-6);
+  point::ThreadScratch scratch;
+  point::Problem shorter = fast;
+  shorter.time.duration = 3;
+  EXPECT_NEAR(run_point(shorter, scratch).impacts / impacts_without_loss(shorter), 1, 0.01);
+  EXPECT_TRUE(warns(transient(free, 1.0, 1e8)));
+  EXPECT_NEAR(impacts_without_loss(transient(damped, 1.0, 1e5)) / (1e5 / 0.1 / 2), 1, 1e-6);
+  point::Problem steady = transient(free, 1.0, 1e8);
+  steady.time.mode = steady::Mode::steady;
+  EXPECT_FALSE(warns(steady)) << "in closed form";
+}
+
+TEST(DearestPoint, of_a_sweep_is_named_in_its_plan) {
+  const sweep::Sweep sweep =
+      sweep::sweep_of(transient({0.05, 0.3, 1.4, 2.0}, 0.5, 0.0), {{sweep::Parameter::R, {0.5, 0.9, 1.0}}});
+  const Plan plan = plan_of(sweep, 1);
+  ASSERT_EQ(plan.warnings.size(), 1u);
+  EXPECT_NE(plan.warnings[0].find("point 2 alone may take 1e+08 impacts"), std::string::npos) << plan.warnings[0];
+}
+
+TEST(Progress, moves_within_a_point) {
+  for (const lanes::InstructionSet arch : {lanes::InstructionSet::scalar, lanes::widest_instruction_set()}) {
+    point::Problem scene = transient({0.0, 0.3, 1.4, 0.0}, 1.0, 1e5);
+    scene.time.duration = 60, scene.time.max_impacts = 1e8;
+    std::vector<double> shares;
+    (void)sweep::run(
+        sweep::sweep_of(scene, {}),
+        {.threads = 1, .progress = [&](double done, std::size_t) { shares.push_back(done); }, .arch = arch});
+    ASSERT_FALSE(shares.empty());
+    EXPECT_TRUE(std::ranges::is_sorted(shares));
+    EXPECT_EQ(shares.back(), 1.0);
+    EXPECT_LT(shares.front(), 1.0) << name_of(arch);
+  }
+}
+
+TEST(BlockState, spend_no_more_than_their_budget_within_a_forcing_period) {
+  point::Problem scene = transient({0.0, 0.3, 1.4, 0.0}, 1.0, 1e8);  // 2e8 impacts in a forcing period
+  scene.time.max_impacts = 2e5;
+  scene.observe.extrema = true;
+  for (const lanes::InstructionSet arch :
+       {lanes::InstructionSet::scalar, lanes::InstructionSet::sse2, lanes::widest_instruction_set()}) {
+    const sweep::Dataset figure = sweep::run(sweep::sweep_of(scene, {}), {.threads = 1, .arch = arch}).dataset;
+    EXPECT_EQ(statuses(figure)[0], static_cast<std::uint8_t>(steady::Status::event_budget));
+    EXPECT_EQ(std::get<std::vector<std::int64_t>>(find(figure, "impact_total")->values)[0], 200001);
+  }
+}
+
+}  // namespace
+}  // namespace clatter::plan

@@ -1,0 +1,125 @@
+#include "plan/memory_need.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <variant>
+#include <vector>
+
+#include "plan/impact_estimate.hpp"
+#include "sweep/run.hpp"
+
+namespace clatter::plan {
+namespace {
+
+/// Bytes of all values of a figure.
+double bytes_of(const sweep::Dataset& figure) {
+  double bytes = 0;
+  for (const sweep::Variable& variable : figure.variables)
+    bytes += std::visit(
+        [](const auto& values) {
+          return values.empty() ? 0.0 : static_cast<double>(values.size()) * static_cast<double>(sizeof(values[0]));
+        },
+        variable.values);
+  return bytes;
+}
+
+std::size_t logged(const sweep::Dataset& figure) {
+  const auto tau = std::ranges::find(figure.variables, "impact_tau", &sweep::Variable::name);
+  return std::get<std::vector<double>>(tau->values).size();
+}
+
+sweep::Sweep small_sweep() {
+  sweep::Sweep sweep;
+  sweep.scene.stops = {-1, 1, 0.5, 0.5};
+  sweep.dimensions = {{{sweep::Parameter::nu, {0.8, 0.9, 1.0}}},
+                      {{sweep::Parameter::h, {0.1, 0.2}}, {sweep::Parameter::f, {1.0, 1.5}}}};
+  return sweep;
+}
+
+/// So many points on one axis, with nothing observed.
+sweep::Sweep line(std::size_t points) {
+  sweep::Sweep sweep;
+  sweep.scene.time.mode = steady::Mode::transient;
+  sweep.dimensions = {{{sweep::Parameter::nu, std::vector<double>(points, 0.5)}}};
+  return sweep;
+}
+
+TEST(Memory, of_the_output_is_that_of_the_figure_with_its_coordinates) {
+  sweep::Sweep sweep = small_sweep();
+  EXPECT_EQ(memory_need(sweep).output, bytes_of(run(sweep, {}).dataset));
+  sweep.scene.observe = {
+      .extrema = true, .harmonics = 3, .impacts = true, .trajectory = 10, .period = true, .stability = true};
+  EXPECT_EQ(memory_need(sweep).output, bytes_of(run(sweep, {}).dataset));
+}
+
+TEST(Memory, of_an_impact_log_is_that_of_the_figure_if_the_impacts_are_known) {
+  sweep::Sweep sweep = small_sweep();
+  sweep.scene.observe = {.extrema = true, .impact_log = true};
+  const sweep::Dataset figure = run(sweep, {}).dataset;
+  EXPECT_EQ(memory_need(sweep, std::nullopt, 1, static_cast<double>(logged(figure))).output, bytes_of(figure));
+}
+
+TEST(Memory, of_a_run_holds_an_axis_twice_each_result_once_and_the_largest_variable_twice) {
+  const double a_point = memory_need(line(2'000'000)).memory - memory_need(line(1'000'000)).memory;
+  EXPECT_EQ(a_point / 1e6, 8 + 8 + (1 + 8 + 8) + 8 + 1);  // and a byte for what has become of it
+}
+
+TEST(Memory, of_a_huge_sweep_is_known_without_running_it) {
+  sweep::Sweep sweep;
+  const std::vector<double> values(1000, 0.5);
+  sweep.dimensions = {
+      {{sweep::Parameter::nu, values}}, {{sweep::Parameter::h, values}}, {{sweep::Parameter::f, values}}};
+  sweep.scene.observe.trajectory = 1000;
+  EXPECT_EQ(memory_need(sweep).output, 1e9 * (25 + 3 * 8000) + 3 * 8000);
+}
+
+TEST(Memory, of_samples_counts_for_each_thread) {
+  sweep::Sweep sweep = line(1);
+  sweep.scene.observe = {
+      .harmonics = 3, .harmonics_method = observables::HarmonicsMethod::fft, .harmonics_samples = 1 << 20};
+  const double four = memory_need(sweep, std::nullopt, 4).memory, two = memory_need(sweep, std::nullopt, 2).memory;
+  EXPECT_NEAR(four - two, 2.0 * 6 * 8 * (1 << 20), 1e6);
+}
+
+TEST(Memory, of_followed_branches_counts_one_that_is_saved) {
+  sweep::Sweep sweep = line(1'000'000);
+  sweep.scene.observe.extrema = true;
+  const double apart = memory_need(sweep).memory;
+  sweep.follow = 0;
+  // 49 bytes of results a point once more, in place of a coordinate and the largest variable when the file is built
+  EXPECT_EQ(memory_need(sweep).memory - apart, 1e6 * (49 - 16) - (1e6 - 1));
+}
+
+TEST(Memory, of_a_log_is_estimated_from_a_few_points) {
+  sweep::Sweep sweep;  // to and fro between the stops at speeds from 1 to 2, without loss
+  sweep.scene.stops = {-0.1, 0.1, 1, 1};
+  sweep.scene.time.mode = steady::Mode::transient;
+  sweep.scene.observe = {.impact_log = true};
+  std::vector<double> speeds;
+  for (int i = 0; i < 1000; ++i) speeds.push_back(1 + i / 1000.0);
+  sweep.dimensions = {{{sweep::Parameter::v0, speeds}}};
+  for (const double duration : {1.0, 100.0, 700.0}) {  // within what is run for the estimate, and beyond it
+    sweep.scene.time.duration = duration;
+    const auto impacts = static_cast<double>(logged(run(sweep, {}).dataset));
+    EXPECT_NEAR(expected_impacts(sweep, std::nullopt), impacts, 0.02 * impacts) << duration;
+    EXPECT_NEAR(expected_impacts(sweep, sweep::Shard{1, 4}), impacts / 4, 0.02 * impacts) << duration;
+  }
+}
+
+TEST(Memory, of_a_log_of_steady_motion_is_that_of_the_observed_time) {
+  sweep::Sweep sweep = small_sweep();
+  sweep.scene.observe = {.impact_log = true};
+  EXPECT_EQ(expected_impacts(sweep, std::nullopt), static_cast<double>(logged(run(sweep, {}).dataset)));
+}
+
+TEST(Memory, of_a_merge_is_more_than_that_of_its_largest_shard_and_of_a_run) {
+  const sweep::Sweep sweep = line(1'000'000);
+  const ShardSize halves[] = {{{0, 2}, 0}, {{1, 2}, 0}};
+  const ShardSize whole[] = {{{0, 1}, 0}};
+  EXPECT_GT(merge_bytes(sweep, halves), memory_need(sweep).output);
+  EXPECT_GT(merge_bytes(sweep, whole), merge_bytes(sweep, halves));
+}
+
+}  // namespace
+}  // namespace clatter::plan

@@ -1,0 +1,105 @@
+#include "plan/reasons.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <stdexcept>
+#include <string>
+
+namespace clatter::plan {
+namespace {
+
+constexpr double none = std::numeric_limits<double>::infinity(), nan = std::numeric_limits<double>::quiet_NaN();
+
+/// Fig. 20 and its relatives: h = 0.1, f = -1, R = 0.7, from rest.
+point::Problem figure(double xs, double nu) {
+  point::Problem scene;
+  scene.oscillator = {0.1, -1.0, nu, 0.0};
+  scene.stops = {-xs, xs, 0.7, 0.7};
+  return scene;
+}
+
+Reason reason(const point::Problem& scene, const std::string& effect) {
+  for (const Reason& r : reasons_of(scene))
+    if (r.effect == effect) return r;
+  throw std::out_of_range(effect);
+}
+
+void expect_reason(const point::Problem& scene, const std::string& effect, bool required, const std::string& why) {
+  const Reason found = reason(scene, effect);
+  EXPECT_EQ(found.required, required) << effect;
+  EXPECT_EQ(found.why, why) << effect;
+}
+
+TEST(Reasons, a_stop_out_of_reach_is_named_with_its_bound) {
+  for (const char* const stop : {"lower stop", "upper stop"})
+    EXPECT_EQ(reason(figure(6, 1), stop).why.substr(0, 6), "|x| <=") << stop;
+  expect_reason(figure(6, 1), "dissipation", false, "no stop in reach");
+  expect_reason(figure(6, 1), "chatter and rest", false, "no stop in reach");
+  EXPECT_TRUE(reason(figure(3, 1), "upper stop").required);
+}
+
+TEST(Reasons, a_stop_at_infinity_is_none) {
+  point::Problem scene = figure(3, 1);
+  scene.stops.lower = -none;
+  expect_reason(scene, "lower stop", false, "stop_lower = -inf: no stop");
+  scene.stops = {-3.0, none, 0.7, 0.7};
+  expect_reason(scene, "upper stop", false, "stop_upper = inf: no stop");
+}
+
+TEST(Reasons, a_stop_is_in_reach_as_long_as_nothing_proves_the_contrary) {
+  point::Problem follows = figure(6, 1.2);
+  follows.start.displacement = nan;
+  expect_reason(follows, "lower stop", true, "the start isn't known before the point before has ended");
+  // at resonance without damping nothing bounds the motion but its duration: |f| tau
+  point::Problem scene;
+  scene.oscillator = {0.0, 1.0, 1.0, 0.0};
+  scene.stops = {-10.0, 10.0, 1.0, 1.0};
+  expect_reason(scene, "upper stop", true, "nothing bounds |x|");
+  scene.time.mode = steady::Mode::transient, scene.time.duration = 9.0;
+  expect_reason(scene, "upper stop", false, "|x| <= 9 < 10 until tau = 9: out of reach");
+  scene.time.duration = 11.0;
+  expect_reason(scene, "upper stop", true, "|x| may reach 11 >= 10");
+}
+
+TEST(Reasons, rest_needs_a_force_that_presses_the_mass_into_a_stop) {
+  expect_reason(figure(3, 1), "chatter and rest", false, "|f| = 1 < 3: no stop can hold the mass");
+  expect_reason(figure(0.5, 1), "chatter and rest", true, "|f| = 1 >= 0.5: a stop can be pressed");
+  point::Problem beyond = figure(1.0, 1.0);
+  beyond.oscillator.load = 2.0;  // beyond the upper stop, which it presses the mass on
+  expect_reason(beyond, "chatter and rest", true, "|f| = 1 >= -1, the gap from the load: a stop can be pressed");
+}
+
+TEST(Reasons, dissipation_names_the_restitution_of_the_stops_in_reach) {
+  point::Problem scene = figure(3, 1);
+  expect_reason(scene, "dissipation", true, "R = 0.7");
+  scene.stops.restitution_lower = scene.stops.restitution_upper = 1.0;
+  expect_reason(scene, "dissipation", false, "R = 1: impacts keep the speed");
+  scene.stops.restitution_lower = 0.25;
+  expect_reason(scene, "dissipation", true, "R = 0.25 and 1");
+  scene.stops.upper = none;
+  expect_reason(scene, "dissipation", true, "R = 0.25");
+}
+
+TEST(Reasons, the_oscillator_says_what_its_arcs_are_made_of) {
+  point::Problem scene = figure(3, 1);
+  expect_reason(scene, "damping", true, "h = 0.1 < 1: free motion is a decaying rotation");
+  expect_reason(scene, "forcing", true, "f = -1");
+  expect_reason(scene, "resonance", false,
+                "hypot(h, nu - 1) = 0.1 >= 1/16: response and transient keep their digits apart");
+  expect_reason(scene, "load", false, "load = 0");
+  scene.oscillator = {0.03, 1.0, 1.04, 0.25};
+  expect_reason(scene, "resonance", true, "hypot(h, nu - 1) = 0.05 < 1/16: response and transient nearly cancel");
+  expect_reason(scene, "load", true, "load = 0.25");
+  scene.oscillator = {0.0, 0.0, 1.0, 0.0};
+  expect_reason(scene, "damping", false, "h = 0: no damping");
+  expect_reason(scene, "forcing", false, "f = 0: no forcing");
+  expect_reason(scene, "resonance", false, "f = 0: nothing to resonate with");
+  scene.oscillator.damping = 1.0;
+  expect_reason(scene, "damping", true, "h = 1: critical, the limit of rotation and creep");
+  scene.oscillator.damping = 2.0;
+  expect_reason(scene, "damping", true, "h = 2 > 1: free motion is the sum of a slow and a fast decay");
+}
+
+}  // namespace
+}  // namespace clatter::plan

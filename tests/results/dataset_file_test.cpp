@@ -1,0 +1,250 @@
+#include "results/dataset_file.hpp"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <optional>
+#include <span>
+#include <stdexcept>
+#include <utility>
+
+#include "storage/error.hpp"
+#include "support/lookup3.hpp"
+
+namespace clatter::results {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A directory of its own for each test, since ctest runs them side by side.
+class FigureFile : public testing::Test {
+ protected:
+  FigureFile() { fs::create_directories(directory_); }
+  ~FigureFile() override { fs::remove_all(directory_); }
+
+  [[nodiscard]] std::string path(const std::string& name) const { return (directory_ / name).string(); }
+
+  [[nodiscard]] std::string write(const std::string& name, const std::vector<std::byte>& bytes) const {
+    std::ofstream{path(name), std::ios::binary}.write(reinterpret_cast<const char*>(bytes.data()),
+                                                      static_cast<std::streamsize>(bytes.size()));
+    return path(name);
+  }
+
+  /// What read_summary throws for a file, or nothing where it reads it.
+  [[nodiscard]] static std::string refusal(const std::string& file) {
+    try {
+      static_cast<void>(read_summary(file));
+      return "";
+    } catch (const storage::IoError& error) {
+      return error.what();
+    }
+  }
+
+ private:
+  fs::path directory_ = fs::path{testing::TempDir()} / ("clatter_figure_" + std::to_string(::getpid()) + "_" +
+                                                        testing::UnitTest::GetInstance()->current_test_info()->name());
+};
+
+config::Config configuration(int compression = 4) {
+  config::Config config;
+  config.title = "Größter Ausschlag";
+  config.source = "doi:10.5755/j02.mech.32277";
+  config.text = "[scene]\nxs = -4.0\n[sweep]\nnu = [1, 2, 3, 4, 5]\n";
+  config.compression = compression;
+  return config;
+}
+
+std::vector<double> ramp(std::size_t size) {
+  std::vector<double> values(size);
+  for (std::size_t i = 0; i < size; ++i) values[i] = std::sqrt(static_cast<double>(i));
+  return values;
+}
+
+const std::vector<std::uint8_t> flags{0, 1, 2, 16, 17, 18};
+const std::string meanings = "periodic aperiodic transient event_budget not_finite unresolved";
+
+/// A copy of the image, to be changed and compared; file_image takes the figure, tests keep theirs.
+std::vector<std::byte> bytes_of(sweep::Dataset dataset, const config::Config& config) {
+  const FileImage image = file_image(std::move(dataset), config);
+  return {image.bytes.begin(), image.bytes.end()};
+}
+
+/// A little-endian number of the file.
+std::size_t number_at(const std::vector<std::byte>& bytes, std::size_t place, std::size_t size) {
+  std::size_t number = 0;
+  for (std::size_t i = size; i-- > 0;) number = number << 8U | std::to_integer<std::size_t>(bytes[place + i]);
+  return number;
+}
+
+/// A sweep over nu with trajectories: a coordinate, a scale without one, an integer, a float, and flags.
+sweep::Dataset sweep(std::size_t points, std::size_t samples) {
+  std::vector<std::uint8_t> status(points, 0);
+  status.front() = 16;
+  return {{{"nu", points}, {"sample", samples}},
+          {{"nu", {"nu"}, ramp(points), "excitation frequency", "1"},
+           {"status", {"nu"}, status, "outcome", "1", {{"flag_values", flags}, {"flag_meanings", meanings}}},
+           {"impact_total", {"nu"}, std::vector<std::int64_t>(points, 1LL << 40), "impacts", "1"},
+           {"x", {"nu", "sample"}, ramp(points * samples), "displacement", "1"}}};
+}
+
+TEST_F(FigureFile, summary_names_what_was_written) {
+  const FileSummary summary = read_summary(write("sweep.h5", bytes_of(sweep(5, 7), configuration())));
+  ASSERT_EQ(summary.variables.size(), 4U);  // `sample` is a dimension, no variable
+  EXPECT_EQ(summary.variables[0].name, "nu");
+  EXPECT_EQ(summary.variables[1].type, "uint8");
+  EXPECT_EQ(summary.variables[2].type, "int64");
+  const FileSummary::Entry& x = summary.variables[3];
+  EXPECT_EQ(x.name + " " + x.type + " " + x.units + " " + x.long_name, "x float64 1 displacement");
+  ASSERT_EQ(x.dimensions.size(), 2U);
+  EXPECT_EQ(x.dimensions[0].name, "nu");
+  EXPECT_EQ(x.dimensions[1].name, "sample");
+  EXPECT_EQ(x.dimensions[1].length, 7U);
+}
+
+TEST_F(FigureFile, root_attributes_come_in_the_order_of_the_contract) {
+  const FileSummary summary = read_summary(write("sweep.h5", bytes_of(sweep(5, 7), configuration())));
+  std::string names;
+  for (const auto& [name, text] : summary.attributes) names += name + " ";
+  EXPECT_EQ(names, "Conventions title source clatter_schema clatter_version git_commit config config_sha256 compiler ");
+  EXPECT_EQ(summary.attributes[0].second, "CF-1.10");
+  EXPECT_EQ(summary.attributes[1].second, "Größter Ausschlag");
+  EXPECT_EQ(summary.attributes[6].second, "[scene]\nxs = -4.0\n[sweep]\nnu = [1, 2, 3, 4, 5]\n");
+  EXPECT_EQ(summary.attributes[7].second,
+            "6908d95f47dbf9f66253d392d95c432addd8a28e83a1f8b6243c43f32664d19a");  // sha256sum
+}
+
+TEST_F(FigureFile, points_are_counted_by_status) {
+  const FileSummary summary = read_summary(write("sweep.h5", bytes_of(sweep(5, 7), configuration())));
+  ASSERT_EQ(summary.status_counts.size(), flags.size());
+  EXPECT_EQ(summary.status_counts[0], (std::pair<std::string, std::size_t>{"periodic", 4}));
+  EXPECT_EQ(summary.status_counts[3], (std::pair<std::string, std::size_t>{"event_budget", 1}));
+}
+
+TEST_F(FigureFile, the_same_figure_gives_the_same_bytes) {
+  const sweep::Dataset dataset = sweep(501, 64);
+  EXPECT_EQ(bytes_of(dataset, configuration()), bytes_of(dataset, configuration()));
+}
+
+TEST_F(FigureFile, the_file_is_closed_and_ends_where_it_says) {
+  for (const int compression : {0, 4}) {
+    const std::vector<std::byte> image = bytes_of(sweep(501, 1000), configuration(compression));
+    ASSERT_EQ(number_at(image, 8, 1), 0U);             // the version of the superblock that the next lines know
+    EXPECT_EQ(number_at(image, 20, 4), 0U);            // not open for writing
+    EXPECT_EQ(number_at(image, 40, 8), image.size());  // end of file
+  }
+}
+
+TEST_F(FigureFile, an_image_outlives_its_figure_and_other_images) {
+  std::optional<FileImage> first = file_image(sweep(501, 64), configuration());
+  const FileImage second = file_image(sweep(501, 65), configuration());
+  const std::vector<std::byte> copy{first->bytes.begin(), first->bytes.end()};
+  EXPECT_EQ(copy, bytes_of(sweep(501, 64), configuration()));
+  first.reset();
+  EXPECT_EQ((std::vector<std::byte>{second.bytes.begin(), second.bytes.end()}),
+            bytes_of(sweep(501, 65), configuration()));
+}
+
+TEST_F(FigureFile, a_sweep_without_axes_has_scalars) {
+  const sweep::Dataset dataset{{}, {{"x_min", {}, std::vector<double>{-0.5}, "least displacement", "1"}}};
+  const FileSummary summary = read_summary(write("scalar.h5", bytes_of(dataset, configuration())));
+  ASSERT_EQ(summary.variables.size(), 1U);
+  EXPECT_TRUE(summary.variables[0].dimensions.empty());
+  EXPECT_TRUE(summary.status_counts.empty());
+}
+
+TEST_F(FigureFile, an_impact_log_may_be_empty) {
+  const sweep::Dataset dataset{{{"impact", 0}},
+                               {{"impact_tau", {"impact"}, std::vector<double>{}, "time of impact", "1"}}};
+  const FileSummary summary = read_summary(write("log.h5", bytes_of(dataset, configuration())));
+  ASSERT_EQ(summary.variables.size(), 1U);
+  EXPECT_EQ(summary.variables[0].dimensions.front().name, "impact");
+  EXPECT_EQ(summary.variables[0].dimensions.front().length, 0U);
+}
+
+TEST_F(FigureFile, a_configuration_may_be_long) {
+  config::Config config = configuration();
+  config.text = std::string(300'000, '#');  // 64 KiB would fit in an object header
+  const FileSummary summary = read_summary(write("long.h5", bytes_of(sweep(5, 7), config)));
+  EXPECT_TRUE(summary.attributes[6].second == config.text);  // not EXPECT_EQ, which would print both
+}
+
+TEST_F(FigureFile, large_arrays_are_deflated_and_small_ones_are_not) {
+  const std::size_t plain = bytes_of(sweep(501, 1000), configuration(0)).size();
+  EXPECT_GT(plain, 501U * 1000U * sizeof(double));
+  EXPECT_LT(bytes_of(sweep(501, 1000), configuration(4)).size(), plain);
+  EXPECT_EQ(bytes_of(sweep(501, 2), configuration(4)), bytes_of(sweep(501, 2), configuration(0)));
+}
+
+TEST_F(FigureFile, values_lie_in_the_file_as_little_endian_doubles) {
+  const sweep::Dataset dataset = sweep(501, 2);  // too small to be deflated; readers_test.py reads deflated ones
+  const std::vector<std::byte> image = bytes_of(dataset, configuration());
+  const auto bytes = std::as_bytes(std::span{std::get<std::vector<double>>(dataset.variables.back().values)});
+  EXPECT_NE(std::search(image.begin(), image.end(), bytes.begin(), bytes.end()), image.end());
+}
+
+TEST_F(FigureFile, a_figure_that_contradicts_itself_is_a_bug) {
+  sweep::Dataset dataset = sweep(5, 7);
+  dataset.variables[3].values = ramp(34);  // one short
+  EXPECT_THROW(static_cast<void>(bytes_of(dataset, configuration())), std::logic_error);
+  dataset = sweep(5, 7);
+  dataset.variables[3].dimensions = {"nu", "impact"};
+  EXPECT_THROW(static_cast<void>(bytes_of(dataset, configuration())), std::logic_error);
+}
+
+TEST_F(FigureFile, what_is_no_file_of_clatters_is_refused_in_words) {
+  EXPECT_EQ(refusal(path("none.h5")), "'" + path("none.h5") + "': No such file or directory; check the name");
+  EXPECT_EQ(refusal(path("")), "'" + path("") + "': is a directory; name a file in it");
+  const std::string text = write("text.h5", std::vector<std::byte>(4096, std::byte{'a'}));
+  EXPECT_EQ(refusal(text), "'" + text + "': is not an HDF5 file; name an output of clatter");
+  EXPECT_NE(refusal(write("empty.h5", {})).find("is not an HDF5 file"), std::string::npos);
+  std::vector<std::byte> foreign = bytes_of(sweep(5, 7), configuration());
+  const auto schema = std::as_bytes(std::span{std::string_view{"clatter/1"}});
+  const auto found = std::search(foreign.begin(), foreign.end(), schema.begin(), schema.end());
+  ASSERT_NE(found, foreign.end());
+  *found = std::byte{'p'};
+  EXPECT_NE(refusal(write("foreign.h5", foreign)).find("not one of clatter's"), std::string::npos);
+}
+
+TEST_F(FigureFile, a_truncated_file_is_refused_at_every_length) {
+  const std::vector<std::byte> whole = bytes_of(sweep(5, 7), configuration());
+  for (std::size_t size = 0; size < whole.size(); size += 97) {
+    const std::string file = write("cut.h5", {whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(size)});
+    EXPECT_NE(refusal(file), "") << size << " of " << whole.size() << " bytes";
+  }
+}
+
+TEST_F(FigureFile, a_damaged_file_is_read_or_refused_but_ends_no_process_and_holds_none_up) {
+  const std::vector<std::byte> whole = bytes_of(sweep(5, 7), configuration());
+  for (std::size_t place = 0; place + 64 < whole.size(); place += 64) {
+    std::vector<std::byte> damaged = whole;
+    std::fill_n(damaged.begin() + static_cast<std::ptrdiff_t>(place), 64, std::byte{0});
+    static_cast<void>(refusal(write("damaged.h5", damaged)));
+  }
+}
+
+// HDF5 1.10 divides by the length of a record, here 0: whoever damages a file on purpose sets its checksums right.
+TEST_F(FigureFile, a_file_that_makes_the_library_crash_is_refused) {
+  std::vector<std::byte> damaged = bytes_of(sweep(5, 7), configuration());
+  const auto signature = std::as_bytes(std::span{std::string_view{"BTHD"}});
+  const auto found = std::search(damaged.begin(), damaged.end(), signature.begin(), signature.end());
+  ASSERT_NE(found, damaged.end());
+  constexpr std::size_t record_length = 10, checksum = 34;  // HDF5 file format, III.A.2 "Version 2 B-trees", header
+  const std::span<std::byte> tree(found, checksum + 4);
+  const auto sum = [&] { return support::lookup3({reinterpret_cast<const std::uint8_t*>(tree.data()), checksum}); };
+  std::uint32_t stored = 0;
+  std::memcpy(&stored, &tree[checksum], sizeof stored);
+  ASSERT_EQ(stored, sum());
+  std::fill_n(&tree[record_length], 2, std::byte{0});
+  stored = sum();
+  std::memcpy(&tree[checksum], &stored, sizeof stored);
+  const std::string why = refusal(write("damaged.h5", damaged));
+  EXPECT_NE(why.find("it makes the HDF5 library"), std::string::npos) << why;
+}
+
+}  // namespace
+}  // namespace clatter::results
