@@ -1,6 +1,7 @@
 """The guides say what is there: links, paths, equations, authors, and commands that run; each check is checked, too."""
 
 import pathlib
+import re
 import tempfile
 import unittest
 
@@ -145,6 +146,14 @@ class Guides(unittest.TestCase):
         rooms = sorted(path.name for path in (SOURCE / "src").iterdir() if path.is_dir())
         self.assertEqual([room for room in rooms if not (SOURCE / "src" / room / "README.md").exists()], [])
         self.assertEqual([room for room in rooms if f"({room}/README.md)" not in text], [])
+
+    def test_every_configuration_is_in_the_gallery(self):
+        text = (SOURCE / "configs" / "README.md").read_text(encoding="utf-8").split("## Gallery")[1]
+        shown = set(re.findall(r"`(\w+\.(?:toml|ini))`", text))
+        for first, last in re.findall(r"`fig(\d+)\.toml` … `fig(\d+)\.toml`", text):
+            shown |= {f"fig{number:02}.toml" for number in range(int(first), int(last))}
+        there = {path.name for path in (SOURCE / "configs").iterdir() if path.suffix in (".toml", ".ini")}
+        self.assertEqual(shown, there)
 
     def test_every_command_runs(self):
         with tempfile.TemporaryDirectory() as folder:
