@@ -6,8 +6,9 @@ import json
 import subprocess
 import sys
 
-from readme_table import README, add_build, program, replaced, section
+from readme_table import SOURCE, add_build, program, replaced, section
 
+README = SOURCE / "src" / "model" / "README.md"
 NAME = "effects ladder"
 HEAD = """| effects of the scene | left out | kernel | impacts | rests | evaluations | time | ÷ kept in | ÷ all effects |
 |---|---|--:|--:|--:|--:|--:|--:|--:|"""
@@ -56,7 +57,7 @@ def row(left_out, rung):
 def main():
     parser = argparse.ArgumentParser(description="Prints the table of what each effect costs, as tests/bench/effects_ladder measures it now.")
     add_build(parser)
-    parser.add_argument("--write", action="store_true", help="put the table into README.md instead of printing it")
+    parser.add_argument("--write", action="store_true", help="put the table into src/model/README.md instead of printing it")
     parser.add_argument("--repetitions", type=int, default=51, help="of each benchmark, in random order; medians count (default: 51)")
     parser.add_argument("--seconds", type=float, default=0.02, help="least time of each repetition (default: 0.02)")
     arguments = parser.parse_args()

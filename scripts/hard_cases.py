@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Makes the table of hard cases in README.md from what the tests measure; --help says more."""
+"""Makes the tables of hard cases in tests/README.md from what the tests measure; --help says more."""
 
 import argparse
 import json
@@ -10,8 +10,9 @@ import subprocess
 import sys
 import tempfile
 
-from readme_table import README, add_build, program, replaced, section
+from readme_table import SOURCE, add_build, program, replaced, section
 
+README = SOURCE / "tests" / "README.md"
 OURS, OTHERS = "hard cases", "general solvers on the hard cases"
 TITLES = {
     "graze": "graze: the stops 1e-2 … 1e-10 inside the amplitude, or 1e-12 outside it",
@@ -141,9 +142,9 @@ def differences(now, written):
 
 
 def main():
-    parser = argparse.ArgumentParser(description="Makes the tables of hard cases in README.md from what the tests and tests/bench measure.")
+    parser = argparse.ArgumentParser(description="Makes the tables of hard cases in tests/README.md from what the tests and tests/bench measure.")
     add_build(parser)
-    parser.add_argument("--check", action="store_true", help="write nothing; fail where the README's figures are no longer true")
+    parser.add_argument("--check", action="store_true", help="write nothing; fail if the guide's figures are no longer true")
     parser.add_argument("--cases", action="store_true", help="print every case instead")
     arguments = parser.parse_args()
     cases = measured(arguments.build)
@@ -158,7 +159,7 @@ def main():
         start, stop = section(text, OURS)
         found = differences(table, text[start:stop])
         if found:
-            sys.exit("README.md is behind; scripts/hard_cases.py brings it up to date:\n" + "\n".join(found))
+            sys.exit("tests/README.md is behind; scripts/hard_cases.py brings it up to date:\n" + "\n".join(found))
         return
     text = replaced(text, OURS, table)
     README.write_text(replaced(text, OTHERS, others_table(solved(arguments.build))))

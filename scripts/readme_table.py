@@ -1,10 +1,9 @@
-"""What the scripts that make README.md's tables share."""
+"""What the scripts that make tables of guides share: a table stands in a README.md, between two markers."""
 
 import pathlib
 import sys
 
 SOURCE = pathlib.Path(__file__).resolve().parent.parent
-README = SOURCE / "README.md"
 BUILD = SOURCE / "build" / "release"
 
 
@@ -21,11 +20,11 @@ def program(build, path, reason="scripts/test.sh builds it"):
 
 
 def section(text, name):
-    """Where in the README's text the section between its markers begins and ends."""
+    """Where in a guide's text the section between its markers begins and ends."""
     begin, end = f"<!-- begin: {name} -->\n", "<!-- end -->"
     start = text.find(begin)
     if start < 0:
-        sys.exit(f"{pathlib.Path(sys.argv[0]).name}: README.md has no section '{name}'")
+        sys.exit(f"{pathlib.Path(sys.argv[0]).name}: its README.md has no section '{name}'")
     start += len(begin)
     return start, text.index(end, start)
 

@@ -1,4 +1,4 @@
-"""Every file in configs/ runs, gives what it observes, and the INI twin gives the same bytes."""
+"""Every configuration in configs/ runs, gives what it observes, and the INI twin gives the same bytes."""
 
 import os
 import re
@@ -14,7 +14,7 @@ import numpy as np
 CLATTER = os.environ["CLATTER"]
 CONFIGS = Path(os.environ["CLATTER_SOURCE"]) / "configs"
 ALWAYS = ("status", "impact_total", "simulated_periods")
-OBSERVED = {  # variables of each [observe] key (interface)
+OBSERVED = {  # variables of each [observe] key
     "extrema": ("x_min", "x_max", "v_min", "v_max"),
     "harmonics": ("harmonic", "x_amplitude", "x_phase", "v_amplitude", "v_phase", "base_frequency"),
     "impacts": ("stop", "impacts_per_period", "v_before", "v_after", "rest_fraction"),
@@ -39,7 +39,7 @@ class Configs(unittest.TestCase):
     def setUpClass(cls):
         cls.folder = tempfile.TemporaryDirectory()
         cls.runs = {}
-        for config in sorted(path for path in CONFIGS.iterdir() if path.is_file()):
+        for config in sorted([*CONFIGS.glob("*.toml"), *CONFIGS.glob("*.ini")]):
             output = Path(cls.folder.name) / f"{config.name}.h5"
             command = [CLATTER, "run", config, "-o", output, "--progress", "never"]
             cls.runs[config] = (subprocess.run(command, capture_output=True, text=True), output)

@@ -78,9 +78,9 @@ class Help(CommandLine):
             self.assert_refused(2, words, "help", topic)
         self.assert_refused(2, "there is help on: configuration, run, ", "help", "xyzzyx")
 
-    def test_the_readme_holds_the_reference_of_the_configuration(self):
+    def test_the_guide_of_configurations_holds_their_reference(self):
         reference = self.page("help", "configuration")
-        self.assertIn(reference.strip(), (SOURCE / "README.md").read_text(encoding="utf-8"))
+        self.assertIn(reference.strip(), (SOURCE / "configs" / "README.md").read_text(encoding="utf-8"))
 
     def test_the_version_names_the_commit(self):
         self.assertRegex(self.page("--version"), r"^clatter \d+\.\d+\.\d+ \(commit \S+, .+\)\n$")

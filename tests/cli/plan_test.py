@@ -1,4 +1,4 @@
-"""`clatter plan`: text, JSON and warnings, and that `run -v` and the README say the same."""
+"""`clatter plan`: text, JSON and warnings, and that `run -v` and the guide say the same."""
 
 import json
 import unittest
@@ -104,9 +104,9 @@ class Plan(CommandLine):
         reasons = {e["effect"]: e["why"] for e in plan["groups"][1]["effects"]}
         self.assertIn("start isn't known", reasons["lower stop"])
 
-    def test_the_readme_shows_the_plan_of_a_figure(self):
-        readme = (SOURCE / "README.md").read_text(encoding="utf-8")
-        shown = readme.split("$ clatter plan configs/fig22.toml\n")[1].split("```")[0].splitlines()
+    def test_the_guide_shows_the_plan_of_a_figure(self):
+        guide = (SOURCE / "src" / "plan" / "README.md").read_text(encoding="utf-8")
+        shown = guide.split("$ clatter plan configs/fig22.toml\n")[1].split("```")[0].splitlines()
         plan = self.clatter("plan", str(SOURCE / "configs" / "fig22.toml")).stdout.splitlines()
         self.assertEqual(len(shown), len(plan))
         for ours, theirs in zip(plan, shown):

@@ -175,9 +175,9 @@ esac
         self.assertEqual([self.rows(result)[name][2] for name in ("fig20", "fig21", "fig23")], ["1.7e+00", "nan", "inf"])
 
     @NEEDS_H5DIFF
-    def test_the_line_of_the_readme(self):
+    def test_the_line_of_the_guide(self):
         """It tells equal, slightly and grossly different files apart; h5diff alone doesn't see that the number of points differs."""
-        text = (SOURCE / "README.md").read_text()
+        text = (SOURCE / "scripts" / "README.md").read_text()
         begin = text.index("<!-- begin: h5diff -->\n```bash\n")
         line = text[begin:text.index("```\n<!-- end -->", begin)].split("```bash\n")[1]
         edits = {"equal": lambda file: None, "slight": lambda file: file["x_max"].__setitem__(7, file["x_max"][7] + 1e-12),
