@@ -159,24 +159,6 @@ double run_silently(const Prepared& prepared, point::ThreadScratch& scratch, int
   return periods;
 }
 
-/// What a thread needs for a scene's harmonics.
-class Block {
- public:
-  explicit Block(const observables::Observe& observe) {
-    if (observe.harmonics == 0 || observe.harmonics_method != observables::HarmonicsMethod::fft) return;
-    transform_.emplace(static_cast<std::size_t>(observe.harmonics_samples));
-    scratch_ = {&*transform_, transform_->workspace()};
-  }
-  Block(const Block&) = delete;
-  Block& operator=(const Block&) = delete;
-
-  [[nodiscard]] point::ThreadScratch& scratch() { return scratch_; }
-
- private:
-  std::optional<observables::FourierTransform> transform_;
-  point::ThreadScratch scratch_;
-};
-
 /// The study of one scene.
 class Study {
  public:
@@ -213,9 +195,8 @@ class Study {
     if (stopped()) return row;
     const auto begin = std::chrono::steady_clock::now();
     if (!empty) {
-      Block bench(prepared.observed.observe);
-      if (const std::optional<point::PointResult> result = result_of(prepared, bench.scratch()))
-        take(prepared, *result, row);
+      point::ThreadScratch scratch{observables::Harmonics::scratch_for(prepared.observed.observe)};
+      if (const std::optional<point::PointResult> result = result_of(prepared, scratch)) take(prepared, *result, row);
     }
     forecast_.ran(number, std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
     step();
@@ -269,8 +250,8 @@ class Study {
         if (stopped()) return;
         const WorkPrecision& row = rows[i];
         if (row.simulated_periods > 0 && !failed(row.status)) {
-          Block bench(prepared[i].silent.observe);
-          const auto run = [&](int times) { return run_silently(prepared[i], bench.scratch(), times); };
+          point::ThreadScratch scratch{observables::Harmonics::scratch_for(prepared[i].silent.observe)};
+          const auto run = [&](int times) { return run_silently(prepared[i], scratch, times); };
           stopwatches[i].measure(run, round);
         }
         forecast_.measured(i, round, stopwatches[i].seconds());

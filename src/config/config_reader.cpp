@@ -1,4 +1,6 @@
 #include <algorithm>
+#include <tuple>
+#include <type_traits>
 #include <utility>
 
 #include "config/config.hpp"
@@ -7,6 +9,7 @@
 #include "config/parsed_config.hpp"
 #include "config/settings.hpp"
 #include "config/text_file.hpp"
+#include "observables/all.hpp"
 
 namespace clatter::config {
 namespace {
@@ -28,18 +31,30 @@ steady::TimeSettings time_plan(const Settings& settings) {
           .max_impacts = static_cast<double>(settings.integer("time", "max_impacts"))};
 }
 
+/// Reads a key into the field that it sets; an enumeration by the index of the choice.
+template <class Object, class T>
+void read(const Settings& settings, const observables::Field<Object, T>& field, Object& object) {
+  const auto& [section, name] = std::pair{field.key.section, field.key.name};
+  if constexpr (std::is_same_v<T, bool>) {
+    object.*field.member = settings.flag(section, name);
+  } else if constexpr (std::is_same_v<T, std::int64_t>) {
+    object.*field.member = settings.integer(section, name);
+  } else if constexpr (std::is_same_v<T, double>) {
+    object.*field.member = settings.number(section, name);
+  } else {
+    static_assert(std::is_enum_v<T>);
+    const auto chosen = std::ranges::find(field.key.choices, settings.text(section, name));
+    object.*field.member = static_cast<T>(chosen - field.key.choices.begin());
+  }
+}
+
 observables::Observe observe(const Settings& settings) {
-  return {.extrema = settings.flag("observe", "extrema"),
-          .harmonics = settings.integer("observe", "harmonics"),
-          .harmonics_method = settings.text("observe", "harmonics_method") == "exact"
-                                  ? observables::HarmonicsMethod::exact
-                                  : observables::HarmonicsMethod::fft,
-          .harmonics_samples = settings.integer("observe", "harmonics_samples"),
-          .impacts = settings.flag("observe", "impacts"),
-          .impact_log = settings.flag("observe", "impact_log"),
-          .trajectory = settings.integer("observe", "trajectory"),
-          .period = settings.flag("observe", "period"),
-          .stability = settings.flag("observe", "stability")};
+  observables::Observe observe;
+  observables::All::each([&]<class O>() {
+    typename O::Settings& of_observable = observe;
+    std::apply([&](const auto&... field) { (read(settings, field, of_observable), ...); }, O::fields);
+  });
+  return observe;
 }
 
 stepping::Method method(const std::string& name) {

@@ -7,7 +7,8 @@
 
 #include "config/suggestion.hpp"
 #include "config/value_grammar.hpp"
-#include "point/problem.hpp"
+#include "observables/all.hpp"
+#include "stepping/integration.hpp"
 
 namespace clatter::config {
 namespace {
@@ -22,33 +23,14 @@ constexpr AllowedRange not_zero{.not_zero = true};
 constexpr AllowedRange zero_to_one{.low = 0, .high = 1};
 
 constexpr std::array<std::string_view, 2> modes{"steady", "transient"};
-constexpr std::array<std::string_view, 2> harmonics_methods{"fft", "exact"};
 constexpr std::array<std::string_view, 2> effects{"required", "all"};
 
 using enum Kind;
 
 constexpr std::string_view a_force = "f = 1.0\n", stops = "xs = 1.0\n", a_stop_axis = "xs = \"linspace(1, 2, 11)\"\n",
-                           is_transient = "mode = \"transient\"\n", observed_harmonics = "harmonics = 3\n",
-                           by_moreau = "method = \"moreau\"\n";
+                           is_transient = "mode = \"transient\"\n", by_moreau = "method = \"moreau\"\n";
 
-/// A key that has no effect without these lines.
-constexpr Key with(std::string_view lines, Key key) {
-  key.beside = lines;
-  return key;
-}
-
-constexpr Key one_of(std::span<const std::string_view> choices, Key key) {
-  key.choices = choices;
-  return key;
-}
-
-/// A key whose value is that of another key where it isn't in use.
-constexpr Key or_as(std::string_view other, Key key) {
-  key.other = other;
-  return key;
-}
-
-constexpr std::array all_keys{
+constexpr std::array keys_before_observe{
     Key{"", "title", text, "", "My sweep", "what the configuration shows; the output file keeps it"},
     Key{"", "source", text, "", "doi:10.5755/j02.mech.32277",
         "where it comes from, e.g. a DOI; the output file keeps it"},
@@ -95,23 +77,9 @@ constexpr std::array all_keys{
         AllowedRange{.low = 0, .high = 1, .open = true}},
     Key{"time", "max_impacts", integer, "1e8", "1e6",
         "impacts after which a point is given up, with the status event_budget", AllowedRange{.low = 1, .high = 1e15}},
+};
 
-    Key{"observe", "extrema", flag, "false", "true", "x_min x_max v_min v_max, exact, between samples too"},
-    Key{"observe", "harmonics", integer, "0", "3", "constant part and amplitudes 1 ... K of x and of x'; 0: none",
-        AllowedRange{.low = 0, .high = 1e5}},
-    with(observed_harmonics,
-         one_of(harmonics_methods, Key{"observe", "harmonics_method", choice, "fft", "exact",
-                                       "fft: from samples, by FFTW; exact: from the arcs, without aliasing"})),
-    with(observed_harmonics, Key{"observe", "harmonics_samples", integer, "4096", "8192",
-                                 "FFT samples over the observed time", AllowedRange{.low = 2, .high = 16777216}}),
-    Key{"observe", "impacts", flag, "false", "true",
-        "per stop: impacts per period, velocity before and after the first, share of time at rest"},
-    Key{"observe", "impact_log", flag, "false", "true", "every observed impact"},
-    Key{"observe", "trajectory", integer, "0", "2001", "samples of tau, x, x' over the observed time; 0: none",
-        AllowedRange{.low = 2, .high = 1e7, .or_zero = true}},
-    Key{"observe", "period", flag, "false", "true", "period of the motion, in tau and in forcing periods"},
-    Key{"observe", "stability", flag, "false", "true", "multipliers of the periodic motion, largest Lyapunov exponent"},
-
+constexpr std::array keys_after_observe{
     one_of(stepping::method_names,
            Key{"integrator", "method", choice, "exact", "dopri5",
                "exact: closed-form arcs, proved contacts; to compare with, dopri5: Dormand-Prince pair "
@@ -133,6 +101,15 @@ constexpr std::array all_keys{
     Key{"output", "compression", integer, "0", "4", "deflate level of the output file; 0: none",
         AllowedRange{.low = 0, .high = 9}},
 };
+
+/// The keys of [observe] are those of the observables.
+const std::vector<Key> all_keys = [] {
+  std::vector<Key> keys(keys_before_observe.begin(), keys_before_observe.end());
+  const std::vector<Key> of_observables = observables::All::keys();
+  keys.insert(keys.end(), of_observables.begin(), of_observables.end());
+  keys.insert(keys.end(), keys_after_observe.begin(), keys_after_observe.end());
+  return keys;
+}();
 
 constexpr std::array<std::string_view, 6> all_sections{"scene", "sweep", "time", "observe", "integrator", "output"};
 

@@ -10,6 +10,9 @@
 #include "point/point_run.hpp"
 
 namespace clatter::lanes {
+
+static_assert(observables::Harmonics::most_in_lanes == BlockState::most_harmonics);
+
 namespace {
 
 /// What the scalar kernel shows while it helps a lane: as the lanes' kernel notes it.
@@ -66,25 +69,6 @@ class FallbackObserver {
   observables::Extrema extrema_;
 };
 
-/// Whether lanes have observers for all that is asked for.
-bool lanes_observe(const point::Problem& scene) {
-  const observables::Observe& o = scene.observe;
-  if (o.stability || o.trajectory > 0 || o.impact_log || o.full_log) return false;
-  if (o.harmonics == 0) return true;
-  if (o.harmonics_method != observables::HarmonicsMethod::exact) return false;
-  const bool of_force = o.base_frequency == 0
-                            ? scene.time.mode == steady::Mode::steady  // that of a transient is its own
-                            : o.base_frequency == scene.oscillator.frequency;
-  if (!of_force) return false;
-  if (o.harmonics > static_cast<std::int64_t>(BlockState::most_harmonics)) return false;
-  for (std::int64_t k = 0; k <= o.harmonics; ++k) {
-    const double w = static_cast<double>(k) * scene.oscillator.frequency;
-    if (observables::ExactHarmonics::resonates(observables::ExactHarmonics::impedance(scene.oscillator.damping, w)))
-      return false;
-  }
-  return true;
-}
-
 }  // namespace
 
 Scheduler::LaneTask::LaneTask(const point::WorkItem& item)
@@ -132,7 +116,7 @@ std::optional<steady::ObservedTime> Scheduler::LaneTask::at_section(const BlockS
 bool Scheduler::LaneTask::can_observe(const steady::ObservedTime& observed) {
   observed_ = observed;
   return !failed(observed.status) && observed.found_by != steady::FoundBy::closed_form && observed.turns >= 1 &&
-         lanes_observe(item_.scene);
+         observables::All::in_lanes(item_.scene.observe, item_.scene, item_.scene.time.mode == steady::Mode::transient);
 }
 
 /// An impact at the very beginning lies outside the observed time: lanes begin after it.
@@ -141,7 +125,7 @@ void Scheduler::LaneTask::skip_impact_at_start() {
   for (const Side side : {Side::lower, Side::upper}) {
     const motion::Stop<double> stop = motion::stop_at<double>(exact_.stops(), side);
     if (from.x != stop.position || !(stop.into(from.v) > 0)) continue;
-    from.v = -stop.restitution * from.v, from.left = side, from.offset = 0;
+    from.v = stop.law.after(from.v), from.left = side, from.offset = 0;
     return add_impacts(1);
   }
 }
@@ -285,28 +269,30 @@ point::PointResult Scheduler::LaneTask::result(const BlockState& lanes, std::siz
   const auto at = [lane](const LaneArray& row) { return row.lane[lane]; };
   point::Point point(item_.scene, scratch, exact_);
   point::Observers observers = point.begin(observed_);
-  const double rate = at(lanes.rate), total = observed_.turns * exact_.period();
+  const double rate = at(lanes.rate);
   motion::State<double> end = observed_.from;
   end.x = x_of(lanes, lane, at(lanes.section_y)), end.v = at(lanes.section_v) * rate;
   end.periods += static_cast<std::int64_t>(observed_.turns), end.turns = observed_.turns - std::floor(observed_.turns);
-  if (observers.extrema)
-    observers.extrema->include({x_of(lanes, lane, at(lanes.y_low)), x_of(lanes, lane, at(lanes.y_high))},
-                               {at(lanes.v_low) * rate, at(lanes.v_high) * rate});
-  if (observers.impacts) {
+  if (auto& extrema = observers.of<observables::Extrema>())
+    extrema->include({x_of(lanes, lane, at(lanes.y_low)), x_of(lanes, lane, at(lanes.y_high))},
+                     {at(lanes.v_low) * rate, at(lanes.v_high) * rate});
+  if (auto& impacts = observers.of<observables::Impacts>()) {
     std::array<observables::Impacts::OfStop, 2> stops;
     for (std::size_t i = 0; i < stops.size(); ++i) {
       if (at(lanes.count[i]) == 0) continue;
       stops[i] = {at(lanes.count[i]), at(lanes.before[i]) * rate, at(lanes.after[i]) * rate, 0.0};
     }
-    const bool met = stops[0].count + stops[1].count > 0;
-    observers.impacts->include(stops, met ? std::abs(at(lanes.first_before)) * rate : point::no_value);
+    impacts->include(stops);
   }
-  if (observers.exact_harmonics) {
+  if (auto& period = observers.of<observables::Period>()) {
+    const bool met = at(lanes.count[0]) + at(lanes.count[1]) > 0;
+    period->include(met ? std::abs(at(lanes.first_before)) * rate : observables::no_value);
+  }
+  if (auto& harmonics = observers.of<observables::Harmonics>()) {
     std::vector<std::complex<double>> jumps;
     for (std::size_t k = 0; k <= lanes.harmonics; ++k)
       jumps.emplace_back(at(lanes.jump_real[k]) * rate, at(lanes.jump_imaginary[k]) * rate);
-    observers.exact_harmonics->flights(item_.scene.oscillator, item_.scene.start.phase,
-                                       {observed_.from.x, observed_.from.v}, {end.x, end.v}, total, jumps);
+    harmonics->flights(point.span(), {observed_.from.x, observed_.from.v}, {end.x, end.v}, jumps);
   }
   point::PointResult result = point.end(observers, end, stepping::Outcome::completed);
   result.impacts += impacts_ + at(lanes.section_impacts), result.in_lanes = true;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "lanes/lane_observers.hpp"
+#include "model/restitution.hpp"
 
 namespace clatter::lanes {
 
@@ -148,10 +149,11 @@ class StepBlock {
     const V low = select(g.crosses, range.low, with_end.low), high = select(g.crosses, range.high, with_end.high);
     g.good = g.good & (g.time > zero) & (g.time < one) & (low >= row(lanes_.lower) + uncertainty.rounding) &
              (high <= row(lanes_.upper) - uncertainty.rounding);
-    const V keep = select(upper_, row(lanes_.keep_upper), row(lanes_.keep_lower)), speed = sign * at.v;
-    const V before = at.v, jump = select(g.crosses, -(one + keep) * at.v, zero);
-    const V after = select(g.crosses, -keep * at.v, at.v), a = fnma(row(lanes_.damping), jump, at.a);
-    const Mask bounces = (speed > abs(at.a) * grazing) & (keep * speed > sign * a * shortest_flight);
+    const Restitution<V> law{select(upper_, row(lanes_.keep_upper), row(lanes_.keep_lower))};
+    const V speed = sign * at.v;
+    const V before = at.v, jump = select(g.crosses, law.jump(at.v), zero);
+    const V after = select(g.crosses, law.after(at.v), at.v), a = fnma(row(lanes_.damping), jump, at.a);
+    const Mask bounces = (speed > abs(at.a) * grazing) & (law.after(-speed) > sign * a * shortest_flight);
     g.good = g.good & ((!g.crosses) | bounces);
     const Mask passes = left_ <= g.time, waits = unproved_ & passes & arrived_;
     g.good = g.good & !waits;

@@ -4,26 +4,27 @@
 #include <cmath>
 #include <optional>
 
+#include "model/restitution.hpp"
 #include "model/stops.hpp"
 #include "motion/arc_constants.hpp"
 #include "motion/state.hpp"
 
 namespace clatter::motion {
 
-/// A stop as the mass meets it: place, restitution, and the sign that points into it.
+/// A stop as the mass meets it: its position, its law of restitution, and the sign that points into it.
 template <class Number>
 struct Stop {
   Side side;
   Number position;
-  Number restitution;
+  Restitution<Number> law;
 
   [[nodiscard]] Number into(const Number& y) const { return side == Side::upper ? y : Number(-y); }
 };
 
 template <class Number>
 [[nodiscard]] Stop<Number> stop_at(const Stops& stops, Side side) {
-  if (side == Side::upper) return {side, Number(stops.upper), Number(stops.restitution_upper)};
-  return {side, Number(stops.lower), Number(stops.restitution_lower)};
+  if (side == Side::upper) return {side, Number(stops.upper), {Number(stops.restitution_upper)}};
+  return {side, Number(stops.lower), {Number(stops.restitution_lower)}};
 }
 
 /// The force that presses a mass at rest into a stop, f sin(theta) + load - x_stop towards it, and the force's rate of
@@ -92,7 +93,7 @@ template <class Number, Effects E>
   using std::abs;
   const Number &a = press.force, &h = constants.h;
   const Number slope = press.rate / a, bend = abs(constants.f) / a * constants.nu * constants.nu;
-  const Number time = 2 * (rebound / a) / (1 - stop.restitution), rates = 1 + 2 * h + abs(slope);
+  const Number time = 2 * (rebound / a) / (1 - stop.law.R), rates = 1 + 2 * h + abs(slope);
   return {time - (h + slope) * time * time / 3, (rates * rates + bend) * time * time * time};
 }
 
@@ -104,7 +105,7 @@ template <class Number, Effects E>
   using std::max;
   if (!(press.force > 0)) return std::nullopt;
   if (2 * rebound <= press.force * epsilon<Number>() * constants.period) return Number(0);  // too short to move time on
-  if (!(stop.restitution < 1)) return std::nullopt;
+  if (!(stop.law.R < 1)) return std::nullopt;
   const ChatterSum<Number> sum = chatter_sum(constants, stop, press, rebound);
   const Number rounding = epsilon<Number>() * max(sum.time, Number(1 / constants.rate));
   return sum.bound <= rounding ? std::optional<Number>(sum.time) : std::nullopt;

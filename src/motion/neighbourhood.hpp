@@ -88,7 +88,7 @@ class Neighbourhood {
   /// Takes the differences through an impact; whether that is possible.
   [[nodiscard]] bool rebound(const Impact& impact) {
     const Stop<double> stop = stop_at<double>(stops_, impact.side);
-    const double u = std::abs(impact.before), R = stop.restitution, force = force_ - impact.position;
+    const double u = std::abs(impact.before), R = stop.law.R, force = force_ - impact.position;
     const double a_before = force - 2 * h_ * impact.before, a_after = force - 2 * h_ * impact.after;
     const double a = std::max(std::abs(a_before), std::abs(a_after)), c = 1 + 2 * h_, wait = 2 * reach_ / u;
     const RunRecord near = course(u, a, wait);

@@ -31,11 +31,12 @@ class TangentMap {
   }
   void rest(const Rest&) { top_ = shear_ = bottom_ = 0; }
   void impact(const Impact& impact) {
-    const Number before(impact.before), after(impact.after), R = stop_at<Number>(stops_, impact.side).restitution;
+    const Number before(impact.before), after(impact.after);
+    const Number slope = stop_at<Number>(stops_, impact.side).law.derivative();
     if (before == 0) return;  // it touches, and is not reversed
     const Number a_before = force_ - impact.position - 2 * h_ * before,
                  a_after = force_ - impact.position - 2 * h_ * after;
-    multiply({{-R, Number(0), (R * a_before + a_after) / before, -R}, R * R});
+    multiply({{slope, Number(0), (a_after - slope * a_before) / before, slope}, slope * slope});
   }
 
   [[nodiscard]] Jacobian<Number> map() const {

@@ -4,11 +4,17 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <string>
+#include <tuple>
+#include <vector>
 
 #include "math/bernstein.hpp"
+#include "model/displacement_bound.hpp"
+#include "model/response.hpp"
 #include "model/stops.hpp"
 #include "motion/arc.hpp"
 #include "motion/polynomial_arc.hpp"
+#include "observables/observable.hpp"
 
 namespace clatter::observables {
 
@@ -23,6 +29,28 @@ class Extrema {
 
     void include(double y) { low = std::min(low, y), high = std::max(high, y); }
   };
+
+  struct Settings {
+    bool extrema = false;
+  };
+  struct Values {
+    double x_min = no_value, x_max = no_value, v_min = no_value, v_max = no_value;
+  };
+  static constexpr std::tuple fields{Field{
+      Key{"observe", "extrema", Kind::flag, "false", "true", "x_min x_max v_min v_max, exact, between samples too"},
+      &Settings::extrema}};
+
+  [[nodiscard]] static bool wanted(const Settings& settings) { return settings.extrema; }
+  [[nodiscard]] static std::string description(const Settings&) { return "extrema"; }
+  [[nodiscard]] static std::vector<Column<Values>> columns(const Settings&) {
+    return {scalar("x_min", "minimum displacement", &Values::x_min),
+            scalar("x_max", "maximum displacement", &Values::x_max),
+            scalar("v_min", "minimum velocity", &Values::v_min), scalar("v_max", "maximum velocity", &Values::v_max)};
+  }
+  [[nodiscard]] static bool in_lanes(const Settings&, const Scene&, bool) { return true; }
+
+  Extrema() = default;
+  Extrema(const Settings&, const ObservedSpan&) {}
 
   template <Effects E>
   void arc(const motion::Arc<double, E>& arc, double, double length) {
@@ -48,6 +76,13 @@ class Extrema {
   void include(const Range& x, const Range& v) {
     x_.include(x.low), x_.include(x.high), v_.include(v.low), v_.include(v.high);
   }
+  /// Of the steady response to the force.
+  bool response(const ObservedSpan& span, double) {
+    const Oscillator& o = span.scene.oscillator;
+    const double amplitude = steady_response(o.damping, o.forcing, o.frequency).amplitude, v = o.frequency * amplitude;
+    include({o.load - amplitude, o.load + amplitude}, {-v, v});
+    return true;
+  }
   void rest(const motion::Rest& rest) { x_.include(rest.position), v_.include(0.0); }
   void impact(const motion::Impact& impact) {
     x_.include(impact.position), v_.include(impact.before), v_.include(impact.after);
@@ -58,6 +93,10 @@ class Extrema {
     return {std::max(x_.low, stops.lower), std::min(x_.high, stops.upper)};
   }
   [[nodiscard]] const Range& velocity() const { return v_; }
+  [[nodiscard]] Values finish(const ObservedSpan& span, double, double) const {
+    const Range x = displacement(span.scene.stops);
+    return {x.low, x.high, v_.low, v_.high};
+  }
   [[nodiscard]] double evaluations() const { return evaluations_; }  ///< of arcs
 
  private:

@@ -34,4 +34,16 @@ class FourierTransform {
   std::unique_ptr<Plan> plan_;
 };
 
+/// A transform that threads share, and the memory that each of them has for it; empty if none is made.
+struct FourierScratch {
+  std::shared_ptr<const FourierTransform> transform{};
+  std::unique_ptr<FourierTransform::Workspace, void (*)(FourierTransform::Workspace*)> workspace{nullptr, nullptr};
+
+  /// The same transform, with memory of its own.
+  [[nodiscard]] FourierScratch for_another_thread() const {
+    if (!transform) return {};
+    return {transform, transform->workspace()};
+  }
+};
+
 }  // namespace clatter::observables

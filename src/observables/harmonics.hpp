@@ -1,170 +1,135 @@
 #pragma once
 
-#include <algorithm>
-#include <boost/math/quadrature/gauss.hpp>
+#include <array>
 #include <cmath>
 #include <complex>
 #include <cstddef>
-#include <limits>
+#include <cstdint>
+#include <optional>
 #include <span>
+#include <string>
+#include <string_view>
+#include <tuple>
 #include <vector>
 
-#include "model/displacement_bound.hpp"
-#include "motion/arc.hpp"
-#include "motion/polynomial_arc.hpp"
+#include "observables/exact_harmonics.hpp"
+#include "observables/fourier_transform.hpp"
+#include "observables/observable.hpp"
+#include "observables/samples.hpp"
 
 namespace clatter::observables {
 
-/// Amplitude and phase of the constant part and the harmonics, shape [harmonic]: a_0 signed, its phase NaN.
-struct Spectrum {
-  std::vector<double> amplitude, phase;
+enum class HarmonicsMethod : std::uint8_t { fft, exact };
 
-  /// From the complex coefficients X_k, shape [harmonic]: x = X_0 + 2 Re sum X_k e^{ik Omega tau}.
-  static Spectrum of(const std::vector<std::complex<double>>& coefficients) {
-    Spectrum spectrum;
-    for (const auto& c : coefficients) {
-      const bool constant = spectrum.amplitude.empty();
-      spectrum.amplitude.push_back(constant ? c.real() : 2 * std::abs(c));
-      spectrum.phase.push_back(constant ? std::numeric_limits<double>::quiet_NaN() : std::arg(c));
-    }
-    return spectrum;
-  }
-};
-
-/// Harmonics integrated over the arcs themselves, without samples and so without aliasing.
-///
-/// With w = k Omega, integrating eq. 3 by parts over an arc gives its part of the integral of x e^{-iw tau},
-/// Z X = int (f sin theta + load) e^{-iw tau} - [(x' + (iw + 2h) x) e^{-iw tau}],  Z = 1 - w^2 + 2ihw (physics.md,
-/// check 6, is their sum). Where Z is small, at a resonance, the right-hand side cancels, and Gauss-Legendre quadrature
-/// takes its place, exact to rounding; so it does for arcs by polynomials, which fulfil eq. 3 only to their error.
-class ExactHarmonics {
+/// Amplitude and phase of the constant part and the harmonics of displacement and velocity, from samples or from the
+/// arcs themselves.
+class Harmonics {
  public:
-  using Complex = std::complex<double>;
+  struct Settings {
+    std::int64_t harmonics = 0;  ///< highest harmonic K, 0: none observed
+    HarmonicsMethod harmonics_method = HarmonicsMethod::fft;
+    std::int64_t harmonics_samples = 4096;  ///< FFT samples over the observed time
+    double base_frequency = 0.0;            ///< of harmonics; 0: the force's, without forcing the motion's own
+  };
+  struct Values {
+    Spectrum x_spectrum{}, v_spectrum{};  ///< shape [harmonic]
+    double base_frequency = no_value;
+  };
 
-  /// Harmonics 0 ... K of the base frequency, over the observed time.
-  ExactHarmonics(std::size_t highest, double base_frequency) : base_(base_frequency), x_(highest + 1) {}
+  static constexpr std::array<std::string_view, 2> methods{"fft", "exact"};  ///< in the order of HarmonicsMethod
+  static constexpr std::string_view observed = "harmonics = 3\n";
+  static constexpr std::tuple fields{
+      Field{Key{"observe",
+                "harmonics",
+                Kind::integer,
+                "0",
+                "3",
+                "constant part and amplitudes 1 ... K of x and of x'; 0: none",
+                {.low = 0, .high = 1e5}},
+            &Settings::harmonics},
+      Field{with(observed, one_of(methods, Key{"observe", "harmonics_method", Kind::choice, "fft", "exact",
+                                               "fft: from samples, by FFTW; exact: from the arcs, without aliasing"})),
+            &Settings::harmonics_method},
+      Field{with(observed, Key{"observe",
+                               "harmonics_samples",
+                               Kind::integer,
+                               "4096",
+                               "8192",
+                               "FFT samples over the observed time",
+                               {.low = 2, .high = 16777216}}),
+            &Settings::harmonics_samples}};
 
-  template <motion::Polynomial A>
-  void arc(const A& arc, double begin, double length) {
-    if (!(begin > 0.0)) first_x_ = arc.start().x;
-    for (std::size_t k = 0; k < x_.size(); ++k) {
-      const double w = base_ * static_cast<double>(k);
-      x_[k] += length * (arc.constants().rate + w) < 1 ? quadrature<10>(arc, w, begin, length)
-                                                       : quadrature<20>(arc, w, begin, length);
+  [[nodiscard]] static bool wanted(const Settings& settings) { return settings.harmonics > 0; }
+  [[nodiscard]] static bool from_samples(const Settings& settings) {
+    return wanted(settings) && settings.harmonics_method == HarmonicsMethod::fft;
+  }
+  [[nodiscard]] static std::string description(const Settings& settings) {
+    return "harmonics 0 ... " + std::to_string(settings.harmonics) +
+           (from_samples(settings) ? " by FFT of " + std::to_string(settings.harmonics_samples) + " samples"
+                                   : " from the arcs");
+  }
+  [[nodiscard]] static std::vector<Column<Values>> columns(const Settings& settings);
+
+  /// Samples of x and v, and the transform's rows of them.
+  [[nodiscard]] static double values_held(const Settings& settings) {
+    return from_samples(settings) ? 6 * static_cast<double>(settings.harmonics_samples) : 0.0;
+  }
+  /// What a thread needs for the transform, if samples are taken. Throws std::bad_alloc.
+  [[nodiscard]] static FourierScratch scratch_for(const Settings& settings);
+
+  static constexpr std::int64_t most_in_lanes = 8;  ///< the highest harmonic that lanes sum
+  /// Lanes sum the jumps of the velocity at impacts: for the exact method, the force's own frequency, and harmonics of
+  /// it that nothing resonates with. The base frequency of a transient is its own.
+  [[nodiscard]] static bool in_lanes(const Settings& settings, const Scene& scene, bool transient);
+
+  Harmonics(const Settings& settings, const ObservedSpan& span) : highest_(count_of(settings) - 1) {
+    if (from_samples(settings)) {
+      const auto count = static_cast<std::size_t>(settings.harmonics_samples);
+      samples_.emplace(count, span.total / static_cast<double>(count), AtImpact::mean, span.scene.stops);
+    } else {
+      exact_.emplace(highest_, span.base_frequency);
     }
   }
-  template <Effects E>
-  void arc(const motion::Arc<double, E>& arc, double begin, double length) {
-    const motion::Motion<double>& first = arc.start();
-    const motion::Motion<double> last = arc.at(length);
-    ++evaluations_;
-    if (!(begin > 0.0)) first_x_ = first.x;
-    for (std::size_t k = 0; k < x_.size(); ++k) {
-      const double w = base_ * static_cast<double>(k), h = arc.constants().h;
-      const Complex z = impedance(h, w);
-      if (resonates(z)) {
-        x_[k] += quadrature<20>(arc, w, begin, length);
-        continue;
-      }
-      const Complex slope(2 * h, w);
-      const Complex ends =
-          (last.v + slope * last.x) * turn(w * (begin + length)) - (first.v + slope * first.x) * turn(w * begin);
-      x_[k] += (force(arc, w, length) * turn(w * begin) - ends) / z;
-    }
+
+  template <class A>
+  void arc(const A& arc, double begin, double length) {
+    by([&](auto& observer) { observer.arc(arc, begin, length); });
   }
   void rest(const motion::Rest& rest) {
-    if (!(rest.time > 0.0)) first_x_ = rest.position;
-    for (std::size_t k = 0; k < x_.size(); ++k) {
-      const double w = base_ * static_cast<double>(k);
-      x_[k] += rest.position * turn(w * rest.time) * wave(-w, rest.length);
-    }
+    by([&](auto& observer) { observer.rest(rest); });
   }
-  void impact(const motion::Impact&) {}
+  void impact(const motion::Impact& impact) {
+    by([&](auto& observer) { observer.impact(impact); });
+  }
+  /// Exact harmonics know the response; samples have to be taken from its course.
+  bool response(const ObservedSpan& span, double x) {
+    if (exact_) exact_->response(span.scene.oscillator, span.scene.start.phase, x, span.total);
+    return exact_.has_value();
+  }
+  /// Of the exact method: takes over all flights at once, as `ExactHarmonics::flights`.
+  void flights(const ObservedSpan& span, const PhasePoint& first, const PhasePoint& last,
+               std::span<const std::complex<double>> jumps) {
+    exact_->flights(span.scene.oscillator, span.scene.start.phase, first, last, span.total, jumps);
+  }
 
-  /// All flights of whole forcing periods at once, without rest: the terms at the ends of arcs cancel but for the jumps
-  /// of the velocity, whose sums with e^{-iw tau}, w = k nu, are given, shape [harmonic]. Nowhere may Z be small.
-  void flights(const Oscillator& o, double phase, const PhasePoint& first, const PhasePoint& last, double total,
-               std::span<const Complex> jumps) {
-    first_x_ = first.x;
-    for (std::size_t k = 0; k < x_.size(); ++k) {
-      const double w = base_ * static_cast<double>(k);
-      const Complex slope(2 * o.damping, w), growth = (last.v - first.v) + slope * (last.x - first.x);
-      Complex force = k == 0 ? o.load * total : 0.0;
-      if (k == 1) force = o.forcing * total / 2 * Complex(std::sin(phase), -std::cos(phase));
-      x_[k] = (force + jumps[k] - growth) / impedance(o.damping, w);
-    }
+  [[nodiscard]] Values finish(const ObservedSpan& span, double x, double v);
+  [[nodiscard]] double evaluations() const {  ///< of arcs
+    return exact_ ? exact_->evaluations() : samples_->evaluations();
   }
-  /// A time `total` of the steady response to the force, whole periods of it from displacement x on, base frequency nu.
-  void response(const Oscillator& o, double phase, double x, double total) {
-    const auto [in_phase, quadrature, amplitude] = steady_response(o.damping, o.forcing, o.frequency);
-    first_x_ = x;
-    x_[0] = o.load * total;
-    if (x_.size() > 1) x_[1] = total / 2 * Complex(quadrature, -in_phase) * std::polar(1.0, phase);
-  }
-  /// Z of harmonic w.
-  [[nodiscard]] static Complex impedance(double h, double w) { return {1 - w * w, 2 * h * w}; }
-  /// Whether Z is so small that quadrature has to take the place of a division by it.
-  [[nodiscard]] static bool resonates(const Complex& z) { return std::norm(z) < 1.0 / 64; }
-
-  /// Ends the observed time, of length `total`, at displacement x.
-  void finish(double x, double total) {
-    v_.resize(x_.size());
-    for (std::size_t k = 0; k < x_.size(); ++k) {
-      const double w = base_ * static_cast<double>(k);
-      x_[k] /= total;
-      v_[k] = Complex(0, w) * x_[k] + (x * turn(w * total) - first_x_) / total;
-    }
-  }
-  [[nodiscard]] const std::vector<Complex>& displacement() const { return x_; }
-  [[nodiscard]] const std::vector<Complex>& velocity() const { return v_; }
-  [[nodiscard]] double evaluations() const { return evaluations_; }  ///< of arcs
 
  private:
-  [[nodiscard]] static Complex turn(double angle) { return {std::cos(angle), -std::sin(angle)}; }
-
-  /// Integral of e^{i w s} from 0 to `length`, without cancellation.
-  [[nodiscard]] static Complex wave(double w, double length) {
-    const double half = w * length / 2;
-    return length * (half == 0.0 ? 1.0 : std::sin(half) / half) * Complex(std::cos(half), std::sin(half));
+  [[nodiscard]] static std::size_t count_of(const Settings& settings) {
+    return static_cast<std::size_t>(settings.harmonics) + 1;
+  }
+  template <class Function>
+  void by(Function&& function) {
+    if (exact_) return function(*exact_);
+    function(*samples_);
   }
 
-  /// Integral of the force times e^{-i w s} over an arc.
-  template <Effects E>
-  [[nodiscard]] static Complex force(const motion::Arc<double, E>& arc, double w, double length) {
-    const auto& constants = arc.constants();
-    Complex sum = constants.load * wave(-w, length);
-    if constexpr (E.forcing != Forcing::none) {
-      const Complex phase(arc.start().cosine, arc.start().sine);
-      const Complex difference =
-          phase * wave(constants.nu - w, length) - std::conj(phase) * wave(-constants.nu - w, length);
-      sum += constants.f * difference / Complex(0, 2);
-    }
-    return sum;
-  }
-
-  /// Integral of x e^{-i w tau} over an arc by panels in which nothing turns by more than a few radians.
-  template <unsigned points, class A>  // points: even
-  [[nodiscard]] Complex quadrature(const A& arc, double w, double begin, double length) {
-    using Rule = boost::math::quadrature::gauss<double, points>;
-    const auto panels = static_cast<std::size_t>(std::ceil(length * (arc.constants().rate + w) / 4));
-    const double half = length / static_cast<double>(panels) / 2;
-    Complex sum = 0;
-    evaluations_ += static_cast<double>(panels) * points;
-    const auto add = [&](double s, double weight) { sum += weight * arc.at(s).x * turn(w * (begin + s)); };
-    for (std::size_t panel = 0; panel < panels; ++panel)
-      for (std::size_t i = 0; i < Rule::abscissa().size(); ++i) {
-        const double middle = static_cast<double>(2 * panel + 1) * half, offset = half * Rule::abscissa()[i],
-                     weight = half * Rule::weights()[i];
-        add(middle - offset, weight);
-        add(middle + offset, weight);
-      }
-    return sum;
-  }
-
-  double base_;
-  double first_x_ = 0.0;
-  double evaluations_ = 0.0;
-  std::vector<Complex> x_, v_;
+  std::size_t highest_;
+  std::optional<ExactHarmonics> exact_;  ///< one of the two
+  std::optional<Samples> samples_;
 };
 
 }  // namespace clatter::observables

@@ -1,11 +1,14 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
-#include <limits>
+#include <string>
+#include <tuple>
 #include <vector>
 
 #include "motion/state.hpp"
+#include "observables/observable.hpp"
 
 namespace clatter::observables {
 
@@ -15,17 +18,42 @@ namespace clatter::observables {
 /// Counts impacts and sums the time at rest, for each stop.
 class Impacts {
  public:
+  struct Settings {
+    bool impacts = false;
+  };
+  struct Values {
+    std::array<double, 2> impacts_per_period{no_value, no_value};  ///< [stop]
+    std::array<double, 2> v_before{no_value, no_value}, v_after{no_value, no_value};
+    std::array<double, 2> rest_fraction{no_value, no_value};
+  };
+  static constexpr std::tuple fields{
+      Field{Key{"observe", "impacts", Kind::flag, "false", "true",
+                "per stop: impacts per period, velocity before and after the first, share of time at rest"},
+            &Settings::impacts}};
+
+  [[nodiscard]] static bool wanted(const Settings& settings) { return settings.impacts; }
+  [[nodiscard]] static std::string description(const Settings&) { return "impacts"; }
+  [[nodiscard]] static std::vector<Column<Values>> columns(const Settings&) {
+    const Coordinate stop = stop_coordinate();
+    return {pair("impacts_per_period", "impacts per forcing period", stop, &Values::impacts_per_period),
+            pair("v_before", "velocity before the first impact", stop, &Values::v_before),
+            pair("v_after", "velocity after the first impact", stop, &Values::v_after),
+            pair("rest_fraction", "share of time at rest on the stop", stop, &Values::rest_fraction)};
+  }
+  [[nodiscard]] static bool in_lanes(const Settings&, const Scene&, bool) { return true; }
+
   struct OfStop {
     double count = 0.0;
-    double before = std::numeric_limits<double>::quiet_NaN();  ///< velocity before the first impact, signed
-    double after = std::numeric_limits<double>::quiet_NaN();   ///< velocity after it
-    double rest_time = 0.0;                                    ///< in tau
+    double before = no_value;  ///< velocity before the first impact, signed
+    double after = no_value;   ///< velocity after it
+    double rest_time = 0.0;    ///< in tau
   };
 
+  Impacts() = default;
+  Impacts(const Settings&, const ObservedSpan&) {}
+
   template <class A>
-  void arc(const A&, double, double length) {
-    flown_ = flown_ || length > 0;
-  }
+  void arc(const A&, double, double) {}
   void rest(const motion::Rest& rest) {
     if (rest.held) stops_[index_of(rest.side)].rest_time += rest.length;
   }
@@ -33,52 +61,27 @@ class Impacts {
     OfStop& stop = stops_[index_of(impact.side)];
     if (stop.count == 0.0) stop.before = impact.before, stop.after = impact.after;
     stop.count += 1.0;
-    if (!(first_speed_ >= 0.0)) first_speed_ = impact.before < 0.0 ? -impact.before : impact.before;
   }
-
-  /// Takes over what was counted elsewhere, in motion that isn't at rest throughout.
-  void include(const std::array<OfStop, 2>& stops, double first_speed) {
-    stops_ = stops, first_speed_ = first_speed, flown_ = true;
-  }
+  /// Takes over what was counted elsewhere, in motion that never rests.
+  void include(const std::array<OfStop, 2>& stops) { stops_ = stops; }
+  /// The response meets no stop.
+  bool response(const ObservedSpan&, double) { return true; }
 
   [[nodiscard]] const std::array<OfStop, 2>& stops() const { return stops_; }
-  [[nodiscard]] bool flown() const { return flown_; }  ///< whether the mass moves at all, not resting throughout
-  [[nodiscard]] double first_speed() const {
-    return first_speed_;
-  }  ///< |x'| before the first impact on either stop, NaN if none
+
+  [[nodiscard]] Values finish(const ObservedSpan& span, double, double) const {
+    const double periods = span.once() ? 1.0 : span.turns;
+    Values values;
+    for (std::size_t i = 0; i < stops_.size(); ++i) {
+      values.impacts_per_period[i] = stops_[i].count / periods;
+      values.v_before[i] = stops_[i].before, values.v_after[i] = stops_[i].after;
+      values.rest_fraction[i] = std::min(1.0, stops_[i].rest_time / span.total);
+    }
+    return values;
+  }
 
  private:
   std::array<OfStop, 2> stops_{};
-  bool flown_ = false;
-  double first_speed_ = std::numeric_limits<double>::quiet_NaN();
-};
-
-/// Keeps every impact.
-class ImpactLog {
- public:
-  template <class A>
-  void arc(const A&, double, double) {}
-  void rest(const motion::Rest&) {}
-  void impact(const motion::Impact& impact) { impacts_.push_back(impact); }
-
-  [[nodiscard]] std::vector<motion::Impact>& impacts() { return impacts_; }
-
- private:
-  std::vector<motion::Impact> impacts_;
-};
-
-/// Keeps every rest and completed chatter.
-class RestLog {
- public:
-  template <class A>
-  void arc(const A&, double, double) {}
-  void rest(const motion::Rest& rest) { rests_.push_back(rest); }
-  void impact(const motion::Impact&) {}
-
-  [[nodiscard]] std::vector<motion::Rest>& rests() { return rests_; }
-
- private:
-  std::vector<motion::Rest> rests_;
 };
 
 }  // namespace clatter::observables

@@ -1,14 +1,20 @@
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <complex>
+#include <cstdint>
 #include <limits>
 #include <numbers>
+#include <string>
+#include <tuple>
 #include <utility>
+#include <vector>
 
 #include "motion/neighbourhood.hpp"
 #include "motion/polynomial_arc.hpp"
 #include "motion/tangent_map.hpp"
+#include "observables/observable.hpp"
 
 namespace clatter::observables {
 
@@ -19,6 +25,30 @@ namespace clatter::observables {
 class Stability {
  public:
   using Complex = std::complex<double>;
+
+  struct Settings {
+    bool stability = false;
+  };
+  struct Values {
+    std::array<double, 2> multiplier_re{no_value, no_value};  ///< [multiplier], the larger first
+    std::array<double, 2> multiplier_im{no_value, no_value};
+    double lyapunov = no_value;
+  };
+  static constexpr std::tuple fields{Field{Key{"observe", "stability", Kind::flag, "false", "true",
+                                               "multipliers of the periodic motion, largest Lyapunov exponent"},
+                                           &Settings::stability}};
+
+  [[nodiscard]] static bool wanted(const Settings& settings) { return settings.stability; }
+  [[nodiscard]] static std::string description(const Settings&) { return "stability"; }
+  [[nodiscard]] static std::vector<Column<Values>> columns(const Settings&) {
+    const Coordinate multiplier{"multiplier", 2, std::vector<std::int8_t>{1, 2},
+                                "number of the multiplier, 1: the larger modulus"};
+    return {pair("multiplier_re", "real part of the period's multipliers", multiplier, &Values::multiplier_re),
+            pair("multiplier_im", "imaginary part of the period's multipliers", multiplier, &Values::multiplier_im),
+            scalar("lyapunov", "largest Lyapunov exponent per tau", &Values::lyapunov)};
+  }
+
+  Stability(const Settings&, const ObservedSpan& span) : Stability(span.scene.stops, span.uncertainty) {}
 
   /// `rounding` is what displacements and velocities may be off by.
   Stability(const Stops& stops, double rounding)
@@ -63,6 +93,15 @@ class Stability {
 
   /// Ends the observed time of motion without a period: the exponent along it.
   void finish_window(double total) { exponent_ = tangent_.log_norm() / total; }
+
+  [[nodiscard]] Values finish(const ObservedSpan& span, double, double) {
+    if (span.periodic) {
+      finish_period(span.total, span.scene.oscillator.forcing == 0 && !span.stands_still);
+    } else {
+      finish_window(span.total);
+    }
+    return {{first_.real(), second_.real()}, {first_.imag(), second_.imag()}, exponent_};
+  }
 
   [[nodiscard]] const Complex& first() const { return first_; }    ///< the larger multiplier; NaN without a period
   [[nodiscard]] const Complex& second() const { return second_; }  ///< the smaller one

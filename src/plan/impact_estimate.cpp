@@ -58,7 +58,7 @@ double expected_impacts(const sweep::Sweep& sweep, const std::optional<sweep::Sh
     const std::size_t slot = (2 * i + 1) * points / (2 * looked_at);  // the middles of equal parts
     point::Problem scene = scene_at(sweep, share.point(slot / share.length(), slot % share.length()));
     sweep::start_from(scene, std::nullopt);
-    scene.observe = {.impact_log = true}, scene.integration.all_effects = false;
+    scene.observe = {}, scene.observe.impact_log = true, scene.integration.all_effects = false;
     impacts += scene.time.mode == steady::Mode::transient ? impacts_of_transient(scene, trial)
                                                           : impacts_of_steady_motion(scene, trial);
   }

@@ -38,11 +38,17 @@ void add_coordinates(const sweep::Sweep& sweep, bool is_shard, Parts& parts) {
     parts.axes += axis * static_cast<double>(dimension.size());
     parts.largest = std::max(parts.largest, axis);
   }
-  const observables::Observe& observe = sweep.scene.observe;
   parts.coordinates = parts.axes;
   if (is_shard) parts.coordinates += sizeof(std::int64_t) * parts.points;  // index in the sweep
-  if (observe.harmonics > 0) parts.coordinates += sizeof(std::int64_t) * static_cast<double>(observe.harmonics + 1);
-  for (const bool has_pairs : {observe.impacts, observe.stability}) parts.coordinates += has_pairs ? 2 : 0;
+  for (const observables::Coordinate& coordinate : observables::All::coordinates(sweep.scene.observe)) {
+    const auto bytes = [&]<class T>(const T& values) -> double {
+      if constexpr (std::is_same_v<T, std::monostate>)
+        return 0.0;
+      else
+        return static_cast<double>(values.size() * sizeof values[0]);
+    };
+    parts.coordinates += std::visit(bytes, coordinate.values);
+  }
 }
 
 Parts parts_of(const sweep::Sweep& sweep, const std::optional<sweep::Shard>& shard, double impacts) {
@@ -52,7 +58,7 @@ Parts parts_of(const sweep::Sweep& sweep, const std::optional<sweep::Shard>& sha
   parts.results = (sizeof(std::uint8_t) + sizeof(std::int64_t) + value) * parts.points;  // status, impacts, periods
   parts.largest = std::max(parts.largest, value * parts.points);
   for (const sweep::OutputVariable& output : sweep::outputs_of(sweep.scene)) {
-    const double bytes = static_cast<double>(output.width) * value * parts.points;
+    const double bytes = static_cast<double>(output.width()) * value * parts.points;
     parts.results += bytes, parts.largest = std::max(parts.largest, bytes);
   }
   if (!sweep.scene.observe.impact_log) return parts;
@@ -72,15 +78,6 @@ double log_bytes(const sweep::Sweep& sweep, const Parts& parts) {
   const double held = held_log_bytes(sweep, parts), columns = parts.logged_in_file();
   const bool alone = sizeof(motion::Impact) * parts.impacts >= lone_block * parts.points;
   return alone ? std::max(held, columns) : held + columns;
-}
-
-/// What the points of one thread share, and hold on their way.
-double workshop_bytes(const observables::Observe& observe) {
-  double values = 3 * static_cast<double>(observe.trajectory);
-  if (observe.harmonics > 0 && observe.harmonics_method == observables::HarmonicsMethod::fft)
-    values +=
-        6 * static_cast<double>(observe.harmonics_samples);  // samples of x and v, and the transform's rows of them
-  return values * value;
 }
 
 /// A branch that is packed to be saved.
@@ -106,7 +103,7 @@ MemoryNeed memory_need(const sweep::Sweep& sweep, const std::optional<sweep::Sha
                        double impacts) {
   const Parts parts = parts_of(sweep, shard, impacts);
   const double log = log_bytes(sweep, parts), held = parts.results + parts.branches;  // a byte tells a branch's state
-  const double working = threads * workshop_bytes(sweep.scene.observe);
+  const double working = threads * value * observables::All::values_held(sweep.scene.observe);
   const double running = held + log + std::max(working, saving_bytes(sweep, parts, log));
   const double collecting = parts.coordinates + held + log;
   const double building = parts.branches + building_bytes(parts);

@@ -22,22 +22,6 @@ double seconds_of_work(point::Problem scene, const Effects& effects) {
   return seconds_per_period(scene, scratch);
 }
 
-std::vector<std::string> observed_of(const observables::Observe& observe) {
-  std::vector<std::string> names;
-  if (observe.extrema) names.emplace_back("extrema");
-  if (observe.harmonics > 0) {
-    const bool fft = observe.harmonics_method == observables::HarmonicsMethod::fft;
-    names.push_back("harmonics 0 ... " + std::to_string(observe.harmonics) +
-                    (fft ? " by FFT of " + std::to_string(observe.harmonics_samples) + " samples" : " from the arcs"));
-  }
-  if (observe.impacts) names.emplace_back("impacts");
-  if (observe.impact_log) names.emplace_back("impact log");
-  if (observe.trajectory > 0) names.push_back("trajectory of " + std::to_string(observe.trajectory) + " samples");
-  if (observe.period) names.emplace_back("period");
-  if (observe.stability) names.emplace_back("stability");
-  return names;
-}
-
 /// A stop that is there at some point, but never met by any.
 void warn_of_stop(const sweep::Sweep& sweep, const StopSeen& stop, const std::string& name, Plan& plan) {
   if (stop.met || stop.closest.ratio < 0) return;
@@ -81,7 +65,7 @@ Plan plan_of(const sweep::Sweep& sweep, int threads, const std::optional<sweep::
   plan.shard = shard;
   plan.points = share.points(), plan.branches = share.count();
   if (survey.looked_at < plan.points) plan.sampled_points = survey.looked_at;
-  plan.observed = observed_of(sweep.scene.observe);
+  plan.observed = observables::All::descriptions(sweep.scene.observe);
   for (const Collected& group : survey.groups) {
     const point::Problem example = planned_scene(sweep, group.example.point);
     plan.groups.push_back({.effects = group.effects,

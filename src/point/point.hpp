@@ -8,18 +8,16 @@
 
 #include "model/required_effects.hpp"
 #include "motion/state.hpp"
-#include "observables/fourier_transform.hpp"
-#include "observables/harmonics.hpp"
-#include "observables/impacts.hpp"
+#include "observables/all.hpp"
 #include "point/problem.hpp"
 #include "steady/observed_time.hpp"
 
 namespace clatter::point {
 
-inline constexpr double no_value = std::numeric_limits<double>::quiet_NaN();
+using observables::no_value;
 
 /// Everything that a point gives; what is not observed, or of a failed point, is NaN or empty.
-struct PointResult {
+struct PointResult : observables::All::Values {
   steady::Status status = steady::Status::unresolved;
   steady::FoundBy found_by = steady::FoundBy::nothing;
   bool in_lanes = false;  ///< observed in SIMD lanes
@@ -29,26 +27,12 @@ struct PointResult {
   double evaluations = 0.0;
   double settling_estimate = no_value;  ///< forcing periods until the motion is within the tolerance of the steady one
   double observed_turns = no_value;     ///< forcing periods observed
-  double x_min = no_value, x_max = no_value, v_min = no_value, v_max = no_value;
-  double base_frequency = no_value;
-  observables::Spectrum x_spectrum{}, v_spectrum{};     ///< shape [harmonic]
-  double impacts_per_period[2] = {no_value, no_value};  ///< [stop]
-  double v_before[2] = {no_value, no_value}, v_after[2] = {no_value, no_value}, rest_fraction[2] = {no_value, no_value};
-  std::vector<motion::Impact> log{};
-  std::vector<motion::Rest> rests{};
-  std::vector<double> tau{}, x{}, v{};  ///< shape [sample]
-  double period = no_value, period_ratio = no_value, eigenfrequency = no_value, velocity_ratio = no_value;
-  double multiplier_re[2] = {no_value, no_value}, multiplier_im[2] = {no_value, no_value};  ///< the larger first
-  double lyapunov = no_value;
-  Start end{};  ///< where the motion was left, for the next point of a branch
+  Start end{};                          ///< where the motion was left, for the next point of a branch
 };
 
 /// What the points of one thread share.
 struct ThreadScratch {
-  const observables::FourierTransform* transform =
-      nullptr;  ///< of harmonics_samples samples; null where none are observed
-  std::unique_ptr<observables::FourierTransform::Workspace, void (*)(observables::FourierTransform::Workspace*)>
-      workspace{nullptr, nullptr};
+  observables::FourierScratch fourier{};
   /// Hears now and then what share of all that they may come to the points at work have done, added up.
   std::function<void(double share)> progress{};
 };

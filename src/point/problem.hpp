@@ -1,7 +1,7 @@
 #pragma once
 
 #include "model/scene.hpp"
-#include "observables/observe.hpp"
+#include "observables/all.hpp"
 #include "steady/time_settings.hpp"
 #include "stepping/integration.hpp"
 

@@ -78,7 +78,7 @@ class EventDriven : public SceneConstants<N, E> {
                Observer& observer) {
     const Number before = state.v;
     state.left = stop.side, state.offset = 0;
-    if (stop.into(before) > 0) state.v = -stop.restitution * before;
+    if (stop.into(before) > 0) state.v = stop.law.after(before);
     if (state.v == 0) state.v = 0;  // no negative zero
     if (before != 0) this->show_impact(state, stop, before, origin, observer);
     if (!E.rest || state.v == 0) return;

@@ -51,7 +51,7 @@ class Moreau : public SceneConstants<double, E> {
     for (const Side side : {Side::lower, Side::upper}) {
       const auto stop = motion::stop_at<double>(this->stops(), side);
       if (state.x != stop.position || !(stop.into(state.v) > 0)) continue;
-      const double before = std::exchange(state.v, -stop.restitution * state.v + 0.0);  // no negative zero
+      const double before = std::exchange(state.v, stop.law.after(state.v));
       this->show_impact(state, stop, before, origin, observer);
       return this->count_impact();
     }
@@ -96,7 +96,7 @@ class Moreau : public SceneConstants<double, E> {
     const Free free = free_step(state, turns);
     const Side side = active(state, free.length);
     const auto stop = motion::stop_at<double>(this->stops(), side);
-    const bool impulse = side != Side::none && stop.into(free.v) > -stop.restitution * stop.into(state.v);
+    const bool impulse = side != Side::none && stop.into(free.v) > stop.into(stop.law.after(state.v));
     bool affordable = true;
     if (!impulse) {
       fly(state, free, origin, observer);
@@ -133,8 +133,8 @@ class Moreau : public SceneConstants<double, E> {
                Observer& observer) const {
     const double before = stop.into(state.v) > 0 ? state.v : free.v;  // leaving too slowly: pushed back by the force
     const double pressed = stop.into(force(stop.position, 0.0, free.sine)),
-                 rebound = stop.restitution * stop.into(before);
-    const double after = 2 * rebound > pressed * free.length && stop.into(state.v) > 0 ? -stop.restitution * before : 0;
+                 rebound = -stop.into(stop.law.after(before));
+    const double after = 2 * rebound > pressed * free.length && stop.into(state.v) > 0 ? stop.law.after(before) : 0;
     constexpr double least = 1e-6;  // of a step: the impact is the step's, not one of what was before it
     const double until = std::max(1 - theta_, least) * free.length;
     drift(state, until, origin, observer);

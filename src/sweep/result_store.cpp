@@ -142,8 +142,10 @@ std::vector<Attribute> status_flags() {
 
 double most_values(const Sweep& sweep, const std::optional<Shard>& shard) {
   double of_point = 5;  // status, impact_total, simulated_periods, index in the sweep, impact_count
-  for (const OutputVariable& output : outputs_of(sweep.scene)) of_point += static_cast<double>(output.width);
-  double coordinates = static_cast<double>(sweep.scene.observe.harmonics) + 1 + 2 + 2;  // harmonic, stop, multiplier
+  for (const OutputVariable& output : outputs_of(sweep.scene)) of_point += static_cast<double>(output.width());
+  double coordinates = 0;
+  for (const observables::Coordinate& coordinate : observables::All::coordinates(sweep.scene.observe))
+    coordinates += static_cast<double>(coordinate.length);
   for (const Dimension& dimension : sweep.dimensions)
     coordinates += static_cast<double>(dimension.size() * length(dimension));
   return of_point * static_cast<double>(Share(sweep, shard).points()) + coordinates;
@@ -158,7 +160,7 @@ ResultStore::ResultStore(const Sweep& sweep, const std::optional<Shard>& shard)
       impacts_(status_.size(), 0),
       periods_(status_.size(), 0.0),
       outputs_(outputs_of(sweep.scene)) {
-  for (const OutputVariable& output : outputs_) values_.emplace_back(status_.size() * output.width, point::no_value);
+  for (const OutputVariable& output : outputs_) values_.emplace_back(status_.size() * output.width(), point::no_value);
   if (sweep.scene.observe.impact_log) log_.resize(status_.size());
 }
 
@@ -167,14 +169,14 @@ void ResultStore::store(std::size_t local_index, point::PointResult&& result) {
   impacts_[local_index] = static_cast<std::int64_t>(result.impacts);
   periods_[local_index] = result.periods;
   for (std::size_t i = 0; i < outputs_.size(); ++i)
-    outputs_[i].put(result, &values_[i][local_index * outputs_[i].width]);
+    outputs_[i].put(result, &values_[i][local_index * outputs_[i].width()]);
   if (!log_.empty())
     log_[local_index] = std::move(result.log), log_[local_index].shrink_to_fit();  // it grew by doubling
 }
 
 std::size_t ResultStore::packed_size_without_log() const {
   std::size_t bytes = sizeof(std::uint8_t) + sizeof(std::int64_t) + sizeof(double);
-  for (const OutputVariable& output : outputs_) bytes += output.width * sizeof(double);
+  for (const OutputVariable& output : outputs_) bytes += output.width() * sizeof(double);
   return log_.empty() ? bytes : bytes + sizeof(std::uint64_t);
 }
 
@@ -186,7 +188,7 @@ void ResultStore::pack(std::size_t local_index, std::vector<std::byte>& to) cons
   append(to, std::span(&status_[local_index], 1)), append(to, std::span(&impacts_[local_index], 1));
   append(to, std::span(&periods_[local_index], 1));
   for (std::size_t i = 0; i < outputs_.size(); ++i)
-    append(to, std::span(values_[i]).subspan(local_index * outputs_[i].width, outputs_[i].width));
+    append(to, std::span(values_[i]).subspan(local_index * outputs_[i].width(), outputs_[i].width()));
   if (log_.empty()) return;
   const std::uint64_t count = log_[local_index].size();
   append(to, std::span(&count, 1));
@@ -198,7 +200,7 @@ bool ResultStore::unpack(std::size_t local_index, std::span<const std::byte>& fr
                take_off(from, std::span(&impacts_[local_index], 1)) &&
                take_off(from, std::span(&periods_[local_index], 1));
   for (std::size_t i = 0; whole && i < outputs_.size(); ++i)
-    whole = take_off(from, std::span(values_[i]).subspan(local_index * outputs_[i].width, outputs_[i].width));
+    whole = take_off(from, std::span(values_[i]).subspan(local_index * outputs_[i].width(), outputs_[i].width()));
   std::uint64_t count = 0;
   if (!whole || log_.empty()) return whole;
   if (!take_off(from, std::span(&count, 1)) || count > from.size() / sizeof(motion::Impact)) return false;
@@ -215,21 +217,13 @@ void ResultStore::add_coordinates(Dataset& dataset) const {
     dataset.dimensions.push_back({"point", share_.points()});
     coordinate("point", point_numbers(share_), "index of the point in the sweep, row-major over its axes");
   }
-  const observables::Observe& observe = sweep_.scene.observe;
-  if (observe.harmonics > 0) {
-    std::vector<std::int64_t> numbers(static_cast<std::size_t>(observe.harmonics) + 1);
-    std::iota(numbers.begin(), numbers.end(), 0);
-    dataset.dimensions.push_back({"harmonic", numbers.size()});
-    coordinate("harmonic", numbers, "number of the harmonic, 0: constant part");
-  }
-  if (observe.impacts) {
-    dataset.dimensions.push_back({"stop", 2});
-    coordinate("stop", std::vector<std::int8_t>{-1, 1}, "-1: lower stop, +1: upper stop");
-  }
-  if (observe.trajectory > 0) dataset.dimensions.push_back({"sample", static_cast<std::size_t>(observe.trajectory)});
-  if (observe.stability) {
-    dataset.dimensions.push_back({"multiplier", 2});
-    coordinate("multiplier", std::vector<std::int8_t>{1, 2}, "number of the multiplier, 1: the larger modulus");
+  for (observables::Coordinate& added : observables::All::coordinates(sweep_.scene.observe)) {
+    dataset.dimensions.push_back({added.name, added.length});
+    const auto add = [&]<class T>(T& values) {
+      if constexpr (!std::is_same_v<T, std::monostate>)
+        coordinate(added.name, std::move(values), std::move(added.long_name));
+    };
+    std::visit(add, added.values);
   }
 }
 
@@ -245,7 +239,7 @@ void ResultStore::take(Dataset& dataset, const Shard& shard) {
     std::vector<T>().swap(from);
   };
   scatter("status", 1, status_), scatter("impact_total", 1, impacts_), scatter("simulated_periods", 1, periods_);
-  for (std::size_t i = 0; i < outputs_.size(); ++i) scatter(outputs_[i].name, outputs_[i].width, values_[i]);
+  for (std::size_t i = 0; i < outputs_.size(); ++i) scatter(outputs_[i].name, outputs_[i].width(), values_[i]);
   if (sweep_.scene.observe.impact_log) take_impact_log(dataset, numbers);
 }
 
@@ -312,7 +306,7 @@ Dataset ResultStore::dataset() {
   for (std::size_t i = 0; i < outputs_.size(); ++i) {
     OutputVariable& output = outputs_[i];
     std::vector<std::string> dimensions = along_;
-    dimensions.insert(dimensions.end(), output.inner.begin(), output.inner.end());
+    for (const observables::Coordinate& along : output.along) dimensions.push_back(along.name);
     dataset.variables.push_back(
         {output.name, std::move(dimensions), std::move(values_[i]), output.long_name, output.units});
   }

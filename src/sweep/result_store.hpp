@@ -15,13 +15,8 @@
 
 namespace clatter::sweep {
 
-/// A variable of the results and how a point's share of it is got.
-struct OutputVariable {
-  std::string name, long_name, units;
-  std::vector<std::string> inner;                                      ///< dimensions beyond the sweep's axes
-  std::size_t width = 1;                                               ///< values a point
-  std::function<void(const point::PointResult&, double* values)> put;  ///< writes `width` values
-};
+/// A variable of the results, and how to extract it from a PointResult.
+using OutputVariable = observables::Column<point::PointResult>;
 
 /// The variables that a scene's observables give, the impact log and the integer ones aside, and of steady motion the
 /// estimate of how long it takes to settle.

@@ -75,11 +75,8 @@ class WorkerPool {
         usage_(static_cast<std::size_t>(threads)) {
     for (std::size_t thread = 0; options.progress && thread < scratches_.size(); ++thread)
       scratches_[thread].progress = [this, thread](double part) { progress_.add_part(thread, part); };
-    const observables::Observe& observe = sweep.scene.observe;
-    if (observe.harmonics == 0 || observe.harmonics_method != observables::HarmonicsMethod::fft) return;
-    transform_.emplace(static_cast<std::size_t>(observe.harmonics_samples));
-    for (point::ThreadScratch& scratch : scratches_)
-      scratch.transform = &*transform_, scratch.workspace = transform_->workspace();
+    const observables::FourierScratch fourier = observables::Harmonics::scratch_for(sweep.scene.observe);
+    for (point::ThreadScratch& scratch : scratches_) scratch.fourier = fourier.for_another_thread();
   }
 
   /// Runs every branch; results go by index, so their bits don't depend on which thread runs what.
@@ -224,7 +221,6 @@ class WorkerPool {
   ResultStore& columns_;
   std::vector<std::atomic<BranchState>>& states_;  ///< [branch]
   SweepProgress progress_;
-  std::optional<observables::FourierTransform> transform_;
   std::size_t chunk_;  ///< branches that a thread takes at once
   Scatter chunks_;     ///< the order of the chunks
   lanes::InstructionSet arch_;

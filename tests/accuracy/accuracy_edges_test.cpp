@@ -185,12 +185,13 @@ TEST(Study, takes_no_method_and_no_observables_from_the_scene) {
     point::Problem scene = chattering_scene();
     scene.integration.method = method, scene.integration.all_effects = true;
     scene.integration.tolerance = 1e-2, scene.integration.step = 0.1;
-    scene.observe = {.extrema = true,
-                     .harmonics = 5,
-                     .harmonics_samples = 64,
-                     .impacts = true,
-                     .trajectory = 100,
-                     .stability = true};
+    scene.observe = {};
+    scene.observe.extrema = true;
+    scene.observe.harmonics = 5;
+    scene.observe.harmonics_samples = 64;
+    scene.observe.impacts = true;
+    scene.observe.trajectory = 100;
+    scene.observe.stability = true;
     expect_same_but_for_times(study(scene, one_of_each(), {.rounds = 0}), plain);
   }
 }

@@ -77,7 +77,7 @@ Values SolverRun::contact(double tau, Side side, double v) {
   const auto stop = motion::stop_at<double>(scene_.stops, side);
   if (!(stop.into(v) > 0)) return {stop.position, v};
   impacts_.push_back({accuracy::Event::Kind::impact, side, tau, std::abs(v), 0.0});
-  return {stop.position, -stop.restitution * v};
+  return {stop.position, stop.law.after(v)};
 }
 
 void SolverRun::see(double tau, double x) {

@@ -18,11 +18,12 @@ std::vector<point::Problem> scenes_of_all_kinds(steady::Mode mode) {
   for (std::uint64_t i = 0; i < 300; ++i) {
     point::Problem scene = hard::any_scene(i).scene;
     scene.time = {.mode = mode, .max_periods = 200, .duration = 50.3, .max_impacts = 1e4};
-    scene.observe = {.extrema = true,
-                     .harmonics = 3,
-                     .harmonics_method = observables::HarmonicsMethod::exact,
-                     .impacts = true,
-                     .period = true};
+    scene.observe = {};
+    scene.observe.extrema = true;
+    scene.observe.harmonics = 3;
+    scene.observe.harmonics_method = observables::HarmonicsMethod::exact;
+    scene.observe.impacts = true;
+    scene.observe.period = true;
     scenes.push_back(scene);
   }
   for (int i = 0; i < 100; ++i) {

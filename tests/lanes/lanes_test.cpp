@@ -85,11 +85,12 @@ Totals expect_alike(const sweep::Sweep& sweep, InstructionSet arch) {
 
 /// All that lanes observe of a steady motion.
 point::Problem observed(point::Problem scene) {
-  scene.observe = {.extrema = true,
-                   .harmonics = 5,
-                   .harmonics_method = observables::HarmonicsMethod::exact,
-                   .impacts = true,
-                   .period = true};
+  scene.observe = {};
+  scene.observe.extrema = true;
+  scene.observe.harmonics = 5;
+  scene.observe.harmonics_method = observables::HarmonicsMethod::exact;
+  scene.observe.impacts = true;
+  scene.observe.period = true;
   scene.time.max_periods = 300, scene.time.max_impacts = 1e5;
   return scene;
 }
@@ -149,7 +150,10 @@ TEST_P(InLanes, steady_motion_that_nobody_chose_is_that_of_the_scalar_kernel) {
 }
 
 point::Problem transient(point::Problem scene, double periods) {
-  scene.observe = {.extrema = true, .impacts = true, .period = true};
+  scene.observe = {};
+  scene.observe.extrema = true;
+  scene.observe.impacts = true;
+  scene.observe.period = true;
   scene.time.mode = steady::Mode::transient;
   scene.time.duration = periods * 2 * pi_ / scene.oscillator.frequency;
   scene.time.max_impacts = 1e5;

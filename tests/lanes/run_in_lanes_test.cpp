@@ -15,8 +15,11 @@ point::WorkItem task_of(const point::Problem& scene) { return {0, scene, effects
 
 point::Problem observed_scene() {
   point::Problem scene = sweep::paper_scene(0.5, 1.0);
-  scene.observe = {
-      .extrema = true, .harmonics = 3, .harmonics_method = observables::HarmonicsMethod::exact, .impacts = true};
+  scene.observe = {};
+  scene.observe.extrema = true;
+  scene.observe.harmonics = 3;
+  scene.observe.harmonics_method = observables::HarmonicsMethod::exact;
+  scene.observe.impacts = true;
   return scene;
 }
 

@@ -47,7 +47,7 @@ FiftyDigits time_of_all_flights(const ArcConstants<FiftyDigits, E>& constants, c
     const auto contact = next_contact(arc, stops, FiftyDigits(1));
     total += contact.elapsed;
     phase += contact.elapsed * constants.nu / (2 * pi<FiftyDigits>());
-    speed = stop.restitution * contact.motion.v;
+    speed = stop.law.R * contact.motion.v;
   }
   return total;
 }

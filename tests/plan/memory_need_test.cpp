@@ -48,14 +48,21 @@ sweep::Sweep line(std::size_t points) {
 TEST(Memory, of_the_output_is_that_of_the_figure_with_its_coordinates) {
   sweep::Sweep sweep = small_sweep();
   EXPECT_EQ(memory_need(sweep).output, bytes_of(run(sweep, {}).dataset));
-  sweep.scene.observe = {
-      .extrema = true, .harmonics = 3, .impacts = true, .trajectory = 10, .period = true, .stability = true};
+  sweep.scene.observe = {};
+  sweep.scene.observe.extrema = true;
+  sweep.scene.observe.harmonics = 3;
+  sweep.scene.observe.impacts = true;
+  sweep.scene.observe.trajectory = 10;
+  sweep.scene.observe.period = true;
+  sweep.scene.observe.stability = true;
   EXPECT_EQ(memory_need(sweep).output, bytes_of(run(sweep, {}).dataset));
 }
 
 TEST(Memory, of_an_impact_log_is_that_of_the_figure_if_the_impacts_are_known) {
   sweep::Sweep sweep = small_sweep();
-  sweep.scene.observe = {.extrema = true, .impact_log = true};
+  sweep.scene.observe = {};
+  sweep.scene.observe.extrema = true;
+  sweep.scene.observe.impact_log = true;
   const sweep::Dataset figure = run(sweep, {}).dataset;
   EXPECT_EQ(memory_need(sweep, std::nullopt, 1, static_cast<double>(logged(figure))).output, bytes_of(figure));
 }
@@ -76,8 +83,10 @@ TEST(Memory, of_a_huge_sweep_is_known_without_running_it) {
 
 TEST(Memory, of_samples_counts_for_each_thread) {
   sweep::Sweep sweep = line(1);
-  sweep.scene.observe = {
-      .harmonics = 3, .harmonics_method = observables::HarmonicsMethod::fft, .harmonics_samples = 1 << 20};
+  sweep.scene.observe = {};
+  sweep.scene.observe.harmonics = 3;
+  sweep.scene.observe.harmonics_method = observables::HarmonicsMethod::fft;
+  sweep.scene.observe.harmonics_samples = 1 << 20;
   const double four = memory_need(sweep, std::nullopt, 4).memory, two = memory_need(sweep, std::nullopt, 2).memory;
   EXPECT_NEAR(four - two, 2.0 * 6 * 8 * (1 << 20), 1e6);
 }
@@ -95,7 +104,8 @@ TEST(Memory, of_a_log_is_estimated_from_a_few_points) {
   sweep::Sweep sweep;  // to and fro between the stops at speeds from 1 to 2, without loss
   sweep.scene.stops = {-0.1, 0.1, 1, 1};
   sweep.scene.time.mode = steady::Mode::transient;
-  sweep.scene.observe = {.impact_log = true};
+  sweep.scene.observe = {};
+  sweep.scene.observe.impact_log = true;
   std::vector<double> speeds;
   for (int i = 0; i < 1000; ++i) speeds.push_back(1 + i / 1000.0);
   sweep.dimensions = {{{sweep::Parameter::v0, speeds}}};
@@ -109,7 +119,8 @@ TEST(Memory, of_a_log_is_estimated_from_a_few_points) {
 
 TEST(Memory, of_a_log_of_steady_motion_is_that_of_the_observed_time) {
   sweep::Sweep sweep = small_sweep();
-  sweep.scene.observe = {.impact_log = true};
+  sweep.scene.observe = {};
+  sweep.scene.observe.impact_log = true;
   EXPECT_EQ(expected_impacts(sweep, std::nullopt), static_cast<double>(logged(run(sweep, {}).dataset)));
 }
 

@@ -111,7 +111,7 @@ constexpr std::array dropped{
               any_width(s, r, 0.8);
               s.oscillator.damping = r.logarithmic(0.02, 3);
               s.stops.lower = s.stops.upper = 0;
-              const Requirements free = requirements_of(s);
+              const Requirements free = requirements_of(s, duration_of(s.time));
               s.stops.lower = s.oscillator.load - free.reach * 1.001,
               s.stops.upper = s.oscillator.load + free.reach * 1.001;
             },
@@ -141,7 +141,7 @@ TEST(Effects, without_an_effect_that_a_scene_does_not_call_for_it_runs_as_with_a
       dropped[kind].without(scene, random);
       scene.observe.impact_log = scene.observe.extrema = true;
       scene.time.max_impacts = 50;
-      const Effects effects = required_effects(scene);
+      const Effects effects = required_effects(scene, duration_of(scene.time));
       ASSERT_TRUE(dropped[kind].absent(scene, effects)) << dropped[kind].effect << "\n"
                                                         << support::configuration_of(scene, scene.time.duration);
       const PointResult all = result_of(scene, true);

@@ -21,7 +21,11 @@ Problem beside_the_response(const Oscillator& oscillator, double gap, double R) 
   const auto [P, Q, A] = steady_response(oscillator.damping, oscillator.forcing, oscillator.frequency);
   scene.stops = {-3 * A, A * (1 + gap), R, R};
   scene.start = {Q, oscillator.frequency * P, 0.0};
-  scene.observe = {.extrema = true, .impacts = true, .period = true, .stability = true};
+  scene.observe = {};
+  scene.observe.extrema = true;
+  scene.observe.impacts = true;
+  scene.observe.period = true;
+  scene.observe.stability = true;
   scene.time.max_periods = 400;
   return scene;
 }
@@ -74,7 +78,10 @@ TEST(GrazingOrbit, an_impact_that_is_slow_for_rounding_has_a_derivative_all_the_
   ThreadScratch scratch;
   Problem scene;
   scene.oscillator = {0.1, -1.0, 1.0, 0.0}, scene.stops = {-0.5, 0.5, 0.7, 0.7};
-  scene.observe = {.extrema = true, .period = true, .stability = true};
+  scene.observe = {};
+  scene.observe.extrema = true;
+  scene.observe.period = true;
+  scene.observe.stability = true;
   EXPECT_EQ(run_point(scene, scratch).status, steady::Status::periodic);
 }
 

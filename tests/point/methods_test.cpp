@@ -28,8 +28,7 @@ observables::Observe everything(observables::HarmonicsMethod harmonics) {
 }
 
 PointResult result_of(const Problem& scene) {
-  static const observables::FourierTransform transform(samples);
-  ThreadScratch scratch{&transform, transform.workspace()};
+  ThreadScratch scratch{observables::Harmonics::scratch_for(scene.observe)};
   return run_point(scene, scratch);
 }
 

@@ -23,7 +23,10 @@ Problem any_scene(std::uint64_t index, steady::Mode mode) {
                  random.uniform(0, 6)};
   scene.time.mode = mode, scene.time.duration = random.uniform(1, 300);
   scene.time.max_periods = 500, scene.time.max_impacts = 1e5;
-  scene.observe = {.extrema = true, .impacts = true, .period = true};
+  scene.observe = {};
+  scene.observe.extrema = true;
+  scene.observe.impacts = true;
+  scene.observe.period = true;
   return scene;
 }
 

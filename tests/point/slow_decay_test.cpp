@@ -16,7 +16,9 @@ Problem decaying(double nu) {
   scene.stops = {-2, 2, 0.7, 0.7};
   scene.start = {0.3, 0.2, 0.0};
   scene.time.max_periods = 100000;
-  scene.observe = {.extrema = true, .period = true};
+  scene.observe = {};
+  scene.observe.extrema = true;
+  scene.observe.period = true;
   return scene;
 }
 

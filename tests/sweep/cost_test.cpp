@@ -32,6 +32,9 @@ void operator delete(void* memory, const std::nothrow_t&) noexcept { std::free(m
 namespace clatter::sweep {
 namespace {
 
+using observables::Extrema, observables::Harmonics, observables::ImpactLog, observables::Impacts, observables::Period,
+    observables::Stability, observables::Trajectory;
+
 /// A point, what it allocated, and what it was evaluated for beyond a point of which nothing is observed.
 struct Cost {
   point::PointResult result;
@@ -60,13 +63,20 @@ Cost cost_of(const point::Problem& scene) {
 point::Problem symmetric() { return paper_scene(0.5, 1.0); }
 constexpr double arcs = 3, impacts = 2;
 
-point::Problem observing(point::Problem scene, const observables::Observe& observe) {
-  scene.observe = observe;
+template <class... Settings>
+observables::Observe observe_of(const Settings&... settings) {
+  observables::Observe observe;
+  ((static_cast<Settings&>(observe) = settings), ...);
+  return observe;
+}
+template <class... Settings>
+point::Problem observing(point::Problem scene, const Settings&... settings) {
+  scene.observe = observe_of(settings...);
   return scene;
 }
 
 TEST(Cost, extrema_allocate_nothing_in_any_number_of_periods) {
-  const observables::Observe extrema{.extrema = true};
+  const Extrema::Settings extrema{.extrema = true};
   for (const std::int64_t periods : {50, 500, 5000}) {
     point::Problem chaos = observing(paper_scene(3.0, 0.95), extrema);
     chaos.time.max_periods = periods, chaos.time.window = periods;
@@ -91,32 +101,38 @@ TEST(Cost, extrema_allocate_nothing_in_any_number_of_periods) {
 }
 
 TEST(Cost, numbers_of_a_period_allocate_nothing) {
-  const observables::Observe numbers{.extrema = true, .impacts = true, .period = true, .stability = true};
+  const observables::Observe numbers =
+      observe_of(Extrema::Settings{.extrema = true}, Impacts::Settings{.impacts = true},
+                 Period::Settings{.period = true}, Stability::Settings{.stability = true});
   EXPECT_EQ(cost_of(observing(symmetric(), numbers)).allocations, 0);
 }
 
 TEST(Cost, what_is_kept_is_allocated_once) {
   // a log grows by doubling: two impacts, two steps; a trajectory is x, x' and the times
-  EXPECT_EQ(cost_of(observing(symmetric(), {.impact_log = true})).allocations, 2);
-  EXPECT_EQ(cost_of(observing(symmetric(), {.trajectory = 1000})).allocations, 3);
-  EXPECT_GT(cost_of(observing(symmetric(), {.harmonics = 5, .harmonics_method = observables::HarmonicsMethod::exact}))
-                .allocations,
-            0);
+  EXPECT_EQ(cost_of(observing(symmetric(), ImpactLog::Settings{.impact_log = true})).allocations, 2);
+  EXPECT_EQ(cost_of(observing(symmetric(), Trajectory::Settings{.trajectory = 1000})).allocations, 3);
+  EXPECT_GT(
+      cost_of(observing(symmetric(),
+                        Harmonics::Settings{.harmonics = 5, .harmonics_method = observables::HarmonicsMethod::exact}))
+          .allocations,
+      0);
 }
 
 TEST(Cost, impacts_and_period_are_seen_without_an_evaluation) {
-  for (const observables::Observe& observe :
-       {observables::Observe{.impacts = true}, observables::Observe{.impact_log = true},
-        observables::Observe{.period = true}})
-    EXPECT_EQ(cost_of(observing(symmetric(), observe)).evaluations, 0);
-  EXPECT_EQ(cost_of(observing(symmetric(), {.impact_log = true})).result.log.size(), impacts);
+  for (const point::Problem& scene : {observing(symmetric(), Impacts::Settings{.impacts = true}),
+                                      observing(symmetric(), ImpactLog::Settings{.impact_log = true}),
+                                      observing(symmetric(), Period::Settings{.period = true})})
+    EXPECT_EQ(cost_of(scene).evaluations, 0);
+  EXPECT_EQ(cost_of(observing(symmetric(), ImpactLog::Settings{.impact_log = true})).result.log.size(), impacts);
 }
 
 TEST(Cost, stability_and_exact_harmonics_look_once_at_an_arc) {
-  EXPECT_EQ(cost_of(observing(symmetric(), {.stability = true})).evaluations, arcs);
+  EXPECT_EQ(cost_of(observing(symmetric(), Stability::Settings{.stability = true})).evaluations, arcs);
   // the harmonic at the resonance, k = 1 with |1 - w^2 + 2ihw| = 0.2, is far enough from it for the closed form
   point::Problem away = symmetric();
-  away.observe = {.harmonics = 20, .harmonics_method = observables::HarmonicsMethod::exact};
+  away.observe = {};
+  away.observe.harmonics = 20;
+  away.observe.harmonics_method = observables::HarmonicsMethod::exact;
   EXPECT_EQ(cost_of(away).evaluations, arcs);
   // with h = 0.05 it is within 1/8: panels of 20 points, each of 4 radians of nu + 1 = 2 over a period of 2 pi
   away.oscillator.damping = 0.05;
@@ -127,36 +143,34 @@ TEST(Cost, stability_and_exact_harmonics_look_once_at_an_arc) {
 
 TEST(Cost, samples_are_evaluated_once_each_and_not_on_impacts) {
   for (const std::int64_t count : {2, 100, 5000}) {
-    const Cost cost = cost_of(observing(symmetric(), {.trajectory = count}));
+    const Cost cost = cost_of(observing(symmetric(), Trajectory::Settings{.trajectory = count}));
     EXPECT_EQ(cost.evaluations, static_cast<double>(count - 1));  // the last is the end of the run
     EXPECT_EQ(cost.result.x.size(), static_cast<std::size_t>(count));
   }
-  const observables::FourierTransform transform(4096);
-  point::ThreadScratch scratch{&transform, transform.workspace()};
-  const Cost cost = cost_of(observing(symmetric(), {.harmonics = 5}), scratch);
+  point::ThreadScratch scratch{Harmonics::scratch_for(Harmonics::Settings{.harmonics = 5})};
+  const Cost cost = cost_of(observing(symmetric(), Harmonics::Settings{.harmonics = 5}), scratch);
   EXPECT_EQ(cost.evaluations, 4096);
   EXPECT_EQ(cost.result.x_spectrum.amplitude.size(), 6u);
 }
 
 TEST(Cost, extrema_look_at_an_arc_a_few_times) {
   // the end of each arc, and for displacement and velocity one or two turning points by a few steps of Newton's method
-  const Cost cost = cost_of(observing(symmetric(), {.extrema = true}));
+  const Cost cost = cost_of(observing(symmetric(), Extrema::Settings{.extrema = true}));
   EXPECT_GE(cost.evaluations, arcs);
   EXPECT_LE(cost.evaluations, arcs * (1 + 2 * 2 * 8));
 }
 
 TEST(Cost, is_the_sum_of_what_is_observed) {
-  const observables::FourierTransform transform(4096);
-  point::ThreadScratch scratch{&transform, transform.workspace()};
-  const observables::Observe each[] = {{.extrema = true},  {.harmonics = 5}, {.impacts = true},  {.impact_log = true},
-                                       {.trajectory = 77}, {.period = true}, {.stability = true}};
-  const observables::Observe all{.extrema = true,
-                                 .harmonics = 5,
-                                 .impacts = true,
-                                 .impact_log = true,
-                                 .trajectory = 77,
-                                 .period = true,
-                                 .stability = true};
+  point::ThreadScratch scratch{Harmonics::scratch_for(Harmonics::Settings{.harmonics = 5})};
+  const observables::Observe each[] = {
+      observe_of(Extrema::Settings{.extrema = true}),     observe_of(Harmonics::Settings{.harmonics = 5}),
+      observe_of(Impacts::Settings{.impacts = true}),     observe_of(ImpactLog::Settings{.impact_log = true}),
+      observe_of(Trajectory::Settings{.trajectory = 77}), observe_of(Period::Settings{.period = true}),
+      observe_of(Stability::Settings{.stability = true})};
+  const observables::Observe all = observe_of(
+      Extrema::Settings{.extrema = true}, Harmonics::Settings{.harmonics = 5}, Impacts::Settings{.impacts = true},
+      ImpactLog::Settings{.impact_log = true}, Trajectory::Settings{.trajectory = 77}, Period::Settings{.period = true},
+      Stability::Settings{.stability = true});
   for (const point::Problem& scene : {symmetric(), paper_scene(6, 1), paper_scene(4, 1)}) {
     double sum = 0, flown = -1;
     for (const observables::Observe& observe : each) {
@@ -169,11 +183,10 @@ TEST(Cost, is_the_sum_of_what_is_observed) {
 }
 
 TEST(Cost, of_a_response_that_meets_no_stop_is_nothing_but_for_those_who_need_its_course) {
-  const observables::Observe free{.extrema = true,
-                                  .harmonics = 5,
-                                  .harmonics_method = observables::HarmonicsMethod::exact,
-                                  .impacts = true,
-                                  .period = true};
+  const observables::Observe free =
+      observe_of(Extrema::Settings{.extrema = true},
+                 Harmonics::Settings{.harmonics = 5, .harmonics_method = observables::HarmonicsMethod::exact},
+                 Impacts::Settings{.impacts = true}, Period::Settings{.period = true});
   point::Problem scene = paper_scene(6, 1.1);
   scene.oscillator.load = 0.3, scene.start.phase = 0.7;
   const point::PointResult result = cost_of(observing(scene, free)).result;
@@ -197,7 +210,7 @@ TEST(Cost, of_a_response_that_meets_no_stop_is_nothing_but_for_those_who_need_it
 }
 
 TEST(Cost, nothing_is_kept_that_is_not_asked_for) {
-  const point::PointResult result = cost_of(observing(symmetric(), {.extrema = true})).result;
+  const point::PointResult result = cost_of(observing(symmetric(), Extrema::Settings{.extrema = true})).result;
   EXPECT_TRUE(result.log.empty() && result.tau.empty() && result.x.empty() && result.v.empty());
   EXPECT_TRUE(result.x_spectrum.amplitude.empty() && result.v_spectrum.amplitude.empty());
   for (const double value : {result.impacts_per_period[0], result.period, result.lyapunov, result.multiplier_re[0]})
@@ -206,7 +219,7 @@ TEST(Cost, nothing_is_kept_that_is_not_asked_for) {
 
 TEST(Cost, motion_out_of_reach_of_its_stops_is_one_arc) {
   // Fig. 20: in closed form nothing is run to find the steady motion, and one arc is a period of it
-  const Cost cost = cost_of(observing(paper_scene(6, 1), {.stability = true}));
+  const Cost cost = cost_of(observing(paper_scene(6, 1), Stability::Settings{.stability = true}));
   EXPECT_EQ(cost.result.found_by, steady::FoundBy::closed_form);
   EXPECT_EQ(cost.result.periods, 1);
   EXPECT_EQ(cost.result.evaluations, 1 + 1);  // the arc's end, and its derivative

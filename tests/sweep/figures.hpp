@@ -10,7 +10,7 @@
 
 namespace clatter::sweep {
 
-/// Problem of Figs. 14-23: h = 0.1, f = -1, R = 0.7, from rest.
+/// Scene of Figs. 14-23: h = 0.1, f = -1, R = 0.7, from rest.
 inline point::Problem paper_scene(double xs, double nu) {
   point::Problem scene;
   scene.oscillator = {0.1, -1.0, nu, 0.0};

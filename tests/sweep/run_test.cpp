@@ -17,13 +17,14 @@ namespace {
 TEST(Run, gives_the_same_bits_for_every_number_of_threads) {
   point::Problem scene = paper_scene(3.0, 1.0);
   scene.time.max_periods = 400;  // some points stay aperiodic
-  scene.observe = {.extrema = true,
-                   .harmonics = 2,
-                   .harmonics_samples = 257,
-                   .impacts = true,
-                   .impact_log = true,
-                   .trajectory = 5,
-                   .period = true};
+  scene.observe = {};
+  scene.observe.extrema = true;
+  scene.observe.harmonics = 2;
+  scene.observe.harmonics_samples = 257;
+  scene.observe.impacts = true;
+  scene.observe.impact_log = true;
+  scene.observe.trajectory = 5;
+  scene.observe.period = true;
   Axis nu{Parameter::nu, {}};
   for (int i = 0; i < 40; ++i) nu.values.push_back(0.8 + 0.01 * i);
   const Sweep sweep = sweep_of(scene, {nu, {Parameter::R, {0.5, 0.7}}});
@@ -110,7 +111,12 @@ TEST(Run, follow_moves_a_state_outside_narrower_stops_onto_the_stop) {
 TEST(Run, a_failed_point_has_no_values_and_does_not_lead_the_next_astray) {
   point::Problem scene = paper_scene(0.5, 1.0);
   scene.time.max_impacts = 40;
-  scene.observe = {.extrema = true, .impacts = true, .impact_log = true, .trajectory = 3, .period = true};
+  scene.observe = {};
+  scene.observe.extrema = true;
+  scene.observe.impacts = true;
+  scene.observe.impact_log = true;
+  scene.observe.trajectory = 3;
+  scene.observe.period = true;
   Sweep sweep = sweep_of(scene, {{Parameter::xs, {0.01, 6.0}}});
   sweep.follow = 0;
   const RunResult result = run(sweep, {});
@@ -175,8 +181,7 @@ TEST(Run, sampled_harmonics_approach_the_exact_ones_as_fast_as_theory_says) {
     double x = 0.0, v = 0.0;
     for (std::int64_t n = samples; n < samples + 16; ++n) {
       scene.observe.harmonics_samples = n;
-      const observables::FourierTransform transform(static_cast<std::size_t>(n));
-      point::ThreadScratch scratch{&transform, transform.workspace()};
+      point::ThreadScratch scratch{observables::Harmonics::scratch_for(scene.observe)};
       const point::PointResult sampled = run_point(scene, scratch);
       x += distance(sampled.x_spectrum, exact.x_spectrum) / 16;
       v += distance(sampled.v_spectrum, exact.v_spectrum) / 16;
@@ -194,8 +199,7 @@ TEST(Run, harmonics_beyond_half_the_sampling_rate_have_no_value) {
       paper_scene(3.0, 0.868);  // Fig. 23: two forcing periods, so harmonic k is the transform's 2k-th
   scene.observe.harmonics = 4;
   scene.observe.harmonics_samples = 14;
-  const observables::FourierTransform transform(14);
-  point::ThreadScratch scratch{&transform, transform.workspace()};
+  point::ThreadScratch scratch{observables::Harmonics::scratch_for(scene.observe)};
   const point::PointResult result = run_point(scene, scratch);
   for (std::size_t k = 0; k <= 4; ++k) EXPECT_EQ(std::isnan(result.x_spectrum.amplitude[k]), 2 * 2 * k >= 14) << k;
 }
@@ -208,8 +212,7 @@ TEST(Run, too_few_samples_for_the_base_frequency_give_no_harmonics_at_all) {
   scene.observe.harmonics = 1;
   for (std::int64_t samples : {64, 66}) {
     scene.observe.harmonics_samples = samples;
-    const observables::FourierTransform transform(static_cast<std::size_t>(samples));
-    point::ThreadScratch scratch{&transform, transform.workspace()};
+    point::ThreadScratch scratch{observables::Harmonics::scratch_for(scene.observe)};
     const point::PointResult result = run_point(scene, scratch);
     ASSERT_EQ(result.status, steady::Status::aperiodic);
     for (double amplitude : result.v_spectrum.amplitude) EXPECT_EQ(std::isnan(amplitude), samples == 64);
@@ -218,8 +221,11 @@ TEST(Run, too_few_samples_for_the_base_frequency_give_no_harmonics_at_all) {
 
 TEST(Run, observed_time_is_described) {
   point::Problem scene = paper_scene(3.0, 0.868);
-  scene.observe = {
-      .harmonics = 1, .harmonics_method = observables::HarmonicsMethod::exact, .impacts = true, .period = true};
+  scene.observe = {};
+  scene.observe.harmonics = 1;
+  scene.observe.harmonics_method = observables::HarmonicsMethod::exact;
+  scene.observe.impacts = true;
+  scene.observe.period = true;
   point::ThreadScratch nothing;
   const point::PointResult forced = run_point(scene, nothing);
   EXPECT_EQ(forced.period_ratio, 2.0);

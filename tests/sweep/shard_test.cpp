@@ -22,14 +22,15 @@ using Bytes = std::vector<std::byte>;
 Sweep any_sweep(std::optional<std::size_t> follow = {}) {
   point::Problem scene = paper_scene(0.5, 1.0);
   scene.time.max_periods = 300;
-  scene.observe = {.extrema = true,
-                   .harmonics = 2,
-                   .harmonics_samples = 64,
-                   .impacts = true,
-                   .impact_log = true,
-                   .trajectory = 5,
-                   .period = true,
-                   .stability = true};
+  scene.observe = {};
+  scene.observe.extrema = true;
+  scene.observe.harmonics = 2;
+  scene.observe.harmonics_samples = 64;
+  scene.observe.impacts = true;
+  scene.observe.impact_log = true;
+  scene.observe.trajectory = 5;
+  scene.observe.period = true;
+  scene.observe.stability = true;
   Sweep sweep = sweep_of(
       scene, {{Parameter::f, {-1, 2}}, {Parameter::nu, {0.5, 0.7, 0.9, 1.1, 1.3}}, {Parameter::R, {0, 0.5, 0.9}}});
   sweep.follow = follow;

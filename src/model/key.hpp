@@ -1,0 +1,59 @@
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <string_view>
+
+namespace clatter::inline model {
+
+enum class Kind : std::uint8_t { text, names, number, integer, flag, choice };
+
+/// The numbers that a key takes.
+struct AllowedRange {
+  double low = -std::numeric_limits<double>::infinity();
+  double high = std::numeric_limits<double>::infinity();
+  bool open = false;      ///< the ends themselves are excluded
+  bool not_zero = false;  ///< 0 is excluded
+  bool or_zero = false;   ///< 0 is permitted too
+  bool infinite = false;  ///< -inf and inf are permitted
+};
+
+/// All that is known of a configuration key, as plain data: reading, validation, `clatter defaults`, the help and the
+/// reference are made from it.
+struct Key {
+  std::string_view section;  ///< empty at the top level
+  std::string_view name;
+  Kind kind = Kind::number;
+  std::string_view fallback;  ///< the default, as in INI; empty: none (a text: the empty text)
+  std::string_view example;   ///< another value, as in INI
+  std::string_view help;      ///< its meaning, without the range
+  AllowedRange range{};
+  std::span<const std::string_view> choices{};
+  std::string_view other{};   ///< the key that gives the value if this one is not in use; the default is its too
+  std::string_view beside{};  ///< TOML lines of its section without which it has no effect
+
+  /// Whether the key has a value if neither it nor an alternative is given.
+  [[nodiscard]] constexpr bool has_default() const {
+    return other.empty() && (!fallback.empty() || kind == Kind::text || kind == Kind::names);
+  }
+};
+
+/// A key that has no effect without these lines.
+[[nodiscard]] constexpr Key with(std::string_view lines, Key key) {
+  key.beside = lines;
+  return key;
+}
+
+[[nodiscard]] constexpr Key one_of(std::span<const std::string_view> choices, Key key) {
+  key.choices = choices;
+  return key;
+}
+
+/// A key whose value is that of another key if it isn't in use.
+[[nodiscard]] constexpr Key or_as(std::string_view other, Key key) {
+  key.other = other;
+  return key;
+}
+
+}  // namespace clatter::inline model

@@ -1,0 +1,21 @@
+#pragma once
+
+#include "observables/extrema.hpp"
+#include "observables/harmonics.hpp"
+#include "observables/impact_log.hpp"
+#include "observables/impacts.hpp"
+#include "observables/observable_list.hpp"
+#include "observables/period.hpp"
+#include "observables/stability.hpp"
+#include "observables/trajectory.hpp"
+
+namespace clatter::observables {
+
+/// Every observable, in the order of keys and results. Configuration keys, help, observers, results, plan and memory
+/// are made from this list.
+using All = ObservableList<Extrema, Harmonics, Impacts, ImpactLog, Trajectory, Period, Stability>;
+
+/// The observables that are computed and stored; nothing else is.
+struct Observe : All::Settings {};
+
+}  // namespace clatter::observables

@@ -1,0 +1,153 @@
+#pragma once
+
+#include <boost/math/quadrature/gauss.hpp>
+#include <cmath>
+#include <complex>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "model/displacement_bound.hpp"
+#include "motion/arc.hpp"
+#include "motion/polynomial_arc.hpp"
+#include "observables/spectrum.hpp"
+
+namespace clatter::observables {
+
+/// Harmonics integrated over the arcs themselves, without samples and so without aliasing.
+///
+/// With w = k Omega, integrating eq. 3 by parts over an arc gives its part of the integral of x e^{-iw tau},
+/// Z X = int (f sin theta + load) e^{-iw tau} - [(x' + (iw + 2h) x) e^{-iw tau}],  Z = 1 - w^2 + 2ihw (physics.md,
+/// check 6, is their sum). Where Z is small, at a resonance, the right-hand side cancels, and Gauss-Legendre quadrature
+/// takes its place, exact to rounding; so it does for arcs by polynomials, which fulfil eq. 3 only to their error.
+class ExactHarmonics {
+ public:
+  using Complex = std::complex<double>;
+
+  /// Harmonics 0 ... K of the base frequency, over the observed time.
+  ExactHarmonics(std::size_t highest, double base_frequency) : base_(base_frequency), x_(highest + 1) {}
+
+  template <motion::Polynomial A>
+  void arc(const A& arc, double begin, double length) {
+    if (!(begin > 0.0)) first_x_ = arc.start().x;
+    for (std::size_t k = 0; k < x_.size(); ++k) {
+      const double w = base_ * static_cast<double>(k);
+      x_[k] += length * (arc.constants().rate + w) < 1 ? quadrature<10>(arc, w, begin, length)
+                                                       : quadrature<20>(arc, w, begin, length);
+    }
+  }
+  template <Effects E>
+  void arc(const motion::Arc<double, E>& arc, double begin, double length) {
+    const motion::Motion<double>& first = arc.start();
+    const motion::Motion<double> last = arc.at(length);
+    ++evaluations_;
+    if (!(begin > 0.0)) first_x_ = first.x;
+    for (std::size_t k = 0; k < x_.size(); ++k) {
+      const double w = base_ * static_cast<double>(k), h = arc.constants().h;
+      const Complex z = impedance(h, w);
+      if (resonates(z)) {
+        x_[k] += quadrature<20>(arc, w, begin, length);
+        continue;
+      }
+      const Complex slope(2 * h, w);
+      const Complex ends =
+          (last.v + slope * last.x) * turn(w * (begin + length)) - (first.v + slope * first.x) * turn(w * begin);
+      x_[k] += (force(arc, w, length) * turn(w * begin) - ends) / z;
+    }
+  }
+  void rest(const motion::Rest& rest) {
+    if (!(rest.time > 0.0)) first_x_ = rest.position;
+    for (std::size_t k = 0; k < x_.size(); ++k) {
+      const double w = base_ * static_cast<double>(k);
+      x_[k] += rest.position * turn(w * rest.time) * wave(-w, rest.length);
+    }
+  }
+  void impact(const motion::Impact&) {}
+
+  /// All flights of whole forcing periods at once, without rest: the terms at the ends of arcs cancel but for the jumps
+  /// of the velocity, whose sums with e^{-iw tau}, w = k nu, are given, shape [harmonic]. Nowhere may Z be small.
+  void flights(const Oscillator& o, double phase, const PhasePoint& first, const PhasePoint& last, double total,
+               std::span<const Complex> jumps) {
+    first_x_ = first.x;
+    for (std::size_t k = 0; k < x_.size(); ++k) {
+      const double w = base_ * static_cast<double>(k);
+      const Complex slope(2 * o.damping, w), growth = (last.v - first.v) + slope * (last.x - first.x);
+      Complex force = k == 0 ? o.load * total : 0.0;
+      if (k == 1) force = o.forcing * total / 2 * Complex(std::sin(phase), -std::cos(phase));
+      x_[k] = (force + jumps[k] - growth) / impedance(o.damping, w);
+    }
+  }
+  /// A time `total` of the steady response to the force, whole periods of it from displacement x on, base frequency nu.
+  void response(const Oscillator& o, double phase, double x, double total) {
+    const auto [in_phase, quadrature, amplitude] = steady_response(o.damping, o.forcing, o.frequency);
+    first_x_ = x;
+    x_[0] = o.load * total;
+    if (x_.size() > 1) x_[1] = total / 2 * Complex(quadrature, -in_phase) * std::polar(1.0, phase);
+  }
+  /// Z of harmonic w.
+  [[nodiscard]] static Complex impedance(double h, double w) { return {1 - w * w, 2 * h * w}; }
+  /// Whether Z is so small that quadrature has to take the place of a division by it.
+  [[nodiscard]] static bool resonates(const Complex& z) { return std::norm(z) < 1.0 / 64; }
+
+  /// Ends the observed time, of length `total`, at displacement x.
+  void finish(double x, double total) {
+    v_.resize(x_.size());
+    for (std::size_t k = 0; k < x_.size(); ++k) {
+      const double w = base_ * static_cast<double>(k);
+      x_[k] /= total;
+      v_[k] = Complex(0, w) * x_[k] + (x * turn(w * total) - first_x_) / total;
+    }
+  }
+  [[nodiscard]] const std::vector<Complex>& displacement() const { return x_; }
+  [[nodiscard]] const std::vector<Complex>& velocity() const { return v_; }
+  [[nodiscard]] double evaluations() const { return evaluations_; }  ///< of arcs
+
+ private:
+  [[nodiscard]] static Complex turn(double angle) { return {std::cos(angle), -std::sin(angle)}; }
+
+  /// Integral of e^{i w s} from 0 to `length`, without cancellation.
+  [[nodiscard]] static Complex wave(double w, double length) {
+    const double half = w * length / 2;
+    return length * (half == 0.0 ? 1.0 : std::sin(half) / half) * Complex(std::cos(half), std::sin(half));
+  }
+
+  /// Integral of the force times e^{-i w s} over an arc.
+  template <Effects E>
+  [[nodiscard]] static Complex force(const motion::Arc<double, E>& arc, double w, double length) {
+    const auto& constants = arc.constants();
+    Complex sum = constants.load * wave(-w, length);
+    if constexpr (E.forcing != Forcing::none) {
+      const Complex phase(arc.start().cosine, arc.start().sine);
+      const Complex difference =
+          phase * wave(constants.nu - w, length) - std::conj(phase) * wave(-constants.nu - w, length);
+      sum += constants.f * difference / Complex(0, 2);
+    }
+    return sum;
+  }
+
+  /// Integral of x e^{-i w tau} over an arc by panels in which nothing turns by more than a few radians.
+  template <unsigned points, class A>  // points: even
+  [[nodiscard]] Complex quadrature(const A& arc, double w, double begin, double length) {
+    using Rule = boost::math::quadrature::gauss<double, points>;
+    const auto panels = static_cast<std::size_t>(std::ceil(length * (arc.constants().rate + w) / 4));
+    const double half = length / static_cast<double>(panels) / 2;
+    Complex sum = 0;
+    evaluations_ += static_cast<double>(panels) * points;
+    const auto add = [&](double s, double weight) { sum += weight * arc.at(s).x * turn(w * (begin + s)); };
+    for (std::size_t panel = 0; panel < panels; ++panel)
+      for (std::size_t i = 0; i < Rule::abscissa().size(); ++i) {
+        const double middle = static_cast<double>(2 * panel + 1) * half, offset = half * Rule::abscissa()[i],
+                     weight = half * Rule::weights()[i];
+        add(middle - offset, weight);
+        add(middle + offset, weight);
+      }
+    return sum;
+  }
+
+  double base_;
+  double first_x_ = 0.0;
+  double evaluations_ = 0.0;
+  std::vector<Complex> x_, v_;
+};
+
+}  // namespace clatter::observables

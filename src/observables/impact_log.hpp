@@ -1,0 +1,54 @@
+#pragma once
+
+#include <string>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "motion/state.hpp"
+#include "observables/observable.hpp"
+
+namespace clatter::observables {
+
+/// Keeps every impact. As many as there are, they have no column: results hold them one point after the other.
+class ImpactLog {
+ public:
+  struct Settings {
+    bool impact_log = false;
+    bool full_log = false;  ///< with it: every rest and completed chatter, and an impact at the beginning itself
+  };
+  struct Values {
+    std::vector<motion::Impact> log{};
+    std::vector<motion::Rest> rests{};
+  };
+  static constexpr std::tuple fields{
+      Field{Key{"observe", "impact_log", Kind::flag, "false", "true", "every observed impact"}, &Settings::impact_log}};
+
+  [[nodiscard]] static bool wanted(const Settings& settings) { return settings.impact_log || settings.full_log; }
+  [[nodiscard]] static std::string description(const Settings&) { return "impact log"; }
+  [[nodiscard]] static std::vector<Column<Values>> columns(const Settings&) { return {}; }
+
+  ImpactLog() = default;
+  ImpactLog(const Settings& settings, const ObservedSpan&) : full_(settings.full_log) {}
+
+  template <class A>
+  void arc(const A&, double, double) {}
+  void rest(const motion::Rest& rest) {
+    if (full_) values_.rests.push_back(rest);
+  }
+  void impact(const motion::Impact& impact) { values_.log.push_back(impact); }
+  void impact_at_start(const motion::Impact& at_start) {
+    if (full_) impact(at_start);
+  }
+  /// The response meets no stop.
+  bool response(const ObservedSpan&, double) { return true; }
+
+  [[nodiscard]] const std::vector<motion::Impact>& impacts() const { return values_.log; }
+  [[nodiscard]] Values finish(const ObservedSpan&, double, double) { return std::move(values_); }
+
+ private:
+  bool full_ = false;
+  Values values_;
+};
+
+}  // namespace clatter::observables

@@ -1,0 +1,95 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "model/key.hpp"
+#include "model/scene.hpp"
+#include "observables/fourier_transform.hpp"
+
+namespace clatter::observables {
+
+inline constexpr double no_value = std::numeric_limits<double>::quiet_NaN();
+
+/// A key of [observe] and the field that it sets: a bool, an integer, a number, or an enumeration in the order of the
+/// key's choices.
+template <class Settings, class T>
+struct Field {
+  Key key;
+  T Settings::*member;
+};
+
+/// A dimension of the results beyond the axes of a sweep, and its coordinate, if it has one.
+struct Coordinate {
+  std::string name;
+  std::size_t length = 0;
+  std::variant<std::monostate, std::vector<std::int64_t>, std::vector<std::int8_t>> values{};  ///< shape [length]
+  std::string long_name{};
+};
+
+/// Results over the two stops.
+[[nodiscard]] inline Coordinate stop_coordinate() {
+  return {"stop", 2, std::vector<std::int8_t>{-1, 1}, "-1: lower stop, +1: upper stop"};
+}
+
+/// A variable of the results, and how to extract it from the values of a point.
+template <class Values>
+struct Column {
+  std::string name, long_name, units;
+  std::vector<Coordinate> along;                           ///< dimensions beyond the sweep's axes, at most one
+  std::function<void(const Values&, double* values)> put;  ///< writes `width()` values
+
+  [[nodiscard]] std::size_t width() const { return along.empty() ? 1 : along.front().length; }
+};
+
+template <class Values>
+[[nodiscard]] Column<Values> scalar(std::string name, std::string long_name, double Values::*member) {
+  return {std::move(name), std::move(long_name), "1", {}, [member](const Values& v, double* out) { *out = v.*member; }};
+}
+
+/// Two values, over `stop` or another coordinate of that length.
+template <class Values>
+[[nodiscard]] Column<Values> pair(std::string name, std::string long_name, Coordinate along,
+                                  std::array<double, 2> Values::*member) {
+  const auto put = [member](const Values& v, double* out) { std::ranges::copy(v.*member, out); };
+  return {std::move(name), std::move(long_name), "1", {std::move(along)}, put};
+}
+
+/// The values of a vector, NaN beyond its end; `get` gives the vector.
+template <class Values, class Get>
+[[nodiscard]] Column<Values> series(std::string name, std::string long_name, std::string units, Coordinate along,
+                                    Get get) {
+  const auto put = [width = along.length, get](const Values& v, double* out) {
+    const std::vector<double>& values = get(v);
+    const std::size_t present = std::min(width, values.size());
+    std::fill_n(std::copy_n(values.begin(), present, out), width - present, no_value);
+  };
+  return {std::move(name), std::move(long_name), std::move(units), {std::move(along)}, put};
+}
+
+/// The observed time of a point, as observers see it when it begins.
+struct ObservedSpan {
+  const Scene& scene;
+  double total = 0.0;           ///< its length in tau
+  double turns = 0.0;           ///< its length in forcing periods; without forcing in 2 pi
+  double base_frequency = 0.0;  ///< of harmonics
+  double base_turns = 0.0;      ///< turns of the base frequency in it
+  double uncertainty = 0.0;     ///< of displacements and velocities: rounding, and after a repeat its tolerance
+  bool periodic = false;        ///< it is a period of the motion
+  bool transient = false;       ///< it begins at the start of the scene
+  bool stands_still = false;    ///< nothing moves any more
+  const FourierScratch* fourier = nullptr;  ///< for harmonics from samples
+
+  /// Whether it counts as one period of its own: a transient, and a period of free motion.
+  [[nodiscard]] bool once() const { return transient || (scene.oscillator.forcing == 0 && periodic); }
+};
+
+}  // namespace clatter::observables
