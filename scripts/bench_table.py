@@ -12,7 +12,7 @@ FAST_UNIT = 0.6e-9  # seconds: on machines of a longer s than this, times are wa
 
 
 def order(name):
-    """Of benchmarks, which run in random order: by what they measure, then instruction sets, numbers, and tolerances from the loosest."""
+    """Sorts benchmarks, which run in random order: by subject, then instruction set, number, or falling tolerance."""
     what, how = name.split("/")
     if how in ARCHS:
         return what.lower(), ARCHS.index(how)
@@ -77,7 +77,8 @@ def show_rates(run):
             unit = run.unit(arch)
             rows.append((sweep, arch, *(text for what in ("impact", "period") for text in
                                         (time(entry[what]), in_units(entry[what], unit), f"{entry['proved_' + what]:.3g}", f"{entry['refined_' + what]:.3g}"))))
-    show("Time per impact and per forcing period, one thread; s of the same instruction set; lanes times steps proved and contacts refined",
+    show("Time per impact and per forcing period, one thread; s of the same instruction set; lanes times steps proved "
+         "and contacts refined",
          ("sweep", "set", "impact", "in s", "proved", "refined", "period", "in s", "proved", "refined"), rows)
 
 
@@ -85,7 +86,7 @@ def show_growth(run):
     unit = run.unit()
     rows = [(f"{kind[:-1]} ({number} {kind})", time(entry["time"]), in_units(entry["time"], unit))
             for kind in ("points", "periods") for number, entry in run.named(kind + "/")]
-    show(f"Growth: time for each point of 3 forcing periods, and for each period of 200 points; one thread", ("each", "time", "in s"), rows)
+    show("Growth: time for each point of 3 forcing periods, and for each period of 200 points; one thread", ("each", "time", "in s"), rows)
     show("Two threads", ("sweep", "1 thread", "2 threads", "efficiency"),
          [(what, time(run.medians[f"threads of {what}/1"]["time"]), time(run.medians[f"threads of {what}/2"]["time"]),
            f"{efficiency(run, what):.3f}") for what in ("transients", "the map")])
@@ -103,7 +104,8 @@ def show_solvers(run):
         if not name.startswith("sincos"):
             counts = [f"{entry[what]:.{digits}g}" if what in entry else "–" for what, digits in (("wrong", 3), ("error", 1), ("through", 3))]
             rows.append((name, time(entry["time"]), in_units(entry["time"], unit), f"{entry['time'] / clatter:.4g}", *counts))
-    show(f"The sweep of Fig. 23: 200 points, 300 forcing periods each on average, one thread; s of {run.context['best']}",
+    show("The sweep of Fig. 23: 200 points, 300 forcing periods each on average, one thread; "
+         f"s of {run.context['best']}",
          ("method", "period", "in s", "÷ clatter", "wrong points", "error of the others", "through a stop"), rows)
 
 

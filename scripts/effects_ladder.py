@@ -9,12 +9,13 @@ import sys
 from readme_table import README, add_build, program, replaced, section
 
 NAME = "effects ladder"
-HEAD = """| effects of the scene | left out | kernel | impacts | rests | evaluations | time | ÷ kept in | ÷ all effects |
+HEAD = """\
+| effects of the scene | left out | kernel | impacts | rests | evaluations | time | ÷ kept in | ÷ all effects |
 |---|---|--:|--:|--:|--:|--:|--:|--:|"""
 
 
 def measured(build, repetitions, seconds):
-    """Of each rung, in the ladder's order, what it leaves out and medians: {"own": {"time": ...}, "kept in": ..., "all": ...}."""
+    """What each rung leaves out, in their order, and medians: {"own": {"time": ...}, "kept in": ..., "all": ...}"""
     bench = program(build, "tests/bench/effects_ladder", "it is built where libbenchmark-dev is installed")
     # one after the other, in random order, again and again: what else the machine does hits all of them alike
     options = ["--benchmark_format=json", "--benchmark_enable_random_interleaving=true", "--benchmark_report_aggregates_only=true",

@@ -76,8 +76,9 @@ def our_table(rows):
         worst = max(cases, key=lambda case: case["error"])
         outcomes = sorted({case["outcome"] for case in cases})
         lines.append(
-            f"| {TITLES[row]} | {len(cases)} | {sum(c['impacts'] for c in cases):.0f} | {sum(c['rests'] for c in cases)} "
-            f"| {', '.join(outcomes)} | {size(worst['error'])} | {size(worst['one_ulp'])} | {sum(c['evaluations'] for c in cases):.0f} |"
+            f"| {TITLES[row]} | {len(cases)} | {sum(c['impacts'] for c in cases):.0f} "
+            f"| {sum(c['rests'] for c in cases)} | {', '.join(outcomes)} | {size(worst['error'])} "
+            f"| {size(worst['one_ulp'])} | {sum(c['evaluations'] for c in cases):.0f} |"
         )
     return "\n".join(lines)
 
@@ -89,7 +90,7 @@ def solved(build):
 
 
 def is_right(run):
-    """The same impacts, to a millionth, and no deeper into a stop than a millionth of half the distance to the other."""
+    """The same impacts to a millionth, and no deeper into a stop than a millionth of half the distance to the other."""
     off = [run[name] or 0 for name in ("missed", "extra", "unreached")] + [run["outcome"] != "completed"]
     return not any(off) and all((run[name] or 0) < 1e-6 for name in ("penetration", "error_time", "error_x"))
 
@@ -127,7 +128,7 @@ def number(text):
 
 
 def differences(now, written):
-    """Where the README no longer says what is measured: facts must be equal, errors of the same order, effort within 5 %."""
+    """Rows of the README that are no longer true: facts must be equal, errors of the same order, effort within 5 %."""
     now, written = cells(now), cells(written)
     if [line[:5] for line in now] != [line[:5] for line in written]:
         return [f"{a[:5]} now, {b[:5]} in the README" for a, b in zip(now, written) if a[:5] != b[:5]] or ["other rows"]
@@ -149,7 +150,8 @@ def main():
     cases = measured(arguments.build)
     if arguments.cases:
         for case in cases:
-            print(f"{case['row']:25} {case['what']:28} {case['outcome']:9} {case['impacts']:8.0f} impacts {case['rests']:4} rests "
+            print(f"{case['row']:25} {case['what']:28} {case['outcome']:9} "
+                f"{case['impacts']:8.0f} impacts {case['rests']:4} rests "
                   f"error {size(case['error']):6} one ulp {size(case['one_ulp'])}")
         return
     text = README.read_text()

@@ -49,7 +49,8 @@ def read_h5(path):
 
 
 def text_of(output):
-    lines = ["# By scripts/regress.sh. A line is a variable of the output: name, type, shape, every how many rows, how many, their values",
+    lines = ["# By scripts/regress.sh. A line is a variable of the output: name, type, shape, every how many rows, how "
+             "many, their values",
              f"config_sha256 {output.config}"]
     for name, (kind, shape, _, rows, *_) in output.variables.items():
         if name not in SETTLING:
@@ -141,7 +142,7 @@ def h5diff_of(base, output, tolerance):
     """What h5diff says of two files that may be read: it would follow what leads out of them."""
     found = subprocess.run(["h5diff", "-c", "-d", str(tolerance), "--exclude-attribute", "/", base.absolute(), output.absolute()], check=False,
                            capture_output=True, text=True, errors="replace")
-    # Other shapes are "not comparable" to it, and it ends with 0; so are, even in equal files, dimensions without values.
+    # For other shapes, "not comparable", it ends with 0; so are, even in equal files, dimensions without values.
     lines = [line for line in found.stdout.splitlines() if not line.endswith("is an empty dataset")]
     return "differs" if found.returncode or lines else "same"
 

@@ -1,4 +1,4 @@
-"""`clatter accuracy` as shell scripts and readers of its files meet it: table, JSON, file, signals; runs by every method.
+"""`clatter accuracy` as shell scripts and readers of its files meet it: table, JSON, file, signals; every method.
 
 Nothing here depends on how long anything takes: the two variables of times are only looked at for being there.
 """

@@ -1,4 +1,4 @@
-"""Instruction sets: how one is chosen, that each gives the same results, and that none leaks into code for old machines."""
+"""Instruction sets: how one is chosen, that each gives the same, and that none leaks into code for old machines."""
 
 import os
 import pathlib

@@ -1,6 +1,6 @@
-"""Calls that fail, disks that are full, places that can't be written: no broken file, no point lost or doubled, never a false success.
+"""Calls that fail, disks that are full, places that can't be written: no broken file, no point lost or doubled.
 
-scripts/long_checks.sh disks runs the full disks at more sizes.
+Never a false success. scripts/long_checks.sh disks runs the full disks at more sizes.
 """
 
 import contextlib

@@ -1,4 +1,4 @@
-"""The paper's figures equal their closed forms at every point, and their labels do not depend on how closely one looks."""
+"""The paper's figures equal their closed forms at every point; their labels do not depend on how closely one looks."""
 
 import os
 import subprocess
@@ -62,7 +62,7 @@ class ConservativeFigures(unittest.TestCase):
             beyond = speed > gap
             half = np.where(beyond, 2 * np.arcsin(np.minimum(1, gap / speed)), np.pi)  # T1
             contact = np.sqrt(np.maximum((speed - gap) * (speed + gap), 0))
-            # conditioning: an ulp of the gap moves the contact by it over the speed there; touching without speed by its root
+            # conditioning: an ulp of the gap moves the contact by it over the speed there, or by its root at speed 0
             tolerance = 1e-12 + 8 * EPSILON / np.maximum(contact, np.sqrt(EPSILON))
             for k in range(4):
                 omega = np.pi / half

@@ -166,6 +166,7 @@ class HostileFiles(CommandLine):
         def grow(file, directory):
             del file["x_max"]
             file.create_dataset("x_max", (1 << 40,), "f8", chunks=(1 << 10,))[:1] = 0.0
+
         def add_log(file, directory):
             file.create_dataset("impact_tau", data=numpy.zeros(100))
         for change, words in ((grow, "its size can hold"), (add_log, "a run of its configuration writes")):

@@ -2,7 +2,6 @@
 
 import os
 import pathlib
-import re
 import resource
 import subprocess
 import unittest
@@ -175,9 +174,8 @@ class Memory(Limits):
                 continue
         self.skipTest("no control group can be made here")
 
-
     def test_memory_that_runs_out_all_the_same_names_the_journal(self):
-        """A log that no estimate sees: a hundred points, of which one that isn't looked at for it has all the impacts."""
+        """A log that no estimate sees: of a hundred points, one that isn't looked at for it has all the impacts."""
         speeds = ", ".join(["0.0"] * 99 + ["10.0"])
         config = self.write("log.toml", f"""[scene]
 f = 0.0

@@ -57,7 +57,7 @@ SHAPES = {
 @unittest.skipIf(SANITIZED, "a sanitizer takes memory of its own")
 class Memory(CommandLine):
     def assert_told(self, name, *words):
-        """Memory as a command tells it with -v is within a tenth of the most that it takes; what it writes goes away."""
+        """Memory as a command tells it with -v is within a tenth of the most that it takes; its output goes away."""
         errors = self.directory / "errors"
         with open(errors, "w") as stderr:
             process = subprocess.Popen([CLATTER, *words, "-v", "-o", "a.h5"], cwd=self.directory, stderr=stderr)

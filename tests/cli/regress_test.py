@@ -38,7 +38,7 @@ class Regress(unittest.TestCase):
                               env={**os.environ, "CLATTER": CLATTER, **environment})
 
     def program(self, **commands):
-        """A clatter that has all outputs ready, but for those that it makes by a shell command of its own, from "$@"."""
+        """A clatter that has all outputs ready, but for those that it makes by a shell command, from "$@"."""
         path = self.folder / "clatter"
         others = "\n".join(f"*/{name}.toml) {command} ;;" for name, command in commands.items())
         path.write_text(f"""#!/bin/sh
@@ -176,7 +176,7 @@ esac
 
     @NEEDS_H5DIFF
     def test_the_line_of_the_readme(self):
-        """It tells equal, slightly and grossly different files apart; h5diff alone doesn't see that the number of points differs."""
+        """It tells equal, slightly and grossly different files apart; h5diff alone misses another number of points."""
         text = (SOURCE / "README.md").read_text()
         begin = text.index("<!-- begin: h5diff -->\n```bash\n")
         line = text[begin:text.index("```\n<!-- end -->", begin)].split("```bash\n")[1]

@@ -1,4 +1,7 @@
-"""Runs that are stopped, by signals, by their time or killed: nothing finished is lost, and the same command gives the bytes of an undisturbed run."""
+"""Runs that are stopped, by signals, by their time or killed: nothing finished is lost.
+
+The same command gives the bytes of an undisturbed run.
+"""
 
 import os
 import signal

@@ -1,4 +1,7 @@
-"""Shards and merge: one set of bytes however a sweep is shared out, run and stopped; anything else is an error that names the remedy."""
+"""Shards and merge: one set of bytes however a sweep is shared out, run and stopped.
+
+Anything else is an error that names the remedy.
+"""
 
 import os
 import re
@@ -147,7 +150,8 @@ class Shards(StoppedRuns):
     def test_a_shard_opens_like_any_output_and_is_not_drawn(self):
         self.sweep(nu=4, xs=3)
         shard = self.shard(1, 2)
-        read = "import h5py, sys; f = h5py.File(sys.argv[1]); print(f.attrs['shard'], list(f['point']), f['x_max'].dims[0].keys())"
+        read = ("import h5py, sys; f = h5py.File(sys.argv[1]); "
+                "print(f.attrs['shard'], list(f['point']), f['x_max'].dims[0].keys())")
         said = subprocess.run([sys.executable, "-c", read, shard], capture_output=True, text=True)  # h5py here would count as memory of runs
         self.assertEqual(said.stdout, "1/2 [1, 3, 5, 7, 9, 11] ['point']\n", said.stderr)
         info = self.clatter("info", shard)

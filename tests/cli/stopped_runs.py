@@ -33,7 +33,10 @@ MAGIC = b"clatter journal 1\n"
 
 
 def whole_records(journal):
-    """The bytes of a journal without what a killed run has left of a last record: blocks of length, CRC-32, CRC-32 of both, and content."""
+    """The bytes of a journal without what a killed run has left of a last record.
+
+    They are blocks of length, CRC-32, CRC-32 of both, and content.
+    """
     at = len(MAGIC)
     while at + 16 <= len(journal):
         end = at + 16 + struct.unpack_from("<Q", journal, at)[0]
@@ -99,7 +102,10 @@ class StoppedRuns(CommandLine):
         return self.output.read_bytes(), result.stderr
 
     def killed(self, whole, kills, seed):
-        """Kills so many runs at random moments, each sweep again and again until it is done; returns how often one went on from a journal."""
+        """Kills so many runs at random moments, each sweep again and again until it is done.
+
+        Returns how often one went on from a journal.
+        """
         moments, done, resumed = random.Random(seed), 0, 0
         while done < kills:
             saved = b""

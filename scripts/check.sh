@@ -1,0 +1,139 @@
+#!/usr/bin/env bash
+# What holds for the sources besides their tests, from one command; --help says more.
+set -euo pipefail
+
+source_dir=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
+# shellcheck source=scripts/packages.sh
+source "$source_dir/scripts/packages.sh"
+
+line_length=120  # of Python; .flake8 has it again
+quick=(clang-format shellcheck black flake8 arrows g++ clang++)
+sanitize=(asan tsan)
+all=("${quick[@]}" clang-tidy "${sanitize[@]}")
+
+# The tests that the sanitizers run, and the programs they need. TSan takes only those where threads meet.
+asan_tests='^(lanes|storage|config|results|sweep)\.|^cli\.(hostile_files|readers|resume|shards|streams)_test$'
+tsan_tests='^sweep\.|^cli\.(resume|shards|streams)_test$'
+asan_targets=(clatter lanes_tests storage_tests config_tests results_tests sweep_tests)
+tsan_targets=(clatter sweep_tests)
+
+steps() {
+  cat <<END
+Checks the sources on Debian 12, as root or with sudo. It installs the packages that are missing, runs each of these
+gates, says at the end which ones fail, and exits with 1 if any does:
+  clang-format  C++ is formatted as .clang-format says
+  shellcheck    no finding in any shell script
+  black         Python is formatted as black does it, in lines of at most $line_length
+  flake8        no finding in any Python file (.flake8)
+  arrows        no include points against the arrows between the rooms (tests/cli/arrows_test.py)
+  g++           everything compiles without a warning: the release build, nothing more if scripts/test.sh has built it
+  clang++       nor does clang++ warn, without making code (build/clang)
+  clang-tidy    no finding in any source file (.clang-tidy); the longest of all
+  asan          AddressSanitizer and UndefinedBehaviorSanitizer find nothing in the tests of lanes, journal, files,
+                configurations and sweeps, and in those of the program that damage, interrupt and split (build/asan)
+  tsan          ThreadSanitizer finds nothing in the tests of sweeps, and of runs that are interrupted, split and
+                piped (build/tsan)
+END
+}
+
+usage() {
+  cat <<END
+usage: scripts/check.sh [--quick | --sanitize | GATE...]
+
+  --quick      ${quick[*]}; .ci/run calls it after the tests
+  --sanitize   ${sanitize[*]}
+  GATE...      these alone; with no argument all of them
+
+END
+  steps
+}
+
+cpp_files() { find src apps tests \( -name '*.cpp' -o -name '*.hpp' \) -print0; }
+shell_files() { find scripts .ci \( -name '*.sh' -o -name '*.sbatch' -o -path .ci/run \) -print0; }
+
+# Prints the commands of a compile database, which look at a file without making code of it.
+syntax_commands() {
+  /usr/bin/python3 - "$1" <<'END'
+import json
+import sys
+
+with open(sys.argv[1], encoding="utf-8") as database:
+    for entry in json.load(database):
+        print(f"cd '{entry['directory']}' && {entry['command']} -fsyntax-only", end="\0")
+END
+}
+
+configure_clang() {
+  cmake --preset clang >/dev/null
+  cmake --build --preset clang --target clatter_version >/dev/null
+}
+
+run_sanitized() {
+  local preset=$1 tests=$2
+  shift 2
+  cmake --preset "$preset"
+  cmake --build --preset "$preset" --target "$@"
+  ctest --preset "$preset" -R "$tests"
+}
+
+run_gate() {
+  case "$1" in
+    clang-format) cpp_files | xargs -0 clang-format --dry-run -Werror ;;
+    shellcheck) shell_files | xargs -0 shellcheck --external-sources ;;
+    black) black --quiet --check --diff --line-length "$line_length" scripts tests ;;
+    flake8) flake8 scripts tests ;;
+    arrows) CLATTER_SOURCE=$source_dir /usr/bin/python3 -B tests/cli/arrows_test.py ;;
+    g++)
+      cmake --preset release >/dev/null
+      cmake --build --preset release
+      ;;
+    clang++)
+      configure_clang
+      syntax_commands build/clang/compile_commands.json | xargs -0 -n 1 -P "$(nproc)" sh -c
+      ;;
+    clang-tidy)
+      configure_clang
+      run-clang-tidy -quiet -p build/clang -j "$(nproc)" "^$source_dir/(src|apps|tests)/"
+      ;;
+    asan) run_sanitized asan "$asan_tests" "${asan_targets[@]}" ;;
+    tsan) run_sanitized tsan "$tsan_tests" "${tsan_targets[@]}" ;;
+  esac
+}
+
+gates=()
+case "${1-}" in
+  "") gates=("${all[@]}") ;;
+  --quick) gates=("${quick[@]}") ;;
+  --sanitize) gates=("${sanitize[@]}") ;;
+  -h | --help) usage; exit 0 ;;
+  *) gates=("$@") ;;
+esac
+for gate in "${gates[@]}"; do
+  [[ " ${all[*]} " == *" $gate "* ]] || { echo "check.sh: unknown argument '$gate'; try --help" >&2; exit 2; }
+done
+
+steps
+packages=("${BUILD_PACKAGES[@]}" "${CHECK_PACKAGES[@]}")
+[[ " ${gates[*]} " != *" clang-tidy "* ]] || packages+=("${TIDY_PACKAGES[@]}")
+[[ " ${gates[*]} " != *san* ]] || packages+=("${PLOT_PACKAGES[@]}" "${TEST_PACKAGES[@]}")
+install_missing "${packages[@]}"
+
+cd "$source_dir"
+verdicts=() code=0
+for gate in "${gates[@]}"; do
+  echo "$gate"
+  began=$SECONDS
+  set +e  # if it were in a condition, the gate would go on after a command that fails
+  (
+    set -e
+    run_gate "$gate"
+  )
+  status=$?
+  set -e
+  verdict=passed
+  ((status == 0)) || verdict=FAILED code=1
+  verdicts+=("$(printf '%-12s %s after %d s' "$gate" "$verdict" $((SECONDS - began)))")
+done
+echo
+printf '%s\n' "${verdicts[@]}"
+exit $code
