@@ -38,11 +38,11 @@ END
 
 usage() {
   cat <<END
-usage: scripts/check.sh [--quick | --sanitize | GATE...]
+usage: scripts/check.sh [--quick] [--sanitize] [GATE...]
 
   --quick      ${quick[*]}; .ci/run calls it after the tests
   --sanitize   ${sanitize[*]}
-  GATE...      these alone; with no argument all of them
+  GATE...      one by one; with no argument all of them
 
 END
   steps
@@ -101,16 +101,18 @@ run_gate() {
 }
 
 gates=()
-case "${1-}" in
-  "") gates=("${all[@]}") ;;
-  --quick) gates=("${quick[@]}") ;;
-  --sanitize) gates=("${sanitize[@]}") ;;
-  -h | --help) usage; exit 0 ;;
-  *) gates=("$@") ;;
-esac
-for gate in "${gates[@]}"; do
-  [[ " ${all[*]} " == *" $gate "* ]] || { echo "check.sh: unknown argument '$gate'; try --help" >&2; exit 2; }
+for argument in "$@"; do
+  case "$argument" in
+    --quick) gates+=("${quick[@]}") ;;
+    --sanitize) gates+=("${sanitize[@]}") ;;
+    -h | --help) usage; exit 0 ;;
+    *)
+      [[ " ${all[*]} " == *" $argument "* ]] || { echo "check.sh: unknown argument '$argument'; try --help" >&2; exit 2; }
+      gates+=("$argument")
+      ;;
+  esac
 done
+((${#gates[@]} > 0)) || gates=("${all[@]}")
 
 steps
 packages=("${BUILD_PACKAGES[@]}" "${CHECK_PACKAGES[@]}")
