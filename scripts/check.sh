@@ -51,18 +51,6 @@ END
 cpp_files() { find src apps tests \( -name '*.cpp' -o -name '*.hpp' \) -print0; }
 shell_files() { find scripts .ci \( -name '*.sh' -o -name '*.sbatch' -o -path .ci/run \) -print0; }
 
-# Prints the commands of a compile database, which look at a file without making code of it.
-syntax_commands() {
-  /usr/bin/python3 - "$1" <<'END'
-import json
-import sys
-
-with open(sys.argv[1], encoding="utf-8") as database:
-    for entry in json.load(database):
-        print(f"cd '{entry['directory']}' && {entry['command']} -fsyntax-only", end="\0")
-END
-}
-
 configure_clang() {
   cmake --preset clang >/dev/null
   cmake --build --preset clang --target clatter_version >/dev/null
@@ -89,7 +77,7 @@ run_gate() {
       ;;
     clang++)
       configure_clang
-      syntax_commands build/clang/compile_commands.json | xargs -0 -n 1 -P "$(nproc)" sh -c
+      /usr/bin/python3 -B scripts/clang_syntax.py build/clang
       ;;
     clang-tidy)
       configure_clang

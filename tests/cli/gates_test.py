@@ -37,7 +37,14 @@ class Check(Folder):
 
     def setUp(self):
         super().setUp()
-        for name in (".clang-format", ".flake8", "CMakePresets.json", "scripts/check.sh", "scripts/packages.sh"):
+        for name in (
+            ".clang-format",
+            ".flake8",
+            "CMakePresets.json",
+            "scripts/check.sh",
+            "scripts/clang_syntax.py",
+            "scripts/packages.sh",
+        ):
             self.write(name, read(name), 0o755)
         warnings = re.search(
             r"add_compile_options\(-Wall.*?\)\nif\(CLATTER_WERROR\).*?endif\(\)\n", read("CMakeLists.txt"), re.S
