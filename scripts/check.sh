@@ -11,9 +11,12 @@ quick=(clang-format shellcheck black flake8 arrows g++ clang++)
 sanitize=(asan tsan)
 all=("${quick[@]}" clang-tidy "${sanitize[@]}")
 
-# The tests that the sanitizers run, and the programs they need. TSan takes only those where threads meet.
-asan_tests='^(lanes|storage|config|results|sweep)\.|^cli\.(hostile_files|readers|resume|shards|streams)_test$'
-tsan_tests='^sweep\.|^cli\.(resume|shards|streams)_test$'
+# The tests that the sanitizers run, and the programs they need: some minutes of what reads files and shares memory.
+# ThreadSanitizer takes those alone in which threads meet.
+threads='Of/LaneBits|LaneBits|Lanes|Run|SavedRun|Shard'
+asan_tests="^(lanes|storage|config|results)\.|^sweep\.($threads|LanePoints|Plan)\."
+asan_tests+="|^cli\.(hostile_files|readers|shards|streams)_test$"
+tsan_tests="^sweep\.($threads)\.|^cli\.(shards|streams)_test$"
 asan_targets=(clatter lanes_tests storage_tests config_tests results_tests sweep_tests)
 tsan_targets=(clatter sweep_tests)
 
@@ -29,10 +32,11 @@ gates, says at the end which ones fail, and exits with 1 if any does:
   g++           everything compiles without a warning: the release build, nothing more if scripts/test.sh has built it
   clang++       nor does clang++ warn, without making code (build/clang)
   clang-tidy    no finding in any source file (.clang-tidy); the longest of all
-  asan          AddressSanitizer and UndefinedBehaviorSanitizer find nothing in the tests of lanes, journal, files,
-                configurations and sweeps, and in those of the program that damage, interrupt and split (build/asan)
-  tsan          ThreadSanitizer finds nothing in the tests of sweeps, and of runs that are interrupted, split and
-                piped (build/tsan)
+  asan          AddressSanitizer and UndefinedBehaviorSanitizer find nothing in tests of lanes, the journal, outputs,
+                configurations, plans and sweeps on several threads, nor in the program itself when its files are
+                hostile, read by other programs, split into shards and piped (build/asan)
+  tsan          ThreadSanitizer finds nothing in tests of sweeps on several threads, in lanes, in shards, and saved
+                while they run, nor in the program's shards and pipes (build/tsan)
 END
 }
 
