@@ -99,7 +99,10 @@ for argument in "$@"; do
     --sanitize) gates+=("${sanitize[@]}") ;;
     -h | --help) usage; exit 0 ;;
     *)
-      [[ " ${all[*]} " == *" $argument "* ]] || { echo "check.sh: unknown argument '$argument'; try --help" >&2; exit 2; }
+      if [[ " ${all[*]} " != *" $argument "* ]]; then
+        echo "check.sh: unknown argument '$argument'; try --help" >&2
+        exit 2
+      fi
       gates+=("$argument")
       ;;
   esac
