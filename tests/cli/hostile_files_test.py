@@ -254,7 +254,7 @@ class HostileFiles(CommandLine):
     def test_a_journal_of_one_long_section_takes_no_memory(self):
         config = "[" + "s" * (1 << 20) + "]\n" + "a\n" * 100_000  # as lines with their section 100 GiB
         (self.directory / "b.h5.journal").write_bytes(self.journal("1.0", "avx2", "", config))
-        result = subprocess.run([CLATTER, "run", self.config, "-o", "b.h5"], cwd=self.directory, text=True, timeout=60,
+        result = subprocess.run([CLATTER, "run", self.config, "-o", "b.h5"], cwd=self.directory, text=True, timeout=300,
                                 capture_output=True,
                                 preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_AS, (2 << 30, 2 << 30)))
         self.assertEqual(result.returncode, 74)
