@@ -71,7 +71,10 @@ def size(value):
 
 
 def our_table(rows):
-    lines = ["| case | scenes | impacts | rests | outcome | error | one ulp | evaluations |", "|---|--:|--:|--:|---|--:|--:|--:|"]
+    lines = [
+        "| case | scenes | impacts | rests | outcome | error | one ulp | evaluations |",
+        "|---|--:|--:|--:|---|--:|--:|--:|",
+    ]
     for row, cases in rows.items():
         worst = max(cases, key=lambda case: case["error"])
         outcomes = sorted({case["outcome"] for case in cases})
@@ -101,7 +104,9 @@ def verdict(runs):
     missed, extra = sum(run["missed"] for run in runs), sum(run["extra"] for run in runs)
     stuck = sum(run["outcome"] != "completed" for run in runs)
     deepest = max(run["penetration"] or 0 for run in runs)
-    words += [f"misses {missed}"] * (missed > 0) + [f"adds {extra}"] * (extra > 0) + [f"no end in {stuck}"] * (stuck > 0)
+    words += (
+        [f"misses {missed}"] * (missed > 0) + [f"adds {extra}"] * (extra > 0) + [f"no end in {stuck}"] * (stuck > 0)
+    )
     words += [f"{size(deepest)} into a stop"] * (deepest > 1e-6)
     latest = max(run["error_time"] or 0 for run in runs)
     words += [f"times off by {size(latest)}"] * (len(words) == 1 and latest > 1e-6)
@@ -110,17 +115,24 @@ def verdict(runs):
 
 def others_table(runs):
     solvers = list(dict.fromkeys(run["solver"] for run in runs))
-    lines = ["| right in how many scenes, and what is wrong | " + " | ".join(solvers) + " |", "|---" * (len(solvers) + 1) + "|"]
+    lines = [
+        "| right in how many scenes, and what is wrong | " + " | ".join(solvers) + " |",
+        "|---" * (len(solvers) + 1) + "|",
+    ]
     for row, title in TITLES.items():
         if row == "long":  # beyond any general solver's patience
             continue
         of_row = [run for run in runs if run["row"] == row]
-        lines.append(f"| {title} | " + " | ".join(verdict([r for r in of_row if r["solver"] == s]) for s in solvers) + " |")
+        lines.append(
+            f"| {title} | " + " | ".join(verdict([r for r in of_row if r["solver"] == s]) for s in solvers) + " |"
+        )
     return "\n".join(lines)
 
 
 def cells(table):
-    return [[cell.strip() for cell in line.replace("\\|", "¦").strip("| ").split("|")] for line in table.splitlines()[2:]]
+    return [
+        [cell.strip() for cell in line.replace("\\|", "¦").strip("| ").split("|")] for line in table.splitlines()[2:]
+    ]
 
 
 def number(text):
@@ -142,17 +154,23 @@ def differences(now, written):
 
 
 def main():
-    parser = argparse.ArgumentParser(description="Makes the tables of hard cases in README.md from what the tests and tests/bench measure.")
+    parser = argparse.ArgumentParser(
+        description="Makes the tables of hard cases in README.md from what the tests and tests/bench measure."
+    )
     add_build(parser)
-    parser.add_argument("--check", action="store_true", help="write nothing; fail where the README's figures are no longer true")
+    parser.add_argument(
+        "--check", action="store_true", help="write nothing; fail where the README's figures are no longer true"
+    )
     parser.add_argument("--cases", action="store_true", help="print every case instead")
     arguments = parser.parse_args()
     cases = measured(arguments.build)
     if arguments.cases:
         for case in cases:
-            print(f"{case['row']:25} {case['what']:28} {case['outcome']:9} "
+            print(
+                f"{case['row']:25} {case['what']:28} {case['outcome']:9} "
                 f"{case['impacts']:8.0f} impacts {case['rests']:4} rests "
-                  f"error {size(case['error']):6} one ulp {size(case['one_ulp'])}")
+                f"error {size(case['error']):6} one ulp {size(case['one_ulp'])}"
+            )
         return
     text = README.read_text()
     table = our_table(by_row(cases))

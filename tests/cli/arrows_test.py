@@ -19,7 +19,18 @@ BELOW = {  # folder: what it may include besides itself
     "storage": set(),
     "config": {"storage", "sweep", "integrators", "observables", "lanes", "dynamics", "numbers"},
     "results": {"config", "storage", "sweep", "integrators", "observables", "lanes", "dynamics", "numbers"},
-    "apps": {"results", "config", "storage", "study", "sweep", "integrators", "observables", "lanes", "dynamics", "numbers"},
+    "apps": {
+        "results",
+        "config",
+        "storage",
+        "study",
+        "sweep",
+        "integrators",
+        "observables",
+        "lanes",
+        "dynamics",
+        "numbers",
+    },
 }
 KNOWN_TO = {  # library header: the only folder that sees it
     r"fftw3": {"observables"},
@@ -67,7 +78,11 @@ class Arrows(unittest.TestCase):
                 (root / name).write_text(text)
             self.assertEqual(
                 wrong_includes(root),
-                ["src/dynamics/a.hpp:2: sweep/run.hpp", "src/observables/b.hpp:1: integrators/exact.hpp", "src/sweep/c.cpp:1: hdf5.h"],
+                [
+                    "src/dynamics/a.hpp:2: sweep/run.hpp",
+                    "src/observables/b.hpp:1: integrators/exact.hpp",
+                    "src/sweep/c.cpp:1: hdf5.h",
+                ],
             )
 
 
