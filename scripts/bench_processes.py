@@ -20,9 +20,16 @@ ENOUGH_SECONDS = 60  # after which a measurement is not repeated
 
 def map_settings(points):
     """Of the map over frequency and stops: configs/map_nu_xs.toml has the scene."""
-    settings = {"sweep.nu": f"linspace(0.5, 1.5, {points})", "sweep.xs": f"linspace(0.2, 4, {points})", "time.max_periods": 500,
-                "observe.extrema": "true", "observe.harmonics": 3, "observe.harmonics_method": "exact", "observe.impacts": "false",
-                "observe.period": "true"}
+    settings = {
+        "sweep.nu": f"linspace(0.5, 1.5, {points})",
+        "sweep.xs": f"linspace(0.2, 4, {points})",
+        "time.max_periods": 500,
+        "observe.extrema": "true",
+        "observe.harmonics": 3,
+        "observe.harmonics_method": "exact",
+        "observe.impacts": "false",
+        "observe.period": "true",
+    }
     return [text for key, value in settings.items() for text in ("--set", f"{key}={value}")]
 
 
@@ -46,30 +53,66 @@ def measured(name, commands, repetitions, environment):
         runs = [run_once(command, environment) for command in commands]
         seconds.append(sum(run[0] for run in runs))
         megabytes.append(max(run[1] for run in runs))
-    return {"name": name, "seconds": statistics.median(seconds), "megabytes": statistics.median(megabytes), "repetitions": len(seconds)}
+    return {
+        "name": name,
+        "seconds": statistics.median(seconds),
+        "megabytes": statistics.median(megabytes),
+        "repetitions": len(seconds),
+    }
 
 
 def main():
-    parser = argparse.ArgumentParser(description="Times `clatter run` as whole processes: a scene of one point, the 22 figures one after "
-                                                 "the other, and a map over frequency and stops. Output files go to a temporary folder.")
+    parser = argparse.ArgumentParser(
+        description="Times `clatter run` as whole processes: a scene of one point, the 22 figures one after "
+        "the other, and a map over frequency and stops. Output files go to a temporary folder."
+    )
     add_build(parser)
     parser.add_argument("--out", required=True, help="the JSON file to write")
     parser.add_argument("--map", type=int, default=1000, metavar="N", help="the map has N x N points (default: 1000)")
-    parser.add_argument("--repetitions", type=int, default=5, help="of the figures and the map (default: 5); four times as many of one point")
+    parser.add_argument(
+        "--repetitions",
+        type=int,
+        default=5,
+        help="of the figures and the map (default: 5); four times as many of one point",
+    )
     parser.add_argument("--arch", help="instruction set, as `clatter run --arch` takes it")
     arguments = parser.parse_args()
     clatter = program(arguments.build, "apps/clatter/clatter", "cmake --build --preset release makes it")
     environment = dict(os.environ, CLATTER_ARCH=arguments.arch) if arguments.arch else None
     with tempfile.TemporaryDirectory() as folder:
+
         def command(config, *options):
             chosen = ["--arch", arguments.arch] if arguments.arch else []
-            return [clatter, "run", config, "-o", f"{folder}/{config.stem}.h5", "--force", "--progress", "never", "-q", *chosen, *options]
+            return [
+                clatter,
+                "run",
+                config,
+                "-o",
+                f"{folder}/{config.stem}.h5",
+                "--force",
+                "--progress",
+                "never",
+                "-q",
+                *chosen,
+                *options,
+            ]
 
-        results = [measured("start", [command(ONE_POINT)], 4 * arguments.repetitions, environment),
-                   measured("figures", [command(config) for config in FIGURES], arguments.repetitions, environment),
-                   measured("map", [command(CONFIGS / "map_nu_xs.toml", *map_settings(arguments.map))], arguments.repetitions, environment)]
+        results = [
+            measured("start", [command(ONE_POINT)], 4 * arguments.repetitions, environment),
+            measured("figures", [command(config) for config in FIGURES], arguments.repetitions, environment),
+            measured(
+                "map",
+                [command(CONFIGS / "map_nu_xs.toml", *map_settings(arguments.map))],
+                arguments.repetitions,
+                environment,
+            ),
+        ]
     with open(arguments.out, "w", encoding="utf-8") as file:
-        json.dump({"context": {"map": arguments.map, "cores": os.cpu_count(), "arch": arguments.arch}, "processes": results}, file, indent=2)
+        json.dump(
+            {"context": {"map": arguments.map, "cores": os.cpu_count(), "arch": arguments.arch}, "processes": results},
+            file,
+            indent=2,
+        )
 
 
 if __name__ == "__main__":

@@ -12,7 +12,7 @@ FAST_UNIT = 0.6e-9  # seconds: on machines of a longer s than this, times are wa
 
 
 def order(name):
-    """Of benchmarks, which run in random order: by what they measure, then instruction sets, numbers, and tolerances from the loosest."""
+    """Sorts benchmarks, which run in random order: by subject, then instruction set, number, or falling tolerance."""
     what, how = name.split("/")
     if how in ARCHS:
         return what.lower(), ARCHS.index(how)
@@ -65,7 +65,10 @@ def show(title, head, rows):
 
 
 def show_units(runs):
-    rows = [(name, *(time(run.unit(arch)) if f"sincos/{arch}" in run.medians else "–" for arch in ARCHS[1:])) for name, run in runs.items()]
+    rows = [
+        (name, *(time(run.unit(arch)) if f"sincos/{arch}" in run.medians else "–" for arch in ARCHS[1:]))
+        for name, run in runs.items()
+    ]
     show("The unit s: one batched xsimd sincos for each element, in each of the runs", ("run", *ARCHS[1:]), rows)
 
 
@@ -75,20 +78,55 @@ def show_rates(run):
         sweep, arch = name.split("/")
         if sweep != "sincos":
             unit = run.unit(arch)
-            rows.append((sweep, arch, *(text for what in ("impact", "period") for text in
-                                        (time(entry[what]), in_units(entry[what], unit), f"{entry['proved_' + what]:.3g}", f"{entry['refined_' + what]:.3g}"))))
-    show("Time per impact and per forcing period, one thread; s of the same instruction set; lanes times steps proved and contacts refined",
-         ("sweep", "set", "impact", "in s", "proved", "refined", "period", "in s", "proved", "refined"), rows)
+            rows.append(
+                (
+                    sweep,
+                    arch,
+                    *(
+                        text
+                        for what in ("impact", "period")
+                        for text in (
+                            time(entry[what]),
+                            in_units(entry[what], unit),
+                            f"{entry['proved_' + what]:.3g}",
+                            f"{entry['refined_' + what]:.3g}",
+                        )
+                    ),
+                )
+            )
+    show(
+        "Time per impact and per forcing period, one thread; s of the same instruction set; lanes times steps proved "
+        "and contacts refined",
+        ("sweep", "set", "impact", "in s", "proved", "refined", "period", "in s", "proved", "refined"),
+        rows,
+    )
 
 
 def show_growth(run):
     unit = run.unit()
-    rows = [(f"{kind[:-1]} ({number} {kind})", time(entry["time"]), in_units(entry["time"], unit))
-            for kind in ("points", "periods") for number, entry in run.named(kind + "/")]
-    show(f"Growth: time for each point of 3 forcing periods, and for each period of 200 points; one thread", ("each", "time", "in s"), rows)
-    show("Two threads", ("sweep", "1 thread", "2 threads", "efficiency"),
-         [(what, time(run.medians[f"threads of {what}/1"]["time"]), time(run.medians[f"threads of {what}/2"]["time"]),
-           f"{efficiency(run, what):.3f}") for what in ("transients", "the map")])
+    rows = [
+        (f"{kind[:-1]} ({number} {kind})", time(entry["time"]), in_units(entry["time"], unit))
+        for kind in ("points", "periods")
+        for number, entry in run.named(kind + "/")
+    ]
+    show(
+        "Growth: time for each point of 3 forcing periods, and for each period of 200 points; one thread",
+        ("each", "time", "in s"),
+        rows,
+    )
+    show(
+        "Two threads",
+        ("sweep", "1 thread", "2 threads", "efficiency"),
+        [
+            (
+                what,
+                time(run.medians[f"threads of {what}/1"]["time"]),
+                time(run.medians[f"threads of {what}/2"]["time"]),
+                f"{efficiency(run, what):.3f}",
+            )
+            for what in ("transients", "the map")
+        ],
+    )
 
 
 def efficiency(run, what):
@@ -101,17 +139,38 @@ def show_solvers(run):
     rows = []
     for name, entry in run.medians.items():
         if not name.startswith("sincos"):
-            counts = [f"{entry[what]:.{digits}g}" if what in entry else "–" for what, digits in (("wrong", 3), ("error", 1), ("through", 3))]
-            rows.append((name, time(entry["time"]), in_units(entry["time"], unit), f"{entry['time'] / clatter:.4g}", *counts))
-    show(f"The sweep of Fig. 23: 200 points, 300 forcing periods each on average, one thread; s of {run.context['best']}",
-         ("method", "period", "in s", "÷ clatter", "wrong points", "error of the others", "through a stop"), rows)
+            counts = [
+                f"{entry[what]:.{digits}g}" if what in entry else "–"
+                for what, digits in (("wrong", 3), ("error", 1), ("through", 3))
+            ]
+            rows.append(
+                (name, time(entry["time"]), in_units(entry["time"], unit), f"{entry['time'] / clatter:.4g}", *counts)
+            )
+    show(
+        "The sweep of Fig. 23: 200 points, 300 forcing periods each on average, one thread; "
+        f"s of {run.context['best']}",
+        ("method", "period", "in s", "÷ clatter", "wrong points", "error of the others", "through a stop"),
+        rows,
+    )
 
 
 def show_processes(content, unit):
-    rows = [(one["name"], time(one["seconds"]), in_units(one["seconds"], unit), f"{one['megabytes']:.0f} MB", one["repetitions"])
-            for one in content["processes"]]
+    rows = [
+        (
+            one["name"],
+            time(one["seconds"]),
+            in_units(one["seconds"], unit),
+            f"{one['megabytes']:.0f} MB",
+            one["repetitions"],
+        )
+        for one in content["processes"]
+    ]
     size, cores = content["context"]["map"], content["context"]["cores"]
-    show(f"Whole processes of clatter run on {cores} cores; the map has {size} x {size} points", ("what", "time", "in s", "memory", "runs"), rows)
+    show(
+        f"Whole processes of clatter run on {cores} cores; the map has {size} x {size} points",
+        ("what", "time", "in s", "memory", "runs"),
+        rows,
+    )
 
 
 class Wanted:
@@ -121,7 +180,15 @@ class Wanted:
         self.rows = []
 
     def at_most(self, what, value, bound, text, seconds=None, unit=None):
-        self.rows.append((what, text(value), in_units(seconds, unit) if seconds else "–", f"at most {text(bound)}", met(value <= bound)))
+        self.rows.append(
+            (
+                what,
+                text(value),
+                in_units(seconds, unit) if seconds else "–",
+                f"at most {text(bound)}",
+                met(value <= bound),
+            )
+        )
 
     def at_least(self, what, value, bound, text):
         self.rows.append((what, text(value), "–", f"at least {text(bound)}", met(value >= bound)))
@@ -149,7 +216,9 @@ def wanted_ratios(wanted, run):
         right = [(name, entry["time"]) for name, entry in run.named(solver + "/") if entry["wrong"] == 0]
         if right:
             loosest, seconds = max(right, key=lambda one: float(one[0]))
-            wanted.at_least(f"times faster than {solver} at {loosest}", seconds / clatter, bound, lambda ratio: f"{ratio:.4g}")
+            wanted.at_least(
+                f"times faster than {solver} at {loosest}", seconds / clatter, bound, lambda ratio: f"{ratio:.4g}"
+            )
 
 
 def wanted_times(wanted, content, figures):
@@ -157,8 +226,11 @@ def wanted_times(wanted, content, figures):
     slower = max(1.0, unit / FAST_UNIT)
     seconds = {one["name"]: one["seconds"] for one in content["processes"]}
     in_one = figures.medians["figures/" + figures.context["best"]]["time"]
-    times = [("22 figures in one process", in_one, 0.3), ("22 figures in 22 processes", seconds["figures"], 0.3),
-             ("one point, the process", seconds["start"], 0.015)]
+    times = [
+        ("22 figures in one process", in_one, 0.3),
+        ("22 figures in 22 processes", seconds["figures"], 0.3),
+        ("one point, the process", seconds["start"], 0.015),
+    ]
     if content["context"]["map"] == 1000:
         times.append((f"the map, {content['context']['cores']} cores", seconds["map"], 4))
         megabytes = next(one["megabytes"] for one in content["processes"] if one["name"] == "map")
@@ -168,9 +240,17 @@ def wanted_times(wanted, content, figures):
 
 
 def main():
-    parser = argparse.ArgumentParser(description="Prints what scripts/bench.sh measured as tables, each time also in s, and what is wanted of it. "
-                                                 "Times wanted of whole runs hold where s is at most 0.6 ns, and in proportion on slower machines.")
-    parser.add_argument("folder", type=pathlib.Path, nargs="?", default=BUILD / "bench", help="of the JSON files (default: build/release/bench)")
+    parser = argparse.ArgumentParser(
+        description="Prints what scripts/bench.sh measured as tables, each time also in s, and what is wanted of it. "
+        "Times wanted of whole runs hold where s is at most 0.6 ns, and in proportion on slower machines."
+    )
+    parser.add_argument(
+        "folder",
+        type=pathlib.Path,
+        nargs="?",
+        default=BUILD / "bench",
+        help="of the JSON files (default: build/release/bench)",
+    )
     folder = parser.parse_args().folder
     runs = {name: Run(folder / f"{name}.json") for name in ("rates", "growth", "figures", "solvers")}
     processes = json.loads((folder / "processes.json").read_text())
@@ -184,7 +264,9 @@ def main():
     wanted_ratios(wanted, runs["solvers"])
     wanted_times(wanted, processes, runs["figures"])
     for what in ("transients", "the map"):
-        wanted.at_least(f"efficiency of 2 threads, {what}", efficiency(runs["growth"], what), 0.93, lambda value: f"{value:.3f}")
+        wanted.at_least(
+            f"efficiency of 2 threads, {what}", efficiency(runs["growth"], what), 0.93, lambda value: f"{value:.3f}"
+        )
     show("What is wanted", ("what", "measured", "in s", "wanted", "met"), wanted.rows)
 
 

@@ -10,16 +10,22 @@ from readme_table import SOURCE, add_build, program, replaced, section
 
 README = SOURCE / "src" / "model" / "README.md"
 NAME = "effects ladder"
-HEAD = """| effects of the scene | left out | kernel | impacts | rests | evaluations | time | ÷ kept in | ÷ all effects |
+HEAD = """\
+| effects of the scene | left out | kernel | impacts | rests | evaluations | time | ÷ kept in | ÷ all effects |
 |---|---|--:|--:|--:|--:|--:|--:|--:|"""
 
 
 def measured(build, repetitions, seconds):
-    """Of each rung, in the ladder's order, what it leaves out and medians: {"own": {"time": ...}, "kept in": ..., "all": ...}."""
+    """What each rung leaves out, in their order, and medians: {"own": {"time": ...}, "kept in": ..., "all": ...}"""
     bench = program(build, "tests/bench/effects_ladder", "it is built where libbenchmark-dev is installed")
     # one after the other, in random order, again and again: what else the machine does hits all of them alike
-    options = ["--benchmark_format=json", "--benchmark_enable_random_interleaving=true", "--benchmark_report_aggregates_only=true",
-               f"--benchmark_repetitions={repetitions}", f"--benchmark_min_time={seconds}"]
+    options = [
+        "--benchmark_format=json",
+        "--benchmark_enable_random_interleaving=true",
+        "--benchmark_report_aggregates_only=true",
+        f"--benchmark_repetitions={repetitions}",
+        f"--benchmark_min_time={seconds}",
+    ]
     done = subprocess.run([bench, *options], capture_output=True, text=True, check=False)
     if done.returncode != 0:
         sys.exit(f"effects_ladder.py: {bench} fails:\n{done.stderr}")
@@ -55,7 +61,9 @@ def row(left_out, rung):
 
 
 def main():
-    parser = argparse.ArgumentParser(description="Prints the table of what each effect costs, as tests/bench/effects_ladder measures it now.")
+    parser = argparse.ArgumentParser(
+        description="Prints the table of what each effect costs, as tests/bench/effects_ladder measures it now."
+    )
     add_build(parser)
     parser.add_argument("--write", action="store_true", help="put the table into src/model/README.md instead of printing it")
     parser.add_argument("--repetitions", type=int, default=51, help="of each benchmark, in random order; medians count (default: 51)")

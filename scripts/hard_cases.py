@@ -72,13 +72,17 @@ def size(value):
 
 
 def our_table(rows):
-    lines = ["| case | scenes | impacts | rests | outcome | error | one ulp | evaluations |", "|---|--:|--:|--:|---|--:|--:|--:|"]
+    lines = [
+        "| case | scenes | impacts | rests | outcome | error | one ulp | evaluations |",
+        "|---|--:|--:|--:|---|--:|--:|--:|",
+    ]
     for row, cases in rows.items():
         worst = max(cases, key=lambda case: case["error"])
         outcomes = sorted({case["outcome"] for case in cases})
         lines.append(
-            f"| {TITLES[row]} | {len(cases)} | {sum(c['impacts'] for c in cases):.0f} | {sum(c['rests'] for c in cases)} "
-            f"| {', '.join(outcomes)} | {size(worst['error'])} | {size(worst['one_ulp'])} | {sum(c['evaluations'] for c in cases):.0f} |"
+            f"| {TITLES[row]} | {len(cases)} | {sum(c['impacts'] for c in cases):.0f} "
+            f"| {sum(c['rests'] for c in cases)} | {', '.join(outcomes)} | {size(worst['error'])} "
+            f"| {size(worst['one_ulp'])} | {sum(c['evaluations'] for c in cases):.0f} |"
         )
     return "\n".join(lines)
 
@@ -90,7 +94,7 @@ def solved(build):
 
 
 def is_right(run):
-    """The same impacts, to a millionth, and no deeper into a stop than a millionth of half the distance to the other."""
+    """The same impacts to a millionth, and no deeper into a stop than a millionth of half the distance to the other."""
     off = [run[name] or 0 for name in ("missed", "extra", "unreached")] + [run["outcome"] != "completed"]
     return not any(off) and all((run[name] or 0) < 1e-6 for name in ("penetration", "error_time", "error_x"))
 
@@ -101,7 +105,9 @@ def verdict(runs):
     missed, extra = sum(run["missed"] for run in runs), sum(run["extra"] for run in runs)
     stuck = sum(run["outcome"] != "completed" for run in runs)
     deepest = max(run["penetration"] or 0 for run in runs)
-    words += [f"misses {missed}"] * (missed > 0) + [f"adds {extra}"] * (extra > 0) + [f"no end in {stuck}"] * (stuck > 0)
+    words += (
+        [f"misses {missed}"] * (missed > 0) + [f"adds {extra}"] * (extra > 0) + [f"no end in {stuck}"] * (stuck > 0)
+    )
     words += [f"{size(deepest)} into a stop"] * (deepest > 1e-6)
     latest = max(run["error_time"] or 0 for run in runs)
     words += [f"times off by {size(latest)}"] * (len(words) == 1 and latest > 1e-6)
@@ -110,17 +116,24 @@ def verdict(runs):
 
 def others_table(runs):
     solvers = list(dict.fromkeys(run["solver"] for run in runs))
-    lines = ["| right in how many scenes, and what is wrong | " + " | ".join(solvers) + " |", "|---" * (len(solvers) + 1) + "|"]
+    lines = [
+        "| right in how many scenes, and what is wrong | " + " | ".join(solvers) + " |",
+        "|---" * (len(solvers) + 1) + "|",
+    ]
     for row, title in TITLES.items():
         if row == "long":  # beyond any general solver's patience
             continue
         of_row = [run for run in runs if run["row"] == row]
-        lines.append(f"| {title} | " + " | ".join(verdict([r for r in of_row if r["solver"] == s]) for s in solvers) + " |")
+        lines.append(
+            f"| {title} | " + " | ".join(verdict([r for r in of_row if r["solver"] == s]) for s in solvers) + " |"
+        )
     return "\n".join(lines)
 
 
 def cells(table):
-    return [[cell.strip() for cell in line.replace("\\|", "¦").strip("| ").split("|")] for line in table.splitlines()[2:]]
+    return [
+        [cell.strip() for cell in line.replace("\\|", "¦").strip("| ").split("|")] for line in table.splitlines()[2:]
+    ]
 
 
 def number(text):
@@ -128,7 +141,7 @@ def number(text):
 
 
 def differences(now, written):
-    """Where the README no longer says what is measured: facts must be equal, errors of the same order, effort within 5 %."""
+    """Rows of the README that are no longer true: facts must be equal, errors of the same order, effort within 5 %."""
     now, written = cells(now), cells(written)
     if [line[:5] for line in now] != [line[:5] for line in written]:
         return [f"{a[:5]} now, {b[:5]} in the README" for a, b in zip(now, written) if a[:5] != b[:5]] or ["other rows"]
@@ -150,8 +163,11 @@ def main():
     cases = measured(arguments.build)
     if arguments.cases:
         for case in cases:
-            print(f"{case['row']:25} {case['what']:28} {case['outcome']:9} {case['impacts']:8.0f} impacts {case['rests']:4} rests "
-                  f"error {size(case['error']):6} one ulp {size(case['one_ulp'])}")
+            print(
+                f"{case['row']:25} {case['what']:28} {case['outcome']:9} "
+                f"{case['impacts']:8.0f} impacts {case['rests']:4} rests "
+                f"error {size(case['error']):6} one ulp {size(case['one_ulp'])}"
+            )
         return
     text = README.read_text()
     table = our_table(by_row(cases))

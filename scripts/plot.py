@@ -28,14 +28,21 @@ DATELESS = {"svg": {"Date": None}, "pdf": {"CreationDate": None}, "png": {}}  # 
 
 
 def command_line():
-    parser = argparse.ArgumentParser(usage="plot.py [-o DIR] [--format svg|png|pdf...] FILE.h5...", description=__doc__,
-                                     allow_abbrev=False,
-                                     epilog="Exit codes: 0 done, 2 wrong command line, 74 a file cannot be read or "
-                                            "written.")
+    parser = argparse.ArgumentParser(
+        usage="plot.py [-o DIR] [--format svg|png|pdf...] FILE.h5...",
+        description=__doc__,
+        allow_abbrev=False,
+        epilog="Exit codes: 0 done, 2 wrong command line, 74 a file cannot be read or " "written.",
+    )
     parser.add_argument("files", nargs="*", metavar="FILE.h5", help="output of 'clatter run' or 'clatter accuracy'")
     parser.add_argument("-o", "--output", metavar="DIR", help="folder for the pictures; default: beside each file")
-    parser.add_argument("--format", nargs="+", default=["svg", "png"], metavar="svg|png|pdf",
-                        help="one or more formats; default: svg png")
+    parser.add_argument(
+        "--format",
+        nargs="+",
+        default=["svg", "png"],
+        metavar="svg|png|pdf",
+        help="one or more formats; default: svg png",
+    )
     options = parser.parse_intermixed_args()
     end_formats(parser, options)
     if not options.files:
@@ -47,7 +54,7 @@ def end_formats(parser, options):
     """Takes what follows the formats for files, if it looks like one: argparse takes all of it for formats."""
     words = options.format
     options.format = list(takewhile(DATELESS.__contains__, words))
-    rest = words[len(options.format):]
+    rest = words[len(options.format) :]
     for word in rest:
         if not options.format or not Path(word).suffix and not Path(word).exists():
             parser.error(f"argument --format: '{word}' is none of {', '.join(sorted(DATELESS))}")

@@ -36,11 +36,11 @@ class Curve:
 
     method: str
     setting: np.ndarray
-    cost: np.ndarray    # median over the points of the sweep
+    cost: np.ndarray  # median over the points of the sweep
     spread: np.ndarray  # interquartile range of the cost
-    error: np.ndarray   # worst over the points, at least FLOOR
-    floored: bool       # whether an error is drawn at FLOOR
-    wrong: np.ndarray   # impacts missed or doubled at some point
+    error: np.ndarray  # worst over the points, at least FLOOR
+    floored: bool  # whether an error is drawn at FLOOR
+    wrong: np.ndarray  # impacts missed or doubled at some point
     failed: np.ndarray  # no result at some point
 
     def __len__(self):
@@ -55,13 +55,26 @@ def accuracy_figure(output):
     """The figure of a study, with its heading: a panel for each thing that has an error to show."""
     exact = curve(output, "harmonics_exact", ("error_harmonics",), None)
     lanes = curve(output, "exact", ("error_extrema",), "ns_per_period", "exact_lanes", in_lanes=True)
-    panels = [(partial(time_panel, lanes),
-               [curve(output, name, MOTION, "ns_per_period") for name in ("exact", "dopri5", "moreau")]),
-              (partial(samples_panel, exact),
-               [curve(output, "harmonics_fft", ("error_harmonics",), "setting"),
-                curve(output, "harmonics_fft", ("error_harmonics_v",), "setting", "harmonics_fft_v")]),
-              (steady_panel, [curve(output, name, (*MOTION, "error_harmonics"), "simulated_periods")
-                              for name in ("steady", "steady_repetition")])]
+    panels = [
+        (
+            partial(time_panel, lanes),
+            [curve(output, name, MOTION, "ns_per_period") for name in ("exact", "dopri5", "moreau")],
+        ),
+        (
+            partial(samples_panel, exact),
+            [
+                curve(output, "harmonics_fft", ("error_harmonics",), "setting"),
+                curve(output, "harmonics_fft", ("error_harmonics_v",), "setting", "harmonics_fft_v"),
+            ],
+        ),
+        (
+            steady_panel,
+            [
+                curve(output, name, (*MOTION, "error_harmonics"), "simulated_periods")
+                for name in ("steady", "steady_repetition")
+            ],
+        ),
+    ]
     panels = [(draw, [part for part in found if len(part)]) for draw, found in panels]
     panels = panels[:1] + [(draw, found) for draw, found in panels[1:] if found]
     figure, places = panel_places(len(panels))
@@ -85,8 +98,9 @@ def note(output, found):
         symbols.append("bars: interquartile range")
     if any(part.floored for part in found):
         symbols.append("errors below $10^{-17}$ are drawn there")
-    ends = (f"{symbol(axis)} = {number(output.values(axis)[0])} … {number(output.values(axis)[-1])}"
-            for axis in output.axes)
+    ends = (
+        f"{symbol(axis)} = {number(output.values(axis)[0])} … {number(output.values(axis)[-1])}" for axis in output.axes
+    )
     lines = [f"worst error and median cost of {points} points, {', '.join(ends)}"] if points > 1 else []
     return "\n".join([*lines, ";  ".join(symbols)])
 
@@ -102,8 +116,16 @@ def curve(output, method, errors, cost, look=None, in_lanes=False):
     mine = (output.values("method") == code_of(output, method)) & ((output.values("arch") != SCALAR) == in_lanes)
     rows = np.flatnonzero(mine & np.isfinite(error) & np.isfinite(costs))
     rows = rows[np.argsort(setting[rows] if method == "harmonics_fft" else -setting[rows], kind="stable")]
-    return Curve(look or method, setting[rows], costs[rows], spread[rows], np.maximum(error[rows], FLOOR),
-                 bool((error[rows] < FLOOR).any()), wrong[rows], failed[rows])
+    return Curve(
+        look or method,
+        setting[rows],
+        costs[rows],
+        spread[rows],
+        np.maximum(error[rows], FLOOR),
+        bool((error[rows] < FLOOR).any()),
+        wrong[rows],
+        failed[rows],
+    )
 
 
 def at_points(output, *names):
@@ -143,8 +165,17 @@ def draw_curve(axes, part):
     name, color, marker = LOOKS[part.method]
     axes.errorbar(part.cost, part.error, xerr=bars(part), fmt="none", ecolor=color, elinewidth=2.2, alpha=0.3)
     axes.plot(part.cost, part.error, color=color, marker=marker, ms=4.5, label=name, gid=part.method)
-    axes.plot(part.cost[part.hollow], part.error[part.hollow], ls="none", marker=marker, ms=4.5, mfc="white",
-              mec=color, zorder=2.5, gid=f"{part.method}-hollow")
+    axes.plot(
+        part.cost[part.hollow],
+        part.error[part.hollow],
+        ls="none",
+        marker=marker,
+        ms=4.5,
+        mfc="white",
+        mec=color,
+        zorder=2.5,
+        gid=f"{part.method}-hollow",
+    )
     texts = [short(value) if np.isfinite(value) else name for value in part.setting]
     return Labels(axes, part.cost, part.error, texts, colors.to_hex(0.75 * np.array(colors.to_rgb(color))))
 
@@ -192,8 +223,9 @@ def time_panel(lanes, axes, found):
         axes.text(0.5, 0.5, "no method has an error and a time here", transform=axes.transAxes, ha="center")
         return []
     labels = [draw_curve(axes, found[0])]
-    draw_front(axes, *(np.concatenate([getattr(part, name)[~part.hollow] for part in found])
-                       for name in ("cost", "error")))
+    draw_front(
+        axes, *(np.concatenate([getattr(part, name)[~part.hollow] for part in found]) for name in ("cost", "error"))
+    )
     found = [*found, *([lanes] if len(lanes) else [])]
     labels += [draw_curve(axes, part) for part in found[1:]]
     name_hollow(axes, found)
@@ -207,8 +239,19 @@ def draw_front(axes, cost, error):
     front = pareto_front(cost, error)
     cost, error = cost[front], error[front]
     axes.plot(np.repeat(cost, 2)[1:], np.repeat(error, 2)[:-1], color=STOP, lw=0.7, ls=(0, (4, 2)), zorder=1.8)
-    axes.plot(cost, error, ls="none", marker="o", ms=9, mfc="none", mec=STOP, mew=0.8, zorder=2.6, gid="pareto-front",
-              label="Pareto front" if front else None)
+    axes.plot(
+        cost,
+        error,
+        ls="none",
+        marker="o",
+        ms=9,
+        mfc="none",
+        mec=STOP,
+        mew=0.8,
+        zorder=2.6,
+        gid="pareto-front",
+        label="Pareto front" if front else None,
+    )
 
 
 def samples_panel(exact, axes, found):
@@ -229,8 +272,15 @@ def draw_slope(axes, fft, order):
     first, low = fft.cost[0], axes.get_ylim()[0]
     start = 2 * max(fft.error * (fft.cost / first) ** order)
     last = min(fft.cost[-1], first * (start / low) ** (1 / order))
-    axes.plot([first, last], [start, start * (first / last) ** order], color=STOP, lw=0.6, scalex=False, scaley=False,
-              gid=f"slope-{order}")
+    axes.plot(
+        [first, last],
+        [start, start * (first / last) ** order],
+        color=STOP,
+        lw=0.6,
+        scalex=False,
+        scaley=False,
+        gid=f"slope-{order}",
+    )
     middle = first * (last / first) ** 0.6
     directions = DIRECTIONS if order == 1 else BELOW + DIRECTIONS
     return Labels(axes, [middle], [start * (first / middle) ** order], [f"slope {MINUS}{order}"], STOP, directions)

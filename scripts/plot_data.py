@@ -60,7 +60,7 @@ class Output:
     @property
     def shape(self):
         """Points along each axis of the sweep."""
-        return self.values("status").shape[:len(self.axes)]
+        return self.values("status").shape[: len(self.axes)]
 
     @property
     def is_study(self):
@@ -85,8 +85,11 @@ class Output:
 
     def results(self):
         """Names of the variables that have a value for each point, in the order of the file."""
-        return [name for name, variable in self.variables.items()
-                if variable.dims[:len(self.axes)] == self.axes and variable.dims != (name,) and not self.swept(name)]
+        return [
+            name
+            for name, variable in self.variables.items()
+            if variable.dims[: len(self.axes)] == self.axes and variable.dims != (name,) and not self.swept(name)
+        ]
 
     def parameter(self, key, default=np.nan):
         """A scene key at every point: its coordinate where it is swept, else its constant."""
@@ -122,8 +125,13 @@ def read_variable(item):
     scales = [dim[0].name.lstrip("/") if len(dim) else f"dim{place}" for place, dim in enumerate(item.dims)]
     name = item.name.lstrip("/")
     dims = (name,) if h5py.h5ds.is_scale(item.id) else tuple(scales)
-    return Variable(name, item[()] if item.shape else np.asarray(item[()]), dims,
-                    text(item.attrs.get("long_name", name)), text(item.attrs.get("units", "1")))
+    return Variable(
+        name,
+        item[()] if item.shape else np.asarray(item[()]),
+        dims,
+        text(item.attrs.get("long_name", name)),
+        text(item.attrs.get("units", "1")),
+    )
 
 
 def flag_meanings(item):

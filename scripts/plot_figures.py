@@ -3,12 +3,20 @@
 import numpy as np
 from matplotlib import ticker
 
-from plot_panels import (draw_branch, draw_common_walls, draw_stops_along, impact_log, motion,
-                         name_statuses, phase_plane, time_history)
+from plot_panels import (
+    draw_branch,
+    draw_common_walls,
+    draw_stops_along,
+    impact_log,
+    motion,
+    name_statuses,
+    phase_plane,
+    time_history,
+)
 from plot_style import BLUE, CYCLE, GRID, ORANGE, STOP, VERMILION, label, legend_above, new_figure, set_axis
 
 SHOWN_TIME = 20.0  # tau to which the paper shows free vibration
-ONE = [((), "")]   # the only point of a sweep without axes, untitled
+ONE = [((), "")]  # the only point of a sweep without axes, untitled
 
 
 def velocity_ratio(output):
@@ -38,8 +46,9 @@ def free_vibration(output):
         harmonic_sum(output, quantity, axes)
     names = figure.add_subplot(grid[2, 1:])
     names.set_axis_off()
-    legend = names.legend(*axes.get_legend_handles_labels(), loc="center", ncol=5, columnspacing=1.0, handlelength=1.5,
-                          borderaxespad=0.0)
+    legend = names.legend(
+        *axes.get_legend_handles_labels(), loc="center", ncol=5, columnspacing=1.0, handlelength=1.5, borderaxespad=0.0
+    )
     legend.set_in_layout(False)  # its own row has the room
     return figure
 
@@ -54,8 +63,14 @@ def harmonic_sum(output, quantity, axes):
     for k in range(1, len(amplitude)):
         wave = amplitude[k] * np.cos(k * base * tau + phase[k])
         total += wave
-        axes.plot(tau, wave, color=CYCLE[k % len(CYCLE)], lw=1.0, ls=("-", (0, (5, 1.5)), (0, (2, 1.2)))[k % 3],
-                  label=f"$k = {k}$")
+        axes.plot(
+            tau,
+            wave,
+            color=CYCLE[k % len(CYCLE)],
+            lw=1.0,
+            ls=("-", (0, (5, 1.5)), (0, (2, 1.2)))[k % 3],
+            label=f"$k = {k}$",
+        )
     axes.plot(tau, total, color=BLUE, lw=1.4, label="sum")
     axes.margins(y=0.08)
     if quantity == "x":
@@ -73,8 +88,9 @@ def period_curve(output):
     axes.text(0.02, 2 * np.pi, r"$2\pi$", transform=axes.get_yaxis_transform(), va="bottom", color=STOP)
     _, gap = output.stops()
     axes.axvline(-gap.flat[0], color=STOP, lw=0.8, ls=(0, (4, 2)), zorder=0)
-    axes.text(-gap.flat[0], 0.06, "$x$\N{PRIME}$(0) = -|x_s|$  ", transform=axes.get_xaxis_transform(), ha="right",
-              color=STOP)
+    axes.text(
+        -gap.flat[0], 0.06, "$x$\N{PRIME}$(0) = -|x_s|$  ", transform=axes.get_xaxis_transform(), ha="right", color=STOP
+    )
     axes.set_ylim(0.0, 7.0)
     set_axis(axes, output, "v0")
     axes.set_ylabel(label(output, "period"))
@@ -103,9 +119,15 @@ def harmonics(output):
     figure = new_figure(3.2, 4.6)
     axes = figure.subplots()
     values = output.values(name)
-    for k, dashes in enumerate(((0, (6, 2)), "-", (0, (2, 2)), "-")[:values.shape[1]]):
-        axes.plot(output.values("v0"), values[:, k], color=(STOP, BLUE, VERMILION, "#009E73")[k], ls=dashes,
-                  lw=1.6 if k == 0 else 1.3, label=f"$k = {k}$")
+    for k, dashes in enumerate(((0, (6, 2)), "-", (0, (2, 2)), "-")[: values.shape[1]]):
+        axes.plot(
+            output.values("v0"),
+            values[:, k],
+            color=(STOP, BLUE, VERMILION, "#009E73")[k],
+            ls=dashes,
+            lw=1.6 if k == 0 else 1.3,
+            label=f"$k = {k}$",
+        )
     _, gap = output.stops()
     axes.axvline(-gap.flat[0], color=STOP, lw=0.8, ls=(0, (4, 2)), zorder=0)
     set_axis(axes, output, "v0")

@@ -5,16 +5,46 @@ from math import ceil
 import numpy as np
 
 from plot_data import FIRST_FAILURE
-from plot_panels import (APERIODIC, MAP_LIMIT, chosen_points, curves, impact_cloud, impact_log, kind_map,
-                         phase_plane, scalars, spectrum, time_history, value_map)
+from plot_panels import (
+    APERIODIC,
+    MAP_LIMIT,
+    chosen_points,
+    curves,
+    impact_cloud,
+    impact_log,
+    kind_map,
+    phase_plane,
+    scalars,
+    spectrum,
+    time_history,
+    value_map,
+)
 from plot_style import label, legend_above, new_figure, number, symbol
 
 BOOKKEEPING = ("status", "impact_total", "simulated_periods", "settling_estimate", "impact_count", "base_frequency")
 TOGETHER = (("x_min", "x_max"), ("v_min", "v_max"), ("v_before", "v_after"))  # results that share a panel
 RECORDS = ("tau", "x", "v")
-ORDER = ("x_min", "x_max", "v_min", "v_max", "period_ratio", "period", "eigenfrequency", "velocity_ratio",
-         "impacts_per_period", "v_before", "v_after", "rest_fraction",
-         "x_amplitude", "x_phase", "v_amplitude", "v_phase", "multiplier_re", "multiplier_im", "lyapunov")
+ORDER = (
+    "x_min",
+    "x_max",
+    "v_min",
+    "v_max",
+    "period_ratio",
+    "period",
+    "eigenfrequency",
+    "velocity_ratio",
+    "impacts_per_period",
+    "v_before",
+    "v_after",
+    "rest_fraction",
+    "x_amplitude",
+    "x_phase",
+    "v_amplitude",
+    "v_phase",
+    "multiplier_re",
+    "multiplier_im",
+    "lyapunov",
+)
 
 
 def generic_figure(output):
@@ -43,6 +73,7 @@ def motion_panels(output):
             time_history(output, quantity, points, axes)
             if named:
                 legend_above(axes, columns=3)
+
         return draw
 
     panels = [history("x"), lambda figure, axes: phase_plane(output, points, axes), history("v")]
@@ -59,8 +90,11 @@ def point_panels(output):
     for name in in_order(output.results()):
         if output[name].dims == ("harmonic",):
             panels.append(lambda figure, axes, name=name: spectrum(output, name, axes))
-    names = [name for name in in_order(output.results())
-             if output[name].dims in ((), ("stop",), ("multiplier",)) and name not in BOOKKEEPING]
+    names = [
+        name
+        for name in in_order(output.results())
+        if output[name].dims in ((), ("stop",), ("multiplier",)) and name not in BOOKKEEPING
+    ]
     if names or not panels and any(name not in output for name in RECORDS):
         panels.append(lambda figure, axes: scalars(output, names or BOOKKEEPING[:3], axes))
     return panels
@@ -98,7 +132,7 @@ def components(output, group):
     """(variable, component, legend entry) of each curve in a panel."""
     parts = []
     for name in group:
-        extra = output[name].dims[len(output.axes):]
+        extra = output[name].dims[len(output.axes) :]
         if not extra:
             parts.append((name, None, symbol(name)))
         elif len(extra) == 1 and extra[0] in output:
@@ -134,10 +168,16 @@ def map_panels(output):
                 continue
             if np.isfinite(values[status < FIRST_FAILURE].astype(float)).any():
                 shown = map_title(output, name, part, title)
-                panels.append(lambda figure, axes, values=values, shown=shown:
-                              value_map(output, figure, axes, names, shown, values, status))
-    return panels or [lambda figure, axes: value_map(output, figure, axes, names, "impacts simulated",
-                                                     output.values("impact_total")[cut], status)]
+                panels.append(
+                    lambda figure, axes, values=values, shown=shown: value_map(
+                        output, figure, axes, names, shown, values, status
+                    )
+                )
+    return panels or [
+        lambda figure, axes: value_map(
+            output, figure, axes, names, "impacts simulated", output.values("impact_total")[cut], status
+        )
+    ]
 
 
 def map_title(output, name, part, title):

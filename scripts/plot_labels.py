@@ -4,9 +4,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-SIZE = 7.5     # points, as all lengths here
-SAME = 5.0     # points of a curve that are nearer to each other share a label
-TICK = 3.5     # what the ticks inside the frame need
+SIZE = 7.5  # points, as all lengths here
+SAME = 5.0  # points of a curve that are nearer to each other share a label
+TICK = 3.5  # what the ticks inside the frame need
 DISTANCES = (4.0, 6.0, 8.0, 10.0)
 ABOVE, BELOW = ((1, 1), (1, 0), (0, 1)), ((-1, -1), (-1, 0), (0, -1))  # of a curve that falls
 DIRECTIONS = (*ABOVE, *BELOW, (1, -1), (-1, 1))
@@ -59,8 +59,14 @@ def place(labels, first, last, taken, boxes):
     """Writes one label beside its points at the first place that is free, and returns its box; or None."""
     axes, middle = labels.axes, (first + last) // 2
     text = labels.texts[first] if first == last else f"{labels.texts[first]} … {labels.texts[last]}"
-    note = axes.annotate(text, (labels.x[middle], labels.y[middle]), (0, 0), textcoords="offset points",
-                         fontsize=SIZE, color=labels.color)
+    note = axes.annotate(
+        text,
+        (labels.x[middle], labels.y[middle]),
+        (0, 0),
+        textcoords="offset points",
+        fontsize=SIZE,
+        color=labels.color,
+    )
     note.set_in_layout(False)
     for distance in DISTANCES:
         for right, up in labels.directions:
@@ -97,6 +103,8 @@ def obstacles(axes, step):
 
 def along(corners, step):
     """Points on the line through the corners, no farther apart than `step`."""
-    parts = [np.linspace(start, end, int(np.hypot(*(end - start)) / step) + 2)
-             for start, end in zip(corners[:-1], corners[1:])]
+    parts = [
+        np.linspace(start, end, int(np.hypot(*(end - start)) / step) + 2)
+        for start, end in zip(corners[:-1], corners[1:])
+    ]
     return np.concatenate([corners, *parts])

@@ -4,11 +4,24 @@ import numpy as np
 from matplotlib import colors, ticker
 
 from plot_data import FIRST_FAILURE
-from plot_style import (BLUE, CYCLE, GREEN, GRID, ORANGE, STOP, VERMILION, draw_walls, label, legend_above, number,
-                        set_axis, symbol)
+from plot_style import (
+    BLUE,
+    CYCLE,
+    GREEN,
+    GRID,
+    ORANGE,
+    STOP,
+    VERMILION,
+    draw_walls,
+    label,
+    legend_above,
+    number,
+    set_axis,
+    symbol,
+)
 
 APERIODIC = 1
-DENSE = 60     # points from which a curve is drawn without markers
+DENSE = 60  # points from which a curve is drawn without markers
 MAP_LIMIT = 4  # components of one variable (harmonics, stops) that maps show
 
 
@@ -21,8 +34,17 @@ def draw_branch(axes, output, name, values, color, title, loose_color=None, **st
     axes.plot(along, steady, label=title, color=color, **{"lw": 1.2, "marker": marker, **style})
     alone = lonely(steady)
     axes.plot(along[alone], steady[alone], ls="none", marker=".", ms=3.2, color=color)
-    axes.plot(along[loose], values[loose], ls="none", marker="o", ms=3.2, mfc="white", mec=loose_color or color,
-              mew=0.8, zorder=3)
+    axes.plot(
+        along[loose],
+        values[loose],
+        ls="none",
+        marker="o",
+        ms=3.2,
+        mfc="white",
+        mec=loose_color or color,
+        mew=0.8,
+        zorder=3,
+    )
 
 
 def split_at_jumps(along, values, loose):
@@ -52,8 +74,19 @@ def name_statuses(axes, output, name, color=STOP, shown=True):
     failed = status >= FIRST_FAILURE
     if failed.any():
         kinds = ", ".join(output.meanings.get(int(kind), "failed") for kind in np.unique(status[failed]))
-        axes.plot(along[failed], np.full(failed.sum(), 0.03), transform=axes.get_xaxis_transform(), ls="none",
-                  marker="x", ms=5, mew=1.1, color="#c00000", clip_on=False, zorder=4, label=f"failed: {kinds}")
+        axes.plot(
+            along[failed],
+            np.full(failed.sum(), 0.03),
+            transform=axes.get_xaxis_transform(),
+            ls="none",
+            marker="x",
+            ms=5,
+            mew=1.1,
+            color="#c00000",
+            clip_on=False,
+            zorder=4,
+            label=f"failed: {kinds}",
+        )
 
 
 def draw_stops_along(axes, output, name):
@@ -78,8 +111,16 @@ def curves(output, name, group, axes):
         shown = shown or bool(np.isfinite(values[status == APERIODIC]).any())
         dots = result == "period_ratio" or result == "period" and many_periods
         dashes = "none" if dots else (0, (4, 1.5)) if part is not None and place % 2 else "-"
-        draw_branch(axes, output, name, values, CYCLE[place % len(CYCLE)], title if len(group) > 1 else None, ls=dashes,
-                    **({"marker": ".", "ms": 3.0} if dots else {}))
+        draw_branch(
+            axes,
+            output,
+            name,
+            values,
+            CYCLE[place % len(CYCLE)],
+            title if len(group) > 1 else None,
+            ls=dashes,
+            **({"marker": ".", "ms": 3.0} if dots else {}),
+        )
     set_axis(axes, output, name)
     axes.margins(y=0.08)
     if first in ("x_min", "x_max"):
@@ -119,8 +160,11 @@ def motion(output, index):
     lower, upper = (stop[index] for stop in output.stops())
     place = np.repeat(np.searchsorted(tau, times, side="left"), 2)
     contact = np.where(np.repeat(sides, 2) < 0, lower, upper)
-    return (np.insert(tau, place, np.repeat(times, 2)), np.insert(x, place, contact),
-            np.insert(v, place, np.ravel([before, after], order="F")))
+    return (
+        np.insert(tau, place, np.repeat(times, 2)),
+        np.insert(x, place, contact),
+        np.insert(v, place, np.ravel([before, after], order="F")),
+    )
 
 
 def repeated(tau, values, period, end):
@@ -136,8 +180,15 @@ def chosen_points(output, most=5):
     total = max(int(np.prod(output.shape)), 1)
     flat = np.unique(np.linspace(0, total - 1, min(total, most)).round().astype(int))
     points = [tuple(int(part) for part in np.unravel_index(place, output.shape)) for place in flat]
-    return [(point, ", ".join(f"{symbol(axis)} = {number(output.values(axis)[place])}"
-                              for axis, place in zip(output.axes, point))) for point in points]
+    return [
+        (
+            point,
+            ", ".join(
+                f"{symbol(axis)} = {number(output.values(axis)[place])}" for axis, place in zip(output.axes, point)
+            ),
+        )
+        for point in points
+    ]
 
 
 def time_history(output, quantity, points, axes, end=None):
@@ -190,8 +241,15 @@ def impact_log(output, index, axes, period=None):
         hit = sides == side
         if hit.any():
             axes.vlines(times[hit], 0.0, before[hit], color=color, lw=1.0)
-            axes.plot(times[hit], before[hit], ls="none", marker=marker, ms=4.5 if len(times) < 40 else 3.0,
-                      color=color, label=title)
+            axes.plot(
+                times[hit],
+                before[hit],
+                ls="none",
+                marker=marker,
+                ms=4.5 if len(times) < 40 else 3.0,
+                color=color,
+                label=title,
+            )
     axes.margins(y=0.1)
     axes.set_xlim(0.0, end if end is None or np.isfinite(end) else None)
     axes.set_xlabel(label(output, "tau"))
@@ -204,8 +262,17 @@ def impact_cloud(output, name, axes):
     along = np.repeat(output.values(name), output.values("impact_count"))
     sides, before = output.values("impact_stop"), output.values("impact_v_before")
     for side, color, title in ((-1, BLUE, "lower stop"), (1, VERMILION, "upper stop")):
-        axes.plot(along[sides == side], before[sides == side], ls="none", marker=".", mew=0, color=color,
-                  ms=2.0 if len(along) > 2000 else 4.0, label=title, rasterized=True)
+        axes.plot(
+            along[sides == side],
+            before[sides == side],
+            ls="none",
+            marker=".",
+            mew=0,
+            color=color,
+            ms=2.0 if len(along) > 2000 else 4.0,
+            label=title,
+            rasterized=True,
+        )
     set_axis(axes, output, name)
     axes.set_ylabel(label(output, "v_before"))
     name_statuses(axes, output, name, shown=False)
@@ -241,8 +308,10 @@ def scalar_parts(output, name):
         sides = [("lower" if side < 0 else "upper") for side in output.values("stop")]
         return [(f"{variable.long_name}, {side} stop", value) for side, value in zip(sides, variable.values)]
     if variable.dims == ("multiplier",):
-        return [(f"{variable.long_name}, {which} modulus", value)
-                for which, value in zip(("larger", "smaller"), variable.values)]
+        return [
+            (f"{variable.long_name}, {which} modulus", value)
+            for which, value in zip(("larger", "smaller"), variable.values)
+        ]
     return []
 
 
@@ -270,26 +339,44 @@ def finish_map(axes, output, names, status):
     place = (output.values(slow), output.values(fast))
     loose, failed = status == APERIODIC, status >= FIRST_FAILURE
     if loose.any():
-        axes.pcolor(*place, np.ma.masked_where(~loose, loose).T, shading="nearest", hatch="//////", alpha=0.0,
-                    rasterized=True)
+        axes.pcolor(
+            *place, np.ma.masked_where(~loose, loose).T, shading="nearest", hatch="//////", alpha=0.0, rasterized=True
+        )
     if failed.any():
-        axes.pcolormesh(*place, np.ma.masked_where(~failed, failed).T, shading="nearest", rasterized=True,
-                        cmap=colors.ListedColormap(["black"]))
+        axes.pcolormesh(
+            *place,
+            np.ma.masked_where(~failed, failed).T,
+            shading="nearest",
+            rasterized=True,
+            cmap=colors.ListedColormap(["black"]),
+        )
     set_axis(axes, output, slow)
     set_axis(axes, output, fast, vertical=True)
 
 
 def kind_map(output, figure, axes, names, status, ratio):
     """Which kind of motion is where: its period in forcing periods, none, or a failure."""
-    kinds = [("period 1", "#d6e6f4", ratio == 1), ("period 2", BLUE, ratio == 2),
-             ("period 3, …", GREEN, ratio > 2),
-             ("no period", ORANGE, status == APERIODIC), ("failed", "black", status >= FIRST_FAILURE)]
+    kinds = [
+        ("period 1", "#d6e6f4", ratio == 1),
+        ("period 2", BLUE, ratio == 2),
+        ("period 3, …", GREEN, ratio > 2),
+        ("no period", ORANGE, status == APERIODIC),
+        ("failed", "black", status >= FIRST_FAILURE),
+    ]
     codes = np.full(status.shape, np.nan)
     for code, (_, _, where) in enumerate(kinds):
         codes[where] = code
     shades = colors.ListedColormap([color for _, color, _ in kinds])
-    mesh = axes.pcolormesh(output.values(names[0]), output.values(names[1]), codes.T, shading="nearest",
-                           rasterized=True, cmap=shades, vmin=-0.5, vmax=len(kinds) - 0.5)
+    mesh = axes.pcolormesh(
+        output.values(names[0]),
+        output.values(names[1]),
+        codes.T,
+        shading="nearest",
+        rasterized=True,
+        cmap=shades,
+        vmin=-0.5,
+        vmax=len(kinds) - 0.5,
+    )
     bar = figure.colorbar(mesh, ax=axes, ticks=range(len(kinds)), pad=0.02)
     bar.ax.set_yticklabels([kind[0] for kind in kinds])
     bar.ax.tick_params(length=0)

@@ -17,43 +17,78 @@ CYCLE = (BLUE, VERMILION, GREEN, PURPLE, ORANGE, SKY)
 
 # Words and symbol of what the paper and the configuration name; anything else is labelled by its long_name.
 LABELS = {
-    "h": ("damping ratio", r"$h$"), "f": ("force amplitude", r"$f$"), "nu": ("excitation frequency", r"$\nu$"),
-    "phase": ("forcing phase", r"$\varphi$"), "R": ("restitution", r"$R$"), "xs": ("stop", r"$x_s$"),
-    "stop_lower": ("lower stop", r"$x_-$"), "stop_upper": ("upper stop", r"$x_+$"),
-    "R_lower": ("restitution, lower stop", r"$R_-$"), "R_upper": ("restitution, upper stop", r"$R_+$"),
-    "load": ("constant load", "load"), "x0": ("initial displacement", r"$x(0)$"),
-    "v0": ("initial velocity", "$x$\N{PRIME}$(0)$"), "start_period": ("period", r"$\bar\tau$"),
-    "tau": ("time", r"$\tau$"), "x": ("displacement", r"$x$"), "v": ("velocity", "$x$\N{PRIME}"),
-    "x_min": ("minimum", r"$x_{\min}$"), "x_max": ("maximum", r"$x_{\max}$"),
-    "v_min": ("minimum", "$x$\N{PRIME}$_{\\min}$"), "v_max": ("maximum", "$x$\N{PRIME}$_{\\max}$"),
+    "h": ("damping ratio", r"$h$"),
+    "f": ("force amplitude", r"$f$"),
+    "nu": ("excitation frequency", r"$\nu$"),
+    "phase": ("forcing phase", r"$\varphi$"),
+    "R": ("restitution", r"$R$"),
+    "xs": ("stop", r"$x_s$"),
+    "stop_lower": ("lower stop", r"$x_-$"),
+    "stop_upper": ("upper stop", r"$x_+$"),
+    "R_lower": ("restitution, lower stop", r"$R_-$"),
+    "R_upper": ("restitution, upper stop", r"$R_+$"),
+    "load": ("constant load", "load"),
+    "x0": ("initial displacement", r"$x(0)$"),
+    "v0": ("initial velocity", "$x$\N{PRIME}$(0)$"),
+    "start_period": ("period", r"$\bar\tau$"),
+    "tau": ("time", r"$\tau$"),
+    "x": ("displacement", r"$x$"),
+    "v": ("velocity", "$x$\N{PRIME}"),
+    "x_min": ("minimum", r"$x_{\min}$"),
+    "x_max": ("maximum", r"$x_{\max}$"),
+    "v_min": ("minimum", "$x$\N{PRIME}$_{\\min}$"),
+    "v_max": ("maximum", "$x$\N{PRIME}$_{\\max}$"),
     "v_before": ("velocity before impact", "$x$\N{PRIME}$^{{-}}$"),
     "v_after": ("velocity after impact", "$x$\N{PRIME}$^{{+}}$"),
-    "period": ("period", r"$\bar\tau$"), "eigenfrequency": ("eigenfrequency", r"$\bar\omega$"),
+    "period": ("period", r"$\bar\tau$"),
+    "eigenfrequency": ("eigenfrequency", r"$\bar\omega$"),
     "period_ratio": ("period", r"$\nu\bar\tau/2\pi$"),
     "velocity_ratio": ("velocity ratio", "$|x$\N{PRIME}$^{{-}}/x_s|$"),
-    "base_frequency": ("base frequency", r"$\Omega$"), "harmonic": ("harmonic", r"$k$"),
+    "base_frequency": ("base frequency", r"$\Omega$"),
+    "harmonic": ("harmonic", r"$k$"),
     "x_amplitude": ("amplitude of displacement", r"$a_k$"),
     "v_amplitude": ("amplitude of velocity", "$a$\N{PRIME}$_k$"),
-    "x_phase": ("phase of displacement", r"$\varphi_k$"), "v_phase": ("phase of velocity", "$\\varphi$\N{PRIME}$_k$"),
+    "x_phase": ("phase of displacement", r"$\varphi_k$"),
+    "v_phase": ("phase of velocity", "$\\varphi$\N{PRIME}$_k$"),
     "multiplier_re": ("real part of multipliers", r"$\mathrm{Re}\,\mu$"),
     "multiplier_im": ("imaginary part of multipliers", r"$\mathrm{Im}\,\mu$"),
     "lyapunov": ("largest Lyapunov exponent", r"$\lambda$"),
-    "impacts_per_period": ("impacts per period", ""), "rest_fraction": ("share of time at rest", ""),
+    "impacts_per_period": ("impacts per period", ""),
+    "rest_fraction": ("share of time at rest", ""),
 }
 
 
 def use_style():
     """The same look on every machine, whatever its matplotlibrc says; the same bytes on every run."""
     matplotlib.rcdefaults()
-    matplotlib.rcParams.update({
-        "font.family": "STIXGeneral", "mathtext.fontset": "stix", "font.size": 10, "axes.labelsize": 11,
-        "axes.titlesize": 11, "xtick.labelsize": 9.5, "ytick.labelsize": 9.5, "legend.fontsize": 9.5,
-        "axes.linewidth": 0.7, "lines.linewidth": 1.2, "xtick.direction": "in", "ytick.direction": "in",
-        "xtick.top": True, "ytick.right": True, "legend.frameon": False, "legend.handlelength": 1.8,
-        "axes.prop_cycle": matplotlib.cycler(color=CYCLE), "axes.formatter.useoffset": False,
-        "axes.formatter.limits": (-4, 5), "axes.xmargin": 0.0, "hatch.linewidth": 0.5,
-        "savefig.dpi": 300, "svg.hashsalt": "clatter", "figure.max_open_warning": 0,
-    })
+    matplotlib.rcParams.update(
+        {
+            "font.family": "STIXGeneral",
+            "mathtext.fontset": "stix",
+            "font.size": 10,
+            "axes.labelsize": 11,
+            "axes.titlesize": 11,
+            "xtick.labelsize": 9.5,
+            "ytick.labelsize": 9.5,
+            "legend.fontsize": 9.5,
+            "axes.linewidth": 0.7,
+            "lines.linewidth": 1.2,
+            "xtick.direction": "in",
+            "ytick.direction": "in",
+            "xtick.top": True,
+            "ytick.right": True,
+            "legend.frameon": False,
+            "legend.handlelength": 1.8,
+            "axes.prop_cycle": matplotlib.cycler(color=CYCLE),
+            "axes.formatter.useoffset": False,
+            "axes.formatter.limits": (-4, 5),
+            "axes.xmargin": 0.0,
+            "hatch.linewidth": 0.5,
+            "savefig.dpi": 300,
+            "svg.hashsalt": "clatter",
+            "figure.max_open_warning": 0,
+        }
+    )
 
 
 def symbol(name):
@@ -85,7 +120,7 @@ def heading(figure, output):
     """Title above the picture, and below it the constants that it does not already name."""
     name = f"Fig. {output.figure}.  " if output.figure else "Accuracy and time.  " if output.is_study else ""
     shown, many = constants(output), int(1.2 * figure.get_figwidth())  # entries that fit a line
-    lines = [",   ".join(shown[first:first + many]) for first in range(0, len(shown), many)]
+    lines = [",   ".join(shown[first : first + many]) for first in range(0, len(shown), many)]
     figure.suptitle("\n".join([f"{name}{typeset(output.title)}", *lines]).strip(), fontsize=10.5, linespacing=1.5)
 
 
@@ -104,8 +139,17 @@ def legend_above(axes, columns=4, **options):
     """A legend on top of the panel's frame, where it covers no data."""
     handles, names = axes.get_legend_handles_labels()
     if handles:
-        axes.legend(handles, names, loc="lower center", bbox_to_anchor=(0.5, 1.0), ncol=columns,
-                    borderaxespad=0.15, columnspacing=1.2, handletextpad=0.5, **options)
+        axes.legend(
+            handles,
+            names,
+            loc="lower center",
+            bbox_to_anchor=(0.5, 1.0),
+            ncol=columns,
+            borderaxespad=0.15,
+            columnspacing=1.2,
+            handletextpad=0.5,
+            **options,
+        )
 
 
 def draw_walls(axes, lower, upper, vertical=False, named=True):

@@ -13,7 +13,11 @@ import numpy
 from plain_hdf5 import UNREADABLE, FileProblem, open_output
 
 ROWS = 11  # of each variable in a text baseline: its points are far from tangencies, past which the last bits decide
-SETTLING = ("impact_total", "simulated_periods", "settling_estimate")  # how long it took to get there: work, and no property of the motion
+SETTLING = (
+    "impact_total",
+    "simulated_periods",
+    "settling_estimate",
+)  # how long it took to get there: work, and no property of the motion
 REFERENCES = ("DIMENSION_LIST", "REFERENCE_LIST")  # attributes that point at other variables
 APERIODIC = 1
 
@@ -40,7 +44,7 @@ def read_h5(path):
         for name, dataset in file.items():
             if b"netCDF dimension but not a netCDF variable" in dataset.attrs.get("NAME", b""):
                 continue  # a length, which the variables along it have, too
-            swept = dataset.attrs.get("CLASS") != b"DIMENSION_SCALE" and dataset.shape[:len(sweep)] == sweep
+            swept = dataset.attrs.get("CLASS") != b"DIMENSION_SCALE" and dataset.shape[: len(sweep)] == sweep
             number = math.prod(sweep) if swept and sweep else (dataset.shape or (1,))[0]
             rows = dataset[()].reshape(number, dataset.size // max(number, 1)).astype(float)
             attributes = {key: str(value) for key, value in dataset.attrs.items() if key not in REFERENCES}
@@ -49,14 +53,19 @@ def read_h5(path):
 
 
 def text_of(output):
-    lines = ["# By scripts/regress.sh. A line is a variable of the output: name, type, shape, every how many rows, how many, their values",
-             f"config_sha256 {output.config}"]
+    lines = [
+        "# By scripts/regress.sh. A line is a variable of the output: name, type, shape, every how many rows, how "
+        "many, their values",
+        f"config_sha256 {output.config}",
+    ]
     for name, (kind, shape, _, rows, *_) in output.variables.items():
         if name not in SETTLING:
             step = max(1, math.ceil(len(rows) / ROWS))
             kept = rows[::step]
             values = [f"{value:.15g}" for value in kept.ravel()]
-            lines.append(" ".join([name, kind, "x".join(map(str, shape)) or "scalar", str(step), str(len(kept)), *values]))
+            lines.append(
+                " ".join([name, kind, "x".join(map(str, shape)) or "scalar", str(step), str(len(kept)), *values])
+            )
     return "\n".join(lines) + "\n"
 
 
@@ -77,7 +86,9 @@ class Comparison:
         self.variables, self.largest, self.where = 0, 0.0, "-"
         self.tolerance = tolerance
         step = base.variables["status"].step
-        self.chaotic = new.variables["status"].rows[::step, 0] == APERIODIC  # where the baseline's isn't, status itself differs
+        self.chaotic = (
+            new.variables["status"].rows[::step, 0] == APERIODIC
+        )  # where the baseline's isn't, status itself differs
         self.points = len(self.chaotic)
         self.unlike = numpy.zeros(self.points, dtype=bool)  # the aperiodic points where something differs
         left_out = SETTLING if base.is_text else ()
@@ -100,14 +111,14 @@ class Comparison:
             return
         if old.attributes and old.attributes != now.attributes:
             self.differences.append(f"attributes of {name}")
-        a, b = old.rows, now.rows[::old.step]
+        a, b = old.rows, now.rows[:: old.step]
         if a.shape != b.shape:
             self.differences.append(f"{name} has {len(b)} rows, not {len(a)}")
             return
         with numpy.errstate(invalid="ignore"):  # inf - inf
             apart = numpy.where((a == b) | (numpy.isnan(a) & numpy.isnan(b)), 0, numpy.abs(a - b))
         if name.endswith("_phase"):  # that of a zero amplitude is noise, and pi is -pi
-            amplitude = new.variables[name.replace("_phase", "_amplitude")].rows[::old.step]
+            amplitude = new.variables[name.replace("_phase", "_amplitude")].rows[:: old.step]
             error = numpy.abs(amplitude) * numpy.abs(numpy.remainder(apart + math.pi, 2 * math.pi) - math.pi)
             if ((apart > self.tolerance) & (error <= self.tolerance)).any():
                 self.permitted.append(f"{name} by whole turns or of no amplitude")
@@ -134,14 +145,21 @@ class Comparison:
 
 
 def line(name, points, variables, largest, where, h5diff, verdict, note):
-    return f"{name:<12} {points:>6}  {variables:>9}  {largest:>8}  {where:<20}  {h5diff:<7}  {verdict:<8}  {note}".rstrip()
+    return (
+        f"{name:<12} {points:>6}  {variables:>9}  {largest:>8}  {where:<20}  {h5diff:<7}  {verdict:<8}  {note}".rstrip()
+    )
 
 
 def h5diff_of(base, output, tolerance):
     """What h5diff says of two files that may be read: it would follow what leads out of them."""
-    found = subprocess.run(["h5diff", "-c", "-d", str(tolerance), "--exclude-attribute", "/", base.absolute(), output.absolute()], check=False,
-                           capture_output=True, text=True, errors="replace")
-    # Other shapes are "not comparable" to it, and it ends with 0; so are, even in equal files, dimensions without values.
+    found = subprocess.run(
+        ["h5diff", "-c", "-d", str(tolerance), "--exclude-attribute", "/", base.absolute(), output.absolute()],
+        check=False,
+        capture_output=True,
+        text=True,
+        errors="replace",
+    )
+    # For other shapes, "not comparable", it ends with 0; so are, even in equal files, dimensions without values.
     lines = [line for line in found.stdout.splitlines() if not line.endswith("is an empty dataset")]
     return "differs" if found.returncode or lines else "same"
 
@@ -163,8 +181,19 @@ def table_row(baseline, output, tolerance):
         found.differences = ["h5diff finds what isn't seen here"]
     agrees = not found.differences
     note = "but for " + ", ".join(found.permitted) if agrees and found.permitted else "; ".join(found.differences)
-    return line(name, found.points, found.variables, f"{found.largest:.1e}" if found.largest else "0", found.where, h5diff,
-                "agrees" if agrees else "differs", note), agrees
+    return (
+        line(
+            name,
+            found.points,
+            found.variables,
+            f"{found.largest:.1e}" if found.largest else "0",
+            found.where,
+            h5diff,
+            "agrees" if agrees else "differs",
+            note,
+        ),
+        agrees,
+    )
 
 
 def table(arguments):
@@ -187,7 +216,9 @@ def text(arguments):
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
     commands = parser.add_subparsers(required=True)
-    command = commands.add_parser("table", help="compares outputs with a baseline and prints a table; ends with 1 where any differs")
+    command = commands.add_parser(
+        "table", help="compares outputs with a baseline and prints a table; ends with 1 where any differs"
+    )
     command.add_argument("baseline", type=pathlib.Path, help="folder of NAME.h5 or NAME.txt")
     command.add_argument("outputs", type=pathlib.Path, help="folder of NAME.h5")
     command.add_argument("tolerance", type=float)

@@ -11,7 +11,8 @@ steps() {
 Builds clatter and runs all its tests on Debian 12, as root or with sudo:
   1. installs the packages that are missing: for the build (${BUILD_PACKAGES[*]}),
      for the pictures (${PLOT_PACKAGES[*]})
-     and for reading the outputs with other programs (${TEST_PACKAGES[*]}),
+     for reading the outputs with other programs (${TEST_PACKAGES[*]})
+     and for scripts/check.sh, which is tested too (${CHECK_PACKAGES[*]}),
   2. builds clatter and its tests in build/release,
   3. runs all tests through ctest.
 END
@@ -30,7 +31,7 @@ case "${1-}" in
 esac
 
 steps
-install_missing "${BUILD_PACKAGES[@]}" "${PLOT_PACKAGES[@]}" "${TEST_PACKAGES[@]}"
+install_missing "${BUILD_PACKAGES[@]}" "${PLOT_PACKAGES[@]}" "${TEST_PACKAGES[@]}" "${CHECK_PACKAGES[@]}"
 
 cd "$source_dir"
 cmake --preset release

@@ -9,8 +9,10 @@ if(NOT XSIMD_INCLUDE_DIR)
 endif()
 set(flags_sse2 -msse2)
 set(flags_avx2 -mavx2 -mfma)
-set(flags_avx512 -mavx512f -mavx512cd -mavx512dq -mavx512bw -mavx512vl
-  -Wno-maybe-uninitialized)  # GCC 12 warns of its own _mm512_undefined_pd
+set(flags_avx512 -mavx512f -mavx512cd -mavx512dq -mavx512bw -mavx512vl)
+if(CMAKE_CXX_COMPILER_ID STREQUAL GNU)  # it warns of its own _mm512_undefined_pd
+  list(APPEND flags_avx512 -Wno-maybe-uninitialized)
+endif()
 add_library(bench_support STATIC sweeps.cpp unit.cpp)
 target_include_directories(bench_support PUBLIC ${PROJECT_SOURCE_DIR}/tests)
 target_link_libraries(bench_support PUBLIC clatter_sweep benchmark::benchmark)

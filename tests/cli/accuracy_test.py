@@ -1,4 +1,4 @@
-"""`clatter accuracy` as shell scripts and readers of its files meet it: table, JSON, file, signals; runs by every method.
+"""`clatter accuracy` as shell scripts and readers of its files meet it: table, JSON, file, signals; every method.
 
 Nothing here depends on how long anything takes: the two variables of times are only looked at for being there.
 """
@@ -30,16 +30,31 @@ SWEEP = SCENE + '[sweep]\nnu = [0.9, 1.1]\n[time]\nmode = "transient"\nduration 
 METHODS = ["exact"] * 2 + ["dopri5"] * 11 + ["moreau"] * 5 + ["harmonics_exact"] + ["harmonics_fft"] * 17
 REPEATS = ["steady"] * 13 + ["steady_repetition"] * 12
 LANES = (1, 48)  # rows of the exact method and of its steady motion in lanes
-KEYS = {"method", "setting", "arch", "error_contact_time", "error_contact_speed", "error_extrema", "error_harmonics",
-        "missed", "doubled", "ns_per_period", "ns_spread", "horizon", "status"}
+KEYS = {
+    "method",
+    "setting",
+    "arch",
+    "error_contact_time",
+    "error_contact_speed",
+    "error_extrema",
+    "error_harmonics",
+    "missed",
+    "doubled",
+    "ns_per_period",
+    "ns_spread",
+    "horizon",
+    "status",
+}
 TIMES = {"ns_per_period", "ns_spread"}
 NOTED = "\nclatter: stops after the present run; once more stops at once\n"  # the signal
 
 
 def objects(text):
     """The JSON objects of lines, none of which may hold what is no JSON, as NaN."""
+
     def refuse(word):
         raise ValueError(f"{word} is no JSON")
+
     return [json.loads(line, parse_constant=refuse) for line in text.splitlines()]
 
 
@@ -170,8 +185,10 @@ class Study(Studies):
         for name in filter(runs_here, ("sse2", "avx2", "avx512")):
             for words, variable in ((("--arch", name), "scalar"), ((), name)):
                 rows = objects(self.study(config, "--json", *words, code=1, arch=variable).stdout)
-                self.assertEqual([(place, row["arch"]) for place, row in enumerate(rows) if row["arch"] != "scalar"],
-                                 [(place, name) for place in LANES])
+                self.assertEqual(
+                    [(place, row["arch"]) for place, row in enumerate(rows) if row["arch"] != "scalar"],
+                    [(place, name) for place in LANES],
+                )
                 self.assert_file_holds("a.accuracy.h5", rows)
         rows = objects(self.study(config, "--json", "--arch", "scalar", code=1).stdout)
         self.assertEqual({row["arch"] for row in rows}, {"scalar"})
@@ -193,8 +210,13 @@ class Study(Studies):
     def test_with_interrupts_ignored_goes_on(self):
         """As under nohup, or in the background of a script."""
         config = self.write("a.toml", STEADY + "max_impacts = 1\n")
-        process = subprocess.Popen([CLATTER, "accuracy", config], cwd=self.directory, stdout=subprocess.PIPE,
-                                   stderr=subprocess.PIPE, preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_IGN))
+        process = subprocess.Popen(
+            [CLATTER, "accuracy", config],
+            cwd=self.directory,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE,
+            preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_IGN),
+        )
         while process.poll() is None:
             process.send_signal(signal.SIGINT)
             time.sleep(0.01)
@@ -207,9 +229,14 @@ class Interrupts(Studies):
     def interrupted(self, number, stream, words, *options):
         """Sends a signal as soon as a stream has these words; gives the exit code, stdout and stderr."""
         with open(self.directory / "stdout", "wb") as out, open(self.directory / "stderr", "wb") as err:
-            process = subprocess.Popen([CLATTER, "accuracy", "a.toml", *options], cwd=self.directory, stdout=out, stderr=err,
-                                       env={**os.environ, "CLATTER_ARCH": ""},
-                                       preexec_fn=lambda: signal.signal(number, signal.SIG_DFL))
+            process = subprocess.Popen(
+                [CLATTER, "accuracy", "a.toml", *options],
+                cwd=self.directory,
+                stdout=out,
+                stderr=err,
+                env={**os.environ, "CLATTER_ARCH": ""},
+                preexec_fn=lambda: signal.signal(number, signal.SIG_DFL),
+            )
         self.addCleanup(process.kill)
         deadline = time.monotonic() + 120
         while words not in (self.directory / stream).read_bytes():
@@ -236,7 +263,9 @@ class Interrupts(Studies):
         older = (self.directory / "a.accuracy.h5").read_bytes()
         code, out, err = self.interrupted(signal.SIGTERM, "stdout", b"\n", "--json")
         self.assertEqual(code, 143, err)
-        finished = int(re.fullmatch(NOTED + r"stopped after ([12]) of 3 points; a\.accuracy\.h5 is not written\n", err)[1])
+        finished = int(
+            re.fullmatch(NOTED + r"stopped after ([12]) of 3 points; a\.accuracy\.h5 is not written\n", err)[1]
+        )
         self.assertEqual([row["point"] for row in objects(out)], [0] * 61 + [1] * 61 * (finished - 1))
         self.assertEqual(self.files(), ["a.accuracy.h5", "a.toml"])
         self.assertEqual((self.directory / "a.accuracy.h5").read_bytes(), older)
@@ -275,8 +304,16 @@ class Methods(CommandLine):
         config = self.write("a.toml", SMALL + "harmonics = 3\nimpacts = true\ntrajectory = 11\n")
         shapes, largest = {}, {}
         for method in ("exact", "dopri5", "moreau"):
-            result = self.clatter("run", config, "-q", "-o", "a.accuracy.h5", f"--set=integrator.method={method}",
-                                  "--set", "time.tolerance=1e-9")
+            result = self.clatter(
+                "run",
+                config,
+                "-q",
+                "-o",
+                "a.accuracy.h5",
+                f"--set=integrator.method={method}",
+                "--set",
+                "time.tolerance=1e-9",
+            )
             self.assertEqual((result.returncode, result.stdout, result.stderr), (0, "", ""), method)
             with h5py.File(self.directory / "a.accuracy.h5") as file:
                 shapes[method] = {name: (file[name].shape, file[name].dtype) for name in file}

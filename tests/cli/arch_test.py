@@ -1,4 +1,4 @@
-"""Instruction sets: how one is chosen, that each gives the same results, and that none leaks into code for old machines."""
+"""Instruction sets: how one is chosen, that each gives the same, and that none leaks into code for old machines."""
 
 import os
 import pathlib
@@ -13,10 +13,13 @@ import numpy
 from command_line import CLATTER, SMALL, CommandLine, runs_here
 
 NAMES = ("scalar", "sse2", "avx2", "avx512")
-EVERYTHING = SMALL.replace("xs = -4.0", "xs = -3.5").replace("1.5, 5)", "1.5, 41)") + """impacts = true
+EVERYTHING = (
+    SMALL.replace("xs = -4.0", "xs = -3.5").replace("1.5, 5)", "1.5, 41)")
+    + """impacts = true
 harmonics = 3
 harmonics_method = "exact"
 """
+)
 
 
 class Arch(CommandLine):
@@ -40,8 +43,9 @@ class Arch(CommandLine):
         config = self.write("a.toml", SMALL)
         for name in NAMES:
             if not runs_here(name):
-                self.assert_refused(2, f"--arch '{name}': this machine doesn't have it; its widest is ", "run", config,
-                                    "--arch", name)
+                self.assert_refused(
+                    2, f"--arch '{name}': this machine doesn't have it; its widest is ", "run", config, "--arch", name
+                )
 
     def test_a_wrong_name_is_refused(self):
         config = self.write("a.toml", SMALL)
@@ -75,10 +79,17 @@ class Arch(CommandLine):
             other = self.run_with("--arch", name, text=EVERYTHING)
             numpy.testing.assert_array_equal(other["status"], default["status"])
             for counted in ("impacts_per_period", "period_ratio"):
-                numpy.testing.assert_array_equal(other[counted][periodic], default[counted][periodic], f"{name}: {counted}")
+                numpy.testing.assert_array_equal(
+                    other[counted][periodic], default[counted][periodic], f"{name}: {counted}"
+                )
             for measured in ("x_min", "x_max", "v_min", "v_max", "v_before", "v_after", "x_amplitude", "v_amplitude"):
-                numpy.testing.assert_allclose(other[measured][periodic], default[measured][periodic], rtol=0, atol=1e-12,
-                                              err_msg=f"{name}: {measured}")
+                numpy.testing.assert_allclose(
+                    other[measured][periodic],
+                    default[measured][periodic],
+                    rtol=0,
+                    atol=1e-12,
+                    err_msg=f"{name}: {measured}",
+                )
 
 
 class Objects(unittest.TestCase):
@@ -96,7 +107,11 @@ class Objects(unittest.TestCase):
     def test_kernels_define_nothing_that_code_of_another_set_could_be_merged_with(self):
         for name, tag in (("avx2", r"5xsimd.*4avx2"), ("avx512", r"5xsimd.*avx512")):
             functions = {symbol for kind, symbol in self.symbols(name) if kind in "TWui"}
-            entries = {symbol for symbol in functions if re.fullmatch(rf"_ZN7clatter\d+(visit|observe)_{name}ERNS_5LanesE", symbol)}
+            entries = {
+                symbol
+                for symbol in functions
+                if re.fullmatch(rf"_ZN7clatter\d+(visit|observe)_{name}ERNS_5LanesE", symbol)
+            }
             self.assertEqual(len(entries), 2, functions)
             shared = [symbol for symbol in functions - entries if not re.search(tag, symbol)]
             self.assertEqual(shared, [], f"{name}: the linker could take these for those of other objects")

@@ -25,7 +25,9 @@ def run(*command, folder=None):
 def libraries(build):
     """What a build folder links the program with."""
     text = (build / "build.ninja").read_text(encoding="utf-8")
-    statement = re.search(r"^build apps/clatter/clatter: (?:.*\n)(?:  .*\n)*?  LINK_LIBRARIES = (.*)$", text, re.MULTILINE)
+    statement = re.search(
+        r"^build apps/clatter/clatter: (?:.*\n)(?:  .*\n)*?  LINK_LIBRARIES = (.*)$", text, re.MULTILINE
+    )
     return statement[1].split()
 
 
@@ -43,7 +45,9 @@ class Build(unittest.TestCase):
         shutil.copy(SOURCE / "CMakePresets.json", source)
         lists = (SOURCE / "CMakeLists.txt").read_text(encoding="utf-8")
         (source / "CMakeLists.txt").write_text(lists + PROBE, encoding="utf-8")
-        (source / "probe.cpp").write_text("#include <hdf5_hl.h>\nint main() { return H5open() < 0 || H5close() < 0; }\n")
+        (source / "probe.cpp").write_text(
+            "#include <hdf5_hl.h>\nint main() { return H5open() < 0 || H5close() < 0; }\n"
+        )
         run("cmake", "--preset", "release", "-DCLATTER_TESTS=OFF", folder=source)
         build = source / "build" / "release"
         run("cmake", "--build", build, "--target", "probe", "clatter_version")
@@ -84,8 +88,17 @@ class Build(unittest.TestCase):
         output = self.folder / "version.cpp"
         template = self.folder / "template"
         template.write_text("@GIT_COMMIT@")
-        run("cmake", "-D", f"SOURCE_DIR={source}", "-D", f"TEMPLATE={template}", "-D", f"OUTPUT={output}", "-P",
-            source / "src" / "results" / "version.cmake")
+        run(
+            "cmake",
+            "-D",
+            f"SOURCE_DIR={source}",
+            "-D",
+            f"TEMPLATE={template}",
+            "-D",
+            f"OUTPUT={output}",
+            "-P",
+            source / "src" / "results" / "version.cmake",
+        )
         return output.read_text().strip()
 
 

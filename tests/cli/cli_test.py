@@ -17,7 +17,10 @@ class WrongCommandLines(CommandLine):
             ([], "no command; see `clatter --help`"),
             (["rnu", config], "unknown command 'rnu'; did you mean 'run'?"),
             (["frobnicate"], "the commands are: run, plan, accuracy, merge, info, defaults, help"),
-            (["--verbose"], "unknown option '--verbose' before the command; write it behind: clatter COMMAND ... --verbose"),
+            (
+                ["--verbose"],
+                "unknown option '--verbose' before the command; write it behind: clatter COMMAND ... --verbose",
+            ),
             (["--verb", "run", config], "unknown option '--verb' before the command; write it behind"),
             (["--versoin"], "unknown option '--versoin' before the command; did you mean '--version'?"),
             (["--xyzzyxyzzy"], "unknown option '--xyzzyxyzzy' before the command; see `clatter --help`"),
@@ -94,7 +97,9 @@ class WrongConfigurations(CommandLine):
 
     def test_set_in_another_encoding_is_not_told_to_save_a_file(self):
         config = self.write("a.toml", SMALL)
-        self.assert_refused(2, r"--set scene.R=\xff: the byte \xff is not UTF-8", "run", config, "--set", b"scene.R=\xff")
+        self.assert_refused(
+            2, r"--set scene.R=\xff: the byte \xff is not UTF-8", "run", config, "--set", b"scene.R=\xff"
+        )
 
     def test_results_beyond_the_memory_are_refused_at_once(self):
         config = self.write("a.toml", SMALL)
@@ -102,8 +107,15 @@ class WrongConfigurations(CommandLine):
         text = SMALL.replace("f = -1.0\n", "").replace("h = 0.1\n", "")
         self.write("huge.toml", text)
         for command in ("run", "plan"):
-            self.assert_refused(74, "not enough memory: 1000000000 points take", command, "huge.toml", *axes,
-                                "--set", "observe.trajectory=1000000")
+            self.assert_refused(
+                74,
+                "not enough memory: 1000000000 points take",
+                command,
+                "huge.toml",
+                *axes,
+                "--set",
+                "observe.trajectory=1000000",
+            )
         result = self.clatter("run", config, "--set", "observe.trajectory=2")
         self.assertEqual(result.returncode, 0, result.stderr)
 
@@ -134,10 +146,14 @@ class Files(CommandLine):
         for length in (100, 2000, len(whole) - 100):  # in the second, a heap of texts is damaged
             (self.directory / "cut.h5").write_bytes(whole[:length])
             self.assert_refused(74, "'cut.h5': cannot be read: ", "info", "cut.h5")
-            self.assertRegex(self.clatter("info", "cut.h5").stderr, r"; copy it again, or run its configuration again\n$")
+            self.assertRegex(
+                self.clatter("info", "cut.h5").stderr, r"; copy it again, or run its configuration again\n$"
+            )
 
     def test_closed_standard_output_is_an_error(self):
-        result = subprocess.run([CLATTER, "defaults"], preexec_fn=lambda: os.close(1), stderr=subprocess.PIPE, text=True)
+        result = subprocess.run(
+            [CLATTER, "defaults"], preexec_fn=lambda: os.close(1), stderr=subprocess.PIPE, text=True
+        )
         self.assertEqual(result.returncode, 74, result.stderr)
         self.assertIn("standard output cannot be written", result.stderr)
 
@@ -169,8 +185,21 @@ class Run(CommandLine):
         config = self.write("a.toml", SMALL)
         self.assertEqual(self.run_ok(config, "-q").stderr, "")
         details = self.run_ok(config, "-v", "--threads", "1").stderr
-        for word in ("axes  ", "5 points, 0 failed", "groups  ", "settled: ", "threads          1\n", "impacts ",
-                     "forcing periods ", "evaluations ", "instruction set ", "host ", "command line ", "began ", "ended "):
+        for word in (
+            "axes  ",
+            "5 points, 0 failed",
+            "groups  ",
+            "settled: ",
+            "threads          1\n",
+            "impacts ",
+            "forcing periods ",
+            "evaluations ",
+            "instruction set ",
+            "host ",
+            "command line ",
+            "began ",
+            "ended ",
+        ):
             self.assertIn(word, details)
 
     def test_the_bar_appears_on_demand_and_without_a_terminal_only_then(self):
@@ -220,15 +249,18 @@ class Run(CommandLine):
         fail = ["--set", "scene.xs=-1", "--set", "time.max_impacts=1"]
         result = self.clatter("run", config, *fail)
         self.assertEqual(result.returncode, 1, result.stderr)
-        self.assertRegex(result.stderr, r"^5 points, 5 failed \(event_budget: 5, e\.g\. point 0 at nu = 0\.5\), [0-9.e-]+ s, ")
+        self.assertRegex(
+            result.stderr, r"^5 points, 5 failed \(event_budget: 5, e\.g\. point 0 at nu = 0\.5\), [0-9.e-]+ s, "
+        )
         self.assertIn("a.h5", self.files())
         one = self.clatter("run", config, *fail, "--set", "scene.nu=1").stderr
         self.assertRegex(one, r"^1 point, 1 failed \(event_budget: 1, e\.g\. point 0\), ")
 
     def test_each_status_of_failed_points_is_told(self):
         config = self.write("a.toml", SMALL)
-        result = self.clatter("run", config, "--set", "scene.xs=-1", "--set", "sweep.v0=1, 1e308",
-                              "--set", "time.max_impacts=3")
+        result = self.clatter(
+            "run", config, "--set", "scene.xs=-1", "--set", "sweep.v0=1, 1e308", "--set", "time.max_impacts=3"
+        )
         self.assertEqual(result.returncode, 1, result.stderr)
         with h5py.File(self.directory / "a.h5") as file:
             status = file["status"][()]
@@ -239,8 +271,10 @@ class Run(CommandLine):
         texts = []
         for value in kinds:
             i, j = numpy.argwhere(status == value)[0]
-            texts.append(f"{names[value]}: {(status == value).sum()}, e.g. point {i * status.shape[1] + j} "
-                         f"at nu = {nu[i]:.10g}, v0 = {v0[j]:.10g}")
+            texts.append(
+                f"{names[value]}: {(status == value).sum()}, e.g. point {i * status.shape[1] + j} "
+                f"at nu = {nu[i]:.10g}, v0 = {v0[j]:.10g}"
+            )
         self.assertIn(f"{(status > 15).sum()} failed ({'; '.join(texts)})", result.stderr)
 
     def test_failed_points_of_shards_have_their_number_in_the_sweep(self):

@@ -39,8 +39,14 @@ class CommandLine(unittest.TestCase):
         self.directory = pathlib.Path(directory.name)
 
     def clatter(self, *words, environment=None):
-        return subprocess.run([CLATTER, *words], cwd=self.directory, capture_output=True, text=True, timeout=300,
-                              env={**os.environ, **(environment or {})})
+        return subprocess.run(
+            [CLATTER, *words],
+            cwd=self.directory,
+            capture_output=True,
+            text=True,
+            timeout=300,
+            env={**os.environ, **(environment or {})},
+        )
 
     def write(self, name, text):
         (self.directory / name).write_text(text, encoding="utf-8")

@@ -32,16 +32,21 @@ def make_surroundings(folder):
 
 def replaced(make):
     """x_max goes, and `make` puts another of as many points in its place."""
+
     def change(file, folder):
         points = len(file["x_max"])
         del file["x_max"]
         make(file, folder, points)
+
     return change
 
 
 def external(name):
-    return replaced(lambda file, folder, points: file.create_dataset(
-        "x_max", (points,), "f8", external=[(str(folder / name), 0, 8 * points)]))
+    return replaced(
+        lambda file, folder, points: file.create_dataset(
+            "x_max", (points,), "f8", external=[(str(folder / name), 0, 8 * points)]
+        )
+    )
 
 
 def linked(link):
@@ -49,7 +54,9 @@ def linked(link):
 
 
 def dataset(**settings):
-    return replaced(lambda file, folder, points: file.create_dataset("x_max", data=numpy.arange(float(points)), **settings))
+    return replaced(
+        lambda file, folder, points: file.create_dataset("x_max", data=numpy.arange(float(points)), **settings)
+    )
 
 
 def virtual(file, folder, points):

@@ -1,6 +1,6 @@
-"""Calls that fail, disks that are full, places that can't be written: no broken file, no point lost or doubled, never a false success.
+"""Calls that fail, disks that are full, places that can't be written: no broken file, no point lost or doubled.
 
-scripts/long_checks.sh disks runs the full disks at more sizes.
+Never a false success. scripts/long_checks.sh disks runs the full disks at more sizes.
 """
 
 import contextlib
@@ -60,10 +60,16 @@ class Faults(StoppedRuns):
         self.assertEqual(content, self.whole, (context, said))
 
     def with_fault(self, fault, *words):
-        environment = {**os.environ, "LD_PRELOAD": str(self.shim), "CLATTER_FAULT": fault,
-                       "CLATTER_FAULT_DONE": str(self.marker)}
+        environment = {
+            **os.environ,
+            "LD_PRELOAD": str(self.shim),
+            "CLATTER_FAULT": fault,
+            "CLATTER_FAULT_DONE": str(self.marker),
+        }
         self.marker.unlink(missing_ok=True)
-        result = subprocess.run(self.command(*words, threads=1), capture_output=True, text=True, timeout=300, env=environment)
+        result = subprocess.run(
+            self.command(*words, threads=1), capture_output=True, text=True, timeout=300, env=environment
+        )
         happened = self.marker.exists()
         self.marker.unlink(missing_ok=True)
         return result, happened
@@ -84,7 +90,9 @@ class Faults(StoppedRuns):
                         break
                     times += 1
                     context = (call, n, effect, words, result.returncode, result.stderr)
-                    permitted = {"kill": {-signal.SIGKILL}, "EINTR": {0, 124}, "short": {0, 124}}.get(effect, {0, 74, 124})
+                    permitted = {"kill": {-signal.SIGKILL}, "EINTR": {0, 124}, "short": {0, 124}}.get(
+                        effect, {0, 74, 124}
+                    )
                     self.assertIn(result.returncode, permitted, context)
                     self.assert_whole_or_nothing(result.returncode, context)
                     if result.returncode == 74:
@@ -109,8 +117,15 @@ class Faults(StoppedRuns):
     @unittest.skipUnless(SHIM, "calls can't be made to fail under a sanitizer")
     def test_interrupted_and_short_calls_are_repeated(self):
         journal = self.half()
-        for call, effect in (("open", "EINTR"), ("read", "EINTR"), ("read", "short"), ("write", "EINTR"), ("write", "short"),
-                             ("ftruncate", "EINTR"), ("fsync", "EINTR")):
+        for call, effect in (
+            ("open", "EINTR"),
+            ("read", "EINTR"),
+            ("read", "short"),
+            ("write", "EINTR"),
+            ("write", "short"),
+            ("ftruncate", "EINTR"),
+            ("fsync", "EINTR"),
+        ):
             for n in (0, 1):
                 self.begin_anew(journal)
                 result, happened = self.with_fault(f"{call} {n} {effect}")
@@ -128,8 +143,13 @@ class Faults(StoppedRuns):
             self.begin_anew()
 
     def limited(self, size, *words):
-        return subprocess.run(self.command(*words), capture_output=True, text=True, timeout=300,
-                              preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (size, size)))
+        return subprocess.run(
+            self.command(*words),
+            capture_output=True,
+            text=True,
+            timeout=300,
+            preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (size, size)),
+        )
 
     def test_a_disk_that_is_full_at_any_size_loses_nothing(self):
         """CLATTER_DISKS: how many sizes (scripts/long_checks.sh disks)."""
@@ -159,7 +179,9 @@ class Faults(StoppedRuns):
         place = self.directory.with_suffix(".disk")
         place.mkdir()
         self.addCleanup(shutil.rmtree, place, ignore_errors=True)
-        mount = subprocess.run(["mount", "-t", "tmpfs", "-o", f"size={kibibytes}k", "clatter-test", place], capture_output=True, text=True)
+        mount = subprocess.run(
+            ["mount", "-t", "tmpfs", "-o", f"size={kibibytes}k", "clatter-test", place], capture_output=True, text=True
+        )
         if mount.returncode != 0:
             self.skipTest("no small disk can be mounted here: " + mount.stderr.strip())
         try:
@@ -196,7 +218,10 @@ class Faults(StoppedRuns):
         whole = self.output.read_bytes()
         self.begin_anew()
         for attempt in range(1, 200):
-            if self.run_command(*larger, "--max-time", f"{0.01 * attempt:g}", threads=1).returncode == 124 and self.journal.exists():
+            if (
+                self.run_command(*larger, "--max-time", f"{0.01 * attempt:g}", threads=1).returncode == 124
+                and self.journal.exists()
+            ):
                 break
         with self.small_disk(len(whole) * 5 // 4 // 1024) as disk:
             shutil.copy(self.journal, disk / "a.h5.journal")
@@ -221,8 +246,13 @@ class Faults(StoppedRuns):
         shutil.copy(CLATTER, program)
         self.directory.chmod(0o755)
         as_nobody = {"user": 65534, "group": 65534} if os.geteuid() == 0 else {}
-        for output, reason in ((closed / "a.h5", "ermission denied"), (self.directory / "none" / "a.h5", "mkdir -p"), (closed, "is a directory"),
-                               ("/dev/full", "is not a regular file"), ("", "empty name")):
+        for output, reason in (
+            (closed / "a.h5", "ermission denied"),
+            (self.directory / "none" / "a.h5", "mkdir -p"),
+            (closed, "is a directory"),
+            ("/dev/full", "is not a regular file"),
+            ("", "empty name"),
+        ):
             command = self.command(output=output)
             command[0] = program
             if output == "":
@@ -244,8 +274,13 @@ class Faults(StoppedRuns):
         for processes in (1, 2):
             command = self.command(threads=4)
             command[0] = program
-            result = subprocess.run(command, capture_output=True, text=True, **as_nobody,
-                                    preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_NPROC, (processes, processes)))
+            result = subprocess.run(
+                command,
+                capture_output=True,
+                text=True,
+                **as_nobody,
+                preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_NPROC, (processes, processes)),
+            )
             self.assertEqual(result.returncode, 74, result.stderr)
             self.assertIn("ulimit -u", result.stderr)
             self.assertFalse(self.output.exists())
@@ -254,27 +289,50 @@ class Faults(StoppedRuns):
     @unittest.skipIf(SANITIZED, "a sanitizer reserves all addresses")
     def test_memory_that_runs_out_is_an_error_and_leaves_nothing(self):
         words = ("--set", "sweep.nu=linspace(0.5,1.5,3000)", "--set", "sweep.xs=linspace(0.2,4,3000)")
-        result = subprocess.run(self.command(*words), capture_output=True, text=True, timeout=300,
-                                preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_AS, (2**29, 2**29)))
+        result = subprocess.run(
+            self.command(*words),
+            capture_output=True,
+            text=True,
+            timeout=300,
+            preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_AS, (2**29, 2**29)),
+        )
         self.assertEqual(result.returncode, 74, result.stderr)
-        self.assertRegex(result.stderr, r"not enough memory: 9000000 points take \S+ GiB with an impact log of some \S+ GiB, ulimit -v leaves")
+        self.assertRegex(
+            result.stderr,
+            r"not enough memory: 9000000 points take \S+ GiB with an impact log of some \S+ GiB, ulimit -v leaves",
+        )
         self.assertEqual(self.files(), ["a.toml"])
 
     def test_a_sweep_that_no_machine_holds_is_refused_with_the_numbers(self):
-        words = ("--set", "sweep.nu=linspace(0.5,1.5,1000)", "--set", "sweep.xs=linspace(0.2,4,1000)", "--set", "observe.trajectory=1000000")
+        words = (
+            "--set",
+            "sweep.nu=linspace(0.5,1.5,1000)",
+            "--set",
+            "sweep.xs=linspace(0.2,4,1000)",
+            "--set",
+            "observe.trajectory=1000000",
+        )
         result = self.run_command(*words)
         self.assertEqual(result.returncode, 74, result.stderr)
-        self.assertRegex(result.stderr, r"not enough memory: 1000000 points take \S+ TiB .*this machine has \S+ [GT]iB; .*--shard")
+        self.assertRegex(
+            result.stderr, r"not enough memory: 1000000 points take \S+ TiB .*this machine has \S+ [GT]iB; .*--shard"
+        )
         self.assertEqual(self.files(), ["a.toml"])
 
     def test_a_merge_on_a_full_disk_leaves_the_shards_and_no_output(self):
         for number in range(2):
-            self.assertEqual(self.run_command("--shard", f"{number}/2", output=self.directory / f"{number}.h5").returncode, 0)
+            self.assertEqual(
+                self.run_command("--shard", f"{number}/2", output=self.directory / f"{number}.h5").returncode, 0
+            )
         before = self.files()
         command = [CLATTER, "merge", "-o", self.output, self.directory / "0.h5", self.directory / "1.h5"]
         for size in (0, 1000, len(self.whole) - 1):
-            result = subprocess.run(command, capture_output=True, text=True,
-                                    preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (size, size)))
+            result = subprocess.run(
+                command,
+                capture_output=True,
+                text=True,
+                preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (size, size)),
+            )
             self.assertEqual(result.returncode, 74)
             self.assertEqual(self.files(), before)
         self.assertEqual(subprocess.run(command, capture_output=True).returncode, 0)

@@ -1,4 +1,4 @@
-"""The paper's figures equal their closed forms at every point, and their labels do not depend on how closely one looks."""
+"""The paper's figures equal their closed forms at every point; their labels do not depend on how closely one looks."""
 
 import os
 import subprocess
@@ -29,7 +29,9 @@ class ConservativeFigures(unittest.TestCase):
 
     def assert_near(self, actual, expected, tolerance, message=""):
         worst = np.max(np.abs(actual - expected) / tolerance)
-        self.assertLessEqual(worst, 1.0, f"{message}: {worst} tolerances off at index {np.argmax(np.abs(actual - expected))}")
+        self.assertLessEqual(
+            worst, 1.0, f"{message}: {worst} tolerances off at index {np.argmax(np.abs(actual - expected))}"
+        )
 
     def test_figures_2_and_3_velocity_ratio_against_period(self):
         for name in ("fig02.toml", "fig03.toml"):
@@ -62,15 +64,19 @@ class ConservativeFigures(unittest.TestCase):
             beyond = speed > gap
             half = np.where(beyond, 2 * np.arcsin(np.minimum(1, gap / speed)), np.pi)  # T1
             contact = np.sqrt(np.maximum((speed - gap) * (speed + gap), 0))
-            # conditioning: an ulp of the gap moves the contact by it over the speed there; touching without speed by its root
+            # conditioning: an ulp of the gap moves the contact by it over the speed there, or by its root at speed 0
             tolerance = 1e-12 + 8 * EPSILON / np.maximum(contact, np.sqrt(EPSILON))
             for k in range(4):
                 omega = np.pi / half
                 near, far = 1 - k * omega, 1 + k * omega
-                amplitude = np.abs(2 * speed / half * (half / 2) * (np.sinc(near * half / 2 / np.pi) - np.sinc(far * half / 2 / np.pi)))
+                amplitude = np.abs(
+                    2 * speed / half * (half / 2) * (np.sinc(near * half / 2 / np.pi) - np.sinc(far * half / 2 / np.pi))
+                )
                 amplitude = amplitude if k % 2 else np.zeros_like(speed)
                 self.assert_near(np.abs(figure["x_amplitude"][:, k]), amplitude, tolerance, f"{name} x, harmonic {k}")
-                self.assert_near(np.abs(figure["v_amplitude"][:, k]), k * omega * amplitude, 3 * tolerance, f"{name} v, harmonic {k}")
+                self.assert_near(
+                    np.abs(figure["v_amplitude"][:, k]), k * omega * amplitude, 3 * tolerance, f"{name} v, harmonic {k}"
+                )
 
 
 class ForcedFigures(unittest.TestCase):
@@ -83,7 +89,9 @@ class ForcedFigures(unittest.TestCase):
                 other = run(name, setting)
                 for variable in ("status", "period_ratio"):
                     np.testing.assert_array_equal(other[variable], figure[variable], f"{name} {setting} {variable}")
-        self.assertEqual(aperiodic, 81)  # just past grazing: Fig. 21 near 0.985, 22 at 0.914-0.976, 23 at 0.858-0.866 and 0.884-0.956
+        self.assertEqual(
+            aperiodic, 81
+        )  # just past grazing: Fig. 21 near 0.985, 22 at 0.914-0.976, 23 at 0.858-0.866 and 0.884-0.956
 
     def test_figure_20_is_the_linear_resonance(self):
         figure = run("fig20.toml")

@@ -27,8 +27,15 @@ class Help(CommandLine):
         return keys
 
     def test_every_page_keeps_within_80_columns(self):
-        pages = [["--help"], ["-h"], ["help"], ["help", "configuration"], ["help", "linspace"],
-                 ["defaults"], ["defaults", "--ini"]]
+        pages = [
+            ["--help"],
+            ["-h"],
+            ["help"],
+            ["help", "configuration"],
+            ["help", "linspace"],
+            ["defaults"],
+            ["defaults", "--ini"],
+        ]
         pages += [["help", command] for command in COMMANDS] + [[command, "--help"] for command in COMMANDS]
         pages += [["help", section] for section in SECTIONS]
         pages += [["help", name] for section, name in self.keys()]
@@ -57,9 +64,16 @@ class Help(CommandLine):
 
     def test_R_is_explained_alone_with_its_section_and_as_an_axis(self):
         text = self.page("help", "R")
-        for words in ("R in [scene]\n", "restitution of velocity on both stops", "0 ... 1; default: 1",
-                      "  [scene]\n  xs = 1.0\n  R = 0.7\n", "--set scene.R=0.7\n", "As an axis of a sweep\n",
-                      '  [sweep]\n  R = "linspace(0.35, 0.7, 11)"\n', "--set sweep.R='linspace(0.35, 0.7, 11)'\n"):
+        for words in (
+            "R in [scene]\n",
+            "restitution of velocity on both stops",
+            "0 ... 1; default: 1",
+            "  [scene]\n  xs = 1.0\n  R = 0.7\n",
+            "--set scene.R=0.7\n",
+            "As an axis of a sweep\n",
+            '  [sweep]\n  R = "linspace(0.35, 0.7, 11)"\n',
+            "--set sweep.R='linspace(0.35, 0.7, 11)'\n",
+        ):
             self.assertIn(words, text)
         self.assertEqual(self.page("help", "scene.R"), text)
         self.assertEqual(self.page("help", "sweep.R"), text)
@@ -71,8 +85,17 @@ class Help(CommandLine):
         self.assertNotIn("[integrator]", self.page("help", "time.tolerance"))
 
     def test_unknown_topics_get_suggestions(self):
-        cases = {"rnu": "run", "nuu": "nu", "scene.nuu": "scene.nu", "sweep.harm": None, "harmonisc": "harmonics",
-                 "start": "start_period", "conf": "configuration", "linspce": "linspace", "obsrve": "observe"}
+        cases = {
+            "rnu": "run",
+            "nuu": "nu",
+            "scene.nuu": "scene.nu",
+            "sweep.harm": None,
+            "harmonisc": "harmonics",
+            "start": "start_period",
+            "conf": "configuration",
+            "linspce": "linspace",
+            "obsrve": "observe",
+        }
         for topic, meant in cases.items():
             words = f"no help on '{topic}'; did you mean '{meant}'?" if meant else f"no help on '{topic}'; "
             self.assert_refused(2, words, "help", topic)

@@ -44,10 +44,12 @@ REASONS = {  # what is said of each
     "claimed": "'status' has more values than the file can hold",
     "hidden": "it lacks its status or configuration",
 }
-CASES = {**CHANGES,
-         "schema": lambda file, folder: file.attrs.__setitem__("clatter_schema", "\x1b[2J"),
-         "claimed": lambda file, folder: claim("status", (4 << 30,), file),
-         "hidden": CHANGES["external_link"]}
+CASES = {
+    **CHANGES,
+    "schema": lambda file, folder: file.attrs.__setitem__("clatter_schema", "\x1b[2J"),
+    "claimed": lambda file, folder: claim("status", (4 << 30,), file),
+    "hidden": CHANGES["external_link"],
+}
 
 
 class ForeignFiles(unittest.TestCase):
@@ -72,7 +74,7 @@ class ForeignFiles(unittest.TestCase):
         torn.parent.mkdir()
         content = output.read_bytes()
         texts = content.index(b"GCOL") + 64  # after the header and the first text, a block that a disk lost
-        torn.write_bytes(content[:texts] + bytes(128) + content[texts + 128:])
+        torn.write_bytes(content[:texts] + bytes(128) + content[texts + 128 :])
         (cls.folder / "fifo").mkdir()
         os.mkfifo(cls.folder / "fifo" / "fig22.h5")
         cls.program = cls.folder / "clatter"  # has the same output ready for every configuration
@@ -86,8 +88,14 @@ class ForeignFiles(unittest.TestCase):
 
     def run_within_a_minute(self, *words):
         """Ends all that it has started when it waits: else they would wait for ever."""
-        program = subprocess.Popen(words, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
-                                   start_new_session=True, env={**os.environ, "CLATTER": str(self.program)})
+        program = subprocess.Popen(
+            words,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE,
+            text=True,
+            start_new_session=True,
+            env={**os.environ, "CLATTER": str(self.program)},
+        )
         try:
             out, err = program.communicate(timeout=60)
         except subprocess.TimeoutExpired:
@@ -98,7 +106,7 @@ class ForeignFiles(unittest.TestCase):
 
     def test_the_secret_would_be_read(self):
         with h5py.File(self.folder / "external" / "fig22.h5") as file:
-            self.assertEqual(file["x_max"][()].tobytes().decode(), SECRET[:33] + SECRET[:8 * 5 - 33])
+            self.assertEqual(file["x_max"][()].tobytes().decode(), SECRET[:33] + SECRET[: 8 * 5 - 33])
 
     def test_plot_refuses_them_in_one_line(self):
         for path, words in self.expected():
@@ -116,7 +124,7 @@ class ForeignFiles(unittest.TestCase):
             with self.subTest(path.parent.name):
                 result = self.run_within_a_minute(SOURCE / "scripts" / "regress.sh", path.parent)
                 self.assertEqual(result.returncode, 1, result.stderr)
-                row, = (line for line in result.stdout.splitlines() if line.startswith("fig22 "))
+                (row,) = (line for line in result.stdout.splitlines() if line.startswith("fig22 "))
                 self.assertEqual(row.split()[1:7], ["-", "-", "-", "-", "-", "differs"])
                 self.assertIn(f"can't be read: {path}: ", row)
                 self.assertIn(words, row)

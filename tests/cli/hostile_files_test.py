@@ -41,10 +41,12 @@ REASONS = {  # what is said of each
     "name": "'a\\x1b]0;title\\x07\\x1b[2J\\xe2\\x80\\xae\\xc2\\x9b\\x0aclatter: all is well' is a group",
     "hidden": "its list of variables is damaged",
 }
-CASES = {**CHANGES,
-         "name": lambda file, directory: file.create_group("a" + CONTROLS),
-         "hidden": CHANGES["external_link"],
-         "hidden_storage": CHANGES["external"]}
+CASES = {
+    **CHANGES,
+    "name": lambda file, directory: file.create_group("a" + CONTROLS),
+    "hidden": CHANGES["external_link"],
+    "hidden_storage": CHANGES["external"],
+}
 REASONS["hidden_storage"] = REASONS["hidden"]
 
 
@@ -86,8 +88,13 @@ class HostileFiles(CommandLine):
     def opened(self, *command):
         """The files in the directory of the test that a command has opened, by strace."""
         log = self.directory / "strace.log"
-        result = subprocess.run(["strace", "-f", "-qq", "-z", "-e", "trace=open,openat,openat2,creat", "-o", log, CLATTER,
-                                 *command], cwd=self.directory, capture_output=True, text=True, timeout=300)
+        result = subprocess.run(
+            ["strace", "-f", "-qq", "-z", "-e", "trace=open,openat,openat2,creat", "-o", log, CLATTER, *command],
+            cwd=self.directory,
+            capture_output=True,
+            text=True,
+            timeout=300,
+        )
         names = {line.split('"')[1] for line in log.read_text().splitlines() if '"' in line}
         log.unlink()
         system = ("/usr/", "/lib", "/etc/ld.so", "/etc/localtime", "/proc/", "/sys/", "/dev/null")
@@ -97,8 +104,9 @@ class HostileFiles(CommandLine):
         if SANITIZED or not can_trace():
             return  # that nothing of them shows in an output is tested in any case
         names, result = self.opened(*command)
-        self.assertLessEqual({name.removeprefix(str(self.directory) + "/") for name in names}, allowed,
-                             (command, result.stderr))
+        self.assertLessEqual(
+            {name.removeprefix(str(self.directory) + "/") for name in names}, allowed, (command, result.stderr)
+        )
 
     def assert_tells_nothing(self, result):
         for text in (result.stdout, result.stderr):
@@ -152,6 +160,7 @@ class HostileFiles(CommandLine):
             file["row"].make_scale("row")
             for place, scale in enumerate((file["row"], file["nu"])):
                 file["status"].dims[place].attach_scale(scale)
+
         name = self.craft("a.h5", grow)
         self.assertLess((self.directory / name).stat().st_blocks * 512, 1 << 20)
         before = resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss
@@ -166,8 +175,10 @@ class HostileFiles(CommandLine):
         def grow(file, directory):
             del file["x_max"]
             file.create_dataset("x_max", (1 << 40,), "f8", chunks=(1 << 10,))[:1] = 0.0
+
         def add_log(file, directory):
             file.create_dataset("impact_tau", data=numpy.zeros(100))
+
         for change, words in ((grow, "its size can hold"), (add_log, "a run of its configuration writes")):
             name = self.craft("a.0-of-2.h5", change)
             self.assert_refused(74, f"it holds more values than {words}", "merge", "-o", "new.h5", name, "a.1-of-2.h5")
@@ -175,6 +186,7 @@ class HostileFiles(CommandLine):
     def test_a_terminal_obeys_nothing_of_a_shard(self):
         def mark(attribute):
             return lambda file, directory: file.attrs.__setitem__(attribute, "x" + CONTROLS)
+
         for attribute in ("clatter_version", "git_commit", "compiler", "config", "rounding", "shard", "clatter_schema"):
             for original in ("a.0-of-2.h5", "a.1-of-2.h5"):
                 name = self.craft(original, mark(attribute))
@@ -211,9 +223,11 @@ class HostileFiles(CommandLine):
 
     def journal(self, *texts, record=b"\0"):
         """A journal with these texts for its key, program first, and one record."""
+
         def block(content):
             head = struct.pack("<QI", len(content), zlib.crc32(content))
             return head + struct.pack("<I", zlib.crc32(head)) + content
+
         key = b"".join(struct.pack("<Q", len(text.encode())) + text.encode() for text in texts)
         return b"clatter journal 1\n" + block(key) + block(record)
 
@@ -253,9 +267,14 @@ class HostileFiles(CommandLine):
     def test_a_journal_of_one_long_section_takes_no_memory(self):
         config = "[" + "s" * (1 << 20) + "]\n" + "a\n" * 100_000  # as lines with their section 100 GiB
         (self.directory / "b.h5.journal").write_bytes(self.journal("1.0", "avx2", "", config))
-        result = subprocess.run([CLATTER, "run", self.config, "-o", "b.h5"], cwd=self.directory, text=True, timeout=60,
-                                capture_output=True,
-                                preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_AS, (2 << 30, 2 << 30)))
+        result = subprocess.run(
+            [CLATTER, "run", self.config, "-o", "b.h5"],
+            cwd=self.directory,
+            text=True,
+            timeout=300,
+            capture_output=True,
+            preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_AS, (2 << 30, 2 << 30)),
+        )
         self.assertEqual(result.returncode, 74)
         self.assertIn("holds what an earlier run of something else had finished", result.stderr)
         self.assertLess(len(result.stderr), 10_000)

@@ -2,7 +2,6 @@
 
 import os
 import pathlib
-import re
 import resource
 import subprocess
 import unittest
@@ -29,11 +28,20 @@ class Limits(CommandLine):
 
     def within(self, limit, value, *words, environment=None, **more):
         """Runs a command within a soft limit; `stderr` may be a file."""
+
         def lower():
             resource.setrlimit(limit, (value, resource.getrlimit(limit)[1]))
+
         more = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE, **more}
-        return subprocess.run([CLATTER, *words], cwd=self.directory, text=True, timeout=300, preexec_fn=lower,
-                              env={**os.environ, **(environment or {})}, **more)
+        return subprocess.run(
+            [CLATTER, *words],
+            cwd=self.directory,
+            text=True,
+            timeout=300,
+            preexec_fn=lower,
+            env={**os.environ, **(environment or {})},
+            **more,
+        )
 
     def assert_said(self, result, words):
         self.assertEqual(result.returncode, 74, (words, result.stderr))
@@ -48,8 +56,13 @@ class OpenFiles(Limits):
         for k in range(2):
             self.assertEqual(self.clatter("run", self.config, "-o", f"{k}.h5", "--shard", f"{k}/2").returncode, 0)
         before = self.files()
-        commands = (["run", self.config, "-o", "new.h5"], ["run", self.config, "-o", "there.h5"], ["info", "there.h5"],
-                    ["accuracy", self.config, "-o", "there.h5"], ["merge", "-o", "new.h5", "0.h5", "1.h5"])
+        commands = (
+            ["run", self.config, "-o", "new.h5"],
+            ["run", self.config, "-o", "there.h5"],
+            ["info", "there.h5"],
+            ["accuracy", self.config, "-o", "there.h5"],
+            ["merge", "-o", "new.h5", "0.h5", "1.h5"],
+        )
         refused = {}
         for command in commands:
             for files in range(4, 12):  # from 4 on the program can load its libraries
@@ -84,16 +97,28 @@ class Stacks(Limits):
             self.assertEqual(result.returncode, 0, result.stderr)
             result = self.clatter(*words, environment={"OMP_STACKSIZE": "512k"})
             self.assertEqual(result.returncode, 0, result.stderr)
-        result = self.within(resource.RLIMIT_STACK, 512 * 1024, "accuracy", self.config, "-q", "--set=sweep.nu=1",
-                             "--set=time.mode=transient", "--set=time.duration=20")
+        result = self.within(
+            resource.RLIMIT_STACK,
+            512 * 1024,
+            "accuracy",
+            self.config,
+            "-q",
+            "--set=sweep.nu=1",
+            "--set=time.mode=transient",
+            "--set=time.duration=20",
+        )
         self.assertEqual(result.returncode, 0, result.stderr)
 
     @unittest.skipIf(SANITIZED, "a sanitizer needs a stack of its own")
     def test_of_the_other_threads(self):
         for variable, size in (("OMP_STACKSIZE", 64), ("GOMP_STACKSIZE", 64), ("OMP_STACKSIZE", 256)):
             for arch in ("scalar", "sse2"):
-                result = self.clatter("run", self.config, "--threads", "3", "--arch", arch, environment={variable: f"{size}k"})
-                self.assert_said(result, rf"{variable} gives it {size} KiB, 512 KiB are needed; unset {variable}, or set it to 8M")
+                result = self.clatter(
+                    "run", self.config, "--threads", "3", "--arch", arch, environment={variable: f"{size}k"}
+                )
+                self.assert_said(
+                    result, rf"{variable} gives it {size} KiB, 512 KiB are needed; unset {variable}, or set it to 8M"
+                )
                 self.assertEqual(self.files(), ["a.toml"])
         alone = self.clatter("run", self.config, "--threads", "1", environment={"OMP_STACKSIZE": "64k"})
         self.assertEqual(alone.returncode, 0, alone.stderr)
@@ -106,8 +131,18 @@ class FileSizes(Limits):
             size = 64 * 1024
             log.write_bytes(bytes(size))
             with open(log, "a") as stderr:
-                result = self.within(resource.RLIMIT_FSIZE, size, "run", self.config, "-v", "--progress", "always", "--force", *words,
-                                     stderr=stderr)
+                result = self.within(
+                    resource.RLIMIT_FSIZE,
+                    size,
+                    "run",
+                    self.config,
+                    "-v",
+                    "--progress",
+                    "always",
+                    "--force",
+                    *words,
+                    stderr=stderr,
+                )
             self.assertEqual(result.returncode, code)
             self.assertEqual(log.read_bytes(), bytes(size))
             self.assertTrue((self.directory / "a.h5").exists())
@@ -127,8 +162,11 @@ class Memory(Limits):
     def test_ulimit_v_and_d_are_seen_before_anything_runs(self):
         for limit, letter in ((resource.RLIMIT_AS, "v"), (resource.RLIMIT_DATA, "d")):
             result = self.run_within(limit, 300 << 20, 10**7)
-            self.assert_said(result, rf"not enough memory: 10000000 points take \S+ MiB, ulimit -{letter} leaves \S+ MiB; sweep fewer "
-                             "points, observe less, share the points out with --shard")
+            self.assert_said(
+                result,
+                rf"not enough memory: 10000000 points take \S+ MiB, ulimit -{letter} leaves \S+ MiB; sweep fewer "
+                "points, observe less, share the points out with --shard",
+            )
             self.assertEqual(self.files(), ["a.toml", "large.toml"])
 
     def test_whatever_ulimit_v_is_a_run_is_refused_or_done_or_says_that_memory_ran_out(self):
@@ -148,15 +186,27 @@ class Memory(Limits):
         for k in range(2):
             self.assertEqual(self.clatter("run", config, "-o", f"{k}.h5", "--shard", f"{k}/2").returncode, 0)
         result = self.within(resource.RLIMIT_AS, 48 << 20, "merge", "-o", "whole.h5", "0.h5", "1.h5")
-        self.assert_said(result, r"not enough memory: merging takes \S+ MiB, ulimit -v leaves \S+ MiB; sweep fewer points")
+        self.assert_said(
+            result, r"not enough memory: merging takes \S+ MiB, ulimit -v leaves \S+ MiB; sweep fewer points"
+        )
         self.assertFalse((self.directory / "whole.h5").exists())
 
     def test_a_control_group_is_seen(self):
         group = self.small_group(64 << 20)
-        config = self.write("large.toml", NOTHING_OBSERVED.format(points=1000).replace("[time]", 'load = "linspace(0, 1, 4000)"\n[time]'))
-        result = subprocess.run(["sh", "-c", f'echo $$ > "{group}/cgroup.procs" && exec "$@"', "sh", CLATTER, "run", config], cwd=self.directory,
-                                capture_output=True, text=True, timeout=300)
-        self.assert_said(result, r"not enough memory: 4000000 points take \S+ MiB, its control group '\S+' permits 64 MiB;")
+        config = self.write(
+            "large.toml",
+            NOTHING_OBSERVED.format(points=1000).replace("[time]", 'load = "linspace(0, 1, 4000)"\n[time]'),
+        )
+        result = subprocess.run(
+            ["sh", "-c", f'echo $$ > "{group}/cgroup.procs" && exec "$@"', "sh", CLATTER, "run", config],
+            cwd=self.directory,
+            capture_output=True,
+            text=True,
+            timeout=300,
+        )
+        self.assert_said(
+            result, r"not enough memory: 4000000 points take \S+ MiB, its control group '\S+' permits 64 MiB;"
+        )
 
     def small_group(self, size):
         """A control group of this much memory, of whichever version is here."""
@@ -175,11 +225,12 @@ class Memory(Limits):
                 continue
         self.skipTest("no control group can be made here")
 
-
     def test_memory_that_runs_out_all_the_same_names_the_journal(self):
-        """A log that no estimate sees: a hundred points, of which one that isn't looked at for it has all the impacts."""
+        """A log that no estimate sees: of a hundred points, one that isn't looked at for it has all the impacts."""
         speeds = ", ".join(["0.0"] * 99 + ["10.0"])
-        config = self.write("log.toml", f"""[scene]
+        config = self.write(
+            "log.toml",
+            f"""[scene]
 f = 0.0
 h = 0.0
 R = 1.0
@@ -191,10 +242,13 @@ mode = "transient"
 duration = 5000.0
 [observe]
 impact_log = true
-""")
+""",
+        )
         result = self.within(resource.RLIMIT_AS, 100 << 20, "run", config, "--threads", "1", "--progress", "never")
         self.assert_said(result, "not enough memory: it ran out; sweep fewer points")
-        self.assertRegex(result.stderr, "what was finished is in '.*log.h5.journal', from which the same command goes on")
+        self.assertRegex(
+            result.stderr, "what was finished is in '.*log.h5.journal', from which the same command goes on"
+        )
         self.assertEqual(self.files(), ["a.toml", "log.h5.journal", "log.toml"])
         result = self.clatter("run", config)
         self.assertEqual(result.returncode, 0, result.stderr)

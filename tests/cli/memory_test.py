@@ -40,14 +40,38 @@ LOGGED = '[time]\nmode = "transient"\nduration = {}\n'
 
 SHAPES = {
     "one long axis": (sweep({"nu": linspace(10**7)}), ()),
-    "many axes": (sweep({"nu": linspace(100), "h": linspace(20, 0.1, 0.3), "f": linspace(20), "phase": linspace(25)}), ()),
+    "many axes": (
+        sweep({"nu": linspace(100), "h": linspace(20, 0.1, 0.3), "f": linspace(20), "phase": linspace(25)}),
+        (),
+    ),
     "trajectory": (sweep({"nu": linspace(2000)}, observe="trajectory = 2001"), ()),
     "harmonics": (sweep({"nu": linspace(20000)}, observe='harmonics = 100\nharmonics_method = "exact"'), ()),
-    "harmonics by FFT": (sweep({"nu": linspace(50)}, time="", observe="harmonics = 10\nharmonics_samples = 500000"), ()),
-    "short logs": (sweep({"v0": linspace(20000, 1, 2)}, TO_AND_FRO, time=LOGGED.format(10.0), observe="impact_log = true"), ()),
-    "long logs": (sweep({"v0": linspace(200, 1, 2)}, TO_AND_FRO, time=LOGGED.format(1000.0), observe="impact_log = true"), ()),
-    "compression": (sweep({"nu": linspace(10**6)}, observe="extrema = true\nperiod = true\nimpacts = true\n[output]\ncompression = 1"), ()),
-    "linked axes": (sweep({"nu": linspace(2000000), "h": linspace(2000000, 0.1, 0.3), "f": linspace(2000000)}, more='linked = "nu, h, f"'), ()),
+    "harmonics by FFT": (
+        sweep({"nu": linspace(50)}, time="", observe="harmonics = 10\nharmonics_samples = 500000"),
+        (),
+    ),
+    "short logs": (
+        sweep({"v0": linspace(20000, 1, 2)}, TO_AND_FRO, time=LOGGED.format(10.0), observe="impact_log = true"),
+        (),
+    ),
+    "long logs": (
+        sweep({"v0": linspace(200, 1, 2)}, TO_AND_FRO, time=LOGGED.format(1000.0), observe="impact_log = true"),
+        (),
+    ),
+    "compression": (
+        sweep(
+            {"nu": linspace(10**6)},
+            observe="extrema = true\nperiod = true\nimpacts = true\n[output]\ncompression = 1",
+        ),
+        (),
+    ),
+    "linked axes": (
+        sweep(
+            {"nu": linspace(2000000), "h": linspace(2000000, 0.1, 0.3), "f": linspace(2000000)},
+            more='linked = "nu, h, f"',
+        ),
+        (),
+    ),
     "a shard": (sweep({"nu": linspace(3000000)}), ("--shard", "0/3")),
     "a list": (sweep({"phase": long_list()}), ()),
     "followed branches": (sweep({"nu": linspace(1000), "load": linspace(1000, 0, 1)}, more='follow = "nu"'), ()),
@@ -57,7 +81,7 @@ SHAPES = {
 @unittest.skipIf(SANITIZED, "a sanitizer takes memory of its own")
 class Memory(CommandLine):
     def assert_told(self, name, *words):
-        """Memory as a command tells it with -v is within a tenth of the most that it takes; what it writes goes away."""
+        """Memory as a command tells it with -v is within a tenth of the most that it takes; its output goes away."""
         errors = self.directory / "errors"
         with open(errors, "w") as stderr:
             process = subprocess.Popen([CLATTER, *words, "-v", "-o", "a.h5"], cwd=self.directory, stderr=stderr)
@@ -83,7 +107,12 @@ class Memory(CommandLine):
             with self.subTest(shape=name):
                 config = self.write("a.toml", SHAPES[name][0])
                 for number in range(2):
-                    self.assertEqual(self.clatter("run", config, "-o", f"{number}.h5", "--force", "--shard", f"{number}/2").returncode, 0)
+                    self.assertEqual(
+                        self.clatter(
+                            "run", config, "-o", f"{number}.h5", "--force", "--shard", f"{number}/2"
+                        ).returncode,
+                        0,
+                    )
                 self.assert_told("merge, " + name, "merge", "0.h5", "1.h5")
 
 

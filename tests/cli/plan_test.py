@@ -21,8 +21,10 @@ class Plan(CommandLine):
         self.assertEqual(plan["observed"], ["extrema", "period"])
         self.assertEqual([group["points"] for group in plan["groups"]], [4, 1])  # only nu = 1 reaches the stops
         without, with_stops = ({e["effect"]: e for e in group["effects"]} for group in plan["groups"])
-        self.assertEqual(list(without), ["damping", "forcing", "resonance", "load", "lower stop", "upper stop", "dissipation",
-                                         "chatter and rest"])
+        self.assertEqual(
+            list(without),
+            ["damping", "forcing", "resonance", "load", "lower stop", "upper stop", "dissipation", "chatter and rest"],
+        )
         self.assertFalse(without["upper stop"]["required"])
         self.assertRegex(without["upper stop"]["why"], r"^\|x\| <= \S+ < 4 for all time: out of reach$")
         self.assertTrue(with_stops["upper stop"]["required"])
@@ -90,11 +92,15 @@ class Plan(CommandLine):
         parts = [self.plan(SMALL, "--shard", f"{number}/2") for number in range(2)]
         self.assertEqual([part["points"] for part in parts], [3, 2])
         self.assertEqual(sum(group["points"] for part in parts for group in part["groups"]), 5)
-        self.assertEqual(sum(part["output_bytes"] for part in parts), whole["output_bytes"] + 2 * 5 * 8)  # their numbers, and the axis in each
+        self.assertEqual(
+            sum(part["output_bytes"] for part in parts), whole["output_bytes"] + 2 * 5 * 8
+        )  # their numbers, and the axis in each
         config = self.write("p.toml", SMALL)
         text = self.clatter("plan", config, "--shard", "1/2").stdout
         self.assertIn("\npoints              2 of 5, shard 1/2\n", text)
-        self.assertIn("\npoints              2 of 5, shard 1/2\n", self.clatter("run", config, "-v", "--shard", "1/2").stderr)
+        self.assertIn(
+            "\npoints              2 of 5, shard 1/2\n", self.clatter("run", config, "-v", "--shard", "1/2").stderr
+        )
         self.assert_refused(2, "--shard '2/2'; permitted: K/N", "plan", config, "--shard", "2/2")
 
     def test_a_followed_branch_knows_its_first_start_only(self):

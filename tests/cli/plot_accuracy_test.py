@@ -22,14 +22,21 @@ from synthetic_study import MOTION, RESULTS, Study  # noqa: E402
 
 
 def plot(*arguments):
-    return subprocess.run(["/usr/bin/python3", SOURCE / "scripts" / "plot.py", *arguments], capture_output=True,
-                          text=True)
+    return subprocess.run(
+        ["/usr/bin/python3", SOURCE / "scripts" / "plot.py", *arguments], capture_output=True, text=True
+    )
 
 
 def make_studies(folder):
     """name: the study, written to name.h5"""
-    studies = {"scalar": Study(), "sweep": Study(nu=[0.9, 1.0, 1.1]), "transient": Study(steady=False),
-               "map": Study(nu=[0.9, 1.0], h=[0.1, 0.2, 0.3]), "faultless": Study(), "dead": Study(h=[0.1, 0.2])}
+    studies = {
+        "scalar": Study(),
+        "sweep": Study(nu=[0.9, 1.0, 1.1]),
+        "transient": Study(steady=False),
+        "map": Study(nu=[0.9, 1.0], h=[0.1, 0.2, 0.3]),
+        "faultless": Study(),
+        "dead": Study(h=[0.1, 0.2]),
+    }
     scalar, sweep, faultless, dead = (studies[name] for name in ("scalar", "sweep", "faultless", "dead"))
     for name in MOTION:
         scalar.results[name][scalar.rows("exact")] = 0.0
@@ -80,29 +87,50 @@ class Pictures(unittest.TestCase):
 
     def test_every_study_is_drawn_beside_its_file(self):
         self.assertEqual((self.result.returncode, self.result.stderr), (0, ""))
-        self.assertEqual(self.result.stdout.split(), [str(self.folder / f"{name}.{kind}") for name in self.studies
-                                                      for kind in ("svg", "png")])
+        self.assertEqual(
+            self.result.stdout.split(),
+            [str(self.folder / f"{name}.{kind}") for name in self.studies for kind in ("svg", "png")],
+        )
         for name in self.studies:
             with self.subTest(name):
                 pixels = image.imread(self.folder / f"{name}.png")[..., :3]
                 self.assertGreater((pixels[::2, ::2, 0] < 0.9).mean(), 0.005)
 
     def test_panels_are_those_that_have_something_to_show(self):
-        for name, panels in (("scalar", "time samples steady"), ("sweep", "time samples steady"),
-                             ("transient", "time samples"), ("map", "time samples steady"), ("dead", "time")):
+        for name, panels in (
+            ("scalar", "time samples steady"),
+            ("sweep", "time samples steady"),
+            ("transient", "time samples"),
+            ("map", "time samples steady"),
+            ("dead", "time"),
+        ):
             with self.subTest(name):
                 found = [element.get("id") for element in self.svg(name).iter()]
-                self.assertEqual([part for part in found if part and part.startswith("panel-")],
-                                 [f"panel-{part}" for part in panels.split()])
+                self.assertEqual(
+                    [part for part in found if part and part.startswith("panel-")],
+                    [f"panel-{part}" for part in panels.split()],
+                )
         self.assertTrue(self.says("dead", "no method has an error"))
         self.assertFalse(self.says("scalar", "no method has an error"))
 
     def test_curves_have_a_symbol_for_each_setting_that_has_an_error(self):
-        curves = {"exact": 1, "exact_lanes": 1, "dopri5": 11, "moreau": 5, "harmonics_fft": 17, "harmonics_fft_v": 17,
-                  "steady": 12, "steady_repetition": 12}
-        for name, differences in (("scalar", {"dopri5": 10}), ("sweep", {}), ("map", {}),
-                                  ("dead", dict.fromkeys(curves)),
-                                  ("transient", {"steady": None, "steady_repetition": None})):
+        curves = {
+            "exact": 1,
+            "exact_lanes": 1,
+            "dopri5": 11,
+            "moreau": 5,
+            "harmonics_fft": 17,
+            "harmonics_fft_v": 17,
+            "steady": 12,
+            "steady_repetition": 12,
+        }
+        for name, differences in (
+            ("scalar", {"dopri5": 10}),
+            ("sweep", {}),
+            ("map", {}),
+            ("dead", dict.fromkeys(curves)),
+            ("transient", {"steady": None, "steady_repetition": None}),
+        ):
             for curve, count in (curves | differences).items():
                 with self.subTest(name, curve=curve):
                     self.assertEqual(self.marks(name, curve), count)
@@ -116,8 +144,12 @@ class Pictures(unittest.TestCase):
                 self.assertEqual(self.says(name, failed), name == "sweep")
 
     def test_notes_say_what_the_picture_shows(self):
-        for name, floor, points, bars in (("scalar", True, "", True), ("sweep", False, "cost of 3 points", True),
-                                          ("map", False, "cost of 6 points", True), ("faultless", False, "", False)):
+        for name, floor, points, bars in (
+            ("scalar", True, "", True),
+            ("sweep", False, "cost of 3 points", True),
+            ("map", False, "cost of 6 points", True),
+            ("faultless", False, "", False),
+        ):
             with self.subTest(name):
                 self.assertEqual(self.says(name, "are drawn there"), floor)
                 self.assertEqual(self.says(name, "worst error and median cost of"), bool(points))
@@ -181,9 +213,14 @@ class Reductions(unittest.TestCase):
     def test_a_curve_has_the_worst_error_and_the_median_time_over_the_points(self):
         study = Study(nu=[0.9, 1.0, 1.1])
         row = study.rows("moreau", 1e-3)
-        for name, values in (("error_contact_time", (1e-5, np.nan, 2e-5)), ("error_contact_speed", (np.nan,) * 3),
-                             ("error_extrema", (3e-6, 7e-5, 1e-6)), ("ns_per_period", (10.0, 70.0, 30.0)),
-                             ("ns_spread", (2.0, 3.0, np.nan)), ("doubled", (0.0, np.nan, 0.0))):
+        for name, values in (
+            ("error_contact_time", (1e-5, np.nan, 2e-5)),
+            ("error_contact_speed", (np.nan,) * 3),
+            ("error_extrema", (3e-6, 7e-5, 1e-6)),
+            ("ns_per_period", (10.0, 70.0, 30.0)),
+            ("ns_spread", (2.0, 3.0, np.nan)),
+            ("doubled", (0.0, np.nan, 0.0)),
+        ):
             study.results[name][row] = np.array(values)[:, None]
         found = self.read(study, "moreau")
         place = list(found.setting).index(1e-3)
@@ -198,8 +235,10 @@ class Reductions(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             study.write(Path(folder) / "study.h5")
             output = plot_data.Output(Path(folder) / "study.h5")
-        scalar, lanes = (plot_accuracy.curve(output, "exact", ("error_extrema",), "ns_per_period", in_lanes=in_lanes)
-                         for in_lanes in (False, True))
+        scalar, lanes = (
+            plot_accuracy.curve(output, "exact", ("error_extrema",), "ns_per_period", in_lanes=in_lanes)
+            for in_lanes in (False, True)
+        )
         self.assertEqual((lanes.cost.tolist(), lanes.error.tolist(), lanes.hollow.tolist()), ([120.0], [5e-15], [True]))
         self.assertEqual((len(scalar), scalar.hollow.tolist()), (1, [False]))
         self.assertGreater(scalar.cost[0], 500)

@@ -29,18 +29,32 @@ KINDS = {
     "followed": ("follow_down", ["sweep.nu=linspace(1.1, 1.0, 6)", "observe.impacts=false"], 0),
     "several": ("fig16", ["sweep.load=logspace(0.01, 1, 7)", "observe.trajectory=101"], 0),
     "numbers": ("fig16", ["observe.trajectory=0", "observe.impact_log=false", "observe.impacts=true"], 0),
-    "map": ("map_nu_xs", ["sweep.nu=linspace(0.9, 1.1, 5)", "sweep.xs=linspace(3, 5, 4)", "time.max_periods=100",
-                          "observe.extrema=false"], 0),
-    "cube": ("map_nu_xs", ["sweep.nu=[0.9, 1]", "sweep.xs=[3, 4]", "sweep.phase=[0, 1]", "time.max_impacts=200",
-                           "observe.impacts=false"], 1),
+    "map": (
+        "map_nu_xs",
+        [
+            "sweep.nu=linspace(0.9, 1.1, 5)",
+            "sweep.xs=linspace(3, 5, 4)",
+            "time.max_periods=100",
+            "observe.extrema=false",
+        ],
+        0,
+    ),
+    "cube": (
+        "map_nu_xs",
+        ["sweep.nu=[0.9, 1]", "sweep.xs=[3, 4]", "sweep.phase=[0, 1]", "time.max_impacts=200", "observe.impacts=false"],
+        1,
+    ),
     "equal": ("asymmetric", ["sweep.nu=[1, 1]"], 0),
     "equals": ("map_nu_xs", ["sweep.nu=[1, 1]", "sweep.xs=[3, 3]", "time.max_periods=100"], 0),
     "lost": ("map_nu_xs", ["sweep.nu=[0.9, 1, 1.1]", "sweep.xs=[0.1, 0.2]", "time.max_impacts=1"], 1),
     "lost_point": ("fig18", ["time.max_impacts=1"], 1),
     "lost_motion": ("fig18", ["time.max_impacts=1", "observe.trajectory=0"], 1),
     "aperiodic": ("asymmetric", ["sweep.nu=[0.9, 1, 1.1]", "time.max_periods=3"], 0),
-    "bare": ("asymmetric", ["sweep.nu=[0.5, 1, 2]", "observe.extrema=false", "observe.impacts=false",
-                            "observe.period=false"], 0),
+    "bare": (
+        "asymmetric",
+        ["sweep.nu=[0.5, 1, 2]", "observe.extrema=false", "observe.impacts=false", "observe.period=false"],
+        0,
+    ),
 }
 
 
@@ -95,8 +109,9 @@ class Pictures(unittest.TestCase):
         for name in names:
             for kind in ("svg", "png"):
                 with self.subTest(f"{name}.{kind}"):
-                    self.assertEqual((again / f"{name}.{kind}").read_bytes(),
-                                     (self.folder / f"{name}.{kind}").read_bytes())
+                    self.assertEqual(
+                        (again / f"{name}.{kind}").read_bytes(), (self.folder / f"{name}.{kind}").read_bytes()
+                    )
 
     def test_copies_by_other_programs_give_the_same_bytes(self):
         for command in (["nccopy", "-k", "nc4"], ["h5repack", "-m", "1", "-f", "GZIP=6"]):
@@ -107,8 +122,9 @@ class Pictures(unittest.TestCase):
                 subprocess.run([*command, self.folder / f"{name}.h5", copy], check=True, timeout=60)
                 result = plot(copy, "--format", "svg")
                 self.assertEqual(result.returncode, 0, result.stderr)
-                self.assertEqual(copy.with_suffix(".svg").read_bytes(),
-                                 (self.folder / f"{name}.svg").read_bytes(), command)
+                self.assertEqual(
+                    copy.with_suffix(".svg").read_bytes(), (self.folder / f"{name}.svg").read_bytes(), command
+                )
 
     def test_pdf_only(self):
         for turn in ("one", "two"):
@@ -119,10 +135,12 @@ class Pictures(unittest.TestCase):
 
     def test_files_may_follow_the_formats(self):
         ratio, free = self.folder / "ratio.h5", self.folder / "free.h5"
-        for words, names in ((["--format", "pdf", ratio], ["ratio.pdf"]),
-                             (["--format", "svg", "pdf", ratio], ["ratio.svg", "ratio.pdf"]),
-                             ([ratio, "--format", "pdf", "svg"], ["ratio.pdf", "ratio.svg"]),
-                             ([ratio, "--format", "pdf", free], ["ratio.pdf", "free.pdf"])):
+        for words, names in (
+            (["--format", "pdf", ratio], ["ratio.pdf"]),
+            (["--format", "svg", "pdf", ratio], ["ratio.svg", "ratio.pdf"]),
+            ([ratio, "--format", "pdf", "svg"], ["ratio.pdf", "ratio.svg"]),
+            ([ratio, "--format", "pdf", free], ["ratio.pdf", "free.pdf"]),
+        ):
             with self.subTest(words):
                 folder = self.folder / "formats"
                 result = plot("-o", folder, *words)
@@ -139,9 +157,15 @@ class Pictures(unittest.TestCase):
         with h5py.File(self.folder / "damaged.h5", "w") as file:
             file.attrs.update({"clatter_schema": "clatter/1", "config": "no = configuration ="})
             file["status"] = [0]
-        for name, reason in (("pipe.h5", "not a regular file"), ("damaged.h5", "damaged ("),
-                             ("missing.h5", "no such file"), ("text.h5", "not an HDF5 file"), ("folder.h5", "a folder"),
-                             ("foreign.h5", "not a clatter/1 file"), ("later.h5", "clatter/2")):
+        for name, reason in (
+            ("pipe.h5", "not a regular file"),
+            ("damaged.h5", "damaged ("),
+            ("missing.h5", "no such file"),
+            ("text.h5", "not an HDF5 file"),
+            ("folder.h5", "a folder"),
+            ("foreign.h5", "not a clatter/1 file"),
+            ("later.h5", "clatter/2"),
+        ):
             with self.subTest(name):
                 result = plot(self.folder / name)
                 self.assertEqual(result.returncode, 74)
@@ -159,8 +183,15 @@ class Pictures(unittest.TestCase):
         self.assertEqual((result.returncode, result.stderr.count("\n")), (74, 1))
 
     def test_wrong_command_lines(self):
-        for arguments in ([], ["--nonsense", "a.h5"], ["a.h5", "--format", "gif"], ["a.h5", "--form", "svg"],
-                          ["--format", "a.h5"], ["a.h5", "--format", "svg", "gif"], ["--format", "svg"]):
+        for arguments in (
+            [],
+            ["--nonsense", "a.h5"],
+            ["a.h5", "--format", "gif"],
+            ["a.h5", "--form", "svg"],
+            ["--format", "a.h5"],
+            ["a.h5", "--format", "svg", "gif"],
+            ["--format", "svg"],
+        ):
             with self.subTest(arguments):
                 result = plot(*arguments)
                 self.assertEqual(result.returncode, 2)

@@ -20,12 +20,28 @@ import xarray
 CLATTER = os.environ["CLATTER"]
 SOURCE = Path(os.environ["CLATTER_SOURCE"])
 
-ALWAYS = {"status": "uint8", "impact_total": "int64", "simulated_periods": "float64",
-          "settling_estimate": "float64"}
+ALWAYS = {"status": "uint8", "impact_total": "int64", "simulated_periods": "float64", "settling_estimate": "float64"}
 ALWAYS_OF_TRANSIENTS = {name: kind for name, kind in ALWAYS.items() if name != "settling_estimate"}
-FLAGS = {0: "periodic", 1: "aperiodic", 2: "transient", 3: "grazing", 16: "event_budget", 17: "not_finite", 18: "unresolved"}
-ROOT = ["Conventions", "title", "source", "clatter_schema", "clatter_version", "git_commit", "config", "config_sha256",
-        "compiler"]
+FLAGS = {
+    0: "periodic",
+    1: "aperiodic",
+    2: "transient",
+    3: "grazing",
+    16: "event_budget",
+    17: "not_finite",
+    18: "unresolved",
+}
+ROOT = [
+    "Conventions",
+    "title",
+    "source",
+    "clatter_schema",
+    "clatter_version",
+    "git_commit",
+    "config",
+    "config_sha256",
+    "compiler",
+]
 FORCED = {"f": -1.0, "h": 0.1, "R": 0.7, "xs": -0.5}
 
 
@@ -56,8 +72,14 @@ class Readers(unittest.TestCase):
             path.write_text(config, encoding="utf-8")
             config = path
         output = self.scratch / f"{name}.h5"
-        done = subprocess.run([CLATTER, "run", config, "-o", output, "--threads", str(threads), *options],
-                              capture_output=True, text=True, check=False, timeout=300, env={**os.environ, **(environment or {})})
+        done = subprocess.run(
+            [CLATTER, "run", config, "-o", output, "--threads", str(threads), *options],
+            capture_output=True,
+            text=True,
+            check=False,
+            timeout=300,
+            env={**os.environ, **(environment or {})},
+        )
         self.assertEqual(done.returncode, 0, done.stderr)
         return output
 
@@ -105,17 +127,42 @@ class Readers(unittest.TestCase):
             self.assertIn(f"\t{kinds[kind]} {name}{shape} ;\n", done.stdout)
 
     def test_one_axis(self):
-        config = toml("Größter Ausschlag", sweep={"nu": quoted("linspace(0.9, 1.1, 5)")},
-                      observe={"extrema": True, "impacts": True, "period": True, "stability": True})
+        config = toml(
+            "Größter Ausschlag",
+            sweep={"nu": quoted("linspace(0.9, 1.1, 5)")},
+            observe={"extrema": True, "impacts": True, "period": True, "stability": True},
+        )
         path = self.run_clatter(config)
-        on_nu = {**ALWAYS, **dict.fromkeys(("x_min", "x_max", "v_min", "v_max", "period", "period_ratio",
-                                            "eigenfrequency", "velocity_ratio", "lyapunov"), "float64")}
+        on_nu = {
+            **ALWAYS,
+            **dict.fromkeys(
+                (
+                    "x_min",
+                    "x_max",
+                    "v_min",
+                    "v_max",
+                    "period",
+                    "period_ratio",
+                    "eigenfrequency",
+                    "velocity_ratio",
+                    "lyapunov",
+                ),
+                "float64",
+            ),
+        }
         on_stops = ("impacts_per_period", "v_before", "v_after", "rest_fraction")
-        self.assert_contents(path, {"nu": 5, "stop": 2, "multiplier": 2}, {
-            "nu": (("nu",), "float64"), "stop": (("stop",), "int8"), "multiplier": (("multiplier",), "int8"),
-            **{name: (("nu", "multiplier"), "float64") for name in ("multiplier_re", "multiplier_im")},
-            **{name: (("nu",), kind) for name, kind in on_nu.items()},
-            **{name: (("nu", "stop"), "float64") for name in on_stops}})
+        self.assert_contents(
+            path,
+            {"nu": 5, "stop": 2, "multiplier": 2},
+            {
+                "nu": (("nu",), "float64"),
+                "stop": (("stop",), "int8"),
+                "multiplier": (("multiplier",), "int8"),
+                **{name: (("nu", "multiplier"), "float64") for name in ("multiplier_re", "multiplier_im")},
+                **{name: (("nu",), kind) for name, kind in on_nu.items()},
+                **{name: (("nu", "stop"), "float64") for name in on_stops},
+            },
+        )
         with xarray.open_dataset(path) as data:
             self.assertEqual(list(data.nu.values), [0.9 + i * (1.1 - 0.9) / 4 for i in range(4)] + [1.1])
             self.assertEqual(list(data.stop.values), [-1, 1])
@@ -125,22 +172,41 @@ class Readers(unittest.TestCase):
     def test_two_axes_in_the_order_of_the_sweep(self):
         config = toml(sweep={"R": [0.5, 0.7], "nu": [0.9, 1.0, 1.1]}, observe={"extrema": True})
         both = ("R", "nu")
-        self.assert_contents(self.run_clatter(config), {"R": 2, "nu": 3}, {
-            "R": (("R",), "float64"), "nu": (("nu",), "float64"),
-            **{name: (both, kind) for name, kind in ALWAYS.items()},
-            **{name: (both, "float64") for name in ("x_min", "x_max", "v_min", "v_max")}})
+        self.assert_contents(
+            self.run_clatter(config),
+            {"R": 2, "nu": 3},
+            {
+                "R": (("R",), "float64"),
+                "nu": (("nu",), "float64"),
+                **{name: (both, kind) for name, kind in ALWAYS.items()},
+                **{name: (both, "float64") for name in ("x_min", "x_max", "v_min", "v_max")},
+            },
+        )
 
     def test_linked_axes_share_the_dimension_of_the_first(self):
         config = toml(sweep={"nu": [0.9, 1.0, 1.1], "f": [-1.0, -1.1, -1.2], "linked": quoted("nu, f")})
         path = self.run_clatter(config)
-        self.assert_contents(path, {"nu": 3}, {"nu": (("nu",), "float64"), "f": (("nu",), "float64"),
-                                               **{name: (("nu",), kind) for name, kind in ALWAYS.items()}})
+        self.assert_contents(
+            path,
+            {"nu": 3},
+            {
+                "nu": (("nu",), "float64"),
+                "f": (("nu",), "float64"),
+                **{name: (("nu",), kind) for name, kind in ALWAYS.items()},
+            },
+        )
         with h5py.File(path) as file:
             self.assertEqual(list(file["f"]), [-1.0, -1.1, -1.2])
 
     def test_linked_axes_are_coordinates_of_what_runs_along_them(self):
         linked = quoted("nu, f, load")
-        sweep = {"nu": [0.9, 1.0, 1.1], "f": [-1.0, -1.1, -1.2], "load": [0, 0.1, 0.2], "R": [0.5, 0.7], "linked": linked}
+        sweep = {
+            "nu": [0.9, 1.0, 1.1],
+            "f": [-1.0, -1.1, -1.2],
+            "load": [0, 0.1, 0.2],
+            "R": [0.5, 0.7],
+            "linked": linked,
+        }
         path = self.run_clatter(toml(sweep=sweep, observe={"extrema": True, "impacts": True, "impact_log": True}))
         for engine in ("h5netcdf", "netcdf4"):
             with self.subTest(engine=engine), xarray.open_dataset(path, engine=engine) as data:
@@ -150,15 +216,26 @@ class Readers(unittest.TestCase):
                 self.assertEqual(float(data.x_max.swap_dims(nu="f").sel(f=-1.1, R=0.5)), float(data.x_max[1, 0]))
 
     def test_no_axes_give_scalars(self):
-        self.assert_contents(self.run_clatter(toml(observe={"extrema": True})), {}, {
-            **{name: ((), kind) for name, kind in ALWAYS.items()},
-            **{name: ((), "float64") for name in ("x_min", "x_max", "v_min", "v_max")}})
+        self.assert_contents(
+            self.run_clatter(toml(observe={"extrema": True})),
+            {},
+            {
+                **{name: ((), kind) for name, kind in ALWAYS.items()},
+                **{name: ((), "float64") for name in ("x_min", "x_max", "v_min", "v_max")},
+            },
+        )
 
     def test_transient_with_trajectory(self):
         config = toml(time={"mode": quoted("transient"), "duration": 20.0}, observe={"trajectory": 33})
         path = self.run_clatter(config)
-        self.assert_contents(path, {"sample": 33}, {**{name: ((), kind) for name, kind in ALWAYS_OF_TRANSIENTS.items()},
-                                                    **{name: (("sample",), "float64") for name in ("tau", "x", "v")}})
+        self.assert_contents(
+            path,
+            {"sample": 33},
+            {
+                **{name: ((), kind) for name, kind in ALWAYS_OF_TRANSIENTS.items()},
+                **{name: (("sample",), "float64") for name in ("tau", "x", "v")},
+            },
+        )
         with xarray.open_dataset(path) as data:
             self.assertEqual(int(data.status), 2)
             self.assertEqual([float(data.tau[0]), float(data.tau[-1])], [0.0, 20.0])
@@ -167,10 +244,17 @@ class Readers(unittest.TestCase):
         config = toml(sweep={"nu": [0.9, 1.0]}, observe={"harmonics": 3})
         path = self.run_clatter(config)
         spectra = ("x_amplitude", "x_phase", "v_amplitude", "v_phase")
-        self.assert_contents(path, {"nu": 2, "harmonic": 4}, {
-            "nu": (("nu",), "float64"), "harmonic": (("harmonic",), "int64"), "base_frequency": (("nu",), "float64"),
-            **{name: (("nu",), kind) for name, kind in ALWAYS.items()},
-            **{name: (("nu", "harmonic"), "float64") for name in spectra}})
+        self.assert_contents(
+            path,
+            {"nu": 2, "harmonic": 4},
+            {
+                "nu": (("nu",), "float64"),
+                "harmonic": (("harmonic",), "int64"),
+                "base_frequency": (("nu",), "float64"),
+                **{name: (("nu",), kind) for name, kind in ALWAYS.items()},
+                **{name: (("nu", "harmonic"), "float64") for name in spectra},
+            },
+        )
         with xarray.open_dataset(path) as data:
             self.assertEqual(list(data.harmonic), [0, 1, 2, 3])
             self.assertTrue(numpy.isnan(data.x_phase[:, 0]).all())  # the constant part has none
@@ -178,17 +262,24 @@ class Readers(unittest.TestCase):
     LOG = {"impact_tau": "float64", "impact_stop": "int8", "impact_v_before": "float64", "impact_v_after": "float64"}
 
     def assert_log(self, path, impacts, always):
-        self.assert_contents(path, {"nu": 2, "impact": impacts}, {
-            "nu": (("nu",), "float64"), "impact_count": (("nu",), "int64"),
-            **{name: (("nu",), kind) for name, kind in always.items()},
-            **{name: (("impact",), kind) for name, kind in self.LOG.items()}})
+        self.assert_contents(
+            path,
+            {"nu": 2, "impact": impacts},
+            {
+                "nu": (("nu",), "float64"),
+                "impact_count": (("nu",), "int64"),
+                **{name: (("nu",), kind) for name, kind in always.items()},
+                **{name: (("impact",), kind) for name, kind in self.LOG.items()},
+            },
+        )
         with h5py.File(path) as file:
             self.assertEqual(file["impact_count"][:].sum(), impacts)
             self.assertEqual(file["impact_count"].attrs["sample_dimension"], "impact")
 
     def test_impact_log(self):
-        config = toml(sweep={"nu": [0.9, 1.0]}, time={"mode": quoted("transient"), "duration": 50.0},
-                      observe={"impact_log": True})
+        config = toml(
+            sweep={"nu": [0.9, 1.0]}, time={"mode": quoted("transient"), "duration": 50.0}, observe={"impact_log": True}
+        )
         path = self.run_clatter(config)
         with xarray.open_dataset(path) as data:
             impacts = data.sizes["impact"]
@@ -255,16 +346,25 @@ class Readers(unittest.TestCase):
         self.assertEqual(path.read_bytes(), again.read_bytes())
 
     def test_threads_and_memory_leave_the_bytes(self):
-        config = toml(sweep={"nu": quoted("linspace(0.5, 1.5, 101)"), "R": [0.5, 0.7]},
-                      observe={"extrema": True, "impacts": True, "harmonics": 3, "impact_log": True, "trajectory": 65})
+        config = toml(
+            sweep={"nu": quoted("linspace(0.5, 1.5, 101)"), "R": [0.5, 0.7]},
+            observe={"extrema": True, "impacts": True, "harmonics": 3, "impact_log": True, "trajectory": 65},
+        )
         one = self.run_clatter(config, "one", threads=1).read_bytes()
         self.assertEqual(one, self.run_clatter(config, "two", threads=2).read_bytes())
         fill = {"MALLOC_PERTURB_": "165"}  # malloc no longer gives zeros: nothing uninitialised gets into the file
         self.assertEqual(one, self.run_clatter(config, "three", threads=2, environment=fill).read_bytes())
 
     def test_large_arrays_are_deflated_in_moderate_chunks(self):
-        with h5py.File(self.run_clatter(toml(time={"mode": quoted("transient"), "duration": 100.0},
-                                             observe={"trajectory": 200000}, output={"compression": 4}))) as file:
+        with h5py.File(
+            self.run_clatter(
+                toml(
+                    time={"mode": quoted("transient"), "duration": 100.0},
+                    observe={"trajectory": 200000},
+                    output={"compression": 4},
+                )
+            )
+        ) as file:
             self.assertEqual((file["x"].compression, file["x"].shuffle), ("gzip", True))
             self.assertLessEqual(file["x"].chunks[0] * 8, 2**20)
             self.assertEqual(len(set(file["tau"][:])), 200000)  # several chunks, each in its place
@@ -272,8 +372,14 @@ class Readers(unittest.TestCase):
             self.assertIsNone(file["status"].chunks)
 
     def test_deflated_values_are_the_same_in_every_reader(self):
-        texts = {level: toml(sweep={"nu": quoted("linspace(0.5, 1.5, 21)")}, observe={"trajectory": 501},
-                             output={"compression": level}) for level in (0, 1, 9)}
+        texts = {
+            level: toml(
+                sweep={"nu": quoted("linspace(0.5, 1.5, 21)")},
+                observe={"trajectory": 501},
+                output={"compression": level},
+            )
+            for level in (0, 1, 9)
+        }
         paths = {level: self.run_clatter(text, f"level{level}") for level, text in texts.items()}
         with h5py.File(paths[0]) as plain:
             self.assertIsNone(plain["x"].chunks)

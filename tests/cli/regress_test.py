@@ -34,19 +34,26 @@ class Regress(unittest.TestCase):
 
     @staticmethod
     def regress(*words, **environment):
-        return subprocess.run([SOURCE / "scripts" / "regress.sh", *words], capture_output=True, text=True, timeout=300,
-                              env={**os.environ, "CLATTER": CLATTER, **environment})
+        return subprocess.run(
+            [SOURCE / "scripts" / "regress.sh", *words],
+            capture_output=True,
+            text=True,
+            timeout=300,
+            env={**os.environ, "CLATTER": CLATTER, **environment},
+        )
 
     def program(self, **commands):
-        """A clatter that has all outputs ready, but for those that it makes by a shell command of its own, from "$@"."""
+        """A clatter that has all outputs ready, but for those that it makes by a shell command, from "$@"."""
         path = self.folder / "clatter"
         others = "\n".join(f"*/{name}.toml) {command} ;;" for name, command in commands.items())
-        path.write_text(f"""#!/bin/sh
+        path.write_text(
+            f"""#!/bin/sh
 case "$2" in
 {others}
 *) name=${{2##*/}}; cp "{self.outputs}/${{name%.toml}}.h5" "$4" ;;
 esac
-""")
+"""
+        )
         path.chmod(path.stat().st_mode | stat.S_IXUSR)
         return str(path)
 
@@ -80,7 +87,9 @@ esac
 
     def rows(self, result):
         header, *lines = result.stdout.splitlines()
-        self.assertEqual(header.split(), ["figure", "points", "variables", "largest", "where", "h5diff", "verdict", "differences"])
+        self.assertEqual(
+            header.split(), ["figure", "points", "variables", "largest", "where", "h5diff", "verdict", "differences"]
+        )
         return {row[0]: row[1:] for row in (line.split(maxsplit=7) for line in lines)}
 
     def assert_all_agree(self, result):
@@ -96,10 +105,16 @@ esac
         self.assertEqual(result.returncode, 1, result.stdout + result.stderr)
         rows = self.rows(result)
         self.assertLessEqual(FIGURES, rows.keys())
-        self.assertEqual({name: row[5] for name, row in rows.items() if row[5] != "agrees"}, dict.fromkeys(expected, "differs"), result.stdout)
+        self.assertEqual(
+            {name: row[5] for name, row in rows.items() if row[5] != "agrees"},
+            dict.fromkeys(expected, "differs"),
+            result.stdout,
+        )
         for name, words in expected.items():
             self.assertIn(words, rows[name][6], name)
-        self.assertEqual(result.stderr.splitlines()[-1], f"{len(rows) - len(expected)} of {len(rows)} agree within 1e-09")
+        self.assertEqual(
+            result.stderr.splitlines()[-1], f"{len(rows) - len(expected)} of {len(rows)} agree within 1e-09"
+        )
 
     def assert_refused(self, result, words):
         self.assertEqual((result.returncode, result.stdout), (2, ""), result.stderr)
@@ -116,19 +131,42 @@ esac
             self.assertEqual(text.count(" 1.82001335208523"), 1)
             return text.replace(" 1.82001335208523", " 1.82001335508523")
 
-        edits = {"fig22": digit, "fig21": lambda text: text[:700], "fig20": lambda text: text[:text.rindex("x_min")],
-                 "fig23": lambda text: "", "fig18": lambda text: None}
+        edits = {
+            "fig22": digit,
+            "fig21": lambda text: text[:700],
+            "fig20": lambda text: text[: text.rindex("x_min")],
+            "fig23": lambda text: "",
+            "fig18": lambda text: None,
+        }
         for name, edit in edits.items():
             self.assert_refused(self.regress(self.text(False, **{name: edit})), "isn't what its SHA256SUMS says")
-        self.assert_differ(self.regress(self.text(True, **edits), CLATTER=self.program()), fig22="x_max at 1 of 11", fig21="can't be read",
-                           fig20="x_min is new", fig23="can't be read", fig18="no baseline")
+        self.assert_differ(
+            self.regress(self.text(True, **edits), CLATTER=self.program()),
+            fig22="x_max at 1 of 11",
+            fig21="can't be read",
+            fig20="x_min is new",
+            fig23="can't be read",
+            fig18="no baseline",
+        )
 
     @NEEDS_H5DIFF
     def test_another_scene_sweep_or_observable_and_a_failed_run_are_found(self):
-        settings = {"fig18": "scene.R=0.69", "fig21": "sweep.nu=linspace(0.5, 1.5, 500)", "fig22": "scene.R=0.69",
-                    "fig23": "observe.period=false", "fig20": "observe.impacts=true", "fig19": "scene.R=2"}
-        expected = {"fig18": "another configuration", "fig21": "uint8[500], not uint8[501]", "fig22": "v_max at ",
-                    "fig23": "period is missing", "fig20": "v_before is new", "fig19": "no output"}
+        settings = {
+            "fig18": "scene.R=0.69",
+            "fig21": "sweep.nu=linspace(0.5, 1.5, 500)",
+            "fig22": "scene.R=0.69",
+            "fig23": "observe.period=false",
+            "fig20": "observe.impacts=true",
+            "fig19": "scene.R=2",
+        }
+        expected = {
+            "fig18": "another configuration",
+            "fig21": "uint8[500], not uint8[501]",
+            "fig22": "v_max at ",
+            "fig23": "period is missing",
+            "fig20": "v_before is new",
+            "fig19": "no output",
+        }
         for baseline in (TEXT, self.outputs):
             self.assert_differ(self.regress(baseline, CLATTER=self.changed(**settings)), **expected)
 
@@ -147,48 +185,84 @@ esac
             chaotic = int(numpy.argmax(file["status"][()] == 1))
         with h5py.File(self.outputs / "fig12.h5") as file:
             phase = file["v_phase"][7, 1]
-        baseline = self.edited(fig20=lambda file: put("x_max", 7, file["x_max"][7] + 1e-12)(file), fig22=put("x_max", chaotic, 1.0),
-                               fig18=put("simulated_periods", (), 1e3), fig12=put("v_phase", (7, 1), phase + 2 * numpy.pi),
-                               fig13=put("x_phase", (7, 2), 1.0))
+        baseline = self.edited(
+            fig20=lambda file: put("x_max", 7, file["x_max"][7] + 1e-12)(file),
+            fig22=put("x_max", chaotic, 1.0),
+            fig18=put("simulated_periods", (), 1e3),
+            fig12=put("v_phase", (7, 1), phase + 2 * numpy.pi),
+            fig13=put("x_phase", (7, 2), 1.0),
+        )
         rows = self.assert_all_agree(self.regress(baseline, CLATTER=self.program()))
-        self.assertEqual({name: (row[4], row[6]) for name, row in rows.items() if row[4] != "same"},
-                         {"fig22": ("differs", "but for values at 1 aperiodic points"), "fig18": ("differs", "but for simulated_periods at 1 points"),
-                          "fig12": ("differs", "but for v_phase by whole turns or of no amplitude"),
-                          "fig13": ("differs", "but for x_phase by whole turns or of no amplitude")})
+        self.assertEqual(
+            {name: (row[4], row[6]) for name, row in rows.items() if row[4] != "same"},
+            {
+                "fig22": ("differs", "but for values at 1 aperiodic points"),
+                "fig18": ("differs", "but for simulated_periods at 1 points"),
+                "fig12": ("differs", "but for v_phase by whole turns or of no amplitude"),
+                "fig13": ("differs", "but for x_phase by whole turns or of no amplitude"),
+            },
+        )
         self.assertEqual(rows["fig20"][2:4], ["1.0e-12", "x_max[7]"])
 
         shutil.rmtree(baseline)
-        baseline = self.edited(fig20=put("x_max", 7, 3.0), fig21=put("x_max", 7, numpy.nan), fig22=put("status", chaotic, 0),
-                               fig23=put("x_max", 7, numpy.inf), follow_up=put("nu", 7, 0.7), stability=put("status", 7, 1),
-                               follow_down=lambda file: file["x_max"].attrs.__setitem__("units", "m"),
-                               fig12=put("v_phase", (7, 1), phase + 1e-6), transient=lambda file: file["sample"].attrs.__setitem__("more", 1),
-                               asymmetric=lambda file: file.create_group("more"))
+        baseline = self.edited(
+            fig20=put("x_max", 7, 3.0),
+            fig21=put("x_max", 7, numpy.nan),
+            fig22=put("status", chaotic, 0),
+            fig23=put("x_max", 7, numpy.inf),
+            follow_up=put("nu", 7, 0.7),
+            stability=put("status", 7, 1),
+            follow_down=lambda file: file["x_max"].attrs.__setitem__("units", "m"),
+            fig12=put("v_phase", (7, 1), phase + 1e-6),
+            transient=lambda file: file["sample"].attrs.__setitem__("more", 1),
+            asymmetric=lambda file: file.create_group("more"),
+        )
         (baseline / "fig02.h5").write_bytes((baseline / "fig02.h5").read_bytes()[:20000])
         (baseline / "fig03.h5").unlink()
         shutil.copy(baseline / "fig04.h5", baseline / "fig24.h5")
         result = self.regress(baseline, CLATTER=self.program())
-        self.assert_differ(result, fig20="x_max at 1 of 501", fig21="x_max at 1 of 501", fig22="status at 1 of 501", fig23="x_max at 1 of 501",
-                           follow_up="nu at 1 of 251", stability="status at 1 of 501", follow_down="attributes of x_max",
-                           fig12="v_phase at 1 of 2364", transient="h5diff finds what isn't seen here",
-                           asymmetric="'more' is no dataset, which clatter doesn't write", fig02="can't be read",
-                           fig03="no baseline", fig24="no output")
-        self.assertEqual([self.rows(result)[name][2] for name in ("fig20", "fig21", "fig23")], ["1.7e+00", "nan", "inf"])
+        self.assert_differ(
+            result,
+            fig20="x_max at 1 of 501",
+            fig21="x_max at 1 of 501",
+            fig22="status at 1 of 501",
+            fig23="x_max at 1 of 501",
+            follow_up="nu at 1 of 251",
+            stability="status at 1 of 501",
+            follow_down="attributes of x_max",
+            fig12="v_phase at 1 of 2364",
+            transient="h5diff finds what isn't seen here",
+            asymmetric="'more' is no dataset, which clatter doesn't write",
+            fig02="can't be read",
+            fig03="no baseline",
+            fig24="no output",
+        )
+        self.assertEqual(
+            [self.rows(result)[name][2] for name in ("fig20", "fig21", "fig23")], ["1.7e+00", "nan", "inf"]
+        )
 
     @NEEDS_H5DIFF
     def test_the_line_of_the_guide(self):
         """It tells equal, slightly and grossly different files apart; h5diff alone doesn't see that the number of points differs."""
         text = (SOURCE / "scripts" / "README.md").read_text()
         begin = text.index("<!-- begin: h5diff -->\n```bash\n")
-        line = text[begin:text.index("```\n<!-- end -->", begin)].split("```bash\n")[1]
-        edits = {"equal": lambda file: None, "slight": lambda file: file["x_max"].__setitem__(7, file["x_max"][7] + 1e-12),
-                 "gross": lambda file: file["x_max"].__setitem__(7, 3.0), "commit": lambda file: file.attrs.__setitem__("git_commit", "another"),
-                 "no number": lambda file: file["x_max"].__setitem__(7, numpy.nan)}
+        line = text[begin : text.index("```\n<!-- end -->", begin)].split("```bash\n")[1]
+        edits = {
+            "equal": lambda file: None,
+            "slight": lambda file: file["x_max"].__setitem__(7, file["x_max"][7] + 1e-12),
+            "gross": lambda file: file["x_max"].__setitem__(7, 3.0),
+            "commit": lambda file: file.attrs.__setitem__("git_commit", "another"),
+            "no number": lambda file: file["x_max"].__setitem__(7, numpy.nan),
+        }
         seen, settings = {}, {"points": "sweep.nu=linspace(0.5, 1.5, 500)", "missing": "observe.extrema=false"}
         baseline, new = self.folder / "baseline.h5", self.folder / "new.h5"
         shutil.copy(self.outputs / "fig22.h5", baseline)
         for name in (*edits, *settings, "torn", "trajectory"):
             if name in settings:
-                subprocess.run([CLATTER, "run", SOURCE / "configs" / "fig22.toml", "-q", "-o", new, "--set", settings[name]], check=True)
+                subprocess.run(
+                    [CLATTER, "run", SOURCE / "configs" / "fig22.toml", "-q", "-o", new, "--set", settings[name]],
+                    check=True,
+                )
             elif name == "torn":
                 new.write_bytes(baseline.read_bytes()[:20000])
             elif name == "trajectory":
@@ -201,8 +275,20 @@ esac
             result = subprocess.run(["bash", "-c", line], cwd=self.folder, capture_output=True, text=True)
             seen[name] = result.returncode
             self.assertEqual(bool(result.stdout), bool(result.returncode), name)
-        self.assertEqual(seen, {"equal": 0, "slight": 0, "gross": 1, "commit": 0, "no number": 1, "points": 1, "missing": 1, "torn": 1,
-                                "trajectory": 0})
+        self.assertEqual(
+            seen,
+            {
+                "equal": 0,
+                "slight": 0,
+                "gross": 1,
+                "commit": 0,
+                "no number": 1,
+                "points": 1,
+                "missing": 1,
+                "torn": 1,
+                "trajectory": 0,
+            },
+        )
 
     def test_wrong_use_says_what_to_do(self):
         empty = self.folder / "empty"
@@ -215,7 +301,9 @@ esac
         self.assert_refused(self.regress(empty, "other"), "one directory")
         self.assert_refused(self.regress(TEXT, CLATTER="/nowhere/clatter"), "/nowhere/clatter is missing")
         self.assert_refused(self.regress(self.outputs, "--write", "text"), "would hold h5 and text")
-        self.assert_refused(self.regress(empty, "--write", "text", CLATTER=self.program(fig22="exit 70")), "fig22 has no output")
+        self.assert_refused(
+            self.regress(empty, "--write", "text", CLATTER=self.program(fig22="exit 70")), "fig22 has no output"
+        )
         self.assertEqual(list(empty.iterdir()), [])
 
 

@@ -1,4 +1,7 @@
-"""Runs that are stopped, by signals, by their time or killed: nothing finished is lost, and the same command gives the bytes of an undisturbed run."""
+"""Runs that are stopped, by signals, by their time or killed: nothing finished is lost.
+
+The same command gives the bytes of an undisturbed run.
+"""
 
 import os
 import signal
@@ -70,7 +73,10 @@ class Resume(StoppedRuns):
         self.sweep(nu=200, xs=100)
         self.stopped_with_points(signal.SIGTERM)
         before = self.journal.read_bytes()
-        for words, named in ((("--set", "scene.R=0.6"), ("R = 0.7", "R = 0.6")), (("--shard", "1/2"), ("the whole sweep", "shard 1/2"))):
+        for words, named in (
+            (("--set", "scene.R=0.6"), ("R = 0.7", "R = 0.6")),
+            (("--shard", "1/2"), ("the whole sweep", "shard 1/2")),
+        ):
             result = self.run_command(*words)
             self.assertEqual(result.returncode, 74)
             for word in (*named, "--restart"):

@@ -1,4 +1,7 @@
-"""Shards and merge: one set of bytes however a sweep is shared out, run and stopped; anything else is an error that names the remedy."""
+"""Shards and merge: one set of bytes however a sweep is shared out, run and stopped.
+
+Anything else is an error that names the remedy.
+"""
 
 import os
 import re
@@ -25,7 +28,9 @@ class Shards(StoppedRuns):
         return output
 
     def merge(self, shards, *words):
-        return subprocess.run([CLATTER, "merge", "-o", self.output, *shards, *words], capture_output=True, text=True, timeout=300)
+        return subprocess.run(
+            [CLATTER, "merge", "-o", self.output, *shards, *words], capture_output=True, text=True, timeout=300
+        )
 
     def merged(self, shards):
         result = self.merge(shards)
@@ -63,8 +68,12 @@ class Shards(StoppedRuns):
             self.assertEqual(self.merged(shards), whole, follow)
 
     def test_linked_axes_are_merged_as_coordinates(self):
-        self.config = self.directory / self.write("a.toml", SMALL.replace("f = -1.0\n", "").replace(
-            "[observe]", 'f = "linspace(-1, -2, 5)"\nR = [0.5, 0.7]\nlinked = "nu, f"\n[observe]').replace("R = 0.7\n", ""))
+        self.config = self.directory / self.write(
+            "a.toml",
+            SMALL.replace("f = -1.0\n", "")
+            .replace("[observe]", 'f = "linspace(-1, -2, 5)"\nR = [0.5, 0.7]\nlinked = "nu, f"\n[observe]')
+            .replace("R = 0.7\n", ""),
+        )
         whole = self.undisturbed()
         self.assertIn(b"coordinates", whole)
         self.assertEqual(self.merged([self.shard(k, 3) for k in range(3)]), whole)
@@ -81,7 +90,9 @@ class Shards(StoppedRuns):
         self.assertEqual(self.merged([self.shard(k, 5) for k in range(3)]), whole)  # nothing is missing
 
     def test_a_shard_without_axes_is_the_one_point(self):
-        self.config = self.directory / self.write("a.toml", SMALL.replace("[sweep]", "").replace('nu = "linspace(0.5, 1.5, 5)"', ""))
+        self.config = self.directory / self.write(
+            "a.toml", SMALL.replace("[sweep]", "").replace('nu = "linspace(0.5, 1.5, 5)"', "")
+        )
         whole = self.undisturbed()
         self.assertEqual(self.merged([self.shard(0, 1)]), whole)
 
@@ -94,8 +105,11 @@ class Shards(StoppedRuns):
     def test_what_is_missing_is_named_with_its_remedy(self):
         self.sweep(nu=10, xs=10)
         shards = {k: self.shard(k, 8) for k in (0, 1, 2, 4, 5, 7)}
-        self.assert_not_merged(shards.values(), "shard 3/8: 13 points missing: rerun with --shard 3/8",
-                               "shard 6/8: 12 points missing: rerun with --shard 6/8")
+        self.assert_not_merged(
+            shards.values(),
+            "shard 3/8: 13 points missing: rerun with --shard 3/8",
+            "shard 6/8: 12 points missing: rerun with --shard 6/8",
+        )
         self.assert_not_merged([shards[0]], "shard 1/8: 13 points", "and 2 more shards")
         self.assert_not_merged([self.shard(1, 2), shards[0], shards[4]], "shard 2/8: 13 points", "shard 6/8: 12 points")
 
@@ -113,14 +127,16 @@ class Shards(StoppedRuns):
 
     def test_shards_of_another_instruction_set_are_refused(self):
         self.sweep(nu=4, xs=2)
-        self.assert_not_merged([self.shard(0, 2), self.shard(1, 2, arch="scalar")], "rounded differently (scalar, ", "--arch")
+        self.assert_not_merged(
+            [self.shard(0, 2), self.shard(1, 2, arch="scalar")], "rounded differently (scalar, ", "--arch"
+        )
 
     def test_every_damage_of_a_shard_is_found(self):
         self.sweep(nu=4, xs=2)
         shards = [self.shard(k, 2) for k in range(2)]
         content = shards[1].read_bytes()
         for place in range(0, len(content), max(1, len(content) // 200)):
-            shards[1].write_bytes(content[:place] + bytes([content[place] ^ 1]) + content[place + 1:])
+            shards[1].write_bytes(content[:place] + bytes([content[place] ^ 1]) + content[place + 1 :])
             self.assert_not_merged(shards, "a.1-of-2.h5")
         for length in (0, 1, 60, len(content) // 2, len(content) - 1):
             shards[1].write_bytes(content[:length])
@@ -147,8 +163,13 @@ class Shards(StoppedRuns):
     def test_a_shard_opens_like_any_output_and_is_not_drawn(self):
         self.sweep(nu=4, xs=3)
         shard = self.shard(1, 2)
-        read = "import h5py, sys; f = h5py.File(sys.argv[1]); print(f.attrs['shard'], list(f['point']), f['x_max'].dims[0].keys())"
-        said = subprocess.run([sys.executable, "-c", read, shard], capture_output=True, text=True)  # h5py here would count as memory of runs
+        read = (
+            "import h5py, sys; f = h5py.File(sys.argv[1]); "
+            "print(f.attrs['shard'], list(f['point']), f['x_max'].dims[0].keys())"
+        )
+        said = subprocess.run(
+            [sys.executable, "-c", read, shard], capture_output=True, text=True
+        )  # h5py here would count as memory of runs
         self.assertEqual(said.stdout, "1/2 [1, 3, 5, 7, 9, 11] ['point']\n", said.stderr)
         info = self.clatter("info", shard)
         self.assertIn("[point = 6]", info.stdout)
@@ -162,7 +183,9 @@ class Shards(StoppedRuns):
             self.assert_refused(2, "--shard", "run", small, f"--shard={wrong}")
 
     def test_failed_points_end_with_1_in_the_shard_and_in_the_merge(self):
-        self.config = self.directory / self.write("a.toml", SMALL.replace("xs = -4.0", "xs = 0.1") + "[time]\nmax_impacts = 1\n")
+        self.config = self.directory / self.write(
+            "a.toml", SMALL.replace("xs = -4.0", "xs = 0.1") + "[time]\nmax_impacts = 1\n"
+        )
         for k in range(2):
             self.assertEqual(self.run_command("--shard", f"{k}/2", output=self.directory / f"{k}.h5").returncode, 1)
         result = self.merge([self.directory / "0.h5", self.directory / "1.h5"])
@@ -171,7 +194,9 @@ class Shards(StoppedRuns):
 
     @unittest.skipIf(SANITIZED, "a sanitizer takes memory of its own")
     def test_memory_is_that_of_the_share_and_for_a_merge_what_it_says(self):
-        self.config = self.directory / self.write("a.toml", SMALL.replace("xs = -4.0", "xs = 400.0").replace("1.5, 5)", "1.5, 300000)"))
+        self.config = self.directory / self.write(
+            "a.toml", SMALL.replace("xs = -4.0", "xs = 400.0").replace("1.5, 5)", "1.5, 300000)")
+        )
         base = peak_bytes([CLATTER, "--version"])
         whole = peak_bytes(self.command(output=self.directory / "whole.h5")) - base
         shards = [self.directory / f"{k}.h5" for k in range(4)]

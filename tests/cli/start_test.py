@@ -11,7 +11,9 @@ from command_line import CLATTER, SMALL, CommandLine
 class Start(CommandLine):
     def dynamic(self, entry):
         """The values in brackets of the program's dynamic entries of this name."""
-        text = subprocess.run(["readelf", "--dynamic", "--wide", CLATTER], capture_output=True, text=True, check=True).stdout
+        text = subprocess.run(
+            ["readelf", "--dynamic", "--wide", CLATTER], capture_output=True, text=True, check=True
+        ).stdout
         return re.findall(rf"\({entry}\).*\[(.*)\]", text)
 
     def test_no_run_path_has_an_empty_entry(self):
@@ -29,7 +31,9 @@ class Start(CommandLine):
         for name in self.dynamic("NEEDED"):
             self.write(name, "not a library")
         environment = {key: value for key, value in os.environ.items() if key != "LD_LIBRARY_PATH"}
-        done = subprocess.run([CLATTER, "run", config], cwd=self.directory, env=environment, capture_output=True, text=True)
+        done = subprocess.run(
+            [CLATTER, "run", config], cwd=self.directory, env=environment, capture_output=True, text=True
+        )
         self.assertEqual(done.returncode, 0, done.stderr)
 
 

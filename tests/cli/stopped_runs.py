@@ -33,13 +33,16 @@ MAGIC = b"clatter journal 1\n"
 
 
 def whole_records(journal):
-    """The bytes of a journal without what a killed run has left of a last record: blocks of length, CRC-32, CRC-32 of both, and content."""
+    """The bytes of a journal without what a killed run has left of a last record.
+
+    They are blocks of length, CRC-32, CRC-32 of both, and content.
+    """
     at = len(MAGIC)
     while at + 16 <= len(journal):
         end = at + 16 + struct.unpack_from("<Q", journal, at)[0]
         if end > len(journal):
             break
-        assert zlib.crc32(journal[at + 16:end]) == struct.unpack_from("<I", journal, at + 8)[0]
+        assert zlib.crc32(journal[at + 16 : end]) == struct.unpack_from("<I", journal, at + 8)[0]
         at = end
     return journal[:at] if len(journal) >= at else b""
 
@@ -56,7 +59,18 @@ class StoppedRuns(CommandLine):
 
     def command(self, *words, threads=2, output=None, arch="sse2"):
         """One instruction set for all, which every machine has."""
-        return [CLATTER, "run", self.config, "-o", output or self.output, "--threads", str(threads), "--arch", arch, *words]
+        return [
+            CLATTER,
+            "run",
+            self.config,
+            "-o",
+            output or self.output,
+            "--threads",
+            str(threads),
+            "--arch",
+            arch,
+            *words,
+        ]
 
     def run_command(self, *words, **more):
         return subprocess.run(self.command(*words, **more), capture_output=True, text=True, timeout=300)
@@ -99,12 +113,17 @@ class StoppedRuns(CommandLine):
         return self.output.read_bytes(), result.stderr
 
     def killed(self, whole, kills, seed):
-        """Kills so many runs at random moments, each sweep again and again until it is done; returns how often one went on from a journal."""
+        """Kills so many runs at random moments, each sweep again and again until it is done.
+
+        Returns how often one went on from a journal.
+        """
         moments, done, resumed = random.Random(seed), 0, 0
         while done < kills:
             saved = b""
             for attempt in range(1, 200):
-                code, said = self.stopped(moments.uniform(0, 0.2 * attempt), signal.SIGKILL, threads=moments.choice((1, 2, 3)))
+                code, said = self.stopped(
+                    moments.uniform(0, 0.2 * attempt), signal.SIGKILL, threads=moments.choice((1, 2, 3))
+                )
                 resumed += "goes on from" in said
                 if code == 0:
                     break

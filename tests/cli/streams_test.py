@@ -11,7 +11,9 @@ SMALL_INI = SMALL.replace('nu = "linspace(0.5, 1.5, 5)"', "nu = linspace(0.5, 1.
 
 class StandardInput(CommandLine):
     def piped(self, text, *words):
-        return subprocess.run([CLATTER, *words], cwd=self.directory, input=text.encode(), capture_output=True, timeout=300)
+        return subprocess.run(
+            [CLATTER, *words], cwd=self.directory, input=text.encode(), capture_output=True, timeout=300
+        )
 
     def assert_piped_refused(self, code, words, text, *command):
         result = self.piped(text, *command)
@@ -47,10 +49,14 @@ class StandardInput(CommandLine):
     def test_mistakes_name_it_with_line_and_column(self):
         self.assert_piped_refused(2, "stdin:2:6: xs = 0 is out of range", "[scene]\nxs = 0\n", "run", "-", "-o", "a.h5")
         self.assert_piped_refused(2, "; read as TOML; INI is told by --ini", SMALL_INI, "run", "-", "-o", "a.h5")
-        self.assert_piped_refused(2, "stdin:3:6: expected a number", "[scene]\nf = 1 ; INI\nxs = a\n", "plan", "-", "--ini")
+        self.assert_piped_refused(
+            2, "stdin:3:6: expected a number", "[scene]\nf = 1 ; INI\nxs = a\n", "plan", "-", "--ini"
+        )
         self.assert_piped_refused(2, "stdin:1:1: 'xs' is missing", "", "run", "-", "-o", "a.h5")
         self.assert_piped_refused(2, "stdin:1:1: more than 1 MiB", "#" * 2000000, "run", "-", "-o", "a.h5")
-        self.assert_piped_refused(74, "stdin: cannot be read: it holds NUL bytes", "[scene]\0", "run", "-", "-o", "a.h5")
+        self.assert_piped_refused(
+            74, "stdin: cannot be read: it holds NUL bytes", "[scene]\0", "run", "-", "-o", "a.h5"
+        )
 
     def test_that_is_a_directory_is_refused(self):
         folder = os.open(self.directory, os.O_RDONLY)
@@ -80,8 +86,13 @@ class StandardOutput(CommandLine):
     def test_takes_no_results(self):
         config = self.write("a.toml", SMALL)
         words = "-o - is no file; HDF5 can't go to standard output: name a file (./- if it is to be called so)"
-        for command in (["run", config, "-o", "-"], ["run", config, "-o-"], ["run", config, "--output=-"],
-                        ["accuracy", config, "-o", "-"], ["merge", "-o", "-", "a.h5"]):
+        for command in (
+            ["run", config, "-o", "-"],
+            ["run", config, "-o-"],
+            ["run", config, "--output=-"],
+            ["accuracy", config, "-o", "-"],
+            ["merge", "-o", "-", "a.h5"],
+        ):
             self.assert_refused(2, words, *command)
         self.assertEqual(self.clatter("run", config, "-o", "./-").returncode, 0)
         self.assertIn("-", self.files())

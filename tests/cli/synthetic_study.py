@@ -6,8 +6,20 @@ import numpy as np
 ARCHS = ("scalar", "sse2", "avx2", "avx512")
 METHODS = ("exact", "dopri5", "moreau", "harmonics_exact", "harmonics_fft", "steady", "steady_repetition")
 STATUSES = {0: "periodic", 1: "aperiodic", 2: "transient", 16: "event_budget", 17: "not_finite", 18: "unresolved"}
-RESULTS = ("error_contact_time", "error_contact_speed", "error_extrema", "error_harmonics", "error_harmonics_v",
-           "error_rest", "missed", "doubled", "impacts", "simulated_periods", "ns_per_period", "ns_spread")
+RESULTS = (
+    "error_contact_time",
+    "error_contact_speed",
+    "error_extrema",
+    "error_harmonics",
+    "error_harmonics_v",
+    "error_rest",
+    "missed",
+    "doubled",
+    "impacts",
+    "simulated_periods",
+    "ns_per_period",
+    "ns_spread",
+)
 MOTION = ("error_contact_time", "error_contact_speed", "error_extrema")
 CONFIG = """title = "Minimum and maximum displacement, xs = -4"
 source = "doi:10.5755/j02.mech.32277, Fig. 22"
@@ -25,13 +37,19 @@ class Study:
     """The rows of a study in memory: settings, and for each result an array over the axes and the rows."""
 
     def __init__(self, steady=True, **axes):
-        settings = {"exact": [np.nan], "dopri5": 10.0 ** -np.arange(3, 14), "moreau": 10.0 ** -np.arange(1, 6),
-                    "harmonics_exact": [np.nan], "harmonics_fft": 2.0 ** np.arange(4, 21)}
+        settings = {
+            "exact": [np.nan],
+            "dopri5": 10.0 ** -np.arange(3, 14),
+            "moreau": 10.0 ** -np.arange(1, 6),
+            "harmonics_exact": [np.nan],
+            "harmonics_fft": 2.0 ** np.arange(4, 21),
+        }
         if steady:
             settings |= dict.fromkeys(("steady", "steady_repetition"), 10.0 ** -np.arange(3, 15))
         self.axes = {name: np.asarray(values, float) for name, values in axes.items()}
-        self.method = np.concatenate([[METHODS.index("exact")], *([METHODS.index(name)] * len(values)
-                                                                  for name, values in settings.items())])
+        self.method = np.concatenate(
+            [[METHODS.index("exact")], *([METHODS.index(name)] * len(values) for name, values in settings.items())]
+        )
         self.setting = np.concatenate([[np.nan], *settings.values()])
         self.arch = np.zeros(len(self.method), np.uint8)
         self.arch[0] = ARCHS.index("avx512")
@@ -53,8 +71,14 @@ class Study:
             self.results[name][self.rows(method)] = value * self.chance.lognormal(0.0, 0.15, part.shape)
 
     def put_motion(self, method, error, time):
-        self.put(method, error_contact_time=error, error_contact_speed=2 * error, error_extrema=0.5 * error,
-                 ns_per_period=time, ns_spread=0.08 * time)
+        self.put(
+            method,
+            error_contact_time=error,
+            error_contact_speed=2 * error,
+            error_extrema=0.5 * error,
+            ns_per_period=time,
+            ns_spread=0.08 * time,
+        )
         for name, value in (("missed", 0.0), ("doubled", 0.0), ("impacts", 200.0), ("simulated_periods", 100.0)):
             self.results[name][self.rows(method)] = value
 
@@ -70,8 +94,12 @@ class Study:
         self.results["missed"][self.rows("moreau", 1e-1)] = 12.0
         self.results["doubled"][self.rows("dopri5", 1e-3)] = 1.0
         samples = self.setting[self.rows("harmonics_fft")[1]]
-        self.put("harmonics_fft", error_harmonics=3.0 * samples ** -2.0, error_harmonics_v=2.0 / samples,
-                 ns_per_period=30 * samples)
+        self.put(
+            "harmonics_fft",
+            error_harmonics=3.0 * samples**-2.0,
+            error_harmonics_v=2.0 / samples,
+            ns_per_period=30 * samples,
+        )
         self.put("harmonics_exact", error_harmonics=np.array([2e-16]), ns_per_period=np.array([900.0]))
         for method, slowness in (("steady", 0.0), ("steady_repetition", 1.0)):
             tolerance = self.setting[self.rows(method)[1]]
@@ -84,9 +112,15 @@ class Study:
 
     def write(self, path):
         with h5py.File(path, "w") as file:
-            file.attrs.update({"Conventions": "CF-1.10", "title": "Minimum and maximum displacement, xs = -4",
-                               "source": "doi:10.5755/j02.mech.32277, Fig. 22", "clatter_schema": "clatter/1",
-                               "config": CONFIG})
+            file.attrs.update(
+                {
+                    "Conventions": "CF-1.10",
+                    "title": "Minimum and maximum displacement, xs = -4",
+                    "source": "doi:10.5755/j02.mech.32277, Fig. 22",
+                    "clatter_schema": "clatter/1",
+                    "config": CONFIG,
+                }
+            )
             for name, values in self.axes.items():
                 file[name] = values
                 file[name].make_scale(name)

@@ -41,8 +41,12 @@ class Warnings(CommandLine):
             return {variable: file[variable][()] for variable in file}
 
     def test_what_has_no_effect_changes_nothing_but_is_said(self):
-        config = self.write("a.toml", SMALL.replace('nu = "linspace(0.5, 1.5, 5)"', "h = [0.1, 0.2]")
-                            .replace("h = 0.1\n", "").replace("xs = -4.0", "xs = -1.0"))
+        config = self.write(
+            "a.toml",
+            SMALL.replace('nu = "linspace(0.5, 1.5, 5)"', "h = [0.1, 0.2]")
+            .replace("h = 0.1\n", "")
+            .replace("xs = -4.0", "xs = -1.0"),
+        )
         for setting, beside in IDLE:
             with self.subTest(setting=setting, beside=beside):
                 without = self.run_ok(config, "-o", "without.h5", *beside)
@@ -81,9 +85,13 @@ class Warnings(CommandLine):
         config = self.write("a.toml", "[scene]\nxs = 1\nf = 1\n")
         for options in ([], ["-v"]):
             said = self.run_ok(config, *options)
-            self.assertEqual([line for line in said if "nothing is observed" in line],
-                             ["a.toml:1:1: warning: nothing is observed: the file will tell no more than status, impacts "
-                              "and periods; write e.g. extrema = true in [observe]"])
+            self.assertEqual(
+                [line for line in said if "nothing is observed" in line],
+                [
+                    "a.toml:1:1: warning: nothing is observed: the file will tell no more than status, impacts "
+                    "and periods; write e.g. extrema = true in [observe]"
+                ],
+            )
         said = self.clatter("plan", config).stderr
         self.assertEqual(said.count("nothing is observed"), 1, said)
 
@@ -92,16 +100,22 @@ class Warnings(CommandLine):
         twice = ["--set", "sweep.nu=0.8, 0.8"]
         self.assertRegex(self.run_ok(config, *twice)[0], r"^--set sweep.nu=0.8, 0.8: warning: nu = 0.8 again, ")
         self.assertEqual(len(self.run_ok(config, *twice, "--set", "sweep.follow=nu")), 1)
-        self.assertEqual(len(self.run_ok(config, *twice, "--set", "sweep.h=0.1, 0.2", "--set", "sweep.linked=nu, h")), 1)
+        self.assertEqual(
+            len(self.run_ok(config, *twice, "--set", "sweep.h=0.1, 0.2", "--set", "sweep.linked=nu, h")), 1
+        )
 
     def test_accuracy_warns_of_what_it_goes_by(self):
-        config = self.write("a.toml", '[scene]\nxs = 1\nv0 = 1\nnu = 2\n[time]\nmode = "transient"\nduration = 1\n'
-                                      "window = 9\n[integrator]\ntheta = 1\n")
+        config = self.write(
+            "a.toml",
+            '[scene]\nxs = 1\nv0 = 1\nnu = 2\n[time]\nmode = "transient"\nduration = 1\n'
+            "window = 9\n[integrator]\ntheta = 1\n",
+        )
         result = self.clatter("accuracy", config, "--json", "--arch", "scalar")
         self.assertEqual(result.returncode, 0, result.stderr)
         said = [line for line in result.stderr.splitlines() if "warning" in line]
-        self.assertEqual([line.split(" has ")[0] for line in said],
-                         ["a.toml:4:1: warning: 'nu'", "a.toml:8:1: warning: 'window'"])
+        self.assertEqual(
+            [line.split(" has ")[0] for line in said], ["a.toml:4:1: warning: 'nu'", "a.toml:8:1: warning: 'window'"]
+        )
         quiet = self.clatter("accuracy", config, "--json", "--arch", "scalar", "-q")
         self.assertEqual(quiet.stderr, "")
 
@@ -128,7 +142,10 @@ class CommandLineWins(CommandLine):
         cases = [
             ("sweep.R=0.5,0.6", "--set sweep.R=0.5,0.6 in place of 'R', a.toml:5:1"),
             ("scene.nu=1.2", "--set scene.nu=1.2 in place of 'nu', a.toml:8:1"),
-            ("scene.stop_upper=5", "--set scene.stop_upper=5 in place of 'xs', a.toml:6:1, which stays as 'stop_lower'"),
+            (
+                "scene.stop_upper=5",
+                "--set scene.stop_upper=5 in place of 'xs', a.toml:6:1, which stays as 'stop_lower'",
+            ),
             ("scene.R_lower=0.5", "--set scene.R_lower=0.5 in place of 'R', a.toml:5:1, which stays as 'R_upper'"),
         ]
         for setting, note in cases:

@@ -1,0 +1,136 @@
+#!/usr/bin/env bash
+# What holds for the sources besides their tests, from one command; --help says more.
+set -euo pipefail
+
+source_dir=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
+# shellcheck source=scripts/packages.sh
+source "$source_dir/scripts/packages.sh"
+
+line_length=120  # of Python; .flake8 has it again
+quick=(clang-format shellcheck black flake8 arrows g++ clang++)
+sanitize=(asan tsan)
+all=("${quick[@]}" clang-tidy "${sanitize[@]}")
+
+# The tests that the sanitizers run, and the programs they need: some minutes of what reads files and shares memory.
+# ThreadSanitizer takes those alone in which threads meet.
+threads='Of/LaneBits|LaneBits|Lanes|Run|SavedRun|Shard'
+asan_tests="^(lanes|storage|config|results)\.|^sweep\.($threads|LanePoints|Plan)\."
+asan_tests+="|^cli\.(hostile_files|readers|shards|streams)_test$"
+tsan_tests="^sweep\.($threads)\.|^cli\.(shards|streams)_test$"
+asan_targets=(clatter lanes_tests storage_tests config_tests results_tests sweep_tests)
+tsan_targets=(clatter sweep_tests)
+
+steps() {
+  cat <<END
+Checks the sources on Debian 12, as root or with sudo. It installs the packages that are missing, runs each of these
+gates, says at the end which ones fail, and exits with 1 if any does:
+  clang-format  C++ is formatted as .clang-format says
+  shellcheck    no finding in any shell script
+  black         Python is formatted as black does it, in lines of at most $line_length
+  flake8        no finding in any Python file (.flake8)
+  arrows        no include points against the arrows between the rooms (tests/cli/arrows_test.py)
+  g++           everything compiles without a warning: the release build, nothing more if scripts/test.sh has built it
+  clang++       nor does clang++ warn, without making code (build/clang)
+  clang-tidy    no finding in any source file (.clang-tidy); the longest of all
+  asan          AddressSanitizer and UndefinedBehaviorSanitizer find nothing in tests of lanes, the journal, outputs,
+                configurations, plans and sweeps on several threads, nor in the program itself when its files are
+                hostile, read by other programs, split into shards and piped (build/asan)
+  tsan          ThreadSanitizer finds nothing in tests of sweeps on several threads, in lanes, in shards, and saved
+                while they run, nor in the program's shards and pipes (build/tsan)
+END
+}
+
+usage() {
+  cat <<END
+usage: scripts/check.sh [--quick] [--sanitize] [GATE...]
+
+  --quick      ${quick[*]}; .ci/run calls it after the tests
+  --sanitize   ${sanitize[*]}
+  GATE...      one by one; with no argument all of them
+
+END
+  steps
+}
+
+cpp_files() { find src apps tests \( -name '*.cpp' -o -name '*.hpp' \) -print0; }
+shell_files() { find scripts .ci \( -name '*.sh' -o -name '*.sbatch' -o -path .ci/run \) -print0; }
+
+configure_clang() {
+  cmake --preset clang >/dev/null
+  cmake --build --preset clang --target clatter_version >/dev/null
+}
+
+run_sanitized() {
+  local preset=$1 tests=$2
+  shift 2
+  cmake --preset "$preset"
+  cmake --build --preset "$preset" --target "$@"
+  ctest --preset "$preset" -R "$tests"
+}
+
+run_gate() {
+  case "$1" in
+    clang-format) cpp_files | xargs -0 clang-format --dry-run -Werror ;;
+    shellcheck) shell_files | xargs -0 shellcheck --external-sources ;;
+    black) black --quiet --check --diff --line-length "$line_length" scripts tests ;;
+    flake8) flake8 scripts tests ;;
+    arrows) CLATTER_SOURCE=$source_dir /usr/bin/python3 -B tests/cli/arrows_test.py ;;
+    g++)
+      cmake --preset release >/dev/null
+      cmake --build --preset release
+      ;;
+    clang++)
+      configure_clang
+      /usr/bin/python3 -B scripts/clang_syntax.py build/clang
+      ;;
+    clang-tidy)
+      configure_clang
+      run-clang-tidy -quiet -p build/clang -j "$(nproc)" "^$source_dir/(src|apps|tests)/"
+      ;;
+    asan) run_sanitized asan "$asan_tests" "${asan_targets[@]}" ;;
+    tsan) run_sanitized tsan "$tsan_tests" "${tsan_targets[@]}" ;;
+  esac
+}
+
+gates=()
+for argument in "$@"; do
+  case "$argument" in
+    --quick) gates+=("${quick[@]}") ;;
+    --sanitize) gates+=("${sanitize[@]}") ;;
+    -h | --help) usage; exit 0 ;;
+    *)
+      if [[ " ${all[*]} " != *" $argument "* ]]; then
+        echo "check.sh: unknown argument '$argument'; try --help" >&2
+        exit 2
+      fi
+      gates+=("$argument")
+      ;;
+  esac
+done
+((${#gates[@]} > 0)) || gates=("${all[@]}")
+
+steps
+packages=("${BUILD_PACKAGES[@]}" "${CHECK_PACKAGES[@]}")
+[[ " ${gates[*]} " != *" clang-tidy "* ]] || packages+=("${TIDY_PACKAGES[@]}")
+[[ " ${gates[*]} " != *san* ]] || packages+=("${PLOT_PACKAGES[@]}" "${TEST_PACKAGES[@]}")
+install_missing "${packages[@]}"
+
+cd "$source_dir"
+verdicts=() code=0
+for gate in "${gates[@]}"; do
+  echo "$gate"
+  began=$SECONDS
+  set +e  # if it were in a condition, the gate would go on after a command that fails
+  (
+    set -e
+    run_gate "$gate"
+  )
+  status=$?
+  set -e
+  verdict=passed
+  ((status == 0)) || verdict=FAILED code=1
+  verdicts+=("$(printf '%-12s %s after %d s' "$gate" "$verdict" $((SECONDS - began)))")
+done
+echo
+printf '%s\n' "${verdicts[@]}"
+exit $code
