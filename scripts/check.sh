@@ -29,7 +29,7 @@ gates, says at the end which ones fail, and exits with 1 if any does:
   black         Python is formatted as black does it, in lines of at most $line_length
   flake8        no finding in any Python file (.flake8)
   arrows        no include points against the arrows between the rooms (tests/cli/arrows_test.py)
-  g++           everything compiles without a warning: the release build, nothing more if scripts/test.sh has built it
+  g++           everything compiles without a warning: the release build, which scripts/test.sh has made already
   clang++       nor does clang++ warn, without making code (build/clang)
   clang-tidy    no finding in any source file (.clang-tidy); the longest of all
   asan          AddressSanitizer and UndefinedBehaviorSanitizer find nothing in tests of lanes, the journal, outputs,
@@ -76,7 +76,7 @@ run_gate() {
     flake8) flake8 scripts tests ;;
     arrows) CLATTER_SOURCE=$source_dir /usr/bin/python3 -B tests/cli/arrows_test.py ;;
     g++)
-      cmake --preset release >/dev/null
+      cmake --preset release -D CLATTER_WERROR=ON >/dev/null
       cmake --build --preset release
       ;;
     clang++)

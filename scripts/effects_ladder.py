@@ -65,8 +65,12 @@ def main():
         description="Prints the table of what each effect costs, as tests/bench/effects_ladder measures it now."
     )
     add_build(parser)
-    parser.add_argument("--write", action="store_true", help="put the table into src/model/README.md instead of printing it")
-    parser.add_argument("--repetitions", type=int, default=51, help="of each benchmark, in random order; medians count (default: 51)")
+    parser.add_argument(
+        "--write", action="store_true", help="put the table into src/model/README.md instead of printing it"
+    )
+    parser.add_argument(
+        "--repetitions", type=int, default=51, help="of each benchmark, in random order; medians count (default: 51)"
+    )
     parser.add_argument("--seconds", type=float, default=0.02, help="least time of each repetition (default: 0.02)")
     arguments = parser.parse_args()
     if arguments.write:

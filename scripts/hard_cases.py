@@ -155,9 +155,13 @@ def differences(now, written):
 
 
 def main():
-    parser = argparse.ArgumentParser(description="Makes the tables of hard cases in tests/README.md from what the tests and tests/bench measure.")
+    parser = argparse.ArgumentParser(
+        description="Makes the tables of hard cases in tests/README.md from what the tests and tests/bench measure."
+    )
     add_build(parser)
-    parser.add_argument("--check", action="store_true", help="write nothing; fail if the guide's figures are no longer true")
+    parser.add_argument(
+        "--check", action="store_true", help="write nothing; fail if the guide's figures are no longer true"
+    )
     parser.add_argument("--cases", action="store_true", help="print every case instead")
     arguments = parser.parse_args()
     cases = measured(arguments.build)

@@ -34,6 +34,6 @@ steps
 install_missing "${BUILD_PACKAGES[@]}" "${PLOT_PACKAGES[@]}" "${TEST_PACKAGES[@]}" "${CHECK_PACKAGES[@]}"
 
 cd "$source_dir"
-cmake --preset release
+cmake --preset release -D CLATTER_WERROR=ON
 cmake --build --preset release
 ctest --preset release

@@ -19,23 +19,23 @@ bool contains(std::span<const std::string_view> names, std::string_view name) {
 }
 
 /// The keys that a topic names: "R", "scene.R"; "tolerance" names two.
-std::vector<const config::Key*> keys_named(std::string_view topic) {
-  std::vector<const config::Key*> named;
+std::vector<const Key*> keys_named(std::string_view topic) {
+  std::vector<const Key*> named;
   const std::size_t dot = topic.find('.');
   if (dot != std::string_view::npos) {
-    const config::Key* const key = config::find_key(topic.substr(0, dot), topic.substr(dot + 1));
+    const Key* const key = config::find_key(topic.substr(0, dot), topic.substr(dot + 1));
     if (key != nullptr) named.push_back(key);
     return named;
   }
-  for (const config::Key& key : config::keys()) {
+  for (const Key& key : config::keys()) {
     if (key.name == topic) named.push_back(&key);
   }
   return named;
 }
 
-std::string references(const std::vector<const config::Key*>& named) {
+std::string references(const std::vector<const Key*>& named) {
   std::string text;
-  for (const config::Key* const key : named) (text += text.empty() ? "" : "\n\n") += key_reference(*key);
+  for (const Key* const key : named) (text += text.empty() ? "" : "\n\n") += config::key_reference(*key);
   return text;
 }
 
@@ -44,7 +44,7 @@ std::vector<std::string> topics() {
   std::vector<std::string> all;
   for (const Command& command : commands()) all.emplace_back(command.name);
   all.emplace_back(whole);
-  for (const config::Key& key : config::keys()) all.emplace_back(key.name);
+  for (const Key& key : config::keys()) all.emplace_back(key.name);
   for (const std::string_view section : config::sections()) {
     all.emplace_back(section);
     for (const std::string_view name : config::key_names(section))
@@ -73,7 +73,7 @@ std::string help_on(const std::string& topic) {
   for (const Command& command : commands()) {
     if (command.name == name) return command_help(command);
   }
-  const std::vector<const config::Key*> named = keys_named(name);
+  const std::vector<const Key*> named = keys_named(name);
   if (!named.empty()) return references(named);
   if (contains(config::axis_function_names(), name)) return std::string(config::value_reference());
   if (name.starts_with('[') && name.ends_with(']')) name = name.substr(1, name.size() - 2);

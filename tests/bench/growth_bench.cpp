@@ -30,7 +30,8 @@ void add_points() {
 void add_periods() {
   constexpr std::size_t points = 200;
   for (const int periods : {10, 100, 1'000, 10'000})
-    add("periods/" + std::to_string(periods), transients(xs_23, points, periods), points * periods);
+    add("periods/" + std::to_string(periods), transients(xs_23, points, periods),
+        static_cast<double>(points) * periods);
 }
 
 /// Equal work for every point, and a map with slow points in it; in wall time.

@@ -78,7 +78,8 @@ def wrong_namespaces(root):
     wrong = []
     for path, room in sources(root):
         name = "app" if room == "apps" else room
-        own = rf"namespace clatter::(inline )?{name}(::detail)? \{{" if room in WORDS_OF_ALL else rf"namespace clatter::{name}(::detail)? \{{"
+        inline = "(inline )?" if room in WORDS_OF_ALL else ""
+        own = rf"namespace clatter::{inline}{name}(::detail)? \{{"
         for number, line in enumerate(path.read_text(encoding="utf-8").splitlines(), 1):
             opened = line.startswith("namespace clatter") and not re.fullmatch(own, line)
             borrowed = re.match(r"\s*using namespace (?!clatter|std::|boost)", line)
@@ -115,16 +116,23 @@ class Arrows(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             root = Path(folder)
             for name, text in {
-                "src/motion/a.hpp": '#include "math/number.hpp"\n#include "sweep/run.hpp"\nnamespace clatter::motion {\n',
+                "src/motion/a.hpp": '#include "math/number.hpp"\n#include "sweep/run.hpp"\n'
+                + "namespace clatter::motion {\n",
                 "src/observables/b.hpp": '#include "stepping/exact.hpp"\nnamespace clatter {\n',
-                "src/model/d.hpp": "namespace clatter::inline model {\nnamespace clatter::model {\nnamespace clatter::math {\n",
+                "src/model/d.hpp": "".join(
+                    f"namespace clatter::{name} {{\n" for name in ("inline model", "model", "math")
+                ),
                 "src/sweep/c.cpp": "#include <hdf5.h>\n#include <omp.h>\nusing namespace lanes;\nx.lane[0] = 1;\n",
             }.items():
                 (root / name).parent.mkdir(parents=True, exist_ok=True)
                 (root / name).write_text(text)
             self.assertEqual(
                 wrong_includes(root),
-                ["src/motion/a.hpp:2: sweep/run.hpp", "src/observables/b.hpp:1: stepping/exact.hpp", "src/sweep/c.cpp:1: hdf5.h"],
+                [
+                    "src/motion/a.hpp:2: sweep/run.hpp",
+                    "src/observables/b.hpp:1: stepping/exact.hpp",
+                    "src/sweep/c.cpp:1: hdf5.h",
+                ],
             )
             self.assertEqual(
                 wrong_namespaces(root),

@@ -405,6 +405,7 @@ class Readers(unittest.TestCase):
 
     def test_copies_of_netcdf4_and_hdf5_hold_the_same(self):
         """Those of the guide of results: for h5repack a chunk can't have the length 0 of an array, hence -m."""
+
         def contents(path):
             command = ["ncdump", "-p", "9,17", "-n", "any", path]
             return subprocess.run(command, capture_output=True, text=True, check=True, timeout=60).stdout
@@ -420,8 +421,8 @@ class Readers(unittest.TestCase):
                     subprocess.run([CLATTER, "info", copy], capture_output=True, check=True, timeout=60)
 
     def test_xarray_makes_classic_netcdf_of_outputs(self):
-        """The guide's way: nccopy can't, since classic files have no texts of variable length. They have one dimension of
-        length 0 at most, of which a shard without points, and so without impacts, has two."""
+        """The guide's way: nccopy can't, since classic files have no texts of variable length. They have one dimension
+        of length 0 at most, of which a shard without points, and so without impacts, has two."""
         for path in self.outputs_to_copy():
             if path.stem == "empty_shard":
                 continue

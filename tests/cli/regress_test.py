@@ -243,7 +243,7 @@ esac
 
     @NEEDS_H5DIFF
     def test_the_line_of_the_guide(self):
-        """It tells equal, slightly and grossly different files apart; h5diff alone doesn't see that the number of points differs."""
+        """It tells equal, slightly and grossly different files apart; h5diff alone ignores another number of points."""
         text = (SOURCE / "scripts" / "README.md").read_text()
         begin = text.index("<!-- begin: h5diff -->\n```bash\n")
         line = text[begin : text.index("```\n<!-- end -->", begin)].split("```bash\n")[1]

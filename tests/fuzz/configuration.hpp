@@ -28,7 +28,7 @@ inline void require_place(const std::string& path, std::string_view text, const 
   const auto lines = 1 + static_cast<std::size_t>(std::ranges::count(text, '\n'));
   require(line >= 1 && line <= lines, "a line that isn't there: " + message);
   for (std::size_t before = 1; before < line; ++before) text.remove_prefix(text.find('\n') + 1);
-  const auto width = static_cast<std::size_t>(characters(text.substr(0, text.find('\n'))));
+  const auto width = static_cast<std::size_t>(storage::characters(text.substr(0, text.find('\n'))));
   require(column >= 1 && column <= width + 1, "a column that isn't there: " + message);
 }
 
@@ -50,7 +50,7 @@ inline void check_configuration(const std::string& name, const std::string& text
   const std::string path = write(name, text);
   config::Config first;
   try {
-    first = read_config(path, {});
+    first = config::read_config(path, {});
   } catch (const config::ConfigError& error) {
     return require_place(path, text, error.what());
   } catch (const storage::IoError&) {  // not text
@@ -58,7 +58,7 @@ inline void check_configuration(const std::string& name, const std::string& text
   }
   const std::string complete = write("complete.toml", first.text);
   try {
-    const config::Config second = read_config(complete, {});
+    const config::Config second = config::read_config(complete, {});
     require(second.text == first.text, "the complete text gives another:\n" + first.text + "\n---\n" + second.text);
     require(second.title == first.title && second.source == first.source, "the complete text has other texts");
     require(size(second.sweep) == size(first.sweep), "the complete text has another number of points");

@@ -29,7 +29,7 @@ std::optional<std::size_t> end_of_block(std::span<const std::uint8_t> file, std:
     std::uint32_t stored = 0;
     if (begin + length + sizeof stored > file.size()) return false;
     std::memcpy(&stored, &file[begin + length], sizeof stored);
-    return lookup3(file.subspan(begin, length)) == stored;
+    return support::lookup3(file.subspan(begin, length)) == stored;
   };
   const auto known = std::ranges::find_if(lengths, is_right);
   if (known != lengths.end()) return begin + *known;
@@ -101,7 +101,7 @@ std::size_t damage(std::span<std::uint8_t> room, std::size_t size, unsigned seed
   if (below(5) == 0) return size;
   for (const auto& [begin, end] : blocks) {
     if (end + 4 > size) continue;
-    const std::uint32_t sum = lookup3(room.subspan(begin, end - begin));
+    const std::uint32_t sum = support::lookup3(room.subspan(begin, end - begin));
     std::memcpy(&room[end], &sum, sizeof sum);
   }
   return size;

@@ -81,7 +81,7 @@ inline bool blames_us(std::string_view text) {
 
 /// Before the first child, which has the library as it is here then: it takes longer to set up than most files to read.
 inline bool prepare() {
-  (void)file_image({}, {});
+  (void)results::file_image({}, {});
   return ::pthread_atfork(nullptr, nullptr, become_reader) == 0;
 }
 

@@ -3,6 +3,7 @@
 #include "results/dataset_file.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  clatter::fuzz::check_reading({data, size}, [](const std::string& path) { (void)clatter::read_summary(path); });
+  clatter::fuzz::check_reading({data, size},
+                               [](const std::string& path) { (void)clatter::results::read_summary(path); });
   return 0;
 }

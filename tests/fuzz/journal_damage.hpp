@@ -42,7 +42,7 @@ inline std::string sound_journal() {
 
 /// What happens to the bytes of a journal: what is done, where, and how much of it.
 struct Damage {
-  enum config::Kind : std::uint8_t { cut, flip, zeros, append, append_zeros, repeat, remove, kinds };
+  enum Kind : std::uint8_t { cut, flip, zeros, append, append_zeros, repeat, remove, kinds };
 
   std::uint8_t kind;
   std::array<std::uint8_t, 2> place;

@@ -66,8 +66,8 @@ void write_configurations(const fs::path& configs, const fs::path& corpus) {
 /// Words for libFuzzer to put in: all that a configuration can say.
 void write_dictionary(const fs::path& corpus) {
   std::set<std::string> words{"linspace(", "logspace(", "arange(", "pi", "inf", "nan", "true", "false", "[[", "]]"};
-  for (const std::string_view section : sections()) words.insert('[' + std::string(section) + ']');
-  for (const config::Key& key : keys()) {
+  for (const std::string_view section : config::sections()) words.insert('[' + std::string(section) + ']');
+  for (const Key& key : config::keys()) {
     words.insert(std::string(key.name) + " = ");
     words.insert(key.choices.begin(), key.choices.end());
   }
@@ -110,7 +110,7 @@ void write_files(const fs::path& corpus) {
   };
   const auto write = [&](const std::string& name, sweep::Dataset what, int compression) {
     config.compression = compression;
-    const results::FileImage image = file_image(std::move(what), config);
+    const results::FileImage image = results::file_image(std::move(what), config);
     seed(name, {reinterpret_cast<const char*>(image.bytes.data()), image.bytes.size()});
   };
   write("small", figure(2, 2), 0);

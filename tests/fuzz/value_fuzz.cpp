@@ -25,7 +25,7 @@ bool same_bits(double left, double right) {
 
 void check_number(std::string_view text) {
   const double value = parse_number(source(text));
-  for (const std::string& again : {number_text(value), toml_number(value)})
+  for (const std::string& again : {config::number_text(value), config::toml_number(value)})
     require(same_bits(parse_number(source(again)), value), again + " is another number than it was made from");
 }
 
@@ -35,7 +35,7 @@ void require_between(std::span<const double> values, double one, double other) {
                        std::numeric_limits<double>::denorm_min();
   const double least = std::min(one, other) - slack, most = std::max(one, other) + slack;
   for (const double value : values)
-    if (!(value >= least && value <= most)) require(false, "a value beyond the ends: " + number_text(value));
+    if (!(value >= least && value <= most)) require(false, "a value beyond the ends: " + config::number_text(value));
 }
 
 /// What a function promises, by its own text: "linspace(a, b, n)".
@@ -49,7 +49,7 @@ void check_function(const config::AxisValues& axis) {
     begin = end + 1;
   }
   const auto [a, b, last] = arguments;
-  require(axis.places.empty(), "places of values that were not written one by one");
+  require(axis.locations.empty(), "places of values that were not written one by one");
   require(same_bits(axis.values.front(), a), "an axis that doesn't begin with a");
   require_between(axis.values, a, b);
   if (call.starts_with("arange")) {
@@ -66,10 +66,10 @@ void check_axis(std::string_view text) {
   require(!axis.values.empty(), "an axis without values");
   const bool is_function = axis.text.starts_with('"');
   if (is_function) {
-    require(static_cast<double>(axis.values.size()) <= max_axis_values, "more values than permitted");
+    require(static_cast<double>(axis.values.size()) <= config::max_axis_values, "more values than permitted");
     check_function(axis);
   } else {
-    require(axis.places.size() == axis.values.size(), "values of a list without places");
+    require(axis.locations.size() == axis.values.size(), "values of a list without places");
   }
   std::string_view again = axis.text;
   if (is_function) again = again.substr(1, again.size() - 2);
@@ -87,6 +87,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const std::string_view text(reinterpret_cast<const char*>(data + 1), size - 1);
   (data[0] & 1U) == 0 ? clatter::fuzz::check_number(text) : clatter::fuzz::check_axis(text);
   return 0;
-} catch (const clatter::ConfigError&) {
+} catch (const clatter::config::ConfigError&) {
   return 0;
 }

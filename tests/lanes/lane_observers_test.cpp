@@ -77,7 +77,7 @@ std::optional<Seen> seen_by_lane(const point::Problem& scene, StepFunction kerne
   Seen seen{{lanes.y_low.lane[3] + load, lanes.y_high.lane[3] + load},
             {lanes.v_low.lane[3] * rate, lanes.v_high.lane[3] * rate},
             {}};
-  for (const std::size_t i : {0, 1})
+  for (const std::size_t i : {0U, 1U})
     seen.stops[i] = {lanes.count[i].lane[3], lanes.before[i].lane[3] * rate, lanes.after[i].lane[3] * rate, 0.0};
   return seen;
 }
@@ -86,7 +86,7 @@ std::optional<Seen> seen_by_lane(const point::Problem& scene, StepFunction kerne
 double difference(const Seen& a, const Seen& b) {
   double most = std::max({std::abs(a.x.low - b.x.low), std::abs(a.x.high - b.x.high), std::abs(a.v.low - b.v.low),
                           std::abs(a.v.high - b.v.high)});
-  for (const std::size_t i : {0, 1}) {
+  for (const std::size_t i : {0U, 1U}) {
     if (a.stops[i].count != b.stops[i].count) return std::numeric_limits<double>::infinity();
     if (a.stops[i].count > 0)
       most = std::max(
