@@ -155,7 +155,7 @@ class HostileFiles(CommandLine):
         name = self.craft("a.h5", grow)
         self.assertLess((self.directory / name).stat().st_blocks * 512, 1 << 20)
         before = resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss
-        self.assert_refused(74, "its 'status' is of other points than the 5 of its configuration", "info", name)
+        self.assert_refused(74, "its 'status' doesn't have the 5 points of its configuration", "info", name)
         for change in (grow_unread, grow_rows):
             name = self.craft("a.h5", change)
             self.assert_refused(74, "its 'status' is longer than a file of its size can hold", "info", name)

@@ -32,7 +32,7 @@ class Replace(CommandLine):
 
     def test_another_configuration_is_kept(self):
         shutil.copy(SOURCE / "configs" / "fig18.toml", self.directory / "keep.toml")
-        self.assert_kept("keep.toml", "the file that is there is no output of clatter, or a damaged one",
+        self.assert_kept("keep.toml", "the file there is not an output of clatter, or is damaged",
                          "run", SOURCE / "configs" / "fig18.toml", "-o", "keep.toml")
 
     def test_what_is_no_whole_output_of_clatter_is_kept(self):
@@ -48,7 +48,7 @@ class Replace(CommandLine):
         for name in ("foreign.h5", "cut.h5", "text.h5", "link.h5"):
             for words in (("run", self.config), ("accuracy", self.write("b.toml", STUDY))):
                 content = (self.directory / name).read_bytes()
-                self.assert_kept(name, "the file that is there is no output of clatter, or a damaged one",
+                self.assert_kept(name, "the file there is not an output of clatter, or is damaged",
                                  *words, "-o", name)
                 (self.directory / name).write_bytes(content)
 
@@ -58,7 +58,7 @@ class Replace(CommandLine):
 
     def test_an_output_of_another_title_is_kept(self):
         self.ok("run", self.config)
-        self.assert_kept("a.h5", "the file that is there has the title 'a small sweep', this one 'another'",
+        self.assert_kept("a.h5", "the file there has the title 'a small sweep', this one 'another'",
                          "run", self.config, "--set", "title=another")
 
     def test_the_same_sweep_with_other_values_is_run_again(self):
@@ -73,9 +73,9 @@ class Replace(CommandLine):
             self.ok("run", config, code=1)
             self.ok("accuracy", config, code=1)
         self.assertEqual(self.files(), ["a.toml", "b.accuracy.h5", "b.h5", "b.toml"])
-        self.assert_kept("b.h5", "the file that is there is an output of `clatter run`, this is one of `clatter accuracy`",
+        self.assert_kept("b.h5", "the file there is an output of `clatter run`, this is one of `clatter accuracy`",
                          "accuracy", config, "-o", "b.h5")
-        self.assert_kept("b.h5", "the file that is there is an output of `clatter accuracy`, this is one of `clatter run`",
+        self.assert_kept("b.h5", "the file there is an output of `clatter accuracy`, this is one of `clatter run`",
                          "run", config)
 
     def test_shards_and_the_whole_keep_each_other(self):
@@ -87,15 +87,15 @@ class Replace(CommandLine):
             self.ok("merge", "-o", "a.h5", *shards)
         self.ok("run", self.config)
         self.ok("merge", "-o", "a.h5", *shards)
-        self.assert_kept(shards[0], "the file that is there has shard 0/2 of a sweep, this one shard 1/2",
+        self.assert_kept(shards[0], "the file there has shard 0/2 of a sweep, this one shard 1/2",
                          "run", self.config, "--shard", "1/2", "-o", shards[0])
-        self.assert_kept("a.h5", "the file that is there has all points of a sweep, this one shard 1/2",
+        self.assert_kept("a.h5", "the file there has all points of a sweep, this one shard 1/2",
                          "run", self.config, "--shard", "1/2", "-o", "a.h5")
         self.ok("run", self.config, "--shard", "0/2", "--force")
-        self.assert_kept("a.h5", "the file that is there has shard 1/2 of a sweep, this one all points",
+        self.assert_kept("a.h5", "the file there has shard 1/2 of a sweep, this one all points",
                          "merge", "-o", "a.h5", *shards)
         self.write("letter", "not to be lost")
-        self.assert_kept("letter", "the file that is there is no output of clatter, or a damaged one",
+        self.assert_kept("letter", "the file there is not an output of clatter, or is damaged",
                          "merge", "-o", "letter", *shards)
 
     def test_what_is_read_is_never_replaced(self):
