@@ -143,7 +143,7 @@ class FirstRoot {
   }
 
   [[nodiscard]] static std::optional<Number> search(Piece piece, int depth) {
-    while (piece.degree > 0 && piece.c[0] == 0) piece.divide_by_u();  // what remains has the same sign right of 0
+    while (piece.degree > 0 && piece.c[0] == 0) piece.divide_by_u();  // the quotient has the same sign right of 0
     if (piece.degree == 0) return piece.c[0] < 0 ? std::optional<Number>(Number(0)) : std::nullopt;
     int changes = 0;
     bool negative = false;  // a coefficient of 0 counts as not negative

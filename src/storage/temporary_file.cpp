@@ -82,7 +82,7 @@ void take_over(const Descriptor& file, const Access& access) {
   if (::fchown(file.number(), access.owner, access.group) != 0 &&
       ::fchown(file.number(), static_cast<uid_t>(-1), access.group) != 0)
     mode &= 0707U | (mode & 07U) << 3U;
-  (void)::fchmod(file.number(), mode);  // some file systems know no modes
+  (void)::fchmod(file.number(), mode);  // some file systems have no modes
 }
 
 }  // namespace
