@@ -1,4 +1,4 @@
-// What the method makes of every kind of scene: periods, rests, symmetries, and the outcomes that say why not.
+// The method on every kind of scene: periods, rests, symmetries, and the outcomes of runs that it can't complete.
 
 #include <gtest/gtest.h>
 
@@ -48,7 +48,7 @@ struct Named {
   point::Problem scene;
 };
 
-/// Motion that impacts, chatters, rests, is pressed, heavily damped, pulled at, at resonance, free.
+/// Scenes with impacts, chatter, rest, a pressing load, heavy damping, a pulling load, resonance, free motion.
 std::vector<Named> every_kind() {
   std::vector<Named> scenes{
       {"impacts", support::scene_of({0.1, -1.0, 1.0, 0.0}, -0.5, 0.5, 0.7)},
@@ -85,14 +85,14 @@ TEST(DormandPrinceMotion, at_resonance_grows_as_its_closed_form) {
   for (const double tolerance : {1e-6, 1e-9, 1e-12}) {
     point::Problem scene = with_tolerance(support::scene_of({0.0, 1.0, 1.0, 0.0}, -infinity, infinity, 1.0), tolerance);
     const accuracy::RunRecord record = support::course_by<DormandPrince>(scene, tau);
-    // relative to the amplitude tau/2; nothing fades, and the errors of ten turns add up, each relative to its own
+    // relative to the amplitude tau/2; nothing fades, and the errors of ten periods add up, each relative to its own
     EXPECT_NEAR(record.x / (tau / 2), -(tau * std::cos(tau) - std::sin(tau)) / tau, 10 * tolerance);
     EXPECT_NEAR(record.v / (tau / 2), std::sin(tau), 10 * tolerance);
   }
 }
 
 TEST(DormandPrinceMotion, between_sections_depends_on_the_state_alone) {
-  // a new integrator goes on from a section as the one that came there, to the last bit, though not in mid-period
+  // a new integrator continues from a section as the one that reached it, to the last bit, though not within a period
   for (const auto& [kind, of_kind] : every_kind())
     with_general_effects(of_kind.oscillator, [&, name = kind, scene = of_kind]<Effects effects>() {
       DormandPrince<effects> first(scene, with_tolerance(scene, 1e-6).integration);
@@ -146,7 +146,7 @@ TEST(DormandPrinceMotion, has_the_period_of_the_exact_one_on_figure_22) {
     ++periodic;
     EXPECT_EQ(found.found_by, steady::FoundBy::repetition);
     EXPECT_EQ(found.turns, exact.turns) << nu;
-    // errors of the steps of the last 1/h = 10 of tau, and what the period that is observed adds
+    // errors of the steps of the last 1/h = 10 of tau, and of the period that is observed
     EXPECT_NEAR(found.from.x, exact.from.x, 20e-10) << nu;
     EXPECT_NEAR(found.from.v, exact.from.v, 20e-10) << nu;
   }
@@ -154,12 +154,12 @@ TEST(DormandPrinceMotion, has_the_period_of_the_exact_one_on_figure_22) {
 }
 
 TEST(DormandPrinceMotion, unforced_and_conservative_returns_after_its_closed_form) {
-  // check 1: period 4 arcsin(g/V) between stops; 2 pi without one
+  // eq. 35: period 4 arcsin(g/V) between stops; 2 pi without one
   for (const double V : {0.5, 1.0, 1.5}) {
     const double g = 0.749, tolerance = 1e-11;
     point::Problem scene = with_tolerance(support::scene_of({0.0, 0.0, 1.0, 0.0}, -g, g, 1.0), tolerance);
     scene.start.velocity = -V;
-    scene.time.tolerance = 1e-8;  // of the return: more than it drifts by in a turn
+    scene.time.tolerance = 1e-8;  // of the return: more than the motion drifts in a period
     const steady::ObservedTime found = settled(scene);
     EXPECT_EQ(found.status, steady::Status::periodic);
     const double speed = V > g ? std::sqrt((V - g) * (V + g)) : 1;
@@ -183,7 +183,7 @@ TEST(DormandPrinceMotion, unforced_and_damped_comes_to_stand_still) {
 }
 
 TEST(DormandPrinceMotion, a_step_that_ends_an_ulp_beyond_a_stop_ends_on_it) {
-  // as rounding of place and anchor leaves it; pressed, an inelastic mass rests there, and time moves on
+  // beside the stop by the rounding of position and anchor; a pressed inelastic mass rests there, and time advances
   point::Problem scene = support::scene_of({0.1, 0.0, 1.0, 2.0}, -1.0, 1.0, 0.0);
   with_general_effects(scene.oscillator, [&]<Effects effects>() {
     DormandPrince<effects> integrator(scene, scene.integration, limits_of(scene));

@@ -1,4 +1,4 @@
-// Impacts, chatter, rest and release by time stepping, and the outcomes that say why not.
+// Impacts, chatter, rest and release by time stepping, and the outcomes of runs that it can't complete.
 
 #include <gtest/gtest.h>
 
@@ -44,7 +44,7 @@ TEST(MoreauMotion, an_impact_keeps_the_share_of_speed_that_restitution_says) {
   }
 }
 
-/// Sees where the mass sets out after an impact.
+/// Records the position from which the mass leaves after an impact.
 struct Departures {
   std::optional<motion::Impact> last{};
   int count = 0;
@@ -71,12 +71,11 @@ TEST(MoreauMotion, an_inelastic_mass_sets_out_from_the_stop_without_speed) {
   EXPECT_GE(departures.count, 5);
 }
 
-const point::Problem chattering =
-    support::scene_of({0.1, 1.0, 0.5, 0.0}, -0.5, 0.5, 0.5);  // physics.md, "chatter and rest"
+const point::Problem chattering = support::scene_of({0.1, 1.0, 0.5, 0.0}, -0.5, 0.5, 0.5);  // chatter and rest
 
 TEST(MoreauMotion, chatter_ends_in_a_rest_within_a_step_for_each_of_its_impacts) {
-  // an impact is late by up to a step, and its speed off by half a step's pull, of which the flights after it make one
-  // step more; the flights left out, each shorter than a step, last two together
+  // an impact is late by up to a step, and its speed off by half a step's force, which costs the flights after it one
+  // more step; the flights left out, each shorter than a step, last two steps together
   for (const double theta : {0.5, 1.0})
     for (int n = 256; n <= 16384; n *= 4) {
       double sum = 0, impacts = 0;
@@ -91,7 +90,7 @@ TEST(MoreauMotion, chatter_ends_in_a_rest_within_a_step_for_each_of_its_impacts)
         EXPECT_LE(before, 3 + std::log2(n));  // flights halve until one is shorter than a step
         sum += std::abs(rest->time - 4.4158803670592697) / L, impacts += before;
       }
-      EXPECT_LT(sum, impacts) << n;  // in the mean half of what it may be at most
+      EXPECT_LT(sum, impacts) << n;  // in the mean half of the largest possible value
     }
 }
 
@@ -110,7 +109,7 @@ TEST(MoreauMotion, after_a_rest_the_next_contact_is_within_a_step_again) {
 }
 
 TEST(MoreauMotion, a_rest_ends_with_the_step_before_the_force_pulls) {
-  // looked at once a step: theta of it after its beginning
+  // the force is evaluated once a step, theta of it after its beginning
   for (const double theta : {0.25, 0.5, 1.0}) {
     double earliest = infinity, latest = -infinity;  // in steps after the release
     for (int n = 1000; n < 1100; ++n) {
@@ -144,7 +143,7 @@ TEST(MoreauMotion, an_elastic_stop_returns_all_speed_and_keeps_an_oscillation_fo
   scene.start.velocity = 1.5;
   support::Recorder record = record_of(scene, 1e4);
   ASSERT_GT(record.impacts.size(), 9500u);  // every 2 asin(1/2) = pi/3
-  // places of impacts are known to a step; that of speed follows, by energy, without drift
+  // positions at impacts are known to a step, hence the speed by energy, without drift
   for (const motion::Impact& impact : record.impacts)
     EXPECT_NEAR(std::abs(impact.before), std::sqrt(1.5 * 1.5 - 0.75 * 0.75), 0.75 * 2 * pi_ * 1e-3);
 }
