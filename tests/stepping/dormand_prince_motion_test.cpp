@@ -71,7 +71,7 @@ TEST(DormandPrinceMotion, of_every_kind_is_that_of_fifty_digits) {
     const double sensitive = std::max(1.0, support::conditioning(scene, reference) / epsilon<double>());
     for (const double tolerance : {1e-6, 1e-8, 1e-10, 1e-12}) {
       const support::Deviation d =
-          support::deviation(support::course_by<DormandPrince>(with_tolerance(scene, tolerance), 15.0), reference);
+          support::deviation(support::record_by<DormandPrince>(with_tolerance(scene, tolerance), 15.0), reference);
       EXPECT_TRUE(d.same_events) << name << ": " << d.difference;
       // every step errs by about the tolerance, which the motion multiplies as much as an ulp of its inputs
       EXPECT_LT(d.largest(), 4 * tolerance * sensitive) << name << ", " << tolerance;
@@ -84,7 +84,7 @@ TEST(DormandPrinceMotion, at_resonance_grows_as_its_closed_form) {
   const double tau = 20 * pi_ + 1;
   for (const double tolerance : {1e-6, 1e-9, 1e-12}) {
     point::Problem scene = with_tolerance(support::scene_of({0.0, 1.0, 1.0, 0.0}, -infinity, infinity, 1.0), tolerance);
-    const accuracy::RunRecord record = support::course_by<DormandPrince>(scene, tau);
+    const accuracy::RunRecord record = support::record_by<DormandPrince>(scene, tau);
     // relative to the amplitude tau/2; nothing fades, and the errors of ten periods add up, each relative to its own
     EXPECT_NEAR(record.x / (tau / 2), -(tau * std::cos(tau) - std::sin(tau)) / tau, 10 * tolerance);
     EXPECT_NEAR(record.v / (tau / 2), std::sin(tau), 10 * tolerance);
@@ -124,8 +124,8 @@ TEST(DormandPrinceMotion, mirrored_and_scaled_by_a_power_of_two_is_the_same_to_t
         std::swap(other.stops.lower, other.stops.upper);
         std::swap(other.stops.restitution_lower, other.stops.restitution_upper);
       }
-      const accuracy::RunRecord a = support::course_by<DormandPrince>(with_tolerance(scene, 1e-7), 15.0);
-      const accuracy::RunRecord b = support::course_by<DormandPrince>(with_tolerance(other, 1e-7), 15.0);
+      const accuracy::RunRecord a = support::record_by<DormandPrince>(with_tolerance(scene, 1e-7), 15.0);
+      const accuracy::RunRecord b = support::record_by<DormandPrince>(with_tolerance(other, 1e-7), 15.0);
       expect_same_events(a.events, b.events, sign, std::abs(factor));
       EXPECT_EQ(a.x * factor, b.x) << name << " by " << factor;
       EXPECT_EQ(a.v * factor, b.v) << name << " by " << factor;
@@ -202,7 +202,7 @@ TEST(DormandPrinceMotion, more_impacts_than_allowed_is_an_outcome) {
   point::Problem scene = support::scene_of({0.0, 0.0, 1.0, 0.0}, -0.75, 0.75, 1.0);
   scene.start.velocity = 1.5;
   scene.time.max_impacts = 10;
-  const accuracy::RunRecord record = support::course_by<DormandPrince>(scene, 100.0);
+  const accuracy::RunRecord record = support::record_by<DormandPrince>(scene, 100.0);
   EXPECT_EQ(record.outcome, Outcome::event_budget);
   EXPECT_EQ(record.impacts, 11);
 }
@@ -212,17 +212,17 @@ TEST(DormandPrinceMotion, that_overflows_is_an_outcome_and_not_a_motion) {
   for (const double value : {infinity, -infinity, std::nan(""), 1e308, -1.7e308}) {
     point::Problem scene = usual;
     scene.start.velocity = value;
-    EXPECT_EQ(support::course_by<DormandPrince>(scene, 20.0).outcome, Outcome::not_finite) << "v0 = " << value;
+    EXPECT_EQ(support::record_by<DormandPrince>(scene, 20.0).outcome, Outcome::not_finite) << "v0 = " << value;
     scene.stops = {-infinity, infinity, 1.0, 1.0};
-    EXPECT_EQ(support::course_by<DormandPrince>(scene, 20.0).outcome, Outcome::not_finite)
+    EXPECT_EQ(support::record_by<DormandPrince>(scene, 20.0).outcome, Outcome::not_finite)
         << "v0 = " << value << ", no stops";
   }
   point::Problem forced = usual;
   forced.oscillator.forcing = infinity;
-  EXPECT_EQ(support::course_by<DormandPrince>(forced, 20.0).outcome, Outcome::not_finite);
+  EXPECT_EQ(support::record_by<DormandPrince>(forced, 20.0).outcome, Outcome::not_finite);
   point::Problem nowhere = usual;
   nowhere.start.displacement = std::nan("");
-  EXPECT_EQ(support::course_by<DormandPrince>(nowhere, 20.0).outcome, Outcome::not_finite);
+  EXPECT_EQ(support::record_by<DormandPrince>(nowhere, 20.0).outcome, Outcome::not_finite);
 }
 
 TEST(DormandPrinceMotion, whose_steps_are_too_short_to_move_time_on_is_unresolved) {

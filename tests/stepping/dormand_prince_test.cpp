@@ -19,7 +19,7 @@ constexpr double pi_ = std::numbers::pi, infinity = std::numeric_limits<double>:
 
 accuracy::RunRecord run(point::Problem scene, double duration, double tolerance) {
   scene.integration.tolerance = tolerance;
-  return support::course_by<DormandPrince>(scene, duration);
+  return support::record_by<DormandPrince>(scene, duration);
 }
 
 /// Errors and evaluations of a scene over tolerances 10^-first ... 10^-last.
@@ -123,7 +123,7 @@ TEST(DormandPrince, finds_a_stop_that_is_crossed_twice_within_a_step) {
     (void)support::run_by<DormandPrince>(scene, before + 2.0, seen);
     ASSERT_EQ(seen.impacts, 1) << i;
     hidden += seen.hidden;
-    const accuracy::Event contact = support::course_by<DormandPrince>(scene, before + 2.0).events.at(0);
+    const accuracy::Event contact = support::record_by<DormandPrince>(scene, before + 2.0).events.at(0);
     EXPECT_NEAR(contact.time, before + std::asin(stop), 2 * tolerance / speed)
         << i;  // the error of the displacement over the speed
   }

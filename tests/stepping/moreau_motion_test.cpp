@@ -82,7 +82,7 @@ TEST(MoreauMotion, chatter_ends_in_a_rest_within_a_step_for_each_of_its_impacts)
       for (int k = 0; k < 40; ++k) {
         const double step = 1.0 / (n + k * n / 64), L = step * 4 * pi_;
         const std::vector<accuracy::Event> events =
-            accuracy::with_rests_joined(support::course_by<Moreau>(with_step(chattering, step, theta), 5.0).events);
+            accuracy::with_rests_joined(support::record_by<Moreau>(with_step(chattering, step, theta), 5.0).events);
         const auto rest = std::ranges::find(events, accuracy::Event::Kind::rest, &accuracy::Event::kind);
         ASSERT_NE(rest, events.end());
         const auto before = static_cast<double>(rest - events.begin());
@@ -99,7 +99,7 @@ TEST(MoreauMotion, after_a_rest_the_next_contact_is_within_a_step_again) {
     for (int i = 8; i <= 14; ++i) {
       const double step = std::ldexp(1.0, -i), L = step * 4 * pi_;
       const auto events =
-          accuracy::with_rests_joined(support::course_by<Moreau>(with_step(chattering, step, theta), 9.0).events);
+          accuracy::with_rests_joined(support::record_by<Moreau>(with_step(chattering, step, theta), 9.0).events);
       EXPECT_EQ(std::ranges::count(events, accuracy::Event::Kind::rest, &accuracy::Event::kind), 1);
       EXPECT_EQ(events.back().side, Side::lower);
       // a step at the release and one at the contact, with the speed of half a step away
@@ -113,7 +113,7 @@ TEST(MoreauMotion, a_rest_ends_with_the_step_before_the_force_pulls) {
   for (const double theta : {0.25, 0.5, 1.0}) {
     double earliest = infinity, latest = -infinity;  // in steps after the release
     for (int n = 1000; n < 1100; ++n) {
-      const accuracy::RunRecord record = support::course_by<Moreau>(with_step(chattering, 1.0 / n, theta), 6.0);
+      const accuracy::RunRecord record = support::record_by<Moreau>(with_step(chattering, 1.0 / n, theta), 6.0);
       const accuracy::Event rest = with_rests_joined(record.events).back();
       ASSERT_EQ(rest.kind, accuracy::Event::Kind::rest);
       const double late = (rest.end() - 5 * pi_ / 3) / (4 * pi_ / n);
@@ -129,7 +129,7 @@ TEST(MoreauMotion, a_mass_that_is_pressed_from_the_start_rests_without_impact) {
     point::Problem scene = with_step(chattering, 1e-3);
     scene.stops.restitution_upper = R;
     scene.start = {0.5, 0.0, pi_ / 2};
-    const accuracy::RunRecord record = support::course_by<Moreau>(scene, 3.0);
+    const accuracy::RunRecord record = support::record_by<Moreau>(scene, 3.0);
     const std::vector<accuracy::Event> events = with_rests_joined(record.events);
     ASSERT_EQ(events.size(), 1u) << R;
     EXPECT_EQ(events[0].time, 0.0);
@@ -152,7 +152,7 @@ TEST(MoreauMotion, work_is_a_step_however_many_impacts_it_meets) {
   for (const double R : {0.0, 0.5, 0.9}) {
     point::Problem scene = with_step(chattering, 1e-3);
     scene.stops.restitution_lower = scene.stops.restitution_upper = R;
-    const accuracy::RunRecord record = support::course_by<Moreau>(scene, 10 * 4 * pi_);
+    const accuracy::RunRecord record = support::record_by<Moreau>(scene, 10 * 4 * pi_);
     EXPECT_GT(record.impacts, 15);
     EXPECT_EQ(record.evaluations, 10 * 1000);
   }
@@ -205,7 +205,7 @@ TEST(MoreauMotion, mirrored_and_scaled_by_a_power_of_two_is_the_same_to_the_last
   point::Problem scene = support::scene_of({0.1, 1.3, 0.6, 0.1}, -0.5, 0.4, 0.6);
   scene.stops.restitution_lower = 0.3;
   scene.start = {0.1, -0.7, 0.3};
-  const accuracy::RunRecord a = support::course_by<Moreau>(with_step(scene, 1e-3), 50.0);
+  const accuracy::RunRecord a = support::record_by<Moreau>(with_step(scene, 1e-3), 50.0);
   ASSERT_GT(a.impacts, 10);
   for (const double factor : {-1.0, 0x1p-30, -0x1p40}) {
     point::Problem other = scene;
@@ -216,7 +216,7 @@ TEST(MoreauMotion, mirrored_and_scaled_by_a_power_of_two_is_the_same_to_the_last
       std::swap(other.stops.lower, other.stops.upper);
       std::swap(other.stops.restitution_lower, other.stops.restitution_upper);
     }
-    const accuracy::RunRecord b = support::course_by<Moreau>(with_step(other, 1e-3), 50.0);
+    const accuracy::RunRecord b = support::record_by<Moreau>(with_step(other, 1e-3), 50.0);
     EXPECT_EQ(a.x * factor, b.x);
     EXPECT_EQ(a.v * factor, b.v);
     ASSERT_EQ(a.events.size(), b.events.size());
@@ -231,12 +231,12 @@ TEST(MoreauMotion, more_impacts_than_allowed_and_no_numbers_are_outcomes) {
   point::Problem scene = with_step(support::scene_of({0.0, 0.0, 1.0, 0.0}, -0.75, 0.75, 1.0), 1e-3);
   scene.start.velocity = 1.5;
   scene.time.max_impacts = 10;
-  const accuracy::RunRecord record = support::course_by<Moreau>(scene, 100.0);
+  const accuracy::RunRecord record = support::record_by<Moreau>(scene, 100.0);
   EXPECT_EQ(record.outcome, Outcome::event_budget);
   EXPECT_EQ(record.impacts, 11);
   for (const double value : {infinity, std::nan("")}) {
     scene.start.velocity = value;
-    EXPECT_EQ(support::course_by<Moreau>(scene, 10.0).outcome, Outcome::not_finite) << value;
+    EXPECT_EQ(support::record_by<Moreau>(scene, 10.0).outcome, Outcome::not_finite) << value;
   }
 }
 

@@ -32,7 +32,7 @@ double order_of_smooth_motion(const point::Problem& scene, double theta, int fir
   for (int i = first; i <= last; ++i) {
     steps.push_back(std::ldexp(1.0, -i));
     errors.push_back(
-        support::deviation(support::course_by<Moreau>(with_step(scene, steps.back(), theta), 20.0), reference).end);
+        support::deviation(support::record_by<Moreau>(with_step(scene, steps.back(), theta), 20.0), reference).end);
   }
   return support::order_of(steps, errors);
 }
@@ -52,7 +52,7 @@ TEST(Moreau, the_trapezoidal_rule_keeps_the_energy_of_free_motion_and_its_neighb
   point::Problem scene = support::scene_of({0.0, 0.0, 1.0, 0.0}, -infinity, infinity, 1.0);
   scene.start = {0.6, -0.8, 0.0};
   const auto energy = [&](double theta) {
-    const accuracy::RunRecord record = support::course_by<Moreau>(with_step(scene, 0.01, theta), 200 * pi_);
+    const accuracy::RunRecord record = support::record_by<Moreau>(with_step(scene, 0.01, theta), 200 * pi_);
     return record.x * record.x + record.v * record.v;
   };
   EXPECT_NEAR(energy(0.5), 1.0, 1e4 * 4 * ulp);  // a few roundings in each of ten thousand steps
@@ -76,7 +76,7 @@ TEST(Moreau, an_impact_is_shown_within_a_step) {
     double earliest = infinity, latest = -infinity;  // in steps after the contact
     for (int n = 6000; n < 8000; n += 7) {
       const accuracy::Event impact =
-          support::course_by<Moreau>(with_step(first_contact(0.01, 0.7), 1.0 / n, theta), 0.02).events.at(0);
+          support::record_by<Moreau>(with_step(first_contact(0.01, 0.7), 1.0 / n, theta), 0.02).events.at(0);
       const double late = (impact.time - std::asin(0.01)) / (2 * pi_ / n);
       earliest = std::min(earliest, late), latest = std::max(latest, late);
     }
@@ -91,7 +91,7 @@ TEST(Moreau, an_impacts_speed_is_the_one_half_a_step_off_at_most) {
   for (int n = 1000; n < 1200; ++n) {
     const double allowed = 0.6 * pi_ / n;  // deceleration at the stop times half a step, 2 pi/n/2
     const accuracy::Event impact =
-        support::course_by<Moreau>(with_step(first_contact(0.6, 0.7), 1.0 / n), 1.0).events.at(0);
+        support::record_by<Moreau>(with_step(first_contact(0.6, 0.7), 1.0 / n), 1.0).events.at(0);
     const double error = std::abs(impact.speed - 0.8) / allowed;
     EXPECT_LE(error, 1.02) << n;  // the parts by the jerk and by the rule are of the order of a step
     worst = std::max(worst, error);
@@ -110,7 +110,7 @@ TEST(Moreau, impact_times_and_speeds_are_of_first_order) {
       double time = 0, speed = 0, end = 0;
       for (int k = 0; k < 40; ++k) {
         const support::Deviation d = support::deviation(
-            support::course_by<Moreau>(with_step(scene, 1.0 / (n + k * n / 64), theta), 20.0), reference);
+            support::record_by<Moreau>(with_step(scene, 1.0 / (n + k * n / 64), theta), 20.0), reference);
         ASSERT_TRUE(d.same_events) << n << ": " << d.difference;
         time += d.time, speed += d.speed, end += d.end;
       }
