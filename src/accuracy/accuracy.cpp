@@ -18,7 +18,7 @@ namespace {
 
 using Complexes = std::vector<std::complex<double>>;
 
-/// Complex amplitudes of the harmonics of a result, in the form of a course's.
+/// Complex amplitudes of the harmonics of a result, in the form of those in a RunRecord.
 Complexes complex_amplitudes(const observables::Spectrum& spectrum) {
   Complexes harmonics;
   for (std::size_t k = 0; k < spectrum.amplitude.size(); ++k)
@@ -26,8 +26,8 @@ Complexes complex_amplitudes(const observables::Spectrum& spectrum) {
   return harmonics;
 }
 
-/// Largest error of the harmonics from the first on, over the largest of them, or over the motion's size where they are
-/// no more than its rounding; NaN where one has no value.
+/// Largest error of the harmonics from the first on, over the largest of them, or over the motion's size if they are no
+/// larger than its rounding; NaN if one has no value.
 double harmonics_error(const Complexes& harmonics, const Complexes& reference, double size) {
   double error = 0.0, largest = 0.0;
   for (std::size_t k = 1; k < reference.size(); ++k) {
@@ -56,8 +56,8 @@ std::vector<Event> events_of(const point::PointResult& result) {
   return events;
 }
 
-/// A trial ready to run: the scene that its errors are taken from, the same without what costs time beside it, and what
-/// it is compared with.
+/// A trial ready to run: the scene observed for its errors, the same without observables for its time, and the
+/// reference.
 struct Prepared {
   Trial trial;
   point::Problem observed, silent;
@@ -78,7 +78,8 @@ observables::Observe everything_over(const point::Problem& scene, double duratio
   return observe;
 }
 
-/// What lanes observe of that: they count impacts, keep no log, and know the harmonics of the force alone.
+/// The part of the observables that lanes can observe: they count impacts, keep no log, and sum only the harmonics of
+/// the force.
 observables::Observe in_lanes(observables::Observe observe, const point::Problem& scene) {
   observe.impact_log = observe.full_log = false, observe.impacts = true;
   if (observe.base_frequency != scene.oscillator.frequency) observe.harmonics = 0;
@@ -137,8 +138,8 @@ Prepared prepare(const Trial& trial, const point::Problem& scene, const Referenc
 
 point::WorkItem task_of(const point::Problem& scene) { return {0, scene, effects_of(scene)}; }
 
-/// Runs a trial once, in lanes too, where one point gives what a full crew of it does; nothing where lanes leave it to
-/// the scalar kernel.
+/// Runs a trial once; in lanes, too, once is enough, as each lane of a full block gives the same. Nothing if lanes
+/// leave it to the scalar loop.
 std::optional<point::PointResult> result_of(const Prepared& prepared, point::ThreadScratch& scratch) {
   const lanes::InstructionSet arch = prepared.trial.arch;
   if (arch == lanes::InstructionSet::scalar) return run_point(prepared.observed, scratch);
@@ -148,7 +149,7 @@ std::optional<point::PointResult> result_of(const Prepared& prepared, point::Thr
   return result.in_lanes || failed(result.status) ? std::optional(std::move(result)) : std::nullopt;
 }
 
-/// Runs a trial silently so many times, in lanes so many times a full crew; the forcing periods of all.
+/// Runs a trial without observables so many times, in lanes so many full blocks; returns the forcing periods of all.
 double run_silently(const Prepared& prepared, point::ThreadScratch& scratch, int times) {
   if (const lanes::InstructionSet arch = prepared.trial.arch; arch != lanes::InstructionSet::scalar) {
     const std::size_t points = lanes::lanes_per_block * static_cast<std::size_t>(times);
@@ -159,10 +160,10 @@ double run_silently(const Prepared& prepared, point::ThreadScratch& scratch, int
   return periods;
 }
 
-/// The study of one scene.
-class Study {
+/// The accuracy run of one scene.
+class AccuracyRun {
  public:
-  Study(const point::Problem& scene, const std::vector<Trial>& trials, const AccuracyOptions& options)
+  AccuracyRun(const point::Problem& scene, const std::vector<Trial>& trials, const AccuracyOptions& options)
       : scene_(scene), trials_(trials), options_(options), forecast_(trials, options.rounds) {
     scene_.integration.method = stepping::Method::exact, scene_.integration.all_effects = false;
     scene_.observe = {};
@@ -172,15 +173,15 @@ class Study {
     if (!stopped()) references_ = reference_solution_of(scene_, options_.stopped);
     std::vector<Prepared> prepared;
     for (const Trial& trial : trials_) prepared.push_back(prepare(trial, scene_, references_));
-    PointAccuracy study{.asked = references_.asked,
+    PointAccuracy found{.asked = references_.asked,
                         .horizon = references_.horizon,
                         .impacts = references_.count(Event::Kind::impact),
                         .rests = references_.count(Event::Kind::rest),
                         .steady_periods = references_.periodic ? references_.steady_periods : point::no_value,
                         .rows = {}};
-    for (const Prepared& trial : prepared) study.rows.push_back(row_of(trial, study.rows.size()));
-    measure(prepared, study.rows);
-    return study;
+    for (const Prepared& trial : prepared) found.rows.push_back(row_of(trial, found.rows.size()));
+    measure(prepared, found.rows);
+    return found;
   }
 
  private:
@@ -228,12 +229,12 @@ class Study {
     row.rests_missed = static_cast<double>(errors.rests_missed);
   }
 
-  /// Lanes count impacts, each stop's apart.
+  /// Compares the number of impacts on each stop, as lanes only count them.
   static void compare_counts(const point::PointResult& result, const RunRecord& reference, WorkPrecision& row) {
     row.missed = row.doubled = 0.0;
     const double periods = result.status == steady::Status::transient ? 1.0 : result.observed_turns;
     for (const Side side : {Side::lower, Side::upper}) {
-      const auto counts = [&](const Event& event) {  // an impact at the start belongs to what was before
+      const auto counts = [&](const Event& event) {  // an impact at the start belongs to the time before
         return event.kind == Event::Kind::impact && event.side == side && event.time > 0;
       };
       const double more = std::round(result.impacts_per_period[observables::index_of(side)] * periods) -
@@ -242,9 +243,9 @@ class Study {
     }
   }
 
-  /// All trials in turn, so that what disturbs the machine disturbs them alike.
+  /// Measures all trials in turn, so that other load on the machine disturbs them alike.
   void measure(const std::vector<Prepared>& prepared, std::vector<WorkPrecision>& rows) {
-    std::vector<Timing> stopwatches(prepared.size());
+    std::vector<Timing> timings(prepared.size());
     for (int round = -1; round < options_.rounds; ++round) {  // the first one warms up
       for (std::size_t i = 0; i < prepared.size(); ++i) {
         if (stopped()) return;
@@ -252,14 +253,14 @@ class Study {
         if (row.simulated_periods > 0 && !failed(row.status)) {
           point::ThreadScratch scratch{observables::Harmonics::scratch_for(prepared[i].silent.observe)};
           const auto run = [&](int times) { return run_silently(prepared[i], scratch, times); };
-          stopwatches[i].measure(run, round);
+          timings[i].measure(run, round);
         }
-        forecast_.measured(i, round, stopwatches[i].seconds());
+        forecast_.measured(i, round, timings[i].seconds());
         if (round >= 0) step();
       }
     }
     for (std::size_t i = 0; i < prepared.size(); ++i)
-      rows[i].ns_per_period = stopwatches[i].median(), rows[i].ns_spread = stopwatches[i].spread();
+      rows[i].ns_per_period = timings[i].median(), rows[i].ns_spread = timings[i].spread();
   }
 
   point::Problem scene_;
@@ -276,7 +277,7 @@ std::size_t steps_of(std::size_t rows, const AccuracyOptions& options) {
 }
 
 PointAccuracy study(const point::Problem& scene, const std::vector<Trial>& trials, const AccuracyOptions& options) {
-  return Study(scene, trials, options).run();
+  return AccuracyRun(scene, trials, options).run();
 }
 
 }  // namespace clatter::accuracy

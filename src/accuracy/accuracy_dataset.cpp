@@ -21,8 +21,8 @@ constexpr RowVariable all_row_variables[] = {
     {"rests_missed", "rests of the reference that are missed", &WorkPrecision::rests_missed},
     {"impacts", "impacts simulated", &WorkPrecision::impacts},
     {"simulated_periods", "forcing periods simulated", &WorkPrecision::simulated_periods},
-    {"observed_periods", "forcing periods observed, of periodic motion its period", &WorkPrecision::observed_periods},
-    {"evaluations", "evaluations of arcs by the scalar kernel; of the equation by general methods",
+    {"observed_periods", "forcing periods observed; for periodic motion its period", &WorkPrecision::observed_periods},
+    {"evaluations", "evaluations of arcs in the scalar loop; of the equation of motion by general methods",
      &WorkPrecision::evaluations},
     {"ns_per_period", "median wall time of a forcing period on one thread, in nanoseconds",
      &WorkPrecision::ns_per_period},
@@ -37,7 +37,7 @@ constexpr PointVariable all_point_variables[] = {
     {"steady_periods", "period of the steady motion, in forcing periods", &PointAccuracy::steady_periods},
 };
 
-/// Attributes that tell what the values 0, 1, ... of a variable mean.
+/// Attributes with the meanings of the values 0, 1, ... of a variable.
 std::vector<sweep::Attribute> flags_of(std::span<const std::string_view> names) {
   std::vector<std::uint8_t> flags;
   std::string meanings;
@@ -57,11 +57,11 @@ void add_trials(sweep::Dataset& dataset, const std::vector<WorkPrecision>& rows)
     arch.push_back(static_cast<std::uint8_t>(row.trial.arch));
   }
   dataset.dimensions.push_back({"row", rows.size()});
-  dataset.variables.push_back({"method", {"row"}, std::move(method), "what is varied", "1"});
+  dataset.variables.push_back({"method", {"row"}, std::move(method), "tested method", "1"});
   dataset.variables.back().attributes = flags_of(studied_names);
   dataset.variables.push_back(
       {"setting", {"row"}, std::move(setting), "tolerance, step in forcing periods, or samples", "1"});
-  dataset.variables.push_back({"arch", {"row"}, std::move(arch), "instruction set; but for scalar in its lanes", "1"});
+  dataset.variables.push_back({"arch", {"row"}, std::move(arch), "instruction set whose lanes run; scalar: none", "1"});
   dataset.variables.back().attributes = flags_of(lanes::instruction_set_names);
 }
 
@@ -80,7 +80,7 @@ sweep::Dataset accuracy_dataset(const sweep::Sweep& sweep, const std::vector<Poi
   std::vector<std::uint8_t> status;
   for (const PointAccuracy& point : points)
     for (const WorkPrecision& row : point.rows) status.push_back(static_cast<std::uint8_t>(row.status));
-  dataset.variables.push_back({"status", over_rows, std::move(status), "what became of the run", "1"});
+  dataset.variables.push_back({"status", over_rows, std::move(status), "status of the run", "1"});
   dataset.variables.back().attributes = sweep::status_flags();
   for (const auto& [name, long_name, value] : all_point_variables) {
     std::vector<double> values;

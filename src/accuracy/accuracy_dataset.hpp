@@ -9,23 +9,23 @@
 
 namespace clatter::accuracy {
 
-/// A variable of a study over its rows, and where a row has it.
+/// A variable over the rows of an accuracy run, and its member of a row.
 struct RowVariable {
   const char *name, *long_name;
   double WorkPrecision::*value;
 };
 
-/// A variable of a study over its points.
+/// A variable over the points of an accuracy run, and its member of a point.
 struct PointVariable {
   const char *name, *long_name;
   double PointAccuracy::*value;
 };
 
-/// All of them, in the order of the file.
+/// All variables over rows and over points, in the order of the file.
 [[nodiscard]] std::span<const RowVariable> row_variables();
 [[nodiscard]] std::span<const PointVariable> point_variables();
 
-/// The variables of a study of every point of a sweep: the sweep's axes and `row`; errors and times over both.
+/// The dataset of an accuracy run of every point of a sweep: the sweep's axes and `row`; errors and times over both.
 [[nodiscard]] sweep::Dataset accuracy_dataset(const sweep::Sweep& sweep, const std::vector<PointAccuracy>& points);
 
 }  // namespace clatter::accuracy

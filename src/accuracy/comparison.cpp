@@ -6,7 +6,7 @@
 namespace clatter::accuracy {
 namespace {
 
-/// What happens on one stop.
+/// The events on one stop.
 struct OfStop {
   std::vector<Event> impacts, chatters, rests;
 
@@ -20,7 +20,7 @@ struct OfStop {
     }
   }
 
-  /// Whether a chatter has been completed over a time, to its length at both ends.
+  /// Whether a chatter has been completed at a time, give or take its length at both ends.
   [[nodiscard]] bool completes(double time) const {
     return std::ranges::any_of(chatters, [&](const Event& chatter) {
       return time >= chatter.time - chatter.length && time <= chatter.end() + chatter.length;
@@ -28,10 +28,10 @@ struct OfStop {
   }
 };
 
-/// Pairs the impacts of a run with those of its reference on one stop, and finds what differs.
+/// Pairs the impacts of a run with those of its reference on one stop, and finds the differences.
 class Pairing {
  public:
-  /// A run that keeps its lag lags from one impact to the next.
+  /// `keeps_lag`: the lag at one impact is expected at the next one, too.
   Pairing(const OfStop& run, const OfStop& reference, double latest, bool keeps_lag)
       : run_(run), reference_(reference), latest_(latest), keeps_lag_(keeps_lag) {
     impacts();
@@ -48,7 +48,7 @@ class Pairing {
       const double time = reference_.impacts[i].time;
       const auto off = [&](std::size_t k) { return std::abs(impacts[k].time - time - lag_); };
       while (j < impacts.size() && impacts[j].time < time + earliest(i)) extra(impacts[j++]);
-      while (j + 1 < impacts.size() && off(j + 1) < off(j)) extra(impacts[j++]);  // the nearer one is meant
+      while (j + 1 < impacts.size() && off(j + 1) < off(j)) extra(impacts[j++]);  // pair the nearest one
       if (j < impacts.size() && impacts[j].time <= time + latest(i)) {
         pair(impacts[j++], reference_.impacts[i]);
       } else if (!run_.completes(time + lag_)) {
@@ -79,7 +79,7 @@ class Pairing {
     const bool ahead = (direction > 0 && !last) || first;
     return std::abs(impacts[ahead ? i + 1 : i - 1].time - impacts[i].time) / 2;
   }
-  /// Of the run's impact against the reference's.
+  /// The earliest and latest lag of the run's impact behind the reference's.
   [[nodiscard]] double earliest(std::size_t i) const { return std::max(lag_ - room(i, -1), -latest_); }
   [[nodiscard]] double latest(std::size_t i) const { return std::min(lag_ + room(i, 1), latest_); }
 
@@ -98,10 +98,11 @@ class Pairing {
   double latest_;
   bool keeps_lag_;
   ContactErrors errors_{};
-  double lag_ = 0.0;  ///< of the run behind the reference, at the last pair
+  double lag_ = 0.0;  ///< of the run behind the reference at the last pair, in tau
 };
 
-/// In the way that leaves less unpaired: one sequence comes late as a whole, in another a single impact does.
+/// Pairs with and without a kept lag, and takes the pairing that leaves fewer unpaired: in one sequence all impacts
+/// come late, in another a single one.
 ContactErrors compare_on_stop(const OfStop& run, const OfStop& reference, double latest) {
   const ContactErrors late = Pairing(run, reference, latest, true).errors();
   if (late.missed + late.doubled == 0) return late;
@@ -114,7 +115,7 @@ ContactErrors compare_on_stop(const OfStop& run, const OfStop& reference, double
 Agreement agreement_of(const RunRecord& in_double, const RunRecord& in_fifty_digits, double room) {
   const std::vector<Event> events = with_rests_joined(in_double.events),
                            exact = with_rests_joined(in_fifty_digits.events);
-  const double end = in_double.duration * (1 - 1e-12);  // what happens at the very end may fall on either side of it
+  const double end = in_double.duration * (1 - 1e-12);  // an event at the very end may fall on either side of it
   Agreement agreement{.until = in_double.duration};
   std::size_t j = 0;
   for (const Event& event : events) {

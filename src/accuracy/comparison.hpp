@@ -11,30 +11,30 @@ namespace clatter::accuracy {
 /// The part of a run over which its events in double agree with those in 50 digits.
 struct Agreement {
   std::vector<Event> events{};  ///< impacts and rests of the 50-digit run that the one in double has too
-  double until = 0.0;           ///< tau; the whole duration where they agree to the end
+  double until = 0.0;           ///< tau; the whole duration if they agree to the end
 };
 
-/// Follows both runs until they differ: in a stop, in the kind of what happens, or in a time by more than `room`.
-/// Impacts that 50 digits go on to take where a double has completed a chatter are left out, and a chatter begins where
-/// the double completes it.
+/// Follows both runs until they differ: in a stop, in the kind of an event, or in a time by more than `room`. Impacts
+/// that 50 digits still take once a double has completed a chatter are left out, and a chatter begins when the double
+/// completes it.
 [[nodiscard]] Agreement agreement_of(const RunRecord& in_double, const RunRecord& in_fifty_digits, double room);
 
-/// How the contacts and rests of a run differ from those of a reference.
+/// The differences of the contacts and rests of a run from those of a reference.
 struct ContactErrors {
   double time = 0.0;             ///< largest error of an impact's time, in tau
   double speed = 0.0;            ///< largest error of an impact's speed, over the largest speed
   double rest = 0.0;             ///< largest error of a rest's beginning or end, in tau
-  std::size_t paired = 0;        ///< impacts that both have: where there are none, time and speed mean nothing
+  std::size_t paired = 0;        ///< impacts that both have; if there are none, time and speed are meaningless
   std::size_t rests_paired = 0;  ///< rests that both have
   std::size_t missed = 0;        ///< impacts of the reference that the run doesn't have
   std::size_t doubled = 0;       ///< impacts of the run that the reference doesn't have
   std::size_t rests_missed = 0;  ///< rests of the reference during which the run never rests on that stop
 };
 
-/// Pairs the impacts of each stop in their order. A run may lag behind its reference by what it lags at the impact
-/// before, and half the time to the neighbouring impacts of the stop, together by up to `latest`: a sequence that comes
-/// too late as a whole is late, not missed. Impacts that one of them takes where the other completes a
-/// chatter are neither missed nor doubled.
+/// Pairs the impacts of each stop in their order. A run may lag behind its reference by its lag at the impact before
+/// plus half the time to the neighbouring impacts of the stop, in total by up to `latest`: a sequence that comes too
+/// late as a whole is late, not missed. Impacts that one run takes while the other completes a chatter are neither
+/// missed nor doubled.
 [[nodiscard]] ContactErrors compare(std::span<const Event> run, std::span<const Event> reference, double latest);
 
 }  // namespace clatter::accuracy

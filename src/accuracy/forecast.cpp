@@ -7,7 +7,7 @@
 namespace clatter::accuracy {
 namespace {
 
-/// By how much a trial takes longer than another one of its method.
+/// The ratio of the times of two trials of one method.
 double growth(const Trial& from, const Trial& to) {
   switch (to.studied) {
     case TestedMethod::dopri5:
@@ -19,7 +19,7 @@ double growth(const Trial& from, const Trial& to) {
   }
 }
 
-/// Which share of the time a run takes where nothing is observed of it, as three studies had it.
+/// The share of its time that a run takes without observables, as measured in three accuracy runs.
 double silent_share(TestedMethod studied) {
   if (studied == TestedMethod::moreau) return 0.02;
   return studied == TestedMethod::dopri5 ? 0.12 : 0.7;
@@ -38,8 +38,9 @@ void Forecast::measured(std::size_t row, int round, double seconds) {
   rows_[row].next_round = round + 1;
 }
 
-/// Seconds of a trial's first run, from the last one of its method that has run; by Moreau's coarsest step, which takes
-/// what every run does, nothing is foretold. Of transforms the time is known, and the rest takes next to nothing.
+/// Seconds of a trial's first run, extrapolated from the last one of its method that has run, but not from Moreau's
+/// coarsest step, which takes hardly more than the overhead of a run. The time of transforms is known; other trials
+/// take next to nothing.
 std::optional<double> Forecast::foretold(std::size_t row) const {
   const Trial& trial = rows_[row].trial;
   if (trial.studied == TestedMethod::harmonics_fft) return 5e-8 * trial.setting;

@@ -8,20 +8,21 @@
 
 namespace clatter::accuracy {
 
-/// How long the rest of a study takes. Its trials differ by a factor of a million and the dearest come late, so that
-/// the pace of those before says nothing: of each method a setting is foretold from the one before it.
+/// Estimates the time that the rest of an accuracy run takes. Its trials differ by a factor of a million and the
+/// dearest come late, so the pace so far says nothing: the time of each setting is extrapolated from the setting
+/// before, method by method.
 class Forecast {
  public:
-  /// Each trial is run once, and then measured in a round that warms up and so many more.
+  /// Each trial is run once, and then measured in one round to warm up and `rounds` more.
   Forecast(const std::vector<Trial>& trials, int rounds);
 
-  /// A trial has run for the first time, and all is observed.
+  /// Records the first run of a trial, with all observables.
   void ran(std::size_t row, double seconds);
-  /// A trial has been measured in a round, -1 the first, or left out; a silent run of it takes so long, 0: it never
-  /// runs.
+  /// Records the measurement of a trial in a round, -1 the first, or that it was left out; `seconds` is the time of a
+  /// run without observables, 0 if the trial never runs.
   void measured(std::size_t row, int round, double seconds);
 
-  /// Nothing as long as no trial of each dear method has run.
+  /// Nothing until a trial of each dear method has run.
   [[nodiscard]] std::optional<double> seconds_left() const;
 
  private:

@@ -13,7 +13,7 @@ namespace {
 constexpr double steady_tolerance = 1e-12;
 constexpr double agreement_room = 1e-8;  ///< forcing periods by which double and 50 digits may differ: half the digits
 
-/// Motion from the start in 50 digits as far as a double follows it.
+/// Finds the motion from the start in 50 digits, for as long as a run in double agrees.
 void find_motion_from_start(const point::Problem& scene, double duration, const std::function<bool()>& stopped,
                             ReferenceSolution& found) {
   const double period = period_of(scene.oscillator);
@@ -37,13 +37,13 @@ void find_motion_from_start(const point::Problem& scene, double duration, const 
   found.from_start = std::move(exact);
 }
 
-/// Whether a periodic motion in 50 digits is the one that a double has found, not another one nearby.
+/// Whether a periodic motion in 50 digits is the one found in double, not another one nearby.
 bool same_motion(const RunRecord& exact, const Start& in_double) {
   const double size = std::max(std::abs(exact.x), std::abs(exact.v));
   return std::max(std::abs(exact.x - in_double.displacement), std::abs(exact.v - in_double.velocity)) <= 1e-6 * size;
 }
 
-/// Looks for it with a tolerance of the study's own: a loose one finds another motion.
+/// Finds the steady motion with a tolerance of at most `steady_tolerance`: a loose one may find another motion.
 void find_steady_motion(point::Problem scene, const std::function<bool()>& stopped, ReferenceSolution& found) {
   scene.time.tolerance = std::min(scene.time.tolerance, steady_tolerance);
   point::ThreadScratch scratch;

@@ -11,14 +11,14 @@
 namespace clatter::accuracy {
 namespace {
 
-/// A stretch of motion rounded to double.
+/// A motion at an instant, rounded to double.
 motion::Motion<double> rounded(const motion::Motion<FiftyDigits>& m) {
   const auto d = [](const FiftyDigits& y) { return static_cast<double>(y); };
   return {d(m.offset), d(m.x), d(m.v), d(m.a), d(m.sine), d(m.cosine)};
 }
 const motion::Motion<double>& rounded(const motion::Motion<double>& m) { return m; }
 
-/// Keeps the events of a run and, where asked for, its observables and its derivative.
+/// Records the events of a run and, if asked for, its observables and its derivative.
 template <class Number, Effects E>
 class RunObserver {
  public:
@@ -75,7 +75,7 @@ motion::State<Number> start_of(const point::Problem& scene) {
   return state;
 }
 
-/// Runs for a time in turns, unless it is stopped.
+/// Runs for a time given in forcing periods, unless it is stopped.
 template <stepping::Integrator I, class Observer>
 stepping::Outcome run_unless(const std::function<bool()>& stopped, I& integrator,
                              motion::State<typename I::Number>& state, const typename I::Number& turns,
@@ -96,11 +96,11 @@ RunRecord run_from(const point::Problem& scene, motion::State<Number> state, con
   RunRecord record;
   record.duration = duration;
   stepping::Exact<Number, E> integrator(scene, limits_of(scene));
-  RunObserver<Number, E> witness(scene, observables);
-  record.outcome = run_unless(stopped, integrator, state, turns, witness);
+  RunObserver<Number, E> observer(scene, observables);
+  record.outcome = run_unless(stopped, integrator, state, turns, observer);
   record.x = static_cast<double>(state.x), record.v = static_cast<double>(state.v);
   record.impacts = integrator.impacts(), record.evaluations = integrator.evaluations();
-  witness.finish(record);
+  observer.finish(record);
   return record;
 }
 
@@ -114,21 +114,21 @@ RunRecord run_in(const point::Problem& scene, double duration, const std::option
   });
 }
 
-/// Moves a state to the fixed point of the map over so many periods; whether it got there.
+/// Moves a state to the fixed point of the map over so many periods; false if that fails.
 template <Effects E>
 bool to_fixed_point(const point::Problem& scene, motion::State<FiftyDigits>& start, double periods,
                     const std::function<bool()>& stopped) {
   constexpr int most_iterations = 12;
   for (int iteration = 0; iteration < most_iterations; ++iteration) {
     stepping::Exact<FiftyDigits, E> integrator(scene, limits_of(scene));
-    RunObserver<FiftyDigits, E> witness(scene, std::nullopt);
-    witness.differentiate();
+    RunObserver<FiftyDigits, E> observer(scene, std::nullopt);
+    observer.differentiate();
     motion::State<FiftyDigits> end = start;
-    if (run_unless(stopped, integrator, end, FiftyDigits(periods), witness) != stepping::Outcome::completed)
+    if (run_unless(stopped, integrator, end, FiftyDigits(periods), observer) != stepping::Outcome::completed)
       return false;
     const FiftyDigits dx = end.x - start.x, dv = end.v - start.v;
     if (abs(dx) + abs(dv) <= FiftyDigits(1e-30) * (abs(end.x) + abs(end.v))) return true;
-    const motion::Jacobian<FiftyDigits> D = witness.derivative();
+    const motion::Jacobian<FiftyDigits> D = observer.derivative();
     const FiftyDigits determinant = (1 - D[0]) * (1 - D[3]) - D[1] * D[2];
     start.x += ((1 - D[3]) * dx + D[1] * dv) / determinant;
     start.v += (D[2] * dx + (1 - D[0]) * dv) / determinant;

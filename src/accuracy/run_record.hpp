@@ -14,7 +14,7 @@
 
 namespace clatter::accuracy {
 
-/// What happens in a run, in the order of time.
+/// An event of a run.
 struct Event {
   enum class Kind : std::uint8_t { impact, chatter, rest };  ///< chatter: the completed rest of infinitely many impacts
 
@@ -27,27 +27,27 @@ struct Event {
   [[nodiscard]] double end() const { return time + length; }
 };
 
-/// The event that an observer sees.
+/// The event of an impact or a rest that an observer is told of.
 [[nodiscard]] Event event_of(const motion::Impact& impact);
 [[nodiscard]] Event event_of(const motion::Rest& rest);
 
-/// One rest for each stay on a stop: a section cuts a rest in two, whose ends meet.
+/// Joins the two parts into which a stroboscopic section cuts a rest: then there is one rest for each time on a stop.
 [[nodiscard]] std::vector<Event> with_rests_joined(const std::vector<Event>& events);
 
-/// A run of a scene, rounded to doubles from the number type it was made in.
+/// A run of a scene, rounded to doubles from its number type.
 struct RunRecord {
   stepping::Outcome outcome = stepping::Outcome::unresolved;
   std::vector<Event> events{};
   double duration = 0.0;
   double x = 0.0, v = 0.0;                           ///< at the end
-  double impacts = 0.0;                              ///< taken
+  double impacts = 0.0;                              ///< number of impacts
   double evaluations = 0.0;                          ///< of arcs
-  observables::Extrema::Range x_range{}, v_range{};  ///< where observables are asked for
+  observables::Extrema::Range x_range{}, v_range{};  ///< if observables are asked for
   std::vector<std::complex<double>> harmonics{},
       v_harmonics{};  ///< of x and x', shape [harmonic], as Spectrum takes them
 };
 
-/// What is observed of a course besides its events.
+/// The observables of a run record, besides its events.
 struct RecordObservables {
   std::size_t harmonics = 0;  ///< highest
   double base_frequency = 1.0;
@@ -57,15 +57,15 @@ struct RecordObservables {
 [[nodiscard]] RunRecord record_of(const point::Problem& scene, double duration,
                                   const std::optional<RecordObservables>& observables = std::nullopt);
 
-/// The same source run in 50 digits: the reference. It completes a chatter only where a double would long have done so.
-/// Observables are taken from its arcs, each rounded to double at its start: an error of a few roundings, that doesn't
-/// grow. Unresolved where `stopped`, asked at every section, ends it.
+/// The same source run in 50 digits: the reference. It completes a chatter only long after a double would have done so.
+/// Observables are taken from its arcs, each rounded to double at its start: an error of a few roundings, which doesn't
+/// grow. The outcome is `unresolved` if `stopped`, which is called at every section, ends it.
 [[nodiscard]] RunRecord reference_of(const point::Problem& scene, double duration,
                                      const std::optional<RecordObservables>& observables = std::nullopt,
                                      const std::function<bool()>& stopped = {});
 
 /// The periodic motion of so many forcing periods, a whole number, near the scene's start, by Newton's method in 50
-/// digits; nothing where it doesn't converge to 30 digits, or `stopped` ends it.
+/// digits; nothing if that doesn't converge to 30 digits, or `stopped` ends it.
 [[nodiscard]] std::optional<RunRecord> periodic_reference(const point::Problem& scene, double periods,
                                                           const RecordObservables& observables,
                                                           const std::function<bool()>& stopped = {});

@@ -10,32 +10,32 @@
 
 namespace clatter::accuracy {
 
-/// What a row of a study varies.
+/// The method that a row tests.
 enum class TestedMethod : std::uint8_t {
   exact,              ///< the exact integrator, over the horizon
   dopri5,             ///< setting: tolerance
   moreau,             ///< setting: step, in forcing periods
   harmonics_exact,    ///< harmonics from the arcs
   harmonics_fft,      ///< setting: samples
-  steady,             ///< setting: tolerance of the repeat; with closed forms and Newton's method
-  steady_repetition,  ///< the same by repetition alone
+  steady,             ///< setting: tolerance of the repeat; steady search by all ways
+  steady_repetition,  ///< setting: tolerance of the repeat; steady search by repetition alone
 };
 
-/// In the order of Studied.
+/// In the order of TestedMethod.
 inline constexpr std::array<std::string_view, 7> studied_names{
     "exact", "dopri5", "moreau", "harmonics_exact", "harmonics_fft", "steady", "steady_repetition"};
 
 /// A row before it is run.
 struct Trial {
   TestedMethod studied = TestedMethod::exact;
-  double setting = 0.0;  ///< NaN where there is none
+  double setting = 0.0;  ///< NaN if there is none
   lanes::InstructionSet arch =
-      lanes::InstructionSet::scalar;  ///< instruction set; but for scalar the exact method runs in its lanes
+      lanes::InstructionSet::scalar;  ///< the exact method runs in the lanes of this set; scalar: in the scalar loop
 };
 
-/// A complete study: exact; dopri5 at tolerances 1e-3 ... 1e-13; Moreau's time stepping at steps of 1e-1 ... 1e-5
-/// periods; harmonics, exact and of 2^4 ... 2^20 samples; unless motion is transient, steady detection at tolerances
-/// 1e-3 ... 1e-14. With an instruction set, exact in its lanes beside the first, and steady detection at 1e-12 there.
+/// All trials: exact; dopri5 at tolerances 1e-3 ... 1e-13; Moreau's time stepping at steps of 1e-1 ... 1e-5 periods;
+/// harmonics, exact and of 2^4 ... 2^20 samples; in steady mode, the steady search at tolerances 1e-3 ... 1e-14. With
+/// an instruction set other than scalar also exact and the steady search at 1e-12 in its lanes.
 [[nodiscard]] std::vector<Trial> trials_of(steady::Mode mode, lanes::InstructionSet arch);
 
 }  // namespace clatter::accuracy

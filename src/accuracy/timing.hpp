@@ -10,11 +10,11 @@
 
 namespace clatter::accuracy {
 
-/// Wall times of a trial.
+/// Measures wall times of a trial.
 class Timing {
  public:
-  /// Lets a trial run often enough to be measured; a slow one is measured in the first rounds only. `run` is told how
-  /// often, and says how many forcing periods that took.
+  /// Runs a trial often enough to measure its time; a slow one is measured in the first rounds only. `run(times)` runs
+  /// it so many times and returns the forcing periods of all.
   void measure(const std::function<double(int times)>& run, int round) {
     if (is_left_out(seconds_, round)) return;
     const auto begin = std::chrono::steady_clock::now();
@@ -24,9 +24,9 @@ class Timing {
     if (round >= 0) ns_per_period_.push_back(1e9 * seconds / periods);
     batch_ = static_cast<int>(std::clamp(shortest / seconds_, 1.0, 1e6));
   }
-  /// Of one run, as last measured.
+  /// Seconds of one run, as last measured.
   [[nodiscard]] double seconds() const { return seconds_; }
-  /// How long a measurement lasts of a trial that takes so long; 0: it never runs.
+  /// Seconds that a measurement of a trial takes in a round, by the seconds of one run, 0 if it never runs.
   [[nodiscard]] static double lasts(double seconds, int round) {
     if (seconds == 0 || is_left_out(seconds, round)) return 0;
     return round < 0 ? seconds : std::max(shortest, seconds);

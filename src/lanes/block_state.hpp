@@ -14,13 +14,15 @@ struct alignas(64) LaneArray {
 /// One bit for each lane.
 using LaneMask = std::uint32_t;
 
-/// Scenes that run side by side, a lane each: what their kernel reads and writes, the same for every instruction set.
+/// The state of scenes that run side by side, a lane each: all that the step functions read and write, the same for
+/// every instruction set.
 ///
 /// Each lane counts its time in steps of a length that an enclosure usually proves free of contact at once. So v and w
-/// are velocities times that length and a is the acceleration times its square; displacements are seen from the load's
-/// equilibrium. The motion is the steady response to the force plus a free part (p, w).
+/// are velocities times that length and a is the acceleration times its square; displacements count from the load's
+/// equilibrium. The motion is the steady response to the force plus a free part (p, w). Sections are the stroboscopic
+/// sections of `motion::State`.
 struct BlockState {
-  static constexpr std::size_t most_harmonics = 8;  ///< that are summed in lanes
+  static constexpr std::size_t most_harmonics = 8;  ///< the highest harmonic that is summed in lanes
 
   // of the oscillator
   LaneArray free_pp, free_pw, free_wp, free_ww;  ///< free motion over a step: p' = pp p + pw w, w' = ww w - wp p
@@ -31,47 +33,47 @@ struct BlockState {
   LaneArray push, stiffness;                     ///< f nu times the step cubed; the step squared
   LaneArray rate;                                ///< one over the step
   LaneArray inverse_angle;                       ///< one over the angle
-  LaneArray amplitude, span;                     ///< of the response; the step
+  LaneArray amplitude, span;                     ///< amplitude of the response; the step
   // of the stops
-  LaneArray lower, upper, keep_lower, keep_upper;  ///< places and restitution
+  LaneArray lower, upper, keep_lower, keep_upper;  ///< positions and restitution
   // of the enclosure
   LaneArray bound, bound_forced;  ///< the error of its middle coefficient is bound (|p| + |w| rate) + bound_forced
-  LaneArray rounding;             ///< of places, the part that doesn't depend on the free motion
+  LaneArray rounding;             ///< of displacements: the part that doesn't depend on the free motion
   // of the sections
   LaneArray period, start_sine, start_cosine;
-  // where the lanes are
+  // present state
   LaneArray p, w, sine, cosine, y, v, a;
   LaneArray left;       ///< time to the next section
-  LaneArray to_next;    ///< from that to the one after it, by the lane's clock
-  LaneArray longer;     ///< by what part sine and cosine are to be shortened at the next section
-  LaneArray impacts;    ///< met so far
+  LaneArray to_next;    ///< time from the next section to the one after it, by the lane's clock
+  LaneArray longer;     ///< the relative excess of sine and cosine, taken off at the next section
+  LaneArray impacts;    ///< number of impacts so far
   LaneArray itinerary;  ///< stops met since the last section
-  // what a visit reports
-  LaneArray section_y, section_v;                ///< at the section that was passed
-  LaneArray section_itinerary, section_impacts;  ///< trace and impacts up to it
+  // reports of a step function
+  LaneArray section_y, section_v;                ///< displacement and velocity at the section that was passed
+  LaneArray section_itinerary, section_impacts;  ///< itinerary and impacts up to it
   LaneMask arrived;                              ///< lanes that have passed a section and report it
-  LaneMask to_scalar;                            ///< lanes that the kernel cannot take on from where they are
-  // of what is observed, where it is
+  LaneMask to_scalar;                            ///< lanes that the scalar loop has to advance from their state
+  // observation
   LaneArray skip_sections;                 ///< sections that are passed without a report before the next one
   LaneArray ends;                          ///< 1: the next section ends the observed time
-  LaneArray stop_short;                    ///< 1: and the flight across it isn't taken, since it leads beyond
-  LaneArray bound_v, bound_forced_v;       ///< as bound and bound_forced, of the velocity
+  LaneArray stop_short;                    ///< 1: stop before the section; the flight across it would overshoot
+  LaneArray bound_v, bound_forced_v;       ///< as bound and bound_forced, for the velocity
   LaneArray y_low, y_high, v_low, v_high;  ///< least and greatest so far
   /// The beginning of the flight in which an extremum was found, and its length.
   struct Reference {
     LaneArray p, w, sine, cosine, length;
   };
   Reference reference_y[2], reference_v[2];  ///< [least, greatest]
-  LaneArray forced_size;                     ///< what a unit of phase changes the displacement and velocity by, at most
+  LaneArray forced_size;                     ///< bound of the change of displacement and velocity per unit of phase
   LaneArray count[2], before[2], after[2];   ///< [stop]: impacts, and the velocities of the first one
-  LaneArray first_before;                    ///< velocity before the first impact of all
+  LaneArray first_before;                    ///< velocity before the first impact on either stop
   LaneArray jump_real[most_harmonics + 1],
       jump_imaginary[most_harmonics + 1];  ///< [k]: sums of the velocity's jumps times e^{-ik nu tau}
-  bool extrema;                            ///< whether y and v are searched for them
+  bool extrema;                            ///< whether those of y and v are observed
   bool counts;                             ///< whether impacts are counted, and the first on each stop noted
   std::size_t harmonics;                   ///< highest k that is summed; 0: none
-  // what it took
-  double proved, refined;  ///< lanes times steps that were to be proved, and times contacts that were looked for
+  // work
+  double proved, refined;  ///< lanes times steps to be proved, and lanes times contacts to be refined
 };
 
 }  // namespace clatter::lanes

@@ -4,12 +4,12 @@
 
 namespace clatter::lanes {
 
-/// A function at both ends of a stretch of time, over that time: value, first and second derivative.
+/// A function at both ends of an interval of time: value, and first and second derivative by time over its length.
 template <class V>
 struct HermiteData {
   V y0, v0, a0, y1, v1, a1;
 
-  /// From derivatives by a time of which the stretch is `length`.
+  /// From derivatives by a time in which the interval has the length `length`.
   static HermiteData scaled(const HermiteData& e, const V& length) {
     const V square = length * length;
     return {e.y0, e.v0 * length, e.a0 * square, e.y1, e.v1 * length, e.a1 * square};
@@ -20,14 +20,14 @@ template <class V>
 struct Interval {
   V low, high;
 
-  /// A NaN of its own stays, and then no comparison proves anything: where one operand is NaN, min and max give the
+  /// Keeps a NaN of its own, so that no comparison then proves anything: if an operand is NaN, min and max give the
   /// second one.
   void include(const V& y) { low = min(y, low), high = max(y, high); }
 };
 
-/// Interval of a function but for its values at both ends: of the Bernstein coefficients of degree 6 of its quintic
-/// Hermite polynomial, the middle one widened by what the function may differ from it (dynamics/bernstein.hpp). NaN
-/// where any of these is: the middle one depends on all of them, and stands second.
+/// Interval of a function without its values at both ends: that of the inner Bernstein coefficients of its quintic
+/// Hermite polynomial (eq. 12), the middle one widened by the error (eq. 13). NaN if any input is: the middle
+/// coefficient depends on all of them, and stands second in min and max.
 template <class V>
 [[nodiscard, gnu::always_inline]] inline Interval<V> enclosure(const HermiteData<V>& e, const V& error) {
   const V b1 = fma(V(1.0 / 6), e.v0, e.y0), b2 = fma(V(1.0 / 30), e.a0, fma(V(1.0 / 3), e.v0, e.y0));
@@ -36,7 +36,7 @@ template <class V>
   return {min(min(min(b1, b2), min(b4, b5)), b3 - error), max(max(max(b1, b2), max(b4, b5)), b3 + error)};
 }
 
-/// The quintic Hermite polynomial itself, by powers of the part t of the stretch.
+/// The quintic Hermite polynomial itself, by powers of the part t of the interval.
 template <class V>
 class QuinticHermite {
  public:
@@ -59,8 +59,8 @@ class QuinticHermite {
     return {fma(f4, t, c0_), fma(s4, t, f4), fma(h4, t, s4)};
   }
 
-  /// Where it is least, if that is between the ends: by Newton's iteration for the slope's root, from the least inner
-  /// point of the control polygon.
+  /// The t of its least value, if that is between the ends: by Newton's iteration for the slope's root, from the least
+  /// inner point of the control polygon.
   [[nodiscard]] V least() const {
     const auto [b1, b2, b3, b4] = polygon();
     const V left = select(b1 < b2, V(0.2), V(0.4)), right = select(b4 < b3, V(0.8), V(0.6));
@@ -71,8 +71,8 @@ class QuinticHermite {
     }
     return t;
   }
-  /// The first root of a polynomial that begins positive: from the first crossing of its control polygon, by a step of
-  /// Halley's method; by two for the wanted ones on the way to which the slope changes much.
+  /// The first root of a polynomial that begins positive: from the first crossing of its control polygon, by one step
+  /// of Halley's method, or two for those wanted roots on the way to which the slope changes much.
   template <class Mask>
   [[nodiscard, gnu::always_inline]] V root(const Mask& wanted) const {
     const auto [b1, b2, b3, b4] = polygon();

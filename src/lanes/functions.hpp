@@ -32,7 +32,7 @@ struct SineAndCosine {
   V sine, cosine;
 };
 
-/// Sine and cosine of 0 <= x <= 2.2, to 4 ulps of 1: Taylor's series of half the angle.
+/// Sine and cosine of 0 <= x <= 2.2, to 4 ulps of 1: the Taylor series of half the angle.
 template <class V>
 [[nodiscard, gnu::always_inline]] inline SineAndCosine<V> short_sine_cosine(const V& x) {
   static constexpr auto sine_terms = alternating_series<9>(1, 2);
@@ -43,7 +43,7 @@ template <class V>
   return {twice * cosine, fnma(twice, sine, V(1.0))};
 }
 
-/// e^-x of 0 <= x <= 2.2, to 2 ulps of 1: e^(-x/8) - 1 by Taylor's series, doubled three times.
+/// e^-x for 0 <= x <= 2.2, to 2 ulps of 1: e^(-x/8) - 1 by the Taylor series, doubled three times.
 template <class V>
 [[nodiscard, gnu::always_inline]] inline V short_decay(const V& x) {
   static constexpr auto terms = alternating_series<12>(1, 1);

@@ -7,10 +7,10 @@
 
 namespace clatter::lanes {
 
-/// Instruction sets that motion is computed with: one point at a time, or 2, 4, 8 in the lanes of a vector.
+/// Instruction sets for the computation of motion: one point at a time, or 2, 4, 8 in the lanes of a vector.
 enum class InstructionSet : std::uint8_t { scalar, sse2, avx2, avx512 };
 
-/// In the order of Arch.
+/// In the order of InstructionSet.
 inline constexpr std::array<std::string_view, 4> instruction_set_names{"scalar", "sse2", "avx2", "avx512"};
 
 [[nodiscard]] constexpr std::string_view name_of(InstructionSet arch) {
@@ -31,7 +31,7 @@ inline constexpr std::array<std::string_view, 4> instruction_set_names{"scalar",
   return true;
 }
 
-/// The widest that this machine has.
+/// The widest instruction set that this machine has.
 [[nodiscard]] inline InstructionSet widest_instruction_set() {
   return is_supported(InstructionSet::avx512) ? InstructionSet::avx512
          : is_supported(InstructionSet::avx2) ? InstructionSet::avx2

@@ -6,7 +6,8 @@
 
 namespace clatter::lanes {
 
-/// Motion at an instant: the free part, the forcing phase, and the place, velocity and acceleration that they make.
+/// Motion at an instant: free part (p, w), forcing phase, and the displacement y, velocity and acceleration that
+/// follow.
 template <class V>
 struct LaneMotion {
   V p, w, sine, cosine, y, v, a;
@@ -25,11 +26,11 @@ struct Jet {
   V d3, d4, d5, d6, d7;
 };
 
-/// What an enclosure of a step is uncertain by, and what places are rounded by.
+/// Error bounds of a step.
 template <class V>
 struct ErrorBound {
-  V free;  ///< size of the free motion
-  V error, rounding;
+  V free;             ///< size of the free motion
+  V error, rounding;  ///< of the enclosure's middle coefficient (eq. 13); of displacements
 };
 
 /// The closed forms of the motion of some lanes; time counts in their steps.
@@ -65,12 +66,12 @@ class ClosedForm {
     m.p = fma(fma(skew, s, c), from.p, b * from.w);
     m.w = fms(fnma(skew, s, c), from.w, b * row(lanes_.stiffness) * from.p);
   }
-  /// The forcing phase then.
+  /// The forcing phase a time 0 <= d <= 1 after `from`.
   void move_phase(LaneMotion<V>& m, const LaneMotion<V>& from, const V& d) const {
     const auto [sine, cosine] = short_sine_cosine(row(lanes_.angle) * d);
     turn(m, from, sine, cosine);
   }
-  /// Free part from displacement, velocity and phase.
+  /// Sets the free part from displacement, velocity and phase (eq. 5).
   void divide(LaneMotion<V>& m) const {
     m.p = m.y - response(m.sine, m.cosine), m.w = m.v - response_velocity(m.sine, m.cosine);
   }
@@ -100,7 +101,7 @@ class ClosedForm {
 
   static constexpr double longest_shift = 0x1p-7;  ///< below it the series of `shift` is exact to rounding
 
-  /// Moves an instant by a time |t| <= longest_shift, by Taylor's series; its displacement and free part are left to
+  /// Moves an instant by a time |t| <= longest_shift, by the Taylor series; its displacement and free part are left to
   /// the caller.
   void shift(LaneMotion<V>& m, const Jet<V>& j, const V& t) const {
     m.v = fma(
@@ -121,7 +122,7 @@ class ClosedForm {
     m.cosine = m.cosine + fms(m.cosine, cosine, before * sine);
   }
 
-  /// The time, about as short as longest_shift or shorter, from `m` to a place nearby: Newton's method on the series.
+  /// The time, at most about longest_shift, from `m` to a displacement nearby: Newton's method on the Taylor series.
   [[nodiscard]] static V time_to(const V& place, const LaneMotion<V>& m, const Jet<V>& j) {
     const V missing = place - m.y, inverse = V(1.0) / m.v, half = m.a * 0.5;
     V t = missing * inverse;
@@ -135,12 +136,12 @@ class ClosedForm {
     return t;
   }
 
-  /// For a step that begins at m.
+  /// The error bounds of a step that begins at m (eqs. 13 and 14).
   [[nodiscard]] ErrorBound<V> uncertainty(const LaneMotion<V>& m) const {
     const V free = fma(abs(m.w), row(lanes_.rate), abs(m.p));
     return {free, fma(row(lanes_.bound), free, row(lanes_.bound_forced)), fma(V(0x1p-49), free, row(lanes_.rounding))};
   }
-  /// Of the velocity's enclosure.
+  /// The error bound of the velocity's enclosure.
   [[nodiscard]] V error_v(const ErrorBound<V>& u) const {
     return fma(row(lanes_.bound_v), u.free, row(lanes_.bound_forced_v));
   }

@@ -4,7 +4,7 @@
 
 namespace clatter::lanes {
 
-/// What is observed of the flights and impacts of some lanes: the observers of the scalar kernel, in lanes.
+/// The observers of flights and impacts for the lanes of a vector, as those of the scalar loop.
 template <class V>
 class LaneObservers {
   using Mask = typename V::Mask;
@@ -16,8 +16,8 @@ class LaneObservers {
         y_{V::load(lanes.y_low.lane + first), V::load(lanes.y_high.lane + first)},
         v_{V::load(lanes.v_low.lane + first), V::load(lanes.v_high.lane + first)} {}
 
-  /// A flight from one instant to another; of a step it is the part `length`, and its displacement lies within `range`.
-  /// Returns the lanes for which its extrema are sure; of the others nothing is noted.
+  /// Observes a flight of `length` steps whose displacement lies within `range`. Returns the lanes for which its
+  /// extrema are certain; for the others nothing is recorded.
   [[gnu::always_inline]] Mask flight(const Mask& active, const LaneMotion<V>& from, const LaneMotion<V>& to,
                                      const V& length, const ErrorBound<V>& uncertainty, const Interval<V>& range) {
     if (!lanes_.extrema) return active;
@@ -27,7 +27,7 @@ class LaneObservers {
         HermiteData<V>::scaled({from.v, from.a, motions_.jerk(from), to.v, to.a, motions_.jerk(to)}, length);
     Interval<V> new_y = y_, new_v = v_;
     new_y.include(to.y), new_v.include(to.v);
-    const V forced = row(lanes_.amplitude);  // what the flight can't exceed: response and free part at their largest
+    const V forced = row(lanes_.amplitude);  // the flight can't exceed response plus free part at their largest
     const Mask open_y = active & !within(inside(range, forced + uncertainty.free), new_y, slack);
     const Mask open_v = active & !within(inside(enclosure(v, error_v),
                                                 fma(uncertainty.free, row(lanes_.span), forced * row(lanes_.angle))),
@@ -35,18 +35,19 @@ class LaneObservers {
     Mask sure = active;
     if (any(open_y)) {
       const HermiteData<V> y = HermiteData<V>::scaled({from.y, from.v, from.a, to.y, to.v, to.a}, length);
-      const auto jet = [](const LaneMotion<V>& m, const Jet<V>& j) { return RunRecord{m.y, m.v, m.a, j.d3, j.d4}; };
+      const auto jet = [](const LaneMotion<V>& m, const Jet<V>& j) { return Derivatives4{m.y, m.v, m.a, j.d3, j.d4}; };
       sure = sure & search(open_y, new_y, y, from, length, uncertainty.error * part, slack, lanes_.reference_y, jet);
     }
     if (any(open_v)) {
-      const auto jet = [](const LaneMotion<V>& m, const Jet<V>& j) { return RunRecord{m.v, m.a, j.d3, j.d4, j.d5}; };
+      const auto jet = [](const LaneMotion<V>& m, const Jet<V>& j) { return Derivatives4{m.v, m.a, j.d3, j.d4, j.d5}; };
       sure = sure & search(open_v, new_v, v, from, length, error_v, slack, lanes_.reference_v, jet);
     }
     take(sure, new_y, new_v);
     return sure;
   }
 
-  /// An impact of the lanes `met` at an instant after it; those that are `counted` are in the observed time.
+  /// Observes an impact of the lanes `met`, with their motion `at` just after it; those that are `counted` are within
+  /// the observed time.
   void impact(const Mask& met, const Mask& counted, const Mask& upper, const LaneMotion<V>& at, const V& before,
               const V& jump) {
     Interval<V> with_after = v_;
@@ -74,7 +75,7 @@ class LaneObservers {
 
  private:
   /// A function at an instant, and its first four derivatives.
-  struct RunRecord {
+  struct Derivatives4 {
     V value, slope, curvature, third, fourth;
   };
 
@@ -93,9 +94,10 @@ class LaneObservers {
     return (part.low >= whole.low - slack) & (part.high <= whole.high + slack);
   }
 
-  /// Widens a range by the extremum of a flight whose enclosure passes it, in the open lanes; returns those lanes in
-  /// which then nothing does, and all others. `ends` is what is searched, over the flight; `derivatives` tells it at an
-  /// instant. A flight as good as equal to the one in which the extremum was found before isn't searched again.
+  /// Widens a range, in the open lanes, by the extremum of a flight whose enclosure exceeds it; returns the lanes whose
+  /// enclosure is then within it, and all that were not open. `ends` has the searched function over the flight,
+  /// `derivatives` at an instant. A flight equal, to rounding, to the one in which the extremum was found isn't
+  /// searched again.
   template <class Derivatives>
   [[gnu::noinline]] Mask search(const Mask& open, Interval<V>& range, const HermiteData<V>& ends,
                                 const LaneMotion<V>& from, const V& length, const V& error, const V& slack,
@@ -108,11 +110,11 @@ class LaneObservers {
                        (like(references[1], from, length, slack) | !high);
     const Mask left = open & !known;
     if (!any(left)) return (!open) | known;
-    const V sign = select(upward, -one, one);  // of a greatest or a least value
+    const V sign = select(upward, -one, one);  // a greatest value is a least one of the negative
     const HermiteData<V> below{sign * ends.y0, sign * ends.v0, sign * ends.a0,
                                sign * ends.y1, sign * ends.v1, sign * ends.a1};
     V part = min(max(QuinticHermite<V>(below).least(), zero), one), more;
-    RunRecord at;
+    Derivatives4 at;
     for (int pass = 0; pass < 3; ++pass) {
       const LaneMotion<V> near = motions_.after(from, part * length);
       at = derivatives(near, motions_.jet(near));
@@ -138,8 +140,8 @@ class LaneObservers {
     return (!open) | known | found;
   }
 
-  /// Whether a flight begins as the reference did, and lasts no longer: then it stays as close to it as it began, for
-  /// the difference of two motions is a free one and that of their forcing phases.
+  /// Whether a flight begins as the reference did, and lasts no longer: then it stays as close to the reference as it
+  /// began, since their difference is a free motion and a constant shift of the forcing phase.
   Mask like(const BlockState::Reference& r, const LaneMotion<V>& from, const V& length, const V& slack) const {
     const V free = fma(abs(from.w - row(r.w)), row(lanes_.rate), abs(from.p - row(r.p)));
     const V phase = abs(from.sine - row(r.sine)) + abs(from.cosine - row(r.cosine));
@@ -151,7 +153,7 @@ class LaneObservers {
     put(r.length, select(m, length, row(r.length)));
   }
 
-  /// Adds jumps of the velocity times e^{-ik nu tau} to the sums that make the harmonics.
+  /// Adds jumps of the velocity times e^{-ik nu tau} to the sums of the harmonics (eq. 38).
   void add_jump(const Mask& counted, const V& jump, const LaneMotion<V>& at) const {
     const V s0 = row(lanes_.start_sine), c0 = row(lanes_.start_cosine), zero(0.0);
     const V cosine = select(counted, fma(at.cosine, c0, at.sine * s0), zero);

@@ -11,7 +11,7 @@
 
 namespace clatter::lanes {
 
-/// A point in a lane: what it is, how far its motion is known, and the scalar kernel that helps it.
+/// A point in a lane: its scene, the state of the search for its steady motion, and the scalar loop to fall back on.
 class Scheduler::LaneTask {
  public:
   explicit LaneTask(const point::WorkItem& item);
@@ -20,30 +20,30 @@ class Scheduler::LaneTask {
 
   [[nodiscard]] const point::WorkItem& item() const { return item_; }
 
-  /// What is known at the start, of a transient all of it; else takes a lane to settle in.
+  /// The observed time if it is known at the start, as for a transient; else nothing, and the lane is loaded to settle.
   [[nodiscard]] std::optional<steady::ObservedTime> begin(BlockState& lanes, std::size_t lane);
-  /// What is known at the section that the lane has passed.
+  /// The observed time if it is known at the section that the lane has passed.
   [[nodiscard]] std::optional<steady::ObservedTime> at_section(const BlockState& lanes, std::size_t lane);
   [[nodiscard]] steady::ObservedTime failure(stepping::Outcome outcome) const;
 
-  /// Notes what is to be observed, and whether lanes can do it.
+  /// Keeps the time to observe; true if lanes can observe it.
   [[nodiscard]] bool can_observe(const steady::ObservedTime& observed);
   void begin_to_observe(BlockState& lanes, std::size_t lane);
-  /// Takes note of a section that was passed under observation; whether the observed time is over.
+  /// Records a section that was passed while observing; true if the observed time is over.
   [[nodiscard]] bool ends(BlockState& lanes, std::size_t lane);
 
-  /// Takes a stuck lane on by the scalar kernel: by two steps, or to the next section.
+  /// Advances a lane in the scalar loop: by two steps, or to the next section.
   [[nodiscard]] stepping::Outcome scalar_fallback(BlockState& lanes, std::size_t lane);
-  /// Whether the scalar kernel alone would be quicker, or has to observe.
+  /// Whether the scalar loop alone would be quicker, or has to observe.
   [[nodiscard]] bool leaves_lane() const { return gives_up_ || fallbacks_ > 64 + 2 * sections_; }
 
-  /// Whether so many impacts that the lane has met are too many; the point has failed then.
+  /// Whether the lane's impacts exceed the budget; the point has failed then.
   [[nodiscard]] bool has_spent_budget(double impacts);
-  /// The share done of all that the point may come to.
+  /// The share of its limits that the point has spent.
   [[nodiscard]] double share(const BlockState& lanes, std::size_t lane) const;
 
-  void add_impacts(double impacts) { impacts_ += impacts; }                      ///< that a lane met
-  [[nodiscard]] point::PointResult result(point::ThreadScratch& scratch) const;  ///< observed by the scalar kernel
+  void add_impacts(double impacts) { impacts_ += impacts; }                      ///< adds impacts met in a lane
+  [[nodiscard]] point::PointResult result(point::ThreadScratch& scratch) const;  ///< observed in the scalar loop
   [[nodiscard]] point::PointResult result(const BlockState& lanes, std::size_t lane,
                                           point::ThreadScratch& scratch) const;
 
@@ -61,21 +61,20 @@ class Scheduler::LaneTask {
 
   point::WorkItem item_;
   Kernel exact_;
-  double
-      log_area_;  ///< logarithm of the area that an impact leaves, on the stop that takes less: which it is isn't known
-  std::optional<steady::SteadySearch<effects>> search_{};  ///< a transient needs none
+  double log_area_;  ///< logarithm of the factor by which an impact shrinks areas, at the stop that shrinks them less
+  std::optional<steady::SteadySearch<effects>> search_{};  ///< none for a transient
   steady::ObservedTime observed_{};
-  std::optional<Kernel> settled_{};       ///< the scalar kernel before lanes began to observe
-  double settled_impacts_ = 0.0;          ///< that lanes had met until then
-  motion::State<double> fallback_end_{};  ///< where the scalar kernel left the lane
-  double fallback_left_ = std::numeric_limits<double>::quiet_NaN();  ///< its time to the next section then
+  std::optional<Kernel> settled_{};       ///< the scalar integrator as it was before lanes observed
+  double settled_impacts_ = 0.0;          ///< impacts that lanes had met until then
+  motion::State<double> fallback_end_{};  ///< the state in which the scalar loop left the lane
+  double fallback_left_ = std::numeric_limits<double>::quiet_NaN();  ///< the lane's time to the next section then
   std::int64_t sections_ = 0, fallbacks_ = 0;
   std::int64_t skip_sections_ = 0;  ///< sections that the lane passes without a report before the next one
-  double impacts_ = 0.0;            ///< that lanes have met, once the member has left them
-  double section_impacts_ = 0.0;    ///< of lane and scalar kernel, up to the last section
+  double impacts_ = 0.0;            ///< impacts in lanes that the point has left
+  double section_impacts_ = 0.0;    ///< impacts of lane and scalar loop, up to the last section
   bool observing_ = false;
-  bool coasts_ = false;    ///< no stop can be met under observation any more
-  bool gives_up_ = false;  ///< it rested under observation, or failed: only the scalar kernel tells what comes of it
+  bool coasts_ = false;    ///< no stop can be met any more while observing
+  bool gives_up_ = false;  ///< it rested while observed, or failed: only the scalar loop can have its result
 };
 
 }  // namespace clatter::lanes

@@ -13,15 +13,15 @@ namespace {
 
 constexpr Effects effects = {.damping = Damping::light, .forcing = Forcing::regular};
 
-/// Of a step, times the larger of 1 and nu: below it more steps are proved, above it fewer of them are free of a stop.
+/// Length of a step times max(1, nu): shorter steps are more to prove, longer ones are free of contact less often.
 constexpr double usual_step = 2.0;
 
-/// What places are rounded by, over the sizes of the parts that they are sums of.
+/// Bound of the rounding of displacements, relative to the sizes of their summands.
 constexpr double rounding = 0x1p-49;
 
 double step_of(const Scene& scene) { return usual_step / std::max(1.0, scene.oscillator.frequency); }
 
-/// Fills a lane with what its enclosures are uncertain by.
+/// Sets the error bounds of a lane's enclosures.
 void set_bounds(BlockState& lanes, std::size_t i, const motion::ArcConstants<double, effects>& constants,
                 const Stops& stops, double step) {
   const auto error_of = [&](double free, int derivative) {

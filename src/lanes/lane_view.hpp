@@ -6,39 +6,39 @@
 
 namespace clatter::lanes {
 
-/// The displacement and velocity of a lane at a forcing phase, given in turns since the last section.
+/// The displacement and velocity of a lane at a forcing phase, in turns since the last stroboscopic section.
 struct LaneState {
   double x, v, turns;
 };
 
-/// Whether a scene can go into a lane: motion under a force between stops, lightly damped, away from resonance, with
-/// lengths and frequencies that leave an enclosure room.
+/// Whether a scene can run in a lane: forced motion between stops, lightly damped, away from resonance, with lengths
+/// and frequencies that leave an enclosure room.
 [[nodiscard]] bool accepts(const Scene& scene);
 
-/// Makes a lane ready for a scene that meets the given stops, at its start.
+/// Loads a lane with a scene that meets the given stops, at its start.
 void load_lane(BlockState& lanes, std::size_t lane, const Scene& scene, const Stops& stops);
 
-/// Makes a lane stand still and report nothing.
+/// Clears a lane: it stands still and reports nothing.
 void clear_lane(BlockState& lanes, std::size_t lane);
 
-/// Where a lane stands.
+/// The present state of a lane.
 [[nodiscard]] LaneState place_of(const BlockState& lanes, std::size_t lane, const Scene& scene);
 
-/// Moves a lane to another place.
+/// Sets the state of a lane.
 void put(BlockState& lanes, std::size_t lane, const Scene& scene, const LaneState& place);
 
-/// Begins to observe a lane; where it `ends` with the next section, it may be `clipped` there.
+/// Begins to observe a lane. If observation `ends` at the next section, the lane may have to `stop_short` of it.
 void watch(BlockState& lanes, std::size_t lane, bool ends, bool stop_short);
 
-/// Takes every lane on: to its next contact, past the next section, or by a few steps, whichever comes first.
+/// Advances every lane: to its next contact, past the next section, or by a few steps, whichever comes first.
 using StepFunction = void (*)(BlockState&);
 
-/// The kernel for one instruction set, plain and with observers.
+/// The step functions of one instruction set, plain and with observers.
 struct StepFunctions {
   StepFunction plain, observed;
 };
 
-/// Of an instruction set that this machine has; not scalar.
+/// The step functions for an instruction set that this machine has, not scalar.
 [[nodiscard]] StepFunctions step_functions_of(InstructionSet arch);
 
 }  // namespace clatter::lanes

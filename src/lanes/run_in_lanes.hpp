@@ -9,12 +9,12 @@ namespace clatter::lanes {
 
 inline constexpr std::size_t lanes_per_block = 16;  ///< points that run side by side in lanes
 
-/// Whether a point of the exact method can go into lanes: it meets stops, or is a transient, and its scene fits.
+/// Whether a point of the exact method can run in lanes: it meets stops, or is a transient, and its scene is accepted.
 [[nodiscard]] bool accepts(const point::WorkItem& item);
 
-/// Runs a point that can go into lanes so many times, at least once, side by side in those of an instruction set that
-/// isn't scalar, on this thread. The result, the same each time; `in_lanes` says whether the scalar kernel had to
-/// observe it after all.
+/// Runs an accepted point `times` times, at least once, side by side in the lanes of an instruction set that isn't
+/// scalar, on this thread. Returns the result, the same each time; its `in_lanes` is false if the scalar loop had to
+/// observe the point.
 [[nodiscard]] point::PointResult run_in_lanes(const point::WorkItem& item, std::size_t times, InstructionSet arch,
                                               point::ThreadScratch& scratch);
 

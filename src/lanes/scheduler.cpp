@@ -8,19 +8,20 @@
 namespace clatter::lanes {
 namespace {
 
-/// The first lane of a set, which then is out of it.
+/// The first lane of a set, removed from it.
 std::size_t taken_from(LaneMask& set) {
   const auto lane = static_cast<std::size_t>(std::countr_zero(set));
   set &= set - 1;
   return lane;
 }
 
-constexpr std::uint64_t between_looks = 1 << 17;  ///< visits: some tenth of a second
+constexpr std::uint64_t between_looks = 1 << 17;  ///< steps of a block: some tenth of a second
 
 }  // namespace
 
-Scheduler::Scheduler(const StepFunctions& visits, point::ThreadScratch& scratch, WorkQueue next, ResultSink take)
-    : step_functions_(visits), scratch_(scratch), next_(std::move(next)), take_(std::move(take)) {}
+Scheduler::Scheduler(const StepFunctions& step_functions, point::ThreadScratch& scratch, WorkQueue next,
+                     ResultSink take)
+    : step_functions_(step_functions), scratch_(scratch), next_(std::move(next)), take_(std::move(take)) {}
 
 Scheduler::~Scheduler() = default;
 
@@ -31,7 +32,7 @@ void Scheduler::run() {
     fill();
     if (settling_.taken + observing_.taken == 0) return;
     if (++steps_made_ % between_looks == 0) take_stock();
-    const bool observe = observing_.taken == LaneArray::width || settling_.taken == 0;  // a full bench costs no more
+    const bool observe = observing_.taken == LaneArray::width || settling_.taken == 0;  // a full block costs no more
     if (observe) {
       step_block(observing_, step_functions_.observed);
     } else {
@@ -40,8 +41,7 @@ void Scheduler::run() {
   }
 }
 
-/// Looks at points that are long at work between two sections: whether they have spent their budget, and how far all
-/// have come.
+/// Fails points that have spent their budget of impacts between two sections, and reports the progress of all.
 void Scheduler::take_stock() {
   double shares = 0;
   for (Block* const block : {&settling_, &observing_})
@@ -58,27 +58,27 @@ void Scheduler::take_stock() {
   if (scratch_.progress) scratch_.progress(shares);
 }
 
-/// Lets the next points settle in free lanes, unless many wait to be observed.
+/// Loads the next points into free lanes to settle, unless many wait to be observed.
 void Scheduler::fill() {
   for (std::size_t lane = 0; lane < LaneArray::width && settling_.taken < LaneArray::width && !exhausted_; ++lane)
     if (!settling_.tasks[lane] && waiting_.size() < LaneArray::width) settle_next(lane);
 }
 
-void Scheduler::step_block(Block& block, StepFunction kernel) {
+void Scheduler::step_block(Block& block, StepFunction step) {
   block.lanes.arrived = block.lanes.to_scalar = 0;
-  kernel(block.lanes);
-  // sections first: a lane that has passed one may have got stuck beyond it, which no longer matters if it is done
+  step(block.lanes);
+  // sections first: a lane that needs the scalar loop beyond its section doesn't if it is done there
   look(block);
   while (block.lanes.to_scalar != 0) scalar_fallback(block, taken_from(block.lanes.to_scalar));
   look(block);
 }
 
-/// Looks at the lanes that have passed a section.
+/// Handles the lanes that have passed a section.
 void Scheduler::look(Block& block) {
   while (block.lanes.arrived != 0) look(block, taken_from(block.lanes.arrived));
 }
 
-/// Takes a member off its lane, where it has met so many impacts.
+/// Takes a point off its lane, in which it has met `impacts` impacts.
 std::unique_ptr<Scheduler::LaneTask> Scheduler::leave(Block& block, std::size_t lane, double impacts) {
   block.lanes.to_scalar &= ~(LaneMask{1} << lane);
   block.tasks[lane]->add_impacts(impacts);
@@ -106,7 +106,7 @@ void Scheduler::settle_next(std::size_t lane) {
   }
 }
 
-/// Observes a member in a free lane, or lets it wait for one.
+/// Observes a point in a free lane, or queues it for one.
 void Scheduler::settled(std::unique_ptr<LaneTask> task) {
   waiting_.push_back(std::move(task));
   for (std::size_t lane = 0; lane < LaneArray::width && !waiting_.empty(); ++lane)

@@ -11,25 +11,24 @@
 
 namespace clatter::lanes {
 
-/// The points that one thread runs side by side in SIMD lanes: first until their motion is known, then, in other lanes,
-/// to observe it. A lane whose point is done takes the next one; what the lanes' kernel leaves undone, chatter, rest
-/// and grazes, the scalar kernel does for a short time. What a point gives depends neither on its lane nor on its
-/// neighbours.
+/// Runs the points of one thread side by side in SIMD lanes: first until their motion is known, then, in other lanes,
+/// to observe it. A lane whose point is done takes the next one; chatter, rest and grazes, which the vector code leaves
+/// out, run in the scalar loop for a short time. A point's result depends neither on its lane nor on its neighbours.
 class Scheduler {
  public:
-  /// The next point, one that fits into lanes; nothing: there are no more.
+  /// Gives the next point that lanes accept; nothing if there are no more.
   using WorkQueue = std::function<std::optional<point::WorkItem>()>;
   using ResultSink = std::function<void(const point::WorkItem&, point::PointResult&&)>;
 
-  Scheduler(const StepFunctions& visits, point::ThreadScratch& scratch, WorkQueue next, ResultSink take);
+  Scheduler(const StepFunctions& step_functions, point::ThreadScratch& scratch, WorkQueue next, ResultSink take);
   ~Scheduler();
   Scheduler(const Scheduler&) = delete;
   Scheduler& operator=(const Scheduler&) = delete;
 
-  /// Runs all points that `next` gives, and lets `take` have their results.
+  /// Runs all points that `next` gives, and passes their results to `take`.
   void run();
 
-  /// Lanes times steps that were to be proved free of contact, and times contacts that were looked for.
+  /// Lanes times steps to be proved free of contact, and lanes times contacts to be refined.
   [[nodiscard]] double proved() const { return settling_.lanes.proved + observing_.lanes.proved; }
   [[nodiscard]] double refined() const { return settling_.lanes.refined + observing_.lanes.refined; }
 
@@ -41,7 +40,7 @@ class Scheduler {
     std::size_t taken = 0;
   };
 
-  void step_block(Block& block, StepFunction kernel);
+  void step_block(Block& block, StepFunction step);
   void take_stock();
   void scalar_fallback(Block& block, std::size_t lane);
   void look(Block& block);
@@ -57,7 +56,7 @@ class Scheduler {
   WorkQueue next_;
   ResultSink take_;
   Block settling_, observing_;
-  std::vector<std::unique_ptr<LaneTask>> waiting_;  ///< to be observed; as many as there are lanes, at most some more
+  std::vector<std::unique_ptr<LaneTask>> waiting_;  ///< to be observed: about as many as there are lanes at most
   bool exhausted_ = false;                          ///< there are no more points
   std::uint64_t steps_made_ = 0;
 };

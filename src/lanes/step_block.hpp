@@ -5,11 +5,11 @@
 
 namespace clatter::lanes {
 
-/// Takes the lanes of a vector on: each to its next contact, past its next section, or by a few steps. Everything here
+/// Advances the lanes of a vector: each to its next contact, past its next section, or by a few steps. Everything here
 /// is a template on the vector's type V, so that no code of one instruction set is ever merged with that of another.
 ///
-/// What happens to a lane depends on that lane alone; how far it gets in a visit depends on its neighbours, since those
-/// that have come to a contact wait until half of them have, and are then taken through it together.
+/// The motion of a lane depends on that lane alone. How far it advances in a call depends on its neighbours, since
+/// lanes at a contact wait until half of the vector has come to one, and then pass it together.
 template <class V, bool observes>
 class StepBlock {
   using Mask = typename V::Mask;
@@ -42,14 +42,14 @@ class StepBlock {
 
  private:
   static constexpr int most_steps = 6;
-  /// Speed over acceleration below which a contact is left to the scalar kernel.
+  /// Speed over acceleration below which a contact is left to the scalar loop.
   static constexpr double grazing = 0x1p-12;
-  /// In half steps: a contact that a shorter one follows is left to it, too.
+  /// In half steps: a contact that a shorter flight would follow is left to the scalar loop, too.
   static constexpr double shortest_flight = 0x1p-5;
 
   V row(const LaneArray& r) const { return motions_.row(r); }
 
-  /// Steps that are proved free of contact, until at most half of the lanes can go on.
+  /// Takes steps that are proved free of contact (eq. 15), until at most half of the lanes can go on.
   void step() {
     const V one(1.0);
     Mask stepping = !none_;
@@ -63,7 +63,7 @@ class StepBlock {
       const Mask below = stepping & !(range.low >= row(lanes_.lower) + uncertainty.rounding);
       unproved_ = unproved_ | above | below, upper_ = upper_ | (above & ((!below) | (here_.v > V(0.0))));
       const Mask passes = left_ <= one;
-      stepping = stepping & !(above | below | (passes & arrived_));  // a second section waits for the next visit
+      stepping = stepping & !(above | below | (passes & arrived_));  // a second section waits for the next call
       if constexpr (observes) {
         const Mask seen = watch_.flight(stepping & !clipped(one), here_, next, one, uncertainty, range);
         to_scalar_ = to_scalar_ | (stepping & !seen), stepping = seen;
@@ -78,18 +78,18 @@ class StepBlock {
 
   HermiteData<V> ends(const LaneMotion<V>& to) const { return {here_.y, here_.v, here_.a, to.y, to.v, to.a}; }
 
-  /// Lanes whose observed time ends within a time from here, which the scalar kernel has to take there.
+  /// Lanes whose observed time ends within a time from here; the scalar loop has to take them there.
   Mask clipped(const V& time) const { return (row(lanes_.stop_short) > V(0.0)) & (left_ <= time); }
 
-  /// The end of a flight from here: the contact, or where a lane waits short of one.
+  /// The end of a flight from here: the contact, or an instant short of one.
   struct ContactGuess {
     LaneMotion<V> at;
-    V time;  ///< of the flight, a part of a step
-    Mask crosses, good;
+    V time;              ///< of the flight, a part of a step
+    Mask crosses, good;  ///< there is a contact; the guess can be used
   };
 
-  /// About where the touched lanes have their first contact, by the quintic, or where it has none the place that is
-  /// next to the stop.
+  /// A guess of the first contact of the unproved lanes, by the quintic; if it has none, its nearest approach to the
+  /// stop.
   ContactGuess guess_contact(const LaneMotion<V>& to, const V& error, const V& sign, const V& stop) const {
     const V zero(0.0), one(1.0), back = -sign;
     const QuinticHermite<V> gap(HermiteData<V>{sign * (stop - here_.y), back * here_.v, back * here_.a,
@@ -99,13 +99,13 @@ class StepBlock {
     g.time = gap.root(unproved_);
     if (any(unproved_ & !g.crosses)) {
       const V place = gap.least();
-      // a lane has to get on: only one on its way to the stop can turn at once
+      // a lane has to advance: only one that moves to the stop can turn back at once
       const V soonest = select(sign * here_.v > zero, V(0x1p-40), V(0x1p-4));
       const V turning = select((place > soonest) & (place < one), place, V(0.5));
       const V least = gap.at(turning).value, part = turning * (one - turning);
       const V uncertain = error * (part * part * part * 20.0);
       const Mask misses = (!g.crosses) & (least >= -uncertain);
-      // where the error doesn't tell, only half of the way: a shorter flight has far less of it
+      // if the error leaves it open, only half of the way: a shorter flight has a far smaller error
       g.time = select(misses, select(least > uncertain, turning, turning * 0.5), g.time);
       g.crosses = !misses;
     }
@@ -114,7 +114,7 @@ class StepBlock {
     return g;
   }
 
-  /// The instant of the goal to rounding, by the closed form and Taylor's series.
+  /// Refines the guess to rounding, by the closed form and the Taylor series.
   void refine_contact(const V& stop, ContactGuess& g) const {
     const V zero(0.0), one(1.0), longest(ClosedForm<V>::longest_shift);
     for (int pass = 0;; ++pass) {
@@ -133,7 +133,8 @@ class StepBlock {
     }
   }
 
-  /// Takes the touched lanes to their goal, proves the flight up to there, and reverses their velocity in a contact.
+  /// Takes the unproved lanes to their contact, or short of it, proves the flight up to there, and reverses the
+  /// velocity in a contact (eq. 4).
   void contact() {
     lanes_.refined += static_cast<double>(V::size);
     const V zero(0.0), one(1.0);
@@ -172,8 +173,8 @@ class StepBlock {
     to_scalar_ = to_scalar_ | (unproved_ & !(g.good | waits));
   }
 
-  /// Takes note of the lanes that pass a section on their flight from here to `to`. There the phase is known; what the
-  /// last section has told of the clock's error, and of the length of sine and cosine, is put right now.
+  /// Records the lanes that pass a section on their flight from here to `to`, and corrects the clock, and the length of
+  /// sine and cosine, by the errors that were found at the section before.
   void pass_sections(const Mask& arrives, LaneMotion<V>& to) {
     if (!any(arrives)) return;
     from_.p = select(arrives, here_.p, from_.p), from_.w = select(arrives, here_.w, from_.w);
@@ -186,8 +187,8 @@ class StepBlock {
     arrived_ = arrived_ | arrives;
   }
 
-  /// How far clock and phase have come apart at the sections that were passed, and displacement and velocity at those
-  /// that are reported.
+  /// Computes the difference of clock and phase at the sections that were passed, and displacement and velocity at
+  /// those that are reported.
   void sections() {
     reported_ = arrived_;
     if constexpr (observes) {
@@ -200,7 +201,7 @@ class StepBlock {
     motions_.move_phase(m, from_, time_);
     const V ahead = fms(m.sine, cosine, m.cosine * sine) * row(lanes_.inverse_angle);
     const V longer = fma(m.sine, m.sine, fms(m.cosine, m.cosine, V(1.0))) * 0.5;
-    // half of it, since it is put right one section later
+    // half of the difference, since the correction comes one section later
     motions_.put(lanes_.to_next, select(arrived_, fnma(V(0.5), ahead, row(lanes_.period)), row(lanes_.to_next)));
     motions_.put(lanes_.longer, select(arrived_, longer * 0.5, row(lanes_.longer)));
     if (!any(reported_)) return;
@@ -224,12 +225,12 @@ class StepBlock {
   LaneObservers<V> watch_;
   LaneMotion<V> here_;
   V left_, itinerary_;
-  LaneMotion<V> from_;  ///< where the flight across a section began; place, velocity and acceleration aren't kept
+  LaneMotion<V> from_;  ///< beginning of the flight across a section: free part and phase only
   V time_;              ///< from there to the section
   Mask none_, arrived_, reported_, unproved_, upper_, to_scalar_;
 };
 
-/// Lets numbers below 1e-308 be 0 while lanes are visited: a free motion that has died out would else cost a hundred
+/// Makes numbers below 1e-308 count as 0 while lanes run: a free motion that has died out would else cost a hundred
 /// times as much as a live one.
 template <class A>
 class FlushToZero {
@@ -243,7 +244,7 @@ class FlushToZero {
   unsigned before_;
 };
 
-/// Takes every lane on.
+/// Advances every lane.
 template <class A, bool observes>
 void step_all(BlockState& lanes) {
   using V = Pair<A>;

@@ -9,7 +9,7 @@ namespace clatter::lanes {
 template <class A>
 struct PairMask;
 
-/// Two SIMD vectors side by side: while one waits for a result, the other computes.
+/// Two SIMD vectors side by side, so that the operations of one fill the latency of the other's.
 template <class A>
 struct Pair {
   using Mask = PairMask<A>;
@@ -62,7 +62,7 @@ PairMask<A> operator>=(const Pair<A>& x, const Pair<A>& y) {
 
 // xsimd 8.1 has no fused multiplication and addition for AVX-512.
 
-/// x y + z, in one rounding where the instruction set has it.
+/// x y + z, in one rounding if the instruction set has it.
 template <class A>
 xsimd::batch<double, A> fma(const xsimd::batch<double, A>& x, const xsimd::batch<double, A>& y,
                             const xsimd::batch<double, A>& z) {
@@ -139,7 +139,7 @@ unsigned bits(const PairMask<A>& m) {
   return bits(m.first) | bits(m.second) << xsimd::batch<double, A>::size;
 }
 
-/// How many lanes a mask holds for.
+/// The number of lanes in a mask.
 template <class A>
 int count(const PairMask<A>& m) {
   return __builtin_popcount(bits(m));

@@ -14,10 +14,9 @@ namespace clatter::inline math {
 template <class Number>
 using Bernstein = std::array<Number, 7>;
 
-/// The polynomial of degree 6 that has value, first and second derivative y, y', y'' at both ends of a step, as
-/// Bernstein coefficients minus the value at its beginning (quintic Hermite interpolation, its degree raised by one). A
-/// function with |y^(6)| <= M differs from it by at most M step^6 / 14400 times the middle Bernstein function, i.e. by
-/// that much in coefficient 3 alone.
+/// Quintic Hermite interpolation of y, y', y'' at both ends of a step, its degree raised to 6, as Bernstein
+/// coefficients minus the value at the beginning (eq. 12). A function with |y^(6)| <= M differs from it by at most M
+/// step^6 / 14400 times the middle Bernstein function (eq. 13), so by a change of coefficient 3 alone.
 template <class Number>
 [[nodiscard]] Bernstein<Number> hermite(const Number& step, const Number& offset, const std::array<Number, 2>& first,
                                         const std::array<Number, 2>& second) {
@@ -50,8 +49,8 @@ template <class Number>
           b3};
 }
 
-/// Splits a polynomial at u: coefficients of the part before; `c` becomes those of the part after. The value at u is
-/// the last of the first part (de Casteljau).
+/// Splits a polynomial at u (de Casteljau): returns the coefficients of the part before, the last of which is the value
+/// at u; `c` becomes those of the part after.
 [[nodiscard]] inline Bernstein<double> split_off(Bernstein<double>& c, double u) {
   Bernstein<double> before;
   for (std::size_t n = c.size(); n-- > 0;) {
@@ -64,7 +63,7 @@ template <class Number>
 /// The value at u.
 [[nodiscard]] inline double value_at(Bernstein<double> c, double u) { return split_off(c, u).back(); }
 
-/// What the middle coefficient is uncertain by, for step^6 |y^(6)| <= bound over the step.
+/// The uncertainty of the middle coefficient if step^6 |y^(6)| <= bound over the step (eq. 13).
 template <class Number>
 [[nodiscard]] Number hermite_error(const Number& bound) {
   return bound / 14400;
@@ -77,7 +76,7 @@ template <class Number>
   return 20 * w * w * w;
 }
 
-/// First place in (0, 1] where a polynomial that begins at >= 0 becomes negative, to rounding; roots at 0 itself don't
+/// The first u in (0, 1], to rounding, at which a polynomial that begins at >= 0 becomes negative; roots at 0 don't
 /// count.
 template <class Number>
 class FirstRoot {
@@ -144,10 +143,10 @@ class FirstRoot {
   }
 
   [[nodiscard]] static std::optional<Number> search(Piece piece, int depth) {
-    while (piece.degree > 0 && piece.c[0] == 0) piece.divide_by_u();  // what remains has the same sign right of 0
+    while (piece.degree > 0 && piece.c[0] == 0) piece.divide_by_u();  // the quotient has the same sign right of 0
     if (piece.degree == 0) return piece.c[0] < 0 ? std::optional<Number>(Number(0)) : std::nullopt;
     int changes = 0;
-    bool negative = false;  // a coefficient of 0 counts as what it touches: not negative
+    bool negative = false;  // a coefficient of 0 counts as not negative
     for (std::size_t i = 0; i <= piece.degree; ++i)
       if ((piece.c[i] < 0) != negative) negative = !negative, ++changes;
     if (changes == 0) return std::nullopt;

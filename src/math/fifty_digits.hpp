@@ -4,8 +4,8 @@
 
 namespace clatter::inline math {
 
-/// The reference number type: 50 decimal digits, without expression templates so that the kernel's source needs no
-/// casts.
+/// The reference number type: 50 decimal digits, without expression templates, so that source written for double
+/// compiles without casts.
 using FiftyDigits =
     boost::multiprecision::number<boost::multiprecision::cpp_bin_float<50>, boost::multiprecision::et_off>;
 

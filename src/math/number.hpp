@@ -19,13 +19,13 @@ template <class Number>
   return std::numeric_limits<Number>::epsilon();
 }
 
-/// a where the mask holds, else b; what lanes do in place of a branch.
+/// a if the mask holds, else b; for SIMD vectors it replaces a branch.
 template <class Number>
 [[nodiscard]] Number select(bool mask, const Number& a, const Number& b) {
   return mask ? a : b;
 }
 
-/// (x^2 + y^2)^(1/2) where the squares would overflow or vanish, too.
+/// (x^2 + y^2)^(1/2), also if the squares would overflow or vanish.
 template <class Number>
 [[nodiscard]] Number norm(const Number& x, const Number& y) {
   using std::abs, std::sqrt;

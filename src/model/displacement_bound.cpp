@@ -20,14 +20,15 @@ double root_of(const Oscillator& oscillator) { return std::sqrt((1 - oscillator.
 
 bool rotates(const Oscillator& oscillator) { return oscillator.damping > 0 && oscillator.damping < 1; }
 
-/// B of the transient Im(B e^{(-h + i lambda) t}).
+/// B of the transient Im(B e^{(-h + i lambda) t}), the T of eq. 19.
 Complex rotation(const Oscillator& oscillator, const PhasePoint& transient) {
   return {(transient.v + oscillator.damping * transient.x) / root_of(oscillator), transient.x};
 }
 
-/// Bound of |R + B e^{(-h + i delta) t}| for all t >= 0. In each part of the first turn the second term is no longer
-/// than at its beginning; the modulus is convex in that length, so at most what it is there or without the term; later
-/// turns repeat the angles with shorter lengths. `slack` is what delta, relative, and the angles may be off by.
+/// Bound of |R + B e^{(-h + i delta) t}| for all t >= 0 (eq. 19). In each part of the first turn the second term is at
+/// most as long as at the beginning of the part; the modulus is convex in that length, so no more than with this length
+/// or without the term; later turns repeat the angles with shorter lengths. `slack` bounds the relative error of delta
+/// and the error of the angles.
 double beat_bound(const Complex& R, const Complex& B, double h, double delta) {
   constexpr int parts = 48;
   constexpr double slack = 1e-4;
@@ -67,7 +68,7 @@ double transient_bound(const Oscillator& oscillator, const PhasePoint& transient
   if (rotates(oscillator)) return std::min(energy, std::abs(rotation(oscillator, transient)) * std::exp(-h * after));
   // e^{-slow t} [x + (v + slow x) (1 - e^{-2 lambda t})/(2 lambda)], the last factor being at most t
   const double root = std::sqrt((h - 1) * (h + 1)), slow = 1 / (h + root), decay = std::exp(-slow * after);
-  const double longest = std::max(after, 1 / slow);  // where t e^{-slow t} is greatest
+  const double longest = std::max(after, 1 / slow);  // the t >= after at which t e^{-slow t} is greatest
   const double creep = std::min(longest * std::exp(-slow * longest), decay / (2 * root));
   return std::min(energy, decay * std::abs(transient.x) + std::abs(transient.v + slow * transient.x) * creep);
 }
@@ -112,7 +113,7 @@ double displacement_bound(const Oscillator& oscillator, const PhaseState& now, d
 bool out_of_reach(const Oscillator& oscillator, const PhaseState& now, const Stops& stops) {
   const double gap = std::min(oscillator.load - stops.lower, stops.upper - oscillator.load);
   const auto response = steady_response(oscillator.damping, oscillator.forcing, oscillator.frequency);
-  return response.amplitude < gap &&  // what it comes to: no need to look further
+  return response.amplitude < gap &&  // necessary, and cheap to check first
          displacement_bound(oscillator, now, std::numeric_limits<double>::infinity(), gap) < gap;
 }
 

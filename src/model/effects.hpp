@@ -16,24 +16,25 @@ enum class Damping : std::uint8_t { none, light, critical, heavy };
 /// f = 0, away from resonance, at it or so near that the response is nearly secular.
 enum class Forcing : std::uint8_t { none, regular, secular };
 
-/// What a motion is made of. As a template argument it leaves out of the code what is absent, so that it costs nothing.
+/// The effects that a motion has. As a template argument they keep absent effects out of the code, so these cost
+/// nothing.
 struct Effects {
   Damping damping = Damping::none;
   Forcing forcing = Forcing::none;
   bool load = false;                  ///< a constant force
   bool lower = false, upper = false;  ///< a stop in reach
-  bool dissipation = false;           ///< speed is lost on a stop in reach: R < 1
+  bool dissipation = false;           ///< speed is lost at a stop in reach: R < 1
   bool rest = false;                  ///< chatter and rest: a stop in reach may be pressed
 
   [[nodiscard]] constexpr bool stops() const { return lower || upper; }
 
-  /// What the arcs between impacts depend on.
+  /// The effects that arcs between impacts depend on.
   [[nodiscard]] constexpr Effects arc() const { return {.damping = damping, .forcing = forcing}; }
 
   friend constexpr bool operator==(const Effects&, const Effects&) = default;
 };
 
-/// Whether a kernel for `all` simulates whatever `some` calls for.
+/// Whether code compiled for `all` simulates every effect in `some`.
 [[nodiscard]] constexpr bool contains(const Effects& all, const Effects& some) {
   const bool decays_twice = some.damping >= Damping::critical;
   const bool damping =
@@ -58,9 +59,10 @@ namespace effect_sets {
 
 }  // namespace effect_sets
 
-/// The sets of effects that are compiled, the cheaper before the dearer. Not told apart, since telling them apart saves
-/// little: the load (an addition), one stop or two (looked at once a step, not in every evaluation), dissipation (a
-/// multiplication an impact), and critical damping, which is rare. README shows what each effect costs.
+/// The compiled sets of effects, the cheaper before the dearer. Some effects have no set of their own, since leaving
+/// them out saves little: the load (one addition), the second stop (one check a step, not in every evaluation),
+/// dissipation (one multiplication an impact), and critical damping, which is rare. src/model/README.md has the cost of
+/// each effect.
 inline constexpr std::array compiled_effects{
     effect_sets::free_of_stops(Damping::none, Forcing::none),
     effect_sets::free_of_stops(Damping::light, Forcing::regular),
@@ -82,12 +84,13 @@ inline constexpr std::array compiled_effects{
 
 /// The cheapest compiled set that contains the effects: an index of `compiled_effects`.
 [[nodiscard]] constexpr std::size_t effect_set_of(const Effects& effects) {
-  std::size_t kernel = 0;
-  while (!contains(compiled_effects[kernel], effects)) ++kernel;
-  return kernel;
+  std::size_t set = 0;
+  while (!contains(compiled_effects[set], effects)) ++set;
+  return set;
 }
 
-/// Whether one set of effects stands before another in lists: that of the cheaper kernel, else any fixed order.
+/// Whether one set of effects stands before another in lists: by the cost of their compiled sets, else in a fixed
+/// order.
 [[nodiscard]] inline bool cheaper(const Effects& one, const Effects& other) {
   const auto key = [](const Effects& e) {
     return std::tuple(effect_set_of(e), e.damping, e.forcing, e.load, e.lower, e.upper, e.dissipation, e.rest);
@@ -95,12 +98,11 @@ inline constexpr std::array compiled_effects{
   return key(one) < key(other);
 }
 
-/// Distance of i nu from the oscillator's roots below which forced response and transient are formed together. There
-/// each of the two is up to 1/(2 * distance) times larger than the force, and so is the rounding error of their sum
-/// when it is formed from both.
+/// Distance of i nu from the oscillator's roots below which forced response and transient are formed together (eq. 11):
+/// at this distance each is up to 1/(2 * distance) times the force, and so would be the rounding error of their sum.
 inline constexpr double secular_distance = 1.0 / 16.0;
 
-/// Every effect that an oscillator of damping h can have; resonance is none of them from h = 1/16 on.
+/// Every effect that an oscillator of damping h can have; from h = 1/16 on there is no resonance.
 [[nodiscard]] constexpr Effects all_effects(double h) {
   if (h >= 1.0) return effect_sets::complete(Damping::heavy, Forcing::regular);
   return effect_sets::complete(Damping::light, h >= secular_distance ? Forcing::regular : Forcing::secular);
@@ -117,7 +119,7 @@ inline constexpr double secular_distance = 1.0 / 16.0;
   return secular ? Forcing::secular : Forcing::regular;
 }
 
-[[nodiscard]] constexpr bool every_scene_has_a_kernel() {
+[[nodiscard]] constexpr bool every_scene_has_a_set() {
   for (const double h : {0.0, secular_distance / 2, secular_distance, 1.0, 2.0})
     for (const Forcing forcing : {Forcing::none, Forcing::regular, Forcing::secular}) {
       const bool exists = forcing != Forcing::secular || h < secular_distance;
@@ -125,9 +127,9 @@ inline constexpr double secular_distance = 1.0 / 16.0;
     }
   return true;
 }
-static_assert(every_scene_has_a_kernel());
+static_assert(every_scene_has_a_set());
 
-/// Calls `function.operator()<kernel>()` for the cheapest compiled set that contains the effects.
+/// Calls `function.operator()<set>()` for the cheapest compiled set that contains the effects.
 template <class Function, std::size_t candidate = 0>
 decltype(auto) with_effects(const Effects& effects, Function&& function) {
   if constexpr (candidate + 1 < compiled_effects.size()) {
@@ -137,13 +139,13 @@ decltype(auto) with_effects(const Effects& effects, Function&& function) {
   return function.template operator()<compiled_effects[candidate]>();
 }
 
-/// What general methods simulate of every scene; damping only tells how small changes of a motion decay.
+/// The effects that general methods simulate in every scene; damping only says how small changes of a motion decay.
 [[nodiscard]] constexpr Effects general_effects(double h) {
   const Damping damping = h == 0 ? Damping::none : h < 1 ? Damping::light : Damping::heavy;
   return effect_sets::complete(damping, Forcing::regular);
 }
 
-/// Calls `function.operator()<effects>()` for what general methods simulate of an oscillator.
+/// Calls `function.operator()<effects>()` for the effects that general methods simulate for an oscillator.
 template <class Function>
 decltype(auto) with_general_effects(const Oscillator& oscillator, Function&& function) {
   const Damping damping = general_effects(oscillator.damping).damping;
@@ -152,7 +154,7 @@ decltype(auto) with_general_effects(const Oscillator& oscillator, Function&& fun
   return function.template operator()<general_effects(1.0)>();
 }
 
-/// Calls `function.operator()<kernel>()` for an oscillator between any stops: one of the eight complete sets.
+/// Calls `function.operator()<set>()` for an oscillator between any stops: one of the eight complete sets.
 template <class Function>
 decltype(auto) with_any_stops(const Oscillator& oscillator, Function&& function) {
   const Damping damping = damping_of(oscillator);

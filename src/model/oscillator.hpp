@@ -12,7 +12,7 @@ struct Oscillator {
   double load = 0.0;       ///< constant force over stiffness, any finite
 };
 
-/// The frequency whose periods a run is counted in: nu under forcing, else 1.
+/// The frequency of the periods in which a run is counted: nu under forcing, else 1.
 [[nodiscard]] constexpr double counting_frequency(const Oscillator& oscillator) {
   return oscillator.forcing == 0.0 ? 1.0 : oscillator.frequency;
 }

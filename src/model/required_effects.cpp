@@ -12,7 +12,7 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 
 enum class Sharpness { sufficient, sharpest };
 
-/// The same effects for both kinds of bounds.
+/// Both kinds of bounds give the same effects; sufficient ones cost less.
 Requirements requirements(const Scene& scene, double duration, Sharpness bounds) {
   const Oscillator& o = scene.oscillator;
   const Stops& stops = scene.stops;

@@ -7,24 +7,24 @@
 
 namespace clatter::inline model {
 
-/// What a scene can meet, and the bounds that this rests on.
+/// The effects that a scene can meet, and the bounds by which others are left out.
 struct Requirements {
   Effects effects;          ///< the smallest set that reproduces the scene exactly
   double free_reach = 0.0;  ///< |x - load| never exceeds this while no stop interferes; inf: no bound
-  double reach = 0.0;       ///< nor this, impacts included
-  double lower_gap = 0.0;   ///< of the lower stop from the load's equilibrium, negative beyond it
-  double upper_gap = 0.0;   ///< of the upper stop
+  double reach = 0.0;       ///< |x - load| never exceeds this, impacts included; inf: no bound
+  double lower_gap = 0.0;   ///< from the lower stop to the load's equilibrium, negative if that is beyond the stop
+  double upper_gap = 0.0;   ///< the same for the upper stop
 };
 
 /// The effects that a scene requires during a time in tau (inf: for all time), with the sharpest bounds. A stop is left
-/// out on a proof alone: a NaN, or a start that isn't known yet, keeps it in.
+/// out only on a proof: a NaN, or a start that isn't known yet, keeps it in.
 [[nodiscard]] Requirements requirements_of(const Scene& scene,
                                            double duration = std::numeric_limits<double>::infinity());
 
 /// The smallest set of effects that reproduces a scene exactly during a time in tau.
 [[nodiscard]] Effects required_effects(const Scene& scene, double duration = std::numeric_limits<double>::infinity());
 
-/// The stops that a motion of these effects can meet; the others as if there were none.
+/// The stops that a motion with these effects can meet; the others are at infinity.
 [[nodiscard]] Stops stops_in_reach(const Stops& stops, const Effects& effects);
 
 }  // namespace clatter::inline model

@@ -6,8 +6,8 @@
 
 namespace clatter::inline model {
 
-/// Steady forced response P sin(theta) + Q cos(theta) of eq. 3: P = f(1 - nu^2)/D, Q = -2 h nu f/D,
-/// D = (1 - nu^2)^2 + (2 h nu)^2. Infinite or NaN where there is none: f at h = 0, nu = 1.
+/// Steady forced response P sin(theta) + Q cos(theta) of eq. 3 (eq. 6): P = f(1 - nu^2)/D, Q = -2 h nu f/D,
+/// D = (1 - nu^2)^2 + (2 h nu)^2. Infinite or NaN if there is none: f at h = 0, nu = 1.
 template <class Number>
 struct Response {
   Number in_phase{}, quadrature{};  ///< P and Q

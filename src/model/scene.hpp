@@ -5,14 +5,14 @@
 
 namespace clatter::inline model {
 
-/// Where the motion begins, at tau = 0.
+/// The state at tau = 0.
 struct Start {
   double displacement = 0.0;  ///< x0, between the stops
   double velocity = 0.0;      ///< v0
   double phase = 0.0;         ///< forcing phase at tau = 0, rad
 };
 
-/// The machine and its start: everything that its motion depends on.
+/// An oscillator, its stops and its start: everything that the motion depends on.
 struct Scene {
   Oscillator oscillator;
   Stops stops;

@@ -10,10 +10,10 @@ enum class Side : std::int8_t { lower = -1, none = 0, upper = 1 };
 /// +1 at the upper stop, -1 at the lower one.
 [[nodiscard]] constexpr int sign_of(Side side) { return static_cast<int>(side); }
 
-/// The two rigid stops and how much of its speed the mass keeps on each (eq. 4): x'+ = -R x'-.
+/// The two rigid stops and the share of its speed that the mass keeps at each (eq. 4): x'+ = -R x'-.
 struct Stops {
-  double lower = -std::numeric_limits<double>::infinity();  ///< place of the lower stop; -inf: none
-  double upper = std::numeric_limits<double>::infinity();   ///< place of the upper stop; +inf: none
+  double lower = -std::numeric_limits<double>::infinity();  ///< position of the lower stop; -inf: none
+  double upper = std::numeric_limits<double>::infinity();   ///< position of the upper stop; +inf: none
   double restitution_lower = 1.0;                           ///< R of the lower stop, 0 ... 1
   double restitution_upper = 1.0;                           ///< R of the upper stop, 0 ... 1
 };

@@ -8,26 +8,25 @@
 
 namespace clatter::motion {
 
-/// Motion without impact from a given instant on, in closed form (eq. 3).
+/// Motion without impact from a given instant on, in closed form (eqs. 5 ... 11).
 template <class N, Effects E>
 class Arc {
  public:
   using Number = N;
 
-  /// Starts at displacement x, velocity v, phase (sine, cosine) and acceleration a, which the equation of motion gives
-  /// or a release makes 0.
+  /// Starts at displacement x, velocity v, phase (sine, cosine) and acceleration a: that of eq. 3, or 0 at a release.
   Arc(const ArcConstants<Number, E>& constants, const Motion<Number>& start) : Arc(constants, start, start.x) {}
 
-  /// Starts `start.rise` away from a place.
+  /// Starts `start.offset` away from a position, the anchor.
   Arc(const ArcConstants<Number, E>& constants, const Motion<Number>& start, const Number& anchor)
       : constants_(&constants), anchor_(anchor), start_(with_free_part(start)) {}
 
   [[nodiscard]] const ArcConstants<Number, E>& constants() const { return *constants_; }
   [[nodiscard]] const Motion<Number>& start() const { return start_; }
-  [[nodiscard]] const Number& anchor() const { return anchor_; }  ///< the place that `rise` counts from
+  [[nodiscard]] const Number& anchor() const { return anchor_; }  ///< the position that `offset` counts from
 
-  /// Motion a time s >= 0 after the start; for short times by Taylor's series, which keeps the relative accuracy of
-  /// `rise`.
+  /// Motion a time s >= 0 after the start; for short times by the Taylor series, which keeps the relative accuracy of
+  /// `offset`.
   [[nodiscard]] Motion<Number> at(const Number& s) const {
     return s * constants_->rate <= Number(0.25) ? near(start_, s) : moved(start_, constants_->step(s));
   }
@@ -37,13 +36,13 @@ class Arc {
     return turned(start_, turn_by(Number(constants_->nu * s))).phase;
   }
 
-  /// Motion a step of any length after `m`, an instant of this arc, in closed form; inlined, since samples want nothing
-  /// but place and velocity.
+  /// Motion a step of any length after `m`, an instant of this arc, in closed form; inlined, so that a caller that
+  /// needs only displacement and velocity, as samples do, computes only those.
   [[nodiscard, gnu::always_inline]] inline Motion<Number> moved(const Motion<Number>& m,
                                                                 const Step<Number>& step) const;
 
-  /// Motion a short time d after `m` (d * flow().rate <= 1/4), an instant of this arc, by Taylor's series of the
-  /// equation of motion.
+  /// Motion a short time d after `m` (d * constants().rate <= 1/4), an instant of this arc, by the Taylor series of
+  /// eq. 3.
   [[nodiscard]] Motion<Number> near(const Motion<Number>& m, const Number& d) const;
 
  private:
@@ -54,7 +53,7 @@ class Arc {
     if constexpr (E.damping == Damping::heavy) m.fast_x = constants_->fast_mode(m.free_x, m.free_v);
     return m;
   }
-  /// A forcing phase and what it differs from the one before by.
+  /// A forcing phase, and its sine and cosine less those of the phase before.
   struct Turned {
     SineCosine<Number> phase, change;
   };
@@ -79,7 +78,7 @@ Motion<Number> Arc<Number, E>::moved(const Motion<Number>& m, const Step<Number>
   const Propagator<Number>& p = step.free;
   const auto [phase, change] = turned(m, step.turn);
   const Number forced_x = constants_->response_displacement(phase.sine, phase.cosine);
-  // no difference of places, so that a short flight keeps its digits; the response is linear in sine and cosine
+  // eq. 10: no difference of positions, so that a short flight keeps its digits; the response is linear in sine, cosine
   Number offset = p.a_rise * m.free_x + p.b * m.free_v + constants_->response_displacement(change.sine, change.cosine);
   Number free_x = p.a * m.free_x + p.b * m.free_v, free_v = p.c * m.free_v - p.b * m.free_x;
   if constexpr (E.forcing == Forcing::secular) {
@@ -88,7 +87,7 @@ Motion<Number> Arc<Number, E>::moved(const Motion<Number>& m, const Step<Number>
     offset += constants_->f * response_x, free_x += constants_->f * response_x, free_v += constants_->f * response_v;
   }
   offset += m.offset;
-  // of two sums for the place the one with the smaller terms: between close stops that is the rise
+  // of two sums for x the one with the smaller terms: between close stops that is anchor + offset
   const Number whole = abs(constants_->load) + abs(forced_x) + abs(free_x);
   const bool rises = abs(anchor_) + abs(offset) < whole;
   const Number x = rises ? anchor_ + offset : constants_->load + forced_x + free_x;

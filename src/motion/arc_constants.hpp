@@ -12,23 +12,23 @@
 
 namespace clatter::motion {
 
-/// Free motion over a time s: x(s) = A x + B v, v(s) = -B x + C v, and its acceleration -C x - D v.
+/// Free motion over a time s (eq. 7): x(s) = A x + B v, v(s) = -B x + C v, and its acceleration -C x - D v.
 template <class Number>
 struct Propagator {
   Number a, b, c, d;
   Number a_rise;  ///< A - 1, small for short times
 };
 
-/// What a time s does to every motion of an oscillator.
+/// The coefficients that advance every motion of an oscillator by a time s.
 template <class Number>
 struct Step {
   Propagator<Number> free;
   SineCosine<Number> turn{};                      ///< sine of nu s, and its cosine less 1
-  SineCosine<Number> displacement{}, velocity{};  ///< secular: what the force's sine and cosine give from rest, f = 1
+  SineCosine<Number> displacement{}, velocity{};  ///< secular: response from rest to a unit force (eq. 11)
   Number fast_decay{};                            ///< heavy damping: e^(-fast s)
 };
 
-/// Sine of an angle and its cosine less 1, which is small for small angles.
+/// Sine of an angle, and its cosine less 1 without cancellation at small angles.
 template <class Number>
 [[nodiscard]] SineCosine<Number> turn_by(const Number& angle) {
   using std::cos, std::sin;
@@ -36,8 +36,8 @@ template <class Number>
   return {2 * half * cos(angle / 2), -2 * half * half};
 }
 
-/// (e^z - 1)/z for z = re + i im with re <= 0, to relative accuracy for every z: the divided difference of the
-/// exponential.
+/// (e^z - 1)/z for z = re + i im with re <= 0, the divided difference of the exponential (eq. 11), to relative accuracy
+/// for every z.
 template <class Number>
 [[nodiscard]] std::array<Number, 2> divided_exponential(const Number& re, const Number& im) {
   using std::cos, std::exp, std::expm1, std::sin, std::sqrt;
@@ -50,28 +50,28 @@ template <class Number>
   return {(u * re + w * im) / square, (w * re - u * im) / square};
 }
 
-/// y z^6; 0 and infinity meet only where y or z is not finite.
+/// y z^6, one factor at a time, so that 0 meets infinity only if y or z is not finite.
 template <class Number>
 [[nodiscard]] Number times_sixth_power(const Number& y, const Number& z) {
   return y * z * z * z * z * z * z;
 }
 
-/// The constants of an oscillator that all its arcs share, and its free motion and bounds.
+/// The constants of an oscillator that all its arcs share, its free motion and its bounds.
 template <class Number, Effects E>
 class ArcConstants {
-  static_assert(E == E.arc());  // nothing else makes another arc
+  static_assert(E == E.arc());  // the other effects don't change an arc, so they mustn't compile it again
 
  public:
   explicit ArcConstants(const Oscillator& oscillator);
 
-  /// Free motion over s >= 0, without cancellation for every h (physics.md, "Motion").
+  /// Free motion over s >= 0, without cancellation for every h (eqs. 8 and 9).
   [[nodiscard]] Propagator<Number> propagator(const Number& s) const;
 
-  /// All that moves motions on by a time s >= 0 (`Arc::moved`).
+  /// All coefficients of a step by a time s >= 0 (`Arc::moved`).
   [[nodiscard]] Step<Number> step(const Number& s) const;
 
-  /// Displacement and velocity of the steady forced response at a phase; the secular kernel leaves the forced part to
-  /// its arcs.
+  /// Displacement and velocity of the steady forced response at a phase (eq. 5); 0 if the forcing is secular, as arcs
+  /// then form response and transient together.
   [[nodiscard]] Number response_displacement(const Number& sine, const Number& cosine) const {
     if constexpr (E.forcing == Forcing::regular) return response.in_phase * sine + response.quadrature * cosine;
     return Number(0);
@@ -81,15 +81,15 @@ class ArcConstants {
     return Number(0);
   }
 
-  /// Displacement from the load's equilibrium of a mass at x = anchor + offset, by whichever of the two has kept more
-  /// digits of it.
+  /// Displacement from the load's equilibrium of a mass at x = anchor + offset, by whichever of the two forms of x
+  /// keeps more digits.
   [[nodiscard]] Number from_equilibrium(const Number& x, const Number& anchor, const Number& offset) const {
     using std::abs;
     const Number from = anchor - load;
     return abs(from) + abs(offset) < abs(x) ? from + offset : x - load;
   }
 
-  /// Acceleration from the equation of motion (eq. 3), a `displacement` away from the load's equilibrium.
+  /// Acceleration by eq. 3 at a `displacement` from the load's equilibrium.
   [[nodiscard]] Number acceleration(const Number& displacement, const Number& v, const Number& sine) const {
     Number sum = -displacement;
     if constexpr (E.forcing != Forcing::none) sum += f * sine;
@@ -105,23 +105,22 @@ class ArcConstants {
     return sum;
   }
 
-  /// Bound of span^6 |y^(6)| from `m` on for a time `span`, for y = x (derivative 0) or y = x' (derivative 1). The
-  /// energy norm of free motion never grows, so its derivatives are bounded by the row of the companion matrix' power;
-  /// heavy damping is also bounded mode by mode, since its fast one dies out.
+  /// Bound of span^6 |y^(6)| from `m` on for a time `span`, for y = x (derivative 0) or y = x' (derivative 1), by
+  /// eq. 14; under heavy damping the smaller of that and the bound mode by mode, since the fast mode dies out.
   [[nodiscard]] Number sixth_bound(const Motion<Number>& m, const Number& span, int derivative) const;
 
-  /// Bound of |x - load| from `m` on for a time `span`; at resonance the force may raise the energy norm by |f| in a
-  /// unit of time.
+  /// Bound of |x - load| from `m` on for a time `span` (eq. 16); at resonance the force may raise the energy norm by
+  /// |f| in a unit of time.
   [[nodiscard]] Number reach(const Motion<Number>& m, const Number& span) const;
 
-  /// Displacement of the fast mode of heavy damping in a free motion (x, v); infinite or NaN at h = 1, where there are
-  /// no two modes.
+  /// Displacement of the fast mode of heavy damping in a free motion (x, v); infinite or NaN at h = 1, which has no two
+  /// modes.
   [[nodiscard]] Number fast_mode(const Number& x, const Number& v) const { return -(slow * x + v) / (2 * root); }
 
   Number h, f, nu, load;      ///< of the oscillator; without forcing nu = 1, so that a period is 2 pi
   Number root;                ///< lambda = |1 - h^2|^(1/2)
   Number slow, fast;          ///< decay rates of heavy damping
-  Response<Number> response;  ///< 0 where arcs form it together with the free motion (secular)
+  Response<Number> response;  ///< eq. 6; 0 if arcs form it together with the free motion (secular)
   Number detuning;            ///< nu - lambda, without cancellation
   Number rate;                ///< the fastest of the motion's frequencies and decay rates
   Number period;              ///< of the force; without forcing 2 pi
@@ -130,9 +129,9 @@ class ArcConstants {
   [[nodiscard]] Number short_rise(const Number& s) const;
   void respond_from_rest(const Number& s, Step<Number>& step) const;
 
-  Number coarse_root_{}, spare_root_{};   ///< light damping: root is their difference; 1 and the rest while h < 1/2
+  Number coarse_root_{}, spare_root_{};   ///< light damping: root is their difference; the first is 1 if h < 1/2
   std::array<Number, 2> free_bound_{};    ///< of |x^(6)| and |x^(7)| over the energy norm
-  std::array<Number, 2> forced_bound_{};  ///< secular: of what the force adds to them
+  std::array<Number, 2> forced_bound_{};  ///< secular: of the force's part of the same derivatives
 };
 
 template <class Number, Effects E>
@@ -175,7 +174,8 @@ Propagator<Number> ArcConstants<Number, E>::propagator(const Number& s) const {
     const Number half = sin(s / 2), b = 2 * half * cos(s / 2), a_rise = -2 * half * half;
     return {1 + a_rise, b, 1 + a_rise, b, a_rise};
   } else if constexpr (E.damping == Damping::light) {
-    // what the difference of the two products loses is given back: a long arc turns by more than one angle can hold
+    // a long arc turns by more than one angle can hold, so the digits that the difference of the two products loses are
+    // added again
     const Number coarse = coarse_root_ * s, spare = spare_root_ * s;
     const Number angle = coarse - spare, lost = (coarse - angle) - spare;
     const Number sine = sin(angle / 2), cosine = cos(angle / 2);
@@ -204,9 +204,8 @@ Step<Number> ArcConstants<Number, E>::step(const Number& s) const {
   return step;
 }
 
-/// Displacement and velocity that sin(phase) alone gives after a time s, from rest: Im(e^{i phase} w(s)) with
-/// w(s) = [E(mu) - E(mu*)]/(2 i lambda), E(mu) = (e^{i nu s} - e^{mu s})/(i nu - mu), mu = -h + i lambda; no difference
-/// of large numbers.
+/// Displacement and velocity a time s after rest under a unit force sin(phase): Im(e^{i phase} w(s)) with w of eq. 11,
+/// which has no difference of large numbers.
 template <class Number, Effects E>
 void ArcConstants<Number, E>::respond_from_rest(const Number& s, Step<Number>& step) const {
   using std::cos, std::exp, std::sin;
@@ -224,8 +223,8 @@ void ArcConstants<Number, E>::respond_from_rest(const Number& s, Step<Number>& s
   step.velocity = {plus_re / 2 - h * w_re, plus_im / 2 - h * w_im};  // [mu E(mu) - mu* E(mu*)]/(2 i lambda)
 }
 
-/// A(s) - 1 of a time that is short for the oscillator, though not for a fast force, by Taylor's series: the closed
-/// form is a difference of terms 1/s times larger.
+/// A(s) - 1 for a time that is short for the oscillator, though perhaps not for a fast force, by the Taylor series: the
+/// closed form is a difference of terms 1/s times larger.
 template <class Number, Effects E>
 Number ArcConstants<Number, E>::short_rise(const Number& s) const {
   constexpr int terms = std::numeric_limits<Number>::digits <= 64 ? 13 : 36;  // (1/4)^n / n! below rounding
@@ -249,7 +248,7 @@ Number ArcConstants<Number, E>::sixth_bound(const Motion<Number>& m, const Numbe
     const Number slow_part = times(abs(m.free_x - m.fast_x), slow), fast_part = times(abs(m.fast_x), fast);
     const Number modal =
         times_sixth_power(slow_part, Number(slow * span)) + times_sixth_power(fast_part, Number(fast * span));
-    bound = select<Number>(modal < bound, modal, bound);  // root = 0: modal is infinite or NaN and is left aside
+    bound = select<Number>(modal < bound, modal, bound);  // root = 0: modal is infinite or NaN, so not taken
   }
   if constexpr (E.forcing == Forcing::regular)
     bound += times_sixth_power(times(response.amplitude, nu), Number(nu * span));

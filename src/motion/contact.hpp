@@ -10,14 +10,14 @@
 
 namespace clatter::motion {
 
-/// How an arc ends: at the first contact, or at its horizon where there is none (side none).
+/// How an arc ends: at the first contact, or at its horizon if there is none (side none).
 template <class Number>
 struct Contact {
   Side side = Side::none;
   Number elapsed{};         ///< time since the arc began
-  Motion<Number> motion{};  ///< there, the velocity being the one before the impact
+  Motion<Number> motion{};  ///< at the end, with the velocity before the impact
   int evaluations = 0;      ///< instants at which the arc was evaluated
-  bool resolved = true;     ///< false: the bounds overflow, or the step that can be proved fell below rounding
+  bool resolved = true;     ///< false: a bound overflows, or the step that can be proved has fallen below rounding
 };
 
 /// The usual length of a step that is proved free of contact.
@@ -27,9 +27,8 @@ template <class Number>
   return Number(1.6) / max(Number(1), nu);
 }
 
-/// Searches an arc for its first contact. Each step is proved free of impacts by an enclosure of the arc between its
-/// ends, or gives the time up to which it is; from there the next, shorter step starts, until what is left of the
-/// uncertainty is below rounding.
+/// Searches an arc for its first contact. An enclosure of the arc proves each step free of impacts (eq. 15), or proves
+/// it up to some instant; a shorter step begins there, until the width of the enclosure is below rounding.
 template <class Number, Effects E>
 class ContactSearch {
  public:
@@ -59,7 +58,7 @@ class ContactSearch {
       if (crossing.certain) {
         const Contact<Number> contact = touch(crossing.side, crossing.fraction * step);
         if (closing(crossing.side, contact.motion.v) >= 0) return contact;
-        here_ = contact.motion, elapsed_ = contact.elapsed;  // rounding put it on the stop; it is on its way off
+        here_ = contact.motion, elapsed_ = contact.elapsed;  // rounding put it on the stop, which it is leaving
         continue;
       }
       if (crossing.fraction > 0) {
@@ -81,7 +80,7 @@ class ContactSearch {
     bool certain = false;  ///< and the contact is there, to rounding
   };
 
-  /// Gap between the mass and a stop at the search's present place; exact where the arc is anchored on the stop.
+  /// Gap between the mass and a stop at the search's present position; exact if the arc is anchored on the stop.
   [[nodiscard]] Number gap(Side side) const {
     const Number& anchor = arc_.anchor();
     return side == Side::upper ? (upper_ - anchor) - here_.offset : (anchor - lower_) + here_.offset;
@@ -102,8 +101,8 @@ class ContactSearch {
     return hermite_error(arc_.constants().sixth_bound(here_, step, 0));
   }
 
-  /// The longest step whose enclosure is about as sharp as the gap is wide; 0 where lengths are so small that products
-  /// of them vanish.
+  /// The longest step with an enclosure no wider than a twentieth of the gap; 0 if lengths are so small that their
+  /// products vanish.
   [[nodiscard]] Number first_step() const {
     using std::pow;
     const Number step = longest_step(arc_.constants().nu), error = error_of(step), aim = width() / 20;
@@ -112,8 +111,8 @@ class ContactSearch {
     return aim > 0 && error > aim ? Number(step * pow(aim / error, Number(1) / 6)) : step;
   }
 
-  /// The step after one that was proved: twice as long, beyond the usual length only where so little of the fast motion
-  /// is left that the enclosure hardly notices (a slow force, a transient long gone).
+  /// The step after one that was proved: twice as long, but beyond the usual length only if the enclosure stays sharp,
+  /// as it does under a slow force once the transient has faded.
   [[nodiscard]] Number longer(const Number& step) const {
     using std::min;
     const Number twice = 2 * step;
@@ -154,7 +153,7 @@ class ContactSearch {
     const auto root = FirstRoot<Number>::of(c);
     if (!root) return {};
     const Number& u = *root;
-    if (u == 0) {  // it seems to go in at once, as a release does while the error outweighs its small jerk
+    if (u == 0) {  // it seems to cross at once, as a release does while the error outweighs its small jerk
       Number largest = 0;
       for (const Number& y : c) largest = max(largest, Number(abs(y)));
       return {side, u, error <= epsilon<Number>() * largest};
@@ -163,7 +162,7 @@ class ContactSearch {
     return {side, u, 2 * error * middle_function(u) <= 4 * epsilon<Number>() * size};
   }
 
-  /// A step a little longer than the time to the stop, where the motion reaches it; else a quarter.
+  /// A step a little longer than the time to the stop, if the present motion would reach it; else a quarter.
   [[nodiscard]] Number next_step(Side side, const Number& step) const {
     using std::min, std::sqrt;
     const Number g = gap(side), v = closing(side, here_.v), a = closing(side, here_.a), square = v * v + 2 * a * g;
@@ -171,13 +170,13 @@ class ContactSearch {
     return step / 4;
   }
 
-  /// The contact a time d from here, with one Newton correction of the rounding that a long step leaves.
+  /// The contact a time d from here; one Newton correction takes out the rounding that a long step leaves.
   [[nodiscard]] Contact<Number> touch(Side side, const Number& d) {
     using std::abs;
     Motion<Number> m = d > 0 ? step_from_here(d) : here_;
     Number elapsed = elapsed_ + d;
     const Number speed = closing(side, m.v), missing = gap(side) - closing(side, m.offset - here_.offset);
-    // not in a graze, where a missing ulp is far in time and the speed is gone before
+    // not in a graze, where an ulp of displacement is far in time and the speed vanishes before
     if (2 * abs(missing * m.a) <= speed * speed && abs(missing) <= speed * abs(elapsed) * Number(1e-6) && speed > 0) {
       const Number more = missing / speed;
       elapsed += more, m.v += m.a * more;
@@ -185,7 +184,7 @@ class ContactSearch {
     return at(side, elapsed, m);
   }
 
-  /// Speed at a place by the energy of free undamped motion: exact however softly it touches.
+  /// Speed at a position by the energy of free undamped motion (eq. 17): exact however softly the mass touches.
   [[nodiscard]] Number conserved_speed(const Number& x) const {
     using std::abs, std::max, std::sqrt;
     const Motion<Number>& from = arc_.start();
@@ -202,14 +201,14 @@ class ContactSearch {
     return {side, elapsed, m, evaluations_, true};
   }
 
-  /// The horizon; a contact within rounding of it happens at it, so that it is neither lost nor taken twice.
+  /// Ends at the horizon; a contact within rounding of it happens at it, so that it is neither lost nor taken twice.
   [[nodiscard]] Contact<Number> end(const Motion<Number>& there) {
     using std::abs;
     here_ = there, elapsed_ = horizon_;
     for (const Side side : {Side::lower, Side::upper}) {
       const Number flown = abs(gap(side) + closing(side, there.offset)) + abs(there.offset) + abs(there.v) * horizon_;
       if (gap(side) < 8 * epsilon<Number>() * flown && closing(side, there.v) > 0)
-        return at(side, horizon_, there);  // false where there is no stop
+        return at(side, horizon_, there);  // never if there is no such stop
     }
     return {Side::none, horizon_, there, evaluations_, true};
   }

@@ -22,7 +22,7 @@ struct Perturbation {
   return {map[0] * c.x + map[1] * c.v, map[2] * c.x + map[3] * c.v};
 }
 
-/// A set of changes around none: {e : e' E^-1 e <= 1}, by the symmetric matrix E.
+/// A set of changes around 0: {e : e' E^-1 e <= 1}, given by the symmetric matrix E.
 class Ellipse {
  public:
   Ellipse() = default;
@@ -44,7 +44,8 @@ class Ellipse {
                  bv = D[2] * xv_ + D[3] * vv_;
     return {ax * D[0] + av * D[1], ax * D[2] + av * D[3], bx * D[2] + bv * D[3]};
   }
-  /// Becomes an ellipse that holds the sums of its changes and those of another: of all such ones that of least trace.
+  /// Becomes an ellipse that holds every sum of one of its changes and one of another's: of all those, the one of least
+  /// trace.
   void add(const Ellipse& other) {
     const double mine = std::sqrt(xx_ + vv_), its = std::sqrt(other.xx_ + other.vv_);
     if (!(mine > 0)) *this = other;

@@ -11,18 +11,18 @@
 
 namespace clatter::motion {
 
-/// Proves, while it sees a motion, that all motions that begin within an ellipse around its start meet the same stops
-/// in the same order, and encloses how far from it they are then: an ellipse for what the derivative tells of a change,
-/// and one for the rest.
+/// An observer of one motion that proves that all motions from an ellipse around its start meet the same stops in the
+/// same order, and encloses their distance from it: one ellipse for the first order, by the derivative, a second for
+/// the remainder.
 ///
-/// Between impacts the difference of two motions is a free motion, whose energy norm never grows (h >= 0): so a flight
-/// keeps clear of stops where the one that is seen keeps clear of stops that are moved in by that norm. At an impact
-/// with speed u both are thought to go on through the stop for a time |s| <= 2 d/u, d the norm; they are transversal
-/// there if u is at least twice what acceleration and difference can change it by. Then the difference after it is the
-/// saltation matrix times the one before, and the rest is of second order, bounded by Taylor's theorem (`rebound`).
+/// Between impacts the difference of two motions is a free motion, whose energy norm d never grows (h >= 0), so all
+/// keep clear of the stops if the observed one keeps clear of stops moved inwards by d. At an impact with speed u both
+/// are continued through the stop for a time |s| <= 2 d/u, and are transversal there if eq. 29 holds. Then the
+/// difference after the impact is the saltation matrix (eq. 27) times the one before, and the remainder is of second
+/// order, bounded by Taylor's theorem (`rebound`).
 class Neighbourhood {
  public:
-  /// All motions within `start`; `rounding` is what places and velocities may be off by.
+  /// All motions within `start`; `rounding` bounds the error of displacements and velocities.
   Neighbourhood(const Stops& stops, const Ellipse& start, double rounding)
       : stops_(stops), told_(start), rounding_(rounding), reach_(start.size() + rounding) {}
 
@@ -44,26 +44,26 @@ class Neighbourhood {
     if (holds_) holds_ = approached_ == impact.side && impact.time >= clear_from_ && rebound(impact);
   }
 
-  /// Whether it is proved up to here; not while the mass is so near to a stop that some of the motions may have met it.
+  /// Whether the proof holds up to here; not while the mass is so near a stop that some of the motions may have met it.
   [[nodiscard]] bool holds() const { return holds_ && approached_ == Side::none; }
-  [[nodiscard]] const Ellipse& told() const { return told_; }      ///< the derivative's image of the start
-  [[nodiscard]] const Ellipse& untold() const { return untold_; }  ///< what is to be added to it
+  [[nodiscard]] const Ellipse& told() const { return told_; }      ///< first order: the start, mapped by the derivative
+  [[nodiscard]] const Ellipse& untold() const { return untold_; }  ///< the remainder, to be added to `told`
 
  private:
-  /// Bounds near an impact, for a time to both sides of it.
-  struct RunRecord {
+  /// Bounds near an impact, for some time before and after it.
+  struct LocalBounds {
     double acceleration, jerk;
     double growth;  ///< of the energy norm, backwards in time
   };
-  /// From x''' = f nu cos - x' - 2 h x''. Infinite where the time is too long for that.
-  [[nodiscard]] RunRecord course(double speed, double acceleration, double time) const {
+  /// Bounds by x''' = f nu cos(theta) - x' - 2 h x''; infinite if the time is too long for that.
+  [[nodiscard]] LocalBounds bounds_near(double speed, double acceleration, double time) const {
     const double share = time * time + 2 * h_ * time;
     if (!(share <= 0.5)) return {infinity, infinity, infinity};
     const double most = (acceleration + time * (shake_ + speed)) / (1 - share);
     return {most, shake_ + speed + most * (time + 2 * h_), std::exp(2 * h_ * time)};
   }
 
-  /// A motion that begins on a stop, or just beside it, is on its way from there.
+  /// Treats a motion that begins on or just beside a stop as one that leaves it.
   void begin_beside_stop(const Motion<double>& start) {
     for (const Side side : {Side::lower, Side::upper}) {
       const Stop<double> stop = stop_at<double>(stops_, side);
@@ -73,7 +73,8 @@ class Neighbourhood {
     }
   }
 
-  /// Looks whether the flight, from a part of this arc on, keeps clear of both stops, or comes near to one of them.
+  /// Finds whether the flight, from the time `from` of this arc on, keeps clear of both stops or comes near one of
+  /// them.
   template <class A>
   void clear(const A& arc, double begin, double from, double length) {
     const Stops inner{stops_.lower + reach_, stops_.upper - reach_, stops_.restitution_lower, stops_.restitution_upper};
@@ -85,13 +86,13 @@ class Neighbourhood {
     approached_ = contact.side, approached_at_ = begin + from + contact.elapsed;
   }
 
-  /// Takes the differences through an impact; whether that is possible.
+  /// Takes the differences through an impact; false if they are not transversal there (eq. 29).
   [[nodiscard]] bool rebound(const Impact& impact) {
     const Stop<double> stop = stop_at<double>(stops_, impact.side);
     const double u = std::abs(impact.before), R = stop.law.R, force = force_ - impact.position;
     const double a_before = force - 2 * h_ * impact.before, a_after = force - 2 * h_ * impact.after;
     const double a = std::max(std::abs(a_before), std::abs(a_after)), c = 1 + 2 * h_, wait = 2 * reach_ / u;
-    const RunRecord near = course(u, a, wait);
+    const LocalBounds near = bounds_near(u, a, wait);
     if (!(near.acceleration * wait + near.growth * reach_ <= u / 2 && impact.time - approached_at_ <= wait))
       return false;
 
@@ -108,11 +109,11 @@ class Neighbourhood {
     return depart(impact.time, R * u, a, wait);
   }
 
-  /// Whether the mass gets away from the stop, and not into the other one, before the flight is looked at.
+  /// Whether the mass leaves the stop, and does not meet the other one, before the flight is examined.
   [[nodiscard]] bool depart(double time, double speed, double acceleration, double waited) {
-    reach_ = course(speed, acceleration, waited).growth * size();
+    reach_ = bounds_near(speed, acceleration, waited).growth * size();
     const double wait = std::max(waited, 2 * reach_ / speed);
-    const RunRecord away = course(speed, acceleration, wait);
+    const LocalBounds away = bounds_near(speed, acceleration, wait);
     approached_ = Side::none, clear_from_ = time + wait;
     return away.acceleration * wait + reach_ <= speed / 2 &&
            (speed + away.acceleration * wait) * wait + reach_ < stops_.upper - stops_.lower;
@@ -125,9 +126,9 @@ class Neighbourhood {
   Ellipse told_, untold_{};
   double rounding_;
   double reach_;                          ///< bound of the energy norm of differences in the present flight
-  double clear_from_ = 0.0;               ///< the time until which a flight is near the stop that it began on
+  double clear_from_ = 0.0;               ///< until then a flight is near the stop that it began on
   Side approached_ = Side::none;          ///< the stop that some of the motions may have met already
-  double approached_at_ = 0.0;            ///< since when
+  double approached_at_ = 0.0;            ///< the time from which they may have
   double h_ = 0, shake_ = 0, force_ = 0;  ///< damping, |f| nu, and the force at the end of the last arc
   bool begun_ = false;
   bool holds_ = true;

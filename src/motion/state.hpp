@@ -7,9 +7,9 @@
 
 namespace clatter::motion {
 
-/// Where a run stands. Time is the forcing phase: turns since the last section and whole sections, never a growing tau
-/// inside a sine. Sections are the instants a whole number of forcing periods (without forcing: of 2 pi) after the
-/// start.
+/// The state of a run. Time is a forcing phase and a whole number of periods, so that no growing tau stands inside a
+/// sine. Sections (stroboscopic sections) are the instants a whole number of forcing periods, without forcing of 2 pi,
+/// after the start.
 template <class Number>
 struct State {
   Number x{};                ///< displacement
@@ -17,8 +17,8 @@ struct State {
   Number turns{};            ///< forcing periods since the last section, 0 ... 1
   std::int64_t periods = 0;  ///< sections passed
   bool released = false;     ///< a stop lets the mass go at this instant: v = 0 and the acceleration is exactly 0
-  Side left = Side::none;    ///< the stop on which the present flight began
-  Number offset{};           ///< x minus the place of that stop: keeps the digits of a flight that a section cuts
+  Side left = Side::none;    ///< the stop that the present flight began on
+  Number offset{};           ///< x minus the position of that stop: keeps the digits of a flight that a section cuts
 };
 
 /// Motion at one instant of an arc.
@@ -29,12 +29,12 @@ struct Motion {
   Number v;             ///< velocity
   Number a;             ///< acceleration
   Number sine, cosine;  ///< of the forcing phase
-  Number free_x{};      ///< the transient's share of the displacement; at resonance all but the load's
-  Number free_v{};      ///< and of the velocity: kept apart, since it fades below the rounding of the whole
-  Number fast_x{};      ///< heavy damping: the fast mode's share of free_x, for the same reason
+  Number free_x{};      ///< the transient's part of x, at resonance x - load; kept apart, since it fades below rounding
+  Number free_v{};      ///< the transient's part of v, kept apart for the same reason
+  Number fast_x{};      ///< heavy damping: the fast mode's part of free_x, kept apart for the same reason
 };
 
-/// One impact, as observers see it.
+/// One impact, as it is reported to observers.
 struct Impact {
   double time;      ///< tau since observation began
   Side side;        ///< the stop that is hit
@@ -43,14 +43,14 @@ struct Impact {
   double position;  ///< of the stop
 };
 
-/// A stretch of time on a stop, as observers see it.
+/// A time on a stop, as it is reported to observers.
 struct Rest {
-  double time;    ///< tau since observation began, at its beginning
+  double time;    ///< its beginning: tau since observation began
   double length;  ///< in tau
   Side side;
   double position;  ///< of the stop
-  bool held;  ///< at rest; false: the completed rest of a chatter or a force within rounding of 0, too short to move
-              ///< any result
+  bool held;  ///< at rest; false: the summed end of a chatter, or a force within rounding of 0: too short to change
+              ///< a result
 };
 
 }  // namespace clatter::motion

@@ -13,10 +13,9 @@ namespace clatter::motion {
 template <class Number>
 using Jacobian = std::array<Number, 4>;
 
-/// The derivative of a motion by its start: free motion over the arcs; at each impact its saltation matrix
-/// S = [[-R, 0], [(R a- + a+)/v-, -R]] (physics: the impact comes earlier or later; Nordmark 1991); nothing is left of
-/// a change after a rest. Kept as a rotation times a triangle, so that its determinant keeps its digits however far the
-/// two multipliers are apart, times a power of two, so that it can't overflow.
+/// The derivative of a motion with respect to its start: free motion over the arcs (eq. 7), the saltation matrix at
+/// each impact (eq. 27; Nordmark 1991), 0 after a rest. Kept as a rotation times a triangle, so that the determinant
+/// (eq. 28) keeps its digits however far apart the multipliers are, times a power of two, so that nothing overflows.
 template <class Number>
 class TangentMap {
  public:
@@ -33,7 +32,7 @@ class TangentMap {
   void impact(const Impact& impact) {
     const Number before(impact.before), after(impact.after);
     const Number slope = stop_at<Number>(stops_, impact.side).law.derivative();
-    if (before == 0) return;  // it touches, and is not reversed
+    if (before == 0) return;  // it touches, and the velocity is not reversed
     const Number a_before = force_ - impact.position - 2 * h_ * before,
                  a_after = force_ - impact.position - 2 * h_ * after;
     multiply({{slope, Number(0), (a_after - slope * a_before) / before, slope}, slope * slope});
@@ -46,7 +45,7 @@ class TangentMap {
   }
   [[nodiscard]] Number determinant() const { return scaled(mantissa_determinant(), 2 * exponent_); }
 
-  /// The map without its power of two, for what would over- or underflow with it.
+  /// The map without its power of two, for uses that would over- or underflow with it.
   [[nodiscard]] Jacobian<Number> mantissa() const {
     return {cosine_ * top_, cosine_ * shear_ - sine_ * bottom_, sine_ * top_, sine_ * shear_ + cosine_ * bottom_};
   }
@@ -60,7 +59,7 @@ class TangentMap {
     return ldexp(y, static_cast<int>(std::clamp(exponent, -most, most)));
   }
 
-  /// Logarithm of the largest factor by which it stretches a change; -inf where nothing is left of any.
+  /// Logarithm of the largest factor by which the map stretches a change; -inf if the map is 0.
   [[nodiscard]] Number log_norm() const {
     using std::abs, std::log, std::sqrt;
     const Number sum = top_ * top_ + shear_ * shear_ + bottom_ * bottom_, area = 2 * abs(top_ * bottom_);
@@ -69,7 +68,7 @@ class TangentMap {
   }
 
  private:
-  /// A map, its determinant kept apart, times 2^exponent.
+  /// A map times 2^exponent, with its determinant kept apart.
   struct Step {
     Jacobian<Number> map;
     Number area;
@@ -86,7 +85,7 @@ class TangentMap {
     }
   };
 
-  /// Free motion over a time of any length, as the power of one so short that it doesn't underflow.
+  /// Free motion over a time of any length, as a power of one over a time so short that it doesn't underflow.
   template <class ArcConstants>
   [[nodiscard]] static Step power_of(const ArcConstants& constants, const Number& length) {
     using std::exp;
@@ -105,7 +104,7 @@ class TangentMap {
     return step;
   }
 
-  /// Puts a step after the map: its effect on the two turned directions is turned upright again.
+  /// Multiplies the map by a step from the left, and makes the product a rotation times a triangle again.
   void multiply(const Step& step) {
     using std::abs, std::ldexp;
     const Jacobian<Number>& f = step.map;

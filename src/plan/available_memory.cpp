@@ -16,17 +16,17 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Beyond this a number means no limit: version 1 writes the largest that is a whole number of pages.
+/// A greater number means no limit: version 1 writes the largest that is a whole number of pages.
 constexpr double unlimited = 0x1p60;
 
 /// A file system of control groups that limits memory.
 struct GroupMount {
-  std::string shown;  ///< the group that is seen at `place`
+  std::string shown;  ///< the group that is visible at `place`
   std::string place;
   bool is_version_2 = false;
 };
 
-/// A path as mountinfo writes it: blanks and the like as octal numbers.
+/// A path from mountinfo, which writes blanks and the like as octal numbers.
 std::string unescaped(std::string_view text) {
   std::string path;
   for (std::size_t i = 0; i < text.size(); ++i) {
@@ -61,8 +61,8 @@ std::optional<GroupMount> mount_of(const std::string& line) {
   return GroupMount{unescaped(shown), unescaped(place), is_version_2};
 }
 
-/// Where a group lies below the one that its file system shows; if it lies elsewhere, as from within a container, the
-/// one that is shown counts.
+/// The path of a group below the one that its file system shows; if it lies elsewhere, as within a container, the one
+/// that is shown counts.
 std::string below(const std::string& group, const std::string& shown) {
   const std::string top = shown == "/" ? "" : shown;
   if (!group.starts_with(top + '/') || group.find("/..") != std::string::npos) return {};
@@ -131,7 +131,7 @@ std::vector<MemoryLimit> group_limits(const fs::path& root) {
 
 std::vector<MemoryLimit> address_limits(double addresses, double data, const ProcessSize& now, int threads) {
   const double stacks = threads * stack_of_thread();
-  // What is resident now, the need counts; what isn't takes addresses beside it.
+  // The need includes the memory that is resident now; the rest of the addresses comes on top.
   const double left = addresses - (now.addresses - now.resident) - stacks;
   return {{std::max(0.0, left), "ulimit -v leaves"},
           {std::max(0.0, data - (now.data - now.resident) - stacks), "ulimit -d leaves"}};

@@ -2,7 +2,7 @@
 
 namespace clatter::plan {
 
-/// The least and the greatest that something can come to.
+/// The least and the greatest possible value of an estimate.
 struct Bounds {
   double least = 0.0, most = 0.0;
 

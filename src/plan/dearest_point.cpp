@@ -13,7 +13,7 @@
 namespace clatter::plan {
 namespace {
 
-constexpr double long_time = 10.0;  ///< seconds that a point may take without a word
+constexpr double long_time = 10.0;  ///< seconds that a point may take without a warning
 
 /// The time in tau that a point may run for.
 double longest_time(const point::Problem& scene) {
@@ -22,8 +22,8 @@ double longest_time(const point::Problem& scene) {
   return static_cast<double>(time.max_periods + time.window) * period_of(scene.oscillator);
 }
 
-/// About how far motion between two stops goes: at the speed that it begins with, until damping has taken that, and
-/// that of the response to the force.
+/// About the distance that motion between two stops travels: at its initial speed, until damping has taken that, plus
+/// at the speed of the response to the force.
 double way_of(const point::Problem& scene) {
   const Oscillator& o = scene.oscillator;
   const double time = longest_time(scene);
@@ -46,7 +46,7 @@ double impacts_without_loss(const point::Problem& scene) {
   const Stops& stops = scene.stops;
   if (!(stops.restitution_lower >= 1 || stops.restitution_upper >= 1)) return 0;
   if (scene.time.mode == steady::Mode::steady && o.forcing == 0)
-    return 0;  // in closed form, or it comes to stand still
+    return 0;  // its period is known in closed form, or it comes to a standstill
   const Requirements needs = requirements_of(scene, duration_of(scene.time));
   const bool lower = needs.effects.lower && stops.restitution_lower >= 1,
              upper = needs.effects.upper && stops.restitution_upper >= 1;

@@ -9,7 +9,7 @@
 namespace clatter::plan {
 namespace {
 
-/// How much is run for the estimate: some milliseconds, by general methods a good part of a second.
+/// The extent of the runs for the estimate: some milliseconds, by general methods a good part of a second.
 struct Trial {
   std::size_t points = 32;
   double impacts = 16384;         ///< of a point
@@ -23,7 +23,7 @@ Trial trial_of(const stepping::Integration& integration) {
   return {.points = 4, .periods = 4, .to_settle = 16, .window = 4};
 }
 
-/// Impacts in the time of a transient, as if it went on like its first periods.
+/// Impacts in the time of a transient, extrapolated from its first periods.
 double impacts_of_transient(point::Problem scene, const Trial& trial) {
   steady::TimeSettings& time = scene.time;
   const double budget = time.max_impacts, whole = time.duration, period = period_of(scene.oscillator);
@@ -35,7 +35,7 @@ double impacts_of_transient(point::Problem scene, const Trial& trial) {
   return simulated > 0 ? std::min(budget, impacts * whole / simulated) : impacts;
 }
 
-/// Impacts in a period of the motion that it settles on; in the window if it comes to none.
+/// Impacts in a period of the motion that the point settles to; in the window if it doesn't settle.
 double impacts_of_steady_motion(point::Problem scene, const Trial& trial) {
   steady::TimeSettings& time = scene.time;
   const auto window = static_cast<double>(time.window);
@@ -55,8 +55,8 @@ double expected_impacts(const sweep::Sweep& sweep, const std::optional<sweep::Sh
   const std::size_t points = share.points(), looked_at = std::min(points, trial.points);
   double impacts = 0;
   for (std::size_t i = 0; i < looked_at; ++i) {
-    const std::size_t slot = (2 * i + 1) * points / (2 * looked_at);  // the middles of equal parts
-    point::Problem scene = scene_at(sweep, share.point(slot / share.length(), slot % share.length()));
+    const std::size_t local_index = (2 * i + 1) * points / (2 * looked_at);  // the middles of equal parts
+    point::Problem scene = scene_at(sweep, share.point(local_index / share.length(), local_index % share.length()));
     sweep::start_from(scene, std::nullopt);
     scene.observe = {}, scene.observe.impact_log = true, scene.integration.all_effects = false;
     impacts += scene.time.mode == steady::Mode::transient ? impacts_of_transient(scene, trial)

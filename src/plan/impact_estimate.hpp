@@ -7,7 +7,7 @@
 
 namespace clatter::plan {
 
-/// Impacts in the log of a sweep, or of a shard: an estimate, from a few of its points, each for a short time.
+/// An estimate of the impacts in the log of a sweep or a shard, from short runs of a few of its points.
 [[nodiscard]] double expected_impacts(const sweep::Sweep& sweep, const std::optional<sweep::Shard>& shard);
 
 }  // namespace clatter::plan

@@ -11,9 +11,9 @@ namespace clatter::plan {
 
 /// Bytes that a run takes, known before it begins.
 struct MemoryNeed {
-  double output = 0.0;  ///< of the file before compression: results and coordinates
-  double memory = 0.0;  ///< at its most, the program included, so that what cannot fit is refused before hours of work
-  double log = 0.0;     ///< of memory, the impact log: an estimate, since nobody knows its length beforehand
+  double output = 0.0;  ///< the file before compression: results and coordinates
+  double memory = 0.0;  ///< peak memory, the program included, so that a sweep that can't fit is refused before the run
+  double log = 0.0;     ///< the impact log's part of `memory`: an estimate, as its length isn't known before the run
 };
 
 /// The need of a sweep, or of a shard.
@@ -30,7 +30,7 @@ struct ShardSize {
   std::size_t impacts = 0;
 };
 
-/// Bytes that merging shards takes: those of a run that has all results already, and the largest shard beside them.
+/// Bytes that merging shards takes: those of a run that has all results already, and those of the largest shard.
 [[nodiscard]] double merge_bytes(const sweep::Sweep& sweep, std::span<const ShardSize> shards);
 
 }  // namespace clatter::plan

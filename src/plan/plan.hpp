@@ -16,27 +16,27 @@ namespace clatter::plan {
 struct Group {
   Effects effects;
   std::size_t points = 0;
-  std::size_t example = 0;      ///< the point whose reasons are given: the one that leaves the least room before a stop
+  std::size_t example = 0;      ///< the point whose reasons are given: the one that comes closest to a stop
   std::vector<Reason> reasons;  ///< of that point
   Bounds periods;               ///< forcing periods to simulate, all points together
-  Bounds seconds;               ///< on one thread, from a short measurement of the kernel
+  Bounds seconds;               ///< on one thread, from a short measurement of the compiled set of effects
 };
 
-/// What a sweep, or a shard of it, will do, known before anything runs.
+/// The plan of a sweep, or of a shard of it: its groups, work and memory, known before anything runs.
 struct Plan {
   std::optional<sweep::Shard> shard;
   std::size_t points = 0;
-  std::optional<std::size_t> sampled_points;  ///< so many were looked at, and counts are estimates; empty: all were
-  std::size_t branches = 0;                   ///< of them, so many don't wait for others: the rest follow
+  std::optional<std::size_t> sampled_points;  ///< points that were examined, so counts are estimates; empty: all were
+  std::size_t branches = 0;                   ///< number of independent branches
   std::vector<std::string> observed;          ///< the observables, e.g. "harmonics 0 ... 3 by FFT of 4096 samples"
-  std::vector<Group> groups;                  ///< the cheapest kernel first
-  MemoryNeed need;                            ///< of a run
+  std::vector<Group> groups;                  ///< the cheapest compiled set of effects first
+  MemoryNeed need;                            ///< the need of a run
   double available_memory = 0.0;              ///< memory that a run may have
-  std::vector<std::string> warnings;          ///< what looks unintended, and the remedy
+  std::vector<std::string> warnings;          ///< settings that look unintended, and the remedy
 };
 
-/// Groups the points by the effects that they call for and estimates their work, on so many threads; runs none of them,
-/// and looks at a million of them at most.
+/// Groups the points by the effects that they call for and estimates their work, on `threads` threads; runs none of
+/// them, and examines a million at most.
 [[nodiscard]] Plan plan_of(const sweep::Sweep& sweep, int threads, const std::optional<sweep::Shard>& shard = {});
 
 /// A compiled set of effects in words, e.g. "light damping, forcing, stops, chatter and rest".

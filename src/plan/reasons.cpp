@@ -29,7 +29,7 @@ std::string compared(double a, const char* sign, double b) {
   return std::string(left.data()) + sign + right.data();
 }
 
-/// "x" is measured from the load's equilibrium.
+/// The displacement from the load's equilibrium, as reasons name it.
 std::string displacement(const point::Problem& scene) { return scene.oscillator.load == 0 ? "|x|" : "|x - load|"; }
 
 std::string duration_text(const point::Problem& scene) {

@@ -14,20 +14,20 @@ inline std::uint64_t scrambled(std::uint64_t number) {
   return number ^ (number >> 31U);
 }
 
-/// Some of the numbers below `count`, one of each stretch of equal length but for one, at a place in it that keeps step
-/// with no axis; all of them unless there are more than `most`, whose product with `count` fits into 64 bits.
+/// A sample of the numbers below `count`: one, at a pseudorandom position that follows no axis, of each stretch of
+/// equal length (to one number); all of them if there are at most `most`. `most` times `count` must fit into 64 bits.
 class Sample {
  public:
   struct Draw {
     std::size_t number = 0;
-    std::size_t weight = 1;  ///< of so many numbers, those of its stretch, it is the one
+    std::size_t weight = 1;  ///< length of its stretch: the numbers that it stands for
   };
 
   Sample(std::size_t count, std::size_t most) : count_(count), size_(std::min(count, most)) {}
 
   [[nodiscard]] std::size_t size() const { return size_; }
 
-  /// The i-th of them, in ascending order.
+  /// The i-th number of the sample, in ascending order.
   [[nodiscard]] Draw operator[](std::size_t i) const {
     const std::size_t first = i * count_ / size_, weight = (i + 1) * count_ / size_ - first;
     return {first + scrambled(i) % weight, weight};

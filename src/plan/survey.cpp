@@ -18,7 +18,7 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// Whether motion without stops comes to its end: the steady response, free vibration, or standstill within a time.
+/// Whether motion without stops reaches its final form: the steady response, free vibration, or standstill in time.
 bool comes_to_its_end(const point::Problem& scene, double time) {
   const Oscillator& o = scene.oscillator;
   if (o.forcing != 0) return o.damping > 0;
@@ -27,8 +27,8 @@ bool comes_to_its_end(const point::Problem& scene, double time) {
   return o.damping == 0 || fading_time(o, {x, v}, scene.time.tolerance * scale) <= time;
 }
 
-/// Forcing periods of a point. Where nothing is proved: at best a single one is settled and one observed, at worst all
-/// of max_periods, what attempts to find the periodic motion may take, and the window.
+/// Forcing periods of a point. If nothing is proved, at best one to settle and one observed; at worst all of
+/// max_periods, those of the attempts to find the periodic motion, and the window.
 Bounds periods_of(const point::Problem& scene, const Effects& effects) {
   const steady::TimeSettings& time = scene.time;
   const Oscillator& o = scene.oscillator;
@@ -52,13 +52,13 @@ double work_of_period(const point::Problem& scene, const Effects& effects) {
   return effects.stops() ? std::ceil(period_of(scene.oscillator) / step) + 4 : 1;
 }
 
-/// How near motion comes to a stop that it doesn't meet: 1 where it would touch. Negative where there is none.
+/// How near motion comes to a stop that it doesn't meet: 1 if it would touch; negative if there is no stop.
 double closeness(const Requirements& needs, double gap) {
   return gap < infinity ? (needs.effects.stops() ? needs.reach : needs.free_reach) / gap : -1;
 }
 
-/// The points of a run that are looked at. Those that begin a branch are drawn by themselves: their start is known,
-/// that of the others isn't, and so both are counted as they are.
+/// The points of a run that are examined. Those that begin a branch are sampled apart from the others: their start is
+/// known, so their work differs.
 class Looked {
  public:
   explicit Looked(const sweep::Share& share)
@@ -69,7 +69,7 @@ class Looked {
 
   [[nodiscard]] std::size_t size() const { return firsts_.size() + others_.size(); }
 
-  /// The i-th of them: the number of a point in the sweep, and how many points it stands for.
+  /// The i-th point: its number in the sweep, and how many points it stands for.
   [[nodiscard]] Sample::Draw operator[](std::size_t i) const {
     if (i < firsts_.size()) return {share_.point(firsts_[i].number, 0), firsts_[i].weight};
     const auto [number, weight] = others_[i - firsts_.size()];
@@ -97,7 +97,7 @@ void look_at(const sweep::Sweep& sweep, const Sample::Draw& draw, Survey& survey
                                       scene.oscillator.damping == 0 && !needs.effects.dissipation);
 }
 
-/// Looks at points on several threads, in blocks that are the same for every number of them, and so are their sums.
+/// Examines points on several threads, in blocks that are the same for every number of threads, and so are the sums.
 class Surveyor {
  public:
   Surveyor(const sweep::Sweep& sweep, const sweep::Share& share) : sweep_(sweep), looked_(share) {}

@@ -10,10 +10,10 @@
 
 namespace clatter::plan {
 
-/// Above so many points a survey looks at a sample of so many.
+/// Points that a survey examines at most; of more it takes a sample of this size.
 inline constexpr std::size_t most_looked_at = 1'000'000;
 
-/// The point that is closest to something, the first of equal ones.
+/// The point that comes closest to a stop, the first of equal ones.
 struct Closest {
   double ratio = -1;
   std::size_t point = 0;
@@ -23,9 +23,9 @@ struct Closest {
   }
 };
 
-/// A stop over all points.
+/// A stop, over all points.
 struct StopSeen {
-  bool met = false;  ///< by any of them
+  bool met = false;  ///< by any point
   Closest closest;   ///< among those that don't meet it
 
   void add(const StopSeen& other) { met = met || other.met, closest.add(other.closest); }
@@ -45,9 +45,9 @@ struct Collected {
   }
 };
 
-/// What points have to do, whatever their order and division. Of a sample each counts for those that it stands for.
+/// The work of points, whatever their order and division. Each point of a sample counts for those that it stands for.
 struct Survey {
-  std::size_t looked_at = 0;  ///< points
+  std::size_t looked_at = 0;  ///< points that were examined
   std::vector<Collected> groups;
   StopSeen lower, upper;
   bool lasting = false;  ///< a transient never fades
@@ -66,10 +66,10 @@ struct Survey {
   }
 };
 
-/// A point as the plan sees it; along a followed branch nobody knows where it starts.
+/// A point as the plan examines it; along a followed branch its start isn't known yet, and NaN.
 [[nodiscard]] point::Problem planned_scene(const sweep::Sweep& sweep, std::size_t point);
 
-/// Looks at the points of a run, or a sample of them; the same survey for every number of threads.
+/// Examines the points of a run, or a sample of them; the same survey for every number of threads.
 [[nodiscard]] Survey survey_of(const sweep::Sweep& sweep, const sweep::Share& share, int threads);
 
 }  // namespace clatter::plan

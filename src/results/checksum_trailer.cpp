@@ -18,7 +18,7 @@
 namespace clatter::results {
 namespace {
 
-/// Of one length, so that a reader finds its beginning.
+/// The trailer; always of the same length, so that a reader finds its beginning.
 std::string checksum_trailer_of(std::uint64_t length, std::uint32_t crc) {
   std::array<char, 64> line{};
   std::snprintf(line.data(), line.size(), "\nclatter shard of %20llu bytes, CRC-32 %08x\n",
@@ -30,7 +30,7 @@ std::string checksum_trailer_of(std::uint64_t length, std::uint32_t crc) {
   throw storage::IoError(storage::quoted_name(path) + ": " + why + "; " + way_out);
 }
 
-/// Reads all of a file, piece by piece.
+/// Reads a whole file, piece by piece.
 class Pieces {
  public:
   explicit Pieces(const std::string& path) : path_(path), file_(storage::open_input(path, shards_of_clatter).file) {}
@@ -55,23 +55,23 @@ std::string checksum_trailer_of(std::span<const std::byte> bytes) {
 }
 
 void require_checksum(const std::string& path) {
-  const std::size_t seal_length = checksum_trailer_of(0, 0).size();
+  const std::size_t trailer_length = checksum_trailer_of(0, 0).size();
   Pieces pieces(path);
   std::uint64_t length = 0;
   std::uint32_t crc = 0;
-  std::vector<std::byte> held;  // what may be the seal
+  std::vector<std::byte> held;  // may end with the trailer
   for (auto piece = pieces.next(); !piece.empty(); piece = pieces.next()) {
     held.insert(held.end(), piece.begin(), piece.end());
-    if (held.size() <= seal_length) continue;
-    const auto content = std::span(held).first(held.size() - seal_length);
+    if (held.size() <= trailer_length) continue;
+    const auto content = std::span(held).first(held.size() - trailer_length);
     crc = storage::crc32_of(content, crc), length += content.size();
-    held.erase(held.begin(), held.end() - static_cast<std::ptrdiff_t>(seal_length));
+    held.erase(held.begin(), held.end() - static_cast<std::ptrdiff_t>(trailer_length));
   }
   const std::string_view found(reinterpret_cast<const char*>(held.data()), held.size());
   if (found == checksum_trailer_of(length, crc)) return;
   if (found.starts_with("\nclatter shard of "))
-    refuse_reading(path, "is damaged: its CRC-32 doesn't fit", "copy it again, or run its shard again");
-  refuse_reading(path, "is no whole shard of a sweep",
+    refuse_reading(path, "is damaged (length or CRC-32 of the file)", "copy it again, or run its shard again");
+  refuse_reading(path, "is not a complete shard of a sweep",
                  std::string("name ").append(shards_of_clatter).append(", or copy it again"));
 }
 

@@ -6,14 +6,14 @@
 
 namespace clatter::results {
 
-/// Files that have a seal, as errors name them.
+/// Files that have a checksum trailer, as errors name them.
 inline constexpr const char* shards_of_clatter = "files that `clatter run --shard` has written";
 
-/// The seal of a file's bytes, to be put behind them: a line with their number and CRC-32, so that a copy that went
-/// wrong isn't taken for results. HDF5 doesn't look behind the end of its own bytes.
+/// The checksum trailer to put behind a file's bytes: a line with their number and CRC-32, so that a faulty copy isn't
+/// taken for results. HDF5 ignores bytes behind its own.
 [[nodiscard]] std::string checksum_trailer_of(std::span<const std::byte> bytes);
 
-/// Throws IoError where a file cannot be read, has no seal, or has changed since it was sealed.
+/// Throws IoError if a file cannot be read, has no checksum trailer, or has changed since that was written.
 void require_checksum(const std::string& path);
 
 }  // namespace clatter::results

@@ -11,21 +11,21 @@
 
 namespace clatter::results {
 
-/// The bytes of a file where the library that made them keeps them, since a copy would take their size again.
+/// The bytes of a file in the memory of the library that made them, since a copy would take their size again.
 struct FileImage {
-  std::shared_ptr<const void> owner;  ///< the bytes live as long as it does
+  std::shared_ptr<const void> owner;  ///< keeps the bytes alive
   std::span<const std::byte> bytes;
 };
 
-/// The bytes of an HDF5 file that is netCDF-4 too: dimension scales, attributes, the whole configuration (interface.md,
-/// "Output"). The same figure and configuration give the same bytes. Gives the memory of each variable back once it is
-/// in the image, so that a run holds its results once and one variable twice.
+/// The bytes of an HDF5 file that is netCDF-4 too: dimension scales, attributes, the whole configuration
+/// (src/results/README.md). The same dataset and configuration give the same bytes. Releases the memory of each
+/// variable once it is in the image, so that a run holds its results once and one variable twice.
 [[nodiscard]] FileImage file_image(sweep::Dataset dataset, const config::Config& config);
 
-/// The same with a seal (`require_sealed`) at its end, for a file that another run of clatter will read.
+/// The same with a checksum trailer (`require_checksum`), for a file that another run of clatter will read.
 [[nodiscard]] FileImage image_with_checksum(sweep::Dataset dataset, const config::Config& config);
 
-/// What `clatter info` prints of a file; shapes are dimension names with their lengths.
+/// The contents of a file that `clatter info` prints; shapes are dimension names with their lengths.
 struct FileSummary {
   struct Entry {
     std::string name, type, units, long_name;
@@ -36,7 +36,7 @@ struct FileSummary {
   std::vector<std::pair<std::string, std::size_t>> status_counts;  ///< flag meaning and number of points that have it
 };
 
-/// Reads a clatter file. Throws IoError where it cannot be read, is no HDF5 file, or was not written by clatter.
+/// Reads a clatter file. Throws IoError if it cannot be read, is no HDF5 file, or was not written by clatter.
 [[nodiscard]] FileSummary read_summary(const std::string& path);
 
 }  // namespace clatter::results

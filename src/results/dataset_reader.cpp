@@ -43,7 +43,7 @@ Handle open(const std::string& path) {
   return detail::open_file(path);
 }
 
-/// Reads the texts of a file, which may all be the same place in it: in all no more than it can hold otherwise.
+/// Reads the texts of a file, in total no more than its size can hold: all of them may refer to the same bytes.
 class Texts {
  public:
   explicit Texts(std::uint64_t stored_bytes) : left_(2 * stored_bytes + 16UL * 1024 * 1024) {}
@@ -66,7 +66,7 @@ std::string object_name(hid_t object) {
   return path.substr(path.rfind('/') + 1);
 }
 
-/// The order of creation, where the file keeps it: a tool that has copied the file may have dropped it.
+/// The order of creation, if the file keeps it: a tool that has copied the file may have dropped it.
 H5_index_t attribute_order(hid_t file) {
   const Handle root{H5Gopen2(file, "/", H5P_DEFAULT), H5Gclose};
   const Handle properties{H5Gget_create_plist(root), H5Pclose};  // the file's own list forgets the order
@@ -116,14 +116,13 @@ std::vector<sweep::NamedLength> dimensions_of(hid_t dataset, const std::string& 
   return dimensions;
 }
 
-/// A scale that only gives a dimension its name and length.
+/// Whether a scale only gives a dimension its name and length.
 bool is_bare_scale(hid_t dataset) {
   if (checked(H5DSis_scale(dataset)) == 0) return false;
   return text_attribute(dataset, "NAME").starts_with("This is a netCDF dimension but not a netCDF variable.");
 }
 
-/// How many points there should be, as the configuration in the file says; nothing where it is of another version and
-/// cannot be read.
+/// The number of points by the configuration in the file; nothing if that is of another version and cannot be read.
 std::optional<std::size_t> points_told(hid_t file, const std::string& path) try {
   const config::Config config = config::parse_config(text_attribute(file, "config"), path);
   const std::string shard = text_attribute(file, "shard");
@@ -132,7 +131,7 @@ std::optional<std::size_t> points_told(hid_t file, const std::string& path) try 
   return std::nullopt;
 }
 
-/// Nobody has to read more than there can be: a short file may claim any number of values. `told` are the points of its
+/// Refuses a file that claims more values than it can have, however short it is. `told` are the points of its
 /// configuration.
 void require_possible(const FileSummary::Entry& status, const std::optional<std::size_t>& told,
                       std::uint64_t stored_bytes) {
@@ -142,13 +141,12 @@ void require_possible(const FileSummary::Entry& status, const std::optional<std:
     if (dimension.name != "row") points *= static_cast<double>(dimension.length);  // of `clatter accuracy`
   }
   if (told && points != static_cast<double>(*told))
-    throw detail::Failure("its 'status' is of other points than the " + std::to_string(*told) +
-                          " of its configuration");
+    throw detail::Failure("its 'status' doesn't have the " + std::to_string(*told) + " points of its configuration");
   if (values > detail::most_deflated * static_cast<double>(stored_bytes))
     throw detail::Failure("its 'status' is longer than a file of its size can hold");
 }
 
-/// How many values of a variable have each of its flags, in the order of flag_values.
+/// The number of values of a variable with each of its flags, in the order of flag_values.
 std::vector<std::pair<std::string, std::size_t>> flag_counts(const Handle& dataset) {
   std::array<std::size_t, 256> counts{};
   std::vector<std::uint8_t> values(detail::largest_block);
@@ -187,7 +185,7 @@ FileSummary summary_of(const Handle& file, const std::string& path, std::uint64_
   return summary;
 }
 
-/// Reads with the library, whatever may come of it.
+/// Reads in this process, which the library may crash.
 FileSummary unguarded_summary(const std::string& path, std::uint64_t stored_bytes) try {
   const detail::QuietErrors quiet;
   return summary_of(open(path), path, stored_bytes);
@@ -203,7 +201,7 @@ FileSummary read_summary(const std::string& path) try {
   const std::uint64_t stored = storage::open_input(path, "an output of clatter").stored_bytes;
   auto summary = summary_from(
       storage::run_in_child([&] { return bytes_of(unguarded_summary(path, stored)); }, storage::limits_for(stored)));
-  if (!summary) refuse_damaged(path, "it disturbs the memory of the HDF5 library");
+  if (!summary) refuse_damaged(path, "it makes the HDF5 library corrupt its memory");
   return std::move(*summary);
 } catch (const storage::ChildFailed& death) {
   refuse_damaged(path, death.what());

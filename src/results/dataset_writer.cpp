@@ -31,10 +31,10 @@ using detail::ValueType;
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
-/// From this size on an array is deflated: below it, the index of the chunks takes what deflating saves.
+/// From this size on an array is deflated: below it, the index of the chunks takes as much as deflating saves.
 constexpr std::size_t worth_compressing = 16UL * 1024;  // bytes
 
-/// By this much the file grows in memory at least: few steps, and little to clear for a small file.
+/// The least growth of the file in memory: few steps for a large file, and little to clear for a small one.
 constexpr std::size_t growth = 64UL * 1024;  // bytes
 
 bool is_coordinate(const sweep::Variable& variable) {
@@ -73,7 +73,7 @@ Handle dataspace_of(const Shape& shape) {
   return {H5Screate_simple(static_cast<int>(shape.size()), shape.data(), nullptr), H5Sclose};
 }
 
-/// Writes the values in one call: deflated chunks that are written in another order make another file.
+/// Writes the values in one call: the order in which deflated chunks are written changes the file.
 template <typename Value>
 Handle write_values(hid_t file, const sweep::Variable& variable, const Shape& shape, const std::vector<Value>& values,
                     int level) {
@@ -107,7 +107,7 @@ Handle write_variable(hid_t file, const sweep::Variable& variable, const sweep::
   return stored;
 }
 
-/// The scale of a dimension that no variable describes: without values, and of the name by which netCDF knows it.
+/// The scale of a dimension that no variable describes: without values, and with the name that netCDF expects.
 Handle write_bare_scale(hid_t file, const sweep::NamedLength& dimension) {
   const Handle properties = dataset_properties();
   Handle scale{H5Dcreate2(file, dimension.name.c_str(), H5T_IEEE_F32LE, dataspace_of({dimension.length}), H5P_DEFAULT,
@@ -120,7 +120,7 @@ Handle write_bare_scale(hid_t file, const sweep::NamedLength& dimension) {
   return scale;
 }
 
-/// Gives the values' memory back; clearing would keep it.
+/// Releases the memory of values, which clear() would keep.
 void release(sweep::ValueArray& values) {
   std::visit(
       [](auto& held) {
@@ -130,7 +130,7 @@ void release(sweep::ValueArray& values) {
       values);
 }
 
-/// Takes the values of a coordinate out of the figure.
+/// Writes the scale of a dimension; takes the values of its coordinate out of the dataset.
 Handle write_scale(hid_t file, const sweep::NamedLength& dimension, sweep::Dataset& dataset, int level) {
   const auto found = std::find_if(dataset.variables.begin(), dataset.variables.end(),
                                   [&](const sweep::Variable& variable) { return variable.name == dimension.name; });
@@ -142,7 +142,8 @@ Handle write_scale(hid_t file, const sweep::NamedLength& dimension, sweep::Datas
   return scale;
 }
 
-/// Scales first: netCDF numbers the dimensions in their order of creation. Takes the values out of the figure.
+/// Writes scales first, since netCDF numbers dimensions in their order of creation. Takes the values out of the
+/// dataset.
 void write_dataset(hid_t file, sweep::Dataset& dataset, int level) {
   std::map<std::string, Handle> scales;
   for (const sweep::NamedLength& dimension : dataset.dimensions) {
@@ -170,11 +171,11 @@ void write_origin(hid_t file, const config::Config& config) {
   put(file, "compiler", std::string{compiler()});
 }
 
-/// A file that lives in memory alone: HDF5 leaves a broken one on a disk that fills up or when it is killed.
+/// Creates a file in memory only: HDF5 leaves a broken one on a disk that fills up, or if it is killed.
 Handle create_in(detail::Image& image) {
   const Handle access{H5Pcreate(H5P_FILE_ACCESS), H5Pclose};
   checked(H5Pset_fapl_core(access, growth, false));
-  checked(H5Pset_meta_block_size(access, 0));  // blocks to be filled later would be cut at their end on closing
+  checked(H5Pset_meta_block_size(access, 0));  // closing would cut blocks that are to be filled later
   checked(H5Pset_small_data_block_size(access, 0));
   image.receive_from(access);
   checked(H5Pset_libver_bounds(access, H5F_LIBVER_EARLIEST, H5F_LIBVER_LATEST));  // others gave images that don't open
@@ -195,18 +196,18 @@ std::size_t build(detail::Image& image, sweep::Dataset& dataset, const config::C
   return static_cast<std::size_t>(checked(H5Fget_file_image(file, nullptr, 0)));
 }
 
-/// Nothing but memory is needed.
+/// Any failure is lack of memory, since nothing else is needed.
 [[noreturn]] void refuse(const std::string& why) {
-  throw storage::no_memory("the output file, all of which must fit there, cannot be built (" + why + ')');
+  throw storage::no_memory("the output file, which must fit into it, cannot be built (" + why + ')');
 }
 
-FileImage image_of(sweep::Dataset& dataset, const config::Config& config, bool sealed) try {
+FileImage image_of(sweep::Dataset& dataset, const config::Config& config, bool with_trailer) try {
   const detail::QuietErrors quiet;
   const auto image = std::make_shared<detail::Image>();
   const std::size_t size = build(*image, dataset, config);
-  if (!sealed) return {image, image->first(size)};
-  const std::string seal = checksum_trailer_of(image->first(size));
-  return {image, image->append(size, std::as_bytes(std::span(seal)))};
+  if (!with_trailer) return {image, image->first(size)};
+  const std::string trailer = checksum_trailer_of(image->first(size));
+  return {image, image->append(size, std::as_bytes(std::span(trailer)))};
 } catch (const detail::Failure& failure) {
   refuse(failure.what());
 } catch (const std::bad_alloc&) {

@@ -8,7 +8,7 @@
 
 namespace clatter::results::detail {
 
-/// How values lie in the file, the same on every machine, and in memory.
+/// The type of values in the file, the same on every machine, and in memory.
 struct ValueType {
   hid_t file, memory;
 };
@@ -18,18 +18,18 @@ inline ValueType type_of(std::uint8_t) { return {H5T_STD_U8LE, H5T_NATIVE_UINT8}
 inline ValueType type_of(std::int8_t) { return {H5T_STD_I8LE, H5T_NATIVE_INT8}; }
 inline ValueType type_of(std::int64_t) { return {H5T_STD_I64LE, H5T_NATIVE_INT64}; }
 
-/// Text goes in as a UTF-8 string of variable length, which every reader of netCDF-4 takes and which may be as long as
+/// Writes a text as a UTF-8 string of variable length, which every reader of netCDF-4 takes and which may be as long as
 /// a configuration.
 void put(hid_t object, const std::string& name, const std::string& text);
 
-/// Numbers go in as lists, one number too: netCDF's _FillValue has to be a list of one.
+/// Writes numbers as lists, a single number as well: netCDF's _FillValue has to be a list of one.
 void put(hid_t object, const std::string& name, double value);
 void put(hid_t object, const std::string& name, const std::vector<std::uint8_t>& values);
 
-/// The text of an attribute, of whatever string type another tool may have made it; empty where there is none.
+/// The text of an attribute, of any string type that another tool may have made it; empty if there is none.
 [[nodiscard]] std::string text_attribute(hid_t object, const std::string& name);
 
-/// The small integers of an attribute such as flag_values; empty where there is none.
+/// The small integers of an attribute such as flag_values; empty if there is none.
 [[nodiscard]] std::vector<std::uint8_t> byte_attribute(hid_t object, const std::string& name);
 
 }  // namespace clatter::results::detail

@@ -7,7 +7,7 @@
 namespace clatter::results::detail {
 namespace {
 
-/// Keeps the description of the record that was pushed first: where the failure arose, not what it made fail.
+/// Keeps the description of the record that was pushed first: the failure itself, not the calls that failed with it.
 herr_t keep_first(unsigned depth, const H5E_error2_t* record, void* text) {
   if (depth == 0 && record->desc != nullptr) *static_cast<std::string*>(text) = record->desc;
   return 0;

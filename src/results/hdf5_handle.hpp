@@ -15,15 +15,16 @@ class Failure : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Passes the result of an HDF5 call on; a negative one means failure for every type that the library returns.
+/// Returns the result of an HDF5 call; throws if it is negative, which means failure for every type that the library
+/// returns.
 template <typename Result>
 Result checked(Result result) {
   if (result < 0) throw Failure{};
   return result;
 }
 
-/// Keeps the library from printing its error stack, which becomes a Failure instead, and from tidying up at exit, where
-/// what it could not close of a damaged file makes it complain.
+/// Keeps the library from printing its error stack, which becomes a Failure instead, and from cleaning up at exit,
+/// where it would complain of objects in a damaged file that it could not close.
 class QuietErrors {
  public:
   QuietErrors() {
@@ -40,7 +41,7 @@ class QuietErrors {
   void* stream_ = nullptr;
 };
 
-/// Owns an HDF5 identifier, so that one left open by an exception doesn't keep its file open.
+/// Owns an HDF5 identifier, so that an exception doesn't leave it, and with it its file, open.
 class Handle {
  public:
   /// `id` is the result of the call that opened it, `close` the call that closes such an object.

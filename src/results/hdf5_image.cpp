@@ -9,19 +9,19 @@
 namespace clatter::results::detail {
 namespace {
 
-/// Takes memory that this program may free; what HDF5 allocates itself, only HDF5 may.
+/// Allocates memory that this program may free; only HDF5 may free its own.
 void* grow(void* bytes, std::size_t size, H5FD_file_image_op_t, void*) { return std::realloc(bytes, size); }
 
-/// Called in place of freeing the memory, when the file is closed.
+/// Called when the file is closed, instead of freeing the memory.
 herr_t leave(void* bytes, H5FD_file_image_op_t, void* place) {
   *static_cast<void**>(place) = bytes;
   return 0;
 }
 
-/// Property lists and drivers copy what callbacks are given: here all of them mean the same place.
+/// Property lists and drivers copy the argument of callbacks: here all copies are the same pointer.
 void* same(void* place) { return place; }
 
-/// What means the same place frees nothing.
+/// So freeing a copy frees nothing.
 herr_t keep(void*) { return 0; }
 
 }  // namespace

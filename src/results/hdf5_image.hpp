@@ -7,8 +7,8 @@
 
 namespace clatter::results::detail {
 
-/// Memory that the core driver builds a file in and leaves here, finished, when the file is closed: H5Fget_file_image
-/// would take the size of the file once more. It outlives the file.
+/// Owns the memory in which the core driver builds a file, from the closing of the file on: H5Fget_file_image would
+/// take the size of the file once more. Has to outlive the file.
 class Image {
  public:
   Image() = default;
@@ -16,10 +16,10 @@ class Image {
   Image(const Image&) = delete;
   Image& operator=(const Image&) = delete;
 
-  /// Makes files that are created with `access` leave their memory here.
+  /// Makes files that are created with `access` leave their memory here when they are closed.
   void receive_from(hid_t access);
 
-  /// The first `size` bytes, since the driver takes more than the file has; empty until the file is closed.
+  /// The first `size` bytes, since the driver allocates more than the file has; empty until the file is closed.
   [[nodiscard]] std::span<const std::byte> first(std::size_t size) const;
 
   /// Puts bytes behind the first `size` bytes; returns both. Throws std::bad_alloc.

@@ -9,7 +9,7 @@
 namespace clatter::results::detail {
 namespace {
 
-/// More than any output has.
+/// A limit above the number in any output.
 constexpr std::size_t most_variables = 1000;
 
 /// The message in the header of an object that lists external files (HDF5 file format, IV.A.2.h).
@@ -19,7 +19,7 @@ constexpr unsigned external_files_message = 7;
   throw Failure("'" + storage::printable(name) + "' " + why + ", which clatter doesn't write");
 }
 
-/// Looks at a link, and at the object behind it only if that is in this file.
+/// Examines a link, and the object behind it only if that is in this file.
 void require_own_object(hid_t file, const std::string& name) {
   if (name.empty() || name == "." || name.find('/') != std::string::npos) refuse(name, "is a path");
   H5L_info_t link;

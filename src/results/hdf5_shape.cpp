@@ -7,7 +7,7 @@
 namespace clatter::results::detail {
 namespace {
 
-/// Goes on to the next block, the fastest dimension first; false after the last one.
+/// Advances to the next block, the fastest dimension first; false after the last one.
 bool advance(Shape& begin, const Shape& blocks, const Shape& shape) {
   for (std::size_t d = shape.size(); d-- > 0;) {
     begin[d] += blocks[d];

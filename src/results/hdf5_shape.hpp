@@ -18,15 +18,15 @@ using Shape = std::vector<hsize_t>;
 /// The size of the chunk cache that every reader has: larger chunks are inflated again for every access.
 inline constexpr std::size_t largest_block = 1024UL * 1024;  // bytes
 
-/// A byte of a file gives no more bytes than that when it is inflated (zlib's technical details).
+/// The most bytes that one byte of a deflated file can give (zlib's technical details).
 inline constexpr double most_deflated = 1032;
 
-/// The shape of the blocks that an array is written and read in: as many of the fastest dimensions as fit whole, the
-/// next one in equal parts, so that none is mostly empty.
+/// The shape of the blocks in which an array is written and read: as many of the fastest dimensions as fit whole, the
+/// next one in equal parts, so that no block is mostly empty.
 [[nodiscard]] Shape blocks_of(const Shape& shape, std::size_t value_size);
 
-/// Reads a variable block after block into `memory`, which has room for the values of a type in `largest_block` bytes,
-/// and calls `take(number of values)` after each. Throws Failure.
+/// Reads a variable block by block into `memory` of `largest_block` bytes, as values of `type`, and calls
+/// `take(number of values)` after each. Throws Failure.
 void read_blocks(hid_t dataset, hid_t type, void* memory, const std::function<void(std::size_t)>& take);
 
 }  // namespace clatter::results::detail

@@ -34,7 +34,7 @@ Integer little_endian(std::string_view bytes) {
   return value;
 }
 
-/// A file, of which parts are read. Such a part ends where the file does.
+/// Reads parts of a file; a part is cut at the end of the file.
 class Parts {
  public:
   explicit Parts(const std::string& path) : file_{::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK)} {
@@ -57,8 +57,8 @@ class Parts {
     return {to.data(), got};
   }
 
-  /// The next byte from `begin` on that is stored: before it is a hole, which reads as zeros, and which may be far
-  /// longer than the disk. The end of the file where there is none.
+  /// The next byte from `begin` on that is stored, else the end of the file. The hole before it reads as zeros, and may
+  /// be far longer than the disk.
   [[nodiscard]] std::uint64_t next_stored(std::uint64_t begin) const {
     const off_t data = ::lseek(file_.number(), static_cast<off_t>(begin), SEEK_DATA);
     if (data < 0) return errno == ENXIO ? size_ : begin;  // some file systems don't tell
@@ -70,8 +70,7 @@ class Parts {
   std::uint64_t size_ = 0;
 };
 
-/// Walks the objects from `at` to `end` as the library does; true where every step leads forward and none beyond the
-/// end.
+/// Walks the objects from `at` to `end` as the library does; true if every step leads forward and none beyond the end.
 bool is_sound(const Parts& file, std::uint64_t at, std::uint64_t end) {
   std::array<char, header> bytes{};
   while (end - at >= header) {

@@ -21,8 +21,8 @@ constexpr std::size_t shown = 5;  ///< lines of a long list
                          "; " + way_out);
 }
 
-/// All shards are of one sweep, and were computed by this very program with one rounding: else the merged file
-/// would be one that no single run writes.
+/// Throws unless all shards are of one sweep, and were computed by this very program with one rounding: else no single
+/// run would write the merged file.
 void check_origins(const std::vector<ShardHeader>& heads) {
   const ShardHeader& first = heads.front();
   if (first.schema != "clatter/1" || first.version != version() || first.git_commit != git_commit() ||
@@ -35,7 +35,7 @@ void check_origins(const std::vector<ShardHeader>& heads) {
   for (const ShardHeader& head : heads) {
     if (head.config_sha256 != first.config_sha256 || head.config != first.config)
       refuse_pair(first, head, "are of different configurations",
-                  "leave out what doesn't belong here:" +
+                  "leave out the one that doesn't belong to the sweep:" +
                       storage::config_diff({storage::printable(head.path) + ": ", head.config},
                                            {storage::printable(first.path) + ": ", first.config}));
     if (head.schema != first.schema || head.version != first.version || head.git_commit != first.git_commit ||
@@ -49,7 +49,7 @@ void check_origins(const std::vector<ShardHeader>& heads) {
   }
 }
 
-/// Which shards of so many would have the points that nobody has.
+/// The missing points, and the shards, of `of`, to run for them.
 std::string missing_text(const sweep::Sweep& sweep, const std::vector<ShardHeader>& heads, std::size_t of) {
   std::vector<char> there(of, 0);
   for (const ShardHeader& head : heads)
@@ -66,8 +66,8 @@ std::string missing_text(const sweep::Sweep& sweep, const std::vector<ShardHeade
   return missing > shown ? text + "\nand " + std::to_string(missing - shown) + " more shards" : text;
 }
 
-/// Every point is there exactly once. Two shards have a branch in common where their numbers agree modulo the greatest
-/// common divisor of their counts.
+/// Throws unless every point is there exactly once. Two shards have a branch in common if their numbers agree modulo
+/// the greatest common divisor of their counts.
 void check_points(const sweep::Sweep& sweep, const std::vector<ShardHeader>& heads) {
   for (auto one = heads.begin(); one != heads.end(); ++one)
     for (auto other = heads.begin(); other != one; ++other) {

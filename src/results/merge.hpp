@@ -14,11 +14,11 @@ namespace clatter::results {
 struct ShardSet {
   std::vector<ShardHeader> heads;
   config::Config config;
-  double bytes = 0.0;  ///< of memory that merging takes
+  double bytes = 0.0;  ///< memory that merging takes
 };
 
-/// Reads what the shards' files say of themselves. Throws IoError unless they were computed from one configuration by
-/// this very program with one rounding, and have each point of the sweep exactly once.
+/// Reads the headers of shards. Throws IoError unless they were computed from one configuration by this very program
+/// with one rounding, and have each point of the sweep exactly once.
 [[nodiscard]] ShardSet shard_set(const std::vector<std::string>& paths);
 
 /// The results of a whole sweep.
@@ -27,7 +27,7 @@ struct Merged {
   std::size_t failed_points = 0;
 };
 
-/// Reads all results: the figure that a single run gives, bit for bit. Throws IoError, std::bad_alloc.
+/// Reads all results: the dataset of a single run, bit for bit. Throws IoError, std::bad_alloc.
 [[nodiscard]] Merged merge(const ShardSet& shards);
 
 }  // namespace clatter::results

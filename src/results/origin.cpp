@@ -12,7 +12,7 @@ using detail::checked;
 using detail::Handle;
 using detail::text_attribute;
 
-/// The origin as a text, for it has to come out of a child process: kind, shard and title, a NUL between them.
+/// The origin as a text that a child process can send: kind, shard and title, a NUL between them.
 std::string origin_text(const std::string& path) try {
   const detail::QuietErrors quiet;
   const Handle file = detail::open_file(path);

@@ -12,22 +12,21 @@
 namespace clatter::results {
 namespace {
 
-/// Why an output must not take the place of another file; empty where it may.
+/// The reason why an output must not replace another file; empty if it may.
 std::string difference(const std::optional<Origin>& there, const Origin& ours) {
   const auto command = [](const Origin& origin) { return origin.is_study ? "`clatter accuracy`" : "`clatter run`"; };
   const auto part = [](const Origin& origin) {
     return origin.shard.empty() ? std::string("all points") : "shard " + origin.shard;
   };
-  if (!there) return "the file that is there is no output of clatter, or a damaged one";
+  if (!there) return "the file there is not an output of clatter, or is damaged";
   if (there->is_study != ours.is_study)
-    return std::string("the file that is there is an output of ")
+    return std::string("the file there is an output of ")
         .append(command(*there))
         .append(", this is one of ")
         .append(command(ours));
-  if (there->shard != ours.shard)
-    return "the file that is there has " + part(*there) + " of a sweep, this one " + part(ours);
+  if (there->shard != ours.shard) return "the file there has " + part(*there) + " of a sweep, this one " + part(ours);
   if (there->title != ours.title)
-    return "the file that is there has the title " + config::in_quotes(there->title) + ", this one " +
+    return "the file there has the title " + config::in_quotes(there->title) + ", this one " +
            config::in_quotes(ours.title);
   return {};
 }
@@ -40,7 +39,7 @@ OutputPlace::OutputPlace(std::string path, Origin origin, bool force)
   require_replaceable();
 }
 
-/// Nothing where there is no file, or nothing in it that could be lost.
+/// The state of the file; nothing if there is no file, or an empty one.
 std::optional<OutputPlace::State> OutputPlace::state() const {
   struct stat file {};
   if (::stat(path_.c_str(), &file) != 0 || file.st_size == 0) return std::nullopt;

@@ -12,20 +12,20 @@
 
 namespace clatter::results {
 
-/// Where an output goes. It takes the place of an older one of the same command, shard and title, as when a
-/// configuration is run again; any other file that is there would be lost, and is kept.
+/// The path of an output. An older output of the same command, shard and title is replaced, as when a configuration is
+/// run again; any other file there would be lost, so it is kept.
 class OutputPlace {
  public:
-  /// `force`: any file may be replaced. Throws IoError where the output couldn't be written, or must not be.
+  /// `force`: any file may be replaced. Throws IoError if the output can't be written, or would replace another file.
   OutputPlace(std::string path, Origin origin, bool force);
 
   [[nodiscard]] const std::string& path() const { return path_; }
 
-  /// As `publish` does. Throws IoError, too, where meanwhile a file has come that must not be replaced.
+  /// As `storage::write_atomically`; also throws IoError if a file has appeared meanwhile that must not be replaced.
   void write_atomically(std::span<const std::byte> bytes, const storage::MakeRoom& make_room = storage::no_room) const;
 
  private:
-  /// By what a file is told from another one, and from itself once it has changed: device, inode, size and times.
+  /// Device, inode, size and times of a file, which tell whether it is another one or has changed.
   using State = std::array<std::int64_t, 7>;
 
   [[nodiscard]] std::optional<State> state() const;
@@ -34,7 +34,7 @@ class OutputPlace {
   std::string path_;
   Origin origin_;
   bool force_;
-  std::optional<State> seen_;  ///< of the file that was there before the run
+  std::optional<State> seen_;  ///< state of the file that was there before the run
 };
 
 }  // namespace clatter::results

@@ -33,7 +33,7 @@ using detail::text_attribute;
   throw storage::IoError(storage::quoted_name(path) + " cannot be read: " + why + "; run its shard again");
 }
 
-/// Passes on what a function of an open file gives; whatever stops HDF5 becomes an IoError.
+/// Returns the result of a function of the open file; any failure of HDF5 becomes an IoError.
 template <typename Read>
 auto read_file(const std::string& path, Read read) try {
   const detail::QuietErrors quiet;
@@ -72,7 +72,7 @@ void walk_variables(const Handle& file,
   }
 }
 
-/// How many values there are, without reading them.
+/// The number of values, without reading them.
 std::uint64_t values_in(const Handle& file) {
   double values = 0;
   walk_variables(file, [&](const std::string&, const Handle& dataset) {
@@ -95,7 +95,7 @@ void try_values(const Handle& file) {
 
 ShardHeader header_of(const Handle& file, const std::string& path) {
   const std::optional<sweep::Shard> shard = sweep::shard_named(text_attribute(file, "shard"));
-  if (!shard) throw detail::Failure("it doesn't say which shard it is");
+  if (!shard) throw detail::Failure("it doesn't say which shard it has");
   ShardHeader head{.path = path,
                    .shard = *shard,
                    .schema = text_attribute(file, "clatter_schema"),
@@ -111,7 +111,7 @@ ShardHeader header_of(const Handle& file, const std::string& path) {
   return head;
 }
 
-/// All of a head in one order, for both directions.
+/// All fields of a header in one order, to pack and to unpack.
 template <typename Pass, typename Head>
 void pass_all(Pass& pass, Head& head) {
   pass(head.shard.number), pass(head.shard.of), pass(head.impacts), pass(head.values);
@@ -120,8 +120,8 @@ void pass_all(Pass& pass, Head& head) {
     pass(*text);
 }
 
-/// What a shard claims to have is read into memory, so it must be no more than its size can hold and a run of its
-/// configuration writes. One that this program cannot read is of another version, which the merge will say.
+/// Throws if a shard claims more values than its size can hold or a run of its configuration writes, since all of them
+/// are read into memory. A configuration that can't be read is of another version, and the merge refuses that.
 void require_possible(const ShardHeader& head, std::uint64_t stored_bytes) try {
   const auto values = static_cast<double>(head.values);
   if (values > detail::most_deflated * static_cast<double>(stored_bytes))
@@ -141,7 +141,7 @@ std::string packed(const ShardHeader& head) {
 
 }  // namespace
 
-/// A child process reads all of it first: the seal tells damage, but a file may be anyone's.
+/// A child process reads all of it first: the checksum shows damage, but the file may be of any origin.
 ShardHeader read_shard_header(const std::string& path) try {
   const std::uint64_t stored = storage::open_input(path, shards_of_clatter).stored_bytes;
   const std::string bytes = storage::run_in_child(
@@ -160,7 +160,7 @@ ShardHeader read_shard_header(const std::string& path) try {
   storage::Unpacker unpacker(bytes);
   pass_all(unpacker, head);
   if (!unpacker.complete() || head.shard.number >= head.shard.of || head.shard.of > sweep::Shard::most)
-    refuse(path, "it disturbs the memory of the HDF5 library");
+    refuse(path, "it makes the HDF5 library corrupt its memory");
   return head;
 } catch (const storage::ChildFailed& death) {
   refuse(path, death.what());

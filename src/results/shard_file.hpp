@@ -8,18 +8,18 @@
 
 namespace clatter::results {
 
-/// What a shard's file says of itself.
+/// The header of a shard's file.
 struct ShardHeader {
   std::string path;
   sweep::Shard shard;
   std::string schema, version, git_commit, compiler;
   std::string config, config_sha256;
-  std::string rounding;       ///< what its last bits depend on
-  std::uint64_t impacts = 0;  ///< in its log
-  std::uint64_t values = 0;   ///< of all variables
+  std::string rounding;       ///< all that its last bits depend on (`rounding_fingerprint`)
+  std::uint64_t impacts = 0;  ///< number in its log
+  std::uint64_t values = 0;   ///< number in all variables
 };
 
-/// Reads what a shard's file says of itself, once its seal is found whole. Throws IoError.
+/// Reads the header of a shard's file, if its checksum is right. Throws IoError.
 [[nodiscard]] ShardHeader read_shard_header(const std::string& path);
 
 /// Reads the variables of a shard, names and values alone. Throws IoError.

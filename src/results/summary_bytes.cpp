@@ -7,7 +7,7 @@
 namespace clatter::results {
 namespace {
 
-/// All of a summary in one order, for both directions.
+/// All fields of a summary in one order, to pack and to unpack.
 template <typename Pass, typename Summary>
 void pass_all(Pass& pass, Summary& summary) {
   const auto pair = [](auto& each, auto& item) { each(item.first), each(item.second); };

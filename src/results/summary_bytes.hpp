@@ -11,7 +11,7 @@ namespace clatter::results {
 /// A summary as bytes, to pass from one process to another.
 [[nodiscard]] std::string bytes_of(const FileSummary& summary);
 
-/// The summary again; nothing where the bytes are none, as a process may send them whose memory was disturbed.
+/// The summary from its bytes; nothing if they are no summary, as a process with corrupted memory may send them.
 [[nodiscard]] std::optional<FileSummary> summary_from(std::string_view bytes);
 
 }  // namespace clatter::results

@@ -7,7 +7,7 @@ namespace clatter::results {
 /// The project's version, e.g. "0.1.0".
 [[nodiscard]] std::string_view version();
 
-/// The commit it was built from, with "-dirty" where files had changed; that of the archive where there is no git, else
+/// The commit from which it was built, with "-dirty" if files had changed; that of the archive if there is no git, else
 /// "unknown".
 [[nodiscard]] std::string_view git_commit();
 

@@ -8,7 +8,7 @@
 
 namespace clatter::steady {
 
-/// Where a map that has the derivative D, and moves a state by `gap`, has its fixed point: (I - D)^-1 gap from there.
+/// The step to the fixed point of a map that moves a state by `gap` and has the derivative D: (I - D)^-1 gap.
 [[nodiscard]] inline motion::Perturbation newton_step(const motion::Jacobian<double>& D,
                                                       const motion::Perturbation& gap) {
   const double determinant = (1 - D[0]) * (1 - D[3]) - D[1] * D[2];
@@ -21,10 +21,10 @@ namespace clatter::steady {
   return square < 0 ? std::sqrt(product) : std::abs(half) + std::sqrt(square);
 }
 
-/// A norm in which a map shrinks changes by little more than its larger multiplier does, by the set of all changes of
-/// size 1: the ellipse with the two eigenvectors as conjugate radii, of a complex pair with real and imaginary part.
-/// Where that is much thinner than need be, the two being nearly the same, the ellipse is along the first one and
-/// across it, so narrow that what a change across adds along it takes no more than half of what the map takes away.
+/// A norm in which a map shrinks changes nearly as fast as its larger multiplier allows. Its unit ellipse has the two
+/// eigenvectors as conjugate radii, for a complex pair their real and imaginary part. If they nearly coincide, that
+/// ellipse would be thinner than necessary: its axes are then along and across the first eigenvector, so narrow across
+/// that the coupling undoes at most half of the contraction.
 class ContractionNorm {
  public:
   explicit ContractionNorm(const motion::Jacobian<double>& D) {
@@ -51,22 +51,23 @@ class ContractionNorm {
     const double x = e.x / size, v = e.v / size;
     return size * std::sqrt((unit_.vv() * x * x - 2 * unit_.xv() * x * v + unit_.xx() * v * v) / unit_.area());
   }
-  /// Of the largest change in an ellipse.
+  /// The norm of the largest change in an ellipse.
   [[nodiscard]] double of(const motion::Ellipse& e) const {
     const double half = (unit_.vv() * e.xx() - 2 * unit_.xv() * e.xv() + unit_.xx() * e.vv()) / (2 * unit_.area());
     const double product = std::max(0.0, e.area() / unit_.area());
     return std::sqrt(half + std::sqrt(std::max(0.0, half * half - product)));
   }
-  /// All changes up to a size.
+  /// All changes of norm up to `radius`.
   [[nodiscard]] motion::Ellipse disc(double radius) const {
     const double square = radius * radius;
     return {square * unit_.xx(), square * unit_.xv(), square * unit_.vv()};
   }
 
  private:
-  /// Of length 1.
+  /// An eigenvector of length 1.
   [[nodiscard]] static motion::Perturbation eigenvector(const motion::Jacobian<double>& D, double multiplier) {
-    const motion::Perturbation a{D[1], multiplier - D[0]}, b{multiplier - D[3], D[2]};  // each 0 where it isn't one
+    const motion::Perturbation a{D[1], multiplier - D[0]},
+        b{multiplier - D[3], D[2]};  // either may be 0, and is then no eigenvector
     const motion::Perturbation& e = a.size() > b.size() ? a : b;
     const double length = std::hypot(e.x, e.v);
     return length > 0 ? motion::Perturbation{e.x / length, e.v / length} : motion::Perturbation{1, 0};

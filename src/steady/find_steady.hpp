@@ -9,7 +9,7 @@
 
 namespace clatter::steady {
 
-/// Runs forced motion until it repeats, and looks for that from a section on.
+/// Runs forced motion until it repeats; repeats count from the section `from` on.
 template <stepping::Integrator I>
 [[nodiscard]] ObservedTime find_repetition(I& integrator, motion::State<double> state, const TimeSettings& time,
                                            std::int64_t from) {
@@ -38,8 +38,8 @@ template <stepping::Integrator I>
   }
 }
 
-/// The section from which on all effects look for a repeat: early enough before max_periods to find a motion of 64
-/// periods, and to see that rounding keeps a slow transient from getting any nearer (`RepeatFinder`).
+/// The section from which on a run with all effects looks for a repeat: early enough before max_periods to find a
+/// motion of 64 periods, and to see a slow transient come to a halt at rounding (`RepeatFinder`).
 template <stepping::Integrator I>
 [[nodiscard]] std::int64_t last_look(const I& integrator, const TimeSettings& time) {
   const double decay = integrator.constants().h * integrator.period(), half = static_cast<double>(time.max_periods) / 2;
@@ -47,9 +47,8 @@ template <stepping::Integrator I>
   return time.max_periods - static_cast<std::int64_t>(3 * RepeatFinder::longest) - static_cast<std::int64_t>(slow);
 }
 
-/// The time to observe of a scene that starts from `state`. General methods know no shortcut; nor is one taken where
-/// all effects are asked for, to compare with: it is run for all of max_periods then, and a repeat looked for at their
-/// end.
+/// The time to observe of a scene that starts from `state`. General methods take no shortcut. Nor does a run with all
+/// effects, which others are compared with: it simulates all of max_periods and looks for a repeat only at their end.
 template <stepping::Integrator I>
 [[nodiscard]] ObservedTime find_steady(I& integrator, const motion::State<double>& state, const Scene& scene,
                                        const TimeSettings& time, const stepping::Integration& integration) {

@@ -18,13 +18,12 @@
 
 namespace clatter::steady {
 
-/// Who takes a motion from section to section while its steady state is looked for: the search itself, or lanes, where
-/// a forcing period costs so little that plain repetition is the quickest way unless states contract slowly.
+/// What advances a motion from section to section while its steady state is sought: the search itself, or lanes. In
+/// lanes a forcing period costs so little that plain repetition is quickest unless states contract slowly.
 enum class TakenBy : std::uint8_t { itself, lanes };
 
-/// Looks at forced motion, section by section, until its steady state is known, in as few forcing periods as possible:
-/// as the closed form once no stop can be reached any more, by Newton's method once successive states contract, else by
-/// repetition.
+/// Finds the steady state of forced motion, section by section, in as few forcing periods as possible: in closed form
+/// once no stop can be reached any more, by Newton's method once successive states contract, else by repetition.
 template <Effects E>
 class SteadySearch {
  public:
@@ -51,7 +50,7 @@ class SteadySearch {
     }
   }
 
-  /// What is known at the next section; nothing: the motion has to go on.
+  /// The steady state, if it is known at the next section; nothing: the motion has to go on.
   [[nodiscard]] std::optional<ObservedTime> at_section(const motion::State<double>& state) {
     recent_[index(0)] = state;
     if (const auto found = closed_form(state)) return found;
@@ -60,7 +59,7 @@ class SteadySearch {
       return ObservedTime{Status::aperiodic, state, static_cast<double>(time_.window), simulated(), FoundBy::nothing};
     return attractor(state);
   }
-  /// Takes note of the forcing period that leads to the next section.
+  /// Records the forcing period that leads to the next section.
   void pass_period(const Passage& passage) { passages_[index(0)] = passage, ++section_; }
 
   [[nodiscard]] ObservedTime failure(stepping::Outcome outcome, const motion::State<double>& state) const {
@@ -68,9 +67,9 @@ class SteadySearch {
   }
 
  private:
-  static constexpr double nearest_first = 0.02;  ///< relative distance below which a first attempt pays
+  static constexpr double nearest_first = 0.02;  ///< relative distance below which a first attempt is made
   static constexpr std::int64_t long_settling = 128;
-  static constexpr double longest_settling = 0x1p52;  ///< periods; more are more than double can count
+  static constexpr double longest_settling = 0x1p52;  ///< periods that double can count exactly
   static constexpr std::size_t kept = 2 * RepeatFinder::longest;
 
   [[nodiscard]] std::size_t index(std::size_t ago) const { return (static_cast<std::size_t>(section_) - ago) % kept; }
@@ -79,7 +78,7 @@ class SteadySearch {
     return static_cast<double>(section_ - taken_) + static_cast<double>(map_.simulated());
   }
 
-  /// Runs to the next section, or takes it from an approach that has come to nothing.
+  /// Runs to the next section, or takes its state from a failed attempt that has already computed it.
   [[nodiscard]] stepping::Outcome advance(motion::State<double>& state) {
     if (approach_ && next_ < approach_->periods) {
       passages_[index(0)] = approach_->passages[next_];
@@ -93,8 +92,8 @@ class SteadySearch {
     return outcome;
   }
 
-  /// The forcing periods after which the motion repeats, 0 while it doesn't. In lanes it goes on until the states at
-  /// the sections have come as close as rounding lets them, since no Newton step takes them there.
+  /// The forcing periods after which the motion repeats, 0 while it doesn't. In lanes the motion goes on until the
+  /// states at the sections are as close as rounding allows, since no Newton step brings them there.
   [[nodiscard]] std::size_t repeats(const motion::State<double>& state) {
     const double log_area =
         section_ > 0 ? passages_[index(1)].log_area - 2 * integrator_.constants().h * integrator_.period() : 0.0;
@@ -114,8 +113,8 @@ class SteadySearch {
             FoundBy::repetition,    settled()};
   }
 
-  /// The steady forced response, where no stop is in reach from now on and damping takes away what is left of the
-  /// transient, however long that may take.
+  /// The steady forced response, if no stop is in reach from now on and damping removes the rest of the transient,
+  /// however long that may take.
   [[nodiscard]] std::optional<ObservedTime> closed_form(const motion::State<double>& state) const {
     const Oscillator& o = scene_.oscillator;
     if (o.damping == 0 || (section_ > 0 && passages_[index(1)].itinerary != 0)) return std::nullopt;
@@ -131,7 +130,7 @@ class SteadySearch {
     return ObservedTime{Status::periodic, steady, 1.0, simulated(), FoundBy::closed_form, settled() + periods};
   }
 
-  /// Follows the next n periods together with their derivative where states have begun to contract, and looks for the
+  /// Once states have begun to contract, follows the next n periods together with their derivative, and looks for the
   /// periodic motion that they contract to.
   [[nodiscard]] std::optional<ObservedTime> attractor(const motion::State<double>& state) {
     const bool under_way = approach_ && next_ < approach_->periods;
@@ -144,8 +143,8 @@ class SteadySearch {
     return orbit ? std::optional(observed(*orbit)) : std::nullopt;
   }
 
-  /// Whether it pays to look for contracting states: that costs a tenth of a forcing period, and in lanes an attempt
-  /// costs as much as hundreds.
+  /// Whether to look for contracting states at this section: a look costs a tenth of a forcing period, and in lanes an
+  /// attempt costs as much as hundreds of them.
   [[nodiscard]] bool pays() const {
     if (closing_in_ > 0) return false;
     if (in_lanes_)
@@ -154,20 +153,19 @@ class SteadySearch {
     return section_ <= long_settling || section_ % 8 == 0;
   }
 
-  /// Whether attempts together stay below 64 periods, but no more than max_periods, and a quarter of those of the
-  /// motion.
+  /// Whether all attempts together stay within min(64, max_periods) plus a quarter of the motion's periods.
   [[nodiscard]] bool affordable(std::size_t n) const {
     const std::int64_t spent = static_cast<std::int64_t>(map_.simulated() + n * StroboscopicMap<E>::most_turns);
     return spent <= std::min<std::int64_t>(64, time_.max_periods) + section_ / 4;
   }
 
-  /// Whether plain repetition will get there before an attempt by Newton's method has paid, as fast as states n apart
-  /// come closer; also where they have not done so for long enough to tell.
+  /// Whether plain repetition will be done before an attempt by Newton's method has paid, by the rate at which states n
+  /// apart come closer; true, too, if that rate isn't known yet.
   [[nodiscard]] bool repeats_soon(std::size_t n) const {
     const double now = repeat_.distance_over(n), before = repeat_.distance_over(n, n);
     if (!(before < repeat_.distance_over(n, 2 * n)) && !(now < 1e-3)) return true;
     const double rounds = std::log(now / time_.tolerance) / std::log(before / now);
-    const double left = static_cast<double>(n) * (std::max(0.0, rounds) + 2);  // two more to be sure of it
+    const double left = static_cast<double>(n) * (std::max(0.0, rounds) + 2);  // and two more to confirm it
     return left < std::min(400.0, static_cast<double>(time_.max_periods - section_));
   }
 
@@ -207,15 +205,15 @@ class SteadySearch {
   BeginsBefore begins_before_;
   SectionObserver watch_;
   StroboscopicMap<E> map_;
-  std::size_t closing_in_ = 0;     ///< lanes: the forcing periods after which the motion is known to repeat, 0: unknown
-  double closest_ = 0.0;           ///< distance of states so many sections apart, the least so far
-  std::int64_t closest_at_ = 0;    ///< the section where that was
-  std::optional<Orbit> approach_;  ///< the periods after an attempt
-  std::size_t next_ = 0;           ///< of its sections, the one that comes next
+  std::size_t closing_in_ = 0;     ///< lanes: forcing periods after which the motion repeats; 0: not known yet
+  double closest_ = 0.0;           ///< the least distance so far of states so many sections apart
+  std::int64_t closest_at_ = 0;    ///< the section at which it was
+  std::optional<Orbit> approach_;  ///< the periods that the last attempt followed
+  std::size_t next_ = 0;           ///< index of its next section
   std::int64_t section_ = 0;
   std::int64_t taken_ = 0;                                       ///< sections that were taken from approaches
   std::array<motion::State<double>, kept> recent_{};             ///< [section modulo kept]
-  std::array<Passage, kept> passages_{};                         ///< of the section that begins there
+  std::array<Passage, kept> passages_{};                         ///< [section modulo kept]: the period from it
   std::array<double, RepeatFinder::longest + 1> near_enough_{};  ///< [n]: distance below which an attempt is made
 };
 

@@ -9,8 +9,8 @@
 namespace clatter::steady {
 
 /// Period of conservative motion (h = f = 0, R = 1) from its start (x, v), in tau: 2 pi without contact, else twice the
-/// angle that the free rotation around the load turns by from stop to stop (physics: 4 arcsin(g/V) between symmetric
-/// stops). A stop that isn't reached stands for the turning point before it.
+/// angle that the free rotation around the load turns by from stop to stop (eq. 35 for symmetric stops). If a stop
+/// isn't reached, the turning point before it takes its place.
 template <class Number>
 [[nodiscard]] Number free_period(const Number& load, const Stops& stops, const Number& x, const Number& v) {
   using std::atan2, std::isfinite, std::sqrt;

@@ -13,8 +13,8 @@
 
 namespace clatter::steady {
 
-/// Runs unforced motion until it returns to the same speed on the same stop, turns freely, or comes to stand still;
-/// in closed form, where nothing is lost, its period follows from the start.
+/// Runs unforced motion until it returns to the same speed on the same stop, rotates freely, or stands still. If no
+/// energy is lost, a method in closed form has its period from the start.
 template <stepping::Integrator I>
 class FreeSearch {
  public:
@@ -64,8 +64,8 @@ class FreeSearch {
     return free_period<double>(scene_.oscillator.load, integrator_.stops(), start.x, start.v) / integrator_.period();
   }
 
-  /// How the motion ends where no stop is in reach from now on: in free vibration, or at its equilibrium if damping
-  /// takes it there in time.
+  /// The end of a motion that no stop is in reach of from now on: free vibration, or the equilibrium if damping brings
+  /// the motion there in time.
   [[nodiscard]] std::optional<ObservedTime> closed_form(const motion::State<double>& state,
                                                         std::int64_t section) const {
     const Oscillator& o = scene_.oscillator;
@@ -80,7 +80,8 @@ class FreeSearch {
     return ObservedTime{Status::periodic, end, 1.0, settled, FoundBy::standstill, end_at};
   }
 
-  static constexpr double shortest = 16 * std::numeric_limits<double>::epsilon();  ///< turns that time can tell apart
+  static constexpr double shortest =
+      16 * std::numeric_limits<double>::epsilon();  ///< period that time can resolve, in turns
   I& integrator_;
   const Scene& scene_;
   const TimeSettings& time_;

@@ -12,27 +12,27 @@ namespace clatter::steady {
 /// How the time to observe was found.
 enum class FoundBy : std::uint8_t {
   start,        ///< a transient is observed from its start
-  closed_form,  ///< no stop in reach: the steady response, or what free motion ends as
+  closed_form,  ///< no stop in reach: the steady response, or free vibration
   energy,       ///< conservative motion: the period follows from the start
-  newton,       ///< Newton's method on the period map
+  newton,       ///< Newton's method on the stroboscopic map
   repetition,   ///< the state came back
   standstill,   ///< nothing moves any more
   nothing       ///< the motion doesn't repeat, or the point has failed
 };
 
-/// For people, in the order of FoundBy.
+/// Names for output, in the order of FoundBy.
 inline constexpr std::array<const char*, 7> found_by_names{"transient",  "closed form", "energy",   "Newton's method",
                                                            "repetition", "standstill",  "no repeat"};
 
-/// The time that is observed: where it begins, how long it is, and what the motion in it is.
+/// The time that is observed: its first state, its length, and the kind of its motion.
 struct ObservedTime {
   Status status = Status::unresolved;
   motion::State<double> from{};
   double turns = 0.0;    ///< its length in forcing periods; without forcing in 2 pi
   double settled = 0.0;  ///< forcing periods simulated before, to find it
   FoundBy found_by = FoundBy::nothing;
-  /// Forcing periods after which the motion from the start is within the tolerance of its steady state, by the rate at
-  /// which it contracts; it may take longer than max_periods. NaN where there is no steady state.
+  /// Forcing periods until the motion from the start is within the tolerance of its steady state, by the rate at which
+  /// it contracts; may exceed max_periods. NaN if there is no steady state.
   double settling = std::numeric_limits<double>::quiet_NaN();
 };
 

@@ -9,7 +9,7 @@
 
 namespace clatter::steady {
 
-/// The least proper divisor of n that a predicate holds for, else n.
+/// The least proper divisor of n for which a predicate holds, else n.
 template <class Predicate>
 [[nodiscard]] std::size_t least_divisor(std::size_t n, Predicate&& holds) {
   for (std::size_t m = 1; m < n; ++m)
@@ -17,8 +17,9 @@ template <class Predicate>
   return n;
 }
 
-/// Which of two states of a periodic motion its observed period rather begins with: under a force f < 0 the one with
-/// the lesser x, then the lesser v; under f > 0 the greater, so that a mirrored scene begins with the mirrored state.
+/// Orders the states of a periodic motion; its observed period begins with the first of them. Under a force f < 0 that
+/// has the lesser x, then the lesser v; under f > 0 the greater, so that a mirrored scene begins with the mirrored
+/// state.
 class BeginsBefore {
  public:
   explicit BeginsBefore(double forcing) : sign_(forcing > 0 ? -1 : 1) {}
@@ -31,21 +32,21 @@ class BeginsBefore {
   double sign_;
 };
 
-/// Finds the number of forcing periods after which a motion repeats, from its states at the sections. A repeat counts
-/// once all that is still to come of the transient is below the tolerance, not the part of it that n periods take away:
-/// that is small where motion contracts slowly. And it has to go on for as long again: motion that forgets its past on
-/// a stop, and is chaotic after it, comes back to a state to rounding and yet takes another way from there.
+/// Finds the number of forcing periods after which a motion repeats, from its states at the sections (the stroboscopic
+/// sections of `motion::State`). A repeat counts once the whole rest of the transient is below the tolerance, not just
+/// the part that n periods remove, which is small if motion contracts slowly. It must also hold for another n periods:
+/// motion that forgets its past on a stop, and is chaotic after it, returns to a state to rounding and then diverges.
 class RepeatFinder {
  public:
   static constexpr std::size_t longest = 64;  ///< forcing periods of the longest motion looked for
-  static constexpr double few = 100;          ///< tolerances within which a divisor of a period counts as one
+  static constexpr double few = 100;          ///< a divisor counts as the period within so many tolerances
 
-  /// Looks for a repeat at every section, or where periods cost less than looking at every `looks_every`-th.
+  /// Looks for a repeat at every `looks_every`-th section: rarely, if a period costs less than a look.
   explicit RepeatFinder(double tolerance, std::size_t looks_every = 1)
       : tolerance_(tolerance), looks_every_(looks_every) {}
 
-  /// Takes the next section's state, and the logarithm of what the period before it left of a small area of states;
-  /// returns the n after which the motion repeats, 0 while it doesn't.
+  /// Takes the next section's state, and the logarithm of the factor by which the period before it changed a small area
+  /// of states; returns the n after which the motion repeats, 0 while it doesn't.
   [[nodiscard]] std::size_t add(double x, double v, double log_area) {
     if (size_ == capacity) forget();
     x_[size_] = x, v_[size_] = v, log_area_[size_] = log_area;
@@ -56,7 +57,7 @@ class RepeatFinder {
     waited_ = 0;
     const std::size_t least = next_within(tolerance_, 1);
     for (std::size_t n = least; n > 0; n = next_within(tolerance_, n + 1)) {
-      waited_ = looks_every_;  // a hit that doesn't stand may do so at the next section
+      waited_ = looks_every_;  // a hit that doesn't stand now may stand at the next section
       if (!stands(now, n) || !(settled(now, n) || (n == least && stalls(now, n)))) continue;
       candidate_ = left_ = n;
       break;
@@ -64,12 +65,12 @@ class RepeatFinder {
     return 0;
   }
 
-  /// The least n, from `n` on, for which the newest state and the one n sections before are within a distance of each
+  /// The least period, from `n` on, over which the newest state and the earlier one are within `distance` of each
   /// other; 0 for none.
   [[nodiscard]] std::size_t next_within(double distance, std::size_t n) const {
     const std::size_t now = size_ - 1, last = std::min(longest, now);
     const double x = x_[now], limit = distance * std::max(std::abs(x), std::abs(v_[now]));
-    for (; n + block <= last + 1; n += block) {  // without a branch for each state, so that compilers use vectors
+    for (; n + block <= last + 1; n += block) {  // no branch for each state, so that compilers use vectors
       const double* const before = &x_[now - n - (block - 1)];
       int near = 0;
       for (std::size_t i = 0; i < block; ++i) near += std::abs(x - before[i]) <= limit ? 1 : 0;
@@ -79,13 +80,13 @@ class RepeatFinder {
     return n <= last ? n : 0;
   }
 
-  /// Distance of the newest state and the one m sections before, over the larger of |x|, |v|; `ago` sections ago.
-  /// Infinite where there is no such state (any more).
+  /// Relative distance, `ago` sections ago, of the newest state then and the one m sections before it; infinite if
+  /// there is no such state (any more).
   [[nodiscard]] double distance_over(std::size_t m, std::size_t ago = 0) const {
     return m + ago < size_ ? distance(size_ - 1 - ago, m) : std::numeric_limits<double>::infinity();
   }
 
-  /// Index among the last n states, 0 for the newest, of the one that the observed period begins with.
+  /// Index among the last n states, 0 for the newest, of the one at which the observed period begins.
   [[nodiscard]] std::size_t first_of_last(std::size_t n, const BeginsBefore& before) const {
     const std::size_t now = size_ - 1;
     std::size_t best = 0;
@@ -96,7 +97,7 @@ class RepeatFinder {
 
  private:
   static constexpr std::size_t capacity = 512;
-  static constexpr std::size_t block = 8;  ///< states that are looked at together
+  static constexpr std::size_t block = 8;  ///< states that are compared together
   static constexpr double ulps = 8 * std::numeric_limits<double>::epsilon();
   static constexpr double rounding = 2048 * std::numeric_limits<double>::epsilon();  ///< of a period with its impacts
   static constexpr double most_left = 1e-8;            ///< of a transient that rounding has stopped
@@ -121,24 +122,23 @@ class RepeatFinder {
     return difference / std::max(std::abs(x_[now]), std::abs(v_[now]));
   }
 
-  /// A hit at n stands when no divisor's distance is still shrinking: else a slowly alternating transient passes for a
-  /// longer period.
+  /// Whether no divisor's distance is still shrinking at a hit at n: else a slowly alternating transient would pass for
+  /// a longer period.
   [[nodiscard]] bool stands(std::size_t now, std::size_t n) const {
     for (std::size_t m = 1; m < n; ++m)
       if (n % m == 0 && (now < n + m || distance(now, m) < distance(now - n, m))) return false;
     return true;
   }
 
-  /// What n periods leave of the size of a pair of multipliers that shrinks areas as these periods did.
+  /// The modulus of the multipliers of n periods, if they are a pair, by the factor by which areas shrank in them.
   [[nodiscard]] double area_rate(std::size_t now, std::size_t n) const {
     double log_area = 0;
     for (std::size_t i = 0; i < n; ++i) log_area += log_area_[now - i];
     return std::exp(log_area / 2);
   }
 
-  /// Distance to the motion that a hit at n settles to: the sum of what is to come, a geometric series. Its rate is
-  /// what n periods have left of the distance, but no less than `area_rate`, since within a turning pair distances rise
-  /// and fall.
+  /// Distance to the motion that a hit at n settles to: the sum of a geometric series. Its ratio is that of the last
+  /// two distances, but no less than `area_rate`, since under a complex pair of multipliers distances rise and fall.
   [[nodiscard]] double left(std::size_t now, std::size_t n) const {
     const double latest = distance(now, n);
     if (!(latest > 0)) return 0;
@@ -146,15 +146,15 @@ class RepeatFinder {
     return rate < 1 ? latest / (1 - rate) : std::numeric_limits<double>::infinity();
   }
 
-  /// Whether a hit at n is within the tolerance of the motion that it settles to, or as near as rounding lets it come.
+  /// Whether a hit at n is within the tolerance of the motion that it settles to, or as near as rounding allows.
   [[nodiscard]] bool settled(std::size_t now, std::size_t n) const {
     if (left(now, n) <= tolerance_) return true;
     const double latest = distance(now, n);
     return latest <= ulps && !(now >= 2 * n && latest < distance(now - n, n));
   }
 
-  /// Whether the distance at the least hit, down to what rounding does to a period, has got no less for as long as a
-  /// pair of multipliers takes to quarter it, or 16 rounds.
+  /// Whether the distance at the least hit, already down to the rounding of a period, has not fallen for as long as a
+  /// pair of multipliers takes to quarter it, at least 16 rounds.
   [[nodiscard]] bool stalls(std::size_t now, std::size_t n) {
     const double latest = distance(now, n), rate = area_rate(now, n);
     if (!(latest <= rounding)) return false;
@@ -166,9 +166,9 @@ class RepeatFinder {
            static_cast<double>(n) * std::max(16.0, -std::log(4.0) / std::log(rate));
   }
 
-  /// The period of a hit at n: a divisor whose distance is down to a few tolerances, and shrinks no further, is as near
-  /// to a repeat as rounding lets it come (with a multiplier near -1 the states then lock into a cycle of a few hundred
-  /// ulps); the same where that distance is a transient's that rounding has stopped.
+  /// The period of a hit at n: a divisor whose distance is down to a few tolerances and shrinks no further is as near a
+  /// repeat as rounding allows (with a multiplier near -1 the states then lock into a cycle of a few hundred ulps). So
+  /// is one whose distance is that of a transient which rounding has stopped.
   [[nodiscard]] std::size_t shortest(std::size_t now, std::size_t n) const {
     const double near = few * std::max(tolerance_, std::min(left(now, n), most_left));
     return least_divisor(n, [&](std::size_t m) { return distance(now, m) < near; });
@@ -177,7 +177,7 @@ class RepeatFinder {
   double tolerance_;
   std::size_t looks_every_, waited_ = 0;         ///< sections between two looks, and those since the last
   std::size_t candidate_ = 0, left_ = 0;         ///< a repeat to be confirmed, and the sections until then
-  std::size_t stalled_n_ = 0, stalled_for_ = 0;  ///< a hit that gets no nearer, and the sections since it did
+  std::size_t stalled_n_ = 0, stalled_for_ = 0;  ///< a hit that comes no nearer, and the sections since it last did
   double closest_ = 0.0;                         ///< its least distance
   std::size_t size_ = 0;
   std::array<double, capacity> x_, v_, log_area_;  ///< the first `size_` are set

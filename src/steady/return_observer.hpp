@@ -10,8 +10,8 @@
 
 namespace clatter::steady {
 
-/// Watches unforced motion for its own period: the time between two impacts on one stop that leave it with the same
-/// speed. Such motion is a curve in the plane of x and x', so it has returned when that one number has.
+/// Finds the period of unforced motion: the time between two impacts that leave the same stop with the same speed.
+/// Unforced motion is a curve in the plane of x and x', so it has returned when that one number has.
 class ReturnObserver {
  public:
   ReturnObserver(const Scene& scene, double tolerance)
@@ -33,25 +33,23 @@ class ReturnObserver {
     last = impact;
   }
 
-  /// Begins the next turn of 2 pi, from which impacts then count their time.
+  /// Begins the next period of 2 pi; impacts then count their time from there.
   void begin_period(double turn) {
     touched_ = false;
     for (motion::Impact& last : last_) last.time -= turn;
   }
   [[nodiscard]] double period() const { return period_; }  ///< 0 while the motion has not returned
-  [[nodiscard]] bool conserved() const {
-    return conserved_;
-  }  ///< no energy was lost since the start, which is then on the periodic motion
-  [[nodiscard]] bool free_rotation() const {
-    return !touched_ && !damped_;
-  }  ///< a whole turn without impact: none will come
+  /// Whether no energy was lost since the start, which is then on the periodic motion.
+  [[nodiscard]] bool conserved() const { return conserved_; }
+  /// Whether undamped motion has passed a whole period of 2 pi without impact: then none will come.
+  [[nodiscard]] bool free_rotation() const { return !touched_ && !damped_; }
 
-  /// Held by a stop, at the equilibrium, or so near to it that the rest of the motion is below the tolerance.
+  /// Whether the mass is held by a stop, or so near the equilibrium that the rest of the motion is below the tolerance.
   [[nodiscard]] bool stands_still(double x, double v, bool held) const {
     const double left = std::max(std::abs(x - equilibrium_), std::abs(v));
     return held || left == 0.0 || (!conserved_ && left <= least());
   }
-  /// Displacements and velocities that count as none.
+  /// Displacements and velocities up to this size count as 0.
   [[nodiscard]] double least() const { return tolerance_ * scale_; }
 
  private:

@@ -8,16 +8,16 @@
 
 namespace clatter::steady {
 
-/// What a forcing period between two sections does to a motion.
+/// Summary of one forcing period, from a stroboscopic section to the next.
 struct Passage {
   std::uint64_t itinerary = 0;  ///< the same for the same stops in the same order, 0 without contact
-  double log_area = 0.0;        ///< logarithm of what its impacts leave of a small area of states; -inf after a rest
+  double log_area = 0.0;        ///< logarithm of the factor by which its impacts shrink areas of states; -inf: a rest
 
   friend bool operator==(const Passage&, const Passage&) = default;
 };
 
-/// What the search for a periodic motion sees between sections: the stops that are hit and rested on, in their order,
-/// and where asked for the derivative of the motion.
+/// Records, for the search of a periodic motion, which stops are hit and rested on between sections, in their order,
+/// and if asked for the derivative of the motion.
 class SectionObserver {
  public:
   explicit SectionObserver(const Stops& stops)
@@ -44,7 +44,7 @@ class SectionObserver {
   }
 
   void begin_section() { passage_ = {}; }
-  /// Begins a new derivative.
+  /// Begins to compute the derivative anew, from here.
   void differentiate() { differentiates_ = true, tangent_ = motion::TangentMap<double>(stops_); }
 
   [[nodiscard]] const Passage& passage() const { return passage_; }  ///< since the section
@@ -54,7 +54,7 @@ class SectionObserver {
   void add(std::uint64_t event) { passage_.itinerary = (passage_.itinerary + event) * 0x9e3779b97f4a7c15u; }
 
   Stops stops_;
-  double log_lower_, log_upper_;  ///< of the area that an impact on a stop leaves, R^2
+  double log_lower_, log_upper_;  ///< logarithm of R^2, the factor by which an impact shrinks areas
   motion::TangentMap<double> tangent_;
   Passage passage_;
   bool differentiates_ = false;

@@ -9,7 +9,7 @@
 
 namespace clatter::steady {
 
-/// What became of a point; from `event_budget` on it has failed.
+/// Status of a point; from `event_budget` on it has failed.
 enum class Status : std::uint8_t {
   periodic = 0,
   aperiodic = 1,
@@ -32,7 +32,7 @@ inline constexpr std::array<std::pair<Status, std::string_view>, 7> status_names
 
 [[nodiscard]] constexpr bool failed(Status status) { return status >= Status::event_budget; }
 
-/// Of a run that an integrator could not complete.
+/// The status of a run that an integrator could not complete.
 [[nodiscard]] constexpr Status status_of(stepping::Outcome failure) {
   switch (failure) {
     case stepping::Outcome::event_budget:

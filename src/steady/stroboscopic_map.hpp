@@ -20,10 +20,10 @@ namespace clatter::steady {
 struct Orbit {
   std::size_t periods = 0;
   std::array<motion::State<double>, RepeatFinder::longest + 1> states{};  ///< the last as computed from the first
-  std::array<motion::Jacobian<double>, RepeatFinder::longest + 1> derivatives{};  ///< of each by the first
+  std::array<motion::Jacobian<double>, RepeatFinder::longest + 1> derivatives{};  ///< of each state by the first
   std::array<Passage, RepeatFinder::longest> passages{};  ///< from each state but the last to the next
 
-  double settling = 0.0;  ///< forcing periods until the motion that approaches it is within the tolerance of it
+  double settling = 0.0;  ///< forcing periods until an approaching motion is within the tolerance of it
 
   [[nodiscard]] motion::Perturbation gap() const { return between(states[0], states[periods]); }
   [[nodiscard]] const motion::Jacobian<double>& derivative() const { return derivatives[periods]; }
@@ -36,12 +36,12 @@ class StroboscopicMap {
   StroboscopicMap(stepping::Exact<double, E>& integrator, double tolerance)
       : integrator_(integrator), watch_(integrator.stops()), tolerance_(tolerance) {}
 
-  /// Times that an attempt follows all periods of a motion: the approach, each iteration, the proof.
+  /// How often an attempt follows all periods of a motion: the approach, each iteration, the proof.
   static constexpr std::size_t most_iterations = 4, most_turns = 1 + most_iterations + 1;
 
   [[nodiscard]] std::size_t simulated() const { return simulated_; }  ///< forcing periods
 
-  /// The motion over n periods from a state, under the eyes of another observer, too; nothing where it fails.
+  /// The motion over n periods from a state, reporting also to another observer; nothing if it fails.
   template <class Observer>
   [[nodiscard]] std::optional<Orbit> follow(motion::State<double> state, std::size_t periods, Observer&& also) {
     Orbit orbit{.periods = periods};
@@ -62,9 +62,9 @@ class StroboscopicMap {
     return follow(state, periods, stepping::NoObserver{});
   }
 
-  /// The periodic motion that a motion, once round, is settling to: found by Newton's method from where that began, on
-  /// the branch that it is really on (the same stops in the same order), and proved to attract a neighbourhood in which
-  /// the motion is at the end of its round.
+  /// The periodic motion that `approach`, one round of a motion, settles to. Newton's method finds it from the start of
+  /// the round, with the same stops met in the same order, and it is proved to attract a neighbourhood that holds the
+  /// end of the round.
   [[nodiscard]] std::optional<Orbit> attractor_of(const Orbit& approach) {
     motion::State<double> start = moved(approach.states[0], newton_step(approach.derivative(), approach.gap()));
     double before = std::numeric_limits<double>::infinity();
@@ -111,9 +111,9 @@ class StroboscopicMap {
     return state;
   }
 
-  /// The periodic motion from `start`, if it is proved to attract `motion`: over the disc around it that holds
-  /// `motion`, in a norm in which its derivative contracts, all motions meet the same stops in the same order, and what
-  /// the derivative doesn't tell of them is less than what it takes away.
+  /// The periodic motion from `start`, if it is proved to attract `motion` (eq. 30): all motions from the disc around
+  /// `start` that holds `motion`, in a norm in which the derivative contracts, meet the same stops in the same order,
+  /// and the remainder beyond the derivative is smaller than the contraction.
   [[nodiscard]] std::optional<Orbit> attracting(const motion::State<double>& start, const Orbit& orbit,
                                                 const motion::State<double>& motion) {
     if (!(spectral_radius(orbit.derivative()) < 1) || !inside(start)) return std::nullopt;

@@ -15,17 +15,17 @@
 
 namespace clatter::stepping {
 
-/// What a general solver's user would take: Boost.Odeint's pair of orders 5 and 4 of Dormand and Prince, with step size
-/// control and dense output, and contacts found on the dense output.
+/// The usual choice among general solvers: the pair of orders 5 and 4 (Dormand & Prince 1980) of Boost.Odeint, with
+/// step size control and dense output, and contacts found on the dense output.
 ///
 /// Over a step the dense output of the displacement is a polynomial of degree 5, so its first contact is found for
 /// certain: the Bernstein form shows two crossings of a stop within one step as well as one. A step that touches a stop
-/// without crossing it counts as free of contact. What the polynomial itself doesn't show, by its error, is lost.
+/// without crossing it counts as free of contact. A contact that the polynomial misses by its own error is lost.
 /// Chatter, rest and release follow the exact integrator's rules; displacement is carried as the distance from the last
 /// stop, so that the shortest flights keep their digits.
 ///
 /// Each flight and each forcing period begins with a step whose size depends on the state alone: a period is a function
-/// of the state at its beginning, and a motion can repeat.
+/// of the state at its beginning, so a motion can repeat.
 template <Effects E>
 class DormandPrince : public EventDriven<DormandPrince<E>, double, E> {
   using Base = EventDriven<DormandPrince<E>, double, E>;
@@ -39,7 +39,7 @@ class DormandPrince : public EventDriven<DormandPrince<E>, double, E> {
         tolerance_(integration.tolerance),
         stepper_(boost::numeric::odeint::make_dense_output(tolerance_ * size_of(scene), tolerance_, Pair())) {}
 
-  /// The next step's arc, and the contact in it; without one it ends with the step, or at the horizon.
+  /// The next step's arc and its first contact; without a contact it ends with the step, or at the horizon.
   [[nodiscard]] Flight<DenseArc> fly(const motion::State<double>& state, const motion::Motion<double>& start,
                                      double anchor, double horizon) {
     const bool goes_on = Place{state.x, state.v, state.turns} == reached_;
@@ -49,7 +49,7 @@ class DormandPrince : public EventDriven<DormandPrince<E>, double, E> {
     if (const Side side = entered(); side != Side::none) {
       flight.contact = {side, 0.0, start};
       flight.contact.motion.x =
-          motion::stop_at<double>(this->stops(), side).position;  // where the step ended, to rounding
+          motion::stop_at<double>(this->stops(), side).position;  // the step ended there, to rounding
       return flight;
     }
     try {
@@ -69,12 +69,12 @@ class DormandPrince : public EventDriven<DormandPrince<E>, double, E> {
   using Values = std::array<double, 2>;  ///< distance from the anchor, velocity
   using Place = std::array<double, 3>;   ///< x, v, turns
   static constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-  static constexpr Place nowhere{nan, nan, nan};  // equal to no place
+  static constexpr Place nowhere{nan, nan, nan};  // equal to no Place
   using Pair = boost::numeric::odeint::runge_kutta_dopri5<Values>;
   using Stepper = typename boost::numeric::odeint::result_of::make_dense_output<Pair>::type;
 
-  /// What an error of a step is small against besides the motion itself: half the distance of the stops, or what start
-  /// and forces suggest, if that is less.
+  /// The scale of the absolute tolerance: half the distance between the stops, or the size of motion that start and
+  /// forces suggest, if that is less.
   [[nodiscard]] static double size_of(const Scene& scene) {
     const Oscillator& o = scene.oscillator;
     const double response = std::abs(o.forcing) / std::max(1.0, o.frequency * o.frequency);
@@ -88,7 +88,7 @@ class DormandPrince : public EventDriven<DormandPrince<E>, double, E> {
     const auto& constants = this->constants();
     anchor_ = anchor, angle_ = 2 * pi<double>() * (this->start_turns() + state.turns);
     double first_step = std::pow(tolerance_, 0.2) / constants.rate / 2;
-    if (state.left != Side::none && start.offset == 0) {  // no longer than a flight that the force ends at once
+    if (state.left != Side::none && start.offset == 0) {  // no longer than the flight, if the force ends it soon
       const double leaving = -sign_of(state.left) * start.v, pressed = sign_of(state.left) * start.a;
       if (leaving > 0 && pressed > 0) first_step = std::min(first_step, 2 * leaving / pressed);
     }
@@ -109,7 +109,7 @@ class DormandPrince : public EventDriven<DormandPrince<E>, double, E> {
     return {this->constants(), anchor_, this->start_turns() + state.turns, 0.0, offset, velocity};
   }
 
-  /// Makes a step from here, where the acceleration is a, and its dense output into an arc.
+  /// Makes a step from here, with acceleration a at its beginning, and returns its dense output as an arc.
   [[nodiscard]] DenseArc step(const motion::State<double>& state, double a) {
     const auto equation = [this](const Values& y, Values& rate, double s) { rate = {y[1], acceleration(y, s)}; };
     const auto [from, to] = stepper_.do_step(equation);
@@ -131,14 +131,14 @@ class DormandPrince : public EventDriven<DormandPrince<E>, double, E> {
     return side == Side::upper ? this->stops().upper - anchor_ : anchor_ - this->stops().lower;
   }
 
-  /// The stop that a mass is on and moves into, if it does.
+  /// The stop that the mass is on and moves into; none if there isn't one.
   [[nodiscard]] Side entered() const {
     for (const Side side : {Side::lower, Side::upper})
       if (gap(side) - sign_of(side) * here_[0] <= 0 && sign_of(side) * here_[1] > 0) return side;
     return Side::none;
   }
 
-  /// The first place at which the polynomial goes beyond a stop; else its end, or the horizon.
+  /// The first crossing of a stop by the polynomial; else its end, or the horizon.
   [[nodiscard]] motion::Contact<double> first_contact(const DenseArc& arc, double horizon) const {
     motion::Contact<double> first{Side::none, std::min(arc.length(), horizon), {}};
     for (const Side side : {Side::lower, Side::upper}) {
@@ -146,7 +146,7 @@ class DormandPrince : public EventDriven<DormandPrince<E>, double, E> {
       Bernstein<double> c = arc.offset();
       for (double& y : c) y = gap(side) - sign_of(side) * y;
       c[0] = std::max(c[0], 0.0);
-      if (c[0] == 0 && arc.velocity()[0] == 0)  // let go: the force leads away, though the polynomial's error may not
+      if (c[0] == 0 && arc.velocity()[0] == 0)  // released: the force leads away, but the polynomial's error may not
         c[1] = 0, c[2] = std::max(c[2], 0.0);
       const auto root = FirstRoot<double>::of(c);
       if (root && *root * arc.length() <= first.elapsed) first.side = side, first.elapsed = *root * arc.length();
@@ -160,9 +160,9 @@ class DormandPrince : public EventDriven<DormandPrince<E>, double, E> {
 
   double tolerance_;
   Stepper stepper_;
-  double anchor_ = 0.0, angle_ = 0.0;  ///< of the present flight: its place of reference, the forcing phase it began at
-  Values here_{};                      ///< where its next step begins
-  Place reached_ = nowhere;            ///< from which the flight goes on
+  double anchor_ = 0.0, angle_ = 0.0;  ///< of the present flight: its anchor, and the forcing phase at its beginning
+  Values here_{};                      ///< the beginning of its next step
+  Place reached_ = nowhere;            ///< the state from which the flight continues
 };
 
 }  // namespace clatter::stepping

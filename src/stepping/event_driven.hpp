@@ -8,16 +8,16 @@
 
 namespace clatter::stepping {
 
-/// An arc, and where it ends: at the first contact, or without one at the horizon or, where the method makes several
-/// arcs of it, before.
+/// An arc and its end: the first contact, else the horizon, or an earlier instant if the method divides the flight into
+/// several arcs.
 template <class A>
 struct Flight {
   A arc;
   motion::Contact<typename A::Number> contact{};
 };
 
-/// Event-driven integration: from contact to contact, chatter completed, rests released at their exact time. How it
-/// flies, and how it finds the contact, is the method's: `fly(state, motion, anchor, horizon)`.
+/// Event-driven integration: from contact to contact, chatter completed, rests released at their exact time. The method
+/// computes the flight and its contact: `fly(state, motion, anchor, horizon)`.
 template <class Method, class N, Effects E>
 class EventDriven : public SceneConstants<N, E> {
   using Base = SceneConstants<N, E>;
@@ -26,8 +26,8 @@ class EventDriven : public SceneConstants<N, E> {
   using Number = N;
   using Base::Base;
 
-  /// Runs from `state` to the phase `end`, in turns 0 ... 1 since the last section, and shows observers every arc, rest
-  /// and impact with its time since the section `origin`.
+  /// Runs from `state` to the phase `end`, in turns 0 ... 1 since the last section (the stroboscopic section of
+  /// `motion::State`), and reports every arc, rest and impact with its time since the section `origin`.
   template <class Observer>
   [[nodiscard]] Outcome advance(motion::State<Number>& state, const Number& end, std::int64_t origin,
                                 Observer& observer) {
@@ -66,13 +66,13 @@ class EventDriven : public SceneConstants<N, E> {
     const Number a = state.released ? Number(0) : this->constants().acceleration(displacement, state.v, sine);
     return {offset, state.x, state.v, a, sine, cosine};
   }
-  /// The place that the rise of the present flight counts from.
+  /// The position that the offset of the present flight counts from.
   [[nodiscard]] Number anchor(const motion::State<Number>& state) const {
     return state.left == Side::none ? state.x : motion::stop_at<Number>(this->stops(), state.left).position;
   }
   void pass(motion::State<Number>& state, const Number& elapsed) const { state.turns += elapsed / this->period(); }
 
-  /// Reverses the velocity and completes the chatter that may follow.
+  /// Reverses the velocity (eq. 4) and completes the chatter that may follow.
   template <class Observer>
   void rebound(motion::State<Number>& state, const motion::Stop<Number>& stop, const Number& end, std::int64_t origin,
                Observer& observer) {
@@ -102,16 +102,15 @@ class EventDriven : public SceneConstants<N, E> {
       release -= floor(release);
       if (release == 1) release = 0;  // rounded up
       const Number ahead = release - state.turns + (release < state.turns ? 1 : 0);
-      if (ahead > 1 - 16 * epsilon<Number>())
-        release = state.turns;  // it passed within rounding of now, not a whole turn ahead
+      if (ahead > 1 - 16 * epsilon<Number>()) release = state.turns;  // it is now, to rounding, not a whole turn ahead
       if (release >= state.turns && release <= end) until = release, state.released = true;
     }
     this->show_rest(state, stop, Number(until - state.turns), true, origin, observer);
     state.turns = until;
   }
 
-  /// Lets time move on where a mass at rest on a stop is neither held nor leaves: the force on it is within rounding of
-  /// 0, out of which it grows in the square root of rounding, while the mass moves by far less than rounding.
+  /// Moves a mass at rest past an instant at which the contact force is zero to rounding, so its sign decides nothing.
+  /// After sqrt(epsilon) of a period the force is clear of rounding; the mass moves by far less than an ulp.
   template <class Observer>
   void pass_zero_force(motion::State<Number>& state, const motion::Stop<Number>& stop, const Number& end,
                        std::int64_t origin, Observer& observer) {

@@ -5,7 +5,7 @@
 
 namespace clatter::stepping {
 
-/// Closed-form arcs and proved first contacts; of effects what E has.
+/// Closed-form arcs and proved first contacts, for the effects in E.
 template <class N, Effects E>
 class Exact : public EventDriven<Exact<N, E>, N, E> {
  public:
@@ -14,11 +14,11 @@ class Exact : public EventDriven<Exact<N, E>, N, E> {
 
   explicit Exact(const Scene& scene, const Limits& limits = {}) : Exact(scene, scene.stops, limits) {}
 
-  /// Looks for contacts with the given stops only, the others being out of reach.
+  /// Looks for contacts with the stops in reach only.
   Exact(const Scene& scene, const Stops& in_reach, const Limits& limits = {})
       : EventDriven<Exact, N, E>(scene, in_reach, limits) {}
 
-  /// The arc that begins with a motion, and its first contact, or its end at the horizon.
+  /// The arc that begins with `start`, and its first contact, or its end at the horizon.
   [[nodiscard]] Flight<motion::Arc<Number, E.arc()>> fly(const motion::State<Number>&,
                                                          const motion::Motion<Number>& start, const Number& anchor,
                                                          const Number& horizon) {

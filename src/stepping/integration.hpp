@@ -16,9 +16,9 @@ struct Integration {
   Method method = Method::exact;
   double tolerance = 1e-10;  ///< dopri5: error of a step, relative to the motion
   double step = 1e-3;        ///< moreau: in forcing periods
-  double theta = 0.5;        ///< moreau: share of a step's end in its mean, 0 ... 1
-  bool shortcuts = true;     ///< exact: settle by closed forms and Newton's method where they hold
-  bool all_effects = false;  ///< simulate every effect and take no shortcut, to compare with
+  double theta = 0.5;        ///< moreau: weight of a step's end in its mean, 0 ... 1
+  bool shortcuts = true;     ///< exact: find steady motion by closed forms and Newton's method if they apply
+  bool all_effects = false;  ///< simulate every effect and take no shortcut, for comparison
 };
 
 }  // namespace clatter::stepping

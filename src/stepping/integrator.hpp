@@ -13,10 +13,10 @@
 
 namespace clatter::stepping {
 
-/// What stopped an integrator before its time.
+/// How a run ended: completed, or the reason why it stopped early.
 enum class Outcome : std::uint8_t { completed, event_budget, not_finite, unresolved };
 
-/// Sees nothing; what integrators call where nothing is observed.
+/// An observer that records nothing.
 struct NoObserver {
   template <class A>
   void arc(const A&, double, double) {}
@@ -24,20 +24,20 @@ struct NoObserver {
   void impact(const motion::Impact&) {}
 };
 
-/// What a run may come to.
+/// The limits of a run.
 struct Limits {
-  double impacts = 1e8;                                      ///< given up beyond them (event_budget)
+  double impacts = 1e8;                                      ///< a run with more fails (event_budget)
   double periods = std::numeric_limits<double>::infinity();  ///< forcing periods, for the report of progress
 };
 
-/// A scene made ready for an integrator: its constants, its clock, and what has been spent on it.
+/// A scene prepared for an integrator: its constants, its clock, and the work spent on it so far.
 template <class N, Effects E>
 class SceneConstants {
  public:
   using Number = N;
   static constexpr Effects effects = E;
 
-  /// Meets the given stops only, the others being out of reach.
+  /// Looks for contacts with the stops in reach only.
   SceneConstants(const Scene& scene, const Stops& in_reach, const Limits& limits)
       : constants_(scene.oscillator),
         stops_(in_reach),
@@ -45,20 +45,19 @@ class SceneConstants {
         longest_(limits.periods),
         start_turns_(turns_of(scene.start.phase)) {}
 
-  /// Called with the share of what a run may come to, some times a second in a long one.
+  /// Called with the share of its limits that a run has spent, several times a second in a long run.
   using Listener = std::function<void(double share)>;
 
-  /// Tells somebody, if there is anybody, how far the run has come.
+  /// Reports progress to a listener; null: to none.
   void report_to(const Listener* listener) {
     listener_ = listener != nullptr && *listener ? listener : nullptr;
     next_report_ = listener_ != nullptr ? evaluations_ + between_reports : infinity;
   }
 
   [[nodiscard]] const motion::ArcConstants<Number, E.arc()>& constants() const { return constants_; }
-  [[nodiscard]] const Stops& stops() const { return stops_; }  ///< that contacts are looked for with
-  [[nodiscard]] const Number& period() const {
-    return constants_.period;
-  }                                                                  ///< forcing period in tau; without forcing 2 pi
+  [[nodiscard]] const Stops& stops() const { return stops_; }  ///< the stops in reach
+  /// Forcing period in tau; without forcing 2 pi.
+  [[nodiscard]] const Number& period() const { return constants_.period; }
   [[nodiscard]] double impacts() const { return impacts_; }          ///< impacts simulated so far
   [[nodiscard]] double evaluations() const { return evaluations_; }  ///< of arcs; of the equation by general methods
 
@@ -72,7 +71,7 @@ class SceneConstants {
     return std::nullopt;
   }
 
-  /// Of the force.
+  /// The forcing phase.
   [[nodiscard]] SineCosine<Number> phase(const motion::State<Number>& state) const {
     return sine_cosine_of_turns(Number(start_turns_ + state.turns));
   }
@@ -89,7 +88,7 @@ class SceneConstants {
   }
   [[nodiscard]] const Number& start_turns() const { return start_turns_; }  ///< forcing phase at tau = 0
 
-  /// Takes note of an impact; whether the budget allows for it.
+  /// Counts an impact; false if the budget is exceeded.
   [[nodiscard]] bool count_impact() { return ++impacts_ <= budget_; }
   void count_evaluations(double count) { evaluations_ += count; }
   void report(const motion::State<Number>& state) {
@@ -114,7 +113,7 @@ class SceneConstants {
   }
 
  private:
-  static constexpr double between_reports = 1 << 18;  ///< evaluations: a tenth of a second or so
+  static constexpr double between_reports = 1 << 18;  ///< evaluations: about a tenth of a second
   static constexpr double infinity = std::numeric_limits<double>::infinity();
 
   [[nodiscard]] static Number turns_of(double phase) {
@@ -134,14 +133,14 @@ class SceneConstants {
   double next_report_ = infinity;  ///< evaluations
 };
 
-/// What runs a scene: it advances a state to a phase and shows observers arcs, impacts and rests on the way. Observers
-/// don't know which one runs, and no integrator knows what is observed.
+/// Advances a state to a phase and reports arcs, impacts and rests on the way to an observer. Observers don't depend on
+/// the integrator, nor integrators on the observables.
 template <class I>
 concept Integrator = requires(I& integrator, motion::State<typename I::Number>& state, const typename I::Number& end,
                               NoObserver& observer) {
   { integrator.advance(state, end, std::int64_t{}, observer) } -> std::same_as<Outcome>;
   { integrator.holding_stop(state) } -> std::same_as<std::optional<motion::Stop<typename I::Number>>>;
-  { I::in_closed_form } -> std::convertible_to<bool>;  ///< its arcs are exact: shortcuts may rest on them
+  { I::in_closed_form } -> std::convertible_to<bool>;  ///< its arcs are exact, so shortcuts may use them
   requires std::derived_from<I, SceneConstants<typename I::Number, I::effects>>;
 };
 

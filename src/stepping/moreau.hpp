@@ -12,13 +12,13 @@
 namespace clatter::stepping {
 
 /// Moreau-Jean time stepping: the theta method with Newton's restitution at the level of velocities (Moreau 1988, Jean
-/// 1999; Acary & Brogliato 2008, ch. 10). Events are not looked for: a step over which the mass, moving on for half of
-/// it, would be beyond a stop ends with the impact law fulfilled.
+/// 1999; Acary & Brogliato 2008, ch. 10). Events are not located: a step ends with the law of impact fulfilled if the
+/// mass, moving on at its present velocity, would be beyond a stop after half of the step.
 ///
-/// The place moves with the mean velocity, theta at the end and 1 - theta at the beginning, so the impulse acts
-/// 1 - theta of a step after its beginning, where an impact is shown. Flights shorter than a step can't be told from
-/// rest: a rebound that the force would end within it is none, and the mass lies on the stop. Steps count from the
-/// section, the last one before it is cut there.
+/// The position moves with the mean velocity, of weight theta at the end and 1 - theta at the beginning, so the impulse
+/// acts 1 - theta of a step after its beginning, and the impact is reported there. Flights shorter than a step can't be
+/// told from rest: a rebound that the force would end within the step is taken for rest. Steps count from the
+/// stroboscopic section, and the last one before the next section is cut there.
 template <Effects E>
 class Moreau : public SceneConstants<double, E> {
   using Base = SceneConstants<double, E>;
@@ -29,8 +29,8 @@ class Moreau : public SceneConstants<double, E> {
   explicit Moreau(const Scene& scene, const Integration& integration = {}, const Limits& limits = {})
       : Base(scene, scene.stops, limits), step_(integration.step), theta_(integration.theta) {}
 
-  /// Runs from `state` to the phase `end`, in turns 0 ... 1 since the last section, and shows observers every step's
-  /// arcs, rests and impacts with their times since the section `origin`.
+  /// Runs from `state` to the phase `end`, in turns 0 ... 1 since the last section, and reports every step's arcs,
+  /// rests and impacts with their times since the section `origin`.
   template <class Observer>
   [[nodiscard]] Outcome advance(motion::State<double>& state, double end, std::int64_t origin, Observer& observer) {
     sine_ = this->phase(state).sine;
@@ -44,8 +44,8 @@ class Moreau : public SceneConstants<double, E> {
   }
 
  private:
-  /// Takes the impact of a mass that stands on a stop and moves into it, as only a start can, before any time passes;
-  /// false where it is one too many.
+  /// Takes the impact of a mass that is on a stop and moves into it, as only a start can, before any time passes; false
+  /// if it is one too many.
   template <class Observer>
   [[nodiscard]] bool bounce_off(motion::State<double>& state, std::int64_t origin, Observer& observer) {
     for (const Side side : {Side::lower, Side::upper}) {
@@ -58,9 +58,9 @@ class Moreau : public SceneConstants<double, E> {
     return true;
   }
 
-  /// What a step would do without a stop.
+  /// A step without regard to the stops.
   struct Free {
-    double length, sine, v;  ///< in tau; of the force at its end; velocity there
+    double length, sine, v;  ///< in tau; sine of the forcing phase and velocity at its end
   };
 
   [[nodiscard]] double next_turns(double turns, double end) const {
@@ -77,7 +77,8 @@ class Moreau : public SceneConstants<double, E> {
     const double length = (turns - state.turns) * this->period(), part = theta_ * length;
     const double sine = this->constants().f == 0 ? 0.0 : std::sin(2 * pi<double>() * (this->start_turns() + turns));
     const double at_begin = force(state.x, state.v, sine_);
-    const double at_end = force(state.x + (length - part) * state.v, 0.0, sine);  // but for what depends on v there
+    const double at_end =
+        force(state.x + (length - part) * state.v, 0.0, sine);  // without the term in v there, which is implicit
     this->count_evaluations(1);
     return {length, sine,
             (state.v + (length - part) * at_begin + part * at_end) / (1 + part * (2 * this->constants().h + part))};
@@ -90,7 +91,7 @@ class Moreau : public SceneConstants<double, E> {
     return x >= this->stops().upper ? Side::upper : Side::none;
   }
 
-  /// A step to the phase `turns`; false where it takes an impact too many.
+  /// A step to the phase `turns`; false if it takes one impact too many.
   template <class Observer>
   [[nodiscard]] bool step(motion::State<double>& state, double turns, std::int64_t origin, Observer& observer) {
     const Free free = free_step(state, turns);
@@ -127,7 +128,7 @@ class Moreau : public SceneConstants<double, E> {
     this->show_rest(state, stop, turns - state.turns, true, origin, observer);
   }
 
-  /// Moves with the velocity before until the impulse, with the one after it from there.
+  /// Moves with the velocity before the impulse until it acts, and with the one after it from there.
   template <class Observer>
   void collide(motion::State<double>& state, const motion::Stop<double>& stop, const Free& free, std::int64_t origin,
                Observer& observer) const {
@@ -135,7 +136,7 @@ class Moreau : public SceneConstants<double, E> {
     const double pressed = stop.into(force(stop.position, 0.0, free.sine)),
                  rebound = -stop.into(stop.law.after(before));
     const double after = 2 * rebound > pressed * free.length && stop.into(state.v) > 0 ? stop.law.after(before) : 0;
-    constexpr double least = 1e-6;  // of a step: the impact is the step's, not one of what was before it
+    constexpr double least = 1e-6;  // of a step: the impact must not coincide with its beginning
     const double until = std::max(1 - theta_, least) * free.length;
     drift(state, until, origin, observer);
     state.v = after + 0.0;  // no negative zero
@@ -148,7 +149,7 @@ class Moreau : public SceneConstants<double, E> {
     }
   }
 
-  /// Goes on with the present velocity.
+  /// Moves on with the present velocity.
   template <class Observer>
   void drift(motion::State<double>& state, double length, std::int64_t origin, Observer& observer) const {
     const double x = state.x + length * state.v;

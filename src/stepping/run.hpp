@@ -7,7 +7,7 @@
 
 namespace clatter::stepping {
 
-/// Runs to the next section.
+/// Runs to the next stroboscopic section.
 template <Integrator I, class Observer>
 [[nodiscard]] Outcome advance_to_section(I& integrator, motion::State<typename I::Number>& state, std::int64_t origin,
                                          Observer& observer) {
@@ -17,7 +17,7 @@ template <Integrator I, class Observer>
   return outcome;
 }
 
-/// Runs for a time in turns, starting at a section, under the eyes of an observer.
+/// Runs for a time given in forcing periods, starting at a section, reporting to an observer.
 template <Integrator I, class Observer>
 [[nodiscard]] Outcome run_for(I& integrator, motion::State<typename I::Number>& state, const typename I::Number& turns,
                               Observer& observer) {

@@ -45,8 +45,7 @@ void check_target(const fs::path& path) {
   }
 }
 
-/// Bytes that the file system of a place says it can still take; any number where it says nothing. It doesn't know of
-/// quotas.
+/// Free bytes in the file system of a target, quotas aside; the largest number if it doesn't tell.
 std::uint64_t room_at(const fs::path& target) {
   struct statvfs system {};
   if (::statvfs(directory_of(target).c_str(), &system) != 0) return std::numeric_limits<std::uint64_t>::max();
@@ -66,7 +65,7 @@ void write_atomically(const std::string& path, std::span<const std::byte> bytes,
   check_writable(path);
   const fs::path target = target_of(path);
   remove_abandoned(target);
-  const std::uint64_t needed = bytes.size() + bytes.size() / 64 + 64UL * 1024;  // with what a file system notes of it
+  const std::uint64_t needed = bytes.size() + bytes.size() / 64 + 64UL * 1024;  // with the file system's own records
   if (const std::uint64_t room = room_at(target); room < needed) steps.make_room(needed - room);
   TemporaryFile file{target};
   file.write(bytes);

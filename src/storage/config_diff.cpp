@@ -10,7 +10,7 @@
 namespace clatter::storage {
 namespace {
 
-/// A line of a configuration and the one that its section begins with.
+/// A line of a configuration and the heading of its section.
 struct Line {
   std::string_view section, text;
   auto operator<=>(const Line&) const = default;
@@ -27,7 +27,7 @@ std::vector<Line> lines_of(std::string_view text) {
   return lines;
 }
 
-/// In the order of the text.
+/// The lines that only `one` has, in the order of the text.
 std::vector<Line> only_in(const std::vector<Line>& one, std::vector<Line> other) {
   std::ranges::sort(other);
   std::vector<Line> lines = one;

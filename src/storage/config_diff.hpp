@@ -10,8 +10,7 @@ struct NamedText {
   const std::string& text;
 };
 
-/// Lines that only one of two configurations has, the first few of them, each after a line break, as `excerpt` shows
-/// it.
+/// The first few lines that only one of two configurations has, each after a line break and shown as by `excerpt`.
 [[nodiscard]] std::string config_diff(const NamedText& one, const NamedText& other);
 
 }  // namespace clatter::storage

@@ -47,7 +47,7 @@ std::string reason_and_way_out(int error, const std::string& way_out) {
   rlimit limit{};
   if (error == EMFILE && ::getrlimit(RLIMIT_NOFILE, &limit) == 0)
     return "too many open files (ulimit -n is " + std::to_string(limit.rlim_cur) + "); raise it";
-  if (error == ENFILE) return "the system has no more open files to give; end some processes, or try again later";
+  if (error == ENFILE) return "the system has too many open files; end some processes, or try again later";
   return way_out.empty() ? std::strerror(error) : std::strerror(error) + ("; " + way_out);
 }
 
@@ -77,8 +77,8 @@ void sync_directory(const fs::path& file) {
 
 fs::path directory_of(const fs::path& path) { return path.has_parent_path() ? path.parent_path() : fs::path{"."}; }
 
-/// In small pieces: for large ones Linux takes large pages for its cache, which on a virtual machine often are memory
-/// that the host has yet to find, at ten times the cost.
+/// In small pieces: for large ones Linux takes large pages for its cache, and on a virtual machine the host often has
+/// to provide these first, at ten times the cost.
 void write_all(const Descriptor& file, std::span<const std::byte> bytes, const fs::path& named) {
   constexpr std::size_t piece = 64UL * 1024;  // bytes
   while (!bytes.empty()) {

@@ -15,8 +15,8 @@ namespace clatter::storage {
 [[noreturn]] void refuse(const std::filesystem::path& path, const std::string& why, const std::string& way_out);
 [[noreturn]] void refuse(const std::filesystem::path& path, int error);
 
-/// Why a system call failed, and the way out, which is another one where the system has no more open files to give;
-/// none: an empty one.
+/// The reason why a system call failed, and the remedy: `way_out` (empty: none), but a remedy of its own if there are
+/// too many open files.
 [[nodiscard]] std::string reason_and_way_out(int error, const std::string& way_out);
 
 /// Repeats a system call that a signal interrupted.
@@ -42,7 +42,7 @@ class Descriptor {
 
   [[nodiscard]] int number() const { return number_; }
 
-  /// Closes now, since a network file system may report here that the data didn't arrive; never repeated, as Linux
+  /// Closes now, since a network file system may report only here that the data didn't arrive. Never repeated, as Linux
   /// always closes.
   [[nodiscard]] bool close() { return ::close(std::exchange(number_, -1)) == 0 || errno == EINTR; }
 
@@ -50,19 +50,19 @@ class Descriptor {
   int number_;
 };
 
-/// Whether an open file still has this name.
+/// Whether `path` still names an open file.
 [[nodiscard]] bool is_named(const Descriptor& file, const std::filesystem::path& path);
 
-/// Makes a new or changed name in the directory of a file survive a power cut; a directory that cannot be opened or
-/// synced leaves that to the system.
+/// Makes a new or changed name in the directory of a file survive a power cut, if the directory can be opened and
+/// synced.
 void sync_directory(const std::filesystem::path& file);
 
-/// Where a chain of symbolic links ends, whether there is a file or not.
+/// The end of a chain of symbolic links, whether there is a file or not.
 [[nodiscard]] std::filesystem::path target_of(std::filesystem::path path);
 
 [[nodiscard]] std::filesystem::path directory_of(const std::filesystem::path& path);
 
-/// Writes all of the bytes. Throws IoError, for the file that is to be named.
+/// Writes all of the bytes. Throws an IoError that names the file `named`.
 void write_all(const Descriptor& file, std::span<const std::byte> bytes, const std::filesystem::path& named);
 
 }  // namespace clatter::storage

@@ -9,17 +9,17 @@
 
 namespace clatter::storage {
 
-/// A file to be read, and the room that it takes on its disk: of a sparse file less than its length.
+/// A file to be read, and the space that it takes on its disk: for a sparse file less than its length.
 struct InputFile {
   Descriptor file;
   std::uint64_t stored_bytes = 0;
 };
 
-/// The room that a file takes on its disk; its length, where the file system doesn't tell.
+/// The space that a file takes on its disk; its length if the file system doesn't tell.
 [[nodiscard]] std::uint64_t stored_bytes(const struct stat& status);
 
-/// Opens a file for reading, without waiting for anyone. Throws IoError unless it is a regular file that can be read;
-/// `wanted` says which file is meant to be named, e.g. "an output of clatter".
+/// Opens a file for reading; never blocks, as opening a pipe would. Throws IoError unless it is a regular file that can
+/// be read; `wanted` is the kind of file to name instead, e.g. "an output of clatter".
 [[nodiscard]] InputFile open_input(const std::string& path, const std::string& wanted);
 
 }  // namespace clatter::storage

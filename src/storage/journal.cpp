@@ -25,7 +25,7 @@ namespace fs = std::filesystem;
 
 constexpr std::string_view magic = "clatter journal 1\n";
 
-/// No configuration is as long as that, with what else the header has.
+/// No header is longer: configurations are far shorter than that.
 constexpr double most_header = 8UL * 1024 * 1024;  // bytes
 
 std::span<const std::byte> bytes_of(std::string_view text) { return std::as_bytes(std::span(text)); }
@@ -37,7 +37,7 @@ Bytes bytes_of(const JournalKey& key) {
   return bytes;
 }
 
-/// The key in a sound header; nothing where its lengths don't fit.
+/// The key in a header that its CRC has confirmed; nothing if its lengths don't fit.
 std::optional<JournalKey> key_of(std::span<const std::byte> bytes) {
   JournalKey key;
   for (std::string* text : {&key.program, &key.rounding, &key.shard, &key.config}) {
@@ -52,17 +52,17 @@ std::optional<JournalKey> key_of(std::span<const std::byte> bytes) {
   return bytes.empty() ? std::optional(key) : std::nullopt;
 }
 
-/// What another key has, and what this run's.
+/// The lines in which another key differs from this run's.
 std::string difference_of(const JournalKey& other, const JournalKey& key) {
   const auto about = [](const JournalKey& of) {
     return "program: " + printable(of.program) + "\nrounding: " + printable(of.rounding) + '\n' +
            (of.shard.empty() ? "the whole sweep" : "shard " + printable(of.shard)) + '\n' + of.config;
   };
   const std::string others = about(other), ours = about(key);
-  return config_diff({"its: ", others}, {"this run's: ", ours});
+  return config_diff({"that run: ", others}, {"this run: ", ours});
 }
 
-/// What has the journal's name, and can't be one.
+/// Throws the error of a file that has the journal's name, and can't be a journal.
 [[noreturn]] void refuse_place(const fs::path& path, int error) {
   if (error == ELOOP) refuse(path, "is a symbolic link", "move it away, or name another output");
   if (error == EISDIR) refuse(path, "is a directory", "move it away, or name another output");
@@ -108,13 +108,13 @@ Journal::~Journal() {
   if (file_.number() >= 0 && size_ == 0) unlink();
 }
 
-/// Unless someone has removed it: then the name may be another run's.
+/// Removes the file, unless someone has done so: then the name may be another run's.
 void Journal::unlink() const {
   if (is_named(file_, path_)) ::unlink(path_.c_str());
 }
 
-/// Opens the file that has the journal's name and locks it; the one that was opened may have been removed meanwhile, by
-/// the run that held the lock.
+/// Opens the file that has the journal's name and locks it. Tries again if the run that held the lock has removed the
+/// file meanwhile.
 void Journal::lock() {
   struct stat older {};
   const bool is_rerun = ::stat(output_.c_str(), &older) == 0;
@@ -143,14 +143,14 @@ void Journal::read(const ResultSink& take, const RecordLimit& limit, Begin begin
   const std::span<char> found = std::span(first).first(std::min<std::size_t>(first.size(), reader.left()));
   reader.read(std::as_writable_bytes(found));
   if (std::string_view(found.data(), found.size()) != magic.substr(0, found.size()))
-    throw IoError(quoted_name(path_.string()) + " is no journal of clatter; move it away, or name another output");
+    throw IoError(quoted_name(path_.string()) + " is not a journal of clatter; move it away, or name another output");
   std::uint64_t whole = 0;  // bytes up to the end of the last whole record
   const bool is_anew = begin == Begin::restart || found.size() < magic.size();
   const auto header = is_anew ? std::nullopt : reader.block(most_header);
   if (header) {
     const auto key = key_of(*header);
     if (!key) reader.damaged(magic.size());
-    // Where zeros are stored as holes, a log may be longer than its file; but not beyond all measure.
+    // A log may be longer than its file takes on the disk, if zeros are stored as holes; but within limits.
     const double most_bytes = limit.bytes + (limit.has_log ? 1000.0 * static_cast<double>(stored_) : 0.0);
     if (*key != key_ && reader.head(std::numeric_limits<double>::infinity())) refuse_other(*key);
     while (const auto record = *key == key_ ? reader.block(most_bytes) : std::nullopt) {
@@ -166,8 +166,7 @@ void Journal::read(const ResultSink& take, const RecordLimit& limit, Begin begin
 }
 
 void Journal::refuse_other(const JournalKey& key) const {
-  throw IoError(quoted_name(path_.string()) +
-                " holds what an earlier run of something else had finished:" + difference_of(key, key_) +
+  throw IoError(quoted_name(path_.string()) + " has the finished points of another run:" + difference_of(key, key_) +
                 "\nrun that again to complete it, begin anew with --restart, or name another output");
 }
 
@@ -202,14 +201,14 @@ void Journal::give_back(std::uint64_t bytes) {
 }
 
 std::string Journal::leave() {
-  if (!is_named(file_, path_)) return "the journal was removed, and with it what was finished";
+  if (!is_named(file_, path_)) return "the journal was removed, and the finished points with it";
   if (size_ > 0)
-    return (gave_back_ ? "a part of what was finished is in " : "what was finished is in ") +
+    return (gave_back_ ? "a part of the finished points is in " : "the finished points are in ") +
            quoted_name(path_.string()) +
-           ", from which the same command goes on; so does one with -o FILE after that is moved to FILE.journal";
+           "; the same command continues from there, with another -o FILE once that is moved to FILE.journal";
   unlink();
-  return gave_back_ ? "the journal had made room for the output, and what was finished has to be run again"
-                    : "nothing was finished yet";
+  return gave_back_ ? "the journal was cut to make room for the output, so the finished points have to be run again"
+                    : "no point was finished yet";
 }
 
 void Journal::remove() {

@@ -12,7 +12,7 @@
 namespace clatter::storage {
 namespace {
 
-/// The bytes of a head that its own checksum is of.
+/// The bytes of a head that its own checksum covers.
 std::span<const std::byte> summed(const BlockHead& head) {
   return std::as_bytes(std::span(&head, 1)).first(offsetof(BlockHead, check));
 }
@@ -66,10 +66,11 @@ std::optional<std::span<const std::byte>> BlockReader::block(double most_bytes) 
 
 void BlockReader::damaged(std::uint64_t where) const {
   throw IoError(quoted_name(path_.string()) + " is damaged at byte " + std::to_string(where) +
-                ": what it holds of an earlier run can't be trusted; --restart begins anew, without it");
+                ", so the finished points in it can't be trusted; --restart begins anew");
 }
 
-/// What a power cut may leave of the last records. Passes over holes, in which nothing is stored, without reading them.
+/// Whether only zeros are left, as a power cut may leave the last records. Skips holes, in which nothing is stored,
+/// without reading them.
 bool BlockReader::only_zeros_left() {
   while (left() > 0) {
     if (buffered_.empty() && !skip_hole()) return true;
@@ -80,7 +81,7 @@ bool BlockReader::only_zeros_left() {
   return true;
 }
 
-/// Goes on to the next data; false where there are none.
+/// Skips to the next data; false if there are none.
 bool BlockReader::skip_hole() {
   const off_t data = ::lseek(file_.number(), static_cast<off_t>(at_), SEEK_DATA);
   if (data >= 0) at_ = static_cast<std::uint64_t>(data);

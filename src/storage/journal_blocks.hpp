@@ -20,11 +20,11 @@ void append_number(Bytes& to, Number number) {
   append_bytes(to, std::as_bytes(std::span(&number, 1)));
 }
 
-/// What comes before a block of bytes in a journal.
+/// The head of a block of bytes in a journal.
 struct BlockHead {
   std::uint64_t length;
   std::uint32_t crc;
-  std::uint32_t check;  ///< the CRC-32 of the two before, so that a damaged length isn't taken for a torn tail
+  std::uint32_t check;  ///< CRC-32 of length and crc, so that a damaged length isn't taken for an incomplete end
 };
 
 [[nodiscard]] BlockHead header_of(std::span<const std::byte> block);
@@ -34,7 +34,7 @@ void append_block(Bytes& to, std::span<const std::byte> block);
 /// Reads a journal from its beginning. Throws IoError.
 class BlockReader {
  public:
-  /// Of so many bytes; `path` is named in errors.
+  /// Reads a file of `size` bytes; errors name `path`.
   BlockReader(const Descriptor& file, std::uint64_t size, const std::filesystem::path& path)
       : file_(file), size_(size), path_(path) {}
 
@@ -43,14 +43,14 @@ class BlockReader {
 
   void read(std::span<std::byte> to);
 
-  /// What the next block says of itself; nothing: it is torn off. Throws IoError where it is damaged, or of more than
-  /// `most_bytes`.
+  /// The head of the next block; nothing if the block is incomplete. Throws IoError if the head is damaged, or the
+  /// block is longer than `most_bytes`.
   [[nodiscard]] std::optional<BlockHead> head(double most_bytes);
 
-  /// The next block, as `head`.
+  /// The next block, under the same conditions as `head`.
   [[nodiscard]] std::optional<std::span<const std::byte>> block(double most_bytes);
 
-  /// Throws the error of damage at a place.
+  /// Throws the error of damage at byte `where`.
   [[noreturn]] void damaged(std::uint64_t where) const;
 
  private:

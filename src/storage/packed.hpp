@@ -9,7 +9,7 @@
 
 namespace clatter::storage {
 
-/// Appends numbers and texts to bytes, by which one process passes them to another.
+/// Packs numbers and texts into bytes, to pass them to another process.
 class Packer {
  public:
   void operator()(const std::uint64_t number) { bytes_.append(reinterpret_cast<const char*>(&number), sizeof number); }
@@ -26,7 +26,7 @@ class Packer {
   std::string bytes_;
 };
 
-/// Takes from the beginning of bytes; once they don't suffice, gives nothing more.
+/// Unpacks them again; gives nothing more once the bytes don't suffice.
 class Unpacker {
  public:
   explicit Unpacker(std::string_view bytes) : bytes_{bytes} {}

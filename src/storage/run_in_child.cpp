@@ -22,7 +22,7 @@
 namespace clatter::storage {
 namespace {
 
-// Sanitizers reserve terabytes of addresses, so that no limit of them can be kept, and report what makes the child die.
+// Sanitizers reserve terabytes of addresses, so no limit of addresses can be set, and report why the child dies.
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 constexpr bool sanitized = true;
 #elif defined(__has_feature)
@@ -33,7 +33,7 @@ constexpr bool sanitized = false;
 
 enum class Outcome : std::uint64_t { result, io_error, no_memory, bug };
 
-/// What comes before the bytes that the child sends.
+/// The head of the bytes that the child sends.
 struct Head {
   Outcome outcome;
   std::uint64_t length;
@@ -44,10 +44,11 @@ struct Head {
                 reason_and_way_out(error, "end some others and try again")};
 }
 
-/// A child that can't open what it needs would blame the file that it is to read.
+/// Throws if there are too few descriptors for the child, which would otherwise blame the file that it reads.
 void require_descriptors(const Descriptor& any) {
   const auto another = [&] { return Descriptor{::dup(any.number())}; };
-  const std::array<Descriptor, 3> needed{another(), another(), another()};  // the file, HDF5's second look, /dev/null
+  const std::array<Descriptor, 3> needed{another(), another(),
+                                         another()};  // the file, opened twice by HDF5, and /dev/null
   if (needed.back().number() < 0) refuse_child(errno);
 }
 
@@ -60,7 +61,7 @@ void lower_limit(decltype(RLIMIT_AS) resource, rlim_t most) {
   ::setrlimit(resource, &limit);
 }
 
-/// The addresses that this process has; none known: no limit can be set.
+/// The size of this process's address space; nothing if it isn't known, and then no limit can be set.
 std::optional<std::uint64_t> address_space() {
   std::FILE* const file = std::fopen("/proc/self/statm", "re");
   if (file == nullptr) return std::nullopt;
@@ -71,7 +72,7 @@ std::optional<std::uint64_t> address_space() {
   return std::uint64_t{pages} * static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE));
 }
 
-/// Makes the child die quietly: no core, no words of the C library on its way, no handlers of the parent's.
+/// Makes the child die quietly: no core dump, no message of the C library, none of the parent's signal handlers.
 void die_quietly() {
   ::prctl(PR_SET_DUMPABLE, 0);
   for (const int number : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGXCPU, SIGPIPE}) std::signal(number, SIG_DFL);
@@ -81,11 +82,11 @@ void die_quietly() {
 
 void become_child(pid_t parent, const ChildLimits& limits) {
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
-  if (::getppid() != parent) ::_exit(1);                                                     // it ended before
+  if (::getppid() != parent) ::_exit(1);                                                     // it ended before prctl
   for (const int number : {SIGINT, SIGTERM, SIGHUP, SIGQUIT}) std::signal(number, SIG_IGN);  // the parent decides
   if (!sanitized) die_quietly();
   lower_limit(RLIMIT_CPU, limits.seconds);
-  if (!sanitized) lower_limit(RLIMIT_FSIZE, 0);  // it has nothing to write, whatever may take hold of it
+  if (!sanitized) lower_limit(RLIMIT_FSIZE, 0);  // it has nothing to write, not even if a file exploits the library
   const auto taken = address_space();
   if (!sanitized && taken) lower_limit(RLIMIT_AS, *taken + limits.memory);
 }
@@ -122,7 +123,7 @@ void send(int pipe, Outcome outcome, const std::string& bytes) {
 
 // --- the parent -------------------------------------------------------------
 
-/// A child that is gone when this is, whatever happens here.
+/// Owns a child process; kills it if it is destroyed before the child has ended.
 class Child {
  public:
   explicit Child(pid_t id) : id_{id} {}
@@ -134,7 +135,7 @@ class Child {
   Child(const Child&) = delete;
   Child& operator=(const Child&) = delete;
 
-  /// Its status; nothing where SIGCHLD is ignored, so that the system keeps none.
+  /// Its exit status; nothing if SIGCHLD is ignored, since the system then keeps none.
   std::optional<int> wait() {
     int status = 0;
     const pid_t ended = uninterrupted([&] { return ::waitpid(id_, &status, 0); });
@@ -148,7 +149,7 @@ class Child {
 
 using Clock = std::chrono::steady_clock;
 
-/// Waits until there is something to read, or the other end is closed; false at the end of the time.
+/// Waits until there is something to read, or the other end is closed; false once the time is over.
 bool has_come(const Descriptor& pipe, Clock::time_point end) {
   for (;;) {
     const auto left = std::chrono::ceil<std::chrono::milliseconds>(end - Clock::now()).count();
@@ -159,11 +160,11 @@ bool has_come(const Descriptor& pipe, Clock::time_point end) {
   }
 }
 
-/// Reads until `to` is full; false where the child ends before. Throws GuardedDeath at the end of the time.
+/// Reads until `to` is full; false if the child ends before. Throws ChildFailed once the time is over.
 bool receive(const Descriptor& pipe, std::span<std::byte> to, const ChildLimits& limits, Clock::time_point end) {
   while (!to.empty()) {
     if (!has_come(pipe, end))
-      throw ChildFailed{"reading it hasn't ended within " + std::to_string(limits.wall_seconds) + " s"};
+      throw ChildFailed{"reading it didn't finish within " + std::to_string(limits.wall_seconds) + " s"};
     const ssize_t got = uninterrupted([&] { return ::read(pipe.number(), to.data(), to.size()); });
     if (got <= 0) return false;
     to = to.subspan(static_cast<std::size_t>(got));
@@ -172,11 +173,11 @@ bool receive(const Descriptor& pipe, std::span<std::byte> to, const ChildLimits&
 }
 
 std::string reason(std::optional<int> status, const ChildLimits& limits) {
-  if (!status || !WIFSIGNALED(*status)) return "it makes the HDF5 library end";
+  if (!status || !WIFSIGNALED(*status)) return "it makes the HDF5 library exit";
   const int number = WTERMSIG(*status);
   if (number == SIGXCPU)
-    return "reading it hasn't ended within " + std::to_string(limits.seconds) + " s of processor time";
-  if (number == SIGKILL) return "the HDF5 library was killed while it read it, perhaps since memory ran out";
+    return "reading it didn't finish within " + std::to_string(limits.seconds) + " s of processor time";
+  if (number == SIGKILL) return "the process that read it was killed, perhaps because memory ran out";
   const char* const name = ::sigabbrev_np(number);
   return std::string("it makes the HDF5 library crash (SIG") + (name == nullptr ? "?" : name) + ')';
 }
@@ -187,7 +188,7 @@ ChildLimits limits_for(std::uint64_t stored_bytes) {
   ChildLimits limits;
   limits.memory += 2 * stored_bytes;
   limits.seconds += stored_bytes >> 24U;
-  limits.wall_seconds += stored_bytes >> 20U;  // a slow network's
+  limits.wall_seconds += stored_bytes >> 20U;  // the network may be slow
   return limits;
 }
 
@@ -211,15 +212,15 @@ std::string run_in_child(const std::function<std::string()>& work, const ChildLi
   std::string bytes;
   if (!receive(from, std::as_writable_bytes(std::span(&head, 1)), limits, end))
     throw ChildFailed{reason(child.wait(), limits)};
-  if (head.length > limits.memory) throw ChildFailed{"the HDF5 library makes more of it than it can hold"};
+  if (head.length > limits.memory) throw ChildFailed{"the HDF5 library reads more from it than it can hold"};
   bytes.resize(static_cast<std::size_t>(head.length));
   if (!receive(from, std::as_writable_bytes(std::span(bytes)), limits, end))
     throw ChildFailed{reason(child.wait(), limits)};
   (void)child.wait();
   if (head.outcome == Outcome::io_error) throw IoError{bytes};
-  if (head.outcome == Outcome::no_memory) throw ChildFailed{"it asks for more memory than there is"};
+  if (head.outcome == Outcome::no_memory) throw ChildFailed{"reading it takes more memory than there is"};
   if (head.outcome == Outcome::bug) throw std::logic_error{bytes};
-  if (head.outcome != Outcome::result) throw ChildFailed{"it disturbs the memory of the HDF5 library"};
+  if (head.outcome != Outcome::result) throw ChildFailed{"it makes the HDF5 library corrupt its memory"};
   return bytes;
 }
 

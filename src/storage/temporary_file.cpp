@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 constexpr std::string_view temporary_mark = ".clatter-", temporary_ending = ".tmp";
 constexpr std::size_t temporary_letters = 8;
 
-/// A hidden name beside the target, since rename is atomic only within one file system; this is how it begins.
+/// The beginning of a hidden name beside the target: rename is atomic only within one file system.
 std::string temporary_prefix(const fs::path& target) {
   constexpr std::size_t longest = 200;  // leaves room for the rest of the 255 bytes of a name
   return std::string{'.'}.append(target.filename().string(), 0, longest).append(temporary_mark);
@@ -54,35 +54,35 @@ bool begins_as_output(const Descriptor& file) {
   return got >= 0 && signature.starts_with(std::string_view(first.data(), static_cast<std::size_t>(got)));
 }
 
-/// Whether a process of this user has left the file when it was killed: the file of one that lives is locked.
+/// Whether a killed process of this user has left the file: that of a living one is locked.
 bool is_abandoned(const Descriptor& file) {
   struct stat status {};
   return ::fstat(file.number(), &status) == 0 && S_ISREG(status.st_mode) &&
          (status.st_uid == ::geteuid() || ::geteuid() == 0) && begins_as_output(file) && lock(file);
 }
 
-/// Whom a file belongs to and who may read it.
+/// Owner, group and mode of a file.
 struct Access {
   mode_t mode;
   uid_t owner;
   gid_t group;
 };
 
-/// That of the file at a place; nothing where there is none.
+/// The access of the file at `path`; nothing if there is no file.
 std::optional<Access> access_of(const fs::path& path) {
   struct stat status {};
   if (::stat(path.c_str(), &status) != 0) return std::nullopt;
   return Access{status.st_mode & 0777, status.st_uid, status.st_gid};
 }
 
-/// Gives a file the owner, group and mode of the one it replaces, as far as that is permitted; another group gets no
-/// more than everybody has.
+/// Gives a file the owner, group and mode of the one it replaces, as far as that is permitted. If the group can't be
+/// kept, the file's own group gets no more than others have.
 void take_over(const Descriptor& file, const Access& access) {
   mode_t mode = access.mode;
   if (::fchown(file.number(), access.owner, access.group) != 0 &&
       ::fchown(file.number(), static_cast<uid_t>(-1), access.group) != 0)
     mode &= 0707U | (mode & 07U) << 3U;
-  (void)::fchmod(file.number(), mode);  // some file systems know no modes
+  (void)::fchmod(file.number(), mode);  // some file systems have no modes
 }
 
 }  // namespace
@@ -120,8 +120,8 @@ void TemporaryFile::become_target() {
   path_.clear();
 }
 
-/// Creates the file with the permissions of any new file of the user's, or closed to others until it takes over those
-/// of an older one; O_EXCL, so that no other run's is taken.
+/// Creates the file with the permissions of a new file, or closed to others until it takes over those of an older one;
+/// O_EXCL, so that it is never another run's file.
 Descriptor TemporaryFile::create() {
   const std::optional<Access> older = access_of(target_);
   const mode_t mode = older ? (older->mode & 0666U) | 0600U : 0666U;

@@ -8,11 +8,11 @@
 
 namespace clatter::storage {
 
-/// Removes what a killed process has left under a temporary name of this target; any other file stays.
+/// Removes files that a killed process has left under a temporary name of this target; any other file stays.
 void remove_abandoned(const std::filesystem::path& target);
 
 /// A new file beside its target, `.TARGET.clatter-XXXXXXXX.tmp`, that is removed again unless it has become the target.
-/// It is locked until then, so that nobody takes it for abandoned. Throws IoError, for the target.
+/// It is locked until then, so that no other run takes it for abandoned. Throws an IoError that names the target.
 class TemporaryFile {
  public:
   explicit TemporaryFile(std::filesystem::path target);

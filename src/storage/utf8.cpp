@@ -14,8 +14,8 @@ struct Range {
   char32_t first, last;
 };
 
-/// Control characters of ASCII and ISO 6429; what turns the direction of a text or begins a line; what has no width, by
-/// which a name can look like another one (Unicode, UAX 9, 14 and UTS 39).
+/// Control characters of ASCII and ISO 6429; characters that change the direction of a text or begin a line; those
+/// without width, by which a name can look like another one (Unicode, UAX 9, 14 and UTS 39).
 constexpr Range obeyed[] = {{0, 0x1F},        {0x7F, 0x9F},     {0xAD, 0xAD},     {0x61C, 0x61C},
                             {0x180E, 0x180E}, {0x200B, 0x200B}, {0x200E, 0x200F}, {0x2028, 0x202E},
                             {0x2060, 0x206F}, {0xFEFF, 0xFEFF}, {0xFFF9, 0xFFFB}, {0xE0000, 0xE007F}};

@@ -21,7 +21,7 @@ inline point::Problem smooth_scene() {
   return scene;
 }
 
-/// From rest to a chatter that ends in a rest, then impacts without one: asymmetric from there on.
+/// From rest to a chatter that ends in a rest, then impacts without rest, asymmetrically.
 inline point::Problem chattering_scene() {
   point::Problem scene = support::scene_of({0.1, 1.0, 0.5, 0.0}, -0.5, 0.5, 0.5);
   scene.time.window = 4;
@@ -54,7 +54,7 @@ inline const WorkPrecision& row_of(const PointAccuracy& study, TestedMethod stud
   return *std::ranges::find_if(study.rows, [&](const WorkPrecision& row) { return row.trial.studied == studied; });
 }
 
-/// Slope of the straight line through the logarithms of the settings of a study's rows and of their errors.
+/// Slope of the straight line through the logarithms of the settings of rows and of their errors.
 inline double order_of(const PointAccuracy& study, double WorkPrecision::*error) {
   double n = 0, x = 0, y = 0, xx = 0, xy = 0;
   for (const WorkPrecision& row : study.rows) {
@@ -64,7 +64,7 @@ inline double order_of(const PointAccuracy& study, double WorkPrecision::*error)
   return (n * xy - x * y) / (n * xx - x * x);
 }
 
-/// The errors of a row that are measured, all of which are NaN where there is nothing to compare with.
+/// The measured errors of a row, all NaN if there is nothing to compare with.
 inline std::vector<double> errors_of(const WorkPrecision& row) {
   return {row.contact_time, row.contact_speed, row.rest,    row.extrema,     row.harmonics,
           row.v_harmonics,  row.missed,        row.doubled, row.rests_missed};

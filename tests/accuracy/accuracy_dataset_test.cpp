@@ -20,7 +20,7 @@ std::size_t length_of(const sweep::ValueArray& column) {
   return std::visit([](const auto& all) { return all.size(); }, column);
 }
 
-/// A sweep, and the studies of its points.
+/// A sweep, and the accuracy run of its points.
 struct StudiedSweep {
   sweep::Sweep sweep;
   std::vector<PointAccuracy> points;

@@ -1,4 +1,4 @@
-// Studies of what can't be compared, or not for long; and that a study can be repeated, followed and stopped.
+// Accuracy runs of motion that can't be compared, or not for long; and that a run can be repeated, followed, stopped.
 
 #include <gtest/gtest.h>
 
@@ -20,7 +20,7 @@ point::Problem transient_scene() {
   scene.time.mode = steady::Mode::transient, scene.time.duration = 20.0;  // 3.18 forcing periods
   return scene;
 }
-/// Free vibration that the damping ends: impacts only at first.
+/// Free vibration that damping ends: impacts only at first.
 point::Problem unforced_scene() {
   point::Problem scene = support::scene_of({0.1, 0.0, 1.0, 0.0}, -0.5, 0.5, 0.5);
   scene.start.velocity = 3.0, scene.time.window = 3;
@@ -42,8 +42,8 @@ TEST(StartOnAStop, moving_in_is_neither_missed_nor_doubled) {
 }
 
 TEST(SteadyMotion, is_the_same_however_loose_the_tolerance_of_the_scene_is) {
-  point::Problem scene =
-      support::scene_of({0.1, 1.0, 0.5, 0.0}, -1.3216, 1.3216, 0.7);  // next to grazing, where a loose one errs
+  point::Problem scene = support::scene_of({0.1, 1.0, 0.5, 0.0}, -1.3216, 1.3216,
+                                           0.7);  // near grazing, where a loose tolerance finds another motion
   scene.time.window = 2, scene.time.tolerance = 1e-3;
   const PointAccuracy found = study(scene, one_of_each(), once);
   EXPECT_EQ(found.steady_periods, 3.0);
@@ -115,7 +115,7 @@ TEST(TransientScene, sampled_harmonics_converge_where_it_does_not_end_with_a_for
   std::vector<Trial> trials;
   for (int power = 8; power <= 16; ++power) trials.push_back({TestedMethod::harmonics_fft, std::exp2(power)});
   const PointAccuracy found = study(transient_scene(), trials, {.rounds = 0});
-  // the motion doesn't end where it began: a jump, for samples of x too
+  // the motion doesn't end in the state in which it began: a jump, for samples of x too
   EXPECT_NEAR(order_of(found, &WorkPrecision::harmonics), -1.0, 0.2);
   EXPECT_LT(found.rows.back().harmonics, 1e-4);
 }
@@ -127,7 +127,7 @@ TEST(FailingScene, has_no_errors_and_says_why) {
   for (const WorkPrecision& row : found.rows) {
     EXPECT_EQ(row.status, steady::Status::event_budget) << studied_names[static_cast<std::size_t>(row.trial.studied)];
     EXPECT_FALSE(has_errors(row));
-    EXPECT_TRUE(std::isnan(row.ns_per_period)) << "what did not run to its end takes no time a period";
+    EXPECT_TRUE(std::isnan(row.ns_per_period)) << "a run that did not complete has no time a period";
     EXPECT_TRUE(std::isnan(row.ns_spread));
   }
 }

@@ -1,4 +1,4 @@
-// What a study finds on scenes whose answers are known: orders of convergence, and that the exact method has none.
+// Accuracy runs of scenes with known answers: orders of convergence, and that the exact method's error has none.
 
 #include "accuracy/accuracy.hpp"
 
@@ -104,7 +104,7 @@ TEST(SmoothScene, dopri5_errs_in_proportion_to_its_tolerance) {
 
 TEST(SmoothScene, moreau_errs_in_proportion_to_its_step) {
   const PointAccuracy found = study(smooth_scene(), decades(TestedMethod::moreau, 1, 5), once);
-  // where in its step an impact falls is chance: a factor of several either way, over four decades of steps
+  // the position of an impact in its step is chance: a factor of several either way, over four decades of steps
   for (const auto error : {&WorkPrecision::contact_time, &WorkPrecision::contact_speed, &WorkPrecision::extrema,
                            &WorkPrecision::harmonics, &WorkPrecision::v_harmonics})
     EXPECT_NEAR(order_of(found, error), 1.0, 0.3);
@@ -115,7 +115,7 @@ TEST(SmoothScene, sampled_harmonics_converge_in_the_second_order_and_those_of_ve
   std::vector<Trial> trials;
   for (int power = 4; power <= 16; ++power) trials.push_back({TestedMethod::harmonics_fft, std::exp2(power)});
   const PointAccuracy found = study(smooth_scene(), trials, once);
-  // x has kinks at the impacts and v jumps; where they fall between two samples is chance
+  // x has kinks at the impacts and v has jumps, whose position between two samples is chance
   EXPECT_NEAR(order_of(found, &WorkPrecision::harmonics), -2.0, 0.3);
   EXPECT_NEAR(order_of(found, &WorkPrecision::v_harmonics), -1.0, 0.3);
   for (const WorkPrecision& row : found.rows) {
@@ -130,7 +130,7 @@ TEST(SmoothScene, repeats_are_as_exact_as_they_are_asked_to_be) {
   for (const WorkPrecision& row : repetition.rows) {
     EXPECT_EQ(row.status, steady::Status::periodic);
     EXPECT_EQ(sum_of_faults(row), 0.0);
-    // states a period apart are that near, and go on to contract by more than a half each period; then roundings
+    // states a period apart are that near, and contract further by more than a half each period; then roundings
     for (const double error : {row.contact_time, row.contact_speed, row.extrema, row.harmonics, row.v_harmonics})
       EXPECT_LT(error, row.trial.setting + 1e-13) << row.trial.setting;
   }
@@ -169,7 +169,7 @@ TEST(ChatteringScene, general_methods_miss_what_is_shorter_than_their_steps) {
     EXPECT_GT(row.missed, 0.0);
     EXPECT_LE(row.missed, moreau.impacts);
   }
-  for (const std::size_t i : {1u, 2u}) {  // as late as it finds the impacts before
+  for (const std::size_t i : {1u, 2u}) {  // as late as the impacts before
     EXPECT_EQ(moreau.rows[i].rests_missed, 0.0);
     EXPECT_GT(moreau.rows[i].rest, 1e-6);
     EXPECT_LT(moreau.rows[i].rest, 0.1);

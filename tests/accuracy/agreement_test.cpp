@@ -1,4 +1,4 @@
-// How long a run in double and one in 50 digits agree, and in what.
+// The time over which a run in double and one in 50 digits agree, and their common events.
 
 #include <gtest/gtest.h>
 
@@ -81,7 +81,7 @@ TEST(Agreement, leaves_out_the_impacts_that_fifty_digits_take_where_a_double_has
   const auto impacts = count(in_double.events, Event::Kind::impact);
   ASSERT_EQ(count(in_double.events, Event::Kind::chatter), 1u);
   ASSERT_EQ(count(in_double.events, Event::Kind::rest), 1u);
-  ASSERT_GT(count(exact.events, Event::Kind::impact), impacts + 20);  // 2^-53 against 10^-50, a factor R each
+  ASSERT_GT(count(exact.events, Event::Kind::impact), impacts + 20);  // from 2^-53 to 10^-50 by a factor R an impact
   const Agreement agreement = agreement_of(in_double, exact, 1e-12 * duration);
   EXPECT_EQ(agreement.until, duration);
   EXPECT_EQ(count(agreement.events, Event::Kind::impact), impacts);

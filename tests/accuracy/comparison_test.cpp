@@ -39,13 +39,13 @@ Events bounces(int count) {
   for (int i = 0; i < count; ++i) events.push_back(impact(2 - std::ldexp(1.0, -i)));
   return events;
 }
-/// So many bounces, and the rest of them completed.
+/// So many bounces, and a completed chatter for the others.
 Events completed_bounces(int count) {
   const double left = std::ldexp(1.0, 1 - count);
   return together(bounces(count), {chatter(2 - left, left)});
 }
 
-constexpr double any = 1e9;  ///< a bound on the lag that bounds nothing
+constexpr double any = 1e9;  ///< no bound on the lag
 
 void expect_counts(const ContactErrors& errors, std::size_t missed, std::size_t doubled) {
   EXPECT_EQ(errors.missed, missed);

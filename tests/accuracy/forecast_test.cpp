@@ -11,8 +11,8 @@
 namespace clatter::accuracy {
 namespace {
 
-/// What trials take in a study: of a scene, in seconds, the exact method takes `exact`; other methods and what is
-/// observed cost as much more as three studies had it, times a factor.
+/// The times of the trials of a scene, in seconds: the exact method takes `exact`; other methods and observables cost
+/// more by the ratios of three measured accuracy runs, times a factor.
 struct Costs {
   double exact = 1e-4, dopri5 = 1, moreau = 1, observed = 1;
 
@@ -36,7 +36,7 @@ struct Costs {
 
 constexpr int rounds = 9;
 
-/// When each step of a study ends, and what is told then.
+/// The end of each step of an accuracy run, and the forecast then.
 struct RunRecord {
   std::vector<double> ends;
   std::vector<std::optional<double>> told;
@@ -70,7 +70,7 @@ TEST(Forecast, is_right_within_a_factor_of_three_once_the_dear_methods_have_begu
           bool is_told = false;
           for (std::size_t i = 0; i + 1 < record.ends.size(); ++i) {
             const double truth = record.ends.back() - record.ends[i];
-            ASSERT_TRUE(record.told[i] || !is_told);  // once it is told, it stays so
+            ASSERT_TRUE(record.told[i] || !is_told);  // once there is a forecast, there always is
             is_told = record.told[i].has_value();
             if (!is_told || record.ends[i] < 2) continue;
             const auto where = testing::Message()

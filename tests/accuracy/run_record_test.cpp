@@ -26,7 +26,7 @@ std::size_t count(const RunRecord& record, Event::Kind kind) {
   return static_cast<std::size_t>(std::ranges::count(record.events, kind, &Event::kind));
 }
 
-/// A scene that starts on its steady motion, in double, or beside it.
+/// A scene that starts on its steady motion, in double, or near it.
 point::Problem on_steady_motion(point::Problem scene, double dx = 0, double dv = 0) {
   const support::Steady steady = support::steady_of(scene);
   EXPECT_EQ(steady.status, steady::Status::periodic);
@@ -102,7 +102,7 @@ TEST(RunRecord, observes_only_what_is_asked_for) {
   const RunRecord observed = record_of(figure_18(), 10, RecordObservables{.harmonics = 2});
   EXPECT_EQ(observed.harmonics.size(), 3u);
   EXPECT_EQ(record.events.size(), observed.events.size());
-  EXPECT_EQ(record.x, observed.x);  // looking changes nothing
+  EXPECT_EQ(record.x, observed.x);  // observing changes nothing
   EXPECT_EQ(static_cast<double>(count(record, Event::Kind::impact)), record.impacts);
 }
 

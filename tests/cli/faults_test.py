@@ -168,7 +168,7 @@ class Faults(StoppedRuns):
                     refused += 1
                     self.assertIn("free some space", result.stderr)
                     if self.journal.exists():
-                        self.assertIn(f"what was finished is in '{self.journal}'", result.stderr)
+                        self.assertIn(f"the finished points are in '{self.journal}'", result.stderr)
                 if journal is not None and not self.output.exists():
                     self.assertTrue(self.journal.read_bytes().startswith(journal), context)
                 self.assert_completes(context)

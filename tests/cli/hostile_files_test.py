@@ -164,7 +164,7 @@ class HostileFiles(CommandLine):
         name = self.craft("a.h5", grow)
         self.assertLess((self.directory / name).stat().st_blocks * 512, 1 << 20)
         before = resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss
-        self.assert_refused(74, "its 'status' is of other points than the 5 of its configuration", "info", name)
+        self.assert_refused(74, "its 'status' doesn't have the 5 points of its configuration", "info", name)
         for change in (grow_unread, grow_rows):
             name = self.craft("a.h5", change)
             self.assert_refused(74, "its 'status' is longer than a file of its size can hold", "info", name)
@@ -276,7 +276,7 @@ class HostileFiles(CommandLine):
             preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_AS, (2 << 30, 2 << 30)),
         )
         self.assertEqual(result.returncode, 74)
-        self.assertIn("holds what an earlier run of something else had finished", result.stderr)
+        self.assertIn("has the finished points of another run", result.stderr)
         self.assertLess(len(result.stderr), 10_000)
 
     def test_a_long_sparse_journal_is_not_read_to_its_end(self):

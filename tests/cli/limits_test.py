@@ -165,7 +165,7 @@ class Memory(Limits):
             self.assert_said(
                 result,
                 rf"not enough memory: 10000000 points take \S+ MiB, ulimit -{letter} leaves \S+ MiB; sweep fewer "
-                "points, observe less, share the points out with --shard",
+                "points, observe less, divide the sweep with --shard",
             )
             self.assertEqual(self.files(), ["a.toml", "large.toml"])
 
@@ -246,9 +246,7 @@ impact_log = true
         )
         result = self.within(resource.RLIMIT_AS, 100 << 20, "run", config, "--threads", "1", "--progress", "never")
         self.assert_said(result, "not enough memory: it ran out; sweep fewer points")
-        self.assertRegex(
-            result.stderr, "what was finished is in '.*log.h5.journal', from which the same command goes on"
-        )
+        self.assertRegex(result.stderr, "the finished points are in '.*log.h5.journal'; the same command continues")
         self.assertEqual(self.files(), ["a.toml", "log.h5.journal", "log.toml"])
         result = self.clatter("run", config)
         self.assertEqual(result.returncode, 0, result.stderr)

@@ -34,7 +34,7 @@ class Replace(CommandLine):
         shutil.copy(SOURCE / "configs" / "fig18.toml", self.directory / "keep.toml")
         self.assert_kept(
             "keep.toml",
-            "the file that is there is no output of clatter, or a damaged one",
+            "the file there is not an output of clatter, or is damaged",
             "run",
             SOURCE / "configs" / "fig18.toml",
             "-o",
@@ -54,9 +54,7 @@ class Replace(CommandLine):
         for name in ("foreign.h5", "cut.h5", "text.h5", "link.h5"):
             for words in (("run", self.config), ("accuracy", self.write("b.toml", STUDY))):
                 content = (self.directory / name).read_bytes()
-                self.assert_kept(
-                    name, "the file that is there is no output of clatter, or a damaged one", *words, "-o", name
-                )
+                self.assert_kept(name, "the file there is not an output of clatter, or is damaged", *words, "-o", name)
                 (self.directory / name).write_bytes(content)
 
     def test_an_empty_file_holds_nothing_that_could_be_lost(self):
@@ -67,7 +65,7 @@ class Replace(CommandLine):
         self.ok("run", self.config)
         self.assert_kept(
             "a.h5",
-            "the file that is there has the title 'a small sweep', this one 'another'",
+            "the file there has the title 'a small sweep', this one 'another'",
             "run",
             self.config,
             "--set",
@@ -88,17 +86,14 @@ class Replace(CommandLine):
         self.assertEqual(self.files(), ["a.toml", "b.accuracy.h5", "b.h5", "b.toml"])
         self.assert_kept(
             "b.h5",
-            "the file that is there is an output of `clatter run`, this is one of `clatter accuracy`",
+            "the file there is an output of `clatter run`, this is one of `clatter accuracy`",
             "accuracy",
             config,
             "-o",
             "b.h5",
         )
         self.assert_kept(
-            "b.h5",
-            "the file that is there is an output of `clatter accuracy`, this is one of `clatter run`",
-            "run",
-            config,
+            "b.h5", "the file there is an output of `clatter accuracy`, this is one of `clatter run`", "run", config
         )
 
     def test_shards_and_the_whole_keep_each_other(self):
@@ -112,7 +107,7 @@ class Replace(CommandLine):
         self.ok("merge", "-o", "a.h5", *shards)
         self.assert_kept(
             shards[0],
-            "the file that is there has shard 0/2 of a sweep, this one shard 1/2",
+            "the file there has shard 0/2 of a sweep, this one shard 1/2",
             "run",
             self.config,
             "--shard",
@@ -122,7 +117,7 @@ class Replace(CommandLine):
         )
         self.assert_kept(
             "a.h5",
-            "the file that is there has all points of a sweep, this one shard 1/2",
+            "the file there has all points of a sweep, this one shard 1/2",
             "run",
             self.config,
             "--shard",
@@ -132,21 +127,11 @@ class Replace(CommandLine):
         )
         self.ok("run", self.config, "--shard", "0/2", "--force")
         self.assert_kept(
-            "a.h5",
-            "the file that is there has shard 1/2 of a sweep, this one all points",
-            "merge",
-            "-o",
-            "a.h5",
-            *shards,
+            "a.h5", "the file there has shard 1/2 of a sweep, this one all points", "merge", "-o", "a.h5", *shards
         )
         self.write("letter", "not to be lost")
         self.assert_kept(
-            "letter",
-            "the file that is there is no output of clatter, or a damaged one",
-            "merge",
-            "-o",
-            "letter",
-            *shards,
+            "letter", "the file there is not an output of clatter, or is damaged", "merge", "-o", "letter", *shards
         )
 
     def test_what_is_read_is_never_replaced(self):

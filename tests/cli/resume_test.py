@@ -20,7 +20,7 @@ class Resume(StoppedRuns):
             code, said = self.stopped(0.05 * attempt, number)
             self.assertEqual(code, 128 + number, said)
             self.assertFalse(self.output.exists())
-            if "nothing was finished yet" not in said:
+            if "no point was finished yet" not in said:
                 return said
         self.fail("no point is ever finished")
 
@@ -66,7 +66,7 @@ class Resume(StoppedRuns):
         self.sweep(nu=3000, xs=1, follow="nu")  # one branch
         result = self.run_command("--max-time", "1e-9")
         self.assertEqual(result.returncode, 124, result.stderr)
-        self.assertIn("nothing was finished yet", result.stderr)
+        self.assertIn("no point was finished yet", result.stderr)
         self.assertEqual(self.files(), ["a.toml"])
 
     def test_another_configuration_is_refused_and_restart_is_the_way_out(self):
@@ -95,7 +95,7 @@ class Resume(StoppedRuns):
             self.journal.write_bytes(damaged)
             result = self.run_command()
             self.assertEqual(result.returncode, 74)
-            self.assertRegex(result.stderr, "damaged at byte|is no journal")
+            self.assertRegex(result.stderr, "damaged at byte|is not a journal")
             self.assertEqual(self.journal.read_bytes(), damaged)
         self.journal.write_bytes(content[:-7])
         self.assertEqual(self.complete()[0], whole)

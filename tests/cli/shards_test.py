@@ -150,8 +150,8 @@ class Shards(StoppedRuns):
         self.sweep(nu=4, xs=2)
         whole = self.directory / "whole.h5"
         self.run_command(output=whole)
-        self.assert_not_merged([whole], "is no whole shard")
-        self.assert_not_merged([self.config], "is no whole shard")
+        self.assert_not_merged([whole], "is not a complete shard")
+        self.assert_not_merged([self.config], "is not a complete shard")
         self.assert_not_merged([self.directory], "is a directory")
         self.assert_not_merged([self.directory / "none.h5"], "No such file")
         self.assert_refused(2, "SHARD.h5 is missing", "merge", "-o", "a.h5")

@@ -15,24 +15,24 @@
 
 namespace clatter::fuzz {
 
-/// A message has to be one line that begins with a place in the text, e.g. "/dev/shm/input.toml:7:6: ".
+/// A message has to be one line that begins with a position in the text, e.g. "/dev/shm/input.toml:7:6: ".
 inline void require_place(const std::string& path, std::string_view text, const std::string& message) {
-  require(message.starts_with(path + ':'), "a message without a place: " + message);
+  require(message.starts_with(path + ':'), "a message without a position: " + message);
   require(std::ranges::none_of(message, [](unsigned char c) { return c < 0x20 || c == 0x7F; }),
           "a message with control characters: " + message);
   std::size_t line = 0, column = 0;
   const char* const end = message.data() + message.size();
   const auto [after_line, wrong] = std::from_chars(message.data() + path.size() + 1, end, line);
-  require(wrong == std::errc{} && after_line != end && *after_line == ':', "no line in the place: " + message);
-  require(std::from_chars(after_line + 1, end, column).ec == std::errc{}, "no column in the place: " + message);
+  require(wrong == std::errc{} && after_line != end && *after_line == ':', "no line in the position: " + message);
+  require(std::from_chars(after_line + 1, end, column).ec == std::errc{}, "no column in the position: " + message);
   const auto lines = 1 + static_cast<std::size_t>(std::ranges::count(text, '\n'));
-  require(line >= 1 && line <= lines, "a line that isn't there: " + message);
+  require(line >= 1 && line <= lines, "a line that doesn't exist: " + message);
   for (std::size_t before = 1; before < line; ++before) text.remove_prefix(text.find('\n') + 1);
   const auto width = static_cast<std::size_t>(storage::characters(text.substr(0, text.find('\n'))));
-  require(column >= 1 && column <= width + 1, "a column that isn't there: " + message);
+  require(column >= 1 && column <= width + 1, "a column that doesn't exist: " + message);
 }
 
-/// Axes are made before anything is refused that follows them, ten million values each: many of them are slow, and
+/// Axes of up to ten million values each are made before errors behind them are found: many of them are slow and test
 /// nothing new.
 inline bool has_large_axes(std::string_view text) { return std::ranges::count(text, '(') > 3; }
 
@@ -44,7 +44,7 @@ inline bool same_dimension(const sweep::Dimension& left, const sweep::Dimension&
   });
 }
 
-/// Reads a configuration as the program does; what it takes has to give itself again.
+/// Reads a configuration as the program does; the complete text of an accepted one has to read as the same again.
 inline void check_configuration(const std::string& name, const std::string& text) {
   if (has_large_axes(text)) return;
   const std::string path = write(name, text);
@@ -64,7 +64,8 @@ inline void check_configuration(const std::string& name, const std::string& text
     require(size(second.sweep) == size(first.sweep), "the complete text has another number of points");
     require(second.sweep.follow == first.sweep.follow && second.compression == first.compression,
             "the complete text has other settings");
-    require(second.warnings.size() <= first.warnings.size(), "the complete text is warned of, the text isn't");
+    require(second.warnings.size() <= first.warnings.size(),
+            "the complete text has warnings that the text doesn't have");
     require(std::ranges::equal(first.sweep.dimensions, second.sweep.dimensions, same_dimension),
             "the complete text has other axes");
   } catch (const config::ConfigError& error) {

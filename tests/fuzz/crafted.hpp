@@ -6,8 +6,8 @@
 
 namespace clatter::fuzz {
 
-/// Files that were made to harm their reader, out of a sound one whose bytes are given: each has its `x` elsewhere, or
-/// something in its place that no output has. Names and bytes.
+/// Names and bytes of files made to harm their reader, from the bytes of a sound one: each has its `x` elsewhere, or
+/// an object in its place that no output has.
 [[nodiscard]] std::vector<std::pair<std::string, std::string>> crafted_files(const std::string& sound);
 
 }  // namespace clatter::fuzz

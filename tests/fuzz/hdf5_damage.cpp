@@ -16,13 +16,13 @@ extern "C" std::size_t LLVMFuzzerMutate(std::uint8_t* data, std::size_t size, st
 namespace clatter::fuzz {
 namespace {
 
-/// Where a block of metadata begins, and where its checksum stands at its end.
+/// The positions of a block of metadata, and of the checksum at its end.
 struct Summed {
   std::size_t begin, end;
 };
 
-/// Where the checksum of the block stands that begins here; nothing: it has none that is right. Every end is tried, so
-/// that no layout has to be known, but only once for a place: then those ends that were right somewhere.
+/// The position of the checksum of the block that begins here; nothing if no checksum is right. Every length is tried,
+/// so that no layout has to be known, but only once for each position; later only lengths that were right somewhere.
 std::optional<std::size_t> end_of_block(std::span<const std::uint8_t> file, std::size_t begin) {
   static std::set<std::size_t> lengths, tried;
   const auto is_right = [&](std::size_t length) {

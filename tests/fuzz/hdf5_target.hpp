@@ -1,6 +1,7 @@
 #pragma once
 
-// For fuzzers that read HDF5 files: defines what libFuzzer and the sanitizers look for, so only one file includes it.
+// For fuzzers that read HDF5 files: defines functions that libFuzzer and the sanitizers call, so only one file includes
+// it.
 
 #include <dlfcn.h>
 #include <fcntl.h>
@@ -30,9 +31,9 @@
 
 namespace clatter::fuzz {
 
-/// What the reading child leaves to this process: the report of the sanitizer that ended it.
+/// Memory that the reading child shares with this process: the report of the sanitizer that ended it.
 struct Report {
-  bool undefined = false;  ///< undefined behaviour, of which there is no text
+  bool undefined = false;  ///< undefined behaviour, for which there is no text
   std::array<char, 16384> text{};
 };
 
@@ -46,7 +47,7 @@ inline void keep_report(const char* text) {
   if (report().text.front() == '\0') std::strncpy(report().text.data(), text, report().text.size() - 1);
 }
 
-/// In the child: its end is no finding of its own. What takes longer than that is an endless loop for us.
+/// Called in the child: its end is no finding of its own. A longer time counts as an endless loop.
 inline void become_reader() {
   constexpr itimerval soon{{0, 0}, {0, 300'000}};
   __asan_set_error_report_callback(keep_report);
@@ -57,12 +58,12 @@ inline void become_reader() {
   ::dup2(nowhere, STDERR_FILENO);
 }
 
-/// Whether the innermost frame of a report that is either clatter's or the library's is clatter's. No symbolizer: it
-/// would take longer than all else.
+/// Whether the innermost frame of a report that belongs to clatter or the library belongs to clatter. Without a
+/// symbolizer, which would take longer than everything else.
 inline bool blames_us(std::string_view text) {
   if (text.find("out of memory") != text.npos || text.find("out-of-memory") != text.npos ||
       text.find("allocation-size-too-big") != text.npos)
-    return false;  // what is an exception without the sanitizer
+    return false;  // without the sanitizer it is an exception
   for (std::size_t at = text.find("    #0 "); at != text.npos; at = text.find("\n    #", at + 1)) {
     const std::size_t number = text.find(" 0x", at) + 3;
     std::uintptr_t address = 0;
@@ -75,17 +76,17 @@ inline bool blames_us(std::string_view text) {
   return false;
 }
 
-/// What libFuzzer counts as covered beside clatter's own code, which runs in the child: each reason for which the
-/// library, that isn't instrumented, refuses a file.
+/// Counters that libFuzzer takes for coverage besides clatter's own code, which runs in the child: one for each reason
+/// for which the library, which isn't instrumented, refuses a file.
 [[gnu::section("__libfuzzer_extra_counters")]] inline std::array<std::uint8_t, 4096> reasons;
 
-/// Before the first child, which has the library as it is here then: it takes longer to set up than most files to read.
+/// Initialises the library before the first child, which inherits it: that takes longer than reading most files.
 inline bool prepare() {
   (void)results::file_image({}, {});
   return ::pthread_atfork(nullptr, nullptr, become_reader) == 0;
 }
 
-/// Reads a file as a command does: it is read or refused, and nothing else happens.
+/// Reads a file as a command does: it has to be read or refused, and nothing else may happen.
 inline void check_reading(std::span<const std::uint8_t> bytes,
                           const std::function<void(const std::string& path)>& read) {
   static const bool prepared = prepare();
@@ -108,7 +109,7 @@ inline void check_reading(std::span<const std::uint8_t> bytes,
 
 }  // namespace clatter::fuzz
 
-/// Called by the sanitizer for undefined behaviour, which only clatter's code was compiled with.
+/// Called by the sanitizer for undefined behaviour; only clatter's code was compiled with it.
 extern "C" void __ubsan_on_report() { clatter::fuzz::report().undefined = true; }
 
 extern "C" const char* __asan_default_options() {

@@ -1,4 +1,4 @@
-// Compiled without instrumentation, which has names of its own for the table below.
+// Compiled without instrumentation, since that reserves the names of the table below.
 #include "instrumented.hpp"
 
 #include <algorithm>
@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-/// The table of instrumented code: a block of it each.
+/// The table of instrumented code, with an entry for each block.
 struct Block {
   std::uintptr_t address, flags;
 };
@@ -16,7 +16,7 @@ extern "C" const Block end_of_blocks asm("__stop___sancov_pcs");
 
 namespace clatter::fuzz {
 
-/// Instrumented code isn't in one piece: functions that run before main come first of all.
+/// Instrumented code isn't contiguous: functions that run before main come first.
 bool is_instrumented(std::uintptr_t address) {
   constexpr std::uintptr_t longest = 4096;  // bytes of a block
   static const std::vector<std::uintptr_t> blocks = [] {

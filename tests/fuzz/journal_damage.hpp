@@ -18,18 +18,18 @@ using Records = std::vector<std::string>;
 
 inline const storage::JournalKey journal_key{"[scene]\nxs = -4.0\n", "0.1.0", "avx2", ""};
 
-/// Of no bytes, few, more, and again few, so that damage meets heads as well as blocks.
+/// Records of no bytes, few, more, and again few, so that damage hits heads as well as blocks.
 inline Records written_records() { return {"seven", "", std::string(300, 'x'), "three", std::string(40, '\0')}; }
 
 inline std::string journal_path() { return scratch().path("a.h5.journal"); }
 
-/// Opens the journal as a run does; its records. Adds some more.
+/// Opens the journal as a run does, and adds some records; returns those that were in it.
 inline Records open_journal(storage::Journal::Begin begin, const Records& more = {}) {
   Records records;
   storage::Journal journal(scratch().path("a.h5"), journal_key, {1e6}, begin, [&](std::span<const std::byte> bytes) {
     records.emplace_back(reinterpret_cast<const char*>(bytes.data()), bytes.size());
   });
-  require(journal.has_records() == !records.empty(), "a journal that doesn't know whether it has records");
+  require(journal.has_records() == !records.empty(), "has_records() is wrong");
   for (const std::string& record : more) journal.append(std::as_bytes(std::span(record)));
   return records;
 }
@@ -40,7 +40,7 @@ inline std::string sound_journal() {
   return content(journal_path());
 }
 
-/// What happens to the bytes of a journal: what is done, where, and how much of it.
+/// A change of the bytes of a journal: its kind, position and length.
 struct Damage {
   enum Kind : std::uint8_t { cut, flip, zeros, append, append_zeros, repeat, remove, kinds };
 
@@ -48,7 +48,7 @@ struct Damage {
   std::array<std::uint8_t, 2> place;
   std::uint8_t amount;
 
-  /// Whether it may repeat or remove whole records, which no checksum tells.
+  /// Whether it may repeat or remove whole records, which no checksum shows.
   [[nodiscard]] bool moves_records() const { return kind % kinds == repeat || kind % kinds == remove; }
 
   void apply(std::string& bytes) const {
@@ -78,8 +78,7 @@ struct Damage {
   }
 };
 
-/// The first byte of an input says whether the rest is the journal or what happens to a sound one, and how it is
-/// opened.
+/// The first byte of an input says whether the rest is the journal or changes of a sound one, and how it is opened.
 inline constexpr std::uint8_t raw_journal = 1;
 
 inline std::vector<std::pair<std::string, std::string>> journal_seeds() {

@@ -1,4 +1,4 @@
-// The journal of a run that was stopped: whatever became of it, a run never goes on from parts that it didn't hold.
+// The journal of a run that was stopped: however it is damaged, a run never continues from records that it didn't have.
 #include <algorithm>
 #include <cstring>
 #include <optional>
@@ -9,7 +9,7 @@
 namespace clatter::fuzz {
 namespace {
 
-/// The journal's records, or nothing where it is refused; then it has to be left as it is.
+/// The journal's records, or nothing if it is refused; then it has to be left as it is.
 std::optional<Records> records_of(const std::string& bytes, storage::Journal::Begin begin) {
   (void)write("a.h5.journal", bytes);
   try {
@@ -20,17 +20,17 @@ std::optional<Records> records_of(const std::string& bytes, storage::Journal::Be
   }
 }
 
-/// Where it wasn't refused, it can be added to and gives everything again.
+/// A journal that wasn't refused can be appended to and gives all records again.
 void require_goes_on(const Records& records) {
   const Records more{"nine", ""};
   require(open_journal(storage::Journal::Begin::anyhow, more) == records,
           "a journal gives other records the second time");
   Records all = records;
   all.insert(all.end(), more.begin(), more.end());
-  require(open_journal(storage::Journal::Begin::resume) == all, "a journal lost what was added to it");
+  require(open_journal(storage::Journal::Begin::resume) == all, "a journal lost records that were appended");
 }
 
-/// The header of a sound journal as a record: a copy of it among the records is as sound as they are.
+/// The header of a sound journal as a record: a copy of it among the records is as valid as they are.
 std::string header_record(const std::string& sound) {
   constexpr std::size_t length_at = 18, block_at = length_at + 16;  // after the magic and the block's head
   std::uint64_t length = 0;
@@ -38,7 +38,7 @@ std::string header_record(const std::string& sound) {
   return sound.substr(block_at, length);
 }
 
-/// Does to the bytes what the input says; whether that may have moved whole records.
+/// Changes the bytes as the input says; true if that may have moved whole records.
 bool damage_all(std::string& bytes, std::span<const std::uint8_t> input) {
   bool moved = false;
   for (; input.size() >= sizeof(Damage); input = input.subspan(sizeof(Damage))) {

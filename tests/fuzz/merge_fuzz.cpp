@@ -1,4 +1,4 @@
-// `clatter merge` on files that were sealed with their damage: any other damage the seal tells.
+// `clatter merge` on damaged files with a valid checksum trailer: that reveals any other damage.
 #include <string>
 
 #include "hdf5_target.hpp"

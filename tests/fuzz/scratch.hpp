@@ -14,8 +14,8 @@
 
 namespace clatter::fuzz {
 
-/// A directory of this process for the files that are read: in $TMPDIR, else in memory. Gone at the end, but for that
-/// by a finding.
+/// A directory of this process for the files that are read: in $TMPDIR, else in memory. Removed at the end, unless
+/// there is a finding.
 class Scratch {
  public:
   Scratch() {
@@ -41,7 +41,7 @@ inline const Scratch& scratch() {
   return the;
 }
 
-/// Writes a file of the scratch directory; its path.
+/// Writes a file of the scratch directory; returns its path.
 inline std::string write(const std::string& name, std::span<const std::byte> bytes) {
   const std::string path = scratch().path(name);
   std::ofstream file{path, std::ios::binary};

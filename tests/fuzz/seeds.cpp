@@ -1,4 +1,4 @@
-// Writes what the fuzzers begin with, a folder each, and a dictionary of words: fuzz_seeds CONFIGS CORPUS
+// Writes the seeds of the fuzzers, a folder for each, and a dictionary of words: fuzz_seeds CONFIGS CORPUS
 #include <array>
 #include <cmath>
 #include <cstdio>
@@ -55,7 +55,7 @@ void write_configurations(const fs::path& configs, const fs::path& corpus) {
        {"pi", "-2*pi/3", "inf", "[0.5, 1e-3, pi]", "logspace(1, 1e-3, 4)", "arange(0, 1, 0.1)"})
     values.insert(more);
   int number = 0;
-  for (const std::string& value : values) {  // the first byte says what the text is read as
+  for (const std::string& value : values) {  // the first byte chooses the kind of value
     write_seed(corpus / "value", "number" + std::to_string(++number), '\0' + value);
     write_seed(corpus / "value", "axis" + std::to_string(number), '\1' + value);
   }
@@ -63,7 +63,7 @@ void write_configurations(const fs::path& configs, const fs::path& corpus) {
   write_seed(corpus / "ini", "defaults", default_config(config::Format::ini));
 }
 
-/// Words for libFuzzer to put in: all that a configuration can say.
+/// Words for libFuzzer to insert: all those of configurations.
 void write_dictionary(const fs::path& corpus) {
   std::set<std::string> words{"linspace(", "logspace(", "arange(", "pi", "inf", "nan", "true", "false", "[[", "]]"};
   for (const std::string_view section : config::sections()) words.insert('[' + std::string(section) + ']');
@@ -82,7 +82,8 @@ std::vector<double> ramp(std::size_t size) {
   return values;
 }
 
-/// What a file can have: coordinates, scales without one, flags, integers, texts short and long, deflated values.
+/// Files with all kinds of contents: coordinates, scales without one, flags, integers, short and long texts, deflated
+/// values.
 sweep::Dataset figure(std::size_t points, std::size_t samples) {
   const std::vector<std::uint8_t> flags{0, 1, 2, 16, 17, 18};
   const std::string meanings = "periodic aperiodic transient event_budget not_finite unresolved";

@@ -20,7 +20,7 @@ config::SourceText source(std::string_view text) { return {text, {"input", 1, 1}
 
 bool same_bits(double left, double right) {
   return std::bit_cast<std::uint64_t>(left) == std::bit_cast<std::uint64_t>(right) ||
-         (std::isnan(left) && std::isnan(right));  // of which there is one text
+         (std::isnan(left) && std::isnan(right));  // all NaNs have the same text
 }
 
 void check_number(std::string_view text) {
@@ -38,7 +38,7 @@ void require_between(std::span<const double> values, double one, double other) {
     if (!(value >= least && value <= most)) require(false, "a value beyond the ends: " + config::number_text(value));
 }
 
-/// What a function promises, by its own text: "linspace(a, b, n)".
+/// Checks the values of a function by its own text: "linspace(a, b, n)".
 void check_function(const config::AxisValues& axis) {
   const std::string_view call = std::string_view(axis.text).substr(1, axis.text.size() - 2);
   std::array<double, 3> arguments{};
@@ -49,7 +49,7 @@ void check_function(const config::AxisValues& axis) {
     begin = end + 1;
   }
   const auto [a, b, last] = arguments;
-  require(axis.locations.empty(), "places of values that were not written one by one");
+  require(axis.locations.empty(), "positions of values that were not written one by one");
   require(same_bits(axis.values.front(), a), "an axis that doesn't begin with a");
   require_between(axis.values, a, b);
   if (call.starts_with("arange")) {
@@ -69,7 +69,7 @@ void check_axis(std::string_view text) {
     require(static_cast<double>(axis.values.size()) <= config::max_axis_values, "more values than permitted");
     check_function(axis);
   } else {
-    require(axis.locations.size() == axis.values.size(), "values of a list without places");
+    require(axis.locations.size() == axis.values.size(), "values of a list without positions");
   }
   std::string_view again = axis.text;
   if (is_function) again = again.substr(1, again.size() - 2);
@@ -81,7 +81,7 @@ void check_axis(std::string_view text) {
 }  // namespace
 }  // namespace clatter::fuzz
 
-/// The first byte says what the rest is read as.
+/// The first byte chooses how the rest is read.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) try {
   if (size == 0) return 0;
   const std::string_view text(reinterpret_cast<const char*>(data + 1), size - 1);

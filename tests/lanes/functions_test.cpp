@@ -24,7 +24,7 @@ void over_the_range(const Look& look) {
 double first(const V& y) { return y.first.get(0); }
 
 TEST(LaneFunctions, sine_and_cosine_are_known_to_four_ulps_of_1) {
-  // the last product and sum double what the half angle's are rounded by; fused ones keep to two
+  // the last product and sum double the rounding of the half angle's sine and cosine; fused ones keep to two ulps
   double worst = 0;
   over_the_range([&](double x) {
     const auto [sine, cosine] = short_sine_cosine(V(x));
@@ -36,7 +36,7 @@ TEST(LaneFunctions, sine_and_cosine_are_known_to_four_ulps_of_1) {
 }
 
 TEST(LaneFunctions, small_angles_keep_their_digits) {
-  // a contact soon after the last one is as far away as its time says, so the sine has to be known relative to itself
+  // the time to a contact soon after the last one is relative to itself, so the sine has to be accurate to itself
   over_the_range([](double x) {
     if (x == 0 || x > 0.1) return;
     EXPECT_NEAR(first(short_sine_cosine(V(x)).sine) / std::sin(x), 1, 4 * epsilon<double>());

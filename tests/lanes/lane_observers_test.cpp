@@ -1,4 +1,4 @@
-// What lanes note of the motion that they are observed in, against the observers of the scalar kernel.
+// The results of observers in lanes against those of the observers in the scalar loop.
 
 #include <gtest/gtest.h>
 
@@ -26,7 +26,7 @@ point::Problem watched_scene(std::uint64_t index) {
   return scene;
 }
 
-/// Extrema and impacts up to a number of turns.
+/// Extrema and impacts up to a number of forcing periods.
 struct Seen {
   observables::Extrema::Range x, v;
   std::array<observables::Impacts::OfStop, 2> stops;
@@ -54,18 +54,18 @@ Seen seen_by_scalar(const point::Problem& scene, double turns) {
   return {both.extrema.displacement(scene.stops), both.extrema.velocity(), both.impacts.stops()};
 }
 
-/// The same from a lane, which stops in the middle of a flight, after so many sections; nothing where it gets stuck, or
-/// never does.
-std::optional<Seen> seen_by_lane(const point::Problem& scene, StepFunction kernel, int sections, double& turns) {
+/// The same from a lane, which stops in the middle of a flight, after so many sections; nothing if it needs the scalar
+/// loop, or never stops so.
+std::optional<Seen> seen_by_lane(const point::Problem& scene, StepFunction step, int sections, double& turns) {
   BlockState lanes{};
   lanes.extrema = lanes.counts = true;
   for (std::size_t i = 0; i < LaneArray::width; ++i) clear_lane(lanes, i);
   load_lane(lanes, 3, scene, scene.stops);
   watch(lanes, 3, false, false);
-  for (int passed = 0, visits = 0;;) {
-    if (++visits > 200) return std::nullopt;  // it falls into a step in which every visit ends on a stop
+  for (int passed = 0, calls = 0;;) {
+    if (++calls > 200) return std::nullopt;  // every call ends on a stop
     lanes.arrived = lanes.to_scalar = 0;
-    kernel(lanes);
+    step(lanes);
     if (lanes.to_scalar != 0) return std::nullopt;
     passed += lanes.arrived != 0;
     const LaneState position = place_of(lanes, 3, scene);
@@ -82,7 +82,7 @@ std::optional<Seen> seen_by_lane(const point::Problem& scene, StepFunction kerne
   return seen;
 }
 
-/// The largest difference of two runs' extrema and first impacts; infinite where they count different impacts.
+/// The largest difference of two runs' extrema and first impacts; infinite if they count different impacts.
 double difference(const Seen& a, const Seen& b) {
   double most = std::max({std::abs(a.x.low - b.x.low), std::abs(a.x.high - b.x.high), std::abs(a.v.low - b.v.low),
                           std::abs(a.v.high - b.v.high)});
@@ -95,7 +95,7 @@ double difference(const Seen& a, const Seen& b) {
   return most;
 }
 
-/// To 1e-14 of the motion, some ten roundings an impact, and 32 of what an ulp of the inputs does.
+/// Allows 1e-14 of the motion, some ten roundings an impact, and 32 times the effect of an ulp of the inputs.
 void expect_same(const Seen& lane, const Seen& scalar, const point::Problem& scene, double turns) {
   const double off = difference(lane, scalar);
   const double size = std::max({-scalar.x.low, scalar.x.high, -scalar.v.low, scalar.v.high});
@@ -121,7 +121,7 @@ TEST_P(LaneWatch, sees_the_extrema_and_impacts_that_the_scalar_observers_see) {
     ++seen, free += scalar.stops[0].count + scalar.stops[1].count == 0;
   }
   std::cout << seen << " of 2000 seen to the end, " << free << " without an impact\n";
-  EXPECT_GT(seen, 500u);  // the others chatter or rest, or end each visit on a stop
+  EXPECT_GT(seen, 500u);  // the others chatter or rest, or end each call on a stop
 }
 
 INSTANTIATE_TEST_SUITE_P(Of, LaneWatch,

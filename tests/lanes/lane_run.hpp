@@ -9,25 +9,25 @@
 
 namespace clatter::lanes {
 
-/// The scalar kernel that lanes share their arcs with.
+/// The scalar integrator with the effects of lanes.
 inline constexpr Effects lane_effects = effect_sets::complete(Damping::light, Forcing::regular);
 using LaneExact = stepping::Exact<double, lane_effects>;
 
-/// A section as a lane reports it.
+/// A stroboscopic section as a lane reports it.
 struct Section {
   double x, v;
 };
 
-/// What a lane met on its own, up to where it got stuck or had enough.
+/// The impacts and sections of a lane, until it needs the scalar loop or has enough.
 struct LaneRun {
   std::vector<motion::Impact> impacts{};  ///< times in tau since the start
   std::vector<Section> sections{};
   bool to_scalar = false;
   LaneState stuck_at{};
-  std::int64_t visits = 0;
+  std::int64_t calls = 0;
 };
 
-/// Reads an impact off a lane: it stands on a stop with the velocity after it.
+/// Reads an impact from a lane, which is on a stop with the velocity after it.
 inline motion::Impact impact_of(const BlockState& lanes, std::size_t lane, const point::Problem& scene,
                                 double sections) {
   const LaneState position = place_of(lanes, lane, scene);
@@ -37,9 +37,9 @@ inline motion::Impact impact_of(const BlockState& lanes, std::size_t lane, const
           position.v, position.x};
 }
 
-/// Takes scenes side by side until each has met so many impacts, passed so many sections, or is stuck.
-inline std::vector<LaneRun> run_lanes(const std::vector<point::Problem>& scenes, StepFunction kernel,
-                                      std::size_t impacts, std::size_t sections) {
+/// Runs scenes side by side until each has met so many impacts, passed so many sections, or needs the scalar loop.
+inline std::vector<LaneRun> run_lanes(const std::vector<point::Problem>& scenes, StepFunction step, std::size_t impacts,
+                                      std::size_t sections) {
   BlockState lanes{};
   std::vector<LaneRun> runs(scenes.size());
   for (std::size_t i = 0; i < LaneArray::width; ++i) clear_lane(lanes, i);
@@ -48,11 +48,11 @@ inline std::vector<LaneRun> run_lanes(const std::vector<point::Problem>& scenes,
   for (std::size_t left = scenes.size(); left > 0;) {
     std::vector<double> before(lanes.impacts.lane, lanes.impacts.lane + LaneArray::width);
     lanes.arrived = lanes.to_scalar = 0;
-    kernel(lanes);
+    step(lanes);
     for (std::size_t i = 0; i < scenes.size(); ++i) {
       if (done[i]) continue;
       LaneRun& run = runs[i];
-      ++run.visits;
+      ++run.calls;
       if (lanes.arrived >> i & 1)
         run.sections.push_back(
             {scenes[i].oscillator.load + lanes.section_y.lane[i], lanes.section_v.lane[i] * lanes.rate.lane[i]});
@@ -60,15 +60,14 @@ inline std::vector<LaneRun> run_lanes(const std::vector<point::Problem>& scenes,
         run.impacts.push_back(impact_of(lanes, i, scenes[i], static_cast<double>(run.sections.size())));
       run.to_scalar = lanes.to_scalar >> i & 1;
       if (run.to_scalar) run.stuck_at = place_of(lanes, i, scenes[i]);
-      done[i] =
-          run.to_scalar || run.impacts.size() >= impacts || run.sections.size() >= sections || run.visits > 100000;
+      done[i] = run.to_scalar || run.impacts.size() >= impacts || run.sections.size() >= sections || run.calls > 100000;
       if (done[i]) clear_lane(lanes, i), --left;
     }
   }
   return runs;
 }
 
-/// The scalar kernel's impacts and sections of the same scene, for so many forcing periods.
+/// The scalar loop's impacts and sections of the same scene, for so many forcing periods.
 struct ScalarRun {
   support::Recorder record{};
   std::vector<Section> sections{};

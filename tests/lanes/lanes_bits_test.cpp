@@ -1,5 +1,5 @@
-// Which bits a point in SIMD lanes has: they depend neither on threads nor on neighbours, and on the instruction set
-// only where one rounds a product that another doesn't.
+// The bits of a point in SIMD lanes: they depend neither on threads nor on neighbours, and on the instruction set only
+// if one rounds a product that another doesn't.
 
 #include <gtest/gtest.h>
 
@@ -12,7 +12,7 @@
 namespace clatter::lanes {
 namespace {
 
-/// Motion of all kinds, all that lanes observe.
+/// Motion of all kinds, with every observable of lanes.
 std::vector<point::Problem> scenes_of_all_kinds(steady::Mode mode) {
   std::vector<point::Problem> scenes;
   for (std::uint64_t i = 0; i < 300; ++i) {
@@ -35,7 +35,7 @@ std::vector<point::Problem> scenes_of_all_kinds(steady::Mode mode) {
   return scenes;
 }
 
-/// The bits of a point in all variables, what it took included.
+/// Compares the bits of a point in all variables, its work included.
 void expect_same_point(const sweep::Dataset& a, std::size_t i, const sweep::Dataset& b, std::size_t j) {
   const std::size_t points = statuses(a).size(), others = statuses(b).size();
   for (const sweep::Variable& variable : b.variables) {
@@ -74,14 +74,14 @@ TEST_P(LaneBits, are_the_same_for_every_number_of_threads) {
 TEST_P(LaneBits, are_the_same_beside_other_neighbours) {
   for (const steady::Mode mode : {steady::Mode::steady, steady::Mode::transient}) {
     const std::vector<point::Problem> scenes = scenes_of_all_kinds(mode);
-    const sweep::Dataset figure = lanes(sweep::sweep_over(scenes));
+    const sweep::Dataset dataset = lanes(sweep::sweep_over(scenes));
     std::vector<std::size_t> order(scenes.size());
     std::iota(order.rbegin(), order.rend(), 0u);  // from the last to the first
     for (int round = 0; round < 2; ++round) {
       std::vector<point::Problem> others;
       for (const std::size_t i : order) others.push_back(scenes[i]);
       const sweep::Dataset other = lanes(sweep::sweep_over(others));
-      for (std::size_t j = 0; j < order.size(); ++j) expect_same_point(figure, order[j], other, j);
+      for (std::size_t j = 0; j < order.size(); ++j) expect_same_point(dataset, order[j], other, j);
       std::shuffle(order.begin(), order.end(), std::mt19937_64(7));
     }
   }
@@ -90,13 +90,13 @@ TEST_P(LaneBits, are_the_same_beside_other_neighbours) {
 TEST_P(LaneBits, are_the_same_alone_and_in_parts_of_a_sweep) {
   for (const steady::Mode mode : {steady::Mode::steady, steady::Mode::transient}) {
     const std::vector<point::Problem> scenes = scenes_of_all_kinds(mode);
-    const sweep::Dataset figure = lanes(sweep::sweep_over(scenes));
+    const sweep::Dataset dataset = lanes(sweep::sweep_over(scenes));
     for (std::size_t i = 0; i < scenes.size(); i += 3)
-      expect_same_point(figure, i, lanes(sweep::sweep_of(scenes[i], {})), 0);
+      expect_same_point(dataset, i, lanes(sweep::sweep_of(scenes[i], {})), 0);
     for (const std::size_t begin : {std::size_t{0}, std::size_t{17}, scenes.size() - 50}) {
       const auto first = scenes.begin() + static_cast<std::ptrdiff_t>(begin);
       const sweep::Dataset part = lanes(sweep::sweep_over({first, first + 50}));
-      for (std::size_t j = 0; j < 50; ++j) expect_same_point(figure, begin + j, part, j);
+      for (std::size_t j = 0; j < 50; ++j) expect_same_point(dataset, begin + j, part, j);
     }
   }
 }

@@ -1,4 +1,4 @@
-// Points in SIMD lanes against the same points by the scalar kernel.
+// Points in SIMD lanes against the same points in the scalar loop.
 
 #include <gtest/gtest.h>
 
@@ -26,10 +26,10 @@ class InLanes : public testing::TestWithParam<InstructionSet> {
   }
 };
 
-/// What a comparison of many points came to.
+/// Totals of a comparison of many points.
 struct Totals {
   std::size_t points = 0, fit = 0, periodic = 0, sensitive = 0, chaotic = 0, slow = 0;
-  double worst = 0;  ///< of those that aren't sensitive
+  double worst = 0;  ///< largest difference of those that aren't sensitive
 };
 
 std::ostream& operator<<(std::ostream& out, const Totals& t) {
@@ -38,9 +38,10 @@ std::ostream& operator<<(std::ostream& out, const Totals& t) {
              << " that it changes visibly; " << t.slow << " took longer to settle";
 }
 
-/// The difference of a point's two runs, over what is allowed. Values are the same to 1e-13 of the motion's scale. A
-/// motion that multiplies a change of its inputs by 1e-15 does so with the roundings of either kernel too: some ten an
-/// impact, so 16 of what one change does are allowed, and where one changes counts, or values visibly, nothing is said.
+/// The difference of a point's two runs, over the allowed one. Values are the same to 1e-13 of the motion's scale. A
+/// motion that multiplies a change of its inputs by 1e-15 multiplies the roundings of either run, too: some ten an
+/// impact, so 16 times the effect of one change is allowed. If that changes counts, or values visibly, nothing is
+/// compared.
 double beyond(const point::Problem& scene, const sweep::RunPoint& lanes, const sweep::RunPoint& scalar,
               Totals& totals) {
   const sweep::Apart apart = compare(lanes, scalar);
@@ -55,7 +56,8 @@ double beyond(const point::Problem& scene, const sweep::RunPoint& lanes, const s
   return chaotic ? 0 : apart.by / allowed;
 }
 
-/// How many periods slow motion takes to settle depends on who looks when; given more of them, both find the same.
+/// The number of periods that slow motion takes to settle depends on when repeats are looked for; given more of them,
+/// both runs find the same motion.
 double beyond_if_longer(point::Problem scene, InstructionSet arch, Totals& totals) {
   scene.time.max_periods *= 16;
   const sweep::Sweep sweep = sweep::sweep_of(scene, {});
@@ -83,7 +85,7 @@ Totals expect_alike(const sweep::Sweep& sweep, InstructionSet arch) {
   return totals;
 }
 
-/// All that lanes observe of a steady motion.
+/// Every observable of lanes, for a steady motion.
 point::Problem observed(point::Problem scene) {
   scene.observe = {};
   scene.observe.extrema = true;
@@ -98,16 +100,17 @@ point::Problem observed(point::Problem scene) {
 sweep::Sweep figure(double xs) {
   sweep::Axis nu{sweep::Parameter::nu, {}};
   for (int i = 0; i <= 500; ++i)
-    if (xs != 5 || i != 250) nu.values.push_back(0.5 + i / 500.0);  // that one grazes to 3e-16: nobody's to say
+    if (xs != 5 || i != 250) nu.values.push_back(0.5 + i / 500.0);  // that one grazes to 3e-16: rounding decides
   return sweep::sweep_of(observed(sweep::paper_scene(xs, 1.0)), {nu});
 }
 
-TEST_P(InLanes, figures_20_to_23_are_those_of_the_scalar_kernel) {
+TEST_P(InLanes, figures_20_to_23_are_those_of_the_scalar_loop) {
   for (const double xs : {6.0, 5.0, 4.0, 3.0}) {
     const Totals totals = expect_alike(figure(xs), GetParam());
     EXPECT_EQ(totals.fit, totals.points);
     EXPECT_GT(totals.periodic, 450u);
-    EXPECT_LE(totals.sensitive + totals.chaotic, totals.points - totals.periodic + 4);  // all but a few have no period
+    EXPECT_LE(totals.sensitive + totals.chaotic,
+              totals.points - totals.periodic + 4);  // hardly any of them has a period
     EXPECT_EQ(totals.slow, 0u);
   }
 }
@@ -140,7 +143,7 @@ sweep::Sweep random_sweep(std::uint64_t count, const Change& change) {
   return sweep::sweep_over(scenes);
 }
 
-TEST_P(InLanes, steady_motion_that_nobody_chose_is_that_of_the_scalar_kernel) {
+TEST_P(InLanes, random_steady_motion_is_that_of_the_scalar_loop) {
   const Totals totals = expect_alike(random_sweep(1000, observed), GetParam());
   EXPECT_GT(totals.fit, 800u);
   EXPECT_GT(totals.periodic, 800u);
@@ -160,8 +163,8 @@ point::Problem transient(point::Problem scene, double periods) {
   return scene;
 }
 
-TEST_P(InLanes, a_few_periods_from_any_start_are_those_of_the_scalar_kernel) {
-  // one duration for all, so that their forcing periods end in all sorts of parts
+TEST_P(InLanes, a_few_periods_from_any_start_are_those_of_the_scalar_loop) {
+  // one duration for all, so that it ends in different parts of their forcing periods
   const Totals totals = expect_alike(random_sweep(1000,
                                                   [](const point::Problem& scene) {
                                                     point::Problem one = transient(scene, 1);
@@ -172,7 +175,7 @@ TEST_P(InLanes, a_few_periods_from_any_start_are_those_of_the_scalar_kernel) {
   EXPECT_LT(totals.sensitive + totals.chaotic, 150u);
 }
 
-TEST_P(InLanes, fifty_periods_and_a_part_are_those_of_the_scalar_kernel) {
+TEST_P(InLanes, fifty_periods_and_a_part_are_those_of_the_scalar_loop) {
   sweep::Axis nu{sweep::Parameter::nu, {}};
   for (int i = 0; i < 100; ++i) nu.values.push_back(0.4 + i / 25.0);
   for (const double part : {0.0, 1e-9, 0.37, 1 - 1e-9}) {
@@ -183,7 +186,7 @@ TEST_P(InLanes, fifty_periods_and_a_part_are_those_of_the_scalar_kernel) {
   }
 }
 
-/// A slow force presses onto near stops: chatter that is completed, rest, release.
+/// A slow force presses the mass onto near stops: completed chatter, rest, release.
 std::vector<point::Problem> chattering() {
   std::vector<point::Problem> scenes;
   for (const double nu : {0.05, 0.2, 0.5})
@@ -199,7 +202,7 @@ std::vector<point::Problem> chattering() {
 }
 
 TEST_P(InLanes, what_leaves_its_stops_for_good_is_taken_to_its_end_at_once) {
-  // the response stays within 2.5 of the load's equilibrium; what is free of the start meets the stops before
+  // the response stays within 2.5 of the load's equilibrium; the transient of the start meets the stops before
   sweep::Axis nu{sweep::Parameter::nu, {}}, x0{sweep::Parameter::x0, {-2.9, 0.3, 2.5}},
       load{sweep::Parameter::load, {0.0, 0.2}};
   for (int i = 0; i < 40; ++i) nu.values.push_back(i % 2 == 0 ? 0.4 + i / 100.0 : 1.25 + i / 50.0);
@@ -217,7 +220,7 @@ TEST_P(InLanes, what_leaves_its_stops_for_good_is_taken_to_its_end_at_once) {
   EXPECT_LT(result.lanes.proved, periods);  // steps, of which a period has three at least
 }
 
-TEST_P(InLanes, chatter_rest_and_release_are_those_of_the_scalar_kernel) {
+TEST_P(InLanes, chatter_rest_and_release_are_those_of_the_scalar_loop) {
   std::vector<point::Problem> scenes = chattering();
   EXPECT_LE(expect_alike(sweep::sweep_over(scenes), GetParam()).chaotic, 2u);
   for (point::Problem& scene : scenes) {
@@ -227,8 +230,9 @@ TEST_P(InLanes, chatter_rest_and_release_are_those_of_the_scalar_kernel) {
   EXPECT_EQ(expect_alike(sweep::sweep_over(scenes), GetParam()).chaotic, 0u);
 }
 
-TEST_P(InLanes, grazes_and_near_misses_are_those_of_the_scalar_kernel) {
-  // the steady response has this amplitude; stops a little farther are missed, a little nearer they are hit softly
+TEST_P(InLanes, grazes_and_near_misses_are_those_of_the_scalar_loop) {
+  // the steady response has this amplitude; stops a little farther away are missed, those a little nearer are hit
+  // softly
   const double amplitude = 0.777909841584413976;
   std::vector<point::Problem> scenes;
   for (const double gap : {1e-14, 1e-12, 1e-9, 1e-6, 1e-4, 1e-3, 1e-2})
@@ -251,8 +255,8 @@ TEST_P(InLanes, grazes_and_near_misses_are_those_of_the_scalar_kernel) {
 }
 
 double impacts_of(const point::Problem& scene, InstructionSet arch) {
-  const sweep::Dataset figure = sweep::run(sweep::sweep_of(scene, {}), {.threads = 1, .arch = arch}).dataset;
-  return static_cast<double>(std::get<std::vector<std::int64_t>>(find(figure, "impact_total")->values)[0]);
+  const sweep::Dataset dataset = sweep::run(sweep::sweep_of(scene, {}), {.threads = 1, .arch = arch}).dataset;
+  return static_cast<double>(std::get<std::vector<std::int64_t>>(find(dataset, "impact_total")->values)[0]);
 }
 
 TEST_P(InLanes, a_budget_of_impacts_ends_the_same_transients) {
@@ -261,9 +265,9 @@ TEST_P(InLanes, a_budget_of_impacts_ends_the_same_transients) {
     const double impacts = impacts_of(scene, InstructionSet::scalar);
     for (const double missing : {-1.0, 0.0, 1.0, 10.0}) {
       scene.time.max_impacts = impacts - missing;
-      const sweep::Dataset figure = lanes(sweep::sweep_of(scene, {}));
-      EXPECT_EQ(statuses(figure)[0], missing > 0 ? 16 : 2) << xs << " " << nu << ": " << impacts << " - " << missing;
-      EXPECT_EQ(std::isnan(values(figure, "x_max")[0]), missing > 0);
+      const sweep::Dataset dataset = lanes(sweep::sweep_of(scene, {}));
+      EXPECT_EQ(statuses(dataset)[0], missing > 0 ? 16 : 2) << xs << " " << nu << ": " << impacts << " - " << missing;
+      EXPECT_EQ(std::isnan(values(dataset, "x_max")[0]), missing > 0);
     }
   }
 }
@@ -280,7 +284,7 @@ TEST_P(InLanes, a_budget_of_impacts_holds_for_settling_and_observing_together) {
       scene.time.max_impacts = 1e5;
       const double impacts = impacts_of(scene, arch);
       for (const double missing :
-           {-1.0, 0.0, 20.0}) {  // the scalar kernel may do an observation again, and meet one less
+           {-1.0, 0.0, 20.0}) {  // the scalar loop may repeat an observation, and meet one impact less
         scene.time.max_impacts = impacts - missing;
         EXPECT_EQ(sweep::statuses(sweep::run(sweep::sweep_of(scene, {}), {.threads = 1, .arch = arch}).dataset)[0],
                   missing > 0 ? 16 : 1)
@@ -291,11 +295,11 @@ TEST_P(InLanes, a_budget_of_impacts_holds_for_settling_and_observing_together) {
 
 TEST_P(InLanes, nothing_lies_beyond_a_stop_and_nothing_is_missing) {
   const sweep::Sweep sweep = random_sweep(1000, observed);
-  const sweep::Dataset figure = lanes(sweep);
+  const sweep::Dataset dataset = lanes(sweep);
   for (std::size_t i = 0; i < size(sweep); ++i) {
     const Stops stops = scene_at(sweep, i).stops;
-    const sweep::RunPoint point{figure, i};
-    if (point.status() == 16) continue;  // elastic chatter has impacts without end
+    const sweep::RunPoint point{dataset, i};
+    if (point.status() == 16) continue;  // elastic chatter never ends
     EXPECT_GE(point.of("x_min")[0], stops.lower);
     EXPECT_LE(point.of("x_max")[0], stops.upper);
     const std::vector<double> met = point.of("impacts_per_period");

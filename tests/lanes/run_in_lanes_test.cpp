@@ -1,4 +1,4 @@
-// A point that a whole crew runs: the result that it has in a sweep, and who had to observe it.
+// A point that a whole block runs: it has the same result as in a sweep, and says whether lanes observed it.
 
 #include "lanes/run_in_lanes.hpp"
 
@@ -26,16 +26,16 @@ point::Problem observed_scene() {
 TEST(LanePoints, are_those_of_a_sweep_however_many_run) {
   const point::Problem scene = observed_scene();
   ASSERT_TRUE(accepts(task_of(scene)));
-  const sweep::Dataset figure =
+  const sweep::Dataset dataset =
       sweep::run(sweep::sweep_of(scene, {}), {.threads = 1, .arch = InstructionSet::sse2}).dataset;
   for (const std::size_t times : {std::size_t{1}, lanes_per_block, 2 * lanes_per_block + 3}) {
     point::ThreadScratch scratch;
     const point::PointResult result = run_in_lanes(task_of(scene), times, InstructionSet::sse2, scratch);
     EXPECT_TRUE(result.in_lanes);
     EXPECT_EQ(result.status, steady::Status::periodic);
-    EXPECT_EQ(result.v_max, values(figure, "v_max")[0]);
-    EXPECT_EQ(result.periods, values(figure, "simulated_periods")[0]);
-    EXPECT_EQ(result.x_spectrum.amplitude, values(figure, "x_amplitude"));
+    EXPECT_EQ(result.v_max, values(dataset, "v_max")[0]);
+    EXPECT_EQ(result.periods, values(dataset, "simulated_periods")[0]);
+    EXPECT_EQ(result.x_spectrum.amplitude, values(dataset, "x_amplitude"));
   }
 }
 

@@ -1,5 +1,5 @@
-// Impacts and sections that lanes report on their own, against the scalar kernel and against Taylor steps in long
-// double that share no formula with either.
+// Impacts and sections that lanes report without the scalar loop, against the scalar loop and against Taylor steps in
+// long double that share no formula with either.
 
 #include <gtest/gtest.h>
 
@@ -17,14 +17,14 @@ namespace {
 
 constexpr double pi_ = std::numbers::pi;
 
-class LaneVisits : public testing::TestWithParam<InstructionSet> {
+class LaneSteps : public testing::TestWithParam<InstructionSet> {
  protected:
   void SetUp() override {
     if (!is_supported(GetParam())) GTEST_SKIP() << "this machine has no " << name_of(GetParam());
   }
 };
 
-/// A scene that fits lanes, of any kind.
+/// A random scene that lanes accept.
 point::Problem lane_scene(std::uint64_t index) {
   support::Random random(160, index);
   point::Problem scene;
@@ -46,10 +46,10 @@ std::vector<point::Problem> lane_scenes(std::uint64_t from, std::size_t count) {
   return scenes;
 }
 
-/// A scene of one flight that lasts, far from its stops.
+/// A scene of one long flight, far from its stops.
 point::Problem wide_scene() { return support::scene_of({0.1, 1.0, 1.5, 0.0}, -100, 100, 0.7); }
 
-TEST_P(LaneVisits, a_step_with_a_nan_in_anything_that_its_proof_rests_on_is_not_proved) {
+TEST_P(LaneSteps, a_step_with_a_nan_in_any_input_of_its_proof_is_not_proved) {
   const std::vector<LaneArray BlockState::*> rows{&BlockState::bound,       &BlockState::bound_forced,
                                                   &BlockState::rounding,    &BlockState::free_pp,
                                                   &BlockState::free_pw,     &BlockState::free_wp,
@@ -62,7 +62,7 @@ TEST_P(LaneVisits, a_step_with_a_nan_in_anything_that_its_proof_rests_on_is_not_
                                                   &BlockState::cosine,      &BlockState::y,
                                                   &BlockState::v,           &BlockState::a,
                                                   &BlockState::lower,       &BlockState::upper};
-  for (const StepFunction kernel : {step_functions_of(GetParam()).plain, step_functions_of(GetParam()).observed})
+  for (const StepFunction step : {step_functions_of(GetParam()).plain, step_functions_of(GetParam()).observed})
     for (std::size_t i = 0; i < rows.size(); ++i) {
       BlockState lanes{};
       for (std::size_t lane = 0; lane < LaneArray::width; ++lane) {
@@ -72,42 +72,42 @@ TEST_P(LaneVisits, a_step_with_a_nan_in_anything_that_its_proof_rests_on_is_not_
       const std::size_t broken = i % LaneArray::width, sound = (i + 1) % LaneArray::width;
       (lanes.*rows[i]).lane[broken] = std::numeric_limits<double>::quiet_NaN();
       const double left = lanes.left.lane[broken];
-      kernel(lanes);
+      step(lanes);
       EXPECT_EQ(lanes.left.lane[broken], left) << "row " << i;
       EXPECT_TRUE(lanes.to_scalar >> broken & 1) << "row " << i;
-      EXPECT_LT(lanes.left.lane[sound], left) << "row " << i;  // its neighbours get on
+      EXPECT_LT(lanes.left.lane[sound], left) << "row " << i;  // its neighbours advance
     }
 }
 
-/// The first impacts of a run, as a course.
+/// The first impacts of a run, as a run record.
 accuracy::RunRecord first_of(const std::vector<motion::Impact>& impacts, std::size_t count, double duration) {
-  accuracy::RunRecord course;
-  course.duration = duration;
-  for (std::size_t i = 0; i < count; ++i) course.events.push_back(accuracy::event_of(impacts[i]));
-  return course;
+  accuracy::RunRecord record;
+  record.duration = duration;
+  for (std::size_t i = 0; i < count; ++i) record.events.push_back(accuracy::event_of(impacts[i]));
+  return record;
 }
 
-/// The scalar kernel's runs of a scene whose inputs are moved by an ulp each.
+/// Runs in the scalar loop of a scene whose inputs are moved by an ulp each.
 std::vector<ScalarRun> moved_runs(const point::Problem& scene, std::size_t sections) {
   std::vector<ScalarRun> runs;
   for (const unsigned signs : move_signs) runs.push_back(run_scalar(moved(scene, signs), sections));
   return runs;
 }
 
-/// How far the first impacts of other runs are from these.
-double own_deviation(const std::vector<ScalarRun>& others, const accuracy::RunRecord& course) {
+/// The largest deviation of the first impacts of other runs from these.
+double own_deviation(const std::vector<ScalarRun>& others, const accuracy::RunRecord& record) {
   double worst = 0;
   for (const ScalarRun& other : others) {
     const std::vector<motion::Impact>& impacts = other.record.impacts;
-    if (impacts.size() < course.events.size()) return std::numeric_limits<double>::infinity();
-    const support::Deviation d = support::deviation(first_of(impacts, course.events.size(), course.duration), course);
+    if (impacts.size() < record.events.size()) return std::numeric_limits<double>::infinity();
+    const support::Deviation d = support::deviation(first_of(impacts, record.events.size(), record.duration), record);
     worst = std::max(worst, d.same_events ? d.largest() : std::numeric_limits<double>::infinity());
   }
   return worst;
 }
 
-/// Displacement and velocity at the sections, until they are forgotten. They keep the roundings of all steps where
-/// nothing damps them.
+/// Compares displacement and velocity at the sections, until roundings have grown to 1e-10 of them. They keep the
+/// roundings of all steps if nothing damps them.
 void expect_sections(const point::Problem& scene, const LaneRun& run, const ScalarRun& scalar,
                      const std::vector<ScalarRun>& others) {
   const double rate = std::max(1.0, scene.oscillator.frequency), period = period_of(scene.oscillator);
@@ -125,14 +125,14 @@ void expect_sections(const point::Problem& scene, const LaneRun& run, const Scal
   }
 }
 
-/// What many runs came to.
+/// Totals of many runs.
 struct Sum {
   std::size_t impacts = 0, sections = 0, to_scalar = 0;
   double worst = 0;
 };
 
-/// Compares as many of a run's impacts as come before an ulp of the inputs has grown to 1e-10: what is later shows the
-/// growth of roundings alone.
+/// Compares the impacts of a run until an ulp of the inputs has grown to 1e-10: later ones would only show the growth
+/// of roundings.
 void expect_same_impacts(const point::Problem& scene, const LaneRun& run, Sum& sum) {
   const std::size_t sections = run.sections.size() + 4;
   const ScalarRun scalar = run_scalar(scene, sections);
@@ -153,7 +153,7 @@ void expect_same_impacts(const point::Problem& scene, const LaneRun& run, Sum& s
   expect_sections(scene, run, scalar, others);
 }
 
-TEST_P(LaneVisits, meet_the_scalar_kernels_first_hundred_impacts) {
+TEST_P(LaneSteps, meet_the_scalar_loops_first_hundred_impacts) {
   Sum sum;
   for (std::uint64_t from = 0; from < 480; from += LaneArray::width) {
     const std::vector<point::Problem> scenes = lane_scenes(from, LaneArray::width);
@@ -161,13 +161,13 @@ TEST_P(LaneVisits, meet_the_scalar_kernels_first_hundred_impacts) {
     for (std::size_t i = 0; i < scenes.size(); ++i) expect_same_impacts(scenes[i], runs[i], sum);
   }
   std::cout << sum.impacts << " impacts, " << sum.sections << " sections, " << sum.to_scalar
-            << " of 480 stuck on the way; at most " << sum.worst << " of what is allowed\n";
+            << " of 480 went to the scalar loop; at most " << sum.worst << " of the allowed deviation\n";
   EXPECT_GT(sum.impacts, 8000u);
   EXPECT_GT(sum.sections, 8000u);
 }
 
-TEST_P(LaneVisits, miss_no_impact_that_taylor_steps_see) {
-  // every flight between two reported impacts flown again: it stays between the stops and ends on the one it hits
+TEST_P(LaneSteps, miss_no_impact_that_taylor_steps_see) {
+  // every flight between two reported impacts is computed again: it stays between the stops and ends on the one it hits
   double beyond = 0, off = 0;
   for (std::uint64_t from = 1000; from < 1160; from += 16) {
     const std::vector<point::Problem> scenes = lane_scenes(from, LaneArray::width);
@@ -191,25 +191,25 @@ TEST_P(LaneVisits, miss_no_impact_that_taylor_steps_see) {
       }
     }
   }
-  std::cout << "beyond a stop by " << beyond << ", off it by " << off << " of what rounding allows\n";
+  std::cout << "beyond a stop by " << beyond << ", off it by " << off << " of the allowed rounding\n";
   EXPECT_LE(beyond, 1);
   EXPECT_LE(off, 1);
 }
 
-TEST_P(LaneVisits, report_what_grazes_as_stuck) {
+TEST_P(LaneSteps, leave_grazes_to_the_scalar_loop) {
   const double amplitude = 0.777909841584413976;
   for (const double gap : {0.0, 1e-15, -1e-15, -1e-13, 1e-12}) {
     point::Problem scene = support::scene_of({0.1, 1.0, 1.5, 0.0}, -2.0, amplitude * (1 + gap), 0.7);
     scene.start = {-0.181543116490166415, -1.13464447806354009, 0.0};
     const LaneRun run = run_lanes({scene}, step_functions_of(GetParam()).plain, 1, 3)[0];
-    EXPECT_EQ(run.to_scalar, gap < 1e-12) << gap;  // so much, some thousand roundings, it can tell
+    EXPECT_EQ(run.to_scalar, gap < 1e-12) << gap;  // a gap of some thousand roundings can be resolved
     EXPECT_TRUE(run.impacts.empty()) << gap;
     EXPECT_LE(run.stuck_at.x, scene.stops.upper) << gap;
   }
 }
 
-TEST_P(LaneVisits, get_every_lane_on) {
-  // just off the lower stop, on an arc whose quintic is least, for Newton's method, 1e-17 of a step from where it is
+TEST_P(LaneSteps, advance_every_lane) {
+  // just off the lower stop, on an arc whose quintic, by Newton's method, is least 1e-17 of a step from the present
   const double stop = 0x1.e7807ca49e781p-3;
   const point::Problem scene = support::scene_of({0.1, -1.0, 0x1.07b00c4ce07bp-1, 0.0}, -stop, stop, 0.7);
   BlockState lanes{};
@@ -224,7 +224,7 @@ TEST_P(LaneVisits, get_every_lane_on) {
   EXPECT_TRUE(lanes.to_scalar != 0 || lanes.left.lane[1] < left - 0.01);
 }
 
-TEST_P(LaneVisits, report_nothing_of_idle_lanes) {
+TEST_P(LaneSteps, report_nothing_of_idle_lanes) {
   BlockState lanes{};
   for (std::size_t i = 0; i < LaneArray::width; ++i) clear_lane(lanes, i);
   for (int step_block = 0; step_block < 2000; ++step_block) {
@@ -239,7 +239,7 @@ TEST_P(LaneVisits, report_nothing_of_idle_lanes) {
   }
 }
 
-TEST_P(LaneVisits, take_a_lane_the_same_way_in_every_place) {
+TEST_P(LaneSteps, advance_a_lane_the_same_way_at_every_index) {
   const std::vector<point::Problem> scenes = lane_scenes(2000, LaneArray::width);
   const std::vector<LaneRun> together = run_lanes(scenes, step_functions_of(GetParam()).plain, 50, 50);
   for (std::size_t i = 0; i < scenes.size(); ++i) {
@@ -254,7 +254,7 @@ TEST_P(LaneVisits, take_a_lane_the_same_way_in_every_place) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Of, LaneVisits,
+INSTANTIATE_TEST_SUITE_P(Of, LaneSteps,
                          testing::Values(InstructionSet::sse2, InstructionSet::avx2, InstructionSet::avx512),
                          [](const auto& of) { return std::string(name_of(of.param)); });
 

@@ -64,7 +64,7 @@ TEST(Bernstein, finds_the_first_of_several_roots) {
   ASSERT_GT(c[0], 0.0);
   const auto root = FirstRoot<double>::of(c);
   ASSERT_TRUE(root);
-  EXPECT_NEAR(*root, 0.2, 1e-13);  // coefficients round to 1e-16 of up to 15, the slope there is 13
+  EXPECT_NEAR(*root, 0.2, 1e-13);  // coefficients up to 15 round to 1e-16 of themselves; the slope at the root is 13
 }
 
 TEST(Bernstein, tells_two_close_roots_from_none) {
@@ -87,7 +87,7 @@ TEST(Bernstein, a_root_at_the_beginning_does_not_count) {
 }
 
 TEST(Bernstein, a_tiny_root_keeps_its_relative_accuracy) {
-  // u (w - u) of degree 6, as a bounce far below rounding of the step gives it
+  // u (w - u) as degree 6, as after a bounce far below the rounding of the step
   for (double w : {1e-3, 1e-9, 1e-15}) {
     Bernstein<double> c{};
     for (std::size_t i = 0; i < c.size(); ++i) {
@@ -137,7 +137,7 @@ struct Powers {
     for (std::size_t k = a.size(); k-- > 1;) sum = sum * s + static_cast<double>(k) * a[k];
     return sum;
   }
-  /// No value, slope times step or term of them is larger on a step.
+  /// Bound, on a step, of the value, the slope times the step, and their terms.
   [[nodiscard]] double size(double step) const {
     double sum = 0, power = 1;
     for (const double coefficient : a) sum += std::abs(coefficient) * power, power *= step;
@@ -145,7 +145,7 @@ struct Powers {
   }
 };
 
-/// Largest difference of a Bernstein polynomial over a step from a polynomial by its powers, over the latter's size.
+/// Largest difference, over a step, of a Bernstein polynomial from one given by powers, relative to the latter's size.
 double difference(const Bernstein<double>& c, const Powers& p, double step) {
   double worst = 0;
   for (int i = 0; i <= 64; ++i) worst = std::max(worst, std::abs(value_at(c, i / 64.0) - p.at(step * i / 64)));
@@ -169,7 +169,7 @@ TEST(Bernstein, quintic_gives_back_any_polynomial_of_degree_five) {
 TEST(Bernstein, quintic_does_not_give_back_a_polynomial_of_degree_six) {
   const auto power = [](double u) { return u * u * u * u * u * u; };
   const auto c = quintic(1.0, {0, 0}, {1, 6}, {power(1.0 / 3), power(2.0 / 3)});
-  // they differ by u^6 + ... that vanishes where values, and doubly where slopes are given
+  // their difference has a simple zero at each given value, and a double one if the slope is given, too
   const auto error = [](double u) { return u * u * (u - 1.0 / 3) * (u - 2.0 / 3) * (u - 1) * (u - 1); };
   for (const double u : {0.2, 0.5, 0.8}) EXPECT_NEAR(power(u) - value_at(c, u), error(u), 16 * ulp);
 }

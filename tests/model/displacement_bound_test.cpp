@@ -15,7 +15,7 @@ namespace {
 
 constexpr double forever = std::numeric_limits<double>::infinity(), ulp = std::numeric_limits<double>::epsilon();
 
-/// An oscillator and where it starts, in a time in which it beats or fades.
+/// An oscillator, its start, and a time in which it beats or fades.
 struct Flight {
   Oscillator oscillator;
   double x, v, turns;
@@ -60,7 +60,7 @@ Flight any_flight(std::uint64_t i) {
   return {{h, f, nu, load}, load + x, v, random.uniform(0, 1), random.logarithmic(1, 1e4)};
 }
 
-/// What rounding moves a displacement by: its parts to an ulp, and their phases by an ulp of the angle turned.
+/// Bound of a displacement's rounding: an ulp of each of its parts, and of their phases an ulp of the angle turned by.
 double rounding(const Flight& flight, double s) {
   const auto parts = transient_of(flight.oscillator, flight.now());
   const double size = norm(flight.x, flight.v) + std::abs(flight.oscillator.load);
@@ -90,14 +90,14 @@ TEST(Reach, no_motion_passes_it) {
     tightest = std::max(tightest, largest / reach), tight += largest > 0.8 * reach, ++checked;
   }
   EXPECT_GT(tightest, 1 - 1e-4);
-  EXPECT_GT(tight / checked, 0.5);  // and most come near to it
+  EXPECT_GT(tight / checked, 0.5);  // and most bounds are nearly reached
 }
 
 TEST(Reach, no_motion_passes_it_in_its_time) {
   for (std::uint64_t i = 0; i < 2000; ++i) {
     Flight flight = any_flight(i);
     flight.duration = std::min(flight.duration, 300.0);
-    if (i % 4 == 0) flight.oscillator.damping = 0, flight.oscillator.frequency = 1;  // where only time bounds it
+    if (i % 4 == 0) flight.oscillator.damping = 0, flight.oscillator.frequency = 1;  // then only time bounds it
     const double within = flight.reach(flight.duration);
     EXPECT_LE(within, flight.reach());
     fly(flight, 1000, [&](double s, double x) { EXPECT_LE(x, within + rounding(flight, s)) << "flight " << i; });
@@ -131,8 +131,7 @@ TEST(Reach, of_beats_is_within_a_few_percent) {
     double largest = 0;
     fly(flight, 20000, [&](double, double x) { largest = std::max(largest, x); });
     EXPECT_LE(largest, flight.reach() * (1 + 16 * ulp));
-    const double nu =
-        flight.oscillator.frequency;  // a beat and its faster turns pass their crests together where it is slow
+    const double nu = flight.oscillator.frequency;  // a slow beat and its fast oscillation are at their crests together
     EXPECT_GE(largest, flight.reach() * (std::abs(nu - 1) <= 0.1 ? 0.97 : 0.88)) << nu;
     const auto whole = transient_of(flight.oscillator, flight.now());
     sum_of_parts = std::max(sum_of_parts, 2 * transient_bound(flight.oscillator, whole));
@@ -141,7 +140,7 @@ TEST(Reach, of_beats_is_within_a_few_percent) {
 }
 
 TEST(Reach, scales_with_every_length) {
-  // x, v, f, load times a power of two: the same bits, however small or large (physics, check 8)
+  // x, v, f, load times a power of two: the same bits, however small or large
   for (std::uint64_t i = 0; i < 500; ++i) {
     const Flight flight = any_flight(i);
     const double reach = flight.reach();
@@ -162,7 +161,7 @@ TEST(Reach, is_no_sharper_than_asked_for) {
 }
 
 TEST(Reach, response_and_transient_make_up_the_motion) {
-  // transient_of is what with the response of amplitude |f| / sqrt(D) gives the state: steady motion has none
+  // the transient and the response of amplitude |f| / sqrt(D) add up to the state (eq. 6), so steady motion has none
   for (const double h : {0.0, 1e-9, 0.1, 1.0, 30.0})
     for (const double nu : {1e-3, 0.5, 1 + 1e-9, 40.0}) {
       const double stiffness = (1 - nu) * (1 + nu), D = stiffness * stiffness + 4 * h * h * nu * nu;

@@ -25,15 +25,17 @@ std::vector<Effects> consistent_sets() {
   return sets;
 }
 
-TEST(Effects, every_set_of_a_scene_has_a_kernel_that_contains_it) {
+TEST(Effects, every_set_of_a_scene_is_contained_in_a_compiled_one) {
   const auto sets = consistent_sets();
-  EXPECT_EQ(sets.size(), 10u * (3 * 2 * 4 + 2));  // 10 of an oscillator; stops with what they do, or none; the load
+  EXPECT_EQ(sets.size(),
+            10u * (3 * 2 * 4 + 2));  // 10 sets of an oscillator's effects; stops and their effects, or none; the load
   for (const Effects& set : sets) {
-    const std::size_t kernel = effect_set_of(set);
-    ASSERT_LT(kernel, compiled_effects.size());
-    const Effects& all = compiled_effects[kernel];
+    const std::size_t index = effect_set_of(set);
+    ASSERT_LT(index, compiled_effects.size());
+    const Effects& all = compiled_effects[index];
     EXPECT_TRUE(contains(all, set));
-    // said again, without contains(): a flag that the set has, its forcing or more, rotation for none and light alone
+    // the rule once more, without contains(): each flag of the set, its forcing or more, rotation only for none and
+    // light
     EXPECT_TRUE((all.load || !set.load) && (all.lower || !set.lower) && (all.upper || !set.upper));
     EXPECT_TRUE((all.dissipation || !set.dissipation) && (all.rest || !set.rest) && all.forcing >= set.forcing);
     EXPECT_EQ(all.damping == Damping::heavy, set.damping >= Damping::critical);
@@ -41,26 +43,26 @@ TEST(Effects, every_set_of_a_scene_has_a_kernel_that_contains_it) {
   }
 }
 
-TEST(Effects, the_order_of_the_kernels_hides_none) {
-  // a cheaper kernel that contained a dearer one would always be taken in its place
+TEST(Effects, the_order_of_the_compiled_sets_hides_none) {
+  // a cheaper compiled set that contained a dearer one would always be taken instead of it
   EXPECT_LE(compiled_effects.size(), 16u);
   for (std::size_t i = 0; i < compiled_effects.size(); ++i) EXPECT_EQ(effect_set_of(compiled_effects[i]), i);
 }
 
-TEST(Effects, what_contains_a_kernel_contains_what_it_contains) {
+TEST(Effects, contains_is_transitive_through_compiled_sets) {
   const auto sets = consistent_sets();
   for (const Effects& small : sets) {
-    EXPECT_TRUE(contains(small, small) || small.damping == Damping::critical);  // which no kernel is for
-    for (const Effects& kernel : compiled_effects)
+    EXPECT_TRUE(contains(small, small) || small.damping == Damping::critical);  // which has no compiled set
+    for (const Effects& between : compiled_effects)
       for (const Effects& larger : compiled_effects) {
-        EXPECT_TRUE(contains(larger, small) || !(contains(larger, kernel) && contains(kernel, small)));
+        EXPECT_TRUE(contains(larger, small) || !(contains(larger, between) && contains(between, small)));
       }
   }
 }
 
-TEST(Effects, a_set_is_run_by_its_cheapest_kernel) {
+TEST(Effects, a_set_runs_as_the_cheapest_compiled_one) {
   for (const Effects& set : consistent_sets()) {
-    const Effects run = with_effects(set, []<Effects kernel>() { return kernel; });
+    const Effects run = with_effects(set, []<Effects compiled>() { return compiled; });
     EXPECT_EQ(run, compiled_effects[effect_set_of(set)]);
   }
 }
@@ -71,7 +73,7 @@ TEST(Effects, any_stops_are_met_with_all_that_the_oscillator_does) {
       for (const double nu : {1e-3, 0.95, 1.0, 1.0625, 1e3}) {
         const Oscillator oscillator{h, f, nu, 0.5};
         const Effects own{damping_of(oscillator), forcing_of(oscillator), true, true, true, true, true};
-        EXPECT_TRUE(contains(with_any_stops(oscillator, []<Effects kernel>() { return kernel; }), own));
+        EXPECT_TRUE(contains(with_any_stops(oscillator, []<Effects compiled>() { return compiled; }), own));
         EXPECT_TRUE(contains(all_effects(oscillator.damping), own));
       }
 }
@@ -99,14 +101,14 @@ TEST(RequiredEffects, stops_within_the_steady_amplitude_are_in) {
 }
 
 TEST(RequiredEffects, a_stop_that_is_hit_leaves_no_proof_for_the_other) {
-  // in reach by itself neither is, once the mass has hit the other: between stops at -3 and 0 the force of frequency 2
-  // finds the resonance of the half oscillator (its own period is pi), where free of stops |x| stays below 1
+  // without stops |x| stays below 1, so neither stop would be in reach; but between stops at -3 and 0 the force of
+  // frequency 2 is in resonance with the half oscillator, whose own period is pi
   Scene scene;
   scene.oscillator = {0.01, 1.0, 2.0, 0.0};
   scene.stops = {-3.0, 0.0, 0.99, 0.99};
   EXPECT_TRUE(required_effects(scene).upper);
   EXPECT_TRUE(required_effects(scene).lower);
-  // without force no impact raises the energy: the stop beyond it stays out of reach
+  // without force nothing raises the energy, so a stop beyond it stays out of reach
   scene.oscillator = {0.0, 0.0, 1.0, 0.0};
   scene.start.displacement = -2.0;
   EXPECT_TRUE(required_effects(scene).upper);
@@ -119,7 +121,7 @@ TEST(RequiredEffects, a_force_weaker_than_the_spring_holds_no_mass) {
   EXPECT_TRUE(required_effects(figure(1.0 + ulp, 1)).rest);  // within rounding of one
   EXPECT_FALSE(required_effects(figure(1.0 + 16 * ulp, 1)).rest);
   Scene beyond = figure(1.0, 1.0);
-  beyond.oscillator.load = 2.0;  // beyond the upper stop, which it presses the mass on
+  beyond.oscillator.load = 2.0;  // an equilibrium beyond the upper stop: the load presses the mass onto it
   EXPECT_TRUE(required_effects(beyond).upper && required_effects(beyond).rest);
   beyond.oscillator.forcing = 0.0, beyond.oscillator.load = -2.0;
   EXPECT_TRUE(required_effects(beyond).lower && required_effects(beyond).rest);
@@ -132,7 +134,7 @@ TEST(RequiredEffects, dissipation_needs_a_stop_in_reach_that_takes_speed) {
   scene.stops.restitution_lower = 1 - ulp / 2;
   EXPECT_TRUE(required_effects(scene).dissipation);
   scene.stops = {-none, 3.0, 0.25, 1.0};
-  EXPECT_FALSE(required_effects(scene).dissipation);  // the stop that would take it isn't there
+  EXPECT_FALSE(required_effects(scene).dissipation);  // the stop at which energy would be lost doesn't exist
 }
 
 TEST(RequiredEffects, a_stop_at_infinity_is_none) {
@@ -164,10 +166,10 @@ TEST(RequiredEffects, what_isnt_known_keeps_the_stops_in) {
     for (std::size_t i = 0; i < scenes.size(); ++i) {
       const Effects effects = required_effects(scenes[i]);
       EXPECT_TRUE(effects.lower && effects.upper) << "value " << i << " = " << unknown;
-      EXPECT_TRUE(effects.rest || (i != 4 && i != 6)) << "what presses, value " << i << " = " << unknown;
+      EXPECT_TRUE(effects.rest || (i != 4 && i != 6)) << "rest, value " << i << " = " << unknown;
     }
   }
-  for (const Stops& one : {Stops{-6, none, 0.7, 0.7}, Stops{-none, 6, 0.7, 0.7}}) {  // whose gap isn't known
+  for (const Stops& one : {Stops{-6, none, 0.7, 0.7}, Stops{-none, 6, 0.7, 0.7}}) {  // the gap of the stop is NaN
     Scene scene = figure(6, 1.2);
     scene.stops = one, scene.oscillator.load = nan;
     EXPECT_TRUE(required_effects(scene).stops() && required_effects(scene).rest);
@@ -194,7 +196,7 @@ TEST(RequiredEffects, damping_and_resonance_are_told_apart_at_their_borders) {
   EXPECT_EQ(damping(1 - ulp / 2), Damping::light);
   EXPECT_EQ(damping(1.0), Damping::critical);
   EXPECT_EQ(damping(1 + ulp), Damping::heavy);
-  EXPECT_EQ(damping(nan), Damping::heavy);  // whose kernel has no fewer terms
+  EXPECT_EQ(damping(nan), Damping::heavy);  // whose compiled set has the most terms
   const auto forcing = [](double nu) { return forcing_of({0.0, 1e-300, nu, 0.0}); };
   EXPECT_EQ(forcing(1.0), Forcing::secular);
   EXPECT_EQ(forcing(1 + secular_distance - 4 * ulp), Forcing::secular);

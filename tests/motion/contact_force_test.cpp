@@ -39,7 +39,7 @@ FiftyDigits time_of_all_flights(const ArcConstants<FiftyDigits, E>& constants, c
                                 double w) {
   const auto stop = stop_at<FiftyDigits>(stops, Side::upper);
   FiftyDigits phase = turns, speed = w, total = 0;
-  while (speed > 1e-20 * w) {  // what follows takes 1e-20 of the time
+  while (speed > 1e-20 * w) {  // the rest takes 1e-20 of the time
     const auto [sine, cosine] = sine_cosine_of_turns(phase);
     const FiftyDigits x = stop.position, v = -speed;
     const Arc<FiftyDigits, E> arc(constants,
@@ -66,7 +66,7 @@ TEST(Impact, chatter_ends_when_flight_by_flight_it_does) {
         ASSERT_TRUE(holds(constants, stop, sine_cosine_of_turns(turns)));
         double w = 1e-3;
         while (!chatter_time(constants, stop, press, w)) w /= 2;
-        EXPECT_GT(w, 1e-8);  // completed while there is something to complete
+        EXPECT_GT(w, 1e-8);  // completed before it is negligible
         const double sum = *chatter_time(constants, stop, press, w);
         EXPECT_NEAR(sum, static_cast<double>(time_of_all_flights(reference, stops, turns, w)), 5e-16)
             << "R = " << R << ", h = " << h;

@@ -17,8 +17,8 @@ TEST(Contact, grazing_contact_is_found_at_its_time_with_its_speed) {
     const Contact<double> contact = first_contact(graze::oscillator, graze::stops(past), graze::x0, graze::v0, 4.0);
     EXPECT_EQ(contact.side, Side::lower);
     const double nu = graze::oscillator.frequency, speed = nu * graze::amplitude * std::sqrt(past * (2 - past));
-    // conditioning: a few ulps of the amplitude move the time by them over the speed, and the speed by the acceleration
-    // times that
+    // conditioning (eq. 21): a few ulps of the amplitude move the time by themselves over the speed, and the speed by
+    // the acceleration times that
     const double rounding = 4 * epsilon<double>() * graze::amplitude / speed;
     EXPECT_NEAR(contact.elapsed, time, rounding);
     EXPECT_NEAR(-contact.motion.v, speed, nu * nu * graze::amplitude * rounding);
@@ -59,7 +59,7 @@ TEST(Contact, agrees_with_a_dense_scan_on_random_scenes) {
       }
     });
   }
-  EXPECT_GT(contacts, 1000);  // the scan has something to disagree with
+  EXPECT_GT(contacts, 1000);  // there are enough contacts that the scan could contradict
 }
 
 TEST(Contact, two_contacts_closer_than_any_step_are_not_jumped_over) {
@@ -84,8 +84,8 @@ TEST(Contact, a_start_on_a_stop_is_no_contact_unless_it_moves_in) {
 }
 
 TEST(Contact, micro_flights_keep_their_relative_accuracy) {
-  // rebound at speed w from the upper stop, pressed with the acceleration 0.7: s = 2 w/a (1 - ...) far below an ulp of
-  // the stop's place
+  // rebound at speed w from the upper stop, pressed with the acceleration 0.7: s = 2 w/a (1 - ...) (eq. 23), and the
+  // flight goes far below an ulp of the stop's position
   const Oscillator pressed{0, 0, 1, 1.2};
   for (double w : {1e-3, 1e-6, 1e-9, 1e-12}) {
     const Contact<double> contact = first_contact(pressed, {-1, 0.5, 1, 1}, 0.5, -w, 3.0);
@@ -97,8 +97,8 @@ TEST(Contact, micro_flights_keep_their_relative_accuracy) {
 }
 
 TEST(Contact, conservative_contacts_keep_the_speed_however_soft) {
-  // from stop to opposite stop the speed is the same, exactly; along the arc it would be lost in the rounding of the
-  // place
+  // from a stop to the opposite one the speed is the same, exactly (eq. 17); along the arc it would be lost in the
+  // rounding of the displacement
   for (double v : {1.0, 1e-3, 1e-7})
     EXPECT_EQ(first_contact({0, 0, 1, 0}, {-0.75, 0.75, 1, 1}, -0.75, v, 4.0).motion.v, v);
 }
@@ -113,7 +113,7 @@ TEST(Contact, lengths_near_the_smallest_numbers_are_solved_or_refused) {
   for (double scale : {1e-150, 1e-250}) {  // squares vanish, the motion is the same
     const Contact<double> contact = first_contact({0.1, scale, 0.5, 0}, {-scale / 2, scale / 2, 1, 1}, 0, 0, 4.0);
     EXPECT_EQ(contact.side, Side::upper);
-    EXPECT_NEAR(contact.elapsed, 2.0515931595927638, 1e-14);  // physics.md, "chatter and rest"
+    EXPECT_NEAR(contact.elapsed, 2.0515931595927638, 1e-14);  // as at scale 1 (tests/stepping/exact_test.cpp)
   }
   EXPECT_FALSE(first_contact({0.1, 1e-300, 0.5, 0}, {-1e-300, 1e-300, 1, 1}, 0, 0, 4.0).resolved);
   const Contact<double> decayed =

@@ -24,40 +24,40 @@ State<double> at(double x, double v) {
   return state;
 }
 
-/// A motion over some turns: its stops in order, its end and its derivative.
-struct Course {
+/// A motion over some forcing periods: its stops in order, its end and its derivative.
+struct Run {
   std::uint64_t itinerary;
   State<double> end;
   Jacobian<double> derivative;
 };
 
-template <Effects kernel>
-std::optional<Course> run(const point::Problem& scene, State<double> state, double turns) {
-  stepping::Exact<double, kernel> integrator(scene);
+template <Effects effects>
+std::optional<Run> run(const point::Problem& scene, State<double> state, double turns) {
+  stepping::Exact<double, effects> integrator(scene);
   steady::SectionObserver watch(scene.stops);
   watch.differentiate();
   if (run_for(integrator, state, turns, watch) != stepping::Outcome::completed) return std::nullopt;
-  return Course{watch.passage().itinerary, state, watch.derivative()};
+  return Run{watch.passage().itinerary, state, watch.derivative()};
 }
 
-template <Effects kernel>
+template <Effects effects>
 Neighbourhood neighbourhood_of(const point::Problem& scene, State<double> state, double turns, const Ellipse& start) {
-  stepping::Exact<double, kernel> integrator(scene);
+  stepping::Exact<double, effects> integrator(scene);
   Neighbourhood neighbourhood(scene.stops, start, 64 * ulp * (std::abs(state.x) + std::abs(state.v)));
   EXPECT_EQ(run_for(integrator, state, turns, neighbourhood), stepping::Outcome::completed);
   return neighbourhood;
 }
 
-/// How often a proof was found, and how much larger than needed its enclosures were.
+/// Number of proofs that were found, and the tightness of their enclosures.
 struct Tally {
   int proved = 0, refused = 0, with_impacts = 0;
-  double tightest = 0;  ///< of what the derivative doesn't tell, the largest share of its enclosure
+  double tightest = 0;  ///< the largest remainder beyond the derivative, over its enclosure
 
   void take(double share) { tightest = std::max(tightest, share); }
 };
 
-/// Random motions between stops, and around each all that begins on an ellipse.
-template <Effects kernel>
+/// Random motions between stops, and around each of them motions that begin on an ellipse.
+template <Effects effects>
 Tally enclose(std::uint64_t seed, double least_h, double most_h) {
   Tally tally;
   for (std::uint64_t i = 0; i < 600; ++i) {
@@ -71,8 +71,8 @@ Tally enclose(std::uint64_t seed, double least_h, double most_h) {
     const double turns = random.uniform(0.5, 3), size = random.logarithmic(1e-9, 1e-1);
     const double skew = random.uniform(-0.9, 0.9), wide = random.logarithmic(0.3, 3);
     const Ellipse start(size * size * wide, size * size * skew, size * size / wide);
-    const std::optional<Course> seen = run<kernel>(scene, from, turns);
-    const Neighbourhood proof = neighbourhood_of<kernel>(scene, from, turns, start);
+    const std::optional<Run> seen = run<effects>(scene, from, turns);
+    const Neighbourhood proof = neighbourhood_of<effects>(scene, from, turns, start);
     if (!seen || !proof.holds()) {
       ++tally.refused;
       continue;
@@ -85,7 +85,7 @@ Tally enclose(std::uint64_t seed, double least_h, double most_h) {
       // L (cos, sin) with the Cholesky factor L of the ellipse
       const Perturbation change{a * along / reach,
                                 size * (skew / std::sqrt(wide) * along + std::sqrt((1 - skew * skew) / wide) * across)};
-      const std::optional<Course> other = run<kernel>(scene, at(from.x + change.x, from.v + change.v), turns);
+      const std::optional<Run> other = run<effects>(scene, at(from.x + change.x, from.v + change.v), turns);
       EXPECT_TRUE(other) << i;
       if (!other) continue;
       EXPECT_EQ(other->itinerary, seen->itinerary) << i;
@@ -107,7 +107,7 @@ void expect_proofs(const Tally& tally) {
   EXPECT_GT(tally.proved, 150);
   EXPECT_GT(tally.refused, 50);  // large changes, grazes, rests
   EXPECT_GT(tally.with_impacts, 50);
-  EXPECT_GT(tally.tightest, 0.1);  // bounds, but no far ones
+  EXPECT_GT(tally.tightest, 0.1);  // the bounds aren't far from the remainders
 }
 
 TEST(Neighbourhood, encloses_all_motions_that_begin_in_it) {
@@ -117,29 +117,29 @@ TEST(Neighbourhood, encloses_all_motions_that_begin_in_it) {
 }
 
 TEST(Neighbourhood, a_flight_that_comes_near_a_stop_without_touching_it_is_proved_up_to_its_gap) {
-  // the steady motion of amplitude A with a stop at A (1 + gap): motions off by less than that gap don't touch it
-  constexpr Effects kernel = effect_sets::impacts(Damping::light, Forcing::regular);
+  // the steady motion of amplitude A with a stop at A (1 + gap): motions within that gap of it don't touch the stop
+  constexpr Effects effects = effect_sets::impacts(Damping::light, Forcing::regular);
   const Oscillator oscillator{0.1, 1.0, 1.5, 0.0};
   const double A = 0.777909841584413976, gap = 1e-6;
   const point::Problem scene = support::scene_of(oscillator, -1.0, A * (1 + gap), 0.7);
   const State<double> steady = at(-0.181543116490166415, -1.13464447806354009);
-  EXPECT_TRUE(neighbourhood_of<kernel>(scene, steady, 1, Ellipse::disc(0.9 * A * gap)).holds());
-  EXPECT_FALSE(neighbourhood_of<kernel>(scene, steady, 1, Ellipse::disc(1.1 * A * gap)).holds());
+  EXPECT_TRUE(neighbourhood_of<effects>(scene, steady, 1, Ellipse::disc(0.9 * A * gap)).holds());
+  EXPECT_FALSE(neighbourhood_of<effects>(scene, steady, 1, Ellipse::disc(1.1 * A * gap)).holds());
 }
 
 TEST(Neighbourhood, nothing_is_proved_of_a_graze_a_rest_or_a_start_on_its_way_into_a_stop) {
-  constexpr Effects kernel = effect_sets::complete(Damping::light, Forcing::regular);
+  constexpr Effects effects = effect_sets::complete(Damping::light, Forcing::regular);
   const double A = 0.777909841584413976;
   const State<double> steady = at(-0.181543116490166415, -1.13464447806354009);
   const point::Problem graze = support::scene_of({0.1, 1.0, 1.5, 0.0}, -A * (1 - 1e-10), 2.0, 0.7);
   const point::Problem rest = support::scene_of({0.1, 1.0, 0.5, 0.0}, -0.5, 0.5, 0.5);
   const point::Problem free = support::scene_of({0.1, 1.0, 1.5, 0.0}, -1.0, 1.0, 0.7);
   const Ellipse changes = Ellipse::disc(1e-9);
-  EXPECT_FALSE(neighbourhood_of<kernel>(graze, steady, 1, changes).holds());
-  EXPECT_FALSE(neighbourhood_of<kernel>(rest, at(0, 0), 1, changes).holds());
-  EXPECT_FALSE(neighbourhood_of<kernel>(free, at(1 - 1e-10, 1), 0.1, changes).holds());
-  EXPECT_FALSE(neighbourhood_of<kernel>(free, at(1 - 1e-10, -1e-9), 0.1, changes).holds());
-  EXPECT_TRUE(neighbourhood_of<kernel>(free, at(1 - 1e-10, -1), 0.1, changes).holds());  // on its way from there
+  EXPECT_FALSE(neighbourhood_of<effects>(graze, steady, 1, changes).holds());
+  EXPECT_FALSE(neighbourhood_of<effects>(rest, at(0, 0), 1, changes).holds());
+  EXPECT_FALSE(neighbourhood_of<effects>(free, at(1 - 1e-10, 1), 0.1, changes).holds());
+  EXPECT_FALSE(neighbourhood_of<effects>(free, at(1 - 1e-10, -1e-9), 0.1, changes).holds());
+  EXPECT_TRUE(neighbourhood_of<effects>(free, at(1 - 1e-10, -1), 0.1, changes).holds());  // it moves away from the stop
 }
 
 TEST(Ellipse, holds_the_images_and_sums_of_its_changes) {

@@ -69,7 +69,7 @@ TEST(PolynomialArc, a_whole_forcing_period_later_has_the_same_phase_to_the_last_
 }
 
 TEST(PolynomialArc, acceleration_keeps_the_digits_of_a_flight_shorter_than_an_ulp_of_its_place) {
-  // from a stop at the load's equilibrium x - load = rise, of which anchor + offset has no digit
+  // from a stop at the load's equilibrium x - load = offset, of which anchor + offset has no digit
   const TestFlow constants({0.0, 0.0, 1.0, 0.3});
   for (const double offset : {1e-9, 1e-17, 1e-300}) {
     Bernstein<double> flat;

@@ -18,7 +18,8 @@ inline Contact<double> first_contact(const Oscillator& oscillator, const Stops& 
   });
 }
 
-/// The linear steady state h = 0.1, f = 1, nu = 1.5 at phase 0 (physics.md, "graze").
+/// The linear steady state h = 0.1, f = 1, nu = 1.5 at phase 0 (eqs. 5 and 6); a stop near its amplitude is grazed
+/// (eq. 20).
 namespace graze {
 inline constexpr Oscillator oscillator{0.1, 1.0, 1.5, 0.0};
 inline constexpr double amplitude = 0.777909841584413976, x0 = -0.181543116490166415, v0 = -1.13464447806354009;

@@ -73,7 +73,7 @@ TEST_F(Groups, of_both_versions_count_together) {
   EXPECT_EQ(least(), 7000);
   put("sys/fs/cgroup/unified/two/memory.max", "6000");
   EXPECT_EQ(least(), 6000);
-  put("sys/fs/cgroup/unified/one/memory.max", "5");  // of no group of this process
+  put("sys/fs/cgroup/unified/one/memory.max", "5");  // not a group of this process
   put("sys/fs/cgroup/cpuset/one/memory.limit_in_bytes", "5");
   EXPECT_EQ(least(), 6000);
 }

@@ -1,4 +1,4 @@
-// What a single point may cost where nothing is lost at the stops, said before the run.
+// The warning of a single point that may take long since nothing is lost at the stops.
 
 #include "plan/dearest_point.hpp"
 

@@ -12,10 +12,10 @@
 namespace clatter::plan {
 namespace {
 
-/// Bytes of all values of a figure.
-double bytes_of(const sweep::Dataset& figure) {
+/// Bytes of all values of a dataset.
+double bytes_of(const sweep::Dataset& dataset) {
   double bytes = 0;
-  for (const sweep::Variable& variable : figure.variables)
+  for (const sweep::Variable& variable : dataset.variables)
     bytes += std::visit(
         [](const auto& values) {
           return values.empty() ? 0.0 : static_cast<double>(values.size()) * static_cast<double>(sizeof(values[0]));
@@ -24,8 +24,8 @@ double bytes_of(const sweep::Dataset& figure) {
   return bytes;
 }
 
-std::size_t logged(const sweep::Dataset& figure) {
-  const auto tau = std::ranges::find(figure.variables, "impact_tau", &sweep::Variable::name);
+std::size_t logged(const sweep::Dataset& dataset) {
+  const auto tau = std::ranges::find(dataset.variables, "impact_tau", &sweep::Variable::name);
   return std::get<std::vector<double>>(tau->values).size();
 }
 
@@ -37,7 +37,7 @@ sweep::Sweep small_sweep() {
   return sweep;
 }
 
-/// So many points on one axis, with nothing observed.
+/// So many points on one axis, without observables.
 sweep::Sweep line(std::size_t points) {
   sweep::Sweep sweep;
   sweep.scene.time.mode = steady::Mode::transient;
@@ -63,13 +63,13 @@ TEST(Memory, of_an_impact_log_is_that_of_the_figure_if_the_impacts_are_known) {
   sweep.scene.observe = {};
   sweep.scene.observe.extrema = true;
   sweep.scene.observe.impact_log = true;
-  const sweep::Dataset figure = run(sweep, {}).dataset;
-  EXPECT_EQ(memory_need(sweep, std::nullopt, 1, static_cast<double>(logged(figure))).output, bytes_of(figure));
+  const sweep::Dataset dataset = run(sweep, {}).dataset;
+  EXPECT_EQ(memory_need(sweep, std::nullopt, 1, static_cast<double>(logged(dataset))).output, bytes_of(dataset));
 }
 
 TEST(Memory, of_a_run_holds_an_axis_twice_each_result_once_and_the_largest_variable_twice) {
   const double a_point = memory_need(line(2'000'000)).memory - memory_need(line(1'000'000)).memory;
-  EXPECT_EQ(a_point / 1e6, 8 + 8 + (1 + 8 + 8) + 8 + 1);  // and a byte for what has become of it
+  EXPECT_EQ(a_point / 1e6, 8 + 8 + (1 + 8 + 8) + 8 + 1);  // and a byte for the state of its branch
 }
 
 TEST(Memory, of_a_huge_sweep_is_known_without_running_it) {
@@ -96,7 +96,7 @@ TEST(Memory, of_followed_branches_counts_one_that_is_saved) {
   sweep.scene.observe.extrema = true;
   const double apart = memory_need(sweep).memory;
   sweep.follow = 0;
-  // 49 bytes of results a point once more, in place of a coordinate and the largest variable when the file is built
+  // 49 bytes of results a point once more, instead of a coordinate and the largest variable when the file is built
   EXPECT_EQ(memory_need(sweep).memory - apart, 1e6 * (49 - 16) - (1e6 - 1));
 }
 
@@ -109,7 +109,7 @@ TEST(Memory, of_a_log_is_estimated_from_a_few_points) {
   std::vector<double> speeds;
   for (int i = 0; i < 1000; ++i) speeds.push_back(1 + i / 1000.0);
   sweep.dimensions = {{{sweep::Parameter::v0, speeds}}};
-  for (const double duration : {1.0, 100.0, 700.0}) {  // within what is run for the estimate, and beyond it
+  for (const double duration : {1.0, 100.0, 700.0}) {  // shorter and longer than the runs for the estimate
     sweep.scene.time.duration = duration;
     const auto impacts = static_cast<double>(logged(run(sweep, {}).dataset));
     EXPECT_NEAR(expected_impacts(sweep, std::nullopt), impacts, 0.02 * impacts) << duration;

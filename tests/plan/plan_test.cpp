@@ -134,7 +134,7 @@ std::vector<double> evenly(double first, double last, int number) {
   return all;
 }
 
-/// 2.5 million points of nine or more groups.
+/// 2.5 million points in nine or more groups.
 sweep::Sweep large_sweep() {
   return sweep::sweep_of(figure(3), {{sweep::Parameter::h, evenly(0.0, 2.0, 100)},
                                      {sweep::Parameter::f, evenly(-3.5, 0.0, 250)},
@@ -147,7 +147,7 @@ TEST(Plan, of_a_large_sweep_is_that_of_all_points_within_what_a_sample_can_tell)
   EXPECT_EQ(sampled.sampled_points, 1'000'000u);
   EXPECT_EQ(sampled.points, 2'500'000u);
   std::vector<Group> exact;
-  for (std::size_t number = 0; number < 4; ++number) {  // the shards are small enough to be looked at as a whole
+  for (std::size_t number = 0; number < 4; ++number) {  // the shards are small enough to be examined as a whole
     const Plan part = plan_of(sweep, 2, sweep::Shard{number, 4});
     EXPECT_EQ(part.sampled_points, std::nullopt);
     EXPECT_EQ(part.points, 625'000u);
@@ -167,7 +167,7 @@ TEST(Plan, of_a_large_sweep_is_that_of_all_points_within_what_a_sample_can_tell)
     const auto whole = std::ranges::find(exact, group.effects, &Group::effects);
     ASSERT_NE(whole, exact.end());
     const double points = static_cast<double>(whole->points), share = points / 2.5e6;
-    const double sigma = 2.5 * std::sqrt(1e6 * share * (1 - share));  // of drawing at random; stretches only lower it
+    const double sigma = 2.5 * std::sqrt(1e6 * share * (1 - share));  // that of random draws; stretches only lower it
     EXPECT_NEAR(static_cast<double>(group.points), points, 4 * sigma + 3);
     EXPECT_NEAR(group.periods.most / whole->periods.most, 1, (4 * sigma + 3) / points);  // equal for all of a group
   }

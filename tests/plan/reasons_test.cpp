@@ -66,7 +66,7 @@ TEST(Reasons, rest_needs_a_force_that_presses_the_mass_into_a_stop) {
   expect_reason(figure(3, 1), "chatter and rest", false, "|f| = 1 < 3: no stop can hold the mass");
   expect_reason(figure(0.5, 1), "chatter and rest", true, "|f| = 1 >= 0.5: a stop can be pressed");
   point::Problem beyond = figure(1.0, 1.0);
-  beyond.oscillator.load = 2.0;  // beyond the upper stop, which it presses the mass on
+  beyond.oscillator.load = 2.0;  // an equilibrium beyond the upper stop: the load presses the mass onto it
   expect_reason(beyond, "chatter and rest", true, "|f| = 1 >= -1, the gap from the load: a stop can be pressed");
 }
 

@@ -35,7 +35,7 @@ class FigureFile : public testing::Test {
     return path(name);
   }
 
-  /// What read_summary throws for a file, or nothing where it reads it.
+  /// The error of read_summary for a file, or nothing if it reads the file.
   [[nodiscard]] static std::string refusal(const std::string& file) {
     try {
       static_cast<void>(read_summary(file));
@@ -68,7 +68,7 @@ std::vector<double> ramp(std::size_t size) {
 const std::vector<std::uint8_t> flags{0, 1, 2, 16, 17, 18};
 const std::string meanings = "periodic aperiodic transient event_budget not_finite unresolved";
 
-/// A copy of the image, to be changed and compared; file_image takes the figure, tests keep theirs.
+/// A copy of the image, to be changed and compared; file_image takes the dataset, tests keep theirs.
 std::vector<std::byte> bytes_of(sweep::Dataset dataset, const config::Config& config) {
   const FileImage image = file_image(std::move(dataset), config);
   return {image.bytes.begin(), image.bytes.end()};
@@ -133,7 +133,7 @@ TEST_F(FigureFile, the_same_figure_gives_the_same_bytes) {
 TEST_F(FigureFile, the_file_is_closed_and_ends_where_it_says) {
   for (const int compression : {0, 4}) {
     const std::vector<std::byte> image = bytes_of(sweep(501, 1000), configuration(compression));
-    ASSERT_EQ(number_at(image, 8, 1), 0U);             // the version of the superblock that the next lines know
+    ASSERT_EQ(number_at(image, 8, 1), 0U);             // the version of the superblock that the next lines assume
     EXPECT_EQ(number_at(image, 20, 4), 0U);            // not open for writing
     EXPECT_EQ(number_at(image, 40, 8), image.size());  // end of file
   }
@@ -168,7 +168,7 @@ TEST_F(FigureFile, an_impact_log_may_be_empty) {
 
 TEST_F(FigureFile, a_configuration_may_be_long) {
   config::Config config = configuration();
-  config.text = std::string(300'000, '#');  // 64 KiB would fit in an object header
+  config.text = std::string(300'000, '#');  // an object header holds at most 64 KiB
   const FileSummary summary = read_summary(write("long.h5", bytes_of(sweep(5, 7), config)));
   EXPECT_TRUE(summary.attributes[6].second == config.text);  // not EXPECT_EQ, which would print both
 }
@@ -227,7 +227,7 @@ TEST_F(FigureFile, a_damaged_file_is_read_or_refused_but_ends_no_process_and_hol
   }
 }
 
-// HDF5 1.10 divides by the length of a record, here 0: whoever damages a file on purpose sets its checksums right.
+// HDF5 1.10 divides by the length of a record, here 0; the checksum is right, as in a file damaged on purpose.
 TEST_F(FigureFile, a_file_that_makes_the_library_crash_is_refused) {
   std::vector<std::byte> damaged = bytes_of(sweep(5, 7), configuration());
   const auto signature = std::as_bytes(std::span{std::string_view{"BTHD"}});

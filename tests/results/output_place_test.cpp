@@ -41,7 +41,7 @@ class Replacing : public testing::Test {
                                                         testing::UnitTest::GetInstance()->current_test_info()->name());
 };
 
-/// The bytes of an output: of a run, of a shard, or, with its variable of times, of a study.
+/// The bytes of an output: of a run, of a shard, or, with its variable of times, of an accuracy run.
 std::string output(const Origin& origin) {
   config::Config config;
   config.title = origin.title;
@@ -142,7 +142,7 @@ TEST_F(Replacing, a_title_is_shown_without_its_control_characters) {
   write(output({.title = "a\x1b]0;b\n"}));
   try {
     const OutputPlace place(path(), run, false);
-    ADD_FAILURE() << "it isn't refused";
+    ADD_FAILURE() << "not refused";
   } catch (const storage::IoError& error) {
     EXPECT_NE(std::string(error.what()).find("'a\\x1b]0;b\\x0a'"), std::string::npos) << error.what();
   }

@@ -20,13 +20,13 @@ point::Problem conservative(double lower, double upper, double x0, double v0) {
 constexpr double none = std::numeric_limits<double>::infinity();
 
 TEST(Settle, free_vibration_between_stops_has_its_period_at_once) {
-  // check 1: period 4 arcsin(g/V), speed at contact sqrt(V^2 - g^2); 2 pi where the stops are out of reach
+  // eq. 35: period 4 arcsin(g/V), speed at contact sqrt(V^2 - g^2); 2 pi if the stops are out of reach
   const double g = 0.749;
   for (double V : {0.3, 0.75, 1.0, 1.25, 1.5, 30.0}) {
     const support::Steady steady = support::steady_of(conservative(-g, g, 0.0, -V));
     EXPECT_EQ(steady.status, Status::periodic);
     const double speed = V > g ? std::sqrt((V - g) * (V + g)) : 1.0;
-    // conditioning: the place of the stop to an ulp moves the contact by it over the speed
+    // conditioning: an ulp of the stop's position moves the contact by itself over the speed
     EXPECT_NEAR(steady.length, V > g ? 4 * std::asin(g / V) : 2 * pi_, 1e-15 * (4 + 4 / speed)) << "V = " << V;
     EXPECT_EQ(steady.record.impacts.size(), V > g ? 2u : 0u);
     for (const motion::Impact& impact : steady.record.impacts)
@@ -46,7 +46,7 @@ TEST(Settle, free_vibration_beside_one_stop) {
 }
 
 TEST(Settle, symmetric_motion_has_the_speed_of_its_closed_form) {
-  // check 4: (alpha^2 + gamma^2) u^2 - 2 alpha g u + g^2 - A^2 = 0
+  // eq. 37: (alpha^2 + gamma^2) u^2 - 2 alpha g u + g^2 - A^2 = 0
   const double h = 0.1, R = 0.7, nu = 1.0, f = 1.0;
   for (double g : {0.4, 0.5, 0.6}) {
     const double T = pi_ / nu, lambda = std::sqrt(1 - h * h), decay = std::exp(-h * T), c = std::cos(lambda * T),
@@ -74,7 +74,7 @@ TEST(Settle, impacts_per_period_are_those_the_paper_states) {
   const struct {
     double xs;
     long per_stop;
-  } figures[] = {{0.3, 2}, {0.4, 1}, {0.5, 1}, {0.6, 1}};  // check 9
+  } figures[] = {{0.3, 2}, {0.4, 1}, {0.5, 1}, {0.6, 1}};  // impacts of the paper's figures
   for (const auto& [xs, per_stop] : figures) {
     const support::Steady steady = support::steady_of(support::scene_of({0.1, -1.0, 1.0, 0.0}, -xs, xs, 0.7));
     EXPECT_EQ(steady.status, Status::periodic);
@@ -161,11 +161,11 @@ TEST(Repeat, forgets_nothing_it_needs) {
   EXPECT_LT(sections, 800);
 }
 
-/// When and as what a transient passes for a repeat that shrinks by `rate` and turns by `turn` a section, on its way to
-/// the state (1, 0.5).
+/// The repeat that is found for a transient that shrinks by `rate` and rotates by `turn` a section, on its way to the
+/// state (1, 0.5).
 struct Repeat {
   std::size_t n = 0;
-  double left = 0;  ///< of the transient then
+  double left = 0;  ///< size of the transient then
 };
 
 Repeat repeat_of(double rate, double turn, double size, int sections = 2000000) {
@@ -178,9 +178,9 @@ Repeat repeat_of(double rate, double turn, double size, int sections = 2000000) 
   return {};
 }
 
-TEST(Repeat, counts_what_is_left_of_a_transient_not_what_a_period_takes_of_it) {
-  // a pair of multipliers that turns by a third but for a little, as free motion under a force with nu near 3: after
-  // three periods the state is back to a share 1 - rate^3 of what is left of the transient
+TEST(Repeat, counts_the_rest_of_a_transient_not_the_part_that_a_period_removes) {
+  // a pair of multipliers that rotates by nearly a third of a turn, as free motion under a force with nu near 3: after
+  // three periods the distance of the states is a share 1 - rate^3 of the transient
   for (const double rate : {0.5, 0.99, 1 - 1e-3, 1 - 2e-4})
     for (const double off : {0.0, 1e-5, 1e-3, 0.1}) {
       const Repeat repeat = repeat_of(rate, 2 * pi_ / 3 + off, 1.0);
@@ -190,7 +190,7 @@ TEST(Repeat, counts_what_is_left_of_a_transient_not_what_a_period_takes_of_it) {
 }
 
 TEST(Repeat, ends_where_rounding_stops_a_transient_and_is_labelled_by_its_limit) {
-  // an ulp of the state is what three periods take of 8e-12, more than the tolerance
+  // three periods reduce a transient of 8e-12, more than the tolerance, by an ulp of the state
   const Repeat repeat = repeat_of(1 - 1e-5, 2 * pi_ / 3, 1e-9);
   EXPECT_EQ(repeat.n, 1u);
   EXPECT_LE(repeat.left, 1e-11);

@@ -27,8 +27,8 @@ struct Free {
   [[nodiscard]] FiftyDigits reference() const { return free_period<FiftyDigits>(load, stops, x, v); }
 };
 
-/// What an ulp of each input does to the period: that much no double can know of it. Between stops that are close or
-/// beyond the load, and in grazes, it is far more than an ulp. A start on a stop stays there.
+/// The change of the period by an ulp of each input, which no computation in double can avoid. Between stops that are
+/// close or beyond the load, and in grazes, it is far more than an ulp. A start on a stop stays there.
 double conditioning(const Free& free) {
   const FiftyDigits period = free.reference();
   double sum = static_cast<double>(period) * ulp;
@@ -46,7 +46,7 @@ double conditioning(const Free& free) {
   return sum;
 }
 
-/// A motion that moves: stops around the load or beyond it, close or far, hit hard or softly, or none.
+/// A random motion: stops around the load or beyond it, close or far, hit hard or softly, or none.
 Free any_free(std::uint64_t i) {
   support::Random random(31, i);
   const double kind = random.uniform(0, 1), near = random.logarithmic(1e-9, 10), width = random.logarithmic(1e-9, 10);
@@ -76,8 +76,8 @@ TEST(FreePeriod, is_that_of_fifty_digits) {
 }
 
 TEST(FreePeriod, between_stops_around_the_load_has_closed_forms) {
-  // check 1: 4 arcsin(g/V); one stop in the centre pi; at 0 and g 2 arcsin(g/V); one beside the centre pi +- 2
-  // arcsin(g/V)
+  // eq. 35: 4 arcsin(g/V); one stop in the centre: pi; stops at 0 and g: 2 arcsin(g/V); one stop beside the centre:
+  // pi +- 2 arcsin(g/V)
   for (const double V : {1e-3, 0.2, 3.0, 1e9})
     for (const double part : {1e-12, 1e-3, 0.5, 0.99}) {
       const double g = V * part, turn = std::asin(g / V), allowed = 4 * ulp;
@@ -100,7 +100,7 @@ TEST(FreePeriod, beyond_the_load_has_closed_forms) {
       EXPECT_NEAR((Free{0, {Delta, none, 1, 1}, Delta, v}.period()) / period, 1, 8 * ulp);
       EXPECT_NEAR((Free{0, {-none, -Delta, 1, 1}, -Delta, v}.period()) / period, 1, 8 * ulp);
     }
-  // between two close stops far from the load it flies like a ball: up and down again, 2 v/Delta, or through
+  // between two close stops far from the load the mass flies like a ball: up and down again, 2 v/Delta, or through
   const double far = 1e6, width = 0x1p-20, v = 1.0;
   EXPECT_NEAR((Free{0, {far, far + 1, 1, 1}, far, v}.period()) / (2 * v / far), 1, 1e-11);  // (v/far)^2 / 3
   const double pull = far, slower = std::sqrt(9 - 2 * pull * width - width * width), through = 3;
@@ -122,7 +122,7 @@ TEST(FreePeriod, between_close_stops_beyond_the_load_keeps_its_digits) {
 }
 
 TEST(FreePeriod, grows_with_the_root_of_what_a_graze_lacks) {
-  // stops at -g and g, start at rest on g(1 + eps)... seen from the centre: V = g(1 + eps): 4 arcsin(1/(1 + eps)) =
+  // stops at -g and g, the speed in the centre V = g(1 + eps): 4 arcsin(1/(1 + eps)) =
   // 2 pi - 4 (2 eps)^(1/2) (1 + O(eps)); V to half an ulp moves it by 4 (2 eps)^(1/2) ulp/(4 eps)
   for (const double eps : {0x1p-10, 0x1p-26, 0x1p-40, 0x1p-50}) {
     const double gap = 2 * pi_ - Free{0, {-1, 1, 1, 1}, 0, 1 + eps}.period(), root = 4 * std::sqrt(2 * eps);
@@ -138,17 +138,18 @@ TEST(FreePeriod, is_the_time_after_which_a_simulated_motion_returns) {
     const double period = free.period(), late = conditioning(free);
     point::Problem scene = support::scene_of({0.0, 0.0, 1.0, free.load}, free.stops.lower, free.stops.upper, 1.0);
     scene.start = {free.x, free.v, 0.0};
-    if (period < 1e-6 || late > 1e-9 * period) continue;  // a section takes ulps of 2 pi for nothing
+    if (period < 1e-6 || late > 1e-9 * period)
+      continue;  // sections round time to ulps of 2 pi, which matters for so short a period
     const auto run = support::run_scene<double>(scene, period);
     ASSERT_EQ(run.outcome, stepping::Outcome::completed) << i;
     const double offset = free.x - free.load, a = std::abs(offset), amplitude = norm(offset, free.v);
     const double size = std::abs(free.load) + std::abs(free.x) + amplitude;
-    // two roundings an impact, and time: an ulp of a turn of 2 pi a section, or what the period doesn't know
+    // two roundings an impact, and that of time: an ulp of 2 pi a section, or the uncertainty of the period
     const double time = 8 * late + 64 * ulp;
     const bool on_stop = free.x == free.stops.lower || free.x == free.stops.upper;  // before or after its impact
     const double v = on_stop ? std::abs(std::abs(run.end.v) - std::abs(free.v)) : std::abs(run.end.v - free.v);
     EXPECT_NEAR(run.end.x, free.x, time * std::abs(free.v) + 16 * ulp * size) << "motion " << i;
-    // on a stop the speed is the root of what energy is left there
+    // on a stop the speed is the root of the energy that is left there
     const double soft = on_stop ? 1 + size / std::abs(free.v) : 1;
     EXPECT_LE(v, time * a + 16 * ulp * size * soft) << "motion " << i;
     ++returned;

@@ -10,9 +10,9 @@
 namespace clatter::steady {
 namespace {
 
-constexpr Effects kernel = effect_sets::complete(Damping::light, Forcing::regular);
+constexpr Effects effects = effect_sets::complete(Damping::light, Forcing::regular);
 constexpr double ulp = std::numeric_limits<double>::epsilon();
-using Integrator = stepping::Exact<double, kernel>;
+using Integrator = stepping::Exact<double, effects>;
 
 /// Figs. 14-23: h = 0.1, f = -1, R = 0.7.
 point::Problem figure(double xs, double nu) { return support::scene_of({0.1, -1.0, nu, 0.0}, -xs, xs, 0.7); }
@@ -36,16 +36,17 @@ double distance(const motion::State<double>& a, const motion::State<double>& b) 
 double determinant(const motion::Jacobian<double>& D) { return D[0] * D[3] - D[1] * D[2]; }
 
 TEST(StroboscopicMap, newtons_method_finds_the_symmetric_motion_to_rounding) {
-  // check 4: u = 0.88861376168497155; a start that is off by d gives an orbit off by d^2, the next by rounding
+  // eq. 37: u = 0.88861376168497155; a start that is off by d gives an orbit off by d^2, the next one is off by
+  // rounding
   const point::Problem scene = figure(0.5, 1.0);
   Integrator integrator(scene, limits_of(scene));
-  StroboscopicMap<kernel> map(integrator, 1e-12);
+  StroboscopicMap<effects> map(integrator, 1e-12);
   const auto approach = map.follow(later(integrator, at(0, 0), 5), 1);
   ASSERT_TRUE(approach);
   ASSERT_GT(approach->gap().size(), 1e-6);  // still far away
   const auto orbit = map.attractor_of(*approach);
   ASSERT_TRUE(orbit);
-  EXPECT_LE(orbit->gap().size(), 32 * ulp);  // what rounding does to a period of motion
+  EXPECT_LE(orbit->gap().size(), 32 * ulp);  // the rounding of a period of motion
   EXPECT_LE(map.simulated(), 1u + 4 + 1);    // the approach, Newton's steps, the proof
   support::Recorder record;
   motion::State<double> state = orbit->states[0];
@@ -53,7 +54,7 @@ TEST(StroboscopicMap, newtons_method_finds_the_symmetric_motion_to_rounding) {
   ASSERT_EQ(record.impacts.size(), 2u);
   for (const motion::Impact& impact : record.impacts)
     EXPECT_NEAR(std::abs(impact.before), 0.88861376168497155, 8 * ulp);
-  // check 5: multipliers of the whole period
+  // multipliers of the whole period, as given beside eq. 37
   const motion::Jacobian<double>& D = orbit->derivative();
   EXPECT_NEAR(D[0] + D[3], 0.349971948059 + 0.195257796329, 1e-10);
   EXPECT_NEAR(determinant(D), 0.349971948059 * 0.195257796329, 1e-10);
@@ -65,7 +66,7 @@ TEST(StroboscopicMap, a_newton_step_solves_a_linear_map_at_once) {
     const auto any = [&] { return random.uniform(-2, 2); };
     const motion::Jacobian<double> D{any(), any(), any(), any()};
     const motion::Perturbation fixed{any(), any()},
-        moved = D * fixed;  // of the map s -> D s + (fixed - D fixed), from 0
+        moved = D * fixed;  // by the map s -> D s + (fixed - D fixed), from 0
     const motion::Perturbation step = newton_step(D, {fixed.x - moved.x, fixed.v - moved.v});
     const double condition = 40 / std::abs((1 - D[0]) * (1 - D[3]) - D[1] * D[2]);
     EXPECT_NEAR(step.x, fixed.x, 4 * ulp * condition);
@@ -82,7 +83,7 @@ motion::Jacobian<double> any_map(support::Random& random, double r1, double r2) 
           (r1 - r2) * c * s - shear * c * c, r1 * s * s + r2 * c * c - shear * c * s};
 }
 
-/// By how much a map shrinks changes of all directions at most, measured in a norm.
+/// The largest factor, over all directions, by which a map shrinks changes, measured in a norm.
 double shrinks(const motion::Jacobian<double>& D, const ContractionNorm& measure) {
   double most = 0;
   for (int k = 0; k < 64; ++k) {
@@ -103,7 +104,7 @@ TEST(ContractionNorm, shrinks_every_change_by_half_of_what_the_larger_multiplier
     EXPECT_LE(most, (1 + r) / 2 + rounding) << i;
     tight += most <= r * (1 + 1e-9);
   }
-  EXPECT_GT(tight, 1500);  // multipliers that are well apart, or a pair: as good as can be
+  EXPECT_GT(tight, 1500);  // as sharp as possible if the multipliers are well apart, or a pair
 }
 
 TEST(ContractionNorm, of_a_double_multiplier_that_couples_two_directions) {
@@ -136,7 +137,7 @@ TEST(StroboscopicMap, an_unstable_motion_is_not_taken_for_an_attractor) {
   // at nu = 0.8 the symmetric motion between stops at -+0.34 has a multiplier of 1.6
   const point::Problem scene = figure(0.34, 0.8);
   Integrator integrator(scene, limits_of(scene));
-  StroboscopicMap<kernel> map(integrator, 1e-12);
+  StroboscopicMap<effects> map(integrator, 1e-12);
   motion::State<double> symmetric = at(0.20072, -0.0738);
   std::optional<Orbit> orbit;
   for (int i = 0; i < 8; ++i) {
@@ -156,7 +157,7 @@ TEST(StroboscopicMap, an_unstable_motion_is_not_taken_for_an_attractor) {
     }
 }
 
-/// What came of starts all over a part of the plane.
+/// The outcome of starts all over a part of the plane.
 struct Basin {
   int accepted = 0, refused = 0, wrong = 0;
 };
@@ -166,14 +167,14 @@ Basin basin_of(const point::Problem& scene, std::uint64_t starts, double x, doub
   Integrator integrator(scene, limits_of(scene));
   for (std::uint64_t i = 0; i < starts; ++i) {
     support::Random random(11, i);
-    StroboscopicMap<kernel> map(integrator, 1e-12);
+    StroboscopicMap<effects> map(integrator, 1e-12);
     const motion::State<double> start = at(random.uniform(-x, x), random.uniform(-v, v));
     const auto approach = map.follow(start, periods);
     const auto orbit = approach ? map.attractor_of(*approach) : std::nullopt;
     ++(orbit ? basin.accepted : basin.refused);
     if (!orbit) continue;
     EXPECT_LE(orbit->gap().size(), 1e-12 * (x + v));
-    // the slowest of these contracts by a few percent a period: 600 periods leave nothing of the plane's width
+    // the slowest of these contracts by a few percent a period: after 600 periods nothing of the plane's width is left
     const motion::State<double> end = later(integrator, start, 600 * static_cast<int>(periods));
     if (distance(end, orbit->states[0]) <= 1e-8) continue;
     ++basin.wrong;
@@ -201,7 +202,7 @@ TEST(StroboscopicMap, a_motion_that_leaves_the_stops_between_its_states_is_refus
   // Newton's step takes a start far from any orbit beyond the stops
   const point::Problem scene = figure(0.5, 1.0);
   Integrator integrator(scene, limits_of(scene));
-  StroboscopicMap<kernel> map(integrator, 1e-12);
+  StroboscopicMap<effects> map(integrator, 1e-12);
   Orbit approach = *map.follow(at(0.1, 0.2), 1);
   approach.states[1].x = approach.states[0].x + 100;
   EXPECT_FALSE(map.attractor_of(approach));

@@ -1,4 +1,4 @@
-// What the method makes of every kind of scene: periods, rests, symmetries, and the outcomes that say why not.
+// The method on every kind of scene: periods, rests, symmetries, and the outcomes of runs that it can't complete.
 
 #include <gtest/gtest.h>
 
@@ -48,7 +48,7 @@ struct Named {
   point::Problem scene;
 };
 
-/// Motion that impacts, chatters, rests, is pressed, heavily damped, pulled at, at resonance, free.
+/// Scenes with impacts, chatter, rest, a pressing load, heavy damping, a pulling load, resonance, free motion.
 std::vector<Named> every_kind() {
   std::vector<Named> scenes{
       {"impacts", support::scene_of({0.1, -1.0, 1.0, 0.0}, -0.5, 0.5, 0.7)},
@@ -71,7 +71,7 @@ TEST(DormandPrinceMotion, of_every_kind_is_that_of_fifty_digits) {
     const double sensitive = std::max(1.0, support::conditioning(scene, reference) / epsilon<double>());
     for (const double tolerance : {1e-6, 1e-8, 1e-10, 1e-12}) {
       const support::Deviation d =
-          support::deviation(support::course_by<DormandPrince>(with_tolerance(scene, tolerance), 15.0), reference);
+          support::deviation(support::record_by<DormandPrince>(with_tolerance(scene, tolerance), 15.0), reference);
       EXPECT_TRUE(d.same_events) << name << ": " << d.difference;
       // every step errs by about the tolerance, which the motion multiplies as much as an ulp of its inputs
       EXPECT_LT(d.largest(), 4 * tolerance * sensitive) << name << ", " << tolerance;
@@ -84,15 +84,15 @@ TEST(DormandPrinceMotion, at_resonance_grows_as_its_closed_form) {
   const double tau = 20 * pi_ + 1;
   for (const double tolerance : {1e-6, 1e-9, 1e-12}) {
     point::Problem scene = with_tolerance(support::scene_of({0.0, 1.0, 1.0, 0.0}, -infinity, infinity, 1.0), tolerance);
-    const accuracy::RunRecord record = support::course_by<DormandPrince>(scene, tau);
-    // relative to the amplitude tau/2; nothing fades, and the errors of ten turns add up, each relative to its own
+    const accuracy::RunRecord record = support::record_by<DormandPrince>(scene, tau);
+    // relative to the amplitude tau/2; nothing fades, and the errors of ten periods add up, each relative to its own
     EXPECT_NEAR(record.x / (tau / 2), -(tau * std::cos(tau) - std::sin(tau)) / tau, 10 * tolerance);
     EXPECT_NEAR(record.v / (tau / 2), std::sin(tau), 10 * tolerance);
   }
 }
 
 TEST(DormandPrinceMotion, between_sections_depends_on_the_state_alone) {
-  // a new integrator goes on from a section as the one that came there, to the last bit, though not in mid-period
+  // a new integrator continues from a section as the one that reached it, to the last bit, though not within a period
   for (const auto& [kind, of_kind] : every_kind())
     with_general_effects(of_kind.oscillator, [&, name = kind, scene = of_kind]<Effects effects>() {
       DormandPrince<effects> first(scene, with_tolerance(scene, 1e-6).integration);
@@ -124,8 +124,8 @@ TEST(DormandPrinceMotion, mirrored_and_scaled_by_a_power_of_two_is_the_same_to_t
         std::swap(other.stops.lower, other.stops.upper);
         std::swap(other.stops.restitution_lower, other.stops.restitution_upper);
       }
-      const accuracy::RunRecord a = support::course_by<DormandPrince>(with_tolerance(scene, 1e-7), 15.0);
-      const accuracy::RunRecord b = support::course_by<DormandPrince>(with_tolerance(other, 1e-7), 15.0);
+      const accuracy::RunRecord a = support::record_by<DormandPrince>(with_tolerance(scene, 1e-7), 15.0);
+      const accuracy::RunRecord b = support::record_by<DormandPrince>(with_tolerance(other, 1e-7), 15.0);
       expect_same_events(a.events, b.events, sign, std::abs(factor));
       EXPECT_EQ(a.x * factor, b.x) << name << " by " << factor;
       EXPECT_EQ(a.v * factor, b.v) << name << " by " << factor;
@@ -146,7 +146,7 @@ TEST(DormandPrinceMotion, has_the_period_of_the_exact_one_on_figure_22) {
     ++periodic;
     EXPECT_EQ(found.found_by, steady::FoundBy::repetition);
     EXPECT_EQ(found.turns, exact.turns) << nu;
-    // errors of the steps of the last 1/h = 10 of tau, and what the period that is observed adds
+    // errors of the steps of the last 1/h = 10 of tau, and of the period that is observed
     EXPECT_NEAR(found.from.x, exact.from.x, 20e-10) << nu;
     EXPECT_NEAR(found.from.v, exact.from.v, 20e-10) << nu;
   }
@@ -154,12 +154,12 @@ TEST(DormandPrinceMotion, has_the_period_of_the_exact_one_on_figure_22) {
 }
 
 TEST(DormandPrinceMotion, unforced_and_conservative_returns_after_its_closed_form) {
-  // check 1: period 4 arcsin(g/V) between stops; 2 pi without one
+  // eq. 35: period 4 arcsin(g/V) between stops; 2 pi without one
   for (const double V : {0.5, 1.0, 1.5}) {
     const double g = 0.749, tolerance = 1e-11;
     point::Problem scene = with_tolerance(support::scene_of({0.0, 0.0, 1.0, 0.0}, -g, g, 1.0), tolerance);
     scene.start.velocity = -V;
-    scene.time.tolerance = 1e-8;  // of the return: more than it drifts by in a turn
+    scene.time.tolerance = 1e-8;  // of the return: more than the motion drifts in a period
     const steady::ObservedTime found = settled(scene);
     EXPECT_EQ(found.status, steady::Status::periodic);
     const double speed = V > g ? std::sqrt((V - g) * (V + g)) : 1;
@@ -183,7 +183,7 @@ TEST(DormandPrinceMotion, unforced_and_damped_comes_to_stand_still) {
 }
 
 TEST(DormandPrinceMotion, a_step_that_ends_an_ulp_beyond_a_stop_ends_on_it) {
-  // as rounding of place and anchor leaves it; pressed, an inelastic mass rests there, and time moves on
+  // beside the stop by the rounding of position and anchor; a pressed inelastic mass rests there, and time advances
   point::Problem scene = support::scene_of({0.1, 0.0, 1.0, 2.0}, -1.0, 1.0, 0.0);
   with_general_effects(scene.oscillator, [&]<Effects effects>() {
     DormandPrince<effects> integrator(scene, scene.integration, limits_of(scene));
@@ -202,7 +202,7 @@ TEST(DormandPrinceMotion, more_impacts_than_allowed_is_an_outcome) {
   point::Problem scene = support::scene_of({0.0, 0.0, 1.0, 0.0}, -0.75, 0.75, 1.0);
   scene.start.velocity = 1.5;
   scene.time.max_impacts = 10;
-  const accuracy::RunRecord record = support::course_by<DormandPrince>(scene, 100.0);
+  const accuracy::RunRecord record = support::record_by<DormandPrince>(scene, 100.0);
   EXPECT_EQ(record.outcome, Outcome::event_budget);
   EXPECT_EQ(record.impacts, 11);
 }
@@ -212,17 +212,17 @@ TEST(DormandPrinceMotion, that_overflows_is_an_outcome_and_not_a_motion) {
   for (const double value : {infinity, -infinity, std::nan(""), 1e308, -1.7e308}) {
     point::Problem scene = usual;
     scene.start.velocity = value;
-    EXPECT_EQ(support::course_by<DormandPrince>(scene, 20.0).outcome, Outcome::not_finite) << "v0 = " << value;
+    EXPECT_EQ(support::record_by<DormandPrince>(scene, 20.0).outcome, Outcome::not_finite) << "v0 = " << value;
     scene.stops = {-infinity, infinity, 1.0, 1.0};
-    EXPECT_EQ(support::course_by<DormandPrince>(scene, 20.0).outcome, Outcome::not_finite)
+    EXPECT_EQ(support::record_by<DormandPrince>(scene, 20.0).outcome, Outcome::not_finite)
         << "v0 = " << value << ", no stops";
   }
   point::Problem forced = usual;
   forced.oscillator.forcing = infinity;
-  EXPECT_EQ(support::course_by<DormandPrince>(forced, 20.0).outcome, Outcome::not_finite);
+  EXPECT_EQ(support::record_by<DormandPrince>(forced, 20.0).outcome, Outcome::not_finite);
   point::Problem nowhere = usual;
   nowhere.start.displacement = std::nan("");
-  EXPECT_EQ(support::course_by<DormandPrince>(nowhere, 20.0).outcome, Outcome::not_finite);
+  EXPECT_EQ(support::record_by<DormandPrince>(nowhere, 20.0).outcome, Outcome::not_finite);
 }
 
 TEST(DormandPrinceMotion, whose_steps_are_too_short_to_move_time_on_is_unresolved) {

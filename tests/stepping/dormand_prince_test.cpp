@@ -1,4 +1,4 @@
-// How accurate the method is, and that it finds every contact its polynomials show.
+// The method's accuracy, and that it finds every contact that its polynomials have.
 
 #include "stepping/dormand_prince.hpp"
 
@@ -19,7 +19,7 @@ constexpr double pi_ = std::numbers::pi, infinity = std::numeric_limits<double>:
 
 accuracy::RunRecord run(point::Problem scene, double duration, double tolerance) {
   scene.integration.tolerance = tolerance;
-  return support::course_by<DormandPrince>(scene, duration);
+  return support::record_by<DormandPrince>(scene, duration);
 }
 
 /// Errors and evaluations of a scene over tolerances 10^-first ... 10^-last.
@@ -38,13 +38,13 @@ struct Convergence {
   }
 };
 
-/// With impacts, and one that never meets its stops.
+/// Scenes with impacts, and one that never meets its stops.
 const point::Problem impacting = support::scene_of({0.1, -1.0, 1.0, 0.0}, -0.5, 0.5, 0.7);
 const point::Problem smooth = support::scene_of({0.1, -1.0, 1.3, 0.2}, -100, 100, 0.7);
 
 TEST(DormandPrince, is_of_fifth_order) {
-  // a step's error goes with its length to the sixth, their sum with the fifth: so it does to the mean step. A step
-  // too many at an impact, or one cut by a section, moves the count by a few percent of itself at the coarse end, hence
+  // a step's error goes with the sixth power of its length, the sum of all with the fifth power of the mean step. An
+  // additional step at an impact, or one cut by a section, changes the count by a few percent at the coarse end, hence
   // the slope over six decades by a few tenths
   for (const point::Problem& scene : {impacting, smooth}) {
     const Convergence c(scene, 20.0, 7, 13);
@@ -54,9 +54,9 @@ TEST(DormandPrince, is_of_fifth_order) {
 }
 
 TEST(DormandPrince, errors_are_of_the_order_of_the_tolerance) {
-  // the estimate of a step, which the tolerance bounds from above and, but for a factor of 2, from below, is the fourth
-  // order's; the fifth order's is less by about the step, and damping and restitution keep about as many steps as there
-  // are in a unit of time
+  // the tolerance bounds the estimate of a step, that of order 4, from above and, to a factor of 2, from below; the
+  // error of order 5 is smaller by about the step, and damping and restitution keep the errors of about as many steps
+  // as there are in a unit of time
   for (const point::Problem& scene : {impacting, smooth}) {
     const Convergence c(scene, 20.0, 3, 12);
     for (std::size_t i = 0; i < c.errors.size(); ++i) {
@@ -80,8 +80,8 @@ struct ArcCount {
 };
 
 TEST(DormandPrince, a_step_costs_seven_evaluations_and_a_refused_one_six) {
-  // six for the pair, which evaluates a step's end as the next one's beginning, and one for the arc's end; each of the
-  // five periods, one cut short, begins with one of its own
+  // six for the pair, which reuses the evaluation at a step's end for the next one's beginning, and one for the arc's
+  // end; each of the five periods, one of them cut short, begins with one of its own
   for (const double tolerance : {1e-4, 1e-8, 1e-12}) {
     point::Problem scene = smooth;
     scene.integration.tolerance = tolerance;
@@ -95,7 +95,7 @@ TEST(DormandPrince, a_step_costs_seven_evaluations_and_a_refused_one_six) {
   }
 }
 
-/// Looks for contacts at which the step that holds them began and would have ended between the stops.
+/// Counts contacts in steps that begin, and would have ended, between the stops.
 struct HiddenContacts {
   Stops stops;
   bool last_hides = false;
@@ -111,8 +111,7 @@ struct HiddenContacts {
 };
 
 TEST(DormandPrince, finds_a_stop_that_is_crossed_twice_within_a_step) {
-  // free vibration x = sin(tau + c) beyond a stop at 0.99 for 0.28 of tau, in steps of twice that, begun at fifty
-  // places
+  // free vibration x = sin(tau + c) beyond a stop at 0.99 for 0.28 of tau, in steps of twice that, from fifty starts
   const double stop = 0.99, tolerance = 1e-4, speed = std::sqrt((1 - stop) * (1 + stop));
   int hidden = 0;
   for (int i = 0; i < 50; ++i) {
@@ -124,15 +123,15 @@ TEST(DormandPrince, finds_a_stop_that_is_crossed_twice_within_a_step) {
     (void)support::run_by<DormandPrince>(scene, before + 2.0, seen);
     ASSERT_EQ(seen.impacts, 1) << i;
     hidden += seen.hidden;
-    const accuracy::Event contact = support::course_by<DormandPrince>(scene, before + 2.0).events.at(0);
+    const accuracy::Event contact = support::record_by<DormandPrince>(scene, before + 2.0).events.at(0);
     EXPECT_NEAR(contact.time, before + std::asin(stop), 2 * tolerance / speed)
-        << i;  // an error of place over the speed
+        << i;  // the error of the displacement over the speed
   }
-  EXPECT_GT(hidden, 20);  // the gap at the ends of the steps tells of none of these
+  EXPECT_GT(hidden, 20);  // none of these shows in the gaps at the ends of the steps
 }
 
 TEST(DormandPrince, a_stop_that_is_missed_by_a_hair_is_not_met_and_one_a_hair_nearer_is) {
-  const double hair = 1e-9;  // a hundred times the error of the place at this tolerance
+  const double hair = 1e-9;  // a hundred times the error of the displacement at this tolerance
   for (int i = 0; i < 50; ++i) {
     point::Problem scene = support::scene_of({0.0, 0.0, 1.0, 0.0}, -infinity, 1 + hair, 0.5);
     scene.start = {std::sin(-2.0 - 0.02 * i), std::cos(-2.0 - 0.02 * i), 0.0};
@@ -152,8 +151,7 @@ TEST(DormandPrince, a_stop_that_is_touched_without_speed_is_no_contact) {
   }
 }
 
-const point::Problem chattering =
-    support::scene_of({0.1, 1.0, 0.5, 0.0}, -0.5, 0.5, 0.5);  // physics.md, "chatter and rest"
+const point::Problem chattering = support::scene_of({0.1, 1.0, 0.5, 0.0}, -0.5, 0.5, 0.5);  // chatter and rest
 
 TEST(DormandPrince, chatter_is_completed_and_the_mass_rests_until_its_release) {
   for (const double tolerance : {1e-6, 1e-8, 1e-10, 1e-12}) {
@@ -164,10 +162,10 @@ TEST(DormandPrince, chatter_is_completed_and_the_mass_rests_until_its_release) {
     EXPECT_NEAR(events.at(1).time, 3.1907700695690808, 10 * tolerance);
     const auto rest = std::ranges::find(events, accuracy::Event::Kind::rest, &accuracy::Event::kind);
     ASSERT_NE(rest, events.end());
-    // a flight of time s, at speed s/4 and an error of its place of the smaller of the tolerance and s^6, ends at a
-    // time that is off by their ratio: at most where they are equal
+    // a flight of time s, with speed s/4 and a displacement in error by the smaller of the tolerance and s^6, ends at a
+    // time that is off by the ratio of the two: at most if the tolerance equals s^6
     EXPECT_NEAR(rest->time, 4.4158803670592697, 4 * std::pow(tolerance, 5.0 / 6)) << tolerance;
-    EXPECT_NEAR(rest->end(), 5 * pi_ / 3, 4e-15);  // that the force alone decides
+    EXPECT_NEAR(rest->end(), 5 * pi_ / 3, 4e-15);  // decided by the force alone
     EXPECT_EQ(events.back().side, Side::lower);
     EXPECT_NEAR(events.back().time, 7.9756605890323812, 10 * tolerance);
     EXPECT_NEAR(events.back().speed, 0.7854147777624616, 10 * tolerance);
@@ -175,7 +173,7 @@ TEST(DormandPrince, chatter_is_completed_and_the_mass_rests_until_its_release) {
 }
 
 TEST(DormandPrince, a_release_is_one_event_however_loose_the_tolerance) {
-  // x'' = 0 there, to rounding: which way the mass goes is not for the error of a step to say
+  // x'' = 0 there, to rounding: the error of a step must not decide where the mass goes
   for (const double R : {0.0, 0.5}) {
     point::Problem scene = chattering;
     scene.stops.restitution_lower = scene.stops.restitution_upper = R;

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double pi_ = std::numbers::pi;
 
-const Oscillator pressing_half{0.1, 1.0, 0.5, 0.0};  // physics.md, "chatter and rest": x_s = 0.5, R = 0.5, from rest
+const Oscillator pressing_half{0.1, 1.0, 0.5, 0.0};  // chatter and rest with x_s = 0.5, R = 0.5, from rest
 
 TEST(Exact, chatter_is_completed_and_the_mass_rests_until_its_release) {
   const auto run = support::run_scene(support::scene_of(pressing_half, -0.5, 0.5, 0.5), 9.0);
@@ -190,7 +190,8 @@ TEST(Exact, a_stop_that_always_presses_holds_through_the_tangency) {
 }
 
 TEST(Exact, flights_too_short_to_move_time_on_are_rest) {
-  // elastic, and let go within rounding of where the force would press again: bounces of 1e-31 would never end
+  // elastic, and released within rounding of the phase at which the force presses again: bounces of 1e-31 would never
+  // end
   point::Problem scene = support::scene_of({0.0, 1.0, 1.0, -0.25}, -0.25, 0.25, 1.0);
   scene.stops.restitution_lower = 0.3;
   scene.start = {0.25, 0.0, pi_ / 6};
@@ -239,8 +240,8 @@ TEST(Exact, more_impacts_than_allowed_is_an_outcome) {
 }
 
 TEST(Exact, release_at_the_edge_of_a_section_neither_hangs_nor_rests_a_turn_too_long) {
-  // the upper stop lets go at phase 5 pi/6; sections lie at the start's phase: put one just before, on and just after
-  // the release
+  // the upper stop releases at phase 5 pi/6 (eq. 26); sections are at the start's phase: one just before, on and just
+  // after the release
   for (double offset : {-1e-15, 0.0, 1e-15}) {
     point::Problem scene = support::scene_of({0.1, 1.0, 0.5, 0.0}, -0.5, 0.5, 0.0);
     scene.start = {0.5, 0.0, 5 * pi_ / 6 + offset};

@@ -1,4 +1,4 @@
-// Impacts, chatter, rest and release by time stepping, and the outcomes that say why not.
+// Impacts, chatter, rest and release by time stepping, and the outcomes of runs that it can't complete.
 
 #include <gtest/gtest.h>
 
@@ -44,7 +44,7 @@ TEST(MoreauMotion, an_impact_keeps_the_share_of_speed_that_restitution_says) {
   }
 }
 
-/// Sees where the mass sets out after an impact.
+/// Records the position from which the mass leaves after an impact.
 struct Departures {
   std::optional<motion::Impact> last{};
   int count = 0;
@@ -71,19 +71,18 @@ TEST(MoreauMotion, an_inelastic_mass_sets_out_from_the_stop_without_speed) {
   EXPECT_GE(departures.count, 5);
 }
 
-const point::Problem chattering =
-    support::scene_of({0.1, 1.0, 0.5, 0.0}, -0.5, 0.5, 0.5);  // physics.md, "chatter and rest"
+const point::Problem chattering = support::scene_of({0.1, 1.0, 0.5, 0.0}, -0.5, 0.5, 0.5);  // chatter and rest
 
 TEST(MoreauMotion, chatter_ends_in_a_rest_within_a_step_for_each_of_its_impacts) {
-  // an impact is late by up to a step, and its speed off by half a step's pull, of which the flights after it make one
-  // step more; the flights left out, each shorter than a step, last two together
+  // an impact is late by up to a step, and its speed off by half a step's force, which costs the flights after it one
+  // more step; the flights left out, each shorter than a step, last two steps together
   for (const double theta : {0.5, 1.0})
     for (int n = 256; n <= 16384; n *= 4) {
       double sum = 0, impacts = 0;
       for (int k = 0; k < 40; ++k) {
         const double step = 1.0 / (n + k * n / 64), L = step * 4 * pi_;
         const std::vector<accuracy::Event> events =
-            accuracy::with_rests_joined(support::course_by<Moreau>(with_step(chattering, step, theta), 5.0).events);
+            accuracy::with_rests_joined(support::record_by<Moreau>(with_step(chattering, step, theta), 5.0).events);
         const auto rest = std::ranges::find(events, accuracy::Event::Kind::rest, &accuracy::Event::kind);
         ASSERT_NE(rest, events.end());
         const auto before = static_cast<double>(rest - events.begin());
@@ -91,7 +90,7 @@ TEST(MoreauMotion, chatter_ends_in_a_rest_within_a_step_for_each_of_its_impacts)
         EXPECT_LE(before, 3 + std::log2(n));  // flights halve until one is shorter than a step
         sum += std::abs(rest->time - 4.4158803670592697) / L, impacts += before;
       }
-      EXPECT_LT(sum, impacts) << n;  // in the mean half of what it may be at most
+      EXPECT_LT(sum, impacts) << n;  // in the mean half of the largest possible value
     }
 }
 
@@ -100,7 +99,7 @@ TEST(MoreauMotion, after_a_rest_the_next_contact_is_within_a_step_again) {
     for (int i = 8; i <= 14; ++i) {
       const double step = std::ldexp(1.0, -i), L = step * 4 * pi_;
       const auto events =
-          accuracy::with_rests_joined(support::course_by<Moreau>(with_step(chattering, step, theta), 9.0).events);
+          accuracy::with_rests_joined(support::record_by<Moreau>(with_step(chattering, step, theta), 9.0).events);
       EXPECT_EQ(std::ranges::count(events, accuracy::Event::Kind::rest, &accuracy::Event::kind), 1);
       EXPECT_EQ(events.back().side, Side::lower);
       // a step at the release and one at the contact, with the speed of half a step away
@@ -110,11 +109,11 @@ TEST(MoreauMotion, after_a_rest_the_next_contact_is_within_a_step_again) {
 }
 
 TEST(MoreauMotion, a_rest_ends_with_the_step_before_the_force_pulls) {
-  // looked at once a step: theta of it after its beginning
+  // the force is evaluated once a step, theta of it after its beginning
   for (const double theta : {0.25, 0.5, 1.0}) {
     double earliest = infinity, latest = -infinity;  // in steps after the release
     for (int n = 1000; n < 1100; ++n) {
-      const accuracy::RunRecord record = support::course_by<Moreau>(with_step(chattering, 1.0 / n, theta), 6.0);
+      const accuracy::RunRecord record = support::record_by<Moreau>(with_step(chattering, 1.0 / n, theta), 6.0);
       const accuracy::Event rest = with_rests_joined(record.events).back();
       ASSERT_EQ(rest.kind, accuracy::Event::Kind::rest);
       const double late = (rest.end() - 5 * pi_ / 3) / (4 * pi_ / n);
@@ -130,7 +129,7 @@ TEST(MoreauMotion, a_mass_that_is_pressed_from_the_start_rests_without_impact) {
     point::Problem scene = with_step(chattering, 1e-3);
     scene.stops.restitution_upper = R;
     scene.start = {0.5, 0.0, pi_ / 2};
-    const accuracy::RunRecord record = support::course_by<Moreau>(scene, 3.0);
+    const accuracy::RunRecord record = support::record_by<Moreau>(scene, 3.0);
     const std::vector<accuracy::Event> events = with_rests_joined(record.events);
     ASSERT_EQ(events.size(), 1u) << R;
     EXPECT_EQ(events[0].time, 0.0);
@@ -144,7 +143,7 @@ TEST(MoreauMotion, an_elastic_stop_returns_all_speed_and_keeps_an_oscillation_fo
   scene.start.velocity = 1.5;
   support::Recorder record = record_of(scene, 1e4);
   ASSERT_GT(record.impacts.size(), 9500u);  // every 2 asin(1/2) = pi/3
-  // places of impacts are known to a step; that of speed follows, by energy, without drift
+  // positions at impacts are known to a step, hence the speed by energy, without drift
   for (const motion::Impact& impact : record.impacts)
     EXPECT_NEAR(std::abs(impact.before), std::sqrt(1.5 * 1.5 - 0.75 * 0.75), 0.75 * 2 * pi_ * 1e-3);
 }
@@ -153,7 +152,7 @@ TEST(MoreauMotion, work_is_a_step_however_many_impacts_it_meets) {
   for (const double R : {0.0, 0.5, 0.9}) {
     point::Problem scene = with_step(chattering, 1e-3);
     scene.stops.restitution_lower = scene.stops.restitution_upper = R;
-    const accuracy::RunRecord record = support::course_by<Moreau>(scene, 10 * 4 * pi_);
+    const accuracy::RunRecord record = support::record_by<Moreau>(scene, 10 * 4 * pi_);
     EXPECT_GT(record.impacts, 15);
     EXPECT_EQ(record.evaluations, 10 * 1000);
   }
@@ -206,7 +205,7 @@ TEST(MoreauMotion, mirrored_and_scaled_by_a_power_of_two_is_the_same_to_the_last
   point::Problem scene = support::scene_of({0.1, 1.3, 0.6, 0.1}, -0.5, 0.4, 0.6);
   scene.stops.restitution_lower = 0.3;
   scene.start = {0.1, -0.7, 0.3};
-  const accuracy::RunRecord a = support::course_by<Moreau>(with_step(scene, 1e-3), 50.0);
+  const accuracy::RunRecord a = support::record_by<Moreau>(with_step(scene, 1e-3), 50.0);
   ASSERT_GT(a.impacts, 10);
   for (const double factor : {-1.0, 0x1p-30, -0x1p40}) {
     point::Problem other = scene;
@@ -217,7 +216,7 @@ TEST(MoreauMotion, mirrored_and_scaled_by_a_power_of_two_is_the_same_to_the_last
       std::swap(other.stops.lower, other.stops.upper);
       std::swap(other.stops.restitution_lower, other.stops.restitution_upper);
     }
-    const accuracy::RunRecord b = support::course_by<Moreau>(with_step(other, 1e-3), 50.0);
+    const accuracy::RunRecord b = support::record_by<Moreau>(with_step(other, 1e-3), 50.0);
     EXPECT_EQ(a.x * factor, b.x);
     EXPECT_EQ(a.v * factor, b.v);
     ASSERT_EQ(a.events.size(), b.events.size());
@@ -232,12 +231,12 @@ TEST(MoreauMotion, more_impacts_than_allowed_and_no_numbers_are_outcomes) {
   point::Problem scene = with_step(support::scene_of({0.0, 0.0, 1.0, 0.0}, -0.75, 0.75, 1.0), 1e-3);
   scene.start.velocity = 1.5;
   scene.time.max_impacts = 10;
-  const accuracy::RunRecord record = support::course_by<Moreau>(scene, 100.0);
+  const accuracy::RunRecord record = support::record_by<Moreau>(scene, 100.0);
   EXPECT_EQ(record.outcome, Outcome::event_budget);
   EXPECT_EQ(record.impacts, 11);
   for (const double value : {infinity, std::nan("")}) {
     scene.start.velocity = value;
-    EXPECT_EQ(support::course_by<Moreau>(scene, 10.0).outcome, Outcome::not_finite) << value;
+    EXPECT_EQ(support::record_by<Moreau>(scene, 10.0).outcome, Outcome::not_finite) << value;
   }
 }
 

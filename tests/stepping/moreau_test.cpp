@@ -1,4 +1,4 @@
-// Time stepping: its order, and that events are known to a step.
+// Time stepping: its order, and events located to a step.
 
 #include "stepping/moreau.hpp"
 
@@ -32,13 +32,13 @@ double order_of_smooth_motion(const point::Problem& scene, double theta, int fir
   for (int i = first; i <= last; ++i) {
     steps.push_back(std::ldexp(1.0, -i));
     errors.push_back(
-        support::deviation(support::course_by<Moreau>(with_step(scene, steps.back(), theta), 20.0), reference).end);
+        support::deviation(support::record_by<Moreau>(with_step(scene, steps.back(), theta), 20.0), reference).end);
   }
   return support::order_of(steps, errors);
 }
 
 TEST(Moreau, is_of_second_order_on_smooth_motion_and_of_first_away_from_theta_one_half) {
-  // the next order's share of the error is a step's worth of it: below 2^-6 of 2 pi a few percent
+  // the next order's share of the error is of the size of the step: below 2^-6 of 2 pi a few percent
   for (const Oscillator& oscillator : {Oscillator{0.1, -1.0, 1.3, 0.2}, Oscillator{0.0, 1.0, 0.7, 0.0},
                                        Oscillator{1.7, 3.0, 0.7, 0.1}, Oscillator{0.0, 1.0, 1.0, 0.0}}) {
     const point::Problem scene = support::scene_of(oscillator, -infinity, infinity, 1.0);
@@ -52,17 +52,17 @@ TEST(Moreau, the_trapezoidal_rule_keeps_the_energy_of_free_motion_and_its_neighb
   point::Problem scene = support::scene_of({0.0, 0.0, 1.0, 0.0}, -infinity, infinity, 1.0);
   scene.start = {0.6, -0.8, 0.0};
   const auto energy = [&](double theta) {
-    const accuracy::RunRecord record = support::course_by<Moreau>(with_step(scene, 0.01, theta), 200 * pi_);
+    const accuracy::RunRecord record = support::record_by<Moreau>(with_step(scene, 0.01, theta), 200 * pi_);
     return record.x * record.x + record.v * record.v;
   };
   EXPECT_NEAR(energy(0.5), 1.0, 1e4 * 4 * ulp);  // a few roundings in each of ten thousand steps
-  // a step L multiplies it by (1 + (1 - theta)^2 L^2)/(1 + theta^2 L^2), seen alone for theta = 0 and 1
+  // a step L multiplies it by (1 + (1 - theta)^2 L^2)/(1 + theta^2 L^2)
   const double L = 0.02 * pi_;
   EXPECT_NEAR(std::log(energy(0.0)) / (1e4 * std::log1p(L * L)), 1.0, 1e-10);
   EXPECT_NEAR(std::log(energy(1.0)) / (-1e4 * std::log1p(L * L)), 1.0, 1e-10);
 }
 
-/// Free vibration from the middle at unit speed, to an upper stop that is met at asin(place).
+/// Free vibration from the middle at unit speed, to an upper stop that is met at asin(position).
 point::Problem first_contact(double position, double R) {
   point::Problem scene = support::scene_of({0.0, 0.0, 1.0, 0.0}, -infinity, position, R);
   scene.start.velocity = 1.0;
@@ -70,18 +70,17 @@ point::Problem first_contact(double position, double R) {
 }
 
 TEST(Moreau, an_impact_is_shown_within_a_step) {
-  // the first step in whose middle the mass would be beyond the stop holds the impulse, 1 - theta after its beginning;
-  // on a way so short that the motion is uniform to a ten thousandth
+  // the impulse is in the first step in whose middle the mass would be beyond the stop, 1 - theta of it after its
+  // beginning; the way is so short that the motion is uniform to a ten thousandth
   for (const double theta : {0.0, 0.5, 0.75, 1.0}) {
     double earliest = infinity, latest = -infinity;  // in steps after the contact
     for (int n = 6000; n < 8000; n += 7) {
       const accuracy::Event impact =
-          support::course_by<Moreau>(with_step(first_contact(0.01, 0.7), 1.0 / n, theta), 0.02).events.at(0);
+          support::record_by<Moreau>(with_step(first_contact(0.01, 0.7), 1.0 / n, theta), 0.02).events.at(0);
       const double late = (impact.time - std::asin(0.01)) / (2 * pi_ / n);
       earliest = std::min(earliest, late), latest = std::max(latest, late);
     }
-    // of three hundred steps, whose ends come to lie anywhere; the step's own error of the place is a thousandth of a
-    // step
+    // over three hundred steps, whose ends lie anywhere; the error of the displacement itself is a thousandth of a step
     EXPECT_NEAR(earliest, 0.5 - theta, 0.005) << theta;
     EXPECT_NEAR(latest, 1.5 - theta, 0.005) << theta;
   }
@@ -92,16 +91,16 @@ TEST(Moreau, an_impacts_speed_is_the_one_half_a_step_off_at_most) {
   for (int n = 1000; n < 1200; ++n) {
     const double allowed = 0.6 * pi_ / n;  // deceleration at the stop times half a step, 2 pi/n/2
     const accuracy::Event impact =
-        support::course_by<Moreau>(with_step(first_contact(0.6, 0.7), 1.0 / n), 1.0).events.at(0);
+        support::record_by<Moreau>(with_step(first_contact(0.6, 0.7), 1.0 / n), 1.0).events.at(0);
     const double error = std::abs(impact.speed - 0.8) / allowed;
-    EXPECT_LE(error, 1.02) << n;  // the jerk's and the rule's share, of the order of a step
+    EXPECT_LE(error, 1.02) << n;  // the parts by the jerk and by the rule are of the order of a step
     worst = std::max(worst, error);
   }
   EXPECT_GT(worst, 0.95);
 }
 
 TEST(Moreau, impact_times_and_speeds_are_of_first_order) {
-  // the mean over steps that end anywhere, since the error of one is anything up to its bound
+  // the mean over steps that end anywhere, since the error of a single one may have any value up to its bound
   const point::Problem scene = support::scene_of({0.1, -1.0, 1.0, 0.0}, -0.5, 0.5, 0.7);
   const accuracy::RunRecord reference = accuracy::reference_of(scene, 20.0);
   ASSERT_GE(reference.impacts, 6);
@@ -111,7 +110,7 @@ TEST(Moreau, impact_times_and_speeds_are_of_first_order) {
       double time = 0, speed = 0, end = 0;
       for (int k = 0; k < 40; ++k) {
         const support::Deviation d = support::deviation(
-            support::course_by<Moreau>(with_step(scene, 1.0 / (n + k * n / 64), theta), 20.0), reference);
+            support::record_by<Moreau>(with_step(scene, 1.0 / (n + k * n / 64), theta), 20.0), reference);
         ASSERT_TRUE(d.same_events) << n << ": " << d.difference;
         time += d.time, speed += d.speed, end += d.end;
       }
@@ -123,7 +122,7 @@ TEST(Moreau, impact_times_and_speeds_are_of_first_order) {
   }
 }
 
-/// How far a run goes beyond its stops, its largest speed, and its arcs' times.
+/// Records the depth to which a run goes beyond its stops, its largest speed, and its arcs' times.
 struct Beyond {
   Stops stops;
   double depth = 0, speed = 0, end = 0;
@@ -144,7 +143,7 @@ struct Beyond {
 };
 
 TEST(Moreau, goes_beyond_a_stop_by_a_step_at_most_and_arcs_and_rests_leave_no_gap) {
-  // half a step at its speed since the step before, whose middle was still between the stops, and 1 - theta of one more
+  // half a step at the speed of the step before, whose middle was still between the stops, and 1 - theta of one more
   for (const double theta : {0.5, 1.0})
     for (const double R : {0.0, 0.5, 1.0}) {
       double worst = 0;
@@ -162,7 +161,7 @@ TEST(Moreau, goes_beyond_a_stop_by_a_step_at_most_and_arcs_and_rests_leave_no_ga
     }
 }
 
-/// Counts what a run shows, and its shortest and longest step.
+/// Counts the arcs, rests and impacts of a run, and records its shortest and longest step.
 struct Steps {
   int arcs = 0;
   double shortest = infinity, longest = 0;

@@ -74,7 +74,7 @@ TEST_P(ReferenceList, fifty_digits_agree_with_all_digits_listed) {
   const double last = static_cast<double>(reference.rows.back().time);
   const auto run = support::run_scene<FiftyDigits>(reference.scene, last + 1e-3);
   ASSERT_EQ(run.record.impacts.size(), reference.rows.size());
-  for (std::size_t i = 0; i < reference.rows.size(); ++i) {  // observers see doubles: half an ulp
+  for (std::size_t i = 0; i < reference.rows.size(); ++i) {  // observers are given doubles: half an ulp
     EXPECT_NEAR(run.record.impacts[i].time / static_cast<double>(reference.rows[i].time), 1.0, 2.3e-16);
     EXPECT_NEAR(run.record.impacts[i].before / static_cast<double>(reference.rows[i].before), 1.0, 2.3e-16);
   }

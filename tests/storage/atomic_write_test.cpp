@@ -43,7 +43,7 @@ class Publish : public testing::Test {
     return status;
   }
 
-  /// What publishing a text throws, or nothing where it succeeds.
+  /// The error of writing a text, or nothing if that succeeds.
   [[nodiscard]] static std::string refusal(const std::string& file, const std::string& text = "new") {
     try {
       write_atomically(file, std::as_bytes(std::span{text}));
@@ -72,7 +72,7 @@ TEST_F(Publish, gives_the_permissions_of_any_new_file) {
   EXPECT_EQ(status_of("out.h5").st_mode & 0777U, 0640U);
 }
 
-/// Lets no file grow beyond some bytes, which is to the writer what a full disk is.
+/// Limits the size of files, which has the same effect on a writer as a full disk.
 class SizeLimit {
  public:
   explicit SizeLimit(rlim_t bytes) {
@@ -143,7 +143,7 @@ TEST_F(Publish, checking_changes_nothing) {
 
 TEST_F(Publish, a_symbolic_link_stays_and_its_target_is_replaced) {
   fs::create_directories(path("scratch"));
-  fs::create_symlink("scratch/far.h5", path("out.h5"));  // relative, and its target isn't there yet
+  fs::create_symlink("scratch/far.h5", path("out.h5"));  // relative, and its target doesn't exist yet
   EXPECT_EQ(refusal(path("out.h5"), "first"), "");
   EXPECT_EQ(refusal(path("out.h5"), "second"), "");
   EXPECT_TRUE(fs::is_symlink(path("out.h5")));
@@ -194,7 +194,7 @@ TEST_F(Publish, touches_nothing_that_it_has_not_written) {
 }
 
 TEST_F(Publish, of_two_at_once_neither_takes_the_file_of_the_other) {
-  const std::string same(220, 'x');  // of a long name only the beginning is in that of the temporary file
+  const std::string same(220, 'x');  // only the beginning of a long name is in that of the temporary file
   for (const std::string& other : {path("out.h5"), path(same + "2")}) {
     const std::string first = "first", second = "second", target = other == path("out.h5") ? other : path(same + "1");
     const auto meanwhile = [&] { write_atomically(other, std::as_bytes(std::span{second})); };

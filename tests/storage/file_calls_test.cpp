@@ -13,7 +13,7 @@
 namespace clatter::storage {
 namespace {
 
-/// Leaves no file to be opened.
+/// Leaves no descriptor to open a file with.
 class NoMoreFiles {
  public:
   NoMoreFiles() {

@@ -24,7 +24,7 @@ namespace fs = std::filesystem;
 using Records = std::vector<std::string>;
 
 const JournalKey key{"nu = 1\nxs = 2\n", "1.0", "avx2", "1/3"};
-constexpr std::size_t most_bytes = 1'000'000;  // of a record
+constexpr std::size_t most_bytes = 1'000'000;  // the most bytes of a record
 constexpr RecordLimit usual{most_bytes};
 
 std::string text_of(std::span<const std::byte> bytes) {
@@ -32,7 +32,7 @@ std::string text_of(std::span<const std::byte> bytes) {
 }
 std::span<const std::byte> bytes_of(const std::string& text) { return std::as_bytes(std::span(text)); }
 
-/// The head of a block, with a sound checksum of its own.
+/// The head of a block, with a valid checksum of its own.
 std::string zeros_head(std::uint64_t length) {
   std::string head(reinterpret_cast<const char*>(&length), sizeof length);
   head.append(4, '\0');
@@ -54,13 +54,13 @@ class JournalFile : public testing::Test {
   }
   void overwrite(const std::string& text) const { std::ofstream{path(), std::ios::binary} << text; }
 
-  /// Keeps records as a run does that is then killed.
+  /// Writes records as a run that is then killed.
   void write(const Records& records, Journal::Begin begin = Journal::Begin::anyhow) const {
     Journal journal(output(), key, usual, begin, [](auto) {});
     for (const std::string& text : records) journal.append(bytes_of(text));
     journal.sync();
   }
-  /// What the next run finds.
+  /// The records that the next run finds.
   [[nodiscard]] Records found(const JournalKey& by = key, Journal::Begin begin = Journal::Begin::anyhow) const {
     Records records;
     const Journal journal(output(), by, usual, begin,
@@ -164,7 +164,7 @@ TEST_F(JournalFile, cut_anywhere_gives_its_whole_records) {
     EXPECT_GE(left.size(), most) << length;
     most = left.size();
     overwrite(whole.substr(0, length));
-    write({"four"});  // goes on after the cut
+    write({"four"});  // continues after the cut
     Records longer = left;
     longer.push_back("four");
     EXPECT_EQ(found(), longer) << length;
@@ -267,12 +267,12 @@ TEST_F(JournalFile, gives_the_room_of_its_last_records_back) {
   Journal journal(output(), key, usual, Journal::Begin::anyhow, [](auto) {});
   for (int i = 0; i < 5; ++i) journal.append(bytes_of(large));
   const std::uintmax_t size = fs::file_size(path());
-  journal.give_back(size + 1);  // more than there is would help nobody
+  journal.give_back(size + 1);  // more bytes than there are: not even all would suffice
   EXPECT_EQ(fs::file_size(path()), size);
   journal.give_back(1'000'000);
   EXPECT_LE(fs::file_size(path()), size - 1'000'000);
   EXPECT_GT(fs::file_size(path()), 1'800'000U);
-  EXPECT_NE(journal.leave().find("a part of what was finished"), std::string::npos);
+  EXPECT_NE(journal.leave().find("a part of the finished points"), std::string::npos);
   journal.give_back(fs::file_size(path()));
   EXPECT_EQ(fs::file_size(path()), 0U);
   EXPECT_NE(journal.leave().find("has to be run again"), std::string::npos);

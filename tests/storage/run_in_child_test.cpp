@@ -17,7 +17,7 @@
 namespace clatter::storage {
 namespace {
 
-/// How a child dies that does this.
+/// The reason why a child fails that does this work.
 std::string death_of(const std::function<std::string()>& work, const ChildLimits& limits = {}) {
   try {
     (void)run_in_child(work, limits);

@@ -9,7 +9,7 @@
 namespace clatter::support {
 namespace {
 
-/// What happens within rounding of the end of a run may fall on either side of it: this part of its length.
+/// Events within this part of a run's length from its end may fall on either side of the end, by rounding.
 constexpr double at_the_end = 1e-14;
 
 std::size_t& count_of(accuracy::Event::Kind kind, Deviation& deviation) {
@@ -35,7 +35,7 @@ Deviation deviation(const accuracy::RunRecord& record, const accuracy::RunRecord
   double size_x = std::abs(reference.x), size_v = std::abs(reference.v);
   std::size_t j = 0;
   for (const accuracy::Event& event : events) {
-    if (event.kind == accuracy::Event::Kind::chatter)  // the reference goes on for a while
+    if (event.kind == accuracy::Event::Kind::chatter)  // the reference takes more impacts
       while (j < expected.size() && expected[j].kind == accuracy::Event::Kind::impact) ++j;
     if (j == expected.size() && event.time >= (1 - at_the_end) * reference.duration) continue;
     if (j == expected.size() || expected[j].kind != event.kind || expected[j].side != event.side) {
@@ -69,7 +69,7 @@ double conditioning(const point::Problem& scene, const accuracy::RunRecord& refe
     Stops& stops = moved.stops;
     Start& start = moved.start;
     unsigned i = 0;
-    start.phase += epsilon<double>();  // the force knows its phase to an ulp of a turn
+    start.phase += epsilon<double>();  // the force's phase is rounded to an ulp of a turn
     for (double* value : {&o.damping, &o.forcing, &o.frequency, &o.load, &stops.restitution_lower,
                           &stops.restitution_upper, &start.velocity, &start.phase, &start.displacement})
       if (*value != 0.0) *value *= 1 + (signs >> i++ & 1 ? 1 : -1) * epsilon<double>();

@@ -7,7 +7,7 @@
 
 namespace clatter::support {
 
-/// How far a course is from its reference. Impacts that the reference takes after the course has completed a chatter
+/// The deviation of a run from its reference. Impacts that the reference takes after the run has completed a chatter
 /// don't count.
 struct Deviation {
   bool same_events = false;  ///< the same impacts and rests, on the same stops, in the same order
@@ -22,8 +22,8 @@ struct Deviation {
 
 [[nodiscard]] Deviation deviation(const accuracy::RunRecord& record, const accuracy::RunRecord& reference);
 
-/// What the inputs' own rounding does to a run: the largest deviation of the reference when all of them are moved by
-/// one ulp, in one and another combination of signs; infinite where that changes the events.
+/// The effect of the inputs' own rounding on a run: the largest deviation of the reference when all inputs are moved by
+/// one ulp, in two combinations of signs; infinite if that changes the events.
 [[nodiscard]] double conditioning(const point::Problem& scene, const accuracy::RunRecord& reference);
 
 /// The configuration that replays a scene, for a failing test to print.

@@ -1,6 +1,6 @@
-// Preloaded into clatter by tests/cli/faults_test.py: makes one call on a file go wrong. CLATTER_FAULT names the call,
-// which one (0: every second), and what becomes of it, e.g. "write 3 ENOSPC", "rename 1 kill", "write 0 short". The
-// file that CLATTER_FAULT_DONE names is made when it happens.
+// Preloaded into clatter by tests/cli/faults_test.py: makes one call on a file fail. CLATTER_FAULT has the name of the
+// call, its number (0: every second one), and the fault, e.g. "write 3 ENOSPC", "rename 1 kill", "write 0 short". The
+// file that CLATTER_FAULT_DONE names is created when the fault happens.
 #include <dlfcn.h>
 #include <fcntl.h>
 #include <sys/stat.h>
@@ -45,7 +45,7 @@ Function next(const char* name) {
   return reinterpret_cast<Function>(::dlsym(RTLD_NEXT, name));
 }
 
-/// Whether this call is the one; where it kills, nobody hears of it.
+/// Whether this call is the one to fail; doesn't return if the fault is to kill the process.
 bool goes_wrong(const char* call) {
   if (fault().call != call) return false;
   ++fault().calls;

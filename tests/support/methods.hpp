@@ -10,8 +10,8 @@
 
 namespace clatter::support {
 
-/// Runs a scene from its start for a time in tau by a general method, DormandPrince or Moreau, under the eyes of an
-/// observer; gives what it leaves the mass in and what it has spent.
+/// Runs a scene from its start for a time in tau by a general method, DormandPrince or Moreau, reporting to an
+/// observer; returns the final state and the work.
 template <template <Effects> class Method, class Observer>
 accuracy::RunRecord run_by(const point::Problem& scene, double duration, Observer& observer) {
   return with_general_effects(scene.oscillator, [&]<Effects effects>() {
@@ -27,7 +27,7 @@ accuracy::RunRecord run_by(const point::Problem& scene, double duration, Observe
   });
 }
 
-/// Keeps the events of a run.
+/// Records the events of a run.
 struct EventList {
   std::vector<accuracy::Event> events{};
 
@@ -37,9 +37,9 @@ struct EventList {
   void impact(const motion::Impact& impact) { events.push_back(accuracy::event_of(impact)); }
 };
 
-/// The run of a scene by a general method: what course_of gives of the exact one.
+/// The run of a scene by a general method, as record_of gives that of the exact one.
 template <template <Effects> class Method>
-accuracy::RunRecord course_by(const point::Problem& scene, double duration) {
+accuracy::RunRecord record_by(const point::Problem& scene, double duration) {
   EventList list;
   accuracy::RunRecord record = run_by<Method>(scene, duration, list);
   record.events = std::move(list.events);

@@ -27,7 +27,7 @@ motion::Motion<Number> motion_after(const Oscillator& oscillator, const ArcStart
 
 template <class Number>
 motion::Motion<Number> motion_by_taylor(const Oscillator& o, const ArcStart& start, double s) {
-  const Oscillator away{o.damping, 1.0, 10.0, 0.0};  // from resonance: response and transient apart
+  const Oscillator away{o.damping, 1.0, 10.0, 0.0};  // away from resonance: response and transient are separate
   return with_any_stops(away, [&]<Effects effects>() {
     const motion::ArcConstants<Number, effects.arc()> constants(o);
     const motion::Arc<Number, effects.arc()> arc(constants, first_motion(constants, start));

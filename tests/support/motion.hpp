@@ -5,7 +5,7 @@
 
 namespace clatter::support {
 
-/// Where an arc begins: displacement, velocity, forcing phase in turns.
+/// The start of an arc: displacement, velocity, forcing phase in turns.
 struct ArcStart {
   double x, v, turns;
 };
@@ -14,7 +14,7 @@ struct ArcStart {
 template <class Number>
 [[nodiscard]] motion::Motion<Number> motion_after(const Oscillator& oscillator, const ArcStart& start, double s);
 
-/// The same by Taylor steps of the equation of motion alone, in 50 digits: shares no formula with the closed form.
+/// The same by Taylor steps of eq. 3 alone, in 50 digits: shares no formula with the closed form.
 template <class Number>
 [[nodiscard]] motion::Motion<Number> motion_by_taylor(const Oscillator& oscillator, const ArcStart& start, double s);
 

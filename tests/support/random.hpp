@@ -6,7 +6,7 @@
 
 namespace clatter::support {
 
-/// Random numbers of the i-th of a family of test scenes: any one can be drawn again without those before it.
+/// Random numbers for the i-th of a family of test scenes: any scene can be drawn again without those before it.
 class Random {
  public:
   Random(std::uint64_t seed, std::uint64_t i) : engine_(seed ^ (0x9e3779b97f4a7c15u * (i + 1))) {}

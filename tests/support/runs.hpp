@@ -7,7 +7,7 @@
 
 namespace clatter::support {
 
-/// Keeps every impact and rest of a run.
+/// Records every impact and rest of a run.
 struct Recorder {
   std::vector<motion::Impact> impacts{};
   std::vector<motion::Rest> rests{};
@@ -26,7 +26,7 @@ struct Recorder {
   return scene;
 }
 
-/// Everything of a run from the start of the scene for a time in tau.
+/// A run from the start of the scene for a time in tau.
 template <class Number = double>
 struct Run {
   Recorder record{};
@@ -39,7 +39,7 @@ struct Run {
 template <class Number = double>
 [[nodiscard]] Run<Number> run_scene(const point::Problem& scene, double duration);
 
-/// The observed time of a scene, and what happens in it.
+/// The observed time of a scene, with its impacts and rests.
 struct Steady {
   steady::Status status = steady::Status::unresolved;
   double length = 0.0;   ///< of the observed time, in tau

@@ -7,7 +7,7 @@
 
 namespace clatter::support {
 
-/// Which of a family of random scenes a test draws: from ... to - 1.
+/// The numbers from ... to - 1 of the random scenes that a test draws.
 struct SceneRange {
   std::uint64_t from, to;
 };
