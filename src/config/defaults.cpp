@@ -26,7 +26,8 @@ std::string shown_value(const Key& key, Format format) {
   return std::string(key.has_default() ? key.fallback : key.example);
 }
 
-/// One key of the commented configuration: its meaning, then the key; the stops have no default and must be given.
+/// One key of the commented configuration below its meaning. Of keys without a default only xs is in use, since a scene
+/// needs stops.
 std::string commented(const Key& key, Format format) {
   const std::string mark = format == Format::toml ? "#" : ";";
   const bool used = key.has_default() || key.name == "xs";

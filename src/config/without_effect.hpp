@@ -6,7 +6,7 @@
 
 namespace clatter::config {
 
-/// Keys that change nothing beside the others, but for those that stand on their default, as in a complete text.
+/// Warns of keys that change nothing with the others, except those at their default, as in a complete text.
 [[nodiscard]] std::vector<Warning> keys_without_effect(const Settings& settings);
 
 }  // namespace clatter::config
