@@ -6,7 +6,7 @@
 
 namespace clatter::app {
 
-/// A plan for people.
+/// A plan as text for people.
 [[nodiscard]] std::string plan_text(const plan::Plan& plan, const sweep::Sweep& sweep, int threads);
 
 /// A plan for scripts, schema "clatter-plan/1" (README, "What a sweep will do").

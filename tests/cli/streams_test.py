@@ -40,7 +40,7 @@ class StandardInput(CommandLine):
         self.assertIn(b"nu (5 from 0.5 to 1.5)", plan.stdout)
 
     def test_needs_a_name_for_the_output(self):
-        words = "a configuration from stdin gives the output no name; name it with -o FILE.h5"
+        words = "a configuration from stdin has no name to give the output; name it with -o FILE.h5"
         for command in (["run", "-"], ["run", "-", "--shard", "0/2"], ["accuracy", "-"]):
             self.assert_piped_refused(2, words, SMALL, *command)
 
@@ -79,7 +79,7 @@ class Ini(CommandLine):
 class StandardOutput(CommandLine):
     def test_takes_no_results(self):
         config = self.write("a.toml", SMALL)
-        words = "-o - is no file; HDF5 can't go to standard output: name a file (./- if it is to be called so)"
+        words = "-o - is no file, and HDF5 can't go to standard output; name a file (./- for one called -)"
         for command in (["run", config, "-o", "-"], ["run", config, "-o-"], ["run", config, "--output=-"],
                         ["accuracy", config, "-o", "-"], ["merge", "-o", "-", "a.h5"]):
             self.assert_refused(2, words, *command)

@@ -82,7 +82,7 @@ class Warnings(CommandLine):
         for options in ([], ["-v"]):
             said = self.run_ok(config, *options)
             self.assertEqual([line for line in said if "nothing is observed" in line],
-                             ["a.toml:1:1: warning: nothing is observed: the file will tell no more than status, impacts "
+                             ["a.toml:1:1: warning: nothing is observed: the file will hold only status, impacts "
                               "and periods; write e.g. extrema = true in [observe]"])
         said = self.clatter("plan", config).stderr
         self.assertEqual(said.count("nothing is observed"), 1, said)
