@@ -51,14 +51,7 @@ int RunSession::run() {
   announce();
   open_journal();
   announce_restored();
-  try {
-    run_points();
-    write();
-  } catch (const storage::IoError& error) {
-    throw failure(error);
-  } catch (const std::bad_alloc&) {
-    throw failure(storage::no_memory("it ran out"));
-  }
+  compute();
   journal_->remove();
   report();
   return result_.failed_points > 0 ? points_failed : done;
@@ -92,14 +85,23 @@ void RunSession::announce_restored() const {
     std::cerr << "goes on from " << sweep_->restored_points() << " finished points\n";
 }
 
+void RunSession::compute() try {
+  run_points();
+  write();
+} catch (const storage::IoError& error) {
+  throw failure(error);
+} catch (const std::bad_alloc&) {
+  throw failure(storage::no_memory("it ran out"));
+}
+
 void RunSession::run_points() {
   checkpointer_.emplace(
       *journal_, [this] { save(); }, request_.end);
-  show_progress_of({.threads = request_.threads, .arch = request_.arch});
+  run_with_progress({.threads = request_.threads, .arch = request_.arch});
   checkpointer_->finish();
 }
 
-void RunSession::show_progress_of(sweep::RunOptions options) {
+void RunSession::run_with_progress(sweep::RunOptions options) {
   Progress progress(request_.shows_progress, "points", static_cast<double>(sweep_->restored_points()));
   if (request_.shows_progress)
     options.progress = [&](double finished, std::size_t total) { progress.show(finished, static_cast<double>(total)); };

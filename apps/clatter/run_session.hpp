@@ -16,7 +16,7 @@
 
 namespace clatter::app {
 
-/// What the command line asks of a run, besides its configuration.
+/// The choices of the command line for a run, besides its configuration.
 struct RunRequest {
   std::string began;                                   ///< UTC
   std::optional<Checkpointer::Clock::time_point> end;  ///< of --max-time
@@ -46,8 +46,9 @@ class RunSession {
   void open_journal();
   void restore(std::span<const std::byte> results);
   void announce_restored() const;
+  void compute();
   void run_points();
-  void show_progress_of(sweep::RunOptions options);
+  void run_with_progress(sweep::RunOptions options);
   void save();
   void write();
   void report() const;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -36,5 +37,9 @@ void check_stops_and_start(const Settings& settings, const AxisGroups& groups);
 
 /// Warns of keys without effect, values twice on an axis, and a run that observes nothing.
 [[nodiscard]] std::vector<Warning> warnings_of(const Settings& settings, const AxisGroups& groups);
+
+/// Of these, the warnings of keys that change nothing with the others, except those at their default, as in a complete
+/// text.
+[[nodiscard]] std::vector<Warning> keys_without_effect(const Settings& settings);
 
 }  // namespace clatter::config

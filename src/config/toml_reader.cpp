@@ -163,7 +163,7 @@ ParsedConfig read_toml(const std::string& file, std::string_view text) {
     add_entries(raw, "", parse(file, text));
   } catch (const ConfigError& error) {
     if (has_ending(file, ".toml")) throw;
-    throw ConfigError(std::string(error.what()) + "; read as TOML; INI is told by --ini, or a name that ends in .ini");
+    throw ConfigError(std::string(error.what()) + "; read as TOML; for INI give --ini, or a name that ends in .ini");
   }
   const auto order = [](const auto& left, const auto& right) {  // toml++ iterates in alphabetical order
     return std::tuple(left.location.line, left.location.column) <

@@ -4,7 +4,6 @@
 #include <string>
 
 #include "config/consistency.hpp"
-#include "config/without_effect.hpp"
 
 namespace clatter::config {
 namespace {

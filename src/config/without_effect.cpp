@@ -1,7 +1,7 @@
-#include "config/without_effect.hpp"
-
 #include <algorithm>
 #include <cmath>
+
+#include "config/consistency.hpp"
 
 namespace clatter::config {
 namespace {

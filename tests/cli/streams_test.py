@@ -46,7 +46,7 @@ class StandardInput(CommandLine):
 
     def test_mistakes_name_it_with_line_and_column(self):
         self.assert_piped_refused(2, "stdin:2:6: xs = 0 is out of range", "[scene]\nxs = 0\n", "run", "-", "-o", "a.h5")
-        self.assert_piped_refused(2, "; read as TOML; INI is told by --ini", SMALL_INI, "run", "-", "-o", "a.h5")
+        self.assert_piped_refused(2, "; read as TOML; for INI give --ini", SMALL_INI, "run", "-", "-o", "a.h5")
         self.assert_piped_refused(2, "stdin:3:6: expected a number", "[scene]\nf = 1 ; INI\nxs = a\n", "plan", "-", "--ini")
         self.assert_piped_refused(2, "stdin:1:1: 'xs' is missing", "", "run", "-", "-o", "a.h5")
         self.assert_piped_refused(2, "stdin:1:1: more than 1 MiB", "#" * 2000000, "run", "-", "-o", "a.h5")
@@ -71,7 +71,7 @@ class StandardInput(CommandLine):
 class Ini(CommandLine):
     def test_is_told_by_the_option_where_the_name_does_not(self):
         self.write("a.cfg", SMALL_INI)
-        self.assert_refused(2, "; read as TOML; INI is told by --ini, or a name that ends in .ini", "run", "a.cfg")
+        self.assert_refused(2, "; read as TOML; for INI give --ini, or a name that ends in .ini", "run", "a.cfg")
         self.assertEqual(self.clatter("run", "a.cfg", "--ini").returncode, 0)
         self.assertIn("a.h5", self.files())
 

@@ -39,7 +39,7 @@ TEST(Toml, syntax_errors_have_a_place) {
 
 TEST(Ini, is_known_by_the_ending_of_the_name_in_any_case) {
   for (const char* name : {"a.ini", "a.INI", "a.Ini"}) EXPECT_EQ(mistake_in(name, "[scene]\nxs = 1 ; INI\n"), "");
-  const std::string hint = "; read as TOML; INI is told by --ini, or a name that ends in .ini";
+  const std::string hint = "; read as TOML; for INI give --ini, or a name that ends in .ini";
   for (const char* text : {"[scene]\nxs = 1 ; INI\n", "title = Größe\n", "[sweep]\nnu = linspace(1, 2, 3)\n"}) {
     for (const char* name : {"a.cfg", "ini"}) EXPECT_TRUE(mistake_in(name, text).ends_with(hint)) << text;
     for (const char* name : {"a.toml", "a.TOML"}) EXPECT_FALSE(mistake_in(name, text).ends_with(hint)) << text;
