@@ -25,10 +25,10 @@ void check_starts(const config::Config& config, const std::string& file) {
                    ": [sweep] follow: a study starts every point from [scene]; add --set sweep.follow=''");
 }
 
-/// What a study chooses by itself.
+/// Sections that a study ignores: it chooses observables and integrators itself.
 constexpr std::string_view not_read[] = {"observe", "integrator"};
 
-/// Studies all points and prints each; fewer where it was interrupted.
+/// Studies and prints all points, or fewer if it is interrupted.
 std::vector<accuracy::PointAccuracy> study_points(const sweep::Sweep& sweep, lanes::InstructionSet arch, bool json,
                                                   bool shown) {
   const std::vector<accuracy::Trial> trials = accuracy::trials_of(sweep.scene.time.mode, arch);
@@ -39,7 +39,7 @@ std::vector<accuracy::PointAccuracy> study_points(const sweep::Sweep& sweep, lan
   const auto total = static_cast<double>(size(sweep) * steps_of(trials.size(), options));
   progress.show(0, total, std::nullopt);
   const auto begin = std::chrono::steady_clock::now();
-  // Points that are not begun take as long as the others.
+  // Points not yet begun are assumed to take as long as the others.
   options.progress = [&](std::optional<double> seconds_left) {
     const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - begin;
     const auto begun = static_cast<double>(points.size() + 1), all = static_cast<double>(size(sweep));
@@ -97,14 +97,14 @@ Command accuracy_command() {
           .examples = examples,
           .operands = {"CONFIG"},
           .required_operands = 1,
-          .options = {{"output", 'o', "FILE.h5", "where the results go; default: NAME.accuracy.h5, here"},
+          .options = {{"output", 'o', "FILE.h5", "output file; default: NAME.accuracy.h5 in this directory"},
                       force_option,
                       set_option,
                       ini_option,
                       arch_option,
-                      {"json", 0, "", "a JSON object a row in place of the table"},
+                      {"json", 0, "", "print a JSON object per row instead of the table"},
                       progress_option,
-                      {"quiet", 'q', "", "print rows and errors only"},
+                      {"quiet", 'q', "", "print only rows and errors"},
                       {"help", 'h', "", "print this help"}},
           .run = run_study};
 }

@@ -53,13 +53,13 @@ std::string header() {
   return top + '\n' + bottom + '\n';
 }
 
-/// Whether a scene was to go into lanes and did not.
+/// Whether a row was meant for lanes but its scene couldn't go into them.
 bool left_out(const accuracy::WorkPrecision& row, const accuracy::PointAccuracy& study) {
   const bool run = row.trial.studied >= accuracy::TestedMethod::steady || study.horizon > 0;
   return row.trial.arch != lanes::InstructionSet::scalar && run && std::isnan(row.simulated_periods);
 }
 
-/// What keeps a row from being compared.
+/// Why a row can't be compared; empty if it can.
 std::string remark(const accuracy::WorkPrecision& row, const accuracy::PointAccuracy& study) {
   const bool steady = row.trial.studied >= accuracy::TestedMethod::steady;
   if (failed(row.status) || (steady && row.status == steady::Status::aperiodic)) return "  " + status_name(row.status);
@@ -86,7 +86,7 @@ std::string row_text(const accuracy::WorkPrecision& row, const accuracy::PointAc
   return text + remark(row, study) + '\n';
 }
 
-/// What the errors are taken from.
+/// Says what the errors refer to.
 std::string horizon_text(const accuracy::PointAccuracy& study, bool forced) {
   const std::string events = counted(study.impacts, "impact") + " and " + counted(study.rests, "rest");
   const std::string asked = formatted("%.6g", study.asked) + (forced ? " forcing period" : " turn") +

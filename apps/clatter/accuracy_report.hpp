@@ -12,7 +12,7 @@ namespace clatter::app {
 [[nodiscard]] std::string study_text(const accuracy::PointAccuracy& study, const sweep::Sweep& sweep,
                                      std::size_t point);
 
-/// The study of a point as one JSON object a line and row.
+/// The study of a point as JSON lines: one object per row.
 [[nodiscard]] std::string study_json(const accuracy::PointAccuracy& study, const sweep::Sweep& sweep,
                                      std::size_t point);
 

@@ -23,23 +23,23 @@
 namespace clatter::app {
 namespace {
 
-constexpr char over = 0;  ///< in the pipe, beside the numbers of signals
+constexpr char over = 0;  ///< in the pipe; other bytes are the numbers of signals
 
 constexpr std::chrono::seconds interval{1};
 
 constexpr std::array stops{SIGINT, SIGTERM, SIGHUP};
 
-volatile std::sig_atomic_t into = -1;  ///< the pipe of the present keeper
+volatile std::sig_atomic_t into = -1;  ///< the pipe of the present Checkpointer
 
 void take(int number) {
   const int before = errno;
-  for (const int stop : stops) std::signal(stop, SIG_DFL);  // the next one ends the process
+  for (const int stop : stops) std::signal(stop, SIG_DFL);  // the next signal ends the process
   const char byte = static_cast<char>(number);
   (void)!::write(into, &byte, 1);
   errno = before;
 }
 
-/// What a shell has told to ignore, as in the background or by nohup, stays ignored.
+/// Signals that the shell has set to be ignored, as by nohup or in the background, stay ignored.
 void handle_stops(void (*handler)(int)) {
   for (const int stop : stops)
     if (std::signal(stop, handler) == SIG_IGN) std::signal(stop, SIG_IGN);
@@ -50,13 +50,13 @@ void handle_stops(void (*handler)(int)) {
 Checkpointer::Checkpointer(storage::Journal& journal, std::function<void()> save, std::optional<Clock::time_point> end)
     : journal_(journal), save_(std::move(save)), end_(end) {
   if (::pipe2(ends_, O_CLOEXEC) != 0)
-    throw storage::IoError("no pipe can be made: " + storage::reason_and_way_out(errno, ""));
+    throw storage::IoError("cannot make a pipe: " + storage::reason_and_way_out(errno, ""));
   into = ends_[1];
   try {
     thread_ = std::thread([this] { keep(); });
   } catch (const std::system_error& error) {
     for (const int number : ends_) ::close(number);
-    throw storage::IoError(std::string("no thread can be started: ").append(error.what()).append("; raise ulimit -u"));
+    throw storage::IoError(std::string("cannot start a thread: ").append(error.what()).append("; raise ulimit -u"));
   }
   handle_stops(take);
 }
@@ -73,8 +73,8 @@ Checkpointer::~Checkpointer() {
   for (const int end : ends_) ::close(end);
 }
 
-/// Waits for a second, or for what comes before: the number of a signal, `over`, SIGALRM for the end of the time;
-/// -1: a second has passed.
+/// Waits until a signal, `over` or the end of the time, but at most a second. Returns the signal's number, `over`,
+/// SIGALRM for the end of the time, or -1 after a second.
 char Checkpointer::wait() const {
   using Milliseconds = std::chrono::milliseconds;
   const Clock::time_point next = Clock::now() + interval, until = end_ ? std::min(next, *end_) : next;
@@ -102,7 +102,7 @@ void Checkpointer::keep() {
     if (finishing_) {
       end_.reset();
       if (std::ranges::find(stops, came) != stops.end())
-        std::cerr << "\nclatter: the output is being written; once more stops at once\n";
+        std::cerr << "\nclatter: writing the output; a second signal stops at once\n";
     } else if (came == SIGINT) {
       stop(128 + SIGINT, "interrupted");
     } else if (came == SIGTERM) {
@@ -117,7 +117,7 @@ void Checkpointer::keep() {
   }
 }
 
-/// Where points can't be kept, the run isn't worth going on with.
+/// If points can't be saved, the run stops: going on would compute what may be lost.
 void Checkpointer::save() try { save_(); } catch (const std::bad_alloc&) {
   give_up(storage::no_memory("it ran out").what());
 } catch (const std::exception& error) {
@@ -133,12 +133,12 @@ void Checkpointer::give_up(const char* why) {
 void Checkpointer::save_if_possible() {
   try {
     save_();
-  } catch (const std::exception&) {  // what comes next tells more
+  } catch (const std::exception&) {  // the error of the output, which comes next, tells more
   }
 }
 
 void Checkpointer::stop(int code, const std::string& why) {
-  std::cerr << "\nclatter: " << why << "; saves what is finished" << std::endl;
+  std::cerr << "\nclatter: " << why << "; saving finished points" << std::endl;
   save();
   std::cerr << "clatter: " << storage::printable(journal_.leave()) << std::endl;
   ::_exit(code);

@@ -11,23 +11,24 @@
 
 namespace clatter::app {
 
-/// Saves a run's finished points once a second. Where the run has to stop, on SIGINT, SIGTERM, SIGHUP or at the end of
-/// its time, says so, saves, and ends the process: with 130, 143, 129, 124; with 74 where they can't be saved. A second
-/// signal ends it at once.
+/// Saves a run's finished points once a second. When the run has to stop, at SIGINT, SIGTERM, SIGHUP or the end of its
+/// time, says so, saves, and ends the process with 130, 143, 129 or 124, or with 74 if saving fails. A second signal
+/// ends it at once.
 class Checkpointer {
  public:
   using Clock = std::chrono::steady_clock;
 
-  /// `save` writes what was finished since the last time into the journal. Stops the run at `end`, if that is given.
-  /// There may be one keeper at a time. Throws IoError where there can be no pipe or thread.
+  /// `save` writes the points finished since the last call into the journal. Stops the run at `end`, if given. Only one
+  /// Checkpointer may exist at a time. Throws IoError if no pipe or thread can be made.
   Checkpointer(storage::Journal& journal, std::function<void()> save, std::optional<Clock::time_point> end);
-  /// Without `finish` before it, the run has failed: saves what it can.
+  /// If `finish` wasn't called, the run has failed: saves what it can.
   ~Checkpointer();
   Checkpointer(const Checkpointer&) = delete;
   Checkpointer& operator=(const Checkpointer&) = delete;
 
-  /// All points are finished. Saves them, where it can and the run was long, should the output find no room; that is
-  /// written next, and a first signal doesn't stop it.
+  /// Call when all points are done, before writing the output. Saves the journal once more if the run took over a
+  /// second or has saved before, in case the output can't be written; errors are ignored. A first signal is now only
+  /// reported; a second ends the process.
   void finish();
 
  private:
@@ -44,7 +45,7 @@ class Checkpointer {
   std::optional<Clock::time_point> end_;
   std::mutex saving_;
   bool finishing_ = false;
-  int ends_[2];  ///< of a pipe: signals and the end of the run go into the second
+  int ends_[2];  ///< of a pipe: signals and the end of the run are written into the second
   std::thread thread_;
 };
 

@@ -34,7 +34,8 @@ std::vector<std::string> names_of(const Command& command) {
   return names;
 }
 
-/// The option that was meant, with its dashes; empty where none is near. An abbreviation is refused, not guessed.
+/// The option nearest to the written one, with its dashes; empty if none is near. Abbreviations are refused, not
+/// expanded.
 std::string meant(const std::string& written, const std::vector<std::string>& names) {
   if (written.size() < 3) return {};  // a letter
   const std::vector<std::string_view> views(names.begin(), names.end());
@@ -47,7 +48,7 @@ std::string unknown_option(const Command& command, const std::string& written) {
   return near.empty() ? message + help_hint(command) : message + "; did you mean " + config::in_quotes(near) + "?";
 }
 
-/// Boost's mistakes as one line with the way out.
+/// Throws an error of Boost's as one line with the way out.
 [[noreturn]] void refuse(const Command& command, const po::error& error) {
   if (const auto* const unknown = dynamic_cast<const po::unknown_option*>(&error)) {
     throw UsageError(unknown_option(command, unknown->get_option_name()));
@@ -84,10 +85,10 @@ Arguments collect(const Command& command, const po::parsed_options& parsed) {
   return arguments;
 }
 
-/// Results are no stream: HDF5 is written in places.
+/// Refuses standard output for results: HDF5 is not written as a stream.
 void check_output(const Arguments& arguments) {
   if (arguments.value("output") == "-")
-    throw UsageError("-o - is no file; HDF5 can't go to standard output: name a file (./- if it is to be called so)");
+    throw UsageError("-o - is no file, and HDF5 can't go to standard output; name a file (./- for one called -)");
 }
 
 }  // namespace

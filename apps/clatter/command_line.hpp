@@ -24,10 +24,10 @@ struct Option {
   bool repeatable = false;
 };
 
-/// What a subcommand was given.
+/// The arguments of a subcommand.
 struct Arguments {
   std::vector<std::string> operands;
-  std::map<std::string, std::vector<std::string>, std::less<>> options;  ///< by long name; a switch has no values
+  std::map<std::string, std::vector<std::string>, std::less<>> options;  ///< by long name; a switch has no value
 
   [[nodiscard]] bool has(std::string_view option) const { return options.find(option) != options.end(); }
   [[nodiscard]] std::optional<std::string> value(std::string_view option) const;
@@ -36,10 +36,10 @@ struct Arguments {
 
 struct Command;
 
-/// Throws the UsageError of an option that stands before the command.
+/// Throws the UsageError of an option before the command.
 [[noreturn]] void refuse_option(const std::string& written);
 
-/// The words after the subcommand's name. Throws UsageError; abbreviations of options are refused.
+/// Parses the words after the subcommand's name. Throws UsageError, also for abbreviated options.
 [[nodiscard]] Arguments parse_arguments(const Command& command, const std::vector<std::string>& words);
 
 }  // namespace clatter::app

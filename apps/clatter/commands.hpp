@@ -9,7 +9,7 @@
 
 namespace clatter::app {
 
-/// How a command ends; scripts are written against these numbers.
+/// Exit codes; scripts depend on these numbers.
 enum ExitCode : int {
   done = 0,
   points_failed = 1,
@@ -17,17 +17,17 @@ enum ExitCode : int {
   internal_error = 70,
   io_error = 74,
   busy = 75,
-  timed_out = 124  ///< and 128 + the number of a signal
+  timed_out = 124  ///< a signal gives 128 + its number
 };
 
-/// A subcommand: what it takes, what its help says, and what it does.
+/// A subcommand: its operands and options, its help, and its function.
 struct Command {
   std::string_view name;
   std::string_view usage;                  ///< "run CONFIG [OPTION]..."
   std::string_view summary;                ///< one line for the list of commands
-  std::string_view examples;               ///< the end of its help
+  std::string_view examples;               ///< end its help
   std::vector<std::string_view> operands;  ///< names of its positional arguments, e.g. "CONFIG"
-  bool repeats_last = false;               ///< the last of them may be given several times
+  bool repeats_last = false;               ///< the last operand may be given several times
   std::size_t required_operands = 0;
   std::vector<Option> options;
   int (*run)(const Arguments& arguments);
@@ -36,7 +36,7 @@ struct Command {
 /// Every subcommand, in the order of the help.
 [[nodiscard]] std::span<const Command> commands();
 
-/// Throws UsageError where no command has that name.
+/// Throws UsageError if no command has that name.
 [[nodiscard]] const Command& find_command(std::string_view name);
 
 [[nodiscard]] Command run_command();

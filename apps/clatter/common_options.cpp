@@ -16,13 +16,13 @@ config::Config config_of(const Arguments& arguments) {
   for (const std::string& word : arguments.values("set")) {
     const std::size_t sign = word.find('=');
     if (sign == std::string::npos || word.find_first_not_of(" \t") == sign) {
-      throw UsageError("--set " + config::in_quotes(word) + " is no KEY=VALUE; write e.g. --set scene.R=0.5");
+      throw UsageError("--set " + config::in_quotes(word) + " is not KEY=VALUE; write e.g. --set scene.R=0.5");
     }
     overrides.push_back({word.substr(0, sign), word.substr(sign + 1)});
   }
   config::Config config =
       read_config(arguments.operands[0], overrides, arguments.has("ini") ? config::Format::ini : config::Format::toml);
-  malloc_trim(0);  // a long list takes many times its length while it is read
+  malloc_trim(0);  // reading a long list takes many times its length
   return config;
 }
 
@@ -32,7 +32,7 @@ int threads_of(const Arguments& arguments) {
   int threads = 0;
   const auto [end, error] = std::from_chars(word->data(), word->data() + word->size(), threads);
   if (error != std::errc{} || end != word->data() + word->size() || threads < 1 || threads > 1024) {
-    throw UsageError("--threads " + config::in_quotes(*word) + "; permitted: a whole number from 1 to 1024");
+    throw UsageError("--threads " + config::in_quotes(*word) + "; expected a whole number from 1 to 1024");
   }
   return threads;
 }
@@ -43,7 +43,7 @@ std::optional<sweep::Shard> shard_of(const Arguments& arguments) {
   const std::optional<sweep::Shard> shard = sweep::shard_named(*word);
   if (!shard)
     throw UsageError("--shard " + config::in_quotes(*word) +
-                     "; permitted: K/N, two whole numbers, K from 0 to N - 1, N up to " +
+                     "; expected K/N, two whole numbers, K from 0 to N - 1, N up to " +
                      std::to_string(sweep::Shard::most));
   return shard;
 }
@@ -55,7 +55,7 @@ lanes::InstructionSet arch_of(const Arguments& arguments) {
   const std::string name = option ? *option : variable;
   const std::string given = std::string(option ? "--arch " : "CLATTER_ARCH=").append(config::in_quotes(name));
   const std::optional<lanes::InstructionSet> arch = lanes::instruction_set_named(name);
-  if (!arch) throw UsageError(given + "; permitted: scalar, sse2, avx2, avx512");
+  if (!arch) throw UsageError(given + "; expected one of scalar, sse2, avx2, avx512");
   if (!is_supported(*arch))
     throw UsageError(given + ": this machine doesn't have it; its widest is " +
                      std::string(lanes::name_of(lanes::widest_instruction_set())));
@@ -66,13 +66,13 @@ bool progress_wanted(const Arguments& arguments) {
   const std::string when = arguments.value("progress").value_or("auto");
   if (when == "always" || when == "never") return when == "always";
   if (when == "auto") return stderr_is_terminal() && !arguments.has("quiet");
-  throw UsageError("--progress " + config::in_quotes(when) + "; permitted: auto, always, never");
+  throw UsageError("--progress " + config::in_quotes(when) + "; expected one of auto, always, never");
 }
 
 std::string output_of(const Arguments& arguments, const std::string& ending) {
   const std::filesystem::path config(arguments.operands[0]);
   if (config == config::standard_input && !arguments.has("output"))
-    throw UsageError("a configuration from stdin gives the output no name; name it with -o FILE.h5");
+    throw UsageError("a configuration from stdin has no name to give the output; name it with -o FILE.h5");
   return arguments.value("output").value_or(config.stem().string() + ending);
 }
 

@@ -19,12 +19,12 @@ std::span<const std::uint8_t> statuses_of(const sweep::Dataset& dataset) {
   return values == nullptr ? std::span<const std::uint8_t>{} : *values;
 }
 
-/// The number in the sweep of the point that has a place in the results of a run.
-std::size_t point_of(const sweep::Share& share, std::size_t slot) {
+/// The index in the sweep of the point with a local index in a run.
+std::size_t point_of(const sweep::Share& share, std::size_t local_index) {
   for (std::size_t branch = 0; branch < share.count(); ++branch)
     for (std::size_t i = 0; i < share.length(); ++i)
-      if (share.local_index(branch, i) == slot) return share.point(branch, i);
-  return slot;
+      if (share.local_index(branch, i) == local_index) return share.point(branch, i);
+  return local_index;
 }
 
 std::string example_text(const sweep::Sweep& sweep, std::size_t point) {

@@ -30,7 +30,7 @@ std::string bytes_text(double bytes) {
 
 namespace {
 
-/// A character as JSON escapes it, by its units of UTF-16.
+/// Appends a character as a JSON escape, by its UTF-16 units.
 void append_escape(std::string& text, std::string_view character) {
   if (character == "\"" || character == "\\") {
     (text += '\\') += character;

@@ -13,17 +13,17 @@ constexpr std::string_view exit_codes = R"(Exit codes
   1    done, but some points failed; their status says why
   2    wrong command line or configuration
   70   a bug in clatter
-  74   a file cannot be read or written, or the system doesn't give what is
-       needed: memory, threads, stacks, open files
+  74   a file cannot be read or written, or the system refuses memory,
+       threads, stacks or open files
   75   another run is writing the output
-  124  --max-time is over
+  124  stopped by --max-time
   130  stopped by SIGINT; 143: by SIGTERM
 )";
 
-/// Words, and what they mean.
+/// A term and its explanation.
 using Row = std::pair<std::string, std::string_view>;
 
-/// Two columns, as wide as the words call for.
+/// Two columns; the first is as wide as its longest term.
 std::string table(const std::vector<Row>& rows) {
   std::size_t column = 0;
   for (const auto& [left, right] : rows) column = std::max(column, left.size() + 4);

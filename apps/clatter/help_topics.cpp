@@ -18,7 +18,7 @@ bool contains(std::span<const std::string_view> names, std::string_view name) {
   return std::ranges::find(names, name) != names.end();
 }
 
-/// The keys that a topic names: "R", "scene.R"; "tolerance" names two.
+/// The keys that a topic names: one by "R" or "scene.R", two by "tolerance".
 std::vector<const Key*> keys_named(std::string_view topic) {
   std::vector<const Key*> named;
   const std::size_t dot = topic.find('.');
@@ -39,7 +39,7 @@ std::string references(const std::vector<const Key*>& named) {
   return text;
 }
 
-/// Every topic, commands first: of equally near ones the first is suggested.
+/// Every topic, commands first, since the first of equally near ones is suggested.
 std::vector<std::string> topics() {
   std::vector<std::string> all;
   for (const Command& command : commands()) all.emplace_back(command.name);

@@ -5,7 +5,7 @@
 namespace clatter::app {
 
 /// The help on a topic: a command, a key, a section, a function of values, or the whole configuration. Throws
-/// UsageError where there is none.
+/// UsageError if there is none.
 [[nodiscard]] std::string help_on(const std::string& topic);
 
 }  // namespace clatter::app

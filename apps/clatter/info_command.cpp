@@ -38,7 +38,7 @@ void print_variables(const results::FileSummary& summary) {
   }
 }
 
-/// The summary with every text such that a terminal shows it and does not obey it: the file may be anyone's.
+/// The summary with every text made printable, so that a terminal obeys none of it: the file may be anyone's.
 results::FileSummary harmless(results::FileSummary summary) {
   const auto clean = [](std::string& text) { text = storage::printable(text); };
   for (auto& [name, value] : summary.attributes) clean(name), clean(value);
@@ -50,7 +50,7 @@ results::FileSummary harmless(results::FileSummary summary) {
   return summary;
 }
 
-/// For people; a script takes --json.
+/// Prints a summary for people; scripts use --json.
 void print_text(const results::FileSummary& summary) {
   for (const auto& [name, value] : summary.attributes) {
     if (name != "config") std::cout << column(name, 16) << value << '\n';
@@ -61,7 +61,7 @@ void print_text(const results::FileSummary& summary) {
   for (const auto& [meaning, count] : summary.status_counts) std::cout << "  " << column(meaning, 12) << count << '\n';
 }
 
-/// As it is, so that it runs again; a terminal is shown all of it, and obeys nothing.
+/// Prints the configuration unchanged, so that it runs again; on a terminal control characters are made printable.
 void print_config(const std::string& path, const results::FileSummary& summary) {
   const auto& attributes = summary.attributes;
   const auto config =
@@ -72,7 +72,8 @@ void print_config(const std::string& path, const results::FileSummary& summary) 
 }
 
 int print_info(const Arguments& arguments) {
-  if (arguments.has("json") && arguments.has("config")) throw UsageError("--json beside --config; give one of them");
+  if (arguments.has("json") && arguments.has("config"))
+    throw UsageError("--json conflicts with --config; give one of them");
   const std::string& path = arguments.operands[0];
   const results::FileSummary summary = results::read_summary(path);
   if (arguments.has("config")) {
@@ -94,12 +95,12 @@ constexpr std::string_view examples =
 Command info_command() {
   return {.name = "info",
           .usage = "info FILE.h5 [--json|--config]",
-          .summary = "print what is in an output file and how it was made",
+          .summary = "print the contents of an output file and how it was made",
           .examples = examples,
           .operands = {"FILE.h5"},
           .required_operands = 1,
-          .options = {{"json", 0, "", "as JSON"},
-                      {"config", 0, "", "print the configuration that made it; it runs again"},
+          .options = {{"json", 0, "", "print JSON"},
+                      {"config", 0, "", "print the configuration that made the file; it runs again"},
                       {"help", 'h', "", "print this help"}},
           .run = print_info};
 }

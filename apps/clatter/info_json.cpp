@@ -5,7 +5,7 @@
 namespace clatter::app {
 namespace {
 
-/// The members or elements between commas, each on a line of its own.
+/// Joins members or elements by commas, each on its own line.
 template <typename Range, typename Print>
 std::string lines(const Range& range, const Print& print) {
   std::string text;

@@ -6,7 +6,7 @@
 
 namespace clatter::app {
 
-/// A file's summary as JSON: attributes, dimensions, variables, number of points by status.
+/// The summary of a file as JSON: attributes, variables with their dimensions, number of points by status.
 [[nodiscard]] std::string json(const results::FileSummary& summary);
 
 }  // namespace clatter::app

@@ -24,7 +24,7 @@ namespace {
 using namespace clatter;
 using namespace clatter::app;
 
-/// --help and --version stand in place of a command.
+/// Runs a command, or --help or --version in its place.
 int run_program(const std::vector<std::string>& words) {
   if (words.empty()) throw UsageError("no command; see `clatter --help`");
   if (words[0] == "--help" || words[0] == "-h") {
@@ -44,8 +44,8 @@ int run_program(const std::vector<std::string>& words) {
   return done;
 }
 
-/// Opens what is closed of the standard streams, or a file of ours would be taken for it. What is written to stdout is
-/// still an error then.
+/// Opens any closed standard stream, since otherwise a file of ours would get its number. Writing to such a stdout is
+/// still an error.
 void open_standard_streams() {
   for (int number = STDIN_FILENO; number <= STDERR_FILENO; ++number)
     if (::fcntl(number, F_GETFD) < 0) (void)::open("/dev/null", number == STDERR_FILENO ? O_WRONLY : O_RDONLY);
@@ -53,26 +53,26 @@ void open_standard_streams() {
 
 bool at_its_end = false;
 
-/// A library that calls exit, as OpenMP's does where no thread can be started, would end with the code of a run.
+/// A library that calls exit, as OpenMP's does if no thread can be started, would end the process with an exit code
+/// that means something else here.
 void refuse_foreign_exit() {
   if (at_its_end) return;
-  std::cerr
-      << "clatter: stopped by a library that it needs; if threads can't be started, take fewer (--threads) or raise "
-         "ulimit -u and ulimit -v\n";
+  std::cerr << "clatter: stopped by a library; if threads can't be started, use fewer (--threads) or raise "
+               "ulimit -u and ulimit -v\n";
   ::_exit(io_error);
 }
 
-/// Messages may tell what is in files of others.
+/// Messages may quote files of others, so they are made printable.
 int report(const std::string& message, int code) {
   std::cerr << "clatter: " << storage::printable_lines(message) << '\n';
   return code;
 }
 
 int run_main(int argc, char** argv) {
-  mallopt(M_TRIM_THRESHOLD, 64 * 1024 * 1024);  // points come and go by the million: what they free is soon taken again
+  mallopt(M_TRIM_THRESHOLD, 64 * 1024 * 1024);  // points come and go by the million, so freed memory is soon used again
   rlimit addresses{};
   if (::getrlimit(RLIMIT_AS, &addresses) == 0 && addresses.rlim_cur != RLIM_INFINITY)
-    mallopt(M_ARENA_MAX, 1);  // a heap for each thread would reserve 64 MiB of the few addresses
+    mallopt(M_ARENA_MAX, 1);  // a heap per thread would reserve 64 MiB of the few addresses each
   try {
     const int code = run_program({argv + 1, argv + argc});
     std::cout.flush();
@@ -80,7 +80,7 @@ int run_main(int argc, char** argv) {
   } catch (const UsageError& error) {
     return report(error.what(), usage_error);
   } catch (const config::ConfigError& error) {
-    std::cerr << storage::printable_lines(error.what()) << '\n';  // begins with the place, as editors expect it
+    std::cerr << storage::printable_lines(error.what()) << '\n';  // begins with the location, as editors expect
     return usage_error;
   } catch (const storage::IoError& error) {
     return report(error.what(), io_error);
@@ -99,7 +99,7 @@ int run_main(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  std::signal(SIGXFSZ, SIG_IGN);  // a write beyond `ulimit -f`, to stderr too, then fails as on a full disk
+  std::signal(SIGXFSZ, SIG_IGN);  // a write beyond `ulimit -f`, even to stderr, then fails as on a full disk
   open_standard_streams();
   std::atexit(refuse_foreign_exit);
   if (const std::string fault = sweep::fault_of_main_stack(); !fault.empty()) {

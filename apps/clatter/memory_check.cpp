@@ -18,7 +18,7 @@ void check(const std::string& what, double needed, int threads) {
 }  // namespace
 
 plan::MemoryNeed with_configuration(plan::MemoryNeed need, const config::Config& config) {
-  constexpr double copies = 4;  // in it, in the key of the journal, in the file, and on its way there
+  constexpr double copies = 4;  // in Config, in the journal's key, in the file and on its way there
   need.memory = std::max(need.memory + copies * static_cast<double>(config.text.size()), plan::peak_bytes());
   return need;
 }

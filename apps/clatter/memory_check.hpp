@@ -7,14 +7,14 @@
 
 namespace clatter::app {
 
-/// The need of a run with what its configuration takes besides the sweep: as a text; if reading it has taken more than
-/// all the rest, that.
+/// Adds the copies of the configuration's text to a run's need; if reading the configuration took more than all that,
+/// the need is that peak.
 [[nodiscard]] plan::MemoryNeed with_configuration(plan::MemoryNeed need, const config::Config& config);
 
-/// Throws IoError where a run would not fit into memory: too late to find out at its end.
+/// Throws IoError if a run would not fit into memory, before it begins rather than at its end.
 void check_memory(const config::Config& config, const std::optional<sweep::Shard>& shard, int threads);
 
-/// Throws IoError where merging, which takes so many bytes, would not fit.
+/// Throws IoError if merging, which takes so many bytes, would not fit.
 void check_merge_memory(double bytes);
 
 }  // namespace clatter::app

@@ -30,7 +30,7 @@ void check_not_shard(const std::vector<std::string>& shards, const std::string& 
 
 int merge_shards(const Arguments& arguments) {
   if (arguments.has("quiet") && arguments.has("verbose"))
-    throw UsageError("--quiet beside --verbose; give one of them");
+    throw UsageError("--quiet conflicts with --verbose; give one of them");
   if (!arguments.has("output")) throw UsageError("no output; name it with -o FILE.h5");
   const std::string output = *arguments.value("output");
   storage::check_writable(output);
@@ -60,15 +60,15 @@ constexpr std::string_view examples = "  clatter merge -o map_nu_xs.h5 map_nu_xs
 Command merge_command() {
   return {.name = "merge",
           .usage = "merge -o FILE.h5 SHARD.h5...",
-          .summary = "join the files of all shards of a sweep into the one that a single run writes",
+          .summary = "join the files of all shards of a sweep into the file of a single run",
           .examples = examples,
           .operands = {"SHARD.h5"},
           .repeats_last = true,
           .required_operands = 1,
-          .options = {{"output", 'o', "FILE.h5", "where the whole sweep goes"},
+          .options = {{"output", 'o', "FILE.h5", "output file"},
                       force_option,
-                      {"quiet", 'q', "", "print errors only"},
-                      {"verbose", 'v', "", "print the memory that it takes, and with what the shards were computed"},
+                      {"quiet", 'q', "", "print only errors"},
+                      {"verbose", 'v', "", "print the memory that merging takes and the rounding of the shards"},
                       {"help", 'h', "", "print this help"}},
           .run = merge_shards};
 }

@@ -35,20 +35,19 @@ constexpr std::string_view examples =
 }  // namespace
 
 Command plan_command() {
-  return {
-      .name = "plan",
-      .usage = "plan CONFIG [OPTION]...",
-      .summary = "print what a configuration will simulate and why, and its work; runs nothing",
-      .examples = examples,
-      .operands = {"CONFIG"},
-      .required_operands = 1,
-      .options = {{"json", 0, "", "as JSON, warnings too"},
-                  set_option,
-                  ini_option,
-                  threads_option,
-                  {"shard", 0, "K/N", "plan points K, K + N, ... alone, K from 0, as `clatter run --shard` takes them"},
-                  {"help", 'h', "", "print this help"}},
-      .run = print_plan};
+  return {.name = "plan",
+          .usage = "plan CONFIG [OPTION]...",
+          .summary = "print what a configuration will simulate, why, and at what cost; run nothing",
+          .examples = examples,
+          .operands = {"CONFIG"},
+          .required_operands = 1,
+          .options = {{"json", 0, "", "print JSON, including warnings"},
+                      set_option,
+                      ini_option,
+                      threads_option,
+                      {"shard", 0, "K/N", "plan only points K, K + N, ... (K from 0), as for `clatter run --shard`"},
+                      {"help", 'h', "", "print this help"}},
+          .run = print_plan};
 }
 
 }  // namespace clatter::app

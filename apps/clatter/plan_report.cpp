@@ -10,7 +10,7 @@
 namespace clatter::app {
 namespace {
 
-/// A line of a two-column text; an empty title continues the line before.
+/// A line of a two-column text; an empty title continues the previous line.
 std::string line(std::string_view title, const std::string& text) {
   std::string left(title);
   left.resize(20, ' ');
@@ -73,7 +73,7 @@ plan::Bounds seconds_of(const plan::Plan& plan, int threads) {
   return {sum.least / together, sum.most / together};
 }
 
-/// A JSON array, its elements printed by `print`.
+/// A JSON array whose elements `print` prints.
 template <typename Range, typename Print>
 void list(std::ostringstream& out, const Range& range, const Print& print) {
   const char* separator = "";

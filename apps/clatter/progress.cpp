@@ -17,7 +17,7 @@ namespace {
 constexpr std::size_t width = 30;
 constexpr const char* erase_line = "\r\033[K";
 
-/// no-color.org: any value that isn't empty switches colours off.
+/// Any value of NO_COLOR but the empty one switches colours off (no-color.org).
 bool color_wanted() {
   const char* const no_color = std::getenv("NO_COLOR");
   const char* const terminal = std::getenv("TERM");
@@ -41,7 +41,7 @@ Progress::Progress(bool shown, const char* counted, double before)
   if (!shown_) return;
   try {
     ticker_ = std::thread([this] { tick(); });
-  } catch (const std::system_error&) {  // then the bar moves with what is finished alone
+  } catch (const std::system_error&) {  // then the bar moves only when points finish
   }
 }
 
@@ -72,7 +72,7 @@ void Progress::show(double finished, double total, std::optional<double> seconds
   show(finished, total);
 }
 
-/// Lets time pass in the bar where nothing is finished for long.
+/// Keeps the clock of the bar going while nothing finishes.
 void Progress::tick() {
   std::unique_lock lock(mutex_);
   while (!wake_.wait_for(lock, std::chrono::seconds(1), [&] { return over_; }))

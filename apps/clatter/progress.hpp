@@ -10,18 +10,18 @@
 
 namespace clatter::app {
 
-/// A bar on stderr with points, or what else is counted, per second and the time left; it erases itself at its end.
+/// A progress bar on stderr: points (or other units) per second and the time left; it erases itself at the end.
 class Progress {
  public:
-  /// `before`: what was finished at the beginning, which tells nothing of the speed.
+  /// `before` units are finished at the beginning and don't count for the speed.
   explicit Progress(bool shown, const char* counted = "points", double before = 0);
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
   ~Progress();
 
-  /// So much is finished of a whole, parts included; any thread may call it.
+  /// Shows that `finished` of `total` units are done, fractions included; any thread may call it.
   void show(double finished, double total);
-  /// The same, by one who knows how many seconds the rest takes.
+  /// The same if the caller knows how many seconds the rest takes.
   void show(double finished, double total, std::optional<double> seconds_left);
 
  private:
@@ -36,11 +36,11 @@ class Progress {
   bool color_;
   std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
 
-  std::mutex mutex_;  ///< of all that follows
+  std::mutex mutex_;  ///< guards all members below
   double finished_, total_ = 0;
   sweep::TimeLeft pace_;
   bool is_told_ = false;
-  std::optional<double> told_end_{};  ///< when all is finished, as somebody says
+  std::optional<double> told_end_{};  ///< the end by the caller's estimate
   bool over_ = false;
   std::condition_variable wake_;
   std::thread ticker_;

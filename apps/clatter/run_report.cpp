@@ -15,7 +15,7 @@
 namespace clatter::app {
 namespace {
 
-/// What lanes took, where any ran.
+/// The work of lanes, if any ran.
 std::string lanes_text(const sweep::LaneWork& work) {
   if (work.proved == 0) return "";
   return "; lanes: steps " + formatted("%.6g", work.proved) + ", contacts looked for " +
@@ -27,7 +27,7 @@ std::string host() {
   return gethostname(name.data(), name.size() - 1) == 0 ? name.data() : "unknown";
 }
 
-/// What each group of points took, and all of them.
+/// The work of each group of points, and of all together.
 std::string usage_text(const std::vector<sweep::WorkStats>& usage) {
   std::string text;
   double impacts = 0, periods = 0, evaluations = 0;

@@ -7,15 +7,15 @@
 
 namespace clatter::app {
 
-/// The line that ends a run: points, failures, seconds, file.
+/// The summary of a run in one line: points, failures, seconds, file.
 [[nodiscard]] std::string summary_line(const sweep::RunResult& result, const sweep::Sweep& sweep,
                                        const std::optional<sweep::Shard>& shard, const std::string& output);
 
-/// What -v adds: what it took, where and when; none of it goes into the file.
+/// The lines that -v adds: work, threads, host, command line and times; none of them goes into the file.
 [[nodiscard]] std::string details(const sweep::RunResult& result, const std::string& command_line,
                                   const std::string& began);
 
-/// The time of day in UTC, ISO 8601.
+/// The current time in UTC, as ISO 8601.
 [[nodiscard]] std::string now();
 
 /// The words that started this process.

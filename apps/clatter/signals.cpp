@@ -15,8 +15,8 @@ void take(int number) {
   came = number;
   std::signal(number, SIG_DFL);
   static constexpr std::array message =
-      std::to_array("\nclatter: stops after the present run; once more stops at once\n");
-  (void)!write(STDERR_FILENO, message.data(), message.size() - 1);  // nothing else is safe here
+      std::to_array("\nclatter: stopping after the present run; a second signal stops at once\n");
+  (void)!write(STDERR_FILENO, message.data(), message.size() - 1);  // a signal handler may call little else
 }
 
 }  // namespace
@@ -24,7 +24,7 @@ void take(int number) {
 Interrupt::Interrupt() {
   came = 0;
   for (const int number : {SIGINT, SIGTERM})
-    if (std::signal(number, take) == SIG_IGN) std::signal(number, SIG_IGN);  // as a shell wants it in the background
+    if (std::signal(number, take) == SIG_IGN) std::signal(number, SIG_IGN);  // as a shell does for background jobs
 }
 
 Interrupt::~Interrupt() {

@@ -2,7 +2,7 @@
 
 namespace clatter::app {
 
-/// Takes SIGINT and SIGTERM as a wish to stop; a second one stops at once, as by default.
+/// While it exists, the first SIGINT or SIGTERM asks the command to stop; a second one ends the process at once.
 class Interrupt {
  public:
   Interrupt();
@@ -10,7 +10,7 @@ class Interrupt {
   Interrupt(const Interrupt&) = delete;
   Interrupt& operator=(const Interrupt&) = delete;
 
-  [[nodiscard]] static int signal();  ///< that came, 0: none
+  [[nodiscard]] static int signal();  ///< the one that came; 0: none
 };
 
 }  // namespace clatter::app

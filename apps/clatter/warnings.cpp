@@ -8,9 +8,9 @@
 
 namespace clatter::app {
 
-void warn(const config::Config& config, std::span<const std::string_view> but) {
+void warn(const config::Config& config, std::span<const std::string_view> ignored) {
   for (const config::Warning& warning : config.warnings) {
-    if (std::ranges::find(but, warning.section) != but.end()) continue;
+    if (std::ranges::find(ignored, warning.section) != ignored.end()) continue;
     std::cerr << storage::printable(warning.location + ": warning: " + warning.text) << '\n';
   }
 }

@@ -8,20 +8,20 @@
 
 namespace clatter::app {
 
-/// Says on stderr what looks unintended in a configuration, each with its place, but not of sections that a command
-/// doesn't go by.
-void warn(const config::Config& config, std::span<const std::string_view> but = {});
+/// Prints the warnings of a configuration to stderr with their locations, except those of sections that the command
+/// ignores.
+void warn(const config::Config& config, std::span<const std::string_view> ignored = {});
 
-/// Says on stderr what looks unintended in a plan.
+/// Prints the warnings of a plan to stderr.
 void warn(const plan::Plan& plan);
 
-/// Says on stderr where a single point may take long, which a plan says, too.
+/// Warns on stderr if a single point may take long; a plan includes this warning.
 void warn_of_dearest_point(const sweep::Sweep& sweep, const std::optional<sweep::Shard>& shard);
 
-/// Says on stderr what --set has put in place of the file's.
+/// Prints to stderr which settings of the file --set has replaced.
 void say_notes(const config::Config& config);
 
-/// Puts the warnings of a configuration, each with its place, before those of its plan.
+/// Puts the warnings of a configuration, with their locations, before those of its plan.
 void join_warnings(plan::Plan& plan, const config::Config& config);
 
 }  // namespace clatter::app

@@ -9,24 +9,24 @@ namespace {
 
 using enum sweep::Parameter;
 
-/// A stop that isn't given isn't there; that none is was hardly meant.
+/// A stop that is not given does not exist; a scene without any was hardly meant.
 void check_stops_given(const Settings& settings) {
   if (settings.given(xs) || settings.given(stop_lower) || settings.given(stop_upper)) return;
-  fail(settings.place_of_section("scene"),
+  fail(settings.location_of_section("scene"),
        "'xs' is missing in [scene]; give xs, or stop_lower, stop_upper or both (-inf and inf: no stop)");
 }
 
-/// start_period is the period of free motion without loss between symmetric stops (physics.md, check 1).
+/// start_period is the period of free motion without loss between symmetric stops (src/motion/README.md, eq. 36).
 void check_start_period(const Settings& settings) {
-  const auto start = settings.given(start_period);
-  if (!start) return;
+  const Setting* const start = settings.given(start_period);
+  if (start == nullptr) return;
   const auto demand = [&](sweep::Parameter parameter, double value) {
-    const auto given = settings.given(parameter);
-    if (!given) return;
-    for (std::size_t i = 0; i < given->values.size(); ++i) {
-      if (given->values[i] == value) continue;
-      fail(given->location_of(i), std::string(key_of(parameter)) + " = " + number_text(given->values[i]) +
-                                      " beside 'start_period'; permitted: " + number_text(value) +
+    const Setting* const given = settings.given(parameter);
+    if (given == nullptr) return;
+    for (std::size_t i = 0; i < given->numbers().size(); ++i) {
+      if (given->numbers()[i] == value) continue;
+      fail(given->location_of(i), std::string(given->key->name) + " = " + number_text(given->numbers()[i]) +
+                                      " conflicts with 'start_period'; expected " + number_text(value) +
                                       ", or x0 and v0 in place of start_period");
     }
   };
@@ -41,11 +41,12 @@ void check_duration(const Settings& settings) {
   if (settings.text("time", "mode") != "transient" || settings.number("time", "duration") > 0) return;
   const Setting* const given = settings.find("time", "duration");
   if (given == nullptr)
-    fail(settings.place_of_section("time"), "'duration' is missing in [time]; mode = transient needs a duration > 0");
-  fail(given->location, "duration = 0 is out of range; permitted: > 0 where mode = transient");
+    fail(settings.location_of_section("time"),
+         "'duration' is missing in [time]; mode = transient needs a duration > 0");
+  fail(given->location, "duration = 0 is out of range; expected > 0 with mode = transient");
 }
 
-/// The FFT of N samples knows the harmonics below N/2.
+/// The FFT of N samples gives the harmonics below N/2.
 void check_harmonics(const Settings& settings) {
   const std::int64_t highest = settings.integer("observe", "harmonics");
   const std::int64_t samples = settings.integer("observe", "harmonics_samples");
@@ -53,7 +54,7 @@ void check_harmonics(const Settings& settings) {
   if (highest == 0) return;
   fail(settings.find("observe", "harmonics")->location,
        "harmonics = " + std::to_string(highest) + " from " + std::to_string(samples) +
-           " samples; permitted: less than half of harmonics_samples, or harmonics_method = exact");
+           " samples; expected less than half of harmonics_samples, or harmonics_method = exact");
 }
 
 }  // namespace

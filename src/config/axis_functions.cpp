@@ -12,13 +12,12 @@ namespace {
 
 using Arguments = std::array<double, 3>;
 
-/// What is wrong with a number of values; empty where nothing is.
+/// Says what is wrong with a number of values; empty if nothing is.
 std::string wrong_count(double count) {
   if (!(count >= 1) || count != std::floor(count)) {
-    return "n = " + number_text(count) + " values; permitted: a whole number from 1 to " + number_text(max_axis_values);
+    return "n = " + number_text(count) + " values; expected a whole number from 1 to " + number_text(max_axis_values);
   }
-  if (count > max_axis_values)
-    return number_text(count) + " values; permitted: at most " + number_text(max_axis_values);
+  if (count > max_axis_values) return number_text(count) + " values; expected at most " + number_text(max_axis_values);
   return {};
 }
 
@@ -26,14 +25,14 @@ bool all_finite(const Arguments& arguments) {
   return std::all_of(arguments.begin(), arguments.end(), [](double argument) { return std::isfinite(argument); });
 }
 
-constexpr const char* not_finite = "an argument that is not finite; permitted: finite numbers";
+constexpr const char* not_finite = "an argument is not finite; expected finite numbers";
 
 std::string linspace(const Arguments& arguments, std::vector<double>& values) {
   const auto [a, b, n] = arguments;
   if (!all_finite(arguments)) return not_finite;
   if (std::string mistake = wrong_count(n); !mistake.empty()) return mistake;
   if (!std::isfinite((b - a) * n))
-    return "linspace over more than double precision holds; permitted: ends closer together";
+    return "linspace spans more than double precision holds; expected ends closer together";
   values.resize(static_cast<std::size_t>(n), a);
   for (std::size_t i = 1; i < values.size(); ++i) values[i] = a + static_cast<double>(i) * (b - a) / (n - 1);
   if (n > 1) values.back() = b;
@@ -45,7 +44,7 @@ std::string logspace(const Arguments& arguments, std::vector<double>& values) {
   if (!all_finite(arguments)) return not_finite;
   if (a == 0 || b == 0 || std::signbit(a) != std::signbit(b)) {
     return "logspace from " + number_text(a) + " to " + number_text(b) +
-           "; permitted: two ends of the same sign, not 0";
+           "; expected two ends of the same sign, neither of them 0";
   }
   if (std::string mistake = wrong_count(n); !mistake.empty()) return mistake;
   values.resize(static_cast<std::size_t>(n), a);
@@ -62,16 +61,16 @@ std::string logspace(const Arguments& arguments, std::vector<double>& values) {
 std::string arange(const Arguments& arguments, std::vector<double>& values) {
   const auto [a, b, step] = arguments;
   if (!all_finite(arguments)) return not_finite;
-  if (step == 0) return "a step of 0; permitted: a step that leads from a to b";
+  if (step == 0) return "a step of 0; expected a step that leads from a to b";
   const double steps = (b - a) / step;
-  // a value that rounding alone keeps from b is b, which is excluded
+  // a value that differs from b by rounding alone is b, which is excluded
   const double tolerance = std::max(1e-9, 4 * std::numeric_limits<double>::epsilon() * std::abs(steps));
   const double count = std::ceil(steps - tolerance);
   if (!(count >= 1))
     return "an empty axis: no value from " + number_text(a) + " to " + number_text(b) +
            ", which is excluded, in steps of " + number_text(step);
   if (std::string mistake = wrong_count(count); !mistake.empty()) return mistake;
-  values.resize(static_cast<std::size_t>(count), a);  // a itself: -0 plus 0 would lose its sign
+  values.resize(static_cast<std::size_t>(count), a);  // a itself, since -0 plus 0 would lose its sign
   for (std::size_t i = 1; i < values.size(); ++i) values[i] = a + static_cast<double>(i) * step;
   return {};
 }

@@ -9,11 +9,11 @@
 
 namespace clatter::config {
 
-/// A function that gives an axis its values from three numbers.
+/// A function that makes the values of an axis from three numbers.
 struct AxisFunction {
   std::string_view name;
   std::string_view usage;  ///< "linspace(a, b, n)"
-  /// Fills the values, or says what is wrong with the arguments.
+  /// Fills `values`; returns a fault of the arguments, or nothing.
   std::string (*evaluate)(const std::array<double, 3>& arguments, std::vector<double>& values);
 };
 

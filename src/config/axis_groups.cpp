@@ -12,22 +12,22 @@ bool is_blank(std::string_view text) { return text.find_first_not_of(" \t") == s
 
 std::size_t axis_of(const Settings& settings, const Setting& setting, std::string_view name) {
   std::vector<std::string_view> names;
-  for (const SweptSetting& swept : settings.axes) names.push_back(key_of(swept.parameter));
+  for (const Setting& axis : settings.axes) names.push_back(axis.key->name);
   const auto found = std::find(names.begin(), names.end(), name);
   if (found != names.end()) return static_cast<std::size_t>(found - names.begin());
   const std::string message =
       std::string(setting.key->name) + " names " + in_quotes(name) + ", which is no axis of [sweep]";
   const auto gone = std::ranges::find(settings.displaced, sweep::parameter_of(name), &Displaced::gone);
   if (gone != settings.displaced.end())
-    fail(setting.location, message + " beside " + to_string(gone->stands) + "; add --set sweep." +
-                               std::string(setting.key->name) + "=''");
+    fail(setting.location,
+         message + " with " + to_string(gone->stands) + "; add --set sweep." + std::string(setting.key->name) + "=''");
   const std::string way_out = names.empty() ? "; [sweep] has no axes" : suggestion(name, names, "; the axes are: ");
   fail(setting.location, message + way_out);
 }
 
-std::string name_of(const SweptSetting& swept) { return std::string(key_of(swept.parameter)); }
+std::string name_of(const Setting& setting) { return std::string(setting.key->name); }
 
-/// The axes that a key names, each once.
+/// The axes that a setting names; each may be named once.
 std::vector<std::size_t> named_axes(const Settings& settings, const Setting* setting) {
   if (setting == nullptr || is_blank(std::get<std::string>(setting->value))) return {};
   std::vector<std::size_t> axes;
@@ -46,23 +46,22 @@ std::vector<std::size_t> linked_axes(const Settings& settings) {
   const std::vector<std::size_t> linked = named_axes(settings, setting);
   if (linked.size() == 1) fail(setting->location, "linked names one axis; name at least two, e.g. \"nu, f\", or none");
   for (const std::size_t axis : linked) {
-    const SweptSetting& first = settings.axes[linked.front()];
-    const SweptSetting& other = settings.axes[axis];
-    if (other.axis.values.size() == first.axis.values.size()) continue;
+    const Setting& first = settings.axes[linked.front()];
+    const Setting& other = settings.axes[axis];
+    if (other.numbers().size() == first.numbers().size()) continue;
     fail(setting->location, "linked axes of different lengths: " + name_of(first) + " has " +
-                                std::to_string(first.axis.values.size()) + " values, " + name_of(other) + " has " +
-                                std::to_string(other.axis.values.size()) + "; give them equally many");
+                                std::to_string(first.numbers().size()) + " values, " + name_of(other) + " has " +
+                                std::to_string(other.numbers().size()) + "; give them equally many");
   }
   return linked;
 }
 
-/// Along a start all points but the first would carry a coordinate that they don't start from.
+/// Following along a start would label all points but the first with a coordinate that they don't start from.
 void check_no_start(const Settings& settings, const Setting& follow, const std::vector<std::size_t>& group) {
   for (const std::size_t axis : group) {
-    const sweep::Parameter parameter = settings.axes[axis].parameter;
-    using enum sweep::Parameter;
-    if (parameter != phase && parameter != x0 && parameter != v0 && parameter != start_period) continue;
-    fail(follow.location, "follow along " + in_quotes(key_of(parameter)) +
+    const std::string_view name = settings.axes[axis].key->name;
+    if (name != "phase" && name != "x0" && name != "v0" && name != "start_period") continue;
+    fail(follow.location, "follow along " + in_quotes(name) +
                               ", which only the first point would start from; follow another axis, or none");
   }
 }
@@ -89,12 +88,12 @@ AxisGroups group_axes(const Settings& settings) {
   double points = 1;
   for (std::size_t axis = 0; axis < settings.axes.size(); ++axis) {
     const bool is_linked = std::find(linked.begin(), linked.end(), axis) != linked.end();
-    if (is_linked && axis != linked.front()) continue;  // its dimension stands where the axis that names it stands
+    if (is_linked && axis != linked.front()) continue;  // the dimension stands in place of its first axis
     groups.push_back(is_linked ? linked : std::vector<std::size_t>{axis});
-    points *= static_cast<double>(settings.axes[axis].axis.values.size());
+    points *= static_cast<double>(settings.axes[axis].numbers().size());
     if (points > max_points)
       fail(settings.axes[axis].location,
-           "a sweep of " + number_text(points) + " points; permitted: at most " + number_text(max_points));
+           "a sweep of " + number_text(points) + " points; expected at most " + number_text(max_points));
   }
   return groups;
 }

@@ -10,12 +10,12 @@ namespace {
 
 bool is_digit(char character) { return std::isdigit(static_cast<unsigned char>(character)) != 0; }
 
-/// Whether a comma stands between digits, as in a list it may, but in a number, too.
+/// Whether a comma stands between digits, as it may in a list or in a number.
 bool joins_digits(std::string_view text, std::size_t comma) {
   return comma > 0 && comma + 1 < text.size() && is_digit(text[comma - 1]) && is_digit(text[comma + 1]);
 }
 
-/// Whether three digits follow each comma, and no more.
+/// Whether exactly three digits follow each comma.
 bool has_thousands(std::string_view text) {
   for (std::size_t comma = text.find(','); comma != std::string_view::npos; comma = text.find(',', comma + 1)) {
     const std::size_t end = std::min(text.find(',', comma + 1), text.size());

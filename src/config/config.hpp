@@ -11,25 +11,25 @@ namespace clatter::config {
 
 enum class Format { toml, ini };
 
-/// What looks unintended in a configuration, and is no mistake.
+/// Something in a configuration that is valid but looks unintended.
 struct Warning {
   std::string location;  ///< "fig22.toml:7:6", or the words of a --set
   std::string section;   ///< of the key
-  std::string text;      ///< what it is; the way out
+  std::string text;      ///< the problem; the way out
 };
 
-/// A complete configuration: what is swept, what is observed, how it is written.
+/// A complete configuration: the sweep with its observables, and how to write the output.
 struct Config {
   std::string title;
   std::string source;
   sweep::Sweep sweep;
   int compression = 0;  ///< deflate level of the output, 0 ... 9
-  std::string text;     ///< all of it with the defaults filled in, as TOML that runs again (root attribute `config`)
+  std::string text;     ///< complete with defaults, as TOML that runs again (root attribute `config`)
   std::vector<Warning> warnings;
-  std::vector<std::string> notes;  ///< what the command line says in place of the file in another way
+  std::vector<std::string> notes;  ///< settings of the file that the command line replaced by other keys
 };
 
-/// A mistake of the user's: `what()` is one line, "file:line:column: what is wrong; the way out".
+/// A mistake in a configuration: `what()` is one line, "file:line:column: what is wrong; the way out".
 class ConfigError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -41,15 +41,15 @@ struct Override {
   std::string value;
 };
 
-/// The name of standard input among the operands.
+/// The operand that means standard input.
 inline constexpr std::string_view standard_input = "-";
 
-/// Reads a configuration; INI where the name ends in .ini in any case or the format says so, else TOML. Throws
-/// ConfigError; IoError where the file cannot be read.
+/// Reads a configuration, as INI if the name ends in .ini (in any case) or the format says so, else as TOML. Throws
+/// ConfigError, and IoError if the file cannot be read.
 [[nodiscard]] Config read_config(const std::string& path, const std::vector<Override>& overrides,
                                  Format format = Format::toml);
 
-/// Reads a configuration from TOML, such as the complete text of another one; `file` is named in errors.
+/// Reads a configuration from TOML, such as the complete text of another one; errors name `file`.
 [[nodiscard]] Config parse_config(const std::string& text, const std::string& file);
 
 }  // namespace clatter::config

@@ -70,7 +70,7 @@ stepping::Integration integration(const Settings& settings) {
           .all_effects = settings.text("integrator", "effects") == "all"};
 }
 
-/// The scene before any axis is applied; what has no default stays as Problem has it.
+/// The scene before any axis is applied; a key without a default keeps the value that Problem has.
 point::Problem scene_of(const Settings& settings) {
   point::Problem scene;
   scene.time = time_plan(settings);
@@ -92,27 +92,27 @@ sweep::Sweep sweep_of(Settings& settings, const AxisGroups& groups) {
   for (const std::vector<std::size_t>& group : groups) {
     sweep::Dimension& dimension = sweep.dimensions.emplace_back();
     for (const std::size_t axis : group) {
-      SweptSetting& swept = settings.axes[axis];
-      dimension.push_back({swept.parameter, std::move(swept.axis.values)});
+      Setting& setting = settings.axes[axis];
+      dimension.push_back(
+          {sweep::parameter_of(setting.key->name).value(), std::move(std::get<AxisValues>(setting.value).values)});
     }
   }
   return sweep;
 }
 
-/// A configuration whose complete text would be too long to be read again, at the longest of its values.
+/// Refuses a configuration whose complete text would be too long to be read again, at the longest of its values.
 [[noreturn]] void refuse_long(const Settings& settings) {
   std::size_t longest = 0;
   SourceLocation location{settings.file, 1, 1};
   std::string name, way_out;
-  const auto compare = [&](std::string_view key, const SourceLocation& key_location, std::size_t length,
-                           const char* remedy) {
-    if (length > longest) longest = length, location = key_location, name = key, way_out = remedy;
-  };
-  for (const Setting& setting : settings.values)
-    compare(setting.key->name, setting.key_location, toml_value(setting).size(), "shorten it");
-  for (const SweptSetting& swept : settings.axes)
-    compare(key_of(swept.parameter), swept.key_location, swept.axis.text.size(),
-            "write it as linspace, logspace or arange");
+  for (const auto* const list : {&settings.values, &settings.axes}) {
+    for (const Setting& setting : *list) {
+      const std::size_t length = toml_value(setting).size();
+      if (length <= longest) continue;
+      longest = length, location = setting.key_location, name = setting.key->name;
+      way_out = setting.is_axis() ? "write it as linspace, logspace or arange" : "shorten it";
+    }
+  }
   fail(location, "the complete configuration is more than 1 MiB, of which '" + name + "' takes " +
                      std::to_string(longest) + " bytes; " + way_out);
 }

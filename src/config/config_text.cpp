@@ -1,6 +1,6 @@
 #include "config/config_text.hpp"
 
-#include <array>
+#include <algorithm>
 #include <type_traits>
 
 namespace clatter::config {
@@ -8,13 +8,11 @@ namespace {
 
 using enum sweep::Parameter;
 
-bool is_swept(const Settings& settings, std::string_view name) {
-  const auto parameter = sweep::parameter_of(name);
-  const auto given = parameter ? settings.given(*parameter) : std::nullopt;
-  return given && given->axis;
+bool is_swept(const Settings& settings, const Key& key) {
+  return std::ranges::find(settings.axes, &key, &Setting::key) != settings.axes.end();
 }
 
-/// Whether the default of a key belongs in the text: not beside the alternative that was given.
+/// Whether the default of a key belongs in the text: not if its alternative was given.
 bool default_counts(const Settings& settings, const Key& key) {
   const bool each_stop = settings.given(R_lower) || settings.given(R_upper);
   if (key.other == "R") return each_stop;
@@ -31,10 +29,10 @@ std::string section_text(const Settings& settings, std::string_view section) {
     text += std::string(name) + " = " + value + '\n';
   };
   if (section == "sweep") {
-    for (const SweptSetting& swept : settings.axes) add(key_of(swept.parameter), swept.axis.text);
+    for (const Setting& axis : settings.axes) add(axis.key->name, toml_value(axis));
   }
   for (const Key& key : keys()) {
-    if (key.section != section || (section == "scene" && is_swept(settings, key.name))) continue;
+    if (key.section != section || is_swept(settings, key)) continue;
     if (const Setting* const given = settings.find(section, key.name)) {
       add(key.name, toml_value(*given));
     } else if (default_counts(settings, key)) {
@@ -48,11 +46,12 @@ std::string section_text(const Settings& settings, std::string_view section) {
 
 std::string toml_value(const Setting& setting) {
   const auto text = [](const auto& value) -> std::string {
-    using Value = std::decay_t<decltype(value)>;
-    if constexpr (std::is_same_v<Value, std::string>) return toml_text(value);
-    if constexpr (std::is_same_v<Value, double>) return toml_number(value);
-    if constexpr (std::is_same_v<Value, std::int64_t>) return std::to_string(value);
-    if constexpr (std::is_same_v<Value, bool>) return value ? "true" : "false";
+    using Type = std::decay_t<decltype(value)>;
+    if constexpr (std::is_same_v<Type, std::string>) return toml_text(value);
+    if constexpr (std::is_same_v<Type, double>) return toml_number(value);
+    if constexpr (std::is_same_v<Type, std::int64_t>) return std::to_string(value);
+    if constexpr (std::is_same_v<Type, bool>) return value ? "true" : "false";
+    if constexpr (std::is_same_v<Type, AxisValues>) return value.text;
   };
   return std::visit(text, setting.value);
 }

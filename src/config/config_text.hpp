@@ -7,8 +7,8 @@
 
 namespace clatter::config {
 
-/// The complete configuration as TOML: every key that has a value, defaults filled in, of alternatives only those that
-/// were given.
+/// The complete configuration as TOML: every key that has a value, with defaults filled in; of alternatives only the
+/// given ones.
 [[nodiscard]] std::string config_text(const Settings& settings);
 
 /// The value of a setting as TOML.

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -12,29 +13,33 @@ namespace clatter::config {
 /// The names between the commas of `linked` or `follow`.
 [[nodiscard]] std::vector<std::string> split_names(std::string_view text);
 
-/// The axes of each dimension of a sweep, by their index; linked ones together, the one that names the dimension first.
+/// The axes of each dimension of a sweep by index: linked ones together, beginning with the one that names the
+/// dimension.
 using AxisGroups = std::vector<std::vector<std::size_t>>;
 
-/// Groups the axes by `linked`. Throws ConfigError where they cannot run together.
+/// Groups the axes by `linked`. Throws ConfigError if they cannot run together.
 [[nodiscard]] AxisGroups group_axes(const Settings& settings);
 
-/// The dimension that `follow` names, or nothing. Throws ConfigError where it names no axis, axes of different
-/// dimensions, or a start, which only the first point has.
+/// The dimension that `follow` names, or nothing. Throws ConfigError if it names no axis, axes of different dimensions,
+/// or a start, which only the first point has.
 [[nodiscard]] std::optional<std::size_t> followed_dimension(const Settings& settings, const AxisGroups& groups);
 
-/// Takes away what the file says in another way than the command line, be it of [scene] or of [sweep], xs or
-/// stop_lower, and notes it in `displaced`. Of a pair, as xs is of stops, what isn't said anew stays. Throws
-/// ConfigError where the file, or the command line, says the same in two ways.
+/// Removes settings of the file that the command line replaces by another key or section, such as xs by stop_lower, and
+/// notes them in `displaced`. If only one half of a pair is replaced, such as one stop of xs, the other stays. Throws
+/// ConfigError if the file alone, or the command line alone, says the same in two ways.
 void let_command_line_win(Settings& settings);
 
-/// Throws ConfigError where a key is missing that the others need, or does not go with them.
+/// Throws ConfigError if a key is missing that others need, or if keys conflict.
 void check_alternatives(const Settings& settings);
 
-/// Throws ConfigError where at some point of the sweep the stops are in the wrong order, or the start is not between
-/// them.
+/// Throws ConfigError if at some point of the sweep the stops are in the wrong order or the start is not between them.
 void check_stops_and_start(const Settings& settings, const AxisGroups& groups);
 
-/// What looks unintended: keys without effect, values twice on an axis, a run that observes nothing.
+/// Warns of keys without effect, values twice on an axis, and a run that observes nothing.
 [[nodiscard]] std::vector<Warning> warnings_of(const Settings& settings, const AxisGroups& groups);
+
+/// Of these, the warnings of keys that change nothing with the others, except those at their default, as in a complete
+/// text.
+[[nodiscard]] std::vector<Warning> keys_without_effect(const Settings& settings);
 
 }  // namespace clatter::config

@@ -10,7 +10,7 @@
 namespace clatter::config {
 namespace {
 
-/// What was found, for a message.
+/// Describes a written value, for a message.
 std::string found(const ParsedValue& raw) {
   const auto describe = [](const auto& data) -> std::string {
     using Data = std::decay_t<decltype(data)>;
@@ -24,18 +24,23 @@ std::string found(const ParsedValue& raw) {
   return std::visit(describe, raw.data);
 }
 
-[[noreturn]] void wrong_kind(const Key& key, const ParsedValue& raw, const std::string& way_out = "") {
-  fail(raw.location, std::string(key.name) + " = " + found(raw) + "; permitted: " + permitted(key) + way_out);
+/// "; expected 0 ... 1", "; expected one of fft, exact"
+std::string expected(const Key& key) {
+  return (key.kind == Kind::choice ? "; expected one of " : "; expected ") + permitted(key);
 }
 
-/// Whether a text means several values.
+[[noreturn]] void wrong_kind(const Key& key, const ParsedValue& raw, const std::string& way_out = "") {
+  fail(raw.location, std::string(key.name) + " = " + found(raw) + expected(key) + way_out);
+}
+
+/// Whether a text stands for several values.
 bool is_axis(std::string_view text) {
   const auto names = axis_function_names();
   const bool calls = std::ranges::any_of(names, [&](std::string_view name) { return text.starts_with(name); });
   return calls || text.starts_with('[') || text.find(',') != std::string_view::npos;
 }
 
-/// Where several values belong: a key of [scene] has them as an axis.
+/// Says where several values belong: those of a key of [scene] are an axis.
 std::string home_of_axis(const Key& key, const ParsedValue& raw) {
   if (key.section != "scene") return "; one value, since only keys of [scene] can be axes";
   const auto* const text = std::get_if<std::string>(&raw.data);
@@ -44,7 +49,7 @@ std::string home_of_axis(const Key& key, const ParsedValue& raw) {
   return "; several values are an axis: --set sweep." + std::string(key.name) + "='" + *text + '\'';
 }
 
-/// One value is needed; several, or a number with a comma, are told what to become.
+/// Refuses several values, or a number with a comma, where one value is needed; the message says what to write.
 void check_single(const Key& key, const ParsedValue& raw) {
   const auto* const text = std::get_if<std::string>(&raw.data);
   if (std::holds_alternative<ParsedList>(raw.data)) wrong_kind(key, raw, home_of_axis(key, raw));
@@ -57,7 +62,7 @@ SourceText source_text(const std::string& text, const ParsedValue& raw) {
   return source;
 }
 
-/// A number as written: in TOML a text is one only where it holds pi, since "0.5" in quotes is a text by mistake.
+/// The number that was written; in TOML a text is one only if it holds pi, since "0.5" in quotes is a slip.
 double number_of(const Key& key, const ParsedValue& raw) {
   if (const auto* const integer = std::get_if<std::int64_t>(&raw.data)) return static_cast<double>(*integer);
   if (const auto* const number = std::get_if<double>(&raw.data)) return *number;
@@ -72,14 +77,13 @@ double number_of(const Key& key, const ParsedValue& raw) {
 void check_range(const Key& key, double value, const SourceLocation& location, const std::string& hint = "") {
   if (contains(key.range, value)) return;
   const char* const fault = std::isfinite(value) ? " is out of range" : " is not finite";
-  fail(location, std::string(key.name) + " = " + number_text(value) + fault + "; permitted: " + permitted(key) + hint);
+  fail(location, std::string(key.name) + " = " + number_text(value) + fault + expected(key) + hint);
 }
 
 std::int64_t integer_of(const Key& key, const ParsedValue& raw) {
   const double value = number_of(key, raw);
   if (std::isfinite(value) && value != std::floor(value)) {
-    fail(raw.location,
-         std::string(key.name) + " = " + number_text(value) + " is a fraction; permitted: " + permitted(key));
+    fail(raw.location, std::string(key.name) + " = " + number_text(value) + " is a fraction" + expected(key));
   }
   check_range(key, value, raw.location);
   return static_cast<std::int64_t>(value);
@@ -101,8 +105,7 @@ std::string text_of(const Key& key, const ParsedValue& raw) {
   const auto* const text = std::get_if<std::string>(&raw.data);
   if (text == nullptr) wrong_kind(key, raw, ", in quotes");
   if (text->find('\0') != std::string::npos)
-    fail(raw.location,
-         std::string(key.name) + ": permitted: a text without NUL characters, at which a file would end it");
+    fail(raw.location, std::string(key.name) + " holds a NUL character, at which a file would end it; leave it out");
   return *text;
 }
 
@@ -133,7 +136,7 @@ AxisValues unchecked_axis(const Key& key, const ParsedValue& raw) {
 
 }  // namespace
 
-std::variant<std::string, double, std::int64_t, bool> convert(const Key& key, const ParsedValue& raw) {
+Value convert(const Key& key, const ParsedValue& raw) {
   if (key.kind == Kind::number || key.kind == Kind::integer) check_single(key, raw);
   switch (key.kind) {
     case Kind::number:
@@ -156,7 +159,7 @@ AxisValues convert_axis(const Key& key, const ParsedValue& raw) {
   if (axis.values.empty()) fail(raw.location, "an empty axis; give " + std::string(key.name) + " at least one value");
   if (static_cast<double>(axis.values.size()) > max_axis_values) {
     fail(raw.location,
-         std::to_string(axis.values.size()) + " values; permitted: at most " + number_text(max_axis_values));
+         std::to_string(axis.values.size()) + " values; expected at most " + number_text(max_axis_values));
   }
   const auto* const text = std::get_if<std::string>(&raw.data);
   const std::string hint = text == nullptr ? "" : comma_hint(*text);

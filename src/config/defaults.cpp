@@ -19,14 +19,15 @@ constexpr std::string_view ini_head =
     "; a key that is not in use. Values: 0.5, 2*pi; axes: a, b, c or\n"
     "; linspace(a, b, n), logspace(a, b, n), arange(a, b, step).\n\n";
 
-/// The value to show: the default, or an example where there is none.
+/// The value to show: the default, or an example if there is none.
 std::string shown_value(const Key& key, Format format) {
   const Setting shown = key.has_default() ? default_setting(key) : example_setting(key);
   if (format == Format::toml) return toml_value(shown);
   return std::string(key.has_default() ? key.fallback : key.example);
 }
 
-/// One key of the commented configuration: its meaning, then the key; the stops have no default and must be given.
+/// One key of the commented configuration below its meaning. Of keys without a default only xs is in use, since a scene
+/// needs stops.
 std::string commented(const Key& key, Format format) {
   const std::string mark = format == Format::toml ? "#" : ";";
   const bool used = key.has_default() || key.name == "xs";

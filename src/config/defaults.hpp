@@ -6,7 +6,7 @@
 
 namespace clatter::config {
 
-/// A complete commented configuration that runs: every key with its default, its meaning and what it permits.
+/// A complete commented configuration that runs: every key with its default, meaning and range.
 [[nodiscard]] std::string default_config(Format format);
 
 }  // namespace clatter::config

@@ -13,9 +13,9 @@ namespace clatter::config {
 namespace {
 
 constexpr std::string_view blanks = " \t\r";
-constexpr char stand_in = '\x01';  ///< for a '#' that Boost would take for a comment; check_characters leaves it free
+constexpr char stand_in = '\x01';  ///< for '#', a comment to Boost; a text that passes check_characters has none
 
-/// A part of a line that knows its column.
+/// A part of a line, with its columns.
 struct Part {
   std::string_view line;
   std::size_t begin = 0;
@@ -35,8 +35,7 @@ bool is_blank_or_comment(std::string_view text) {
   return first == std::string_view::npos || text[first] == ';' || text[first] == '#';
 }
 
-/// Goes through the lines of INI text: notes the place of everything and leaves to Boost plain KEY = VALUE lines
-/// without comments.
+/// Scans INI text line by line: records every location, and leaves plain KEY = VALUE lines without comments to Boost.
 class IniScanner {
  public:
   explicit IniScanner(const std::string& file) : raw_{file, {}, {}} {}
@@ -52,7 +51,7 @@ class IniScanner {
     }
   }
 
-  /// Entries without their values, which Boost reads from plain().
+  /// Entries without values; Boost reads these from plain().
   [[nodiscard]] ParsedConfig& raw() { return raw_; }
   [[nodiscard]] const std::string& plain() const { return plain_; }
 
@@ -61,7 +60,7 @@ class IniScanner {
     return {raw_.file, line_, 1 + storage::characters(part.line.substr(0, part.begin))};
   }
 
-  /// A part as Boost may see it.
+  /// A part in the form passed to Boost.
   [[nodiscard]] static std::string plain(const Part& part) {
     std::string text(part.text());
     std::replace(text.begin(), text.end(), '#', stand_in);
@@ -132,7 +131,7 @@ class IniScanner {
   int line_ = 0;
 };
 
-/// A value as it was written, from what Boost read of it.
+/// The value as written, from Boost's reading of it.
 std::string written(std::string value) {
   std::replace(value.begin(), value.end(), stand_in, '#');
   return unquoted(value);

@@ -9,7 +9,7 @@ namespace {
 
 std::string words_of(const Override& change) { return "--set " + change.key + '=' + change.value; }
 
-/// The words of the command line are in the encoding of the terminal, or of the script.
+/// The command line has the encoding of the terminal or script, which need not be UTF-8.
 void check_words(const Override& change) {
   const std::string words = words_of(change);
   const std::size_t wrong = storage::find_not_utf8(words);

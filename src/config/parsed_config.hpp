@@ -13,17 +13,17 @@ namespace clatter::config {
 struct ParsedValue;
 using ParsedList = std::vector<ParsedValue>;
 
-/// A value that no key takes, named as found: "a table", "a date".
+/// A value that no key takes, by the name of its kind: "a table", "a date".
 struct Unsupported {
   std::string name;
 };
 
-/// A value as it was written, before the table of keys gives it a meaning.
+/// A value as it was written, before the key table gives it a meaning.
 struct ParsedValue {
   std::variant<std::string, bool, std::int64_t, double, ParsedList, Unsupported> data;
   SourceLocation location;
-  bool untyped = false;  ///< INI and --set: the text may mean a number, a list or true and false
-  int inset = 0;         ///< columns from the place to the first character of a text, e.g. 1 for its quote
+  bool untyped = false;  ///< INI and --set: the text may stand for a number, a list, true or false
+  int inset = 0;         ///< columns from the location to the first character of a text, e.g. 1 for its quote
 };
 
 struct ParsedEntry {
@@ -45,11 +45,12 @@ struct ParsedConfig {
   std::vector<ParsedEntry> entries;
 };
 
-/// Both readers throw ConfigError at the first thing that is no TOML, or no INI.
+/// Both readers throw ConfigError at the first syntax error.
 [[nodiscard]] ParsedConfig read_toml(const std::string& file, std::string_view text);
 [[nodiscard]] ParsedConfig read_ini(const std::string& file, std::string_view text);
 
-/// Puts every --set in place of the file's value of that key, or after the file's entries; the last of equal ones wins.
+/// Replaces the file's value of a key by that of --set, or adds it after the file's entries; the last --set of a key
+/// wins.
 void apply_overrides(ParsedConfig& raw, const std::vector<Override>& overrides);
 
 }  // namespace clatter::config

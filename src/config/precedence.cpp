@@ -13,38 +13,37 @@ using enum sweep::Parameter;
 
 std::string quoted_name(sweep::Parameter parameter) { return in_quotes(key_of(parameter)); }
 
-/// Whether a place comes after another of the same origin.
+/// Whether a location comes after another one of the same origin.
 bool later(const SourceLocation& left, const SourceLocation& right) {
   return std::tie(left.line, left.column) > std::tie(right.line, right.column);
 }
 
-/// Both in the file, or both on the command line: what is in one and on the other, the command line decides.
+/// Two locations contradict if both are in the file or both on the command line; otherwise the command line decides.
 bool contradict(const SourceLocation& one, const SourceLocation& other) {
   return on_command_line(one) == on_command_line(other);
 }
 
-/// Two ways of saying the same, at the place of the one that was written last.
+/// Refuses two keys that say the same, at the one that was written last.
 void exclude(const Settings& settings, sweep::Parameter one, sweep::Parameter other) {
-  const auto first = settings.given(one);
-  const auto second = settings.given(other);
-  if (!first || !second || !contradict(first->key_location, second->key_location)) return;
+  const Setting* const first = settings.given(one);
+  const Setting* const second = settings.given(other);
+  if (first == nullptr || second == nullptr || !contradict(first->key_location, second->key_location)) return;
   const bool in_order = later(second->key_location, first->key_location);
-  fail((in_order ? second : first)->key_location,
-       quoted_name(in_order ? other : one) + " beside " + quoted_name(in_order ? one : other) + "; remove one of them");
+  fail((in_order ? second : first)->key_location, quoted_name(in_order ? other : one) + " conflicts with " +
+                                                      quoted_name(in_order ? one : other) + "; remove one of them");
 }
 
-bool from_command_line(const std::optional<Given>& given) { return given && on_command_line(given->key_location); }
-bool from_file(const std::optional<Given>& given) { return given && !on_command_line(given->key_location); }
+bool from_command_line(const Setting* given) { return given != nullptr && on_command_line(given->key_location); }
+bool from_file(const Setting* given) { return given != nullptr && !on_command_line(given->key_location); }
 
-/// Takes away what the file says of a parameter, in [scene] or in [sweep].
+const Key* key_of_scene(sweep::Parameter parameter) { return find_key("scene", key_of(parameter)); }
+
+/// Removes the file's setting of a parameter from [scene] or [sweep].
 void remove(Settings& settings, sweep::Parameter parameter) {
-  std::erase_if(settings.values, [&](const Setting& setting) {
-    return setting.key->section == "scene" && setting.key->name == key_of(parameter) &&
-           !on_command_line(setting.key_location);
-  });
-  std::erase_if(settings.axes, [&](const SweptSetting& swept) {
-    return swept.parameter == parameter && !on_command_line(swept.key_location);
-  });
+  for (auto* const list : {&settings.values, &settings.axes})
+    std::erase_if(*list, [&](const Setting& setting) {
+      return setting.key == key_of_scene(parameter) && !on_command_line(setting.key_location);
+    });
 }
 
 void note(Settings& settings, sweep::Parameter gone, const SourceLocation& stands, const SourceLocation& stood,
@@ -52,10 +51,10 @@ void note(Settings& settings, sweep::Parameter gone, const SourceLocation& stand
   settings.displaced.push_back({gone, stands, stood, rest});
 }
 
-/// A parameter is given in [scene] or in [sweep], and on the command line in place of the other section of the file.
+/// Lets the command line's [scene] or [sweep] setting of a parameter replace that of the other section in the file.
 void choose_section(Settings& settings, sweep::Parameter parameter) {
   const Setting* const fixed = settings.find("scene", key_of(parameter));
-  const auto swept = std::ranges::find(settings.axes, parameter, &SweptSetting::parameter);
+  const auto swept = std::ranges::find(settings.axes, key_of_scene(parameter), &Setting::key);
   if (fixed == nullptr || swept == settings.axes.end()) return;
   const SourceLocation in_scene = fixed->key_location, in_sweep = swept->key_location;
   if (contradict(in_scene, in_sweep))
@@ -67,15 +66,15 @@ void choose_section(Settings& settings, sweep::Parameter parameter) {
   remove(settings, parameter);
 }
 
-/// A parameter of the command line comes before another one of the file.
+/// Lets a parameter of the command line replace another one of the file.
 void displace(Settings& settings, sweep::Parameter standing, sweep::Parameter gone) {
-  const auto stands = settings.given(standing), stood = settings.given(gone);
+  const Setting *const stands = settings.given(standing), *const stood = settings.given(gone);
   if (!from_command_line(stands) || !from_file(stood)) return;
   note(settings, gone, stands->key_location, stood->key_location);
   remove(settings, gone);
 }
 
-/// `linked` and `follow` name an axis as it is called now.
+/// Makes `linked` and `follow` name an axis by its new key.
 void rename(Settings& settings, sweep::Parameter from, sweep::Parameter to) {
   for (Setting& setting : settings.values) {
     if (setting.key->kind != Kind::names) continue;
@@ -86,7 +85,7 @@ void rename(Settings& settings, sweep::Parameter from, sweep::Parameter to) {
   }
 }
 
-/// A key that gives two values, and the keys of each; `half` makes its value one of theirs.
+/// A key that sets two values and the key of each; `half` derives one of these from the common value.
 struct Pair {
   sweep::Parameter both;
   sweep::Parameter one, other;
@@ -100,27 +99,30 @@ double stop_of(sweep::Parameter side, double xs_value) {
 
 constexpr Pair pairs[] = {{xs, stop_lower, stop_upper, stop_of}, {R, R_lower, R_upper, same}};
 
-/// What a key of two values says becomes that of one of them.
+/// Makes a setting of the pair's common key one of the remaining half.
+void halve(Setting& setting, const Pair& pair, sweep::Parameter remaining) {
+  std::vector<double> halves;
+  for (const double number : setting.numbers()) halves.push_back(pair.half(remaining, number));
+  setting.key = key_of_scene(remaining);
+  auto* const axis = std::get_if<AxisValues>(&setting.value);
+  if (axis == nullptr) {
+    setting.value = halves.front();
+  } else if (halves != axis->values) {
+    axis->text = toml_list(halves);
+    axis->values = std::move(halves);
+  }
+}
+
 void halve(Settings& settings, const Pair& pair, sweep::Parameter remaining) {
-  for (Setting& setting : settings.values) {
-    if (setting.key->section != "scene" || setting.key->name != key_of(pair.both)) continue;
-    setting.key = find_key("scene", key_of(remaining));
-    setting.value = pair.half(remaining, std::get<double>(setting.value));
-  }
-  for (SweptSetting& swept : settings.axes) {
-    if (swept.parameter != pair.both) continue;
-    swept.parameter = remaining;
-    std::vector<double> values;
-    for (const double value : swept.axis.values) values.push_back(pair.half(remaining, value));
-    if (values != swept.axis.values) swept.axis.text = toml_list(values);
-    swept.axis.values = std::move(values);
-  }
+  for (auto* const list : {&settings.values, &settings.axes})
+    for (Setting& setting : *list)
+      if (setting.key == key_of_scene(pair.both)) halve(setting, pair, remaining);
   rename(settings, pair.both, remaining);
 }
 
-/// One of two values from the command line leaves the other as the file has it.
+/// Lets the command line replace one half of a pair; the other keeps the file's value.
 void displace_half(Settings& settings, const Pair& pair, sweep::Parameter standing, sweep::Parameter remaining) {
-  const auto stands = settings.given(standing), stood = settings.given(pair.both);
+  const Setting *const stands = settings.given(standing), *const stood = settings.given(pair.both);
   if (!from_command_line(stands) || !from_file(stood)) return;
   if (settings.given(remaining)) return displace(settings, standing, pair.both);
   note(settings, pair.both, stands->key_location, stood->key_location, ", which stays as " + quoted_name(remaining));

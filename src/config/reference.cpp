@@ -26,7 +26,7 @@ source that holds one of them after a blank needs quotes. An axis has at most
 /// The default in words.
 std::string fallback(const Key& key) {
   const std::string other(key.other);
-  if (!other.empty()) return std::string(key.fallback) + ", or " + other + " where that is given";
+  if (!other.empty()) return std::string(key.fallback) + ", or " + other + " if that is given";
   if (!key.has_default()) return "none";
   return key.fallback.empty() ? "empty" : std::string(key.fallback);
 }
@@ -44,7 +44,7 @@ std::string header(std::string_view section) {
   return section.empty() ? "Before the first section\n" : '[' + std::string(section) + "]\n";
 }
 
-/// Every line moved to the right.
+/// Indents every line by two columns.
 std::string indented(std::string_view lines) {
   std::string text;
   for (std::size_t begin = 0; begin < lines.size();) {
@@ -55,13 +55,13 @@ std::string indented(std::string_view lines) {
   return text;
 }
 
-/// Ten steps up to a key's example.
+/// An axis of ten steps up to the key's example.
 std::string example_axis(const Key& key) {
   const double end = std::get<double>(example_setting(key).value);
   return "linspace(" + number_text(end / 2) + ", " + number_text(end) + ", 11)";
 }
 
-/// A command that gives a key a value.
+/// A command that sets a key.
 std::string set_command(std::string_view section, const Key& key, const std::string& value) {
   const bool plain = value.find_first_of(" (") == std::string::npos;
   return "  clatter run mine.toml --set " + std::string(section) + (section.empty() ? "" : ".") +

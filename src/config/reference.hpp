@@ -7,16 +7,17 @@
 
 namespace clatter::config {
 
-/// The reference of the configuration as plain text: `clatter help configuration`, and the README's.
+/// The reference of the configuration as plain text, printed by `clatter help configuration` and copied into
+/// configs/README.md.
 [[nodiscard]] std::string configuration_reference();
 
 /// The keys of one section.
 [[nodiscard]] std::string section_reference(std::string_view section);
 
-/// How values are written.
+/// The reference of how values are written.
 [[nodiscard]] std::string_view value_reference();
 
-/// One key with examples.
+/// The reference of one key, with examples.
 [[nodiscard]] std::string key_reference(const Key& key);
 
 /// Lines of TOML in which a key has an effect.

@@ -14,14 +14,14 @@ void check_section(const std::string& name, const SourceLocation& location) {
   if (name.empty() || std::find(known.begin(), known.end(), name) != known.end()) return;
   const std::string near(nearest(name, known));
   fail(location, "unknown section [" + name + "]" +
-                     (near.empty() ? "; permitted: " + joined(known) : "; did you mean [" + near + "]?"));
+                     (near.empty() ? "; expected one of " + joined(known) : "; did you mean [" + near + "]?"));
 }
 
 std::string shown(std::string_view section) {
   return section.empty() ? "before the first section" : "in [" + std::string(section) + "]";
 }
 
-/// The right place of a key that stands in the wrong section, for a message.
+/// Says where a key of a wrong section belongs, for a message.
 std::string home_of(std::string_view name) {
   for (const std::string_view section : sections()) {
     if (section == name) return "; begin the section with [" + std::string(name) + "]";
@@ -32,7 +32,7 @@ std::string home_of(std::string_view name) {
   return {};
 }
 
-/// [[sweep]] in place of [sweep].
+/// Refuses [[sweep]] in place of [sweep].
 void check_brackets(const ParsedEntry& entry) {
   const auto known = sections();
   const auto* const list = std::get_if<ParsedList>(&entry.value.data);
@@ -47,25 +47,35 @@ const Key& known_key(const ParsedEntry& entry) {
   if (const Key* const key = find_key(entry.section, entry.key)) return *key;
   const std::vector<std::string_view> names = key_names(entry.section);
   std::string way_out = nearest(entry.key, names).empty() ? home_of(entry.key) : "";
-  if (way_out.empty()) way_out = suggestion(entry.key, names, "; permitted: ");
+  if (way_out.empty()) way_out = suggestion(entry.key, names, "; expected one of ");
   fail(entry.location, "unknown key " + in_quotes(entry.key) + ' ' + shown(entry.section) + way_out);
 }
 
-/// A setting as if it were written in INI.
+/// A setting with a value as written in INI.
 Setting setting_of(const Key& key, std::string_view value) {
   return {&key, convert(key, {std::string(value), {"the table of keys"}, true, 0}), {}, {}};
 }
 
-template <typename Value>
-Value value_of(const Settings& settings, std::string_view section, std::string_view name) {
+template <typename Type>
+Type value_of(const Settings& settings, std::string_view section, std::string_view name) {
   const Setting* const given = settings.find(section, name);
-  if (given != nullptr) return std::get<Value>(given->value);
+  if (given != nullptr) return std::get<Type>(given->value);
   const Key* const key = find_key(section, name);
   if (key == nullptr) throw std::logic_error("no key " + std::string(section) + '.' + std::string(name));
-  return std::get<Value>(default_setting(*key).value);
+  return std::get<Type>(default_setting(*key).value);
 }
 
 }  // namespace
+
+std::span<const double> Setting::numbers() const {
+  if (const auto* const axis = std::get_if<AxisValues>(&value)) return axis->values;
+  return {&std::get<double>(value), 1};
+}
+
+const SourceLocation& Setting::location_of(std::size_t index) const {
+  const auto* const axis = std::get_if<AxisValues>(&value);
+  return axis != nullptr && index < axis->locations.size() ? axis->locations[index] : location;
+}
 
 const Setting* Settings::find(std::string_view section, std::string_view name) const {
   for (const Setting& setting : values) {
@@ -74,15 +84,11 @@ const Setting* Settings::find(std::string_view section, std::string_view name) c
   return nullptr;
 }
 
-std::optional<Given> Settings::given(sweep::Parameter parameter) const {
-  for (std::size_t i = 0; i < axes.size(); ++i) {
-    const SweptSetting& swept = axes[i];
-    if (swept.parameter == parameter)
-      return Given{swept.axis.values, swept.axis.locations, swept.key_location, swept.location, i};
+const Setting* Settings::given(sweep::Parameter parameter) const {
+  for (const Setting& axis : axes) {
+    if (axis.key->name == key_of(parameter)) return &axis;
   }
-  const Setting* const fixed = find("scene", key_of(parameter));
-  if (fixed == nullptr) return std::nullopt;
-  return Given{{&std::get<double>(fixed->value), 1}, {}, fixed->key_location, fixed->location, std::nullopt};
+  return find("scene", key_of(parameter));
 }
 
 std::string Settings::text(std::string_view section, std::string_view name) const {
@@ -101,7 +107,7 @@ bool Settings::flag(std::string_view section, std::string_view name) const {
   return value_of<bool>(*this, section, name);
 }
 
-SourceLocation Settings::place_of_section(std::string_view name) const {
+SourceLocation Settings::location_of_section(std::string_view name) const {
   for (const ParsedSection& section : sections) {
     if (section.name == name) return section.location;
   }
@@ -120,8 +126,7 @@ Settings check_keys(ParsedConfig raw) {
     check_brackets(entry);
     const Key& key = known_key(entry);
     if (entry.section == "sweep" && key.section == "scene") {
-      settings.axes.push_back({sweep::parameter_of(key.name).value(), convert_axis(key, entry.value), entry.location,
-                               entry.value.location});
+      settings.axes.push_back({&key, convert_axis(key, entry.value), entry.location, entry.value.location});
     } else {
       settings.values.push_back({&key, convert(key, entry.value), entry.location, entry.value.location});
     }

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -15,79 +14,68 @@
 
 namespace clatter::config {
 
-/// A key that has been given a value of its kind within its range.
+/// One value of a key's kind, or the values of an axis.
+using Value = std::variant<std::string, double, std::int64_t, bool, AxisValues>;
+
+/// A key that was given: one value, or several as an axis of [sweep], each of the key's kind and within its range.
 struct Setting {
-  const Key* key = nullptr;
-  std::variant<std::string, double, std::int64_t, bool> value;
+  const Key* key = nullptr;  ///< of an axis: the key of [scene] that it varies
+  Value value;
   SourceLocation key_location;
-  SourceLocation location;  ///< of the value
+  SourceLocation location;  ///< of the value, or of all values
+
+  [[nodiscard]] bool is_axis() const { return std::holds_alternative<AxisValues>(value); }
+  /// The values of a key of [scene], one unless it is an axis.
+  [[nodiscard]] std::span<const double> numbers() const;
+  /// The location of one of these values: its own as an element of a list, else that of the whole.
+  [[nodiscard]] const SourceLocation& location_of(std::size_t index) const;
 };
 
-/// A key of [sweep] that has been given values, each within the key's range.
-struct SweptSetting {
-  sweep::Parameter parameter = sweep::Parameter::nu;
-  AxisValues axis;
-  SourceLocation key_location;
-  SourceLocation location;
-};
-
-/// What is written of a parameter, be it in [scene] or in [sweep].
-struct Given {
-  std::span<const double> values;
-  std::span<const SourceLocation> locations;  ///< of the elements of a list; else empty
-  SourceLocation key_location;
-  SourceLocation location;          ///< of the value, or of all values
-  std::optional<std::size_t> axis;  ///< its index among the axes
-
-  [[nodiscard]] const SourceLocation& location_of(std::size_t index) const {
-    return index < locations.size() ? locations[index] : location;
-  }
-};
-
-/// A setting of the file in whose place one of the command line stands.
+/// A setting of the file that one of the command line replaced.
 struct Displaced {
   sweep::Parameter gone = sweep::Parameter::nu;
   SourceLocation stands, stood;
-  std::string rest;  ///< ", which stays as 'stop_lower'", or nothing
+  std::string rest;  ///< ", which stays as 'stop_lower'", or empty
 };
 
 /// "--set scene.stop_upper=2 in place of 'xs', fig22.toml:7:1, which stays as 'stop_lower'"
 [[nodiscard]] std::string to_string(const Displaced& displaced);
 
-/// A configuration whose keys and values are right one by one; how they go together is checked afterwards.
+/// A configuration with valid keys and values, each by itself; how they go together is checked afterwards.
 struct Settings {
   std::string file;
   std::vector<ParsedSection> sections;
-  std::vector<Setting> values;     ///< only what was given
-  std::vector<SweptSetting> axes;  ///< in the order of the text
+  std::vector<Setting> values;  ///< with one value each, in the order of the text
+  std::vector<Setting> axes;    ///< in the order of the text
   std::vector<Displaced> displaced{};
 
+  /// The setting with one value of a key, or nullptr if it is not given.
   [[nodiscard]] const Setting* find(std::string_view section, std::string_view name) const;
 
-  /// What is given for a parameter, or nothing.
-  [[nodiscard]] std::optional<Given> given(sweep::Parameter parameter) const;
+  /// The setting of a parameter in [sweep] or in [scene], or nullptr if it is in neither.
+  [[nodiscard]] const Setting* given(sweep::Parameter parameter) const;
 
-  /// The value of a key of that type: what was given, or the default.
+  /// The value given for a key of that type, or its default.
   [[nodiscard]] std::string text(std::string_view section, std::string_view name) const;
   [[nodiscard]] double number(std::string_view section, std::string_view name) const;
   [[nodiscard]] std::int64_t integer(std::string_view section, std::string_view name) const;
   [[nodiscard]] bool flag(std::string_view section, std::string_view name) const;
 
-  /// Where a key that is missing belongs: the section's header, or the beginning of the file.
-  [[nodiscard]] SourceLocation place_of_section(std::string_view name) const;
+  /// The location of a missing key: the header of its section, or the beginning of the file.
+  [[nodiscard]] SourceLocation location_of_section(std::string_view name) const;
 };
 
-/// Takes every entry through the table of keys. Throws ConfigError at the first unknown key or wrong value.
+/// Checks every entry against the key table. Throws ConfigError at the first unknown key or wrong value.
 [[nodiscard]] Settings check_keys(ParsedConfig raw);
 
-/// The default of a key that has one, so that defaults and given values take the same way.
+/// The default of a key that has one, converted as a given value would be.
 [[nodiscard]] Setting default_setting(const Key& key);
 
-/// The example of a key.
+/// The example of a key, likewise.
 [[nodiscard]] Setting example_setting(const Key& key);
 
-/// A value of the key's kind within its range, from what was written. Throws ConfigError.
-[[nodiscard]] std::variant<std::string, double, std::int64_t, bool> convert(const Key& key, const ParsedValue& raw);
+/// Converts a written value to the key's kind and checks its range. Throws ConfigError.
+[[nodiscard]] Value convert(const Key& key, const ParsedValue& raw);
 [[nodiscard]] AxisValues convert_axis(const Key& key, const ParsedValue& raw);
 
 }  // namespace clatter::config

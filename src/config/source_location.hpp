@@ -7,23 +7,25 @@
 
 namespace clatter::config {
 
-/// Where a key or a value stands: in a file, or on the command line.
+/// The location of a key or value: in a file, or on the command line.
 struct SourceLocation {
-  std::string source;  ///< the file's name as it was given, or e.g. "--set scene.R=2"
+  std::string source;  ///< the name of the file as given, or e.g. "--set scene.R=2"
   int line = 0;        ///< from 1; 0 on the command line
   int column = 0;      ///< from 1, in characters, not bytes
+
+  [[nodiscard]] bool operator==(const SourceLocation&) const = default;
 };
 
-/// Whether it stands behind --set.
+/// Whether it was given by --set.
 [[nodiscard]] inline bool on_command_line(const SourceLocation& location) { return location.line == 0; }
 
-/// "fig22.toml:7:6", or the command line's words.
+/// "fig22.toml:7:6", or the words of the command line.
 [[nodiscard]] inline std::string to_string(const SourceLocation& location) {
   if (on_command_line(location)) return location.source;
   return location.source + ':' + std::to_string(location.line) + ':' + std::to_string(location.column);
 }
 
-/// Ends the reading with a mistake of the user's at a place.
+/// Throws the ConfigError of a mistake at a location.
 [[noreturn]] inline void fail(const SourceLocation& location, const std::string& message) {
   throw ConfigError(storage::printable(to_string(location) + ": " + message));
 }

@@ -9,33 +9,30 @@ namespace {
 
 using enum sweep::Parameter;
 
-/// A place on the x axis at every point of the sweep: a stop or the start.
+/// A stop or the start: its position on the x axis at every point of the sweep.
 struct Quantity {
   std::string name;
   std::vector<double> values;
-  std::optional<Given> given;            ///< empty: a default
+  const Setting* given = nullptr;        ///< nullptr: a default
   std::optional<std::size_t> dimension;  ///< along which it varies
 };
 
-std::optional<std::size_t> dimension_of(const Given& given, const AxisGroups& groups) {
-  for (std::size_t dimension = 0; given.axis && dimension < groups.size(); ++dimension) {
-    const auto& group = groups[dimension];
-    if (std::find(group.begin(), group.end(), *given.axis) != group.end()) return dimension;
-  }
+std::optional<std::size_t> dimension_of(const Settings& settings, const Setting* given, const AxisGroups& groups) {
+  for (std::size_t dimension = 0; dimension < groups.size(); ++dimension)
+    for (const std::size_t axis : groups[dimension])
+      if (&settings.axes[axis] == given) return dimension;
   return std::nullopt;
 }
 
 Quantity quantity(const Settings& settings, const AxisGroups& groups, sweep::Parameter parameter) {
-  const auto given = settings.given(parameter);
-  if (!given)
-    return {std::string(key_of(parameter)), {settings.number("scene", key_of(parameter))}, std::nullopt, std::nullopt};
-  return {std::string(key_of(parameter)),
-          {given->values.begin(), given->values.end()},
-          given,
-          dimension_of(*given, groups)};
+  const Setting* const given = settings.given(parameter);
+  const std::string name(key_of(parameter));
+  if (given == nullptr) return {name, {settings.number("scene", name)}, nullptr, std::nullopt};
+  const auto numbers = given->numbers();
+  return {name, {numbers.begin(), numbers.end()}, given, dimension_of(settings, given, groups)};
 }
 
-/// The lower (-1) or the upper (+1) of symmetric stops.
+/// The lower (-1) or the upper (+1) one of symmetric stops.
 Quantity symmetric_stop(const Settings& settings, const AxisGroups& groups, double side) {
   Quantity stop = quantity(settings, groups, xs);
   for (double& value : stop.values) value = side * std::abs(value);
@@ -47,14 +44,14 @@ using Permitted = bool (*)(double, double);
 
 [[noreturn]] void refuse(const Quantity& low, std::size_t i, const Quantity& high, std::size_t j,
                          const std::string& rule) {
-  const bool at_high = !low.given || (high.name == "x0" && high.given);
+  const bool at_high = low.given == nullptr || (high.name == "x0" && high.given != nullptr);
   const SourceLocation& location = at_high ? high.given->location_of(j) : low.given->location_of(i);
   fail(location, low.name + " = " + number_text(low.values[i]) + " and " + high.name + " = " +
-                     number_text(high.values[j]) + "; permitted: " + rule);
+                     number_text(high.values[j]) + "; expected " + rule);
 }
 
-/// Two quantities that vary together are compared value by value, else the largest of the lower with the smallest of
-/// the higher.
+/// Compares two quantities value by value if they vary together, else the largest value of the lower one with the
+/// smallest of the higher.
 void compare(const Quantity& low, const Quantity& high, Permitted permitted, const std::string& rule) {
   if (low.dimension && low.dimension == high.dimension) {
     for (std::size_t i = 0; i < low.values.size(); ++i) {
@@ -71,14 +68,14 @@ void compare(const Quantity& low, const Quantity& high, Permitted permitted, con
 }  // namespace
 
 void check_stops_and_start(const Settings& settings, const AxisGroups& groups) {
-  const bool symmetric = settings.given(xs).has_value();
+  const bool symmetric = settings.given(xs) != nullptr;
   Quantity lower = symmetric ? symmetric_stop(settings, groups, -1) : quantity(settings, groups, stop_lower);
   Quantity upper = symmetric ? symmetric_stop(settings, groups, 1) : quantity(settings, groups, stop_upper);
   const Permitted below = [](double left, double right) { return left < right; };
   const Permitted not_above = [](double left, double right) { return left <= right; };
   if (!symmetric) compare(lower, upper, below, "stop_lower < stop_upper");
   if (settings.given(start_period)) return;  // it starts on the lower stop
-  // along `follow` only the first point starts from [scene]; later ones move onto a stop that has come past them
+  // along `follow` only the first point starts from [scene]; a later one that lies beyond a stop is moved onto it
   const auto followed = followed_dimension(settings, groups);
   const auto at_start = [&](Quantity quantity) {
     if (followed && quantity.dimension == followed) quantity.values.resize(1);

@@ -21,7 +21,7 @@ std::string lower_case(std::string_view text) {
   return lower;
 }
 
-/// Insertions, deletions, replacements and exchanges of neighbours that lead from one word to the other (Damerau 1964).
+/// The least number of insertions, deletions, replacements and swaps of neighbours between two words (Damerau 1964).
 std::size_t edit_distance(std::string_view from, std::string_view to) {
   std::vector<std::size_t> before_last, last(to.size() + 1), row(to.size() + 1);
   std::iota(last.begin(), last.end(), std::size_t{0});
@@ -37,7 +37,7 @@ std::size_t edit_distance(std::string_view from, std::string_view to) {
   return last.back();
 }
 
-/// The shortest name that begins with what was written, three letters at least; empty where none does.
+/// The shortest name that begins with the written word, if that has at least three letters; empty if there is none.
 std::string_view completed(const std::string& written, std::span<const std::string_view> names) {
   std::string_view best;
   if (written.size() < 3) return best;

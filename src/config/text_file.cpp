@@ -30,8 +30,7 @@ bool is_control(std::string_view text) {
   return static_cast<unsigned char>(first) < 0x20 || first == 0x7F;
 }
 
-/// Reads until there is more than is permitted; room for that much at once takes longer to clear than most files to
-/// read.
+/// Reads piece by piece up to the limit: clearing a buffer of that size would take longer than reading most files.
 std::string read_pieces(std::istream& stream) {
   std::string text;
   std::array<char, 16 * 1024> piece;
@@ -42,10 +41,9 @@ std::string read_pieces(std::istream& stream) {
   return text;
 }
 
-/// The bytes of a configuration as text, or an error.
+/// Checks that the bytes of a configuration are text, and returns it.
 std::string as_text(const std::string& name, std::string bytes) {
-  if (bytes.find('\0') != std::string::npos)
-    unreadable(name, "it holds NUL bytes, so it is no text; a configuration is UTF-8 text");
+  if (bytes.find('\0') != std::string::npos) unreadable(name, "it holds NUL bytes; a configuration is UTF-8 text");
   if (bytes.size() > max_config_bytes)
     fail({name, 1, 1}, "more than 1 MiB; write long lists as linspace, logspace or arange");
   if (bytes.starts_with("\xEF\xBB\xBF")) bytes.erase(0, 3);
@@ -84,7 +82,7 @@ std::string read_standard_input(const std::string& name) {
 
 SourceLocation location_of(const std::string& file, std::string_view text, std::size_t offset) {
   const std::string_view before = text.substr(0, offset);
-  const std::size_t line_begin = before.rfind('\n') + 1;  // npos + 1 is 0: the first line
+  const std::size_t line_begin = before.rfind('\n') + 1;  // npos + 1 is 0, the first line
   const auto line = 1 + std::count(before.begin(), before.end(), '\n');
   return {file, static_cast<int>(line), 1 + storage::characters(before.substr(line_begin))};
 }
@@ -105,7 +103,7 @@ void check_characters(const std::string& file, std::string_view text) {
     const std::size_t length = storage::utf8_length(text.substr(at));
     if (length == 0) fail(location_of(file, text, at), "a byte that is not UTF-8; save the file as UTF-8");
     if (is_control(text.substr(at)))
-      fail(location_of(file, text, at), "a control character; only tabs and line ends are permitted");
+      fail(location_of(file, text, at), "a control character; only tabs and line ends are allowed");
     at += length;
   }
 }

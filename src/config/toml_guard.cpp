@@ -10,12 +10,12 @@
 namespace clatter::config {
 namespace {
 
-constexpr int max_dots = 256;  ///< of one key; toml++ descends once for each part
+constexpr int max_dots = 256;  ///< of one key; toml++ recurses once for each part
 
 bool is_ascii(char character) { return static_cast<unsigned char>(character) < 0x80; }
 
-/// The end of a quoted string that begins at `at`; where it is not closed, the end of its line (or text): toml++
-/// reports that.
+/// The end of a quoted string that begins at `at`; if it is not closed, which toml++ reports, the end of its line or
+/// text.
 std::size_t skip_string(const std::string& file, std::string_view text, std::size_t at) {
   const char quote = text[at];
   const std::string delimiter(text.substr(at, 3) == std::string(3, quote) ? 3 : 1, quote);
@@ -25,12 +25,12 @@ std::size_t skip_string(const std::string& file, std::string_view text, std::siz
     if (quote == '"' && text[at] == '\\') {
       ++at;
       const std::size_t next = std::min(text.find_first_not_of(" \t\r\n", at), text.size());
-      if (next < text.size() && !is_ascii(text[next]))  // toml++ looks there for the end of the line
+      if (next < text.size() && !is_ascii(text[next]))  // toml++ 3.3 expects the end of the line there
         fail(location_of(file, text, next), "a character outside ASCII after a backslash; leave the backslash out");
     } else if (text.substr(at, delimiter.size()) == delimiter) {
       at += delimiter.size();
       for (int more = 0; !one_line && more < 2 && at < text.size() && text[at] == quote; ++more)
-        ++at;  // its last words
+        ++at;  // quotes that belong to the string
       return at;
     }
   }
@@ -39,12 +39,12 @@ std::size_t skip_string(const std::string& file, std::string_view text, std::siz
 
 bool ends_key(char character) { return std::string_view("\n=,[{").find(character) != std::string_view::npos; }
 
-/// What ends a number or a bare word for toml++, and nothing else does: quotes and brackets are read on over.
+/// Whether a character ends a number or bare word for toml++, which reads on over all others, even quotes and brackets.
 bool ends_value(char character) { return std::string_view(" \t\n\r#,]}").find(character) != std::string_view::npos; }
 
 bool opens_value(char character) { return std::string_view("=[{,").find(character) != std::string_view::npos; }
 
-/// Which of key and value comes next, as far as toml++ gets: it ends at the first mistake.
+/// Tracks whether a key or a value comes next, as far as toml++ reads: up to the first mistake.
 class Context {
  public:
   [[nodiscard]] bool in_value() const { return in_value_; }
@@ -74,7 +74,7 @@ class Context {
 void check_toml(const std::string& file, std::string_view text) {
   int dots = 0;
   Context context;
-  bool in_word = false;  // of a value, where quotes mean nothing
+  bool in_word = false;  // of a value, in which quotes mean nothing
   for (std::size_t at = 0; at < text.size();) {
     const char character = text[at];
     in_word = in_word && !ends_value(character);

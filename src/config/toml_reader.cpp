@@ -3,7 +3,7 @@
 #include <tuple>
 #include <utility>
 
-#define TOML_ASSERT(expression) ((void)0)  // toml++ 3.3 aborts on "[*", where an error follows anyway
+#define TOML_ASSERT(expression) ((void)0)  // toml++ 3.3 aborts on "[*", although it reports an error next
 #include <toml++/toml.h>
 
 #include "config/comma.hpp"
@@ -16,11 +16,11 @@
 namespace clatter::config {
 namespace {
 
-SourceLocation place_at(const std::string& file, const toml::source_position& position) {
+SourceLocation location_at(const std::string& file, const toml::source_position& position) {
   return {file, static_cast<int>(position.line), static_cast<int>(position.column)};
 }
 
-/// What a type is called where no key takes it.
+/// The name of a type that no key takes.
 std::string name_of(toml::node_type type) {
   switch (type) {
     case toml::node_type::table:
@@ -36,7 +36,7 @@ std::string name_of(toml::node_type type) {
   }
 }
 
-/// The width of the opening quote of a text that fills its region, so that its characters have columns; else 0.
+/// The width of the opening quote if a text is as long as its source, so that its characters have columns; else 0.
 int inset_of(const std::string& text, const toml::source_region& region) {
   const bool plain =
       region.begin.line == region.end.line &&
@@ -46,7 +46,7 @@ int inset_of(const std::string& text, const toml::source_region& region) {
 
 ParsedValue raw_value(const std::string& file, const toml::node& node) {
   ParsedValue value;
-  value.location = place_at(file, node.source().begin);
+  value.location = location_at(file, node.source().begin);
   if (const auto* const text = node.as_string()) {
     value.data = text->get();
     value.inset = inset_of(text->get(), node.source());
@@ -70,11 +70,11 @@ void add_entries(ParsedConfig& raw, const std::string& section, const toml::tabl
   for (auto&& [key, node] : table) {
     const toml::table* const inner = node.as_table();
     if (section.empty() && inner != nullptr) {
-      raw.sections.push_back({std::string(key.str()), place_at(raw.file, key.source().begin)});
+      raw.sections.push_back({std::string(key.str()), location_at(raw.file, key.source().begin)});
       add_entries(raw, std::string(key.str()), *inner);
     } else {
       raw.entries.push_back(
-          {section, std::string(key.str()), place_at(raw.file, key.source().begin), raw_value(raw.file, node)});
+          {section, std::string(key.str()), location_at(raw.file, key.source().begin), raw_value(raw.file, node)});
     }
   }
 }
@@ -85,7 +85,7 @@ std::string_view line_of(const SourceLocation& location, std::string_view text) 
   return text.substr(begin, text.find('\n', begin) - begin);
 }
 
-/// What a comma at a place was to be: a point, or part of a list without brackets; empty where there is none.
+/// A way out for a comma at a location: a decimal comma, or a list without brackets; empty if there is no comma.
 std::string way_out_of_comma(const SourceLocation& location, std::string_view text) {
   const std::string_view line = line_of(location, text);
   std::size_t comma = line.find(',');
@@ -100,7 +100,7 @@ std::string way_out_of_comma(const SourceLocation& location, std::string_view te
   return hint.empty() ? "; several values are an axis, in brackets and in [sweep]: nu = [0.8, 1.2]" : hint;
 }
 
-/// What a syntax error of toml++ leaves to guess.
+/// A way out of a syntax error, which toml++ doesn't give.
 std::string way_out(std::string_view description, const SourceLocation& location, std::string_view text) {
   if (const std::string comma = way_out_of_comma(location, text); !comma.empty()) return comma;
   if (description.find("redefine") != std::string_view::npos) return "; each section and each key is given once";
@@ -108,7 +108,7 @@ std::string way_out(std::string_view description, const SourceLocation& location
   return "; a line is KEY = VALUE, and texts and expressions stand in quotes: nu = \"linspace(0.5, 1.5, 501)\"";
 }
 
-/// toml++ counts the end of the text on from the end of a line that is over: goes back to what is there.
+/// Moves a location into the text: toml++ reports its end beyond the end of the last line.
 SourceLocation within(SourceLocation location, std::string_view text) {
   const SourceLocation end = location_of(location.source, text, text.size());
   if (location.line >= end.line) return {end.source, end.line, std::min(location.column, end.column)};
@@ -116,7 +116,8 @@ SourceLocation within(SourceLocation location, std::string_view text) {
   return location;
 }
 
-/// toml++ reports a repeated key and a number beyond all bounds at their end: goes back to their first character.
+/// Moves the location of a repeated key or of a number too large, which toml++ reports at their end, to their first
+/// character.
 SourceLocation start_of_token(SourceLocation location, std::string_view text, std::string_view description) {
   const bool at_end = description.find("redefine") != std::string_view::npos ||
                       description.find("could not be interpreted") != std::string_view::npos ||
@@ -132,7 +133,7 @@ SourceLocation start_of_token(SourceLocation location, std::string_view text, st
   return location;
 }
 
-/// toml++ 3.3 writes the beginning of an escape twice in the keys that it quotes, and the blank after a key.
+/// Corrects two faults of toml++ 3.3 in quoting keys: escapes begin twice, and the blank after the key is included.
 std::string corrected(std::string description) {
   if (description.find("redefine") == std::string::npos) return description;
   for (const std::string_view twice : {"\\u\\u", "\\U\\U"}) {
@@ -147,7 +148,7 @@ toml::table parse(const std::string& file, std::string_view text) {
   try {
     return toml::parse(text, std::string_view(file));
   } catch (const toml::parse_error& error) {
-    const SourceLocation location = within(place_at(file, error.source().begin), text);
+    const SourceLocation location = within(location_at(file, error.source().begin), text);
     fail(start_of_token(location, text, error.description()),
          corrected(std::string(error.description())) + way_out(error.description(), location, text));
   }
@@ -162,9 +163,9 @@ ParsedConfig read_toml(const std::string& file, std::string_view text) {
     add_entries(raw, "", parse(file, text));
   } catch (const ConfigError& error) {
     if (has_ending(file, ".toml")) throw;
-    throw ConfigError(std::string(error.what()) + "; read as TOML; INI is told by --ini, or a name that ends in .ini");
+    throw ConfigError(std::string(error.what()) + "; read as TOML; for INI give --ini, or a name that ends in .ini");
   }
-  const auto order = [](const auto& left, const auto& right) {  // toml++ iterates alphabetically
+  const auto order = [](const auto& left, const auto& right) {  // toml++ iterates in alphabetical order
     return std::tuple(left.location.line, left.location.column) <
            std::tuple(right.location.line, right.location.column);
   };

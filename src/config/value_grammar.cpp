@@ -19,7 +19,7 @@ namespace {
 
 constexpr std::string_view blanks = " \t\r\n";
 
-/// Reads a value from its first character to its last, by recursive descent.
+/// Reads a value from its first character to its last by recursive descent.
 class Parser {
  public:
   explicit Parser(const SourceText& source) : source_(source) { skip_blanks(); }
@@ -61,7 +61,7 @@ class Parser {
 
   [[noreturn]] void fail_here(const std::string& message) const { fail_at(at_, message); }
 
-  /// What stands here, for a message.
+  /// Describes the text at this point, for a message.
   [[nodiscard]] std::string found() const {
     return at_end() ? "found the end of the value" : "found " + in_quotes(rest());
   }
@@ -133,7 +133,8 @@ class Parser {
   [[nodiscard]] AxisValues call(std::string_view name, std::size_t begin) {
     const std::optional<AxisFunction> function = axis_function(name);
     if (!function) {
-      fail_at(begin, "unknown function " + in_quotes(name) + suggestion(name, axis_function_names(), "; permitted: "));
+      fail_at(begin,
+              "unknown function " + in_quotes(name) + suggestion(name, axis_function_names(), "; expected one of "));
     }
     accept('(');
     std::array<double, 3> arguments{};

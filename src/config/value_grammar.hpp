@@ -8,29 +8,31 @@
 
 namespace clatter::config {
 
-/// A text that is to mean a number or an axis, and where it stands.
+/// A text to be read as a number or an axis, with its location.
 struct SourceText {
   std::string_view text;
   SourceLocation location;  ///< of its first character
-  bool columns = false;     ///< the text stands in one line there, so that a mistake inside has a column of its own
+  bool columns = false;     ///< the text is on one line there, so a mistake inside has a column of its own
 };
 
-/// The values of an axis and the text that gives them again.
+/// The values of an axis, and the text that reads back to them.
 struct AxisValues {
   std::vector<double> values;
   std::vector<SourceLocation> locations;  ///< of each element of a list; empty for linspace, logspace, arange
   std::string text;                       ///< TOML: "\"linspace(0.5, 1.5, 501)\"" or "[1.0, 2.0]"
+
+  [[nodiscard]] bool operator==(const AxisValues&) const = default;
 };
 
-/// The most values an axis has, and the most points a sweep has.
+/// The largest number of values of an axis, and of points of a sweep.
 inline constexpr double max_axis_values = 1e7;
 inline constexpr double max_points = 1e9;
 
-/// A number, where `pi` may stand as a number or factor: 0.5, pi, -2*pi/3, inf. Throws ConfigError.
+/// Reads a number, in which `pi` may stand as a number or factor: 0.5, pi, -2*pi/3, inf. Throws ConfigError.
 [[nodiscard]] double parse_number(const SourceText& source);
 
-/// linspace(a, b, n), logspace(a, b, n), arange(a, b, step), or numbers between commas in optional brackets. Throws
-/// ConfigError.
+/// Reads linspace(a, b, n), logspace(a, b, n), arange(a, b, step), or numbers between commas in optional brackets.
+/// Throws ConfigError.
 [[nodiscard]] AxisValues parse_axis(const SourceText& source);
 
 /// The shortest text that reads back to the same number.

@@ -4,17 +4,16 @@
 #include <string>
 
 #include "config/consistency.hpp"
-#include "config/without_effect.hpp"
 
 namespace clatter::config {
 namespace {
 
-/// Whether a key of [observe] says what is observed, and not how.
+/// Whether a key chooses an observable; the others of [observe] say how to compute one.
 bool is_observable(const Key& key) {
   return key.section == "observe" && key.name != "harmonics_method" && key.name != "harmonics_samples";
 }
 
-/// A run that observes nothing; whoever writes that of every observable means it, as `clatter defaults` does.
+/// Warns of a run that observes nothing, unless every observable is written as off, as by `clatter defaults`.
 void warn_of_nothing_observed(const Settings& settings, std::vector<Warning>& warnings) {
   bool each_written = true;
   for (const Key& key : keys()) {
@@ -24,12 +23,12 @@ void warn_of_nothing_observed(const Settings& settings, std::vector<Warning>& wa
     each_written = each_written && given != nullptr;
   }
   if (each_written) return;
-  warnings.push_back({to_string(settings.place_of_section("observe")), "observe",
-                      "nothing is observed: the file will tell no more than status, impacts and periods; write e.g. "
+  warnings.push_back({to_string(settings.location_of_section("observe")), "observe",
+                      "nothing is observed: the file will hold only status, impacts and periods; write e.g. "
                       "extrema = true in [observe]"});
 }
 
-/// The index of a value that was there before; a function that repeats one does so at once.
+/// The index of the first value that repeats an earlier one; in the values of a function the two are neighbours.
 std::optional<std::size_t> repeated(const AxisValues& axis) {
   const std::vector<double>& values = axis.values;
   std::vector<std::size_t> order(values.size());
@@ -42,19 +41,17 @@ std::optional<std::size_t> repeated(const AxisValues& axis) {
   return first;
 }
 
-/// A value twice on an axis that crosses the others means all its points twice; linked and followed axes may well come
-/// back to a value.
+/// Warns of a value twice on an axis that crosses others, which computes all its points twice; linked and followed axes
+/// may well return to a value.
 void warn_of_repeats(const Settings& settings, const AxisGroups& groups, std::vector<Warning>& warnings) {
   const auto followed = followed_dimension(settings, groups);
   for (std::size_t dimension = 0; dimension < groups.size(); ++dimension) {
     if (groups[dimension].size() > 1 || dimension == followed) continue;
-    const SweptSetting& swept = settings.axes[groups[dimension].front()];
-    const auto index = repeated(swept.axis);
+    const Setting& setting = settings.axes[groups[dimension].front()];
+    const auto index = repeated(std::get<AxisValues>(setting.value));
     if (!index) continue;
-    const SourceLocation& location =
-        *index < swept.axis.locations.size() ? swept.axis.locations[*index] : swept.location;
-    warnings.push_back({to_string(location), "sweep",
-                        std::string(key_of(swept.parameter)) + " = " + number_text(swept.axis.values[*index]) +
+    warnings.push_back({to_string(setting.location_of(*index)), "sweep",
+                        std::string(setting.key->name) + " = " + number_text(setting.numbers()[*index]) +
                             " again, which computes the same points twice; give each value once"});
   }
 }

@@ -1,7 +1,7 @@
-#include "config/without_effect.hpp"
-
 #include <algorithm>
 #include <cmath>
+
+#include "config/consistency.hpp"
 
 namespace clatter::config {
 namespace {
@@ -19,14 +19,14 @@ bool not_by(const Settings& settings, std::string_view method) {
 }
 bool not_dopri5(const Settings& settings) { return not_by(settings, "dopri5"); }
 bool not_moreau(const Settings& settings) { return not_by(settings, "moreau"); }
-/// A general method simulates every effect, and a transient has no repeat to look for.
+/// A general method simulates every effect anyway, and a transient has no repeat to look for.
 bool all_anyway(const Settings& settings) { return transient(settings) && not_by(settings, "exact"); }
 
-/// Whether a parameter has such a value at every point, or isn't given.
+/// Whether a test holds for a parameter at every point, or the parameter isn't given.
 template <typename Test>
 bool everywhere(const Settings& settings, sweep::Parameter parameter, Test test) {
-  const auto given = settings.given(parameter);
-  return !given || std::ranges::all_of(given->values, test);
+  const Setting* const given = settings.given(parameter);
+  return given == nullptr || std::ranges::all_of(given->numbers(), test);
 }
 bool unforced(const Settings& settings) {
   return everywhere(settings, f, [](double value) { return value == 0; });
@@ -38,19 +38,19 @@ bool no_lower(const Settings& settings) { return absent(settings, stop_lower); }
 bool no_upper(const Settings& settings) { return absent(settings, stop_upper); }
 bool no_stops(const Settings& settings) { return no_lower(settings) && no_upper(settings); }
 
-/// A transient has no period; all that `period` then gives is the ratio of velocities at symmetric stops.
+/// A transient has no period; at symmetric stops `period` still gives the ratio of velocities.
 bool no_period(const Settings& settings) {
   if (steady(settings) || settings.given(xs)) return false;
-  const auto lower = settings.given(stop_lower), upper = settings.given(stop_upper);
-  if (!lower || !upper) return true;
-  return !lower->axis && !upper->axis && lower->values[0] != -upper->values[0];
+  const Setting *const lower = settings.given(stop_lower), *const upper = settings.given(stop_upper);
+  if (lower == nullptr || upper == nullptr) return true;
+  return !lower->is_axis() && !upper->is_axis() && lower->numbers()[0] != -upper->numbers()[0];
 }
 
-/// Where a key has no effect, and how it would have one.
+/// A condition under which a key has no effect, and how it would have one.
 struct Rule {
   std::string_view section, name;
   bool (*holds)(const Settings&);
-  std::string_view where, remedy;
+  std::string_view condition, remedy;
 };
 
 constexpr std::string_view in_transient = "in a transient", or_steady = "write mode = \"steady\" in [time]";
@@ -83,12 +83,17 @@ constexpr Rule rules[] = {
      "write method = \"exact\""},
 };
 
-/// A warning where a key has no effect.
-void look_at(const Settings& settings, const Key& key, const SourceLocation& location, std::vector<Warning>& warnings) {
+bool is_default(const Setting& setting) {
+  return !setting.key->fallback.empty() && setting.value == default_setting(*setting.key).value;
+}
+
+/// Adds a warning if a key has no effect.
+void look_at(const Settings& settings, const Setting& setting, std::vector<Warning>& warnings) {
+  const Key& key = *setting.key;
   for (const Rule& rule : rules) {
     if (rule.section != key.section || rule.name != key.name || !rule.holds(settings)) continue;
-    warnings.push_back({to_string(location), std::string(key.section),
-                        '\'' + std::string(key.name) + "' has no effect " + std::string(rule.where) +
+    warnings.push_back({to_string(setting.key_location), std::string(key.section),
+                        '\'' + std::string(key.name) + "' has no effect " + std::string(rule.condition) +
                             "; leave it out, or " + std::string(rule.remedy)});
     return;
   }
@@ -98,12 +103,9 @@ void look_at(const Settings& settings, const Key& key, const SourceLocation& loc
 
 std::vector<Warning> keys_without_effect(const Settings& settings) {
   std::vector<Warning> warnings;
-  for (const Setting& setting : settings.values) {
-    const bool is_default = !setting.key->fallback.empty() && setting.value == default_setting(*setting.key).value;
-    if (!is_default) look_at(settings, *setting.key, setting.key_location, warnings);
-  }
-  for (const SweptSetting& swept : settings.axes)
-    look_at(settings, *find_key("scene", key_of(swept.parameter)), swept.key_location, warnings);
+  for (const auto* const list : {&settings.values, &settings.axes})
+    for (const Setting& setting : *list)
+      if (!is_default(setting)) look_at(settings, setting, warnings);
   return warnings;
 }
 

@@ -6,14 +6,14 @@
 
 namespace clatter::config {
 
-/// The columns of a terminal; every help page keeps within them.
+/// The columns of a terminal; no line of help is longer.
 inline constexpr std::size_t help_width = 80;
 
-/// The text, which begins behind a margin, in lines that end before column 81, each line but the first with the margin
-/// before it.
+/// Breaks a text that begins behind a margin into lines of at most 80 columns; each line but the first begins with the
+/// margin.
 [[nodiscard]] std::string wrapped(std::string_view text, std::string_view margin);
 
-/// The same, the margin of blanks.
+/// The same with a margin of blanks.
 [[nodiscard]] inline std::string wrapped(std::string_view text, std::size_t indent) {
   return wrapped(text, std::string(indent, ' '));
 }

@@ -46,7 +46,7 @@ KEYS = {
     "status",
 }
 TIMES = {"ns_per_period", "ns_spread"}
-NOTED = "\nclatter: stops after the present run; once more stops at once\n"  # the signal
+NOTED = "\nclatter: stopping after the present run; a second signal stops at once\n"  # the signal
 
 
 def objects(text):
@@ -282,8 +282,8 @@ class Refusals(Studies):
             ([config, config], "unexpected argument 'a.toml'"),
             ([config, "--jsn"], "unknown option '--jsn'; did you mean '--json'?"),
             ([config, "--threads", "2"], "unknown option '--threads'; see `clatter help accuracy`"),
-            ([config, "--arch", "avx"], "--arch 'avx'; permitted: scalar, sse2, avx2, avx512"),
-            ([config, "--progress", "sometimes"], "permitted: auto, always, never"),
+            ([config, "--arch", "avx"], "--arch 'avx'; expected one of scalar, sse2, avx2, avx512"),
+            ([config, "--progress", "sometimes"], "expected one of auto, always, never"),
             ([config, "-o", "b.h5", "-o", "c.h5"], "'--output' is given twice"),
             ([config, "--set", "integrator.method=dopri"], "did you mean 'dopri5'?"),
         ]

@@ -27,17 +27,10 @@ class Help(CommandLine):
         return keys
 
     def test_every_page_keeps_within_80_columns(self):
-        pages = [
-            ["--help"],
-            ["-h"],
-            ["help"],
-            ["help", "configuration"],
-            ["help", "linspace"],
-            ["defaults"],
-            ["defaults", "--ini"],
-        ]
+        pages = [["--help"], ["-h"], ["help"], ["help", "configuration"], ["defaults"], ["defaults", "--ini"]]
         pages += [["help", command] for command in COMMANDS] + [[command, "--help"] for command in COMMANDS]
         pages += [["help", section] for section in SECTIONS]
+        pages += [["help", function] for function in ("linspace", "logspace", "arange")]
         pages += [["help", name] for section, name in self.keys()]
         for words in pages:
             with self.subTest(words):

@@ -101,7 +101,7 @@ class Plan(CommandLine):
         self.assertIn(
             "\npoints              2 of 5, shard 1/2\n", self.clatter("run", config, "-v", "--shard", "1/2").stderr
         )
-        self.assert_refused(2, "--shard '2/2'; permitted: K/N", "plan", config, "--shard", "2/2")
+        self.assert_refused(2, "--shard '2/2'; expected K/N", "plan", config, "--shard", "2/2")
 
     def test_a_followed_branch_knows_its_first_start_only(self):
         plan = self.plan(SMALL, "--set", "sweep.follow=nu")

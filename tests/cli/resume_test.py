@@ -162,7 +162,7 @@ class Resume(StoppedRuns):
 
     def test_wrong_wishes_are_refused(self):
         small = self.write("s.toml", SMALL)
-        self.assert_refused(2, "--resume beside --restart", "run", small, "--resume", "--restart")
+        self.assert_refused(2, "--resume conflicts with --restart", "run", small, "--resume", "--restart")
         for wrong in ("0", "-1", "soon", "nan", "1e10", ""):
             self.assert_refused(2, "--max-time", "run", small, "--max-time", wrong)
         self.assert_refused(74, "nothing to resume", "run", small, "--resume")

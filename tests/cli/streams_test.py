@@ -42,13 +42,13 @@ class StandardInput(CommandLine):
         self.assertIn(b"nu (5 from 0.5 to 1.5)", plan.stdout)
 
     def test_needs_a_name_for_the_output(self):
-        words = "a configuration from stdin gives the output no name; name it with -o FILE.h5"
+        words = "a configuration from stdin has no name to give the output; name it with -o FILE.h5"
         for command in (["run", "-"], ["run", "-", "--shard", "0/2"], ["accuracy", "-"]):
             self.assert_piped_refused(2, words, SMALL, *command)
 
     def test_mistakes_name_it_with_line_and_column(self):
         self.assert_piped_refused(2, "stdin:2:6: xs = 0 is out of range", "[scene]\nxs = 0\n", "run", "-", "-o", "a.h5")
-        self.assert_piped_refused(2, "; read as TOML; INI is told by --ini", SMALL_INI, "run", "-", "-o", "a.h5")
+        self.assert_piped_refused(2, "; read as TOML; for INI give --ini", SMALL_INI, "run", "-", "-o", "a.h5")
         self.assert_piped_refused(
             2, "stdin:3:6: expected a number", "[scene]\nf = 1 ; INI\nxs = a\n", "plan", "-", "--ini"
         )
@@ -77,7 +77,7 @@ class StandardInput(CommandLine):
 class Ini(CommandLine):
     def test_is_told_by_the_option_where_the_name_does_not(self):
         self.write("a.cfg", SMALL_INI)
-        self.assert_refused(2, "; read as TOML; INI is told by --ini, or a name that ends in .ini", "run", "a.cfg")
+        self.assert_refused(2, "; read as TOML; for INI give --ini, or a name that ends in .ini", "run", "a.cfg")
         self.assertEqual(self.clatter("run", "a.cfg", "--ini").returncode, 0)
         self.assertIn("a.h5", self.files())
 
@@ -85,7 +85,7 @@ class Ini(CommandLine):
 class StandardOutput(CommandLine):
     def test_takes_no_results(self):
         config = self.write("a.toml", SMALL)
-        words = "-o - is no file; HDF5 can't go to standard output: name a file (./- if it is to be called so)"
+        words = "-o - is no file, and HDF5 can't go to standard output; name a file (./- for one called -)"
         for command in (
             ["run", config, "-o", "-"],
             ["run", config, "-o-"],

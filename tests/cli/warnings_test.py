@@ -88,7 +88,7 @@ class Warnings(CommandLine):
             self.assertEqual(
                 [line for line in said if "nothing is observed" in line],
                 [
-                    "a.toml:1:1: warning: nothing is observed: the file will tell no more than status, impacts "
+                    "a.toml:1:1: warning: nothing is observed: the file will hold only status, impacts "
                     "and periods; write e.g. extrema = true in [observe]"
                 ],
             )

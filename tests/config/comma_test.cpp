@@ -25,22 +25,22 @@ TEST(Comma, decimal_is_named_in_the_error) {
                            {"[scene]\nh = 0,1\n", "2:6", "saw ','; a decimal comma? write 0.1"},
                            {"[scene]\nh = -0,1*pi # b\n", "2:7", "; a decimal comma? write -0.1*pi"},
                            {"title = \"ä, b = 1\"\n[scene]\nh=0,1", "3:4", "; a decimal comma? write 0.1"},
-                           {"[scene]\nh = \"0,1\"\n", "2:5", "permitted: >= 0; a decimal comma? write 0.1"},
+                           {"[scene]\nh = \"0,1\"\n", "2:5", "expected >= 0; a decimal comma? write 0.1"},
                            {"[time]\nmax_periods = 10,000\n", "2:17", "; write it without commas: 10000"},
                        });
   expect_all("a.ini",
              {
                  {"[scene]\nh = 0,1\n", "2:5",
-                  "h = the text '0,1'; permitted: >= 0; a decimal comma? write 0.1; several values are an axis, "
+                  "h = the text '0,1'; expected >= 0; a decimal comma? write 0.1; several values are an axis, "
                   "and its line belongs in [sweep]"},
                  {"[time]\ntolerance = 1,5e-9\n", "2:13", "; a decimal comma? write 1.5e-9"},
                  {"[time]\nmax_periods = 10,000\n", "2:15", "; write it without commas: 10000"},
-                 {"[sweep]\nnu = 0,5\n", "2:6", "nu = 0 is out of range; permitted: > 0; a decimal comma?"},
+                 {"[sweep]\nnu = 0,5\n", "2:6", "nu = 0 is out of range; expected > 0; a decimal comma?"},
                  {"[sweep]\nnu = linspace(0,5, 1,5, 501)\n", "2:21",
                   "after the three arguments of linspace(a, b, n), found ',5, 501)'; a decimal comma? write 0.5"},
              });
   EXPECT_EQ(mistake_in("a.toml", "", {{"scene.h", "0,1"}}),
-            "--set scene.h=0,1: h = the text '0,1'; permitted: >= 0; a decimal comma? write 0.1; several values are an "
+            "--set scene.h=0,1: h = the text '0,1'; expected >= 0; a decimal comma? write 0.1; several values are an "
             "axis: --set sweep.h='0,1'");
 }
 
@@ -56,7 +56,7 @@ TEST(Axis, in_the_scene_is_told_where_it_belongs) {
   expect_all("a.toml", {{"[scene]\nh = 0.05, 0.1\n", "2:9",
                          "; several values are an axis, in brackets and in [sweep]: nu = [0.8, 1.2]"}});
   EXPECT_EQ(mistake_in("a.toml", "", {{"scene.h", "[0.05, 0.1]"}}),
-            "--set scene.h=[0.05, 0.1]: h = the text '[0.05, 0.1]'; permitted: >= 0; several values are an axis: --set "
+            "--set scene.h=[0.05, 0.1]: h = the text '[0.05, 0.1]'; expected >= 0; several values are an axis: --set "
             "sweep.h='[0.05, 0.1]'");
 }
 

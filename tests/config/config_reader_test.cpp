@@ -220,7 +220,7 @@ TEST(Set, of_what_is_not_utf8_speaks_of_the_words_not_of_a_file) {
 
 TEST(Set, mistakes_name_the_words_of_the_command_line) {
   EXPECT_EQ(mistake_in("a.toml", fig22, {{"scene.R", "2"}}),
-            "--set scene.R=2: R = 2 is out of range; permitted: 0 ... 1");
+            "--set scene.R=2: R = 2 is out of range; expected 0 ... 1");
   EXPECT_EQ(mistake_in("a.toml", fig22, {{"scene.nuu", "2"}}),
             "--set scene.nuu=2: unknown key 'nuu' in [scene]; did you mean 'nu'?");
   EXPECT_EQ(mistake_in("a.toml", fig22, {{"scen.nu", "2"}}),

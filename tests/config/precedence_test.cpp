@@ -95,17 +95,17 @@ TEST(Precedence, what_the_file_or_the_command_line_says_in_two_ways_stays_a_mist
   };
   says(fixed, {{"scene.f", "1"}, {"sweep.f", "1, 2"}},
        "'f' in both [scene] and [sweep]; remove one of them (for a single value: sweep.f = VALUE)");
-  says(fixed, {{"scene.R", "1"}, {"scene.R_lower", "1"}}, "'R' beside 'R_lower'; remove one of them");
-  says(fixed, {{"scene.xs", "1"}, {"scene.stop_upper", "2"}}, "'xs' beside 'stop_upper'; remove one of them");
-  says(swept, {{"scene.R", "0.5"}, {"sweep.R_lower", "0.1, 0.2"}}, "'R' beside 'R_lower'; remove one of them");
+  says(fixed, {{"scene.R", "1"}, {"scene.R_lower", "1"}}, "'R' conflicts with 'R_lower'; remove one of them");
+  says(fixed, {{"scene.xs", "1"}, {"scene.stop_upper", "2"}}, "'xs' conflicts with 'stop_upper'; remove one of them");
+  says(swept, {{"scene.R", "0.5"}, {"sweep.R_lower", "0.1, 0.2"}}, "'R' conflicts with 'R_lower'; remove one of them");
   says("[scene]\nxs = 1\n[sweep]\nR_lower = [0.1, 0.2]\n", {{"scene.R", "0.5"}, {"scene.R_lower", "1"}},
-       "'R' beside 'R_lower'; remove one of them");
-  says(fixed + "stop_upper = 5\n", {{"scene.stop_lower", "-1"}}, "a.toml:5:1: 'stop_upper' beside 'xs'");
+       "'R' conflicts with 'R_lower'; remove one of them");
+  says(fixed + "stop_upper = 5\n", {{"scene.stop_lower", "-1"}}, "a.toml:5:1: 'stop_upper' conflicts with 'xs'");
 }
 
 TEST(Precedence, an_axis_that_is_gone_is_named_where_it_is_missed) {
   EXPECT_EQ(mistake_in("a.toml", swept + "follow = \"nu\"\n", {{"scene.nu", "1"}}),
-            "a.toml:6:10: follow names 'nu', which is no axis of [sweep] beside --set scene.nu=1; add --set "
+            "a.toml:6:10: follow names 'nu', which is no axis of [sweep] with --set scene.nu=1; add --set "
             "sweep.follow=''");
   EXPECT_EQ(mistake_in("a.toml", swept + "follow = \"nu\"\n", {{"scene.nu", "1"}, {"sweep.follow", "''"}}), "");
 }

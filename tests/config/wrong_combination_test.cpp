@@ -9,13 +9,13 @@ TEST(Together, alternatives_exclude_each_other) {
   const std::vector<Wrong> table{
       {both + "xs = [1]\n", "5:1", "'xs' in both [scene] and [sweep]; remove one of them"},
       {"[sweep]\nnu = [1]\n[scene]\nxs = 1\n nu = 1\n", "5:2", "'nu' in both [scene] and [sweep]"},
-      {"[scene]\nxs = 1\nstop_lower = -1\n", "3:1", "'stop_lower' beside 'xs'"},
-      {"[scene]\nstop_lower = -1\nstop_upper = 1\nxs = 1\n", "4:1", "'xs' beside 'stop_lower'"},
-      {both + "stop_upper = [1]\n", "5:1", "'stop_upper' beside 'xs'"},
-      {"[scene]\nxs = 1\nR = 1\nR_lower = 1\n", "4:1", "'R_lower' beside 'R'"},
-      {"[scene]\nxs = 1\nR_upper = 1\n[sweep]\nR = [1]\n", "5:1", "'R' beside 'R_upper'"},
-      {"[scene]\nxs = 1\nstart_period = 3\nx0 = 0\n", "4:1", "'x0' beside 'start_period'"},
-      {"[scene]\nxs = 1\nv0 = 1\n[sweep]\nstart_period = [3]\n", "5:1", "'start_period' beside 'v0'"},
+      {"[scene]\nxs = 1\nstop_lower = -1\n", "3:1", "'stop_lower' conflicts with 'xs'"},
+      {"[scene]\nstop_lower = -1\nstop_upper = 1\nxs = 1\n", "4:1", "'xs' conflicts with 'stop_lower'"},
+      {both + "stop_upper = [1]\n", "5:1", "'stop_upper' conflicts with 'xs'"},
+      {"[scene]\nxs = 1\nR = 1\nR_lower = 1\n", "4:1", "'R_lower' conflicts with 'R'"},
+      {"[scene]\nxs = 1\nR_upper = 1\n[sweep]\nR = [1]\n", "5:1", "'R' conflicts with 'R_upper'"},
+      {"[scene]\nxs = 1\nstart_period = 3\nx0 = 0\n", "4:1", "'x0' conflicts with 'start_period'"},
+      {"[scene]\nxs = 1\nv0 = 1\n[sweep]\nstart_period = [3]\n", "5:1", "'start_period' conflicts with 'v0'"},
   };
   expect_all("a.toml", table);
   expect_all("a.ini", table);
@@ -28,7 +28,7 @@ TEST(Together, what_is_missing_is_missed_at_its_section) {
       {"\n [scene]\nf = 1\n", "2:3", "'xs' is missing"},
       {"[scene]\nxs = 1\n[time]\nmode = \"transient\"\n", "3:2", "'duration' is missing in [time]"},
       {"[scene]\nxs = 1\n[time]\nmode = \"transient\"\nduration = 0\n", "5:12",
-       "duration = 0 is out of range; permitted: > 0"},
+       "duration = 0 is out of range; expected > 0"},
   };
   expect_all("a.toml", table);
   expect_all("a.ini", table);
@@ -37,17 +37,17 @@ TEST(Together, what_is_missing_is_missed_at_its_section) {
 TEST(Together, the_start_is_between_stops_in_order) {
   const std::vector<Wrong> table{
       {"[scene]\nstop_lower = 2\nstop_upper = 1\n", "2:14",
-       "stop_lower = 2 and stop_upper = 1; permitted: stop_lower < stop_upper"},
-      {"[scene]\nstop_lower = 1\nstop_upper = 1\n", "2:14", "permitted: stop_lower < stop_upper"},
+       "stop_lower = 2 and stop_upper = 1; expected stop_lower < stop_upper"},
+      {"[scene]\nstop_lower = 1\nstop_upper = 1\n", "2:14", "expected stop_lower < stop_upper"},
       {"[scene]\nstop_lower = inf\n", "2:14",
-       "stop_lower = inf and stop_upper = inf; permitted: stop_lower < stop_upper"},
+       "stop_lower = inf and stop_upper = inf; expected stop_lower < stop_upper"},
       {"[scene]\nstop_upper = -inf\n", "2:14", "stop_lower = -inf and stop_upper = -inf"},
-      {"[scene]\nstop_upper = -1\n", "2:14", "x0 = 0 and stop_upper = -1; permitted: a start between the stops"},
+      {"[scene]\nstop_upper = -1\n", "2:14", "x0 = 0 and stop_upper = -1; expected a start between the stops"},
       {"[scene]\nx0 = -2\n[sweep]\nstop_lower = [-3, -1]\n", "2:6", "stop_lower = -1 and x0 = -2"},
-      {"[scene]\nstop_lower = inf\nstop_upper = -inf\n", "2:14", "permitted: stop_lower < stop_upper"},
+      {"[scene]\nstop_lower = inf\nstop_upper = -inf\n", "2:14", "expected stop_lower < stop_upper"},
       {"[scene]\nxs = -1\nx0 = 1.5\n", "3:6",
-       "x0 = 1.5 and |xs| = 1; permitted: a start between the stops, -|xs| <= x0 <= |xs|"},
-      {"[scene]\nxs = -1\nx0 = -1.5\n", "3:6", "-|xs| = -1 and x0 = -1.5; permitted: a start between the stops"},
+       "x0 = 1.5 and |xs| = 1; expected a start between the stops, -|xs| <= x0 <= |xs|"},
+      {"[scene]\nxs = -1\nx0 = -1.5\n", "3:6", "-|xs| = -1 and x0 = -1.5; expected a start between the stops"},
       {"[scene]\nstop_lower = 0.5\nstop_upper = 1\n", "2:14", "stop_lower = 0.5 and x0 = 0"},
       {"[scene]\nstop_lower = -2\nstop_upper = -1\n", "3:14", "x0 = 0 and stop_upper = -1"},
       {"[scene]\nx0 = 0.5\n[sweep]\nxs = [1, -0.25, 2]\n", "2:6", "x0 = 0.5 and |xs| = 0.25"},
@@ -61,12 +61,12 @@ TEST(Together, the_start_is_between_stops_in_order) {
 TEST(Together, start_period_belongs_to_free_motion_between_symmetric_stops) {
   const std::string start = "[scene]\nxs = 1\nstart_period = 3\n";
   const std::vector<Wrong> table{
-      {start + "h = 0.1\n", "4:5", "h = 0.1 beside 'start_period'; permitted: 0"},
-      {start + "f = 1\n", "4:5", "f = 1 beside 'start_period'; permitted: 0"},
-      {start + "load = 1\n", "4:8", "load = 1 beside 'start_period'"},
-      {start + "R = 0.5\n", "4:5", "R = 0.5 beside 'start_period'; permitted: 1"},
-      {start + "R_upper = 0.5\n", "4:11", "R_upper = 0.5 beside 'start_period'"},
-      {start + "[sweep]\nh = [0, 0.1]\n", "5:9", "h = 0.1 beside 'start_period'"},
+      {start + "h = 0.1\n", "4:5", "h = 0.1 conflicts with 'start_period'; expected 0"},
+      {start + "f = 1\n", "4:5", "f = 1 conflicts with 'start_period'; expected 0"},
+      {start + "load = 1\n", "4:8", "load = 1 conflicts with 'start_period'"},
+      {start + "R = 0.5\n", "4:5", "R = 0.5 conflicts with 'start_period'; expected 1"},
+      {start + "R_upper = 0.5\n", "4:11", "R_upper = 0.5 conflicts with 'start_period'"},
+      {start + "[sweep]\nh = [0, 0.1]\n", "5:9", "h = 0.1 conflicts with 'start_period'"},
       {"[scene]\nstop_lower = -1\nstop_upper = 1\nstart_period = 3\n", "4:1", "'start_period' without 'xs'"},
   };
   expect_all("a.toml", table);
@@ -120,9 +120,9 @@ TEST(Together, sizes_are_bounded) {
   const std::string million = "\"linspace(1, 2, 1000000)\"\n";
   const std::vector<Wrong> table{
       {"[scene]\nxs = 1\n[sweep]\nnu = " + million + "f = " + million, "5:5",
-       "a sweep of 1e+12 points; permitted: at most 1e+09"},
+       "a sweep of 1e+12 points; expected at most 1e+09"},
       {"[scene]\nxs = 1\n[observe]\nharmonics = 2048\n", "4:13", "less than half of harmonics_samples"},
-      {"[scene]\nxs = 1\n[observe]\ntrajectory = 1\n", "4:14", "permitted: a whole number, 0 or 2 ... 1e7"},
+      {"[scene]\nxs = 1\n[observe]\ntrajectory = 1\n", "4:14", "expected a whole number, 0 or 2 ... 1e7"},
   };
   expect_all("a.toml", table);
   expect_all("a.ini", table);

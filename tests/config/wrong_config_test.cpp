@@ -71,7 +71,7 @@ TEST(EveryKey, given_twice_is_refused_at_the_second) {
   }
 }
 
-TEST(EveryKey, of_the_wrong_kind_says_what_is_permitted) {
+TEST(EveryKey, of_the_wrong_kind_says_what_is_expected) {
   for (const Key& key : keys()) {
     const std::string words = permitted(key);
     if (is_numeric(key)) {
@@ -109,7 +109,7 @@ TEST(EveryNumber, that_is_nan_or_infinite_is_refused) {
     if (!is_numeric(key)) continue;
     for (const char* value : {"nan", "inf", "-inf"}) {
       const bool is_stop = key.range.infinite && std::string_view(value) != "nan";
-      if (!is_stop) expect_wrong_value(key, value, "permitted: " + permitted(key));
+      if (!is_stop) expect_wrong_value(key, value, "expected " + permitted(key));
     }
     expect_wrong_value(key, "1e999", "", "ini");
   }
@@ -120,7 +120,7 @@ TEST(EveryNumber, out_of_its_range_is_refused_with_the_range) {
   for (const Key& key : keys()) {
     if (!is_numeric(key)) continue;
     const AllowedRange& range = key.range;
-    const std::string words = "out of range; permitted: " + permitted(key);
+    const std::string words = "out of range; expected " + permitted(key);
     if (range.not_zero) expect_wrong_value(key, "0", words);
     if (std::isfinite(range.low)) expect_wrong_value(key, "-1", words);
     if (std::isfinite(range.low) && range.open) expect_wrong_value(key, number_text(range.low), words);
@@ -138,10 +138,10 @@ TEST(Integrator, misspelt_methods_are_told_the_nearest) {
                                     {"dopri54", "dopri5"},
                                     {"moraeu", "moreau"},
                                     {"Moreau", "moreau"}}) {
-    const std::string words = "permitted: exact, dopri5, moreau; did you mean '" + std::string(meant) + "'?";
+    const std::string words = "expected one of exact, dopri5, moreau; did you mean '" + std::string(meant) + "'?";
     expect_wrong_value(method, '"' + std::string(typo) + '"', words);
   }
-  expect_wrong_value(method, "\"rk4\"", "the text 'rk4'; permitted: exact, dopri5, moreau");
+  expect_wrong_value(method, "\"rk4\"", "the text 'rk4'; expected one of exact, dopri5, moreau");
 }
 
 TEST(Integrator, settings_beyond_what_converges_are_refused) {
@@ -159,7 +159,7 @@ TEST(Integrator, settings_beyond_what_converges_are_refused) {
       {"theta", "-0.5", "0 ... 1"},
   };
   for (const auto& [name, value, range] : table)
-    expect_wrong_value(*find_key("integrator", name), value, " is out of range; permitted: " + std::string(range));
+    expect_wrong_value(*find_key("integrator", name), value, " is out of range; expected " + std::string(range));
 }
 
 TEST(Integrator, settings_within_their_ranges_are_taken) {
@@ -180,13 +180,13 @@ TEST(Integrator, settings_within_their_ranges_are_taken) {
 
 TEST(EveryCount, that_is_a_fraction_is_refused) {
   for (const Key& key : keys()) {
-    if (key.kind == Kind::integer) expect_wrong_value(key, "2.5", "2.5 is a fraction; permitted: a whole number");
+    if (key.kind == Kind::integer) expect_wrong_value(key, "2.5", "2.5 is a fraction; expected a whole number");
   }
 }
 
 TEST(EveryText, with_a_nul_is_refused_since_a_file_ends_it_there) {
   for (const Key& key : keys()) {
-    if (key.kind == Kind::text) expect_wrong_value(key, "\"a\\u0000b\"", "without NUL characters", "toml");
+    if (key.kind == Kind::text) expect_wrong_value(key, "\"a\\u0000b\"", "holds a NUL character", "toml");
   }
 }
 

@@ -26,7 +26,7 @@ TEST(Toml, syntax_errors_have_a_place) {
                  {"[scene]\nxs = 1\n[scene.nu]\na = 1\n", "3:1", "nu = a table"},
                  {"[time]\nmax_period = 1\n", "2:1", "did you mean 'max_periods'?"},
                  {"[Scene]\nxs = 1\n", "1:2", "unknown section [Scene]; did you mean [scene]?"},
-                 {"[physics]\n", "1:2", "permitted: scene, sweep, time, observe, integrator, output"},
+                 {"[physics]\n", "1:2", "expected one of scene, sweep, time, observe, integrator, output"},
                  {"[scene]\nxs = 1\ntitle = \"a\"\n", "3:1", "it belongs before the first section"},
                  {"[scene]\nxs = 1\nnu = \"2 * pie\"\n", "3:13", "expected the end of the value, found 'e'"},
                  {"[scene]\nxs = 1\nx0 = \"ä*pi\"\n", "3:7", "expected a number"},
@@ -39,7 +39,7 @@ TEST(Toml, syntax_errors_have_a_place) {
 
 TEST(Ini, is_known_by_the_ending_of_the_name_in_any_case) {
   for (const char* name : {"a.ini", "a.INI", "a.Ini"}) EXPECT_EQ(mistake_in(name, "[scene]\nxs = 1 ; INI\n"), "");
-  const std::string hint = "; read as TOML; INI is told by --ini, or a name that ends in .ini";
+  const std::string hint = "; read as TOML; for INI give --ini, or a name that ends in .ini";
   for (const char* text : {"[scene]\nxs = 1 ; INI\n", "title = Größe\n", "[sweep]\nnu = linspace(1, 2, 3)\n"}) {
     for (const char* name : {"a.cfg", "ini"}) EXPECT_TRUE(mistake_in(name, text).ends_with(hint)) << text;
     for (const char* name : {"a.toml", "a.TOML"}) EXPECT_FALSE(mistake_in(name, text).ends_with(hint)) << text;
@@ -50,7 +50,7 @@ TEST(Ini, is_known_by_the_ending_of_the_name_in_any_case) {
 TEST(Ini, syntax_errors_have_a_place) {
   expect_all("a.ini",
              {
-                 {"[scene]\nh = \n", "2:4", "h = nothing; permitted: >= 0"},
+                 {"[scene]\nh = \n", "2:4", "h = nothing; expected >= 0"},
                  {"[scene]\n  h 1\n", "2:3", "expected KEY = VALUE or [section], found 'h 1'"},
                  {"[scene\nh = 1\n", "1:1", "the section's ']' is missing"},
                  {"[]\nh = 1\n", "1:1", "a section without a name"},

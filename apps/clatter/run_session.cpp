@@ -1,0 +1,135 @@
+#include "run_session.hpp"
+
+#include <cstdint>
+#include <iostream>
+#include <new>
+#include <utility>
+
+#include "commands.hpp"
+#include "memory_check.hpp"
+#include "plan_report.hpp"
+#include "progress.hpp"
+#include "results/dataset_file.hpp"
+#include "results/version.hpp"
+#include "run_report.hpp"
+#include "storage/utf8.hpp"
+#include "sweep/rounding_fingerprint.hpp"
+#include "warnings.hpp"
+
+namespace clatter::app {
+namespace {
+
+std::string name_of(const std::optional<sweep::Shard>& shard) { return shard ? text_of(*shard) : ""; }
+
+storage::JournalKey journal_key(const config::Config& config, const RunRequest& request) {
+  return {.config = config.text,
+          .program = std::string(results::version())
+                         .append(" ")
+                         .append(results::git_commit())
+                         .append(", ")
+                         .append(results::compiler()),
+          .rounding = sweep::rounding_fingerprint(config.sweep, request.arch),
+          .shard = name_of(request.shard)};
+}
+
+void say_plan(const config::Config& config, const RunRequest& request) {
+  plan::Plan plan = plan::plan_of(config.sweep, request.threads, request.shard);
+  plan.need = with_configuration(plan.need, config);
+  std::cerr << plan_text(plan, config.sweep, request.threads);
+  say_notes(config), warn(plan);
+}
+
+}  // namespace
+
+RunSession::RunSession(config::Config config, RunRequest request)
+    : config_(std::move(config)),
+      request_(std::move(request)),
+      place_(request_.output, {.shard = name_of(request_.shard), .title = config_.title}, request_.force) {}
+
+int RunSession::run() {
+  check_memory(config_, request_.shard, request_.threads);
+  announce();
+  open_journal();
+  announce_restored();
+  compute();
+  journal_->remove();
+  report();
+  return result_.failed_points > 0 ? points_failed : done;
+}
+
+void RunSession::announce() const {
+  if (request_.verbose) say_plan(config_, request_);
+  if (request_.quiet) return;
+  warn(config_);
+  if (!request_.verbose) warn_of_dearest_point(config_.sweep, request_.shard);
+}
+
+void RunSession::open_journal() {
+  sweep_.emplace(config_.sweep, request_.shard);
+  const storage::RecordLimit limit{sweep_->most_saved(), config_.sweep.scene.observe.impact_log};
+  journal_.emplace(request_.output, journal_key(config_, request_), limit, request_.begin,
+                   [this](std::span<const std::byte> results) { restore(results); });
+}
+
+void RunSession::restore(std::span<const std::byte> results) {
+  if (sweep_->restore(results)) return;
+  throw storage::IoError("the journal of " + storage::quoted_name(request_.output) +
+                         " doesn't fit the sweep; --restart begins anew");
+}
+
+void RunSession::announce_restored() const {
+  if (!journal_->is_locked())
+    std::cerr << "this file system has no locks: make sure that no other run writes "
+              << storage::quoted_name(request_.output) << " meanwhile\n";
+  if (sweep_->restored_points() > 0 && !request_.quiet)
+    std::cerr << "goes on from " << sweep_->restored_points() << " finished points\n";
+}
+
+void RunSession::compute() try {
+  run_points();
+  write();
+} catch (const storage::IoError& error) {
+  throw failure(error);
+} catch (const std::bad_alloc&) {
+  throw failure(storage::no_memory("it ran out"));
+}
+
+void RunSession::run_points() {
+  checkpointer_.emplace(
+      *journal_, [this] { save(); }, request_.end);
+  run_with_progress({.threads = request_.threads, .arch = request_.arch});
+  checkpointer_->finish();
+}
+
+void RunSession::run_with_progress(sweep::RunOptions options) {
+  Progress progress(request_.shows_progress, "points", static_cast<double>(sweep_->restored_points()));
+  if (request_.shows_progress)
+    options.progress = [&](double finished, std::size_t total) { progress.show(finished, static_cast<double>(total)); };
+  sweep_->run(options);
+}
+
+void RunSession::save() {
+  sweep_->save([this](std::span<const std::byte> results) { journal_->append(results); });
+  journal_->sync();
+}
+
+void RunSession::write() {
+  result_ = sweep_->result();
+  summary_ = summary_line(result_, config_.sweep, request_.shard, request_.output);
+  const auto image = request_.shard ? results::image_with_checksum : results::file_image;
+  place_.write_atomically(image(std::move(result_.dataset), config_).bytes,
+                          [this](std::uint64_t bytes) { journal_->give_back(bytes); });
+}
+
+void RunSession::report() const {
+  if (!request_.quiet) std::cerr << summary_ << '\n';
+  if (request_.verbose) std::cerr << details(result_, command_line(), request_.began);
+}
+
+/// Saves what it can. The error then says what the next run will find.
+storage::IoError RunSession::failure(const storage::IoError& error) {
+  checkpointer_.reset();
+  return storage::IoError(error.what() + (journal_->had_records() ? "\nclatter: " + journal_->leave() : ""));
+}
+
+}  // namespace clatter::app
