@@ -17,9 +17,9 @@ namespace clatter::observables {
 /// Harmonics integrated over the arcs themselves, without samples and so without aliasing.
 ///
 /// With w = k Omega, integrating eq. 3 by parts over an arc gives its part of the integral of x e^{-iw tau},
-/// Z X = int (f sin theta + load) e^{-iw tau} - [(x' + (iw + 2h) x) e^{-iw tau}],  Z = 1 - w^2 + 2ihw (physics.md,
-/// check 6, is their sum). Where Z is small, at a resonance, the right-hand side cancels, and Gauss-Legendre quadrature
-/// takes its place, exact to rounding; so it does for arcs by polynomials, which fulfil eq. 3 only to their error.
+/// Z X = int (f sin theta + load) e^{-iw tau} - [(x' + (iw + 2h) x) e^{-iw tau}],  Z = 1 - w^2 + 2ihw; eq. 38
+/// is their sum. If Z is small, at a resonance, the right-hand side cancels, and Gauss-Legendre quadrature takes its
+/// place, exact to rounding; so it does for arcs by polynomials, which fulfil eq. 3 only to their error.
 class ExactHarmonics {
  public:
   using Complex = std::complex<double>;

@@ -17,8 +17,8 @@ enum class Parameter { h, f, nu, phase, R, xs, stop_lower, stop_upper, R_lower, 
 [[nodiscard]] std::optional<Parameter> parameter_of(std::string_view key);
 
 /// Puts a value in its place in the scene. `xs` sets both stops to -|xs| and +|xs|, `R` both restitutions;
-/// `start_period` sets x0 and v0 from the lower stop, v0 = |xs| cot(start_period / 4) (physics.md, check 1), so it is
-/// set after the stops.
+/// `start_period` sets x0 and v0 from the lower stop, v0 = |xs| cot(start_period / 4) (eq. 36), so it is set after
+/// the stops.
 void set(point::Problem& scene, Parameter parameter, double value);
 
 }  // namespace clatter::sweep

@@ -100,17 +100,17 @@ class Objects(unittest.TestCase):
         if nm is None:
             self.skipTest("there is no nm here (of binutils) to look at object files with")
         objects = list((pathlib.Path(CLATTER).parents[2] / "src" / "lanes").glob(f"CMakeFiles/*_{name}.dir/**/*.o"))
-        self.assertEqual(len(objects), 1, f"kernel for {name}")
+        self.assertEqual(len(objects), 1, f"step functions for {name}")
         text = subprocess.run([nm, "--defined-only", objects[0]], capture_output=True, text=True, check=True).stdout
         return [line.split()[-2:] for line in text.splitlines()]
 
-    def test_kernels_define_nothing_that_code_of_another_set_could_be_merged_with(self):
+    def test_step_functions_define_nothing_that_code_of_another_set_could_be_merged_with(self):
         for name, tag in (("avx2", r"5xsimd.*4avx2"), ("avx512", r"5xsimd.*avx512")):
             functions = {symbol for kind, symbol in self.symbols(name) if kind in "TWui"}
             entries = {
                 symbol
                 for symbol in functions
-                if re.fullmatch(rf"_ZN7clatter\d+(visit|observe)_{name}ERNS_5LanesE", symbol)
+                if re.fullmatch(rf"_ZN7clatter5lanes\d+step(_observed)?_{name}ERNS0_10BlockStateE", symbol)
             }
             self.assertEqual(len(entries), 2, functions)
             shared = [symbol for symbol in functions - entries if not re.search(tag, symbol)]

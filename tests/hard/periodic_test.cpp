@@ -62,7 +62,7 @@ struct Period : Watcher {
   bool rests = false;
 };
 
-/// Check 6 of physics.md: the force's share of harmonic k, and the impacts'.
+/// Eq. 38: the force's share of harmonic k, and the impacts'.
 struct Shares {
   Complex sum;
   double size;
