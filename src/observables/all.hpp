@@ -1,5 +1,6 @@
 #pragma once
 
+#include "observables/energy.hpp"
 #include "observables/extrema.hpp"
 #include "observables/harmonics.hpp"
 #include "observables/impact_log.hpp"
@@ -13,7 +14,7 @@ namespace clatter::observables {
 
 /// Every observable, in the order of keys and results. Configuration keys, help, observers, results, plan and memory
 /// are made from this list.
-using All = ObservableList<Extrema, Harmonics, Impacts, ImpactLog, Trajectory, Period, Stability>;
+using All = ObservableList<Extrema, Harmonics, Impacts, ImpactLog, Trajectory, Period, Stability, Energy>;
 
 /// The observables that are computed and stored; nothing else is.
 struct Observe : All::Settings {};

@@ -1,0 +1,140 @@
+#pragma once
+
+#include <array>
+#include <boost/math/quadrature/gauss.hpp>
+#include <cmath>
+#include <cstddef>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include "motion/state.hpp"
+#include "observables/impacts.hpp"
+#include "observables/observable.hpp"
+
+namespace clatter::observables {
+
+/// The energy ledger of the observed time, per unit mass (eq. 31 to 34). The energy is (x'^2 + x^2)/2; the work of the
+/// force and the load, less the losses by damping and impacts, is its growth, and the residual says how well this
+/// holds.
+///
+/// Work and damping are integrated over each arc by Gauss-Legendre quadrature, exact to rounding.
+class Energy {
+ public:
+  struct Settings {
+    bool energy = false;
+  };
+  struct Values {
+    double work_in = no_value, loss_damping = no_value;
+    std::array<double, 2> loss_impact{no_value, no_value};  ///< [stop]
+    std::array<double, 2> impulse{no_value, no_value};      ///< [stop]: of impacts, and of the force pressing at rest
+    double energy_residual = no_value;                      ///< work less losses and growth: 0 but for rounding
+    double impact_power = no_value;                         ///< loss by impacts on both stops over the observed time
+  };
+  static constexpr std::tuple fields{Field{
+      Key{"observe", "energy", Kind::flag, "false", "true",
+          "energy ledger per unit mass: work of force and load, losses by damping and impacts, impulse on the stops"},
+      &Settings::energy}};
+
+  [[nodiscard]] static bool wanted(const Settings& settings) { return settings.energy; }
+  [[nodiscard]] static std::string description(const Settings&) { return "energy"; }
+  [[nodiscard]] static std::vector<Column<Values>> columns(const Settings&) {
+    const Coordinate stop = stop_coordinate();
+    return {
+        scalar("work_in", "work of the force and the load in the observed time, per unit mass", &Values::work_in),
+        scalar("loss_damping", "energy lost to damping in the observed time, per unit mass", &Values::loss_damping),
+        pair("loss_impact", "energy lost in impacts in the observed time, per unit mass", stop, &Values::loss_impact),
+        pair("impulse", "impulse on the stop in the observed time, per unit mass", stop, &Values::impulse),
+        scalar("energy_residual", "work less losses and growth of the energy, per unit mass", &Values::energy_residual),
+        scalar("impact_power", "energy lost in impacts per tau, per unit mass", &Values::impact_power)};
+  }
+
+  Energy(const Settings&, const ObservedSpan& span)
+      : oscillator_(span.scene.oscillator), phase_(span.scene.start.phase) {}
+
+  template <class A>
+  void arc(const A& arc, double, double length) {
+    const motion::Motion<double>& first = arc.start();
+    begin(first.x, first.v);
+    if (!(length > 0)) return;
+    rebound_ = 0;
+    integrate(arc, length);
+  }
+  void rest(const motion::Rest& rest) {
+    begin(rest.position, 0.0);
+    const std::size_t stop = index_of(rest.side);
+    // a chatter that is completed takes the energy of its last rebound, and gives the momentum of it back to the mass
+    impulse_[stop] += pressing(rest) - std::abs(rebound_);
+    loss_impact_[stop] += rebound_ * rebound_ / 2;
+    rebound_ = 0;
+  }
+  void impact(const motion::Impact& impact) {
+    begin(impact.position, impact.before);
+    const std::size_t stop = index_of(impact.side);
+    loss_impact_[stop] += (impact.before - impact.after) * (impact.before + impact.after) / 2;
+    impulse_[stop] += std::abs(impact.after - impact.before);
+    rebound_ = impact.after;
+  }
+
+  [[nodiscard]] Values finish(const ObservedSpan& span, double x, double v) {
+    begin(x, v);
+    Values values{.work_in = force_work_ + oscillator_.load * (x - x_begin_), .loss_damping = loss_damping_};
+    values.loss_impact = loss_impact_, values.impulse = impulse_;
+    const double lost = loss_impact_[0] + loss_impact_[1];
+    const double growth = ((v - v_begin_) * (v + v_begin_) + (x - x_begin_) * (x + x_begin_)) / 2;
+    values.energy_residual = values.work_in - loss_damping_ - lost - growth;
+    values.impact_power = lost / span.total;
+    return values;
+  }
+  [[nodiscard]] double evaluations() const { return evaluations_; }  ///< of arcs
+
+ private:
+  /// The state in which the observed time begins: the first that is seen.
+  void begin(double x, double v) {
+    if (!has_begun_) x_begin_ = x, v_begin_ = v, has_begun_ = true;
+  }
+
+  /// Over an arc, by panels in which neither v^2 nor v sin(theta) turns by more than a few radians.
+  template <class A>
+  void integrate(const A& arc, double length) {
+    using Rule = boost::math::quadrature::gauss<double, 20>;
+    const auto& constants = arc.constants();
+    const auto panels = static_cast<std::size_t>(std::ceil(length * constants.rate / 2));
+    const double half = length / static_cast<double>(panels) / 2;
+    double work = 0, squares = 0;
+    const auto add = [&](double s, double weight) {
+      const motion::Motion<double> m = arc.at(s);
+      work += weight * m.v * m.sine, squares += weight * m.v * m.v;
+    };
+    for (std::size_t panel = 0; panel < panels; ++panel)
+      for (std::size_t i = 0; i < Rule::abscissa().size(); ++i) {
+        const double middle = static_cast<double>(2 * panel + 1) * half, offset = half * Rule::abscissa()[i];
+        add(middle - offset, half * Rule::weights()[i]);
+        add(middle + offset, half * Rule::weights()[i]);
+      }
+    force_work_ += constants.f * work, loss_damping_ += 2 * constants.h * squares;
+    evaluations_ += 20 * static_cast<double>(panels);
+  }
+
+  /// Integral of the force that presses the mass into a stop, eq. 22, over a rest.
+  [[nodiscard]] double pressing(const motion::Rest& rest) const {
+    const Oscillator& o = oscillator_;
+    double sum = (o.load - rest.position) * rest.length;
+    if (o.forcing != 0) {
+      const double half = o.frequency * rest.length / 2;
+      sum += 2 * o.forcing / o.frequency * std::sin(phase_ + o.frequency * rest.time + half) * std::sin(half);
+    }
+    return sign_of(rest.side) * sum;
+  }
+
+  Oscillator oscillator_;
+  double phase_;  ///< of the force at the beginning, a section
+  bool has_begun_ = false;
+  double x_begin_ = 0, v_begin_ = 0;
+  double rebound_ = 0;  ///< velocity after an impact that no flight has followed yet
+  double force_work_ = 0, loss_damping_ = 0;
+  std::array<double, 2> loss_impact_{}, impulse_{};  ///< [stop]
+  double evaluations_ = 0;
+};
+
+}  // namespace clatter::observables
