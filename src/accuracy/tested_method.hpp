@@ -21,7 +21,7 @@ enum class TestedMethod : std::uint8_t {
   steady_repetition,  ///< setting: tolerance of the repeat; steady search by repetition alone
 };
 
-/// In the order of TestedMethod.
+/// Names in the order of TestedMethod.
 inline constexpr std::array<std::string_view, 7> studied_names{
     "exact", "dopri5", "moreau", "harmonics_exact", "harmonics_fft", "steady", "steady_repetition"};
 

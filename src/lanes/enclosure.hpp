@@ -9,7 +9,7 @@ template <class V>
 struct HermiteData {
   V y0, v0, a0, y1, v1, a1;
 
-  /// From derivatives by a time in which the interval has the length `length`.
+  /// Converts derivatives by a time in which the interval has the length `length`.
   static HermiteData scaled(const HermiteData& e, const V& length) {
     const V square = length * length;
     return {e.y0, e.v0 * length, e.a0 * square, e.y1, e.v1 * length, e.a1 * square};

@@ -10,7 +10,7 @@ namespace clatter::lanes {
 /// Instruction sets for the computation of motion: one point at a time, or 2, 4, 8 in the lanes of a vector.
 enum class InstructionSet : std::uint8_t { scalar, sse2, avx2, avx512 };
 
-/// In the order of InstructionSet.
+/// Names in the order of InstructionSet.
 inline constexpr std::array<std::string_view, 4> instruction_set_names{"scalar", "sse2", "avx2", "avx512"};
 
 [[nodiscard]] constexpr std::string_view name_of(InstructionSet arch) {

@@ -35,11 +35,15 @@ class LaneObservers {
     Mask sure = active;
     if (any(open_y)) {
       const HermiteData<V> y = HermiteData<V>::scaled({from.y, from.v, from.a, to.y, to.v, to.a}, length);
-      const auto jet = [](const LaneMotion<V>& m, const Jet<V>& j) { return Derivatives4{m.y, m.v, m.a, j.d3, j.d4}; };
+      const auto jet = [](const LaneMotion<V>& m, const Jet<V>& j) {
+        return FourDerivatives{m.y, m.v, m.a, j.d3, j.d4};
+      };
       sure = sure & search(open_y, new_y, y, from, length, uncertainty.error * part, slack, lanes_.reference_y, jet);
     }
     if (any(open_v)) {
-      const auto jet = [](const LaneMotion<V>& m, const Jet<V>& j) { return Derivatives4{m.v, m.a, j.d3, j.d4, j.d5}; };
+      const auto jet = [](const LaneMotion<V>& m, const Jet<V>& j) {
+        return FourDerivatives{m.v, m.a, j.d3, j.d4, j.d5};
+      };
       sure = sure & search(open_v, new_v, v, from, length, error_v, slack, lanes_.reference_v, jet);
     }
     take(sure, new_y, new_v);
@@ -75,7 +79,7 @@ class LaneObservers {
 
  private:
   /// A function at an instant, and its first four derivatives.
-  struct Derivatives4 {
+  struct FourDerivatives {
     V value, slope, curvature, third, fourth;
   };
 
@@ -114,7 +118,7 @@ class LaneObservers {
     const HermiteData<V> below{sign * ends.y0, sign * ends.v0, sign * ends.a0,
                                sign * ends.y1, sign * ends.v1, sign * ends.a1};
     V part = min(max(QuinticHermite<V>(below).least(), zero), one), more;
-    Derivatives4 at;
+    FourDerivatives at;
     for (int pass = 0; pass < 3; ++pass) {
       const LaneMotion<V> near = motions_.after(from, part * length);
       at = derivatives(near, motions_.jet(near));

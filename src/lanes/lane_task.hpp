@@ -22,7 +22,7 @@ class Scheduler::LaneTask {
 
   /// The observed time if it is known at the start, as for a transient; else nothing, and the lane is loaded to settle.
   [[nodiscard]] std::optional<steady::ObservedTime> begin(BlockState& lanes, std::size_t lane);
-  /// The observed time if it is known at the section that the lane has passed.
+  /// The observed time if it is known at the stroboscopic section that the lane has passed.
   [[nodiscard]] std::optional<steady::ObservedTime> at_section(const BlockState& lanes, std::size_t lane);
   [[nodiscard]] steady::ObservedTime failure(stepping::Outcome outcome) const;
 

@@ -5,8 +5,9 @@
 
 namespace clatter::lanes {
 
-/// Advances the lanes of a vector: each to its next contact, past its next section, or by a few steps. Everything here
-/// is a template on the vector's type V, so that no code of one instruction set is ever merged with that of another.
+/// Advances the lanes of a vector: each to its next contact, past its next stroboscopic section, or by a few steps.
+/// Everything here is a template on the vector's type V, so that no code of one instruction set is ever merged with
+/// that of another.
 ///
 /// The motion of a lane depends on that lane alone. How far it advances in a call depends on its neighbours, since
 /// lanes at a contact wait until half of the vector has come to one, and then pass it together.

@@ -10,7 +10,7 @@
 
 namespace clatter::motion {
 
-/// How an arc ends: at the first contact, or at its horizon if there is none (side none).
+/// The end of an arc: the first contact, or the horizon if there is none (side none).
 template <class Number>
 struct Contact {
   Side side = Side::none;

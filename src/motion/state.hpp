@@ -16,7 +16,7 @@ struct State {
   Number v{};                ///< velocity
   Number turns{};            ///< forcing periods since the last section, 0 ... 1
   std::int64_t periods = 0;  ///< sections passed
-  bool released = false;     ///< a stop lets the mass go at this instant: v = 0 and the acceleration is exactly 0
+  bool released = false;     ///< a stop releases the mass at this instant: v = 0 and the acceleration is exactly 0
   Side left = Side::none;    ///< the stop that the present flight began on
   Number offset{};           ///< x minus the position of that stop: keeps the digits of a flight that a section cuts
 };

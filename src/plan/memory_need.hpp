@@ -20,7 +20,7 @@ struct MemoryNeed {
 [[nodiscard]] MemoryNeed memory_need(const sweep::Sweep& sweep, const std::optional<sweep::Shard>& shard = {},
                                      int threads = 1);
 
-/// The same for a log of so many impacts.
+/// The need of a sweep, or of a shard, with so many impacts in its log.
 [[nodiscard]] MemoryNeed memory_need(const sweep::Sweep& sweep, const std::optional<sweep::Shard>& shard, int threads,
                                      double impacts);
 

@@ -52,7 +52,7 @@ double work_of_period(const point::Problem& scene, const Effects& effects) {
   return effects.stops() ? std::ceil(period_of(scene.oscillator) / step) + 4 : 1;
 }
 
-/// How near motion comes to a stop that it doesn't meet: 1 if it would touch; negative if there is no stop.
+/// The largest displacement over the gap of a stop that isn't met: 1 if it would touch; negative if there is no stop.
 double closeness(const Requirements& needs, double gap) {
   return gap < infinity ? (needs.effects.stops() ? needs.reach : needs.free_reach) / gap : -1;
 }

@@ -31,7 +31,7 @@ using detail::ValueType;
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
-/// From this size on an array is deflated: below it, the index of the chunks takes as much as deflating saves.
+/// The size from which on an array is deflated: below it, the index of the chunks takes as much as deflating saves.
 constexpr std::size_t worth_compressing = 16UL * 1024;  // bytes
 
 /// The least growth of the file in memory: few steps for a large file, and little to clear for a small one.

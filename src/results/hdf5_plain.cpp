@@ -69,8 +69,8 @@ herr_t collect(hid_t, const char* name, const H5L_info_t* link, void* to) {
 
 }  // namespace
 
-/// Without locks: some file systems have none, and outputs are replaced as a whole. Without plugins, which are
-/// programs, and without links to other files.
+/// Opens without locks, since some file systems have none and outputs are replaced as a whole; without plugins, which
+/// are programs; and without links to other files.
 Handle open_file(const std::string& path) {
   checked(H5PLset_loading_state(0));
   if (checked(H5Lis_registered(H5L_TYPE_EXTERNAL)) > 0) checked(H5Lunregister(H5L_TYPE_EXTERNAL));

@@ -49,7 +49,7 @@ void check_origins(const std::vector<ShardHeader>& heads) {
   }
 }
 
-/// The missing points, and the shards, of `of`, to run for them.
+/// The missing points, as those shards out of `of` that would have them.
 std::string missing_text(const sweep::Sweep& sweep, const std::vector<ShardHeader>& heads, std::size_t of) {
   std::vector<char> there(of, 0);
   for (const ShardHeader& head : heads)

@@ -9,7 +9,7 @@
 
 namespace clatter::steady {
 
-/// Runs forced motion until it repeats; repeats count from the section `from` on.
+/// Runs forced motion until it repeats; repeats count from the stroboscopic section `from` on.
 template <stepping::Integrator I>
 [[nodiscard]] ObservedTime find_repetition(I& integrator, motion::State<double> state, const TimeSettings& time,
                                            std::int64_t from) {

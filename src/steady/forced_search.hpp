@@ -18,8 +18,8 @@
 
 namespace clatter::steady {
 
-/// What advances a motion from section to section while its steady state is sought: the search itself, or lanes. In
-/// lanes a forcing period costs so little that plain repetition is quickest unless states contract slowly.
+/// Whether the search itself or lanes advance a motion from one stroboscopic section to the next. In lanes a forcing
+/// period costs so little that plain repetition is quickest unless states contract slowly.
 enum class TakenBy : std::uint8_t { itself, lanes };
 
 /// Finds the steady state of forced motion, section by section, in as few forcing periods as possible: in closed form
@@ -69,7 +69,7 @@ class SteadySearch {
  private:
   static constexpr double nearest_first = 0.02;  ///< relative distance below which a first attempt is made
   static constexpr std::int64_t long_settling = 128;
-  static constexpr double longest_settling = 0x1p52;  ///< periods that double can count exactly
+  static constexpr double longest_settling = 0x1p52;  ///< the most periods that double counts exactly
   static constexpr std::size_t kept = 2 * RepeatFinder::longest;
 
   [[nodiscard]] std::size_t index(std::size_t ago) const { return (static_cast<std::size_t>(section_) - ago) % kept; }

@@ -64,8 +64,8 @@ class FreeSearch {
     return free_period<double>(scene_.oscillator.load, integrator_.stops(), start.x, start.v) / integrator_.period();
   }
 
-  /// The end of a motion that no stop is in reach of from now on: free vibration, or the equilibrium if damping brings
-  /// the motion there in time.
+  /// The final form of a motion once no stop is in reach: free vibration, or the equilibrium if damping brings the
+  /// motion there in time.
   [[nodiscard]] std::optional<ObservedTime> closed_form(const motion::State<double>& state,
                                                         std::int64_t section) const {
     const Oscillator& o = scene_.oscillator;

@@ -9,7 +9,7 @@
 
 namespace clatter::steady {
 
-/// How the time to observe was found.
+/// The way in which the time to observe was found.
 enum class FoundBy : std::uint8_t {
   start,        ///< a transient is observed from its start
   closed_form,  ///< no stop in reach: the steady response, or free vibration

@@ -16,7 +16,7 @@
 
 namespace clatter::steady {
 
-/// A periodic motion of n forcing periods: its states at the sections and its derivative.
+/// A periodic motion of n forcing periods: its states at the stroboscopic sections and its derivative.
 struct Orbit {
   std::size_t periods = 0;
   std::array<motion::State<double>, RepeatFinder::longest + 1> states{};  ///< the last as computed from the first
@@ -36,7 +36,7 @@ class StroboscopicMap {
   StroboscopicMap(stepping::Exact<double, E>& integrator, double tolerance)
       : integrator_(integrator), watch_(integrator.stops()), tolerance_(tolerance) {}
 
-  /// How often an attempt follows all periods of a motion: the approach, each iteration, the proof.
+  /// The most times that an attempt follows all periods of a motion: the approach, each iteration, the proof.
   static constexpr std::size_t most_iterations = 4, most_turns = 1 + most_iterations + 1;
 
   [[nodiscard]] std::size_t simulated() const { return simulated_; }  ///< forcing periods

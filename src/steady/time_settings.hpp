@@ -10,7 +10,7 @@ namespace clatter::steady {
 
 enum class Mode : std::uint8_t { steady, transient };
 
-/// How long a scene is run and when its motion counts as repeated. "Periods" are forcing periods, 2 pi / nu; without
+/// The time for which a scene is run, and the tolerance of repeats. "Periods" are forcing periods, 2 pi / nu; without
 /// forcing, 2 pi.
 struct TimeSettings {
   Mode mode = Mode::steady;

@@ -8,10 +8,10 @@ namespace clatter::stepping {
 
 enum class Method : std::uint8_t { exact, dopri5, moreau };
 
-/// In the order of Method.
+/// Names in the order of Method.
 inline constexpr std::array<std::string_view, 3> method_names{"exact", "dopri5", "moreau"};
 
-/// How arcs, impacts and rests are computed.
+/// The method that computes arcs, impacts and rests, and its settings.
 struct Integration {
   Method method = Method::exact;
   double tolerance = 1e-10;  ///< dopri5: error of a step, relative to the motion

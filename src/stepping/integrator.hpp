@@ -76,7 +76,7 @@ class SceneConstants {
     return sine_cosine_of_turns(Number(start_turns_ + state.turns));
   }
 
-  /// Time since the section `origin`.
+  /// Time since the stroboscopic section `origin`.
   [[nodiscard]] double time(const motion::State<Number>& state, std::int64_t origin) const {
     return static_cast<double>((static_cast<double>(state.periods - origin) + state.turns) * constants_.period);
   }

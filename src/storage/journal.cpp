@@ -205,7 +205,7 @@ std::string Journal::leave() {
   if (size_ > 0)
     return (gave_back_ ? "a part of the finished points is in " : "the finished points are in ") +
            quoted_name(path_.string()) +
-           "; the same command continues from there, with another -o FILE once that is moved to FILE.journal";
+           "; the same command continues from there, or one with -o FILE after that is moved to FILE.journal";
   unlink();
   return gave_back_ ? "the journal was cut to make room for the output, so the finished points have to be run again"
                     : "no point was finished yet";

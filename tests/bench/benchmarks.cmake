@@ -1,8 +1,8 @@
-# What each effect costs.
+# The cost of each effect.
 add_executable(effects_ladder effects_ladder.cpp)
 target_link_libraries(effects_ladder PRIVATE clatter_steady benchmark::benchmark)
 
-# The unit of time: xsimd's batched sincos, of each instruction set by itself, contracted as compilers do by default.
+# The unit of time: xsimd's batched sincos, one for each instruction set, contracted as compilers do by default.
 find_path(XSIMD_INCLUDE_DIR xsimd/xsimd.hpp)
 if(NOT XSIMD_INCLUDE_DIR)
   return()
@@ -33,7 +33,7 @@ endforeach()
 target_link_libraries(figures_bench PRIVATE clatter_config)
 target_compile_definitions(figures_bench PRIVATE CLATTER_SOURCE="${PROJECT_SOURCE_DIR}")
 target_sources(solvers_bench PRIVATE lean_odeint.cpp reference.cpp)
-# As their users would compile them, for the machine at hand; clatter itself isn't.
+# General solvers, compiled for the machine at hand as their users would do; clatter itself isn't.
 set_source_files_properties(lean_odeint.cpp lean_cvode.cpp PROPERTIES COMPILE_OPTIONS "-march=native;-ffp-contract=fast")
 target_link_libraries(solvers_bench PRIVATE Boost::headers)
 if(sundials_6)

@@ -6,17 +6,17 @@
 namespace clatter::bench {
 namespace {
 
-/// An impact that the solver has to have, and how far off it may be.
+/// An impact that the solver has to have, and the allowed error of its time.
 struct Expected {
   double time, room;
 };
 
-/// A chatter's completion or a rest.
+/// A completed chatter or a rest.
 struct Stay {
   double from, to;
 };
 
-/// Of one stop.
+/// The events on one stop.
 struct Sequence {
   std::vector<Expected> impacts;
   std::vector<Stay> stays;
@@ -32,15 +32,15 @@ std::vector<double> rooms(const std::vector<accuracy::Event>& impacts, double du
   return result;
 }
 
-Sequence sequence_of(const accuracy::RunRecord& course, Side side) {
+Sequence sequence_of(const accuracy::RunRecord& record, Side side) {
   std::vector<accuracy::Event> impacts;
-  for (const accuracy::Event& event : course.events)
+  for (const accuracy::Event& event : record.events)
     if (event.kind == accuracy::Event::Kind::impact) impacts.push_back(event);
-  const std::vector<double> room = rooms(impacts, course.duration);
+  const std::vector<double> room = rooms(impacts, record.duration);
   Sequence sequence;
   for (std::size_t i = 0; i < impacts.size(); ++i)
     if (impacts[i].side == side) sequence.impacts.push_back({impacts[i].time, room[i]});
-  for (const accuracy::Event& event : course.events) {  // its ends may be off by as much as times may
+  for (const accuracy::Event& event : record.events) {  // the tolerance of times holds for its ends, too
     const double slack = 1e-3 * event.length;
     if (event.kind != accuracy::Event::Kind::impact && event.side == side)
       sequence.stays.push_back({event.time - slack, event.time + event.length + slack});
@@ -48,7 +48,7 @@ Sequence sequence_of(const accuracy::RunRecord& course, Side side) {
   return sequence;
 }
 
-/// Adds up what the solver's impacts on one stop miss and have in excess.
+/// Counts the missed and the extra impacts of the solver on one stop.
 class Matching {
  public:
   Matching(Sequence sequence, Comparison& result) : sequence_(std::move(sequence)), result_(result) {}
@@ -85,24 +85,24 @@ class Matching {
   double lag_ = 0.0;  ///< of the solver behind clatter, at the last pair
 };
 
-/// What errors of the displacement are relative to.
-double size_of(const accuracy::RunRecord& course, const Stops& stops) {
-  return course.events.empty() ? std::hypot(course.x, course.v) : (stops.upper - stops.lower) / 2;
+/// The size to which errors of the displacement are relative.
+double size_of(const accuracy::RunRecord& record, const Stops& stops) {
+  return record.events.empty() ? std::hypot(record.x, record.v) : (stops.upper - stops.lower) / 2;
 }
 
 }  // namespace
 
-Comparison compare(const SolverRun& run, const accuracy::RunRecord& course, const Stops& stops) {
+Comparison compare(const SolverRun& run, const accuracy::RunRecord& record, const Stops& stops) {
   Comparison result;
   for (const Side side : {Side::lower, Side::upper}) {
     std::vector<double> times;
     for (const accuracy::Event& impact : run.impacts())
       if (impact.side == side) times.push_back(impact.time);
-    Sequence sequence = sequence_of(course, side);
+    Sequence sequence = sequence_of(record, side);
     result.expected += sequence.impacts.size();
     Matching(std::move(sequence), result).run(times, run.gave_up_at());
   }
-  result.error_x = std::abs(run.end() - course.x) / size_of(course, stops);
+  result.error_x = std::abs(run.end() - record.x) / size_of(record, stops);
   return result;
 }
 

@@ -1,8 +1,8 @@
-// SUNDIALS CVODE finds roots of functions of the solution itself. What its careful user writes: both gaps as such
-// functions, of which only falling ones count; Adams' methods, or BDF where damping makes the equation stiff, with
-// Newton's iteration and the exact Jacobian; after each root the law of impact and CVodeReInit just there; a stop time
-// at the end. The first step of each flight is CVODE's own choice. Steps are taken one by one only so that they can be
-// looked into.
+// SUNDIALS CVODE finds roots of functions of the solution itself. A careful user sets it up like this: both gaps as
+// such functions, of which only falling ones count; Adams' methods, or BDF if damping makes the equation stiff, with
+// Newton's iteration and the exact Jacobian; after each root the law of impact and CVodeReInit at the same time; a stop
+// time at the end. The first step of each flight is CVODE's own choice. Steps are taken one by one only so that points
+// within them can be checked.
 #include <cvode/cvode.h>
 #include <nvector/nvector_serial.h>
 #include <sunlinsol/sunlinsol_dense.h>

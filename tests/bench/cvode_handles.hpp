@@ -10,7 +10,7 @@
 
 namespace clatter::bench {
 
-/// Frees what CVODE allocates.
+/// Frees memory that CVODE allocates.
 struct Free {
   void operator()(N_Vector vector) const { N_VDestroy(vector); }
   void operator()(SUNMatrix matrix) const { SUNMatDestroy(matrix); }

@@ -1,6 +1,6 @@
-// What each effect costs. Every rung is a scene that lacks an effect, timed as a scene of its own effects, as one that
-// has that effect too, and as one that has them all: the same motion by other kernels. scripts/effects_ladder.py makes
-// the README's table of it.
+// The cost of each effect. Every rung is a scene without one effect, timed with the compiled set of its own effects,
+// with one that also has that effect, and with one that has them all: the same motion by different compiled sets.
+// scripts/effects_ladder.py makes the table in src/model/README.md.
 #include <benchmark/benchmark.h>
 
 #include <cstddef>
@@ -17,17 +17,17 @@
 namespace clatter::bench {
 namespace {
 
-/// A scene, and what it is compared with.
+/// A scene, and the effects with which it is timed in comparison.
 struct Rung {
   std::string left_out;  ///< the effect that the scene lacks and the rung above has
   point::Problem scene;  ///< run from its start
-  Effects kept_in;       ///< the scene's own effects and the one that is left out
+  Effects kept_in;       ///< the scene's own effects and the one that it lacks
   double periods;        ///< of one run, in forcing periods, without forcing of 2 pi
 };
 
-/// Puts back an effect that is left out.
+/// Adds the effect that is left out.
 using PutBack = void (*)(Effects&);
-void same(Effects&) {}  // no kernel knows the difference
+void same(Effects&) {}  // no compiled set differs
 void resonance(Effects& effects) { effects.forcing = Forcing::secular; }
 void forcing(Effects& effects) { effects.forcing = Forcing::regular; }
 void damping(Effects& effects) { effects.damping = Damping::light; }
@@ -53,7 +53,7 @@ constexpr Oscillator driven(double h) { return {.damping = h, .forcing = 1, .fre
 constexpr Oscillator driven_without_load(double h) { return {.damping = h, .forcing = 1, .frequency = 0.7}; }
 constexpr Oscillator free_motion(double h, double load = 0) { return {.damping = h, .load = load}; }
 
-/// From the scene that needs everything down to free motion; then the sets of effects beside that way.
+/// From the scene with all effects down to free motion; then the sets of effects that this path doesn't have.
 std::vector<Rung> rungs() {
   constexpr double none = std::numeric_limits<double>::infinity();
   constexpr Stops close{-0.1, 0.12, 0.5, 0.5};  // nearer than the force is strong: chatter, rest, release
@@ -105,11 +105,11 @@ struct CountRests : stepping::NoObserver {
   double rests = 0;
 };
 
-/// Runs a rung's scene from its start; the integrator knows what it took.
-template <Effects kernel, class Observer>
-stepping::Exact<double, kernel> run_once(const Rung& rung, const Stops& in_reach, Observer& observer,
-                                         benchmark::State& state) {
-  stepping::Exact<double, kernel> integrator(rung.scene, in_reach);
+/// Runs a rung's scene from its start; returns the integrator with its counts.
+template <Effects set, class Observer>
+stepping::Exact<double, set> run_once(const Rung& rung, const Stops& in_reach, Observer& observer,
+                                      benchmark::State& state) {
+  stepping::Exact<double, set> integrator(rung.scene, in_reach);
   motion::State<double> now;
   now.x = rung.scene.start.displacement, now.v = rung.scene.start.velocity;
   if (run_for(integrator, now, rung.periods, observer) != stepping::Outcome::completed)
@@ -122,11 +122,11 @@ stepping::Exact<double, kernel> run_once(const Rung& rung, const Stops& in_reach
 void time_as(benchmark::State& state, const Rung& rung, const Effects& effects) {
   using benchmark::Counter;
   const Stops in_reach = stops_in_reach(rung.scene.stops, effects);
-  with_effects(effects, [&]<Effects kernel>() {
-    stepping::NoObserver nobody;
-    for ([[maybe_unused]] auto _ : state) (void)run_once<kernel>(rung, in_reach, nobody, state);
+  with_effects(effects, [&]<Effects set>() {
+    stepping::NoObserver none;
+    for ([[maybe_unused]] auto _ : state) (void)run_once<set>(rung, in_reach, none, state);
     CountRests counted;
-    const stepping::Exact<double, kernel> integrator = run_once<kernel>(rung, in_reach, counted, state);
+    const stepping::Exact<double, set> integrator = run_once<set>(rung, in_reach, counted, state);
     state.counters["impacts"] = integrator.impacts() / rung.periods;
     state.counters["evaluations"] = integrator.evaluations() / rung.periods;
     state.counters["rests"] = counted.rests / rung.periods;

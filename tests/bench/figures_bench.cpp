@@ -1,4 +1,4 @@
-// The 22 figures of the paper as configs/fig02.toml ... fig23.toml have them, computed one after the other in one
+// The 22 figures of the paper in configs/fig02.toml ... fig23.toml, computed one after the other in one
 // process on all cores; reading the configurations and writing files is not timed.
 #include <benchmark/benchmark.h>
 

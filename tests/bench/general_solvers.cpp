@@ -1,5 +1,5 @@
-// Runs the hard cases, or those of the row that is named, through general solvers of differential equations, and writes
-// one JSON object a line: what each made of each, against clatter's run.
+// Runs the hard cases, or those of one row, through general solvers of differential equations, and writes one JSON
+// object a line: the comparison of each solver's run of each case with clatter's.
 #include <cmath>
 #include <iomanip>
 #include <iostream>
@@ -55,13 +55,13 @@ void print(const hard::Case& one, const Solver& solver, const SolverRun& run, co
 }
 
 void measure(const hard::Case& one) {
-  const accuracy::RunRecord course = accuracy::record_of(one.scene, one.duration);
-  if (course.outcome != stepping::Outcome::completed)
+  const accuracy::RunRecord record = accuracy::record_of(one.scene, one.duration);
+  if (record.outcome != stepping::Outcome::completed)
     throw std::runtime_error("clatter fails on " + one.row + ", " + one.what);
   for (const Solver& solver : solvers) {
     SolverRun run(one.scene, one.duration);
     solver.run(run);
-    print(one, solver, run, compare(run, course, one.scene.stops));
+    print(one, solver, run, compare(run, record, one.scene.stops));
   }
 }
 

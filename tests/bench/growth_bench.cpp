@@ -1,5 +1,5 @@
-// How the time of a run grows with the number of points and of forcing periods, on one thread, and how two threads
-// shorten it; all on the widest instruction set of this machine.
+// Growth of the time of a run with the number of points and of forcing periods, on one thread, and its reduction by two
+// threads; all on the widest instruction set of this machine.
 #include <benchmark/benchmark.h>
 
 #include <cstddef>
@@ -12,7 +12,7 @@
 namespace clatter::bench {
 namespace {
 
-/// Runs a sweep; the counter `time` is for each of `parts`. Of one thread it is the time that the thread ran.
+/// Runs a sweep; the counter `time` is the time over `parts`: for one thread processor time, else wall time.
 benchmark::internal::Benchmark* add(const std::string& name, const sweep::Sweep& sweep, double parts, int threads = 1) {
   using benchmark::Counter;
   const auto time = [=](benchmark::State& state) {

@@ -1,7 +1,7 @@
-// What a user of SUNDIALS CVODE writes who wants speed: Adams' methods with Newton's iteration and the exact Jacobian,
-// which take fewer steps here than fixed-point iteration; both gaps as root functions, of which only falling ones
-// count, the gap that the mass has just closed not until the velocity points there again; after each root the law of
-// impact and CVodeReInit just there; a stop time at the end. The first step of each flight is CVODE's own choice.
+// SUNDIALS CVODE as a user sets it up for speed: Adams' methods with Newton's iteration and the exact Jacobian, which
+// take fewer steps here than fixed-point iteration; both gaps as root functions, of which only falling ones count, the
+// gap that the mass has just closed not until the velocity points there again; after each root the law of impact and
+// CVodeReInit at the same time; a stop time at the end. The first step of each flight is CVODE's own choice.
 #include <cvode/cvode.h>
 #include <nvector/nvector_serial.h>
 #include <sunlinsol/sunlinsol_dense.h>
@@ -16,7 +16,7 @@
 namespace clatter::bench {
 namespace {
 
-/// What CVODE's functions know.
+/// The data of CVODE's callbacks.
 struct Problem {
   Equation equation;
   Stops stops;

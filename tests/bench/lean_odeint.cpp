@@ -1,8 +1,8 @@
-// Boost.Odeint has no events. What a user writes who wants speed: a controlled step with dense output; where the place
+// Boost.Odeint has no events. A user who wants speed writes: a controlled step with dense output; if the displacement
 // at its end is beyond a stop, the crossing by Newton's iteration on the dense output, which has the velocity too; the
-// law of impact; a new start just there with the step size that the controller had. Where the velocity changes sign
-// within a step and the motion may go further there than ever before, one look at the turning point gives the extremum
-// and, for users who think of that, shows a stop that is met and left within the step. Nothing is allocated in a run.
+// law of impact; a new start from there with the controller's step size. If the velocity changes sign within a step and
+// the motion may exceed its extrema there, one evaluation at the turning point gives the extremum and, if users think
+// of it, shows a stop that is met and left within the step. Nothing is allocated in a run.
 #include <algorithm>
 #include <boost/numeric/odeint/stepper/generation.hpp>
 #include <boost/numeric/odeint/stepper/runge_kutta_dopri5.hpp>
@@ -18,7 +18,7 @@ namespace odeint = boost::numeric::odeint;
 using Pair = odeint::runge_kutta_dopri5<Phase>;
 using Stepper = odeint::result_of::make_dense_output<Pair>::type;
 
-/// When the mass is on a stop, and its velocity then.
+/// The time at which the mass is on a stop, and its velocity then.
 struct Crossing {
   double tau, v;
 };
@@ -77,7 +77,7 @@ class Run {
     return beyond_at_turn(from, from - begin[1] / slope, slope);
   }
 
-  /// Looks near a turning point, from where a parabola leads to it.
+  /// Evaluates the motion near a turning point, at the vertex of a parabola.
   double beyond_at_turn(double from, double near, double slope) {
     const auto [x, v] = at(near);
     const double turn = near - v / slope, position = x - v * v / (2 * slope);
@@ -86,7 +86,7 @@ class Run {
     return from;
   }
 
-  /// The impact between two times in the last step, and a new start from it; false where the run ends before.
+  /// The impact between two times in the last step, and a new start from it; false if the run ends before.
   bool rebound(double from, double to) {
     const Phase y = at(to);
     const bool upper = y[0] > stops_.upper;
@@ -99,7 +99,7 @@ class Run {
     return true;
   }
 
-  /// From y at `beyond`, where the mass is beyond a stop.
+  /// The crossing, from y at `beyond`, at which the mass is beyond a stop.
   [[nodiscard]] Crossing crossing(double inside, double beyond, Phase y, double position) const {
     const bool upper = y[0] > position;
     for (double tau = beyond;;) {

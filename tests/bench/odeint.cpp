@@ -1,11 +1,11 @@
-// Boost.Odeint has no events. What its careful user writes:
+// Boost.Odeint has no events. A careful user writes:
 //   1. one step of the controlled stepper, at tolerances 1e-10;
 //   2. the signs of both gaps at the end of the step: one below 0 has been crossed;
 //   3. the crossing by TOMS 748 on the dense output, to the last bit; of two the earlier one;
-//   4. the law of impact, and a new start of the stepper just there, with a step well below the flight to come.
-// A flight that begins on a stop and ends beyond it within one step crosses, too: where its gap is above 0 in between
-// is looked for by halving the step towards its beginning. If it is nowhere, the mass has not left: the next impact is
-// now. Two crossings of one stop within a step leave both signs as they were and are not seen.
+//   4. the law of impact, and a new start of the stepper from there, with a step well below the length of the flight.
+// A flight that begins on a stop and ends beyond it within one step crosses, too: a time with a gap above 0 in between
+// is found by halving the step towards its beginning. If there is none, the mass has not left: the next impact is now.
+// Two crossings of one stop within a step leave both signs unchanged and are missed.
 #include <algorithm>
 #include <boost/math/tools/toms748_solve.hpp>
 #include <boost/numeric/odeint/stepper/generation.hpp>
@@ -23,7 +23,7 @@ namespace odeint = boost::numeric::odeint;
 using Pair = odeint::runge_kutta_dopri5<Values>;
 using Stepper = odeint::result_of::make_dense_output<Pair>::type;
 
-/// Where a step, or what is left of it before the run's end, meets a stop.
+/// The contact of a step, or of its part before the run's end, with a stop.
 struct Crossing {
   Side side = Side::none;
   double tau;

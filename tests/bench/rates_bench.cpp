@@ -1,6 +1,6 @@
-// Time per impact beside Fig. 18, where every forcing period has two, and per forcing period of the sweep of Fig. 23,
-// for each instruction set on one thread; and how many lanes times steps that are to be proved free of contact, and
-// times contacts that are looked for, each of them takes, idle lanes included.
+// Time per impact near Fig. 18, with two in every forcing period, and per forcing period of the sweep of Fig. 23, for
+// each instruction set on one thread; and for both the numbers of lanes times steps to be proved free of contact, and
+// of lanes times contacts to be refined, idle lanes included.
 #include <benchmark/benchmark.h>
 
 #include <string>

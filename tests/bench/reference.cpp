@@ -38,7 +38,7 @@ double difference(const Transient& one, const Transient& other) {
                    std::abs(one.v - other.v)});
 }
 
-constexpr double room = 1e-3;  // that a solver may be off by, over |xs|
+constexpr double room = 1e-3;  // allowed error of a solver, over |xs|
 
 }  // namespace
 

@@ -1,6 +1,6 @@
-// Compiled once for each instruction set, which CLATTER_SINCOS_ARCH names. xsimd gets a namespace of its own in each:
-// of its inline functions that don't carry the instruction set in their type the linker would keep any one, and that
-// might be one that this machine doesn't have the instructions for.
+// Compiled once for each instruction set, which CLATTER_SINCOS_ARCH names, with a namespace of its own for xsimd in
+// each: of inline functions without the instruction set in their type the linker would keep only one, perhaps one whose
+// instructions this machine doesn't have.
 #define CLATTER_JOINED(a, b) a##b
 #define CLATTER_JOIN(a, b) CLATTER_JOINED(a, b)
 #define xsimd CLATTER_JOIN(xsimd_, CLATTER_SINCOS_ARCH)

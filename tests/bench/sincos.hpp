@@ -6,13 +6,13 @@
 
 namespace clatter::bench {
 
-/// Angles, and room for their sines and cosines: as much as fits into the first cache, in whole cache lines.
+/// Angles, their sines and cosines: as many as fit into the first-level cache, in whole cache lines.
 struct alignas(64) Sines {
   static constexpr std::size_t count = 1024;
   double angles[count], sines[count], cosines[count];
 };
 
-/// Batched xsimd sincos of one instruction set; only where it runs.
+/// Batched xsimd sincos of one instruction set, which the machine must have.
 template <lanes::InstructionSet arch>
 void sincos(Sines& of);
 

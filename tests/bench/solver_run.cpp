@@ -8,10 +8,10 @@
 namespace clatter::bench {
 namespace {
 
-// Budgets in place of a clock, so that the results are the same on every machine.
+// Budgets instead of a clock, so that the results are the same on every machine.
 constexpr std::int64_t most_right_hand_sides = 10'000'000;
 constexpr std::size_t most_contacts = 200'000;
-constexpr std::size_t most_standing = 1000;  // contacts in succession without a step in time
+constexpr std::size_t most_standing = 1000;  // successive contacts at the same time
 
 double size_of(const point::Problem& scene) {
   const double half = (scene.stops.upper - scene.stops.lower) / 2;

@@ -11,22 +11,21 @@
 
 namespace clatter::bench {
 
-/// x and x', as the solvers carry them.
+/// x and x', the solvers' variables.
 using Values = std::array<double, 2>;
 
-/// A scene as its user writes it for a general solver, and what the solver made of it.
+/// A scene as a user writes it for a general solver, and the record of the solver's run.
 ///
-/// The user knows the equation, the gaps and the law of impact, starts with a reflection where the start moves into a
-/// stop, puts the mass exactly onto the stop at each located contact, reverses its velocity only where it moves in, and
-/// chooses tolerances and first steps that fit the scene. Chatter and rest he leaves to the solver: each of their
-/// impacts is taken as it comes.
+/// The user supplies the equation, the gaps and the law of impact, begins with a reflection if the start moves into a
+/// stop, puts the mass exactly onto the stop at each located contact, reverses its velocity only if it moves in, and
+/// chooses tolerances and first steps that suit the scene. Chatter and rest are left to the solver, impact by impact.
 class SolverRun {
  public:
   enum class Outcome : std::uint8_t { running, completed, stuck, failed };
 
   SolverRun(const point::Problem& scene, double duration);
 
-  // What a solver asks for.
+  // The interface for the solver's questions.
   [[nodiscard]] const Values& start() const { return start_; }  ///< after the reflection, if there was one
   [[nodiscard]] double duration() const { return duration_; }
   [[nodiscard]] double damping() const { return scene_.oscillator.damping; }
@@ -34,22 +33,24 @@ class SolverRun {
   [[nodiscard]] double absolute_tolerance() const { return 1e-10 * size_; }
   [[nodiscard]] Values derivative(double tau, const Values& y);  ///< counted
   [[nodiscard]] double gap(Side side, double x) const;           ///< to a stop, < 0 beyond it; inf: no such stop
-  [[nodiscard]] double first_step(double tau, const Values& y);  ///< well below the flight that begins here
-  [[nodiscard]] bool goes_on(double tau);                        ///< whether it is worth while to go on
+  [[nodiscard]] double first_step(double tau,
+                                  const Values& y);  ///< well below the length of the flight that begins here
+  [[nodiscard]] bool goes_on(double tau);            ///< false: out of budget, or complete
 
-  // What a solver reports.
-  Values contact(double tau, Side side, double v);  ///< an impact if it moves in; where the mass goes on from
-  void see(double tau, double x);                   ///< a place that the motion goes through
+  // The interface for the solver's reports.
+  Values contact(double tau, Side side,
+                 double v);        ///< a contact, and an impact if it moves in; returns the state after
+  void see(double tau, double x);  ///< a displacement on the way
   void complete(double x);
   void fail(double tau, const std::string& why) { give_up(Outcome::failed, tau, why); }
 
-  // What became of it.
+  // The result.
   [[nodiscard]] Outcome outcome() const { return outcome_; }
-  [[nodiscard]] const std::string& why() const { return why_; }    ///< it did not complete; else empty
+  [[nodiscard]] const std::string& why() const { return why_; }    ///< why it did not complete; else empty
   [[nodiscard]] double gave_up_at() const { return gave_up_at_; }  ///< tau; completed: NaN
   [[nodiscard]] const std::vector<accuracy::Event>& impacts() const { return impacts_; }  ///< in the order of time
-  [[nodiscard]] double penetration() const;  ///< largest seen, over half the distance of the stops; NaN: no stops
-  [[nodiscard]] double end() const { return end_; }  ///< x at the end; NaN where it was not reached
+  [[nodiscard]] double penetration() const;  ///< largest reported, over half the distance of the stops; NaN: no stops
+  [[nodiscard]] double end() const { return end_; }  ///< x at the end; NaN if it was not reached
   [[nodiscard]] std::int64_t right_hand_sides() const { return right_hand_sides_; }
 
  private:
@@ -60,23 +61,24 @@ class SolverRun {
 
   point::Problem scene_;
   double duration_;
-  double size_;  ///< of the motion: half the distance of the stops, or what the start and the force suggest if smaller
+  double
+      size_;  ///< of the motion: half the distance of the stops, or the size that start and force suggest, if smaller
   Values start_;
   Outcome outcome_ = Outcome::running;
   std::string why_{};
   double gave_up_at_ = std::numeric_limits<double>::quiet_NaN();
   std::vector<accuracy::Event> impacts_{};
   std::vector<double> contacts_{};  ///< times of all contacts, impacts or not
-  std::size_t moved_on_ = 0;        ///< the last contact that came after the one before
+  std::size_t moved_on_ = 0;        ///< the last contact that was later than the one before
   double deepest_ = 0.0;
   double end_ = std::numeric_limits<double>::quiet_NaN();
   std::int64_t right_hand_sides_ = 0;
 };
 
-/// Places inside each step of a solver, its end among them, at which motion beyond a stop is looked for.
+/// Points in each step of a solver, its end included, at which motion beyond a stop is looked for.
 inline constexpr int looks_per_step = 8;
 
 void run_odeint(SolverRun& run);  ///< Boost.Odeint: Dormand and Prince's pair of orders 5 and 4, with dense output
-void run_cvode(SolverRun& run);   ///< SUNDIALS CVODE with its own root finder; only where CLATTER_CVODE is defined
+void run_cvode(SolverRun& run);   ///< SUNDIALS CVODE with its own root finder; only if CLATTER_CVODE is defined
 
 }  // namespace clatter::bench

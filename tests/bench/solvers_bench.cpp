@@ -1,5 +1,5 @@
 // The sweep of Fig. 23 by clatter and by general solvers of differential equations, side by side in one run: time per
-// forcing period on one thread, and at how many of its points a solver is wrong at each tolerance.
+// forcing period on one thread, and the number of points at which a solver is wrong at each tolerance.
 #include <benchmark/benchmark.h>
 
 #include <cstddef>

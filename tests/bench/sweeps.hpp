@@ -20,10 +20,10 @@ inline constexpr double xs_18 = -0.5;  ///< of Fig. 18: two impacts in a forcing
 inline constexpr double xs_23 = -3.0;  ///< of Fig. 23: impacts at resonance only, grazing and chaos beside it
 
 /// The map of the same oscillator over frequencies 0.5 ... 1.5 and stops 0.2 ... 4, n of each: extrema, harmonics 0 ...
-/// 3 from the arcs and the period of the steady motion, which is given up after 500 forcing periods.
+/// 3 from the arcs and the period of the steady motion, which is sought for at most 500 forcing periods.
 [[nodiscard]] sweep::Sweep map(std::size_t n);
 
-/// What a run simulated, all points together.
+/// The work of a run, all points together.
 struct Work {
   double impacts = 0.0, periods = 0.0;
 };

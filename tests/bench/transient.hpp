@@ -9,7 +9,7 @@
 
 namespace clatter::bench {
 
-/// What is wanted of a motion from its start to its end.
+/// The results of a motion from its start to its end.
 struct Transient {
   double x_min = 0.0, x_max = 0.0;
   double x = 0.0, v = 0.0;  ///< at the end
@@ -20,7 +20,7 @@ struct Transient {
 /// Displacement and velocity.
 using Phase = std::array<double, 2>;
 
-/// x'' = f sin(nu tau + phase) - 2 h x' - x + load, as its user writes it for a general solver.
+/// x'' = f sin(nu tau + phase) - 2 h x' - x + load (eq. 3), as a user writes it for a general solver.
 class Equation {
  public:
   explicit Equation(const point::Problem& scene) : of_(scene.oscillator), phase_(scene.start.phase) {}
@@ -34,13 +34,13 @@ class Equation {
   double phase_;
 };
 
-/// What a user of Boost.Odeint looks at for impacts: the ends of steps alone, or turning points within steps too.
+/// The points at which a user of Boost.Odeint looks for impacts: the ends of steps, or turning points within steps too.
 enum class Looks : std::uint8_t { ends, turns };
 
 /// Boost.Odeint: Dormand and Prince's pair of orders 5 and 4, impacts on its dense output.
 [[nodiscard]] Transient odeint_transient(const point::Problem& scene, double tolerance, Looks looks);
 
-/// SUNDIALS CVODE: Adams' methods, the gaps and the velocity as root functions; only where CLATTER_CVODE is defined.
+/// SUNDIALS CVODE: Adams' methods, the gaps and the velocity as root functions; only if CLATTER_CVODE is defined.
 [[nodiscard]] Transient cvode_transient(const point::Problem& scene, double tolerance);
 
 }  // namespace clatter::bench

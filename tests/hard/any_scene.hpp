@@ -12,7 +12,7 @@
 
 namespace clatter::hard {
 
-/// A scene that nobody chose, drawn by its index alone, and the time in tau it is run for.
+/// A random scene, drawn by its index alone, and the time in tau for which it is run.
 struct AnyScene {
   std::uint64_t index;
   point::Problem scene;
@@ -51,7 +51,7 @@ inline Stops any_stops(support::Random& random) {
   return {-near, far, R_lower, R_upper};
 }
 
-/// Between the stops, or on one of them: at rest, moving in or moving out.
+/// A start between the stops, or on one of them: at rest, moving in or moving out.
 inline Start any_start(support::Random& random, const Stops& stops) {
   const double low = std::isfinite(stops.lower) ? stops.lower : stops.upper - 3;
   const double high = std::isfinite(stops.upper) ? stops.upper : stops.lower + 3;
@@ -74,7 +74,7 @@ inline Start any_start(support::Random& random, const Stops& stops) {
   return {index, scene, scene.time.duration};
 }
 
-/// What watches a scene section by section: times count from the section that the run is in.
+/// An observer of a run from one stroboscopic section to the next; times count from the last section.
 struct Watcher {
   template <class A>
   void arc(const A&, double, double) {}
@@ -102,7 +102,7 @@ template <class Integrator, class W>
   return state;
 }
 
-/// Runs a scene under the eyes of a watcher.
+/// Runs a scene, reporting to an observer.
 template <class W>
 [[nodiscard]] stepping::Outcome watch(const AnyScene& any, W& watcher) {
   return with_any_stops(any.scene.oscillator, [&]<Effects effects>() {

@@ -1,4 +1,4 @@
-// The closed form of free and forced motion, where its terms are huge and cancel, against 50 digits.
+// The closed form of free and forced motion against 50 digits, also if its terms are huge and cancel.
 
 #include <gtest/gtest.h>
 
@@ -42,8 +42,8 @@ ArcScene random_arc(std::uint64_t index) {
   return scene;
 }
 
-/// Errors of displacement, velocity, acceleration and rise, each over its natural scale: what start, load and force
-/// make of it, in the time that there is and with the damping that there is.
+/// Errors of displacement, velocity, acceleration and offset, each over its natural scale: the size that start, load
+/// and force can give it in the time of the arc under its damping.
 struct ArcError {
   double x, v, a, offset;
 

@@ -1,5 +1,5 @@
-// No shortcut to the steady motion may end on a motion that the scene itself doesn't settle to: random scenes, light
-// damping near low ratios first, against simulating everything for all of max_periods.
+// No shortcut may end on a motion to which the scene itself doesn't settle: random scenes, light damping near low
+// ratios first, against simulating everything for all of max_periods.
 
 #include <gtest/gtest.h>
 
@@ -34,7 +34,7 @@ double ratio_near(support::Random& random) {
   return ratios[which] * (1 + random.sign() * random.logarithmic(1e-4, 2e-2));
 }
 
-/// A transient that beats slowly against the force, with the stops somewhere in its reach.
+/// A transient that beats slowly with the force, with the stops somewhere in its reach.
 point::Problem beats(support::Random& random, double least_h, double most_h) {
   const double h = random.logarithmic(least_h, most_h), nu = ratio_near(random);
   const double response = steady_response(h, 1.0, nu).amplitude, transient = response * random.logarithmic(0.1, 10);
@@ -69,7 +69,7 @@ point::Problem scene_number(std::uint64_t i) {
     case 3:  // nearly elastic
       return start_anywhere(random, steady_scene({random.logarithmic(1e-3, 0.1), 1.0, nu, 0.0}, -xs, xs,
                                                  1 - random.logarithmic(1e-4, 0.1)));
-    case 4:  // where Figs. 22 and 23 double their period, or nearly so
+    case 4:  // near the period doublings of Figs. 22 and 23
       return steady_scene({random.uniform(0.08, 0.12), -1.0, random.uniform(0.84, 1.0), 0.0}, -3.0,
                           random.uniform(2.9, 4.1), random.uniform(0.6, 0.8));
     case 5: {  // unlike stops under a load
@@ -92,7 +92,7 @@ point::Problem scene_number(std::uint64_t i) {
   }
 }
 
-/// By the scalar kernel, and in lanes if they take it.
+/// The results in the scalar loop, and in lanes if they accept the scene.
 std::vector<point::PointResult> answers_of(const point::Problem& scene) {
   point::ThreadScratch scratch;
   std::vector<point::PointResult> answers{run_point(scene, scratch)};
@@ -102,7 +102,7 @@ std::vector<point::PointResult> answers_of(const point::Problem& scene) {
   return answers;
 }
 
-/// Without shortcuts, for long enough by an estimate of how long the transient lasts.
+/// The result without shortcuts, over a time that is long enough by an estimate of the transient's length.
 point::PointResult everything(point::Problem scene, double settling) {
   scene.integration.all_effects = true;
   if (settling < 1e6)
@@ -121,10 +121,10 @@ bool agree(const point::PointResult& a, const point::PointResult& b) {
          std::abs(a.v_min - b.v_min) <= v && std::abs(a.v_max - b.v_max) <= v;
 }
 
-/// Whether the scene settles to an answer when its start and its force differ from its own in the last digits (a motion
-/// that rests forgets its start). Most often one of a few does; nearly elastic scenes have chaotic transients of
-/// thousands of periods and several attractors, some of which catch one motion of a hundred. Where chaos leads from one
-/// rest to the next, the last digits decide all of the motion, and hardly two of these answers agree.
+/// Whether the scene settles to an answer if its start and force are changed in the last digits (a motion that rests
+/// forgets its start). Mostly one of a few such scenes does; nearly elastic scenes have chaotic transients of thousands
+/// of periods and several attractors, some of which attract one motion of a hundred. If chaos leads from one rest to
+/// the next, the last digits decide the whole motion, and hardly two of these answers agree.
 bool agrees_nearby(const point::PointResult& found, const point::Problem& scene) {
   std::vector<point::PointResult> distinct;
   for (std::size_t i = 0; i < 240; ++i) {
@@ -152,7 +152,7 @@ std::string words(const point::PointResult& r) {
 }
 
 TEST(Attractors, a_transient_that_meets_a_stop_for_the_first_time_after_hundreds_of_periods_is_waited_for) {
-  // near nu = 2 and 1/2 the transient turns slowly against the force, and a stop stands in a part of its way
+  // near nu = 2 and 1/2 the phase of the transient drifts slowly against the force, and a stop cuts a part of its way
   point::Problem even = steady_scene({0.0001, 1.0, 2.001, 0.0}, -0.8, 0.8, 0.7);
   even.start.velocity = -1.2;
   const double xs = 1.4682365128203856;

@@ -21,14 +21,14 @@ point::Problem starting(point::Problem scene, const Start& start) {
   return scene;
 }
 
-/// On the linear steady state of h = 0.1, f = 1, nu = 1.5, the stops at its amplitude times 1 - past.
+/// A start on the linear steady state of h = 0.1, f = 1, nu = 1.5, with stops at its amplitude times 1 - past.
 point::Problem grazing(double past) {
   const double amplitude = 0.777909841584413976;
   return starting(symmetric({0.1, 1.0, 1.5, 0.0}, amplitude * (1 - past), 0.7),
                   {-0.181543116490166415, -1.13464447806354009, 0.0});
 }
 
-/// Pressed onto the upper stop by a load, from the middle between the stops.
+/// A mass that a load presses onto the upper stop, from the middle between the stops.
 point::Problem pressed(double R) { return symmetric({0.0, 0.0, 1.0, 1.0}, 0.5, R); }
 
 /// Free vibration through |x'| = 1.5 between stops at 0.75: a contact at asin(0.5) and then every 2 asin(0.5).

@@ -1,4 +1,4 @@
-// Infinitely many impacts in a finite time, rest, and release where the force changes sign.
+// Infinitely many impacts in a finite time, rest, and release when the force changes sign.
 
 #include <gtest/gtest.h>
 

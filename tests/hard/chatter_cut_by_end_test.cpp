@@ -22,7 +22,7 @@ TEST(ChatterCutByEnd, ends_in_flight_however_near_the_end_of_the_chatter_is) {
 }
 
 TEST(ChatterCutByEnd, leaves_the_motion_after_it_as_it_is) {
-  // sections cut the run wherever they lie: put one 1e-4 ... 1e-13 before the end of the chatter
+  // stroboscopic sections cut the run anywhere: here 1e-4 ... 1e-13 before the end of the chatter
   const Case& whole = case_of("chatter_and_rest", "R = 0.5");
   const accuracy::Event expected = accuracy::record_of(whole.scene, 9.0).events.back();
   const double chatter_end = 4.4158803670592697, period = 2 * pi<double>() / whole.scene.oscillator.frequency;

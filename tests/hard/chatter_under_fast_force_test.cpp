@@ -1,4 +1,4 @@
-// A chatter slower than the force: what presses the mass turns round during it, and no series may sum it.
+// A chatter slower than the force: the pressing force changes sign during it, so that it must not be summed.
 
 #include <gtest/gtest.h>
 

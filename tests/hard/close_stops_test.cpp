@@ -1,4 +1,4 @@
-// Stops so close that the mass hits both within 1e-9, far below what its displacement would show beside a force of 1.
+// Stops so close that the mass hits both within 1e-9, far below the resolution of a displacement under a force of 1.
 
 #include <gtest/gtest.h>
 

@@ -28,7 +28,7 @@ TEST(Edges, moving_out_is_none) { EXPECT_GT(from("start moving out").events.at(0
 
 TEST(Edges, at_rest_it_stays_while_pressed) {
   const accuracy::Event rest =
-      from("start at rest, pressed").events.at(0);  // until f sin = 0.5: from phase pi/2 to 5 pi/6
+      from("start at rest, pressed").events.at(0);  // until f sin(theta) = 0.5 (eq. 26): from phase pi/2 to 5 pi/6
   EXPECT_EQ(rest.kind, accuracy::Event::Kind::rest);
   EXPECT_NEAR(rest.length, (5 - 3) * std::numbers::pi / 6 / 0.5, 1e-14);
 }

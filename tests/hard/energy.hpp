@@ -9,14 +9,14 @@
 
 namespace clatter::hard {
 
-/// Keeps the books of the energy E = x'^2/2 + x^2/2 - load x: what the force puts in, less what friction and impacts
-/// take out, is what E has grown by.
+/// Checks the balance of the energy E = x'^2/2 + x^2/2 - load x (eq. 34): the work of the force, less the losses by
+/// damping and impacts, is the growth of E.
 class EnergyBooks : public Watcher {
  public:
   explicit EnergyBooks(const point::Problem& scene)
       : EnergyBooks(scene, scene.start.displacement, scene.start.velocity) {}
 
-  /// Of a motion that is at displacement x and velocity v when it is first seen.
+  /// For a motion that is first observed at displacement x and velocity v.
   EnergyBooks(const point::Problem& scene, double x, double v)
       : oscillator_(scene.oscillator), begin_(energy(x, v)), before_(begin_) {
     meet(x, v);
@@ -38,7 +38,8 @@ class EnergyBooks : public Watcher {
     gain(-loss, loss);
     rebound_ = impact.after;
   }
-  void rest(const motion::Rest&) {  // a chatter takes what its last rebound left; before other rests that is nothing
+  void rest(
+      const motion::Rest&) {  // a completed chatter takes the energy of its last rebound, which is 0 before other rests
     const double left = rebound_ * rebound_ / 2;
     gain(-left, left);
     rebound_ = 0;
@@ -53,11 +54,11 @@ class EnergyBooks : public Watcher {
     meet(state.x, state.v);
   }
 
-  /// What was missing in the period where most was, and in the whole run, over the largest energy plus all that was put
-  /// in and taken out.
+  /// The largest error of the balance over a period, and that over the whole run, relative to the largest energy plus
+  /// all work and losses.
   [[nodiscard]] double of_period() const { return of_period_; }
   [[nodiscard]] double of_run() const { return of_run_; }
-  /// Work that impacts and friction did not take up, over the same: 0 where a motion repeats.
+  /// Work less losses, relative to the same: 0 if the motion repeats.
   [[nodiscard]] double left_over() const { return std::abs(all_gained_) / (all_highest_ + all_moved_); }
 
  private:

@@ -1,4 +1,4 @@
-// From rest, h = 0 and nu = 2: x = (2 sin tau - sin 2 tau)/3 rises to 3^(1/2)/2 at 2 pi/3, where the stop is.
+// From rest, h = 0 and nu = 2: x = (2 sin tau - sin 2 tau)/3 reaches 3^(1/2)/2 at tau = 2 pi/3, the stop's position.
 
 #include <gtest/gtest.h>
 
@@ -18,7 +18,7 @@ TEST(GrazeFromRest, contact_is_where_the_closed_form_meets_the_stop) {
     const accuracy::Event contact = accuracy::record_of(one.scene, one.duration).events.at(0);
     const long double tau = contact.time, x = (2 * sinl(tau) - sinl(2 * tau)) / 3,
                       v = 2 * (cosl(tau) - cosl(2 * tau)) / 3;
-    EXPECT_LT(contact.time, 2 * std::numbers::pi / 3) << what;  // until there x grows: this contact is the first
+    EXPECT_LT(contact.time, 2 * std::numbers::pi / 3) << what;  // x grows until then, so this contact is the first
     EXPECT_NEAR(static_cast<double>(x), one.scene.stops.upper, 2 * epsilon<double>()) << what;
     // the time to rounding over speed, and the speed to the deceleration 3^(1/2) times that
     EXPECT_NEAR(static_cast<double>(v), contact.speed, 4 * epsilon<double>() / contact.speed) << what;

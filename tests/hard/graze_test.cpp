@@ -1,5 +1,6 @@
-// A mass on its steady motion that just reaches the stops: the speed of contact goes with the square root of how far
-// they are in its way, and every later contact multiplies the rounding of the one before by about its inverse.
+// A mass on its steady motion that just reaches the stops: the speed at contact goes with the square root of the depth
+// of the stops in its way (eq. 20), and every later contact multiplies the rounding of the one before by about its
+// inverse.
 
 #include <gtest/gtest.h>
 
@@ -24,7 +25,7 @@ TEST(Graze, first_contact_has_its_time_and_speed) {
     const accuracy::Event first = accuracy::record_of(case_of("graze", what).scene, 1.0).events.at(0);
     const double speed = nu * amplitude * std::sqrt(past * (2 - past));
     EXPECT_EQ(first.side, Side::lower);
-    // an ulp of the amplitude moves the time by it over the speed, and the speed by the acceleration times that
+    // an ulp of the amplitude moves the time by itself over the speed, and the speed by the acceleration times that
     const double rounding = 4 * epsilon<double>() * amplitude / speed;
     EXPECT_NEAR(first.time, time, rounding) << what;
     EXPECT_NEAR(first.speed, speed, nu * nu * amplitude * rounding) << what;

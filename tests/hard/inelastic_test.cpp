@@ -1,4 +1,4 @@
-// R = 0: the mass stays where it lands, until the force lets it go.
+// R = 0: the mass stays on the stop that it hits until the force releases it.
 
 #include <gtest/gtest.h>
 

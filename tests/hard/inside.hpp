@@ -8,9 +8,9 @@
 
 namespace clatter::hard {
 
-/// How far arcs go beyond the stops, in ulps of the natural scale of the sum that forms a place: the sizes of its terms
-/// (load, stop, forced response, free motion), and how far an ulp of the time moves the response and the mass. A flight
-/// that a section cuts keeps the scale it had before.
+/// The distance by which arcs go beyond the stops, in ulps of the natural scale of a displacement: the sizes of its
+/// terms (load, stop, forced response, free motion), and the way of response and mass in an ulp of the time. A flight
+/// that a section cuts keeps the scale that it had before.
 class BeyondStops : public Watcher {
  public:
   explicit BeyondStops(const point::Problem& scene) : oscillator_(scene.oscillator), stops_(scene.stops) {}
@@ -46,7 +46,7 @@ class BeyondStops : public Watcher {
   double scale_ = 0, flight_ = 0, ulps_ = 0;
 };
 
-/// Whether every place that is told of a motion lies between the stops, and every impact and rest on one.
+/// Whether every reported displacement of a motion is between the stops, and every impact and rest on one.
 class ToldPlaces : public Watcher {
  public:
   explicit ToldPlaces(const Stops& stops) : stops_(stops) {}

@@ -1,4 +1,4 @@
-// What adds up over long runs: the speed of conservative impacts, and the phase of the force.
+// Errors that could add up over long runs: the speed of conservative impacts, and the phase of the force.
 
 #include <gtest/gtest.h>
 
@@ -12,7 +12,7 @@
 namespace clatter::hard {
 namespace {
 
-/// Keeps the extremes of the speed of contact and the time of the last one.
+/// Records the extreme speeds at contacts and the time of the last one.
 struct Drift {
   double slowest = INFINITY, fastest = 0.0, last = 0.0, count = 0.0;
 
@@ -25,7 +25,7 @@ struct Drift {
   }
 };
 
-/// A million impacts, or as many as the environment variable CLATTER_IMPACTS says.
+/// A million impacts, or the number in the environment variable CLATTER_IMPACTS.
 double impacts_to_take() {
   const char* const text = std::getenv("CLATTER_IMPACTS");
   return text == nullptr ? 1e6 : std::stod(text);
@@ -54,7 +54,7 @@ TEST(Long, conservative_impacts_neither_gain_nor_lose_speed) {
 }
 
 TEST(Long, ten_million_forcing_periods_keep_the_phase) {
-  // on the linear steady state the mass is at every section where it was at the first; a phase off by 1e-15 would show
+  // on the linear steady state each section has the state of the first one; a phase off by 1e-15 would show
   const Case& one = case_of("long", "1e7 forcing periods");
   stepping::Exact<double, effect_sets::complete(Damping::light, Forcing::regular)> integrator(one.scene,
                                                                                               limits_of(one.scene));

@@ -1,4 +1,4 @@
-// R close to 1: a chatter of thousands or millions of impacts, each of which moves the end of it.
+// R close to 1: a chatter of thousands or millions of impacts, each of which affects its end.
 
 #include <gtest/gtest.h>
 
@@ -35,7 +35,7 @@ TEST(NearElasticChatter, ends_where_the_sum_of_its_flights_says) {
     ASSERT_EQ(m.record.events.back().kind, accuracy::Event::Kind::rest) << what;
     for (const accuracy::Event& event : m.record.events) {
       if (event.kind == accuracy::Event::Kind::impact) ++m.impacts;
-      if (event.kind != accuracy::Event::Kind::rest || m.rests == 1) continue;  // the others go on with it
+      if (event.kind != accuracy::Event::Kind::rest || m.rests == 1) continue;  // the others continue it
       m.rests = 1;
       m.error = std::abs(event.time - end) / one.duration;
       EXPECT_NEAR(event.time / end, 1.0, 1e-12) << what;
@@ -44,7 +44,7 @@ TEST(NearElasticChatter, ends_where_the_sum_of_its_flights_says) {
     m.one_ulp =
         std::abs(static_cast<double>(end_of_chatter(R * (1 - epsilon<double>())) - end_of_chatter(R))) / one.duration;
     EXPECT_LE(m.error, 64 * m.one_ulp) << what;
-    // speeds fall by R from 1 to the cube root of rounding times 1 - R, where the sum is as good as its flights
+    // speeds fall by R from 1 to the cube root of rounding times 1 - R, from which on the sum is as good as its flights
     EXPECT_LE(m.record.impacts, 30 / (1 - R)) << what;
     if (one.what != "R = 0.99") report(one, m);
   }

@@ -5,9 +5,9 @@
 
 namespace clatter::hard {
 
-/// Integral of y(motion, time) over an arc by Gauss-Legendre panels, y turning by up to `rate` radians in a unit of
-/// time; `size` gets the integral of |y|. Twenty nodes for four radians and seven for half a one err far below
-/// rounding.
+/// Integral of y(motion, time) over an arc by Gauss-Legendre panels, for y that oscillates by up to `rate` radians in a
+/// unit of time; `size` receives the integral of |y|. Twenty nodes for four radians and seven for half a radian err far
+/// below rounding.
 template <class A, class Integrand>
 [[nodiscard]] auto integral(const A& arc, double length, double rate, const Integrand& y, double& size) {
   const auto at = [&](double s) { return y(arc.at(s), s); };

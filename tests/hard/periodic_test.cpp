@@ -20,7 +20,7 @@ using Complex = std::complex<double>;
 
 constexpr std::size_t highest = 3;  ///< harmonic
 
-/// A period of a motion, seen in three ways.
+/// A period of a motion, observed in three ways.
 struct Period : Watcher {
   Period(const point::Problem& scene, const motion::State<double>& from, double length, double base_)
       : base(base_), by_parts(highest, base_), books(scene, from.x, from.v), total(length) {}
@@ -62,7 +62,7 @@ struct Period : Watcher {
   bool rests = false;
 };
 
-/// Eq. 38: the force's share of harmonic k, and the impacts'.
+/// The numerator of eq. 38: the terms of the force, the load and the impacts in harmonic k.
 struct Shares {
   Complex sum;
   double size;
@@ -80,8 +80,8 @@ Shares shares_of(const point::Problem& scene, const Period& period, std::size_t 
   return shares;
 }
 
-/// The three ways' largest difference in units of what is allowed: rounding, in the impacts' way of the jumps that are
-/// summed and of the angles, and what the period failed to close by.
+/// The largest difference of the three ways in units of the allowed one: rounding, for the impacts that of the summed
+/// jumps and of the angles, and the distance by which the period fails to close.
 double difference_of_harmonics(const point::Problem& scene, const Period& period, double gap) {
   double worst = 0;
   for (std::size_t k = 0; k <= highest; ++k) {
@@ -99,7 +99,7 @@ double difference_of_harmonics(const point::Problem& scene, const Period& period
   return worst;
 }
 
-/// The tenth part of the scenes, from a steady state on where one is found within 300 periods.
+/// The tenth part of the scenes, from a steady state on if one is found within 300 periods.
 template <class Check>
 void in_steady_scenes(Check&& check) {
   in_every_scene([&](AnyScene any) {
@@ -114,7 +114,7 @@ void in_steady_scenes(Check&& check) {
   });
 }
 
-/// Whether a period is seen from just before an impact to just after it.
+/// Whether a period is observed from just before an impact to just after it.
 bool begins_with_impact(const point::Problem& scene, const motion::State<double>& from) {
   return (from.x == scene.stops.lower && from.v < 0) || (from.x == scene.stops.upper && from.v > 0);
 }
@@ -136,7 +136,7 @@ TEST(Properties, harmonics_of_a_periodic_motion_follow_from_its_impacts) {
     if (outcome != stepping::Outcome::completed) return;  // over budget
     period.finish(state);
     const double gap = std::max(std::abs(state.x - observed.from.x), std::abs(state.v - observed.from.v));
-    closes.take(any, gap / (1e-5 * period.fastest(state)));  // where it ends in a graze; others far better
+    closes.take(any, gap / (1e-5 * period.fastest(state)));  // if it ends in a graze; others far better
     if (period.rests || period.grazes() || period.impacts.empty()) return;
     harmonics.take(any, difference_of_harmonics(any.scene, period, gap));
     energy.take(any, period.books.left_over() / 1e-11);

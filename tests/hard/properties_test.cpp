@@ -1,4 +1,4 @@
-// What must hold for every scene: 10^4 random ones, or those that CLATTER_SCENES names as FROM:TO.
+// Properties of every scene: 10^4 random ones, or those that CLATTER_SCENES names as FROM:TO.
 
 #include <gtest/gtest.h>
 
@@ -20,7 +20,7 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// Counts what a motion is made of.
+/// Counts the impacts, rests and chatters of a motion.
 struct Contents : Watcher {
   std::uint64_t impacts = 0, rests = 0, chatters = 0;
 
@@ -61,7 +61,7 @@ TEST(Properties, arcs_stay_between_the_stops_to_two_ulps) {
   tally.conclude(1);
 }
 
-/// Shows a motion to what the program's users see it by.
+/// Reports a motion to the observers of samples and extrema.
 struct Told : ToldPlaces {
   Told(const AnyScene& any)
       : ToldPlaces(any.scene.stops), samples(100, any.duration / 99, observables::AtImpact::after, any.scene.stops) {}
@@ -80,7 +80,7 @@ struct Told : ToldPlaces {
 };
 
 TEST(Properties, no_place_outside_the_stops_is_told) {
-  Tally tally("told places between the stops"), bounds("samples between the extrema");
+  Tally tally("reported displacements between the stops"), bounds("samples between the extrema");
   in_every_scene([&](const AnyScene& any) {
     Told told(any);
     with_any_stops(any.scene.oscillator, [&]<Effects effects>() {
@@ -97,7 +97,7 @@ TEST(Properties, no_place_outside_the_stops_is_told) {
       beyond = std::max({beyond, range.low - x, x - range.high});
     }
     tally.take(any, told.right() ? 0 : infinity);
-    bounds.take(any, beyond > 0 ? beyond / (8 * epsilon<double>() * largest) : 0);  // extrema stop there
+    bounds.take(any, beyond > 0 ? beyond / (8 * epsilon<double>() * largest) : 0);  // extrema are cut at the stops
   });
   tally.conclude(1);
   bounds.conclude(1);
@@ -145,9 +145,9 @@ TEST(Properties, energy_balances_over_every_period) {
 }
 
 TEST(Properties, no_impact_is_missed) {
-  Tally missed("no impact that Taylor steps see is missed"), position("places that Taylor steps come to"),
-      speed("velocities that Taylor steps come to"), pressed("mass at rest is pressed"),
-      broken("motion goes on where and when it was");
+  Tally missed("no impact of Taylor steps is missed"), position("displacements of Taylor steps"),
+      speed("velocities of Taylor steps"), pressed("mass at rest is pressed"),
+      broken("motion continues from its last state and time");
   in_every_scene([&](const AnyScene& any) {
     Rescan rescan(any.scene);
     (void)watch(any, rescan);
@@ -157,14 +157,14 @@ TEST(Properties, no_impact_is_missed) {
   for (const Tally* tally : {&missed, &position, &speed, &pressed, &broken}) tally->conclude(1);
 }
 
-/// The tangent map of a motion, and what its determinant must be.
+/// The tangent map of a motion, and its determinant by eq. 28.
 struct Area : Watcher {
   explicit Area(const point::Problem& scene) : damping(scene.oscillator.damping), tangent(scene.stops) {}
 
   template <class A>
   void arc(const A& arc, double begin, double length) {
     tangent.arc(arc, begin, length);
-    // an arc's determinant e^{-2hs} is a difference of products that heavy damping makes larger than it
+    // an arc's determinant e^{-2hs} is a difference of products that are larger than it under heavy damping
     const auto p = arc.constants().propagator(length);
     const double decayed = 2 * damping * length;
     rounding += (1 + decayed) * (1 + (std::abs(p.a * p.c) + p.b * p.b) * std::exp(decayed));
@@ -176,7 +176,7 @@ struct Area : Watcher {
     ++(impact.side == Side::upper ? on_upper : on_lower);
     rounding += 1;
   }
-  /// The logarithm of R^2 an impact and e^{-2hT}.
+  /// The logarithm of e^{-2hT} times R^2 for each impact (eq. 28).
   [[nodiscard]] double expected(const AnyScene& any) const {
     const Stops& stops = any.scene.stops;
     double sum = -2 * damping * any.duration;
@@ -203,7 +203,7 @@ TEST(Properties, areas_shrink_by_damping_and_restitution_alone) {
   tally.conclude(0.1);
 }
 
-/// All that is shown of a motion, as numbers; what has a sign times `sign`, what has a length times `scale`.
+/// All reports of a motion as numbers, those with a sign times `sign`, those with the unit of length times `scale`.
 struct Trace : Watcher {
   Trace(int sign_, double scale_) : sign(sign_), scale(sign_ * scale_) {}
 
@@ -244,7 +244,7 @@ AnyScene scaled(AnyScene any, double by) {
   return any;
 }
 
-/// The trace of a run that starts after a number of sections.
+/// The trace of a run that starts after a number of periods.
 Trace traced(const AnyScene& any, int sign, double scale, std::int64_t sections = 0) {
   Trace trace(sign, scale);
   with_any_stops(any.scene.oscillator, [&]<Effects effects>() {

@@ -13,7 +13,7 @@
 namespace clatter::hard {
 namespace {
 
-/// Damping none to heavy, two stops with a restitution each, a load in half of them.
+/// A random scene: damping from none to heavy, two stops with a restitution each, a load in half of the scenes.
 point::Problem random_scene(std::uint64_t index) {
   support::Random random(20230, index);
   point::Problem scene;
@@ -27,7 +27,7 @@ point::Problem random_scene(std::uint64_t index) {
   return scene;
 }
 
-/// The part-th quarter of the scenes, so that quarters run side by side.
+/// Quarter number `part` of the scenes, so that quarters run side by side.
 class RandomScenes : public testing::TestWithParam<std::uint64_t> {};
 
 TEST_P(RandomScenes, agree_with_fifty_digits_in_every_impact_and_rest) {
@@ -43,7 +43,7 @@ TEST_P(RandomScenes, agree_with_fifty_digits_in_every_impact_and_rest) {
     const support::Deviation d = support::deviation(record, reference);
     EXPECT_EQ(record.outcome, stepping::Outcome::completed);
     EXPECT_TRUE(d.same_events) << d.difference << "\n" << support::configuration_of(scene, duration);
-    // a rounding an impact; where the motion separates, what the rounding of the inputs does
+    // a rounding an impact; if motions separate, the effect of the rounding of the inputs
     if (const double rounding = (16 + record.impacts) * epsilon<double>(); d.largest() > rounding) {
       const double one_ulp = support::conditioning(scene, reference);
       EXPECT_LE(d.largest(), std::max(rounding, 64 * one_ulp)) << support::configuration_of(scene, duration);
@@ -52,14 +52,15 @@ TEST_P(RandomScenes, agree_with_fifty_digits_in_every_impact_and_rest) {
     if (d.largest() > worst) worst = d.largest(), worst_index = index;
     ++scenes, impacts += d.impacts, chatters += d.chatters, rests += d.rests;
   }
-  if (scenes >= 100) {  // a few need not have everything
+  if (scenes >= 100) {  // fewer scenes needn't have all kinds of events
     EXPECT_GT(impacts, 20 * scenes);
     EXPECT_GT(chatters, scenes);
     EXPECT_GT(rests, 2 * scenes);
   }
   std::cout << scenes << " scenes, " << impacts << " impacts, " << chatters << " chatters, " << rests
             << " rests; largest error " << worst << " (scene " << worst_index
-            << "); beyond a rounding an impact at most " << worst_ratio << " times what one ulp of the inputs does\n";
+            << "); beyond a rounding an impact at most " << worst_ratio
+            << " times the effect of one ulp of the inputs\n";
 }
 
 INSTANTIATE_TEST_SUITE_P(Quarter, RandomScenes, testing::Range<std::uint64_t>(0, 4));

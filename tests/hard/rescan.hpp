@@ -10,8 +10,8 @@
 
 namespace clatter::hard {
 
-/// Flies every arc of a motion again by Taylor steps and checks every rest by its force. Deviations are in units of
-/// what rounding allows: `ulps` of the sizes of the sums that form a place, a velocity or a force.
+/// Computes every arc of a motion again by Taylor steps and checks every rest by its force. Deviations are in units of
+/// the allowed rounding: `ulps` of the sizes of the sums that form a displacement, a velocity or a force.
 class Rescan : public Watcher {
  public:
   explicit Rescan(const point::Problem& scene)
@@ -24,7 +24,7 @@ class Rescan : public Watcher {
   template <class A>
   void arc(const A& arc, double begin, double length) {
     const auto& m = arc.start();
-    if (flying_ || m.x != x_ || m.v != v_) broken = infinity;  // it begins where the motion was
+    if (flying_ || m.x != x_ || m.v != v_) broken = infinity;  // it begins in the last state
     check_phase(m, begin);
     anchor_ = arc.anchor();
     flight_ = TaylorScan(oscillator_, anchor_).fly({m.offset, m.v, m.sine, m.cosine}, length);
@@ -38,7 +38,7 @@ class Rescan : public Watcher {
     const double R = upper ? stops_.restitution_upper : stops_.restitution_lower;
     if (impact.after != (moving_in ? -R * impact.before : impact.before)) broken = infinity;
     raise(position, ratio(std::abs(rise_of(impact.position) - flight_.end.offset), near_));
-    // where the place is known to d, v^2 is known to 2 a d
+    // if the displacement is known to d, v^2 is known to 2 a d
     const double soft = acceleration_ * near_ / std::max(std::abs(impact.before), std::sqrt(acceleration_ * near_));
     raise(speed, ratio(std::abs(impact.before - flight_.end.v), fast_ + soft));
     x_ = impact.position, v_ = impact.after, rebound_ = impact.after;
@@ -61,10 +61,10 @@ class Rescan : public Watcher {
   }
 
   double missed = 0;    ///< penetration of a stop
-  double position = 0;  ///< distance of an arc's end from the stop that is hit, or from the place that is told
+  double position = 0;  ///< distance of an arc's end from the stop that is hit, or from the reported displacement
   double speed = 0;     ///< the same of its velocity
   double pressed = 0;   ///< force that pulls a resting mass off its stop
-  double broken = 0;  ///< an arc that doesn't begin where the last ended, or at another phase; an impact against eq. 4
+  double broken = 0;    ///< an arc that doesn't begin in the state or phase in which the last one ended; eq. 4 violated
 
  private:
   using Real = TaylorScan::Real;
@@ -77,15 +77,15 @@ class Rescan : public Watcher {
     return deviation > 0 ? static_cast<double>(deviation / allowed) : 0.0;
   }
 
-  /// What rounding allows in a flight. A short flight's place is known relative to how far it went; a longer one's is a
-  /// sum of forced response and free motion, which near resonance are larger than both.
+  /// The allowed rounding in a flight. The displacement of a short flight is accurate relative to its offset; that of a
+  /// longer one is a sum of forced response and free motion, which near resonance are larger than their sum.
   template <class M>
   void allow(const M& m, double length, double rate) {
     const auto& [h, f, nu, load] = oscillator_;
     const double response =
         f == 0 ? 0 : std::abs(f) * std::min(1 / std::hypot((1 - nu) * (1 + nu), 2 * h * nu), 16 + length);
     const double part = std::min(1.0, length), terms = length * rate > 0.25 ? response * part : 0;
-    const double way = std::abs(m.offset) + std::abs(m.v) * part;  // as far as it comes without a force
+    const double way = std::abs(m.offset) + std::abs(m.v) * part;  // the offset that it reaches without a force
     acceleration_ = std::abs(load - anchor_) + way + std::abs(f) + 2 * h * std::abs(m.v);
     const double unit = ulps * epsilon<double>();
     near_ = unit * (way + acceleration_ * part * part + terms);
@@ -100,10 +100,10 @@ class Rescan : public Watcher {
     if (oscillator_.forcing == 0) return;
     const double off = static_cast<double>(
         std::max(std::abs(m.sine - std::sin(angle(begin))), std::abs(m.cosine - std::cos(angle(begin)))));
-    raise(broken, off / (ulps * epsilon<double>()));  // a turn is known to an ulp
+    raise(broken, off / (ulps * epsilon<double>()));  // a phase in turns is known to an ulp
   }
 
-  /// The force on a mass at rest, f sin(theta) + load - x, into its stop.
+  /// The force on a mass at rest, f sin(theta) + load - x, into its stop (eq. 22).
   [[nodiscard]] Real force(const motion::Rest& rest, Real sine) const {
     return sign_of(rest.side) * (oscillator_.forcing * sine + (static_cast<Real>(oscillator_.load) - rest.position));
   }
@@ -112,7 +112,7 @@ class Rescan : public Watcher {
            (std::abs(oscillator_.forcing) + std::abs(oscillator_.load) + std::abs(rest.position));
   }
 
-  /// The force presses all the time, at its least as well.
+  /// Checks that the force presses all the time, also at its least.
   void check_pressed(const motion::Rest& rest) {
     constexpr int looks = 16;
     Real least =
@@ -122,7 +122,7 @@ class Rescan : public Watcher {
     raise(pressed, ratio(-least, force_rounding(rest)));
   }
 
-  /// The force is so small that the mass would not move by rounding.
+  /// Checks that the force is so small that the mass would move by less than rounding.
   void check_hover(const motion::Rest& rest) {
     const Real largest = std::max(std::abs(force(rest, std::sin(angle(rest.time)))),
                                   std::abs(force(rest, std::sin(angle(rest.time + rest.length)))));
@@ -132,7 +132,7 @@ class Rescan : public Watcher {
   Oscillator oscillator_;
   Stops stops_;
   Real phase_;
-  double x_, v_;        ///< where the motion is, as it was told
+  double x_, v_;        ///< the last reported state
   double rebound_ = 0;  ///< velocity after an impact that nothing has followed yet
   bool flying_ = false;
   double anchor_ = 0;

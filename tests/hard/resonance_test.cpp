@@ -19,7 +19,8 @@ TEST(Resonance, grows_as_its_closed_form_and_is_approached_continuously) {
       for (double nu : {std::nextafter(1.0, 0.0), 1.0, std::nextafter(1.0, 2.0)}) {
         point::Problem scene = one.scene;
         scene.oscillator.damping = h, scene.oscillator.frequency = nu;
-        // of tau/2, what both h = 1e-17 and an ulp of nu change by 1e-16 tau, and the duration's rounding by tau ulps
+        // relative to tau/2: h = 1e-17 and an ulp of nu each change it by 1e-16 tau, the duration's rounding by tau
+        // ulps
         EXPECT_NEAR(accuracy::record_of(scene, tau).x, expected, 1e-12 * tau / 2)
             << "h = " << h << ", nu - 1 = " << nu - 1;
       }

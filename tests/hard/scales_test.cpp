@@ -22,7 +22,7 @@ TEST(Scales, a_vanishing_force_is_no_force) {
   const support::Deviation d = support::deviation(with, without);
   EXPECT_TRUE(d.same_events) << d.difference;
   EXPECT_GT(d.impacts, 0u);
-  EXPECT_LT(d.largest(), 1e-13);  // it changes nothing but the formulas, which round on their own
+  EXPECT_LT(d.largest(), 1e-13);  // so small a force only selects other formulas, which round differently
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
-// Released, and on a stop again at once: on the same one when the force lets go for a moment, on the other when it is
-// near.
+// Released, and on a stop again at once: on the same one if the force releases the mass only for a moment, on the other
+// one if that is near.
 
 #include <gtest/gtest.h>
 

@@ -13,7 +13,7 @@
 
 namespace clatter::hard {
 
-/// The scenes of a test: 10^4, or those that CLATTER_SCENES names.
+/// The scenes of a test: 10^4, or those named by CLATTER_SCENES.
 [[nodiscard]] inline support::SceneRange tested_scenes() { return support::scene_range(10000); }
 
 template <class Check>
@@ -22,21 +22,21 @@ void in_every_scene(Check&& check) {
   for (std::uint64_t index = from; index < to; ++index) check(any_scene(index));
 }
 
-/// What one property came to: how many scenes broke it, and which came nearest to what is allowed.
+/// The tally of one property: the number of scenes that broke it, and the scene with the largest deviation.
 class Tally {
  public:
   explicit Tally(std::string property) : property_(std::move(property)) {}
 
-  /// Takes what a scene gave, in units of what is allowed: beyond 1 it has failed.
+  /// Takes the deviation of a scene, in units of the allowed one: beyond 1 the scene has failed.
   void take(const AnyScene& any, double deviation) {
     ++checked_;
     if (!(deviation <= worst_)) worst_ = deviation, worst_index_ = any.index;
     if (deviation <= 1 || ++failed_ > shown) return;
-    ADD_FAILURE() << property_ << ": " << deviation << " of what is allowed, in scene " << any.index << "\n"
+    ADD_FAILURE() << property_ << ": " << deviation << " of the allowed deviation, in scene " << any.index << "\n"
                   << support::configuration_of(any.scene, any.duration);
   }
 
-  /// Fails where scenes failed, or where fewer than this share of them had anything to check.
+  /// Fails if scenes have failed, or if fewer than this share of them had anything to check.
   void conclude(double share) const {
     const auto [from, to] = tested_scenes();
     EXPECT_EQ(failed_, 0u) << property_;
@@ -44,10 +44,10 @@ class Tally {
       EXPECT_GE(static_cast<double>(checked_), share * static_cast<double>(to - from)) << property_;
     }
     std::cout << property_ << ": " << checked_ << " scenes, " << failed_ << " failed; at most " << worst_
-              << " of what is allowed (scene " << worst_index_ << ")\n";
+              << " of the allowed deviation (scene " << worst_index_ << ")\n";
   }
 
-  static constexpr std::uint64_t enough = 1000;  ///< scenes for shares of them to mean something
+  static constexpr std::uint64_t enough = 1000;  ///< number of scenes from which on shares of them are checked
 
  private:
   static constexpr std::uint64_t shown = 3;
@@ -57,7 +57,7 @@ class Tally {
   double worst_ = 0.0;
 };
 
-/// Keeps the larger, or what is no number.
+/// Keeps the larger, or a NaN.
 inline void raise(double& worst, double deviation) {
   if (!(deviation <= worst)) worst = deviation;
 }

@@ -1,4 +1,4 @@
-// A stop that lets go near the force's extremum, where its sign hangs on the rounding of |f| - gap.
+// A release near the force's extremum, at which the sign of the pressing force depends on the rounding of |f| - gap.
 
 #include <gtest/gtest.h>
 

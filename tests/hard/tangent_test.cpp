@@ -1,4 +1,4 @@
-// The tangent map against differences of neighbouring motions, made in 50 digits: nothing in them knows a derivative.
+// The tangent map against differences of neighbouring motions, made in 50 digits without any derivative.
 
 #include "motion/tangent_map.hpp"
 
@@ -10,7 +10,7 @@
 namespace clatter::hard {
 namespace {
 
-/// Whether a motion has a derivative by its start, and few enough impacts to be run in 50 digits.
+/// Whether a motion has a derivative with respect to its start, and few enough impacts to be run in 50 digits.
 struct Smooth : Watcher {
   void rest(const motion::Rest&) { smooth = false; }
   void impact(const motion::Impact& impact) {
@@ -26,7 +26,7 @@ bool suits(const AnyScene& any) {
   return watch(any, seen) == stepping::Outcome::completed && seen.smooth && seen.impacts > 0 && seen.impacts <= 20;
 }
 
-/// Where a scene has come to in 50 digits from a start moved by (dx, dv).
+/// The final state of a scene in 50 digits from a start moved by (dx, dv).
 template <Effects E, class Observer>
 motion::State<FiftyDigits> end_of(const AnyScene& any, const FiftyDigits& dx, const FiftyDigits& dv,
                                   Observer& observer) {
@@ -38,16 +38,16 @@ motion::State<FiftyDigits> end_of(const AnyScene& any, const FiftyDigits& dx, co
   return state;
 }
 
-/// The largest difference of the tangent map's entries from those of neighbouring motions, in units of what is allowed.
+/// The largest difference of the tangent map's entries from those of neighbouring motions, in units of the allowed one.
 template <Effects E>
 double deviation_of_tangent(const AnyScene& any) {
   const auto& [lower, upper, R_lower, R_upper] = any.scene.stops;
   const double x = any.scene.start.displacement;
   const FiftyDigits step(x - lower > upper - x ? "-1e-20" : "1e-20");  // away from the stop it may start on
   motion::TangentMap<FiftyDigits> tangent(any.scene.stops);
-  stepping::NoObserver nobody;
+  stepping::NoObserver none;
   const auto end = end_of<E>(any, 0, 0, tangent);
-  const auto by_x = end_of<E>(any, step, 0, nobody), by_v = end_of<E>(any, 0, step, nobody);
+  const auto by_x = end_of<E>(any, step, 0, none), by_v = end_of<E>(any, 0, step, none);
   const motion::Jacobian<FiftyDigits> map = tangent.map(), expected{(by_x.x - end.x) / step, (by_v.x - end.x) / step,
                                                                     (by_x.v - end.v) / step, (by_v.v - end.v) / step};
   FiftyDigits difference = 0, largest = 0;
@@ -55,8 +55,8 @@ double deviation_of_tangent(const AnyScene& any) {
     difference = std::max(difference, FiftyDigits(abs(map[i] - expected[i])));
     largest = std::max(largest, FiftyDigits(abs(expected[i])));
   }
-  // observers are shown times and velocities as doubles, whose rounding a soft impact's shear multiplies; motion that
-  // has faded leaves no more of the step than the last of fifty digits
+  // observers are given times and velocities as doubles, whose rounding is multiplied by the shear of a soft impact; if
+  // the motion has faded, the step is only in the last of fifty digits
   const FiftyDigits allowed = FiftyDigits("1e-11") * largest + FiftyDigits("1e-50") / abs(step) * 100;
   return static_cast<double>(FiftyDigits(difference / allowed));
 }

@@ -9,8 +9,8 @@
 
 namespace clatter::hard {
 
-/// Flies an arc by Taylor steps of eq. 3 in long double, scanning each step's polynomial: shares no formula with the
-/// kernel, and proves nothing, but looks everywhere.
+/// Computes an arc by Taylor steps of eq. 3 in long double, scanning each step's polynomial: shares no formula with the
+/// program, and proves nothing, but examines every step.
 class TaylorScan {
  public:
   using Real = long double;
@@ -20,10 +20,10 @@ class TaylorScan {
     Real offset, v, sine, cosine;
   };
 
-  /// Where a flight ends, and how far it went either way on its way there.
+  /// The end of a flight, and its extreme offsets.
   struct Flight {
     PhaseState end;
-    Real lowest, highest;  ///< of the rise
+    Real lowest, highest;  ///< of the offset
   };
 
   TaylorScan(const Oscillator& oscillator, double anchor)
@@ -50,10 +50,10 @@ class TaylorScan {
 
  private:
   static constexpr std::size_t order = 24;
-  using Series = std::array<Real, order + 1>;  ///< rise over a step, by powers of its part that has passed
+  using Series = std::array<Real, order + 1>;  ///< offset over a step, by powers of its part that has passed
   using Jet = std::array<Real, 4>;             ///< value and first three derivatives
 
-  /// From the equation's own recurrence, with the force's series beside it.
+  /// The series by the recurrence of eq. 3, together with that of the force.
   [[nodiscard]] Series series(const PhaseState& m, Real d) const {
     static const std::array<Real, order> inverse = [] {
       std::array<Real, order> table{};
@@ -79,7 +79,7 @@ class TaylorScan {
     return {y, v, 2 * a, 6 * j};
   }
 
-  /// Where a derivative changes sign between two places, by Newton's iteration within a bracket.
+  /// The zero of a derivative that changes sign between two points, by Newton's iteration within a bracket.
   template <std::size_t derivative>
   [[nodiscard]] static Real turn(const Series& c, Real low, Real high) {
     const bool rises = jet(c, high)[derivative] > 0;
@@ -99,8 +99,8 @@ class TaylorScan {
     flight.lowest = std::min(flight.lowest, offset), flight.highest = std::max(flight.highest, offset);
   }
 
-  /// Looks at a step's places, turning points, and pairs of turning points between two looks: there the velocity's own
-  /// extremum has the other sign.
+  /// Examines points of a step, its turning points, and pairs of turning points between two of these points: in between
+  /// the extremum of the velocity has the other sign.
   static Jet look(const Series& c, int looks, Flight& flight) {
     Jet left = jet(c, 0);
     for (int i = 1; i <= looks; ++i) {
