@@ -11,7 +11,7 @@ from readme_table import SOURCE, add_build, program, replaced, section
 README = SOURCE / "src" / "model" / "README.md"
 NAME = "effects ladder"
 HEAD = """\
-| effects of the scene | left out | kernel | impacts | rests | evaluations | time | ÷ kept in | ÷ all effects |
+| effects of the scene | left out | set | impacts | rests | evaluations | time | ÷ kept in | ÷ all effects |
 |---|---|--:|--:|--:|--:|--:|--:|--:|"""
 
 
@@ -55,7 +55,7 @@ def time(seconds):
 
 def row(left_out, rung):
     own = rung["own"]
-    counts = " | ".join(f"{own[name]:.3g}" for name in ("kernel", "impacts", "rests", "evaluations"))
+    counts = " | ".join(f"{own[name]:.3g}" for name in ("set", "impacts", "rests", "evaluations"))
     with_it = ratio(rung, "kept in") if left_out else "–"
     return f"| {own['label']} | {left_out or '–'} | {counts} | {time(own['time'])} | {with_it} | {ratio(rung, 'all')} |"
 

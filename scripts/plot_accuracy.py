@@ -106,7 +106,7 @@ def note(output, found):
 
 
 def curve(output, method, errors, cost, look=None, in_lanes=False):
-    """One method's rows, by the scalar kernel or in lanes, that have an error: the largest of `errors` against a cost,
+    """One method's rows, by the scalar loop or in lanes, that have an error: the largest of `errors` against a cost,
     over all points of the sweep."""
     error, setting = worst(at_points(output, *errors)), output.values("setting")
     costs = medians(at_points(output, cost)) if cost else np.zeros(len(setting))

@@ -75,7 +75,7 @@ std::string row_text(const accuracy::WorkPrecision& row, const accuracy::PointAc
     text += right(std::isnan(value) ? "-" : formatted(format, value), titles[column++].width);
   };
   text += right(std::string(name_of(row.trial.arch)), titles[column++].width);
-  if (left_out(row, study)) return text + "  not in lanes: this motion is left to the scalar kernel\n";
+  if (left_out(row, study)) return text + "  not in lanes: this motion is left to the scalar loop\n";
   put(row.trial.studied == accuracy::TestedMethod::harmonics_fft ? "%.0f" : "%.0e", row.trial.setting);
   for (const double error :
        {row.contact_time, row.contact_speed, row.rest, row.extrema, row.harmonics, row.v_harmonics})

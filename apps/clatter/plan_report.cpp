@@ -47,11 +47,18 @@ std::string method_of(const sweep::Sweep& sweep) {
   return std::string(stepping::method_names[static_cast<std::size_t>(sweep.scene.integration.method)]);
 }
 
+/// "saves 11 %" of the time, or a range.
+std::string saving_text(const plan::Saving& saving) {
+  if (saving.most == 0) return {};
+  const std::string most = formatted("%.0f", 100 * saving.most) + " %";
+  return "; saves " + (saving.least == saving.most ? most : formatted("%.0f", 100 * saving.least) + " ... " + most);
+}
+
 std::string group_text(const plan::Group& group) {
   std::string text = '\n' + line(counted(static_cast<double>(group.points), "point"),
-                                 "kernel: " + plan::effect_set_name(group.effects));
+                                 "effects: " + plan::effect_set_name(group.effects));
   for (const plan::Reason& reason : group.reasons)
-    text += line("  " + reason.effect, (reason.required ? "yes  " : "no   ") + reason.why);
+    text += line("  " + reason.effect, (reason.required ? "yes  " : "no   ") + reason.why + saving_text(reason.saving));
   return text + line("  work",
                      range(group.periods, "%.4g") + " periods, " + range(group.seconds, "%.2g") + " s on one thread");
 }
@@ -94,12 +101,13 @@ std::string estimate_json(const plan::Bounds& estimate) {
 
 void put_group(std::ostringstream& out, const plan::Group& group) {
   out << "\n    {\"points\": " << group.points << ", \"example\": " << group.example
-      << ", \"kernel\": " << json_text(plan::effect_set_name(group.effects))
+      << ", \"effect_set\": " << json_text(plan::effect_set_name(group.effects))
       << ", \"periods\": " << estimate_json(group.periods) << ", \"seconds\": " << estimate_json(group.seconds)
       << ", \"effects\": ";
   list(out, group.reasons, [&](const plan::Reason& reason) {
     out << "\n      {\"effect\": " << json_text(reason.effect)
-        << ", \"required\": " << (reason.required ? "true" : "false") << ", \"why\": " << json_text(reason.why) << '}';
+        << ", \"required\": " << (reason.required ? "true" : "false") << ", \"why\": " << json_text(reason.why)
+        << ", \"saves\": [" << json_number(reason.saving.least) << ", " << json_number(reason.saving.most) << "]}";
   });
   out << '}';
 }
@@ -111,7 +119,7 @@ std::string plan_text(const plan::Plan& plan, const sweep::Sweep& sweep, int thr
       line("axes", axes_text(sweep)) + points_text(plan, sweep) + line("observed", joined(plan.observed));
   const stepping::Integration& integration = sweep.scene.integration;
   if (integration.method != stepping::Method::exact)
-    text += line("method", method_of(sweep) + ": every effect is simulated, whatever the kernel; called for are:");
+    text += line("method", method_of(sweep) + ": every effect is simulated; called for are:");
   else if (integration.all_effects)
     text += line("effects", "all are simulated, for all of max_periods (integrator.effects = all); called for are:");
   for (const plan::Group& group : plan.groups) text += group_text(group);

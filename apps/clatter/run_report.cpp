@@ -34,10 +34,9 @@ std::string usage_text(const std::vector<sweep::WorkStats>& usage) {
   for (std::size_t group = 0; group < usage.size(); ++group) {
     const sweep::WorkStats& used = usage[group];
     text += (group == 0 ? "groups           " : "                 ") +
-            counted(static_cast<double>(used.points), "point") +
-            " by the kernel: " + plan::effect_set_name(used.effects) + "; forcing periods " +
-            formatted("%.6g", used.periods) + ", impacts " + formatted("%.0f", used.impacts) + ", evaluations " +
-            formatted("%.0f", used.evaluations);
+            counted(static_cast<double>(used.points), "point") + " with " + plan::effect_set_name(used.effects) +
+            "; forcing periods " + formatted("%.6g", used.periods) + ", impacts " + formatted("%.0f", used.impacts) +
+            ", evaluations " + formatted("%.0f", used.evaluations);
     std::string found;
     for (std::size_t i = 0; i < used.found_by.size(); ++i)
       if (used.found_by[i] > 0)

@@ -43,11 +43,11 @@ struct BlockState {
   LaneArray period, start_sine, start_cosine;
   // present state
   LaneArray p, w, sine, cosine, y, v, a;
-  LaneArray left;       ///< time to the next section
-  LaneArray to_next;    ///< time from the next section to the one after it, by the lane's clock
-  LaneArray longer;     ///< the relative excess of sine and cosine, taken off at the next section
-  LaneArray impacts;    ///< number of impacts so far
-  LaneArray itinerary;  ///< stops met since the last section
+  LaneArray time_to_section;  ///< time to the next section
+  LaneArray to_next;          ///< time from the next section to the one after it, by the lane's clock
+  LaneArray longer;           ///< the relative excess of sine and cosine, taken off at the next section
+  LaneArray impacts;          ///< number of impacts so far
+  LaneArray itinerary;        ///< stops met since the last section
   // reports of a step function
   LaneArray section_y, section_v;                ///< displacement and velocity at the section that was passed
   LaneArray section_itinerary, section_impacts;  ///< itinerary and impacts up to it
@@ -55,7 +55,7 @@ struct BlockState {
   LaneMask to_scalar;                            ///< lanes that the scalar loop has to advance from their state
   // observation
   LaneArray skip_sections;                 ///< sections that are passed without a report before the next one
-  LaneArray ends;                          ///< 1: the next section ends the observed time
+  LaneArray ends_here;                     ///< 1: the next section ends the observed time
   LaneArray stop_short;                    ///< 1: stop before the section; the flight across it would overshoot
   LaneArray bound_v, bound_forced_v;       ///< as bound and bound_forced, for the velocity
   LaneArray y_low, y_high, v_low, v_high;  ///< least and greatest so far

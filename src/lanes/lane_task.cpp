@@ -15,7 +15,7 @@ static_assert(observables::Harmonics::most_in_lanes == BlockState::most_harmonic
 
 namespace {
 
-/// What the scalar kernel shows while it helps a lane: as the lanes' kernel notes it.
+/// Observes the scalar loop while it runs for a lane, and adds to the lane's sums as the vector code does.
 class FallbackObserver {
  public:
   FallbackObserver(BlockState& lanes, std::size_t lane, const point::Problem& scene, bool observes)
@@ -138,8 +138,8 @@ void Scheduler::LaneTask::begin_to_observe(BlockState& lanes, std::size_t lane) 
   lanes.extrema = item_.scene.observe.extrema, lanes.counts = item_.scene.observe.impacts || item_.scene.observe.period;
   lanes.harmonics = static_cast<std::size_t>(item_.scene.observe.harmonics);
   load_lane(lanes, lane, item_.scene, exact_.stops());
-  put(lanes, lane, item_.scene, {observed_.from.x, observed_.from.v, 0});
-  watch(lanes, lane, std::floor(observed_.turns) == 1, observed_.status != steady::Status::periodic);
+  set_state(lanes, lane, item_.scene, {observed_.from.x, observed_.from.v, 0});
+  begin_observing(lanes, lane, std::floor(observed_.turns) == 1, observed_.status != steady::Status::periodic);
 }
 
 /// However late that is seen, the point fails with the same numbers: of the last section before its budget was spent.
@@ -159,7 +159,7 @@ bool Scheduler::LaneTask::ends(BlockState& lanes, std::size_t lane) {
     finish_period(lanes, lane, observed_.turns - whole);
     if (has_spent_budget(lanes.section_impacts.lane[lane])) return true;
   }
-  lanes.ends.lane[lane] = left == 1 || coasts_ ? 1 : 0;
+  lanes.ends_here.lane[lane] = left == 1 || coasts_ ? 1 : 0;
   lanes.stop_short.lane[lane] = left == 1 && observed_.status != steady::Status::periodic ? 1 : 0;
   if (left > 1 && !coasts_)
     skip_sections_ = std::min({sections_ / 4, longest_quiet, static_cast<std::int64_t>(left) - 2});
@@ -214,12 +214,13 @@ void Scheduler::LaneTask::finish_period(BlockState& lanes, std::size_t lane, dou
 }
 
 stepping::Outcome Scheduler::LaneTask::scalar_fallback(BlockState& lanes, std::size_t lane) {
-  const LaneState position = place_of(lanes, lane, item_.scene);
+  const LaneState position = state_of(lanes, lane, item_.scene);
   motion::State<double> state;
   state.x = position.x, state.v = position.v, state.turns = position.turns;
   if (position.x == exact_.stops().lower) state.left = Side::lower;
   if (position.x == exact_.stops().upper) state.left = Side::upper;
-  if (lanes.left.lane[lane] == fallback_left_) state = fallback_end_;  // a lane can't hold a release or a short offset
+  if (lanes.time_to_section.lane[lane] == fallback_left_)
+    state = fallback_end_;  // a lane can't hold a release or a short offset
   double end = std::min(1.0, state.turns + 2 / lanes.period.lane[lane]);
   FallbackObserver seen(lanes, lane, item_.scene, observing_);
   stepping::Outcome outcome = exact_.advance(state, end, 0, seen);
@@ -240,8 +241,8 @@ stepping::Outcome Scheduler::LaneTask::scalar_fallback(BlockState& lanes, std::s
     }
     state.turns = 0;
   }
-  put(lanes, lane, item_.scene, {state.x, state.v, state.turns});
-  fallback_end_ = state, fallback_left_ = lanes.left.lane[lane];
+  set_state(lanes, lane, item_.scene, {state.x, state.v, state.turns});
+  fallback_end_ = state, fallback_left_ = lanes.time_to_section.lane[lane];
   return outcome;
 }
 
@@ -253,13 +254,12 @@ double Scheduler::LaneTask::share(const BlockState& lanes, std::size_t lane) con
 }
 
 point::PointResult Scheduler::LaneTask::result(point::ThreadScratch& scratch) const {
-  const Kernel& kernel = settled_ ? *settled_ : exact_;  // what lanes have observed in vain doesn't count
-  point::PointResult result = point::Point(item_.scene, scratch, kernel).observe(observed_);
+  const ScalarLoop& exact = settled_ ? *settled_ : exact_;  // what lanes have observed in vain doesn't count
+  point::PointResult result = point::Point(item_.scene, scratch, exact).observe(observed_);
   result.impacts += settled_ ? settled_impacts_ : impacts_;
   if (observed_.status == steady::Status::event_budget) result.impacts = item_.scene.time.max_impacts + 1;
   if (failed(result.status) || result.impacts <= item_.scene.time.max_impacts) return result;
-  point::PointResult over =
-      point::Point(item_.scene, scratch, kernel).observe(failure(stepping::Outcome::event_budget));
+  point::PointResult over = point::Point(item_.scene, scratch, exact).observe(failure(stepping::Outcome::event_budget));
   over.impacts = result.impacts, over.periods = result.periods, over.evaluations = result.evaluations;
   return over;
 }

@@ -49,7 +49,7 @@ class Scheduler::LaneTask {
 
  private:
   static constexpr Effects effects = effect_sets::complete(Damping::light, Forcing::regular);
-  using Kernel = stepping::Exact<double, effects>;
+  using ScalarLoop = stepping::Exact<double, effects>;
   static constexpr std::int64_t longest_quiet = 15;  ///< sections
 
   void skip_impact_at_start();
@@ -60,11 +60,11 @@ class Scheduler::LaneTask {
   [[nodiscard]] double x_of(const BlockState& lanes, std::size_t lane, double y) const;
 
   point::WorkItem item_;
-  Kernel exact_;
+  ScalarLoop exact_;
   double log_area_;  ///< logarithm of the factor by which an impact shrinks areas, at the stop that shrinks them less
   std::optional<steady::SteadySearch<effects>> search_{};  ///< none for a transient
   steady::ObservedTime observed_{};
-  std::optional<Kernel> settled_{};       ///< the scalar integrator as it was before lanes observed
+  std::optional<ScalarLoop> settled_{};   ///< the scalar integrator as it was before lanes observed
   double settled_impacts_ = 0.0;          ///< impacts that lanes had met until then
   motion::State<double> fallback_end_{};  ///< the state in which the scalar loop left the lane
   double fallback_left_ = std::numeric_limits<double>::quiet_NaN();  ///< the lane's time to the next section then

@@ -72,11 +72,11 @@ void load_lane(BlockState& lanes, std::size_t i, const Scene& scene, const Stops
   set(lanes.period, constants.period / step);
   set(lanes.start_sine, std::sin(scene.start.phase)), set(lanes.start_cosine, std::cos(scene.start.phase));
   set(lanes.impacts, 0), set(lanes.itinerary, 0);
-  put(lanes, i, scene, {scene.start.displacement, scene.start.velocity, 0});
+  set_state(lanes, i, scene, {scene.start.displacement, scene.start.velocity, 0});
 }
 
-void watch(BlockState& lanes, std::size_t i, bool ends, bool stop_short) {
-  lanes.skip_sections.lane[i] = 0, lanes.ends.lane[i] = ends ? 1 : 0,
+void begin_observing(BlockState& lanes, std::size_t i, bool ends, bool stop_short) {
+  lanes.skip_sections.lane[i] = 0, lanes.ends_here.lane[i] = ends ? 1 : 0,
   lanes.stop_short.lane[i] = ends && stop_short ? 1 : 0;
   lanes.y_low.lane[i] = lanes.y_high.lane[i] = lanes.y.lane[i];
   lanes.v_low.lane[i] = lanes.v_high.lane[i] = lanes.v.lane[i];
@@ -90,22 +90,22 @@ void clear_lane(BlockState& lanes, std::size_t i) {
   const double infinity = std::numeric_limits<double>::infinity();
   for (LaneArray* const row : {&lanes.p, &lanes.w, &lanes.sine, &lanes.cosine, &lanes.y, &lanes.v, &lanes.a})
     row->lane[i] = 0;
-  lanes.lower.lane[i] = -infinity, lanes.upper.lane[i] = lanes.left.lane[i] = infinity;
-  watch(lanes, i, false, false);
+  lanes.lower.lane[i] = -infinity, lanes.upper.lane[i] = lanes.time_to_section.lane[i] = infinity;
+  begin_observing(lanes, i, false, false);
   lanes.y_low.lane[i] = lanes.v_low.lane[i] = -infinity, lanes.y_high.lane[i] = lanes.v_high.lane[i] = infinity;
   lanes.impacts.lane[i] = 0;
 }
 
-LaneState place_of(const BlockState& lanes, std::size_t i, const Scene& scene) {
+LaneState state_of(const BlockState& lanes, std::size_t i, const Scene& scene) {
   const Stops& stops = scene.stops;
   const double y = lanes.y.lane[i];
   const double x = y == lanes.lower.lane[i]   ? stops.lower
                    : y == lanes.upper.lane[i] ? stops.upper
                                               : scene.oscillator.load + y;
-  return {x, lanes.v.lane[i] * lanes.rate.lane[i], 1 - lanes.left.lane[i] / lanes.period.lane[i]};
+  return {x, lanes.v.lane[i] * lanes.rate.lane[i], 1 - lanes.time_to_section.lane[i] / lanes.period.lane[i]};
 }
 
-void put(BlockState& lanes, std::size_t i, const Scene& scene, const LaneState& place) {
+void set_state(BlockState& lanes, std::size_t i, const Scene& scene, const LaneState& place) {
   const double turn = 2 * pi<double>() * place.turns, phase = scene.start.phase + turn;
   const double sine = place.turns == 0 ? lanes.start_sine.lane[i] : std::sin(phase);
   const double cosine = place.turns == 0 ? lanes.start_cosine.lane[i] : std::cos(phase);
@@ -118,7 +118,7 @@ void put(BlockState& lanes, std::size_t i, const Scene& scene, const LaneState& 
   lanes.sine.lane[i] = sine, lanes.cosine.lane[i] = cosine;
   lanes.p.lane[i] = p, lanes.w.lane[i] = w, lanes.y.lane[i] = y, lanes.v.lane[i] = v;
   lanes.a.lane[i] = -(angle * angle * response + lanes.stiffness.lane[i] * p + lanes.damping.lane[i] * w);
-  lanes.left.lane[i] = (1 - place.turns) * lanes.period.lane[i];
+  lanes.time_to_section.lane[i] = (1 - place.turns) * lanes.period.lane[i];
   lanes.to_next.lane[i] = lanes.period.lane[i], lanes.longer.lane[i] = 0;
 }
 

@@ -22,13 +22,13 @@ void load_lane(BlockState& lanes, std::size_t lane, const Scene& scene, const St
 void clear_lane(BlockState& lanes, std::size_t lane);
 
 /// The present state of a lane.
-[[nodiscard]] LaneState place_of(const BlockState& lanes, std::size_t lane, const Scene& scene);
+[[nodiscard]] LaneState state_of(const BlockState& lanes, std::size_t lane, const Scene& scene);
 
 /// Sets the state of a lane.
-void put(BlockState& lanes, std::size_t lane, const Scene& scene, const LaneState& place);
+void set_state(BlockState& lanes, std::size_t lane, const Scene& scene, const LaneState& place);
 
 /// Begins to observe a lane. If observation `ends` at the next section, the lane may have to `stop_short` of it.
-void watch(BlockState& lanes, std::size_t lane, bool ends, bool stop_short);
+void begin_observing(BlockState& lanes, std::size_t lane, bool ends, bool stop_short);
 
 /// Advances every lane: to its next contact, past the next section, or by a few steps, whichever comes first.
 using StepFunction = void (*)(BlockState&);

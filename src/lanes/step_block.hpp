@@ -22,7 +22,7 @@ class StepBlock {
         motions_(lanes, first),
         watch_(lanes, first, motions_),
         here_{row(lanes.p), row(lanes.w), row(lanes.sine), row(lanes.cosine), row(lanes.y), row(lanes.v), row(lanes.a)},
-        left_(row(lanes.left)),
+        left_(row(lanes.time_to_section)),
         itinerary_(row(lanes.itinerary)),
         from_{here_},
         time_(0.0),
@@ -72,7 +72,7 @@ class StepBlock {
       const Mask arrives = stepping & passes;
       pass_sections(arrives, next);
       here_ = select(stepping, next, here_), left_ = select(stepping, left_ - one, left_);
-      if constexpr (observes) stepping = stepping & !(arrives & (row(lanes_.ends) > V(0.0)));
+      if constexpr (observes) stepping = stepping & !(arrives & (row(lanes_.ends_here) > V(0.0)));
       if (steps == most_steps || 2 * count(stepping) <= static_cast<int>(V::size)) return;
     }
   }
@@ -163,7 +163,7 @@ class StepBlock {
     at.v = after, at.a = a;
     const Mask met = g.good & g.crosses;
     if constexpr (observes) {
-      const Mask over = (passes | arrived_) & (row(lanes_.ends) > zero);  // its period is over already
+      const Mask over = (passes | arrived_) & (row(lanes_.ends_here) > zero);  // its period is over already
       watch_.impact(met, met & !over, upper_, at, before, jump);
     }
     pass_sections(g.good & passes, at);
@@ -215,7 +215,7 @@ class StepBlock {
     motions_.put(lanes_.p, here_.p), motions_.put(lanes_.w, here_.w);
     motions_.put(lanes_.sine, here_.sine), motions_.put(lanes_.cosine, here_.cosine);
     motions_.put(lanes_.y, here_.y), motions_.put(lanes_.v, here_.v), motions_.put(lanes_.a, here_.a);
-    motions_.put(lanes_.left, left_), motions_.put(lanes_.itinerary, itinerary_);
+    motions_.put(lanes_.time_to_section, left_), motions_.put(lanes_.itinerary, itinerary_);
     if constexpr (observes) watch_.store();
     lanes_.arrived |= bits(reported_) << first_, lanes_.to_scalar |= bits(to_scalar_) << first_;
   }

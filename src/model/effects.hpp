@@ -48,35 +48,32 @@ namespace effect_sets {
 [[nodiscard]] constexpr Effects free_of_stops(Damping damping, Forcing forcing) {
   return {.damping = damping, .forcing = forcing, .load = true};
 }
-[[nodiscard]] constexpr Effects impacts(Damping damping, Forcing forcing) {
-  return {.damping = damping, .forcing = forcing, .load = true, .lower = true, .upper = true, .dissipation = true};
-}
 [[nodiscard]] constexpr Effects complete(Damping damping, Forcing forcing) {
-  Effects effects = impacts(damping, forcing);
-  effects.rest = true;
-  return effects;
+  return {.damping = damping,
+          .forcing = forcing,
+          .load = true,
+          .lower = true,
+          .upper = true,
+          .dissipation = true,
+          .rest = true};
 }
 
 }  // namespace effect_sets
 
-/// The compiled sets of effects, the cheaper before the dearer. Some effects have no set of their own, since leaving
-/// them out saves little: the load (one addition), the second stop (one check a step, not in every evaluation),
-/// dissipation (one multiplication an impact), and critical damping, which is rare. src/model/README.md has the cost of
-/// each effect.
+/// The compiled sets of effects, the cheaper before the dearer. An effect has sets without it if leaving it out saves
+/// 5 % or more of a run. The others cost less to carry: the load (one addition), the second stop (one check a step, not
+/// in every evaluation), dissipation (one multiplication an impact), chatter and rest (one comparison an impact), and
+/// critical damping, which is rare. src/model/README.md has the cost of each effect.
 inline constexpr std::array compiled_effects{
     effect_sets::free_of_stops(Damping::none, Forcing::none),
     effect_sets::free_of_stops(Damping::light, Forcing::regular),
     effect_sets::free_of_stops(Damping::heavy, Forcing::regular),
     effect_sets::free_of_stops(Damping::light, Forcing::secular),
-    effect_sets::impacts(Damping::none, Forcing::none),
     effect_sets::complete(Damping::none, Forcing::none),
-    effect_sets::impacts(Damping::light, Forcing::none),
     effect_sets::complete(Damping::light, Forcing::none),
-    effect_sets::complete(Damping::none, Forcing::regular),  // cheaper than light damping without rest
-    effect_sets::impacts(Damping::light, Forcing::regular),
+    effect_sets::complete(Damping::none, Forcing::regular),
     effect_sets::complete(Damping::light, Forcing::regular),
     effect_sets::complete(Damping::none, Forcing::secular),
-    effect_sets::impacts(Damping::light, Forcing::secular),
     effect_sets::complete(Damping::light, Forcing::secular),
     effect_sets::complete(Damping::heavy, Forcing::none),
     effect_sets::complete(Damping::heavy, Forcing::regular),

@@ -47,13 +47,12 @@ void warn(const sweep::Sweep& sweep, const Survey& survey, Plan& plan) {
 }  // namespace
 
 std::string effect_set_name(const Effects& effects) {
-  const Effects& kernel = compiled_effects[effect_set_of(effects)];
-  std::string name = kernel.damping == Damping::none    ? "no damping"
-                     : kernel.damping == Damping::light ? "light damping"
-                                                        : "heavy damping";
-  if (kernel.forcing != Forcing::none) name += kernel.forcing == Forcing::regular ? ", forcing" : ", resonant forcing";
-  name += kernel.stops() ? ", impacts" : ", no stops";
-  if (kernel.rest) name += ", chatter and rest";
+  const Effects& set = compiled_effects[effect_set_of(effects)];
+  std::string name = set.damping == Damping::none    ? "no damping"
+                     : set.damping == Damping::light ? "light damping"
+                                                     : "heavy damping";
+  if (set.forcing != Forcing::none) name += set.forcing == Forcing::regular ? ", forcing" : ", resonant forcing";
+  name += set.stops() ? ", impacts" : ", no stops";
   return name;
 }
 

@@ -39,7 +39,7 @@ struct Plan {
 /// them, and examines a million at most.
 [[nodiscard]] Plan plan_of(const sweep::Sweep& sweep, int threads, const std::optional<sweep::Shard>& shard = {});
 
-/// A compiled set of effects in words, e.g. "light damping, forcing, stops, chatter and rest".
+/// A compiled set of effects in words, e.g. "light damping, forcing, impacts".
 [[nodiscard]] std::string effect_set_name(const Effects& effects);
 
 }  // namespace clatter::plan

@@ -26,10 +26,10 @@ void run_batch(std::span<const WorkItem> items, ThreadScratch& scratch,
   } else if (method == stepping::Method::moreau) {
     for (const WorkItem& item : items) take(item, run_by_moreau(item.scene, scratch));
   } else {
-    with_effects(items.front().effects, [&]<Effects kernel>() {
+    with_effects(items.front().effects, [&]<Effects E>() {
       for (const WorkItem& item : items) {
-        const stepping::Exact<double, kernel> integrator(item.scene, stops_in_reach(item.scene.stops, item.effects),
-                                                         limits_of(item.scene));
+        const stepping::Exact<double, E> integrator(item.scene, stops_in_reach(item.scene.stops, item.effects),
+                                                    limits_of(item.scene));
         take(item, Point(item.scene, scratch, integrator).run());
       }
     });
@@ -57,17 +57,17 @@ double seconds_per_period(Problem scene, ThreadScratch& scratch) {
 }
 
 double seconds_per_evaluation(const Effects& effects) {
-  return with_effects(effects, []<Effects kernel>() {
+  return with_effects(effects, []<Effects E>() {
     Problem scene;
-    scene.oscillator.damping = kernel.damping == Damping::none ? 0.0 : kernel.damping == Damping::light ? 0.04 : 2.0;
-    scene.oscillator.forcing = kernel.forcing == Forcing::none ? 0.0 : 1.0;
-    scene.oscillator.frequency = kernel.forcing == Forcing::secular ? 1.03 : 1.3;
+    scene.oscillator.damping = E.damping == Damping::none ? 0.0 : E.damping == Damping::light ? 0.04 : 2.0;
+    scene.oscillator.forcing = E.forcing == Forcing::none ? 0.0 : 1.0;
+    scene.oscillator.frequency = E.forcing == Forcing::secular ? 1.03 : 1.3;
     scene.start.velocity = 1.0;
-    if (kernel.stops()) scene.stops = {-0.5, 0.5, 0.7, 0.7};
+    if (E.stops()) scene.stops = {-0.5, 0.5, 0.7, 0.7};
     using Clock = std::chrono::steady_clock;
     double least = std::numeric_limits<double>::infinity();
     for (int repetition = 0; repetition < 3; ++repetition) {
-      stepping::Exact<double, kernel> integrator(scene);
+      stepping::Exact<double, E> integrator(scene);
       motion::State<double> state;
       state.v = scene.start.velocity;
       stepping::NoObserver nobody;

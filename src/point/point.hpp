@@ -23,7 +23,7 @@ struct PointResult : observables::All::Values {
   bool in_lanes = false;  ///< observed in SIMD lanes
   double impacts = 0.0;   ///< simulated, settling included
   double periods = 0.0;   ///< forcing periods simulated, settling included
-  /// Of arcs by the scalar kernel (of the equation by general methods), settling and observables included.
+  /// Of arcs by the scalar loop (of the equation by general methods), settling and observables included.
   double evaluations = 0.0;
   double settling_estimate = no_value;  ///< forcing periods until the motion is within the tolerance of the steady one
   double observed_turns = no_value;     ///< forcing periods observed
@@ -41,23 +41,23 @@ struct ThreadScratch {
 /// general one.
 [[nodiscard]] Effects effects_of(const Problem& scene);
 
-/// A point on its way to a kernel.
+/// A point that waits to be run.
 struct WorkItem {
   std::size_t local_index = 0;  ///< where its results go (`Share`)
   Problem scene;
   Effects effects;
 };
 
-/// Runs points of one and the same kernel or general method, with one dispatch: each settles, observes, and says where
-/// the motion was left; `take` gets the results in their order.
+/// Runs points of one compiled set of effects, or one general method, with one dispatch: each settles, observes, and
+/// says where the motion was left; `take` gets the results in their order.
 void run_batch(std::span<const WorkItem> items, ThreadScratch& scratch,
                const std::function<void(const WorkItem&, PointResult&&)>& take);
 
 /// Runs a single point.
 [[nodiscard]] PointResult run_point(const Problem& scene, ThreadScratch& scratch);
 
-/// Wall time of an evaluation of an arc, contact search included, in the kernel of these effects: a short measurement
-/// on a scene of its own.
+/// Wall time of an evaluation of an arc, contact search included, with the compiled set of these effects: a short
+/// measurement on a scene of its own.
 [[nodiscard]] double seconds_per_evaluation(const Effects& effects);
 
 /// Wall time of a forcing period of a scene: a short measurement on its first ones.

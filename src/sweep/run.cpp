@@ -84,7 +84,7 @@ class WorkerPool {
     on_each_thread(static_cast<int>(scratches_.size()), [this](std::size_t thread) { work(thread); });
   }
 
-  /// What all threads took, the cheapest kernel first.
+  /// What all threads took, the cheapest compiled set first.
   [[nodiscard]] std::vector<WorkStats> usage() const {
     std::vector<WorkStats> sum;
     for (const std::vector<WorkStats>& of_thread : usage_)
@@ -197,17 +197,17 @@ class WorkerPool {
     }
   }
 
-  /// Runs points that don't depend on each other, those of equal kernels together.
+  /// Runs points that don't depend on each other, those with the same compiled set of effects together.
   void run_points(const Chunk& chunk, std::size_t thread) {
     std::vector<point::WorkItem> items;
     items.reserve(chunk.end - chunk.begin);
     for (std::size_t branch = chunk.begin; branch < chunk.end; ++branch)
       if (!is_restored(branch)) items.push_back(task_of(branch));
-    const auto kernel = [](const point::WorkItem& item) { return effect_set_of(item.effects); };
-    std::ranges::stable_sort(items, {}, kernel);
+    const auto set_of = [](const point::WorkItem& item) { return effect_set_of(item.effects); };
+    std::ranges::stable_sort(items, {}, set_of);
     for (std::span<const point::WorkItem> left(items); !left.empty();) {
       const auto other =
-          std::ranges::find_if(left, [&](const point::WorkItem& item) { return kernel(item) != kernel(left[0]); });
+          std::ranges::find_if(left, [&](const point::WorkItem& item) { return set_of(item) != set_of(left[0]); });
       const auto batch = static_cast<std::size_t>(other - left.begin());
       run_batch(left.first(batch), scratches_[thread], [&](const point::WorkItem& item, point::PointResult&& result) {
         store(item, std::move(result), thread);

@@ -36,7 +36,7 @@ struct WorkStats {
   std::array<std::size_t, steady::found_by_names.size()> found_by{};  ///< points by how their observed time was found
   double impacts = 0.0;                                               ///< simulated
   double periods = 0.0;                                               ///< forcing periods simulated
-  double evaluations = 0.0;                                           ///< of arcs by the scalar kernel
+  double evaluations = 0.0;                                           ///< of arcs by the scalar loop
 };
 
 /// Work in SIMD lanes: lanes times steps that were to be proved free of contact, and times contacts that were looked
@@ -52,7 +52,7 @@ struct RunResult {
   std::size_t failed_points = 0;  ///< points with a status from event_budget on
   int threads = 1;                ///< threads that were used
   double seconds = 0.0;           ///< wall time of the points
-  std::vector<WorkStats> usage;   ///< the cheapest kernel first
+  std::vector<WorkStats> usage;   ///< the cheapest compiled set first
   lanes::InstructionSet arch = lanes::InstructionSet::scalar;  ///< instruction set that was used
   LaneWork lanes;                                              ///< what it took in SIMD lanes
 };

@@ -43,7 +43,7 @@ TEST(Trials, cover_the_range_of_every_method) {
   EXPECT_EQ(trials.back().setting, 1e-14);
 }
 
-TEST(Trials, in_lanes_stand_beside_those_of_the_scalar_kernel) {
+TEST(Trials, in_lanes_stand_beside_those_of_the_scalar_loop) {
   for (const steady::Mode mode : {steady::Mode::steady, steady::Mode::transient}) {
     const auto scalar = trials_of(mode, lanes::InstructionSet::scalar);
     auto both = trials_of(mode, lanes::InstructionSet::avx2);

@@ -132,7 +132,7 @@ void time_as(benchmark::State& state, const Rung& rung, const Effects& effects) 
     state.counters["rests"] = counted.rests / rung.periods;
   });
   state.counters["time"] = Counter(rung.periods, Counter::kIsIterationInvariantRate | Counter::kInvert);
-  state.counters["kernel"] = static_cast<double>(effect_set_of(effects));
+  state.counters["set"] = static_cast<double>(effect_set_of(effects));
   state.SetLabel(words(required_effects(rung.scene)));
 }
 

@@ -195,11 +195,11 @@ class Study(Studies):
         self.assertEqual(len(rows), 59)
         self.assert_file_holds("a.accuracy.h5", rows)
 
-    def test_of_points_that_lanes_leave_to_the_scalar_kernel_says_so(self):
+    def test_of_points_that_lanes_leave_to_the_scalar_loop_says_so(self):
         scene = SCENE.replace("h = 0.1\n", "")
         config = self.write("a.toml", scene + "[sweep]\nh = [0.1, 2]\n[time]\nwindow = 1\nmax_periods = 100\n")
         table = self.study(config, "-q").stdout
-        sentence = r"^(exact|steady) +\w+  not in lanes: this motion is left to the scalar kernel$"
+        sentence = r"^(exact|steady) +\w+  not in lanes: this motion is left to the scalar loop$"
         self.assertEqual(re.findall(sentence, table, re.MULTILINE), ["exact", "steady"])
         self.assertLess(table.index("h = 2"), table.index("not in lanes"))
         with h5py.File(self.directory / "a.accuracy.h5") as file:

@@ -110,6 +110,30 @@ class Plan(CommandLine):
         reasons = {e["effect"]: e["why"] for e in plan["groups"][1]["effects"]}
         self.assertIn("start isn't known", reasons["lower stop"])
 
+    def test_savings_are_those_of_the_ladder(self):
+        """The guide of model has the ladder: for each effect that is left out, the share of time with it kept in."""
+        guide = (SOURCE / "src" / "model" / "README.md").read_text(encoding="utf-8")
+        ladder = guide.split("<!-- begin: effects ladder -->")[1].split("<!-- end -->")[0]
+        measured = {}
+        for row in ladder.strip().splitlines()[2:]:
+            cells = [cell.strip() for cell in row.strip("|").split("|")]
+            if cells[7] not in ("–", "same"):
+                measured.setdefault(cells[1], []).append(round(1 - float(cells[7]), 2))
+        plans = [
+            self.plan(SMALL, "--set", "scene.h=0", "--set", "scene.xs=0.5"),
+            self.plan(
+                SMALL, "--set", "scene.h=0", "--set", "scene.f=0", "--set", "scene.v0=1", "--set", "scene.xs=0.5"
+            ),
+            self.plan(SMALL, "--set", "scene.xs=6"),
+        ]
+        told = {}
+        for reason in (reason for plan in plans for group in plan["groups"] for reason in group["effects"]):
+            if reason["saves"][1] > 0:
+                told["both stops" if reason["effect"].endswith("stop") else reason["effect"]] = reason["saves"]
+        self.assertEqual(set(told), {"damping", "forcing", "resonance", "both stops"})
+        for effect, (least, most) in told.items():
+            self.assertEqual([min(measured[effect]), max(measured[effect])], [least, most], effect)
+
     def test_the_guide_shows_the_plan_of_a_figure(self):
         guide = (SOURCE / "src" / "plan" / "README.md").read_text(encoding="utf-8")
         shown = guide.split("$ clatter plan configs/fig22.toml\n")[1].split("```")[0].splitlines()

@@ -229,7 +229,7 @@ class Reductions(unittest.TestCase):
         np.testing.assert_array_equal(found.wrong, [True, False, False, False, False])
         self.assertFalse(found.failed.any())
 
-    def test_lanes_stand_apart_from_the_scalar_kernel(self):
+    def test_lanes_stand_apart_from_the_scalar_loop(self):
         study = Study(steady=False)
         study.results["missed"][study.rows("exact", arch="avx512")] = 1.0
         with tempfile.TemporaryDirectory() as folder:

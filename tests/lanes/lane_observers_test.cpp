@@ -61,14 +61,14 @@ std::optional<Seen> seen_by_lane(const point::Problem& scene, StepFunction step,
   lanes.extrema = lanes.counts = true;
   for (std::size_t i = 0; i < LaneArray::width; ++i) clear_lane(lanes, i);
   load_lane(lanes, 3, scene, scene.stops);
-  watch(lanes, 3, false, false);
+  begin_observing(lanes, 3, false, false);
   for (int passed = 0, calls = 0;;) {
     if (++calls > 200) return std::nullopt;  // every call ends on a stop
     lanes.arrived = lanes.to_scalar = 0;
     step(lanes);
     if (lanes.to_scalar != 0) return std::nullopt;
     passed += lanes.arrived != 0;
-    const LaneState position = place_of(lanes, 3, scene);
+    const LaneState position = state_of(lanes, 3, scene);
     if (passed < sections || position.x == scene.stops.lower || position.x == scene.stops.upper) continue;
     turns = passed + position.turns;
     break;

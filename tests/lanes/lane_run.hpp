@@ -30,7 +30,7 @@ struct LaneRun {
 /// Reads an impact from a lane, which is on a stop with the velocity after it.
 inline motion::Impact impact_of(const BlockState& lanes, std::size_t lane, const point::Problem& scene,
                                 double sections) {
-  const LaneState position = place_of(lanes, lane, scene);
+  const LaneState position = state_of(lanes, lane, scene);
   const bool upper = position.x == scene.stops.upper;
   const double R = upper ? scene.stops.restitution_upper : scene.stops.restitution_lower;
   return {(sections + position.turns) * period_of(scene.oscillator), upper ? Side::upper : Side::lower, -position.v / R,
@@ -59,7 +59,7 @@ inline std::vector<LaneRun> run_lanes(const std::vector<point::Problem>& scenes,
       if (lanes.impacts.lane[i] > before[i])
         run.impacts.push_back(impact_of(lanes, i, scenes[i], static_cast<double>(run.sections.size())));
       run.to_scalar = lanes.to_scalar >> i & 1;
-      if (run.to_scalar) run.stuck_at = place_of(lanes, i, scenes[i]);
+      if (run.to_scalar) run.stuck_at = state_of(lanes, i, scenes[i]);
       done[i] = run.to_scalar || run.impacts.size() >= impacts || run.sections.size() >= sections || run.calls > 100000;
       if (done[i]) clear_lane(lanes, i), --left;
     }

@@ -67,15 +67,15 @@ TEST_P(LaneSteps, a_step_with_a_nan_in_any_input_of_its_proof_is_not_proved) {
       BlockState lanes{};
       for (std::size_t lane = 0; lane < LaneArray::width; ++lane) {
         load_lane(lanes, lane, wide_scene(), wide_scene().stops);
-        watch(lanes, lane, false, false);
+        begin_observing(lanes, lane, false, false);
       }
       const std::size_t broken = i % LaneArray::width, sound = (i + 1) % LaneArray::width;
       (lanes.*rows[i]).lane[broken] = std::numeric_limits<double>::quiet_NaN();
-      const double left = lanes.left.lane[broken];
+      const double left = lanes.time_to_section.lane[broken];
       step(lanes);
-      EXPECT_EQ(lanes.left.lane[broken], left) << "row " << i;
+      EXPECT_EQ(lanes.time_to_section.lane[broken], left) << "row " << i;
       EXPECT_TRUE(lanes.to_scalar >> broken & 1) << "row " << i;
-      EXPECT_LT(lanes.left.lane[sound], left) << "row " << i;  // its neighbours advance
+      EXPECT_LT(lanes.time_to_section.lane[sound], left) << "row " << i;  // its neighbours advance
     }
 }
 
@@ -219,9 +219,9 @@ TEST_P(LaneSteps, advance_every_lane) {
   lanes.sine.lane[1] = 0x1.2ed29049b0f28p-2, lanes.cosine.lane[1] = -0x1.e9198d9f7dcb6p-1;
   lanes.y.lane[1] = -0x1.e5dc1ac0bc4dap-3, lanes.v.lane[1] = 0x1.6559d0258a1p-6;
   lanes.a.lane[1] = -0x1.f1022e7faa118p-3;
-  const double left = lanes.left.lane[1] = 0x1.abb50e872e83fp+1;
+  const double left = lanes.time_to_section.lane[1] = 0x1.abb50e872e83fp+1;
   step_functions_of(GetParam()).plain(lanes);
-  EXPECT_TRUE(lanes.to_scalar != 0 || lanes.left.lane[1] < left - 0.01);
+  EXPECT_TRUE(lanes.to_scalar != 0 || lanes.time_to_section.lane[1] < left - 0.01);
 }
 
 TEST_P(LaneSteps, report_nothing_of_idle_lanes) {

@@ -118,7 +118,7 @@ TEST(Neighbourhood, encloses_all_motions_that_begin_in_it) {
 
 TEST(Neighbourhood, a_flight_that_comes_near_a_stop_without_touching_it_is_proved_up_to_its_gap) {
   // the steady motion of amplitude A with a stop at A (1 + gap): motions within that gap of it don't touch the stop
-  constexpr Effects effects = effect_sets::impacts(Damping::light, Forcing::regular);
+  constexpr Effects effects = effect_sets::complete(Damping::light, Forcing::regular);
   const Oscillator oscillator{0.1, 1.0, 1.5, 0.0};
   const double A = 0.777909841584413976, gap = 1e-6;
   const point::Problem scene = support::scene_of(oscillator, -1.0, A * (1 + gap), 0.7);

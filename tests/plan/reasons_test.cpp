@@ -101,5 +101,30 @@ TEST(Reasons, the_oscillator_says_what_its_arcs_are_made_of) {
   expect_reason(scene, "damping", true, "h = 2 > 1: free motion is the sum of a slow and a fast decay");
 }
 
+TEST(Reasons, tell_what_leaving_an_effect_out_saves) {
+  const auto saves = [](const point::Problem& scene, const std::string& effect) {
+    const Saving saving = reason(scene, effect).saving;
+    EXPECT_LE(saving.least, saving.most) << effect;
+    return saving.least > 0;
+  };
+  const point::Problem between = figure(3, 1), away = figure(6, 1.2);  // h = 0.1: away from resonance
+  for (const char* const effect : {"lower stop", "upper stop"}) {
+    EXPECT_TRUE(saves(away, effect)) << effect;
+    EXPECT_FALSE(saves(between, effect)) << effect;  // simulated
+  }
+  EXPECT_TRUE(saves(between, "resonance"));
+  for (const char* const effect : {"damping", "forcing", "load", "dissipation", "chatter and rest"}) {
+    EXPECT_FALSE(saves(between, effect)) << effect;  // simulated, or in every set
+    EXPECT_FALSE(saves(away, effect)) << effect;
+  }
+  point::Problem conservative = figure(0.5, 1);
+  conservative.oscillator.damping = 0;
+  EXPECT_TRUE(saves(conservative, "damping"));
+  conservative.oscillator.forcing = 0, conservative.start.velocity = 1;
+  EXPECT_TRUE(saves(conservative, "forcing"));
+  conservative.stops.upper = none;
+  EXPECT_FALSE(saves(conservative, "upper stop"));  // one stop or two is the same set
+}
+
 }  // namespace
 }  // namespace clatter::plan

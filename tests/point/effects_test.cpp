@@ -157,7 +157,8 @@ TEST(Effects, without_an_effect_that_a_scene_does_not_call_for_it_runs_as_with_a
       fewer += effect_set_of(effects) != effect_set_of(all_effects(scene.oscillator.damping));
     }
     std::cout << "without " << dropped[kind].effect << ": " << checked << " scenes, " << fewer
-              << " in a smaller kernel, " << impacts << " impacts; at most " << worst << " of what is allowed\n";
+              << " in a smaller set of effects, " << impacts << " impacts; at most " << worst
+              << " of what is allowed\n";
     EXPECT_GT(checked, 100) << dropped[kind].effect;
     EXPECT_GT(fewer, 50) << dropped[kind].effect;
     EXPECT_GT(impacts, std::string(dropped[kind].effect) == "both stops" ? -1 : 200) << dropped[kind].effect;
@@ -181,7 +182,7 @@ TEST(Effects, one_stop_that_is_hit_can_throw_the_mass_at_the_other) {
   }
 }
 
-TEST(Effects, all_are_run_in_the_complete_kernel) {
+TEST(Effects, all_are_run_in_the_complete_set) {
   for (std::uint64_t i = 0; i < 200; ++i) {
     Problem scene = hard::any_scene(i).scene;
     const double h = scene.oscillator.damping;

@@ -70,9 +70,9 @@ TEST(Steady, motion_of_the_figures_is_that_of_a_long_run_for_a_tenth_of_its_peri
 }
 
 TEST(Steady, motion_of_the_figures_without_a_period_begins_with_the_same_twenty_impacts) {
-  // all 81 points of Figs. 21-23 that have none. Chaos multiplies rounding within twenty impacts (two kernels that
-  // round differently come to be 0.4 of the run apart), so this holds to 1e-12 only as both take the same steps: h =
-  // 0.1 has no resonance, and no stop is ever pressed
+  // all 81 points of Figs. 21-23 that have none. Chaos multiplies rounding within twenty impacts (two compiled sets
+  // that round differently come to be 0.4 of the run apart), so this holds to 1e-12 only as both take the same steps: h
+  // = 0.1 has no resonance, and no stop is ever pressed
   const struct {
     double xs, from, to;
   } windows[] = {{5, 0.980, 0.992}, {4, 0.914, 0.976}, {3, 0.858, 0.866}, {3, 0.884, 0.956}};
