@@ -113,7 +113,7 @@ const std::vector<Key> all_keys = [] {
 
 constexpr std::array<std::string_view, 6> all_sections{"scene", "sweep", "time", "observe", "integrator", "output"};
 
-/// A bound as people write it: 1e9, not 1e+09, and 1e-9, not 1e-09.
+/// A bound in the usual notation: 1e9, not 1e+09, and 1e-9, not 1e-09.
 std::string bound_text(double bound) {
   if (bound == 2 * std::numbers::pi) return "2*pi";
   std::string number = number_text(bound);

@@ -26,7 +26,7 @@ namespace clatter::config {
 
 [[nodiscard]] bool contains(const AllowedRange& range, double value);
 
-/// What a key permits, for messages and for the help: "> 0", "0 ... 1", "true or false".
+/// The values that a key permits, for messages and the help: "> 0", "0 ... 1", "true or false".
 [[nodiscard]] std::string permitted(const Key& key);
 
 }  // namespace clatter::config

@@ -40,7 +40,7 @@ class FallbackObserver {
     }
   }
 
-  /// Widens the lane's ranges by what was seen.
+  /// Widens the lane's ranges to those observed.
   void finish() {
     const double step = 1 / at(lanes_.rate), load = scene_.oscillator.load;
     const auto x = extrema_.displacement(scene_.stops), v = extrema_.velocity();
@@ -142,7 +142,8 @@ void Scheduler::LaneTask::begin_to_observe(BlockState& lanes, std::size_t lane) 
   begin_observing(lanes, lane, std::floor(observed_.turns) == 1, observed_.status != steady::Status::periodic);
 }
 
-/// However late that is seen, the point fails with the same numbers: of the last section before its budget was spent.
+/// However late that is found, the point fails with the same numbers: those of the last section before its budget was
+/// spent.
 bool Scheduler::LaneTask::has_spent_budget(double impacts) {
   if (exact_.impacts() + impacts_ + impacts <= item_.scene.time.max_impacts) return false;
   observed_ = failure(stepping::Outcome::event_budget), gives_up_ = true;
@@ -167,15 +168,15 @@ bool Scheduler::LaneTask::ends(BlockState& lanes, std::size_t lane) {
   return over || gives_up_;
 }
 
-/// Where the lane was at the section that it has passed.
+/// The state of the lane at the section that it has passed.
 PhaseState Scheduler::LaneTask::section(const BlockState& lanes, std::size_t lane) const {
   return {lanes.section_y.lane[lane], lanes.section_v.lane[lane] * lanes.rate.lane[lane], lanes.start_sine.lane[lane],
           lanes.start_cosine.lane[lane]};
 }
 
-/// Whether the rest of the observed time can add nothing: no stop can be met any more, and response and transient
-/// together stay within the extrema so far. The lane then stops at its sections, since which extrema it has seen
-/// at one must not depend on how far its neighbours let it go on.
+/// True if the rest of the observed time cannot change a result: no stop is in reach, and response plus transient stay
+/// within the extrema found. The lane then halts at every section; otherwise the extrema it has seen at one would
+/// depend on its neighbours.
 bool Scheduler::LaneTask::has_seen_all(const BlockState& lanes, std::size_t lane) {
   const auto at = [lane](const LaneArray& row) { return row.lane[lane]; };
   const Oscillator& o = item_.scene.oscillator;
@@ -189,7 +190,7 @@ bool Scheduler::LaneTask::has_seen_all(const BlockState& lanes, std::size_t lane
   return at(lanes.y_low) <= -y && at(lanes.y_high) >= y && at(lanes.v_low) <= -v && at(lanes.v_high) >= v;
 }
 
-/// Takes a lane that no stop is in the way of from the section that it has passed to the end of the observed time.
+/// Moves a lane that can't meet a stop from the section that it has passed to the end of the observed time.
 void Scheduler::LaneTask::coast(BlockState& lanes, std::size_t lane) const {
   const Oscillator& o = item_.scene.oscillator;
   const PhasePoint free = transient_of(o, section(lanes, lane));
@@ -203,7 +204,7 @@ void Scheduler::LaneTask::coast(BlockState& lanes, std::size_t lane) const {
   lanes.section_v.lane[lane] = (response.v - to.b * free.x + to.c * free.v) / lanes.rate.lane[lane];
 }
 
-/// Takes a transient through the part of a forcing period that is left after the last section.
+/// Advances a transient through the part of a forcing period that is left after its last section.
 void Scheduler::LaneTask::finish_period(BlockState& lanes, std::size_t lane, double part) {
   FallbackObserver seen(lanes, lane, item_.scene, true);
   gives_up_ =
@@ -254,7 +255,7 @@ double Scheduler::LaneTask::share(const BlockState& lanes, std::size_t lane) con
 }
 
 point::PointResult Scheduler::LaneTask::result(point::ThreadScratch& scratch) const {
-  const ScalarLoop& exact = settled_ ? *settled_ : exact_;  // what lanes have observed in vain doesn't count
+  const ScalarLoop& exact = settled_ ? *settled_ : exact_;  // without the work that lanes spent on observing in vain
   point::PointResult result = point::Point(item_.scene, scratch, exact).observe(observed_);
   result.impacts += settled_ ? settled_impacts_ : impacts_;
   if (observed_.status == steady::Status::event_budget) result.impacts = item_.scene.time.max_impacts + 1;

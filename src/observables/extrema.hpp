@@ -19,8 +19,8 @@
 namespace clatter::observables {
 
 /// Least and greatest displacement and velocity, between the ends of arcs too: every stretch of an arc is either proved
-/// not to pass what was found so far, by the enclosure that finds contacts, or split, at its turning point where it has
-/// one. An arc without length takes no time: the speed of a start into a stop is none that the mass has.
+/// not to exceed the extrema found so far, by the enclosure that finds contacts (eq. 13), or split, at its turning
+/// point if it has one. An arc without length takes no time, so the speed of a start into a stop doesn't count.
 class Extrema {
  public:
   struct Range {
@@ -72,11 +72,11 @@ class Extrema {
     include(v_, velocity, 0.0, most_halvings);
     ++evaluations_;
   }
-  /// Ranges that were found elsewhere.
+  /// Adds ranges that were found elsewhere.
   void include(const Range& x, const Range& v) {
     x_.include(x.low), x_.include(x.high), v_.include(v.low), v_.include(v.high);
   }
-  /// Of the steady response to the force.
+  /// The ranges of the steady response to the force.
   bool response(const ObservedSpan& span, double) {
     const Oscillator& o = span.scene.oscillator;
     const double amplitude = steady_response(o.damping, o.forcing, o.frequency).amplitude, v = o.frequency * amplitude;
@@ -100,7 +100,7 @@ class Extrema {
   [[nodiscard]] double evaluations() const { return evaluations_; }  ///< of arcs
 
  private:
-  static constexpr int max_splits = 1 << 22;  ///< of an arc; only one whose bounds overflow comes near it
+  static constexpr int max_splits = 1 << 22;  ///< of an arc; only an arc whose bounds overflow needs so many
   static constexpr int most_halvings = 52;    ///< of a polynomial's step
 
   struct Place {
@@ -127,7 +127,7 @@ class Extrema {
     include(range, y, offset, halvings - 1);
   }
 
-  /// What is searched (order 0: displacement, 1: velocity) with its first two derivatives.
+  /// The quantity that is searched (order 0: displacement, 1: velocity) with its first two derivatives.
   template <int order, Effects E>
   static std::array<double, 3> jet(const motion::Arc<double, E>& arc, const motion::Motion<double>& m) {
     if constexpr (order == 0) return {m.x, m.v, m.a};

@@ -9,7 +9,7 @@
 namespace clatter::observables {
 namespace {
 
-/// From row to row of samples; even, so that every row is aligned as the first.
+/// Distance between rows of samples; even, so that every row is aligned like the first.
 std::size_t sample_stride(std::size_t size) { return size + size % 2; }
 std::size_t sums_of(std::size_t size) { return size / 2 + 1; }
 

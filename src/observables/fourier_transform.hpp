@@ -21,7 +21,7 @@ class FourierTransform {
   FourierTransform(FourierTransform&&) noexcept;
   FourierTransform& operator=(FourierTransform&&) noexcept;
 
-  /// Memory of one thread, aligned as the plan wants it.
+  /// Memory of one thread, aligned as the plan requires.
   class Workspace;
   [[nodiscard]] std::unique_ptr<Workspace, void (*)(Workspace*)> workspace() const;
 

@@ -12,7 +12,7 @@
 
 namespace clatter::observables {
 
-/// What a sample that falls on an impact shows as its velocity.
+/// The velocity of a sample that falls on an impact.
 enum class AtImpact { after, mean };
 
 /// Displacement and velocity at equally spaced instants of the observed time. Instants within rounding of an impact
@@ -33,8 +33,8 @@ class Samples {
   void arc(const A& arc, double begin, double length) {
     while (is_due_before(begin + length)) add(arc.at(std::max(0.0, due() - begin)));
   }
-  /// Of an arc in closed form one sample in so many is evaluated, and those after it from there by steps of 1, 2, ...
-  /// spacings; of an arc so short that its every digit counts each one is. All arcs are of one oscillator.
+  /// On an arc in closed form one sample in 64 is evaluated, and those after it follow by steps of 1, 2, ... spacings.
+  /// On an arc so short that every digit of it counts, each sample is evaluated. All arcs belong to one oscillator.
   template <Effects E>
   void arc(const motion::Arc<double, E>& arc, double begin, double length) {
     const std::size_t most = length * arc.constants().rate > 0.25 ? steps_.size() : 0;
@@ -86,7 +86,7 @@ class Samples {
     return at_impact_ == AtImpact::after ? impact.after : (impact.before + impact.after) / 2;
   }
   [[nodiscard]] bool is_due_before(double end) const { return due_before(end, 1) == 1; }
-  /// How many of the next samples, of `most` at most, lie before an instant.
+  /// The number of the next samples, up to `most`, that lie before an instant.
   [[nodiscard]] std::size_t due_before(double end, std::size_t most) const {
     std::size_t before = x_.size(), behind = before + std::min(most, count_ - before);
     while (before < behind) {

@@ -19,8 +19,8 @@
 namespace clatter::observables {
 
 /// How small changes of a motion grow: the multipliers of a period and the largest Lyapunov exponent, impacts and rests
-/// included (physics: saltation matrices, Nordmark & Piiroinen 2009). A motion that grazes a stop to within rounding
-/// has none: a touch more or less decides whether there is an impact, after which changes grow as the root of their
+/// included (eq. 27, 28). A motion that grazes a stop to within rounding
+/// has none: the smallest change decides whether there is an impact, and after it changes grow as the root of their
 /// size.
 class Stability {
  public:
@@ -50,7 +50,7 @@ class Stability {
 
   Stability(const Settings&, const ObservedSpan& span) : Stability(span.scene.stops, span.uncertainty) {}
 
-  /// `rounding` is what displacements and velocities may be off by.
+  /// `rounding` bounds the errors of displacements and velocities.
   Stability(const Stops& stops, double rounding)
       : tangent_(stops), nearby_(stops, motion::Ellipse::disc(rounding), rounding) {}
 
@@ -67,8 +67,8 @@ class Stability {
   void rest(const motion::Rest& rest) { tangent_.rest(rest), rests_ = true; }
   void impact(const motion::Impact& impact) { tangent_.impact(impact), nearby_.impact(impact); }
 
-  /// Whether motions that differ from this one by rounding meet other stops. After a rest nothing differs; and what
-  /// general methods give isn't known to rounding.
+  /// True if motions that differ from this one by rounding meet other stops. After a rest no difference is left; and
+  /// motion by general methods isn't known to rounding.
   [[nodiscard]] bool grazes() const { return exact_ && !rests_ && !nearby_.holds(); }
 
   /// Ends the observed time, one period. Unforced motion (`autonomous`) is periodic only when it loses nothing; a shift
@@ -105,7 +105,7 @@ class Stability {
 
   [[nodiscard]] const Complex& first() const { return first_; }    ///< the larger multiplier; NaN without a period
   [[nodiscard]] const Complex& second() const { return second_; }  ///< the smaller one
-  [[nodiscard]] double lyapunov() const { return exponent_; }      ///< per tau; -inf where a change is gone at once
+  [[nodiscard]] double lyapunov() const { return exponent_; }      ///< per tau; -inf if a rest takes every change
   [[nodiscard]] double evaluations() const { return evaluations_; }
 
  private:

@@ -12,22 +12,22 @@ namespace {
 
 constexpr double kibi = 1024;
 constexpr double program = 10.5 * kibi * kibi;  ///< the program and its libraries, with a sweep of a few points
-constexpr double thread = 64 * kibi;            ///< of its stack and heap
+constexpr double thread = 64 * kibi;            ///< stack and heap of a thread
 constexpr double value = sizeof(double);
 
 constexpr double logged = 3 * sizeof(double) + sizeof(std::int8_t);  ///< an impact in the file
-constexpr double heap = 2 * sizeof(void*);                           ///< taken with each block
-constexpr double lone_block = 128 * kibi;                            ///< one that is given back to the system alone
+constexpr double heap = 2 * sizeof(void*);                           ///< overhead of a block
+constexpr double lone_block = 128 * kibi;  ///< size from which on a block is returned to the system by itself
 
-/// Everything that is held value by value, in bytes.
+/// Sizes of everything that is held value by value, in bytes.
 struct Parts {
   double points = 0.0, branches = 0.0;
   double axes = 0.0;         ///< coordinates that are axes of the sweep, which holds them too
   double coordinates = 0.0;  ///< all of the file
   double results = 0.0;      ///< all but the log
-  double largest = 0.0;      ///< variable of the file
-  double impacts = 0.0;      ///< of the log: their number
-  double counts = 0.0;       ///< of the log: how many each point has
+  double largest = 0.0;      ///< largest variable of the file
+  double impacts = 0.0;      ///< number of impacts in the log
+  double counts = 0.0;       ///< the numbers of impacts of each point
 
   [[nodiscard]] double logged_in_file() const { return impacts * logged + counts; }
 };
@@ -67,13 +67,13 @@ Parts parts_of(const sweep::Sweep& sweep, const std::optional<sweep::Shard>& sha
   return parts;
 }
 
-/// The log while points come, each with its own.
+/// The log while points are computed, one vector for each.
 double held_log_bytes(const sweep::Sweep& sweep, const Parts& parts) {
   if (!sweep.scene.observe.impact_log) return 0.0;
   return (sizeof(std::vector<motion::Impact>) + heap) * parts.points + sizeof(motion::Impact) * parts.impacts;
 }
 
-/// The log while its columns are made of it. Blocks of long ones go back to the system one after the other meanwhile.
+/// The log while its columns are made. Blocks of long logs are returned to the system one after the other meanwhile.
 double log_bytes(const sweep::Sweep& sweep, const Parts& parts) {
   const double held = held_log_bytes(sweep, parts), columns = parts.logged_in_file();
   const bool alone = sizeof(motion::Impact) * parts.impacts >= lone_block * parts.points;

@@ -13,7 +13,7 @@
 namespace clatter::plan {
 namespace {
 
-/// Wall time of a unit of work, by a measurement.
+/// Measured wall time of a unit of work.
 double seconds_of_work(point::Problem scene, const Effects& effects) {
   if (scene.integration.method == stepping::Method::exact) return point::seconds_per_evaluation(effects);
   if (!std::isfinite(scene.start.displacement)) scene.start = {};
@@ -22,7 +22,7 @@ double seconds_of_work(point::Problem scene, const Effects& effects) {
   return seconds_per_period(scene, scratch);
 }
 
-/// A stop that is there at some point, but never met by any.
+/// Warns of a stop that some points have but none meets.
 void warn_of_stop(const sweep::Sweep& sweep, const StopSeen& stop, const std::string& name, Plan& plan) {
   if (stop.met || stop.closest.ratio < 0) return;
   const auto reasons = reasons_of(planned_scene(sweep, stop.closest.point));

@@ -16,7 +16,7 @@ namespace clatter::point {
 
 using observables::no_value;
 
-/// Everything that a point gives; what is not observed, or of a failed point, is NaN or empty.
+/// The results of a point; values that are not observed, or of a failed point, are NaN or empty.
 struct PointResult : observables::All::Values {
   steady::Status status = steady::Status::unresolved;
   steady::FoundBy found_by = steady::FoundBy::nothing;
@@ -27,40 +27,40 @@ struct PointResult : observables::All::Values {
   double evaluations = 0.0;
   double settling_estimate = no_value;  ///< forcing periods until the motion is within the tolerance of the steady one
   double observed_turns = no_value;     ///< forcing periods observed
-  Start end{};                          ///< where the motion was left, for the next point of a branch
+  Start end{};  ///< the end of the observed motion, from which the next point of a branch starts
 };
 
-/// What the points of one thread share.
+/// Memory that the points of one thread share.
 struct ThreadScratch {
   observables::FourierScratch fourier{};
-  /// Hears now and then what share of all that they may come to the points at work have done, added up.
+  /// Called now and then with the finished shares of the points at work, added up.
   std::function<void(double share)> progress{};
 };
 
-/// The effects that a point is run with: what its scene requires; all where that is asked for, or the method is a
-/// general one.
+/// The effects that a point is run with: those that its scene requires; all of them on request, or for a general
+/// method.
 [[nodiscard]] Effects effects_of(const Problem& scene);
 
 /// A point that waits to be run.
 struct WorkItem {
-  std::size_t local_index = 0;  ///< where its results go (`Share`)
+  std::size_t local_index = 0;  ///< of its results (`Share`)
   Problem scene;
   Effects effects;
 };
 
-/// Runs points of one compiled set of effects, or one general method, with one dispatch: each settles, observes, and
-/// says where the motion was left; `take` gets the results in their order.
+/// Runs points of one compiled set of effects, or one general method, with one dispatch for all. `take` gets
+/// the results in their order.
 void run_batch(std::span<const WorkItem> items, ThreadScratch& scratch,
                const std::function<void(const WorkItem&, PointResult&&)>& take);
 
 /// Runs a single point.
 [[nodiscard]] PointResult run_point(const Problem& scene, ThreadScratch& scratch);
 
-/// Wall time of an evaluation of an arc, contact search included, with the compiled set of these effects: a short
-/// measurement on a scene of its own.
+/// Wall time of an evaluation of an arc, contact search included, with the compiled set of these effects, measured
+/// for a short time on a scene of its own.
 [[nodiscard]] double seconds_per_evaluation(const Effects& effects);
 
-/// Wall time of a forcing period of a scene: a short measurement on its first ones.
+/// Wall time of a forcing period of a scene, measured for a short time on its first ones.
 [[nodiscard]] double seconds_per_period(Problem scene, ThreadScratch& scratch);
 
 }  // namespace clatter::point

@@ -14,7 +14,7 @@ struct Problem : Scene {
   stepping::Integration integration;
 };
 
-/// What a run of a problem may come to.
+/// The limits of a run of a problem.
 [[nodiscard]] inline stepping::Limits limits_of(const Problem& problem) {
   return limits_of(problem.time, problem.oscillator);
 }

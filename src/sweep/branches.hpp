@@ -27,8 +27,8 @@ struct Branches {
   [[nodiscard]] bool begins(std::size_t point) const { return point / stride % length == 0; }
 };
 
-/// Starts a point of a branch where the one before was left, or from the scene where that failed; a state outside
-/// narrower stops moves onto the stop, its velocity kept.
+/// Starts a point of a branch from the end of the one before, or from the scene's own start if that one failed. A
+/// displacement beyond narrower stops is moved onto the stop, the velocity kept.
 inline void start_from(point::Problem& scene, const std::optional<Start>& end) {
   if (end) scene.start = *end;
   scene.start.displacement = std::clamp(scene.start.displacement, scene.stops.lower, scene.stops.upper);

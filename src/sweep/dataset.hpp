@@ -22,7 +22,7 @@ struct Variable {
   ValueArray values;
   std::string long_name;
   std::string units;                    ///< "1", or "rad" for phases
-  std::vector<Attribute> attributes{};  ///< beyond long_name and units, e.g. flag_values; _FillValue is the writer's
+  std::vector<Attribute> attributes{};  ///< besides long_name and units, e.g. flag_values; the writer adds _FillValue
 };
 
 struct NamedLength {
@@ -30,11 +30,11 @@ struct NamedLength {
   std::size_t length = 0;
 };
 
-/// What a sweep gives: dimensions and the variables over them, in the order of the file.
+/// The results of a sweep: dimensions and the variables over them, in the order of the file.
 struct Dataset {
   std::vector<NamedLength> dimensions;
   std::vector<Variable> variables;
-  std::vector<Attribute> attributes{};  ///< of the whole, beyond its origin
+  std::vector<Attribute> attributes{};  ///< of the file, besides those of its origin
 };
 
 }  // namespace clatter::sweep

@@ -11,8 +11,8 @@
 #endif
 
 #ifdef CLATTER_THREAD_SANITIZER
-/// Marks a function that holds nothing but a parallel region: its own reads of what libgomp hands it aren't watched,
-/// but those of the functions that it calls are.
+/// Marks a function that contains only a parallel region: ThreadSanitizer doesn't watch its own reads of the data that
+/// libgomp passes to it, but does watch the functions that it calls.
 #define CLATTER_PARALLEL_REGION __attribute__((no_sanitize("thread")))
 extern "C" {
 void __tsan_acquire(void* address);
@@ -25,9 +25,9 @@ void __tsan_release(void* address);
 namespace clatter::sweep {
 namespace {
 
-/// Tells ThreadSanitizer what libgomp, which isn't built for it, orders: all before a parallel region happens before
-/// its threads, and all of theirs before what follows it. Races between the threads are still found. In other builds it
-/// is nothing.
+/// Tells ThreadSanitizer the order that libgomp, which isn't built for it, guarantees: everything before a parallel
+/// region happens before its threads run, and all that they do happens before the code after it. Races between the
+/// threads are still found. In other builds it does nothing.
 class ForkJoin {
  public:
 #ifdef CLATTER_THREAD_SANITIZER

@@ -5,10 +5,10 @@
 
 namespace clatter::sweep {
 
-/// Calls `work(i)` for every i < count on so many threads, each i as soon as a thread is free; `work` must not throw.
+/// Calls `work(i)` for every i < count on `threads` threads, each i as soon as one is free; `work` must not throw.
 void parallel_for(std::size_t count, int threads, const std::function<void(std::size_t)>& work);
 
-/// Calls `work(thread)` once on each of so many threads, the calling one included (0); `work` must not throw.
+/// Calls `work(thread)` once on each of `threads` threads, the calling one included as number 0; `work` must not throw.
 void on_each_thread(int threads, const std::function<void(std::size_t)>& work);
 
 /// The threads that OpenMP would use: all cores, or what OMP_NUM_THREADS says.

@@ -21,8 +21,8 @@ void set_symmetric_stops(Stops& stops, double xs_value) {
   stops.upper = std::abs(xs_value);
 }
 
-/// The start just after the contact with the lower stop (check 1: a quarter of the period leads from x = 0 to the
-/// stop's image).
+/// The start just after the contact with the lower stop (eq. 36: from x = 0 to the stop it takes a quarter of the
+/// period).
 void set_start(point::Problem& scene, double period) {
   scene.start.displacement = scene.stops.lower;
   scene.start.velocity = scene.stops.upper / std::tan(period / 4);

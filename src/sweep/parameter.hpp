@@ -13,10 +13,10 @@ enum class Parameter { h, f, nu, phase, R, xs, stop_lower, stop_upper, R_lower, 
 /// The key of a parameter, e.g. "nu".
 [[nodiscard]] std::string_view key_of(Parameter parameter);
 
-/// The parameter of a key, or nothing where no parameter has that name.
+/// The parameter of a key; empty if no parameter has that name.
 [[nodiscard]] std::optional<Parameter> parameter_of(std::string_view key);
 
-/// Puts a value in its place in the scene. `xs` sets both stops to -|xs| and +|xs|, `R` both restitutions;
+/// Sets a parameter of the scene. `xs` sets both stops to -|xs| and +|xs|, `R` both restitutions;
 /// `start_period` sets x0 and v0 from the lower stop, v0 = |xs| cot(start_period / 4) (eq. 36), so it is set after
 /// the stops.
 void set(point::Problem& scene, Parameter parameter, double value);

@@ -62,14 +62,14 @@ bool take_off(std::span<const std::byte>& from, std::span<T> values) {
   return true;
 }
 
-/// The length of the log as a whole, so that its columns are made in one piece.
+/// The number of impacts in the whole log, so that its columns are allocated at once.
 std::size_t impacts_in(const std::vector<std::vector<motion::Impact>>& log) {
   std::size_t impacts = 0;
   for (const std::vector<motion::Impact>& of_point : log) impacts += of_point.size();
   return impacts;
 }
 
-/// The values of a variable, where it is there and of this type.
+/// The values of a variable. Throws std::runtime_error if it is missing or of another type.
 template <class T>
 std::vector<T>& values_in(Dataset& dataset, const std::string& name) {
   const auto found = std::ranges::find(dataset.variables, name, &Variable::name);
@@ -287,7 +287,7 @@ void ResultStore::add_impact_log(Dataset& dataset) {
     std::vector<motion::Impact>().swap(impacts);
   }
   log_ = {};
-  malloc_trim(0);  // blocks that lay between others stay with the process else
+  malloc_trim(0);  // otherwise blocks between others stay with the process
   const std::vector<std::string> along{"impact"};
   dataset.dimensions.push_back({"impact", tau.size()});
   dataset.variables.push_back({"impact_count", along_, std::move(counts), "impacts in the log of the point", "1"});

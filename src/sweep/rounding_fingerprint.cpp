@@ -34,7 +34,7 @@ double sample(int i) {
   return i * golden - std::floor(i * golden);
 }
 
-/// Two roundings of a function differ at one argument of some hundreds.
+/// Two implementations of a function round differently at about one argument in some hundreds.
 void add_functions(Digest& digest) {
   for (int i = 0; i < 1024; ++i) {
     const double x = sample(i), angle = 40 * (x - 0.5);

@@ -43,21 +43,21 @@ void add(std::vector<WorkStats>& sum, const WorkStats& part) {
   same->impacts += part.impacts, same->periods += part.periods, same->evaluations += part.evaluations;
 }
 
-/// Results from which on they are written at once.
+/// Size of packed results from which on they are written at once.
 constexpr std::size_t enough_to_save = 256UL * 1024;  // bytes
 
-/// Whether points of a sweep may go into lanes: those of the exact method that take every shortcut to their steady
-/// motion, and don't wait for each other.
+/// True if points of a sweep may run in lanes: by the exact method, with every shortcut to their steady motion, and
+/// independent of each other.
 bool lanes_can_run(const Sweep& sweep) {
   const stepping::Integration& integration = sweep.scene.integration;
   return integration.method == stepping::Method::exact && integration.shortcuts && !integration.all_effects &&
          !sweep.follow;
 }
 
-/// The threads that run a sweep, and what they share.
+/// The threads that run a sweep, and their shared state.
 class WorkerPool {
  public:
-  /// Branches that are saved are left out; `restored` is how many points they have.
+  /// Leaves out the branches that are saved; `restored` is the number of their points.
   WorkerPool(const Sweep& sweep, const Share& share, const RunOptions& options, int threads, ResultStore& columns,
              std::vector<std::atomic<BranchState>>& states, std::size_t restored)
       : sweep_(sweep),
@@ -84,7 +84,7 @@ class WorkerPool {
     on_each_thread(static_cast<int>(scratches_.size()), [this](std::size_t thread) { work(thread); });
   }
 
-  /// What all threads took, the cheapest compiled set first.
+  /// The work of all threads, the cheapest compiled set first.
   [[nodiscard]] std::vector<WorkStats> usage() const {
     std::vector<WorkStats> sum;
     for (const std::vector<WorkStats>& of_thread : usage_)
@@ -95,13 +95,13 @@ class WorkerPool {
 
   [[nodiscard]] const LaneWork& lane_work() const { return lane_work_; }
 
-  /// Passes on what a thread could not do.
+  /// Rethrows the first exception of a thread.
   void rethrow() const {
     if (failure_) std::rethrow_exception(failure_);
   }
 
  private:
-  /// What one thread does: chunk after chunk, until none is left.
+  /// The work of one thread: chunk after chunk, until none is left.
   void work(std::size_t thread) noexcept {
     try {
       if (in_lanes_) {
@@ -119,7 +119,7 @@ class WorkerPool {
   struct Chunk {
     std::size_t begin, end;
   };
-  /// Branches that no thread has begun; nothing where none is left, or another thread has failed.
+  /// Branches that no thread has begun; empty if none is left or another thread has failed.
   std::optional<Chunk> next_chunk() {
     for (;;) {
       const std::size_t turn = turn_.fetch_add(1);
@@ -132,14 +132,14 @@ class WorkerPool {
 
   [[nodiscard]] bool is_restored(std::size_t branch) const { return states_[branch] == BranchState::saved; }
 
-  /// The point that a branch of one is.
+  /// The point of a branch that has only one.
   point::WorkItem task_of(std::size_t branch) const {
     point::WorkItem item{branch, scene_at(sweep_, share_.point(branch, 0)), {}};
     item.effects = effects_of(item.scene);
     return item;
   }
 
-  /// Runs the points that fit in lanes, and one by one between them those that don't.
+  /// Runs the points that lanes accept, and between them, one by one, those that they don't.
   void run_crew(std::size_t thread) {
     const auto take = [&](const point::WorkItem& item, point::PointResult&& result) {
       store(item, std::move(result), thread);
@@ -231,7 +231,7 @@ class WorkerPool {
   LaneWork lane_work_;
   std::mutex mutex_;
   std::exception_ptr failure_;
-  std::atomic<bool> stopped_ = false;  ///< by a failure: what is left isn't begun
+  std::atomic<bool> stopped_ = false;  ///< by a failure; no further chunk is begun
 };
 
 }  // namespace
@@ -273,7 +273,7 @@ void SweepRun::save(const std::function<void(std::span<const std::byte> results)
     std::size_t more = sizeof branch;
     for (std::size_t i = 0; i < share_.length(); ++i) more += columns_.packed_size(share_.local_index(branch, i));
     if (more > enough_to_save)
-      results.reserve(results.size() + more);  // a buffer that doubles would take up to twice as much
+      results.reserve(results.size() + more);  // growing by doubling would take up to twice as much
     const auto number = std::as_bytes(std::span(&branch, 1));
     results.insert(results.end(), number.begin(), number.end());
     for (std::size_t i = 0; i < share_.length(); ++i) columns_.pack(share_.local_index(branch, i), results);
@@ -286,7 +286,8 @@ void SweepRun::save(const std::function<void(std::span<const std::byte> results)
 void SweepRun::run(const RunOptions& options) {
   const auto begin = std::chrono::steady_clock::now();
   const auto threads = static_cast<std::size_t>(threads_used(options));
-  result_.threads = static_cast<int>(std::clamp<std::size_t>(share_.count(), 1, threads));  // others would wait
+  result_.threads =
+      static_cast<int>(std::clamp<std::size_t>(share_.count(), 1, threads));  // more would have nothing to do
   require_thread_stacks(result_.threads);
   WorkerPool team(sweep_, share_, options, result_.threads, columns_, states_, restored_);
   team.run();

@@ -20,7 +20,7 @@
 namespace clatter::sweep {
 
 struct RunOptions {
-  int threads = 0;  ///< OpenMP threads; 0: as many as the machine offers
+  int threads = 0;  ///< OpenMP threads; 0: all cores
   std::function<void(double done, std::size_t total)>
       progress{};  ///< called from one thread at a time, a few times a second and for every hundredth
   lanes::InstructionSet arch = lanes::widest_instruction_set();  ///< instruction set of the points that lanes can take
@@ -29,7 +29,7 @@ struct RunOptions {
 /// The threads that a run with these options uses.
 [[nodiscard]] int threads_used(const RunOptions& options);
 
-/// What the points of equal effects took.
+/// Work spent on the points with equal effects.
 struct WorkStats {
   Effects effects;
   std::size_t points = 0;
@@ -39,48 +39,49 @@ struct WorkStats {
   double evaluations = 0.0;                                           ///< of arcs by the scalar loop
 };
 
-/// Work in SIMD lanes: lanes times steps that were to be proved free of contact, and times contacts that were looked
-/// for.
+/// Work in SIMD lanes: lanes times steps whose freedom of contact was to be proved, and lanes times contacts that were
+/// refined.
 struct LaneWork {
   double proved = 0.0, refined = 0.0;
 };
 
-/// The results of a sweep and what they took.
+/// The results of a sweep, and the work that they took.
 struct RunResult {
   Dataset dataset;                ///< coordinates, status, impact_total, simulated_periods, then what is observed
   std::size_t points = 0;         ///< points of the sweep, or of the shard
-  std::size_t failed_points = 0;  ///< points with a status from event_budget on
+  std::size_t failed_points = 0;  ///< points whose status is a failure
   int threads = 1;                ///< threads that were used
   double seconds = 0.0;           ///< wall time of the points
   std::vector<WorkStats> usage;   ///< the cheapest compiled set first
   lanes::InstructionSet arch = lanes::InstructionSet::scalar;  ///< instruction set that was used
-  LaneWork lanes;                                              ///< what it took in SIMD lanes
+  LaneWork lanes;                                              ///< work in SIMD lanes
 };
 
-/// What has become of a branch of points.
+/// The state of a branch of points.
 enum class BranchState : std::uint8_t { open, finished, saved };
 
 /// A sweep, or a shard of it, on its way to its results.
 class SweepRun {
  public:
-  /// Throws std::bad_alloc where the results don't fit into memory.
+  /// Throws std::bad_alloc if the results don't fit into memory.
   explicit SweepRun(const Sweep& sweep, const std::optional<Shard>& shard = {});
 
-  /// Takes results that `save` gave in an earlier run of the same points; false where they aren't of this sweep.
+  /// Restores results that `save` wrote in an earlier run of the same points. Returns false if they don't belong to
+  /// this sweep.
   [[nodiscard]] bool restore(std::span<const std::byte> results);
   [[nodiscard]] std::size_t restored_points() const { return restored_; }
 
-  /// Runs every point that isn't restored; the same bits for every number of threads, and however many are. Throws
-  /// LimitError before the first where the threads have too small stacks.
+  /// Runs every point that isn't restored. The results have the same bits for every number of threads and of restored
+  /// points. Throws LimitError before the first point if the threads' stacks are too small.
   void run(const RunOptions& options);
 
-  /// Gives `write` the results of branches that were finished since the last time, some at once, of no more than
-  /// `most_saved` bytes beside the impact log. Another thread may call it while `run` is at work.
+  /// Passes the results of branches finished since the last call to `write`, several at once, at most `most_saved`
+  /// bytes each time besides the impact log. Another thread may call it during `run`.
   void save(const std::function<void(std::span<const std::byte> results)>& write);
 
   [[nodiscard]] double most_saved() const;
 
-  /// What all points gave; to be called once.
+  /// The results of all points; call it once.
   [[nodiscard]] RunResult result();
 
  private:

@@ -6,13 +6,13 @@
 
 namespace clatter::sweep {
 
-/// The numbers below `count`, each once, scattered: of dear and cheap points that lie together, any beginning has its
-/// share, so that it tells how long the rest takes.
+/// The numbers below `count`, each once, in scattered order. Slow points often lie together; so any first part of the
+/// order has its share of them, and its time tells that of the rest.
 class Scatter {
  public:
   explicit Scatter(std::size_t count) : count_(count), bits_(static_cast<unsigned>(std::bit_width(count))) {}
 
-  /// How many turns there are; not all of them have a number.
+  /// Number of turns; not all of them have a number.
   [[nodiscard]] std::size_t turns() const { return std::size_t{1} << bits_; }
 
   /// The number of a turn: multiplying by an odd number and adding a number's upper bits to its lower ones each give

@@ -17,7 +17,7 @@ struct Shard {
   bool operator==(const Shard&) const = default;
 };
 
-/// A shard as "K/N", from 0/N to N-1/N; nothing where a text isn't one.
+/// A shard as "K/N", from 0/N to N-1/N; empty if a text isn't one.
 [[nodiscard]] std::string text_of(const Shard& shard);
 [[nodiscard]] std::optional<Shard> shard_named(std::string_view text);
 
@@ -35,7 +35,7 @@ class Share {
   [[nodiscard]] std::size_t point(std::size_t n, std::size_t i) const {
     return branches_.point(shard_.number + n * shard_.of, i);
   }
-  /// How many points of this run have a smaller index in the sweep. Where each branch is one point, that is n.
+  /// Number of points of this run with a smaller index in the sweep. If each branch is one point, that is n.
   [[nodiscard]] std::size_t local_index(std::size_t n, std::size_t i) const {
     const std::size_t block = (shard_.number + n * shard_.of) / branches_.stride * branches_.stride;
     const std::size_t first = before(block), beside = before(block + branches_.stride) - first;
@@ -43,7 +43,7 @@ class Share {
   }
 
  private:
-  /// How many of the run's branches come before this one of the sweep.
+  /// Number of the run's branches before this branch of the sweep.
   [[nodiscard]] std::size_t before(std::size_t branch) const {
     return branch <= shard_.number ? 0 : (branch - shard_.number - 1) / shard_.of + 1;
   }

@@ -28,7 +28,7 @@ class SweepProgress {
     report(now);
   }
 
-  /// What a thread has done of the points that it is at work on.
+  /// The finished share of the points that a thread is working on.
   void add_part(std::size_t thread, double part) {
     const std::lock_guard lock(mutex_);
     parts_[thread] = part;

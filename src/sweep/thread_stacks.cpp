@@ -22,7 +22,7 @@ std::string stack_variable() {
   return {};
 }
 
-/// The whole stack of this thread, and what is left of it; all there is where the system doesn't tell.
+/// The size of this thread's stack, and how much of it is left; `needed_stack` if the system doesn't tell.
 struct Stack {
   std::size_t size = needed_stack, left = needed_stack;
 };
@@ -71,7 +71,7 @@ std::string fault_of_main_stack() {
 
 void require_thread_stacks(int threads) {
   const std::string name = stack_variable();
-  if (name.empty()) return;  // they have what the main thread may have
+  if (name.empty()) return;  // they have as much as the main thread
   const std::size_t size = SmallestStack().of(threads);
   if (size >= needed_stack) return;
   throw LimitError("the stack of a thread is too small: " + name + " gives it " + kibibytes(size) + ", " +

@@ -5,14 +5,14 @@
 
 namespace clatter::sweep {
 
-/// How long the rest of some work takes, told from how it has gone on: what was done in the first half of the time
-/// counts a quarter, so that dear parts at the beginning are soon forgotten.
+/// Estimates how long the rest of some work takes from its progress so far. Progress in the first half of the time
+/// counts a quarter, so slow parts at the beginning are soon forgotten.
 class TimeLeft {
  public:
-  /// `before` is what was finished when the time began, and tells nothing.
+  /// `before` was finished before the time began, and doesn't count as progress.
   explicit TimeLeft(double before = 0) : before_(before), finished_(before) {}
 
-  /// So much is finished after so many seconds, parts of it included.
+  /// Records what is finished after some seconds, parts of items included.
   void add(double seconds, double finished) {
     if (finished <= finished_ || seconds <= seconds_) return;
     const double old = std::pow(seconds_ / seconds, 2.0);
@@ -20,8 +20,8 @@ class TimeLeft {
     seconds_ = seconds, finished_ = finished, ++times_;
   }
 
-  /// The seconds left at a moment, of so much as a whole; nothing as long as there is too little to tell it from. Where
-  /// nothing is finished for longer than all of the rest should take, it may last as long again.
+  /// Estimated seconds until `total` is finished; empty as long as there is too little progress. If nothing has been
+  /// finished for longer than all of the rest should take, it may take as long again.
   [[nodiscard]] std::optional<double> at(double seconds, double total) const {
     if (finished_ >= total) return 0.0;
     if (seconds < 1 || times_ == 0 || (times_ < 4 && 4 * (finished_ - before_) < total - before_)) return std::nullopt;
