@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
-"""Lets clang++ read every file of a compile database without making code; exits with 1 if it says anything of one.
+"""Lets clang++ read every file of a compile database without making code; exits with 1 if it warns of any.
 
 What all tests include, GoogleTest and the 50-digit numbers, is compiled once for them (a precompiled header), which
 halves the time.
 """
 
+import argparse
 import concurrent.futures
 import json
 import os
@@ -41,7 +42,9 @@ def is_silent(entry, options):
 
 
 def main():
-    build = Path(sys.argv[1]).resolve()
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("build", type=Path, help="build folder of clang++ that has a compile database")
+    build = parser.parse_args().build.resolve()
     database = json.loads((build / "compile_commands.json").read_text(encoding="utf-8"))
     tests = [entry for entry in database if entry["file"].endswith("_test.cpp")]
     options = precompiled(build, tests[0]) if tests else []

@@ -99,7 +99,9 @@ class Objects(unittest.TestCase):
         nm = shutil.which("nm")
         if nm is None:
             self.skipTest("there is no nm here (of binutils) to look at object files with")
-        objects = list((pathlib.Path(CLATTER).parents[2] / "src" / "lanes").glob(f"CMakeFiles/*_{name}.dir/**/*.o"))
+        objects = list(
+            (pathlib.Path(CLATTER).parents[2] / "src" / "lanes").glob(f"CMakeFiles/*_{name}.dir/step_block.cpp.o")
+        )
         self.assertEqual(len(objects), 1, f"step functions for {name}")
         text = subprocess.run([nm, "--defined-only", objects[0]], capture_output=True, text=True, check=True).stdout
         return [line.split()[-2:] for line in text.splitlines()]

@@ -135,7 +135,7 @@ class HostileFiles(CommandLine):
     def test_nothing_but_the_file_is_looked_at_before_it_is_replaced(self):
         for name, _ in self.each_crafted("a.h5"):
             words = ["run", self.config, "-o", name]
-            self.assert_refused(74, "is no output of clatter, or a damaged one", *words)
+            self.assert_refused(74, "is not an output of clatter, or is damaged", *words)
             self.assert_reads_only({name, self.config}, *words)
 
     def test_what_is_no_regular_file_is_not_waited_for(self):
