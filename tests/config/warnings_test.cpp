@@ -119,9 +119,9 @@ TEST(Observing, nothing_is_warned_of_unless_every_observable_is_written_as_off) 
   expect_warning("[scene]\nxs = 1\n[observe]\nextrema = false\n", "3:2", "write e.g. extrema = true in [observe]");
   const std::string off =
       "[scene]\nxs = 1\n[observe]\nextrema = false\nharmonics = 0\nimpacts = false\nimpact_log = false\n"
-      "trajectory = 0\nperiod = false\n";
+      "trajectory = 0\nperiod = false\nstability = false\n";
   expect_warning(off, "3:2", "nothing is observed");
-  expect_none(off + "stability = false\n");
+  expect_none(off + "energy = false\n");
 }
 
 TEST(Repeats, on_a_crossing_axis_are_warned_of) {

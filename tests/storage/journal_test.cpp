@@ -196,7 +196,7 @@ TEST_F(JournalFile, of_something_else_is_refused_and_left_alone) {
   for (const std::string foreign : {"x", "clatter journal 2\n", "\x89HDF\r\n\x1a\n and so on"}) {
     overwrite(foreign);
     for (const Journal::Begin begin : {Journal::Begin::anyhow, Journal::Begin::restart})
-      EXPECT_NE(refusal(key, begin).find("no journal"), std::string::npos) << foreign;
+      EXPECT_NE(refusal(key, begin).find("is not a journal"), std::string::npos) << foreign;
     EXPECT_EQ(content(), foreign);
   }
 }
@@ -275,7 +275,7 @@ TEST_F(JournalFile, gives_the_room_of_its_last_records_back) {
   EXPECT_NE(journal.leave().find("a part of the finished points"), std::string::npos);
   journal.give_back(fs::file_size(path()));
   EXPECT_EQ(fs::file_size(path()), 0U);
-  EXPECT_NE(journal.leave().find("has to be run again"), std::string::npos);
+  EXPECT_NE(journal.leave().find("have to be run again"), std::string::npos);
 }
 
 TEST_F(JournalFile, is_as_private_as_its_output) {
