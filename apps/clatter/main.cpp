@@ -104,7 +104,7 @@ int main(int argc, char** argv) {
   std::atexit(refuse_foreign_exit);
   if (const std::string fault = sweep::fault_of_main_stack(); !fault.empty()) {
     at_its_end = true;
-    return report(fault.c_str(), io_error);
+    return report(fault, io_error);
   }
   const int code = run_main(argc, argv);
   at_its_end = true;

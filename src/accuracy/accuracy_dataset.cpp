@@ -84,6 +84,7 @@ sweep::Dataset accuracy_dataset(const sweep::Sweep& sweep, const std::vector<Poi
   dataset.variables.back().attributes = sweep::status_flags();
   for (const auto& [name, long_name, value] : all_point_variables) {
     std::vector<double> values;
+    values.reserve(points.size());
     for (const PointAccuracy& point : points) values.push_back(point.*value);
     dataset.variables.push_back({name, axes, std::move(values), long_name, "1"});
   }

@@ -6,6 +6,7 @@
 #include <array>
 #include <cctype>
 #include <cerrno>
+#include <cstddef>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -33,7 +34,7 @@ bool is_control(std::string_view text) {
 /// Reads piece by piece up to the limit: clearing a buffer of that size would take longer than reading most files.
 std::string read_pieces(std::istream& stream) {
   std::string text;
-  std::array<char, 16 * 1024> piece;
+  std::array<char, std::size_t{16} * 1024> piece;
   while (stream && text.size() <= max_config_bytes) {
     stream.read(piece.data(), piece.size());
     text.append(piece.data(), static_cast<std::size_t>(stream.gcount()));
@@ -70,7 +71,7 @@ std::string read_text(const std::string& path) {
 
 std::string read_standard_input(const std::string& name) {
   std::string text;
-  std::array<char, 16 * 1024> piece;
+  std::array<char, std::size_t{16} * 1024> piece;
   while (text.size() <= max_config_bytes) {
     const ssize_t count = storage::uninterrupted([&] { return ::read(STDIN_FILENO, piece.data(), piece.size()); });
     if (count < 0) unreadable(name, storage::reason_and_way_out(errno, ""));

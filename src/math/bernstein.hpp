@@ -8,7 +8,8 @@
 
 #include "math/number.hpp"
 
-namespace clatter::inline math {
+namespace clatter {
+inline namespace math {
 
 /// Coefficients of a polynomial of degree 6 on [0, 1] in the Bernstein basis; the polynomial lies within their range.
 template <class Number>
@@ -160,4 +161,5 @@ class FirstRoot {
   }
 };
 
-}  // namespace clatter::inline math
+}  // namespace math
+}  // namespace clatter

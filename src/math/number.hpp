@@ -3,7 +3,8 @@
 #include <cmath>
 #include <limits>
 
-namespace clatter::inline math {
+namespace clatter {
+inline namespace math {
 
 /// pi, correctly rounded in each number type.
 template <class Number>
@@ -56,4 +57,5 @@ template <class Number>
   return {-c, s};
 }
 
-}  // namespace clatter::inline math
+}  // namespace math
+}  // namespace clatter

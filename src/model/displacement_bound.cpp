@@ -8,7 +8,7 @@
 #include "math/number.hpp"
 #include "model/response.hpp"
 
-namespace clatter::inline model {
+namespace clatter::model {
 namespace {
 
 using Complex = std::complex<double>;
@@ -117,4 +117,4 @@ bool out_of_reach(const Oscillator& oscillator, const PhaseState& now, const Sto
          displacement_bound(oscillator, now, std::numeric_limits<double>::infinity(), gap) < gap;
 }
 
-}  // namespace clatter::inline model
+}  // namespace clatter::model

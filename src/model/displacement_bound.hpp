@@ -3,7 +3,8 @@
 #include "model/oscillator.hpp"
 #include "model/stops.hpp"
 
-namespace clatter::inline model {
+namespace clatter {
+inline namespace model {
 
 /// An instant of a motion, relative to the load's equilibrium.
 struct PhaseState {
@@ -47,4 +48,5 @@ struct PhasePoint {
 /// Whether no stop can be met from an instant on, for all time.
 [[nodiscard]] bool out_of_reach(const Oscillator& oscillator, const PhaseState& now, const Stops& stops);
 
-}  // namespace clatter::inline model
+}  // namespace model
+}  // namespace clatter

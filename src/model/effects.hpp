@@ -8,7 +8,8 @@
 
 #include "model/oscillator.hpp"
 
-namespace clatter::inline model {
+namespace clatter {
+inline namespace model {
 
 /// h = 0, 0 < h < 1, h = 1, h > 1: no decay, a decaying rotation, its limit, two decaying exponentials.
 enum class Damping : std::uint8_t { none, light, critical, heavy };
@@ -168,4 +169,5 @@ decltype(auto) with_any_stops(const Oscillator& oscillator, Function&& function)
   return with_damping.template operator()<Damping::heavy>();
 }
 
-}  // namespace clatter::inline model
+}  // namespace model
+}  // namespace clatter

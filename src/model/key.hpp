@@ -5,7 +5,8 @@
 #include <span>
 #include <string_view>
 
-namespace clatter::inline model {
+namespace clatter {
+inline namespace model {
 
 enum class Kind : std::uint8_t { text, names, number, integer, flag, choice };
 
@@ -56,4 +57,5 @@ struct Key {
   return key;
 }
 
-}  // namespace clatter::inline model
+}  // namespace model
+}  // namespace clatter

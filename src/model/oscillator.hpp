@@ -2,7 +2,8 @@
 
 #include <numbers>
 
-namespace clatter::inline model {
+namespace clatter {
+inline namespace model {
 
 /// x'' + 2 h x' + x = f sin(nu tau + phase) + load, in units of the natural frequency and the spring (eq. 3).
 struct Oscillator {
@@ -22,4 +23,5 @@ struct Oscillator {
   return 2 * std::numbers::pi / counting_frequency(oscillator);
 }
 
-}  // namespace clatter::inline model
+}  // namespace model
+}  // namespace clatter

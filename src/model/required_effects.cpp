@@ -5,7 +5,7 @@
 
 #include "model/displacement_bound.hpp"
 
-namespace clatter::inline model {
+namespace clatter::model {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -52,4 +52,4 @@ Stops stops_in_reach(const Stops& stops, const Effects& effects) {
   return met;
 }
 
-}  // namespace clatter::inline model
+}  // namespace clatter::model

@@ -5,7 +5,8 @@
 #include "model/effects.hpp"
 #include "model/scene.hpp"
 
-namespace clatter::inline model {
+namespace clatter {
+inline namespace model {
 
 /// The effects that a scene can meet, and the bounds by which others are left out.
 struct Requirements {
@@ -27,4 +28,5 @@ struct Requirements {
 /// The stops that a motion with these effects can meet; the others are at infinity.
 [[nodiscard]] Stops stops_in_reach(const Stops& stops, const Effects& effects);
 
-}  // namespace clatter::inline model
+}  // namespace model
+}  // namespace clatter

@@ -4,7 +4,8 @@
 
 #include "math/number.hpp"
 
-namespace clatter::inline model {
+namespace clatter {
+inline namespace model {
 
 /// Steady forced response P sin(theta) + Q cos(theta) of eq. 3 (eq. 6): P = f(1 - nu^2)/D, Q = -2 h nu f/D,
 /// D = (1 - nu^2)^2 + (2 h nu)^2. Infinite or NaN if there is none: f at h = 0, nu = 1.
@@ -26,4 +27,5 @@ template <class Number>
   return {in_phase, quadrature, norm(in_phase, quadrature)};
 }
 
-}  // namespace clatter::inline model
+}  // namespace model
+}  // namespace clatter

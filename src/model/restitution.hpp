@@ -1,6 +1,7 @@
 #pragma once
 
-namespace clatter::inline model {
+namespace clatter {
+inline namespace model {
 
 /// Newton's law of restitution on a stop (eq. 4), for every number type: the exact loop and its derivative, the general
 /// methods and the lanes take it from here.
@@ -16,4 +17,5 @@ struct Restitution {
   [[nodiscard]] Number derivative() const { return -R; }
 };
 
-}  // namespace clatter::inline model
+}  // namespace model
+}  // namespace clatter

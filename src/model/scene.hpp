@@ -3,7 +3,8 @@
 #include "model/oscillator.hpp"
 #include "model/stops.hpp"
 
-namespace clatter::inline model {
+namespace clatter {
+inline namespace model {
 
 /// The state at tau = 0.
 struct Start {
@@ -19,4 +20,5 @@ struct Scene {
   Start start;
 };
 
-}  // namespace clatter::inline model
+}  // namespace model
+}  // namespace clatter

@@ -3,7 +3,8 @@
 #include <cstdint>
 #include <limits>
 
-namespace clatter::inline model {
+namespace clatter {
+inline namespace model {
 
 enum class Side : std::int8_t { lower = -1, none = 0, upper = 1 };
 
@@ -18,4 +19,5 @@ struct Stops {
   double restitution_upper = 1.0;                           ///< R of the upper stop, 0 ... 1
 };
 
-}  // namespace clatter::inline model
+}  // namespace model
+}  // namespace clatter

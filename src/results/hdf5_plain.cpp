@@ -88,6 +88,7 @@ std::vector<std::string> variables_in(hid_t file) {
   if (root.nlinks != links.size()) throw Failure("its list of variables is damaged");
   std::ranges::sort(links, {}, [](const Link& link) { return std::tie(link.order, link.name); });
   std::vector<std::string> names;
+  names.reserve(links.size());
   for (const Link& link : links) names.push_back(link.name);
   for (const std::string& name : names) require_own_object(file, name);
   for (const std::string& name : names) (void)open_variable(file, name);

@@ -60,8 +60,8 @@ std::string missing_text(const sweep::Sweep& sweep, const std::vector<ShardHeade
     const std::size_t points = sweep::Share(sweep, sweep::Shard{number, of}).points();
     if (there[number] != 0 || points == 0 || ++missing > shown) continue;
     const std::string name = text_of(sweep::Shard{number, of});
-    text += (missing > 1 ? "\nshard " : "shard ") + name + ": " + std::to_string(points) +
-            (points == 1 ? " point" : " points") + " missing: rerun with --shard " + name;
+    text.append(missing > 1 ? "\nshard " : "shard ").append(name).append(": ").append(std::to_string(points));
+    text.append(points == 1 ? " point" : " points").append(" missing: rerun with --shard ").append(name);
   }
   return missing > shown ? text + "\nand " + std::to_string(missing - shown) + " more shards" : text;
 }
@@ -89,6 +89,7 @@ void check_points(const sweep::Sweep& sweep, const std::vector<ShardHeader>& hea
 
 double bytes_for(const sweep::Sweep& sweep, const std::vector<ShardHeader>& heads) {
   std::vector<plan::ShardSize> sizes;
+  sizes.reserve(heads.size());
   for (const ShardHeader& head : heads) sizes.push_back({head.shard, head.impacts});
   return merge_bytes(sweep, sizes);
 }

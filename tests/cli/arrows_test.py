@@ -78,12 +78,13 @@ def wrong_namespaces(root):
     wrong = []
     for path, room in sources(root):
         name = "app" if room == "apps" else room
-        inline = "(inline )?" if room in WORDS_OF_ALL else ""
-        own = rf"namespace clatter::{inline}{name}(::detail)? \{{"
-        for number, line in enumerate(path.read_text(encoding="utf-8").splitlines(), 1):
-            opened = line.startswith("namespace clatter") and not re.fullmatch(own, line)
+        lines = path.read_text(encoding="utf-8").splitlines()
+        for number, line in enumerate(lines, 1):
+            opens = line + "".join(lines[number : number + 1]) if line == "namespace clatter {" else line
+            own = f"namespace clatter {{inline namespace {name} {{" if room in WORDS_OF_ALL else None
+            right = opens == own or re.fullmatch(rf"namespace clatter::{name}(::detail)? \{{", opens)
             borrowed = re.match(r"\s*using namespace (?!clatter|std::|boost)", line)
-            if opened or borrowed:
+            if (line.startswith("namespace clatter") and not right) or borrowed:
                 wrong.append(f"{path.relative_to(root)}:{number}: {line.strip()}")
     return wrong
 
@@ -119,9 +120,8 @@ class Arrows(unittest.TestCase):
                 "src/motion/a.hpp": '#include "math/number.hpp"\n#include "sweep/run.hpp"\n'
                 + "namespace clatter::motion {\n",
                 "src/observables/b.hpp": '#include "stepping/exact.hpp"\nnamespace clatter {\n',
-                "src/model/d.hpp": "".join(
-                    f"namespace clatter::{name} {{\n" for name in ("inline model", "model", "math")
-                ),
+                "src/model/d.hpp": "namespace clatter {\ninline namespace model {\nnamespace clatter::math {\n",
+                "src/model/e.cpp": "namespace clatter::model {\nnamespace clatter::model::detail {\n",
                 "src/sweep/c.cpp": "#include <hdf5.h>\n#include <omp.h>\nusing namespace lanes;\nx.lane[0] = 1;\n",
             }.items():
                 (root / name).parent.mkdir(parents=True, exist_ok=True)

@@ -80,7 +80,8 @@ TEST(MoreauMotion, chatter_ends_in_a_rest_within_a_step_for_each_of_its_impacts)
     for (int n = 256; n <= 16384; n *= 4) {
       double sum = 0, impacts = 0;
       for (int k = 0; k < 40; ++k) {
-        const double step = 1.0 / (n + k * n / 64), L = step * 4 * pi_;
+        const int steps = n + k * n / 64;
+        const double step = 1.0 / steps, L = step * 4 * pi_;
         const std::vector<accuracy::Event> events =
             accuracy::with_rests_joined(support::record_by<Moreau>(with_step(chattering, step, theta), 5.0).events);
         const auto rest = std::ranges::find(events, accuracy::Event::Kind::rest, &accuracy::Event::kind);

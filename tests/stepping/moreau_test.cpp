@@ -109,8 +109,9 @@ TEST(Moreau, impact_times_and_speeds_are_of_first_order) {
     for (int n = 1 << 8; n <= 1 << 13; n *= 2) {
       double time = 0, speed = 0, end = 0;
       for (int k = 0; k < 40; ++k) {
+        const int steps_a_period = n + k * n / 64;
         const support::Deviation d = support::deviation(
-            support::record_by<Moreau>(with_step(scene, 1.0 / (n + k * n / 64), theta), 20.0), reference);
+            support::record_by<Moreau>(with_step(scene, 1.0 / steps_a_period, theta), 20.0), reference);
         ASSERT_TRUE(d.same_events) << n << ": " << d.difference;
         time += d.time, speed += d.speed, end += d.end;
       }
