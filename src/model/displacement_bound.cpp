@@ -8,7 +8,8 @@
 #include "math/number.hpp"
 #include "model/response.hpp"
 
-namespace clatter::model {
+namespace clatter {
+inline namespace model {
 namespace {
 
 using Complex = std::complex<double>;
@@ -117,4 +118,5 @@ bool out_of_reach(const Oscillator& oscillator, const PhaseState& now, const Sto
          displacement_bound(oscillator, now, std::numeric_limits<double>::infinity(), gap) < gap;
 }
 
-}  // namespace clatter::model
+}  // namespace model
+}  // namespace clatter

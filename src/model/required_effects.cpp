@@ -5,7 +5,8 @@
 
 #include "model/displacement_bound.hpp"
 
-namespace clatter::model {
+namespace clatter {
+inline namespace model {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -52,4 +53,5 @@ Stops stops_in_reach(const Stops& stops, const Effects& effects) {
   return met;
 }
 
-}  // namespace clatter::model
+}  // namespace model
+}  // namespace clatter

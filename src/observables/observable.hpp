@@ -26,6 +26,8 @@ struct Field {
   Key key;
   T Settings::*member;
 };
+template <class Settings, class T>
+Field(Key, T Settings::*) -> Field<Settings, T>;  // clang++ 14 doesn't deduce aggregates by itself
 
 /// A dimension of the results beyond the axes of a sweep, and its coordinate, if it has one.
 struct Coordinate {

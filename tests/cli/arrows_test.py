@@ -121,7 +121,7 @@ class Arrows(unittest.TestCase):
                 + "namespace clatter::motion {\n",
                 "src/observables/b.hpp": '#include "stepping/exact.hpp"\nnamespace clatter {\n',
                 "src/model/d.hpp": "namespace clatter {\ninline namespace model {\nnamespace clatter::math {\n",
-                "src/model/e.cpp": "namespace clatter::model {\nnamespace clatter::model::detail {\n",
+                "src/model/e.cpp": "namespace clatter {\ninline namespace model {\n",
                 "src/sweep/c.cpp": "#include <hdf5.h>\n#include <omp.h>\nusing namespace lanes;\nx.lane[0] = 1;\n",
             }.items():
                 (root / name).parent.mkdir(parents=True, exist_ok=True)
