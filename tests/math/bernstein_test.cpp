@@ -8,7 +8,8 @@
 
 #include "support/random.hpp"
 
-namespace clatter::math {
+namespace clatter {
+inline namespace math {
 namespace {
 
 constexpr double ulp = std::numeric_limits<double>::epsilon();
@@ -221,4 +222,5 @@ TEST(Bernstein, split_off_at_an_end_leaves_a_point) {
 }
 
 }  // namespace
-}  // namespace clatter::math
+}  // namespace math
+}  // namespace clatter

@@ -4,7 +4,8 @@
 
 #include "math/fifty_digits.hpp"
 
-namespace clatter::math {
+namespace clatter {
+inline namespace math {
 namespace {
 
 TEST(Number, quarter_turns_are_exact) {
@@ -36,4 +37,5 @@ TEST(Number, sine_and_cosine_agree_with_fifty_digits) {
 }
 
 }  // namespace
-}  // namespace clatter::math
+}  // namespace math
+}  // namespace clatter

@@ -10,7 +10,8 @@
 #include "motion/arc.hpp"
 #include "support/random.hpp"
 
-namespace clatter::model {
+namespace clatter {
+inline namespace model {
 namespace {
 
 constexpr double forever = std::numeric_limits<double>::infinity(), ulp = std::numeric_limits<double>::epsilon();
@@ -193,4 +194,5 @@ TEST(Transient, stays_within_its_bound_and_within_what_the_decay_leaves_of_it) {
 }
 
 }  // namespace
-}  // namespace clatter::model
+}  // namespace model
+}  // namespace clatter

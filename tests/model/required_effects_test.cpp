@@ -5,7 +5,8 @@
 #include <limits>
 #include <vector>
 
-namespace clatter::model {
+namespace clatter {
+inline namespace model {
 namespace {
 
 constexpr double none = std::numeric_limits<double>::infinity(), nan = std::numeric_limits<double>::quiet_NaN();
@@ -206,4 +207,5 @@ TEST(RequiredEffects, damping_and_resonance_are_told_apart_at_their_borders) {
 }
 
 }  // namespace
-}  // namespace clatter::model
+}  // namespace model
+}  // namespace clatter

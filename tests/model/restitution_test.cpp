@@ -7,7 +7,8 @@
 
 #include "math/fifty_digits.hpp"
 
-namespace clatter::model {
+namespace clatter {
+inline namespace model {
 namespace {
 
 template <class Number>
@@ -37,4 +38,5 @@ TEST(Restitution, lets_a_value_that_is_no_number_through) {
 }
 
 }  // namespace
-}  // namespace clatter::model
+}  // namespace model
+}  // namespace clatter
