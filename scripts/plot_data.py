@@ -10,6 +10,7 @@ import numpy as np
 from plain_hdf5 import UNREADABLE, FileProblem, damaged, open_output, printable, text
 
 PAPER = "10.5755/j02.mech.32277"
+APERIODIC = 1  # status of motion without a period
 FIRST_FAILURE = 16  # status values from here on are failures
 
 

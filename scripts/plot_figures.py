@@ -3,16 +3,8 @@
 import numpy as np
 from matplotlib import ticker
 
-from plot_panels import (
-    draw_branch,
-    draw_common_walls,
-    draw_stops_along,
-    impact_log,
-    motion,
-    name_statuses,
-    phase_plane,
-    time_history,
-)
+from plot_curves import draw_branch, draw_stops_along, name_statuses
+from plot_motion import draw_common_walls, impact_log, motion, phase_plane, time_history
 from plot_style import BLUE, CYCLE, GRID, ORANGE, STOP, VERMILION, label, legend_above, new_figure, set_axis
 
 SHOWN_TIME = 20.0  # tau to which the paper shows free vibration

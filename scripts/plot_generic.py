@@ -4,26 +4,29 @@ from math import ceil
 
 import numpy as np
 
-from plot_data import FIRST_FAILURE
-from plot_panels import (
-    APERIODIC,
-    MAP_LIMIT,
-    chosen_points,
-    curves,
-    impact_cloud,
-    impact_log,
-    kind_map,
-    phase_plane,
-    scalars,
-    spectrum,
-    time_history,
-    value_map,
-)
+from plot_curves import curves, scalars, spectrum
+from plot_data import APERIODIC, FIRST_FAILURE
+from plot_maps import kind_map, value_map
+from plot_motion import chosen_points, impact_cloud, impact_log, phase_plane, time_history
 from plot_style import label, legend_above, new_figure, number, symbol
 
-BOOKKEEPING = ("status", "impact_total", "simulated_periods", "settling_estimate", "impact_count", "base_frequency")
-TOGETHER = (("x_min", "x_max"), ("v_min", "v_max"), ("v_before", "v_after"))  # results that share a panel
+BOOKKEEPING = (
+    "status",
+    "impact_total",
+    "simulated_periods",
+    "settling_estimate",
+    "impact_count",
+    "base_frequency",
+    "energy_residual",
+)
+TOGETHER = (
+    ("x_min", "x_max"),
+    ("v_min", "v_max"),
+    ("v_before", "v_after"),
+    ("work_in", "loss_damping"),
+)  # results that share a panel
 RECORDS = ("tau", "x", "v")
+MAP_LIMIT = 4  # components of one variable (harmonics, stops) that maps show
 ORDER = (
     "x_min",
     "x_max",
@@ -44,6 +47,11 @@ ORDER = (
     "multiplier_re",
     "multiplier_im",
     "lyapunov",
+    "work_in",
+    "loss_damping",
+    "loss_impact",
+    "impulse",
+    "impact_power",
 )
 
 

@@ -55,6 +55,11 @@ LABELS = {
     "lyapunov": ("largest Lyapunov exponent", r"$\lambda$"),
     "impacts_per_period": ("impacts per period", ""),
     "rest_fraction": ("share of time at rest", ""),
+    "work_in": ("work of force and load", "work"),
+    "loss_damping": ("loss by damping", "damping"),
+    "loss_impact": ("loss by impacts", ""),
+    "impulse": ("impulse", ""),
+    "impact_power": ("power lost in impacts", ""),
 }
 
 

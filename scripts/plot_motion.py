@@ -1,0 +1,134 @@
+"""Panels of the motion itself: time histories, phase planes, impacts."""
+
+import numpy as np
+
+from plot_curves import name_statuses
+from plot_style import BLUE, CYCLE, GRID, STOP, VERMILION, draw_walls, label, legend_above, number, set_axis, symbol
+
+
+def motion(output, index):
+    """Time, displacement, velocity of one point, with both sides of every logged impact put in."""
+    tau, x, v = (output.values(name)[index] for name in ("tau", "x", "v"))
+    if "impact_count" not in output:
+        return tau, x, v
+    times, sides, before, after = output.impacts(index)
+    lower, upper = (stop[index] for stop in output.stops())
+    place = np.repeat(np.searchsorted(tau, times, side="left"), 2)
+    contact = np.where(np.repeat(sides, 2) < 0, lower, upper)
+    return (
+        np.insert(tau, place, np.repeat(times, 2)),
+        np.insert(x, place, contact),
+        np.insert(v, place, np.ravel([before, after], order="F")),
+    )
+
+
+def repeated(tau, values, period, end):
+    """A periodic record, again and again up to `end`."""
+    turns = int(np.ceil(end / period))
+    times = np.concatenate([tau + turn * period for turn in range(turns)])
+    inside = times <= end * (1 + 1e-12)
+    return times[inside], np.tile(values, turns)[inside]
+
+
+def chosen_points(output, most=5):
+    """Indices of the points whose motion is drawn: all, or a few spread over the sweep; with their titles."""
+    total = max(int(np.prod(output.shape)), 1)
+    flat = np.unique(np.linspace(0, total - 1, min(total, most)).round().astype(int))
+    points = [tuple(int(part) for part in np.unravel_index(place, output.shape)) for place in flat]
+    return [
+        (
+            point,
+            ", ".join(
+                f"{symbol(axis)} = {number(output.values(axis)[place])}" for axis, place in zip(output.axes, point)
+            ),
+        )
+        for point in points
+    ]
+
+
+def time_history(output, quantity, points, axes, end=None):
+    """x or x' against time, for one point or a few; periodic motion is repeated to `end`."""
+    for place, (point, title) in enumerate(points):
+        tau, x, v = motion(output, point)
+        values = x if quantity == "x" else v
+        if end is not None:
+            tau, values = repeated(tau, values, tau[-1], end)
+            axes.set_xlim(0.0, end)
+        axes.plot(tau, values, color=CYCLE[place % len(CYCLE)], lw=1.1, label=title or None)
+    axes.margins(y=0.08)
+    if quantity == "x":
+        draw_common_walls(axes, output)
+    else:
+        axes.axhline(0.0, color=GRID, lw=0.7, zorder=0)
+    axes.set_xlabel(label(output, "tau"))
+    axes.set_ylabel(label(output, quantity))
+
+
+def draw_common_walls(axes, output, vertical=False):
+    """The stops, where every point has the same."""
+    lower, upper = output.stops()
+    if np.unique(lower).size == 1 and np.unique(upper).size == 1:
+        draw_walls(axes, lower.flat[0], upper.flat[0], vertical, named=False)
+
+
+def phase_plane(output, points, axes):
+    """x' against x."""
+    for place, (point, title) in enumerate(points):
+        _, x, v = motion(output, point)
+        axes.plot(x, v, color=CYCLE[place % len(CYCLE)], lw=1.1, label=title or None)
+    axes.margins(x=0.08, y=0.08)
+    draw_common_walls(axes, output, vertical=True)
+    axes.axhline(0.0, color=GRID, lw=0.7, zorder=0)
+    axes.set_xlabel(label(output, "x"))
+    axes.set_ylabel(label(output, "v"))
+
+
+def impact_log(output, index, axes, period=None):
+    """Velocity before each observed impact of one point, as stems at their times."""
+    times, sides, before, _ = output.impacts(index)
+    end = output.values("tau")[index][-1] if "tau" in output else None
+    if period is not None:
+        end = 2 * period
+        sides, before = (repeated(times, part, period, end)[1] for part in (sides, before))
+        times = repeated(times, times, period, end)[0]
+    axes.axhline(0.0, color=STOP, lw=0.7)
+    for side, marker, color, title in ((-1, "v", BLUE, "lower stop"), (1, "^", VERMILION, "upper stop")):
+        hit = sides == side
+        if hit.any():
+            axes.vlines(times[hit], 0.0, before[hit], color=color, lw=1.0)
+            axes.plot(
+                times[hit],
+                before[hit],
+                ls="none",
+                marker=marker,
+                ms=4.5 if len(times) < 40 else 3.0,
+                color=color,
+                label=title,
+            )
+    axes.margins(y=0.1)
+    axes.set_xlim(0.0, end if end is None or np.isfinite(end) else None)
+    axes.set_xlabel(label(output, "tau"))
+    axes.set_ylabel(label(output, "v_before"))
+    legend_above(axes)
+
+
+def impact_cloud(output, name, axes):
+    """Velocities before all observed impacts over the only axis: a bifurcation diagram."""
+    along = np.repeat(output.values(name), output.values("impact_count"))
+    sides, before = output.values("impact_stop"), output.values("impact_v_before")
+    for side, color, title in ((-1, BLUE, "lower stop"), (1, VERMILION, "upper stop")):
+        axes.plot(
+            along[sides == side],
+            before[sides == side],
+            ls="none",
+            marker=".",
+            mew=0,
+            color=color,
+            ms=2.0 if len(along) > 2000 else 4.0,
+            label=title,
+            rasterized=True,
+        )
+    set_axis(axes, output, name)
+    axes.set_ylabel(label(output, "v_before"))
+    name_statuses(axes, output, name, shown=False)
+    legend_above(axes)
