@@ -4,7 +4,7 @@ import numpy as np
 from matplotlib import colors
 
 from plot_data import APERIODIC, FIRST_FAILURE
-from plot_style import BLUE, GREEN, ORANGE, label, set_axis
+from plot_style import BLUE, GREEN, ORANGE, set_axis
 
 
 def value_map(output, figure, axes, names, title, values, status):
