@@ -1,4 +1,4 @@
-"""What the programs that people plot with find in clatter's files: the names, axes and types of its contract.
+"""Programs that people plot with find in clatter's files the names, axes and types that its guide promises.
 
 Environment: CLATTER, the program; CLATTER_SOURCE, the source directory. A reader that isn't installed is a failure.
 """
@@ -6,18 +6,18 @@ Environment: CLATTER, the program; CLATTER_SOURCE, the source directory. A reade
 import hashlib
 import os
 import subprocess
-import tempfile
 import tomllib
-import unittest
 import warnings
 from pathlib import Path
+from unittest import main
 
 import h5py
 import netCDF4
 import numpy
 import xarray
 
-CLATTER = os.environ["CLATTER"]
+from runs import CLATTER, FORCED, RunTest, quoted, toml
+
 SOURCE = Path(os.environ["CLATTER_SOURCE"])
 
 ALWAYS = {"status": "uint8", "impact_total": "int64", "simulated_periods": "float64", "settling_estimate": "float64"}
@@ -42,47 +42,9 @@ ROOT = [
     "config_sha256",
     "compiler",
 ]
-FORCED = {"f": -1.0, "h": 0.1, "R": 0.7, "xs": -0.5}
 
 
-def toml(title="", scene=FORCED, **sections):
-    """A configuration as text; a section is given as a dictionary, and what [sweep] holds isn't repeated in [scene]."""
-    lines = [f'title = "{title}"']
-    scene = {key: value for key, value in scene.items() if key not in sections.get("sweep", {})}
-    for name, keys in {"scene": scene, **sections}.items():
-        lines.append(f"[{name}]")
-        lines += [f"{key} = {repr(value).lower() if isinstance(value, bool) else value}" for key, value in keys.items()]
-    return "\n".join(lines).replace("'", '"') + "\n"
-
-
-def quoted(text):
-    return f'"{text}"'
-
-
-class Readers(unittest.TestCase):
-    def setUp(self):
-        scratch = tempfile.TemporaryDirectory()
-        self.addCleanup(scratch.cleanup)
-        self.scratch = Path(scratch.name)
-
-    def run_clatter(self, config, name="out", threads=1, environment=None, options=()):
-        """Runs a configuration, a text or a path, and returns the path of its output."""
-        if isinstance(config, str):
-            path = self.scratch / f"{name}.toml"
-            path.write_text(config, encoding="utf-8")
-            config = path
-        output = self.scratch / f"{name}.h5"
-        done = subprocess.run(
-            [CLATTER, "run", config, "-o", output, "--threads", str(threads), *options],
-            capture_output=True,
-            text=True,
-            check=False,
-            timeout=300,
-            env={**os.environ, **(environment or {})},
-        )
-        self.assertEqual(done.returncode, 0, done.stderr)
-        return output
-
+class Readers(RunTest):
     def assert_contents(self, path, dimensions, variables):
         """Every reader finds exactly these dimensions {name: length} and variables {name: (dimensions, type)}."""
         for engine in ("h5netcdf", "netcdf4"):
@@ -318,7 +280,7 @@ class Readers(unittest.TestCase):
                 text = attributes["config"].encode()
                 self.assertEqual(attributes["config_sha256"], hashlib.sha256(text).hexdigest())
             self.assertEqual(list(data.attrs), ROOT)
-        self.assertNotIn(str(self.scratch).encode(), path.read_bytes())  # where it was made stays out of it
+        self.assertNotIn(str(self.scratch).encode(), path.read_bytes())  # the file doesn't tell the folder it was made in
 
     def test_every_configuration_has_its_axes(self):
         configurations = sorted([*SOURCE.glob("configs/*.toml"), *SOURCE.glob("configs/*.ini")])
@@ -355,85 +317,6 @@ class Readers(unittest.TestCase):
         fill = {"MALLOC_PERTURB_": "165"}  # malloc no longer gives zeros: nothing uninitialised gets into the file
         self.assertEqual(one, self.run_clatter(config, "three", threads=2, environment=fill).read_bytes())
 
-    def test_large_arrays_are_deflated_in_moderate_chunks(self):
-        with h5py.File(
-            self.run_clatter(
-                toml(
-                    time={"mode": quoted("transient"), "duration": 100.0},
-                    observe={"trajectory": 200000},
-                    output={"compression": 4},
-                )
-            )
-        ) as file:
-            self.assertEqual((file["x"].compression, file["x"].shuffle), ("gzip", True))
-            self.assertLessEqual(file["x"].chunks[0] * 8, 2**20)
-            self.assertEqual(len(set(file["tau"][:])), 200000)  # several chunks, each in its place
-            self.assertTrue((numpy.diff(file["tau"]) > 0).all())
-            self.assertIsNone(file["status"].chunks)
-
-    def test_deflated_values_are_the_same_in_every_reader(self):
-        texts = {
-            level: toml(
-                sweep={"nu": quoted("linspace(0.5, 1.5, 21)")},
-                observe={"trajectory": 501},
-                output={"compression": level},
-            )
-            for level in (0, 1, 9)
-        }
-        paths = {level: self.run_clatter(text, f"level{level}") for level, text in texts.items()}
-        with h5py.File(paths[0]) as plain:
-            self.assertIsNone(plain["x"].chunks)
-            for level in (1, 9):
-                for engine in ("h5netcdf", "netcdf4"):
-                    with xarray.open_dataset(paths[level], engine=engine) as data:
-                        self.assertEqual(data["x"].encoding["complevel"], level)
-                        numpy.testing.assert_array_equal(data["x"].values, plain["x"][...])
-                two = self.run_clatter(texts[level], "two", threads=2)
-                self.assertEqual(two.read_bytes(), paths[level].read_bytes())
-
-    def outputs_to_copy(self):
-        """Large and small arrays, logs with and without impacts, a point, shards with and without points, deflated."""
-        sweep, log = {"nu": quoted("linspace(0.9, 1.1, 9)")}, {"extrema": True, "impact_log": True}
-        far = {**FORCED, "xs": -100.0}
-        yield self.run_clatter(toml("Größter Ausschlag", sweep=sweep, observe={**log, "trajectory": 2001}), "log")
-        yield self.run_clatter(toml(scene=far, sweep=sweep, observe=log, output={"compression": 4}), "no_impacts")
-        yield self.run_clatter(toml(observe={"extrema": True}), "point")
-        for name, shard in (("shard", "1/2"), ("empty_shard", "10/11")):
-            yield self.run_clatter(toml(sweep=sweep, observe=log), name, options=("--shard", shard))
-        deflated = toml(sweep=sweep, observe={"trajectory": 2001}, output={"compression": 4})
-        yield self.run_clatter(deflated, "deflated")
-
-    def test_copies_of_netcdf4_and_hdf5_hold_the_same(self):
-        """Those of the guide of results: for h5repack a chunk can't have the length 0 of an array, hence -m."""
-
-        def contents(path):
-            command = ["ncdump", "-p", "9,17", "-n", "any", path]
-            return subprocess.run(command, capture_output=True, text=True, check=True, timeout=60).stdout
-
-        for path in self.outputs_to_copy():
-            original = contents(path)
-            for command in ("nccopy -k nc4", "nccopy -d 4 -s", "h5repack", "h5repack -m 1 -f SHUF -f GZIP=4"):
-                with self.subTest(file=path.name, command=command):
-                    copy = self.scratch / "copy.h5"
-                    copy.unlink(missing_ok=True)
-                    subprocess.run([*command.split(), path, copy], capture_output=True, check=True, timeout=60)
-                    self.assertEqual(contents(copy), original)
-                    subprocess.run([CLATTER, "info", copy], capture_output=True, check=True, timeout=60)
-
-    def test_xarray_makes_classic_netcdf_of_outputs(self):
-        """The guide's way: nccopy can't, since classic files have no texts of variable length. They have one dimension
-        of length 0 at most, of which a shard without points, and so without impacts, has two."""
-        for path in self.outputs_to_copy():
-            if path.stem == "empty_shard":
-                continue
-            copy = self.scratch / "classic.nc"
-            xarray.load_dataset(path).to_netcdf(copy, format="NETCDF3_64BIT")
-            kind = subprocess.run(["ncdump", "-k", copy], capture_output=True, text=True, check=True, timeout=60).stdout
-            self.assertEqual(kind, "64-bit offset\n")
-            with self.subTest(path.name), xarray.open_dataset(path) as one, xarray.open_dataset(copy) as other:
-                self.assertEqual(one.attrs, other.attrs)
-                xarray.testing.assert_equal(one, other)
-
 
 if __name__ == "__main__":
-    unittest.main()
+    main()

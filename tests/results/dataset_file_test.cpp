@@ -181,7 +181,7 @@ TEST_F(FigureFile, large_arrays_are_deflated_and_small_ones_are_not) {
 }
 
 TEST_F(FigureFile, values_lie_in_the_file_as_little_endian_doubles) {
-  const sweep::Dataset dataset = sweep(501, 2);  // too small to be deflated; readers_test.py reads deflated ones
+  const sweep::Dataset dataset = sweep(501, 2);  // too small to be deflated; copies_test.py reads deflated ones
   const std::vector<std::byte> image = bytes_of(dataset, configuration());
   const auto bytes = std::as_bytes(std::span{std::get<std::vector<double>>(dataset.variables.back().values)});
   EXPECT_NE(std::search(image.begin(), image.end(), bytes.begin(), bytes.end()), image.end());
