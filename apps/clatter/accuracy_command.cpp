@@ -47,9 +47,9 @@ std::vector<accuracy::PointAccuracy> study_points(const sweep::Sweep& sweep, lan
     progress.show(static_cast<double>(++finished), total, seconds_left);
   };
   for (std::size_t point = 0; point < size(sweep); ++point) {
-    accuracy::PointAccuracy of_point = study(scene_at(sweep, point), trials, options);
+    accuracy::PointAccuracy of_point = measure_accuracy(scene_at(sweep, point), trials, options);
     if (Interrupt::signal() != 0) break;
-    std::cout << (json ? study_json : study_text)(of_point, sweep, point) << std::flush;
+    std::cout << (json ? accuracy_json : accuracy_text)(of_point, sweep, point) << std::flush;
     points.push_back(std::move(of_point));
   }
   return points;
@@ -58,7 +58,7 @@ std::vector<accuracy::PointAccuracy> study_points(const sweep::Sweep& sweep, lan
 bool any_failed(const std::vector<accuracy::PointAccuracy>& points) {
   for (const accuracy::PointAccuracy& point : points)
     for (const accuracy::WorkPrecision& row : point.rows)
-      if (row.trial.studied == accuracy::TestedMethod::exact && failed(row.status)) return true;
+      if (row.trial.method == accuracy::TestedMethod::exact && failed(row.status)) return true;
   return false;
 }
 
@@ -69,7 +69,7 @@ int run_study(const Arguments& arguments) {
   const config::Config config = config_of(arguments);
   check_not_config(arguments.operands[0], output);
   check_starts(config, arguments.operands[0]);
-  const results::OutputPlace place(output, {.is_study = true, .title = config.title}, arguments.has("force"));
+  const results::OutputPlace place(output, {.is_accuracy = true, .title = config.title}, arguments.has("force"));
   storage::require_idle(output);
   if (!arguments.has("quiet")) warn(config, not_read);
   const Interrupt interrupt;

@@ -55,13 +55,13 @@ std::string header() {
 
 /// Whether a row was meant for lanes but its scene couldn't go into them.
 bool left_out(const accuracy::WorkPrecision& row, const accuracy::PointAccuracy& study) {
-  const bool run = row.trial.studied >= accuracy::TestedMethod::steady || study.horizon > 0;
+  const bool run = row.trial.method >= accuracy::TestedMethod::steady || study.horizon > 0;
   return row.trial.arch != lanes::InstructionSet::scalar && run && std::isnan(row.simulated_periods);
 }
 
 /// Why a row can't be compared; empty if it can.
 std::string remark(const accuracy::WorkPrecision& row, const accuracy::PointAccuracy& study) {
-  const bool steady = row.trial.studied >= accuracy::TestedMethod::steady;
+  const bool steady = row.trial.method >= accuracy::TestedMethod::steady;
   if (failed(row.status) || (steady && row.status == steady::Status::aperiodic)) return "  " + status_name(row.status);
   return steady && study.steady_periods > 0 && row.observed_periods != study.steady_periods
              ? "  period " + formatted("%.6g", row.observed_periods)
@@ -70,13 +70,13 @@ std::string remark(const accuracy::WorkPrecision& row, const accuracy::PointAccu
 
 std::string row_text(const accuracy::WorkPrecision& row, const accuracy::PointAccuracy& study) {
   std::size_t column = 0;
-  std::string text = left(std::string(accuracy::studied_names[static_cast<std::size_t>(row.trial.studied)]));
+  std::string text = left(std::string(accuracy::method_names[static_cast<std::size_t>(row.trial.method)]));
   const auto put = [&](const char* format, double value) {
     text += right(std::isnan(value) ? "-" : formatted(format, value), titles[column++].width);
   };
   text += right(std::string(name_of(row.trial.arch)), titles[column++].width);
   if (left_out(row, study)) return text + "  not in lanes: this motion is left to the scalar loop\n";
-  put(row.trial.studied == accuracy::TestedMethod::harmonics_fft ? "%.0f" : "%.0e", row.trial.setting);
+  put(row.trial.method == accuracy::TestedMethod::harmonics_fft ? "%.0f" : "%.0e", row.trial.setting);
   for (const double error :
        {row.contact_time, row.contact_speed, row.rest, row.extrema, row.harmonics, row.v_harmonics})
     put("%.1e", error);
@@ -113,7 +113,7 @@ std::string horizon_text(const accuracy::PointAccuracy& study, bool forced) {
 
 }  // namespace
 
-std::string study_text(const accuracy::PointAccuracy& study, const sweep::Sweep& sweep, std::size_t point) {
+std::string accuracy_text(const accuracy::PointAccuracy& study, const sweep::Sweep& sweep, std::size_t point) {
   std::string text = coordinates_text(sweep, point);
   if (!text.empty()) text += '\n';
   text += horizon_text(study, scene_at(sweep, point).oscillator.forcing != 0);
@@ -122,14 +122,14 @@ std::string study_text(const accuracy::PointAccuracy& study, const sweep::Sweep&
   return text + '\n';
 }
 
-std::string study_json(const accuracy::PointAccuracy& study, const sweep::Sweep& sweep, std::size_t point) {
+std::string accuracy_json(const accuracy::PointAccuracy& study, const sweep::Sweep& sweep, std::size_t point) {
   std::ostringstream out;
   for (const accuracy::WorkPrecision& row : study.rows) {
     const auto put = [&](const std::string& name, double value) {
       out << ", \"" << name << "\": " << json_number(value);
     };
     out << "{\"method\": "
-        << json_text(std::string(accuracy::studied_names[static_cast<std::size_t>(row.trial.studied)]));
+        << json_text(std::string(accuracy::method_names[static_cast<std::size_t>(row.trial.method)]));
     put("setting", row.trial.setting);
     out << ", \"arch\": " << json_text(std::string(name_of(row.trial.arch)));
     for (const auto& [name, long_name, value] : accuracy::row_variables()) put(name, row.*value);

@@ -97,9 +97,9 @@ point::Problem over_horizon(point::Problem scene, const ReferenceSolution& refer
 Prepared prepare_method(const Trial& trial, const point::Problem& scene, const ReferenceSolution& references) {
   Prepared prepared{trial, scene, over_horizon(scene, references), pointer_to(references.from_start)};
   stepping::Integration& integration = prepared.silent.integration;
-  if (trial.studied == TestedMethod::dopri5)
+  if (trial.method == TestedMethod::dopri5)
     integration.method = stepping::Method::dopri5, integration.tolerance = trial.setting;
-  if (trial.studied == TestedMethod::moreau)
+  if (trial.method == TestedMethod::moreau)
     integration.method = stepping::Method::moreau, integration.step = trial.setting;
   prepared.observed = prepared.silent;
   prepared.observed.observe = everything_over(scene, prepared.silent.time.duration);
@@ -111,7 +111,7 @@ Prepared prepare_harmonics(const Trial& trial, const point::Problem& scene, cons
   Prepared prepared{trial, scene, steady ? *references.on_period : over_horizon(scene, references),
                     pointer_to(steady ? references.periodic : references.from_start)};
   observables::Observe& observe = prepared.silent.observe = harmonics_over(scene, prepared.silent.time.duration);
-  if (trial.studied == TestedMethod::harmonics_fft)
+  if (trial.method == TestedMethod::harmonics_fft)
     observe.harmonics_method = observables::HarmonicsMethod::fft,
     observe.harmonics_samples = std::llround(trial.setting);
   prepared.observed = prepared.silent;
@@ -121,16 +121,16 @@ Prepared prepare_harmonics(const Trial& trial, const point::Problem& scene, cons
 Prepared prepare_steady(const Trial& trial, const point::Problem& scene, const ReferenceSolution& references) {
   Prepared prepared{trial, scene, scene, pointer_to(references.periodic), references.steady_periods};
   prepared.silent.time.tolerance = trial.setting;
-  prepared.silent.integration.shortcuts = trial.studied == TestedMethod::steady;
+  prepared.silent.integration.shortcuts = trial.method == TestedMethod::steady;
   prepared.observed = prepared.silent;
   prepared.observed.observe = everything_over(scene, period_of(scene.oscillator));
   return prepared;
 }
 
 Prepared prepare(const Trial& trial, const point::Problem& scene, const ReferenceSolution& references) {
-  Prepared prepared = trial.studied <= TestedMethod::moreau          ? prepare_method(trial, scene, references)
-                      : trial.studied <= TestedMethod::harmonics_fft ? prepare_harmonics(trial, scene, references)
-                                                                     : prepare_steady(trial, scene, references);
+  Prepared prepared = trial.method <= TestedMethod::moreau          ? prepare_method(trial, scene, references)
+                      : trial.method <= TestedMethod::harmonics_fft ? prepare_harmonics(trial, scene, references)
+                                                                    : prepare_steady(trial, scene, references);
   observables::Observe& observe = prepared.observed.observe;
   if (trial.arch != lanes::InstructionSet::scalar) observe = in_lanes(observe, scene);
   return prepared;
@@ -276,7 +276,8 @@ std::size_t steps_of(std::size_t rows, const AccuracyOptions& options) {
   return rows * static_cast<std::size_t>(options.rounds + 1);
 }
 
-PointAccuracy study(const point::Problem& scene, const std::vector<Trial>& trials, const AccuracyOptions& options) {
+PointAccuracy measure_accuracy(const point::Problem& scene, const std::vector<Trial>& trials,
+                               const AccuracyOptions& options) {
   return AccuracyRun(scene, trials, options).run();
 }
 

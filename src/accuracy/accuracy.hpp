@@ -54,7 +54,7 @@ struct AccuracyOptions {
 
 /// Measures every trial of a scene: its error against 50 digits, and its time, in turn with all others. Rows are
 /// incomplete if the run was stopped.
-[[nodiscard]] PointAccuracy study(const point::Problem& scene, const std::vector<Trial>& trials,
-                                  const AccuracyOptions& options);
+[[nodiscard]] PointAccuracy measure_accuracy(const point::Problem& scene, const std::vector<Trial>& trials,
+                                             const AccuracyOptions& options);
 
 }  // namespace clatter::accuracy

@@ -53,12 +53,12 @@ void add_trials(sweep::Dataset& dataset, const std::vector<WorkPrecision>& rows)
   std::vector<std::uint8_t> method, arch;
   std::vector<double> setting;
   for (const WorkPrecision& row : rows) {
-    method.push_back(static_cast<std::uint8_t>(row.trial.studied)), setting.push_back(row.trial.setting);
+    method.push_back(static_cast<std::uint8_t>(row.trial.method)), setting.push_back(row.trial.setting);
     arch.push_back(static_cast<std::uint8_t>(row.trial.arch));
   }
   dataset.dimensions.push_back({"row", rows.size()});
   dataset.variables.push_back({"method", {"row"}, std::move(method), "tested method", "1"});
-  dataset.variables.back().attributes = flags_of(studied_names);
+  dataset.variables.back().attributes = flags_of(method_names);
   dataset.variables.push_back(
       {"setting", {"row"}, std::move(setting), "tolerance, step in forcing periods, or samples", "1"});
   dataset.variables.push_back({"arch", {"row"}, std::move(arch), "instruction set whose lanes run; scalar: none", "1"});

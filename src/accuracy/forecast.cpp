@@ -9,7 +9,7 @@ namespace {
 
 /// The ratio of the times of two trials of one method.
 double growth(const Trial& from, const Trial& to) {
-  switch (to.studied) {
+  switch (to.method) {
     case TestedMethod::dopri5:
       return std::pow(from.setting / to.setting, 0.18);  // 1.5 times for each digit
     case TestedMethod::moreau:
@@ -20,9 +20,9 @@ double growth(const Trial& from, const Trial& to) {
 }
 
 /// The share of its time that a run takes without observables, as measured in three accuracy runs.
-double silent_share(TestedMethod studied) {
-  if (studied == TestedMethod::moreau) return 0.02;
-  return studied == TestedMethod::dopri5 ? 0.12 : 0.7;
+double silent_share(TestedMethod method) {
+  if (method == TestedMethod::moreau) return 0.02;
+  return method == TestedMethod::dopri5 ? 0.12 : 0.7;
 }
 
 }  // namespace
@@ -43,11 +43,11 @@ void Forecast::measured(std::size_t row, int round, double seconds) {
 /// take next to nothing.
 std::optional<double> Forecast::foretold(std::size_t row) const {
   const Trial& trial = rows_[row].trial;
-  if (trial.studied == TestedMethod::harmonics_fft) return 5e-8 * trial.setting;
-  const bool is_dear = trial.studied == TestedMethod::dopri5 || trial.studied == TestedMethod::moreau;
-  for (std::size_t other = row; other-- > 0 && rows_[other].trial.studied == trial.studied;) {
-    const bool is_coarsest = other == 0 || rows_[other - 1].trial.studied != trial.studied;
-    if (trial.studied == TestedMethod::moreau && is_coarsest) break;
+  if (trial.method == TestedMethod::harmonics_fft) return 5e-8 * trial.setting;
+  const bool is_dear = trial.method == TestedMethod::dopri5 || trial.method == TestedMethod::moreau;
+  for (std::size_t other = row; other-- > 0 && rows_[other].trial.method == trial.method;) {
+    const bool is_coarsest = other == 0 || rows_[other - 1].trial.method != trial.method;
+    if (trial.method == TestedMethod::moreau && is_coarsest) break;
     if (rows_[other].first) return *rows_[other].first * growth(rows_[other].trial, trial);
   }
   return is_dear ? std::nullopt : std::optional(0.0);
@@ -60,7 +60,7 @@ std::optional<double> Forecast::seconds_left() const {
     const std::optional<double> first = row.first ? row.first : foretold(i);
     if (!first) return std::nullopt;
     if (!row.first) left += *first;
-    const double silent = row.silent.value_or(silent_share(row.trial.studied) * *first);
+    const double silent = row.silent.value_or(silent_share(row.trial.method) * *first);
     for (int round = row.next_round; round < rounds_; ++round) left += Timing::lasts(silent, round);
   }
   return left;

@@ -7,8 +7,8 @@ namespace clatter::accuracy {
 namespace {
 
 /// Adds trials at the settings 10^-first ... 10^-last.
-void add_decades(std::vector<Trial>& trials, TestedMethod studied, int first, int last) {
-  for (int digits = first; digits <= last; ++digits) trials.push_back({studied, 1 / std::pow(10.0, digits)});
+void add_decades(std::vector<Trial>& trials, TestedMethod method, int first, int last) {
+  for (int digits = first; digits <= last; ++digits) trials.push_back({method, 1 / std::pow(10.0, digits)});
 }
 
 }  // namespace

@@ -22,12 +22,12 @@ enum class TestedMethod : std::uint8_t {
 };
 
 /// Names in the order of TestedMethod.
-inline constexpr std::array<std::string_view, 7> studied_names{
+inline constexpr std::array<std::string_view, 7> method_names{
     "exact", "dopri5", "moreau", "harmonics_exact", "harmonics_fft", "steady", "steady_repetition"};
 
 /// A row before it is run.
 struct Trial {
-  TestedMethod studied = TestedMethod::exact;
+  TestedMethod method = TestedMethod::exact;
   double setting = 0.0;  ///< NaN if there is none
   lanes::InstructionSet arch =
       lanes::InstructionSet::scalar;  ///< the exact method runs in the lanes of this set; scalar: in the scalar loop

@@ -195,7 +195,7 @@ void Scheduler::LaneTask::coast(BlockState& lanes, std::size_t lane) const {
   const Oscillator& o = item_.scene.oscillator;
   const PhasePoint free = transient_of(o, section(lanes, lane));
   motion::State<double> end;
-  end.turns = observed_.turns - std::floor(observed_.turns);
+  end.phase_turns = observed_.turns - std::floor(observed_.turns);
   const auto [sine, cosine] = exact_.phase(end);
   const PhasePoint response = response_at(o, sine, cosine);
   const double time = (observed_.turns - static_cast<double>(sections_)) * exact_.period();
@@ -217,12 +217,12 @@ void Scheduler::LaneTask::finish_period(BlockState& lanes, std::size_t lane, dou
 stepping::Outcome Scheduler::LaneTask::scalar_fallback(BlockState& lanes, std::size_t lane) {
   const LaneState position = state_of(lanes, lane, item_.scene);
   motion::State<double> state;
-  state.x = position.x, state.v = position.v, state.turns = position.turns;
+  state.x = position.x, state.v = position.v, state.phase_turns = position.phase_turns;
   if (position.x == exact_.stops().lower) state.left = Side::lower;
   if (position.x == exact_.stops().upper) state.left = Side::upper;
   if (lanes.time_to_section.lane[lane] == fallback_left_)
     state = fallback_end_;  // a lane can't hold a release or a short offset
-  double end = std::min(1.0, state.turns + 2 / lanes.period.lane[lane]);
+  double end = std::min(1.0, state.phase_turns + 2 / lanes.period.lane[lane]);
   FallbackObserver seen(lanes, lane, item_.scene, observing_);
   stepping::Outcome outcome = exact_.advance(state, end, 0, seen);
   // all motion from the same release is the same: so that it is so to the last bit, it goes on to the section here
@@ -240,9 +240,9 @@ stepping::Outcome Scheduler::LaneTask::scalar_fallback(BlockState& lanes, std::s
     } else {
       lanes.arrived |= LaneMask{1} << lane;
     }
-    state.turns = 0;
+    state.phase_turns = 0;
   }
-  set_state(lanes, lane, item_.scene, {state.x, state.v, state.turns});
+  set_state(lanes, lane, item_.scene, {state.x, state.v, state.phase_turns});
   fallback_end_ = state, fallback_left_ = lanes.time_to_section.lane[lane];
   return outcome;
 }
@@ -273,7 +273,8 @@ point::PointResult Scheduler::LaneTask::result(const BlockState& lanes, std::siz
   const double rate = at(lanes.rate);
   motion::State<double> end = observed_.from;
   end.x = x_of(lanes, lane, at(lanes.section_y)), end.v = at(lanes.section_v) * rate;
-  end.periods += static_cast<std::int64_t>(observed_.turns), end.turns = observed_.turns - std::floor(observed_.turns);
+  end.periods += static_cast<std::int64_t>(observed_.turns),
+      end.phase_turns = observed_.turns - std::floor(observed_.turns);
   if (auto& extrema = observers.of<observables::Extrema>())
     extrema->include({x_of(lanes, lane, at(lanes.y_low)), x_of(lanes, lane, at(lanes.y_high))},
                      {at(lanes.v_low) * rate, at(lanes.v_high) * rate});

@@ -106,9 +106,9 @@ LaneState state_of(const BlockState& lanes, std::size_t i, const Scene& scene) {
 }
 
 void set_state(BlockState& lanes, std::size_t i, const Scene& scene, const LaneState& place) {
-  const double turn = 2 * pi<double>() * place.turns, phase = scene.start.phase + turn;
-  const double sine = place.turns == 0 ? lanes.start_sine.lane[i] : std::sin(phase);
-  const double cosine = place.turns == 0 ? lanes.start_cosine.lane[i] : std::cos(phase);
+  const double turn = 2 * pi<double>() * place.phase_turns, phase = scene.start.phase + turn;
+  const double sine = place.phase_turns == 0 ? lanes.start_sine.lane[i] : std::sin(phase);
+  const double cosine = place.phase_turns == 0 ? lanes.start_cosine.lane[i] : std::cos(phase);
   const double P = lanes.in_phase.lane[i], Q = lanes.quadrature.lane[i], angle = lanes.angle.lane[i];
   const double y = place.x == scene.stops.lower   ? lanes.lower.lane[i]
                    : place.x == scene.stops.upper ? lanes.upper.lane[i]
@@ -118,7 +118,7 @@ void set_state(BlockState& lanes, std::size_t i, const Scene& scene, const LaneS
   lanes.sine.lane[i] = sine, lanes.cosine.lane[i] = cosine;
   lanes.p.lane[i] = p, lanes.w.lane[i] = w, lanes.y.lane[i] = y, lanes.v.lane[i] = v;
   lanes.a.lane[i] = -(angle * angle * response + lanes.stiffness.lane[i] * p + lanes.damping.lane[i] * w);
-  lanes.time_to_section.lane[i] = (1 - place.turns) * lanes.period.lane[i];
+  lanes.time_to_section.lane[i] = (1 - place.phase_turns) * lanes.period.lane[i];
   lanes.to_next.lane[i] = lanes.period.lane[i], lanes.longer.lane[i] = 0;
 }
 

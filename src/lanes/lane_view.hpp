@@ -8,7 +8,7 @@ namespace clatter::lanes {
 
 /// The displacement and velocity of a lane at a forcing phase, in turns since the last stroboscopic section.
 struct LaneState {
-  double x, v, turns;
+  double x, v, phase_turns;
 };
 
 /// Whether a scene can run in a lane: forced motion between stops, lightly damped, away from resonance, with lengths

@@ -79,7 +79,8 @@ Motion<Number> Arc<Number, E>::moved(const Motion<Number>& m, const Step<Number>
   const auto [phase, change] = turned(m, step.turn);
   const Number forced_x = constants_->response_displacement(phase.sine, phase.cosine);
   // eq. 10: no difference of positions, so that a short flight keeps its digits; the response is linear in sine, cosine
-  Number offset = p.a_rise * m.free_x + p.b * m.free_v + constants_->response_displacement(change.sine, change.cosine);
+  Number offset =
+      p.a_minus_one * m.free_x + p.b * m.free_v + constants_->response_displacement(change.sine, change.cosine);
   Number free_x = p.a * m.free_x + p.b * m.free_v, free_v = p.c * m.free_v - p.b * m.free_x;
   if constexpr (E.forcing == Forcing::secular) {
     const Number response_x = m.cosine * step.displacement.cosine + m.sine * step.displacement.sine;

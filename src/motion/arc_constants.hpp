@@ -16,7 +16,7 @@ namespace clatter::motion {
 template <class Number>
 struct Propagator {
   Number a, b, c, d;
-  Number a_rise;  ///< A - 1, small for short times
+  Number a_minus_one;  ///< A - 1, small for short times
 };
 
 /// The coefficients that advance every motion of an oscillator by a time s.
@@ -126,7 +126,7 @@ class ArcConstants {
   Number period;              ///< of the force; without forcing 2 pi
  private:
   void bound_derivatives();
-  [[nodiscard]] Number short_rise(const Number& s) const;
+  [[nodiscard]] Number short_a_minus_one(const Number& s) const;
   void respond_from_rest(const Number& s, Step<Number>& step) const;
 
   Number coarse_root_{}, spare_root_{};   ///< light damping: root is their difference; the first is 1 if h < 1/2
@@ -171,8 +171,8 @@ template <class Number, Effects E>
 Propagator<Number> ArcConstants<Number, E>::propagator(const Number& s) const {
   using std::cos, std::exp, std::expm1, std::sin;
   if constexpr (E.damping == Damping::none) {
-    const Number half = sin(s / 2), b = 2 * half * cos(s / 2), a_rise = -2 * half * half;
-    return {1 + a_rise, b, 1 + a_rise, b, a_rise};
+    const Number half = sin(s / 2), b = 2 * half * cos(s / 2), a_minus_one = -2 * half * half;
+    return {1 + a_minus_one, b, 1 + a_minus_one, b, a_minus_one};
   } else if constexpr (E.damping == Damping::light) {
     // a long arc turns by more than one angle can hold, so the digits that the difference of the two products loses are
     // added again
@@ -180,17 +180,18 @@ Propagator<Number> ArcConstants<Number, E>::propagator(const Number& s) const {
     const Number angle = coarse - spare, lost = (coarse - angle) - spare;
     const Number sine = sin(angle / 2), cosine = cos(angle / 2);
     const Number half = sine + lost / 2 * cosine, other = cosine - lost / 2 * sine;
-    const Number decay = exp(-h * s), turn_rise = -2 * half * half;
-    const Number c = decay * (1 + turn_rise), b = decay * (2 * half * other) / root, v = c - h * b;
-    const Number a_rise = s <= Number(0.25) ? short_rise(s) : expm1(-h * s) * (1 + turn_rise) + turn_rise + h * b;
-    return {c + h * b, b, v, 2 * h * v + b, a_rise};
+    const Number decay = exp(-h * s), cosine_minus_one = -2 * half * half;
+    const Number c = decay * (1 + cosine_minus_one), b = decay * (2 * half * other) / root, v = c - h * b;
+    const Number a_minus_one =
+        s <= Number(0.25) ? short_a_minus_one(s) : expm1(-h * s) * (1 + cosine_minus_one) + cosine_minus_one + h * b;
+    return {c + h * b, b, v, 2 * h * v + b, a_minus_one};
   } else {
     const Number slow_decay = exp(-slow * s), fast_decay = exp(-fast * s), spread = 2 * root * s;
     const Number b =
         slow_decay * select<Number>(spread > 0, -expm1(-spread) / (2 * root), s);  // root = 0: critical damping
     const Number d = 2 * h * fast_decay - slow * slow * b;                         // 2 h slow - 1 = slow^2
-    const Number a_rise = 8 * h * s <= 1 ? short_rise(s) : Number(expm1(-slow * s) + slow * b);
-    return {slow_decay + slow * b, b, fast_decay - slow * b, d, a_rise};
+    const Number a_minus_one = 8 * h * s <= 1 ? short_a_minus_one(s) : Number(expm1(-slow * s) + slow * b);
+    return {slow_decay + slow * b, b, fast_decay - slow * b, d, a_minus_one};
   }
 }
 
@@ -226,7 +227,7 @@ void ArcConstants<Number, E>::respond_from_rest(const Number& s, Step<Number>& s
 /// A(s) - 1 for a time that is short for the oscillator, though perhaps not for a fast force, by the Taylor series: the
 /// closed form is a difference of terms 1/s times larger.
 template <class Number, Effects E>
-Number ArcConstants<Number, E>::short_rise(const Number& s) const {
+Number ArcConstants<Number, E>::short_a_minus_one(const Number& s) const {
   constexpr int terms = std::numeric_limits<Number>::digits <= 64 ? 13 : 36;  // (1/4)^n / n! below rounding
   Number before = 0, last = -s * s / 2, sum = last;                           // of s^k A^(k)(0) / k!
   for (int k = 3; k < terms; ++k) {

@@ -24,7 +24,7 @@ class Neighbourhood {
  public:
   /// All motions within `start`; `rounding` bounds the error of displacements and velocities.
   Neighbourhood(const Stops& stops, const Ellipse& start, double rounding)
-      : stops_(stops), told_(start), rounding_(rounding), reach_(start.size() + rounding) {}
+      : stops_(stops), first_order_(start), rounding_(rounding), reach_(start.size() + rounding) {}
 
   template <class A>
   void arc(const A& arc, double begin, double length) {
@@ -36,7 +36,7 @@ class Neighbourhood {
     if (approached_ == Side::none && from < length) clear(arc, begin, from, length);
     const auto p = constants.propagator(length);
     const Jacobian<double> free{p.a, p.b, -p.b, p.c};
-    told_ = told_.mapped(free), untold_ = untold_.mapped(free);
+    first_order_ = first_order_.mapped(free), remainder_ = remainder_.mapped(free);
     force_ = constants.load + constants.acceleration(0.0, 0.0, arc.phase_after(length).sine);
   }
   void rest(const Rest&) { holds_ = false; }  // which impacts of a chatter are taken changes with the start
@@ -46,8 +46,12 @@ class Neighbourhood {
 
   /// Whether the proof holds up to here; not while the mass is so near a stop that some of the motions may have met it.
   [[nodiscard]] bool holds() const { return holds_ && approached_ == Side::none; }
-  [[nodiscard]] const Ellipse& told() const { return told_; }      ///< first order: the start, mapped by the derivative
-  [[nodiscard]] const Ellipse& untold() const { return untold_; }  ///< the remainder, to be added to `told`
+  [[nodiscard]] const Ellipse& first_order() const {
+    return first_order_;
+  }  ///< first order: the start, mapped by the derivative
+  [[nodiscard]] const Ellipse& remainder() const {
+    return remainder_;
+  }  ///< the remainder, to be added to `first_order`
 
  private:
   /// Bounds near an impact, for some time before and after it.
@@ -96,16 +100,17 @@ class Neighbourhood {
     if (!(near.acceleration * wait + near.growth * reach_ <= u / 2 && impact.time - approached_at_ <= wait))
       return false;
 
-    const double x = told_.x() + untold_.x() + rounding_, v = told_.v() + untold_.v() + rounding_, d = size();
+    const double x = first_order_.x() + remainder_.x() + rounding_, v = first_order_.v() + remainder_.v() + rounding_,
+                 d = size();
     const double slowest = u - near.acceleration * (2 * d / u) - near.growth * d, s = x / slowest;  // |time between|
     const double missed = v * s + (near.acceleration + c * near.growth * d) * s * s / 2;            // of x + u s = 0
     const double turn = (R * a_before + a_after) / impact.before;
     const double rest_x = R * missed + near.acceleration * s * s / 2;
     const double rest_v = std::abs(turn) * missed + (1 + R) * near.jerk * s * s / 2 + R * c * near.growth * d * s;
     const Jacobian<double> saltation{-R, 0, turn, -R};
-    told_ = told_.mapped(saltation), untold_ = untold_.mapped(saltation);
+    first_order_ = first_order_.mapped(saltation), remainder_ = remainder_.mapped(saltation);
     const double rest = norm(rest_x, rest_v);
-    untold_.add(Ellipse::disc(rest + c * near.growth * s * (told_.size() + untold_.size() + rest)));
+    remainder_.add(Ellipse::disc(rest + c * near.growth * s * (first_order_.size() + remainder_.size() + rest)));
     return depart(impact.time, R * u, a, wait);
   }
 
@@ -119,11 +124,11 @@ class Neighbourhood {
            (speed + away.acceleration * wait) * wait + reach_ < stops_.upper - stops_.lower;
   }
 
-  [[nodiscard]] double size() const { return told_.size() + untold_.size() + rounding_; }
+  [[nodiscard]] double size() const { return first_order_.size() + remainder_.size() + rounding_; }
 
   static constexpr double infinity = std::numeric_limits<double>::infinity();
   Stops stops_;
-  Ellipse told_, untold_{};
+  Ellipse first_order_, remainder_{};
   double rounding_;
   double reach_;                          ///< bound of the energy norm of differences in the present flight
   double clear_from_ = 0.0;               ///< until then a flight is near the stop that it began on

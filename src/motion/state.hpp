@@ -14,7 +14,7 @@ template <class Number>
 struct State {
   Number x{};                ///< displacement
   Number v{};                ///< velocity
-  Number turns{};            ///< forcing periods since the last section, 0 ... 1
+  Number phase_turns{};      ///< forcing periods since the last section, 0 ... 1
   std::int64_t periods = 0;  ///< sections passed
   bool released = false;     ///< a stop releases the mass at this instant: v = 0 and the acceleration is exactly 0
   Side left = Side::none;    ///< the stop that the present flight began on

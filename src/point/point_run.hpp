@@ -59,12 +59,12 @@ class Point {
     result_.evaluations = observers.evaluations();
     if (outcome != stepping::Outcome::completed) {
       steady::ObservedTime broken = observed_;
-      broken.status = steady::status_of(outcome), broken.settled += sections + state.turns;
+      broken.status = steady::status_of(outcome), broken.settled += sections + state.phase_turns;
       return result_of(broken);
     }
     result_.end = {state.x, state.v, scene_.start.phase};
-    if (state.turns > 0)
-      result_.end.phase = std::fmod(scene_.start.phase + 2 * pi<double>() * state.turns, 2 * pi<double>());
+    if (state.phase_turns > 0)
+      result_.end.phase = std::fmod(scene_.start.phase + 2 * pi<double>() * state.phase_turns, 2 * pi<double>());
     observers.finish(span_, state.x, state.v, result_);
     steady::ObservedTime complete = observed_;
     const auto& stability = observers.template of<observables::Stability>();

@@ -34,7 +34,7 @@ std::optional<Origin> origin_of(const std::string& path) try {
   const std::string text = run_in_child([&] { return origin_text(path); }, few);
   const std::size_t kind = text.find('\0'), shard = text.find('\0', kind + 1);
   if (kind == std::string::npos || shard == std::string::npos) return std::nullopt;
-  return Origin{.is_study = text.substr(0, kind) == "study",
+  return Origin{.is_accuracy = text.substr(0, kind) == "study",
                 .shard = text.substr(kind + 1, shard - kind - 1),
                 .title = text.substr(shard + 1)};
 } catch (const storage::ChildFailed&) {

@@ -124,7 +124,7 @@ class StroboscopicMap {
     std::optional<Orbit> attractor = follow(start, orbit.periods, neighbourhood);
     if (!attractor || !neighbourhood.holds()) return std::nullopt;
     const double left =
-        measure.of(neighbourhood.told()) + measure.of(neighbourhood.untold()) + measure.of(attractor->gap());
+        measure.of(neighbourhood.first_order()) + measure.of(neighbourhood.remainder()) + measure.of(attractor->gap());
     if (!(left < radius)) return std::nullopt;
     const double rounds = std::log(between(start, motion).size() / (tolerance_ * size_of(start))) /
                           -std::log(spectral_radius(orbit.derivative()));

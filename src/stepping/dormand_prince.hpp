@@ -42,7 +42,7 @@ class DormandPrince : public EventDriven<DormandPrince<E>, double, E> {
   /// The next step's arc and its first contact; without a contact it ends with the step, or at the horizon.
   [[nodiscard]] Flight<DenseArc> fly(const motion::State<double>& state, const motion::Motion<double>& start,
                                      double anchor, double horizon) {
-    const bool goes_on = Place{state.x, state.v, state.turns} == reached_;
+    const bool goes_on = Place{state.x, state.v, state.phase_turns} == reached_;
     if (!goes_on) begin(state, start, anchor);
     reached_ = nowhere;
     Flight<DenseArc> flight{standing(state)};
@@ -59,8 +59,8 @@ class DormandPrince : public EventDriven<DormandPrince<E>, double, E> {
       return flight;
     }
     motion::Contact<double>& contact = flight.contact = first_contact(flight.arc, horizon);
-    const double turns = state.turns + contact.elapsed / this->period();
-    contact.resolved = this->finite(contact.motion.x) && (contact.side != Side::none || turns > state.turns);
+    const double turns = state.phase_turns + contact.elapsed / this->period();
+    contact.resolved = this->finite(contact.motion.x) && (contact.side != Side::none || turns > state.phase_turns);
     if (contact.side == Side::none && contact.elapsed < horizon) reached_ = {contact.motion.x, contact.motion.v, turns};
     return flight;
   }
@@ -86,7 +86,7 @@ class DormandPrince : public EventDriven<DormandPrince<E>, double, E> {
 
   void begin(const motion::State<double>& state, const motion::Motion<double>& start, double anchor) {
     const auto& constants = this->constants();
-    anchor_ = anchor, angle_ = 2 * pi<double>() * (this->start_turns() + state.turns);
+    anchor_ = anchor, angle_ = 2 * pi<double>() * (this->start_turns() + state.phase_turns);
     double first_step = std::pow(tolerance_, 0.2) / constants.rate / 2;
     if (state.left != Side::none && start.offset == 0) {  // no longer than the flight, if the force ends it soon
       const double leaving = -sign_of(state.left) * start.v, pressed = sign_of(state.left) * start.a;
@@ -106,7 +106,7 @@ class DormandPrince : public EventDriven<DormandPrince<E>, double, E> {
   [[nodiscard]] DenseArc standing(const motion::State<double>& state) const {
     Bernstein<double> offset, velocity;
     offset.fill(here_[0]), velocity.fill(here_[1]);
-    return {this->constants(), anchor_, this->start_turns() + state.turns, 0.0, offset, velocity};
+    return {this->constants(), anchor_, this->start_turns() + state.phase_turns, 0.0, offset, velocity};
   }
 
   /// Makes a step from here, with acceleration a at its beginning, and returns its dense output as an arc.
@@ -120,7 +120,7 @@ class DormandPrince : public EventDriven<DormandPrince<E>, double, E> {
     const double a_end = acceleration(here_, to);
     return {this->constants(),
             anchor_,
-            this->start_turns() + state.turns,
+            this->start_turns() + state.phase_turns,
             length,
             quintic(length, {begin[0], begin[1]}, {here_[0], here_[1]}, {third[0], two_thirds[0]}),
             quintic(length, {begin[1], a}, {here_[1], a_end}, {third[1], two_thirds[1]})};

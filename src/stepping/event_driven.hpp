@@ -31,13 +31,13 @@ class EventDriven : public SceneConstants<N, E> {
   template <class Observer>
   [[nodiscard]] Outcome advance(motion::State<Number>& state, const Number& end, std::int64_t origin,
                                 Observer& observer) {
-    while (end - state.turns > 2 * epsilon<Number>()) {  // fly, find the contact, rebound: the whole algorithm
+    while (end - state.phase_turns > 2 * epsilon<Number>()) {  // fly, find the contact, rebound: the whole algorithm
       this->report(state);
       if (const auto stop = this->holding_stop(state)) {
         rest(state, *stop, end, origin, observer);
         continue;
       }
-      const Number horizon = (end - state.turns) * this->period();
+      const Number horizon = (end - state.phase_turns) * this->period();
       const auto [arc, contact] = static_cast<Method&>(*this).fly(state, motion(state), anchor(state), horizon);
       if (!contact.resolved) return this->finite(contact.motion.x) ? Outcome::unresolved : Outcome::not_finite;
       if (contact.side != Side::none && contact.elapsed == 0 && state.v == 0) {
@@ -54,7 +54,7 @@ class EventDriven : public SceneConstants<N, E> {
       rebound(state, motion::stop_at<Number>(this->stops(), contact.side), end, origin, observer);
       if (!touches && !this->count_impact()) return Outcome::event_budget;
     }
-    state.turns = end;
+    state.phase_turns = end;
     return this->outcome_of(state);
   }
 
@@ -70,7 +70,9 @@ class EventDriven : public SceneConstants<N, E> {
   [[nodiscard]] Number anchor(const motion::State<Number>& state) const {
     return state.left == Side::none ? state.x : motion::stop_at<Number>(this->stops(), state.left).position;
   }
-  void pass(motion::State<Number>& state, const Number& elapsed) const { state.turns += elapsed / this->period(); }
+  void pass(motion::State<Number>& state, const Number& elapsed) const {
+    state.phase_turns += elapsed / this->period();
+  }
 
   /// Reverses the velocity (eq. 4) and completes the chatter that may follow.
   template <class Observer>
@@ -84,7 +86,8 @@ class EventDriven : public SceneConstants<N, E> {
     if (!E.rest || state.v == 0) return;
     const auto left = chatter_time(this->constants(), stop, contact_force(this->constants(), stop, this->phase(state)),
                                    Number(-stop.into(state.v)));
-    if (!left || state.turns + *left / this->period() > end) return;  // a run that ends in a chatter ends in a flight
+    if (!left || state.phase_turns + *left / this->period() > end)
+      return;  // a run that ends in a chatter ends in a flight
     this->show_rest(state, stop, Number(*left / this->period()), false, origin, observer);
     pass(state, *left);
     state.v = 0;
@@ -101,12 +104,13 @@ class EventDriven : public SceneConstants<N, E> {
       Number release = *phase_of_release - this->start_turns();  // the same number after every rest
       release -= floor(release);
       if (release == 1) release = 0;  // rounded up
-      const Number ahead = release - state.turns + (release < state.turns ? 1 : 0);
-      if (ahead > 1 - 16 * epsilon<Number>()) release = state.turns;  // it is now, to rounding, not a whole turn ahead
-      if (release >= state.turns && release <= end) until = release, state.released = true;
+      const Number ahead = release - state.phase_turns + (release < state.phase_turns ? 1 : 0);
+      if (ahead > 1 - 16 * epsilon<Number>())
+        release = state.phase_turns;  // it is now, to rounding, not a whole turn ahead
+      if (release >= state.phase_turns && release <= end) until = release, state.released = true;
     }
-    this->show_rest(state, stop, Number(until - state.turns), true, origin, observer);
-    state.turns = until;
+    this->show_rest(state, stop, Number(until - state.phase_turns), true, origin, observer);
+    state.phase_turns = until;
   }
 
   /// Moves a mass at rest past an instant at which the contact force is zero to rounding, so its sign decides nothing.
@@ -115,9 +119,9 @@ class EventDriven : public SceneConstants<N, E> {
   void pass_zero_force(motion::State<Number>& state, const motion::Stop<Number>& stop, const Number& end,
                        std::int64_t origin, Observer& observer) {
     using std::min, std::sqrt;
-    const Number turns = min(Number(end - state.turns), Number(sqrt(epsilon<Number>())));
+    const Number turns = min(Number(end - state.phase_turns), Number(sqrt(epsilon<Number>())));
     this->show_rest(state, stop, turns, false, origin, observer);
-    state.turns += turns, state.released = false;
+    state.phase_turns += turns, state.released = false;
   }
 };
 

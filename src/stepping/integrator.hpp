@@ -73,12 +73,12 @@ class SceneConstants {
 
   /// The forcing phase.
   [[nodiscard]] SineCosine<Number> phase(const motion::State<Number>& state) const {
-    return sine_cosine_of_turns(Number(start_turns_ + state.turns));
+    return sine_cosine_of_turns(Number(start_turns_ + state.phase_turns));
   }
 
   /// Time since the stroboscopic section `origin`.
   [[nodiscard]] double time(const motion::State<Number>& state, std::int64_t origin) const {
-    return static_cast<double>((static_cast<double>(state.periods - origin) + state.turns) * constants_.period);
+    return static_cast<double>((static_cast<double>(state.periods - origin) + state.phase_turns) * constants_.period);
   }
 
  protected:
@@ -94,7 +94,7 @@ class SceneConstants {
   void report(const motion::State<Number>& state) {
     if (evaluations_ < next_report_) [[likely]]
       return;
-    const double turns = static_cast<double>(state.periods) + static_cast<double>(state.turns);
+    const double turns = static_cast<double>(state.periods) + static_cast<double>(state.phase_turns);
     (*listener_)(std::min(1.0, std::max(impacts_ / budget_, turns / longest_)));
     next_report_ = evaluations_ + between_reports;
   }

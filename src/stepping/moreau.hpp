@@ -35,11 +35,11 @@ class Moreau : public SceneConstants<double, E> {
   [[nodiscard]] Outcome advance(motion::State<double>& state, double end, std::int64_t origin, Observer& observer) {
     sine_ = this->phase(state).sine;
     if (!bounce_off(state, origin, observer)) return Outcome::event_budget;
-    while (end - state.turns > 2 * epsilon<double>()) {
+    while (end - state.phase_turns > 2 * epsilon<double>()) {
       this->report(state);
-      if (!step(state, next_turns(state.turns, end), origin, observer)) return Outcome::event_budget;
+      if (!step(state, next_turns(state.phase_turns, end), origin, observer)) return Outcome::event_budget;
     }
-    state.turns = end;
+    state.phase_turns = end;
     return this->outcome_of(state);
   }
 
@@ -74,7 +74,7 @@ class Moreau : public SceneConstants<double, E> {
   }
 
   [[nodiscard]] Free free_step(const motion::State<double>& state, double turns) {
-    const double length = (turns - state.turns) * this->period(), part = theta_ * length;
+    const double length = (turns - state.phase_turns) * this->period(), part = theta_ * length;
     const double sine = this->constants().f == 0 ? 0.0 : std::sin(2 * pi<double>() * (this->start_turns() + turns));
     const double at_begin = force(state.x, state.v, sine_);
     const double at_end =
@@ -107,14 +107,14 @@ class Moreau : public SceneConstants<double, E> {
       collide(state, stop, free, origin, observer);
       affordable = this->count_impact();
     }
-    state.turns = turns, sine_ = free.sine;
+    state.phase_turns = turns, sine_ = free.sine;
     return affordable;
   }
 
   template <class Observer>
   void fly(motion::State<double>& state, const Free& free, std::int64_t origin, Observer& observer) const {
     const double x = state.x + free.length * (theta_ * free.v + (1 - theta_) * state.v);
-    observer.arc(arc(state.turns, free.length, cubic(free.length, {state.x, state.v}, {x, free.v}),
+    observer.arc(arc(state.phase_turns, free.length, cubic(free.length, {state.x, state.v}, {x, free.v}),
                      cubic(free.length, {state.v, (free.v - state.v) / free.length},
                            {free.v, (free.v - state.v) / free.length})),
                  this->time(state, origin), free.length);
@@ -125,7 +125,7 @@ class Moreau : public SceneConstants<double, E> {
   void rest(motion::State<double>& state, const motion::Stop<double>& stop, double turns, std::int64_t origin,
             Observer& observer) {
     state.x = stop.position;
-    this->show_rest(state, stop, turns - state.turns, true, origin, observer);
+    this->show_rest(state, stop, turns - state.phase_turns, true, origin, observer);
   }
 
   /// Moves with the velocity before the impulse until it acts, and with the one after it from there.
@@ -153,10 +153,10 @@ class Moreau : public SceneConstants<double, E> {
   template <class Observer>
   void drift(motion::State<double>& state, double length, std::int64_t origin, Observer& observer) const {
     const double x = state.x + length * state.v;
-    observer.arc(arc(state.turns, length, cubic(length, {state.x, state.v}, {x, state.v}),
+    observer.arc(arc(state.phase_turns, length, cubic(length, {state.x, state.v}, {x, state.v}),
                      cubic(length, {state.v, 0.0}, {state.v, 0.0})),
                  this->time(state, origin), length);
-    state.x = x, state.turns += length / this->period();
+    state.x = x, state.phase_turns += length / this->period();
   }
 
   [[nodiscard]] motion::PolynomialArc<E.arc()> arc(double turns, double length, const Bernstein<double>& x,

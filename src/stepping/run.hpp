@@ -12,7 +12,7 @@ template <Integrator I, class Observer>
 [[nodiscard]] Outcome advance_to_section(I& integrator, motion::State<typename I::Number>& state, std::int64_t origin,
                                          Observer& observer) {
   const Outcome outcome = integrator.advance(state, typename I::Number(1), origin, observer);
-  state.turns = 0;
+  state.phase_turns = 0;
   ++state.periods;
   return outcome;
 }

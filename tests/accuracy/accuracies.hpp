@@ -36,9 +36,9 @@ inline point::Problem chaotic_scene() {
 }
 
 /// Trials of one kind, at 10^-first ... 10^-last.
-inline std::vector<Trial> decades(TestedMethod studied, int first, int last) {
+inline std::vector<Trial> decades(TestedMethod method, int first, int last) {
   std::vector<Trial> trials;
-  for (int digits = first; digits <= last; ++digits) trials.push_back({studied, std::pow(10.0, -digits)});
+  for (int digits = first; digits <= last; ++digits) trials.push_back({method, std::pow(10.0, -digits)});
   return trials;
 }
 
@@ -50,8 +50,8 @@ inline std::vector<Trial> one_of_each() {
       {TestedMethod::steady_repetition, 1e-10}};
 }
 
-inline const WorkPrecision& row_of(const PointAccuracy& study, TestedMethod studied) {
-  return *std::ranges::find_if(study.rows, [&](const WorkPrecision& row) { return row.trial.studied == studied; });
+inline const WorkPrecision& row_of(const PointAccuracy& study, TestedMethod method) {
+  return *std::ranges::find_if(study.rows, [&](const WorkPrecision& row) { return row.trial.method == method; });
 }
 
 /// Slope of the straight line through the logarithms of the settings of rows and of their errors.

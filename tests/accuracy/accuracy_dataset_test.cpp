@@ -28,7 +28,8 @@ struct StudiedSweep {
 
 StudiedSweep two_points() {
   StudiedSweep all{sweep::sweep_of(smooth_scene(), {{sweep::Parameter::nu, {0.9, 1.0}}}), {}};
-  for (std::size_t i = 0; i < 2; ++i) all.points.push_back(study(scene_at(all.sweep, i), one_of_each(), once));
+  for (std::size_t i = 0; i < 2; ++i)
+    all.points.push_back(measure_accuracy(scene_at(all.sweep, i), one_of_each(), once));
   return all;
 }
 
@@ -92,7 +93,7 @@ TEST(StudyFigure, names_its_methods) {
   const sweep::Variable& method = *find(dataset, "method");
   EXPECT_EQ(std::get<std::vector<std::uint8_t>>(method.values), (std::vector<std::uint8_t>{0, 1, 2, 3, 4, 5, 6}));
   ASSERT_EQ(method.attributes.size(), 2u);
-  EXPECT_EQ(std::get<std::vector<std::uint8_t>>(method.attributes[0].second).size(), studied_names.size());
+  EXPECT_EQ(std::get<std::vector<std::uint8_t>>(method.attributes[0].second).size(), method_names.size());
   EXPECT_EQ(std::get<std::string>(method.attributes[1].second),
             "exact dopri5 moreau harmonics_exact harmonics_fft steady steady_repetition");
   EXPECT_TRUE(std::isnan(values(dataset, "setting")[0]));
@@ -122,7 +123,8 @@ TEST(StudyFigure, names_linked_axes_as_coordinates) {
 
 TEST(StudyFigure, of_one_point_has_rows_alone) {
   const sweep::Sweep sweep = sweep::sweep_of(smooth_scene(), {});
-  const std::vector<PointAccuracy> points{study(smooth_scene(), {{TestedMethod::exact, no_setting}}, {.rounds = 0})};
+  const std::vector<PointAccuracy> points{
+      measure_accuracy(smooth_scene(), {{TestedMethod::exact, no_setting}}, {.rounds = 0})};
   const sweep::Dataset dataset = accuracy_dataset(sweep, points);
   ASSERT_EQ(dataset.dimensions.size(), 1u);
   EXPECT_EQ(dataset.dimensions[0].name, "row");

@@ -23,7 +23,7 @@ class AccuracyInLanes : public testing::TestWithParam<lanes::InstructionSet> {
                                     {TestedMethod::steady, 1e-12},
                                     {TestedMethod::exact, no_setting, GetParam()},
                                     {TestedMethod::steady, 1e-12, GetParam()}};
-    return study(scene, trials, options);
+    return measure_accuracy(scene, trials, options);
   }
 };
 
@@ -59,7 +59,8 @@ TEST_P(AccuracyInLanes, of_a_transient_has_harmonics_where_it_ends_with_a_forcin
   scene.time.mode = steady::Mode::transient;
   for (const double turns : {3.0, 3.2}) {
     scene.time.duration = turns * period_of(scene.oscillator);
-    const WorkPrecision lanes = study(scene, {{TestedMethod::exact, no_setting, GetParam()}}, {.rounds = 0}).rows[0];
+    const WorkPrecision lanes =
+        measure_accuracy(scene, {{TestedMethod::exact, no_setting, GetParam()}}, {.rounds = 0}).rows[0];
     EXPECT_LT(lanes.extrema, 1e-13);
     EXPECT_EQ(lanes.missed + lanes.doubled, 0.0);
     EXPECT_EQ(std::isnan(lanes.harmonics), turns != 3.0) << "lanes sum only the harmonics of the force";

@@ -17,7 +17,7 @@ struct Costs {
   double exact = 1e-4, dopri5 = 1, moreau = 1, observed = 1;
 
   [[nodiscard]] double first(const Trial& trial) const {
-    switch (trial.studied) {
+    switch (trial.method) {
       case TestedMethod::dopri5:
         return exact * 20 * dopri5 * std::pow(1e-3 / trial.setting, 0.17);
       case TestedMethod::moreau:
@@ -29,8 +29,8 @@ struct Costs {
     }
   }
   [[nodiscard]] double silent(const Trial& trial) const {
-    if (trial.studied == TestedMethod::moreau) return 0.02 * observed * first(trial);
-    return (trial.studied == TestedMethod::dopri5 ? 0.12 * observed : 0.8) * first(trial);
+    if (trial.method == TestedMethod::moreau) return 0.02 * observed * first(trial);
+    return (trial.method == TestedMethod::dopri5 ? 0.12 * observed : 0.8) * first(trial);
   }
 };
 
@@ -94,7 +94,7 @@ TEST(Forecast, of_measured_trials_is_exact) {
 TEST(Forecast, tells_nothing_before_a_trial_of_every_dear_method_has_run) {
   const std::vector<Trial> trials = trials_of(steady::Mode::transient, lanes::InstructionSet::scalar);
   Forecast forecast(trials, rounds);
-  for (std::size_t i = 0; trials[i].studied != TestedMethod::moreau; ++i) {
+  for (std::size_t i = 0; trials[i].method != TestedMethod::moreau; ++i) {
     EXPECT_FALSE(forecast.seconds_left());
     forecast.ran(i, 1.0);
   }

@@ -91,7 +91,7 @@ template <class Integrator, class W>
     const stepping::Outcome outcome = integrator.advance(state, std::min(turns, 1.0), state.periods, watcher);
     if (outcome != stepping::Outcome::completed) return outcome;
     watcher.section(state);
-    if (turns >= 1) state.turns = 0, ++state.periods;
+    if (turns >= 1) state.phase_turns = 0, ++state.periods;
   }
   return stepping::Outcome::completed;
 }

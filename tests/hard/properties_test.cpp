@@ -218,7 +218,7 @@ struct Trace : Watcher {
     add({impact.time, double(sign * sign_of(impact.side)), scale * impact.before, scale * impact.after,
          scale * impact.position});
   }
-  void section(const motion::State<double>& state) { add({scale * state.x, scale * state.v, state.turns, 0, 0}); }
+  void section(const motion::State<double>& state) { add({scale * state.x, scale * state.v, state.phase_turns, 0, 0}); }
   void add(const std::array<double, 5>& row) { rows.push_back(row); }
 
   int sign;

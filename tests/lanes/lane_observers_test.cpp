@@ -70,7 +70,7 @@ std::optional<Seen> seen_by_lane(const point::Problem& scene, StepFunction step,
     passed += lanes.arrived != 0;
     const LaneState position = state_of(lanes, 3, scene);
     if (passed < sections || position.x == scene.stops.lower || position.x == scene.stops.upper) continue;
-    turns = passed + position.turns;
+    turns = passed + position.phase_turns;
     break;
   }
   const double load = scene.oscillator.load, rate = lanes.rate.lane[3];

@@ -33,8 +33,8 @@ inline motion::Impact impact_of(const BlockState& lanes, std::size_t lane, const
   const LaneState position = state_of(lanes, lane, scene);
   const bool upper = position.x == scene.stops.upper;
   const double R = upper ? scene.stops.restitution_upper : scene.stops.restitution_lower;
-  return {(sections + position.turns) * period_of(scene.oscillator), upper ? Side::upper : Side::lower, -position.v / R,
-          position.v, position.x};
+  return {(sections + position.phase_turns) * period_of(scene.oscillator), upper ? Side::upper : Side::lower,
+          -position.v / R, position.v, position.x};
 }
 
 /// Runs scenes side by side until each has met so many impacts, passed so many sections, or needs the scalar loop.

@@ -89,15 +89,15 @@ Tally enclose(std::uint64_t seed, double least_h, double most_h) {
       EXPECT_TRUE(other) << i;
       if (!other) continue;
       EXPECT_EQ(other->itinerary, seen->itinerary) << i;
-      const Perturbation told = seen->derivative * change, real = between(seen->end, other->end);
+      const Perturbation linear = seen->derivative * change, real = between(seen->end, other->end);
       const double rounding = 256 * ulp *
                               (2 + std::abs(seen->derivative[0]) + std::abs(seen->derivative[1]) +
                                std::abs(seen->derivative[2]) + std::abs(seen->derivative[3]));
-      EXPECT_LE(std::abs(real.x - told.x), proof.untold().x() + rounding) << i << " change " << size;
-      EXPECT_LE(std::abs(real.v - told.v), proof.untold().v() + rounding) << i << " change " << size;
-      EXPECT_LE(std::abs(told.x), proof.told().x() * (1 + 1e-9) + rounding) << i;
-      EXPECT_LE(std::abs(told.v), proof.told().v() * (1 + 1e-9) + rounding) << i;
-      if (proof.untold().v() > 1e3 * rounding) tally.take(std::abs(real.v - told.v) / proof.untold().v());
+      EXPECT_LE(std::abs(real.x - linear.x), proof.remainder().x() + rounding) << i << " change " << size;
+      EXPECT_LE(std::abs(real.v - linear.v), proof.remainder().v() + rounding) << i << " change " << size;
+      EXPECT_LE(std::abs(linear.x), proof.first_order().x() * (1 + 1e-9) + rounding) << i;
+      EXPECT_LE(std::abs(linear.v), proof.first_order().v() * (1 + 1e-9) + rounding) << i;
+      if (proof.remainder().v() > 1e3 * rounding) tally.take(std::abs(real.v - linear.v) / proof.remainder().v());
     }
   }
   return tally;

@@ -231,7 +231,7 @@ TEST(DormandPrinceMotion, whose_steps_are_too_short_to_move_time_on_is_unresolve
   with_general_effects(scene.oscillator, [&]<Effects effects>() {
     DormandPrince<effects> integrator(scene, scene.integration, limits_of(scene));
     motion::State<double> state;
-    state.turns = 0.5, state.v = 0.1;
+    state.phase_turns = 0.5, state.v = 0.1;
     NoObserver nobody;
     EXPECT_EQ(integrator.advance(state, 1.0, 0, nobody), Outcome::unresolved);
     EXPECT_LT(integrator.evaluations(), 1000);
