@@ -33,7 +33,7 @@ StudiedSweep two_points() {
   return all;
 }
 
-TEST(StudyFigure, has_the_axes_and_then_the_rows) {
+TEST(AccuracyDataset, has_the_axes_and_then_the_rows) {
   const auto [sweep, points] = two_points();
   const sweep::Dataset dataset = accuracy_dataset(sweep, points);
   ASSERT_EQ(dataset.dimensions.size(), 2u);
@@ -60,7 +60,7 @@ TEST(StudyFigure, has_the_axes_and_then_the_rows) {
   EXPECT_EQ(names.size(), 5 + point_variables().size() + row_variables().size());  // nu, method, setting, arch, status
 }
 
-TEST(StudyFigure, has_what_the_contract_names) {
+TEST(AccuracyDataset, has_the_variables_of_the_contract) {
   const auto [sweep, points] = two_points();
   const sweep::Dataset dataset = accuracy_dataset(sweep, points);
   for (const char* name : {"method", "setting", "arch", "error_contact_time", "error_contact_speed", "missed",
@@ -68,7 +68,7 @@ TEST(StudyFigure, has_what_the_contract_names) {
     EXPECT_NE(find(dataset, name), nullptr) << name;
 }
 
-TEST(StudyFigure, holds_the_numbers_of_the_points_in_their_order) {
+TEST(AccuracyDataset, holds_the_numbers_of_the_points_in_their_order) {
   const auto [sweep, points] = two_points();
   const sweep::Dataset dataset = accuracy_dataset(sweep, points);
   const std::size_t rows = one_of_each().size();
@@ -87,7 +87,7 @@ TEST(StudyFigure, holds_the_numbers_of_the_points_in_their_order) {
   EXPECT_NE(values(dataset, "error_extrema")[0], values(dataset, "error_extrema")[rows]);  // two different points
 }
 
-TEST(StudyFigure, names_its_methods) {
+TEST(AccuracyDataset, names_its_methods) {
   const auto [sweep, points] = two_points();
   const sweep::Dataset dataset = accuracy_dataset(sweep, points);
   const sweep::Variable& method = *find(dataset, "method");
@@ -100,7 +100,7 @@ TEST(StudyFigure, names_its_methods) {
   EXPECT_EQ(values(dataset, "setting")[4], 1024.0);
 }
 
-TEST(StudyFigure, names_the_instruction_set_of_each_row) {
+TEST(AccuracyDataset, names_the_instruction_set_of_each_row) {
   PointAccuracy point;
   for (const lanes::InstructionSet arch :
        {lanes::InstructionSet::scalar, lanes::InstructionSet::avx512, lanes::InstructionSet::sse2})
@@ -112,7 +112,7 @@ TEST(StudyFigure, names_the_instruction_set_of_each_row) {
   EXPECT_EQ(std::get<std::string>(arch.attributes[1].second), "scalar sse2 avx2 avx512");
 }
 
-TEST(StudyFigure, names_linked_axes_as_coordinates) {
+TEST(AccuracyDataset, names_linked_axes_as_coordinates) {
   sweep::Sweep sweep = sweep::sweep_of(smooth_scene(), {});
   sweep.dimensions = {{{sweep::Parameter::nu, {0.9, 1.0}}, {sweep::Parameter::f, {1.0, 2.0}}}};
   const sweep::Dataset dataset = accuracy_dataset(sweep, std::vector<PointAccuracy>(2));
@@ -121,7 +121,7 @@ TEST(StudyFigure, names_linked_axes_as_coordinates) {
   for (const char* name : {"nu", "f", "setting"}) EXPECT_TRUE(find(dataset, name)->attributes.empty()) << name;
 }
 
-TEST(StudyFigure, of_one_point_has_rows_alone) {
+TEST(AccuracyDataset, of_one_point_has_rows_alone) {
   const sweep::Sweep sweep = sweep::sweep_of(smooth_scene(), {});
   const std::vector<PointAccuracy> points{
       measure_accuracy(smooth_scene(), {{TestedMethod::exact, no_setting}}, {.rounds = 0})};
@@ -133,7 +133,7 @@ TEST(StudyFigure, of_one_point_has_rows_alone) {
   EXPECT_EQ(values(dataset, "horizon"), std::vector{6.0});
 }
 
-TEST(StudyFigure, of_two_axes_lets_the_first_vary_slowest) {
+TEST(AccuracyDataset, of_two_axes_lets_the_first_vary_slowest) {
   const sweep::Sweep sweep =
       sweep::sweep_of(smooth_scene(), {{sweep::Parameter::nu, {0.9, 1.0}}, {sweep::Parameter::R, {0.5, 0.6, 0.7}}});
   std::vector<PointAccuracy> points(6);

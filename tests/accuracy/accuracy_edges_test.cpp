@@ -112,7 +112,7 @@ TEST(TransientScene, is_compared_over_its_duration) {
   EXPECT_LT(row_of(found, TestedMethod::harmonics_exact).harmonics, 1e-13);
 }
 
-TEST(TransientScene, sampled_harmonics_converge_where_it_does_not_end_with_a_forcing_period) {
+TEST(TransientScene, sampled_harmonics_converge_if_it_does_not_end_with_a_forcing_period) {
   std::vector<Trial> trials;
   for (int power = 8; power <= 16; ++power) trials.push_back({TestedMethod::harmonics_fft, std::exp2(power)});
   const PointAccuracy found = measure_accuracy(transient_scene(), trials, {.rounds = 0});

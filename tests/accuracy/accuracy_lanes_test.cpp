@@ -54,7 +54,7 @@ TEST_P(AccuracyInLanes, errs_by_no_more_than_roundings) {
   }
 }
 
-TEST_P(AccuracyInLanes, of_a_transient_has_harmonics_where_it_ends_with_a_forcing_period) {
+TEST_P(AccuracyInLanes, of_a_transient_has_harmonics_if_it_ends_with_a_forcing_period) {
   point::Problem scene = smooth_scene();
   scene.time.mode = steady::Mode::transient;
   for (const double turns : {3.0, 3.2}) {
@@ -98,7 +98,7 @@ TEST_P(AccuracyInLanes, from_a_stop_is_neither_missed_nor_doubled) {
   }
 }
 
-TEST_P(AccuracyInLanes, is_empty_where_the_scalar_loop_runs_the_scene) {
+TEST_P(AccuracyInLanes, is_empty_if_the_scalar_loop_runs_the_scene) {
   point::Problem unforced = smooth_scene(), heavy = smooth_scene(), free = smooth_scene();
   unforced.oscillator.forcing = 0, unforced.start.velocity = 3;
   heavy.oscillator.damping = 2;

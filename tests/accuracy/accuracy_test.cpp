@@ -162,7 +162,7 @@ TEST(ChatteringScene, is_exact_and_nothing_is_missed_or_doubled) {
     EXPECT_LT(error, 1e-13);  // roundings
 }
 
-TEST(ChatteringScene, general_methods_miss_what_is_shorter_than_their_steps) {
+TEST(ChatteringScene, general_methods_miss_flights_shorter_than_their_steps) {
   const PointAccuracy moreau = measure_accuracy(chattering_scene(), decades(TestedMethod::moreau, 1, 3), once);
   EXPECT_EQ(moreau.rows[0].rests_missed, 1.0);
   EXPECT_GT(moreau.rows[0].missed, moreau.rows[2].missed);

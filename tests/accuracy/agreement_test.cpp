@@ -44,7 +44,7 @@ TEST(Agreement, ends_with_the_first_time_that_is_off_by_more_than_the_room) {
   }
 }
 
-TEST(Agreement, ends_where_the_stop_or_what_happens_differs) {
+TEST(Agreement, ends_at_another_stop_or_another_kind_of_event) {
   const RunRecord exact = record({impact(1), impact(2), impact(3)});
   EXPECT_EQ(agreement_of(record({impact(1), impact(2, Side::lower), impact(3)}), exact, 0.1).until, 2.0);
   EXPECT_EQ(agreement_of(record({impact(1), {Event::Kind::rest, Side::upper, 2, 0, 1}, impact(3)}), exact, 0.1).until,
@@ -66,7 +66,7 @@ TEST(Agreement, ends_at_an_impact_that_one_of_them_lacks) {
   }
 }
 
-TEST(Agreement, is_not_broken_by_what_happens_at_the_very_end) {
+TEST(Agreement, is_not_broken_by_an_event_at_the_very_end) {
   // a rounding decides whether it is before the end or after
   for (const double time : {5.0, 5 * (1 - 1e-15)}) {
     EXPECT_EQ(agreement_of(record({impact(1), impact(time)}), record({impact(1)}), 1e-8).until, 5.0);
@@ -74,7 +74,7 @@ TEST(Agreement, is_not_broken_by_what_happens_at_the_very_end) {
   }
 }
 
-TEST(Agreement, leaves_out_the_impacts_that_fifty_digits_take_where_a_double_has_completed_a_chatter) {
+TEST(Agreement, leaves_out_the_impacts_of_fifty_digits_in_a_chatter_that_a_double_has_completed) {
   const point::Problem scene = support::scene_of({0.1, 1.0, 0.5, 0.0}, -0.5, 0.5, 0.5);
   const double duration = 4 * std::numbers::pi;  // one forcing period, with one chatter and the rest after it
   const RunRecord in_double = record_of(scene, duration), exact = reference_of(scene, duration);

@@ -52,7 +52,7 @@ void expect_counts(const ContactErrors& errors, std::size_t missed, std::size_t 
   EXPECT_EQ(errors.doubled, doubled);
 }
 
-TEST(Comparison, finds_what_is_missed_and_what_is_doubled) {
+TEST(Comparison, finds_missed_and_doubled_impacts) {
   const Events reference = impacts({1, 2, 3, 4});
   const Events run{impact(1.01), impact(2.99), impact(3.4), impact(4.01, 0.9)};
   const ContactErrors errors = compare(run, reference, any);
@@ -141,7 +141,7 @@ TEST(Comparison, a_run_may_fall_behind_up_to_the_latest) {
   EXPECT_EQ(compare(run, reference, 5).missed, 0u);
 }
 
-TEST(Comparison, impacts_where_the_other_completes_a_chatter_do_not_count) {
+TEST(Comparison, impacts_in_a_chatter_that_the_other_completes_do_not_count) {
   const Events twenty = bounces(20), completed = completed_bounces(10);
   expect_counts(compare(completed, twenty, any), 0, 0);
   expect_counts(compare(twenty, completed, any), 0, 0);
@@ -185,7 +185,7 @@ TEST(Comparison, takes_the_stops_apart) {
   EXPECT_NEAR(compare(faster, both, any).speed, 0.1, 1e-15);  // over the largest speed on either stop
 }
 
-TEST(Comparison, of_nothing_finds_what_there_is) {
+TEST(Comparison, with_nothing_finds_every_impact_missed) {
   expect_counts(compare(Events{}, Events{}, any), 0, 0);
   expect_counts(compare(Events{}, bounces(5), any), 5, 0);
   expect_counts(compare(bounces(5), Events{}, any), 0, 5);

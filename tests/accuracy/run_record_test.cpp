@@ -96,7 +96,7 @@ TEST(RunRecord, without_stops_is_the_linear_steady_state) {
   }
 }
 
-TEST(RunRecord, observes_only_what_is_asked_for) {
+TEST(RunRecord, observes_only_the_observables_asked_for) {
   const RunRecord record = record_of(figure_18(), 10);
   EXPECT_TRUE(record.harmonics.empty() && record.v_harmonics.empty());
   const RunRecord observed = record_of(figure_18(), 10, RecordObservables{.harmonics = 2});
@@ -178,7 +178,7 @@ TEST(PeriodicReference, of_more_periods_repeats_the_motion) {
   EXPECT_LT(observables_off(*three, *one), 1e-14);
 }
 
-TEST(PeriodicReference, is_nothing_where_the_motion_does_not_repeat) {
+TEST(PeriodicReference, is_nothing_if_the_motion_does_not_repeat) {
   const point::Problem chaotic = support::scene_of({0.1, -1.0, 0.95, 0.0}, -3, 3, 0.7);
   for (const double periods : {3.0, 4.0, 7.0})
     EXPECT_FALSE(periodic_reference(chaotic, periods, three_harmonics(chaotic))) << periods;

@@ -257,7 +257,7 @@ class Interrupts(Studies):
         self.assertIn("stopped after 0 of 3 points; a.accuracy.h5 is not written\n", err)
         self.assertEqual(self.files(), ["a.toml"])
 
-    def test_sigterm_after_the_first_point_keeps_what_was_printed_and_the_older_file(self):
+    def test_sigterm_after_the_first_point_keeps_the_printed_part_and_the_older_file(self):
         config = self.write("a.toml", STEADY + "[sweep]\nnu = [0.9, 1.0, 1.1]\n")
         self.study(config, "--set", "time.max_impacts=1", code=1)
         older = (self.directory / "a.accuracy.h5").read_bytes()

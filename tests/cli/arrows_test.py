@@ -113,7 +113,7 @@ class Arrows(unittest.TestCase):
     def test_only_lanes_touch_the_array_of_a_lane(self):
         self.assertEqual(touched_lanes(SOURCE), [])
 
-    def test_what_is_against_the_rules_is_found(self):
+    def test_breaches_of_the_rules_are_found(self):
         with tempfile.TemporaryDirectory() as folder:
             root = Path(folder)
             for name, text in {

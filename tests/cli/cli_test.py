@@ -287,7 +287,7 @@ class Run(CommandLine):
         self.assertEqual(merged.returncode, 1)
         self.assertIn("5 points of 2 shards, 5 failed (event_budget: 5, e.g. point 0 at nu = 0.5), m.h5", merged.stderr)
 
-    def test_info_tells_what_is_inside(self):
+    def test_info_tells_the_contents(self):
         config = self.write("a.toml", SMALL)
         self.run_ok(config)
         text = self.clatter("info", "a.h5")

@@ -54,7 +54,7 @@ class Configs(unittest.TestCase):
                 self.assertEqual(result.returncode, 0, result.stderr)
                 self.assertTrue(output.is_file())
 
-    def test_every_output_holds_what_is_observed_and_nothing_else(self):
+    def test_every_output_holds_its_observables_and_nothing_else(self):
         for config, (_, output) in self.runs.items():
             with self.subTest(config.name), h5py.File(output) as file:
                 observe = tomllib.loads(file.attrs["config"])["observe"]
@@ -82,7 +82,7 @@ class Configs(unittest.TestCase):
         names = {config.name for config in self.runs}
         self.assertLessEqual({f"fig{number:02d}.toml" for number in range(2, 24)} | {"fig22.ini"}, names)
 
-    def test_each_figure_says_which_it_is_and_holds_what_is_plotted(self):
+    def test_each_figure_says_which_it_is_and_holds_its_curves(self):
         for config, (_, output) in self.runs.items():
             number = re.fullmatch(r"fig(\d\d)\.(toml|ini)", config.name)
             if not number:

@@ -89,7 +89,7 @@ add_custom_target(clatter_version)
         self.assertIn(words, result.stdout)
         self.assertRegex(result.stdout, rf"(?m)^{re.escape(gate)} +FAILED after \d+ s$")
 
-    def test_what_is_right_passes_the_quick_gates(self):
+    def test_a_clean_tree_passes_the_quick_gates(self):
         black = subprocess.run(["black", "-q", "--line-length", "120", self.root / "tests"], check=False)
         self.assertEqual(black.returncode, 0)  # this one file may not be formatted yet
         result = self.check("--quick")

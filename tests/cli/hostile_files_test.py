@@ -138,7 +138,7 @@ class HostileFiles(CommandLine):
             self.assert_refused(74, "is not an output of clatter, or is damaged", *words)
             self.assert_reads_only({name, self.config}, *words)
 
-    def test_what_is_no_regular_file_is_not_waited_for(self):
+    def test_special_files_are_not_waited_for(self):
         (self.directory / "link.h5").symlink_to("pipe")
         for name in ("pipe", "link.h5"):
             self.assert_refused(74, f"'{name}': is not a regular file", "info", name)

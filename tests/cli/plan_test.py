@@ -53,7 +53,7 @@ class Plan(CommandLine):
         self.assertRegex(text, r"(?m)^output .* before compression, the impact log by an estimate$")
         self.assertRegex(text, r"(?m)^memory .*MiB, by an estimate of the impact log: \S+ ")
 
-    def test_warns_of_what_looks_unintended(self):
+    def test_warns_of_unintended_settings(self):
         far = self.plan(SMALL, "--set", "scene.xs=6")["warnings"]
         self.assertEqual(len(far), 2)
         self.assertRegex(far[0], r"^the lower stop is never reached .* 5 < 6 .*; if impacts are meant, move it nearer")
@@ -73,7 +73,7 @@ class Plan(CommandLine):
         self.assertEqual([group["points"] for group in plan["groups"]], [2000, 1198000])  # the first ones of branches
         self.assertNotIn("looked at", self.clatter("plan", self.write("p.toml", SMALL)).stdout)
 
-    def test_refuses_what_run_refuses_and_plans_a_part_of_it(self):
+    def test_refuses_the_mistakes_that_run_refuses_and_plans_a_part(self):
         config = self.write("p.toml", SMALL)
         huge = ("--set", "sweep.x0=linspace(-1, 1, 1000000)", "--set", "observe.trajectory=10000000")
         run = self.clatter("run", config, *huge)

@@ -143,7 +143,7 @@ class Pictures(unittest.TestCase):
                 self.assertEqual(self.says(name, missed), name != "faultless")
                 self.assertEqual(self.says(name, failed), name == "sweep")
 
-    def test_notes_say_what_the_picture_shows(self):
+    def test_notes_explain_the_picture(self):
         for name, floor, points, bars in (
             ("scalar", True, "", True),
             ("sweep", False, "cost of 3 points", True),
@@ -200,7 +200,7 @@ class Reductions(unittest.TestCase):
         self.assertEqual(self.front((2, 5), (2, 5), (3, 5)), [0, 1])
         self.assertEqual(plot_accuracy.pareto_front(np.array([]), np.array([])), [])
 
-    def test_worst_and_median_leave_out_what_does_not_exist(self):
+    def test_worst_and_median_leave_out_missing_values(self):
         values = np.array([[1.0, np.nan, np.nan], [3.0, 5.0, np.nan], [2.5, 6.0, np.nan]])
         np.testing.assert_array_equal(plot_accuracy.worst(values), [3.0, 6.0, np.nan])
         np.testing.assert_array_equal(plot_accuracy.medians(values), [2.5, 5.5, np.nan])

@@ -160,7 +160,7 @@ class Readers(RunTest):
         with h5py.File(path) as file:
             self.assertEqual(list(file["f"]), [-1.0, -1.1, -1.2])
 
-    def test_linked_axes_are_coordinates_of_what_runs_along_them(self):
+    def test_linked_axes_are_coordinates_of_the_results_along_them(self):
         linked = quoted("nu, f, load")
         sweep = {
             "nu": [0.9, 1.0, 1.1],
@@ -280,7 +280,9 @@ class Readers(RunTest):
                 text = attributes["config"].encode()
                 self.assertEqual(attributes["config_sha256"], hashlib.sha256(text).hexdigest())
             self.assertEqual(list(data.attrs), ROOT)
-        self.assertNotIn(str(self.scratch).encode(), path.read_bytes())  # the file doesn't tell the folder it was made in
+        self.assertNotIn(
+            str(self.scratch).encode(), path.read_bytes()
+        )  # the file doesn't tell the folder it was made in
 
     def test_every_configuration_has_its_axes(self):
         configurations = sorted([*SOURCE.glob("configs/*.toml"), *SOURCE.glob("configs/*.ini")])

@@ -177,7 +177,7 @@ esac
         self.assertEqual(rows["fig22"][:2], ["501", "10"])
 
     @NEEDS_H5DIFF
-    def test_what_may_differ_and_what_may_not(self):
+    def test_only_permitted_differences_pass(self):
         def put(name, index, value):
             return lambda file: file[name].__setitem__(index, value)
 
@@ -290,7 +290,7 @@ esac
             },
         )
 
-    def test_wrong_use_says_what_to_do(self):
+    def test_wrong_use_names_the_remedy(self):
         empty = self.folder / "empty"
         empty.mkdir()
         self.assert_refused(self.regress(), "which baseline?")

@@ -41,7 +41,7 @@ class Replace(CommandLine):
             "keep.toml",
         )
 
-    def test_what_is_no_whole_output_of_clatter_is_kept(self):
+    def test_files_that_are_no_whole_output_are_kept(self):
         self.ok("run", self.config)
         whole = (self.directory / "a.h5").read_bytes()
         with h5py.File(self.directory / "foreign.h5", "w") as file:
@@ -134,7 +134,7 @@ class Replace(CommandLine):
             "letter", "the file there is not an output of clatter, or is damaged", "merge", "-o", "letter", *shards
         )
 
-    def test_what_is_read_is_never_replaced(self):
+    def test_inputs_are_never_replaced(self):
         self.assert_refused(2, "is the configuration itself", "run", self.config, "-o", self.config, "--force")
         self.ok("run", self.config, "--shard", "0/1")
         self.assert_refused(2, "is one of the shards", "merge", "a.0-of-1.h5", "-o", "a.0-of-1.h5", "--force")

@@ -78,7 +78,7 @@ class Shards(StoppedRuns):
         self.assertIn(b"coordinates", whole)
         self.assertEqual(self.merged([self.shard(k, 3) for k in range(3)]), whole)
 
-    def test_shards_of_different_counts_merge_where_they_make_a_whole(self):
+    def test_shards_of_different_counts_merge_if_they_make_a_whole(self):
         self.sweep(nu=10, xs=7)
         whole = self.undisturbed()
         self.assertEqual(self.merged([self.shard(1, 4), self.shard(0, 2), self.shard(3, 4)]), whole)
@@ -102,7 +102,7 @@ class Shards(StoppedRuns):
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assertEqual(self.files(), ["a.1-of-2.h5", "a.toml"])
 
-    def test_what_is_missing_is_named_with_its_remedy(self):
+    def test_missing_shards_are_named_with_the_remedy(self):
         self.sweep(nu=10, xs=10)
         shards = {k: self.shard(k, 8) for k in (0, 1, 2, 4, 5, 7)}
         self.assert_not_merged(
@@ -120,7 +120,7 @@ class Shards(StoppedRuns):
         self.assert_not_merged([*two, self.shard(3, 4)], "in common", "1/2", "3/4")
         self.assert_not_merged([*two, self.shard(2, 3)], "in common")
 
-    def test_shards_of_another_sweep_are_refused_with_what_differs(self):
+    def test_shards_of_another_sweep_are_refused_with_the_difference(self):
         self.sweep(nu=4, xs=2)
         shards = [self.shard(0, 2), self.shard(1, 2, "--set", "scene.R=0.6")]
         self.assert_not_merged(shards, "different configurations", "R = 0.7", "R = 0.6")
@@ -146,7 +146,7 @@ class Shards(StoppedRuns):
         shards[1].write_bytes(content)
         self.assertEqual(self.merge(shards).returncode, 0)
 
-    def test_what_is_no_shard_is_refused(self):
+    def test_other_files_than_shards_are_refused(self):
         self.sweep(nu=4, xs=2)
         whole = self.directory / "whole.h5"
         self.run_command(output=whole)
@@ -193,7 +193,7 @@ class Shards(StoppedRuns):
         self.assertIn("5 failed", result.stderr)
 
     @unittest.skipIf(SANITIZED, "a sanitizer takes memory of its own")
-    def test_memory_is_that_of_the_share_and_for_a_merge_what_it_says(self):
+    def test_memory_is_that_of_the_share_and_of_a_merge_as_forecast(self):
         self.config = self.directory / self.write(
             "a.toml", SMALL.replace("xs = -4.0", "xs = 400.0").replace("1.5, 5)", "1.5, 300000)")
         )

@@ -75,7 +75,7 @@ class StandardInput(CommandLine):
 
 
 class Ini(CommandLine):
-    def test_is_told_by_the_option_where_the_name_does_not(self):
+    def test_is_told_by_the_option_if_the_name_does_not(self):
         self.write("a.cfg", SMALL_INI)
         self.assert_refused(2, "; read as TOML; for INI give --ini, or a name that ends in .ini", "run", "a.cfg")
         self.assertEqual(self.clatter("run", "a.cfg", "--ini").returncode, 0)

@@ -40,7 +40,7 @@ class Warnings(CommandLine):
         with h5py.File(self.directory / name) as file:
             return {variable: file[variable][()] for variable in file}
 
-    def test_what_has_no_effect_changes_nothing_but_is_said(self):
+    def test_settings_without_effect_change_nothing_but_are_named(self):
         config = self.write(
             "a.toml",
             SMALL.replace('nu = "linspace(0.5, 1.5, 5)"', "h = [0.1, 0.2]")
@@ -104,7 +104,7 @@ class Warnings(CommandLine):
             len(self.run_ok(config, *twice, "--set", "sweep.h=0.1, 0.2", "--set", "sweep.linked=nu, h")), 1
         )
 
-    def test_accuracy_warns_of_what_it_goes_by(self):
+    def test_accuracy_warns_of_its_own_choices(self):
         config = self.write(
             "a.toml",
             '[scene]\nxs = 1\nv0 = 1\nnu = 2\n[time]\nmode = "transient"\nduration = 1\n'

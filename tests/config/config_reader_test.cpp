@@ -98,7 +98,7 @@ TEST(Config, text_reads_back_to_itself) {
   }
 }
 
-TEST(Config, text_has_both_restitutions_where_one_is_given) {
+TEST(Config, text_has_both_restitutions_if_one_is_given) {
   const std::string fixed = read_as("a.toml", "[scene]\nxs = 1\nR_upper = 0.5\n").text;
   EXPECT_NE(fixed.find("\nR_lower = 1.0\nR_upper = 0.5\n"), std::string::npos) << fixed;
   const std::string swept = read_as("a.toml", "[scene]\nxs = 1\n[sweep]\nR_lower = [0.5]\n").text;
@@ -113,7 +113,7 @@ TEST(Config, text_has_both_restitutions_where_one_is_given) {
   }
 }
 
-TEST(Config, whose_text_is_too_long_to_run_again_is_refused_at_the_longest_value) {
+TEST(Config, too_long_to_run_again_is_refused_at_the_longest_value) {
   std::string escapes, numbers = "1";
   for (int i = 0; i < 300000; ++i) escapes += "\\n", numbers += ",1";
   EXPECT_EQ(
@@ -211,7 +211,7 @@ TEST(Set, drops_blanks_around_key_and_value) {
   EXPECT_EQ(read_as("a.toml", fig22, {{" time.mode", " 'steady' "}, {"title", " 'b ' "}}).title, "b ");
 }
 
-TEST(Set, of_what_is_not_utf8_speaks_of_the_words_not_of_a_file) {
+TEST(Set, not_in_utf8_is_an_error_of_the_words_not_of_a_file) {
   EXPECT_EQ(
       mistake_in("a.toml", fig22, {{"scene.R", "\xff"}}),
       "--set scene.R=\\xff: the byte \\xff is not UTF-8; use a terminal (or a script) in UTF-8, or put the text in "
@@ -228,10 +228,10 @@ TEST(Set, mistakes_name_the_words_of_the_command_line) {
 }
 
 TEST(File, that_cannot_be_read_is_named_with_the_reason) {
-  const TemporaryDirectory directory;
-  EXPECT_THROW((void)read_config(directory.prefix() + "none.toml", {}), storage::IoError);
-  EXPECT_THROW((void)read_config(directory.prefix(), {}), storage::IoError);
-  EXPECT_THROW((void)read_config(directory.file("nul.toml", std::string("h = 1\0", 6)), {}), storage::IoError);
+  const support::TemporaryDirectory directory;
+  EXPECT_THROW((void)read_config(directory.path("none.toml"), {}), storage::IoError);
+  EXPECT_THROW((void)read_config(directory.path(""), {}), storage::IoError);
+  EXPECT_THROW((void)read_config(directory.write("nul.toml", std::string("h = 1\0", 6)), {}), storage::IoError);
   try {
     (void)read_config("/none.toml", {});
   } catch (const storage::IoError& error) {
@@ -239,7 +239,7 @@ TEST(File, that_cannot_be_read_is_named_with_the_reason) {
   }
 }
 
-TEST(Guard, keeps_from_toml_what_it_does_not_survive) {
+TEST(RunInChild, keeps_from_toml_the_texts_it_does_not_survive) {
   EXPECT_EQ(mistake_in("a.toml", std::string(2000000, '#')).substr(0, 10), "a.toml:1:1");
   std::string parts;
   for (int i = 0; i < 200000; ++i) parts += "a.";

@@ -19,11 +19,11 @@ void expect_same(const std::string& text, const Overrides& changes, const std::s
 
 /// The notes of a configuration, without the name of its directory.
 std::vector<std::string> notes_of(const std::string& text, const Overrides& changes) {
-  const TemporaryDirectory directory;
-  std::vector<std::string> notes = read_config(directory.file("a.toml", text), changes).notes;
+  const support::TemporaryDirectory directory;
+  std::vector<std::string> notes = read_config(directory.write("a.toml", text), changes).notes;
   for (std::string& note : notes) {
-    const std::size_t at = note.find(directory.prefix());
-    if (at != std::string::npos) note.erase(at, directory.prefix().size());
+    const std::size_t at = note.find(directory.path(""));
+    if (at != std::string::npos) note.erase(at, directory.path("").size());
   }
   return notes;
 }
@@ -88,7 +88,7 @@ TEST(Precedence, a_start_of_the_command_line_comes_before_the_other_of_the_file)
   expect_same("[scene]\nxs = 1\n[sweep]\nstart_period = [2, 3]\n", {{"scene.v0", "2"}}, "[scene]\nxs = 1\nv0 = 2\n");
 }
 
-TEST(Precedence, what_the_file_or_the_command_line_says_in_two_ways_stays_a_mistake) {
+TEST(Precedence, two_values_in_one_file_or_command_line_stay_a_mistake) {
   const auto says = [](const std::string& text, const Overrides& changes, const std::string& words) {
     const std::string mistake = mistake_in("a.toml", text, changes);
     EXPECT_NE(mistake.find(words), std::string::npos) << mistake;
@@ -103,7 +103,7 @@ TEST(Precedence, what_the_file_or_the_command_line_says_in_two_ways_stays_a_mist
   says(fixed + "stop_upper = 5\n", {{"scene.stop_lower", "-1"}}, "a.toml:5:1: 'stop_upper' conflicts with 'xs'");
 }
 
-TEST(Precedence, an_axis_that_is_gone_is_named_where_it_is_missed) {
+TEST(Precedence, an_axis_that_is_gone_is_named_in_the_error_that_misses_it) {
   EXPECT_EQ(mistake_in("a.toml", swept + "follow = \"nu\"\n", {{"scene.nu", "1"}}),
             "a.toml:6:10: follow names 'nu', which is no axis of [sweep] with --set scene.nu=1; add --set "
             "sweep.follow=''");
@@ -147,7 +147,7 @@ TEST(Precedence, gives_a_complete_text_that_gives_itself_again) {
   EXPECT_GT(taken, 40);
 }
 
-TEST(Precedence, nothing_is_noted_where_nothing_gives_way) {
+TEST(Precedence, nothing_is_noted_if_nothing_gives_way) {
   EXPECT_EQ(notes_of(fixed, {{"scene.R", "0.5"}, {"scene.f", "1"}}), std::vector<std::string>{});
   EXPECT_EQ(read_as("a.toml", fixed, {{"scene.stop_upper", "inf"}}).sweep.scene.stops.upper, infinity);
 }

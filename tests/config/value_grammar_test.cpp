@@ -71,7 +71,7 @@ TEST(Logspace, has_equal_ratios_and_both_ends) {
   EXPECT_NEAR(wide[1], 1.0, 1e-15);
 }
 
-TEST(Arange, excludes_its_end_even_where_rounding_would_not) {
+TEST(Arange, excludes_its_end_even_if_rounding_would_not) {
   EXPECT_TRUE(std::signbit(axis("arange(-0, 1, 0.1)").front()));
   EXPECT_EQ(axis("arange(0, 1, 0.25)"), (std::vector{0.0, 0.25, 0.5, 0.75}));
   EXPECT_EQ(axis("arange(1, 1.3, 0.1)").size(), 3u);  // (1.3 - 1)/0.1 = 3.0000000000000004

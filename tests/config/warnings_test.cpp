@@ -12,10 +12,10 @@ using Lines = std::vector<std::string>;
 
 /// The warnings of a configuration as "3:1: words", or "--set …: words".
 Lines warnings_of(const std::string& name, const std::string& text, const std::vector<Override>& changes = {}) {
-  const TemporaryDirectory directory;
+  const support::TemporaryDirectory directory;
   Lines lines;
-  for (const Warning& warning : read_config(directory.file(name, text), changes).warnings) {
-    const std::string file = directory.prefix() + name + ':';
+  for (const Warning& warning : read_config(directory.write(name, text), changes).warnings) {
+    const std::string file = directory.path("") + name + ':';
     const bool in_file = warning.location.starts_with(file);
     lines.push_back((in_file ? warning.location.substr(file.size()) : warning.location) + ": " + warning.text);
   }
@@ -137,7 +137,7 @@ TEST(Repeats, on_linked_and_followed_axes_are_right) {
   expect_none(observing(scene + "[sweep]\nnu = [0.8, 0.9, 0.8]\nfollow = \"nu\"\n"));
 }
 
-TEST(Warnings, are_none_where_every_default_is_written) {
+TEST(Warnings, are_none_if_every_default_is_written) {
   expect_none(default_config(Format::toml));
   EXPECT_EQ(warnings_of("a.ini", default_config(Format::ini)), Lines{});
   for (const std::string& text : {observing(transient), observing("[scene]\nstop_upper = 1\nR = 0.5\n"),

@@ -21,7 +21,7 @@ TEST(Together, alternatives_exclude_each_other) {
   expect_all("a.ini", table);
 }
 
-TEST(Together, what_is_missing_is_missed_at_its_section) {
+TEST(Together, missing_keys_are_reported_at_their_section) {
   const std::vector<Wrong> table{
       {"", "1:1", "'xs' is missing in [scene]"},
       {"[time]\nwindow = 1\n", "1:1", "'xs' is missing in [scene]; give xs, or stop_lower, stop_upper or both"},

@@ -144,7 +144,7 @@ TEST(Integrator, misspelt_methods_are_told_the_nearest) {
   expect_wrong_value(method, "\"rk4\"", "the text 'rk4'; expected one of exact, dopri5, moreau");
 }
 
-TEST(Integrator, settings_beyond_what_converges_are_refused) {
+TEST(Integrator, settings_that_cannot_converge_are_refused) {
   const struct {
     const char *name, *value, *range;
   } table[] = {

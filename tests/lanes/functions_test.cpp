@@ -52,7 +52,7 @@ TEST(LaneFunctions, decay_is_known_to_two_ulps_of_1) {
   EXPECT_LE(worst, 2 * epsilon<double>());
 }
 
-TEST(Enclosure, is_nan_where_anything_in_it_is_and_stays_so) {
+TEST(Enclosure, is_nan_if_anything_in_it_is_and_stays_so) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   for (int broken = -1; broken < 7; ++broken) {
     const auto input = [&](int i, double y) { return V(i == broken ? nan : y); };

@@ -201,7 +201,7 @@ std::vector<point::Problem> chattering() {
   return scenes;
 }
 
-TEST_P(InLanes, what_leaves_its_stops_for_good_is_taken_to_its_end_at_once) {
+TEST_P(InLanes, motion_clear_of_its_stops_for_good_is_taken_to_its_end_at_once) {
   // the response stays within 2.5 of the load's equilibrium; the transient of the start meets the stops before
   sweep::Axis nu{sweep::Parameter::nu, {}}, x0{sweep::Parameter::x0, {-2.9, 0.3, 2.5}},
       load{sweep::Parameter::load, {0.0, 0.2}};

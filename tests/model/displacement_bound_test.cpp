@@ -177,7 +177,7 @@ TEST(Reach, response_and_transient_make_up_the_motion) {
     }
 }
 
-TEST(Transient, stays_within_its_bound_and_within_what_the_decay_leaves_of_it) {
+TEST(Transient, stays_within_its_bound_and_the_decayed_bound) {
   for (std::uint64_t i = 0; i < 2000; ++i) {
     Flight flight = any_flight(i);
     flight.oscillator.forcing = 0;

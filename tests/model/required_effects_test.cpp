@@ -157,7 +157,7 @@ TEST(RequiredEffects, stops_out_of_reach_are_put_at_infinity) {
   EXPECT_EQ(upper.restitution_upper, 0.4);
 }
 
-TEST(RequiredEffects, what_isnt_known_keeps_the_stops_in) {
+TEST(RequiredEffects, unknown_quantities_keep_the_stops) {
   ASSERT_FALSE(required_effects(figure(6, 1.2)).stops());
   for (const double unknown : {nan, none, -none}) {
     std::vector<Scene> scenes(7, figure(6, 1.2));

@@ -142,7 +142,7 @@ TEST(Arc, derivative_bounds_hold_for_every_kind_of_motion) {
     });
 }
 
-TEST(Arc, what_is_left_of_a_transient_is_known_far_below_the_rounding_of_the_whole) {
+TEST(Arc, the_rest_of_a_transient_is_known_far_below_the_rounding_of_the_whole) {
   // 40 time constants on: the acceleration of a slow response and a faded transient to relative accuracy
   const Oscillator o{0.5, 1.0, 1e-9, 0.0};
   const auto rounded = support::motion_after<double>(o, {1.0, 0.0, 0.2}, 80.0);

@@ -118,7 +118,7 @@ TEST(Energy, closes_its_books_on_periodic_motion_of_every_kind) {
   EXPECT_GT(impacts, 80);
 }
 
-TEST(Energy, shows_what_time_stepping_makes_of_it) {
+TEST(Energy, shows_the_energy_error_of_time_stepping) {
   // Moreau's residual goes down with the step; the exact method's is rounding
   point::Problem scene = scene_of({0.1, -1.0, 1.0, 0.0}, {-0.5, 0.5, 0.7, 0.7});
   scene.time.mode = steady::Mode::transient, scene.time.duration = 20;

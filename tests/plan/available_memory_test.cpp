@@ -1,38 +1,30 @@
 #include "plan/available_memory.hpp"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
+
+#include "support/temporary_directory.hpp"
 
 namespace clatter::plan {
 namespace {
 
-namespace fs = std::filesystem;
-
 /// A made-up root of a file system.
 class Groups : public testing::Test {
  protected:
-  Groups() { fs::create_directories(root_); }
-  ~Groups() override { fs::remove_all(root_); }
-
-  void put(const std::string& path, const std::string& text) const {
-    fs::create_directories((root_ / path).parent_path());
-    std::ofstream(root_ / path) << text;
-  }
+  void put(const std::string& path, const std::string& text) const { root_.write(path, text); }
   void mounts(const std::string& lines) const { put("proc/self/mountinfo", lines); }
   void groups(const std::string& lines) const { put("proc/self/cgroup", lines); }
 
   /// The least limit; infinity: there is none.
   [[nodiscard]] double least() const {
     double bytes = MemoryLimit{}.bytes;
-    for (const MemoryLimit& limit : group_limits(root_)) bytes = std::min(bytes, limit.bytes);
+    for (const MemoryLimit& limit : group_limits(root_.path())) bytes = std::min(bytes, limit.bytes);
     return bytes;
   }
 
-  fs::path root_ = fs::temp_directory_path() / ("clatter-groups-" + std::to_string(::getpid()));
+  support::TemporaryDirectory root_;
 };
 
 constexpr const char* version_1 =
@@ -47,8 +39,8 @@ TEST_F(Groups, of_version_1_limit_by_limit_in_bytes) {
   put("sys/fs/cgroup/memory/batch/memory.limit_in_bytes", "3000000000\n");
   put("sys/fs/cgroup/memory/memory.limit_in_bytes", "9223372036854771712\n");  // none
   EXPECT_EQ(least(), 2e9);
-  EXPECT_EQ(group_limits(root_).size(), 2U);
-  EXPECT_EQ(group_limits(root_)[0].name, "its control group '/batch/job1' permits");
+  EXPECT_EQ(group_limits(root_.path()).size(), 2U);
+  EXPECT_EQ(group_limits(root_.path())[0].name, "its control group '/batch/job1' permits");
 }
 
 TEST_F(Groups, of_version_1_may_share_a_hierarchy) {
@@ -99,17 +91,17 @@ TEST_F(Groups, may_have_blanks_and_colons_in_their_names) {
 }
 
 TEST_F(Groups, without_a_limit_give_none) {
-  EXPECT_TRUE(group_limits(root_).empty());
+  EXPECT_TRUE(group_limits(root_.path()).empty());
   mounts(version_2), groups("0::/\n");
-  EXPECT_TRUE(group_limits(root_).empty());
+  EXPECT_TRUE(group_limits(root_.path()).empty());
   put("sys/fs/cgroup/memory.max", "max\n");
-  EXPECT_TRUE(group_limits(root_).empty());
+  EXPECT_TRUE(group_limits(root_.path()).empty());
   for (const char* const damaged : {"", "\n", "memory", "4:memory", "0:", "::::\n"}) groups(damaged), (void)least();
   mounts("1 2\n35 31 0:32 / - - -\n"), groups("0::/\n");
-  EXPECT_TRUE(group_limits(root_).empty());
+  EXPECT_TRUE(group_limits(root_.path()).empty());
 }
 
-TEST(AddressLimits, leave_what_neither_the_process_nor_its_threads_take) {
+TEST(AddressLimits, leave_the_memory_that_neither_the_process_nor_its_threads_take) {
   const ProcessSize now{.addresses = 3e8, .resident = 1e8, .data = 1.5e8};
   const double none = MemoryLimit{}.bytes;
   const auto alone = address_limits(1e9, 5e8, now, 0), with_threads = address_limits(1e9, 5e8, now, 2);

@@ -32,7 +32,7 @@ TEST(DearestPoint, of_a_pressed_mass_without_loss_takes_all_impacts_there_are) {
   EXPECT_FALSE(warns(few));
 }
 
-TEST(DearestPoint, of_a_fast_one_takes_what_its_way_is_in_distances_between_the_stops) {
+TEST(DearestPoint, of_a_fast_one_costs_its_path_in_distances_between_the_stops) {
   const Oscillator free{0.0, 0.0, 1.0, 0.0}, damped{0.1, 0.0, 1.0, 0.0};
   const point::Problem fast = transient(free, 1.0, 1e5);
   EXPECT_NEAR(impacts_without_loss(fast) / (1e5 * 300 / 2), 1, 1e-6);

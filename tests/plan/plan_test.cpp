@@ -141,7 +141,7 @@ sweep::Sweep large_sweep() {
                                      {sweep::Parameter::nu, evenly(0.5, 1.5, 100)}});
 }
 
-TEST(Plan, of_a_large_sweep_is_that_of_all_points_within_what_a_sample_can_tell) {
+TEST(Plan, of_a_large_sweep_is_that_of_all_points_within_the_error_of_a_sample) {
   const sweep::Sweep sweep = large_sweep();
   const Plan sampled = plan_of(sweep, 2);
   EXPECT_EQ(sampled.sampled_points, 1'000'000u);

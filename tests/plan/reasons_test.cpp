@@ -81,7 +81,7 @@ TEST(Reasons, dissipation_names_the_restitution_of_the_stops_in_reach) {
   expect_reason(scene, "dissipation", true, "R = 0.25");
 }
 
-TEST(Reasons, the_oscillator_says_what_its_arcs_are_made_of) {
+TEST(Reasons, the_oscillator_names_the_terms_of_its_arcs) {
   point::Problem scene = figure(3, 1);
   expect_reason(scene, "damping", true, "h = 0.1 < 1: free motion is a decaying rotation");
   expect_reason(scene, "forcing", true, "f = -1");
@@ -101,7 +101,7 @@ TEST(Reasons, the_oscillator_says_what_its_arcs_are_made_of) {
   expect_reason(scene, "damping", true, "h = 2 > 1: free motion is the sum of a slow and a fast decay");
 }
 
-TEST(Reasons, tell_what_leaving_an_effect_out_saves) {
+TEST(Reasons, tell_the_saving_by_an_effect_left_out) {
   const auto saves = [](const point::Problem& scene, const std::string& effect) {
     const Saving saving = reason(scene, effect).saving;
     EXPECT_LE(saving.least, saving.most) << effect;

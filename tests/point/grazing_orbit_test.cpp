@@ -54,7 +54,7 @@ TEST(GrazingOrbit, has_no_multipliers_and_says_so) {
   std::cout << grazing << " grazing, " << aperiodic << " aperiodic, " << other << " that hit the stop\n";
 }
 
-TEST(GrazingOrbit, has_the_multipliers_of_free_motion_where_it_is_clear_of_the_stop) {
+TEST(GrazingOrbit, has_the_multipliers_of_free_motion_if_it_is_clear_of_the_stop) {
   for (std::uint64_t i = 0; i < 100; ++i) {
     support::Random random(32, i);
     const double h = random.logarithmic(1e-2, 0.5), nu = random.logarithmic(0.3, 3);
@@ -66,7 +66,7 @@ TEST(GrazingOrbit, has_the_multipliers_of_free_motion_where_it_is_clear_of_the_s
   }
 }
 
-TEST(GrazingOrbit, is_periodic_where_no_stability_is_asked_for) {
+TEST(GrazingOrbit, is_periodic_if_no_stability_is_asked_for) {
   Problem scene = beside_the_response({0.1, 1.0, 1.5, 0.0}, 2 * ulp, 0.7);
   scene.observe.stability = false;
   ThreadScratch scratch;

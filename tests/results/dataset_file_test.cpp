@@ -1,7 +1,6 @@
 #include "results/dataset_file.hpp"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
@@ -15,24 +14,15 @@
 
 #include "storage/error.hpp"
 #include "support/lookup3.hpp"
+#include "support/temporary_directory.hpp"
 
 namespace clatter::results {
 namespace {
 
-namespace fs = std::filesystem;
-
-/// A directory of its own for each test, since ctest runs them side by side.
-class FigureFile : public testing::Test {
+class DatasetFile : public testing::Test {
  protected:
-  FigureFile() { fs::create_directories(directory_); }
-  ~FigureFile() override { fs::remove_all(directory_); }
-
-  [[nodiscard]] std::string path(const std::string& name) const { return (directory_ / name).string(); }
-
   [[nodiscard]] std::string write(const std::string& name, const std::vector<std::byte>& bytes) const {
-    std::ofstream{path(name), std::ios::binary}.write(reinterpret_cast<const char*>(bytes.data()),
-                                                      static_cast<std::streamsize>(bytes.size()));
-    return path(name);
+    return directory_.write(name, bytes);
   }
 
   /// The error of read_summary for a file, or nothing if it reads the file.
@@ -45,9 +35,7 @@ class FigureFile : public testing::Test {
     }
   }
 
- private:
-  fs::path directory_ = fs::path{testing::TempDir()} / ("clatter_figure_" + std::to_string(::getpid()) + "_" +
-                                                        testing::UnitTest::GetInstance()->current_test_info()->name());
+  support::TemporaryDirectory directory_;
 };
 
 config::Config configuration(int compression = 4) {
@@ -92,7 +80,7 @@ sweep::Dataset sweep(std::size_t points, std::size_t samples) {
            {"x", {"nu", "sample"}, ramp(points * samples), "displacement", "1"}}};
 }
 
-TEST_F(FigureFile, summary_names_what_was_written) {
+TEST_F(DatasetFile, summary_names_all_that_was_written) {
   const FileSummary summary = read_summary(write("sweep.h5", bytes_of(sweep(5, 7), configuration())));
   ASSERT_EQ(summary.variables.size(), 4U);  // `sample` is a dimension, no variable
   EXPECT_EQ(summary.variables[0].name, "nu");
@@ -106,7 +94,7 @@ TEST_F(FigureFile, summary_names_what_was_written) {
   EXPECT_EQ(x.dimensions[1].length, 7U);
 }
 
-TEST_F(FigureFile, root_attributes_come_in_the_order_of_the_contract) {
+TEST_F(DatasetFile, root_attributes_come_in_the_order_of_the_contract) {
   const FileSummary summary = read_summary(write("sweep.h5", bytes_of(sweep(5, 7), configuration())));
   std::string names;
   for (const auto& [name, text] : summary.attributes) names += name + " ";
@@ -118,19 +106,19 @@ TEST_F(FigureFile, root_attributes_come_in_the_order_of_the_contract) {
             "6908d95f47dbf9f66253d392d95c432addd8a28e83a1f8b6243c43f32664d19a");  // sha256sum
 }
 
-TEST_F(FigureFile, points_are_counted_by_status) {
+TEST_F(DatasetFile, points_are_counted_by_status) {
   const FileSummary summary = read_summary(write("sweep.h5", bytes_of(sweep(5, 7), configuration())));
   ASSERT_EQ(summary.status_counts.size(), flags.size());
   EXPECT_EQ(summary.status_counts[0], (std::pair<std::string, std::size_t>{"periodic", 4}));
   EXPECT_EQ(summary.status_counts[3], (std::pair<std::string, std::size_t>{"event_budget", 1}));
 }
 
-TEST_F(FigureFile, the_same_figure_gives_the_same_bytes) {
+TEST_F(DatasetFile, the_same_figure_gives_the_same_bytes) {
   const sweep::Dataset dataset = sweep(501, 64);
   EXPECT_EQ(bytes_of(dataset, configuration()), bytes_of(dataset, configuration()));
 }
 
-TEST_F(FigureFile, the_file_is_closed_and_ends_where_it_says) {
+TEST_F(DatasetFile, the_file_is_closed_and_ends_where_it_says) {
   for (const int compression : {0, 4}) {
     const std::vector<std::byte> image = bytes_of(sweep(501, 1000), configuration(compression));
     ASSERT_EQ(number_at(image, 8, 1), 0U);             // the version of the superblock that the next lines assume
@@ -139,7 +127,7 @@ TEST_F(FigureFile, the_file_is_closed_and_ends_where_it_says) {
   }
 }
 
-TEST_F(FigureFile, an_image_outlives_its_figure_and_other_images) {
+TEST_F(DatasetFile, an_image_outlives_its_figure_and_other_images) {
   std::optional<FileImage> first = file_image(sweep(501, 64), configuration());
   const FileImage second = file_image(sweep(501, 65), configuration());
   const std::vector<std::byte> copy{first->bytes.begin(), first->bytes.end()};
@@ -149,7 +137,7 @@ TEST_F(FigureFile, an_image_outlives_its_figure_and_other_images) {
             bytes_of(sweep(501, 65), configuration()));
 }
 
-TEST_F(FigureFile, a_sweep_without_axes_has_scalars) {
+TEST_F(DatasetFile, a_sweep_without_axes_has_scalars) {
   const sweep::Dataset dataset{{}, {{"x_min", {}, std::vector<double>{-0.5}, "least displacement", "1"}}};
   const FileSummary summary = read_summary(write("scalar.h5", bytes_of(dataset, configuration())));
   ASSERT_EQ(summary.variables.size(), 1U);
@@ -157,7 +145,7 @@ TEST_F(FigureFile, a_sweep_without_axes_has_scalars) {
   EXPECT_TRUE(summary.status_counts.empty());
 }
 
-TEST_F(FigureFile, an_impact_log_may_be_empty) {
+TEST_F(DatasetFile, an_impact_log_may_be_empty) {
   const sweep::Dataset dataset{{{"impact", 0}},
                                {{"impact_tau", {"impact"}, std::vector<double>{}, "time of impact", "1"}}};
   const FileSummary summary = read_summary(write("log.h5", bytes_of(dataset, configuration())));
@@ -166,28 +154,28 @@ TEST_F(FigureFile, an_impact_log_may_be_empty) {
   EXPECT_EQ(summary.variables[0].dimensions.front().length, 0U);
 }
 
-TEST_F(FigureFile, a_configuration_may_be_long) {
+TEST_F(DatasetFile, a_configuration_may_be_long) {
   config::Config config = configuration();
   config.text = std::string(300'000, '#');  // an object header holds at most 64 KiB
   const FileSummary summary = read_summary(write("long.h5", bytes_of(sweep(5, 7), config)));
   EXPECT_TRUE(summary.attributes[6].second == config.text);  // not EXPECT_EQ, which would print both
 }
 
-TEST_F(FigureFile, large_arrays_are_deflated_and_small_ones_are_not) {
+TEST_F(DatasetFile, large_arrays_are_deflated_and_small_ones_are_not) {
   const std::size_t plain = bytes_of(sweep(501, 1000), configuration(0)).size();
   EXPECT_GT(plain, 501U * 1000U * sizeof(double));
   EXPECT_LT(bytes_of(sweep(501, 1000), configuration(4)).size(), plain);
   EXPECT_EQ(bytes_of(sweep(501, 2), configuration(4)), bytes_of(sweep(501, 2), configuration(0)));
 }
 
-TEST_F(FigureFile, values_lie_in_the_file_as_little_endian_doubles) {
+TEST_F(DatasetFile, values_lie_in_the_file_as_little_endian_doubles) {
   const sweep::Dataset dataset = sweep(501, 2);  // too small to be deflated; copies_test.py reads deflated ones
   const std::vector<std::byte> image = bytes_of(dataset, configuration());
   const auto bytes = std::as_bytes(std::span{std::get<std::vector<double>>(dataset.variables.back().values)});
   EXPECT_NE(std::search(image.begin(), image.end(), bytes.begin(), bytes.end()), image.end());
 }
 
-TEST_F(FigureFile, a_figure_that_contradicts_itself_is_a_bug) {
+TEST_F(DatasetFile, a_figure_that_contradicts_itself_is_a_bug) {
   sweep::Dataset dataset = sweep(5, 7);
   dataset.variables[3].values = ramp(34);  // one short
   EXPECT_THROW(static_cast<void>(bytes_of(dataset, configuration())), std::logic_error);
@@ -196,9 +184,10 @@ TEST_F(FigureFile, a_figure_that_contradicts_itself_is_a_bug) {
   EXPECT_THROW(static_cast<void>(bytes_of(dataset, configuration())), std::logic_error);
 }
 
-TEST_F(FigureFile, what_is_no_file_of_clatters_is_refused_in_words) {
-  EXPECT_EQ(refusal(path("none.h5")), "'" + path("none.h5") + "': No such file or directory; check the name");
-  EXPECT_EQ(refusal(path("")), "'" + path("") + "': is a directory; name a file in it");
+TEST_F(DatasetFile, foreign_files_are_refused_in_words) {
+  EXPECT_EQ(refusal(directory_.path("none.h5")),
+            "'" + directory_.path("none.h5") + "': No such file or directory; check the name");
+  EXPECT_EQ(refusal(directory_.path("")), "'" + directory_.path("") + "': is a directory; name a file in it");
   const std::string text = write("text.h5", std::vector<std::byte>(4096, std::byte{'a'}));
   EXPECT_EQ(refusal(text), "'" + text + "': is not an HDF5 file; name an output of clatter");
   EXPECT_NE(refusal(write("empty.h5", {})).find("is not an HDF5 file"), std::string::npos);
@@ -210,7 +199,7 @@ TEST_F(FigureFile, what_is_no_file_of_clatters_is_refused_in_words) {
   EXPECT_NE(refusal(write("foreign.h5", foreign)).find("not one of clatter's"), std::string::npos);
 }
 
-TEST_F(FigureFile, a_truncated_file_is_refused_at_every_length) {
+TEST_F(DatasetFile, a_truncated_file_is_refused_at_every_length) {
   const std::vector<std::byte> whole = bytes_of(sweep(5, 7), configuration());
   for (std::size_t size = 0; size < whole.size(); size += 97) {
     const std::string file = write("cut.h5", {whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(size)});
@@ -218,7 +207,7 @@ TEST_F(FigureFile, a_truncated_file_is_refused_at_every_length) {
   }
 }
 
-TEST_F(FigureFile, a_damaged_file_is_read_or_refused_but_ends_no_process_and_holds_none_up) {
+TEST_F(DatasetFile, a_damaged_file_is_read_or_refused_but_ends_no_process_and_holds_none_up) {
   const std::vector<std::byte> whole = bytes_of(sweep(5, 7), configuration());
   for (std::size_t place = 0; place + 64 < whole.size(); place += 64) {
     std::vector<std::byte> damaged = whole;
@@ -228,7 +217,7 @@ TEST_F(FigureFile, a_damaged_file_is_read_or_refused_but_ends_no_process_and_hol
 }
 
 // HDF5 1.10 divides by the length of a record, here 0; the checksum is right, as in a file damaged on purpose.
-TEST_F(FigureFile, a_file_that_makes_the_library_crash_is_refused) {
+TEST_F(DatasetFile, a_file_that_makes_the_library_crash_is_refused) {
   std::vector<std::byte> damaged = bytes_of(sweep(5, 7), configuration());
   const auto signature = std::as_bytes(std::span{std::string_view{"BTHD"}});
   const auto found = std::search(damaged.begin(), damaged.end(), signature.begin(), signature.end());

@@ -1,8 +1,6 @@
 #include "results/output_place.hpp"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
-
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -11,34 +9,22 @@
 
 #include "results/dataset_file.hpp"
 #include "storage/error.hpp"
+#include "support/temporary_directory.hpp"
 
 namespace clatter::results {
 namespace {
 
 namespace fs = std::filesystem;
 
-/// A directory of its own for each test, since ctest runs them side by side.
-class Replacing : public testing::Test {
+class OutputPlaceTest : public testing::Test {
  protected:
-  Replacing() { fs::create_directories(directory_); }
-  ~Replacing() override { fs::remove_all(directory_); }
-
-  [[nodiscard]] std::string path() const { return (directory_ / "out.h5").string(); }
-
-  void write(const std::string& content) const { std::ofstream{path(), std::ios::binary} << content; }
-
-  [[nodiscard]] std::string content() const {
-    std::ifstream file{path(), std::ios::binary};
-    return {std::istreambuf_iterator<char>{file}, {}};
-  }
-
-  [[nodiscard]] std::size_t files() const {
-    return static_cast<std::size_t>(std::distance(fs::directory_iterator{directory_}, fs::directory_iterator{}));
-  }
+  [[nodiscard]] std::string path() const { return directory_.path("out.h5"); }
+  [[nodiscard]] std::size_t files() const { return directory_.entries(); }
+  [[nodiscard]] std::string content() const { return directory_.content("out.h5"); }
+  void write(const std::string& content) const { directory_.write("out.h5", content); }
 
  private:
-  fs::path directory_ = fs::path{testing::TempDir()} / ("clatter_replacing_" + std::to_string(::getpid()) + "_" +
-                                                        testing::UnitTest::GetInstance()->current_test_info()->name());
+  support::TemporaryDirectory directory_;
 };
 
 /// The bytes of an output: of a run, of a shard, or, with its variable of times, of an accuracy run.
@@ -59,14 +45,14 @@ void publish_new(const OutputPlace& place) {
   place.write_atomically(std::as_bytes(std::span(bytes)));
 }
 
-TEST_F(Replacing, an_output_tells_its_origin) {
+TEST_F(OutputPlaceTest, an_output_tells_its_origin) {
   for (const Origin& origin : {run, study, shard, other, Origin{}}) {
     write(output(origin));
     EXPECT_EQ(origin_of(path()), origin) << origin.title;
   }
 }
 
-TEST_F(Replacing, what_is_no_output_has_no_origin) {
+TEST_F(OutputPlaceTest, foreign_files_have_no_origin) {
   EXPECT_EQ(origin_of(path()), std::nullopt);
   write("[scene]\nxs = 1\n");
   EXPECT_EQ(origin_of(path()), std::nullopt);
@@ -76,7 +62,7 @@ TEST_F(Replacing, what_is_no_output_has_no_origin) {
   EXPECT_EQ(origin_of(path()), std::nullopt);
 }
 
-TEST_F(Replacing, of_a_truncated_output_no_length_has_an_origin) {
+TEST_F(OutputPlaceTest, of_a_truncated_output_no_length_has_an_origin) {
   const std::string whole = output(run);
   for (std::size_t size = 0; size < whole.size(); size += 61) {
     write(whole.substr(0, size));
@@ -84,7 +70,7 @@ TEST_F(Replacing, of_a_truncated_output_no_length_has_an_origin) {
   }
 }
 
-TEST_F(Replacing, a_damaged_output_ends_no_process_and_holds_none_up) {
+TEST_F(OutputPlaceTest, a_damaged_output_ends_no_process_and_holds_none_up) {
   const std::string whole = output(run);
   for (std::size_t place = 0; place < whole.size(); place += 64) {
     std::string damaged = whole;
@@ -94,7 +80,7 @@ TEST_F(Replacing, a_damaged_output_ends_no_process_and_holds_none_up) {
   }
 }
 
-TEST_F(Replacing, every_origin_gives_way_to_itself_alone) {
+TEST_F(OutputPlaceTest, every_origin_gives_way_to_itself_alone) {
   const std::vector<Origin> origins{run, study, shard, other};
   for (const Origin& there : origins)
     for (const Origin& ours : origins) {
@@ -109,13 +95,13 @@ TEST_F(Replacing, every_origin_gives_way_to_itself_alone) {
     }
 }
 
-TEST_F(Replacing, force_replaces_anything) {
+TEST_F(OutputPlaceTest, force_replaces_anything) {
   write("a letter");
   publish_new(OutputPlace(path(), run, true));
   EXPECT_EQ(content(), "new");
 }
 
-TEST_F(Replacing, a_file_that_has_come_meanwhile_is_kept) {
+TEST_F(OutputPlaceTest, a_file_that_has_come_meanwhile_is_kept) {
   const OutputPlace place(path(), run, false);
   write("a letter");
   EXPECT_THROW(publish_new(place), storage::IoError);
@@ -123,7 +109,7 @@ TEST_F(Replacing, a_file_that_has_come_meanwhile_is_kept) {
   EXPECT_EQ(files(), 1U);  // no temporary one
 }
 
-TEST_F(Replacing, an_output_that_has_become_another_file_meanwhile_is_kept) {
+TEST_F(OutputPlaceTest, an_output_that_has_become_another_file_meanwhile_is_kept) {
   write(output(run));
   const OutputPlace place(path(), run, false);
   write("a letter");
@@ -131,14 +117,14 @@ TEST_F(Replacing, an_output_that_has_become_another_file_meanwhile_is_kept) {
   EXPECT_EQ(content(), "a letter");
 }
 
-TEST_F(Replacing, an_output_of_the_same_origin_that_has_come_meanwhile_gives_way) {
+TEST_F(OutputPlaceTest, an_output_of_the_same_origin_that_has_come_meanwhile_gives_way) {
   const OutputPlace place(path(), run, false);
   write(output(run));
   publish_new(place);
   EXPECT_EQ(content(), "new");
 }
 
-TEST_F(Replacing, a_title_is_shown_without_its_control_characters) {
+TEST_F(OutputPlaceTest, a_title_is_shown_without_its_control_characters) {
   write(output({.title = "a\x1b]0;b\n"}));
   try {
     const OutputPlace place(path(), run, false);

@@ -7,7 +7,7 @@
 namespace clatter::results {
 namespace {
 
-TEST(SummaryBytes, give_the_summary_again_and_nothing_where_some_are_missing) {
+TEST(SummaryBytes, give_the_summary_again_and_nothing_if_some_are_missing) {
   const FileSummary summary{{{"title", "Größe"}, {"config", std::string(5000, '#')}},
                             {{"x", "float64", "1", "displacement", {{"nu", 5}, {"sample", 7}}}},
                             {{"periodic", 4}, {"aperiodic", std::size_t{1} << 40U}}};

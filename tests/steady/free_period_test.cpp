@@ -121,7 +121,7 @@ TEST(FreePeriod, between_close_stops_beyond_the_load_keeps_its_digits) {
         }
 }
 
-TEST(FreePeriod, grows_with_the_root_of_what_a_graze_lacks) {
+TEST(FreePeriod, grows_with_the_root_of_the_distance_from_a_graze) {
   // stops at -g and g, the speed in the centre V = g(1 + eps): 4 arcsin(1/(1 + eps)) =
   // 2 pi - 4 (2 eps)^(1/2) (1 + O(eps)); V to half an ulp moves it by 4 (2 eps)^(1/2) ulp/(4 eps)
   for (const double eps : {0x1p-10, 0x1p-26, 0x1p-40, 0x1p-50}) {

@@ -93,7 +93,7 @@ double shrinks(const motion::Jacobian<double>& D, const ContractionNorm& measure
   return most;
 }
 
-TEST(ContractionNorm, shrinks_every_change_by_half_of_what_the_larger_multiplier_takes_away_or_more) {
+TEST(ContractionNorm, shrinks_every_change_by_half_the_contraction_of_the_larger_multiplier_or_more) {
   int tight = 0;
   for (std::uint64_t i = 0; i < 3000; ++i) {
     support::Random random(9, i);

@@ -225,7 +225,7 @@ TEST(DormandPrinceMotion, that_overflows_is_an_outcome_and_not_a_motion) {
   EXPECT_EQ(support::record_by<DormandPrince>(nowhere, 20.0).outcome, Outcome::not_finite);
 }
 
-TEST(DormandPrinceMotion, whose_steps_are_too_short_to_move_time_on_is_unresolved) {
+TEST(DormandPrinceMotion, too_short_steps_to_advance_time_are_unresolved) {
   const point::Problem scene =
       support::scene_of({1e18, 1.0, 0.8, 0.0}, -0.5, 0.5, 0.7);  // stable only in steps below 1e-18
   with_general_effects(scene.oscillator, [&]<Effects effects>() {

@@ -14,29 +14,19 @@
 #include <vector>
 
 #include "storage/error.hpp"
+#include "support/temporary_directory.hpp"
 
 namespace clatter::storage {
 namespace {
 
 namespace fs = std::filesystem;
 
-/// A directory of its own for each test, since ctest runs them side by side.
-class Publish : public testing::Test {
+class AtomicWrite : public testing::Test {
  protected:
-  Publish() { fs::create_directories(directory_); }
-  ~Publish() override { fs::remove_all(directory_); }
-
-  [[nodiscard]] std::string path(const std::string& name) const { return (directory_ / name).string(); }
-  [[nodiscard]] auto entries() const { return std::distance(fs::directory_iterator{directory_}, {}); }
-
-  [[nodiscard]] std::string content(const std::string& name) const {
-    std::ifstream file{path(name), std::ios::binary};
-    return {std::istreambuf_iterator<char>{file}, {}};
-  }
-
-  void write(const std::string& name, const std::string& text) const {
-    std::ofstream{path(name), std::ios::binary} << text;
-  }
+  [[nodiscard]] std::string path(const std::string& name) const { return directory_.path(name); }
+  [[nodiscard]] std::size_t entries() const { return directory_.entries(); }
+  [[nodiscard]] std::string content(const std::string& name) const { return directory_.content(name); }
+  void write(const std::string& name, const std::string& text) const { directory_.write(name, text); }
   [[nodiscard]] struct stat status_of(const std::string& name) const {
     struct stat status {};
     EXPECT_EQ(::stat(path(name).c_str(), &status), 0);
@@ -54,18 +44,17 @@ class Publish : public testing::Test {
   }
 
  private:
-  fs::path directory_ = fs::path{testing::TempDir()} / ("clatter_publish_" + std::to_string(::getpid()) + "_" +
-                                                        testing::UnitTest::GetInstance()->current_test_info()->name());
+  support::TemporaryDirectory directory_;
 };
 
-TEST_F(Publish, replaces_an_older_file_and_leaves_nothing_else) {
+TEST_F(AtomicWrite, replaces_an_older_file_and_leaves_nothing_else) {
   EXPECT_EQ(refusal(path("out.h5"), "old"), "");
   EXPECT_EQ(refusal(path("out.h5"), std::string(3'000'000, 'x')), "");
   EXPECT_EQ(content("out.h5"), std::string(3'000'000, 'x'));
-  EXPECT_EQ(entries(), 1);
+  EXPECT_EQ(entries(), 1U);
 }
 
-TEST_F(Publish, gives_the_permissions_of_any_new_file) {
+TEST_F(AtomicWrite, gives_the_permissions_of_any_new_file) {
   const mode_t before = ::umask(027);
   EXPECT_EQ(refusal(path("out.h5")), "");
   ::umask(before);
@@ -89,7 +78,7 @@ class SizeLimit {
   rlimit before_{};
 };
 
-TEST_F(Publish, a_full_disk_leaves_the_older_file_and_no_temporary_one) {
+TEST_F(AtomicWrite, a_full_disk_leaves_the_older_file_and_no_temporary_one) {
   EXPECT_EQ(refusal(path("out.h5"), "old"), "");
   std::string message;
   {
@@ -99,10 +88,10 @@ TEST_F(Publish, a_full_disk_leaves_the_older_file_and_no_temporary_one) {
   EXPECT_EQ(message,
             "cannot write '" + path("out.h5") + "': File too large; free some space, or name a place that has more");
   EXPECT_EQ(content("out.h5"), "old");
-  EXPECT_EQ(entries(), 1);
+  EXPECT_EQ(entries(), 1U);
 }
 
-TEST_F(Publish, refuses_what_cannot_become_a_file) {
+TEST_F(AtomicWrite, refuses_names_that_cannot_become_a_file) {
   fs::create_directories(path("taken.h5"));
   const std::string missing = path("none/out.h5");
   EXPECT_EQ(refusal(missing), "cannot write '" + missing + "': there is no directory '" + path("none") +
@@ -113,15 +102,15 @@ TEST_F(Publish, refuses_what_cannot_become_a_file) {
   EXPECT_NE(refusal(path(std::string(300, 'x'))).find("use a shorter name"), std::string::npos);
   EXPECT_THROW(check_writable(path("taken.h5")), IoError);
   EXPECT_THROW(check_writable(missing), IoError);
-  EXPECT_EQ(entries(), 1);
+  EXPECT_EQ(entries(), 1U);
 }
 
-TEST_F(Publish, a_file_is_no_directory) {
+TEST_F(AtomicWrite, a_file_is_no_directory) {
   EXPECT_EQ(refusal(path("plain")), "");
   EXPECT_NE(refusal(path("plain/out.h5")).find("Not a directory"), std::string::npos);
 }
 
-TEST_F(Publish, permission_is_checked_as_the_kernel_would) {
+TEST_F(AtomicWrite, permission_is_checked_as_the_kernel_would) {
   EXPECT_EQ(refusal(path("out.h5"), "old"), "");
   fs::permissions(path("out.h5"), fs::perms::owner_read);
   fs::create_directories(path("closed"));
@@ -136,12 +125,12 @@ TEST_F(Publish, permission_is_checked_as_the_kernel_would) {
   fs::permissions(path("closed"), fs::perms::owner_all);
 }
 
-TEST_F(Publish, checking_changes_nothing) {
+TEST_F(AtomicWrite, checking_changes_nothing) {
   check_writable(path("out.h5"));
-  EXPECT_EQ(entries(), 0);
+  EXPECT_EQ(entries(), 0U);
 }
 
-TEST_F(Publish, a_symbolic_link_stays_and_its_target_is_replaced) {
+TEST_F(AtomicWrite, a_symbolic_link_stays_and_its_target_is_replaced) {
   fs::create_directories(path("scratch"));
   fs::create_symlink("scratch/far.h5", path("out.h5"));  // relative, and its target doesn't exist yet
   EXPECT_EQ(refusal(path("out.h5"), "first"), "");
@@ -152,13 +141,13 @@ TEST_F(Publish, a_symbolic_link_stays_and_its_target_is_replaced) {
   EXPECT_NE(refusal(path("loop.h5")).find("symbolic links"), std::string::npos);
 }
 
-TEST_F(Publish, names_may_be_as_long_as_the_file_system_permits) {
+TEST_F(AtomicWrite, names_may_be_as_long_as_the_file_system_permits) {
   const std::string name(255, 'x');
   EXPECT_EQ(refusal(path(name)), "");
   EXPECT_EQ(content(name), "new");
 }
 
-TEST_F(Publish, keeps_mode_and_group_of_what_it_replaces) {
+TEST_F(AtomicWrite, keeps_mode_and_group_of_the_file_it_replaces) {
   EXPECT_EQ(refusal(path("out.h5")), "");
   const mode_t before = ::umask(077);
   for (const mode_t mode : {0600U, 0640U, 0664U}) {
@@ -173,16 +162,16 @@ TEST_F(Publish, keeps_mode_and_group_of_what_it_replaces) {
   EXPECT_EQ(status_of("out.h5").st_gid, 34U);
 }
 
-TEST_F(Publish, removes_what_a_killed_run_has_left) {
+TEST_F(AtomicWrite, removes_the_leftovers_of_a_killed_run) {
   const std::string begun = "\x89HDF\r\n\x1a\n and so on";
   for (const std::string& text : {std::string(), begun.substr(0, 3), begun}) {
     write(".out.h5.clatter-0123abcd.tmp", text);
     EXPECT_EQ(refusal(path("out.h5")), "");
-    EXPECT_EQ(entries(), 1);
+    EXPECT_EQ(entries(), 1U);
   }
 }
 
-TEST_F(Publish, touches_nothing_that_it_has_not_written) {
+TEST_F(AtomicWrite, touches_nothing_that_it_has_not_written) {
   for (const char* const name : {".out.h5.backup.tmp", ".out.h5.clatter-notes.tmp", ".out.h5.clatter-mynotes1.tmp"})
     write(name, "a letter");
   write(".other.h5.clatter-0123abcd.tmp", "");
@@ -190,10 +179,10 @@ TEST_F(Publish, touches_nothing_that_it_has_not_written) {
   ASSERT_EQ(::mkfifo(path(".out.h5.abcdef.tmp").c_str(), 0666), 0);
   fs::create_symlink(".other.h5.clatter-0123abcd.tmp", path(".out.h5.clatter-abcdefgh.tmp"));
   EXPECT_EQ(refusal(path("out.h5")), "");
-  EXPECT_EQ(entries(), 8);
+  EXPECT_EQ(entries(), 8U);
 }
 
-TEST_F(Publish, of_two_at_once_neither_takes_the_file_of_the_other) {
+TEST_F(AtomicWrite, of_two_at_once_neither_takes_the_file_of_the_other) {
   const std::string same(220, 'x');  // only the beginning of a long name is in that of the temporary file
   for (const std::string& other : {path("out.h5"), path(same + "2")}) {
     const std::string first = "first", second = "second", target = other == path("out.h5") ? other : path(same + "1");
@@ -202,10 +191,10 @@ TEST_F(Publish, of_two_at_once_neither_takes_the_file_of_the_other) {
     EXPECT_EQ(content(fs::path(target).filename()), "first");
   }
   EXPECT_EQ(content(same + "2"), "second");
-  EXPECT_EQ(entries(), 3);
+  EXPECT_EQ(entries(), 3U);
 }
 
-TEST_F(Publish, asks_for_room_only_if_there_is_too_little) {
+TEST_F(AtomicWrite, asks_for_room_only_if_there_is_too_little) {
   std::uint64_t asked = 0;
   const std::string text = "new";
   write_atomically(path("out.h5"), std::as_bytes(std::span{text}),

@@ -42,7 +42,7 @@ std::string message_without_files(Work work) {
   return "done";
 }
 
-TEST(ReasonAndWayOut, of_any_error_is_what_is_given) {
+TEST(ReasonAndWayOut, of_any_error_is_the_given_one) {
   EXPECT_EQ(reason_and_way_out(EACCES, "ask"), "Permission denied; ask");
   EXPECT_EQ(reason_and_way_out(EACCES, ""), "Permission denied");
 }
@@ -55,7 +55,7 @@ TEST(ReasonAndWayOut, of_too_many_open_files_is_the_limit) {
   EXPECT_NE(reason_and_way_out(ENFILE, "ask").find("system"), std::string::npos);
 }
 
-TEST(ReasonAndWayOut, is_told_by_what_opens_files) {
+TEST(ReasonAndWayOut, is_told_by_every_function_that_opens_files) {
   for (const std::string& message :
        {message_without_files([] { (void)open_input("/dev/null", "a file"); }),
         message_without_files([] { (void)run_in_child([] { return ""; }, {}); }),

@@ -15,6 +15,7 @@
 
 #include "storage/crc32.hpp"
 #include "storage/error.hpp"
+#include "support/temporary_directory.hpp"
 
 namespace clatter::storage {
 namespace {
@@ -40,19 +41,12 @@ std::string zeros_head(std::uint64_t length) {
   return head.append(reinterpret_cast<const char*>(&check), sizeof check);
 }
 
-/// A directory of its own for each test, since ctest runs them side by side.
 class JournalFile : public testing::Test {
  protected:
-  JournalFile() { fs::create_directories(directory_); }
-  ~JournalFile() override { fs::remove_all(directory_); }
-
-  [[nodiscard]] std::string output() const { return (directory_ / "a.h5").string(); }
+  [[nodiscard]] std::string output() const { return directory_.path("a.h5"); }
   [[nodiscard]] std::string path() const { return output() + ".journal"; }
-  [[nodiscard]] std::string content() const {
-    std::ifstream file{path(), std::ios::binary};
-    return {std::istreambuf_iterator<char>{file}, {}};
-  }
-  void overwrite(const std::string& text) const { std::ofstream{path(), std::ios::binary} << text; }
+  [[nodiscard]] std::string content() const { return directory_.content("a.h5.journal"); }
+  void overwrite(const std::string& text) const { directory_.write("a.h5.journal", text); }
 
   /// Writes records as a run that is then killed.
   void write(const Records& records, Journal::Begin begin = Journal::Begin::anyhow) const {
@@ -78,13 +72,12 @@ class JournalFile : public testing::Test {
   }
 
  private:
-  fs::path directory_ = fs::path{testing::TempDir()} / ("clatter_journal_" + std::to_string(::getpid()) + "_" +
-                                                        testing::UnitTest::GetInstance()->current_test_info()->name());
+  support::TemporaryDirectory directory_;
 };
 
 const Records three{"seven", "", std::string(70000, 'x')};
 
-TEST_F(JournalFile, holds_what_was_added_for_the_next_run) {
+TEST_F(JournalFile, holds_added_records_for_the_next_run) {
   write(three);
   EXPECT_EQ(found(), three);
   write({"nine"});
@@ -101,7 +94,7 @@ TEST_F(JournalFile, is_not_there_without_records_nor_after_remove) {
   EXPECT_FALSE(fs::exists(path()));
 }
 
-TEST_F(JournalFile, begins_anew_where_that_is_asked_for) {
+TEST_F(JournalFile, begins_anew_on_request) {
   write(three);
   write({"one"}, Journal::Begin::restart);
   EXPECT_EQ(found(), (Records{"one"}));
@@ -109,14 +102,14 @@ TEST_F(JournalFile, begins_anew_where_that_is_asked_for) {
   EXPECT_EQ(found(key, Journal::Begin::restart), Records{});
 }
 
-TEST_F(JournalFile, resumes_only_what_there_is) {
+TEST_F(JournalFile, resumes_only_an_existing_file) {
   EXPECT_NE(refusal(key, Journal::Begin::resume).find("nothing to resume"), std::string::npos);
   EXPECT_FALSE(fs::exists(path()));
   write(three);
   EXPECT_EQ(found(key, Journal::Begin::resume), three);
 }
 
-TEST_F(JournalFile, refuses_another_key_and_says_what_differs) {
+TEST_F(JournalFile, refuses_another_key_and_names_the_difference) {
   write(three);
   const std::string before = content();
   const std::string config = refusal({"nu = 3\nxs = 2\n", "1.0", "avx2", "1/3"});
@@ -172,7 +165,7 @@ TEST_F(JournalFile, cut_anywhere_gives_its_whole_records) {
   EXPECT_EQ(most, 3u);
 }
 
-TEST_F(JournalFile, with_zeros_at_its_end_gives_what_is_before_them) {
+TEST_F(JournalFile, with_zeros_at_its_end_gives_the_records_before_them) {
   write(three);
   overwrite(content() + std::string(5000, '\0'));
   EXPECT_EQ(found(), three);
@@ -201,7 +194,7 @@ TEST_F(JournalFile, of_something_else_is_refused_and_left_alone) {
   }
 }
 
-TEST_F(JournalFile, on_a_full_disk_keeps_what_it_had) {
+TEST_F(JournalFile, on_a_full_disk_keeps_its_records) {
   write(three);
   const std::string before = content();
   rlimit limit{};

@@ -107,7 +107,7 @@ TEST(Cost, numbers_of_a_period_allocate_nothing) {
   EXPECT_EQ(cost_of(observing(symmetric(), numbers)).allocations, 0);
 }
 
-TEST(Cost, what_is_kept_is_allocated_once) {
+TEST(Cost, kept_results_are_allocated_once) {
   // a log grows by doubling: two impacts, two steps; a trajectory is x, x' and the times
   EXPECT_EQ(cost_of(observing(symmetric(), ImpactLog::Settings{.impact_log = true})).allocations, 2);
   EXPECT_EQ(cost_of(observing(symmetric(), Trajectory::Settings{.trajectory = 1000})).allocations, 3);
@@ -160,7 +160,7 @@ TEST(Cost, extrema_look_at_an_arc_a_few_times) {
   EXPECT_LE(cost.evaluations, arcs * (1 + 2 * 2 * 8));
 }
 
-TEST(Cost, is_the_sum_of_what_is_observed) {
+TEST(Cost, is_the_sum_over_the_observables) {
   point::ThreadScratch scratch{Harmonics::scratch_for(Harmonics::Settings{.harmonics = 5})};
   const observables::Observe each[] = {
       observe_of(Extrema::Settings{.extrema = true}),     observe_of(Harmonics::Settings{.harmonics = 5}),

@@ -52,7 +52,7 @@ TEST(TimeLeft, soon_forgets_that_the_first_points_were_dear_or_cheap) {
   EXPECT_LT(worst_factor({seconds.begin() + 3600, seconds.end()}, 0.02), 3.0);  // 0.3 s cheap
 }
 
-TEST(TimeLeft, does_not_count_what_was_finished_before) {
+TEST(TimeLeft, does_not_count_points_finished_before) {
   TimeLeft time_left(900);
   for (int i = 1; i <= 10; ++i) time_left.add(i, 900 + i);
   EXPECT_NEAR(*time_left.at(10, 1000), 90.0, 1e-9);
