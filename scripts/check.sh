@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# What holds for the sources besides their tests, from one command; --help says more.
+# Checks the sources by one command; --help lists the gates.
 set -euo pipefail
 
 source_dir=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
@@ -11,32 +11,36 @@ quick=(clang-format shellcheck black flake8 arrows g++ clang++)
 sanitize=(asan tsan)
 all=("${quick[@]}" clang-tidy "${sanitize[@]}")
 
-# The tests that the sanitizers run, and the programs they need: some minutes of what reads files and shares memory.
-# ThreadSanitizer takes those alone in which threads meet.
-threads='Of/LaneBits|LaneBits|Lanes|Run|SavedRun|Shard'
-asan_tests="^(lanes|storage|config|results)\.|^sweep\.($threads|LanePoints|Plan)\."
-asan_tests+="|^cli\.(hostile_files|readers|shards|streams)_test$"
-tsan_tests="^sweep\.($threads)\.|^cli\.(shards|streams)_test$"
-asan_targets=(clatter lanes_tests storage_tests config_tests results_tests sweep_tests)
-tsan_targets=(clatter sweep_tests)
+# The tests that the sanitizers run, and the programs they need: those that read files or share memory, some minutes.
+# ThreadSanitizer runs only those in which threads meet.
+threads='sweep\.(Run|SavedRun|Shard)|lanes\.(Of/)?(LaneBits|LanePoints)|plan\.Plan'
+asan_tests="^(lanes|storage|config|results|observables)\.|^($threads)\.|^cli\.(hostile_files|readers|shards|streams)_test$"
+tsan_tests="^($threads)\.|^cli\.(shards|streams)_test$"
+asan_targets=(clatter lanes_tests storage_tests config_tests results_tests observables_tests sweep_tests plan_tests)
+tsan_targets=(clatter lanes_tests sweep_tests plan_tests)
 
 steps() {
   cat <<END
-Checks the sources on Debian 12, as root or with sudo. It installs the packages that are missing, runs each of these
-gates, says at the end which ones fail, and exits with 1 if any does:
+Checks the sources on Debian 12, as root or with sudo. It installs missing
+packages, runs each gate, names those that fail, and exits with 1 if any does:
   clang-format  C++ is formatted as .clang-format says
   shellcheck    no finding in any shell script
-  black         Python is formatted as black does it, in lines of at most $line_length
+  black         Python is formatted by black, in lines of at most $line_length
   flake8        no finding in any Python file (.flake8)
-  arrows        no include points against the arrows between the rooms (tests/cli/arrows_test.py)
-  g++           everything compiles without a warning: the release build, which scripts/test.sh has made already
-  clang++       nor does clang++ warn, without making code (build/clang)
-  clang-tidy    no finding in any source file (.clang-tidy); the longest of all
-  asan          AddressSanitizer and UndefinedBehaviorSanitizer find nothing in tests of lanes, the journal, outputs,
-                configurations, plans and sweeps on several threads, nor in the program itself when its files are
-                hostile, read by other programs, split into shards and piped (build/asan)
-  tsan          ThreadSanitizer finds nothing in tests of sweeps on several threads, in lanes, in shards, and saved
-                while they run, nor in the program's shards and pipes (build/tsan)
+  arrows        no include points against the arrows between the rooms
+                (tests/cli/arrows_test.py)
+  g++           everything compiles without a warning: the release build,
+                which scripts/test.sh has made already
+  clang++       no warning by clang++, without making code (build/clang)
+  clang-tidy    no finding in any source file (.clang-tidy); takes longest
+  asan          AddressSanitizer and UndefinedBehaviorSanitizer find nothing in
+                the tests of lanes, files, configurations, observables, plans,
+                and sweeps on several threads, nor in the program when its files
+                are hostile, read by others, split into shards, piped
+                (build/asan)
+  tsan          ThreadSanitizer finds nothing in the tests of lanes, plans and
+                sweeps on several threads, nor in the program's shards and pipes
+                (build/tsan)
 END
 }
 
@@ -44,7 +48,7 @@ usage() {
   cat <<END
 usage: scripts/check.sh [--quick] [--sanitize] [GATE...]
 
-  --quick      ${quick[*]}; .ci/run calls it after the tests
+  --quick      all but clang-tidy, asan, tsan; .ci/run calls it after the tests
   --sanitize   ${sanitize[*]}
   GATE...      one by one; with no argument all of them
 
