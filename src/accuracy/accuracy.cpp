@@ -237,7 +237,7 @@ class AccuracyRun {
       const auto counts = [&](const Event& event) {  // an impact at the start belongs to the time before
         return event.kind == Event::Kind::impact && event.side == side && event.time > 0;
       };
-      const double more = std::round(result.impacts_per_period[observables::index_of(side)] * periods) -
+      const double more = std::round(result.impacts_per_period[index_of(side)] * periods) -
                           static_cast<double>(std::ranges::count_if(reference.events, counts));
       row.missed += std::max(0.0, -more), row.doubled += std::max(0.0, more);
     }

@@ -132,7 +132,7 @@ bool to_fixed_point(const point::Problem& scene, motion::State<FiftyDigits>& sta
     const FiftyDigits determinant = (1 - D[0]) * (1 - D[3]) - D[1] * D[2];
     start.x += ((1 - D[3]) * dx + D[1] * dv) / determinant;
     start.v += (D[2] * dx + (1 - D[0]) * dv) / determinant;
-    start.left = Side::none, start.released = false;
+    start.from_stop = Side::none, start.released = false;
   }
   return false;
 }

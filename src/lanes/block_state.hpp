@@ -29,13 +29,13 @@ struct BlockState {
   LaneArray turn_sine, turn_cosine;              ///< of the forcing phase in a step
   LaneArray in_phase, quadrature;                ///< P and Q of the response
   LaneArray angle, rotation, decay, damping;     ///< nu, lambda, h and 2 h times the step
-  LaneArray skew, slowness;                      ///< h/lambda; one over the rotation
-  LaneArray push, stiffness;                     ///< f nu times the step cubed; the step squared
+  LaneArray skew, inverse_rotation;              ///< h/lambda; one over the rotation
+  LaneArray forced_jerk, stiffness;              ///< f nu times the step cubed; the step squared
   LaneArray rate;                                ///< one over the step
   LaneArray inverse_angle;                       ///< one over the angle
-  LaneArray amplitude, span;                     ///< amplitude of the response; the step
+  LaneArray amplitude, step;                     ///< amplitude of the response; the step
   // of the stops
-  LaneArray lower, upper, keep_lower, keep_upper;  ///< positions and restitution
+  LaneArray lower, upper, restitution_lower, restitution_upper;
   // of the enclosure
   LaneArray bound, bound_forced;  ///< the error of its middle coefficient is bound (|p| + |w| rate) + bound_forced
   LaneArray rounding;             ///< of displacements: the part that doesn't depend on the free motion
@@ -45,7 +45,7 @@ struct BlockState {
   LaneArray p, w, sine, cosine, y, v, a;
   LaneArray time_to_section;  ///< time to the next section
   LaneArray to_next;          ///< time from the next section to the one after it, by the lane's clock
-  LaneArray longer;           ///< the relative excess of sine and cosine, taken off at the next section
+  LaneArray excess;           ///< the relative excess of sine and cosine, taken off at the next section
   LaneArray impacts;          ///< number of impacts so far
   LaneArray itinerary;        ///< stops met since the last section
   // reports of a step function

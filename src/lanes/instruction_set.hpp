@@ -23,10 +23,13 @@ inline constexpr std::array<std::string_view, 4> instruction_set_names{"scalar",
   return std::nullopt;
 }
 
-/// Whether this machine and its system have the instruction set. avx2 stands for AVX2 and FMA, avx512 for its parts F
-/// and DQ.
+/// Whether this machine and its system have the instruction set. avx2 stands for AVX2 and FMA, avx512 for its parts F,
+/// DQ, CD, BW and VL: the compiler may use every part that the step functions are compiled for.
 [[nodiscard]] inline bool is_supported(InstructionSet arch) {
-  if (arch == InstructionSet::avx512) return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq");
+  if (arch == InstructionSet::avx512)
+    return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
+           __builtin_cpu_supports("avx512cd") && __builtin_cpu_supports("avx512bw") &&
+           __builtin_cpu_supports("avx512vl");
   if (arch == InstructionSet::avx2) return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
   return true;
 }

@@ -62,7 +62,7 @@ class ClosedForm {
   void move_free(LaneMotion<V>& m, const LaneMotion<V>& from, const V& d) const {
     const auto [turned, cosine] = short_sine_cosine(row(lanes_.rotation) * d);
     const V e = short_decay(row(lanes_.decay) * d), s = turned * e, c = cosine * e;
-    const V skew = row(lanes_.skew), b = s * row(lanes_.slowness);
+    const V skew = row(lanes_.skew), b = s * row(lanes_.inverse_rotation);
     m.p = fma(fma(skew, s, c), from.p, b * from.w);
     m.w = fms(fnma(skew, s, c), from.w, b * row(lanes_.stiffness) * from.p);
   }
@@ -83,7 +83,7 @@ class ClosedForm {
   }
 
   [[nodiscard]] V jerk(const LaneMotion<V>& m) const {
-    return fms(row(lanes_.push), m.cosine, fma(row(lanes_.damping), m.a, row(lanes_.stiffness) * m.v));
+    return fms(row(lanes_.forced_jerk), m.cosine, fma(row(lanes_.damping), m.a, row(lanes_.stiffness) * m.v));
   }
   [[nodiscard]] Jet<V> jet(const LaneMotion<V>& m) const {
     const V angle = row(lanes_.angle), square = -angle * angle, damping = row(lanes_.damping),
@@ -91,7 +91,7 @@ class ClosedForm {
     const auto next = [&](const V& force, const V& last, const V& before) {
       return force - fma(damping, last, stiffness * before);
     };
-    const V push3 = row(lanes_.push) * m.cosine, push4 = -row(lanes_.push) * angle * m.sine;
+    const V push3 = row(lanes_.forced_jerk) * m.cosine, push4 = -row(lanes_.forced_jerk) * angle * m.sine;
     Jet<V> jet;
     jet.d3 = next(push3, m.a, m.v), jet.d4 = next(push4, jet.d3, m.a);
     jet.d5 = next(push3 * square, jet.d4, jet.d3), jet.d6 = next(push4 * square, jet.d5, jet.d4);

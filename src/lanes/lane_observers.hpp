@@ -30,7 +30,7 @@ class LaneObservers {
     const V forced = row(lanes_.amplitude);  // the flight can't exceed response plus free part at their largest
     const Mask open_y = active & !within(inside(range, forced + uncertainty.free), new_y, slack);
     const Mask open_v = active & !within(inside(enclosure(v, error_v),
-                                                fma(uncertainty.free, row(lanes_.span), forced * row(lanes_.angle))),
+                                                fma(uncertainty.free, row(lanes_.step), forced * row(lanes_.angle))),
                                          new_v, slack);
     Mask sure = active;
     if (any(open_y)) {

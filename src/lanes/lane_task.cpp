@@ -31,7 +31,7 @@ class FallbackObserver {
     at(lanes_.itinerary) = 3 * at(lanes_.itinerary) + (upper ? 2 : 1);
     if (!observes_) return;
     extrema_.impact(impact);
-    count(impact, upper ? 1 : 0);
+    count(impact, index_of(impact.side));
     const double jump = impact.after - impact.before, step = 1 / at(lanes_.rate);
     for (std::size_t k = 0; k <= lanes_.harmonics; ++k) {
       const double angle = static_cast<double>(k) * scene_.oscillator.frequency * impact.time;
@@ -73,50 +73,47 @@ class FallbackObserver {
 
 Scheduler::LaneTask::LaneTask(const point::WorkItem& item)
     : item_(item),
-      exact_(item_.scene, stops_in_reach(item_.scene.stops, item_.effects), limits_of(item_.scene)),
+      exact_(item_.problem, stops_in_reach(item_.problem.stops, item_.effects), limits_of(item_.problem)),
       log_area_(2 * std::log(std::max(exact_.stops().restitution_lower, exact_.stops().restitution_upper))) {}
 
 std::optional<steady::ObservedTime> Scheduler::LaneTask::begin(BlockState& lanes, std::size_t lane) {
   motion::State<double> state;
-  state.x = item_.scene.start.displacement, state.v = item_.scene.start.velocity;
-  if (item_.scene.time.mode == steady::Mode::transient)
-    return steady::ObservedTime{steady::Status::transient, state, item_.scene.time.duration / exact_.period(), 0.0,
+  state.x = item_.problem.start.displacement, state.v = item_.problem.start.velocity;
+  if (item_.problem.time.mode == steady::Mode::transient)
+    return steady::ObservedTime{steady::Status::transient, state, item_.problem.time.duration / exact_.period(), 0.0,
                                 steady::FoundBy::start};
-  search_.emplace(exact_, item_.scene, item_.scene.time, steady::TakenBy::lanes);
+  search_.emplace(exact_, item_.problem, item_.problem.time, steady::AdvancedBy::lanes);
   const auto found = search_->at_section(state);
-  if (!found) load_lane(lanes, lane, item_.scene, exact_.stops());
+  if (!found) load_lane(lanes, lane, item_.problem, exact_.stops());
   return found;
 }
 
 steady::ObservedTime Scheduler::LaneTask::failure(stepping::Outcome outcome) const {
   steady::ObservedTime failed{.status = steady::status_of(outcome)};
   if (search_) failed = search_->failure(outcome, {});
-  if (observing_) failed.settled += static_cast<double>(sections_);
+  if (observing_) failed.simulated += static_cast<double>(sections_);
   return failed;
-}
-
-double Scheduler::LaneTask::x_of(const BlockState& lanes, std::size_t lane, double y) const {
-  if (y == lanes.lower.lane[lane]) return item_.scene.stops.lower;
-  if (y == lanes.upper.lane[lane]) return item_.scene.stops.upper;
-  return item_.scene.oscillator.load + y;
 }
 
 std::optional<steady::ObservedTime> Scheduler::LaneTask::at_section(const BlockState& lanes, std::size_t lane) {
   const double impacts = exact_.impacts() + lanes.section_impacts.lane[lane];
-  if (impacts > item_.scene.time.max_impacts) return failure(stepping::Outcome::event_budget);
+  if (impacts > item_.problem.time.max_impacts) return failure(stepping::Outcome::event_budget);
   search_->pass_period(
       {std::bit_cast<std::uint64_t>(lanes.section_itinerary.lane[lane]), log_area_ * (impacts - section_impacts_)});
   section_impacts_ = impacts;
   motion::State<double> state;
-  state.x = x_of(lanes, lane, lanes.section_y.lane[lane]);
+  state.x = x_of(lanes, lane, item_.problem, lanes.section_y.lane[lane]);
   state.v = lanes.section_v.lane[lane] * lanes.rate.lane[lane], state.periods = ++sections_;
   return search_->at_section(state);
 }
 
-bool Scheduler::LaneTask::can_observe(const steady::ObservedTime& observed) {
-  observed_ = observed;
-  return !failed(observed.status) && observed.found_by != steady::FoundBy::closed_form && observed.turns >= 1 &&
-         observables::All::in_lanes(item_.scene.observe, item_.scene, item_.scene.time.mode == steady::Mode::transient);
+bool Scheduler::LaneTask::lanes_can_observe() const {
+  const point::Problem& problem = item_.problem;
+  const double turns = observed_.turns;
+  const bool whole = std::abs(turns - std::round(turns)) <= 1e-9;  // as the sums of harmonics need
+  return !failed(observed_.status) && observed_.found_by != steady::FoundBy::closed_form && turns >= 1 &&
+         (whole || problem.observe.harmonics == 0) &&
+         observables::All::in_lanes(problem.observe, problem, problem.time.mode == steady::Mode::transient);
 }
 
 /// An impact at the very beginning lies outside the observed time: lanes begin after it.
@@ -125,40 +122,41 @@ void Scheduler::LaneTask::skip_impact_at_start() {
   for (const Side side : {Side::lower, Side::upper}) {
     const motion::Stop<double> stop = motion::stop_at<double>(exact_.stops(), side);
     if (from.x != stop.position || !(stop.into(from.v) > 0)) continue;
-    from.v = stop.law.after(from.v), from.left = side, from.offset = 0;
+    from.v = stop.law.after(from.v), from.from_stop = side, from.offset = 0;
     return add_impacts(1);
   }
 }
 
 void Scheduler::LaneTask::begin_to_observe(BlockState& lanes, std::size_t lane) {
   skip_impact_at_start();
-  settled_ = exact_, settled_impacts_ = impacts_;
+  before_observing_ = exact_, impacts_before_observing_ = impacts_;
   observing_ = true, coasts_ = false, sections_ = fallbacks_ = skip_sections_ = 0,
   fallback_left_ = std::numeric_limits<double>::quiet_NaN();
-  lanes.extrema = item_.scene.observe.extrema, lanes.counts = item_.scene.observe.impacts || item_.scene.observe.period;
-  lanes.harmonics = static_cast<std::size_t>(item_.scene.observe.harmonics);
-  load_lane(lanes, lane, item_.scene, exact_.stops());
-  set_state(lanes, lane, item_.scene, {observed_.from.x, observed_.from.v, 0});
+  lanes.extrema = item_.problem.observe.extrema,
+  lanes.counts = item_.problem.observe.impacts || item_.problem.observe.period;
+  lanes.harmonics = static_cast<std::size_t>(item_.problem.observe.harmonics);
+  load_lane(lanes, lane, item_.problem, exact_.stops());
+  set_state(lanes, lane, item_.problem, {observed_.from.x, observed_.from.v, 0});
   begin_observing(lanes, lane, std::floor(observed_.turns) == 1, observed_.status != steady::Status::periodic);
 }
 
 /// However late that is found, the point fails with the same numbers: those of the last section before its budget was
 /// spent.
-bool Scheduler::LaneTask::has_spent_budget(double impacts) {
-  if (exact_.impacts() + impacts_ + impacts <= item_.scene.time.max_impacts) return false;
+bool Scheduler::LaneTask::fail_if_budget_is_spent(double impacts) {
+  if (exact_.impacts() + impacts_ + impacts <= item_.problem.time.max_impacts) return false;
   observed_ = failure(stepping::Outcome::event_budget), gives_up_ = true;
   return true;
 }
 
-bool Scheduler::LaneTask::ends(BlockState& lanes, std::size_t lane) {
-  if (has_spent_budget(lanes.section_impacts.lane[lane])) return true;
+bool Scheduler::LaneTask::pass_section(BlockState& lanes, std::size_t lane) {
+  if (fail_if_budget_is_spent(lanes.section_impacts.lane[lane])) return true;
   sections_ += 1 + std::exchange(skip_sections_, 0);
   const double whole = std::floor(observed_.turns), left = whole - static_cast<double>(sections_);
-  const bool over = left == 0 || has_seen_all(lanes, lane);
+  const bool over = left == 0 || may_end_early(lanes, lane);
   if (left > 0 && over) coast(lanes, lane);
   if (left == 0 && observed_.turns > whole) {
     finish_period(lanes, lane, observed_.turns - whole);
-    if (has_spent_budget(lanes.section_impacts.lane[lane])) return true;
+    if (fail_if_budget_is_spent(lanes.section_impacts.lane[lane])) return true;
   }
   lanes.ends_here.lane[lane] = left == 1 || coasts_ ? 1 : 0;
   lanes.stop_short.lane[lane] = left == 1 && observed_.status != steady::Status::periodic ? 1 : 0;
@@ -177,9 +175,9 @@ PhaseState Scheduler::LaneTask::section(const BlockState& lanes, std::size_t lan
 /// True if the rest of the observed time cannot change a result: no stop is in reach, and response plus transient stay
 /// within the extrema found. The lane then halts at every section; otherwise the extrema it has seen at one would
 /// depend on its neighbours.
-bool Scheduler::LaneTask::has_seen_all(const BlockState& lanes, std::size_t lane) {
+bool Scheduler::LaneTask::may_end_early(const BlockState& lanes, std::size_t lane) {
   const auto at = [lane](const LaneArray& row) { return row.lane[lane]; };
-  const Oscillator& o = item_.scene.oscillator;
+  const Oscillator& o = item_.problem.oscillator;
   if (!coasts_) {
     coasts_ = at(lanes.section_itinerary) == 0 && out_of_reach(o, section(lanes, lane), exact_.stops());
     return coasts_ && !lanes.extrema;
@@ -192,7 +190,7 @@ bool Scheduler::LaneTask::has_seen_all(const BlockState& lanes, std::size_t lane
 
 /// Moves a lane that can't meet a stop from the section that it has passed to the end of the observed time.
 void Scheduler::LaneTask::coast(BlockState& lanes, std::size_t lane) const {
-  const Oscillator& o = item_.scene.oscillator;
+  const Oscillator& o = item_.problem.oscillator;
   const PhasePoint free = transient_of(o, section(lanes, lane));
   motion::State<double> end;
   end.phase_turns = observed_.turns - std::floor(observed_.turns);
@@ -206,31 +204,31 @@ void Scheduler::LaneTask::coast(BlockState& lanes, std::size_t lane) const {
 
 /// Advances a transient through the part of a forcing period that is left after its last section.
 void Scheduler::LaneTask::finish_period(BlockState& lanes, std::size_t lane, double part) {
-  FallbackObserver seen(lanes, lane, item_.scene, true);
+  FallbackObserver seen(lanes, lane, item_.problem, true);
   gives_up_ =
       gives_up_ || exact_.advance(fallback_end_, part, 0, seen) != stepping::Outcome::completed || seen.rested();
   seen.finish();
-  lanes.section_y.lane[lane] = fallback_end_.x - item_.scene.oscillator.load;
+  lanes.section_y.lane[lane] = fallback_end_.x - item_.problem.oscillator.load;
   lanes.section_v.lane[lane] = fallback_end_.v / lanes.rate.lane[lane];
 }
 
 stepping::Outcome Scheduler::LaneTask::scalar_fallback(BlockState& lanes, std::size_t lane) {
-  const LaneState position = state_of(lanes, lane, item_.scene);
+  const LaneState now = state_of(lanes, lane, item_.problem);
   motion::State<double> state;
-  state.x = position.x, state.v = position.v, state.phase_turns = position.phase_turns;
-  if (position.x == exact_.stops().lower) state.left = Side::lower;
-  if (position.x == exact_.stops().upper) state.left = Side::upper;
+  state.x = now.x, state.v = now.v, state.phase_turns = now.phase_turns;
+  if (now.x == exact_.stops().lower) state.from_stop = Side::lower;
+  if (now.x == exact_.stops().upper) state.from_stop = Side::upper;
   if (lanes.time_to_section.lane[lane] == fallback_left_)
     state = fallback_end_;  // a lane can't hold a release or a short offset
   double end = std::min(1.0, state.phase_turns + 2 / lanes.period.lane[lane]);
-  FallbackObserver seen(lanes, lane, item_.scene, observing_);
+  FallbackObserver seen(lanes, lane, item_.problem, observing_);
   stepping::Outcome outcome = exact_.advance(state, end, 0, seen);
   // all motion from the same release is the same: so that it is so to the last bit, it goes on to the section here
   if (outcome == stepping::Outcome::completed && seen.rested()) outcome = exact_.advance(state, end = 1.0, 0, seen);
   ++fallbacks_;
   if (observing_) seen.finish(), gives_up_ = gives_up_ || seen.rested();
   if (end == 1.0) {
-    lanes.section_y.lane[lane] = state.x - item_.scene.oscillator.load;
+    lanes.section_y.lane[lane] = state.x - item_.problem.oscillator.load;
     lanes.section_v.lane[lane] = state.v / lanes.rate.lane[lane];
     lanes.section_itinerary.lane[lane] = std::exchange(lanes.itinerary.lane[lane], 0.0);
     lanes.section_impacts.lane[lane] = lanes.impacts.lane[lane];
@@ -242,25 +240,27 @@ stepping::Outcome Scheduler::LaneTask::scalar_fallback(BlockState& lanes, std::s
     }
     state.phase_turns = 0;
   }
-  set_state(lanes, lane, item_.scene, {state.x, state.v, state.phase_turns});
+  set_state(lanes, lane, item_.problem, {state.x, state.v, state.phase_turns});
   fallback_end_ = state, fallback_left_ = lanes.time_to_section.lane[lane];
   return outcome;
 }
 
 double Scheduler::LaneTask::share(const BlockState& lanes, std::size_t lane) const {
-  const steady::TimeSettings& time = item_.scene.time;
+  const steady::TimeSettings& time = item_.problem.time;
   const double impacts = exact_.impacts() + impacts_ + lanes.impacts.lane[lane];
   const double longest = observing_ ? observed_.turns : static_cast<double>(time.max_periods);
   return std::min(1.0, std::max(impacts / time.max_impacts, static_cast<double>(sections_) / longest));
 }
 
 point::PointResult Scheduler::LaneTask::result(point::ThreadScratch& scratch) const {
-  const ScalarLoop& exact = settled_ ? *settled_ : exact_;  // without the work that lanes spent on observing in vain
-  point::PointResult result = point::Point(item_.scene, scratch, exact).observe(observed_);
-  result.impacts += settled_ ? settled_impacts_ : impacts_;
-  if (observed_.status == steady::Status::event_budget) result.impacts = item_.scene.time.max_impacts + 1;
-  if (failed(result.status) || result.impacts <= item_.scene.time.max_impacts) return result;
-  point::PointResult over = point::Point(item_.scene, scratch, exact).observe(failure(stepping::Outcome::event_budget));
+  const ScalarLoop& exact =
+      before_observing_ ? *before_observing_ : exact_;  // without the work that lanes spent on observing in vain
+  point::PointResult result = point::Point(item_.problem, scratch, exact).observe(observed_);
+  result.impacts += before_observing_ ? impacts_before_observing_ : impacts_;
+  if (observed_.status == steady::Status::event_budget) result.impacts = item_.problem.time.max_impacts + 1;
+  if (failed(result.status) || result.impacts <= item_.problem.time.max_impacts) return result;
+  point::PointResult over =
+      point::Point(item_.problem, scratch, exact).observe(failure(stepping::Outcome::event_budget));
   over.impacts = result.impacts, over.periods = result.periods, over.evaluations = result.evaluations;
   return over;
 }
@@ -268,16 +268,17 @@ point::PointResult Scheduler::LaneTask::result(point::ThreadScratch& scratch) co
 point::PointResult Scheduler::LaneTask::result(const BlockState& lanes, std::size_t lane,
                                                point::ThreadScratch& scratch) const {
   const auto at = [lane](const LaneArray& row) { return row.lane[lane]; };
-  point::Point point(item_.scene, scratch, exact_);
+  point::Point point(item_.problem, scratch, exact_);
   point::Observers observers = point.begin(observed_);
   const double rate = at(lanes.rate);
   motion::State<double> end = observed_.from;
-  end.x = x_of(lanes, lane, at(lanes.section_y)), end.v = at(lanes.section_v) * rate;
+  end.x = x_of(lanes, lane, item_.problem, at(lanes.section_y)), end.v = at(lanes.section_v) * rate;
   end.periods += static_cast<std::int64_t>(observed_.turns),
       end.phase_turns = observed_.turns - std::floor(observed_.turns);
   if (auto& extrema = observers.of<observables::Extrema>())
-    extrema->include({x_of(lanes, lane, at(lanes.y_low)), x_of(lanes, lane, at(lanes.y_high))},
-                     {at(lanes.v_low) * rate, at(lanes.v_high) * rate});
+    extrema->include(
+        {x_of(lanes, lane, item_.problem, at(lanes.y_low)), x_of(lanes, lane, item_.problem, at(lanes.y_high))},
+        {at(lanes.v_low) * rate, at(lanes.v_high) * rate});
   if (auto& impacts = observers.of<observables::Impacts>()) {
     std::array<observables::Impacts::OfStop, 2> stops;
     for (std::size_t i = 0; i < stops.size(); ++i) {

@@ -26,19 +26,21 @@ class Scheduler::LaneTask {
   [[nodiscard]] std::optional<steady::ObservedTime> at_section(const BlockState& lanes, std::size_t lane);
   [[nodiscard]] steady::ObservedTime failure(stepping::Outcome outcome) const;
 
-  /// Keeps the time to observe; true if lanes can observe it.
-  [[nodiscard]] bool can_observe(const steady::ObservedTime& observed);
+  /// Sets the time to observe.
+  void keep(const steady::ObservedTime& observed) { observed_ = observed; }
+  /// Whether lanes can observe it.
+  [[nodiscard]] bool lanes_can_observe() const;
   void begin_to_observe(BlockState& lanes, std::size_t lane);
   /// Records a section that was passed while observing; true if the observed time is over.
-  [[nodiscard]] bool ends(BlockState& lanes, std::size_t lane);
+  [[nodiscard]] bool pass_section(BlockState& lanes, std::size_t lane);
 
   /// Advances a lane in the scalar loop: by two steps, or to the next section.
   [[nodiscard]] stepping::Outcome scalar_fallback(BlockState& lanes, std::size_t lane);
   /// Whether the scalar loop alone would be quicker, or has to observe.
   [[nodiscard]] bool leaves_lane() const { return gives_up_ || fallbacks_ > 64 + 2 * sections_; }
 
-  /// Whether the lane's impacts exceed the budget; the point has failed then.
-  [[nodiscard]] bool has_spent_budget(double impacts);
+  /// Makes the point fail if the lane's impacts exceed the budget; true if so.
+  [[nodiscard]] bool fail_if_budget_is_spent(double impacts);
   /// The share of its limits that the point has spent.
   [[nodiscard]] double share(const BlockState& lanes, std::size_t lane) const;
 
@@ -54,19 +56,18 @@ class Scheduler::LaneTask {
 
   void skip_impact_at_start();
   void finish_period(BlockState& lanes, std::size_t lane, double part);
-  [[nodiscard]] bool has_seen_all(const BlockState& lanes, std::size_t lane);
+  [[nodiscard]] bool may_end_early(const BlockState& lanes, std::size_t lane);
   void coast(BlockState& lanes, std::size_t lane) const;
   [[nodiscard]] PhaseState section(const BlockState& lanes, std::size_t lane) const;
-  [[nodiscard]] double x_of(const BlockState& lanes, std::size_t lane, double y) const;
 
   point::WorkItem item_;
   ScalarLoop exact_;
   double log_area_;  ///< logarithm of the factor by which an impact shrinks areas, at the stop that shrinks them less
-  std::optional<steady::SteadySearch<effects>> search_{};  ///< none for a transient
+  std::optional<steady::ForcedSearch<effects>> search_{};  ///< none for a transient
   steady::ObservedTime observed_{};
-  std::optional<ScalarLoop> settled_{};   ///< the scalar integrator as it was before lanes observed
-  double settled_impacts_ = 0.0;          ///< impacts that lanes had met until then
-  motion::State<double> fallback_end_{};  ///< the state in which the scalar loop left the lane
+  std::optional<ScalarLoop> before_observing_{};  ///< the scalar integrator as it was before lanes observed
+  double impacts_before_observing_ = 0.0;         ///< impacts that lanes had met until then
+  motion::State<double> fallback_end_{};          ///< the state in which the scalar loop left the lane
   double fallback_left_ = std::numeric_limits<double>::quiet_NaN();  ///< the lane's time to the next section then
   std::int64_t sections_ = 0, fallbacks_ = 0;
   std::int64_t skip_sections_ = 0;  ///< sections that the lane passes without a report before the next one

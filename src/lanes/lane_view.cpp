@@ -62,12 +62,12 @@ void load_lane(BlockState& lanes, std::size_t i, const Scene& scene, const Stops
   set(lanes.in_phase, constants.response.in_phase), set(lanes.quadrature, constants.response.quadrature);
   set(lanes.angle, angle), set(lanes.rotation, rotation), set(lanes.decay, constants.h * step);
   set(lanes.damping, 2 * constants.h * step), set(lanes.skew, constants.h / constants.root),
-      set(lanes.slowness, 1 / rotation);
-  set(lanes.inverse_angle, 1 / angle), set(lanes.amplitude, constants.response.amplitude), set(lanes.span, step);
-  set(lanes.push, constants.f * constants.nu * step * step * step), set(lanes.stiffness, step * step),
+      set(lanes.inverse_rotation, 1 / rotation);
+  set(lanes.inverse_angle, 1 / angle), set(lanes.amplitude, constants.response.amplitude), set(lanes.step, step);
+  set(lanes.forced_jerk, constants.f * constants.nu * step * step * step), set(lanes.stiffness, step * step),
       set(lanes.rate, 1 / step);
   set(lanes.lower, stops.lower - constants.load), set(lanes.upper, stops.upper - constants.load);
-  set(lanes.keep_lower, stops.restitution_lower), set(lanes.keep_upper, stops.restitution_upper);
+  set(lanes.restitution_lower, stops.restitution_lower), set(lanes.restitution_upper, stops.restitution_upper);
   set_bounds(lanes, i, constants, stops, step);
   set(lanes.period, constants.period / step);
   set(lanes.start_sine, std::sin(scene.start.phase)), set(lanes.start_cosine, std::cos(scene.start.phase));
@@ -96,30 +96,32 @@ void clear_lane(BlockState& lanes, std::size_t i) {
   lanes.impacts.lane[i] = 0;
 }
 
-LaneState state_of(const BlockState& lanes, std::size_t i, const Scene& scene) {
-  const Stops& stops = scene.stops;
-  const double y = lanes.y.lane[i];
-  const double x = y == lanes.lower.lane[i]   ? stops.lower
-                   : y == lanes.upper.lane[i] ? stops.upper
-                                              : scene.oscillator.load + y;
-  return {x, lanes.v.lane[i] * lanes.rate.lane[i], 1 - lanes.time_to_section.lane[i] / lanes.period.lane[i]};
+double x_of(const BlockState& lanes, std::size_t i, const Scene& scene, double y) {
+  if (y == lanes.lower.lane[i]) return scene.stops.lower;
+  if (y == lanes.upper.lane[i]) return scene.stops.upper;
+  return scene.oscillator.load + y;
 }
 
-void set_state(BlockState& lanes, std::size_t i, const Scene& scene, const LaneState& place) {
-  const double turn = 2 * pi<double>() * place.phase_turns, phase = scene.start.phase + turn;
-  const double sine = place.phase_turns == 0 ? lanes.start_sine.lane[i] : std::sin(phase);
-  const double cosine = place.phase_turns == 0 ? lanes.start_cosine.lane[i] : std::cos(phase);
+LaneState state_of(const BlockState& lanes, std::size_t i, const Scene& scene) {
+  return {x_of(lanes, i, scene, lanes.y.lane[i]), lanes.v.lane[i] * lanes.rate.lane[i],
+          1 - lanes.time_to_section.lane[i] / lanes.period.lane[i]};
+}
+
+void set_state(BlockState& lanes, std::size_t i, const Scene& scene, const LaneState& state) {
+  const double turn = 2 * pi<double>() * state.phase_turns, phase = scene.start.phase + turn;
+  const double sine = state.phase_turns == 0 ? lanes.start_sine.lane[i] : std::sin(phase);
+  const double cosine = state.phase_turns == 0 ? lanes.start_cosine.lane[i] : std::cos(phase);
   const double P = lanes.in_phase.lane[i], Q = lanes.quadrature.lane[i], angle = lanes.angle.lane[i];
-  const double y = place.x == scene.stops.lower   ? lanes.lower.lane[i]
-                   : place.x == scene.stops.upper ? lanes.upper.lane[i]
-                                                  : place.x - scene.oscillator.load;
-  const double v = place.v / lanes.rate.lane[i], response = P * sine + Q * cosine;
+  const double y = state.x == scene.stops.lower   ? lanes.lower.lane[i]
+                   : state.x == scene.stops.upper ? lanes.upper.lane[i]
+                                                  : state.x - scene.oscillator.load;
+  const double v = state.v / lanes.rate.lane[i], response = P * sine + Q * cosine;
   const double p = y - response, w = v - angle * (P * cosine - Q * sine);
   lanes.sine.lane[i] = sine, lanes.cosine.lane[i] = cosine;
   lanes.p.lane[i] = p, lanes.w.lane[i] = w, lanes.y.lane[i] = y, lanes.v.lane[i] = v;
   lanes.a.lane[i] = -(angle * angle * response + lanes.stiffness.lane[i] * p + lanes.damping.lane[i] * w);
-  lanes.time_to_section.lane[i] = (1 - place.phase_turns) * lanes.period.lane[i];
-  lanes.to_next.lane[i] = lanes.period.lane[i], lanes.longer.lane[i] = 0;
+  lanes.time_to_section.lane[i] = (1 - state.phase_turns) * lanes.period.lane[i];
+  lanes.to_next.lane[i] = lanes.period.lane[i], lanes.excess.lane[i] = 0;
 }
 
 StepFunctions step_functions_of(InstructionSet arch) {

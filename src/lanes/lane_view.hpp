@@ -21,11 +21,14 @@ void load_lane(BlockState& lanes, std::size_t lane, const Scene& scene, const St
 /// Clears a lane: it stands still and reports nothing.
 void clear_lane(BlockState& lanes, std::size_t lane);
 
+/// The displacement x of a lane's y, its displacement from the load's equilibrium; that of a stop exactly.
+[[nodiscard]] double x_of(const BlockState& lanes, std::size_t lane, const Scene& scene, double y);
+
 /// The present state of a lane.
 [[nodiscard]] LaneState state_of(const BlockState& lanes, std::size_t lane, const Scene& scene);
 
 /// Sets the state of a lane.
-void set_state(BlockState& lanes, std::size_t lane, const Scene& scene, const LaneState& place);
+void set_state(BlockState& lanes, std::size_t lane, const Scene& scene, const LaneState& state);
 
 /// Begins to observe a lane. If observation `ends` at the next section, the lane may have to `stop_short` of it.
 void begin_observing(BlockState& lanes, std::size_t lane, bool ends, bool stop_short);

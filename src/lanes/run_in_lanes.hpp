@@ -2,12 +2,13 @@
 
 #include <cstddef>
 
+#include "lanes/block_state.hpp"
 #include "lanes/instruction_set.hpp"
 #include "point/point.hpp"
 
 namespace clatter::lanes {
 
-inline constexpr std::size_t lanes_per_block = 16;  ///< points that run side by side in lanes
+inline constexpr std::size_t lanes_per_block = LaneArray::width;  ///< points that run side by side in lanes
 
 /// Whether a point of the exact method can run in lanes: it meets stops, or is a transient, and its scene is accepted.
 [[nodiscard]] bool accepts(const point::WorkItem& item);

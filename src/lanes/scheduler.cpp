@@ -15,7 +15,7 @@ std::size_t taken_from(LaneMask& set) {
   return lane;
 }
 
-constexpr std::uint64_t between_looks = 1 << 17;  ///< steps of a block: some tenth of a second
+constexpr std::uint64_t between_reports = 1 << 17;  ///< steps of a block: some tenth of a second
 
 }  // namespace
 
@@ -31,7 +31,7 @@ void Scheduler::run() {
   for (;;) {
     fill();
     if (settling_.taken + observing_.taken == 0) return;
-    if (++steps_made_ % between_looks == 0) take_stock();
+    if (++steps_made_ % between_reports == 0) take_stock();
     const bool observe = observing_.taken == LaneArray::width || settling_.taken == 0;  // a full block costs no more
     if (observe) {
       step_block(observing_, step_functions_.observed);
@@ -47,7 +47,7 @@ void Scheduler::take_stock() {
   for (Block* const block : {&settling_, &observing_})
     for (std::size_t lane = 0; lane < LaneArray::width; ++lane) {
       if (!block->tasks[lane]) continue;
-      if (block->tasks[lane]->has_spent_budget(block->lanes.impacts.lane[lane])) {
+      if (block->tasks[lane]->fail_if_budget_is_spent(block->lanes.impacts.lane[lane])) {
         const std::unique_ptr<LaneTask> left = leave(*block, lane, block->lanes.impacts.lane[lane]);
         take_(left->item(), left->result(scratch_));
         if (block == &observing_) observe_next(lane);
@@ -68,14 +68,14 @@ void Scheduler::step_block(Block& block, StepFunction step) {
   block.lanes.arrived = block.lanes.to_scalar = 0;
   step(block.lanes);
   // sections first: a lane that needs the scalar loop beyond its section doesn't if it is done there
-  look(block);
+  handle_sections(block);
   while (block.lanes.to_scalar != 0) scalar_fallback(block, taken_from(block.lanes.to_scalar));
-  look(block);
+  handle_sections(block);
 }
 
 /// Handles the lanes that have passed a section.
-void Scheduler::look(Block& block) {
-  while (block.lanes.arrived != 0) look(block, taken_from(block.lanes.arrived));
+void Scheduler::handle_sections(Block& block) {
+  while (block.lanes.arrived != 0) handle_section(block, taken_from(block.lanes.arrived));
 }
 
 /// Takes a point off its lane, in which it has met `impacts` impacts.
@@ -98,8 +98,9 @@ void Scheduler::settle_next(std::size_t lane) {
       settling_.tasks[lane] = std::move(task), ++settling_.taken;
       return;
     }
-    if (task->can_observe(*found)) {
-      settled(std::move(task));
+    task->keep(*found);
+    if (task->lanes_can_observe()) {
+      observe_or_queue(std::move(task));
     } else {
       take_(task->item(), task->result(scratch_));
     }
@@ -107,7 +108,7 @@ void Scheduler::settle_next(std::size_t lane) {
 }
 
 /// Observes a point in a free lane, or queues it for one.
-void Scheduler::settled(std::unique_ptr<LaneTask> task) {
+void Scheduler::observe_or_queue(std::unique_ptr<LaneTask> task) {
   waiting_.push_back(std::move(task));
   for (std::size_t lane = 0; lane < LaneArray::width && !waiting_.empty(); ++lane)
     if (!observing_.tasks[lane]) observe_next(lane);
@@ -134,25 +135,25 @@ void Scheduler::scalar_fallback(Block& block, std::size_t lane) {
   if (outcome == stepping::Outcome::completed) {
     run_batch({&left->item(), 1}, scratch_, take_);
   } else {
-    (void)left->can_observe(left->failure(outcome));
+    left->keep(left->failure(outcome));
     take_(left->item(), left->result(scratch_));
   }
 }
 
-void Scheduler::look(Block& block, std::size_t lane) {
+void Scheduler::handle_section(Block& block, std::size_t lane) {
   LaneTask& task = *block.tasks[lane];
   if (&block == &observing_) {
-    if (!task.ends(block.lanes, lane)) return;
+    if (!task.pass_section(block.lanes, lane)) return;
     take_(task.item(), task.leaves_lane() ? task.result(scratch_) : task.result(block.lanes, lane, scratch_));
     (void)leave(block, lane, block.lanes.section_impacts.lane[lane]);
     return observe_next(lane);
   }
   const auto found = task.at_section(block.lanes, lane);
   if (!found) return;
-  const bool in_lanes = task.can_observe(*found);
+  task.keep(*found);
   std::unique_ptr<LaneTask> left = leave(block, lane, block.lanes.section_impacts.lane[lane]);
-  if (in_lanes) {
-    settled(std::move(left));
+  if (left->lanes_can_observe()) {
+    observe_or_queue(std::move(left));
   } else {
     take_(left->item(), left->result(scratch_));
   }

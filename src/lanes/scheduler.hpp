@@ -43,12 +43,12 @@ class Scheduler {
   void step_block(Block& block, StepFunction step);
   void take_stock();
   void scalar_fallback(Block& block, std::size_t lane);
-  void look(Block& block);
-  void look(Block& block, std::size_t lane);
+  void handle_sections(Block& block);
+  void handle_section(Block& block, std::size_t lane);
   void fill();
   void settle_next(std::size_t lane);
   void observe_next(std::size_t lane);
-  void settled(std::unique_ptr<LaneTask> task);
+  void observe_or_queue(std::unique_ptr<LaneTask> task);
   [[nodiscard]] std::unique_ptr<LaneTask> leave(Block& block, std::size_t lane, double impacts);
 
   StepFunctions step_functions_;

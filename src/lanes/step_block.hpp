@@ -151,7 +151,7 @@ class StepBlock {
     const V low = select(g.crosses, range.low, with_end.low), high = select(g.crosses, range.high, with_end.high);
     g.good = g.good & (g.time > zero) & (g.time < one) & (low >= row(lanes_.lower) + uncertainty.rounding) &
              (high <= row(lanes_.upper) - uncertainty.rounding);
-    const Restitution<V> law{select(upper_, row(lanes_.keep_upper), row(lanes_.keep_lower))};
+    const Restitution<V> law{select(upper_, row(lanes_.restitution_upper), row(lanes_.restitution_lower))};
     const V speed = sign * at.v;
     const V before = at.v, jump = select(g.crosses, law.jump(at.v), zero);
     const V after = select(g.crosses, law.after(at.v), at.v), a = fnma(row(lanes_.damping), jump, at.a);
@@ -182,8 +182,8 @@ class StepBlock {
     from_.sine = select(arrives, here_.sine, from_.sine), from_.cosine = select(arrives, here_.cosine, from_.cosine);
     time_ = select(arrives, left_, time_);
     left_ = select(arrives, left_ + row(lanes_.to_next), left_);
-    const V longer = select(arrives, row(lanes_.longer), V(0.0));
-    to.sine = fnma(longer, to.sine, to.sine), to.cosine = fnma(longer, to.cosine, to.cosine);
+    const V excess = select(arrives, row(lanes_.excess), V(0.0));
+    to.sine = fnma(excess, to.sine, to.sine), to.cosine = fnma(excess, to.cosine, to.cosine);
     itinerary_ = select(arrives, V(0.0), itinerary_);
     arrived_ = arrived_ | arrives;
   }
@@ -201,10 +201,10 @@ class StepBlock {
     LaneMotion<V> m;
     motions_.move_phase(m, from_, time_);
     const V ahead = fms(m.sine, cosine, m.cosine * sine) * row(lanes_.inverse_angle);
-    const V longer = fma(m.sine, m.sine, fms(m.cosine, m.cosine, V(1.0))) * 0.5;
+    const V excess = fma(m.sine, m.sine, fms(m.cosine, m.cosine, V(1.0))) * 0.5;
     // half of the difference, since the correction comes one section later
     motions_.put(lanes_.to_next, select(arrived_, fnma(V(0.5), ahead, row(lanes_.period)), row(lanes_.to_next)));
-    motions_.put(lanes_.longer, select(arrived_, longer * 0.5, row(lanes_.longer)));
+    motions_.put(lanes_.excess, select(arrived_, excess * 0.5, row(lanes_.excess)));
     if (!any(reported_)) return;
     motions_.move_free(m, from_, time_);
     motions_.put(lanes_.section_y, m.p + motions_.response(sine, cosine));

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstddef>
-#include <utility>
 #include <xsimd/xsimd.hpp>
 
 namespace clatter::lanes {

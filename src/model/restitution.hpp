@@ -11,7 +11,7 @@ struct Restitution {
 
   /// Velocity after an impact: 0 - R v rather than -R v, so that R = 0 leaves no negative zero.
   [[nodiscard]] Number after(const Number& before) const { return Number(0) - R * before; }
-  /// What an impact adds to the velocity.
+  /// Change of the velocity by an impact.
   [[nodiscard]] Number jump(const Number& before) const { return -(Number(1) + R) * before; }
   /// Derivative of the velocity after by the velocity before.
   [[nodiscard]] Number derivative() const { return -R; }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 
@@ -7,6 +8,9 @@ namespace clatter {
 inline namespace model {
 
 enum class Side : std::int8_t { lower = -1, none = 0, upper = 1 };
+
+/// Index of a stop in results: 0 the lower, 1 the upper one.
+[[nodiscard]] constexpr std::size_t index_of(Side side) { return side == Side::upper ? 1 : 0; }
 
 /// +1 at the upper stop, -1 at the lower one.
 [[nodiscard]] constexpr int sign_of(Side side) { return static_cast<int>(side); }

@@ -57,7 +57,7 @@ class Arc {
   struct Turned {
     SineCosine<Number> phase, change;
   };
-  [[nodiscard]] static Turned turned(const Motion<Number>& m, const SineCosine<Number>& turn);
+  [[nodiscard]] static Turned turned(const Motion<Number>& m, const Turn<Number>& turn);
 
   const ArcConstants<Number, E>* constants_;
   Number anchor_;
@@ -65,7 +65,7 @@ class Arc {
 };
 
 template <class Number, Effects E>
-auto Arc<Number, E>::turned(const Motion<Number>& m, const SineCosine<Number>& turn) -> Turned {
+auto Arc<Number, E>::turned(const Motion<Number>& m, const Turn<Number>& turn) -> Turned {
   if constexpr (E.forcing == Forcing::none) return {{m.sine, m.cosine}, {Number(0), Number(0)}};
   const auto& [s, c] = turn;
   const SineCosine<Number> change{m.sine * c + m.cosine * s, m.cosine * c - m.sine * s};

@@ -19,18 +19,24 @@ struct Propagator {
   Number a_minus_one;  ///< A - 1, small for short times
 };
 
+/// Sine of an angle, and its cosine less 1.
+template <class Number>
+struct Turn {
+  Number sine{}, cosine_minus_one{};
+};
+
 /// The coefficients that advance every motion of an oscillator by a time s.
 template <class Number>
 struct Step {
   Propagator<Number> free;
-  SineCosine<Number> turn{};                      ///< sine of nu s, and its cosine less 1
+  Turn<Number> turn{};                            ///< by nu s
   SineCosine<Number> displacement{}, velocity{};  ///< secular: response from rest to a unit force (eq. 11)
   Number fast_decay{};                            ///< heavy damping: e^(-fast s)
 };
 
-/// Sine of an angle, and its cosine less 1 without cancellation at small angles.
+/// A turn by an angle, without cancellation if it is small.
 template <class Number>
-[[nodiscard]] SineCosine<Number> turn_by(const Number& angle) {
+[[nodiscard]] Turn<Number> turn_by(const Number& angle) {
   using std::cos, std::sin;
   const Number half = sin(angle / 2);
   return {2 * half * cos(angle / 2), -2 * half * half};

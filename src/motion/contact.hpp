@@ -22,7 +22,7 @@ struct Contact {
 
 /// The usual length of a step that is proved free of contact.
 template <class Number>
-[[nodiscard]] Number longest_step(const Number& nu) {
+[[nodiscard]] Number usual_step(const Number& nu) {
   using std::max;
   return Number(1.6) / max(Number(1), nu);
 }
@@ -105,7 +105,7 @@ class ContactSearch {
   /// products vanish.
   [[nodiscard]] Number first_step() const {
     using std::pow;
-    const Number step = longest_step(arc_.constants().nu), error = error_of(step), aim = width() / 20;
+    const Number step = usual_step(arc_.constants().nu), error = error_of(step), aim = width() / 20;
     if (upper_ - lower_ < std::numeric_limits<Number>::min() / (epsilon<Number>() * epsilon<Number>()))
       return Number(0);
     return aim > 0 && error > aim ? Number(step * pow(aim / error, Number(1) / 6)) : step;
@@ -116,8 +116,8 @@ class ContactSearch {
   [[nodiscard]] Number longer(const Number& step) const {
     using std::min;
     const Number twice = 2 * step;
-    if (twice > longest_step(arc_.constants().nu) && error_of(twice) <= width() / 20000) return twice;
-    return min(twice, longest_step(arc_.constants().nu));
+    if (twice > usual_step(arc_.constants().nu) && error_of(twice) <= width() / 20000) return twice;
+    return min(twice, usual_step(arc_.constants().nu));
   }
 
   [[nodiscard]] Motion<Number> evaluate(const Number& s) {

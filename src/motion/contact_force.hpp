@@ -7,7 +7,6 @@
 #include "model/restitution.hpp"
 #include "model/stops.hpp"
 #include "motion/arc_constants.hpp"
-#include "motion/state.hpp"
 
 namespace clatter::motion {
 

@@ -32,9 +32,9 @@ class Ellipse {
   [[nodiscard]] double xx() const { return xx_; }  ///< entries of E
   [[nodiscard]] double xv() const { return xv_; }
   [[nodiscard]] double vv() const { return vv_; }
-  [[nodiscard]] double area() const { return xx_ * vv_ - xv_ * xv_; }  ///< its square, over pi^2
-  [[nodiscard]] double x() const { return std::sqrt(xx_); }            ///< the largest change of the displacement
-  [[nodiscard]] double v() const { return std::sqrt(vv_); }            ///< and of the velocity
+  [[nodiscard]] double determinant() const { return xx_ * vv_ - xv_ * xv_; }  ///< of E
+  [[nodiscard]] double x() const { return std::sqrt(xx_); }  ///< the largest change of the displacement
+  [[nodiscard]] double v() const { return std::sqrt(vv_); }  ///< and of the velocity
   /// The larger semi-axis.
   [[nodiscard]] double size() const { return std::sqrt((xx_ + vv_) / 2 + norm((xx_ - vv_) / 2, xv_)); }
 

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <cmath>
-
 #include "math/bernstein.hpp"
 #include "motion/arc_constants.hpp"
 

@@ -2,7 +2,6 @@
 
 #include <cstdint>
 
-#include "math/number.hpp"
 #include "model/stops.hpp"
 
 namespace clatter::motion {
@@ -12,13 +11,13 @@ namespace clatter::motion {
 /// after the start.
 template <class Number>
 struct State {
-  Number x{};                ///< displacement
-  Number v{};                ///< velocity
-  Number phase_turns{};      ///< forcing periods since the last section, 0 ... 1
-  std::int64_t periods = 0;  ///< sections passed
-  bool released = false;     ///< a stop releases the mass at this instant: v = 0 and the acceleration is exactly 0
-  Side left = Side::none;    ///< the stop that the present flight began on
-  Number offset{};           ///< x minus the position of that stop: keeps the digits of a flight that a section cuts
+  Number x{};                   ///< displacement
+  Number v{};                   ///< velocity
+  Number phase_turns{};         ///< forcing periods since the last section, 0 ... 1
+  std::int64_t periods = 0;     ///< sections passed
+  bool released = false;        ///< a stop releases the mass at this instant: v = 0 and the acceleration is exactly 0
+  Side from_stop = Side::none;  ///< the stop that the present flight began on
+  Number offset{};              ///< x minus the position of that stop: keeps the digits of a flight that a section cuts
 };
 
 /// Motion at one instant of an arc.

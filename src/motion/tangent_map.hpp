@@ -69,9 +69,9 @@ class TangentMap {
 
  private:
   /// A map times 2^exponent, with its determinant kept apart.
-  struct Step {
+  struct ScaledMap {
     Jacobian<Number> map;
-    Number area;
+    Number determinant;
     double exponent = 0;
 
     /// Brings the entries near to 1.
@@ -81,41 +81,41 @@ class TangentMap {
       const int shift =
           size > 0 && std::isfinite(static_cast<double>(size)) ? std::ilogb(static_cast<double>(size)) : 0;
       for (Number& entry : map) entry = ldexp(entry, -shift);
-      area = ldexp(area, -2 * shift), exponent += shift;
+      determinant = ldexp(determinant, -2 * shift), exponent += shift;
     }
   };
 
   /// Free motion over a time of any length, as a power of one over a time so short that it doesn't underflow.
   template <class ArcConstants>
-  [[nodiscard]] static Step power_of(const ArcConstants& constants, const Number& length) {
+  [[nodiscard]] static ScaledMap power_of(const ArcConstants& constants, const Number& length) {
     using std::exp;
     int doublings = 0;
     Number piece = length;
     const Number slower = constants.h < 1 ? constants.h : constants.slow;  // the faster decay may vanish
     for (; slower * piece > 64; ++doublings) piece /= 2;
     const auto p = constants.propagator(piece);
-    Step step{{p.a, p.b, -p.b, p.c}, exp(-2 * constants.h * piece)};
+    ScaledMap power{{p.a, p.b, -p.b, p.c}, exp(-2 * constants.h * piece)};
     for (; doublings > 0; --doublings) {
-      const auto [a, b, c, d] = step.map;
-      step.map = {a * a + b * c, b * (a + d), c * (a + d), b * c + d * d};
-      step.area *= step.area, step.exponent *= 2;
-      step.rescale();
+      const auto [a, b, c, d] = power.map;
+      power.map = {a * a + b * c, b * (a + d), c * (a + d), b * c + d * d};
+      power.determinant *= power.determinant, power.exponent *= 2;
+      power.rescale();
     }
-    return step;
+    return power;
   }
 
-  /// Multiplies the map by a step from the left, and makes the product a rotation times a triangle again.
-  void multiply(const Step& step) {
+  /// Multiplies the map by a `factor` from the left, and makes the product a rotation times a triangle again.
+  void multiply(const ScaledMap& factor) {
     using std::abs, std::ldexp;
-    const Jacobian<Number>& f = step.map;
+    const Jacobian<Number>& f = factor.map;
     const Number x = f[0] * cosine_ + f[1] * sine_, v = f[2] * cosine_ + f[3] * sine_;
     const Number side_x = f[1] * cosine_ - f[0] * sine_, side_v = f[3] * cosine_ - f[2] * sine_;
     const Number length = norm(x, v);
     if (length > 0) cosine_ = x / length, sine_ = v / length;
     top_ *= length;
     shear_ = length * shear_ + (cosine_ * side_x + sine_ * side_v) * bottom_;
-    bottom_ *= length > 0 ? Number(step.area / length) : Number(cosine_ * side_v - sine_ * side_x);
-    exponent_ += step.exponent;
+    bottom_ *= length > 0 ? Number(factor.determinant / length) : Number(cosine_ * side_v - sine_ * side_x);
+    exponent_ += factor.exponent;
     const Number size = abs(top_) + abs(shear_) + abs(bottom_), far = ldexp(Number(1), 256);
     const int shift = size > far ? -256 : size > 0 && size < 1 / far ? 256 : 0;
     if (shift == 0) return;

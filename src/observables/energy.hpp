@@ -1,7 +1,6 @@
 #pragma once
 
 #include <array>
-#include <boost/math/quadrature/gauss.hpp>
 #include <cmath>
 #include <cstddef>
 #include <string>
@@ -11,10 +10,11 @@
 #include "motion/state.hpp"
 #include "observables/impacts.hpp"
 #include "observables/observable.hpp"
+#include "observables/quadrature.hpp"
 
 namespace clatter::observables {
 
-/// The energy ledger of the observed time, per unit mass (eq. 31 to 34). The energy is (x'^2 + x^2)/2; the work of the
+/// The energy ledger of the observed time, per unit mass (eqs. 31 to 34). The energy is (x'^2 + x^2)/2; the work of the
 /// force and the load, less the losses by damping and impacts, is its growth, and the residual says how well this
 /// holds.
 ///
@@ -97,21 +97,13 @@ class Energy {
   /// Over an arc, by panels in which neither v^2 nor v sin(theta) turns by more than a few radians.
   template <class A>
   void integrate(const A& arc, double length) {
-    using Rule = boost::math::quadrature::gauss<double, 20>;
     const auto& constants = arc.constants();
     const auto panels = static_cast<std::size_t>(std::ceil(length * constants.rate / 2));
-    const double half = length / static_cast<double>(panels) / 2;
     double work = 0, squares = 0;
-    const auto add = [&](double s, double weight) {
+    over_panels<20>(length, panels, [&](double s, double weight) {
       const motion::Motion<double> m = arc.at(s);
       work += weight * m.v * m.sine, squares += weight * m.v * m.v;
-    };
-    for (std::size_t panel = 0; panel < panels; ++panel)
-      for (std::size_t i = 0; i < Rule::abscissa().size(); ++i) {
-        const double middle = static_cast<double>(2 * panel + 1) * half, offset = half * Rule::abscissa()[i];
-        add(middle - offset, half * Rule::weights()[i]);
-        add(middle + offset, half * Rule::weights()[i]);
-      }
+    });
     force_work_ += constants.f * work, loss_damping_ += 2 * constants.h * squares;
     evaluations_ += 20 * static_cast<double>(panels);
   }

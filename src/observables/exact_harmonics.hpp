@@ -1,6 +1,5 @@
 #pragma once
 
-#include <boost/math/quadrature/gauss.hpp>
 #include <cmath>
 #include <complex>
 #include <cstddef>
@@ -10,7 +9,7 @@
 #include "model/displacement_bound.hpp"
 #include "motion/arc.hpp"
 #include "motion/polynomial_arc.hpp"
-#include "observables/spectrum.hpp"
+#include "observables/quadrature.hpp"
 
 namespace clatter::observables {
 
@@ -126,21 +125,13 @@ class ExactHarmonics {
   }
 
   /// Integral of x e^{-i w tau} over an arc by panels in which nothing turns by more than a few radians.
-  template <unsigned points, class A>  // points: even
+  template <unsigned points, class A>
   [[nodiscard]] Complex quadrature(const A& arc, double w, double begin, double length) {
-    using Rule = boost::math::quadrature::gauss<double, points>;
     const auto panels = static_cast<std::size_t>(std::ceil(length * (arc.constants().rate + w) / 4));
-    const double half = length / static_cast<double>(panels) / 2;
     Complex sum = 0;
     evaluations_ += static_cast<double>(panels) * points;
-    const auto add = [&](double s, double weight) { sum += weight * arc.at(s).x * turn(w * (begin + s)); };
-    for (std::size_t panel = 0; panel < panels; ++panel)
-      for (std::size_t i = 0; i < Rule::abscissa().size(); ++i) {
-        const double middle = static_cast<double>(2 * panel + 1) * half, offset = half * Rule::abscissa()[i],
-                     weight = half * Rule::weights()[i];
-        add(middle - offset, weight);
-        add(middle + offset, weight);
-      }
+    over_panels<points>(length, panels,
+                        [&](double s, double weight) { sum += weight * arc.at(s).x * turn(w * (begin + s)); });
     return sum;
   }
 

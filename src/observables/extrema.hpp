@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "math/bernstein.hpp"
-#include "model/displacement_bound.hpp"
 #include "model/response.hpp"
 #include "model/stops.hpp"
 #include "motion/arc.hpp"

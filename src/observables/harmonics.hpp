@@ -1,7 +1,6 @@
 #pragma once
 
 #include <array>
-#include <cmath>
 #include <complex>
 #include <cstddef>
 #include <cstdint>
@@ -16,6 +15,7 @@
 #include "observables/fourier_transform.hpp"
 #include "observables/observable.hpp"
 #include "observables/samples.hpp"
+#include "observables/spectrum.hpp"
 
 namespace clatter::observables {
 
@@ -74,12 +74,13 @@ class Harmonics {
   [[nodiscard]] static double values_held(const Settings& settings) {
     return from_samples(settings) ? 6 * static_cast<double>(settings.harmonics_samples) : 0.0;
   }
-  /// What a thread needs for the transform, if samples are taken. Throws std::bad_alloc.
+  /// The transform and a thread's memory for it, if samples are taken. Throws std::bad_alloc.
   [[nodiscard]] static FourierScratch scratch_for(const Settings& settings);
 
   static constexpr std::int64_t most_in_lanes = 8;  ///< the highest harmonic that lanes sum
-  /// Lanes sum the jumps of the velocity at impacts: for the exact method, the force's own frequency, and harmonics of
-  /// it that nothing resonates with. The base frequency of a transient is its own.
+  /// Lanes sum the jumps of the velocity at impacts: for the exact method, the force's own frequency, harmonics of it
+  /// that nothing resonates with; over whole forcing periods. The base frequency of a transient is its own unless it is
+  /// given.
   [[nodiscard]] static bool in_lanes(const Settings& settings, const Scene& scene, bool transient);
 
   Harmonics(const Settings& settings, const ObservedSpan& span) : highest_(count_of(settings) - 1) {

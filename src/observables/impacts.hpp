@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cstddef>
 #include <string>
 #include <tuple>
 #include <vector>
@@ -11,9 +10,6 @@
 #include "observables/observable.hpp"
 
 namespace clatter::observables {
-
-/// Index of a stop in results: 0 the lower, 1 the upper one.
-[[nodiscard]] constexpr std::size_t index_of(Side side) { return side == Side::upper ? 1 : 0; }
 
 /// Counts impacts and sums the time at rest, for each stop.
 class Impacts {
@@ -70,7 +66,7 @@ class Impacts {
   [[nodiscard]] const std::array<OfStop, 2>& stops() const { return stops_; }
 
   [[nodiscard]] Values finish(const ObservedSpan& span, double, double) const {
-    const double periods = span.once() ? 1.0 : span.turns;
+    const double periods = span.counts_as_one_period() ? 1.0 : span.turns;
     Values values;
     for (std::size_t i = 0; i < stops_.size(); ++i) {
       values.impacts_per_period[i] = stops_[i].count / periods;

@@ -91,7 +91,7 @@ struct ObservedSpan {
   const FourierScratch* fourier = nullptr;  ///< for harmonics from samples
 
   /// Whether it counts as one period of its own: a transient, and a period of free motion.
-  [[nodiscard]] bool once() const { return transient || (scene.oscillator.forcing == 0 && periodic); }
+  [[nodiscard]] bool counts_as_one_period() const { return transient || (scene.oscillator.forcing == 0 && periodic); }
 };
 
 }  // namespace clatter::observables

@@ -15,12 +15,15 @@ namespace clatter::observables {
 /// All that there is about an observable: its settings and their keys, its values and the columns that they fill, and
 /// an observer, which begins with the observed time, sees arcs, rests and impacts, and gives its values at the end.
 template <class O>
-concept Observable = requires(const typename O::Settings& settings, O& observer, const ObservedSpan& span) {
+concept Observable = requires(const typename O::Settings& settings, O& observer, const ObservedSpan& span,
+                              const motion::Rest& rest, const motion::Impact& impact) {
   O::fields;
   { O::wanted(settings) } -> std::same_as<bool>;
   { O::description(settings) } -> std::same_as<std::string>;
   { O::columns(settings) } -> std::same_as<std::vector<Column<typename O::Values>>>;
   O(settings, span);
+  observer.rest(rest);
+  observer.impact(impact);
   { observer.finish(span, 0.0, 0.0) } -> std::same_as<typename O::Values>;
 };
 

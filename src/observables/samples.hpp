@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstddef>
 #include <limits>
 #include <vector>
@@ -71,7 +70,7 @@ class Samples {
   /// The instants since the beginning of the observed time, `end` being the last.
   [[nodiscard]] std::vector<double> times(double end) const {
     std::vector<double> tau(count_);
-    for (std::size_t i = 0; i + 1 < count_; ++i) tau[i] = static_cast<double>(i) * spacing_;
+    for (std::size_t i = 0; i + 1 < count_; ++i) tau[i] = instant(i);
     tau.back() = end;
     return tau;
   }

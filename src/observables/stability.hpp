@@ -4,11 +4,9 @@
 #include <cmath>
 #include <complex>
 #include <cstdint>
-#include <limits>
 #include <numbers>
 #include <string>
 #include <tuple>
-#include <utility>
 #include <vector>
 
 #include "motion/neighbourhood.hpp"
@@ -19,9 +17,8 @@
 namespace clatter::observables {
 
 /// How small changes of a motion grow: the multipliers of a period and the largest Lyapunov exponent, impacts and rests
-/// included (eq. 27, 28). A motion that grazes a stop to within rounding
-/// has none: the smallest change decides whether there is an impact, and after it changes grow as the root of their
-/// size.
+/// included (eqs. 27 and 28). A motion that grazes a stop to within rounding has none: the smallest change decides
+/// whether there is an impact, and after it changes grow as the root of their size.
 class Stability {
  public:
   using Complex = std::complex<double>;
@@ -109,12 +106,11 @@ class Stability {
   [[nodiscard]] double evaluations() const { return evaluations_; }
 
  private:
-  static constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   motion::TangentMap<double> tangent_;
   motion::Neighbourhood nearby_;
   bool exact_ = true, rests_ = false;
-  Complex first_{nan, nan}, second_{nan, nan};
-  double exponent_ = nan;
+  Complex first_{no_value, no_value}, second_{no_value, no_value};
+  double exponent_ = no_value;
   double evaluations_ = 0.0;
 };
 

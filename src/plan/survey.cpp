@@ -10,6 +10,7 @@
 #include "motion/contact.hpp"
 #include "plan/sample.hpp"
 #include "point/point.hpp"
+#include "steady/repeat.hpp"
 #include "sweep/branches.hpp"
 #include "sweep/parallel.hpp"
 
@@ -35,8 +36,8 @@ Bounds periods_of(const point::Problem& scene, const Effects& effects) {
   const double longest = static_cast<double>(time.max_periods), period = period_of(o);
   if (time.mode == steady::Mode::transient) return {time.duration / period, time.duration / period};
   if (scene.integration.all_effects) {
-    const double slow = o.damping > 0 ? std::min(longest / 2, 3 * std::log(4.0) / (o.damping * period)) : 0.0;
-    return {std::max(1.0, longest - 192 - slow) + 1, longest + static_cast<double>(time.window)};
+    const double least = static_cast<double>(steady::last_look(o, time.max_periods));
+    return {std::max(1.0, least) + 1, longest + static_cast<double>(time.window)};
   }
   if (scene.integration.method != stepping::Method::exact) return {2, longest + static_cast<double>(time.window)};
   if (!effects.stops() && comes_to_its_end(scene, longest * period)) return {1, 1};
@@ -48,7 +49,7 @@ Bounds periods_of(const point::Problem& scene, const Effects& effects) {
 /// period, each worth two. The work of general methods counts in forcing periods.
 double work_of_period(const point::Problem& scene, const Effects& effects) {
   if (scene.integration.method != stepping::Method::exact) return 1;
-  const double step = motion::longest_step(counting_frequency(scene.oscillator));
+  const double step = motion::usual_step(counting_frequency(scene.oscillator));
   return effects.stops() ? std::ceil(period_of(scene.oscillator) / step) + 4 : 1;
 }
 

@@ -5,10 +5,10 @@
 
 namespace clatter::point {
 
-PointResult run_by_dormand_prince(const Problem& scene, ThreadScratch& scratch) {
-  return with_general_effects(scene.oscillator, [&]<Effects effects>() {
-    const stepping::DormandPrince<effects> integrator(scene, scene.integration, limits_of(scene));
-    return Point(scene, scratch, integrator).run();
+PointResult run_by_dormand_prince(const Problem& problem, ThreadScratch& scratch) {
+  return with_general_effects(problem.oscillator, [&]<Effects effects>() {
+    const stepping::DormandPrince<effects> integrator(problem, problem.integration, limits_of(problem));
+    return Point(problem, scratch, integrator).run();
   });
 }
 

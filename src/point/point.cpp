@@ -11,46 +11,46 @@
 
 namespace clatter::point {
 
-Effects effects_of(const Problem& scene) {
-  const double h = scene.oscillator.damping;
-  if (scene.integration.method != stepping::Method::exact) return general_effects(h);
-  return scene.integration.all_effects ? all_effects(h) : required_effects(scene, duration_of(scene.time));
+Effects effects_of(const Problem& problem) {
+  const double h = problem.oscillator.damping;
+  if (problem.integration.method != stepping::Method::exact) return general_effects(h);
+  return problem.integration.all_effects ? all_effects(h) : required_effects(problem, duration_of(problem.time));
 }
 
 void run_batch(std::span<const WorkItem> items, ThreadScratch& scratch,
                const std::function<void(const WorkItem&, PointResult&&)>& take) {
   if (items.empty()) return;
-  const stepping::Method method = items.front().scene.integration.method;
+  const stepping::Method method = items.front().problem.integration.method;
   if (method == stepping::Method::dopri5) {
-    for (const WorkItem& item : items) take(item, run_by_dormand_prince(item.scene, scratch));
+    for (const WorkItem& item : items) take(item, run_by_dormand_prince(item.problem, scratch));
   } else if (method == stepping::Method::moreau) {
-    for (const WorkItem& item : items) take(item, run_by_moreau(item.scene, scratch));
+    for (const WorkItem& item : items) take(item, run_by_moreau(item.problem, scratch));
   } else {
     with_effects(items.front().effects, [&]<Effects E>() {
       for (const WorkItem& item : items) {
-        const stepping::Exact<double, E> integrator(item.scene, stops_in_reach(item.scene.stops, item.effects),
-                                                    limits_of(item.scene));
-        take(item, Point(item.scene, scratch, integrator).run());
+        const stepping::Exact<double, E> integrator(item.problem, stops_in_reach(item.problem.stops, item.effects),
+                                                    limits_of(item.problem));
+        take(item, Point(item.problem, scratch, integrator).run());
       }
     });
   }
 }
 
-PointResult run_point(const Problem& scene, ThreadScratch& scratch) {
+PointResult run_point(const Problem& problem, ThreadScratch& scratch) {
   PointResult result;
-  const WorkItem item{0, scene, effects_of(scene)};
+  const WorkItem item{0, problem, effects_of(problem)};
   run_batch({&item, 1}, scratch, [&](const WorkItem&, PointResult&& of_point) { result = std::move(of_point); });
   return result;
 }
 
-double seconds_per_period(Problem scene, ThreadScratch& scratch) {
+double seconds_per_period(Problem problem, ThreadScratch& scratch) {
   constexpr double enough = 5e-3;  // seconds
-  scene.time.mode = steady::Mode::transient;
-  scene.observe = {};
+  problem.time.mode = steady::Mode::transient;
+  problem.observe = {};
   for (double periods = 1e-6;; periods *= 10) {
-    scene.time.duration = periods * period_of(scene.oscillator);
+    problem.time.duration = periods * period_of(problem.oscillator);
     const auto begin = std::chrono::steady_clock::now();
-    (void)run_point(scene, scratch);
+    (void)run_point(problem, scratch);
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     if (seconds > enough || periods > 5) return seconds / periods;
   }
@@ -58,18 +58,18 @@ double seconds_per_period(Problem scene, ThreadScratch& scratch) {
 
 double seconds_per_evaluation(const Effects& effects) {
   return with_effects(effects, []<Effects E>() {
-    Problem scene;
-    scene.oscillator.damping = E.damping == Damping::none ? 0.0 : E.damping == Damping::light ? 0.04 : 2.0;
-    scene.oscillator.forcing = E.forcing == Forcing::none ? 0.0 : 1.0;
-    scene.oscillator.frequency = E.forcing == Forcing::secular ? 1.03 : 1.3;
-    scene.start.velocity = 1.0;
-    if (E.stops()) scene.stops = {-0.5, 0.5, 0.7, 0.7};
+    Problem problem;
+    problem.oscillator.damping = E.damping == Damping::none ? 0.0 : E.damping == Damping::light ? 0.04 : 2.0;
+    problem.oscillator.forcing = E.forcing == Forcing::none ? 0.0 : 1.0;
+    problem.oscillator.frequency = E.forcing == Forcing::secular ? 1.03 : 1.3;
+    problem.start.velocity = 1.0;
+    if (E.stops()) problem.stops = {-0.5, 0.5, 0.7, 0.7};
     using Clock = std::chrono::steady_clock;
     double least = std::numeric_limits<double>::infinity();
     for (int repetition = 0; repetition < 3; ++repetition) {
-      stepping::Exact<double, E> integrator(scene);
+      stepping::Exact<double, E> integrator(problem);
       motion::State<double> state;
-      state.v = scene.start.velocity;
+      state.v = problem.start.velocity;
       stepping::NoObserver nobody;
       const auto begin = Clock::now();
       (void)run_for(integrator, state, 50.0, nobody);

@@ -1,10 +1,7 @@
 #pragma once
 
 #include <functional>
-#include <limits>
-#include <memory>
 #include <span>
-#include <vector>
 
 #include "model/required_effects.hpp"
 #include "motion/state.hpp"
@@ -39,12 +36,12 @@ struct ThreadScratch {
 
 /// The effects that a point is run with: those that its scene requires; all of them on request, or for a general
 /// method.
-[[nodiscard]] Effects effects_of(const Problem& scene);
+[[nodiscard]] Effects effects_of(const Problem& problem);
 
 /// A point that waits to be run.
 struct WorkItem {
   std::size_t local_index = 0;  ///< of its results (`Share`)
-  Problem scene;
+  Problem problem;
   Effects effects;
 };
 
@@ -54,13 +51,13 @@ void run_batch(std::span<const WorkItem> items, ThreadScratch& scratch,
                const std::function<void(const WorkItem&, PointResult&&)>& take);
 
 /// Runs a single point.
-[[nodiscard]] PointResult run_point(const Problem& scene, ThreadScratch& scratch);
+[[nodiscard]] PointResult run_point(const Problem& problem, ThreadScratch& scratch);
 
 /// Wall time of an evaluation of an arc, contact search included, with the compiled set of these effects, measured
 /// for a short time on a scene of its own.
 [[nodiscard]] double seconds_per_evaluation(const Effects& effects);
 
-/// Wall time of a forcing period of a scene, measured for a short time on its first ones.
-[[nodiscard]] double seconds_per_period(Problem scene, ThreadScratch& scratch);
+/// Wall time of a forcing period of a problem, measured for a short time on its first ones.
+[[nodiscard]] double seconds_per_period(Problem problem, ThreadScratch& scratch);
 
 }  // namespace clatter::point

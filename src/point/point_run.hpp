@@ -16,15 +16,15 @@ using Observers = observables::Observers<observables::All>;
 template <stepping::Integrator I>
 class Point {
  public:
-  Point(const Problem& scene, ThreadScratch& scratch, const I& integrator)
-      : scene_(scene), integrator_(integrator), span_{.scene = scene, .fourier = &scratch.fourier} {
+  Point(const Problem& problem, ThreadScratch& scratch, const I& integrator)
+      : problem_(problem), integrator_(integrator), span_{.scene = problem, .fourier = &scratch.fourier} {
     integrator_.report_to(&scratch.progress);
   }
 
   PointResult run() {
     motion::State<double> state;
-    state.x = scene_.start.displacement, state.v = scene_.start.velocity;
-    return observe(find_steady(integrator_, state, scene_, scene_.time, scene_.integration));
+    state.x = problem_.start.displacement, state.v = problem_.start.velocity;
+    return observe(find_steady(integrator_, state, problem_, problem_.time, problem_.integration));
   }
 
   /// The result of a motion whose observed time is known.
@@ -32,8 +32,8 @@ class Point {
     if (failed(observed.status)) return result_of(observed);
     Observers observers = begin(observed);
     motion::State<double> state = observed.from;
-    const bool steady = observed.found_by == steady::FoundBy::closed_form && scene_.oscillator.forcing != 0 &&
-                        scene_.observe.base_frequency == 0;
+    const bool steady = observed.found_by == steady::FoundBy::closed_form && problem_.oscillator.forcing != 0 &&
+                        problem_.observe.base_frequency == 0;
     if (steady) observers.response(span_, state.x);
     stepping::Outcome outcome = stepping::Outcome::completed;
     if (observers.need_flights()) {
@@ -48,7 +48,7 @@ class Point {
   Observers begin(const steady::ObservedTime& observed) {
     observed_ = observed;
     describe_span();
-    return Observers(scene_.observe, span_);
+    return Observers(problem_.observe, span_);
   }
   [[nodiscard]] const observables::ObservedSpan& span() const { return span_; }  ///< once observation has begun
 
@@ -59,55 +59,55 @@ class Point {
     result_.evaluations = observers.evaluations();
     if (outcome != stepping::Outcome::completed) {
       steady::ObservedTime broken = observed_;
-      broken.status = steady::status_of(outcome), broken.settled += sections + state.phase_turns;
+      broken.status = steady::status_of(outcome), broken.simulated += sections + state.phase_turns;
       return result_of(broken);
     }
-    result_.end = {state.x, state.v, scene_.start.phase};
+    result_.end = {state.x, state.v, problem_.start.phase};
     if (state.phase_turns > 0)
-      result_.end.phase = std::fmod(scene_.start.phase + 2 * pi<double>() * state.phase_turns, 2 * pi<double>());
+      result_.end.phase = std::fmod(problem_.start.phase + 2 * pi<double>() * state.phase_turns, 2 * pi<double>());
     observers.finish(span_, state.x, state.v, result_);
     steady::ObservedTime complete = observed_;
     const auto& stability = observers.template of<observables::Stability>();
-    if (stability && span_.periodic && scene_.oscillator.forcing != 0 && stability->grazes())
+    if (stability && span_.periodic && problem_.oscillator.forcing != 0 && stability->grazes())
       complete.status = steady::Status::grazing;
-    complete.settled += observed_.turns;
+    complete.simulated += observed_.turns;
     return result_of(complete);
   }
 
  private:
   void describe_span() {
-    const bool forced = scene_.oscillator.forcing != 0;
+    const bool forced = problem_.oscillator.forcing != 0;
     span_.total = observed_.turns * integrator_.period(), span_.turns = observed_.turns;
     span_.periodic = observed_.status == steady::Status::periodic;
     span_.transient = observed_.status == steady::Status::transient;
     span_.stands_still = observed_.found_by == steady::FoundBy::standstill;
     span_.uncertainty = uncertainty();
     // the base frequency turns once in a transient and in a period of unforced motion, else with the force
-    span_.base_turns = span_.once() ? 1.0 : span_.turns;
-    span_.base_frequency =
-        span_.once() || !forced ? 2 * pi<double>() * span_.base_turns / span_.total : scene_.oscillator.frequency;
-    if (const double given = scene_.observe.base_frequency; given > 0)
+    span_.base_turns = span_.counts_as_one_period() ? 1.0 : span_.turns;
+    span_.base_frequency = span_.counts_as_one_period() || !forced ? 2 * pi<double>() * span_.base_turns / span_.total
+                                                                   : problem_.oscillator.frequency;
+    if (const double given = problem_.observe.base_frequency; given > 0)
       span_.base_frequency = given, span_.base_turns = given * span_.total / (2 * pi<double>());
   }
 
   /// How far displacements and velocities may be off: by rounding, and after a repeat by its tolerance.
   [[nodiscard]] double uncertainty() const {
     double size = std::abs(observed_.from.x) + std::abs(observed_.from.v);
-    for (const double stop : {scene_.stops.lower, scene_.stops.upper})
+    for (const double stop : {problem_.stops.lower, problem_.stops.upper})
       if (std::isfinite(stop)) size = std::max(size, std::abs(stop));
-    const double tolerance = observed_.found_by == steady::FoundBy::repetition ? scene_.time.tolerance : 0.0;
+    const double tolerance = observed_.found_by == steady::FoundBy::repetition ? problem_.time.tolerance : 0.0;
     return (64 * epsilon<double>() + tolerance) * size;
   }
 
   PointResult result_of(const steady::ObservedTime& observed) {
-    result_.status = observed.status, result_.found_by = observed.found_by, result_.periods = observed.settled;
+    result_.status = observed.status, result_.found_by = observed.found_by, result_.periods = observed.simulated;
     result_.settling_estimate = observed.settling;
     result_.impacts = integrator_.impacts();
     result_.evaluations += integrator_.evaluations();
     return std::move(result_);
   }
 
-  const Problem& scene_;
+  const Problem& problem_;
   I integrator_;
   steady::ObservedTime observed_{};
   observables::ObservedSpan span_;

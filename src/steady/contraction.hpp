@@ -49,12 +49,13 @@ class ContractionNorm {
     const double size = e.size();  // divided out: the squares of small changes vanish
     if (!(size > 0)) return size;
     const double x = e.x / size, v = e.v / size;
-    return size * std::sqrt((unit_.vv() * x * x - 2 * unit_.xv() * x * v + unit_.xx() * v * v) / unit_.area());
+    return size * std::sqrt((unit_.vv() * x * x - 2 * unit_.xv() * x * v + unit_.xx() * v * v) / unit_.determinant());
   }
   /// The norm of the largest change in an ellipse.
   [[nodiscard]] double of(const motion::Ellipse& e) const {
-    const double half = (unit_.vv() * e.xx() - 2 * unit_.xv() * e.xv() + unit_.xx() * e.vv()) / (2 * unit_.area());
-    const double product = std::max(0.0, e.area() / unit_.area());
+    const double half =
+        (unit_.vv() * e.xx() - 2 * unit_.xv() * e.xv() + unit_.xx() * e.vv()) / (2 * unit_.determinant());
+    const double product = std::max(0.0, e.determinant() / unit_.determinant());
     return std::sqrt(half + std::sqrt(std::max(0.0, half * half - product)));
   }
   /// All changes of norm up to `radius`.

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "steady/forced_search.hpp"
@@ -38,15 +39,6 @@ template <stepping::Integrator I>
   }
 }
 
-/// The section from which on a run with all effects looks for a repeat: early enough before max_periods to find a
-/// motion of 64 periods, and to see a slow transient come to a halt at rounding (`RepeatFinder`).
-template <stepping::Integrator I>
-[[nodiscard]] std::int64_t last_look(const I& integrator, const TimeSettings& time) {
-  const double decay = integrator.constants().h * integrator.period(), half = static_cast<double>(time.max_periods) / 2;
-  const double slow = decay > 0 ? std::min(half, 3 * std::log(4.0) / decay) : 0.0;
-  return time.max_periods - static_cast<std::int64_t>(3 * RepeatFinder::longest) - static_cast<std::int64_t>(slow);
-}
-
 /// The time to observe of a scene that starts from `state`. General methods take no shortcut. Nor does a run with all
 /// effects, which others are compared with: it simulates all of max_periods and looks for a repeat only at their end.
 template <stepping::Integrator I>
@@ -58,9 +50,10 @@ template <stepping::Integrator I>
   const bool forced = E.forcing != Forcing::none && scene.oscillator.forcing != 0;
   if (!forced) return FreeSearch(integrator, scene, time, integration.all_effects).run(state);
   if constexpr (E.forcing != Forcing::none) {
-    if (integration.all_effects) return find_repetition(integrator, state, time, last_look(integrator, time));
+    if (integration.all_effects)
+      return find_repetition(integrator, state, time, last_look(scene.oscillator, time.max_periods));
     if constexpr (I::in_closed_form)
-      if (integration.shortcuts) return SteadySearch<E>(integrator, scene, time).run(state);
+      if (integration.shortcuts) return ForcedSearch<E>(integrator, scene, time).run(state);
     return find_repetition(integrator, state, time, 0);
   }
   return {};

@@ -8,7 +8,6 @@
 #include <limits>
 #include <optional>
 #include <span>
-#include <utility>
 
 #include "model/displacement_bound.hpp"
 #include "steady/observed_time.hpp"
@@ -20,19 +19,19 @@ namespace clatter::steady {
 
 /// Whether the search itself or lanes advance a motion from one stroboscopic section to the next. In lanes a forcing
 /// period costs so little that plain repetition is quickest unless states contract slowly.
-enum class TakenBy : std::uint8_t { itself, lanes };
+enum class AdvancedBy : std::uint8_t { search, lanes };
 
 /// Finds the steady state of forced motion, section by section, in as few forcing periods as possible: in closed form
 /// once no stop can be reached any more, by Newton's method once successive states contract, else by repetition.
 template <Effects E>
-class SteadySearch {
+class ForcedSearch {
  public:
-  SteadySearch(stepping::Exact<double, E>& integrator, const Scene& scene, const TimeSettings& time,
-               TakenBy taken_by = TakenBy::itself)
+  ForcedSearch(stepping::Exact<double, E>& integrator, const Scene& scene, const TimeSettings& time,
+               AdvancedBy advanced_by = AdvancedBy::search)
       : integrator_(integrator),
         scene_(scene),
         time_(time),
-        in_lanes_(taken_by == TakenBy::lanes),
+        in_lanes_(advanced_by == AdvancedBy::lanes),
         repeat_(time.tolerance, in_lanes_ ? 4 : 1),
         begins_before_(scene.oscillator.forcing),
         watch_(integrator.stops()),
@@ -126,7 +125,7 @@ class SteadySearch {
     const double periods = fading_time(o, left, most) / integrator_.period();
     if (!(periods < longest_settling)) return std::nullopt;
     motion::State<double> steady = state;
-    steady.x = x, steady.v = response.v, steady.left = Side::none;
+    steady.x = x, steady.v = response.v, steady.from_stop = Side::none;
     return ObservedTime{Status::periodic, steady, 1.0, simulated(), FoundBy::closed_form, settled() + periods};
   }
 
@@ -186,7 +185,8 @@ class SteadySearch {
 
   [[nodiscard]] ObservedTime observed(const Orbit& orbit) const {
     const motion::State<double>& start = orbit.states[0];
-    const double limit = RepeatFinder::few * time_.tolerance * std::max(std::abs(start.x), std::abs(start.v));
+    const double limit =
+        RepeatFinder::divisor_tolerances * time_.tolerance * std::max(std::abs(start.x), std::abs(start.v));
     const std::size_t n =
         least_divisor(orbit.periods, [&](std::size_t m) { return between(start, orbit.states[m]).size() <= limit; });
     const auto first = std::ranges::min_element(std::span(orbit.states).first(n),

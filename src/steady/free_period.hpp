@@ -4,7 +4,6 @@
 
 #include "math/number.hpp"
 #include "model/stops.hpp"
-#include "motion/state.hpp"
 
 namespace clatter::steady {
 

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <algorithm>
 #include <cmath>
 #include <optional>
 
@@ -76,7 +75,7 @@ class FreeSearch {
     const double end_at = settled + fading_time(o, transient_of(o, now), returns_.least()) / integrator_.period();
     if (!(end_at <= static_cast<double>(time_.max_periods))) return std::nullopt;
     motion::State<double> end = state;
-    end.x = o.load, end.v = 0, end.left = Side::none;
+    end.x = o.load, end.v = 0, end.from_stop = Side::none;
     return ObservedTime{Status::periodic, end, 1.0, settled, FoundBy::standstill, end_at};
   }
 

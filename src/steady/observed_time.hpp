@@ -28,8 +28,8 @@ inline constexpr std::array<const char*, 7> found_by_names{"transient",  "closed
 struct ObservedTime {
   Status status = Status::unresolved;
   motion::State<double> from{};
-  double turns = 0.0;    ///< its length in forcing periods; without forcing in 2 pi
-  double settled = 0.0;  ///< forcing periods simulated before, to find it
+  double turns = 0.0;      ///< its length in forcing periods; without forcing in 2 pi
+  double simulated = 0.0;  ///< forcing periods simulated before, to find it
   FoundBy found_by = FoundBy::nothing;
   /// Forcing periods until the motion from the start is within the tolerance of its steady state, by the rate at which
   /// it contracts; may exceed max_periods. NaN if there is no steady state.

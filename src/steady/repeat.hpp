@@ -4,8 +4,11 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <utility>
+
+#include "model/oscillator.hpp"
 
 namespace clatter::steady {
 
@@ -38,8 +41,8 @@ class BeginsBefore {
 /// motion that forgets its past on a stop, and is chaotic after it, returns to a state to rounding and then diverges.
 class RepeatFinder {
  public:
-  static constexpr std::size_t longest = 64;  ///< forcing periods of the longest motion looked for
-  static constexpr double few = 100;          ///< a divisor counts as the period within so many tolerances
+  static constexpr std::size_t longest = 64;         ///< forcing periods of the longest motion looked for
+  static constexpr double divisor_tolerances = 100;  ///< a divisor counts as the period within so many
 
   /// Looks for a repeat at every `looks_every`-th section: rarely, if a period costs less than a look.
   explicit RepeatFinder(double tolerance, std::size_t looks_every = 1)
@@ -51,7 +54,7 @@ class RepeatFinder {
     if (size_ == capacity) forget();
     x_[size_] = x, v_[size_] = v, log_area_[size_] = log_area;
     const std::size_t now = size_++;
-    if (candidate_ > 0 && !repeats(now, candidate_, few * tolerance_)) candidate_ = 0;
+    if (candidate_ > 0 && !repeats(now, candidate_, divisor_tolerances * tolerance_)) candidate_ = 0;
     if (candidate_ > 0 && --left_ == 0) return shortest(now, std::exchange(candidate_, 0));
     if (candidate_ > 0 || ++waited_ < looks_every_) return 0;
     waited_ = 0;
@@ -101,7 +104,7 @@ class RepeatFinder {
   static constexpr double ulps = 8 * std::numeric_limits<double>::epsilon();
   static constexpr double rounding = 2048 * std::numeric_limits<double>::epsilon();  ///< of a period with its impacts
   static constexpr double most_left = 1e-8;            ///< of a transient that rounding has stopped
-  static constexpr std::ptrdiff_t kept = 2 * longest;  // a divisor's distance reaches back n + n/2 sections
+  static constexpr std::ptrdiff_t kept = 2 * longest;  // two rounds of the longest motion
 
   void forget() {
     std::copy(x_.end() - kept, x_.end(), x_.begin());
@@ -170,7 +173,7 @@ class RepeatFinder {
   /// repeat as rounding allows (with a multiplier near -1 the states then lock into a cycle of a few hundred ulps). So
   /// is one whose distance is that of a transient which rounding has stopped.
   [[nodiscard]] std::size_t shortest(std::size_t now, std::size_t n) const {
-    const double near = few * std::max(tolerance_, std::min(left(now, n), most_left));
+    const double near = divisor_tolerances * std::max(tolerance_, std::min(left(now, n), most_left));
     return least_divisor(n, [&](std::size_t m) { return distance(now, m) < near; });
   }
 
@@ -182,5 +185,13 @@ class RepeatFinder {
   std::size_t size_ = 0;
   std::array<double, capacity> x_, v_, log_area_;  ///< the first `size_` are set
 };
+
+/// The section from which on a run with all effects looks for a repeat: early enough before max_periods to find a
+/// motion of 64 periods, and to see a slow transient come to a halt at rounding (`RepeatFinder`).
+[[nodiscard]] inline std::int64_t last_look(const Oscillator& oscillator, std::int64_t max_periods) {
+  const double decay = oscillator.damping * period_of(oscillator), half = static_cast<double>(max_periods) / 2;
+  const double slow = decay > 0 ? std::min(half, 3 * std::log(4.0) / decay) : 0.0;
+  return max_periods - static_cast<std::int64_t>(3 * RepeatFinder::longest) - static_cast<std::int64_t>(slow);
+}
 
 }  // namespace clatter::steady

@@ -27,7 +27,7 @@ class ReturnObserver {
   void impact(const motion::Impact& impact) {
     touched_ = true;
     conserved_ = conserved_ && std::abs(impact.after) == std::abs(impact.before);
-    motion::Impact& last = last_[impact.side == Side::upper ? 1 : 0];
+    motion::Impact& last = last_[index_of(impact.side)];
     const bool again = std::abs(impact.after - last.after) <= tolerance_ * std::abs(impact.after);
     if (again && impact.after != 0.0 && !(period_ > 0.0)) period_ = impact.time - last.time;
     last = impact;

@@ -16,7 +16,8 @@
 
 namespace clatter::steady {
 
-/// A periodic motion of n forcing periods: its states at the stroboscopic sections and its derivative.
+/// A motion over n forcing periods: its states at the stroboscopic sections and its derivative; periodic if its gap
+/// is 0.
 struct Orbit {
   std::size_t periods = 0;
   std::array<motion::State<double>, RepeatFinder::longest + 1> states{};  ///< the last as computed from the first

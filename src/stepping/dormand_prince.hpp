@@ -88,8 +88,8 @@ class DormandPrince : public EventDriven<DormandPrince<E>, double, E> {
     const auto& constants = this->constants();
     anchor_ = anchor, angle_ = 2 * pi<double>() * (this->start_turns() + state.phase_turns);
     double first_step = std::pow(tolerance_, 0.2) / constants.rate / 2;
-    if (state.left != Side::none && start.offset == 0) {  // no longer than the flight, if the force ends it soon
-      const double leaving = -sign_of(state.left) * start.v, pressed = sign_of(state.left) * start.a;
+    if (state.from_stop != Side::none && start.offset == 0) {  // no longer than the flight, if the force ends it soon
+      const double leaving = -sign_of(state.from_stop) * start.v, pressed = sign_of(state.from_stop) * start.a;
       if (leaving > 0 && pressed > 0) first_step = std::min(first_step, 2 * leaving / pressed);
     }
     here_ = {start.offset, start.v};

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 
@@ -19,8 +20,8 @@ struct Flight {
 /// Event-driven integration: from contact to contact, chatter completed, rests released at their exact time. The method
 /// computes the flight and its contact: `fly(state, motion, anchor, horizon)`.
 template <class Method, class N, Effects E>
-class EventDriven : public SceneConstants<N, E> {
-  using Base = SceneConstants<N, E>;
+class EventDriven : public IntegratorBase<N, E> {
+  using Base = IntegratorBase<N, E>;
 
  public:
   using Number = N;
@@ -61,14 +62,14 @@ class EventDriven : public SceneConstants<N, E> {
  private:
   [[nodiscard]] motion::Motion<Number> motion(const motion::State<Number>& state) const {
     const auto [sine, cosine] = this->phase(state);
-    const Number offset = state.left == Side::none ? Number(0) : state.offset;
+    const Number offset = state.from_stop == Side::none ? Number(0) : state.offset;
     const Number displacement = this->constants().from_equilibrium(state.x, anchor(state), offset);
     const Number a = state.released ? Number(0) : this->constants().acceleration(displacement, state.v, sine);
     return {offset, state.x, state.v, a, sine, cosine};
   }
   /// The position that the offset of the present flight counts from.
   [[nodiscard]] Number anchor(const motion::State<Number>& state) const {
-    return state.left == Side::none ? state.x : motion::stop_at<Number>(this->stops(), state.left).position;
+    return state.from_stop == Side::none ? state.x : motion::stop_at<Number>(this->stops(), state.from_stop).position;
   }
   void pass(motion::State<Number>& state, const Number& elapsed) const {
     state.phase_turns += elapsed / this->period();
@@ -79,7 +80,7 @@ class EventDriven : public SceneConstants<N, E> {
   void rebound(motion::State<Number>& state, const motion::Stop<Number>& stop, const Number& end, std::int64_t origin,
                Observer& observer) {
     const Number before = state.v;
-    state.left = stop.side, state.offset = 0;
+    state.from_stop = stop.side, state.offset = 0;
     if (stop.into(before) > 0) state.v = stop.law.after(before);
     if (state.v == 0) state.v = 0;  // no negative zero
     if (before != 0) this->show_impact(state, stop, before, origin, observer);
@@ -99,7 +100,7 @@ class EventDriven : public SceneConstants<N, E> {
             Observer& observer) {
     using std::floor;
     Number until = end;
-    state.left = stop.side, state.offset = 0;
+    state.from_stop = stop.side, state.offset = 0;
     if (const auto phase_of_release = release_phase(this->constants(), stop)) {
       Number release = *phase_of_release - this->start_turns();  // the same number after every rest
       release -= floor(release);

@@ -30,15 +30,15 @@ struct Limits {
   double periods = std::numeric_limits<double>::infinity();  ///< forcing periods, for the report of progress
 };
 
-/// A scene prepared for an integrator: its constants, its clock, and the work spent on it so far.
+/// The parts common to all integrators: the scene's constants and clock, the work spent so far, and its limits.
 template <class N, Effects E>
-class SceneConstants {
+class IntegratorBase {
  public:
   using Number = N;
   static constexpr Effects effects = E;
 
   /// Looks for contacts with the stops in reach only.
-  SceneConstants(const Scene& scene, const Stops& in_reach, const Limits& limits)
+  IntegratorBase(const Scene& scene, const Stops& in_reach, const Limits& limits)
       : constants_(scene.oscillator),
         stops_(in_reach),
         budget_(limits.impacts),
@@ -141,7 +141,7 @@ concept Integrator = requires(I& integrator, motion::State<typename I::Number>& 
   { integrator.advance(state, end, std::int64_t{}, observer) } -> std::same_as<Outcome>;
   { integrator.holding_stop(state) } -> std::same_as<std::optional<motion::Stop<typename I::Number>>>;
   { I::in_closed_form } -> std::convertible_to<bool>;  ///< its arcs are exact, so shortcuts may use them
-  requires std::derived_from<I, SceneConstants<typename I::Number, I::effects>>;
+  requires std::derived_from<I, IntegratorBase<typename I::Number, I::effects>>;
 };
 
 }  // namespace clatter::stepping

@@ -20,8 +20,8 @@ namespace clatter::stepping {
 /// told from rest: a rebound that the force would end within the step is taken for rest. Steps count from the
 /// stroboscopic section, and the last one before the next section is cut there.
 template <Effects E>
-class Moreau : public SceneConstants<double, E> {
-  using Base = SceneConstants<double, E>;
+class Moreau : public IntegratorBase<double, E> {
+  using Base = IntegratorBase<double, E>;
 
  public:
   static constexpr bool in_closed_form = false;

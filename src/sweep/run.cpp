@@ -135,7 +135,7 @@ class WorkerPool {
   /// The point of a branch that has only one.
   point::WorkItem task_of(std::size_t branch) const {
     point::WorkItem item{branch, scene_at(sweep_, share_.point(branch, 0)), {}};
-    item.effects = effects_of(item.scene);
+    item.effects = effects_of(item.problem);
     return item;
   }
 
@@ -179,8 +179,8 @@ class WorkerPool {
     std::optional<Start> end;
     for (std::size_t i = 0; i < share_.length(); ++i) {
       point::WorkItem item{share_.local_index(branch, i), scene_at(sweep_, share_.point(branch, i)), {}};
-      start_from(item.scene, end);
-      item.effects = effects_of(item.scene);
+      start_from(item.problem, end);
+      item.effects = effects_of(item.problem);
       run_batch({&item, 1}, scratches_[thread], [&](const point::WorkItem&, point::PointResult&& result) {
         end = failed(result.status) ? std::nullopt : std::optional<Start>(result.end);
         store(item, std::move(result), thread);

@@ -8,6 +8,7 @@
 #include <iostream>
 
 #include "math/fifty_digits.hpp"
+#include "math/number.hpp"
 #include "support/motion.hpp"
 #include "support/random.hpp"
 #include "support/scene_range.hpp"

@@ -39,15 +39,18 @@ TEST(LanePoints, are_those_of_a_sweep_however_many_run) {
   }
 }
 
-TEST(LanePoints, of_a_transient_have_harmonics_of_the_force_alone) {
-  point::Problem scene = observed_scene();
-  scene.time.mode = steady::Mode::transient, scene.time.duration = 5 * 2 * std::numbers::pi;
-  for (const double base : {1.0, 0.2, 0.0}) {  // 0: that of the transient
+TEST(LanePoints, of_a_transient_have_harmonics_of_the_force_over_whole_periods_alone) {
+  struct Given {
+    double periods, base;  // 0: that of the transient
+  };
+  for (const auto& [periods, base] : {Given{5, 1.0}, Given{5, 0.2}, Given{5, 0.0}, Given{5.5, 1.0}}) {
+    point::Problem scene = observed_scene();
+    scene.time.mode = steady::Mode::transient, scene.time.duration = periods * 2 * std::numbers::pi;
     scene.observe.base_frequency = base;
     point::ThreadScratch scratch;
     const point::PointResult lanes = run_in_lanes(task_of(scene), lanes_per_block, InstructionSet::sse2, scratch);
     const point::PointResult scalar = run_point(scene, scratch);
-    EXPECT_EQ(lanes.in_lanes, base == 1.0);
+    EXPECT_EQ(lanes.in_lanes, base == 1.0 && periods == 5);
     EXPECT_FALSE(scalar.in_lanes);
     for (std::size_t k = 0; k < 4; ++k) {
       EXPECT_NEAR(lanes.x_spectrum.amplitude[k], scalar.x_spectrum.amplitude[k], 1e-14) << base << ' ' << k;
