@@ -37,7 +37,7 @@ class Run:
         return self.medians["sincos/" + ("sse2" if arch == "scalar" else arch)]["time"]
 
     def named(self, prefix):
-        """What follows the prefix in names, with its measurement."""
+        """The rest of each name with this prefix, with its measurement."""
         return [(name.removeprefix(prefix), entry) for name, entry in self.medians.items() if name.startswith(prefix)]
 
 
@@ -242,7 +242,7 @@ def wanted_times(wanted, content, figures):
 def main():
     parser = argparse.ArgumentParser(
         description="Prints what scripts/bench.sh measured as tables, each time also in s, and what is wanted of it. "
-        "Times wanted of whole runs hold where s is at most 0.6 ns, and in proportion on slower machines."
+        "Times wanted of whole runs are for machines with s of at most 0.6 ns, and longer in proportion on slower ones."
     )
     parser.add_argument(
         "folder",

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Lets clang++ read every file of a compile database without making code; exits with 1 if it warns of any.
 
-What all tests include, GoogleTest and the 50-digit numbers, is compiled once for them (a precompiled header), which
+GoogleTest and the 50-digit numbers, which all tests include, are compiled once for them (a precompiled header). That
 halves the time.
 """
 

@@ -16,8 +16,8 @@ HEAD = """\
 
 
 def measured(build, repetitions, seconds):
-    """What each rung leaves out, in their order, and medians: {"own": {"time": ...}, "kept in": ..., "all": ...}"""
-    bench = program(build, "tests/bench/effects_ladder", "it is built where libbenchmark-dev is installed")
+    """For each rung, in order: the effect left out, and medians {"own": {"time": ...}, "kept in": ..., "all": ...}"""
+    bench = program(build, "tests/bench/effects_ladder", "it is built if libbenchmark-dev is installed")
     # one after the other, in random order, again and again: what else the machine does hits all of them alike
     options = [
         "--benchmark_format=json",

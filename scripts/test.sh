@@ -10,8 +10,8 @@ steps() {
   cat <<END
 Builds clatter and runs all its tests on Debian 12, as root or with sudo:
   1. installs the packages that are missing: for the build (${BUILD_PACKAGES[*]}),
-     for the pictures (${PLOT_PACKAGES[*]})
-     for reading the outputs with other programs (${TEST_PACKAGES[*]})
+     for the pictures (${PLOT_PACKAGES[*]}),
+     for reading the outputs with other programs (${TEST_PACKAGES[*]}),
      and for scripts/check.sh, which is tested too (${CHECK_PACKAGES[*]}),
   2. builds clatter and its tests in build/release,
   3. runs all tests through ctest.
