@@ -34,7 +34,7 @@ def precompiled(build, entry):
 
 
 def is_silent(entry, options):
-    """Whether clang++ has nothing to say of a file; what it says is printed."""
+    """Whether clang++ accepts a file without a message; its messages are printed."""
     command = [*arguments(entry), "-fsyntax-only", *options]
     done = subprocess.run(command, cwd=entry["directory"], capture_output=True, text=True, check=False)
     print(done.stderr, end="", flush=True)

@@ -16,14 +16,15 @@ done
 steps() {
   cat <<END_OF_STEPS
 Runs libFuzzer on the code that reads files written or damaged by others, on Debian 12, as root or with sudo:
-  1. installs the packages that are missing: for the build (${BUILD_PACKAGES[*]})
-     and for libFuzzer (${FUZZ_PACKAGES[*]}),
+  1. installs the packages that are missing:
+$(help_lines "for the build (${BUILD_PACKAGES[*]})")
+$(help_lines "and for libFuzzer (${FUZZ_PACKAGES[*]}),")
   2. builds the fuzzers in build/fuzz with AddressSanitizer and UndefinedBehaviorSanitizer,
   3. makes the seeds in build/fuzz/corpus from configs/, and small outputs and journals,
   4. runs each fuzzer for SECONDS (60 unless given), as many side by side as there are cores,
   5. prints a table. Exit code 1: there is a finding; it is printed, with the command that repeats it.
-NAME is one of: ${all[*]}; or all, which is the default. A fuzzer keeps the inputs that reach new code in
-build/fuzz/grown, and its next run begins with them.
+NAME is one of: ${all[*]}; or all, which is the default.
+A fuzzer keeps the inputs that reach new code in build/fuzz/grown, and its next run begins with them.
 END_OF_STEPS
 }
 

@@ -12,6 +12,11 @@ FUZZ_PACKAGES=(clang libclang-rt-14-dev libomp-dev)
 BENCH_PACKAGES=(libbenchmark-dev libsundials-dev python3)
 SLURM_PACKAGES=(slurm-wlm munge)
 
+# A part of an item in a help text, which may name many packages, in lines of at most 119 columns.
+help_lines() {
+  fold -s -w 114 <<<"$1" | sed 's/^/     /; s/ *$//'
+}
+
 is_installed() {
   [[ $(dpkg-query -W -f='${db:Status-Status}' "$1" 2>/dev/null) == installed ]]
 }

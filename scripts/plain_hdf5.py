@@ -40,7 +40,7 @@ class Output(h5py.File):
 
 
 def open_output(path):
-    """Opens an output whose values all stand in itself, as clatter writes them, or says what is wrong with it."""
+    """Opens an output that holds all its values itself, as clatter writes them, or says why it isn't one."""
     require_regular(path)
     try:
         file = Output(path, "r")

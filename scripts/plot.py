@@ -9,7 +9,7 @@ import warnings
 from itertools import takewhile
 from pathlib import Path
 
-if not sys.warnoptions:  # what numpy and matplotlib have to say is for those who work on this program
+if not sys.warnoptions:  # warnings of numpy and matplotlib are for those who work on this program
     warnings.simplefilter("ignore")
     logging.getLogger("matplotlib").setLevel(logging.ERROR)
 
