@@ -9,11 +9,12 @@ source "$source_dir/scripts/packages.sh"
 steps() {
   cat <<END
 Measures how fast clatter is, on Debian 12, as root or with sudo; nothing else should run meanwhile:
-  1. installs the packages that are missing: for the build (${BUILD_PACKAGES[*]})
-     and for the benchmarks (${BENCH_PACKAGES[*]}),
+  1. installs the packages that are missing:
+$(help_lines "for the build (${BUILD_PACKAGES[*]})")
+$(help_lines "and for the benchmarks (${BENCH_PACKAGES[*]}),")
   2. builds clatter and its benchmarks in build/release,
   3. runs them, some ten minutes long, and leaves their results as JSON in build/release/bench,
-  4. prints tables of them, medians of several repetitions, and what is wanted. It asserts nothing.
+  4. prints tables of them, medians of several repetitions, and the targets. It asserts nothing.
 --quick takes one repetition and smaller sweeps, to see that all works. --arch NAME makes the whole processes
 use that instruction set; the other benchmarks use each in turn.
 END
@@ -63,13 +64,14 @@ cmake --build --preset release --target benchmarks
 results=build/release/bench
 mkdir -p "$results"
 
-# Runs an executable's benchmarks in random order, again and again: what else the machine does hits all of them alike.
+# Runs an executable's benchmarks again and again in random order, so that other load on the machine hits all alike.
 measure() {
   local name=$1
   shift
   echo "Running $name"
   "build/release/tests/bench/${name}_bench" "${repetitions[@]}" --benchmark_enable_random_interleaving=true \
-    --benchmark_report_aggregates_only=true --benchmark_out_format=json --benchmark_out="$results/$name.json" "$@" >/dev/null
+    --benchmark_report_aggregates_only=true --benchmark_out_format=json --benchmark_out="$results/$name.json" \
+    "$@" >/dev/null
 }
 
 measure rates

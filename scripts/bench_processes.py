@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Times whole processes of clatter and writes what they took as JSON; --help says more."""
+"""Times whole processes of clatter and writes their time and memory as JSON; --help says more."""
 
 import argparse
 import json

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Prints what scripts/bench.sh measured, and beside it what is wanted; --help says more."""
+"""Prints the measurements of scripts/bench.sh beside their targets; --help says more."""
 
 import argparse
 import json
@@ -37,7 +37,7 @@ class Run:
         return self.medians["sincos/" + ("sse2" if arch == "scalar" else arch)]["time"]
 
     def named(self, prefix):
-        """What follows the prefix in names, with its measurement."""
+        """The rest of each name with this prefix, with its measurement."""
         return [(name.removeprefix(prefix), entry) for name, entry in self.medians.items() if name.startswith(prefix)]
 
 
@@ -174,7 +174,7 @@ def show_processes(content, unit):
 
 
 class Wanted:
-    """Lines of what is measured and what is wanted."""
+    """Lines of measurements and their targets."""
 
     def __init__(self):
         self.rows = []
@@ -241,8 +241,8 @@ def wanted_times(wanted, content, figures):
 
 def main():
     parser = argparse.ArgumentParser(
-        description="Prints what scripts/bench.sh measured as tables, each time also in s, and what is wanted of it. "
-        "Times wanted of whole runs hold where s is at most 0.6 ns, and in proportion on slower machines."
+        description="Prints the measurements of scripts/bench.sh as tables, each time also in s, and their targets. "
+        "Target times of whole runs are for s of at most 0.6 ns, and longer in proportion on slower machines."
     )
     parser.add_argument(
         "folder",

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Lets clang++ read every file of a compile database without making code; exits with 1 if it warns of any.
 
-What all tests include, GoogleTest and the 50-digit numbers, is compiled once for them (a precompiled header), which
+GoogleTest and the 50-digit numbers, which all tests include, are compiled once for them (a precompiled header). That
 halves the time.
 """
 
@@ -34,7 +34,7 @@ def precompiled(build, entry):
 
 
 def is_silent(entry, options):
-    """Whether clang++ has nothing to say of a file; what it says is printed."""
+    """Whether clang++ accepts a file without a message; its messages are printed."""
     command = [*arguments(entry), "-fsyntax-only", *options]
     done = subprocess.run(command, cwd=entry["directory"], capture_output=True, text=True, check=False)
     print(done.stderr, end="", flush=True)

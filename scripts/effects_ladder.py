@@ -16,9 +16,9 @@ HEAD = """\
 
 
 def measured(build, repetitions, seconds):
-    """What each rung leaves out, in their order, and medians: {"own": {"time": ...}, "kept in": ..., "all": ...}"""
-    bench = program(build, "tests/bench/effects_ladder", "it is built where libbenchmark-dev is installed")
-    # one after the other, in random order, again and again: what else the machine does hits all of them alike
+    """For each rung, in order: the effect left out, and medians {"own": {"time": ...}, "kept in": ..., "all": ...}"""
+    bench = program(build, "tests/bench/effects_ladder", "it is built if libbenchmark-dev is installed")
+    # again and again in random order, so that other load on the machine hits all alike
     options = [
         "--benchmark_format=json",
         "--benchmark_enable_random_interleaving=true",

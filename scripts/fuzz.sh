@@ -15,15 +15,16 @@ done
 
 steps() {
   cat <<END_OF_STEPS
-Runs libFuzzer on what reads files that others may have written or damaged, on Debian 12, as root or with sudo:
-  1. installs the packages that are missing: for the build (${BUILD_PACKAGES[*]})
-     and for libFuzzer (${FUZZ_PACKAGES[*]}),
+Runs libFuzzer on the code that reads files written or damaged by others, on Debian 12, as root or with sudo:
+  1. installs the packages that are missing:
+$(help_lines "for the build (${BUILD_PACKAGES[*]})")
+$(help_lines "and for libFuzzer (${FUZZ_PACKAGES[*]}),")
   2. builds the fuzzers in build/fuzz with AddressSanitizer and UndefinedBehaviorSanitizer,
   3. makes the seeds in build/fuzz/corpus from configs/, and small outputs and journals,
   4. runs each fuzzer for SECONDS (60 unless given), as many side by side as there are cores,
-  5. prints a table. Exit code 1: there is a finding; what was found, and the command that repeats it, is printed too.
-NAME is one of: ${all[*]}; or all, which is the default. What a fuzzer finds worth keeping stays in
-build/fuzz/grown, and its next run begins with that.
+  5. prints a table. Exit code 1: there is a finding; it is printed, with the command that repeats it.
+NAME is one of: ${all[*]}; or all, which is the default.
+A fuzzer keeps the inputs that reach new code in build/fuzz/grown, and its next run begins with them.
 END_OF_STEPS
 }
 
@@ -71,8 +72,9 @@ run() {
   local options
   choose_options "$1"
   mkdir -p "$build/grown/$1"
-  TMPDIR=$scratch "$build/tests/fuzz/$1_fuzz" "${options[@]}" -max_total_time="$seconds" -timeout=25 -rss_limit_mb=2048 \
-    -print_final_stats=1 -artifact_prefix="$build/findings/$1-" "$build/grown/$1" "$build/corpus/$1" >"$build/$1.log" 2>&1
+  TMPDIR=$scratch "$build/tests/fuzz/$1_fuzz" "${options[@]}" -max_total_time="$seconds" -timeout=25 \
+    -rss_limit_mb=2048 -print_final_stats=1 -artifact_prefix="$build/findings/$1-" \
+    "$build/grown/$1" "$build/corpus/$1" >"$build/$1.log" 2>&1
 }
 
 echo "Running ${names[*]}, $seconds s each"

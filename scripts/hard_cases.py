@@ -36,7 +36,7 @@ TITLES = {
 
 
 def measured(build):
-    """What the tests of the hard cases report, a dictionary a case."""
+    """The reports of the tests of the hard cases, a dictionary for each case."""
     tests = program(build, "tests/hard_tests")
     with tempfile.TemporaryDirectory() as folder:
         lines = pathlib.Path(folder) / "cases"
@@ -63,7 +63,7 @@ def by_row(cases):
 
 
 def size(value):
-    """A figure in one digit; what is below half an ulp is exact."""
+    """A number in one digit; anything below half an ulp counts as exact."""
     if value is None or math.isnan(value):
         return "–"
     if math.isinf(value):
@@ -88,19 +88,19 @@ def our_table(rows):
 
 
 def solved(build):
-    """What tests/bench/general_solvers prints, a dictionary a case and solver."""
+    """The output of tests/bench/general_solvers, a dictionary for each case and solver."""
     solvers = program(build, "tests/bench/general_solvers")
     return parsed(subprocess.run([solvers], check=True, capture_output=True, text=True).stdout)
 
 
 def is_right(run):
-    """The same impacts to a millionth, and no deeper into a stop than a millionth of half the distance to the other."""
+    """The same impacts to a millionth, and into a stop by less than a millionth of half the gap between the stops."""
     off = [run[name] or 0 for name in ("missed", "extra", "unreached")] + [run["outcome"] != "completed"]
     return not any(off) and all((run[name] or 0) < 1e-6 for name in ("penetration", "error_time", "error_x"))
 
 
 def verdict(runs):
-    """What one solver made of the scenes of a row, in words."""
+    """How one solver did on the scenes of a row, in words."""
     words = [f"{sum(map(is_right, runs))} of {len(runs)}"]
     missed, extra = sum(run["missed"] for run in runs), sum(run["extra"] for run in runs)
     stuck = sum(run["outcome"] != "completed" for run in runs)
@@ -160,7 +160,7 @@ def main():
     )
     add_build(parser)
     parser.add_argument(
-        "--check", action="store_true", help="write nothing; fail if the guide's figures are no longer true"
+        "--check", action="store_true", help="write nothing; fail if the guide's numbers are no longer true"
     )
     parser.add_argument("--cases", action="store_true", help="print every case instead")
     arguments = parser.parse_args()

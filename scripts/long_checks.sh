@@ -9,7 +9,7 @@ usage: scripts/long_checks.sh NAME [COUNT]
 Runs the long form of a test in tests/hard or tests/cli; build first (scripts/test.sh). NAME is one of
   random       COUNT scenes with chatter and rest against 50 digits            (default 10000; about 0.1 s each)
   arcs         COUNT arcs of every scale against 50 digits                     (default 10000000; about 0.1 ms each)
-  properties   what must hold for COUNT scenes that nobody chose               (default 1000000; about 4 ms each)
+  properties   the laws that every motion obeys, on COUNT random scenes        (default 1000000; about 4 ms each)
   attractors   COUNT steady scenes with every shortcut and with none           (default 10000; about 0.1 s each)
   drift        the speed of contact over COUNT conservative impacts            (default 100000000; about 1 us each)
   kills        COUNT runs killed, each sweep again and again until it is done  (default 1000; about 0.5 s each)
@@ -34,7 +34,8 @@ count=${2-$count}
 
 top=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 if [[ $1 == kills || $1 == disks ]]; then
-  export CLATTER=$top/build/release/apps/clatter/clatter CLATTER_KILLS=$count CLATTER_DISKS=$count PYTHONDONTWRITEBYTECODE=1
+  export CLATTER=$top/build/release/apps/clatter/clatter CLATTER_KILLS=$count CLATTER_DISKS=$count
+  export PYTHONDONTWRITEBYTECODE=1
   [[ -x $CLATTER ]] || { echo "long_checks.sh: $CLATTER is missing; scripts/test.sh builds it" >&2; exit 2; }
   cd "$top/tests/cli"
   exec /usr/bin/python3 -m unittest -v "$filter"

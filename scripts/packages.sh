@@ -1,9 +1,9 @@
-# Sourced by the scripts that need them: the Debian 12 packages for each purpose, and how the missing ones are installed.
+# Sourced by the scripts that need Debian 12 packages: those for each purpose, and the installation of missing ones.
 # shellcheck shell=bash disable=SC2034  # its lists are used by those who source it
 
 # libgtest-dev is among the build's, since the preset configures the tests too: one configuration for both scripts.
-BUILD_PACKAGES=(g++ cmake ninja-build pkg-config libhdf5-dev libboost-program-options-dev libtomlplusplus-dev libfftw3-dev
-                nettle-dev zlib1g-dev libxsimd-dev libgtest-dev)
+BUILD_PACKAGES=(g++ cmake ninja-build pkg-config libhdf5-dev libboost-program-options-dev libtomlplusplus-dev
+                libfftw3-dev nettle-dev zlib1g-dev libxsimd-dev libgtest-dev)
 PLOT_PACKAGES=(python3 python3-h5py python3-numpy python3-matplotlib)
 TEST_PACKAGES=(python3-xarray python3-h5netcdf python3-netcdf4 python3-yaml netcdf-bin hdf5-tools strace)
 CHECK_PACKAGES=(clang clang-format libomp-dev shellcheck black flake8)
@@ -11,6 +11,11 @@ TIDY_PACKAGES=(clang-tidy)
 FUZZ_PACKAGES=(clang libclang-rt-14-dev libomp-dev)
 BENCH_PACKAGES=(libbenchmark-dev libsundials-dev python3)
 SLURM_PACKAGES=(slurm-wlm munge)
+
+# A part of an item in a help text, which may name many packages, in lines of at most 119 columns.
+help_lines() {
+  fold -s -w 114 <<<"$1" | sed 's/^/     /; s/ *$//'
+}
 
 is_installed() {
   [[ $(dpkg-query -W -f='${db:Status-Status}' "$1" 2>/dev/null) == installed ]]

@@ -11,7 +11,7 @@ from hdf5_heaps import damaged_heap
 
 WANTED = "give a file that 'clatter run' or 'clatter accuracy' wrote"
 ANEW = "run its configuration again, or get the file anew"
-UNREADABLE = (AttributeError, LookupError, MemoryError, OSError, RuntimeError, TypeError, ValueError)  # of damaged ones
+UNREADABLE = (AttributeError, LookupError, MemoryError, OSError, RuntimeError, TypeError, ValueError)  # if damaged
 MOST_DEFLATED = 1032  # bytes that one byte gives when it is inflated (zlib's technical details)
 FILTERS = {h5z.FILTER_SHUFFLE, h5z.FILTER_DEFLATE}
 
@@ -26,7 +26,7 @@ def printable(value):
 
 
 def damaged(path, error):
-    """What a library found: its words may quote the file."""
+    """The error for damage that a library found: its words may quote the file."""
     return FileProblem(f"{path}: damaged ({printable(error)}); {ANEW}")
 
 
@@ -40,7 +40,7 @@ class Output(h5py.File):
 
 
 def open_output(path):
-    """Opens an output whose values all stand in itself, as clatter writes them, or says what is wrong with it."""
+    """Opens an output that holds all its values itself, as clatter writes them, or says why it isn't one."""
     require_regular(path)
     try:
         file = Output(path, "r")
@@ -102,7 +102,7 @@ def require_variable(path, file, name):
 
 
 def unlike_clatter(path, root, name):
-    """How an object at the root differs from all that clatter writes, or None; looks at a link before it follows it."""
+    """How an object at the root differs from all that clatter writes, or None; checks a link before it follows it."""
     if root.links.get_info(name.encode()).type != h5l.TYPE_HARD:
         return "is a link to another place"
     if h5o.get_info(root, name.encode()).type != h5o.TYPE_DATASET:
@@ -124,7 +124,7 @@ def unlike_clatter(path, root, name):
 
 
 def stored_bytes(path):
-    """The room that a file takes on its disk; its length, where the file system doesn't tell."""
+    """The room that a file takes on its disk; its length, if the file system doesn't tell."""
     status = os.stat(path)
     return 512 * status.st_blocks or status.st_size
 

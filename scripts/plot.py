@@ -9,7 +9,7 @@ import warnings
 from itertools import takewhile
 from pathlib import Path
 
-if not sys.warnoptions:  # what numpy and matplotlib have to say is for those who work on this program
+if not sys.warnoptions:  # warnings of numpy and matplotlib are for those who work on this program
     warnings.simplefilter("ignore")
     logging.getLogger("matplotlib").setLevel(logging.ERROR)
 
@@ -32,7 +32,7 @@ def command_line():
         usage="plot.py [-o DIR] [--format svg|png|pdf...] FILE.h5...",
         description=__doc__,
         allow_abbrev=False,
-        epilog="Exit codes: 0 done, 2 wrong command line, 74 a file cannot be read or " "written.",
+        epilog="Exit codes: 0 done, 2 wrong command line, 74 a file cannot be read or written.",
     )
     parser.add_argument("files", nargs="*", metavar="FILE.h5", help="output of 'clatter run' or 'clatter accuracy'")
     parser.add_argument("-o", "--output", metavar="DIR", help="folder for the pictures; default: beside each file")
@@ -79,7 +79,7 @@ def draw(path, folder, formats):
 
 def figure_of(output):
     """The figure, with its heading, that suits what the file contains."""
-    if output.is_study:
+    if output.is_accuracy:
         return accuracy_figure(output)
     figure = (paper_figure(output) or generic_figure)(output)
     plot_style.heading(figure, output)

@@ -1,4 +1,4 @@
-"""What accuracy costs in time: the picture of a study that `clatter accuracy` wrote."""
+"""The picture of an output of `clatter accuracy`: errors against the time that they cost."""
 
 from dataclasses import dataclass
 from functools import partial
@@ -16,7 +16,7 @@ SCALAR = 0  # the arch of rows that no lanes ran
 WRONG = ("missed", "doubled")
 MOTION = ("error_contact_time", "error_contact_speed", "error_extrema")
 
-# Method: its name in the legend, colour, symbol. What its points are labelled with is its setting.
+# Method: its name in the legend, with the setting that labels its points in brackets; its colour; its symbol.
 LOOKS = {
     "exact": ("exact", STOP, "D"),
     "exact_lanes": ("exact in lanes (extrema)", GREEN, "^"),
@@ -32,7 +32,7 @@ LOOKS = {
 
 @dataclass
 class Curve:
-    """What one method reaches, from its coarsest to its finest setting."""
+    """Cost and error of one method, from its coarsest to its finest setting."""
 
     method: str
     setting: np.ndarray
@@ -52,7 +52,7 @@ class Curve:
 
 
 def accuracy_figure(output):
-    """The figure of a study, with its heading: a panel for each thing that has an error to show."""
+    """The figure, with its heading: a panel for each kind of error in the file."""
     exact = curve(output, "harmonics_exact", ("error_harmonics",), None)
     lanes = curve(output, "exact", ("error_extrema",), "ns_per_period", "exact_lanes", in_lanes=True)
     panels = [
@@ -92,7 +92,7 @@ def panel_places(count):
 
 
 def note(output, found):
-    """What one symbol stands for, and what is drawn in another place than its own."""
+    """Notes on the symbols: the values that they stand for, and those drawn away from their own place."""
     points, symbols = int(np.prod(output.shape)), []
     if any(np.isfinite(part.spread).any() for part in found):
         symbols.append("bars: interquartile range")
@@ -129,7 +129,7 @@ def curve(output, method, errors, cost, look=None, in_lanes=False):
 
 
 def at_points(output, *names):
-    """These results, one after the other, at every point: a line each, with a column for each row of the study."""
+    """These results, one after the other, at every point: a line each, with a column for each row of the file."""
     shape = output.values("status").shape
     return np.concatenate([np.broadcast_to(output.values(name), shape).reshape(-1, shape[-1]) for name in names])
 
@@ -140,12 +140,12 @@ def code_of(output, method):
 
 
 def worst(values):
-    """The largest value in each column, of those that exist; NaN where none does."""
+    """The largest value in each column, of those that exist; NaN if none does."""
     return np.fmax.reduce(values, axis=0)
 
 
 def medians(values):
-    """The median of each column, of the values that exist; NaN where none does."""
+    """The median of each column, of the values that exist; NaN if none does."""
     known = [column[np.isfinite(column)] for column in values.T]
     return np.array([np.median(column) if len(column) else np.nan for column in known])
 
@@ -161,7 +161,7 @@ def pareto_front(cost, error):
 
 
 def draw_curve(axes, part):
-    """A line through a method's points, hollow where they are wrong; returns the points' labels."""
+    """A line through a method's points, hollow if they are wrong; returns the points' labels."""
     name, color, marker = LOOKS[part.method]
     axes.errorbar(part.cost, part.error, xerr=bars(part), fmt="none", ecolor=color, elinewidth=2.2, alpha=0.3)
     axes.plot(part.cost, part.error, color=color, marker=marker, ms=4.5, label=name, gid=part.method)
@@ -193,7 +193,7 @@ def short(value):
 
 
 def name_hollow(axes, found):
-    """A legend entry for hollow points, where there are some."""
+    """A legend entry for hollow points, if there are any."""
     wrong, failed = any(part.wrong.any() for part in found), any(part.failed.any() for part in found)
     if wrong or failed:
         words = ", ".join(["impacts missed or doubled"] * wrong + [f"{'or ' * wrong}failed"] * failed)

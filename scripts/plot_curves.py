@@ -10,7 +10,7 @@ DENSE = 60  # points from which a curve is drawn without markers
 
 
 def draw_branch(axes, output, name, values, color, title, loose_color=None, **style):
-    """One result along the only axis: a line through the points that repeat, hollow markers where none does."""
+    """One result along the only axis: a line through the points that repeat, hollow markers for those that don't."""
     along, loose = output.values(name), output.values("status") == APERIODIC
     along, values, loose = split_at_jumps(along, values, loose)
     steady = np.where(loose, np.nan, values)

@@ -64,15 +64,15 @@ class Output:
         return self.values("status").shape[: len(self.axes)]
 
     @property
-    def is_study(self):
-        """Whether this is a study of what accuracy costs: rows of methods at every point of the sweep."""
+    def is_accuracy(self):
+        """Whether `clatter accuracy` wrote this file: rows of methods at every point of the sweep."""
         return "method" in self and "ns_per_period" in self
 
     @property
     def figure(self):
         """Number of the paper's figure that this file is, or None."""
         match = re.search(r"\bFig\.\s*(\d+)\s*$", self.source)
-        return int(match.group(1)) if match and PAPER in self.source and not self.is_study else None
+        return int(match.group(1)) if match and PAPER in self.source and not self.is_accuracy else None
 
     @property
     def follow(self):
@@ -93,7 +93,7 @@ class Output:
         ]
 
     def parameter(self, key, default=np.nan):
-        """A scene key at every point: its coordinate where it is swept, else its constant."""
+        """A scene key at every point: its coordinate if it is swept, else its constant."""
         if self.swept(key):
             variable = self[key]
             place = self.axes.index(variable.dims[0])
@@ -102,7 +102,7 @@ class Output:
         return np.full(self.shape, float(self.scene.get(key, default)))
 
     def stops(self):
-        """Lower and upper stop at every point; infinite where there is none."""
+        """Lower and upper stop at every point; infinite if there is none."""
         if "xs" in self.scene or self.swept("xs"):
             gap = np.abs(self.parameter("xs"))
             return -gap, gap

@@ -174,6 +174,6 @@ PAPER_FIGURES = {
 
 
 def paper_figure(output):
-    """The function that draws this output as the paper does, or None where its content is another."""
+    """The function that draws this output as the paper does, or None if the file has other contents."""
     draw, needed, axes = PAPER_FIGURES.get(output.figure, (None, (), ()))
     return draw if draw and output.axes == axes and all(name in output for name in needed) else None

@@ -70,7 +70,7 @@ def generic_figure(output):
 
 
 def motion_panels(output):
-    """Time histories, phase plane and impacts, where they were recorded."""
+    """Time histories, phase plane and impacts, as far as they were recorded."""
     if any(name not in output for name in RECORDS):
         return []
     points = chosen_points(output)
@@ -91,7 +91,7 @@ def motion_panels(output):
 
 
 def point_panels(output):
-    """What a sweep without axes has besides its motion: its harmonics, and its numbers."""
+    """The panels of a sweep without axes, besides its motion: its harmonics, and its numbers."""
     panels = []
     if "impact_count" in output and any(name not in output for name in RECORDS):
         panels.append(lambda figure, axes: impact_log(output, (), axes))
@@ -194,7 +194,7 @@ def map_title(output, name, part, title):
 
 
 def map_note(output):
-    """What the marks in maps mean, and where further axes stand."""
+    """The meaning of the marks in maps, and the values at which further axes are held."""
     status = output.values("status")
     notes = ["hatched: no period"] * bool((status == APERIODIC).any())
     notes += ["black: failed"] * bool((status >= FIRST_FAILURE).any())

@@ -1,4 +1,4 @@
-"""Labels beside the points of curves, each where it covers nothing; those without room are left out."""
+"""Labels beside the points of curves, each at a place where it covers nothing; those without room are left out."""
 
 from dataclasses import dataclass
 

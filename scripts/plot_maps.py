@@ -47,7 +47,7 @@ def finish_map(axes, output, names, status):
 
 
 def kind_map(output, figure, axes, names, status, ratio):
-    """Which kind of motion is where: its period in forcing periods, none, or a failure."""
+    """The kind of motion at each point: its period in forcing periods, none, or a failure."""
     kinds = [
         ("period 1", "#d6e6f4", ratio == 1),
         ("period 2", BLUE, ratio == 2),

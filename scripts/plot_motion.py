@@ -65,7 +65,7 @@ def time_history(output, quantity, points, axes, end=None):
 
 
 def draw_common_walls(axes, output, vertical=False):
-    """The stops, where every point has the same."""
+    """The stops, if they are the same at every point."""
     lower, upper = output.stops()
     if np.unique(lower).size == 1 and np.unique(upper).size == 1:
         draw_walls(axes, lower.flat[0], upper.flat[0], vertical, named=False)

@@ -1,4 +1,4 @@
-"""What the scripts that make tables of guides share: a table stands in a README.md, between two markers."""
+"""Shared by the scripts that make tables of guides: a table stands in a README.md, between two markers."""
 
 import pathlib
 import sys
@@ -12,7 +12,7 @@ def add_build(parser):
 
 
 def program(build, path, reason="scripts/test.sh builds it"):
-    """A program of a build folder; the script ends where it isn't there."""
+    """A program of a build folder; the script ends if it isn't there."""
     found = build / path
     if not found.exists():
         sys.exit(f"{pathlib.Path(sys.argv[0]).name}: {found} is missing; {reason}")

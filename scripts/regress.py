@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""What scripts/regress.sh writes and compares with h5py; --help says more."""
+"""Writes baselines for scripts/regress.sh, and compares outputs with them; --help says more."""
 
 import argparse
 import math
@@ -79,18 +79,17 @@ def read_text(path):
 
 
 class Comparison:
-    """Of an output with its baseline: what differs, and what does but may."""
+    """Of an output with its baseline: the differences, and those that are permitted."""
 
     def __init__(self, base, new, tolerance):
         self.differences, self.permitted = [], []
         self.variables, self.largest, self.where = 0, 0.0, "-"
         self.tolerance = tolerance
         step = base.variables["status"].step
-        self.chaotic = (
-            new.variables["status"].rows[::step, 0] == APERIODIC
-        )  # where the baseline's isn't, status itself differs
+        # if the baseline's isn't aperiodic there, status itself differs
+        self.chaotic = new.variables["status"].rows[::step, 0] == APERIODIC
         self.points = len(self.chaotic)
-        self.unlike = numpy.zeros(self.points, dtype=bool)  # the aperiodic points where something differs
+        self.unlike = numpy.zeros(self.points, dtype=bool)  # the aperiodic points that differ in something
         left_out = SETTLING if base.is_text else ()
         for name in sorted((base.variables.keys() | new.variables.keys()) - set(left_out)):
             if name not in new.variables:
@@ -151,7 +150,7 @@ def line(name, points, variables, largest, where, h5diff, verdict, note):
 
 
 def h5diff_of(base, output, tolerance):
-    """What h5diff says of two files that may be read: it would follow what leads out of them."""
+    """The verdict of h5diff on two files, only after they are checked: it would follow links out of them."""
     found = subprocess.run(
         ["h5diff", "-c", "-d", str(tolerance), "--exclude-attribute", "/", base.absolute(), output.absolute()],
         check=False,
@@ -197,14 +196,14 @@ def table_row(baseline, output, tolerance):
 
 
 def table(arguments):
-    print(line("figure", "points", "variables", "largest", "where", "h5diff", "verdict", "differences"))
+    print(line("output", "points", "variables", "largest", "where", "h5diff", "verdict", "differences"))
     agreeing = 0
-    for name in arguments.figures:
+    for name in arguments.names:
         row, agrees = table_row(arguments.baseline, arguments.outputs / f"{name}.h5", arguments.tolerance)
         print(row)
         agreeing += agrees
-    print(f"{agreeing} of {len(arguments.figures)} agree within {arguments.tolerance:g}", file=sys.stderr)
-    return 0 if agreeing == len(arguments.figures) else 1
+    print(f"{agreeing} of {len(arguments.names)} agree within {arguments.tolerance:g}", file=sys.stderr)
+    return 0 if agreeing == len(arguments.names) else 1
 
 
 def text(arguments):
@@ -217,12 +216,12 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__)
     commands = parser.add_subparsers(required=True)
     command = commands.add_parser(
-        "table", help="compares outputs with a baseline and prints a table; ends with 1 where any differs"
+        "table", help="compares outputs with a baseline and prints a table; ends with 1 if any differs"
     )
     command.add_argument("baseline", type=pathlib.Path, help="folder of NAME.h5 or NAME.txt")
     command.add_argument("outputs", type=pathlib.Path, help="folder of NAME.h5")
     command.add_argument("tolerance", type=float)
-    command.add_argument("figures", nargs="+", metavar="NAME")
+    command.add_argument("names", nargs="+", metavar="NAME")
     command.set_defaults(run=table)
     command = commands.add_parser("text", help="makes a text baseline of outputs")
     command.add_argument("outputs", type=pathlib.Path, help="folder of NAME.h5")

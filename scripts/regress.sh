@@ -14,20 +14,23 @@ usage() {
 usage: scripts/regress.sh BASELINE_DIR [--write h5|text]
 
 Runs configurations of configs/ and compares their outputs with those in BASELINE_DIR, which --write makes:
-  h5    whole outputs, NAME.h5, as scripts/reproduce.sh leaves them, too; compared by h5diff, and then value by value
+  h5    whole outputs, NAME.h5, such as those of scripts/reproduce.sh; compared by h5diff, and then value by value
   text  some points of each output, NAME.txt, small enough to commit, with SHA256SUMS
-Every figure must have its baseline; other configurations count if they have one. Those of "clatter accuracy" hold times and are left out.
+Every figure of the paper must have its baseline; other configurations are compared if they have one. Those of
+"clatter accuracy" hold times and are left out.
 
-The table on stdout has a line for each, in columns between blanks: figure, points and variables compared, the largest difference,
-where it is, what h5diff says (same, differs, - for text), the verdict (agrees, differs), and the differences in words. A difference is a value
-off by more than $tolerance, NaN beside a number, and a variable, shape, type or attribute that isn't the same. Only these may differ, and
-the line says "but for" them:
-  - values at points that are aperiodic in both: chaos makes another motion of any other rounding; their status counts,
+The table on stdout has a line for each output, in columns between blanks: its name, points and variables compared,
+the largest difference, where it is, what h5diff says (same, differs, - for text), the verdict (agrees, differs), and
+the differences in words. A difference is a value off by more than $tolerance, NaN beside a number, and a variable,
+shape, type or attribute that isn't the same. Only these may differ, and the line says "but for" them:
+  - values at points that are aperiodic in both, since chaos turns any other rounding into another motion; their
+    status must agree,
   - impact_total, simulated_periods and settling_estimate: how long settling took is no property of the motion,
-  - phases by whole turns, or where the amplitude is 0.
+  - phases by whole turns, or if the amplitude is 0.
 
-Environment: CLATTER, the program (default: build/release/apps/clatter/clatter); CLATTER_ARCH, its instruction set. Pin it where other machines
-made the h5 files: on an exact tangency, or before chaos dies out, the last bits may decide for another motion.
+Environment: CLATTER, the program (default: build/release/apps/clatter/clatter); CLATTER_ARCH, its instruction set.
+Pin it if other machines made the h5 files: on an exact tangency, or before chaos dies out, the last bits may decide
+for another motion.
 Exit codes: 0 all agree; 1 some differ; 2 wrong use, no baseline, or a damaged one.
 END
 }
@@ -61,7 +64,8 @@ clatter=${CLATTER:-$source_dir/build/release/apps/clatter/clatter}
 
 shopt -s nullglob
 binaries=("$baseline"/*.h5) texts=("$baseline"/*.txt)
-if ((${#binaries[@]} > 0 && ${#texts[@]} > 0)) || [[ $write == h5 && ${#texts[@]} -gt 0 ]] || [[ $write == text && ${#binaries[@]} -gt 0 ]]; then
+if ((${#binaries[@]} > 0 && ${#texts[@]} > 0)) || [[ $write == h5 && ${#texts[@]} -gt 0 ]] ||
+  [[ $write == text && ${#binaries[@]} -gt 0 ]]; then
   fail "$baseline would hold h5 and text; one of them, please"
 fi
 if [[ -z $write ]]; then
@@ -87,7 +91,7 @@ if [[ -n $write ]]; then
   names=("${names[@]##*/}")
   names=("${names[@]%.toml}")
 else
-  # The figures, and what else the baseline has.
+  # The figures, and all else that the baseline has.
   names=("$source_dir"/configs/fig*.toml "${binaries[@]}" "${texts[@]}")
   names=("${names[@]##*/}")
   mapfile -t names < <(printf '%s\n' "${names[@]%.*}" | sort -u)
@@ -99,7 +103,7 @@ trap 'rm -rf "$outputs"' EXIT
 for name in "${names[@]}"; do
   output=$outputs/$name.h5 code=0
   "$clatter" run "$source_dir/configs/$name.toml" -o "$output" -q || code=$?
-  ((code < 124)) || exit "$code" # interrupted; all else that ends without an output is told by the table
+  ((code < 124)) || exit "$code" # interrupted; the table reports all else that ends without an output
   [[ -e $output || -z $write ]] || fail "nothing is written, since $name has no output"
 done
 

@@ -9,8 +9,9 @@ source "$source_dir/scripts/packages.sh"
 steps() {
   cat <<END
 Reproduces every figure of doi:10.5755/j02.mech.32277 on Debian 12, as root or with sudo:
-  1. installs the packages that are missing: for the build (${BUILD_PACKAGES[*]})
-     and for the pictures (${PLOT_PACKAGES[*]}),
+  1. installs the packages that are missing:
+$(help_lines "for the build (${BUILD_PACKAGES[*]})")
+$(help_lines "and for the pictures (${PLOT_PACKAGES[*]}),")
   2. builds clatter in build/release,
   3. runs every configs/fig*.toml to DIR/figNN.h5,
   4. draws every DIR/figNN.svg and DIR/figNN.png.

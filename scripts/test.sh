@@ -9,10 +9,11 @@ source "$source_dir/scripts/packages.sh"
 steps() {
   cat <<END
 Builds clatter and runs all its tests on Debian 12, as root or with sudo:
-  1. installs the packages that are missing: for the build (${BUILD_PACKAGES[*]}),
-     for the pictures (${PLOT_PACKAGES[*]})
-     for reading the outputs with other programs (${TEST_PACKAGES[*]})
-     and for scripts/check.sh, which is tested too (${CHECK_PACKAGES[*]}),
+  1. installs the packages that are missing:
+$(help_lines "for the build (${BUILD_PACKAGES[*]}),")
+$(help_lines "for the pictures (${PLOT_PACKAGES[*]}),")
+$(help_lines "for reading the outputs with other programs (${TEST_PACKAGES[*]}),")
+$(help_lines "and for scripts/check.sh, which is tested too (${CHECK_PACKAGES[*]}),")
   2. builds clatter and its tests in build/release,
   3. runs all tests through ctest.
 END

@@ -10,9 +10,9 @@ usage: scripts/slurm/submit.sh [OPTION of sbatch]... N CONFIG [-o FILE.h5] [OPTI
 
 Submits a sweep in N shards as a job array, and a job that merges them into FILE.h5 when all are done; FILE is the
 configuration's name unless -o names it. scripts/slurm/sweep.sbatch --help says what the tasks do. Options of sbatch,
-in one word each, apply to both jobs, but for these:
+in one word each, apply to both jobs, except these:
   --array=2,5      computes these shards only, after they failed, and merges all N
-  --dependency=... holds for the array
+  --dependency=... applies to the array only
 For example: scripts/slurm/submit.sh --time=2:00:00 --cpus-per-task=4 8 configs/map_nu_xs.toml -o map.h5
 END
 }
@@ -41,7 +41,7 @@ shards=$1
 shift
 [[ -f $1 ]] || refuse "'$1' is no file; the configuration follows the number of shards"
 
-# What a task would refuse is better said now than in its log.
+# Mistakes that a task would refuse are better reported now than in its log.
 "$slurm_dir/sweep.sbatch" --check "$@"
 
 job=$(sbatch --parsable --array="${array:-0-$((shards - 1))}" "${both[@]}" "${array_only[@]}" \

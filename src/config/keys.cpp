@@ -54,7 +54,7 @@ constexpr std::array keys_before_observe{
     Key{"scene", "v0", number, "0", "-1.5", "velocity at tau = 0", any},
     with(stops, Key{"scene", "start_period", number, "", "3",
                     "period of the motion to start on, just after its contact with the lower stop; in place of x0 and "
-                    "v0, where h = f = load = 0, R = 1 and xs is given",
+                    "v0, only if h = f = load = 0, R = 1 and xs is given",
                     AllowedRange{.low = 0, .high = 2 * std::numbers::pi, .open = true}}),
 
     with("xs = [1.0, 2.0]\nR = [0.7, 0.5]\n",

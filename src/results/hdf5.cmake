@@ -1,8 +1,8 @@
-# The target hdf5: HDF5's C library with its high level, static where that links. The shared one loads curl, TLS, LDAP and
+# The target hdf5: HDF5's C library with its high level, static if that links. The shared one loads curl, TLS, LDAP and
 # Kerberos for a driver that nothing here uses, which takes longer than a small sweep.
 #
-# CMake's FindHDF5 asks HDF5's compiler wrapper which libraries the static one needs. That is a shell script, which fails in
-# a folder with a blank in its name, and then nobody knows; so the few that there may be are looked for here.
+# CMake's FindHDF5 asks HDF5's compiler wrapper which libraries the static one needs. It is a shell script that fails
+# in a folder with a blank in its name, so the few libraries that it may name are looked for here.
 include(CheckCXXSourceCompiles)
 
 set(hints HINTS ${HDF5_ROOT} ENV HDF5_ROOT PATH_SUFFIXES)

@@ -1,4 +1,4 @@
-"""What building depends on besides the sources: the folder that they are in, and where the commit comes from."""
+"""Building depends on more than the sources: the folder that they are in, and the origin of the commit."""
 
 import os
 import re
@@ -23,7 +23,7 @@ def run(*command, folder=None):
 
 
 def libraries(build):
-    """What a build folder links the program with."""
+    """The libraries that a build folder links the program with."""
     text = (build / "build.ninja").read_text(encoding="utf-8")
     statement = re.search(
         r"^build apps/clatter/clatter: (?:.*\n)(?:  .*\n)*?  LINK_LIBRARIES = (.*)$", text, re.MULTILINE
@@ -84,7 +84,7 @@ class Build(unittest.TestCase):
         self.assertEqual(self.commit(repository), head + "-dirty")
 
     def commit(self, source):
-        """What a build of this folder would take for its commit."""
+        """The commit that a build of this folder would report."""
         output = self.folder / "version.cpp"
         template = self.folder / "template"
         template.write_text("@GIT_COMMIT@")

@@ -1,4 +1,4 @@
-"""What the tests of the command line share: the program in a directory of its own."""
+"""Shared by the tests of the command line: the program in a directory of its own."""
 
 import os
 import pathlib
@@ -27,7 +27,7 @@ period = true
 
 
 def runs_here(name):
-    """Whether this machine has an instruction set, as its kernel says."""
+    """Whether this machine has an instruction set, as Linux reports."""
     flags = set(re.search(r"^flags\s*:(.*)$", pathlib.Path("/proc/cpuinfo").read_text(), re.MULTILINE)[1].split())
     return {"avx2": {"avx2", "fma"}, "avx512": {"avx512f", "avx512dq"}}.get(name, set()) <= flags
 

@@ -22,7 +22,7 @@ def can_trace():
 
 
 def make_surroundings(folder):
-    """What no reader may open, or wait for."""
+    """Files that no reader may open, or wait for."""
     (folder / "secret").write_text(SECRET * 9)
     os.mkfifo(folder / "pipe")
     with h5py.File(folder / "other.h5", "w") as file:

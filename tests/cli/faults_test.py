@@ -48,7 +48,7 @@ class Faults(StoppedRuns):
         return self.journal.read_bytes()
 
     def assert_whole_or_nothing(self, code, said):
-        """What a run may leave that something went wrong for: a whole output and a success, or neither."""
+        """A run in which something went wrong leaves a whole output and a success, or neither."""
         if self.output.exists():
             self.assertEqual(self.output.read_bytes(), self.whole, said)
         else:

@@ -37,7 +37,7 @@ class ConservativeFigures(unittest.TestCase):
         for name in ("fig02.toml", "fig03.toml"):
             figure = run(name)
             period = figure["start_period"]
-            ratio = 1 / np.tan(period / 4)  # (21), (1 + cos)/sin of half the period, without its cancellation near 2 pi
+            ratio = 1 / np.tan(period / 4)  # (21), (1 + cos)/sin of half the period, without cancellation near 2 pi
             self.assert_near(figure["velocity_ratio"] / ratio, 1, 1e-12, name)
             self.assert_near(figure["period"] / period, 1, 1e-12, name)
             self.assert_near(figure["eigenfrequency"] * period / (2 * np.pi), 1, 1e-12, name)

@@ -1,4 +1,4 @@
-"""Tries the commands of the guides in an empty directory that has links to the project's folders and to the program."""
+"""Tries the commands of the guides in a directory with nothing but links to the project's folders and the program."""
 
 import json
 import os
@@ -26,7 +26,7 @@ SLOW_SCRIPTS = (
 SLOW_PROGRAMS = ("apt-get", "cmake", "ctest", "build/release/tests/")
 SHORTER = ((r"^(clatter accuracy \S+)", r"\1 -q --set time.window=1"),)
 
-# What a guide supposes to be there.
+# The files that a guide takes to be there.
 SMALL_MAP = (
     '[scene]\nf = -1.0\nxs = 1\nR = 0.7\nh = 0.1\n[sweep]\nnu = "linspace(0.5, 1.5, 17)"\n[observe]\nextrema = true\n'
 )
@@ -109,7 +109,7 @@ def presets(root):
 
 
 def wrong_words(workplace, words):
-    """What is wrong with a command that isn't run: an option, a name or a package that doesn't exist."""
+    """The fault of a command that isn't run: an option, a name or a package that doesn't exist."""
     program = words[0]
     if program == "apt-get":
         known = (workplace.root / "scripts" / "packages.sh").read_text()
@@ -146,7 +146,7 @@ def tried_line(workplace, line):
 
 
 def tried_block(workplace, language, lines):
-    """What goes wrong in a block: number of the line in it, and why."""
+    """The failures of a block: number of the line in it, and why."""
     if language == "toml":
         result = workplace.run("clatter", "plan", "-", text="\n".join(lines))
         return [(0, result.stderr)] if result.returncode else []

@@ -1,4 +1,4 @@
-"""What the test of the guides checks without running anything: links, anchors, paths, lengths, equations, authors."""
+"""The checks of the guides that run nothing: links, anchors, paths, lengths, equations, authors."""
 
 import re
 
@@ -154,7 +154,7 @@ def numbers_in(citation):
 
 
 def citations(root):
-    """Where something is cited, and the text: comments of C++ files, and guides but for the list of references."""
+    """Each place that may cite something, and its text: comments of C++ files, and guides but for the references."""
     for name, number, text in comments(root):
         yield f"{name}:{number}", text
     for guide in guides(root):

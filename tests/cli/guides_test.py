@@ -1,4 +1,4 @@
-"""The guides say what is there: links, paths, equations, authors, and commands that run; each check is checked, too."""
+"""Links, paths, equations, authors and commands of the guides are right, and each check of them is checked, too."""
 
 import pathlib
 import re

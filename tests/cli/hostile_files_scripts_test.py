@@ -1,5 +1,5 @@
-"""What plot.py and regress.sh make of HDF5 files whose makers meant them to be read from elsewhere: they refuse each
-before a value is read, open nothing but the file itself, and wait for nothing."""
+"""plot.py and regress.sh refuse HDF5 files that lead to values elsewhere: they refuse each before a value is read,
+open nothing but the file itself, and wait for nothing."""
 
 import os
 import shutil

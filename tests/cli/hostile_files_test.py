@@ -50,8 +50,8 @@ CASES = {
 REASONS["hidden_storage"] = REASONS["hidden"]
 
 
-def seal(path):
-    """Puts the seal of a shard behind a file's bytes."""
+def add_trailer(path):
+    """Puts the checksum trailer of a shard behind a file's bytes."""
     content = path.read_bytes()
     path.write_bytes(content + b"\nclatter shard of %20d bytes, CRC-32 %08x\n" % (len(content), zlib.crc32(content)))
 
@@ -77,7 +77,7 @@ class HostileFiles(CommandLine):
         if hide:
             hide_variables(path)
         if "-of-" in original:
-            seal(path)
+            add_trailer(path)
         return path.name
 
     def each_crafted(self, original):

@@ -1,4 +1,4 @@
-"""Limits of the system: each that is too narrow is said with its name, and ends with 74; no signal ends the program."""
+"""Limits of the system: each that is too narrow is named, and ends the program with 74; no signal ends it."""
 
 import os
 import pathlib

@@ -299,11 +299,11 @@ class Reductions(unittest.TestCase):
             path = Path(folder) / "study.h5"
             study.write(path)
             output = plot_data.Output(path)
-            self.assertTrue(output.is_study)
+            self.assertTrue(output.is_accuracy)
             self.assertEqual((output.axes, output.shape), (("nu",), (2,)))
             with h5py.File(path, "a") as file:
                 del file["ns_per_period"]
-            self.assertFalse(plot_data.Output(path).is_study)
+            self.assertFalse(plot_data.Output(path).is_accuracy)
 
 
 if __name__ == "__main__":

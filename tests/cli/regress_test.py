@@ -58,7 +58,7 @@ esac
         return str(path)
 
     def changed(self, **settings):
-        """A clatter that runs some figures with another setting."""
+        """A clatter that runs some configurations with another setting."""
         return self.program(**{name: f""""{CLATTER}" "$@" --set '{setting}'""" for name, setting in settings.items()})
 
     def edited(self, **edits):
@@ -88,7 +88,7 @@ esac
     def rows(self, result):
         header, *lines = result.stdout.splitlines()
         self.assertEqual(
-            header.split(), ["figure", "points", "variables", "largest", "where", "h5diff", "verdict", "differences"]
+            header.split(), ["output", "points", "variables", "largest", "where", "h5diff", "verdict", "differences"]
         )
         return {row[0]: row[1:] for row in (line.split(maxsplit=7) for line in lines)}
 
@@ -101,7 +101,7 @@ esac
         return rows
 
     def assert_differ(self, result, **expected):
-        """These figures differ, each with these words in its line, and no other."""
+        """These outputs differ, each with these words in its line, and no other."""
         self.assertEqual(result.returncode, 1, result.stdout + result.stderr)
         rows = self.rows(result)
         self.assertLessEqual(FIGURES, rows.keys())
@@ -243,7 +243,7 @@ esac
 
     @NEEDS_H5DIFF
     def test_the_line_of_the_guide(self):
-        """It tells equal, slightly and grossly different files apart; h5diff alone ignores another number of points."""
+        """It tells equal, slightly and grossly different files apart; h5diff alone ignores a different point count."""
         text = (SOURCE / "scripts" / "README.md").read_text()
         begin = text.index("<!-- begin: h5diff -->\n```bash\n")
         line = text[begin : text.index("```\n<!-- end -->", begin)].split("```bash\n")[1]

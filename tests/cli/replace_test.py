@@ -1,4 +1,4 @@
-"""What an output may take the place of: an older one of the same command, shard and title; with --force, anything."""
+"""An output may replace an older one of the same command, shard and title; with --force, anything."""
 
 import shutil
 import unittest

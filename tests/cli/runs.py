@@ -12,7 +12,7 @@ FORCED = {"f": -1.0, "h": 0.1, "R": 0.7, "xs": -0.5}
 
 
 def toml(title="", scene=FORCED, **sections):
-    """A configuration as text; a section is given as a dictionary, and what [sweep] holds isn't repeated in [scene]."""
+    """A configuration as text; a section is given as a dictionary, and keys of [sweep] aren't repeated in [scene]."""
     lines = [f'title = "{title}"']
     scene = {key: value for key, value in scene.items() if key not in sections.get("sweep", {})}
     for name, keys in {"scene": scene, **sections}.items():

@@ -1,4 +1,4 @@
-"""What the program loads when it starts: nothing from the working directory, and no libraries that it never calls."""
+"""At its start the program loads nothing from the working directory, and no libraries that it never calls."""
 
 import os
 import re

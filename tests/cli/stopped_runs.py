@@ -1,4 +1,4 @@
-"""What the tests of stopped, shared and failing runs have in common: a sweep of every kind of motion, and its bytes."""
+"""Shared by the tests of stopped, divided and failing runs: a sweep of every kind of motion, and its bytes."""
 
 import random
 import signal

@@ -1,4 +1,4 @@
-"""What looks unintended is said before the run, once, on stderr, and the run goes on."""
+"""A warning of anything that looks unintended appears once, on stderr, before the run, and the run goes on."""
 
 import json
 import unittest
