@@ -1,5 +1,7 @@
-# Writes version.cpp at every build; configure_file leaves the file alone when nothing has changed, so nothing is compiled again.
-set(ARCHIVED "$Format:%H$")  # git archive puts the commit here (.gitattributes), as those do who offer archives for download
+# Writes version.cpp at every build; configure_file leaves the file alone when nothing has changed, so nothing is
+# compiled again.
+# git archive puts the commit here (.gitattributes), as those do who offer archives for download.
+set(ARCHIVED "$Format:%H$")
 execute_process(
   COMMAND git describe --always --dirty --abbrev=40 --exclude=*
   WORKING_DIRECTORY ${SOURCE_DIR}

@@ -15,7 +15,7 @@ using Solver = std::function<Transient(const point::Problem&)>;
 /// The number of points of a sweep at which a solver is wrong, and its error at the others.
 struct Verdict {
   std::size_t wrong = 0;    ///< extrema of x, or x or x' at the end, are off by more than a thousandth of |xs|
-  double error = 0.0;       ///< the largest where it isn't wrong, over |xs|
+  double error = 0.0;       ///< the largest unless it is wrong, over |xs|
   std::size_t through = 0;  ///< the mass goes deeper into a stop than that; includes points that don't count as wrong
 };
 

@@ -9,7 +9,7 @@
 namespace clatter::config {
 namespace {
 
-/// The configuration of an example, with stops where it has none, and something observed.
+/// The configuration of an example, with stops if it has none, and something observed.
 Config config_of(const std::string& example) {
   std::vector<Override> changes{{"observe.extrema", "true"}};
   const bool stops = example.find("xs =") != std::string::npos || example.find("stop_") != std::string::npos;

@@ -8,8 +8,8 @@
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace clatter;
   const std::string bytes(reinterpret_cast<const char*>(data), size);
-  const std::string sealed = bytes + results::checksum_trailer_of(std::as_bytes(std::span(bytes)));
-  fuzz::check_reading({reinterpret_cast<const std::uint8_t*>(sealed.data()), sealed.size()},
+  const std::string with_trailer = bytes + results::checksum_trailer_of(std::as_bytes(std::span(bytes)));
+  fuzz::check_reading({reinterpret_cast<const std::uint8_t*>(with_trailer.data()), with_trailer.size()},
                       [](const std::string& path) { (void)results::read_shard_header(path); });
   return 0;
 }

@@ -34,7 +34,7 @@ double size_of(const Problem& scene, const PointResult& result) {
 }
 
 /// How much the impacts of a run multiply a change: the product of the norms of their shears, each with the flight
-/// before it, and for the times the softness of the impacts that tell them. Infinite in a graze. Where speed and force
+/// before it, and for the times the softness of the impacts that tell them. Infinite in a graze. If speed and force
 /// hold the mass on a stop, nothing is left of a change.
 double stretch_of(const Problem& scene, const PointResult& result) {
   const Oscillator& o = scene.oscillator;
@@ -51,7 +51,7 @@ double stretch_of(const Problem& scene, const PointResult& result) {
 }
 
 /// The larger of what two runs of a scene differ by, relative: in contacts, their times and velocities, in extrema and
-/// the end. Infinite where they are not the same contacts.
+/// the end. Infinite if they are not the same contacts.
 double difference(const Problem& scene, const PointResult& one, const PointResult& other) {
   if (one.status != other.status || one.log.size() != other.log.size()) return infinity;
   const double size = size_of(scene, one);
@@ -149,7 +149,7 @@ TEST(Effects, without_an_effect_that_a_scene_does_not_call_for_it_runs_as_with_a
       const PointResult some = result_of(scene, false);
       EXPECT_EQ(all.status, some.status) << support::configuration_of(scene, scene.time.duration);
       if (failed(all.status) || !(stretch < 1e6)) continue;  // more than 50 impacts
-      // to 1e-14 where nothing stretches it: an ulp of every term of an arc and its time, for each of up to 50 impacts
+      // to 1e-14 if nothing stretches it: an ulp of every term of an arc and its time, for each of up to 50 impacts
       const double d = difference(scene, all, some) / (1e-14 * stretch);
       EXPECT_LE(d, 1) << "without " << dropped[kind].effect << ", scene " << i << "\n"
                       << support::configuration_of(scene, scene.time.duration);

@@ -105,7 +105,7 @@ std::vector<Number> numbers_of(const PointResult& r) {
   return n;
 }
 
-/// Largest difference of two results; infinite where one has a value that the other doesn't have.
+/// Largest difference of two results; infinite if one has a value that the other doesn't have.
 double difference(const PointResult& a, const PointResult& b, const std::string& name) {
   const auto of_a = numbers_of(a), of_b = numbers_of(b);
   EXPECT_EQ(of_a.size(), of_b.size()) << name;

@@ -28,7 +28,7 @@ Steady steady_of(const point::Problem& scene) {
     Steady steady{.status = observed.status,
                   .length = observed.turns * integrator.period(),
                   .turns = observed.turns,
-                  .simulated = observed.settled,
+                  .settled = observed.simulated,
                   .found_by = observed.found_by,
                   .from = observed.from};
     state = observed.from;

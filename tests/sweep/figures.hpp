@@ -18,14 +18,14 @@ inline point::Problem paper_scene(double xs, double nu) {
   return scene;
 }
 
-/// The variable of a name; null where there is none.
+/// The variable of a name; null if there is none.
 inline const Variable* find(const Dataset& figure, const std::string& name) {
   const auto found =
       std::find_if(figure.variables.begin(), figure.variables.end(), [&](const Variable& v) { return v.name == name; });
   return found == figure.variables.end() ? nullptr : &*found;
 }
 
-/// The values of a variable of numbers. Throws std::out_of_range where there is none.
+/// The values of a variable of numbers. Throws std::out_of_range if there is none.
 inline const std::vector<double>& values(const Dataset& figure, const std::string& name) {
   const Variable* variable = find(figure, name);
   if (!variable) throw std::out_of_range("no variable " + name);

@@ -130,7 +130,7 @@ inline point::Problem moved(point::Problem scene, std::uint64_t index) {
   return scene;
 }
 
-/// What moving the inputs by 1e-15 does to what the scalar loop gives; infinite where it changes the status or a
+/// The change of the scalar loop's results if the inputs move by 1e-15; infinite if it changes the status or a
 /// count.
 inline double sensitivity(const point::Problem& scene, const RunPoint& unmoved) {
   double worst = 0;
