@@ -3,6 +3,7 @@
 Nothing here depends on how long anything takes: the two variables of times are only looked at for being there.
 """
 
+import contextlib
 import json
 import math
 import os
@@ -11,6 +12,7 @@ import signal
 import subprocess
 import time
 import unittest
+from pathlib import Path
 
 import h5py
 import numpy as np
@@ -256,6 +258,50 @@ class Interrupts(Studies):
         self.assertEqual((code, out), (130, ""), err)
         self.assertIn("stopped after 0 of 3 points; a.accuracy.h5 is not written\n", err)
         self.assertEqual(self.files(), ["a.toml"])
+
+    def signalled_twice(self, first, second):
+        """The exit code after a second signal while the handler of the first one waits for a full pipe."""
+        reader, writer = os.pipe()
+        self.addCleanup(os.close, reader)
+        os.set_blocking(writer, False)
+        with contextlib.suppress(BlockingIOError):
+            while os.write(writer, bytes(4096)):
+                pass
+        os.set_blocking(writer, True)
+        process = subprocess.Popen(
+            [CLATTER, "accuracy", "a.toml", "-q"],
+            cwd=self.directory,
+            stdout=subprocess.DEVNULL,
+            stderr=writer,
+            preexec_fn=lambda: [signal.signal(number, signal.SIG_DFL) for number in (first, second)],
+        )
+        self.addCleanup(process.wait)
+        self.addCleanup(process.kill)
+        os.close(writer)
+        self.wait_for_handlers(process, {first, second})
+        process.send_signal(first)
+        self.wait_for_handlers(process, set())
+        process.send_signal(second)
+        return process.wait(timeout=120)
+
+    def wait_for_handlers(self, process, numbers):
+        """Waits until a process handles these of SIGINT and SIGTERM."""
+        deadline = time.monotonic() + 120
+        while True:
+            status = Path(f"/proc/{process.pid}/status").read_text(encoding="utf-8")
+            caught = int(re.search(r"^SigCgt:\s*(\w+)$", status, re.MULTILINE)[1], 16)
+            if {number for number in (signal.SIGINT, signal.SIGTERM) if caught >> (number - 1) & 1} == numbers:
+                return
+            self.assertIsNone(process.poll(), "it ended before the signal")
+            self.assertLess(time.monotonic(), deadline, f"it never came to handle {numbers}")
+            time.sleep(0.01)
+
+    def test_a_second_signal_of_the_other_kind_ends_it_at_once(self):
+        self.write("a.toml", STEADY + "[sweep]\nnu = [0.9, 1.0, 1.1]\n")
+        for first, second in ((signal.SIGINT, signal.SIGTERM), (signal.SIGTERM, signal.SIGINT)):
+            with self.subTest(first):
+                self.assertEqual(self.signalled_twice(first, second), -second)
+                self.assertEqual(self.files(), ["a.toml"])
 
     def test_sigterm_after_the_first_point_keeps_the_printed_part_and_the_older_file(self):
         config = self.write("a.toml", STEADY + "[sweep]\nnu = [0.9, 1.0, 1.1]\n")
