@@ -31,7 +31,7 @@ constexpr std::string_view not_read[] = {"observe", "integrator"};
 /// Studies and prints all points, or fewer if it is interrupted.
 std::vector<accuracy::PointAccuracy> study_points(const sweep::Sweep& sweep, lanes::InstructionSet arch, bool json,
                                                   bool shown) {
-  const std::vector<accuracy::Trial> trials = accuracy::trials_of(sweep.scene.time.mode, arch);
+  const std::vector<accuracy::Trial> trials = accuracy::trials_of(sweep.problem.time.mode, arch);
   Progress progress(shown, "runs");
   accuracy::AccuracyOptions options{.stopped = [] { return Interrupt::signal() != 0; }};
   std::vector<accuracy::PointAccuracy> points;
@@ -47,7 +47,7 @@ std::vector<accuracy::PointAccuracy> study_points(const sweep::Sweep& sweep, lan
     progress.show(static_cast<double>(++finished), total, seconds_left);
   };
   for (std::size_t point = 0; point < size(sweep); ++point) {
-    accuracy::PointAccuracy of_point = measure_accuracy(scene_at(sweep, point), trials, options);
+    accuracy::PointAccuracy of_point = measure_accuracy(problem_at(sweep, point), trials, options);
     if (Interrupt::signal() != 0) break;
     std::cout << (json ? accuracy_json : accuracy_text)(of_point, sweep, point) << std::flush;
     points.push_back(std::move(of_point));

@@ -116,7 +116,7 @@ std::string horizon_text(const accuracy::PointAccuracy& study, bool forced) {
 std::string accuracy_text(const accuracy::PointAccuracy& study, const sweep::Sweep& sweep, std::size_t point) {
   std::string text = coordinates_text(sweep, point);
   if (!text.empty()) text += '\n';
-  text += horizon_text(study, scene_at(sweep, point).oscillator.forcing != 0);
+  text += horizon_text(study, problem_at(sweep, point).oscillator.forcing != 0);
   text += header();
   for (const accuracy::WorkPrecision& row : study.rows) text += row_text(row, study);
   return text + '\n';

@@ -44,7 +44,7 @@ std::string joined(const std::vector<std::string>& names) {
 }
 
 std::string method_of(const sweep::Sweep& sweep) {
-  return std::string(stepping::method_names[static_cast<std::size_t>(sweep.scene.integration.method)]);
+  return std::string(stepping::method_names[static_cast<std::size_t>(sweep.problem.integration.method)]);
 }
 
 /// "saves 11 %" of the time, or a range.
@@ -117,7 +117,7 @@ void put_group(std::ostringstream& out, const plan::Group& group) {
 std::string plan_text(const plan::Plan& plan, const sweep::Sweep& sweep, int threads) {
   std::string text =
       line("axes", axes_text(sweep)) + points_text(plan, sweep) + line("observed", joined(plan.observed));
-  const stepping::Integration& integration = sweep.scene.integration;
+  const stepping::Integration& integration = sweep.problem.integration;
   if (integration.method != stepping::Method::exact)
     text += line("method", method_of(sweep) + ": every effect is simulated; called for are:");
   else if (integration.all_effects)
@@ -152,7 +152,7 @@ std::string plan_json(const plan::Plan& plan, const sweep::Sweep& sweep, int thr
   out << ",\n  \"observed\": ";
   list(out, plan.observed, [&](const std::string& name) { out << json_text(name); });
   out << ",\n  \"method\": " << json_text(method_of(sweep))
-      << ",\n  \"all_effects\": " << (sweep.scene.integration.all_effects ? "true" : "false") << ",\n  \"groups\": ";
+      << ",\n  \"all_effects\": " << (sweep.problem.integration.all_effects ? "true" : "false") << ",\n  \"groups\": ";
   list(out, plan.groups, [&](const plan::Group& group) { put_group(out, group); });
   out << ",\n  \"threads\": " << threads << ",\n  \"seconds\": " << estimate_json(seconds_of(plan, threads))
       << ",\n  \"output_bytes\": " << json_number(plan.need.output)

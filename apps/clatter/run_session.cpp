@@ -66,7 +66,7 @@ void RunSession::announce() const {
 
 void RunSession::open_journal() {
   sweep_.emplace(config_.sweep, request_.shard);
-  const storage::RecordLimit limit{sweep_->most_saved(), config_.sweep.scene.observe.impact_log};
+  const storage::RecordLimit limit{sweep_->most_saved(), config_.sweep.problem.observe.impact_log};
   journal_.emplace(request_.output, journal_key(config_, request_), limit, request_.begin,
                    [this](std::span<const std::byte> results) { restore(results); });
 }

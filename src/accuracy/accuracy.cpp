@@ -136,14 +136,14 @@ Prepared prepare(const Trial& trial, const point::Problem& scene, const Referenc
   return prepared;
 }
 
-point::WorkItem task_of(const point::Problem& scene) { return {0, scene, effects_of(scene)}; }
+point::WorkItem item_of(const point::Problem& scene) { return {0, scene, effects_of(scene)}; }
 
 /// Runs a trial once; in lanes, too, once is enough, as each lane of a full block gives the same. Nothing if lanes
 /// leave it to the scalar loop.
 std::optional<point::PointResult> result_of(const Prepared& prepared, point::ThreadScratch& scratch) {
   const lanes::InstructionSet arch = prepared.trial.arch;
   if (arch == lanes::InstructionSet::scalar) return run_point(prepared.observed, scratch);
-  const point::WorkItem item = task_of(prepared.observed);
+  const point::WorkItem item = item_of(prepared.observed);
   if (!lanes::accepts(item)) return std::nullopt;
   point::PointResult result = run_in_lanes(item, 1, arch, scratch);
   return result.in_lanes || failed(result.status) ? std::optional(std::move(result)) : std::nullopt;
@@ -153,7 +153,7 @@ std::optional<point::PointResult> result_of(const Prepared& prepared, point::Thr
 double run_silently(const Prepared& prepared, point::ThreadScratch& scratch, int times) {
   if (const lanes::InstructionSet arch = prepared.trial.arch; arch != lanes::InstructionSet::scalar) {
     const std::size_t points = lanes::lanes_per_block * static_cast<std::size_t>(times);
-    return static_cast<double>(points) * run_in_lanes(task_of(prepared.silent), points, arch, scratch).periods;
+    return static_cast<double>(points) * run_in_lanes(item_of(prepared.silent), points, arch, scratch).periods;
   }
   double periods = 0;
   for (int i = 0; i < times; ++i) periods += run_point(prepared.silent, scratch).periods;

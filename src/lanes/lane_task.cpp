@@ -73,18 +73,18 @@ class FallbackObserver {
 
 Scheduler::LaneTask::LaneTask(const point::WorkItem& item)
     : item_(item),
-      exact_(item_.scene, stops_in_reach(item_.scene.stops, item_.effects), limits_of(item_.scene)),
+      exact_(item_.problem, stops_in_reach(item_.problem.stops, item_.effects), limits_of(item_.problem)),
       log_area_(2 * std::log(std::max(exact_.stops().restitution_lower, exact_.stops().restitution_upper))) {}
 
 std::optional<steady::ObservedTime> Scheduler::LaneTask::begin(BlockState& lanes, std::size_t lane) {
   motion::State<double> state;
-  state.x = item_.scene.start.displacement, state.v = item_.scene.start.velocity;
-  if (item_.scene.time.mode == steady::Mode::transient)
-    return steady::ObservedTime{steady::Status::transient, state, item_.scene.time.duration / exact_.period(), 0.0,
+  state.x = item_.problem.start.displacement, state.v = item_.problem.start.velocity;
+  if (item_.problem.time.mode == steady::Mode::transient)
+    return steady::ObservedTime{steady::Status::transient, state, item_.problem.time.duration / exact_.period(), 0.0,
                                 steady::FoundBy::start};
-  search_.emplace(exact_, item_.scene, item_.scene.time, steady::TakenBy::lanes);
+  search_.emplace(exact_, item_.problem, item_.problem.time, steady::TakenBy::lanes);
   const auto found = search_->at_section(state);
-  if (!found) load_lane(lanes, lane, item_.scene, exact_.stops());
+  if (!found) load_lane(lanes, lane, item_.problem, exact_.stops());
   return found;
 }
 
@@ -96,14 +96,14 @@ steady::ObservedTime Scheduler::LaneTask::failure(stepping::Outcome outcome) con
 }
 
 double Scheduler::LaneTask::x_of(const BlockState& lanes, std::size_t lane, double y) const {
-  if (y == lanes.lower.lane[lane]) return item_.scene.stops.lower;
-  if (y == lanes.upper.lane[lane]) return item_.scene.stops.upper;
-  return item_.scene.oscillator.load + y;
+  if (y == lanes.lower.lane[lane]) return item_.problem.stops.lower;
+  if (y == lanes.upper.lane[lane]) return item_.problem.stops.upper;
+  return item_.problem.oscillator.load + y;
 }
 
 std::optional<steady::ObservedTime> Scheduler::LaneTask::at_section(const BlockState& lanes, std::size_t lane) {
   const double impacts = exact_.impacts() + lanes.section_impacts.lane[lane];
-  if (impacts > item_.scene.time.max_impacts) return failure(stepping::Outcome::event_budget);
+  if (impacts > item_.problem.time.max_impacts) return failure(stepping::Outcome::event_budget);
   search_->pass_period(
       {std::bit_cast<std::uint64_t>(lanes.section_itinerary.lane[lane]), log_area_ * (impacts - section_impacts_)});
   section_impacts_ = impacts;
@@ -116,7 +116,8 @@ std::optional<steady::ObservedTime> Scheduler::LaneTask::at_section(const BlockS
 bool Scheduler::LaneTask::can_observe(const steady::ObservedTime& observed) {
   observed_ = observed;
   return !failed(observed.status) && observed.found_by != steady::FoundBy::closed_form && observed.turns >= 1 &&
-         observables::All::in_lanes(item_.scene.observe, item_.scene, item_.scene.time.mode == steady::Mode::transient);
+         observables::All::in_lanes(item_.problem.observe, item_.problem,
+                                    item_.problem.time.mode == steady::Mode::transient);
 }
 
 /// An impact at the very beginning lies outside the observed time: lanes begin after it.
@@ -135,17 +136,18 @@ void Scheduler::LaneTask::begin_to_observe(BlockState& lanes, std::size_t lane) 
   settled_ = exact_, settled_impacts_ = impacts_;
   observing_ = true, coasts_ = false, sections_ = fallbacks_ = skip_sections_ = 0,
   fallback_left_ = std::numeric_limits<double>::quiet_NaN();
-  lanes.extrema = item_.scene.observe.extrema, lanes.counts = item_.scene.observe.impacts || item_.scene.observe.period;
-  lanes.harmonics = static_cast<std::size_t>(item_.scene.observe.harmonics);
-  load_lane(lanes, lane, item_.scene, exact_.stops());
-  set_state(lanes, lane, item_.scene, {observed_.from.x, observed_.from.v, 0});
+  lanes.extrema = item_.problem.observe.extrema,
+  lanes.counts = item_.problem.observe.impacts || item_.problem.observe.period;
+  lanes.harmonics = static_cast<std::size_t>(item_.problem.observe.harmonics);
+  load_lane(lanes, lane, item_.problem, exact_.stops());
+  set_state(lanes, lane, item_.problem, {observed_.from.x, observed_.from.v, 0});
   begin_observing(lanes, lane, std::floor(observed_.turns) == 1, observed_.status != steady::Status::periodic);
 }
 
 /// However late that is found, the point fails with the same numbers: those of the last section before its budget was
 /// spent.
 bool Scheduler::LaneTask::has_spent_budget(double impacts) {
-  if (exact_.impacts() + impacts_ + impacts <= item_.scene.time.max_impacts) return false;
+  if (exact_.impacts() + impacts_ + impacts <= item_.problem.time.max_impacts) return false;
   observed_ = failure(stepping::Outcome::event_budget), gives_up_ = true;
   return true;
 }
@@ -179,7 +181,7 @@ PhaseState Scheduler::LaneTask::section(const BlockState& lanes, std::size_t lan
 /// depend on its neighbours.
 bool Scheduler::LaneTask::has_seen_all(const BlockState& lanes, std::size_t lane) {
   const auto at = [lane](const LaneArray& row) { return row.lane[lane]; };
-  const Oscillator& o = item_.scene.oscillator;
+  const Oscillator& o = item_.problem.oscillator;
   if (!coasts_) {
     coasts_ = at(lanes.section_itinerary) == 0 && out_of_reach(o, section(lanes, lane), exact_.stops());
     return coasts_ && !lanes.extrema;
@@ -192,7 +194,7 @@ bool Scheduler::LaneTask::has_seen_all(const BlockState& lanes, std::size_t lane
 
 /// Moves a lane that can't meet a stop from the section that it has passed to the end of the observed time.
 void Scheduler::LaneTask::coast(BlockState& lanes, std::size_t lane) const {
-  const Oscillator& o = item_.scene.oscillator;
+  const Oscillator& o = item_.problem.oscillator;
   const PhasePoint free = transient_of(o, section(lanes, lane));
   motion::State<double> end;
   end.phase_turns = observed_.turns - std::floor(observed_.turns);
@@ -206,16 +208,16 @@ void Scheduler::LaneTask::coast(BlockState& lanes, std::size_t lane) const {
 
 /// Advances a transient through the part of a forcing period that is left after its last section.
 void Scheduler::LaneTask::finish_period(BlockState& lanes, std::size_t lane, double part) {
-  FallbackObserver seen(lanes, lane, item_.scene, true);
+  FallbackObserver seen(lanes, lane, item_.problem, true);
   gives_up_ =
       gives_up_ || exact_.advance(fallback_end_, part, 0, seen) != stepping::Outcome::completed || seen.rested();
   seen.finish();
-  lanes.section_y.lane[lane] = fallback_end_.x - item_.scene.oscillator.load;
+  lanes.section_y.lane[lane] = fallback_end_.x - item_.problem.oscillator.load;
   lanes.section_v.lane[lane] = fallback_end_.v / lanes.rate.lane[lane];
 }
 
 stepping::Outcome Scheduler::LaneTask::scalar_fallback(BlockState& lanes, std::size_t lane) {
-  const LaneState position = state_of(lanes, lane, item_.scene);
+  const LaneState position = state_of(lanes, lane, item_.problem);
   motion::State<double> state;
   state.x = position.x, state.v = position.v, state.phase_turns = position.phase_turns;
   if (position.x == exact_.stops().lower) state.left = Side::lower;
@@ -223,14 +225,14 @@ stepping::Outcome Scheduler::LaneTask::scalar_fallback(BlockState& lanes, std::s
   if (lanes.time_to_section.lane[lane] == fallback_left_)
     state = fallback_end_;  // a lane can't hold a release or a short offset
   double end = std::min(1.0, state.phase_turns + 2 / lanes.period.lane[lane]);
-  FallbackObserver seen(lanes, lane, item_.scene, observing_);
+  FallbackObserver seen(lanes, lane, item_.problem, observing_);
   stepping::Outcome outcome = exact_.advance(state, end, 0, seen);
   // all motion from the same release is the same: so that it is so to the last bit, it goes on to the section here
   if (outcome == stepping::Outcome::completed && seen.rested()) outcome = exact_.advance(state, end = 1.0, 0, seen);
   ++fallbacks_;
   if (observing_) seen.finish(), gives_up_ = gives_up_ || seen.rested();
   if (end == 1.0) {
-    lanes.section_y.lane[lane] = state.x - item_.scene.oscillator.load;
+    lanes.section_y.lane[lane] = state.x - item_.problem.oscillator.load;
     lanes.section_v.lane[lane] = state.v / lanes.rate.lane[lane];
     lanes.section_itinerary.lane[lane] = std::exchange(lanes.itinerary.lane[lane], 0.0);
     lanes.section_impacts.lane[lane] = lanes.impacts.lane[lane];
@@ -242,13 +244,13 @@ stepping::Outcome Scheduler::LaneTask::scalar_fallback(BlockState& lanes, std::s
     }
     state.phase_turns = 0;
   }
-  set_state(lanes, lane, item_.scene, {state.x, state.v, state.phase_turns});
+  set_state(lanes, lane, item_.problem, {state.x, state.v, state.phase_turns});
   fallback_end_ = state, fallback_left_ = lanes.time_to_section.lane[lane];
   return outcome;
 }
 
 double Scheduler::LaneTask::share(const BlockState& lanes, std::size_t lane) const {
-  const steady::TimeSettings& time = item_.scene.time;
+  const steady::TimeSettings& time = item_.problem.time;
   const double impacts = exact_.impacts() + impacts_ + lanes.impacts.lane[lane];
   const double longest = observing_ ? observed_.turns : static_cast<double>(time.max_periods);
   return std::min(1.0, std::max(impacts / time.max_impacts, static_cast<double>(sections_) / longest));
@@ -256,11 +258,12 @@ double Scheduler::LaneTask::share(const BlockState& lanes, std::size_t lane) con
 
 point::PointResult Scheduler::LaneTask::result(point::ThreadScratch& scratch) const {
   const ScalarLoop& exact = settled_ ? *settled_ : exact_;  // without the work that lanes spent on observing in vain
-  point::PointResult result = point::Point(item_.scene, scratch, exact).observe(observed_);
+  point::PointResult result = point::Point(item_.problem, scratch, exact).observe(observed_);
   result.impacts += settled_ ? settled_impacts_ : impacts_;
-  if (observed_.status == steady::Status::event_budget) result.impacts = item_.scene.time.max_impacts + 1;
-  if (failed(result.status) || result.impacts <= item_.scene.time.max_impacts) return result;
-  point::PointResult over = point::Point(item_.scene, scratch, exact).observe(failure(stepping::Outcome::event_budget));
+  if (observed_.status == steady::Status::event_budget) result.impacts = item_.problem.time.max_impacts + 1;
+  if (failed(result.status) || result.impacts <= item_.problem.time.max_impacts) return result;
+  point::PointResult over =
+      point::Point(item_.problem, scratch, exact).observe(failure(stepping::Outcome::event_budget));
   over.impacts = result.impacts, over.periods = result.periods, over.evaluations = result.evaluations;
   return over;
 }
@@ -268,7 +271,7 @@ point::PointResult Scheduler::LaneTask::result(point::ThreadScratch& scratch) co
 point::PointResult Scheduler::LaneTask::result(const BlockState& lanes, std::size_t lane,
                                                point::ThreadScratch& scratch) const {
   const auto at = [lane](const LaneArray& row) { return row.lane[lane]; };
-  point::Point point(item_.scene, scratch, exact_);
+  point::Point point(item_.problem, scratch, exact_);
   point::Observers observers = point.begin(observed_);
   const double rate = at(lanes.rate);
   motion::State<double> end = observed_.from;

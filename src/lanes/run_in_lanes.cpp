@@ -10,7 +10,7 @@ namespace clatter::lanes {
 static_assert(lanes_per_block == LaneArray::width);
 
 bool accepts(const point::WorkItem& item) {
-  return (item.effects.stops() || item.scene.time.mode == steady::Mode::transient) && accepts(item.scene);
+  return (item.effects.stops() || item.problem.time.mode == steady::Mode::transient) && accepts(item.problem);
 }
 
 point::PointResult run_in_lanes(const point::WorkItem& item, std::size_t times, InstructionSet arch,

@@ -65,12 +65,12 @@ std::optional<std::string> warning_of_dearest_point(const sweep::Sweep& sweep,
   for (std::size_t i = 0; i < sample.size(); ++i) {
     const std::size_t number = sample[i].number;
     const std::size_t point = share.point(number / share.length(), number % share.length());
-    if (const double of_point = impacts_without_loss(scene_at(sweep, point)); of_point > impacts)
+    if (const double of_point = impacts_without_loss(problem_at(sweep, point)); of_point > impacts)
       impacts = of_point, dearest = point;
   }
   if (!(impacts > 1e5)) return std::nullopt;
   constexpr double evaluations = 2;  // an impact
-  const double seconds = impacts * evaluations * point::seconds_per_evaluation(effects_of(scene_at(sweep, dearest)));
+  const double seconds = impacts * evaluations * point::seconds_per_evaluation(effects_of(problem_at(sweep, dearest)));
   if (!(seconds > long_time)) return std::nullopt;
   const std::string which = size(sweep) > 1 ? "point " + std::to_string(dearest) + " alone" : "the point";
   return which + " may take " + number_text(impacts) + " impacts, some " + number_text(seconds) +

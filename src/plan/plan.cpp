@@ -25,7 +25,7 @@ double seconds_of_work(point::Problem scene, const Effects& effects) {
 /// Warns of a stop that some points have but none meets.
 void warn_of_stop(const sweep::Sweep& sweep, const StopSeen& stop, const std::string& name, Plan& plan) {
   if (stop.met || stop.closest.ratio < 0) return;
-  const auto reasons = reasons_of(planned_scene(sweep, stop.closest.point));
+  const auto reasons = reasons_of(planned_problem(sweep, stop.closest.point));
   const std::string& why = std::ranges::find(reasons, name, &Reason::effect)->why;
   const std::string reached =
       plan.sampled_points ? " is reached at none of the " + std::to_string(*plan.sampled_points) + " points looked at"
@@ -64,9 +64,9 @@ Plan plan_of(const sweep::Sweep& sweep, int threads, const std::optional<sweep::
   plan.shard = shard;
   plan.points = share.points(), plan.branches = share.count();
   if (survey.looked_at < plan.points) plan.sampled_points = survey.looked_at;
-  plan.observed = observables::All::descriptions(sweep.scene.observe);
+  plan.observed = observables::All::descriptions(sweep.problem.observe);
   for (const Collected& group : survey.groups) {
-    const point::Problem example = planned_scene(sweep, group.example.point);
+    const point::Problem example = planned_problem(sweep, group.example.point);
     plan.groups.push_back({.effects = group.effects,
                            .points = group.points,
                            .example = group.example.point,

@@ -82,7 +82,7 @@ class Looked {
 };
 
 void look_at(const sweep::Sweep& sweep, const Sample::Draw& draw, Survey& survey) {
-  const point::Problem scene = planned_scene(sweep, draw.number);
+  const point::Problem scene = planned_problem(sweep, draw.number);
   const Requirements needs = requirements_of(scene, duration_of(scene.time));
   const bool required = scene.integration.method == stepping::Method::exact && !scene.integration.all_effects;
   const Effects effects = required ? needs.effects : effects_of(scene);
@@ -125,14 +125,14 @@ class Surveyor {
 
 }  // namespace
 
-point::Problem planned_scene(const sweep::Sweep& sweep, std::size_t point) {
-  point::Problem scene = scene_at(sweep, point);
+point::Problem planned_problem(const sweep::Sweep& sweep, std::size_t point) {
+  point::Problem problem = problem_at(sweep, point);
   if (sweep::Branches(sweep).begins(point)) {
-    sweep::start_from(scene, std::nullopt);
+    sweep::start_from(problem, std::nullopt);
   } else {
-    scene.start = {point::no_value, point::no_value, point::no_value};
+    problem.start = {point::no_value, point::no_value, point::no_value};
   }
-  return scene;
+  return problem;
 }
 
 Survey survey_of(const sweep::Sweep& sweep, const sweep::Share& share, int threads) {

@@ -67,7 +67,7 @@ struct Survey {
 };
 
 /// A point as the plan examines it; along a followed branch its start isn't known yet, and NaN.
-[[nodiscard]] point::Problem planned_scene(const sweep::Sweep& sweep, std::size_t point);
+[[nodiscard]] point::Problem planned_problem(const sweep::Sweep& sweep, std::size_t point);
 
 /// Examines the points of a run, or a sample of them; the same survey for every number of threads.
 [[nodiscard]] Survey survey_of(const sweep::Sweep& sweep, const sweep::Share& share, int threads);

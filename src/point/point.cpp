@@ -20,17 +20,17 @@ Effects effects_of(const Problem& scene) {
 void run_batch(std::span<const WorkItem> items, ThreadScratch& scratch,
                const std::function<void(const WorkItem&, PointResult&&)>& take) {
   if (items.empty()) return;
-  const stepping::Method method = items.front().scene.integration.method;
+  const stepping::Method method = items.front().problem.integration.method;
   if (method == stepping::Method::dopri5) {
-    for (const WorkItem& item : items) take(item, run_by_dormand_prince(item.scene, scratch));
+    for (const WorkItem& item : items) take(item, run_by_dormand_prince(item.problem, scratch));
   } else if (method == stepping::Method::moreau) {
-    for (const WorkItem& item : items) take(item, run_by_moreau(item.scene, scratch));
+    for (const WorkItem& item : items) take(item, run_by_moreau(item.problem, scratch));
   } else {
     with_effects(items.front().effects, [&]<Effects E>() {
       for (const WorkItem& item : items) {
-        const stepping::Exact<double, E> integrator(item.scene, stops_in_reach(item.scene.stops, item.effects),
-                                                    limits_of(item.scene));
-        take(item, Point(item.scene, scratch, integrator).run());
+        const stepping::Exact<double, E> integrator(item.problem, stops_in_reach(item.problem.stops, item.effects),
+                                                    limits_of(item.problem));
+        take(item, Point(item.problem, scratch, integrator).run());
       }
     });
   }

@@ -44,7 +44,7 @@ struct ThreadScratch {
 /// A point that waits to be run.
 struct WorkItem {
   std::size_t local_index = 0;  ///< of its results (`Share`)
-  Problem scene;
+  Problem problem;
   Effects effects;
 };
 

@@ -107,18 +107,18 @@ ShardSet shard_set(const std::vector<std::string>& paths) {
 }
 
 Merged merge(const ShardSet& shards) {
-  sweep::ResultStore columns(shards.config.sweep);
+  sweep::ResultStore store(shards.config.sweep);
   for (const ShardHeader& head : shards.heads) {
     sweep::Dataset dataset = read_shard(head.path);
     try {
-      columns.take(dataset, head.shard);
+      store.take(dataset, head.shard);
     } catch (const std::runtime_error& error) {
       throw storage::IoError(storage::quoted_name(head.path) + " isn't what a run of its configuration writes: " +
                              error.what() + "; run shard " + text_of(head.shard) + " again");
     }
   }
-  const std::size_t failed_points = columns.failed_points();
-  return {columns.dataset(), failed_points};
+  const std::size_t failed_points = store.failed_points();
+  return {store.dataset(), failed_points};
 }
 
 }  // namespace clatter::results

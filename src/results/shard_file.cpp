@@ -127,7 +127,8 @@ void require_possible(const ShardHeader& head, std::uint64_t stored_bytes) try {
   if (values > detail::most_deflated * static_cast<double>(stored_bytes))
     throw detail::Failure("it holds more values than its size can hold");
   const sweep::Sweep sweep = config::parse_config(head.config, head.path).sweep;
-  const double logged = sweep.scene.observe.impact_log ? sweep::logged_values * static_cast<double>(head.impacts) : 0.0;
+  const double logged =
+      sweep.problem.observe.impact_log ? sweep::logged_values * static_cast<double>(head.impacts) : 0.0;
   if (values > most_values(sweep, head.shard) + logged)
     throw detail::Failure("it holds more values than a run of its configuration writes");
 } catch (const config::ConfigError&) {

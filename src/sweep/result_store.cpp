@@ -142,9 +142,9 @@ std::vector<Attribute> status_flags() {
 
 double most_values(const Sweep& sweep, const std::optional<Shard>& shard) {
   double of_point = 5;  // status, impact_total, simulated_periods, index in the sweep, impact_count
-  for (const OutputVariable& output : outputs_of(sweep.scene)) of_point += static_cast<double>(output.width());
+  for (const OutputVariable& output : outputs_of(sweep.problem)) of_point += static_cast<double>(output.width());
   double coordinates = 0;
-  for (const observables::Coordinate& coordinate : observables::All::coordinates(sweep.scene.observe))
+  for (const observables::Coordinate& coordinate : observables::All::coordinates(sweep.problem.observe))
     coordinates += static_cast<double>(coordinate.length);
   for (const Dimension& dimension : sweep.dimensions)
     coordinates += static_cast<double>(dimension.size() * length(dimension));
@@ -159,9 +159,9 @@ ResultStore::ResultStore(const Sweep& sweep, const std::optional<Shard>& shard)
       status_(share_.points(), static_cast<std::uint8_t>(steady::Status::unresolved)),
       impacts_(status_.size(), 0),
       periods_(status_.size(), 0.0),
-      outputs_(outputs_of(sweep.scene)) {
+      outputs_(outputs_of(sweep.problem)) {
   for (const OutputVariable& output : outputs_) values_.emplace_back(status_.size() * output.width(), point::no_value);
-  if (sweep.scene.observe.impact_log) log_.resize(status_.size());
+  if (sweep.problem.observe.impact_log) log_.resize(status_.size());
 }
 
 void ResultStore::store(std::size_t local_index, point::PointResult&& result) {
@@ -217,7 +217,7 @@ void ResultStore::add_coordinates(Dataset& dataset) const {
     dataset.dimensions.push_back({"point", share_.points()});
     coordinate("point", point_numbers(share_), "index of the point in the sweep, row-major over its axes");
   }
-  for (observables::Coordinate& added : observables::All::coordinates(sweep_.scene.observe)) {
+  for (observables::Coordinate& added : observables::All::coordinates(sweep_.problem.observe)) {
     dataset.dimensions.push_back({added.name, added.length});
     const auto add = [&]<class T>(T& values) {
       if constexpr (!std::is_same_v<T, std::monostate>)
@@ -240,7 +240,7 @@ void ResultStore::take(Dataset& dataset, const Shard& shard) {
   };
   scatter("status", 1, status_), scatter("impact_total", 1, impacts_), scatter("simulated_periods", 1, periods_);
   for (std::size_t i = 0; i < outputs_.size(); ++i) scatter(outputs_[i].name, outputs_[i].width(), values_[i]);
-  if (sweep_.scene.observe.impact_log) take_impact_log(dataset, numbers);
+  if (sweep_.problem.observe.impact_log) take_impact_log(dataset, numbers);
 }
 
 void ResultStore::take_impact_log(Dataset& dataset, std::span<const std::int64_t> numbers) {
@@ -310,7 +310,7 @@ Dataset ResultStore::dataset() {
     dataset.variables.push_back(
         {output.name, std::move(dimensions), std::move(values_[i]), output.long_name, output.units});
   }
-  if (sweep_.scene.observe.impact_log) add_impact_log(dataset);
+  if (sweep_.problem.observe.impact_log) add_impact_log(dataset);
   name_linked_axes(sweep_, dataset);
   return dataset;
 }

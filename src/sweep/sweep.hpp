@@ -20,7 +20,7 @@ using Dimension = std::vector<Axis>;
 
 /// Every combination of the dimensions' values; the first dimension varies slowest.
 struct Sweep {
-  point::Problem scene;               ///< the scene that the axes vary
+  point::Problem problem;             ///< the problem that the axes vary
   std::vector<Dimension> dimensions;  ///< empty: one point
   std::optional<std::size_t> follow;  ///< the dimension along which each point starts from the end of the one before
   std::optional<double>
@@ -32,7 +32,7 @@ struct Sweep {
 /// Number of points.
 [[nodiscard]] std::size_t size(const Sweep& sweep);
 
-/// The scene of a point, 0 <= point < size(sweep), in row-major order of the dimensions.
-[[nodiscard]] point::Problem scene_at(const Sweep& sweep, std::size_t point);
+/// The problem of a point, 0 <= point < size(sweep), in row-major order of the dimensions.
+[[nodiscard]] point::Problem problem_at(const Sweep& sweep, std::size_t point);
 
 }  // namespace clatter::sweep

@@ -29,7 +29,7 @@ struct StudiedSweep {
 StudiedSweep two_points() {
   StudiedSweep all{sweep::sweep_of(smooth_scene(), {{sweep::Parameter::nu, {0.9, 1.0}}}), {}};
   for (std::size_t i = 0; i < 2; ++i)
-    all.points.push_back(measure_accuracy(scene_at(all.sweep, i), one_of_each(), once));
+    all.points.push_back(measure_accuracy(problem_at(all.sweep, i), one_of_each(), once));
   return all;
 }
 

@@ -55,12 +55,12 @@ TEST(Plan, points_run_with_the_effects_of_their_group_and_no_longer_than_it_says
     const sweep::Sweep sweep = sweep::sweep_of(scene, {{sweep::Parameter::nu, frequencies()}});
     const Plan plan = plan_of(sweep, 2);
     const sweep::RunResult result = run(sweep, {.threads = 2});
-    ASSERT_EQ(result.usage.size(), plan.groups.size());
+    ASSERT_EQ(result.work.size(), plan.groups.size());
     for (std::size_t i = 0; i < plan.groups.size(); ++i) {
-      EXPECT_EQ(result.usage[i].effects, plan.groups[i].effects);
-      EXPECT_EQ(result.usage[i].points, plan.groups[i].points);
-      EXPECT_GE(result.usage[i].periods, plan.groups[i].periods.least);
-      EXPECT_LE(result.usage[i].periods, plan.groups[i].periods.most);
+      EXPECT_EQ(result.work[i].effects, plan.groups[i].effects);
+      EXPECT_EQ(result.work[i].points, plan.groups[i].points);
+      EXPECT_GE(result.work[i].periods, plan.groups[i].periods.least);
+      EXPECT_LE(result.work[i].periods, plan.groups[i].periods.most);
       EXPECT_GT(plan.groups[i].seconds.least, 0);
       EXPECT_GE(plan.groups[i].seconds.most, plan.groups[i].seconds.least);
     }
