@@ -79,7 +79,7 @@ def draw(path, folder, formats):
 
 def figure_of(output):
     """The figure, with its heading, that suits what the file contains."""
-    if output.is_study:
+    if output.is_accuracy:
         return accuracy_figure(output)
     figure = (paper_figure(output) or generic_figure)(output)
     plot_style.heading(figure, output)

@@ -1,4 +1,4 @@
-"""What accuracy costs in time: the picture of a study that `clatter accuracy` wrote."""
+"""What accuracy costs in time: the picture of an output of `clatter accuracy`."""
 
 from dataclasses import dataclass
 from functools import partial
@@ -52,7 +52,7 @@ class Curve:
 
 
 def accuracy_figure(output):
-    """The figure of a study, with its heading: a panel for each thing that has an error to show."""
+    """The figure of an accuracy run, with its heading: a panel for each thing that has an error to show."""
     exact = curve(output, "harmonics_exact", ("error_harmonics",), None)
     lanes = curve(output, "exact", ("error_extrema",), "ns_per_period", "exact_lanes", in_lanes=True)
     panels = [
@@ -129,7 +129,7 @@ def curve(output, method, errors, cost, look=None, in_lanes=False):
 
 
 def at_points(output, *names):
-    """These results, one after the other, at every point: a line each, with a column for each row of the study."""
+    """These results, one after the other, at every point: a line each, with a column for each row of the file."""
     shape = output.values("status").shape
     return np.concatenate([np.broadcast_to(output.values(name), shape).reshape(-1, shape[-1]) for name in names])
 

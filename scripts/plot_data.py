@@ -64,15 +64,15 @@ class Output:
         return self.values("status").shape[: len(self.axes)]
 
     @property
-    def is_study(self):
-        """Whether this is a study of what accuracy costs: rows of methods at every point of the sweep."""
+    def is_accuracy(self):
+        """Whether this is an output of `clatter accuracy`: rows of methods at every point of the sweep."""
         return "method" in self and "ns_per_period" in self
 
     @property
     def figure(self):
         """Number of the paper's figure that this file is, or None."""
         match = re.search(r"\bFig\.\s*(\d+)\s*$", self.source)
-        return int(match.group(1)) if match and PAPER in self.source and not self.is_study else None
+        return int(match.group(1)) if match and PAPER in self.source and not self.is_accuracy else None
 
     @property
     def follow(self):

@@ -123,7 +123,7 @@ def typeset(title):
 
 def heading(figure, output):
     """Title above the picture, and below it the constants that it does not already name."""
-    name = f"Fig. {output.figure}.  " if output.figure else "Accuracy and time.  " if output.is_study else ""
+    name = f"Fig. {output.figure}.  " if output.figure else "Accuracy and time.  " if output.is_accuracy else ""
     shown, many = constants(output), int(1.2 * figure.get_figwidth())  # entries that fit a line
     lines = [",   ".join(shown[first : first + many]) for first in range(0, len(shown), many)]
     figure.suptitle("\n".join([f"{name}{typeset(output.title)}", *lines]).strip(), fontsize=10.5, linespacing=1.5)

@@ -50,14 +50,14 @@ inline std::vector<Trial> one_of_each() {
       {TestedMethod::steady_repetition, 1e-10}};
 }
 
-inline const WorkPrecision& row_of(const PointAccuracy& study, TestedMethod method) {
-  return *std::ranges::find_if(study.rows, [&](const WorkPrecision& row) { return row.trial.method == method; });
+inline const WorkPrecision& row_of(const PointAccuracy& of_point, TestedMethod method) {
+  return *std::ranges::find_if(of_point.rows, [&](const WorkPrecision& row) { return row.trial.method == method; });
 }
 
 /// Slope of the straight line through the logarithms of the settings of rows and of their errors.
-inline double order_of(const PointAccuracy& study, double WorkPrecision::*error) {
+inline double order_of(const PointAccuracy& of_point, double WorkPrecision::*error) {
   double n = 0, x = 0, y = 0, xx = 0, xy = 0;
-  for (const WorkPrecision& row : study.rows) {
+  for (const WorkPrecision& row : of_point.rows) {
     const double u = std::log(row.trial.setting), v = std::log(row.*error);
     n += 1, x += u, y += v, xx += u * u, xy += u * v;
   }

@@ -20,7 +20,7 @@ import xarray
 
 from command_line import CLATTER, SMALL, CommandLine, runs_here
 
-SCENE = """title = "a small study"
+SCENE = """title = "a small scene"
 [scene]
 f = -1.0
 h = 0.1
@@ -64,8 +64,8 @@ def number(value):
     return math.nan if value is None else value
 
 
-class Studies(CommandLine):
-    def study(self, *words, code=0, arch=""):
+class AccuracyRuns(CommandLine):
+    def accuracy(self, *words, code=0, arch=""):
         result = self.clatter("accuracy", *words, environment={"CLATTER_ARCH": arch})
         self.assertEqual(result.returncode, code, result.stderr)
         return result
@@ -89,10 +89,10 @@ class Studies(CommandLine):
                 np.testing.assert_array_equal(variable.ravel(), expected, key)
 
 
-class Study(Studies):
+class Accuracy(AccuracyRuns):
     def test_of_one_point_prints_writes_and_repeats_itself(self):
         config = self.write("a.toml", STEADY)
-        result = self.study(config, "--json", "--progress", "always")
+        result = self.accuracy(config, "--json", "--progress", "always")
         *_, bar, output = result.stderr.splitlines()
         self.assertRegex(bar, r"^\[#{30}\] 100 %  610/610 runs  .* runs/s  .* left$")
         self.assertEqual(output, "a.accuracy.h5")
@@ -135,7 +135,7 @@ class Study(Studies):
     def repeats(self, name):
         """The configuration in the file gives the same file, but for times; the table has a line a row."""
         self.write("again.toml", self.clatter("info", name, "--config").stdout)
-        result = self.study("again.toml")
+        result = self.accuracy("again.toml")
         self.assertEqual(result.stderr, "again.accuracy.h5\n")  # no bar without a terminal
         with h5py.File(self.directory / name) as one, h5py.File(self.directory / "again.accuracy.h5") as other:
             self.assertEqual(set(one), set(other))
@@ -153,7 +153,7 @@ class Study(Studies):
 
     def test_of_a_sweep_has_its_axes_before_the_rows(self):
         config = self.write("a.toml", SWEEP)
-        result = self.study(config, "--json", "-q", "-o", "sweep.h5")
+        result = self.accuracy(config, "--json", "-q", "-o", "sweep.h5")
         self.assertEqual(result.stderr, "")
         self.assertEqual(self.files(), ["a.toml", "sweep.h5"])
         rows = objects(result.stdout)
@@ -171,14 +171,14 @@ class Study(Studies):
 
     def test_that_fails_ends_with_1_and_still_writes_its_file(self):
         config = self.write("a.toml", STEADY + "max_impacts = 1\n")
-        rows = objects(self.study(config, "--json", code=1).stdout)
+        rows = objects(self.accuracy(config, "--json", code=1).stdout)
         self.assertEqual(len(rows), 61)
         for row in rows:
             self.assertEqual([row[key] for key in KEYS if key.startswith("error")], [None] * 4)
             self.assertGreaterEqual(row["status"], 16)
             self.assertEqual(row["horizon"], 0)
         self.assert_file_holds("a.accuracy.h5", rows)
-        table = self.study(config, "-o", "b.h5", code=1).stdout
+        table = self.accuracy(config, "-o", "b.h5", code=1).stdout
         self.assertIn("not compared", table)
         self.assertEqual(table.count("  event_budget\n"), 61)
 
@@ -186,13 +186,13 @@ class Study(Studies):
         config = self.write("a.toml", STEADY + "max_impacts = 1\n")  # which ends soon
         for name in filter(runs_here, ("sse2", "avx2", "avx512")):
             for words, variable in ((("--arch", name), "scalar"), ((), name)):
-                rows = objects(self.study(config, "--json", *words, code=1, arch=variable).stdout)
+                rows = objects(self.accuracy(config, "--json", *words, code=1, arch=variable).stdout)
                 self.assertEqual(
                     [(place, row["arch"]) for place, row in enumerate(rows) if row["arch"] != "scalar"],
                     [(place, name) for place in LANES],
                 )
                 self.assert_file_holds("a.accuracy.h5", rows)
-        rows = objects(self.study(config, "--json", "--arch", "scalar", code=1).stdout)
+        rows = objects(self.accuracy(config, "--json", "--arch", "scalar", code=1).stdout)
         self.assertEqual({row["arch"] for row in rows}, {"scalar"})
         self.assertEqual(len(rows), 59)
         self.assert_file_holds("a.accuracy.h5", rows)
@@ -200,7 +200,7 @@ class Study(Studies):
     def test_of_points_that_lanes_leave_to_the_scalar_loop_says_so(self):
         scene = SCENE.replace("h = 0.1\n", "")
         config = self.write("a.toml", scene + "[sweep]\nh = [0.1, 2]\n[time]\nwindow = 1\nmax_periods = 100\n")
-        table = self.study(config, "-q").stdout
+        table = self.accuracy(config, "-q").stdout
         sentence = r"^(exact|steady) +\w+  not in lanes: this motion is left to the scalar loop$"
         self.assertEqual(re.findall(sentence, table, re.MULTILINE), ["exact", "steady"])
         self.assertLess(table.index("h = 2"), table.index("not in lanes"))
@@ -227,7 +227,7 @@ class Study(Studies):
         self.assertEqual(self.files(), ["a.accuracy.h5", "a.toml"])
 
 
-class Interrupts(Studies):
+class Interrupts(AccuracyRuns):
     def interrupted(self, number, stream, words, *options):
         """Sends a signal as soon as a stream has these words; gives the exit code, stdout and stderr."""
         with open(self.directory / "stdout", "wb") as out, open(self.directory / "stderr", "wb") as err:
@@ -305,7 +305,7 @@ class Interrupts(Studies):
 
     def test_sigterm_after_the_first_point_keeps_the_printed_part_and_the_older_file(self):
         config = self.write("a.toml", STEADY + "[sweep]\nnu = [0.9, 1.0, 1.1]\n")
-        self.study(config, "--set", "time.max_impacts=1", code=1)
+        self.accuracy(config, "--set", "time.max_impacts=1", code=1)
         older = (self.directory / "a.accuracy.h5").read_bytes()
         code, out, err = self.interrupted(signal.SIGTERM, "stdout", b"\n", "--json")
         self.assertEqual(code, 143, err)
@@ -317,12 +317,15 @@ class Interrupts(Studies):
         self.assertEqual((self.directory / "a.accuracy.h5").read_bytes(), older)
 
 
-class Refusals(Studies):
+class Refusals(AccuracyRuns):
     def test_exit_2_with_the_way_out(self):
         config = self.write("a.toml", STEADY)
         followed = self.write("b.toml", SCENE + '[sweep]\nnu = [1, 2]\nfollow = "nu"\n')
         cases = [
-            ([followed], "b.toml: [sweep] follow: a study starts every point from [scene]; add --set sweep.follow=''"),
+            (
+                [followed],
+                "b.toml: [sweep] follow: an accuracy run starts every point from [scene]; add --set sweep.follow=''",
+            ),
             ([config, "-o", config], "the output 'a.toml' is the configuration itself"),
             ([], "CONFIG is missing; write: clatter accuracy CONFIG"),
             ([config, config], "unexpected argument 'a.toml'"),
@@ -337,7 +340,7 @@ class Refusals(Studies):
             with self.subTest(words=words):
                 self.assert_refused(2, message, "accuracy", *words)
 
-    def test_a_file_that_cannot_be_written_is_refused_before_the_study(self):
+    def test_a_file_that_cannot_be_written_is_refused_before_the_run(self):
         config = self.write("a.toml", STEADY)
         (self.directory / "folder").mkdir()
         self.assert_refused(74, "there is no directory 'none'", "accuracy", config, "-o", "none/a.h5")
