@@ -80,7 +80,7 @@ std::string row_text(const accuracy::WorkPrecision& row, const accuracy::PointAc
   for (const double error :
        {row.contact_time, row.contact_speed, row.rest, row.extrema, row.harmonics, row.v_harmonics})
     put("%.1e", error);
-  for (const double count : {row.missed, row.doubled, row.rests_missed}) put("%.0f", count);
+  for (const double count : {row.missed, row.extra, row.rests_missed}) put("%.0f", count);
   put("%.0f", row.impacts), put("%.6g", row.simulated_periods), put("%.0f", row.ns_per_period),
       put("%.0f", row.ns_spread);
   return text + remark(row, of_point) + '\n';

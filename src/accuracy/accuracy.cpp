@@ -225,13 +225,13 @@ class AccuracyRun {
     const ContactErrors errors = compare(events_of(result), reference.events, period / 2);
     if (errors.paired > 0) row.contact_time = errors.time / period, row.contact_speed = errors.speed;
     if (errors.rests_paired > 0) row.rest = errors.rest / period;
-    row.missed = static_cast<double>(errors.missed), row.doubled = static_cast<double>(errors.doubled);
+    row.missed = static_cast<double>(errors.missed), row.extra = static_cast<double>(errors.extra);
     row.rests_missed = static_cast<double>(errors.rests_missed);
   }
 
   /// Compares the number of impacts on each stop, as lanes only count them.
   static void compare_counts(const point::PointResult& result, const RunRecord& reference, WorkPrecision& row) {
-    row.missed = row.doubled = 0.0;
+    row.missed = row.extra = 0.0;
     const double periods = result.status == steady::Status::transient ? 1.0 : result.observed_turns;
     for (const Side side : {Side::lower, Side::upper}) {
       const auto counts = [&](const Event& event) {  // an impact at the start belongs to the time before
@@ -239,7 +239,7 @@ class AccuracyRun {
       };
       const double more = std::round(result.impacts_per_period[observables::index_of(side)] * periods) -
                           static_cast<double>(std::ranges::count_if(reference.events, counts));
-      row.missed += std::max(0.0, -more), row.doubled += std::max(0.0, more);
+      row.missed += std::max(0.0, -more), row.extra += std::max(0.0, more);
     }
   }
 

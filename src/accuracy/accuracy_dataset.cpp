@@ -17,7 +17,7 @@ constexpr RowVariable all_row_variables[] = {
     {"error_harmonics_v", "error of the harmonics 1 to 3 of velocity, over the largest", &WorkPrecision::v_harmonics},
     {"error_rest", "largest error of a rest's beginning or end, in forcing periods", &WorkPrecision::rest},
     {"missed", "impacts of the reference that are missed", &WorkPrecision::missed},
-    {"doubled", "impacts that the reference doesn't have", &WorkPrecision::doubled},
+    {"doubled", "impacts that the reference doesn't have", &WorkPrecision::extra},
     {"rests_missed", "rests of the reference that are missed", &WorkPrecision::rests_missed},
     {"impacts", "impacts simulated", &WorkPrecision::impacts},
     {"simulated_periods", "forcing periods simulated", &WorkPrecision::simulated_periods},

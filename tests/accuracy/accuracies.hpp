@@ -66,12 +66,12 @@ inline double order_of(const PointAccuracy& of_point, double WorkPrecision::*err
 
 /// The measured errors of a row, all NaN if there is nothing to compare with.
 inline std::vector<double> errors_of(const WorkPrecision& row) {
-  return {row.contact_time, row.contact_speed, row.rest,    row.extrema,     row.harmonics,
-          row.v_harmonics,  row.missed,        row.doubled, row.rests_missed};
+  return {row.contact_time, row.contact_speed, row.rest,  row.extrema,     row.harmonics,
+          row.v_harmonics,  row.missed,        row.extra, row.rests_missed};
 }
 inline bool has_errors(const WorkPrecision& row) {
   return std::ranges::any_of(errors_of(row), [](double error) { return !std::isnan(error); });
 }
-inline double sum_of_faults(const WorkPrecision& row) { return row.missed + row.doubled + row.rests_missed; }
+inline double sum_of_faults(const WorkPrecision& row) { return row.missed + row.extra + row.rests_missed; }
 
 }  // namespace clatter::accuracy
