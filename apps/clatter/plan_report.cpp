@@ -33,7 +33,7 @@ std::string axes_text(const sweep::Sweep& sweep) {
     text += text.empty() ? "" : " x ";
     for (std::size_t i = 0; i < dimension.size(); ++i) text += (i > 0 ? " with " : "") + axis_text(dimension[i]);
   }
-  if (sweep.follow) text += ", following " + std::string(key_of(sweep.dimensions[*sweep.follow].front().parameter));
+  if (sweep.follow) text += ", following " + std::string(name_of(sweep.dimensions[*sweep.follow]));
   return text.empty() ? "none" : text;
 }
 
@@ -48,7 +48,7 @@ std::string method_of(const sweep::Sweep& sweep) {
 }
 
 /// "saves 11 %" of the time, or a range.
-std::string saving_text(const plan::Saving& saving) {
+std::string saving_text(const plan::Bounds& saving) {
   if (saving.most == 0) return {};
   const std::string most = formatted("%.0f", 100 * saving.most) + " %";
   return "; saves " + (saving.least == saving.most ? most : formatted("%.0f", 100 * saving.least) + " ... " + most);
@@ -68,7 +68,7 @@ std::string points_text(const plan::Plan& plan, const sweep::Sweep& sweep) {
       line("points", std::to_string(plan.points) +
                          (plan.shard ? " of " + std::to_string(size(sweep)) + ", shard " + text_of(*plan.shard) : ""));
   if (plan.sampled_points)
-    text += line("", "looked at " + std::to_string(*plan.sampled_points) + " of " + std::to_string(plan.points) +
+    text += line("", "examined " + std::to_string(*plan.sampled_points) + " of " + std::to_string(plan.points) +
                          " points; counts are estimates");
   return text;
 }
@@ -148,7 +148,7 @@ std::string plan_json(const plan::Plan& plan, const sweep::Sweep& sweep, int thr
     });
   });
   out << ",\n  \"follow\": ";
-  out << (sweep.follow ? json_text(std::string(key_of(sweep.dimensions[*sweep.follow].front().parameter))) : "null");
+  out << (sweep.follow ? json_text(std::string(name_of(sweep.dimensions[*sweep.follow]))) : "null");
   out << ",\n  \"observed\": ";
   list(out, plan.observed, [&](const std::string& name) { out << json_text(name); });
   out << ",\n  \"method\": " << json_text(method_of(sweep))

@@ -18,7 +18,7 @@ namespace {
 /// The work of lanes, if any ran.
 std::string lanes_text(const sweep::LaneWork& work) {
   if (work.proved == 0) return "";
-  return "; lanes: steps " + formatted("%.6g", work.proved) + ", contacts looked for " +
+  return "; lanes: steps proved " + formatted("%.6g", work.proved) + ", contacts refined " +
          formatted("%.6g", work.refined);
 }
 

@@ -5,7 +5,7 @@
 #include <tuple>
 
 #include "plan/available_memory.hpp"
-#include "plan/dearest_point.hpp"
+#include "plan/costliest_point.hpp"
 #include "plan/survey.hpp"
 #include "point/point.hpp"
 #include "sweep/branches.hpp"
@@ -28,7 +28,7 @@ void warn_of_stop(const sweep::Sweep& sweep, const StopSeen& stop, const std::st
   const auto reasons = reasons_of(planned_problem(sweep, stop.closest.point));
   const std::string& why = std::ranges::find(reasons, name, &Reason::effect)->why;
   const std::string reached =
-      plan.sampled_points ? " is reached at none of the " + std::to_string(*plan.sampled_points) + " points looked at"
+      plan.sampled_points ? " is reached at none of the " + std::to_string(*plan.sampled_points) + " points examined"
                           : " is never reached at any point";
   plan.warnings.push_back("the " + name + reached + ", at the closest " + why +
                           "; if impacts are meant, move it nearer or raise f, x0 or v0");
@@ -41,7 +41,7 @@ void warn(const sweep::Sweep& sweep, const Survey& survey, Plan& plan) {
     plan.warnings.emplace_back(
         "without damping and loss at impacts a transient never fades: forced points run for all of max_periods unless "
         "they start on a periodic motion; for a given time write mode = transient");
-  if (const auto warning = warning_of_dearest_point(sweep, plan.shard)) plan.warnings.push_back(*warning);
+  if (const auto warning = warning_of_costliest_point(sweep, plan.shard)) plan.warnings.push_back(*warning);
 }
 
 }  // namespace
@@ -56,14 +56,14 @@ std::string effect_set_name(const Effects& effects) {
   return name;
 }
 
-Plan plan_of(const sweep::Sweep& sweep, int threads, const std::optional<sweep::Shard>& shard) {
+Plan plan_of(const sweep::Sweep& sweep, int threads, const MemoryNeed& need, const std::optional<sweep::Shard>& shard) {
   const sweep::Share share(sweep, shard);
   Survey survey = survey_of(sweep, share, threads);
   std::ranges::sort(survey.groups, cheaper, &Collected::effects);
   Plan plan;
   plan.shard = shard;
   plan.points = share.points(), plan.branches = share.count();
-  if (survey.looked_at < plan.points) plan.sampled_points = survey.looked_at;
+  if (survey.examined < plan.points) plan.sampled_points = survey.examined;
   plan.observed = observables::All::descriptions(sweep.problem.observe);
   for (const Collected& group : survey.groups) {
     const point::Problem example = planned_problem(sweep, group.example.point);
@@ -74,7 +74,7 @@ Plan plan_of(const sweep::Sweep& sweep, int threads, const std::optional<sweep::
                            .periods = group.periods,
                            .seconds = group.work * seconds_of_work(example, group.effects)});
   }
-  plan.need = memory_need(sweep, shard, threads);
+  plan.need = need;
   plan.available_memory = memory_limit(threads).bytes;
   warn(sweep, survey, plan);
   return plan;

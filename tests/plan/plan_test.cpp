@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "plan/available_memory.hpp"
+#include "plan/plans.hpp"
 #include "sweep/figures.hpp"
 
 namespace clatter::plan {
@@ -201,7 +202,7 @@ TEST(Plan, of_a_sample_says_so_of_a_stop_that_it_never_meets) {
   const sweep::Sweep sweep = sweep::sweep_of(
       figure(9), {{sweep::Parameter::nu, evenly(0.5, 1.5, 2000)}, {sweep::Parameter::f, evenly(-1.0, 1.0, 1000)}});
   const Plan plan = plan_of(sweep, 2);
-  EXPECT_TRUE(warns(plan, "the lower stop is reached at none of the 1000000 points looked at, at the closest |x| <= "));
+  EXPECT_TRUE(warns(plan, "the lower stop is reached at none of the 1000000 points examined, at the closest |x| <= "));
   EXPECT_FALSE(warns(plan, "never reached"));
 }
 
