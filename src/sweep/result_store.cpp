@@ -91,16 +91,14 @@ std::vector<std::int64_t> point_numbers(const Share& share) {
   return numbers;
 }
 
-std::string name_of(const Dimension& dimension) { return std::string(key_of(dimension.front().parameter)); }
-
 }  // namespace
 
 void add_axes(const Sweep& sweep, Dataset& dataset) {
   for (const Dimension& dimension : sweep.dimensions) {
-    dataset.dimensions.push_back({name_of(dimension), length(dimension)});
+    dataset.dimensions.push_back({std::string(name_of(dimension)), length(dimension)});
     for (const Axis& axis : dimension)
       dataset.variables.push_back({std::string(key_of(axis.parameter)),
-                                   {name_of(dimension)},
+                                   {std::string(name_of(dimension))},
                                    axis.values,
                                    long_name_of(axis.parameter),
                                    axis.parameter == Parameter::phase ? "rad" : "1"});
@@ -125,19 +123,25 @@ void name_linked_axes(const Sweep& sweep, Dataset& dataset) {
 
 std::vector<std::string> axis_names(const Sweep& sweep) {
   std::vector<std::string> names;
-  for (const Dimension& dimension : sweep.dimensions) names.push_back(name_of(dimension));
+  for (const Dimension& dimension : sweep.dimensions) names.emplace_back(name_of(dimension));
   return names;
 }
 
-std::vector<Attribute> status_flags() {
+std::vector<Attribute> flag_attributes(std::span<const std::pair<std::uint8_t, std::string_view>> meanings) {
   std::vector<std::uint8_t> values;
-  std::string meanings;
-  for (const auto& [status, name] : steady::status_names) {
-    values.push_back(static_cast<std::uint8_t>(status));
-    if (!meanings.empty()) meanings += ' ';
-    meanings += name;
+  std::string text;
+  for (const auto& [value, meaning] : meanings) {
+    values.push_back(value);
+    (text += text.empty() ? "" : " ") += meaning;
   }
-  return {{"flag_values", values}, {"flag_meanings", meanings}};
+  return {{"flag_values", values}, {"flag_meanings", text}};
+}
+
+std::vector<Attribute> status_flags() {
+  std::vector<std::pair<std::uint8_t, std::string_view>> meanings;
+  for (const auto& [status, name] : steady::status_names)
+    meanings.emplace_back(static_cast<std::uint8_t>(status), name);
+  return flag_attributes(meanings);
 }
 
 double most_values(const Sweep& sweep, const std::optional<Shard>& shard) {

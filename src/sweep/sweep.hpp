@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <optional>
+#include <string_view>
 #include <vector>
 
 #include "point/problem.hpp"
@@ -29,8 +30,24 @@ struct Sweep {
 
 [[nodiscard]] inline std::size_t length(const Dimension& dimension) { return dimension.front().values.size(); }
 
+/// The name of a dimension: the key of its first axis.
+[[nodiscard]] inline std::string_view name_of(const Dimension& dimension) {
+  return key_of(dimension.front().parameter);
+}
+
 /// Number of points.
 [[nodiscard]] std::size_t size(const Sweep& sweep);
+
+/// Calls `take(axis, value)` for each axis at a point.
+template <class Take>
+void each_coordinate(const Sweep& sweep, std::size_t point, const Take& take) {
+  std::size_t stride = size(sweep);
+  for (const Dimension& dimension : sweep.dimensions) {
+    stride /= length(dimension);
+    const std::size_t index = point / stride % length(dimension);
+    for (const Axis& axis : dimension) take(axis, axis.values[index]);
+  }
+}
 
 /// The problem of a point, 0 <= point < size(sweep), in row-major order of the dimensions.
 [[nodiscard]] point::Problem problem_at(const Sweep& sweep, std::size_t point);
