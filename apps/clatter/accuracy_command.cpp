@@ -1,5 +1,4 @@
 #include <chrono>
-#include <csignal>
 #include <iostream>
 #include <optional>
 #include <vector>

@@ -20,8 +20,7 @@ constexpr ColumnTitle titles[] = {
     {"", "arch", 8},          {"", "setting", 9},          {"error of", "time", 10},      {"error of", "speed", 10},
     {"error of", "rest", 10}, {"error of", "extrema", 10}, {"error of", "harmonics", 11}, {"harmonics", "of v", 11},
     {"impacts", "missed", 9}, {"impacts", "doubled", 9},   {"rests", "missed", 8},        {"impacts", "taken", 9},
-    {"periods", "run", 9},    {"ns per", "period", 10},    {"its", "spread", 10},
-};
+    {"periods", "run", 9},    {"ns per", "period", 10},    {"its", "spread", 10}};
 
 std::string status_name(steady::Status status) {
   return std::string(

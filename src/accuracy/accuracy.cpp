@@ -5,7 +5,6 @@
 #include <cmath>
 #include <complex>
 #include <optional>
-#include <span>
 
 #include "accuracy/comparison.hpp"
 #include "accuracy/forecast.hpp"

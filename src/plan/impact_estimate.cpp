@@ -1,7 +1,6 @@
 #include "plan/impact_estimate.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "point/point.hpp"
 #include "sweep/branches.hpp"

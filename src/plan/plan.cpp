@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <tuple>
 
 #include "plan/available_memory.hpp"
 #include "plan/costliest_point.hpp"

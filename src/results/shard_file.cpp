@@ -1,6 +1,6 @@
 #include "results/shard_file.hpp"
 
-#include <hdf5_hl.h>
+#include <hdf5.h>
 
 #include <cstdint>
 #include <functional>

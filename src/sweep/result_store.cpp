@@ -3,8 +3,6 @@
 #include <malloc.h>
 
 #include <algorithm>
-#include <cmath>
-#include <numeric>
 #include <span>
 #include <stdexcept>
 #include <type_traits>

@@ -6,7 +6,6 @@
 #include <complex>
 #include <cstdint>
 #include <cstdio>
-#include <span>
 #include <vector>
 
 #include "observables/fourier_transform.hpp"

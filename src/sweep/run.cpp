@@ -7,7 +7,6 @@
 #include <exception>
 #include <mutex>
 #include <optional>
-#include <ranges>
 #include <span>
 #include <vector>
 
