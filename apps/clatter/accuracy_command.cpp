@@ -1,5 +1,4 @@
 #include <chrono>
-#include <csignal>
 #include <iostream>
 #include <optional>
 #include <vector>
@@ -22,16 +21,16 @@ namespace {
 void check_starts(const config::Config& config, const std::string& file) {
   if (!config.sweep.follow) return;
   throw UsageError(storage::printable(file) +
-                   ": [sweep] follow: a study starts every point from [scene]; add --set sweep.follow=''");
+                   ": [sweep] follow: an accuracy run starts every point from [scene]; add --set sweep.follow=''");
 }
 
-/// Sections that a study ignores: it chooses observables and integrators itself.
+/// Sections that an accuracy run ignores: it chooses observables and integrators itself.
 constexpr std::string_view not_read[] = {"observe", "integrator"};
 
-/// Studies and prints all points, or fewer if it is interrupted.
-std::vector<accuracy::PointAccuracy> study_points(const sweep::Sweep& sweep, lanes::InstructionSet arch, bool json,
-                                                  bool shown) {
-  const std::vector<accuracy::Trial> trials = accuracy::trials_of(sweep.scene.time.mode, arch);
+/// Measures and prints all points, or fewer if it is interrupted.
+std::vector<accuracy::PointAccuracy> measure_points(const sweep::Sweep& sweep, lanes::InstructionSet arch, bool json,
+                                                    bool shown) {
+  const std::vector<accuracy::Trial> trials = accuracy::trials_of(sweep.problem.time.mode, arch);
   Progress progress(shown, "runs");
   accuracy::AccuracyOptions options{.stopped = [] { return Interrupt::signal() != 0; }};
   std::vector<accuracy::PointAccuracy> points;
@@ -47,7 +46,7 @@ std::vector<accuracy::PointAccuracy> study_points(const sweep::Sweep& sweep, lan
     progress.show(static_cast<double>(++finished), total, seconds_left);
   };
   for (std::size_t point = 0; point < size(sweep); ++point) {
-    accuracy::PointAccuracy of_point = measure_accuracy(scene_at(sweep, point), trials, options);
+    accuracy::PointAccuracy of_point = measure_accuracy(problem_at(sweep, point), trials, options);
     if (Interrupt::signal() != 0) break;
     std::cout << (json ? accuracy_json : accuracy_text)(of_point, sweep, point) << std::flush;
     points.push_back(std::move(of_point));
@@ -62,7 +61,7 @@ bool any_failed(const std::vector<accuracy::PointAccuracy>& points) {
   return false;
 }
 
-int run_study(const Arguments& arguments) {
+int run_accuracy(const Arguments& arguments) {
   const lanes::InstructionSet arch = arch_of(arguments);
   const bool shown = progress_wanted(arguments);
   const std::string output = output_of(arguments, ".accuracy.h5");
@@ -73,7 +72,7 @@ int run_study(const Arguments& arguments) {
   storage::require_idle(output);
   if (!arguments.has("quiet")) warn(config, not_read);
   const Interrupt interrupt;
-  const std::vector<accuracy::PointAccuracy> points = study_points(config.sweep, arch, arguments.has("json"), shown);
+  const std::vector<accuracy::PointAccuracy> points = measure_points(config.sweep, arch, arguments.has("json"), shown);
   if (const int signal = Interrupt::signal()) {
     std::cerr << "stopped after " << points.size() << " of " << size(config.sweep) << " points; "
               << storage::printable(output) << " is not written\n";
@@ -106,7 +105,7 @@ Command accuracy_command() {
                       progress_option,
                       {"quiet", 'q', "", "print only rows and errors"},
                       {"help", 'h', "", "print this help"}},
-          .run = run_study};
+          .run = run_accuracy};
 }
 
 }  // namespace clatter::app

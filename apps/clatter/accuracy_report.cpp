@@ -16,21 +16,11 @@ struct ColumnTitle {
   std::size_t width;
 };
 
-constexpr ColumnTitle titles[] = {{"", "arch", 8},
-                                  {"", "setting", 9},
-                                  {"error of", "time", 10},
-                                  {"error of", "speed", 10},
-                                  {"error of", "rest", 10},
-                                  {"error of", "extrema", 10},
-                                  {"error of", "harmonics", 11},
-                                  {"error of", "those of v", 11},
-                                  {"impacts", "missed", 9},
-                                  {"impacts", "doubled", 9},
-                                  {"rests", "missed", 8},
-                                  {"impacts", "taken", 9},
-                                  {"periods", "run", 9},
-                                  {"ns per", "period", 10},
-                                  {"its", "spread", 10}};
+constexpr ColumnTitle titles[] = {
+    {"", "arch", 8},          {"", "setting", 9},          {"error of", "time", 10},      {"error of", "speed", 10},
+    {"error of", "rest", 10}, {"error of", "extrema", 10}, {"error of", "harmonics", 11}, {"harmonics", "of v", 11},
+    {"impacts", "missed", 9}, {"impacts", "doubled", 9},   {"rests", "missed", 8},        {"impacts", "taken", 9},
+    {"periods", "run", 9},    {"ns per", "period", 10},    {"its", "spread", 10}};
 
 std::string status_name(steady::Status status) {
   return std::string(
@@ -54,58 +44,58 @@ std::string header() {
 }
 
 /// Whether a row was meant for lanes but its scene couldn't go into them.
-bool left_out(const accuracy::WorkPrecision& row, const accuracy::PointAccuracy& study) {
-  const bool run = row.trial.method >= accuracy::TestedMethod::steady || study.horizon > 0;
+bool left_out(const accuracy::WorkPrecision& row, const accuracy::PointAccuracy& of_point) {
+  const bool run = row.trial.method >= accuracy::TestedMethod::steady || of_point.horizon > 0;
   return row.trial.arch != lanes::InstructionSet::scalar && run && std::isnan(row.simulated_periods);
 }
 
 /// Why a row can't be compared; empty if it can.
-std::string remark(const accuracy::WorkPrecision& row, const accuracy::PointAccuracy& study) {
+std::string remark(const accuracy::WorkPrecision& row, const accuracy::PointAccuracy& of_point) {
   const bool steady = row.trial.method >= accuracy::TestedMethod::steady;
   if (failed(row.status) || (steady && row.status == steady::Status::aperiodic)) return "  " + status_name(row.status);
-  return steady && study.steady_periods > 0 && row.observed_periods != study.steady_periods
+  return steady && of_point.steady_periods > 0 && row.observed_periods != of_point.steady_periods
              ? "  period " + formatted("%.6g", row.observed_periods)
              : "";
 }
 
-std::string row_text(const accuracy::WorkPrecision& row, const accuracy::PointAccuracy& study) {
+std::string row_text(const accuracy::WorkPrecision& row, const accuracy::PointAccuracy& of_point) {
   std::size_t column = 0;
   std::string text = left(std::string(accuracy::method_names[static_cast<std::size_t>(row.trial.method)]));
   const auto put = [&](const char* format, double value) {
     text += right(std::isnan(value) ? "-" : formatted(format, value), titles[column++].width);
   };
   text += right(std::string(name_of(row.trial.arch)), titles[column++].width);
-  if (left_out(row, study)) return text + "  not in lanes: this motion is left to the scalar loop\n";
+  if (left_out(row, of_point)) return text + "  not in lanes: this motion is left to the scalar loop\n";
   put(row.trial.method == accuracy::TestedMethod::harmonics_fft ? "%.0f" : "%.0e", row.trial.setting);
   for (const double error :
        {row.contact_time, row.contact_speed, row.rest, row.extrema, row.harmonics, row.v_harmonics})
     put("%.1e", error);
-  for (const double count : {row.missed, row.doubled, row.rests_missed}) put("%.0f", count);
+  for (const double count : {row.missed, row.extra, row.rests_missed}) put("%.0f", count);
   put("%.0f", row.impacts), put("%.6g", row.simulated_periods), put("%.0f", row.ns_per_period),
       put("%.0f", row.ns_spread);
-  return text + remark(row, study) + '\n';
+  return text + remark(row, of_point) + '\n';
 }
 
 /// Says what the errors refer to.
-std::string horizon_text(const accuracy::PointAccuracy& study, bool forced) {
-  const std::string events = counted(study.impacts, "impact") + " and " + counted(study.rests, "rest");
-  const std::string asked = formatted("%.6g", study.asked) + (forced ? " forcing period" : " turn") +
-                            (study.asked == 1 ? "" : "s") + (forced ? "" : " of 2 pi");
-  const steady::Status status = study.rows.front().status;
+std::string horizon_text(const accuracy::PointAccuracy& of_point, bool forced) {
+  const std::string events = counted(of_point.impacts, "impact") + " and " + counted(of_point.rests, "rest");
+  const std::string asked = formatted("%.6g", of_point.asked) + (forced ? " forcing period" : " turn") +
+                            (of_point.asked == 1 ? "" : "s") + (forced ? "" : " of 2 pi");
+  const steady::Status status = of_point.rows.front().status;
   std::string text;
   if (failed(status))
     text = "not compared, since the run fails: " + status_name(status);
-  else if (study.horizon == study.asked)
+  else if (of_point.horizon == of_point.asked)
     text = "compared with 50 digits over " + asked + " from the start: " + events;
-  else if (study.horizon > 0)
-    text = "compared with 50 digits over " + formatted("%.6g", study.horizon) + " of " + asked +
+  else if (of_point.horizon > 0)
+    text = "compared with 50 digits over " + formatted("%.6g", of_point.horizon) + " of " + asked +
            " from the start: " + events + "; from there on double and 50 digits differ, as chaotic motion lets them";
   else
     text = "not compared: double and 50 digits differ within the first of " + asked;
   text += ".\n";
-  if (study.steady_periods > 0)
-    text += "Harmonics and repeats are those of the steady motion, " + counted(study.steady_periods, "forcing period") +
-            " long, in 50 digits.\n";
+  if (of_point.steady_periods > 0)
+    text += "Harmonics and repeats are those of the steady motion, " +
+            counted(of_point.steady_periods, "forcing period") + " long, in 50 digits.\n";
   else
     text += "Harmonics are those of the time compared; there is no steady forced motion to compare repeats with.\n";
   return text;
@@ -113,18 +103,18 @@ std::string horizon_text(const accuracy::PointAccuracy& study, bool forced) {
 
 }  // namespace
 
-std::string accuracy_text(const accuracy::PointAccuracy& study, const sweep::Sweep& sweep, std::size_t point) {
+std::string accuracy_text(const accuracy::PointAccuracy& of_point, const sweep::Sweep& sweep, std::size_t point) {
   std::string text = coordinates_text(sweep, point);
   if (!text.empty()) text += '\n';
-  text += horizon_text(study, scene_at(sweep, point).oscillator.forcing != 0);
+  text += horizon_text(of_point, problem_at(sweep, point).oscillator.forcing != 0);
   text += header();
-  for (const accuracy::WorkPrecision& row : study.rows) text += row_text(row, study);
+  for (const accuracy::WorkPrecision& row : of_point.rows) text += row_text(row, of_point);
   return text + '\n';
 }
 
-std::string accuracy_json(const accuracy::PointAccuracy& study, const sweep::Sweep& sweep, std::size_t point) {
+std::string accuracy_json(const accuracy::PointAccuracy& of_point, const sweep::Sweep& sweep, std::size_t point) {
   std::ostringstream out;
-  for (const accuracy::WorkPrecision& row : study.rows) {
+  for (const accuracy::WorkPrecision& row : of_point.rows) {
     const auto put = [&](const std::string& name, double value) {
       out << ", \"" << name << "\": " << json_number(value);
     };
@@ -136,7 +126,7 @@ std::string accuracy_json(const accuracy::PointAccuracy& study, const sweep::Swe
     out << ", \"status\": " << static_cast<int>(row.status) << ", \"point\": " << point;
     each_coordinate(sweep, point,
                     [&](const sweep::Axis& axis, double value) { put(std::string(key_of(axis.parameter)), value); });
-    for (const auto& [name, long_name, value] : accuracy::point_variables()) put(name, study.*value);
+    for (const auto& [name, long_name, value] : accuracy::point_variables()) put(name, of_point.*value);
     out << "}\n";
   }
   return out.str();

@@ -16,6 +16,7 @@
 #include <utility>
 
 #include "commands.hpp"
+#include "signals.hpp"
 #include "storage/error.hpp"
 #include "storage/file_calls.hpp"
 #include "storage/utf8.hpp"
@@ -33,16 +34,10 @@ volatile std::sig_atomic_t into = -1;  ///< the pipe of the present Checkpointer
 
 void take(int number) {
   const int before = errno;
-  for (const int stop : stops) std::signal(stop, SIG_DFL);  // the next signal ends the process
+  handle(stops, SIG_DFL);  // the next signal ends the process
   const char byte = static_cast<char>(number);
   (void)!::write(into, &byte, 1);
   errno = before;
-}
-
-/// Signals that the shell has set to be ignored, as by nohup or in the background, stay ignored.
-void handle_stops(void (*handler)(int)) {
-  for (const int stop : stops)
-    if (std::signal(stop, handler) == SIG_IGN) std::signal(stop, SIG_IGN);
 }
 
 }  // namespace
@@ -58,7 +53,7 @@ Checkpointer::Checkpointer(storage::Journal& journal, std::function<void()> save
     for (const int number : ends_) ::close(number);
     throw storage::IoError(std::string("cannot start a thread: ").append(error.what()).append("; raise ulimit -u"));
   }
-  handle_stops(take);
+  handle(stops, take);
 }
 
 Checkpointer::~Checkpointer() {
@@ -67,7 +62,7 @@ Checkpointer::~Checkpointer() {
     if (!finishing_) save_if_possible();
     finishing_ = true;
   }
-  handle_stops(SIG_DFL);
+  handle(stops, SIG_DFL);
   (void)!::write(ends_[1], &over, 1);
   thread_.join();
   for (const int end : ends_) ::close(end);

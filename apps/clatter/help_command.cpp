@@ -17,7 +17,7 @@ constexpr std::string_view exit_codes = R"(Exit codes
        threads, stacks or open files
   75   another run is writing the output
   124  stopped by --max-time
-  130  stopped by SIGINT; 143: by SIGTERM
+  129  stopped by SIGHUP; 130: by SIGINT; 143: by SIGTERM
 )";
 
 /// A term and its explanation.

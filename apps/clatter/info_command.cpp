@@ -57,7 +57,7 @@ void print_text(const results::FileSummary& summary) {
   }
   std::cout << "\nVariables\n";
   print_variables(summary);
-  std::cout << "\nRuns by status\n";
+  std::cout << "\nBy status\n";
   for (const auto& [meaning, count] : summary.status_counts) std::cout << "  " << column(meaning, 12) << count << '\n';
 }
 

@@ -7,12 +7,10 @@
 
 namespace clatter::app {
 
-/// Adds the copies of the configuration's text to a run's need; if reading the configuration took more than all that,
-/// the need is that peak.
-[[nodiscard]] plan::MemoryNeed with_configuration(plan::MemoryNeed need, const config::Config& config);
-
-/// Throws IoError if a run would not fit into memory, before it begins rather than at its end.
-void check_memory(const config::Config& config, const std::optional<sweep::Shard>& shard, int threads);
+/// The need of a run, with the copies of its configuration's text. Throws IoError if the run would not fit into memory,
+/// before it begins rather than at its end.
+[[nodiscard]] plan::MemoryNeed check_memory(const config::Config& config, const std::optional<sweep::Shard>& shard,
+                                            int threads);
 
 /// Throws IoError if merging, which takes so many bytes, would not fit.
 void check_merge_memory(double bytes);

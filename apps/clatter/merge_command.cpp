@@ -40,15 +40,15 @@ int merge_shards(const Arguments& arguments) {
   const results::OutputPlace place(output, {.title = shards.config.title}, arguments.has("force"));
   check_merge_memory(shards.bytes);
   if (arguments.has("verbose"))
-    std::cerr << "shards           " << shards.heads.size() << "\nrounding         "
-              << storage::printable(shards.heads.front().rounding) << "\nmemory           " << bytes_text(shards.bytes)
-              << '\n';
+    std::cerr << "shards           " << shards.headers.size() << "\nrounding         "
+              << storage::printable(shards.headers.front().rounding) << "\nmemory           "
+              << bytes_text(shards.bytes) << '\n';
   results::Merged merged = merge(shards);
   const std::string failures = failures_text(merged.dataset, shards.config.sweep);
   place.write_atomically(results::file_image(std::move(merged.dataset), shards.config).bytes);
   if (!arguments.has("quiet"))
     std::cerr << counted(static_cast<double>(size(shards.config.sweep)), "point") << " of "
-              << counted(static_cast<double>(shards.heads.size()), "shard") << ", " << failures << ", "
+              << counted(static_cast<double>(shards.headers.size()), "shard") << ", " << failures << ", "
               << storage::printable(output) << '\n';
   return merged.failed_points > 0 ? points_failed : done;
 }

@@ -14,9 +14,8 @@ int print_plan(const Arguments& arguments) {
   const int threads = sweep::threads_used({.threads = threads_of(arguments)});
   const std::optional<sweep::Shard> shard = shard_of(arguments);
   const config::Config config = config_of(arguments);
-  check_memory(config, shard, threads);
-  plan::Plan plan = plan::plan_of(config.sweep, threads, shard);
-  plan.need = with_configuration(plan.need, config);
+  const plan::MemoryNeed need = check_memory(config, shard, threads);
+  plan::Plan plan = plan::plan_of(config.sweep, threads, need, shard);
   if (arguments.has("json")) {
     join_warnings(plan, config);
     std::cout << plan_json(plan, config.sweep, threads);

@@ -33,7 +33,7 @@ std::string axes_text(const sweep::Sweep& sweep) {
     text += text.empty() ? "" : " x ";
     for (std::size_t i = 0; i < dimension.size(); ++i) text += (i > 0 ? " with " : "") + axis_text(dimension[i]);
   }
-  if (sweep.follow) text += ", following " + std::string(key_of(sweep.dimensions[*sweep.follow].front().parameter));
+  if (sweep.follow) text += ", following " + std::string(name_of(sweep.dimensions[*sweep.follow]));
   return text.empty() ? "none" : text;
 }
 
@@ -44,11 +44,11 @@ std::string joined(const std::vector<std::string>& names) {
 }
 
 std::string method_of(const sweep::Sweep& sweep) {
-  return std::string(stepping::method_names[static_cast<std::size_t>(sweep.scene.integration.method)]);
+  return std::string(stepping::method_names[static_cast<std::size_t>(sweep.problem.integration.method)]);
 }
 
 /// "saves 11 %" of the time, or a range.
-std::string saving_text(const plan::Saving& saving) {
+std::string saving_text(const plan::Bounds& saving) {
   if (saving.most == 0) return {};
   const std::string most = formatted("%.0f", 100 * saving.most) + " %";
   return "; saves " + (saving.least == saving.most ? most : formatted("%.0f", 100 * saving.least) + " ... " + most);
@@ -68,7 +68,7 @@ std::string points_text(const plan::Plan& plan, const sweep::Sweep& sweep) {
       line("points", std::to_string(plan.points) +
                          (plan.shard ? " of " + std::to_string(size(sweep)) + ", shard " + text_of(*plan.shard) : ""));
   if (plan.sampled_points)
-    text += line("", "looked at " + std::to_string(*plan.sampled_points) + " of " + std::to_string(plan.points) +
+    text += line("", "examined " + std::to_string(*plan.sampled_points) + " of " + std::to_string(plan.points) +
                          " points; counts are estimates");
   return text;
 }
@@ -117,7 +117,7 @@ void put_group(std::ostringstream& out, const plan::Group& group) {
 std::string plan_text(const plan::Plan& plan, const sweep::Sweep& sweep, int threads) {
   std::string text =
       line("axes", axes_text(sweep)) + points_text(plan, sweep) + line("observed", joined(plan.observed));
-  const stepping::Integration& integration = sweep.scene.integration;
+  const stepping::Integration& integration = sweep.problem.integration;
   if (integration.method != stepping::Method::exact)
     text += line("method", method_of(sweep) + ": every effect is simulated; called for are:");
   else if (integration.all_effects)
@@ -148,11 +148,11 @@ std::string plan_json(const plan::Plan& plan, const sweep::Sweep& sweep, int thr
     });
   });
   out << ",\n  \"follow\": ";
-  out << (sweep.follow ? json_text(std::string(key_of(sweep.dimensions[*sweep.follow].front().parameter))) : "null");
+  out << (sweep.follow ? json_text(std::string(name_of(sweep.dimensions[*sweep.follow]))) : "null");
   out << ",\n  \"observed\": ";
   list(out, plan.observed, [&](const std::string& name) { out << json_text(name); });
   out << ",\n  \"method\": " << json_text(method_of(sweep))
-      << ",\n  \"all_effects\": " << (sweep.scene.integration.all_effects ? "true" : "false") << ",\n  \"groups\": ";
+      << ",\n  \"all_effects\": " << (sweep.problem.integration.all_effects ? "true" : "false") << ",\n  \"groups\": ";
   list(out, plan.groups, [&](const plan::Group& group) { put_group(out, group); });
   out << ",\n  \"threads\": " << threads << ",\n  \"seconds\": " << estimate_json(seconds_of(plan, threads))
       << ",\n  \"output_bytes\": " << json_number(plan.need.output)

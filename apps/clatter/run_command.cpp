@@ -24,7 +24,7 @@ storage::Journal::Begin begin_of(const Arguments& arguments) {
   if (arguments.has("resume") && arguments.has("restart"))
     throw UsageError("--resume conflicts with --restart; give one of them");
   if (arguments.has("restart")) return storage::Journal::Begin::restart;
-  return arguments.has("resume") ? storage::Journal::Begin::resume : storage::Journal::Begin::anyhow;
+  return arguments.has("resume") ? storage::Journal::Begin::resume : storage::Journal::Begin::resume_if_any;
 }
 
 /// The end of --max-time, counted from now.

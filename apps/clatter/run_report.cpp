@@ -18,7 +18,7 @@ namespace {
 /// The work of lanes, if any ran.
 std::string lanes_text(const sweep::LaneWork& work) {
   if (work.proved == 0) return "";
-  return "; lanes: steps " + formatted("%.6g", work.proved) + ", contacts looked for " +
+  return "; lanes: steps proved " + formatted("%.6g", work.proved) + ", contacts refined " +
          formatted("%.6g", work.refined);
 }
 
@@ -28,22 +28,22 @@ std::string host() {
 }
 
 /// The work of each group of points, and of all together.
-std::string usage_text(const std::vector<sweep::WorkStats>& usage) {
+std::string work_text(const std::vector<sweep::WorkStats>& work) {
   std::string text;
   double impacts = 0, periods = 0, evaluations = 0;
-  for (std::size_t group = 0; group < usage.size(); ++group) {
-    const sweep::WorkStats& used = usage[group];
+  for (std::size_t group = 0; group < work.size(); ++group) {
+    const sweep::WorkStats& part = work[group];
     text += (group == 0 ? "groups           " : "                 ") +
-            counted(static_cast<double>(used.points), "point") + " with " + plan::effect_set_name(used.effects) +
-            "; forcing periods " + formatted("%.6g", used.periods) + ", impacts " + formatted("%.0f", used.impacts) +
-            ", evaluations " + formatted("%.0f", used.evaluations);
+            counted(static_cast<double>(part.points), "point") + " with " + plan::effect_set_name(part.effects) +
+            "; forcing periods " + formatted("%.6g", part.periods) + ", impacts " + formatted("%.0f", part.impacts) +
+            ", evaluations " + formatted("%.0f", part.evaluations);
     std::string found;
-    for (std::size_t i = 0; i < used.found_by.size(); ++i)
-      if (used.found_by[i] > 0)
+    for (std::size_t i = 0; i < part.found_by.size(); ++i)
+      if (part.found_by[i] > 0)
         found += (found.empty() ? "; settled: " : ", ") + std::string(steady::found_by_names[i]) + ' ' +
-                 std::to_string(used.found_by[i]);
+                 std::to_string(part.found_by[i]);
     text += found + '\n';
-    impacts += used.impacts, periods += used.periods, evaluations += used.evaluations;
+    impacts += part.impacts, periods += part.periods, evaluations += part.evaluations;
   }
   return text + "impacts          " + formatted("%.0f", impacts) + "\nforcing periods  " + formatted("%.6g", periods) +
          "\nevaluations      " + formatted("%.0f", evaluations) + '\n';
@@ -58,7 +58,7 @@ std::string summary_line(const sweep::RunResult& result, const sweep::Sweep& swe
 }
 
 std::string details(const sweep::RunResult& result, const std::string& command, const std::string& began) {
-  return usage_text(result.usage) + "threads          " + std::to_string(result.threads) + "\ninstruction set  " +
+  return work_text(result.work) + "threads          " + std::to_string(result.threads) + "\ninstruction set  " +
          std::string(name_of(result.arch)) + lanes_text(result.lanes) + "\nhost             " + host() +
          "\ncommand line     " + storage::printable(command) + "\nbegan            " + began + "\nended            " +
          now() + '\n';

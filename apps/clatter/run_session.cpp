@@ -32,9 +32,8 @@ storage::JournalKey journal_key(const config::Config& config, const RunRequest& 
           .shard = name_of(request.shard)};
 }
 
-void say_plan(const config::Config& config, const RunRequest& request) {
-  plan::Plan plan = plan::plan_of(config.sweep, request.threads, request.shard);
-  plan.need = with_configuration(plan.need, config);
+void say_plan(const config::Config& config, const RunRequest& request, const plan::MemoryNeed& need) {
+  const plan::Plan plan = plan::plan_of(config.sweep, request.threads, need, request.shard);
   std::cerr << plan_text(plan, config.sweep, request.threads);
   say_notes(config), warn(plan);
 }
@@ -47,8 +46,7 @@ RunSession::RunSession(config::Config config, RunRequest request)
       place_(request_.output, {.shard = name_of(request_.shard), .title = config_.title}, request_.force) {}
 
 int RunSession::run() {
-  check_memory(config_, request_.shard, request_.threads);
-  announce();
+  announce(check_memory(config_, request_.shard, request_.threads));
   open_journal();
   announce_restored();
   compute();
@@ -57,16 +55,16 @@ int RunSession::run() {
   return result_.failed_points > 0 ? points_failed : done;
 }
 
-void RunSession::announce() const {
-  if (request_.verbose) say_plan(config_, request_);
+void RunSession::announce(const plan::MemoryNeed& need) const {
+  if (request_.verbose) say_plan(config_, request_, need);
   if (request_.quiet) return;
   warn(config_);
-  if (!request_.verbose) warn_of_dearest_point(config_.sweep, request_.shard);
+  if (!request_.verbose) warn_of_costliest_point(config_.sweep, request_.shard);
 }
 
 void RunSession::open_journal() {
   sweep_.emplace(config_.sweep, request_.shard);
-  const storage::RecordLimit limit{sweep_->most_saved(), config_.sweep.scene.observe.impact_log};
+  const storage::RecordLimit limit{sweep_->most_saved(), config_.sweep.problem.observe.impact_log};
   journal_.emplace(request_.output, journal_key(config_, request_), limit, request_.begin,
                    [this](std::span<const std::byte> results) { restore(results); });
 }

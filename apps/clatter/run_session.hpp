@@ -8,6 +8,7 @@
 #include "checkpointer.hpp"
 #include "config/config.hpp"
 #include "lanes/instruction_set.hpp"
+#include "plan/memory_need.hpp"
 #include "results/output_place.hpp"
 #include "storage/error.hpp"
 #include "storage/journal.hpp"
@@ -23,7 +24,7 @@ struct RunRequest {
   lanes::InstructionSet arch = lanes::InstructionSet::scalar;
   int threads = 1;
   bool shows_progress = false;
-  storage::Journal::Begin begin = storage::Journal::Begin::anyhow;
+  storage::Journal::Begin begin = storage::Journal::Begin::resume_if_any;
   std::optional<sweep::Shard> shard;
   std::string output;
   bool force = false;
@@ -42,7 +43,7 @@ class RunSession {
   [[nodiscard]] int run();
 
  private:
-  void announce() const;
+  void announce(const plan::MemoryNeed& need) const;
   void open_journal();
   void restore(std::span<const std::byte> results);
   void announce_restored() const;

@@ -3,34 +3,39 @@
 #include <unistd.h>
 
 #include <array>
+#include <cerrno>
 #include <csignal>
-#include <initializer_list>
 
 namespace clatter::app {
 namespace {
 
+constexpr std::array stops{SIGINT, SIGTERM};
+
 volatile std::sig_atomic_t came = 0;
 
 void take(int number) {
+  const int before = errno;
   came = number;
-  std::signal(number, SIG_DFL);
+  handle(stops, SIG_DFL);  // the next signal of either kind ends the process
   static constexpr std::array message =
       std::to_array("\nclatter: stopping after the present run; a second signal stops at once\n");
   (void)!write(STDERR_FILENO, message.data(), message.size() - 1);  // a signal handler may call little else
+  errno = before;
 }
 
 }  // namespace
 
-Interrupt::Interrupt() {
-  came = 0;
-  for (const int number : {SIGINT, SIGTERM})
-    if (std::signal(number, take) == SIG_IGN) std::signal(number, SIG_IGN);  // as a shell does for background jobs
+void handle(std::span<const int> signals, void (*handler)(int)) {
+  for (const int number : signals)
+    if (std::signal(number, handler) == SIG_IGN) std::signal(number, SIG_IGN);
 }
 
-Interrupt::~Interrupt() {
-  for (const int number : {SIGINT, SIGTERM})
-    if (std::signal(number, SIG_DFL) == SIG_IGN) std::signal(number, SIG_IGN);
+Interrupt::Interrupt() {
+  came = 0;
+  handle(stops, take);
 }
+
+Interrupt::~Interrupt() { handle(stops, SIG_DFL); }
 
 int Interrupt::signal() { return came; }
 

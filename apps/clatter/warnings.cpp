@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <iostream>
 
-#include "plan/dearest_point.hpp"
+#include "plan/costliest_point.hpp"
 #include "storage/utf8.hpp"
 
 namespace clatter::app {
@@ -19,8 +19,8 @@ void warn(const plan::Plan& plan) {
   for (const std::string& warning : plan.warnings) std::cerr << "warning: " << storage::printable(warning) << '\n';
 }
 
-void warn_of_dearest_point(const sweep::Sweep& sweep, const std::optional<sweep::Shard>& shard) {
-  if (const auto warning = plan::warning_of_dearest_point(sweep, shard)) std::cerr << "warning: " << *warning << '\n';
+void warn_of_costliest_point(const sweep::Sweep& sweep, const std::optional<sweep::Shard>& shard) {
+  if (const auto warning = plan::warning_of_costliest_point(sweep, shard)) std::cerr << "warning: " << *warning << '\n';
 }
 
 void say_notes(const config::Config& config) {

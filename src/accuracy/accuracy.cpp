@@ -5,7 +5,6 @@
 #include <cmath>
 #include <complex>
 #include <optional>
-#include <span>
 
 #include "accuracy/comparison.hpp"
 #include "accuracy/forecast.hpp"
@@ -136,14 +135,14 @@ Prepared prepare(const Trial& trial, const point::Problem& scene, const Referenc
   return prepared;
 }
 
-point::WorkItem task_of(const point::Problem& scene) { return {0, scene, effects_of(scene)}; }
+point::WorkItem item_of(const point::Problem& scene) { return {0, scene, effects_of(scene)}; }
 
 /// Runs a trial once; in lanes, too, once is enough, as each lane of a full block gives the same. Nothing if lanes
 /// leave it to the scalar loop.
 std::optional<point::PointResult> result_of(const Prepared& prepared, point::ThreadScratch& scratch) {
   const lanes::InstructionSet arch = prepared.trial.arch;
   if (arch == lanes::InstructionSet::scalar) return run_point(prepared.observed, scratch);
-  const point::WorkItem item = task_of(prepared.observed);
+  const point::WorkItem item = item_of(prepared.observed);
   if (!lanes::accepts(item)) return std::nullopt;
   point::PointResult result = run_in_lanes(item, 1, arch, scratch);
   return result.in_lanes || failed(result.status) ? std::optional(std::move(result)) : std::nullopt;
@@ -153,7 +152,7 @@ std::optional<point::PointResult> result_of(const Prepared& prepared, point::Thr
 double run_silently(const Prepared& prepared, point::ThreadScratch& scratch, int times) {
   if (const lanes::InstructionSet arch = prepared.trial.arch; arch != lanes::InstructionSet::scalar) {
     const std::size_t points = lanes::lanes_per_block * static_cast<std::size_t>(times);
-    return static_cast<double>(points) * run_in_lanes(task_of(prepared.silent), points, arch, scratch).periods;
+    return static_cast<double>(points) * run_in_lanes(item_of(prepared.silent), points, arch, scratch).periods;
   }
   double periods = 0;
   for (int i = 0; i < times; ++i) periods += run_point(prepared.silent, scratch).periods;
@@ -225,13 +224,13 @@ class AccuracyRun {
     const ContactErrors errors = compare(events_of(result), reference.events, period / 2);
     if (errors.paired > 0) row.contact_time = errors.time / period, row.contact_speed = errors.speed;
     if (errors.rests_paired > 0) row.rest = errors.rest / period;
-    row.missed = static_cast<double>(errors.missed), row.doubled = static_cast<double>(errors.doubled);
+    row.missed = static_cast<double>(errors.missed), row.extra = static_cast<double>(errors.extra);
     row.rests_missed = static_cast<double>(errors.rests_missed);
   }
 
   /// Compares the number of impacts on each stop, as lanes only count them.
   static void compare_counts(const point::PointResult& result, const RunRecord& reference, WorkPrecision& row) {
-    row.missed = row.doubled = 0.0;
+    row.missed = row.extra = 0.0;
     const double periods = result.status == steady::Status::transient ? 1.0 : result.observed_turns;
     for (const Side side : {Side::lower, Side::upper}) {
       const auto counts = [&](const Event& event) {  // an impact at the start belongs to the time before
@@ -239,7 +238,7 @@ class AccuracyRun {
       };
       const double more = std::round(result.impacts_per_period[index_of(side)] * periods) -
                           static_cast<double>(std::ranges::count_if(reference.events, counts));
-      row.missed += std::max(0.0, -more), row.doubled += std::max(0.0, more);
+      row.missed += std::max(0.0, -more), row.extra += std::max(0.0, more);
     }
   }
 

@@ -21,7 +21,7 @@ struct WorkPrecision {
   double extrema = point::no_value;        ///< error of the least and greatest x and x', over the largest |x| and |x'|
   double harmonics = point::no_value;      ///< of x: error of the complex amplitudes 1 ... 3, over the largest of them
   double v_harmonics = point::no_value;    ///< the same of x'
-  double missed = point::no_value, doubled = point::no_value;  ///< impacts; in lanes by the number on each stop
+  double missed = point::no_value, extra = point::no_value;  ///< impacts; in lanes by the number on each stop
   double rests_missed = point::no_value;
   double impacts = point::no_value;            ///< number simulated
   double simulated_periods = point::no_value;  ///< forcing periods, settling included

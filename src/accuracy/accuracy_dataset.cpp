@@ -17,7 +17,7 @@ constexpr RowVariable all_row_variables[] = {
     {"error_harmonics_v", "error of the harmonics 1 to 3 of velocity, over the largest", &WorkPrecision::v_harmonics},
     {"error_rest", "largest error of a rest's beginning or end, in forcing periods", &WorkPrecision::rest},
     {"missed", "impacts of the reference that are missed", &WorkPrecision::missed},
-    {"doubled", "impacts that the reference doesn't have", &WorkPrecision::doubled},
+    {"doubled", "impacts that the reference doesn't have", &WorkPrecision::extra},
     {"rests_missed", "rests of the reference that are missed", &WorkPrecision::rests_missed},
     {"impacts", "impacts simulated", &WorkPrecision::impacts},
     {"simulated_periods", "forcing periods simulated", &WorkPrecision::simulated_periods},
@@ -39,14 +39,9 @@ constexpr PointVariable all_point_variables[] = {
 
 /// Attributes with the meanings of the values 0, 1, ... of a variable.
 std::vector<sweep::Attribute> flags_of(std::span<const std::string_view> names) {
-  std::vector<std::uint8_t> flags;
-  std::string meanings;
-  for (const std::string_view name : names) {
-    flags.push_back(static_cast<std::uint8_t>(flags.size()));
-    if (!meanings.empty()) meanings += ' ';
-    meanings += name;
-  }
-  return {{"flag_values", flags}, {"flag_meanings", meanings}};
+  std::vector<std::pair<std::uint8_t, std::string_view>> meanings;
+  for (const std::string_view name : names) meanings.emplace_back(static_cast<std::uint8_t>(meanings.size()), name);
+  return sweep::flag_attributes(meanings);
 }
 
 void add_trials(sweep::Dataset& dataset, const std::vector<WorkPrecision>& rows) {

@@ -47,15 +47,15 @@ class Pairing {
     for (std::size_t i = 0; i < reference_.impacts.size(); ++i) {
       const double time = reference_.impacts[i].time;
       const auto off = [&](std::size_t k) { return std::abs(impacts[k].time - time - lag_); };
-      while (j < impacts.size() && impacts[j].time < time + earliest(i)) extra(impacts[j++]);
-      while (j + 1 < impacts.size() && off(j + 1) < off(j)) extra(impacts[j++]);  // pair the nearest one
+      while (j < impacts.size() && impacts[j].time < time + earliest(i)) count_extra(impacts[j++]);
+      while (j + 1 < impacts.size() && off(j + 1) < off(j)) count_extra(impacts[j++]);  // pair the nearest one
       if (j < impacts.size() && impacts[j].time <= time + latest(i)) {
         pair(impacts[j++], reference_.impacts[i]);
       } else if (!run_.completes(time + lag_)) {
         ++errors_.missed;
       }
     }
-    while (j < impacts.size()) extra(impacts[j++]);
+    while (j < impacts.size()) count_extra(impacts[j++]);
   }
 
   void rests() {
@@ -72,7 +72,7 @@ class Pairing {
   }
 
   /// Half the time from an impact of the reference to the next (direction 1) or the one before (-1).
-  [[nodiscard]] double room(std::size_t i, int direction) const {
+  [[nodiscard]] double half_spacing(std::size_t i, int direction) const {
     const auto& impacts = reference_.impacts;
     const bool first = i == 0, last = i + 1 == impacts.size();
     if (first && last) return latest_;
@@ -80,8 +80,8 @@ class Pairing {
     return std::abs(impacts[ahead ? i + 1 : i - 1].time - impacts[i].time) / 2;
   }
   /// The earliest and latest lag of the run's impact behind the reference's.
-  [[nodiscard]] double earliest(std::size_t i) const { return std::max(lag_ - room(i, -1), -latest_); }
-  [[nodiscard]] double latest(std::size_t i) const { return std::min(lag_ + room(i, 1), latest_); }
+  [[nodiscard]] double earliest(std::size_t i) const { return std::max(lag_ - half_spacing(i, -1), -latest_); }
+  [[nodiscard]] double latest(std::size_t i) const { return std::min(lag_ + half_spacing(i, 1), latest_); }
 
   void pair(const Event& impact, const Event& expected) {
     const double lag = impact.time - expected.time;
@@ -90,8 +90,8 @@ class Pairing {
     errors_.time = std::max(errors_.time, std::abs(lag));
     errors_.speed = std::max(errors_.speed, std::abs(impact.speed - expected.speed));
   }
-  void extra(const Event& impact) {
-    if (!reference_.completes(impact.time - lag_)) ++errors_.doubled;
+  void count_extra(const Event& impact) {
+    if (!reference_.completes(impact.time - lag_)) ++errors_.extra;
   }
 
   const OfStop &run_, &reference_;
@@ -105,14 +105,14 @@ class Pairing {
 /// come late, in another a single one.
 ContactErrors compare_on_stop(const OfStop& run, const OfStop& reference, double latest) {
   const ContactErrors late = Pairing(run, reference, latest, true).errors();
-  if (late.missed + late.doubled == 0) return late;
+  if (late.missed + late.extra == 0) return late;
   const ContactErrors in_place = Pairing(run, reference, latest, false).errors();
-  return in_place.missed + in_place.doubled < late.missed + late.doubled ? in_place : late;
+  return in_place.missed + in_place.extra < late.missed + late.extra ? in_place : late;
 }
 
 }  // namespace
 
-Agreement agreement_of(const RunRecord& in_double, const RunRecord& in_fifty_digits, double room) {
+Agreement agreement_of(const RunRecord& in_double, const RunRecord& in_fifty_digits, double tolerance) {
   const std::vector<Event> events = with_rests_joined(in_double.events),
                            exact = with_rests_joined(in_fifty_digits.events);
   const double end = in_double.duration * (1 - 1e-12);  // an event at the very end may fall on either side of it
@@ -125,7 +125,8 @@ Agreement agreement_of(const RunRecord& in_double, const RunRecord& in_fifty_dig
     const bool chatter = event.kind == Event::Kind::chatter;  // begins later in 50 digits, and ends at the same time
     const double off =
         chatter ? std::abs(event.end() - (j < exact.size() ? exact[j].end() : end)) : std::abs(event.time - other);
-    const bool same = j < exact.size() && exact[j].kind == event.kind && exact[j].side == event.side && off <= room;
+    const bool same =
+        j < exact.size() && exact[j].kind == event.kind && exact[j].side == event.side && off <= tolerance;
     if (!same && std::min(event.time, other) >= end) return agreement;
     if (!same) {
       agreement.until = std::min(event.time, other);
@@ -148,7 +149,7 @@ ContactErrors compare(std::span<const Event> run, std::span<const Event> referen
     errors.time = std::max(errors.time, on_stop.time), errors.speed = std::max(errors.speed, on_stop.speed);
     errors.rest = std::max(errors.rest, on_stop.rest);
     errors.paired += on_stop.paired, errors.rests_paired += on_stop.rests_paired;
-    errors.missed += on_stop.missed, errors.doubled += on_stop.doubled, errors.rests_missed += on_stop.rests_missed;
+    errors.missed += on_stop.missed, errors.extra += on_stop.extra, errors.rests_missed += on_stop.rests_missed;
   }
   if (fastest > 0) errors.speed /= fastest;
   return errors;

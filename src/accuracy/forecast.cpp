@@ -44,13 +44,13 @@ void Forecast::measured(std::size_t row, int round, double seconds) {
 std::optional<double> Forecast::foretold(std::size_t row) const {
   const Trial& trial = rows_[row].trial;
   if (trial.method == TestedMethod::harmonics_fft) return 5e-8 * trial.setting;
-  const bool is_dear = trial.method == TestedMethod::dopri5 || trial.method == TestedMethod::moreau;
+  const bool is_costly = trial.method == TestedMethod::dopri5 || trial.method == TestedMethod::moreau;
   for (std::size_t other = row; other-- > 0 && rows_[other].trial.method == trial.method;) {
     const bool is_coarsest = other == 0 || rows_[other - 1].trial.method != trial.method;
     if (trial.method == TestedMethod::moreau && is_coarsest) break;
     if (rows_[other].first) return *rows_[other].first * growth(rows_[other].trial, trial);
   }
-  return is_dear ? std::nullopt : std::optional(0.0);
+  return is_costly ? std::nullopt : std::optional(0.0);
 }
 
 std::optional<double> Forecast::seconds_left() const {

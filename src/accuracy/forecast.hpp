@@ -9,7 +9,7 @@
 namespace clatter::accuracy {
 
 /// Estimates the time that the rest of an accuracy run takes. Its trials differ by a factor of a million and the
-/// dearest come late, so the pace so far says nothing: the time of each setting is extrapolated from the setting
+/// costliest come late, so the pace so far says nothing: the time of each setting is extrapolated from the setting
 /// before, method by method.
 class Forecast {
  public:
@@ -22,7 +22,7 @@ class Forecast {
   /// run without observables, 0 if the trial never runs.
   void measured(std::size_t row, int round, double seconds);
 
-  /// Nothing until a trial of each dear method has run.
+  /// Nothing until a trial of each costly method has run.
   [[nodiscard]] std::optional<double> seconds_left() const;
 
  private:

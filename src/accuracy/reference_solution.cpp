@@ -11,7 +11,8 @@ namespace clatter::accuracy {
 namespace {
 
 constexpr double steady_tolerance = 1e-12;
-constexpr double agreement_room = 1e-8;  ///< forcing periods by which double and 50 digits may differ: half the digits
+constexpr double agreement_tolerance =
+    1e-8;  ///< forcing periods by which double and 50 digits may differ: half the digits
 
 /// Finds the motion from the start in 50 digits, for as long as a run in double agrees.
 void find_motion_from_start(const point::Problem& scene, double duration, const std::function<bool()>& stopped,
@@ -23,7 +24,7 @@ void find_motion_from_start(const point::Problem& scene, double duration, const 
       in_double.outcome != stepping::Outcome::completed ? in_double.outcome : exact.outcome;
   found.not_run = outcome != stepping::Outcome::completed ? steady::status_of(outcome) : steady::Status::transient;
   if (outcome != stepping::Outcome::completed) return;
-  Agreement agreement = agreement_of(in_double, exact, agreement_room * period);
+  Agreement agreement = agreement_of(in_double, exact, agreement_tolerance * period);
   const bool throughout = agreement.until == duration;
   found.horizon = throughout ? found.asked : std::floor(agreement.until / period);
   if (!(found.horizon > 0)) return;

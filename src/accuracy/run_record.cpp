@@ -1,6 +1,5 @@
 #include "accuracy/run_record.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 #include "math/fifty_digits.hpp"

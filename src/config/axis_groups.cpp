@@ -4,11 +4,10 @@
 
 #include "config/consistency.hpp"
 #include "config/suggestion.hpp"
+#include "config/text_file.hpp"
 
 namespace clatter::config {
 namespace {
-
-bool is_blank(std::string_view text) { return text.find_first_not_of(" \t") == std::string_view::npos; }
 
 std::size_t axis_of(const Settings& settings, const Setting& setting, std::string_view name) {
   std::vector<std::string_view> names;
@@ -17,10 +16,10 @@ std::size_t axis_of(const Settings& settings, const Setting& setting, std::strin
   if (found != names.end()) return static_cast<std::size_t>(found - names.begin());
   const std::string message =
       std::string(setting.key->name) + " names " + in_quotes(name) + ", which is no axis of [sweep]";
-  const auto gone = std::ranges::find(settings.displaced, sweep::parameter_of(name), &Displaced::gone);
-  if (gone != settings.displaced.end())
+  const auto replaced = std::ranges::find(settings.replaced, sweep::parameter_of(name), &Replaced::parameter);
+  if (replaced != settings.replaced.end())
     fail(setting.location,
-         message + " with " + to_string(gone->stands) + "; add --set sweep." + std::string(setting.key->name) + "=''");
+         message + " with " + to_string(replaced->by) + "; add --set sweep." + std::string(setting.key->name) + "=''");
   const std::string way_out = names.empty() ? "; [sweep] has no axes" : suggestion(name, names, "; the axes are: ");
   fail(setting.location, message + way_out);
 }
@@ -29,7 +28,7 @@ std::string name_of(const Setting& setting) { return std::string(setting.key->na
 
 /// The axes that a setting names; each may be named once.
 std::vector<std::size_t> named_axes(const Settings& settings, const Setting* setting) {
-  if (setting == nullptr || is_blank(std::get<std::string>(setting->value))) return {};
+  if (setting == nullptr || without_blanks(std::get<std::string>(setting->value)).empty()) return {};
   std::vector<std::size_t> axes;
   for (const std::string& name : split_names(std::get<std::string>(setting->value))) {
     const std::size_t axis = axis_of(settings, *setting, name);
@@ -70,13 +69,9 @@ void check_no_start(const Settings& settings, const Setting& follow, const std::
 
 std::vector<std::string> split_names(std::string_view text) {
   std::vector<std::string> names;
-  constexpr std::string_view blanks = " \t";
   for (std::size_t begin = 0; begin <= text.size();) {
     const std::size_t end = std::min(text.find(',', begin), text.size());
-    std::string_view name = text.substr(begin, end - begin);
-    name.remove_prefix(std::min(name.find_first_not_of(blanks), name.size()));
-    name = name.substr(0, name.find_last_not_of(blanks) + 1);
-    names.emplace_back(name);
+    names.emplace_back(without_blanks(text.substr(begin, end - begin)));
     begin = end + 1;
   }
   return names;

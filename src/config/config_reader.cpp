@@ -14,7 +14,7 @@
 namespace clatter::config {
 namespace {
 
-ParsedConfig read_raw(const std::string& path, Format format) {
+ParsedConfig read_parsed(const std::string& path, Format format) {
   const bool from_file = path != standard_input;
   const std::string name = from_file ? path : "stdin";
   const std::string text = from_file ? read_text(path) : read_standard_input(name);
@@ -22,7 +22,7 @@ ParsedConfig read_raw(const std::string& path, Format format) {
   return ini ? read_ini(name, text) : read_toml(name, text);
 }
 
-steady::TimeSettings time_plan(const Settings& settings) {
+steady::TimeSettings time_settings(const Settings& settings) {
   return {.mode = settings.text("time", "mode") == "transient" ? steady::Mode::transient : steady::Mode::steady,
           .max_periods = settings.integer("time", "max_periods"),
           .window = settings.integer("time", "window"),
@@ -73,7 +73,7 @@ stepping::Integration integration(const Settings& settings) {
 /// The scene before any axis is applied; a key without a default keeps the value that Problem has.
 point::Problem scene_of(const Settings& settings) {
   point::Problem scene;
-  scene.time = time_plan(settings);
+  scene.time = time_settings(settings);
   scene.observe = observe(settings);
   scene.integration = integration(settings);
   for (const Key& key : keys()) {
@@ -117,14 +117,14 @@ sweep::Sweep sweep_of(Settings& settings, const AxisGroups& groups) {
                      std::to_string(longest) + " bytes; " + way_out);
 }
 
-Config config_of(ParsedConfig raw) {
-  Settings settings = check_keys(std::move(raw));
+Config config_of(ParsedConfig parsed) {
+  Settings settings = check_keys(std::move(parsed));
   let_command_line_win(settings);
   check_alternatives(settings);
   const AxisGroups groups = group_axes(settings);
   check_stops_and_start(settings, groups);
   Config config{settings.text("", "title"), settings.text("", "source"), {}, 0, config_text(settings), {}, {}};
-  for (const Displaced& displaced : settings.displaced) config.notes.push_back(to_string(displaced));
+  for (const Replaced& replaced : settings.replaced) config.notes.push_back(to_string(replaced));
   config.warnings = warnings_of(settings, groups);
   if (config.text.size() > max_config_bytes) refuse_long(settings);
   config.compression = static_cast<int>(settings.integer("output", "compression"));
@@ -135,9 +135,9 @@ Config config_of(ParsedConfig raw) {
 }  // namespace
 
 Config read_config(const std::string& path, const std::vector<Override>& overrides, Format format) {
-  ParsedConfig raw = read_raw(path, format);
-  apply_overrides(raw, overrides);
-  return config_of(std::move(raw));
+  ParsedConfig parsed = read_parsed(path, format);
+  apply_overrides(parsed, overrides);
+  return config_of(std::move(parsed));
 }
 
 Config parse_config(const std::string& text, const std::string& file) { return config_of(read_toml(file, text)); }

@@ -11,7 +11,7 @@ namespace clatter::config {
 namespace {
 
 /// Describes a written value, for a message.
-std::string found(const ParsedValue& raw) {
+std::string found(const ParsedValue& written) {
   const auto describe = [](const auto& data) -> std::string {
     using Data = std::decay_t<decltype(data)>;
     if constexpr (std::is_same_v<Data, std::string>) return data.empty() ? "nothing" : "the text " + in_quotes(data);
@@ -21,7 +21,7 @@ std::string found(const ParsedValue& raw) {
     if constexpr (std::is_same_v<Data, ParsedList>) return "a list";
     if constexpr (std::is_same_v<Data, Unsupported>) return data.name;
   };
-  return std::visit(describe, raw.data);
+  return std::visit(describe, written.data);
 }
 
 /// "; expected 0 ... 1", "; expected one of fft, exact"
@@ -29,8 +29,8 @@ std::string expected(const Key& key) {
   return (key.kind == Kind::choice ? "; expected one of " : "; expected ") + permitted(key);
 }
 
-[[noreturn]] void wrong_kind(const Key& key, const ParsedValue& raw, const std::string& way_out = "") {
-  fail(raw.location, std::string(key.name) + " = " + found(raw) + expected(key) + way_out);
+[[noreturn]] void wrong_kind(const Key& key, const ParsedValue& written, const std::string& way_out = "") {
+  fail(written.location, std::string(key.name) + " = " + found(written) + expected(key) + way_out);
 }
 
 /// Whether a text stands for several values.
@@ -41,37 +41,38 @@ bool is_axis(std::string_view text) {
 }
 
 /// Says where several values belong: those of a key of [scene] are an axis.
-std::string home_of_axis(const Key& key, const ParsedValue& raw) {
+std::string home_of_axis(const Key& key, const ParsedValue& written) {
   if (key.section != "scene") return "; one value, since only keys of [scene] can be axes";
-  const auto* const text = std::get_if<std::string>(&raw.data);
-  if (!on_command_line(raw.location) || text == nullptr)
+  const auto* const text = std::get_if<std::string>(&written.data);
+  if (!on_command_line(written.location) || text == nullptr)
     return "; several values are an axis, and its line belongs in [sweep]";
   return "; several values are an axis: --set sweep." + std::string(key.name) + "='" + *text + '\'';
 }
 
 /// Refuses several values, or a number with a comma, where one value is needed; the message says what to write.
-void check_single(const Key& key, const ParsedValue& raw) {
-  const auto* const text = std::get_if<std::string>(&raw.data);
-  if (std::holds_alternative<ParsedList>(raw.data)) wrong_kind(key, raw, home_of_axis(key, raw));
-  if (text != nullptr && is_axis(*text)) wrong_kind(key, raw, comma_hint(*text, key.kind) + home_of_axis(key, raw));
+void check_single(const Key& key, const ParsedValue& written) {
+  const auto* const text = std::get_if<std::string>(&written.data);
+  if (std::holds_alternative<ParsedList>(written.data)) wrong_kind(key, written, home_of_axis(key, written));
+  if (text != nullptr && is_axis(*text))
+    wrong_kind(key, written, comma_hint(*text, key.kind) + home_of_axis(key, written));
 }
 
-SourceText source_text(const std::string& text, const ParsedValue& raw) {
-  SourceText source{text, raw.location, raw.untyped || raw.inset > 0};
-  source.location.column += raw.inset;
+SourceText source_text(const std::string& text, const ParsedValue& written) {
+  SourceText source{text, written.location, written.untyped || written.inset > 0};
+  source.location.column += written.inset;
   return source;
 }
 
 /// The number that was written; in TOML a text is one only if it holds pi, since "0.5" in quotes is a slip.
-double number_of(const Key& key, const ParsedValue& raw) {
-  if (const auto* const integer = std::get_if<std::int64_t>(&raw.data)) return static_cast<double>(*integer);
-  if (const auto* const number = std::get_if<double>(&raw.data)) return *number;
-  const auto* const text = std::get_if<std::string>(&raw.data);
-  if (text == nullptr) wrong_kind(key, raw);
-  if (!raw.untyped && text->find("pi") == std::string::npos)
-    wrong_kind(key, raw, ", without quotes unless it holds pi");
-  if (text->find_first_not_of(" \t") == std::string::npos) wrong_kind(key, raw);
-  return parse_number(source_text(*text, raw));
+double number_of(const Key& key, const ParsedValue& written) {
+  if (const auto* const integer = std::get_if<std::int64_t>(&written.data)) return static_cast<double>(*integer);
+  if (const auto* const number = std::get_if<double>(&written.data)) return *number;
+  const auto* const text = std::get_if<std::string>(&written.data);
+  if (text == nullptr) wrong_kind(key, written);
+  if (!written.untyped && text->find("pi") == std::string::npos)
+    wrong_kind(key, written, ", without quotes unless it holds pi");
+  if (text->find_first_not_of(" \t") == std::string::npos) wrong_kind(key, written);
+  return parse_number(source_text(*text, written));
 }
 
 void check_range(const Key& key, double value, const SourceLocation& location, const std::string& hint = "") {
@@ -80,12 +81,12 @@ void check_range(const Key& key, double value, const SourceLocation& location, c
   fail(location, std::string(key.name) + " = " + number_text(value) + fault + expected(key) + hint);
 }
 
-std::int64_t integer_of(const Key& key, const ParsedValue& raw) {
-  const double value = number_of(key, raw);
+std::int64_t integer_of(const Key& key, const ParsedValue& written) {
+  const double value = number_of(key, written);
   if (std::isfinite(value) && value != std::floor(value)) {
-    fail(raw.location, std::string(key.name) + " = " + number_text(value) + " is a fraction" + expected(key));
+    fail(written.location, std::string(key.name) + " = " + number_text(value) + " is a fraction" + expected(key));
   }
-  check_range(key, value, raw.location);
+  check_range(key, value, written.location);
   return static_cast<std::int64_t>(value);
 }
 
@@ -94,28 +95,29 @@ double in_range(const Key& key, double value, const SourceLocation& location) {
   return value;
 }
 
-bool flag_of(const Key& key, const ParsedValue& raw) {
-  if (const auto* const flag = std::get_if<bool>(&raw.data)) return *flag;
-  const auto* const text = std::get_if<std::string>(&raw.data);
-  if (text == nullptr || !raw.untyped || (*text != "true" && *text != "false")) wrong_kind(key, raw);
+bool flag_of(const Key& key, const ParsedValue& written) {
+  if (const auto* const flag = std::get_if<bool>(&written.data)) return *flag;
+  const auto* const text = std::get_if<std::string>(&written.data);
+  if (text == nullptr || !written.untyped || (*text != "true" && *text != "false")) wrong_kind(key, written);
   return *text == "true";
 }
 
-std::string text_of(const Key& key, const ParsedValue& raw) {
-  const auto* const text = std::get_if<std::string>(&raw.data);
-  if (text == nullptr) wrong_kind(key, raw, ", in quotes");
+std::string text_of(const Key& key, const ParsedValue& written) {
+  const auto* const text = std::get_if<std::string>(&written.data);
+  if (text == nullptr) wrong_kind(key, written, ", in quotes");
   if (text->find('\0') != std::string::npos)
-    fail(raw.location, std::string(key.name) + " holds a NUL character, at which a file would end it; leave it out");
+    fail(written.location,
+         std::string(key.name) + " holds a NUL character, at which a file would end it; leave it out");
   return *text;
 }
 
-std::string choice_of(const Key& key, const ParsedValue& raw) {
-  std::string text = text_of(key, raw);
+std::string choice_of(const Key& key, const ParsedValue& written) {
+  std::string text = text_of(key, written);
   for (const std::string_view choice : key.choices) {
     if (choice == text) return text;
   }
   const std::string_view near = nearest(text, key.choices);
-  wrong_kind(key, raw, near.empty() ? "" : "; did you mean '" + std::string(near) + "'?");
+  wrong_kind(key, written, near.empty() ? "" : "; did you mean '" + std::string(near) + "'?");
 }
 
 AxisValues list_of(const Key& key, const ParsedList& list) {
@@ -128,43 +130,44 @@ AxisValues list_of(const Key& key, const ParsedList& list) {
   return axis;
 }
 
-AxisValues unchecked_axis(const Key& key, const ParsedValue& raw) {
-  if (const auto* const list = std::get_if<ParsedList>(&raw.data)) return list_of(key, *list);
-  if (const auto* const text = std::get_if<std::string>(&raw.data)) return parse_axis(source_text(*text, raw));
-  return list_of(key, {raw});
+AxisValues unchecked_axis(const Key& key, const ParsedValue& written) {
+  if (const auto* const list = std::get_if<ParsedList>(&written.data)) return list_of(key, *list);
+  if (const auto* const text = std::get_if<std::string>(&written.data)) return parse_axis(source_text(*text, written));
+  return list_of(key, {written});
 }
 
 }  // namespace
 
-Value convert(const Key& key, const ParsedValue& raw) {
-  if (key.kind == Kind::number || key.kind == Kind::integer) check_single(key, raw);
+Value convert(const Key& key, const ParsedValue& written) {
+  if (key.kind == Kind::number || key.kind == Kind::integer) check_single(key, written);
   switch (key.kind) {
     case Kind::number:
-      return in_range(key, number_of(key, raw), raw.location);
+      return in_range(key, number_of(key, written), written.location);
     case Kind::integer:
-      return integer_of(key, raw);
+      return integer_of(key, written);
     case Kind::flag:
-      return flag_of(key, raw);
+      return flag_of(key, written);
     case Kind::choice:
-      return choice_of(key, raw);
+      return choice_of(key, written);
     case Kind::text:
     case Kind::names:
       break;
   }
-  return text_of(key, raw);
+  return text_of(key, written);
 }
 
-AxisValues convert_axis(const Key& key, const ParsedValue& raw) {
-  AxisValues axis = unchecked_axis(key, raw);
-  if (axis.values.empty()) fail(raw.location, "an empty axis; give " + std::string(key.name) + " at least one value");
+AxisValues convert_axis(const Key& key, const ParsedValue& written) {
+  AxisValues axis = unchecked_axis(key, written);
+  if (axis.values.empty())
+    fail(written.location, "an empty axis; give " + std::string(key.name) + " at least one value");
   if (static_cast<double>(axis.values.size()) > max_axis_values) {
-    fail(raw.location,
+    fail(written.location,
          std::to_string(axis.values.size()) + " values; expected at most " + number_text(max_axis_values));
   }
-  const auto* const text = std::get_if<std::string>(&raw.data);
+  const auto* const text = std::get_if<std::string>(&written.data);
   const std::string hint = text == nullptr ? "" : comma_hint(*text);
   for (std::size_t i = 0; i < axis.values.size(); ++i) {
-    check_range(key, axis.values[i], i < axis.locations.size() ? axis.locations[i] : raw.location, hint);
+    check_range(key, axis.values[i], i < axis.locations.size() ? axis.locations[i] : written.location, hint);
   }
   return axis;
 }

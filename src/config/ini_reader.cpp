@@ -38,7 +38,7 @@ bool is_blank_or_comment(std::string_view text) {
 /// Scans INI text line by line: records every location, and leaves plain KEY = VALUE lines without comments to Boost.
 class IniScanner {
  public:
-  explicit IniScanner(const std::string& file) : raw_{file, {}, {}} {}
+  explicit IniScanner(const std::string& file) : parsed_{file, {}, {}} {}
 
   void scan(std::string_view line) {
     ++line_;
@@ -52,12 +52,12 @@ class IniScanner {
   }
 
   /// Entries without values; Boost reads these from plain().
-  [[nodiscard]] ParsedConfig& raw() { return raw_; }
+  [[nodiscard]] ParsedConfig& parsed() { return parsed_; }
   [[nodiscard]] const std::string& plain() const { return plain_; }
 
  private:
   [[nodiscard]] SourceLocation location(const Part& part) const {
-    return {raw_.file, line_, 1 + storage::characters(part.line.substr(0, part.begin))};
+    return {parsed_.file, line_, 1 + storage::characters(part.line.substr(0, part.begin))};
   }
 
   /// A part in the form passed to Boost.
@@ -75,12 +75,12 @@ class IniScanner {
       fail(location(trimmed(rest)), "text after the section's ']'; begin a new line");
     const Part name = trimmed({content.line, content.begin + 1, close});
     if (name.text().empty()) fail(location(content), "a section without a name; write e.g. [scene]");
-    for (const ParsedSection& section : raw_.sections) {
+    for (const ParsedSection& section : parsed_.sections) {
       if (section.name != name.text()) continue;
       fail(location(name),
            "section [" + section.name + "] again; it began at line " + std::to_string(section.location.line));
     }
-    raw_.sections.push_back({std::string(name.text()), location(name)});
+    parsed_.sections.push_back({std::string(name.text()), location(name)});
     plain_ += '[' + plain(name) + "]\n";
   }
 
@@ -106,7 +106,7 @@ class IniScanner {
       value.end = rest.begin;
       return value;
     }
-    const bool free_text = is_free_text(raw_.sections.empty() ? "" : raw_.sections.back().name, key);
+    const bool free_text = is_free_text(parsed_.sections.empty() ? "" : parsed_.sections.back().name, key);
     for (std::size_t at = value.begin; at < value.end; ++at) {
       const bool after_blank = blanks.find(value.line[at - 1]) != std::string_view::npos;
       const bool begins_comment = value.line[at] == ';' || value.line[at] == '#';
@@ -116,17 +116,17 @@ class IniScanner {
   }
 
   void add_entry(const Part& key, const Part& value) {
-    const std::string section = raw_.sections.empty() ? "" : raw_.sections.back().name;
-    for (const ParsedEntry& entry : raw_.entries) {
+    const std::string section = parsed_.sections.empty() ? "" : parsed_.sections.back().name;
+    for (const ParsedEntry& entry : parsed_.entries) {
       if (entry.section != section || entry.key != key.text()) continue;
       fail(location(key), "key '" + entry.key + "' again; it was given at line " + std::to_string(entry.location.line));
     }
-    ParsedValue raw_value{{}, location(value), true, value.text().find_first_of("\"'") == 0 ? 1 : 0};
-    raw_.entries.push_back({section, std::string(key.text()), location(key), std::move(raw_value)});
+    ParsedValue parsed_value{{}, location(value), true, value.text().find_first_of("\"'") == 0 ? 1 : 0};
+    parsed_.entries.push_back({section, std::string(key.text()), location(key), std::move(parsed_value)});
     plain_ += plain(key) + '=' + plain(value) + '\n';
   }
 
-  ParsedConfig raw_;
+  ParsedConfig parsed_;
   std::string plain_;
   int line_ = 0;
 };
@@ -149,13 +149,13 @@ ParsedConfig read_ini(const std::string& file, std::string_view text) {
   }
   std::istringstream plain(scanner.plain());
   const boost::program_options::options_description none;
-  const auto parsed = boost::program_options::parse_config_file(plain, none, true);
-  ParsedConfig raw = std::move(scanner.raw());
-  if (parsed.options.size() != raw.entries.size())
+  const auto by_boost = boost::program_options::parse_config_file(plain, none, true);
+  ParsedConfig parsed = std::move(scanner.parsed());
+  if (by_boost.options.size() != parsed.entries.size())
     throw std::logic_error("the INI scanner and Boost's parser disagree");
-  for (std::size_t i = 0; i < raw.entries.size(); ++i)
-    raw.entries[i].value.data = written(parsed.options[i].value.at(0));
-  return raw;
+  for (std::size_t i = 0; i < parsed.entries.size(); ++i)
+    parsed.entries[i].value.data = written(by_boost.options[i].value.at(0));
+  return parsed;
 }
 
 }  // namespace clatter::config

@@ -1,6 +1,5 @@
 #include "config/keys.hpp"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>

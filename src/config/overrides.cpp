@@ -33,15 +33,15 @@ ParsedEntry entry_of(const Override& change) {
 
 }  // namespace
 
-void apply_overrides(ParsedConfig& raw, const std::vector<Override>& overrides) {
+void apply_overrides(ParsedConfig& parsed, const std::vector<Override>& overrides) {
   for (const Override& change : overrides) {
     check_words(change);
     ParsedEntry entry = entry_of(change);
-    const auto same = std::find_if(raw.entries.begin(), raw.entries.end(), [&](const ParsedEntry& other) {
+    const auto same = std::find_if(parsed.entries.begin(), parsed.entries.end(), [&](const ParsedEntry& other) {
       return other.section == entry.section && other.key == entry.key;
     });
-    if (same == raw.entries.end()) {
-      raw.entries.push_back(std::move(entry));
+    if (same == parsed.entries.end()) {
+      parsed.entries.push_back(std::move(entry));
     } else {
       *same = std::move(entry);
     }

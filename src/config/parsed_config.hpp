@@ -51,6 +51,6 @@ struct ParsedConfig {
 
 /// Replaces the file's value of a key by that of --set, or adds it after the file's entries; the last --set of a key
 /// wins.
-void apply_overrides(ParsedConfig& raw, const std::vector<Override>& overrides);
+void apply_overrides(ParsedConfig& parsed, const std::vector<Override>& overrides);
 
 }  // namespace clatter::config

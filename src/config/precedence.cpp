@@ -46,9 +46,9 @@ void remove(Settings& settings, sweep::Parameter parameter) {
     });
 }
 
-void note(Settings& settings, sweep::Parameter gone, const SourceLocation& stands, const SourceLocation& stood,
-          const std::string& rest = "") {
-  settings.displaced.push_back({gone, stands, stood, rest});
+void note(Settings& settings, sweep::Parameter parameter, const SourceLocation& by, const SourceLocation& former,
+          const std::string& remark = "") {
+  settings.replaced.push_back({parameter, by, former, remark});
 }
 
 /// Lets the command line's [scene] or [sweep] setting of a parameter replace that of the other section in the file.
@@ -61,17 +61,17 @@ void choose_section(Settings& settings, sweep::Parameter parameter) {
     fail(later(in_scene, in_sweep) ? in_scene : in_sweep,
          quoted_name(parameter) + " in both [scene] and [sweep]; remove one of them (for a single value: sweep." +
              std::string(key_of(parameter)) + " = VALUE)");
-  const bool axis_stands = on_command_line(in_sweep);
-  note(settings, parameter, axis_stands ? in_sweep : in_scene, axis_stands ? in_scene : in_sweep);
+  const bool by_axis = on_command_line(in_sweep);
+  note(settings, parameter, by_axis ? in_sweep : in_scene, by_axis ? in_scene : in_sweep);
   remove(settings, parameter);
 }
 
 /// Lets a parameter of the command line replace another one of the file.
-void displace(Settings& settings, sweep::Parameter standing, sweep::Parameter gone) {
-  const Setting *const stands = settings.given(standing), *const stood = settings.given(gone);
-  if (!from_command_line(stands) || !from_file(stood)) return;
-  note(settings, gone, stands->key_location, stood->key_location);
-  remove(settings, gone);
+void replace(Settings& settings, sweep::Parameter by, sweep::Parameter replaced) {
+  const Setting *const given = settings.given(by), *const former = settings.given(replaced);
+  if (!from_command_line(given) || !from_file(former)) return;
+  note(settings, replaced, given->key_location, former->key_location);
+  remove(settings, replaced);
 }
 
 /// Makes `linked` and `follow` name an axis by its new key.
@@ -121,11 +121,11 @@ void halve(Settings& settings, const Pair& pair, sweep::Parameter remaining) {
 }
 
 /// Lets the command line replace one half of a pair; the other keeps the file's value.
-void displace_half(Settings& settings, const Pair& pair, sweep::Parameter standing, sweep::Parameter remaining) {
-  const Setting *const stands = settings.given(standing), *const stood = settings.given(pair.both);
-  if (!from_command_line(stands) || !from_file(stood)) return;
-  if (settings.given(remaining)) return displace(settings, standing, pair.both);
-  note(settings, pair.both, stands->key_location, stood->key_location, ", which stays as " + quoted_name(remaining));
+void replace_half(Settings& settings, const Pair& pair, sweep::Parameter by, sweep::Parameter remaining) {
+  const Setting *const given = settings.given(by), *const former = settings.given(pair.both);
+  if (!from_command_line(given) || !from_file(former)) return;
+  if (settings.given(remaining)) return replace(settings, by, pair.both);
+  note(settings, pair.both, given->key_location, former->key_location, ", which stays as " + quoted_name(remaining));
   halve(settings, pair, remaining);
 }
 
@@ -136,17 +136,17 @@ void let_command_line_win(Settings& settings) {
     choose_section(settings, static_cast<sweep::Parameter>(parameter));
   for (const Pair& pair : pairs) {
     exclude(settings, pair.both, pair.one), exclude(settings, pair.both, pair.other);
-    displace(settings, pair.both, pair.one), displace(settings, pair.both, pair.other);
-    displace_half(settings, pair, pair.one, pair.other), displace_half(settings, pair, pair.other, pair.one);
+    replace(settings, pair.both, pair.one), replace(settings, pair.both, pair.other);
+    replace_half(settings, pair, pair.one, pair.other), replace_half(settings, pair, pair.other, pair.one);
   }
   for (const sweep::Parameter start : {x0, v0}) exclude(settings, start_period, start);
   for (const sweep::Parameter start : {x0, v0})
-    displace(settings, start_period, start), displace(settings, start, start_period);
+    replace(settings, start_period, start), replace(settings, start, start_period);
 }
 
-std::string to_string(const Displaced& displaced) {
-  return to_string(displaced.stands) + " in place of " + quoted_name(displaced.gone) + ", " +
-         to_string(displaced.stood) + displaced.rest;
+std::string to_string(const Replaced& replaced) {
+  return to_string(replaced.by) + " in place of " + quoted_name(replaced.parameter) + ", " +
+         to_string(replaced.former) + replaced.remark;
 }
 
 }  // namespace clatter::config

@@ -118,10 +118,10 @@ Setting default_setting(const Key& key) { return setting_of(key, key.fallback); 
 
 Setting example_setting(const Key& key) { return setting_of(key, key.example); }
 
-Settings check_keys(ParsedConfig raw) {
-  Settings settings{std::move(raw.file), std::move(raw.sections), {}, {}, {}};
+Settings check_keys(ParsedConfig parsed) {
+  Settings settings{std::move(parsed.file), std::move(parsed.sections), {}, {}, {}};
   for (const ParsedSection& section : settings.sections) check_section(section.name, section.location);
-  for (const ParsedEntry& entry : raw.entries) {
+  for (const ParsedEntry& entry : parsed.entries) {
     check_section(entry.section, entry.location);
     check_brackets(entry);
     const Key& key = known_key(entry);

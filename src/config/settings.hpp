@@ -32,14 +32,14 @@ struct Setting {
 };
 
 /// A setting of the file that one of the command line replaced.
-struct Displaced {
-  sweep::Parameter gone = sweep::Parameter::nu;
-  SourceLocation stands, stood;
-  std::string rest;  ///< ", which stays as 'stop_lower'", or empty
+struct Replaced {
+  sweep::Parameter parameter = sweep::Parameter::nu;  ///< of the file's setting
+  SourceLocation by, former;                          ///< of the two settings
+  std::string remark;                                 ///< ", which stays as 'stop_lower'", or empty
 };
 
 /// "--set scene.stop_upper=2 in place of 'xs', fig22.toml:7:1, which stays as 'stop_lower'"
-[[nodiscard]] std::string to_string(const Displaced& displaced);
+[[nodiscard]] std::string to_string(const Replaced& replaced);
 
 /// A configuration with valid keys and values, each by itself; how they go together is checked afterwards.
 struct Settings {
@@ -47,7 +47,7 @@ struct Settings {
   std::vector<ParsedSection> sections;
   std::vector<Setting> values;  ///< with one value each, in the order of the text
   std::vector<Setting> axes;    ///< in the order of the text
-  std::vector<Displaced> displaced{};
+  std::vector<Replaced> replaced{};
 
   /// The setting with one value of a key, or nullptr if it is not given.
   [[nodiscard]] const Setting* find(std::string_view section, std::string_view name) const;
@@ -66,7 +66,7 @@ struct Settings {
 };
 
 /// Checks every entry against the key table. Throws ConfigError at the first unknown key or wrong value.
-[[nodiscard]] Settings check_keys(ParsedConfig raw);
+[[nodiscard]] Settings check_keys(ParsedConfig parsed);
 
 /// The default of a key that has one, converted as a given value would be.
 [[nodiscard]] Setting default_setting(const Key& key);
@@ -75,7 +75,7 @@ struct Settings {
 [[nodiscard]] Setting example_setting(const Key& key);
 
 /// Converts a written value to the key's kind and checks its range. Throws ConfigError.
-[[nodiscard]] Value convert(const Key& key, const ParsedValue& raw);
-[[nodiscard]] AxisValues convert_axis(const Key& key, const ParsedValue& raw);
+[[nodiscard]] Value convert(const Key& key, const ParsedValue& written);
+[[nodiscard]] AxisValues convert_axis(const Key& key, const ParsedValue& written);
 
 }  // namespace clatter::config

@@ -12,7 +12,7 @@
 namespace clatter::config {
 namespace {
 
-constexpr std::size_t max_quoted = 60;
+constexpr std::size_t max_quoted = 60;  // bytes
 
 std::string lower_case(std::string_view text) {
   std::string lower(text);
@@ -49,11 +49,7 @@ std::string_view completed(const std::string& written, std::span<const std::stri
 
 }  // namespace
 
-std::string in_quotes(std::string_view text) {
-  std::size_t length = std::min(text.size(), max_quoted);
-  while (length < text.size() && length > 0 && (static_cast<unsigned char>(text[length]) & 0xC0) == 0x80) --length;
-  return '\'' + storage::printable(text.substr(0, length)) + (length < text.size() ? "…'" : "'");
-}
+std::string in_quotes(std::string_view text) { return '\'' + storage::excerpt(text, max_quoted) + '\''; }
 
 std::string_view nearest(std::string_view written, std::span<const std::string_view> names) {
   if (written.size() > max_quoted) return {};

@@ -1,5 +1,6 @@
 #include "config/text_file.hpp"
 
+#include <fcntl.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -7,11 +8,7 @@
 #include <cctype>
 #include <cerrno>
 #include <cstddef>
-#include <cstring>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
-#include <utility>
 
 #include "storage/error.hpp"
 #include "storage/file_calls.hpp"
@@ -32,12 +29,14 @@ bool is_control(std::string_view text) {
 }
 
 /// Reads piece by piece up to the limit: clearing a buffer of that size would take longer than reading most files.
-std::string read_pieces(std::istream& stream) {
+std::string read_pieces(int file, const std::string& name) {
   std::string text;
   std::array<char, std::size_t{16} * 1024> piece;
-  while (stream && text.size() <= max_config_bytes) {
-    stream.read(piece.data(), piece.size());
-    text.append(piece.data(), static_cast<std::size_t>(stream.gcount()));
+  while (text.size() <= max_config_bytes) {
+    const ssize_t count = storage::uninterrupted([&] { return ::read(file, piece.data(), piece.size()); });
+    if (count < 0) unreadable(name, storage::reason_and_way_out(errno, ""));
+    if (count == 0) break;
+    text.append(piece.data(), static_cast<std::size_t>(count));
   }
   return text;
 }
@@ -62,24 +61,12 @@ bool has_ending(std::string_view name, std::string_view ending) {
 std::string read_text(const std::string& path) {
   std::error_code error;
   if (std::filesystem::is_directory(path, error)) unreadable(path, "it is a directory; name a file");
-  std::ifstream stream(path, std::ios::binary);
-  if (!stream) unreadable(path, storage::reason_and_way_out(errno, ""));
-  std::string text = read_pieces(stream);
-  if (stream.bad()) unreadable(path, storage::reason_and_way_out(errno, ""));
-  return as_text(path, std::move(text));
+  const storage::Descriptor file{storage::uninterrupted([&] { return ::open(path.c_str(), O_RDONLY | O_CLOEXEC); })};
+  if (file.number() < 0) unreadable(path, storage::reason_and_way_out(errno, ""));
+  return as_text(path, read_pieces(file.number(), path));
 }
 
-std::string read_standard_input(const std::string& name) {
-  std::string text;
-  std::array<char, std::size_t{16} * 1024> piece;
-  while (text.size() <= max_config_bytes) {
-    const ssize_t count = storage::uninterrupted([&] { return ::read(STDIN_FILENO, piece.data(), piece.size()); });
-    if (count < 0) unreadable(name, storage::reason_and_way_out(errno, ""));
-    if (count == 0) break;
-    text.append(piece.data(), static_cast<std::size_t>(count));
-  }
-  return as_text(name, std::move(text));
-}
+std::string read_standard_input(const std::string& name) { return as_text(name, read_pieces(STDIN_FILENO, name)); }
 
 SourceLocation location_of(const std::string& file, std::string_view text, std::size_t offset) {
   const std::string_view before = text.substr(0, offset);

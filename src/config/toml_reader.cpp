@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <array>
 #include <tuple>
 #include <utility>
 
@@ -44,7 +43,7 @@ int inset_of(const std::string& text, const toml::source_region& region) {
   return plain ? 1 : 0;
 }
 
-ParsedValue raw_value(const std::string& file, const toml::node& node) {
+ParsedValue parsed_value(const std::string& file, const toml::node& node) {
   ParsedValue value;
   value.location = location_at(file, node.source().begin);
   if (const auto* const text = node.as_string()) {
@@ -58,7 +57,7 @@ ParsedValue raw_value(const std::string& file, const toml::node& node) {
     value.data = number->get();
   } else if (const auto* const array = node.as_array()) {
     ParsedList list;
-    for (const toml::node& element : *array) list.push_back(raw_value(file, element));
+    for (const toml::node& element : *array) list.push_back(parsed_value(file, element));
     value.data = std::move(list);
   } else {
     value.data = Unsupported{name_of(node.type())};
@@ -66,15 +65,15 @@ ParsedValue raw_value(const std::string& file, const toml::node& node) {
   return value;
 }
 
-void add_entries(ParsedConfig& raw, const std::string& section, const toml::table& table) {
+void add_entries(ParsedConfig& parsed, const std::string& section, const toml::table& table) {
   for (auto&& [key, node] : table) {
     const toml::table* const inner = node.as_table();
     if (section.empty() && inner != nullptr) {
-      raw.sections.push_back({std::string(key.str()), location_at(raw.file, key.source().begin)});
-      add_entries(raw, std::string(key.str()), *inner);
+      parsed.sections.push_back({std::string(key.str()), location_at(parsed.file, key.source().begin)});
+      add_entries(parsed, std::string(key.str()), *inner);
     } else {
-      raw.entries.push_back(
-          {section, std::string(key.str()), location_at(raw.file, key.source().begin), raw_value(raw.file, node)});
+      parsed.entries.push_back({section, std::string(key.str()), location_at(parsed.file, key.source().begin),
+                                parsed_value(parsed.file, node)});
     }
   }
 }
@@ -158,9 +157,9 @@ toml::table parse(const std::string& file, std::string_view text) {
 
 ParsedConfig read_toml(const std::string& file, std::string_view text) {
   check_characters(file, text);
-  ParsedConfig raw{file, {}, {}};
+  ParsedConfig parsed{file, {}, {}};
   try {
-    add_entries(raw, "", parse(file, text));
+    add_entries(parsed, "", parse(file, text));
   } catch (const ConfigError& error) {
     if (has_ending(file, ".toml")) throw;
     throw ConfigError(std::string(error.what()) + "; read as TOML; for INI give --ini, or a name that ends in .ini");
@@ -169,9 +168,9 @@ ParsedConfig read_toml(const std::string& file, std::string_view text) {
     return std::tuple(left.location.line, left.location.column) <
            std::tuple(right.location.line, right.location.column);
   };
-  std::sort(raw.entries.begin(), raw.entries.end(), order);
-  std::sort(raw.sections.begin(), raw.sections.end(), order);
-  return raw;
+  std::sort(parsed.entries.begin(), parsed.entries.end(), order);
+  std::sort(parsed.sections.begin(), parsed.sections.end(), order);
+  return parsed;
 }
 
 }  // namespace clatter::config

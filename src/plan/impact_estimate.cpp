@@ -1,7 +1,6 @@
 #include "plan/impact_estimate.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "point/point.hpp"
 #include "sweep/branches.hpp"
@@ -50,19 +49,19 @@ double impacts_of_steady_motion(point::Problem scene, const Trial& trial) {
 }  // namespace
 
 double expected_impacts(const sweep::Sweep& sweep, const std::optional<sweep::Shard>& shard) {
-  const Trial trial = trial_of(sweep.scene.integration);
+  const Trial trial = trial_of(sweep.problem.integration);
   const sweep::Share share(sweep, shard);
-  const std::size_t points = share.points(), looked_at = std::min(points, trial.points);
+  const std::size_t points = share.points(), examined = std::min(points, trial.points);
   double impacts = 0;
-  for (std::size_t i = 0; i < looked_at; ++i) {
-    const std::size_t local_index = (2 * i + 1) * points / (2 * looked_at);  // the middles of equal parts
-    point::Problem scene = scene_at(sweep, share.point(local_index / share.length(), local_index % share.length()));
+  for (std::size_t i = 0; i < examined; ++i) {
+    const std::size_t local_index = (2 * i + 1) * points / (2 * examined);  // the middles of equal parts
+    point::Problem scene = problem_at(sweep, share.point(local_index / share.length(), local_index % share.length()));
     sweep::start_from(scene, std::nullopt);
     scene.observe = {}, scene.observe.impact_log = true, scene.integration.all_effects = false;
     impacts += scene.time.mode == steady::Mode::transient ? impacts_of_transient(scene, trial)
                                                           : impacts_of_steady_motion(scene, trial);
   }
-  return looked_at == 0 ? 0.0 : impacts * static_cast<double>(points) / static_cast<double>(looked_at);
+  return examined == 0 ? 0.0 : impacts * static_cast<double>(points) / static_cast<double>(examined);
 }
 
 }  // namespace clatter::plan

@@ -40,7 +40,7 @@ void add_coordinates(const sweep::Sweep& sweep, bool is_shard, Parts& parts) {
   }
   parts.coordinates = parts.axes;
   if (is_shard) parts.coordinates += sizeof(std::int64_t) * parts.points;  // index in the sweep
-  for (const observables::Coordinate& coordinate : observables::All::coordinates(sweep.scene.observe)) {
+  for (const observables::Coordinate& coordinate : observables::All::coordinates(sweep.problem.observe)) {
     const auto bytes = [&]<class T>(const T& values) -> double {
       if constexpr (std::is_same_v<T, std::monostate>)
         return 0.0;
@@ -57,11 +57,11 @@ Parts parts_of(const sweep::Sweep& sweep, const std::optional<sweep::Shard>& sha
   add_coordinates(sweep, shard.has_value(), parts);
   parts.results = (sizeof(std::uint8_t) + sizeof(std::int64_t) + value) * parts.points;  // status, impacts, periods
   parts.largest = std::max(parts.largest, value * parts.points);
-  for (const sweep::OutputVariable& output : sweep::outputs_of(sweep.scene)) {
+  for (const sweep::OutputVariable& output : sweep::outputs_of(sweep.problem)) {
     const double bytes = static_cast<double>(output.width()) * value * parts.points;
     parts.results += bytes, parts.largest = std::max(parts.largest, bytes);
   }
-  if (!sweep.scene.observe.impact_log) return parts;
+  if (!sweep.problem.observe.impact_log) return parts;
   parts.impacts = impacts, parts.counts = sizeof(std::int64_t) * parts.points;
   parts.largest = std::max(parts.largest, value * impacts);
   return parts;
@@ -69,7 +69,7 @@ Parts parts_of(const sweep::Sweep& sweep, const std::optional<sweep::Shard>& sha
 
 /// The log while points are computed, one vector for each.
 double held_log_bytes(const sweep::Sweep& sweep, const Parts& parts) {
-  if (!sweep.scene.observe.impact_log) return 0.0;
+  if (!sweep.problem.observe.impact_log) return 0.0;
   return (sizeof(std::vector<motion::Impact>) + heap) * parts.points + sizeof(motion::Impact) * parts.impacts;
 }
 
@@ -95,7 +95,7 @@ double before_bytes(const Parts& parts, int threads) { return program + thread *
 }  // namespace
 
 MemoryNeed memory_need(const sweep::Sweep& sweep, const std::optional<sweep::Shard>& shard, int threads) {
-  const double impacts = sweep.scene.observe.impact_log ? expected_impacts(sweep, shard) : 0.0;
+  const double impacts = sweep.problem.observe.impact_log ? expected_impacts(sweep, shard) : 0.0;
   return memory_need(sweep, shard, threads, impacts);
 }
 
@@ -103,7 +103,7 @@ MemoryNeed memory_need(const sweep::Sweep& sweep, const std::optional<sweep::Sha
                        double impacts) {
   const Parts parts = parts_of(sweep, shard, impacts);
   const double log = log_bytes(sweep, parts), held = parts.results + parts.branches;  // a byte tells a branch's state
-  const double working = threads * value * observables::All::values_held(sweep.scene.observe);
+  const double working = threads * value * observables::All::values_held(sweep.problem.observe);
   const double running = held + log + std::max(working, saving_bytes(sweep, parts, log));
   const double collecting = parts.coordinates + held + log;
   const double building = parts.branches + building_bytes(parts);

@@ -2,10 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <tuple>
 
 #include "plan/available_memory.hpp"
-#include "plan/dearest_point.hpp"
+#include "plan/costliest_point.hpp"
 #include "plan/survey.hpp"
 #include "point/point.hpp"
 #include "sweep/branches.hpp"
@@ -25,10 +24,10 @@ double seconds_of_work(point::Problem scene, const Effects& effects) {
 /// Warns of a stop that some points have but none meets.
 void warn_of_stop(const sweep::Sweep& sweep, const StopSeen& stop, const std::string& name, Plan& plan) {
   if (stop.met || stop.closest.ratio < 0) return;
-  const auto reasons = reasons_of(planned_scene(sweep, stop.closest.point));
+  const auto reasons = reasons_of(planned_problem(sweep, stop.closest.point));
   const std::string& why = std::ranges::find(reasons, name, &Reason::effect)->why;
   const std::string reached =
-      plan.sampled_points ? " is reached at none of the " + std::to_string(*plan.sampled_points) + " points looked at"
+      plan.sampled_points ? " is reached at none of the " + std::to_string(*plan.sampled_points) + " points examined"
                           : " is never reached at any point";
   plan.warnings.push_back("the " + name + reached + ", at the closest " + why +
                           "; if impacts are meant, move it nearer or raise f, x0 or v0");
@@ -41,7 +40,7 @@ void warn(const sweep::Sweep& sweep, const Survey& survey, Plan& plan) {
     plan.warnings.emplace_back(
         "without damping and loss at impacts a transient never fades: forced points run for all of max_periods unless "
         "they start on a periodic motion; for a given time write mode = transient");
-  if (const auto warning = warning_of_dearest_point(sweep, plan.shard)) plan.warnings.push_back(*warning);
+  if (const auto warning = warning_of_costliest_point(sweep, plan.shard)) plan.warnings.push_back(*warning);
 }
 
 }  // namespace
@@ -56,17 +55,17 @@ std::string effect_set_name(const Effects& effects) {
   return name;
 }
 
-Plan plan_of(const sweep::Sweep& sweep, int threads, const std::optional<sweep::Shard>& shard) {
+Plan plan_of(const sweep::Sweep& sweep, int threads, const MemoryNeed& need, const std::optional<sweep::Shard>& shard) {
   const sweep::Share share(sweep, shard);
   Survey survey = survey_of(sweep, share, threads);
   std::ranges::sort(survey.groups, cheaper, &Collected::effects);
   Plan plan;
   plan.shard = shard;
   plan.points = share.points(), plan.branches = share.count();
-  if (survey.looked_at < plan.points) plan.sampled_points = survey.looked_at;
-  plan.observed = observables::All::descriptions(sweep.scene.observe);
+  if (survey.examined < plan.points) plan.sampled_points = survey.examined;
+  plan.observed = observables::All::descriptions(sweep.problem.observe);
   for (const Collected& group : survey.groups) {
-    const point::Problem example = planned_scene(sweep, group.example.point);
+    const point::Problem example = planned_problem(sweep, group.example.point);
     plan.groups.push_back({.effects = group.effects,
                            .points = group.points,
                            .example = group.example.point,
@@ -74,7 +73,7 @@ Plan plan_of(const sweep::Sweep& sweep, int threads, const std::optional<sweep::
                            .periods = group.periods,
                            .seconds = group.work * seconds_of_work(example, group.effects)});
   }
-  plan.need = memory_need(sweep, shard, threads);
+  plan.need = need;
   plan.available_memory = memory_limit(threads).bytes;
   warn(sweep, survey, plan);
   return plan;

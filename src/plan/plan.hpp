@@ -36,8 +36,9 @@ struct Plan {
 };
 
 /// Groups the points by the effects that they call for and estimates their work, on `threads` threads; runs none of
-/// them, and examines a million at most.
-[[nodiscard]] Plan plan_of(const sweep::Sweep& sweep, int threads, const std::optional<sweep::Shard>& shard = {});
+/// them, and examines a million at most. `need` is the need of the run, which the caller has checked before.
+[[nodiscard]] Plan plan_of(const sweep::Sweep& sweep, int threads, const MemoryNeed& need,
+                           const std::optional<sweep::Shard>& shard = {});
 
 /// A compiled set of effects in words, e.g. "light damping, forcing, impacts".
 [[nodiscard]] std::string effect_set_name(const Effects& effects);

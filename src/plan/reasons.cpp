@@ -81,7 +81,7 @@ Reason stop_reason(const point::Problem& scene, const Requirements& needs, bool 
   if (!required)
     return {name, false, bound + compared(needs.reach, " < ", gap) + during + ", impacts included: out of reach"};
   if (std::isnan(scene.start.displacement))
-    return {name, true, "the start isn't known before the point before has ended"};
+    return {name, true, "the start is the end of the point before, which isn't known yet"};
   const double reach =
       needs.free_reach < gap ? needs.reach : needs.free_reach;  // pushed there by the other stop, or not
   if (!(reach < infinity)) return {name, true, "nothing bounds " + displacement(scene)};
@@ -109,8 +109,8 @@ Reason rest_reason(const point::Problem& scene, const Requirements& needs) {
           force + (needs.effects.rest ? ": a stop can be pressed" : ": no stop can hold the mass")};
 }
 
-/// What leaving an effect out has saved on the ladder of scenes in src/model/README.md, from the least to the most.
-Saving measured_saving(const std::string& effect) {
+/// The share of the time that leaving an effect out saves, as measured on the ladder of scenes in src/model/README.md.
+Bounds measured_saving(const std::string& effect) {
   if (effect == "damping") return {0.13, 0.16};
   if (effect == "forcing") return {0.07, 0.35};
   if (effect == "resonance") return {0.12, 0.12};

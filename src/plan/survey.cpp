@@ -60,13 +60,13 @@ double closeness(const Requirements& needs, double gap) {
 
 /// The points of a run that are examined. Those that begin a branch are sampled apart from the others: their start is
 /// known, so their work differs.
-class Looked {
+class ExaminedPoints {
  public:
-  explicit Looked(const sweep::Share& share)
+  explicit ExaminedPoints(const sweep::Share& share)
       : share_(share),
         firsts_(share.count(),
-                share.length() == 1 || share.points() <= most_looked_at ? most_looked_at : most_looked_at / 2),
-        others_(share.points() - share.count(), most_looked_at - firsts_.size()) {}
+                share.length() == 1 || share.points() <= most_examined ? most_examined : most_examined / 2),
+        others_(share.points() - share.count(), most_examined - firsts_.size()) {}
 
   [[nodiscard]] std::size_t size() const { return firsts_.size() + others_.size(); }
 
@@ -82,8 +82,8 @@ class Looked {
   Sample firsts_, others_;
 };
 
-void look_at(const sweep::Sweep& sweep, const Sample::Draw& draw, Survey& survey) {
-  const point::Problem scene = planned_scene(sweep, draw.number);
+void examine(const sweep::Sweep& sweep, const Sample::Draw& draw, Survey& survey) {
+  const point::Problem scene = planned_problem(sweep, draw.number);
   const Requirements needs = requirements_of(scene, duration_of(scene.time));
   const bool required = scene.integration.method == stepping::Method::exact && !scene.integration.all_effects;
   const Effects effects = required ? needs.effects : effects_of(scene);
@@ -101,12 +101,12 @@ void look_at(const sweep::Sweep& sweep, const Sample::Draw& draw, Survey& survey
 /// Examines points on several threads, in blocks that are the same for every number of threads, and so are the sums.
 class Surveyor {
  public:
-  Surveyor(const sweep::Sweep& sweep, const sweep::Share& share) : sweep_(sweep), looked_(share) {}
+  Surveyor(const sweep::Sweep& sweep, const sweep::Share& share) : sweep_(sweep), points_(share) {}
 
   Survey run(int threads) {
     sweep::parallel_for(blocks, threads, [this](std::size_t block) { work(block); });
     Survey sum;
-    sum.looked_at = looked_.size();
+    sum.examined = points_.size();
     for (const Survey& of_block : surveys_) sum.add(of_block);
     return sum;
   }
@@ -115,25 +115,25 @@ class Surveyor {
   static constexpr std::size_t blocks = 256;
 
   void work(std::size_t block) {
-    for (std::size_t i = block * looked_.size() / blocks; i < (block + 1) * looked_.size() / blocks; ++i)
-      look_at(sweep_, looked_[i], surveys_[block]);
+    for (std::size_t i = block * points_.size() / blocks; i < (block + 1) * points_.size() / blocks; ++i)
+      examine(sweep_, points_[i], surveys_[block]);
   }
 
   const sweep::Sweep& sweep_;
-  Looked looked_;
+  ExaminedPoints points_;
   std::vector<Survey> surveys_ = std::vector<Survey>(blocks);
 };
 
 }  // namespace
 
-point::Problem planned_scene(const sweep::Sweep& sweep, std::size_t point) {
-  point::Problem scene = scene_at(sweep, point);
+point::Problem planned_problem(const sweep::Sweep& sweep, std::size_t point) {
+  point::Problem problem = problem_at(sweep, point);
   if (sweep::Branches(sweep).begins(point)) {
-    sweep::start_from(scene, std::nullopt);
+    sweep::start_from(problem, std::nullopt);
   } else {
-    scene.start = {point::no_value, point::no_value, point::no_value};
+    problem.start = {point::no_value, point::no_value, point::no_value};
   }
-  return scene;
+  return problem;
 }
 
 Survey survey_of(const sweep::Sweep& sweep, const sweep::Share& share, int threads) {

@@ -11,7 +11,7 @@
 namespace clatter::plan {
 
 /// Points that a survey examines at most; of more it takes a sample of this size.
-inline constexpr std::size_t most_looked_at = 1'000'000;
+inline constexpr std::size_t most_examined = 1'000'000;
 
 /// The point that comes closest to a stop, the first of equal ones.
 struct Closest {
@@ -47,7 +47,7 @@ struct Collected {
 
 /// The work of points, whatever their order and division. Each point of a sample counts for those that it stands for.
 struct Survey {
-  std::size_t looked_at = 0;  ///< points that were examined
+  std::size_t examined = 0;  ///< points that were examined
   std::vector<Collected> groups;
   StopSeen lower, upper;
   bool lasting = false;  ///< a transient never fades
@@ -67,7 +67,7 @@ struct Survey {
 };
 
 /// A point as the plan examines it; along a followed branch its start isn't known yet, and NaN.
-[[nodiscard]] point::Problem planned_scene(const sweep::Sweep& sweep, std::size_t point);
+[[nodiscard]] point::Problem planned_problem(const sweep::Sweep& sweep, std::size_t point);
 
 /// Examines the points of a run, or a sample of them; the same survey for every number of threads.
 [[nodiscard]] Survey survey_of(const sweep::Sweep& sweep, const sweep::Share& share, int threads);

@@ -2,7 +2,6 @@
 
 #include <unistd.h>
 
-#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <cstdio>
@@ -11,9 +10,7 @@
 #include <vector>
 
 #include "storage/crc32.hpp"
-#include "storage/error.hpp"
 #include "storage/input_file.hpp"
-#include "storage/utf8.hpp"
 
 namespace clatter::results {
 namespace {
@@ -26,10 +23,6 @@ std::string checksum_trailer_of(std::uint64_t length, std::uint32_t crc) {
   return line.data();
 }
 
-[[noreturn]] void refuse_reading(const std::string& path, const std::string& why, const std::string& way_out) {
-  throw storage::IoError(storage::quoted_name(path) + ": " + why + "; " + way_out);
-}
-
 /// Reads a whole file, piece by piece.
 class Pieces {
  public:
@@ -38,7 +31,7 @@ class Pieces {
   /// The next bytes, as many as there are; none at the end.
   std::span<const std::byte> next() {
     const ssize_t got = storage::uninterrupted([&] { return ::read(file_.number(), buffer_.data(), buffer_.size()); });
-    if (got < 0) refuse_reading(path_, std::strerror(errno), "name a shard's output that can be read");
+    if (got < 0) storage::refuse_reading(path_, std::strerror(errno), "name a shard's output that can be read");
     return std::span(buffer_).first(static_cast<std::size_t>(got));
   }
 
@@ -70,9 +63,9 @@ void require_checksum(const std::string& path) {
   const std::string_view found(reinterpret_cast<const char*>(held.data()), held.size());
   if (found == checksum_trailer_of(length, crc)) return;
   if (found.starts_with("\nclatter shard of "))
-    refuse_reading(path, "is damaged (length or CRC-32 of the file)", "copy it again, or run its shard again");
-  refuse_reading(path, "is not a complete shard of a sweep",
-                 std::string("name ").append(shards_of_clatter).append(", or copy it again"));
+    storage::refuse_reading(path, "is damaged (length or CRC-32 of the file)", "copy it again, or run its shard again");
+  storage::refuse_reading(path, "is not a complete shard of a sweep",
+                          std::string("name ").append(shards_of_clatter).append(", or copy it again"));
 }
 
 }  // namespace clatter::results

@@ -27,17 +27,13 @@ using detail::checked;
 using detail::Handle;
 using detail::text_attribute;
 
-[[noreturn]] void refuse(const std::string& path, const std::string& why, const std::string& way_out) {
-  throw storage::IoError{storage::quoted_name(path) + ": " + why + "; " + way_out};
-}
-
 [[noreturn]] void refuse_damaged(const std::string& path, const std::string& why) {
-  refuse(path, "cannot be read: " + why, "copy it again, or run its configuration again");
+  storage::refuse_reading(path, "cannot be read: " + why, "copy it again, or run its configuration again");
 }
 
 Handle open(const std::string& path) {
   const htri_t is_hdf5 = H5Fis_hdf5(path.c_str());
-  if (is_hdf5 == 0) refuse(path, "is not an HDF5 file", "name an output of clatter");
+  if (is_hdf5 == 0) storage::refuse_reading(path, "is not an HDF5 file", "name an output of clatter");
   if (is_hdf5 < 0) throw detail::Failure{};
   detail::require_sound_heaps(path);
   return detail::open_file(path);
@@ -171,8 +167,9 @@ void add_variable(FileSummary& summary, hid_t file, const std::string& name, Tex
 
 FileSummary summary_of(const Handle& file, const std::string& path, std::uint64_t stored_bytes) {
   if (text_attribute(file, "clatter_schema") != "clatter/1") {
-    refuse(path, "an HDF5 file, but not one of clatter's (no attribute clatter_schema = \"clatter/1\")",
-           "name an output of clatter");
+    storage::refuse_reading(path,
+                            "an HDF5 file, but not one of clatter's (no attribute clatter_schema = \"clatter/1\")",
+                            "name an output of clatter");
   }
   FileSummary summary;
   Texts texts(stored_bytes);

@@ -23,8 +23,8 @@ constexpr std::size_t shown = 5;  ///< lines of a long list
 
 /// Throws unless all shards are of one sweep, and were computed by this very program with one rounding: else no single
 /// run would write the merged file.
-void check_origins(const std::vector<ShardHeader>& heads) {
-  const ShardHeader& first = heads.front();
+void check_origins(const std::vector<ShardHeader>& headers) {
+  const ShardHeader& first = headers.front();
   if (first.schema != "clatter/1" || first.version != version() || first.git_commit != git_commit() ||
       first.compiler != compiler())
     throw storage::IoError(storage::quoted_name(first.path) + " was written by clatter " +
@@ -32,28 +32,28 @@ void check_origins(const std::vector<ShardHeader>& heads) {
                            storage::excerpt(first.compiler) + "), this is " + std::string(version()) + " (commit " +
                            std::string(git_commit()) + ", " + std::string(compiler()) +
                            "); merge with the program that ran the shards");
-  for (const ShardHeader& head : heads) {
-    if (head.config_sha256 != first.config_sha256 || head.config != first.config)
-      refuse_pair(first, head, "are of different configurations",
+  for (const ShardHeader& header : headers) {
+    if (header.config_sha256 != first.config_sha256 || header.config != first.config)
+      refuse_pair(first, header, "are of different configurations",
                   "leave out the one that doesn't belong to the sweep:" +
-                      storage::config_diff({storage::printable(head.path) + ": ", head.config},
+                      storage::config_diff({storage::printable(header.path) + ": ", header.config},
                                            {storage::printable(first.path) + ": ", first.config}));
-    if (head.schema != first.schema || head.version != first.version || head.git_commit != first.git_commit ||
-        head.compiler != first.compiler)
-      refuse_pair(first, head, "were written by different builds of clatter", "run all shards with one program");
-    if (head.rounding != first.rounding)
-      refuse_pair(first, head,
-                  "were rounded differently (" + storage::excerpt(head.rounding) + "; " +
+    if (header.schema != first.schema || header.version != first.version || header.git_commit != first.git_commit ||
+        header.compiler != first.compiler)
+      refuse_pair(first, header, "were written by different builds of clatter", "run all shards with one program");
+    if (header.rounding != first.rounding)
+      refuse_pair(first, header,
+                  "were rounded differently (" + storage::excerpt(header.rounding) + "; " +
                       storage::excerpt(first.rounding) + ")",
                   "run all shards with one --arch, on machines of one kind");
   }
 }
 
 /// The missing points, as those shards out of `of` that would have them.
-std::string missing_text(const sweep::Sweep& sweep, const std::vector<ShardHeader>& heads, std::size_t of) {
+std::string missing_text(const sweep::Sweep& sweep, const std::vector<ShardHeader>& headers, std::size_t of) {
   std::vector<char> there(of, 0);
-  for (const ShardHeader& head : heads)
-    for (std::size_t number = head.shard.number; number < of; number += head.shard.of) there[number] = 1;
+  for (const ShardHeader& header : headers)
+    for (std::size_t number = header.shard.number; number < of; number += header.shard.of) there[number] = 1;
   std::string text;
   std::size_t missing = 0;
   for (std::size_t number = 0; number < of; ++number) {
@@ -68,9 +68,9 @@ std::string missing_text(const sweep::Sweep& sweep, const std::vector<ShardHeade
 
 /// Throws unless every point is there exactly once. Two shards have a branch in common if their numbers agree modulo
 /// the greatest common divisor of their counts.
-void check_points(const sweep::Sweep& sweep, const std::vector<ShardHeader>& heads) {
-  for (auto one = heads.begin(); one != heads.end(); ++one)
-    for (auto other = heads.begin(); other != one; ++other) {
+void check_points(const sweep::Sweep& sweep, const std::vector<ShardHeader>& headers) {
+  for (auto one = headers.begin(); one != headers.end(); ++one)
+    for (auto other = headers.begin(); other != one; ++other) {
       const std::size_t divisor = std::gcd(one->shard.of, other->shard.of);
       if (one->shard.number % divisor == other->shard.number % divisor)
         refuse_pair(*other, *one,
@@ -78,19 +78,19 @@ void check_points(const sweep::Sweep& sweep, const std::vector<ShardHeader>& hea
                     "leave one of them out");
     }
   std::size_t of = 1;
-  for (const ShardHeader& head : heads) {
-    of = std::lcm(of, head.shard.of);
+  for (const ShardHeader& header : headers) {
+    of = std::lcm(of, header.shard.of);
     if (of > sweep::Shard::most)
       throw storage::IoError("the shards are of too many different counts; run all with the same N");
   }
-  const std::string missing = missing_text(sweep, heads, of);
+  const std::string missing = missing_text(sweep, headers, of);
   if (!missing.empty()) throw storage::IoError(missing);
 }
 
-double bytes_for(const sweep::Sweep& sweep, const std::vector<ShardHeader>& heads) {
+double bytes_for(const sweep::Sweep& sweep, const std::vector<ShardHeader>& headers) {
   std::vector<plan::ShardSize> sizes;
-  sizes.reserve(heads.size());
-  for (const ShardHeader& head : heads) sizes.push_back({head.shard, head.impacts});
+  sizes.reserve(headers.size());
+  for (const ShardHeader& header : headers) sizes.push_back({header.shard, header.impacts});
   return merge_bytes(sweep, sizes);
 }
 
@@ -98,27 +98,27 @@ double bytes_for(const sweep::Sweep& sweep, const std::vector<ShardHeader>& head
 
 ShardSet shard_set(const std::vector<std::string>& paths) {
   ShardSet set;
-  for (const std::string& path : paths) set.heads.push_back(read_shard_header(path));
-  check_origins(set.heads);
-  set.config = config::parse_config(set.heads.front().config, set.heads.front().path);
-  check_points(set.config.sweep, set.heads);
-  set.bytes = bytes_for(set.config.sweep, set.heads);
+  for (const std::string& path : paths) set.headers.push_back(read_shard_header(path));
+  check_origins(set.headers);
+  set.config = config::parse_config(set.headers.front().config, set.headers.front().path);
+  check_points(set.config.sweep, set.headers);
+  set.bytes = bytes_for(set.config.sweep, set.headers);
   return set;
 }
 
 Merged merge(const ShardSet& shards) {
-  sweep::ResultStore columns(shards.config.sweep);
-  for (const ShardHeader& head : shards.heads) {
-    sweep::Dataset dataset = read_shard(head.path);
+  sweep::ResultStore store(shards.config.sweep);
+  for (const ShardHeader& header : shards.headers) {
+    sweep::Dataset dataset = read_shard(header.path);
     try {
-      columns.take(dataset, head.shard);
+      store.take(dataset, header.shard);
     } catch (const std::runtime_error& error) {
-      throw storage::IoError(storage::quoted_name(head.path) + " isn't what a run of its configuration writes: " +
-                             error.what() + "; run shard " + text_of(head.shard) + " again");
+      throw storage::IoError(storage::quoted_name(header.path) + " isn't what a run of its configuration writes: " +
+                             error.what() + "; run shard " + text_of(header.shard) + " again");
     }
   }
-  const std::size_t failed_points = columns.failed_points();
-  return {columns.dataset(), failed_points};
+  const std::size_t failed_points = store.failed_points();
+  return {store.dataset(), failed_points};
 }
 
 }  // namespace clatter::results

@@ -12,7 +12,7 @@ namespace clatter::results {
 
 /// Shards that make a whole sweep.
 struct ShardSet {
-  std::vector<ShardHeader> heads;
+  std::vector<ShardHeader> headers;
   config::Config config;
   double bytes = 0.0;  ///< memory that merging takes
 };

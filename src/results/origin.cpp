@@ -18,7 +18,7 @@ std::string origin_text(const std::string& path) try {
   const Handle file = detail::open_file(path);
   (void)detail::variables_in(file);
   if (text_attribute(file, "clatter_schema") != "clatter/1") return {};
-  std::string text = checked(H5Lexists(file, "ns_per_period", H5P_DEFAULT)) > 0 ? "study" : "run";
+  std::string text = checked(H5Lexists(file, "ns_per_period", H5P_DEFAULT)) > 0 ? "accuracy" : "run";
   return text.append(1, '\0')
       .append(text_attribute(file, "shard"))
       .append(1, '\0')
@@ -34,7 +34,7 @@ std::optional<Origin> origin_of(const std::string& path) try {
   const std::string text = run_in_child([&] { return origin_text(path); }, few);
   const std::size_t kind = text.find('\0'), shard = text.find('\0', kind + 1);
   if (kind == std::string::npos || shard == std::string::npos) return std::nullopt;
-  return Origin{.is_accuracy = text.substr(0, kind) == "study",
+  return Origin{.is_accuracy = text.substr(0, kind) == "accuracy",
                 .shard = text.substr(kind + 1, shard - kind - 1),
                 .title = text.substr(shard + 1)};
 } catch (const storage::ChildFailed&) {

@@ -1,6 +1,6 @@
 #include "results/shard_file.hpp"
 
-#include <hdf5_hl.h>
+#include <hdf5.h>
 
 #include <cstdint>
 #include <functional>
@@ -96,46 +96,47 @@ void try_values(const Handle& file) {
 ShardHeader header_of(const Handle& file, const std::string& path) {
   const std::optional<sweep::Shard> shard = sweep::shard_named(text_attribute(file, "shard"));
   if (!shard) throw detail::Failure("it doesn't say which shard it has");
-  ShardHeader head{.path = path,
-                   .shard = *shard,
-                   .schema = text_attribute(file, "clatter_schema"),
-                   .version = text_attribute(file, "clatter_version"),
-                   .git_commit = text_attribute(file, "git_commit"),
-                   .compiler = text_attribute(file, "compiler"),
-                   .config = text_attribute(file, "config"),
-                   .config_sha256 = text_attribute(file, "config_sha256"),
-                   .rounding = text_attribute(file, "rounding"),
-                   .values = values_in(file)};
+  ShardHeader header{.path = path,
+                     .shard = *shard,
+                     .schema = text_attribute(file, "clatter_schema"),
+                     .version = text_attribute(file, "clatter_version"),
+                     .git_commit = text_attribute(file, "git_commit"),
+                     .compiler = text_attribute(file, "compiler"),
+                     .config = text_attribute(file, "config"),
+                     .config_sha256 = text_attribute(file, "config_sha256"),
+                     .rounding = text_attribute(file, "rounding"),
+                     .values = values_in(file)};
   if (checked(H5Lexists(file, "impact_tau", H5P_DEFAULT)) > 0)
-    head.impacts = length_of(detail::open_variable(file, "impact_tau"));
-  return head;
+    header.impacts = length_of(detail::open_variable(file, "impact_tau"));
+  return header;
 }
 
 /// All fields of a header in one order, to pack and to unpack.
-template <typename Pass, typename Head>
-void pass_all(Pass& pass, Head& head) {
-  pass(head.shard.number), pass(head.shard.of), pass(head.impacts), pass(head.values);
-  for (auto* const text : {&head.schema, &head.version, &head.git_commit, &head.compiler, &head.config,
-                           &head.config_sha256, &head.rounding})
+template <typename Pass, typename Header>
+void pass_all(Pass& pass, Header& header) {
+  pass(header.shard.number), pass(header.shard.of), pass(header.impacts), pass(header.values);
+  for (auto* const text : {&header.schema, &header.version, &header.git_commit, &header.compiler, &header.config,
+                           &header.config_sha256, &header.rounding})
     pass(*text);
 }
 
 /// Throws if a shard claims more values than its size can hold or a run of its configuration writes, since all of them
 /// are read into memory. A configuration that can't be read is of another version, and the merge refuses that.
-void require_possible(const ShardHeader& head, std::uint64_t stored_bytes) try {
-  const auto values = static_cast<double>(head.values);
+void require_possible(const ShardHeader& header, std::uint64_t stored_bytes) try {
+  const auto values = static_cast<double>(header.values);
   if (values > detail::most_deflated * static_cast<double>(stored_bytes))
     throw detail::Failure("it holds more values than its size can hold");
-  const sweep::Sweep sweep = config::parse_config(head.config, head.path).sweep;
-  const double logged = sweep.scene.observe.impact_log ? sweep::logged_values * static_cast<double>(head.impacts) : 0.0;
-  if (values > most_values(sweep, head.shard) + logged)
+  const sweep::Sweep sweep = config::parse_config(header.config, header.path).sweep;
+  const double logged =
+      sweep.problem.observe.impact_log ? sweep::logged_values * static_cast<double>(header.impacts) : 0.0;
+  if (values > most_values(sweep, header.shard) + logged)
     throw detail::Failure("it holds more values than a run of its configuration writes");
 } catch (const config::ConfigError&) {
 }
 
-std::string packed(const ShardHeader& head) {
+std::string packed(const ShardHeader& header) {
   storage::Packer packer;
-  pass_all(packer, head);
+  pass_all(packer, header);
   return std::move(packer).bytes();
 }
 
@@ -148,20 +149,20 @@ ShardHeader read_shard_header(const std::string& path) try {
       [&] {
         require_checksum(path);
         return read_file(path, [&](const Handle& file) {
-          const ShardHeader head = header_of(file, path);
-          require_possible(head, stored);
+          const ShardHeader header = header_of(file, path);
+          require_possible(header, stored);
           try_values(file);
-          return packed(head);
+          return packed(header);
         });
       },
       storage::limits_for(stored));
-  ShardHeader head{};
-  head.path = path;
+  ShardHeader header{};
+  header.path = path;
   storage::Unpacker unpacker(bytes);
-  pass_all(unpacker, head);
-  if (!unpacker.complete() || head.shard.number >= head.shard.of || head.shard.of > sweep::Shard::most)
+  pass_all(unpacker, header);
+  if (!unpacker.complete() || header.shard.number >= header.shard.of || header.shard.of > sweep::Shard::most)
     refuse(path, "it makes the HDF5 library corrupt its memory");
-  return head;
+  return header;
 } catch (const storage::ChildFailed& death) {
   refuse(path, death.what());
 }

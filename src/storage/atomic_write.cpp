@@ -61,7 +61,7 @@ void check_writable(const std::string& path) {
   check_directory(target);
 }
 
-void write_atomically(const std::string& path, std::span<const std::byte> bytes, const PublishSteps& steps) {
+void write_atomically(const std::string& path, std::span<const std::byte> bytes, const WriteSteps& steps) {
   check_writable(path);
   const fs::path target = target_of(path);
   remove_abandoned(target);

@@ -19,7 +19,7 @@ using MakeRoom = std::function<void(std::uint64_t bytes)>;
 inline void no_room(std::uint64_t) {}
 
 /// Steps within an atomic write; each may throw, and then the file doesn't appear.
-struct PublishSteps {
+struct WriteSteps {
   MakeRoom make_room = no_room;
   std::function<void()> before_rename = [] {};  ///< called last, while an older file is still there
 };
@@ -28,6 +28,6 @@ struct PublishSteps {
 /// directory. A symbolic link is followed, as by a redirection of the shell: it stays, and the file that it names is
 /// replaced. The new file has the mode, and if permitted the owner and group, of the one it replaces. Throws IoError
 /// and removes the temporary file if that fails; an older file is then untouched.
-void write_atomically(const std::string& path, std::span<const std::byte> bytes, const PublishSteps& steps = {});
+void write_atomically(const std::string& path, std::span<const std::byte> bytes, const WriteSteps& steps = {});
 
 }  // namespace clatter::storage

@@ -40,7 +40,7 @@ void refuse(const fs::path& path, const std::string& why, const std::string& way
 }
 
 void refuse(const fs::path& path, int error) {
-  throw IoError{"cannot write '" + path.string() + "': " + reason_and_way_out(error, way_out_of(error))};
+  throw IoError{"cannot write " + quoted_name(path.string()) + ": " + reason_and_way_out(error, way_out_of(error))};
 }
 
 std::string reason_and_way_out(int error, const std::string& way_out) {

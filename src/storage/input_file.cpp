@@ -8,13 +8,10 @@
 #include "storage/utf8.hpp"
 
 namespace clatter::storage {
-namespace {
 
-[[noreturn]] void refuse_reading(const std::string& path, const std::string& why, const std::string& way_out) {
+void refuse_reading(const std::string& path, const std::string& why, const std::string& way_out) {
   throw IoError(quoted_name(path) + ": " + why + "; " + way_out);
 }
-
-}  // namespace
 
 std::uint64_t stored_bytes(const struct stat& status) {
   constexpr blkcnt_t block = 512;  // bytes, as Linux counts them

@@ -15,6 +15,9 @@ struct InputFile {
   std::uint64_t stored_bytes = 0;
 };
 
+/// Throws the IoError of a file that cannot be read.
+[[noreturn]] void refuse_reading(const std::string& path, const std::string& why, const std::string& way_out);
+
 /// The space that a file takes on its disk; its length if the file system doesn't tell.
 [[nodiscard]] std::uint64_t stored_bytes(const struct stat& status);
 

@@ -173,7 +173,7 @@ void Journal::refuse_other(const JournalKey& key) const {
 void Journal::append(std::span<const std::byte> record) {
   Bytes bytes;
   if (size_ == 0) append_bytes(bytes, bytes_of(magic)), append_block(bytes, bytes_of(key_));
-  append_number(bytes, header_of(record));
+  append_number(bytes, head_of(record));
   synced_ = false;
   try {
     write_all(file_, bytes, path_), write_all(file_, record, path_);

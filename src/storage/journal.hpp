@@ -47,9 +47,9 @@ struct RecordLimit {
 class Journal {
  public:
   enum class Begin : std::uint8_t {
-    anyhow,   ///< from the records, if there are any
-    resume,   ///< from the records; an error if there are none
-    restart,  ///< anew
+    resume_if_any,  ///< from the records, if there are any
+    resume,         ///< from the records; an error if there are none
+    restart,        ///< anew
   };
   using ResultSink = std::function<void(std::span<const std::byte> record)>;
 

@@ -21,14 +21,14 @@ std::span<const std::byte> summed(const BlockHead& head) {
 
 void append_bytes(Bytes& to, std::span<const std::byte> bytes) { to.insert(to.end(), bytes.begin(), bytes.end()); }
 
-BlockHead header_of(std::span<const std::byte> block) {
+BlockHead head_of(std::span<const std::byte> block) {
   BlockHead head{block.size(), crc32_of(block), 0};
   head.check = crc32_of(summed(head));
   return head;
 }
 
 void append_block(Bytes& to, std::span<const std::byte> block) {
-  append_number(to, header_of(block));
+  append_number(to, head_of(block));
   append_bytes(to, block);
 }
 

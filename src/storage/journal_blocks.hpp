@@ -27,7 +27,7 @@ struct BlockHead {
   std::uint32_t check;  ///< CRC-32 of length and crc, so that a damaged length isn't taken for an incomplete end
 };
 
-[[nodiscard]] BlockHead header_of(std::span<const std::byte> block);
+[[nodiscard]] BlockHead head_of(std::span<const std::byte> block);
 
 void append_block(Bytes& to, std::span<const std::byte> block);
 

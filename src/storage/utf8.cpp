@@ -76,8 +76,7 @@ std::string printable(std::string_view text) {
   return shown;
 }
 
-std::string excerpt(std::string_view text) {
-  constexpr std::size_t most = 200;  // bytes
+std::string excerpt(std::string_view text, std::size_t most) {
   std::size_t length = std::min(text.size(), most);
   while (length < text.size() && length > 0 && is_continuation(text[length])) --length;
   return printable(text.substr(0, length)) + (length < text.size() ? "…" : "");

@@ -23,8 +23,8 @@ namespace clatter::storage {
 /// UTF-8, are written as \x1b. For all text from outside: files, their names, the command line.
 [[nodiscard]] std::string printable(std::string_view text);
 
-/// The beginning of a text of any length, made printable.
-[[nodiscard]] std::string excerpt(std::string_view text);
+/// The beginning of a text of any length, `most` bytes of it, made printable.
+[[nodiscard]] std::string excerpt(std::string_view text, std::size_t most = 200);
 
 /// A text made printable, in single quotes: the name of a file in a message.
 [[nodiscard]] std::string quoted_name(std::string_view text);

@@ -29,9 +29,9 @@ struct Branches {
 
 /// Starts a point of a branch from the end of the one before, or from the scene's own start if that one failed. A
 /// displacement beyond narrower stops is moved onto the stop, the velocity kept.
-inline void start_from(point::Problem& scene, const std::optional<Start>& end) {
-  if (end) scene.start = *end;
-  scene.start.displacement = std::clamp(scene.start.displacement, scene.stops.lower, scene.stops.upper);
+inline void start_from(point::Problem& problem, const std::optional<Start>& end) {
+  if (end) problem.start = *end;
+  problem.start.displacement = std::clamp(problem.start.displacement, problem.stops.lower, problem.stops.upper);
 }
 
 }  // namespace clatter::sweep

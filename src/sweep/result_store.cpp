@@ -3,8 +3,6 @@
 #include <malloc.h>
 
 #include <algorithm>
-#include <cmath>
-#include <numeric>
 #include <span>
 #include <stdexcept>
 #include <type_traits>
@@ -91,16 +89,14 @@ std::vector<std::int64_t> point_numbers(const Share& share) {
   return numbers;
 }
 
-std::string name_of(const Dimension& dimension) { return std::string(key_of(dimension.front().parameter)); }
-
 }  // namespace
 
 void add_axes(const Sweep& sweep, Dataset& dataset) {
   for (const Dimension& dimension : sweep.dimensions) {
-    dataset.dimensions.push_back({name_of(dimension), length(dimension)});
+    dataset.dimensions.push_back({std::string(name_of(dimension)), length(dimension)});
     for (const Axis& axis : dimension)
       dataset.variables.push_back({std::string(key_of(axis.parameter)),
-                                   {name_of(dimension)},
+                                   {std::string(name_of(dimension))},
                                    axis.values,
                                    long_name_of(axis.parameter),
                                    axis.parameter == Parameter::phase ? "rad" : "1"});
@@ -125,26 +121,32 @@ void name_linked_axes(const Sweep& sweep, Dataset& dataset) {
 
 std::vector<std::string> axis_names(const Sweep& sweep) {
   std::vector<std::string> names;
-  for (const Dimension& dimension : sweep.dimensions) names.push_back(name_of(dimension));
+  for (const Dimension& dimension : sweep.dimensions) names.emplace_back(name_of(dimension));
   return names;
 }
 
-std::vector<Attribute> status_flags() {
+std::vector<Attribute> flag_attributes(std::span<const std::pair<std::uint8_t, std::string_view>> meanings) {
   std::vector<std::uint8_t> values;
-  std::string meanings;
-  for (const auto& [status, name] : steady::status_names) {
-    values.push_back(static_cast<std::uint8_t>(status));
-    if (!meanings.empty()) meanings += ' ';
-    meanings += name;
+  std::string text;
+  for (const auto& [value, meaning] : meanings) {
+    values.push_back(value);
+    (text += text.empty() ? "" : " ") += meaning;
   }
-  return {{"flag_values", values}, {"flag_meanings", meanings}};
+  return {{"flag_values", values}, {"flag_meanings", text}};
+}
+
+std::vector<Attribute> status_flags() {
+  std::vector<std::pair<std::uint8_t, std::string_view>> meanings;
+  for (const auto& [status, name] : steady::status_names)
+    meanings.emplace_back(static_cast<std::uint8_t>(status), name);
+  return flag_attributes(meanings);
 }
 
 double most_values(const Sweep& sweep, const std::optional<Shard>& shard) {
   double of_point = 5;  // status, impact_total, simulated_periods, index in the sweep, impact_count
-  for (const OutputVariable& output : outputs_of(sweep.scene)) of_point += static_cast<double>(output.width());
+  for (const OutputVariable& output : outputs_of(sweep.problem)) of_point += static_cast<double>(output.width());
   double coordinates = 0;
-  for (const observables::Coordinate& coordinate : observables::All::coordinates(sweep.scene.observe))
+  for (const observables::Coordinate& coordinate : observables::All::coordinates(sweep.problem.observe))
     coordinates += static_cast<double>(coordinate.length);
   for (const Dimension& dimension : sweep.dimensions)
     coordinates += static_cast<double>(dimension.size() * length(dimension));
@@ -159,9 +161,9 @@ ResultStore::ResultStore(const Sweep& sweep, const std::optional<Shard>& shard)
       status_(share_.points(), static_cast<std::uint8_t>(steady::Status::unresolved)),
       impacts_(status_.size(), 0),
       periods_(status_.size(), 0.0),
-      outputs_(outputs_of(sweep.scene)) {
+      outputs_(outputs_of(sweep.problem)) {
   for (const OutputVariable& output : outputs_) values_.emplace_back(status_.size() * output.width(), point::no_value);
-  if (sweep.scene.observe.impact_log) log_.resize(status_.size());
+  if (sweep.problem.observe.impact_log) log_.resize(status_.size());
 }
 
 void ResultStore::store(std::size_t local_index, point::PointResult&& result) {
@@ -217,7 +219,7 @@ void ResultStore::add_coordinates(Dataset& dataset) const {
     dataset.dimensions.push_back({"point", share_.points()});
     coordinate("point", point_numbers(share_), "index of the point in the sweep, row-major over its axes");
   }
-  for (observables::Coordinate& added : observables::All::coordinates(sweep_.scene.observe)) {
+  for (observables::Coordinate& added : observables::All::coordinates(sweep_.problem.observe)) {
     dataset.dimensions.push_back({added.name, added.length});
     const auto add = [&]<class T>(T& values) {
       if constexpr (!std::is_same_v<T, std::monostate>)
@@ -240,7 +242,7 @@ void ResultStore::take(Dataset& dataset, const Shard& shard) {
   };
   scatter("status", 1, status_), scatter("impact_total", 1, impacts_), scatter("simulated_periods", 1, periods_);
   for (std::size_t i = 0; i < outputs_.size(); ++i) scatter(outputs_[i].name, outputs_[i].width(), values_[i]);
-  if (sweep_.scene.observe.impact_log) take_impact_log(dataset, numbers);
+  if (sweep_.problem.observe.impact_log) take_impact_log(dataset, numbers);
 }
 
 void ResultStore::take_impact_log(Dataset& dataset, std::span<const std::int64_t> numbers) {
@@ -310,7 +312,7 @@ Dataset ResultStore::dataset() {
     dataset.variables.push_back(
         {output.name, std::move(dimensions), std::move(values_[i]), output.long_name, output.units});
   }
-  if (sweep_.scene.observe.impact_log) add_impact_log(dataset);
+  if (sweep_.problem.observe.impact_log) add_impact_log(dataset);
   name_linked_axes(sweep_, dataset);
   return dataset;
 }

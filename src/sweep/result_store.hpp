@@ -2,10 +2,11 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include "point/point.hpp"
@@ -32,7 +33,11 @@ void name_linked_axes(const Sweep& sweep, Dataset& dataset);
 /// Names of the sweep's dimensions.
 [[nodiscard]] std::vector<std::string> axis_names(const Sweep& sweep);
 
-/// Attributes of `status` that give the meaning of its values.
+/// Attributes that give the meanings of the values of a variable.
+[[nodiscard]] std::vector<Attribute> flag_attributes(
+    std::span<const std::pair<std::uint8_t, std::string_view>> meanings);
+
+/// Those of `status`.
 [[nodiscard]] std::vector<Attribute> status_flags();
 
 /// Upper bound of the number of values in all variables of a sweep or a shard, except its impact log; an impact there

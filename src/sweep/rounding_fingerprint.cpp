@@ -6,7 +6,6 @@
 #include <complex>
 #include <cstdint>
 #include <cstdio>
-#include <span>
 #include <vector>
 
 #include "observables/fourier_transform.hpp"
@@ -61,7 +60,7 @@ void add_transform(Digest& digest) {
 std::string rounding_fingerprint(const Sweep& sweep, lanes::InstructionSet arch) {
   Digest digest;
   add_functions(digest);
-  if (observables::Harmonics::from_samples(sweep.scene.observe)) add_transform(digest);
+  if (observables::Harmonics::from_samples(sweep.problem.observe)) add_transform(digest);
   const bool fused =
       arch == lanes::InstructionSet::avx2 || arch == lanes::InstructionSet::avx512;  // their lanes give the same bits
   return std::string(fused ? "avx2 or avx512" : name_of(arch)).append(", functions ").append(digest.text());

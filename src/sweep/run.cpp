@@ -7,7 +7,6 @@
 #include <exception>
 #include <mutex>
 #include <optional>
-#include <ranges>
 #include <span>
 #include <vector>
 
@@ -25,14 +24,14 @@
 namespace clatter::sweep {
 namespace {
 
-WorkStats usage_of(const point::WorkItem& item, const point::PointResult& result) {
-  WorkStats usage{.effects = item.effects,
-                  .points = 1,
-                  .impacts = result.impacts,
-                  .periods = result.periods,
-                  .evaluations = result.evaluations};
-  usage.found_by[static_cast<std::size_t>(result.found_by)] = 1;
-  return usage;
+WorkStats work_of(const point::WorkItem& item, const point::PointResult& result) {
+  WorkStats work{.effects = item.effects,
+                 .points = 1,
+                 .impacts = result.impacts,
+                 .periods = result.periods,
+                 .evaluations = result.evaluations};
+  work.found_by[static_cast<std::size_t>(result.found_by)] = 1;
+  return work;
 }
 
 void add(std::vector<WorkStats>& sum, const WorkStats& part) {
@@ -49,7 +48,7 @@ constexpr std::size_t enough_to_save = 256UL * 1024;  // bytes
 /// True if points of a sweep may run in lanes: by the exact method, with every shortcut to their steady motion, and
 /// independent of each other.
 bool lanes_can_run(const Sweep& sweep) {
-  const stepping::Integration& integration = sweep.scene.integration;
+  const stepping::Integration& integration = sweep.problem.integration;
   return integration.method == stepping::Method::exact && integration.shortcuts && !integration.all_effects &&
          !sweep.follow;
 }
@@ -58,11 +57,11 @@ bool lanes_can_run(const Sweep& sweep) {
 class WorkerPool {
  public:
   /// Leaves out the branches that are saved; `restored` is the number of their points.
-  WorkerPool(const Sweep& sweep, const Share& share, const RunOptions& options, int threads, ResultStore& columns,
+  WorkerPool(const Sweep& sweep, const Share& share, const RunOptions& options, int threads, ResultStore& store,
              std::vector<std::atomic<BranchState>>& states, std::size_t restored)
       : sweep_(sweep),
         share_(share),
-        columns_(columns),
+        store_(store),
         states_(states),
         progress_(options, static_cast<std::size_t>(threads), share.points(), restored),
         chunk_(sweep.follow
@@ -72,22 +71,22 @@ class WorkerPool {
         arch_(options.arch),
         in_lanes_(options.arch != lanes::InstructionSet::scalar && lanes_can_run(sweep)),
         scratches_(static_cast<std::size_t>(threads)),
-        usage_(static_cast<std::size_t>(threads)) {
+        work_(static_cast<std::size_t>(threads)) {
     for (std::size_t thread = 0; options.progress && thread < scratches_.size(); ++thread)
       scratches_[thread].progress = [this, thread](double part) { progress_.add_part(thread, part); };
-    const observables::FourierScratch fourier = observables::Harmonics::scratch_for(sweep.scene.observe);
+    const observables::FourierScratch fourier = observables::Harmonics::scratch_for(sweep.problem.observe);
     for (point::ThreadScratch& scratch : scratches_) scratch.fourier = fourier.for_another_thread();
   }
 
   /// Runs every branch; results go by index, so their bits don't depend on which thread runs what.
   void run() {
-    on_each_thread(static_cast<int>(scratches_.size()), [this](std::size_t thread) { work(thread); });
+    on_each_thread(static_cast<int>(scratches_.size()), [this](std::size_t thread) { run_thread(thread); });
   }
 
   /// The work of all threads, the cheapest compiled set first.
-  [[nodiscard]] std::vector<WorkStats> usage() const {
+  [[nodiscard]] std::vector<WorkStats> work() const {
     std::vector<WorkStats> sum;
-    for (const std::vector<WorkStats>& of_thread : usage_)
+    for (const std::vector<WorkStats>& of_thread : work_)
       for (const WorkStats& part : of_thread) add(sum, part);
     std::ranges::sort(sum, cheaper, &WorkStats::effects);
     return sum;
@@ -102,10 +101,10 @@ class WorkerPool {
 
  private:
   /// The work of one thread: chunk after chunk, until none is left.
-  void work(std::size_t thread) noexcept {
+  void run_thread(std::size_t thread) noexcept {
     try {
       if (in_lanes_) {
-        run_crew(thread);
+        run_lanes(thread);
       } else {
         while (const auto chunk = next_chunk()) run_chunk(*chunk, thread);
       }
@@ -133,14 +132,14 @@ class WorkerPool {
   [[nodiscard]] bool is_restored(std::size_t branch) const { return states_[branch] == BranchState::saved; }
 
   /// The point of a branch that has only one.
-  point::WorkItem task_of(std::size_t branch) const {
-    point::WorkItem item{branch, scene_at(sweep_, share_.point(branch, 0)), {}};
+  point::WorkItem item_of(std::size_t branch) const {
+    point::WorkItem item{branch, problem_at(sweep_, share_.point(branch, 0)), {}};
     item.effects = effects_of(item.problem);
     return item;
   }
 
   /// Runs the points that lanes accept, and between them, one by one, those that they don't.
-  void run_crew(std::size_t thread) {
+  void run_lanes(std::size_t thread) {
     const auto take = [&](const point::WorkItem& item, point::PointResult&& result) {
       store(item, std::move(result), thread);
     };
@@ -153,7 +152,7 @@ class WorkerPool {
           chunk = *other;
         }
         if (is_restored(chunk.begin)) continue;
-        const point::WorkItem item = task_of(chunk.begin);
+        const point::WorkItem item = item_of(chunk.begin);
         if (lanes::accepts(item)) {
           ++chunk.begin;
           return item;
@@ -161,15 +160,15 @@ class WorkerPool {
         run_batch({&item, 1}, scratches_[thread], take);
       }
     };
-    lanes::Scheduler crew(step_functions_of(arch_), scratches_[thread], next, take);
-    crew.run();
+    lanes::Scheduler scheduler(step_functions_of(arch_), scratches_[thread], next, take);
+    scheduler.run();
     const std::lock_guard lock(mutex_);
-    lane_work_.proved += crew.proved(), lane_work_.refined += crew.refined();
+    lane_work_.proved += scheduler.proved(), lane_work_.refined += scheduler.refined();
   }
 
   void store(const point::WorkItem& item, point::PointResult&& result, std::size_t thread) {
-    add(usage_[thread], usage_of(item, result));
-    columns_.store(item.local_index, std::move(result));
+    add(work_[thread], work_of(item, result));
+    store_.store(item.local_index, std::move(result));
     if (!sweep_.follow) states_[item.local_index] = BranchState::finished;
     progress_.add_point(thread);
   }
@@ -178,7 +177,7 @@ class WorkerPool {
   void run_branch(std::size_t branch, std::size_t thread) {
     std::optional<Start> end;
     for (std::size_t i = 0; i < share_.length(); ++i) {
-      point::WorkItem item{share_.local_index(branch, i), scene_at(sweep_, share_.point(branch, i)), {}};
+      point::WorkItem item{share_.local_index(branch, i), problem_at(sweep_, share_.point(branch, i)), {}};
       start_from(item.problem, end);
       item.effects = effects_of(item.problem);
       run_batch({&item, 1}, scratches_[thread], [&](const point::WorkItem&, point::PointResult&& result) {
@@ -202,7 +201,7 @@ class WorkerPool {
     std::vector<point::WorkItem> items;
     items.reserve(chunk.end - chunk.begin);
     for (std::size_t branch = chunk.begin; branch < chunk.end; ++branch)
-      if (!is_restored(branch)) items.push_back(task_of(branch));
+      if (!is_restored(branch)) items.push_back(item_of(branch));
     const auto set_of = [](const point::WorkItem& item) { return effect_set_of(item.effects); };
     std::ranges::stable_sort(items, {}, set_of);
     for (std::span<const point::WorkItem> left(items); !left.empty();) {
@@ -218,7 +217,7 @@ class WorkerPool {
 
   const Sweep& sweep_;
   const Share& share_;
-  ResultStore& columns_;
+  ResultStore& store_;
   std::vector<std::atomic<BranchState>>& states_;  ///< [branch]
   SweepProgress progress_;
   std::size_t chunk_;  ///< branches that a thread takes at once
@@ -227,7 +226,7 @@ class WorkerPool {
   bool in_lanes_;
   std::atomic<std::size_t> turn_ = 0;            ///< the next one of the chunks
   std::vector<point::ThreadScratch> scratches_;  ///< [thread]
-  std::vector<std::vector<WorkStats>> usage_;    ///< [thread]
+  std::vector<std::vector<WorkStats>> work_;     ///< [thread]
   LaneWork lane_work_;
   std::mutex mutex_;
   std::exception_ptr failure_;
@@ -239,7 +238,7 @@ class WorkerPool {
 int threads_used(const RunOptions& options) { return options.threads > 0 ? options.threads : default_threads(); }
 
 SweepRun::SweepRun(const Sweep& sweep, const std::optional<Shard>& shard)
-    : sweep_(sweep), shard_(shard), share_(sweep, shard), columns_(sweep, shard), states_(share_.count()) {}
+    : sweep_(sweep), shard_(shard), share_(sweep, shard), store_(sweep, shard), states_(share_.count()) {}
 
 bool SweepRun::restore(std::span<const std::byte> results) {
   while (!results.empty()) {
@@ -249,7 +248,7 @@ bool SweepRun::restore(std::span<const std::byte> results) {
     results = results.subspan(sizeof branch);
     if (branch >= share_.count() || states_[branch] != BranchState::open) return false;
     for (std::size_t i = 0; i < share_.length(); ++i)
-      if (!columns_.unpack(share_.local_index(branch, i), results)) return false;
+      if (!store_.unpack(share_.local_index(branch, i), results)) return false;
     states_[branch] = BranchState::saved, restored_ += share_.length();
   }
   return true;
@@ -257,7 +256,7 @@ bool SweepRun::restore(std::span<const std::byte> results) {
 
 double SweepRun::most_saved() const {
   return enough_to_save + sizeof(std::uint64_t) +
-         static_cast<double>(share_.length()) * static_cast<double>(columns_.packed_size_without_log());
+         static_cast<double>(share_.length()) * static_cast<double>(store_.packed_size_without_log());
 }
 
 void SweepRun::save(const std::function<void(std::span<const std::byte> results)>& write) {
@@ -271,12 +270,12 @@ void SweepRun::save(const std::function<void(std::span<const std::byte> results)
   for (std::uint64_t branch = 0; branch < share_.count(); ++branch) {
     if (states_[branch] != BranchState::finished) continue;
     std::size_t more = sizeof branch;
-    for (std::size_t i = 0; i < share_.length(); ++i) more += columns_.packed_size(share_.local_index(branch, i));
+    for (std::size_t i = 0; i < share_.length(); ++i) more += store_.packed_size(share_.local_index(branch, i));
     if (more > enough_to_save)
       results.reserve(results.size() + more);  // growing by doubling would take up to twice as much
     const auto number = std::as_bytes(std::span(&branch, 1));
     results.insert(results.end(), number.begin(), number.end());
-    for (std::size_t i = 0; i < share_.length(); ++i) columns_.pack(share_.local_index(branch, i), results);
+    for (std::size_t i = 0; i < share_.length(); ++i) store_.pack(share_.local_index(branch, i), results);
     packed.push_back(branch);
     if (results.size() >= enough_to_save) write_packed();
   }
@@ -289,18 +288,18 @@ void SweepRun::run(const RunOptions& options) {
   result_.threads =
       static_cast<int>(std::clamp<std::size_t>(share_.count(), 1, threads));  // more would have nothing to do
   require_thread_stacks(result_.threads);
-  WorkerPool team(sweep_, share_, options, result_.threads, columns_, states_, restored_);
-  team.run();
-  team.rethrow();
-  result_.usage = team.usage();
-  result_.arch = options.arch, result_.lanes = team.lane_work();
+  WorkerPool pool(sweep_, share_, options, result_.threads, store_, states_, restored_);
+  pool.run();
+  pool.rethrow();
+  result_.work = pool.work();
+  result_.arch = options.arch, result_.lanes = pool.lane_work();
   result_.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
 }
 
 RunResult SweepRun::result() {
   result_.points = share_.points();
-  result_.failed_points = columns_.failed_points();
-  result_.dataset = columns_.dataset();
+  result_.failed_points = store_.failed_points();
+  result_.dataset = store_.dataset();
   if (shard_)
     result_.dataset.attributes = {{"shard", text_of(*shard_)},
                                   {"rounding", rounding_fingerprint(sweep_, result_.arch)}};

@@ -52,7 +52,7 @@ struct RunResult {
   std::size_t failed_points = 0;  ///< points whose status is a failure
   int threads = 1;                ///< threads that were used
   double seconds = 0.0;           ///< wall time of the points
-  std::vector<WorkStats> usage;   ///< the cheapest compiled set first
+  std::vector<WorkStats> work;    ///< the cheapest compiled set first
   lanes::InstructionSet arch = lanes::InstructionSet::scalar;  ///< instruction set that was used
   LaneWork lanes;                                              ///< work in SIMD lanes
 };
@@ -88,7 +88,7 @@ class SweepRun {
   const Sweep& sweep_;
   std::optional<Shard> shard_;
   Share share_;
-  ResultStore columns_;
+  ResultStore store_;
   std::vector<std::atomic<BranchState>> states_;  ///< [branch]
   std::size_t restored_ = 0;
   RunResult result_;

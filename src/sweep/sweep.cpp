@@ -8,22 +8,18 @@ std::size_t size(const Sweep& sweep) {
   return points;
 }
 
-point::Problem scene_at(const Sweep& sweep, std::size_t point) {
-  point::Problem scene = sweep.scene;
+point::Problem problem_at(const Sweep& sweep, std::size_t point) {
+  point::Problem problem = sweep.problem;
   std::optional<double> start_period = sweep.start_period;
-  for (auto dimension = sweep.dimensions.rbegin(); dimension != sweep.dimensions.rend(); ++dimension) {
-    const std::size_t index = point % length(*dimension);
-    point /= length(*dimension);
-    for (const Axis& axis : *dimension) {
-      if (axis.parameter == Parameter::start_period) {
-        start_period = axis.values[index];
-      } else {
-        set(scene, axis.parameter, axis.values[index]);
-      }
+  each_coordinate(sweep, point, [&](const Axis& axis, double value) {
+    if (axis.parameter == Parameter::start_period) {
+      start_period = value;
+    } else {
+      set(problem, axis.parameter, value);
     }
-  }
-  if (start_period) set(scene, Parameter::start_period, *start_period);  // last: it depends on the stops
-  return scene;
+  });
+  if (start_period) set(problem, Parameter::start_period, *start_period);  // last: it depends on the stops
+  return problem;
 }
 
 }  // namespace clatter::sweep

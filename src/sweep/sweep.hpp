@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <optional>
+#include <string_view>
 #include <vector>
 
 #include "point/problem.hpp"
@@ -20,7 +21,7 @@ using Dimension = std::vector<Axis>;
 
 /// Every combination of the dimensions' values; the first dimension varies slowest.
 struct Sweep {
-  point::Problem scene;               ///< the scene that the axes vary
+  point::Problem problem;             ///< the problem that the axes vary
   std::vector<Dimension> dimensions;  ///< empty: one point
   std::optional<std::size_t> follow;  ///< the dimension along which each point starts from the end of the one before
   std::optional<double>
@@ -29,10 +30,26 @@ struct Sweep {
 
 [[nodiscard]] inline std::size_t length(const Dimension& dimension) { return dimension.front().values.size(); }
 
+/// The name of a dimension: the key of its first axis.
+[[nodiscard]] inline std::string_view name_of(const Dimension& dimension) {
+  return key_of(dimension.front().parameter);
+}
+
 /// Number of points.
 [[nodiscard]] std::size_t size(const Sweep& sweep);
 
-/// The scene of a point, 0 <= point < size(sweep), in row-major order of the dimensions.
-[[nodiscard]] point::Problem scene_at(const Sweep& sweep, std::size_t point);
+/// Calls `take(axis, value)` for each axis at a point.
+template <class Take>
+void each_coordinate(const Sweep& sweep, std::size_t point, const Take& take) {
+  std::size_t stride = size(sweep);
+  for (const Dimension& dimension : sweep.dimensions) {
+    stride /= length(dimension);
+    const std::size_t index = point / stride % length(dimension);
+    for (const Axis& axis : dimension) take(axis, axis.values[index]);
+  }
+}
+
+/// The problem of a point, 0 <= point < size(sweep), in row-major order of the dimensions.
+[[nodiscard]] point::Problem problem_at(const Sweep& sweep, std::size_t point);
 
 }  // namespace clatter::sweep

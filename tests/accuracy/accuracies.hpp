@@ -50,14 +50,14 @@ inline std::vector<Trial> one_of_each() {
       {TestedMethod::steady_repetition, 1e-10}};
 }
 
-inline const WorkPrecision& row_of(const PointAccuracy& study, TestedMethod method) {
-  return *std::ranges::find_if(study.rows, [&](const WorkPrecision& row) { return row.trial.method == method; });
+inline const WorkPrecision& row_of(const PointAccuracy& of_point, TestedMethod method) {
+  return *std::ranges::find_if(of_point.rows, [&](const WorkPrecision& row) { return row.trial.method == method; });
 }
 
 /// Slope of the straight line through the logarithms of the settings of rows and of their errors.
-inline double order_of(const PointAccuracy& study, double WorkPrecision::*error) {
+inline double order_of(const PointAccuracy& of_point, double WorkPrecision::*error) {
   double n = 0, x = 0, y = 0, xx = 0, xy = 0;
-  for (const WorkPrecision& row : study.rows) {
+  for (const WorkPrecision& row : of_point.rows) {
     const double u = std::log(row.trial.setting), v = std::log(row.*error);
     n += 1, x += u, y += v, xx += u * u, xy += u * v;
   }
@@ -66,12 +66,12 @@ inline double order_of(const PointAccuracy& study, double WorkPrecision::*error)
 
 /// The measured errors of a row, all NaN if there is nothing to compare with.
 inline std::vector<double> errors_of(const WorkPrecision& row) {
-  return {row.contact_time, row.contact_speed, row.rest,    row.extrema,     row.harmonics,
-          row.v_harmonics,  row.missed,        row.doubled, row.rests_missed};
+  return {row.contact_time, row.contact_speed, row.rest,  row.extrema,     row.harmonics,
+          row.v_harmonics,  row.missed,        row.extra, row.rests_missed};
 }
 inline bool has_errors(const WorkPrecision& row) {
   return std::ranges::any_of(errors_of(row), [](double error) { return !std::isnan(error); });
 }
-inline double sum_of_faults(const WorkPrecision& row) { return row.missed + row.doubled + row.rests_missed; }
+inline double sum_of_faults(const WorkPrecision& row) { return row.missed + row.extra + row.rests_missed; }
 
 }  // namespace clatter::accuracy

@@ -21,15 +21,15 @@ std::size_t length_of(const sweep::ValueArray& column) {
 }
 
 /// A sweep, and the accuracy run of its points.
-struct StudiedSweep {
+struct MeasuredSweep {
   sweep::Sweep sweep;
   std::vector<PointAccuracy> points;
 };
 
-StudiedSweep two_points() {
-  StudiedSweep all{sweep::sweep_of(smooth_scene(), {{sweep::Parameter::nu, {0.9, 1.0}}}), {}};
+MeasuredSweep two_points() {
+  MeasuredSweep all{sweep::sweep_of(smooth_scene(), {{sweep::Parameter::nu, {0.9, 1.0}}}), {}};
   for (std::size_t i = 0; i < 2; ++i)
-    all.points.push_back(measure_accuracy(scene_at(all.sweep, i), one_of_each(), once));
+    all.points.push_back(measure_accuracy(problem_at(all.sweep, i), one_of_each(), once));
   return all;
 }
 

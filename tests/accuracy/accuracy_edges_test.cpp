@@ -38,7 +38,7 @@ TEST(StartOnAStop, moving_in_is_neither_missed_nor_doubled) {
   scene.start = {0.5, 1.0, 0.0};
   const PointAccuracy found =
       measure_accuracy(scene, {{TestedMethod::exact, no_setting}, {TestedMethod::dopri5, 1e-8}}, once);
-  for (const WorkPrecision& row : found.rows) EXPECT_EQ(row.missed + row.doubled, 0.0);
+  for (const WorkPrecision& row : found.rows) EXPECT_EQ(row.missed + row.extra, 0.0);
   EXPECT_EQ(row_of(found, TestedMethod::exact).impacts, found.impacts);
 }
 
@@ -174,14 +174,14 @@ void expect_same_but_for_times(const PointAccuracy& one, const PointAccuracy& ot
   }
 }
 
-TEST(Study, gives_the_same_bits_but_for_times) {
+TEST(Accuracy, gives_the_same_bits_but_for_times) {
   for (const point::Problem& scene :
        {chattering_scene(), chaotic_scene(), transient_scene(), unforced_scene(), failing_scene()})
     expect_same_but_for_times(measure_accuracy(scene, one_of_each(), once),
                               measure_accuracy(scene, one_of_each(), {.rounds = 0}));
 }
 
-TEST(Study, takes_no_method_and_no_observables_from_the_scene) {
+TEST(Accuracy, takes_no_method_and_no_observables_from_the_scene) {
   const PointAccuracy plain = measure_accuracy(chattering_scene(), one_of_each(), {.rounds = 0});
   for (const stepping::Method method : {stepping::Method::exact, stepping::Method::dopri5, stepping::Method::moreau}) {
     point::Problem scene = chattering_scene();
@@ -198,7 +198,7 @@ TEST(Study, takes_no_method_and_no_observables_from_the_scene) {
   }
 }
 
-TEST(Study, measures_the_time_of_every_row_that_runs) {
+TEST(Accuracy, measures_the_time_of_every_row_that_runs) {
   const PointAccuracy found = measure_accuracy(smooth_scene(), one_of_each(), {.rounds = 2});
   for (const WorkPrecision& row : found.rows) {
     EXPECT_TRUE(std::isfinite(row.ns_per_period) && row.ns_per_period > 0);
@@ -208,7 +208,7 @@ TEST(Study, measures_the_time_of_every_row_that_runs) {
     EXPECT_TRUE(std::isfinite(row.ns_per_period) && std::isnan(row.ns_spread)) << "a single time has no spread";
 }
 
-TEST(Study, makes_as_much_progress_as_it_said) {
+TEST(Accuracy, makes_as_much_progress_as_it_said) {
   for (const int rounds : {0, 1, 3}) {
     for (const point::Problem& scene : {smooth_scene(), transient_scene(), unforced_scene(), failing_scene()}) {
       std::size_t steps = 0;
@@ -220,7 +220,7 @@ TEST(Study, makes_as_much_progress_as_it_said) {
   }
 }
 
-TEST(Study, stopped_before_it_begins_runs_nothing) {
+TEST(Accuracy, stopped_before_it_begins_runs_nothing) {
   std::size_t steps = 0;
   const PointAccuracy found = measure_accuracy(smooth_scene(), one_of_each(),
                                                {.progress = [&](auto) { ++steps; }, .stopped = [] { return true; }});
@@ -232,7 +232,7 @@ TEST(Study, stopped_before_it_begins_runs_nothing) {
   }
 }
 
-TEST(Study, stops_wherever_it_is_told_to) {
+TEST(Accuracy, stops_wherever_it_is_told_to) {
   std::size_t asked = 0;
   (void)measure_accuracy(smooth_scene(), one_of_each(), {.rounds = 1, .stopped = [&] { return ++asked == 0; }});
   const std::size_t all = asked;

@@ -43,7 +43,7 @@ TEST_P(AccuracyInLanes, errs_by_no_more_than_roundings) {
       // the bounds that src/accuracy/README.md states for lanes, and that the tests of the scalar loop demand of it
       for (const WorkPrecision* row : {&scalar, &lanes})
         for (const double error : {row->extrema, row->harmonics, row->v_harmonics}) EXPECT_LT(error, 1e-13) << nu;
-      EXPECT_EQ(lanes.missed + lanes.doubled, 0.0);
+      EXPECT_EQ(lanes.missed + lanes.extra, 0.0);
       EXPECT_EQ(lanes.status, scalar.status);
       EXPECT_EQ(lanes.observed_periods, scalar.observed_periods);
       for (const double error : {lanes.contact_time, lanes.contact_speed, lanes.rest, lanes.rests_missed})
@@ -62,7 +62,7 @@ TEST_P(AccuracyInLanes, of_a_transient_has_harmonics_if_it_ends_with_a_forcing_p
     const WorkPrecision lanes =
         measure_accuracy(scene, {{TestedMethod::exact, no_setting, GetParam()}}, {.rounds = 0}).rows[0];
     EXPECT_LT(lanes.extrema, 1e-13);
-    EXPECT_EQ(lanes.missed + lanes.doubled, 0.0);
+    EXPECT_EQ(lanes.missed + lanes.extra, 0.0);
     EXPECT_EQ(std::isnan(lanes.harmonics), turns != 3.0) << "lanes sum only the harmonics of the force";
     if (turns == 3.0) {
       EXPECT_LT(std::max(lanes.harmonics, lanes.v_harmonics), 1e-13);
@@ -74,7 +74,7 @@ TEST_P(AccuracyInLanes, of_chaotic_motion_errs_as_the_scalar_loop_does) {
   const PointAccuracy found = both(chaotic_scene());
   EXPECT_LT(found.rows[2].extrema, 1e-6);  // 1e-8 within the horizon, multiplied by other roundings
   EXPECT_LT(found.rows[2].harmonics, 1e-6);
-  EXPECT_EQ(found.rows[2].missed + found.rows[2].doubled, 0.0);
+  EXPECT_EQ(found.rows[2].missed + found.rows[2].extra, 0.0);
   EXPECT_EQ(found.rows[3].status, steady::Status::aperiodic);
   EXPECT_FALSE(has_errors(found.rows[3]));
 }
@@ -84,7 +84,7 @@ TEST_P(AccuracyInLanes, counts_the_impacts_of_all_the_periods_of_a_motion) {
   scene.time.window = 2;
   const PointAccuracy found = both(scene);
   EXPECT_EQ(found.steady_periods, 3.0);
-  for (const std::size_t i : {2u, 3u}) EXPECT_EQ(found.rows[i].missed + found.rows[i].doubled, 0.0);
+  for (const std::size_t i : {2u, 3u}) EXPECT_EQ(found.rows[i].missed + found.rows[i].extra, 0.0);
   EXPECT_EQ(found.rows[3].observed_periods, 3.0);
   EXPECT_LT(found.rows[3].extrema, 1e-11);  // a graze: the scalar loop errs by 1e-12 in its speeds
 }
@@ -94,7 +94,7 @@ TEST_P(AccuracyInLanes, from_a_stop_is_neither_missed_nor_doubled) {
     point::Problem scene = smooth_scene();
     scene.start = {0.5, v, 0.0};
     const WorkPrecision lanes = both(scene).rows[2];
-    EXPECT_EQ(lanes.missed + lanes.doubled, 0.0) << v;
+    EXPECT_EQ(lanes.missed + lanes.extra, 0.0) << v;
   }
 }
 

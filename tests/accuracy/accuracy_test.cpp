@@ -154,7 +154,7 @@ TEST(ChatteringScene, is_exact_and_nothing_is_missed_or_doubled) {
   EXPECT_EQ(found.rests, 1.0);
   const WorkPrecision& exact = row_of(found, TestedMethod::exact);
   EXPECT_EQ(exact.missed, 0.0);
-  EXPECT_EQ(exact.doubled, 0.0);
+  EXPECT_EQ(exact.extra, 0.0);
   EXPECT_EQ(exact.rests_missed, 0.0);
   EXPECT_EQ(exact.impacts, found.impacts);
   for (const double error :

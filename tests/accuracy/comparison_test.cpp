@@ -47,9 +47,9 @@ Events completed_bounces(int count) {
 
 constexpr double any = 1e9;  ///< no bound on the lag
 
-void expect_counts(const ContactErrors& errors, std::size_t missed, std::size_t doubled) {
+void expect_counts(const ContactErrors& errors, std::size_t missed, std::size_t extra) {
   EXPECT_EQ(errors.missed, missed);
-  EXPECT_EQ(errors.doubled, doubled);
+  EXPECT_EQ(errors.extra, extra);
 }
 
 TEST(Comparison, finds_missed_and_doubled_impacts) {

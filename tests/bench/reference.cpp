@@ -19,7 +19,7 @@ const std::vector<Number>& values(const sweep::RunResult& result, std::string_vi
 }
 
 std::vector<Transient> exact(sweep::Sweep sweep) {
-  sweep.scene.observe.trajectory = 2;  // the start and the end
+  sweep.problem.observe.trajectory = 2;  // the start and the end
   const sweep::RunResult result = run(sweep, {.threads = 1, .arch = lanes::InstructionSet::scalar});
   const auto &low = values<double>(result, "x_min"), &high = values<double>(result, "x_max");
   const auto &x = values<double>(result, "x"), &v = values<double>(result, "v");
@@ -29,7 +29,7 @@ std::vector<Transient> exact(sweep::Sweep sweep) {
 }
 
 std::vector<std::uint8_t> steady_status(sweep::Sweep sweep) {
-  sweep.scene.time.mode = steady::Mode::steady;
+  sweep.problem.time.mode = steady::Mode::steady;
   return values<std::uint8_t>(run(sweep, {.threads = 1, .arch = lanes::InstructionSet::scalar}), "status");
 }
 
@@ -43,10 +43,10 @@ constexpr double room = 1e-3;  // allowed error of a solver, over |xs|
 }  // namespace
 
 Reference::Reference(const sweep::Sweep& sweep) : whole_(sweep), beginning_(sweep), at_end_(exact(sweep)) {
-  beginning_.scene.time.duration = std::min(sweep.scene.time.duration, 10 * 2 * std::numbers::pi);
+  beginning_.problem.time.duration = std::min(sweep.problem.time.duration, 10 * 2 * std::numbers::pi);
   early_ = exact(beginning_);
   sweep::Sweep displaced = sweep;
-  displaced.scene.start.displacement = 1e-13;
+  displaced.problem.start.displacement = 1e-13;
   const std::vector<Transient> moved = exact(displaced);
   const std::vector<std::uint8_t> status = steady_status(sweep);
   for (std::size_t i = 0; i < at_end_.size(); ++i)
@@ -57,9 +57,9 @@ Reference::Reference(const sweep::Sweep& sweep) : whole_(sweep), beginning_(swee
 Verdict Reference::judge(const Solver& solver, const std::vector<Transient>& runs) const {
   Verdict verdict;
   for (std::size_t i = 0; i < runs.size(); ++i) {
-    const Stops& stops = whole_.scene.stops;
+    const Stops& stops = whole_.problem.stops;
     const double off =
-        determined_[i] ? difference(runs[i], at_end_[i]) : difference(solver(scene_at(beginning_, i)), early_[i]);
+        determined_[i] ? difference(runs[i], at_end_[i]) : difference(solver(problem_at(beginning_, i)), early_[i]);
     const double deep = std::max(runs[i].x_max - stops.upper, stops.lower - runs[i].x_min);
     if (off / stops.upper <= room)
       verdict.error = std::max(verdict.error, off / stops.upper);

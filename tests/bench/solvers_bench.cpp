@@ -40,7 +40,7 @@ void time_clatter(benchmark::State& state, lanes::InstructionSet arch) {
 void time_solver(benchmark::State& state, const Solver& solver) {
   std::vector<Transient> runs(points);
   for ([[maybe_unused]] auto _ : state)
-    for (std::size_t i = 0; i < points; ++i) runs[i] = solver(scene_at(sweep(), i));
+    for (std::size_t i = 0; i < points; ++i) runs[i] = solver(problem_at(sweep(), i));
   const Verdict verdict = reference().judge(solver, runs);
   count_time(state);
   state.counters["wrong"] = static_cast<double>(verdict.wrong);

@@ -25,27 +25,27 @@ std::vector<double> linspace(double a, double b, std::size_t n) {
 
 sweep::Sweep transients(double xs, std::size_t points, double periods) {
   sweep::Sweep sweep;
-  sweep.scene = scene_between(xs);
-  sweep.scene.time.mode = steady::Mode::transient;
-  sweep.scene.time.duration = periods * 2 * std::numbers::pi;
+  sweep.problem = scene_between(xs);
+  sweep.problem.time.mode = steady::Mode::transient;
+  sweep.problem.time.duration = periods * 2 * std::numbers::pi;
   sweep.dimensions = {{{sweep::Parameter::nu, linspace(0.5, 1.5, points)}}};
   return sweep;
 }
 
 sweep::Sweep map(std::size_t n) {
   sweep::Sweep sweep;
-  sweep.scene = scene_between(1.0);
-  sweep.scene.time.max_periods = 500;
-  sweep.scene.observe.harmonics = 3;
-  sweep.scene.observe.harmonics_method = observables::HarmonicsMethod::exact;
-  sweep.scene.observe.period = true;
+  sweep.problem = scene_between(1.0);
+  sweep.problem.time.max_periods = 500;
+  sweep.problem.observe.harmonics = 3;
+  sweep.problem.observe.harmonics_method = observables::HarmonicsMethod::exact;
+  sweep.problem.observe.period = true;
   sweep.dimensions = {{{sweep::Parameter::nu, linspace(0.5, 1.5, n)}}, {{sweep::Parameter::xs, linspace(0.2, 4.0, n)}}};
   return sweep;
 }
 
 Work work_of(const sweep::RunResult& result) {
   Work work;
-  for (const sweep::WorkStats& usage : result.usage) work.impacts += usage.impacts, work.periods += usage.periods;
+  for (const sweep::WorkStats& part : result.work) work.impacts += part.impacts, work.periods += part.periods;
   return work;
 }
 

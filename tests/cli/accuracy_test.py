@@ -1,31 +1,19 @@
-"""`clatter accuracy` as shell scripts and readers of its files meet it: table, JSON, file, signals; every method.
+"""`clatter accuracy` as shell scripts and readers of its files meet it: table, JSON, file; every method.
 
 Nothing here depends on how long anything takes: the two variables of times are only looked at for being there.
 """
 
-import json
 import math
-import os
 import re
-import signal
-import subprocess
-import time
 import unittest
 
 import h5py
 import numpy as np
 import xarray
 
-from command_line import CLATTER, SMALL, CommandLine, runs_here
+from accuracy_runs import SCENE, STEADY, AccuracyRuns, objects
+from command_line import SMALL, CommandLine, runs_here
 
-SCENE = """title = "a small study"
-[scene]
-f = -1.0
-h = 0.1
-R = 0.7
-xs = -0.5
-"""
-STEADY = SCENE + "[time]\nwindow = 3\n"
 SWEEP = SCENE + '[sweep]\nnu = [0.9, 1.1]\n[time]\nmode = "transient"\nduration = 10\n'
 METHODS = ["exact"] * 2 + ["dopri5"] * 11 + ["moreau"] * 5 + ["harmonics_exact"] + ["harmonics_fft"] * 17
 REPEATS = ["steady"] * 13 + ["steady_repetition"] * 12
@@ -46,28 +34,13 @@ KEYS = {
     "status",
 }
 TIMES = {"ns_per_period", "ns_spread"}
-NOTED = "\nclatter: stopping after the present run; a second signal stops at once\n"  # the signal
-
-
-def objects(text):
-    """The JSON objects of lines, none of which may hold what is no JSON, as NaN."""
-
-    def refuse(word):
-        raise ValueError(f"{word} is no JSON")
-
-    return [json.loads(line, parse_constant=refuse) for line in text.splitlines()]
 
 
 def number(value):
     return math.nan if value is None else value
 
 
-class Studies(CommandLine):
-    def study(self, *words, code=0, arch=""):
-        result = self.clatter("accuracy", *words, environment={"CLATTER_ARCH": arch})
-        self.assertEqual(result.returncode, code, result.stderr)
-        return result
-
+class Accuracy(AccuracyRuns):
     def assert_file_holds(self, name, rows):
         """The file has the numbers of the JSON objects, in their order."""
         with h5py.File(self.directory / name) as file:
@@ -86,11 +59,9 @@ class Studies(CommandLine):
                     variable = np.repeat(variable.reshape(points), count)
                 np.testing.assert_array_equal(variable.ravel(), expected, key)
 
-
-class Study(Studies):
     def test_of_one_point_prints_writes_and_repeats_itself(self):
         config = self.write("a.toml", STEADY)
-        result = self.study(config, "--json", "--progress", "always")
+        result = self.accuracy(config, "--json", "--progress", "always")
         *_, bar, output = result.stderr.splitlines()
         self.assertRegex(bar, r"^\[#{30}\] 100 %  610/610 runs  .* runs/s  .* left$")
         self.assertEqual(output, "a.accuracy.h5")
@@ -133,7 +104,7 @@ class Study(Studies):
     def repeats(self, name):
         """The configuration in the file gives the same file, but for times; the table has a line a row."""
         self.write("again.toml", self.clatter("info", name, "--config").stdout)
-        result = self.study("again.toml")
+        result = self.accuracy("again.toml")
         self.assertEqual(result.stderr, "again.accuracy.h5\n")  # no bar without a terminal
         with h5py.File(self.directory / name) as one, h5py.File(self.directory / "again.accuracy.h5") as other:
             self.assertEqual(set(one), set(other))
@@ -151,7 +122,7 @@ class Study(Studies):
 
     def test_of_a_sweep_has_its_axes_before_the_rows(self):
         config = self.write("a.toml", SWEEP)
-        result = self.study(config, "--json", "-q", "-o", "sweep.h5")
+        result = self.accuracy(config, "--json", "-q", "-o", "sweep.h5")
         self.assertEqual(result.stderr, "")
         self.assertEqual(self.files(), ["a.toml", "sweep.h5"])
         rows = objects(result.stdout)
@@ -169,14 +140,14 @@ class Study(Studies):
 
     def test_that_fails_ends_with_1_and_still_writes_its_file(self):
         config = self.write("a.toml", STEADY + "max_impacts = 1\n")
-        rows = objects(self.study(config, "--json", code=1).stdout)
+        rows = objects(self.accuracy(config, "--json", code=1).stdout)
         self.assertEqual(len(rows), 61)
         for row in rows:
             self.assertEqual([row[key] for key in KEYS if key.startswith("error")], [None] * 4)
             self.assertGreaterEqual(row["status"], 16)
             self.assertEqual(row["horizon"], 0)
         self.assert_file_holds("a.accuracy.h5", rows)
-        table = self.study(config, "-o", "b.h5", code=1).stdout
+        table = self.accuracy(config, "-o", "b.h5", code=1).stdout
         self.assertIn("not compared", table)
         self.assertEqual(table.count("  event_budget\n"), 61)
 
@@ -184,13 +155,13 @@ class Study(Studies):
         config = self.write("a.toml", STEADY + "max_impacts = 1\n")  # which ends soon
         for name in filter(runs_here, ("sse2", "avx2", "avx512")):
             for words, variable in ((("--arch", name), "scalar"), ((), name)):
-                rows = objects(self.study(config, "--json", *words, code=1, arch=variable).stdout)
+                rows = objects(self.accuracy(config, "--json", *words, code=1, arch=variable).stdout)
                 self.assertEqual(
                     [(place, row["arch"]) for place, row in enumerate(rows) if row["arch"] != "scalar"],
                     [(place, name) for place in LANES],
                 )
                 self.assert_file_holds("a.accuracy.h5", rows)
-        rows = objects(self.study(config, "--json", "--arch", "scalar", code=1).stdout)
+        rows = objects(self.accuracy(config, "--json", "--arch", "scalar", code=1).stdout)
         self.assertEqual({row["arch"] for row in rows}, {"scalar"})
         self.assertEqual(len(rows), 59)
         self.assert_file_holds("a.accuracy.h5", rows)
@@ -198,7 +169,7 @@ class Study(Studies):
     def test_of_points_that_lanes_leave_to_the_scalar_loop_says_so(self):
         scene = SCENE.replace("h = 0.1\n", "")
         config = self.write("a.toml", scene + "[sweep]\nh = [0.1, 2]\n[time]\nwindow = 1\nmax_periods = 100\n")
-        table = self.study(config, "-q").stdout
+        table = self.accuracy(config, "-q").stdout
         sentence = r"^(exact|steady) +\w+  not in lanes: this motion is left to the scalar loop$"
         self.assertEqual(re.findall(sentence, table, re.MULTILINE), ["exact", "steady"])
         self.assertLess(table.index("h = 2"), table.index("not in lanes"))
@@ -207,76 +178,16 @@ class Study(Studies):
                 self.assertEqual(np.isnan(file[key][:, list(LANES)]).tolist(), [[False, False], [True, True]], key)
             self.assertLess(file["status"][()].max(), 16)
 
-    def test_with_interrupts_ignored_goes_on(self):
-        """As under nohup, or in the background of a script."""
-        config = self.write("a.toml", STEADY + "max_impacts = 1\n")
-        process = subprocess.Popen(
-            [CLATTER, "accuracy", config],
-            cwd=self.directory,
-            stdout=subprocess.PIPE,
-            stderr=subprocess.PIPE,
-            preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_IGN),
-        )
-        while process.poll() is None:
-            process.send_signal(signal.SIGINT)
-            time.sleep(0.01)
-        self.assertEqual(process.returncode, 1, process.communicate())
-        process.communicate()
-        self.assertEqual(self.files(), ["a.accuracy.h5", "a.toml"])
 
-
-class Interrupts(Studies):
-    def interrupted(self, number, stream, words, *options):
-        """Sends a signal as soon as a stream has these words; gives the exit code, stdout and stderr."""
-        with open(self.directory / "stdout", "wb") as out, open(self.directory / "stderr", "wb") as err:
-            process = subprocess.Popen(
-                [CLATTER, "accuracy", "a.toml", *options],
-                cwd=self.directory,
-                stdout=out,
-                stderr=err,
-                env={**os.environ, "CLATTER_ARCH": ""},
-                preexec_fn=lambda: signal.signal(number, signal.SIG_DFL),
-            )
-        self.addCleanup(process.kill)
-        deadline = time.monotonic() + 120
-        while words not in (self.directory / stream).read_bytes():
-            self.assertIsNone(process.poll(), "it ended before the signal")
-            self.assertLess(time.monotonic(), deadline, "it never said so")
-            time.sleep(0.01)
-        process.send_signal(number)
-        code = process.wait(timeout=120)
-        texts = [(self.directory / name).read_text(encoding="utf-8") for name in ("stdout", "stderr")]
-        for name in ("stdout", "stderr"):
-            os.remove(self.directory / name)
-        return code, *texts
-
-    def test_sigint_in_the_first_point_leaves_nothing(self):
-        self.write("a.toml", STEADY + "[sweep]\nnu = [0.9, 1.0, 1.1]\n")
-        code, out, err = self.interrupted(signal.SIGINT, "stderr", b" runs ", "--progress", "always")
-        self.assertEqual((code, out), (130, ""), err)
-        self.assertIn("stopped after 0 of 3 points; a.accuracy.h5 is not written\n", err)
-        self.assertEqual(self.files(), ["a.toml"])
-
-    def test_sigterm_after_the_first_point_keeps_the_printed_part_and_the_older_file(self):
-        config = self.write("a.toml", STEADY + "[sweep]\nnu = [0.9, 1.0, 1.1]\n")
-        self.study(config, "--set", "time.max_impacts=1", code=1)
-        older = (self.directory / "a.accuracy.h5").read_bytes()
-        code, out, err = self.interrupted(signal.SIGTERM, "stdout", b"\n", "--json")
-        self.assertEqual(code, 143, err)
-        finished = int(
-            re.fullmatch(NOTED + r"stopped after ([12]) of 3 points; a\.accuracy\.h5 is not written\n", err)[1]
-        )
-        self.assertEqual([row["point"] for row in objects(out)], [0] * 61 + [1] * 61 * (finished - 1))
-        self.assertEqual(self.files(), ["a.accuracy.h5", "a.toml"])
-        self.assertEqual((self.directory / "a.accuracy.h5").read_bytes(), older)
-
-
-class Refusals(Studies):
+class Refusals(AccuracyRuns):
     def test_exit_2_with_the_way_out(self):
         config = self.write("a.toml", STEADY)
         followed = self.write("b.toml", SCENE + '[sweep]\nnu = [1, 2]\nfollow = "nu"\n')
         cases = [
-            ([followed], "b.toml: [sweep] follow: a study starts every point from [scene]; add --set sweep.follow=''"),
+            (
+                [followed],
+                "b.toml: [sweep] follow: an accuracy run starts every point from [scene]; add --set sweep.follow=''",
+            ),
             ([config, "-o", config], "the output 'a.toml' is the configuration itself"),
             ([], "CONFIG is missing; write: clatter accuracy CONFIG"),
             ([config, config], "unexpected argument 'a.toml'"),
@@ -291,7 +202,7 @@ class Refusals(Studies):
             with self.subTest(words=words):
                 self.assert_refused(2, message, "accuracy", *words)
 
-    def test_a_file_that_cannot_be_written_is_refused_before_the_study(self):
+    def test_a_file_that_cannot_be_written_is_refused_before_the_run(self):
         config = self.write("a.toml", STEADY)
         (self.directory / "folder").mkdir()
         self.assert_refused(74, "there is no directory 'none'", "accuracy", config, "-o", "none/a.h5")

@@ -1,6 +1,7 @@
 """Rooms of src include only their right-hand neighbours, and each has its own namespace:
-apps -> { config, results } -> { accuracy, plan } -> sweep -> lanes -> point -> { steady, observables }
--> { stepping, motion } -> model -> math, and config, results -> storage, results -> config."""
+apps -> { results, accuracy }, results -> { config, plan }, config -> { sweep, storage },
+{ accuracy, plan } -> sweep -> lanes -> point -> { steady, observables },
+steady -> stepping -> motion, observables -> motion -> model -> math."""
 
 import os
 import re
@@ -22,9 +23,9 @@ NEXT = {  # room: its right-hand neighbours; what these may include, it may incl
     "plan": {"sweep"},
     "accuracy": {"sweep"},
     "storage": set(),
-    "config": {"plan", "accuracy", "storage"},
-    "results": {"config"},
-    "apps": {"results"},
+    "config": {"sweep", "storage"},
+    "results": {"config", "plan"},
+    "apps": {"results", "accuracy"},
 }
 KNOWN_TO = {  # library header: the only rooms that see it
     r"fftw3": {"observables"},
@@ -34,6 +35,7 @@ KNOWN_TO = {  # library header: the only rooms that see it
     r"zlib": {"storage"},
     r"boost/program_options": {"config", "apps"},
     r"boost/multiprecision": {"math"},
+    r"boost/math": {"observables"},
     r"boost/numeric/odeint": {"stepping"},
     r"nettle": {"results"},
     r"xsimd": {"lanes"},

@@ -64,14 +64,14 @@ class Plan(CommandLine):
 
     def test_a_large_sweep_is_sampled_and_that_is_said(self):
         large = ("--set", "sweep.x0=linspace(-1, 1, 2000)", "--set", "sweep.nu=linspace(0.5, 1.5, 600)")
-        said = "looked at 1000000 of 1200000 points; counts are estimates"
+        said = "examined 1000000 of 1200000 points; counts are estimates"
         self.assertIn(f"\n{'':20}{said}\n", self.clatter("plan", self.write("p.toml", SMALL), *large).stdout)
         for follow in ((), ("--set", "sweep.follow=nu")):
             plan = self.plan(SMALL, *large, *follow)
             self.assertEqual((plan["points"], plan["sampled_points"]), (1200000, 1000000))
             self.assertEqual(sum(group["points"] for group in plan["groups"]), 1200000)
         self.assertEqual([group["points"] for group in plan["groups"]], [2000, 1198000])  # the first ones of branches
-        self.assertNotIn("looked at", self.clatter("plan", self.write("p.toml", SMALL)).stdout)
+        self.assertNotIn("examined", self.clatter("plan", self.write("p.toml", SMALL)).stdout)
 
     def test_refuses_the_mistakes_that_run_refuses_and_plans_a_part(self):
         config = self.write("p.toml", SMALL)

@@ -18,7 +18,7 @@ sys.path.insert(0, str(SOURCE / "scripts"))
 import plot_accuracy  # noqa: E402  (from the source tree)
 import plot_data  # noqa: E402
 import plot_style  # noqa: E402
-from synthetic_study import MOTION, RESULTS, Study  # noqa: E402
+from synthetic_accuracy import MOTION, RESULTS, SyntheticAccuracy  # noqa: E402
 
 
 def plot(*arguments):
@@ -27,17 +27,17 @@ def plot(*arguments):
     )
 
 
-def make_studies(folder):
-    """name: the study, written to name.h5"""
-    studies = {
-        "scalar": Study(),
-        "sweep": Study(nu=[0.9, 1.0, 1.1]),
-        "transient": Study(steady=False),
-        "map": Study(nu=[0.9, 1.0], h=[0.1, 0.2, 0.3]),
-        "faultless": Study(),
-        "dead": Study(h=[0.1, 0.2]),
+def make_accuracies(folder):
+    """name: the output, written to name.h5"""
+    accuracies = {
+        "scalar": SyntheticAccuracy(),
+        "sweep": SyntheticAccuracy(nu=[0.9, 1.0, 1.1]),
+        "transient": SyntheticAccuracy(steady=False),
+        "map": SyntheticAccuracy(nu=[0.9, 1.0], h=[0.1, 0.2, 0.3]),
+        "faultless": SyntheticAccuracy(),
+        "dead": SyntheticAccuracy(h=[0.1, 0.2]),
     }
-    scalar, sweep, faultless, dead = (studies[name] for name in ("scalar", "sweep", "faultless", "dead"))
+    scalar, sweep, faultless, dead = (accuracies[name] for name in ("scalar", "sweep", "faultless", "dead"))
     for name in MOTION:
         scalar.results[name][scalar.rows("exact")] = 0.0
         scalar.results[name][scalar.rows("dopri5", 1e-13)] = np.nan
@@ -51,9 +51,9 @@ def make_studies(folder):
     for name in ("missed", "doubled"):
         faultless.results[name][:] = 0.0
     faultless.results["ns_spread"][:] = np.nan
-    for name, study in studies.items():
-        study.write(folder / f"{name}.h5")
-    return studies
+    for name, accuracy in accuracies.items():
+        accuracy.write(folder / f"{name}.h5")
+    return accuracies
 
 
 class Pictures(unittest.TestCase):
@@ -61,9 +61,9 @@ class Pictures(unittest.TestCase):
     def setUpClass(cls):
         cls.kept = tempfile.TemporaryDirectory()
         cls.folder = Path(cls.kept.name)
-        cls.studies = make_studies(cls.folder)
+        cls.accuracies = make_accuracies(cls.folder)
         plot_style.use_style()
-        cls.result = plot(*(cls.folder / f"{name}.h5" for name in cls.studies))
+        cls.result = plot(*(cls.folder / f"{name}.h5" for name in cls.accuracies))
 
     @classmethod
     def tearDownClass(cls):
@@ -85,13 +85,13 @@ class Pictures(unittest.TestCase):
         self.assertLess(len(found), 2, group)
         return sum(element.tag.endswith("}use") for element in found[0].iter()) if found else None
 
-    def test_every_study_is_drawn_beside_its_file(self):
+    def test_every_output_is_drawn_beside_its_file(self):
         self.assertEqual((self.result.returncode, self.result.stderr), (0, ""))
         self.assertEqual(
             self.result.stdout.split(),
-            [str(self.folder / f"{name}.{kind}") for name in self.studies for kind in ("svg", "png")],
+            [str(self.folder / f"{name}.{kind}") for name in self.accuracies for kind in ("svg", "png")],
         )
-        for name in self.studies:
+        for name in self.accuracies:
             with self.subTest(name):
                 pixels = image.imread(self.folder / f"{name}.png")[..., :3]
                 self.assertGreater((pixels[::2, ::2, 0] < 0.9).mean(), 0.005)
@@ -205,14 +205,14 @@ class Reductions(unittest.TestCase):
         np.testing.assert_array_equal(plot_accuracy.worst(values), [3.0, 6.0, np.nan])
         np.testing.assert_array_equal(plot_accuracy.medians(values), [2.5, 5.5, np.nan])
 
-    def read(self, study, method, cost="ns_per_period"):
+    def read(self, accuracy, method, cost="ns_per_period"):
         with tempfile.TemporaryDirectory() as folder:
-            study.write(Path(folder) / "study.h5")
-            return plot_accuracy.curve(plot_data.Output(Path(folder) / "study.h5"), method, MOTION, cost)
+            accuracy.write(Path(folder) / "accuracy.h5")
+            return plot_accuracy.curve(plot_data.Output(Path(folder) / "accuracy.h5"), method, MOTION, cost)
 
     def test_a_curve_has_the_worst_error_and_the_median_time_over_the_points(self):
-        study = Study(nu=[0.9, 1.0, 1.1])
-        row = study.rows("moreau", 1e-3)
+        accuracy = SyntheticAccuracy(nu=[0.9, 1.0, 1.1])
+        row = accuracy.rows("moreau", 1e-3)
         for name, values in (
             ("error_contact_time", (1e-5, np.nan, 2e-5)),
             ("error_contact_speed", (np.nan,) * 3),
@@ -221,20 +221,20 @@ class Reductions(unittest.TestCase):
             ("ns_spread", (2.0, 3.0, np.nan)),
             ("doubled", (0.0, np.nan, 0.0)),
         ):
-            study.results[name][row] = np.array(values)[:, None]
-        found = self.read(study, "moreau")
+            accuracy.results[name][row] = np.array(values)[:, None]
+        found = self.read(accuracy, "moreau")
         place = list(found.setting).index(1e-3)
         self.assertEqual((found.error[place], found.cost[place], found.spread[place]), (7e-5, 30.0, 2.5))
-        np.testing.assert_array_equal(found.setting, np.sort(study.setting[study.rows("moreau")[1]])[::-1])
+        np.testing.assert_array_equal(found.setting, np.sort(accuracy.setting[accuracy.rows("moreau")[1]])[::-1])
         np.testing.assert_array_equal(found.wrong, [True, False, False, False, False])
         self.assertFalse(found.failed.any())
 
     def test_lanes_stand_apart_from_the_scalar_loop(self):
-        study = Study(steady=False)
-        study.results["missed"][study.rows("exact", arch="avx512")] = 1.0
+        accuracy = SyntheticAccuracy(steady=False)
+        accuracy.results["missed"][accuracy.rows("exact", arch="avx512")] = 1.0
         with tempfile.TemporaryDirectory() as folder:
-            study.write(Path(folder) / "study.h5")
-            output = plot_data.Output(Path(folder) / "study.h5")
+            accuracy.write(Path(folder) / "accuracy.h5")
+            output = plot_data.Output(Path(folder) / "accuracy.h5")
         scalar, lanes = (
             plot_accuracy.curve(output, "exact", ("error_extrema",), "ns_per_period", in_lanes=in_lanes)
             for in_lanes in (False, True)
@@ -244,43 +244,43 @@ class Reductions(unittest.TestCase):
         self.assertGreater(scalar.cost[0], 500)
 
     def test_one_faulty_point_makes_the_row_faulty(self):
-        study = Study(nu=[0.9, 1.0, 1.1])
-        study.results["missed"][study.rows("dopri5")] = 0.0
-        study.results["doubled"][study.rows("dopri5")] = 0.0
-        study.results["missed"][2, study.rows("dopri5", 1e-5)[1]] = 1.0
-        study.status[1, study.rows("dopri5", 1e-7)[1]] = 16
-        study.status[1, study.rows("dopri5", 1e-8)[1]] = 1
-        found = self.read(study, "dopri5")
+        accuracy = SyntheticAccuracy(nu=[0.9, 1.0, 1.1])
+        accuracy.results["missed"][accuracy.rows("dopri5")] = 0.0
+        accuracy.results["doubled"][accuracy.rows("dopri5")] = 0.0
+        accuracy.results["missed"][2, accuracy.rows("dopri5", 1e-5)[1]] = 1.0
+        accuracy.status[1, accuracy.rows("dopri5", 1e-7)[1]] = 16
+        accuracy.status[1, accuracy.rows("dopri5", 1e-8)[1]] = 1
+        found = self.read(accuracy, "dopri5")
         np.testing.assert_allclose(found.setting[found.wrong], [1e-5])
         np.testing.assert_allclose(found.setting[found.failed], [1e-7])
         np.testing.assert_allclose(found.setting[found.hollow], [1e-5, 1e-7])
 
     def test_small_errors_stand_at_the_floor_and_rows_without_one_are_left_out(self):
-        study = Study()
+        accuracy = SyntheticAccuracy()
         for name in MOTION:
-            study.results[name][study.rows("dopri5", 1e-11)] = 1e-25
-            study.results[name][study.rows("dopri5", 1e-12)] = 0.0
-            study.results[name][study.rows("dopri5", 1e-13)] = np.nan
-        found = self.read(study, "dopri5")
+            accuracy.results[name][accuracy.rows("dopri5", 1e-11)] = 1e-25
+            accuracy.results[name][accuracy.rows("dopri5", 1e-12)] = 0.0
+            accuracy.results[name][accuracy.rows("dopri5", 1e-13)] = np.nan
+        found = self.read(accuracy, "dopri5")
         self.assertEqual((len(found), found.floored), (10, True))
         np.testing.assert_array_equal(found.error[-2:], [1e-17, 1e-17])
         self.assertGreater(found.error[-3], 1e-12)
-        self.assertFalse(self.read(study, "moreau").floored)
-        self.assertEqual(len(self.read(Study(steady=False), "steady", "simulated_periods")), 0)
+        self.assertFalse(self.read(accuracy, "moreau").floored)
+        self.assertEqual(len(self.read(SyntheticAccuracy(steady=False), "steady", "simulated_periods")), 0)
 
     def test_the_front_leaves_out_hollow_points(self):
-        study = Study()
-        study.results["ns_per_period"][study.rows("moreau", 1e-1)] = 1.0  # cheapest, but it missed impacts
+        accuracy = SyntheticAccuracy()
+        accuracy.results["ns_per_period"][accuracy.rows("moreau", 1e-1)] = 1.0  # cheapest, but it missed impacts
         with tempfile.TemporaryDirectory() as folder:
-            study.write(Path(folder) / "study.h5")
-            figure = plot_accuracy.accuracy_figure(plot_data.Output(Path(folder) / "study.h5"))
+            accuracy.write(Path(folder) / "accuracy.h5")
+            figure = plot_accuracy.accuracy_figure(plot_data.Output(Path(folder) / "accuracy.h5"))
         front = next(line for line in figure.axes[0].get_lines() if line.get_gid() == "pareto-front")
-        self.assertEqual(front.get_xdata().tolist(), study.results["ns_per_period"][study.rows("exact")].tolist())
+        self.assertEqual(front.get_xdata().tolist(), accuracy.results["ns_per_period"][accuracy.rows("exact")].tolist())
 
     def test_slopes_of_first_and_second_order(self):
         with tempfile.TemporaryDirectory() as folder:
-            Study().write(Path(folder) / "study.h5")
-            figure = plot_accuracy.accuracy_figure(plot_data.Output(Path(folder) / "study.h5"))
+            SyntheticAccuracy().write(Path(folder) / "accuracy.h5")
+            figure = plot_accuracy.accuracy_figure(plot_data.Output(Path(folder) / "accuracy.h5"))
         axes = next(axes for axes in figure.axes if axes.get_gid() == "panel-samples")
         lines = {line.get_gid(): line for line in axes.get_lines()}
         for order in (1, 2):
@@ -293,11 +293,11 @@ class Reductions(unittest.TestCase):
         for value, text in ((1e-3, "1e-3"), (1e-13, "1e-13"), (3e-2, "3e-2"), (2.5e-4, "2.5e-4"), (0.1, "1e-1")):
             self.assertEqual(plot_accuracy.short(value), text.replace("-", "\N{MINUS SIGN}"))
 
-    def test_a_run_is_no_study(self):
-        study = Study(nu=[0.9, 1.0])
+    def test_a_run_is_no_accuracy_run(self):
+        accuracy = SyntheticAccuracy(nu=[0.9, 1.0])
         with tempfile.TemporaryDirectory() as folder:
-            path = Path(folder) / "study.h5"
-            study.write(path)
+            path = Path(folder) / "accuracy.h5"
+            accuracy.write(path)
             output = plot_data.Output(path)
             self.assertTrue(output.is_accuracy)
             self.assertEqual((output.axes, output.shape), (("nu",), (2,)))

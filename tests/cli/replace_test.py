@@ -8,7 +8,7 @@ import h5py
 from command_line import SMALL, SOURCE, CommandLine
 
 # Over in no time, since all of it fails.
-STUDY = SMALL.partition("[sweep]")[0].replace("xs = -4.0", "xs = -0.5") + "[time]\nwindow = 1\nmax_impacts = 1\n"
+ACCURACY = SMALL.partition("[sweep]")[0].replace("xs = -4.0", "xs = -0.5") + "[time]\nwindow = 1\nmax_impacts = 1\n"
 REMEDY = "name another with -o, move that one away, or replace it with --force"
 
 
@@ -52,7 +52,7 @@ class Replace(CommandLine):
         (self.directory / "link.h5").symlink_to("letter")
         self.write("letter", "another letter")
         for name in ("foreign.h5", "cut.h5", "text.h5", "link.h5"):
-            for words in (("run", self.config), ("accuracy", self.write("b.toml", STUDY))):
+            for words in (("run", self.config), ("accuracy", self.write("b.toml", ACCURACY))):
                 content = (self.directory / name).read_bytes()
                 self.assert_kept(name, "the file there is not an output of clatter, or is damaged", *words, "-o", name)
                 (self.directory / name).write_bytes(content)
@@ -78,8 +78,8 @@ class Replace(CommandLine):
             self.ok("run", self.config, *words)
             self.assertNotEqual((self.directory / "a.h5").read_bytes(), before)
 
-    def test_a_run_and_a_study_have_files_of_their_own_and_keep_each_others(self):
-        config = self.write("b.toml", STUDY)
+    def test_a_run_and_an_accuracy_run_have_files_of_their_own_and_keep_each_others(self):
+        config = self.write("b.toml", ACCURACY)
         for _ in range(2):
             self.ok("run", config, code=1)
             self.ok("accuracy", config, code=1)

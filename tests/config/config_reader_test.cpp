@@ -47,7 +47,7 @@ TEST(Config, means_what_it_says) {
   EXPECT_EQ(config.source, "doi:10.5755/j02.mech.32277, Fig. 22");
   EXPECT_EQ(config.compression, 0);
   EXPECT_EQ(size(config.sweep), 501u);
-  const point::Problem scene = scene_at(config.sweep, 250);
+  const point::Problem scene = problem_at(config.sweep, 250);
   EXPECT_EQ(scene.oscillator.frequency, 1.0);
   EXPECT_EQ(scene.oscillator.forcing, -1.0);
   EXPECT_EQ(scene.stops.lower, -4.0);
@@ -58,7 +58,7 @@ TEST(Config, means_what_it_says) {
 }
 
 TEST(Config, has_the_documented_defaults) {
-  const point::Problem scene = read_as("a.toml", "[scene]\nxs = 1\n").sweep.scene;
+  const point::Problem scene = read_as("a.toml", "[scene]\nxs = 1\n").sweep.problem;
   EXPECT_EQ(scene.oscillator.damping, 0.0);
   EXPECT_EQ(scene.oscillator.frequency, 1.0);
   EXPECT_EQ(scene.stops.restitution_lower, 1.0);
@@ -107,7 +107,7 @@ TEST(Config, text_has_both_restitutions_if_one_is_given) {
   EXPECT_EQ(none.find("R_"), std::string::npos) << none;
   EXPECT_NE(none.find("\nR = 1.0\n"), std::string::npos) << none;
   for (const std::string& text : {fixed, swept}) {
-    const point::Problem scene = scene_at(read_as("b.toml", text).sweep, 0);
+    const point::Problem scene = problem_at(read_as("b.toml", text).sweep, 0);
     EXPECT_EQ(scene.stops.restitution_lower, text == fixed ? 1.0 : 0.5);
     EXPECT_EQ(scene.stops.restitution_upper, text == fixed ? 0.5 : 1.0);
   }
@@ -143,14 +143,14 @@ TEST(Config, the_default_configuration_reads_the_same_from_toml_and_ini) {
 
 TEST(Config, one_stop_alone_has_its_restitution_and_the_other_is_none) {
   const Config lower = read_as("a.toml", "[scene]\nstop_lower=0\nR_lower=0.5\n");
-  EXPECT_EQ(lower.sweep.scene.stops.lower, 0.0);
-  EXPECT_EQ(lower.sweep.scene.stops.restitution_lower, 0.5);
-  EXPECT_EQ(lower.sweep.scene.stops.restitution_upper, 1.0);
-  EXPECT_EQ(lower.sweep.scene.stops.upper, infinity);
+  EXPECT_EQ(lower.sweep.problem.stops.lower, 0.0);
+  EXPECT_EQ(lower.sweep.problem.stops.restitution_lower, 0.5);
+  EXPECT_EQ(lower.sweep.problem.stops.restitution_upper, 1.0);
+  EXPECT_EQ(lower.sweep.problem.stops.upper, infinity);
   EXPECT_EQ(lower.text, read_as("b.toml", "[scene]\nstop_lower=0\nstop_upper=inf\nR_lower=0.5\n").text);
   const Config upper = read_as("a.ini", "[sweep]\nstop_upper = 1, 2\n");
-  EXPECT_EQ(scene_at(upper.sweep, 1).stops.lower, -infinity);
-  EXPECT_EQ(scene_at(upper.sweep, 1).stops.upper, 2.0);
+  EXPECT_EQ(problem_at(upper.sweep, 1).stops.lower, -infinity);
+  EXPECT_EQ(problem_at(upper.sweep, 1).stops.upper, 2.0);
   EXPECT_EQ(upper.text, read_as("b.toml", "[scene]\nstop_lower = -inf\n[sweep]\nstop_upper = [1, 2]\n").text);
 }
 
@@ -189,7 +189,7 @@ TEST(Axes, along_follow_only_the_first_point_has_to_start_between_the_stops) {
 
 TEST(Set, the_last_of_equal_ones_wins_over_the_file) {
   const Config config = read_as("a.toml", fig22, {{"scene.R", "0.2"}, {"scene.R", "0.3"}, {"title", "'new'"}});
-  EXPECT_EQ(config.sweep.scene.stops.restitution_lower, 0.3);
+  EXPECT_EQ(config.sweep.problem.stops.restitution_lower, 0.3);
   EXPECT_EQ(config.title, "new");
 }
 
@@ -207,7 +207,7 @@ TEST(Set, gives_the_text_of_the_file_that_says_the_same) {
 }
 
 TEST(Set, drops_blanks_around_key_and_value) {
-  EXPECT_EQ(read_as("a.toml", fig22, {{"scene.R ", " 0.25"}}).sweep.scene.stops.restitution_lower, 0.25);
+  EXPECT_EQ(read_as("a.toml", fig22, {{"scene.R ", " 0.25"}}).sweep.problem.stops.restitution_lower, 0.25);
   EXPECT_EQ(read_as("a.toml", fig22, {{" time.mode", " 'steady' "}, {"title", " 'b ' "}}).title, "b ");
 }
 

@@ -149,7 +149,7 @@ TEST(Precedence, gives_a_complete_text_that_gives_itself_again) {
 
 TEST(Precedence, nothing_is_noted_if_nothing_gives_way) {
   EXPECT_EQ(notes_of(fixed, {{"scene.R", "0.5"}, {"scene.f", "1"}}), std::vector<std::string>{});
-  EXPECT_EQ(read_as("a.toml", fixed, {{"scene.stop_upper", "inf"}}).sweep.scene.stops.upper, infinity);
+  EXPECT_EQ(read_as("a.toml", fixed, {{"scene.stop_upper", "inf"}}).sweep.problem.stops.upper, infinity);
 }
 
 }  // namespace

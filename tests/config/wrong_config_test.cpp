@@ -167,14 +167,14 @@ TEST(Integrator, settings_within_their_ranges_are_taken) {
   for (const std::string name : {"a.toml", "a.ini"}) {
     const stepping::Integration taken =
         read_as(name, integrator("method = \"moreau\"\nstep = 1\ntheta = 0\ntolerance = 0.1\n"))
-            .sweep.scene.integration;
+            .sweep.problem.integration;
     EXPECT_EQ(taken.method, stepping::Method::moreau);
     EXPECT_EQ(taken.step, 1.0);
     EXPECT_EQ(taken.theta, 0.0);
     EXPECT_EQ(taken.tolerance, 0.1);
-    EXPECT_EQ(read_as(name, integrator("method = \"dopri5\"\n")).sweep.scene.integration.method,
+    EXPECT_EQ(read_as(name, integrator("method = \"dopri5\"\n")).sweep.problem.integration.method,
               stepping::Method::dopri5);
-    EXPECT_EQ(read_as(name, integrator("")).sweep.scene.integration.method, stepping::Method::exact);
+    EXPECT_EQ(read_as(name, integrator("")).sweep.problem.integration.method, stepping::Method::exact);
   }
 }
 

@@ -72,7 +72,7 @@ Totals expect_alike(const sweep::Sweep& sweep, InstructionSet arch) {
   const sweep::Dataset scalar = run(sweep, {.threads = 1, .arch = InstructionSet::scalar}).dataset;
   Totals totals;
   for (std::size_t i = 0; i < size(sweep); ++i) {
-    const point::Problem scene = scene_at(sweep, i);
+    const point::Problem scene = problem_at(sweep, i);
     const sweep::RunPoint tested{lanes, i}, reference{scalar, i};
     ++totals.points, totals.fit += accepts(scene), totals.periodic += reference.status() == 0;
     double ratio = beyond(scene, tested, reference, totals);
@@ -209,14 +209,14 @@ TEST_P(InLanes, motion_clear_of_its_stops_for_good_is_taken_to_its_end_at_once) 
   point::Problem scene = sweep::paper_scene(3.0, 1.0);
   scene.start.velocity = 3.0;
   scene = transient(scene, 400.37);
-  const sweep::Sweep sweep{.scene = scene, .dimensions = {{nu}, {x0}, {load}}, .follow = {}};
+  const sweep::Sweep sweep{.problem = scene, .dimensions = {{nu}, {x0}, {load}}, .follow = {}};
   const Totals totals = expect_alike(sweep, GetParam());
   EXPECT_EQ(totals.sensitive + totals.chaotic, 0u);
   const sweep::RunResult result = run(sweep, {.threads = 1, .arch = GetParam()});
   const std::vector<double>& impacts = sweep::values(result.dataset, "impacts_per_period");
   EXPECT_GT(std::ranges::count_if(impacts, [](double n) { return n > 0; }), 100);
   double periods = 0;
-  for (const sweep::WorkStats& usage : result.usage) periods += usage.periods;
+  for (const sweep::WorkStats& part : result.work) periods += part.periods;
   EXPECT_LT(result.lanes.proved, periods);  // steps, of which a period has three at least
 }
 
@@ -297,7 +297,7 @@ TEST_P(InLanes, nothing_lies_beyond_a_stop_and_nothing_is_missing) {
   const sweep::Sweep sweep = random_sweep(1000, observed);
   const sweep::Dataset dataset = lanes(sweep);
   for (std::size_t i = 0; i < size(sweep); ++i) {
-    const Stops stops = scene_at(sweep, i).stops;
+    const Stops stops = problem_at(sweep, i).stops;
     const sweep::RunPoint point{dataset, i};
     if (point.status() == 16) continue;  // elastic chatter never ends
     EXPECT_GE(point.of("x_min")[0], stops.lower);

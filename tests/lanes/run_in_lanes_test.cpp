@@ -11,7 +11,7 @@
 namespace clatter::lanes {
 namespace {
 
-point::WorkItem task_of(const point::Problem& scene) { return {0, scene, effects_of(scene)}; }
+point::WorkItem item_of(const point::Problem& scene) { return {0, scene, effects_of(scene)}; }
 
 point::Problem observed_scene() {
   point::Problem scene = sweep::paper_scene(0.5, 1.0);
@@ -25,12 +25,12 @@ point::Problem observed_scene() {
 
 TEST(LanePoints, are_those_of_a_sweep_however_many_run) {
   const point::Problem scene = observed_scene();
-  ASSERT_TRUE(accepts(task_of(scene)));
+  ASSERT_TRUE(accepts(item_of(scene)));
   const sweep::Dataset dataset =
       sweep::run(sweep::sweep_of(scene, {}), {.threads = 1, .arch = InstructionSet::sse2}).dataset;
   for (const std::size_t times : {std::size_t{1}, lanes_per_block, 2 * lanes_per_block + 3}) {
     point::ThreadScratch scratch;
-    const point::PointResult result = run_in_lanes(task_of(scene), times, InstructionSet::sse2, scratch);
+    const point::PointResult result = run_in_lanes(item_of(scene), times, InstructionSet::sse2, scratch);
     EXPECT_TRUE(result.in_lanes);
     EXPECT_EQ(result.status, steady::Status::periodic);
     EXPECT_EQ(result.v_max, values(dataset, "v_max")[0]);
@@ -48,7 +48,7 @@ TEST(LanePoints, of_a_transient_have_harmonics_of_the_force_over_whole_periods_a
     scene.time.mode = steady::Mode::transient, scene.time.duration = periods * 2 * std::numbers::pi;
     scene.observe.base_frequency = base;
     point::ThreadScratch scratch;
-    const point::PointResult lanes = run_in_lanes(task_of(scene), lanes_per_block, InstructionSet::sse2, scratch);
+    const point::PointResult lanes = run_in_lanes(item_of(scene), lanes_per_block, InstructionSet::sse2, scratch);
     const point::PointResult scalar = run_point(scene, scratch);
     EXPECT_EQ(lanes.in_lanes, base == 1.0 && periods == 5);
     EXPECT_FALSE(scalar.in_lanes);
@@ -62,11 +62,11 @@ TEST(LanePoints, of_a_transient_have_harmonics_of_the_force_over_whole_periods_a
 TEST(LanePoints, meet_stops_or_are_transients) {
   point::Problem scene = observed_scene();
   scene.stops = {-10, 10, 0.7, 0.7};
-  EXPECT_FALSE(accepts(task_of(scene))) << "a closed form is known";
+  EXPECT_FALSE(accepts(item_of(scene))) << "a closed form is known";
   scene.time.mode = steady::Mode::transient, scene.time.duration = 1;
-  EXPECT_TRUE(accepts(task_of(scene)));
+  EXPECT_TRUE(accepts(item_of(scene)));
   scene.oscillator.damping = 1;
-  EXPECT_FALSE(accepts(task_of(scene)));
+  EXPECT_FALSE(accepts(item_of(scene)));
 }
 
 }  // namespace

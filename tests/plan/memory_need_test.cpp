@@ -31,7 +31,7 @@ std::size_t logged(const sweep::Dataset& dataset) {
 
 sweep::Sweep small_sweep() {
   sweep::Sweep sweep;
-  sweep.scene.stops = {-1, 1, 0.5, 0.5};
+  sweep.problem.stops = {-1, 1, 0.5, 0.5};
   sweep.dimensions = {{{sweep::Parameter::nu, {0.8, 0.9, 1.0}}},
                       {{sweep::Parameter::h, {0.1, 0.2}}, {sweep::Parameter::f, {1.0, 1.5}}}};
   return sweep;
@@ -40,7 +40,7 @@ sweep::Sweep small_sweep() {
 /// So many points on one axis, without observables.
 sweep::Sweep line(std::size_t points) {
   sweep::Sweep sweep;
-  sweep.scene.time.mode = steady::Mode::transient;
+  sweep.problem.time.mode = steady::Mode::transient;
   sweep.dimensions = {{{sweep::Parameter::nu, std::vector<double>(points, 0.5)}}};
   return sweep;
 }
@@ -48,21 +48,21 @@ sweep::Sweep line(std::size_t points) {
 TEST(Memory, of_the_output_is_that_of_the_figure_with_its_coordinates) {
   sweep::Sweep sweep = small_sweep();
   EXPECT_EQ(memory_need(sweep).output, bytes_of(run(sweep, {}).dataset));
-  sweep.scene.observe = {};
-  sweep.scene.observe.extrema = true;
-  sweep.scene.observe.harmonics = 3;
-  sweep.scene.observe.impacts = true;
-  sweep.scene.observe.trajectory = 10;
-  sweep.scene.observe.period = true;
-  sweep.scene.observe.stability = true;
+  sweep.problem.observe = {};
+  sweep.problem.observe.extrema = true;
+  sweep.problem.observe.harmonics = 3;
+  sweep.problem.observe.impacts = true;
+  sweep.problem.observe.trajectory = 10;
+  sweep.problem.observe.period = true;
+  sweep.problem.observe.stability = true;
   EXPECT_EQ(memory_need(sweep).output, bytes_of(run(sweep, {}).dataset));
 }
 
 TEST(Memory, of_an_impact_log_is_that_of_the_figure_if_the_impacts_are_known) {
   sweep::Sweep sweep = small_sweep();
-  sweep.scene.observe = {};
-  sweep.scene.observe.extrema = true;
-  sweep.scene.observe.impact_log = true;
+  sweep.problem.observe = {};
+  sweep.problem.observe.extrema = true;
+  sweep.problem.observe.impact_log = true;
   const sweep::Dataset dataset = run(sweep, {}).dataset;
   EXPECT_EQ(memory_need(sweep, std::nullopt, 1, static_cast<double>(logged(dataset))).output, bytes_of(dataset));
 }
@@ -77,23 +77,23 @@ TEST(Memory, of_a_huge_sweep_is_known_without_running_it) {
   const std::vector<double> values(1000, 0.5);
   sweep.dimensions = {
       {{sweep::Parameter::nu, values}}, {{sweep::Parameter::h, values}}, {{sweep::Parameter::f, values}}};
-  sweep.scene.observe.trajectory = 1000;
+  sweep.problem.observe.trajectory = 1000;
   EXPECT_EQ(memory_need(sweep).output, 1e9 * (25 + 3 * 8000) + 3 * 8000);
 }
 
 TEST(Memory, of_samples_counts_for_each_thread) {
   sweep::Sweep sweep = line(1);
-  sweep.scene.observe = {};
-  sweep.scene.observe.harmonics = 3;
-  sweep.scene.observe.harmonics_method = observables::HarmonicsMethod::fft;
-  sweep.scene.observe.harmonics_samples = 1 << 20;
+  sweep.problem.observe = {};
+  sweep.problem.observe.harmonics = 3;
+  sweep.problem.observe.harmonics_method = observables::HarmonicsMethod::fft;
+  sweep.problem.observe.harmonics_samples = 1 << 20;
   const double four = memory_need(sweep, std::nullopt, 4).memory, two = memory_need(sweep, std::nullopt, 2).memory;
   EXPECT_NEAR(four - two, 2.0 * 6 * 8 * (1 << 20), 1e6);
 }
 
 TEST(Memory, of_followed_branches_counts_one_that_is_saved) {
   sweep::Sweep sweep = line(1'000'000);
-  sweep.scene.observe.extrema = true;
+  sweep.problem.observe.extrema = true;
   const double apart = memory_need(sweep).memory;
   sweep.follow = 0;
   // 49 bytes of results a point once more, instead of a coordinate and the largest variable when the file is built
@@ -102,15 +102,15 @@ TEST(Memory, of_followed_branches_counts_one_that_is_saved) {
 
 TEST(Memory, of_a_log_is_estimated_from_a_few_points) {
   sweep::Sweep sweep;  // to and fro between the stops at speeds from 1 to 2, without loss
-  sweep.scene.stops = {-0.1, 0.1, 1, 1};
-  sweep.scene.time.mode = steady::Mode::transient;
-  sweep.scene.observe = {};
-  sweep.scene.observe.impact_log = true;
+  sweep.problem.stops = {-0.1, 0.1, 1, 1};
+  sweep.problem.time.mode = steady::Mode::transient;
+  sweep.problem.observe = {};
+  sweep.problem.observe.impact_log = true;
   std::vector<double> speeds;
   for (int i = 0; i < 1000; ++i) speeds.push_back(1 + i / 1000.0);
   sweep.dimensions = {{{sweep::Parameter::v0, speeds}}};
   for (const double duration : {1.0, 100.0, 700.0}) {  // shorter and longer than the runs for the estimate
-    sweep.scene.time.duration = duration;
+    sweep.problem.time.duration = duration;
     const auto impacts = static_cast<double>(logged(run(sweep, {}).dataset));
     EXPECT_NEAR(expected_impacts(sweep, std::nullopt), impacts, 0.02 * impacts) << duration;
     EXPECT_NEAR(expected_impacts(sweep, sweep::Shard{1, 4}), impacts / 4, 0.02 * impacts) << duration;
@@ -119,8 +119,8 @@ TEST(Memory, of_a_log_is_estimated_from_a_few_points) {
 
 TEST(Memory, of_a_log_of_steady_motion_is_that_of_the_observed_time) {
   sweep::Sweep sweep = small_sweep();
-  sweep.scene.observe = {};
-  sweep.scene.observe.impact_log = true;
+  sweep.problem.observe = {};
+  sweep.problem.observe.impact_log = true;
   EXPECT_EQ(expected_impacts(sweep, std::nullopt), static_cast<double>(logged(run(sweep, {}).dataset)));
 }
 

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "plan/available_memory.hpp"
+#include "plan/plans.hpp"
 #include "sweep/figures.hpp"
 
 namespace clatter::plan {
@@ -55,12 +56,12 @@ TEST(Plan, points_run_with_the_effects_of_their_group_and_no_longer_than_it_says
     const sweep::Sweep sweep = sweep::sweep_of(scene, {{sweep::Parameter::nu, frequencies()}});
     const Plan plan = plan_of(sweep, 2);
     const sweep::RunResult result = run(sweep, {.threads = 2});
-    ASSERT_EQ(result.usage.size(), plan.groups.size());
+    ASSERT_EQ(result.work.size(), plan.groups.size());
     for (std::size_t i = 0; i < plan.groups.size(); ++i) {
-      EXPECT_EQ(result.usage[i].effects, plan.groups[i].effects);
-      EXPECT_EQ(result.usage[i].points, plan.groups[i].points);
-      EXPECT_GE(result.usage[i].periods, plan.groups[i].periods.least);
-      EXPECT_LE(result.usage[i].periods, plan.groups[i].periods.most);
+      EXPECT_EQ(result.work[i].effects, plan.groups[i].effects);
+      EXPECT_EQ(result.work[i].points, plan.groups[i].points);
+      EXPECT_GE(result.work[i].periods, plan.groups[i].periods.least);
+      EXPECT_LE(result.work[i].periods, plan.groups[i].periods.most);
       EXPECT_GT(plan.groups[i].seconds.least, 0);
       EXPECT_GE(plan.groups[i].seconds.most, plan.groups[i].seconds.least);
     }
@@ -201,7 +202,7 @@ TEST(Plan, of_a_sample_says_so_of_a_stop_that_it_never_meets) {
   const sweep::Sweep sweep = sweep::sweep_of(
       figure(9), {{sweep::Parameter::nu, evenly(0.5, 1.5, 2000)}, {sweep::Parameter::f, evenly(-1.0, 1.0, 1000)}});
   const Plan plan = plan_of(sweep, 2);
-  EXPECT_TRUE(warns(plan, "the lower stop is reached at none of the 1000000 points looked at, at the closest |x| <= "));
+  EXPECT_TRUE(warns(plan, "the lower stop is reached at none of the 1000000 points examined, at the closest |x| <= "));
   EXPECT_FALSE(warns(plan, "never reached"));
 }
 

@@ -50,7 +50,7 @@ TEST(Reasons, a_stop_at_infinity_is_none) {
 TEST(Reasons, a_stop_is_in_reach_as_long_as_nothing_proves_the_contrary) {
   point::Problem follows = figure(6, 1.2);
   follows.start.displacement = nan;
-  expect_reason(follows, "lower stop", true, "the start isn't known before the point before has ended");
+  expect_reason(follows, "lower stop", true, "the start is the end of the point before, which isn't known yet");
   // at resonance without damping nothing bounds the motion but its duration: |f| tau
   point::Problem scene;
   scene.oscillator = {0.0, 1.0, 1.0, 0.0};
@@ -103,7 +103,7 @@ TEST(Reasons, the_oscillator_names_the_terms_of_its_arcs) {
 
 TEST(Reasons, tell_the_saving_by_an_effect_left_out) {
   const auto saves = [](const point::Problem& scene, const std::string& effect) {
-    const Saving saving = reason(scene, effect).saving;
+    const Bounds saving = reason(scene, effect).saving;
     EXPECT_LE(saving.least, saving.most) << effect;
     return saving.least > 0;
   };

@@ -37,7 +37,7 @@ std::string output(const Origin& origin) {
   return {reinterpret_cast<const char*>(image.bytes.data()), image.bytes.size()};
 }
 
-const Origin run{.title = "größter Ausschlag"}, study{.is_accuracy = true, .title = run.title},
+const Origin run{.title = "größter Ausschlag"}, accuracy{.is_accuracy = true, .title = run.title},
     shard{.shard = "1/3", .title = run.title}, other{.title = "another"};
 
 void publish_new(const OutputPlace& place) {
@@ -46,7 +46,7 @@ void publish_new(const OutputPlace& place) {
 }
 
 TEST_F(OutputPlaceTest, an_output_tells_its_origin) {
-  for (const Origin& origin : {run, study, shard, other, Origin{}}) {
+  for (const Origin& origin : {run, accuracy, shard, other, Origin{}}) {
     write(output(origin));
     EXPECT_EQ(origin_of(path()), origin) << origin.title;
   }
@@ -81,7 +81,7 @@ TEST_F(OutputPlaceTest, a_damaged_output_ends_no_process_and_holds_none_up) {
 }
 
 TEST_F(OutputPlaceTest, every_origin_gives_way_to_itself_alone) {
-  const std::vector<Origin> origins{run, study, shard, other};
+  const std::vector<Origin> origins{run, accuracy, shard, other};
   for (const Origin& there : origins)
     for (const Origin& ours : origins) {
       write(output(there));

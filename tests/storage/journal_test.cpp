@@ -49,20 +49,21 @@ class JournalFile : public testing::Test {
   void overwrite(const std::string& text) const { directory_.write("a.h5.journal", text); }
 
   /// Writes records as a run that is then killed.
-  void write(const Records& records, Journal::Begin begin = Journal::Begin::anyhow) const {
+  void write(const Records& records, Journal::Begin begin = Journal::Begin::resume_if_any) const {
     Journal journal(output(), key, usual, begin, [](auto) {});
     for (const std::string& text : records) journal.append(bytes_of(text));
     journal.sync();
   }
   /// The records that the next run finds.
-  [[nodiscard]] Records found(const JournalKey& by = key, Journal::Begin begin = Journal::Begin::anyhow) const {
+  [[nodiscard]] Records found(const JournalKey& by = key, Journal::Begin begin = Journal::Begin::resume_if_any) const {
     Records records;
     const Journal journal(output(), by, usual, begin,
                           [&](std::span<const std::byte> bytes) { records.push_back(text_of(bytes)); });
     EXPECT_EQ(journal.has_records(), !records.empty());
     return records;
   }
-  [[nodiscard]] std::string refusal(const JournalKey& by = key, Journal::Begin begin = Journal::Begin::anyhow) const {
+  [[nodiscard]] std::string refusal(const JournalKey& by = key,
+                                    Journal::Begin begin = Journal::Begin::resume_if_any) const {
     try {
       (void)found(by, begin);
       return "";
@@ -90,7 +91,7 @@ TEST_F(JournalFile, is_not_there_without_records_nor_after_remove) {
   write({});
   EXPECT_FALSE(fs::exists(path()));
   write(three);
-  Journal(output(), key, usual, Journal::Begin::anyhow, [](auto) {}).remove();
+  Journal(output(), key, usual, Journal::Begin::resume_if_any, [](auto) {}).remove();
   EXPECT_FALSE(fs::exists(path()));
 }
 
@@ -125,7 +126,7 @@ TEST_F(JournalFile, refuses_another_key_and_names_the_difference) {
 }
 
 TEST_F(JournalFile, of_two_runs_only_one_has_it) {
-  Journal first(output(), key, usual, Journal::Begin::anyhow, [](auto) {});
+  Journal first(output(), key, usual, Journal::Begin::resume_if_any, [](auto) {});
   first.append(bytes_of("one"));
   EXPECT_THROW(Journal(output(), key, usual, Journal::Begin::restart, [](auto) {}), BusyError);
   first.append(bytes_of("two"));
@@ -136,7 +137,7 @@ TEST_F(JournalFile, tells_others_that_its_output_is_being_written) {
   require_idle(output());
   EXPECT_FALSE(fs::exists(path()));
   {
-    const Journal journal(output(), key, usual, Journal::Begin::anyhow, [](auto) {});
+    const Journal journal(output(), key, usual, Journal::Begin::resume_if_any, [](auto) {});
     EXPECT_THROW(require_idle(output()), BusyError);
   }
   write(three);  // by a run that has ended
@@ -188,7 +189,7 @@ TEST_F(JournalFile, with_a_flipped_bit_is_refused_and_left_alone) {
 TEST_F(JournalFile, of_something_else_is_refused_and_left_alone) {
   for (const std::string foreign : {"x", "clatter journal 2\n", "\x89HDF\r\n\x1a\n and so on"}) {
     overwrite(foreign);
-    for (const Journal::Begin begin : {Journal::Begin::anyhow, Journal::Begin::restart})
+    for (const Journal::Begin begin : {Journal::Begin::resume_if_any, Journal::Begin::restart})
       EXPECT_NE(refusal(key, begin).find("is not a journal"), std::string::npos) << foreign;
     EXPECT_EQ(content(), foreign);
   }
@@ -204,7 +205,7 @@ TEST_F(JournalFile, on_a_full_disk_keeps_its_records) {
     const rlimit full{static_cast<rlim_t>(before.size()) + more, limit.rlim_max};
     ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &full), 0);
     {
-      Journal journal(output(), key, usual, Journal::Begin::anyhow, [](auto) {});
+      Journal journal(output(), key, usual, Journal::Begin::resume_if_any, [](auto) {});
       EXPECT_THROW(journal.append(bytes_of(std::string(100000, 'y'))), IoError) << more;
     }
     ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &limit), 0);
@@ -235,17 +236,17 @@ TEST_F(JournalFile, with_a_log_has_no_longer_record_than_it_can_hold) {
   Records records;
   const auto take = [&](std::span<const std::byte> bytes) { records.push_back(text_of(bytes)); };
   write({std::string(5 * most_bytes, 'x')});
-  (void)Journal(output(), key, with_log, Journal::Begin::anyhow, take);
+  (void)Journal(output(), key, with_log, Journal::Begin::resume_if_any, take);
   EXPECT_EQ(records, Records{std::string(5 * most_bytes, 'x')});
   overwrite(content().substr(0, content().size() - 5 * most_bytes - 16) + zeros_head(std::uint64_t{1} << 36U));
   fs::resize_file(path(), fs::file_size(path()) + (std::uintmax_t{1} << 36U));
-  EXPECT_THROW(Journal(output(), key, with_log, Journal::Begin::anyhow, take), IoError);
+  EXPECT_THROW(Journal(output(), key, with_log, Journal::Begin::resume_if_any, take), IoError);
 }
 
 TEST_F(JournalFile, shows_a_foreign_key_and_does_not_obey_it) {
   const JournalKey hostile{"nu = 1\nx = \"\x1b]0;title\a\"\n", "1.0\x1b[2J\nclatter: all is well", "\u202eavx2", ""};
   {
-    Journal journal(output(), hostile, usual, Journal::Begin::anyhow, [](auto) {});
+    Journal journal(output(), hostile, usual, Journal::Begin::resume_if_any, [](auto) {});
     journal.append(bytes_of("one"));
   }
   const std::string shown = refusal();
@@ -257,7 +258,7 @@ TEST_F(JournalFile, shows_a_foreign_key_and_does_not_obey_it) {
 
 TEST_F(JournalFile, gives_the_room_of_its_last_records_back) {
   const std::string large(900'000, 'x');
-  Journal journal(output(), key, usual, Journal::Begin::anyhow, [](auto) {});
+  Journal journal(output(), key, usual, Journal::Begin::resume_if_any, [](auto) {});
   for (int i = 0; i < 5; ++i) journal.append(bytes_of(large));
   const std::uintmax_t size = fs::file_size(path());
   journal.give_back(size + 1);  // more bytes than there are: not even all would suffice

@@ -38,7 +38,7 @@ inline std::vector<std::uint8_t> statuses(const Dataset& figure) {
 
 /// A sweep whose axes cross.
 inline Sweep sweep_of(const point::Problem& scene, std::vector<Axis> axes) {
-  Sweep sweep{.scene = scene, .dimensions = {}, .follow = {}};
+  Sweep sweep{.problem = scene, .dimensions = {}, .follow = {}};
   for (Axis& axis : axes) sweep.dimensions.push_back({std::move(axis)});
   return sweep;
 }

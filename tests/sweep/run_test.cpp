@@ -129,8 +129,8 @@ TEST(Run, a_failed_point_has_no_values_and_does_not_lead_the_next_astray) {
   Sweep alone = sweep_of(scene, {{Parameter::xs, {6.0}}});
   EXPECT_EQ(values(result.dataset, "x_max")[1], values(run(alone, {}).dataset, "x_max")[0]);
   sweep.dimensions[0][0].values = {0.01, 0.5};  // starting anew from a scene that narrower stops have come past
-  sweep.scene.start.displacement = 0.8;
-  sweep.scene.time.max_impacts = 100;
+  sweep.problem.start.displacement = 0.8;
+  sweep.problem.time.max_impacts = 100;
   EXPECT_EQ(statuses(run(sweep, {}).dataset), (std::vector<std::uint8_t>{16, 0}));
 }
 

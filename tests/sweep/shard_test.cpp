@@ -133,7 +133,7 @@ TEST(Shard, figure_of_another_one_is_refused) {
 
 TEST(Shard, takes_memory_by_its_points) {
   Sweep sweep = any_sweep();
-  sweep.scene.observe.impact_log = false;
+  sweep.problem.observe.impact_log = false;
   for (const Shard shard : {Shard{0, 4}, Shard{3, 4}, Shard{35, 40}}) {
     double bytes = 0;
     for (const Variable& variable : shard_figure(sweep, shard).variables)
@@ -165,7 +165,7 @@ TEST(SavedRun, goes_on_from_whatever_was_saved_to_the_same_bits) {
       const std::size_t restored = again.restored_points();
       again.run({.threads = 3});
       std::size_t left = 0;
-      for (const WorkStats& usage : again.result().usage) left += usage.points;
+      for (const WorkStats& part : again.result().work) left += part.points;
       EXPECT_EQ(left, size(sweep) - restored);
     }
     EXPECT_EQ(most, size(sweep));
@@ -186,7 +186,7 @@ TEST(SavedRun, refuses_results_that_are_not_its_own) {
   EXPECT_FALSE(again.restore(bytes));  // twice
   EXPECT_FALSE(SweepRun(sweep, Shard{1, 4}).restore(bytes));
   Sweep other = sweep;
-  other.scene.observe.trajectory = 6;
+  other.problem.observe.trajectory = 6;
   EXPECT_FALSE(SweepRun(other, Shard{1, 2}).restore(bytes));
 }
 

@@ -13,9 +13,9 @@ using enum Parameter;
 
 TEST(Sweep, without_axes_is_one_point_the_scene_itself) {
   Sweep sweep;
-  sweep.scene.oscillator.damping = 0.1;
+  sweep.problem.oscillator.damping = 0.1;
   EXPECT_EQ(size(sweep), 1u);
-  EXPECT_EQ(scene_at(sweep, 0).oscillator.damping, 0.1);
+  EXPECT_EQ(problem_at(sweep, 0).oscillator.damping, 0.1);
 }
 
 TEST(Sweep, the_first_dimension_varies_slowest) {
@@ -24,7 +24,7 @@ TEST(Sweep, the_first_dimension_varies_slowest) {
   ASSERT_EQ(size(sweep), 6u);
   for (std::size_t i = 0; i < 2; ++i) {
     for (std::size_t j = 0; j < 3; ++j) {
-      const point::Problem scene = scene_at(sweep, 3 * i + j);
+      const point::Problem scene = problem_at(sweep, 3 * i + j);
       EXPECT_EQ(scene.oscillator.frequency, 1.0 + static_cast<double>(i));
       EXPECT_EQ(scene.stops.upper, 3.0 + static_cast<double>(j));
     }
@@ -35,8 +35,8 @@ TEST(Sweep, linked_axes_run_together) {
   Sweep sweep;
   sweep.dimensions = {{{nu, {1, 2, 3}}, {f, {10, 20, 30}}}};
   ASSERT_EQ(size(sweep), 3u);
-  EXPECT_EQ(scene_at(sweep, 1).oscillator.frequency, 2);
-  EXPECT_EQ(scene_at(sweep, 1).oscillator.forcing, 20);
+  EXPECT_EQ(problem_at(sweep, 1).oscillator.frequency, 2);
+  EXPECT_EQ(problem_at(sweep, 1).oscillator.forcing, 20);
 }
 
 TEST(Parameter, every_key_leads_to_its_parameter_and_back) {
@@ -97,7 +97,7 @@ TEST(StartPeriod, follows_the_stops_whether_it_is_fixed_or_swept) {
   swept.dimensions = {{{start_period, {std::numbers::pi}}},
                       {{xs, {-1, -2}}}};  // before xs in the text, after it in the scene
   for (const Sweep& sweep : {fixed, swept}) {
-    const point::Problem scene = scene_at(sweep, 1);
+    const point::Problem scene = problem_at(sweep, 1);
     EXPECT_EQ(scene.start.displacement, -2);
     EXPECT_NEAR(scene.start.velocity, 2.0, 1e-15);  // cot(pi/4) = 1
   }

@@ -31,7 +31,7 @@ inline Sweep sweep_over(const std::vector<point::Problem>& scenes) {
                             axis(Parameter::x0, [](const point::Problem& s) { return s.start.displacement; }),
                             axis(Parameter::v0, [](const point::Problem& s) { return s.start.velocity; }),
                             axis(Parameter::phase, [](const point::Problem& s) { return s.start.phase; })};
-  return {.scene = scenes.front(), .dimensions = {dimension}, .follow = {}};
+  return {.problem = scenes.front(), .dimensions = {dimension}, .follow = {}};
 }
 
 /// A point's place in the figure of a run.

@@ -1,10 +1,10 @@
 // The warning of a single point that may take long since nothing is lost at the stops.
 
-#include "plan/dearest_point.hpp"
+#include "plan/costliest_point.hpp"
 
 #include <gtest/gtest.h>
 
-#include "plan/plan.hpp"
+#include "plan/plans.hpp"
 #include "sweep/figures.hpp"
 
 namespace clatter::plan {
@@ -19,9 +19,9 @@ point::Problem transient(const Oscillator& oscillator, double R, double v0) {
   return scene;
 }
 
-bool warns(const point::Problem& scene) { return warning_of_dearest_point(sweep::sweep_of(scene, {})).has_value(); }
+bool warns(const point::Problem& scene) { return warning_of_costliest_point(sweep::sweep_of(scene, {})).has_value(); }
 
-TEST(DearestPoint, of_a_pressed_mass_without_loss_takes_all_impacts_there_are) {
+TEST(CostliestPoint, of_a_pressed_mass_without_loss_takes_all_impacts_there_are) {
   const Oscillator pressed{0.05, 0.3, 1.4, 2.0};
   EXPECT_EQ(impacts_without_loss(transient(pressed, 1.0, 0.0)), 1e8);
   EXPECT_TRUE(warns(transient(pressed, 1.0, 0.0)));
@@ -32,7 +32,7 @@ TEST(DearestPoint, of_a_pressed_mass_without_loss_takes_all_impacts_there_are) {
   EXPECT_FALSE(warns(few));
 }
 
-TEST(DearestPoint, of_a_fast_one_costs_its_path_in_distances_between_the_stops) {
+TEST(CostliestPoint, of_a_fast_one_costs_its_path_in_distances_between_the_stops) {
   const Oscillator free{0.0, 0.0, 1.0, 0.0}, damped{0.1, 0.0, 1.0, 0.0};
   const point::Problem fast = transient(free, 1.0, 1e5);
   EXPECT_NEAR(impacts_without_loss(fast) / (1e5 * 300 / 2), 1, 1e-6);
@@ -47,7 +47,7 @@ TEST(DearestPoint, of_a_fast_one_costs_its_path_in_distances_between_the_stops) 
   EXPECT_FALSE(warns(steady)) << "in closed form";
 }
 
-TEST(DearestPoint, of_a_sweep_is_named_in_its_plan) {
+TEST(CostliestPoint, of_a_sweep_is_named_in_its_plan) {
   const sweep::Sweep sweep =
       sweep::sweep_of(transient({0.05, 0.3, 1.4, 2.0}, 0.5, 0.0), {{sweep::Parameter::R, {0.5, 0.9, 1.0}}});
   const Plan plan = plan_of(sweep, 1);

@@ -1,4 +1,4 @@
-#include "plan/dearest_point.hpp"
+#include "plan/costliest_point.hpp"
 
 #include <algorithm>
 #include <array>
@@ -56,23 +56,24 @@ double impacts_without_loss(const point::Problem& scene) {
   return std::min(scene.time.max_impacts, way_of(scene) / (stops.upper - stops.lower));
 }
 
-std::optional<std::string> warning_of_dearest_point(const sweep::Sweep& sweep,
-                                                    const std::optional<sweep::Shard>& shard) {
+std::optional<std::string> warning_of_costliest_point(const sweep::Sweep& sweep,
+                                                      const std::optional<sweep::Shard>& shard) {
   const sweep::Share share(sweep, shard);
   const Sample sample(share.points(), 10000);
   double impacts = 0;
-  std::size_t dearest = 0;
+  std::size_t costliest = 0;
   for (std::size_t i = 0; i < sample.size(); ++i) {
     const std::size_t number = sample[i].number;
     const std::size_t point = share.point(number / share.length(), number % share.length());
-    if (const double of_point = impacts_without_loss(scene_at(sweep, point)); of_point > impacts)
-      impacts = of_point, dearest = point;
+    if (const double of_point = impacts_without_loss(problem_at(sweep, point)); of_point > impacts)
+      impacts = of_point, costliest = point;
   }
   if (!(impacts > 1e5)) return std::nullopt;
   constexpr double evaluations = 2;  // an impact
-  const double seconds = impacts * evaluations * point::seconds_per_evaluation(effects_of(scene_at(sweep, dearest)));
+  const double seconds =
+      impacts * evaluations * point::seconds_per_evaluation(effects_of(problem_at(sweep, costliest)));
   if (!(seconds > long_time)) return std::nullopt;
-  const std::string which = size(sweep) > 1 ? "point " + std::to_string(dearest) + " alone" : "the point";
+  const std::string which = size(sweep) > 1 ? "point " + std::to_string(costliest) + " alone" : "the point";
   return which + " may take " + number_text(impacts) + " impacts, some " + number_text(seconds) +
          " s: with R = 1 nothing ends its bouncing; lower time.max_impacts, or take R below 1";
 }

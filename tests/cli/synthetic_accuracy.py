@@ -1,4 +1,4 @@
-"""Studies as `clatter accuracy` writes them, with made-up numbers, for tests of their pictures."""
+"""Outputs as `clatter accuracy` writes them, with made-up numbers, for tests of their pictures."""
 
 import h5py
 import numpy as np
@@ -33,8 +33,8 @@ nu = 1.0
 """
 
 
-class Study:
-    """The rows of a study in memory: settings, and for each result an array over the axes and the rows."""
+class SyntheticAccuracy:
+    """The rows of an accuracy run in memory: settings, and for each result an array over the axes and the rows."""
 
     def __init__(self, steady=True, **axes):
         settings = {

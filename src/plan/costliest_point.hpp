@@ -14,7 +14,7 @@ namespace clatter::plan {
 
 /// A warning, with the remedy, before a run in which a single point may take long for that reason; nothing if none
 /// does. In a large sweep or shard, ten thousand points are examined.
-[[nodiscard]] std::optional<std::string> warning_of_dearest_point(const sweep::Sweep& sweep,
-                                                                  const std::optional<sweep::Shard>& shard = {});
+[[nodiscard]] std::optional<std::string> warning_of_costliest_point(const sweep::Sweep& sweep,
+                                                                    const std::optional<sweep::Shard>& shard = {});
 
 }  // namespace clatter::plan
