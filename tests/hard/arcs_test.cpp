@@ -69,8 +69,8 @@ ArcError error_of(const ArcScene& scene) {
 std::ostream& operator<<(std::ostream& out, const ArcScene& scene) {
   const auto& [o, start, s] = scene;
   return out << std::setprecision(17) << "h = " << o.damping << ", f = " << o.forcing << ", nu = " << o.frequency
-             << ", load = " << o.load << ", x0 = " << start.x << ", v0 = " << start.v
-             << ", phase = " << start.turns << " turns, after " << s;
+             << ", load = " << o.load << ", x0 = " << start.x << ", v0 = " << start.v << ", phase = " << start.turns
+             << " turns, after " << s;
 }
 
 TEST(Arcs, agree_with_fifty_digits_on_random_scenes) {
