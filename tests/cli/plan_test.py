@@ -108,7 +108,7 @@ class Plan(CommandLine):
         self.assertEqual(plan["follow"], "nu")
         self.assertEqual([group["points"] for group in plan["groups"]], [1, 4])
         reasons = {e["effect"]: e["why"] for e in plan["groups"][1]["effects"]}
-        self.assertIn("start isn't known", reasons["lower stop"])
+        self.assertIn("isn't known yet", reasons["lower stop"])
 
     def test_savings_are_those_of_the_ladder(self):
         """The guide of model has the ladder: for each effect that is left out, the share of time with it kept in."""
