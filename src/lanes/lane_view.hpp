@@ -1,8 +1,17 @@
 #pragma once
 
+#include <array>
+#include <complex>
+#include <cstdint>
+#include <vector>
+
 #include "lanes/block_state.hpp"
 #include "lanes/instruction_set.hpp"
+#include "model/displacement_bound.hpp"
 #include "model/scene.hpp"
+#include "motion/arc_constants.hpp"
+#include "motion/state.hpp"
+#include "observables/all.hpp"
 
 namespace clatter::lanes {
 
@@ -11,27 +20,16 @@ struct LaneState {
   double x, v, phase_turns;
 };
 
+/// A stroboscopic section that a lane has passed.
+struct LaneSection {
+  double x, v;
+  double impacts;           ///< met by the lane up to here
+  std::uint64_t itinerary;  ///< the same for the same stops in the same order since the last section, 0 for none
+};
+
 /// Whether a scene can run in a lane: forced motion between stops, lightly damped, away from resonance, with lengths
 /// and frequencies that leave an enclosure room.
 [[nodiscard]] bool accepts(const Scene& scene);
-
-/// Loads a lane with a scene that meets the given stops, at its start.
-void load_lane(BlockState& lanes, std::size_t lane, const Scene& scene, const Stops& stops);
-
-/// Clears a lane: it stands still and reports nothing.
-void clear_lane(BlockState& lanes, std::size_t lane);
-
-/// The displacement x of a lane's y, its displacement from the load's equilibrium; that of a stop exactly.
-[[nodiscard]] double x_of(const BlockState& lanes, std::size_t lane, const Scene& scene, double y);
-
-/// The present state of a lane.
-[[nodiscard]] LaneState state_of(const BlockState& lanes, std::size_t lane, const Scene& scene);
-
-/// Sets the state of a lane.
-void set_state(BlockState& lanes, std::size_t lane, const Scene& scene, const LaneState& state);
-
-/// Begins to observe a lane. If observation `ends` at the next section, the lane may have to `stop_short` of it.
-void begin_observing(BlockState& lanes, std::size_t lane, bool ends, bool stop_short);
 
 /// Advances every lane: to its next contact, past the next section, or by a few steps, whichever comes first.
 using StepFunction = void (*)(BlockState&);
@@ -43,5 +41,63 @@ struct StepFunctions {
 
 /// The step functions for an instruction set that this machine has, not scalar.
 [[nodiscard]] StepFunctions step_functions_of(InstructionSet arch);
+
+/// Clears a lane: it stands still and reports nothing.
+void clear_lane(BlockState& block, std::size_t lane);
+
+/// A lane in the units of its scene. It alone knows the rows of a block, the lane's unit of time, and that lanes count
+/// displacements from the load's equilibrium.
+class LaneView {
+  using Constants = motion::ArcConstants<double, Effects{.damping = Damping::light, .forcing = Forcing::regular}>;
+
+ public:
+  LaneView(BlockState& block, std::size_t lane, const Scene& scene) : block_(&block), lane_(lane), scene_(&scene) {}
+
+  /// Loads the scene at its start, with the stops that it may meet.
+  void load(const Stops& stops);
+  [[nodiscard]] LaneState state() const;
+  void set_state(const LaneState& state);
+  [[nodiscard]] double impacts() const { return at(block_->impacts); }  ///< met since the lane was loaded
+  /// Time to the next section, in the lane's unit: a mark of its present instant.
+  [[nodiscard]] double time_to_section() const { return at(block_->time_to_section); }
+  [[nodiscard]] double turns_of_two_steps() const { return 2 / at(block_->period); }
+
+  /// The section that the lane has passed.
+  [[nodiscard]] LaneSection section() const;
+  /// Its state there, from the load's equilibrium.
+  [[nodiscard]] PhaseState section_from_load() const;
+  /// Replaces its state there, given from the load's equilibrium.
+  void set_section(double y, double v);
+  /// Passes a section for the lane, reporting it unless it is one of those to be skipped.
+  void pass_section(double x, double v);
+
+  /// Begins to observe. If observation `ends` at the next section, the lane may have to `stop_short` of it.
+  void begin_observing(const observables::Observe& observe, bool ends, bool stop_short);
+  /// Skips reports of the next sections, and says whether observation ends at the one after them.
+  void skip_sections(std::int64_t count, bool ends, bool stop_short);
+  /// Adds an impact that the scalar loop has met to those of the lane, with its time since a section.
+  void add_impact(const motion::Impact& impact, bool observes);
+  /// Widens the ranges of displacement and velocity to those that the scalar loop has seen.
+  void widen(const observables::Extrema& seen);
+
+  /// Whether the extrema seen so far hold all motion that is the response plus a transient up to this size.
+  [[nodiscard]] bool extrema_hold(double transient) const;
+  /// The ranges of displacement and velocity seen so far.
+  [[nodiscard]] observables::Extrema::Range x_range() const;
+  [[nodiscard]] observables::Extrema::Range v_range() const;
+  [[nodiscard]] std::array<observables::Impacts::OfStop, 2> stops() const;  ///< [stop]
+  [[nodiscard]] double first_speed() const;  ///< of the first impact on either stop; NaN without one
+  [[nodiscard]] std::vector<std::complex<double>> velocity_jumps() const;  ///< [harmonic], eq. 38
+
+ private:
+  [[nodiscard]] double& at(LaneArray& row) const { return row.lane[lane_]; }
+  [[nodiscard]] double x_of(double y) const;
+  [[nodiscard]] double y_of(double x) const;
+  void set_bounds(const Constants& constants, const Stops& stops, double step);
+
+  BlockState* block_;
+  std::size_t lane_;
+  const Scene* scene_;
+};
 
 }  // namespace clatter::lanes

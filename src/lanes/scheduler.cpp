@@ -3,8 +3,6 @@
 #include <bit>
 #include <utility>
 
-#include "lanes/lane_task.hpp"
-
 namespace clatter::lanes {
 namespace {
 
@@ -23,8 +21,6 @@ Scheduler::Scheduler(const StepFunctions& step_functions, point::ThreadScratch& 
                      ResultSink take)
     : step_functions_(step_functions), scratch_(scratch), next_(std::move(next)), take_(std::move(take)) {}
 
-Scheduler::~Scheduler() = default;
-
 void Scheduler::run() {
   for (std::size_t lane = 0; lane < LaneArray::width; ++lane)
     clear_lane(settling_.lanes, lane), clear_lane(observing_.lanes, lane);
@@ -41,75 +37,31 @@ void Scheduler::run() {
   }
 }
 
-/// Fails points that have spent their budget of impacts between two sections, and reports the progress of all.
-void Scheduler::take_stock() {
-  double shares = 0;
-  for (Block* const block : {&settling_, &observing_})
-    for (std::size_t lane = 0; lane < LaneArray::width; ++lane) {
-      if (!block->tasks[lane]) continue;
-      if (block->tasks[lane]->fail_if_budget_is_spent(block->lanes.impacts.lane[lane])) {
-        const std::unique_ptr<LaneTask> left = leave(*block, lane, block->lanes.impacts.lane[lane]);
-        take_(left->item(), left->result(scratch_));
-        if (block == &observing_) observe_next(lane);
-      } else {
-        shares += block->tasks[lane]->share(block->lanes, lane);
-      }
-    }
-  if (scratch_.progress) scratch_.progress(shares);
-}
-
 /// Loads the next points into free lanes to settle, unless many wait to be observed.
 void Scheduler::fill() {
   for (std::size_t lane = 0; lane < LaneArray::width && settling_.taken < LaneArray::width && !exhausted_; ++lane)
     if (!settling_.tasks[lane] && waiting_.size() < LaneArray::width) settle_next(lane);
 }
 
-void Scheduler::step_block(Block& block, StepFunction step) {
-  block.lanes.arrived = block.lanes.to_scalar = 0;
-  step(block.lanes);
-  // sections first: a lane that needs the scalar loop beyond its section doesn't if it is done there
-  handle_sections(block);
-  while (block.lanes.to_scalar != 0) scalar_fallback(block, taken_from(block.lanes.to_scalar));
-  handle_sections(block);
-}
-
-/// Handles the lanes that have passed a section.
-void Scheduler::handle_sections(Block& block) {
-  while (block.lanes.arrived != 0) handle_section(block, taken_from(block.lanes.arrived));
-}
-
-/// Takes a point off its lane, in which it has met `impacts` impacts.
-std::unique_ptr<Scheduler::LaneTask> Scheduler::leave(Block& block, std::size_t lane, double impacts) {
-  block.lanes.to_scalar &= ~(LaneMask{1} << lane);
-  block.tasks[lane]->add_impacts(impacts);
-  --block.taken;
-  clear_lane(block.lanes, lane);
-  return std::move(block.tasks[lane]);
-}
-
 void Scheduler::settle_next(std::size_t lane) {
   while (waiting_.size() < LaneArray::width) {
     const std::optional<point::WorkItem> item = next_();
     exhausted_ = !item;
-    if (exhausted_) break;
-    auto task = std::make_unique<LaneTask>(*item);
-    const auto found = task->begin(settling_.lanes, lane);
-    if (!found) {
+    if (exhausted_) return;
+    auto task = std::make_unique<SettleTask>(*item);
+    const auto settled = task->begin(task->view(settling_.lanes, lane));
+    if (!settled) {
       settling_.tasks[lane] = std::move(task), ++settling_.taken;
       return;
     }
-    task->keep(*found);
-    if (task->lanes_can_observe()) {
-      observe_or_queue(std::move(task));
-    } else {
-      take_(task->item(), task->result(scratch_));
-    }
+    finish(*settled);
   }
 }
 
-/// Observes a point in a free lane, or queues it for one.
-void Scheduler::observe_or_queue(std::unique_ptr<LaneTask> task) {
-  waiting_.push_back(std::move(task));
+/// Observes a point in a free lane or queues it for one, if lanes can do so; else in the scalar loop.
+void Scheduler::finish(SettledPoint settled) {
+  if (!lanes_can_observe(settled)) return take_(settled.item, observe_in_scalar_loop(settled, scratch_));
+  waiting_.push_back(std::make_unique<ObserveTask>(std::move(settled)));
   for (std::size_t lane = 0; lane < LaneArray::width && !waiting_.empty(); ++lane)
     if (!observing_.tasks[lane]) observe_next(lane);
 }
@@ -118,45 +70,98 @@ void Scheduler::observe_next(std::size_t lane) {
   if (waiting_.empty()) return;
   observing_.tasks[lane] = std::move(waiting_.back()), ++observing_.taken;
   waiting_.pop_back();
-  observing_.tasks[lane]->begin_to_observe(observing_.lanes, lane);
+  observing_.tasks[lane]->begin(observing_.view(lane));
 }
 
-void Scheduler::scalar_fallback(Block& block, std::size_t lane) {
-  LaneTask& task = *block.tasks[lane];
-  const bool observes = &block == &observing_;
-  const stepping::Outcome outcome = task.scalar_fallback(block.lanes, lane);
-  if (outcome == stepping::Outcome::completed && !task.leaves_lane()) return;
-  block.lanes.arrived &= ~(LaneMask{1} << lane);
-  const std::unique_ptr<LaneTask> left = leave(block, lane, block.lanes.impacts.lane[lane]);
-  if (observes) {
-    take_(left->item(), left->result(scratch_));
-    return observe_next(lane);
-  }
-  if (outcome == stepping::Outcome::completed) {
-    run_batch({&left->item(), 1}, scratch_, take_);
-  } else {
-    left->keep(left->failure(outcome));
-    take_(left->item(), left->result(scratch_));
-  }
+template <class Task>
+void Scheduler::step_block(Block<Task>& block, StepFunction step) {
+  block.lanes.arrived = block.lanes.to_scalar = 0;
+  step(block.lanes);
+  // sections first: a lane that needs the scalar loop beyond its section doesn't if it is done there
+  handle_sections(block);
+  while (block.lanes.to_scalar != 0) fall_back(block, taken_from(block.lanes.to_scalar));
+  handle_sections(block);
 }
 
-void Scheduler::handle_section(Block& block, std::size_t lane) {
-  LaneTask& task = *block.tasks[lane];
-  if (&block == &observing_) {
-    if (!task.pass_section(block.lanes, lane)) return;
-    take_(task.item(), task.leaves_lane() ? task.result(scratch_) : task.result(block.lanes, lane, scratch_));
-    (void)leave(block, lane, block.lanes.section_impacts.lane[lane]);
-    return observe_next(lane);
+template <class Task>
+void Scheduler::handle_sections(Block<Task>& block) {
+  while (block.lanes.arrived != 0) handle_section(block, taken_from(block.lanes.arrived));
+}
+
+void Scheduler::handle_section(Block<SettleTask>& block, std::size_t lane) {
+  auto settled = block.tasks[lane]->pass_section(block.view(lane));
+  if (!settled) return;
+  leave(block, lane);
+  finish(*std::move(settled));
+}
+
+void Scheduler::handle_section(Block<ObserveTask>& block, std::size_t lane) {
+  ObserveTask& task = *block.tasks[lane];
+  const LaneView view = block.view(lane);
+  if (!task.pass_section(view)) return;
+  take_(task.item(), task.result(view, scratch_));
+  leave(block, lane);
+  observe_next(lane);
+}
+
+void Scheduler::fall_back(Block<SettleTask>& block, std::size_t lane) {
+  SettleTask& task = *block.tasks[lane];
+  const stepping::Outcome outcome = task.fall_back(block.view(lane));
+  if (outcome != stepping::Outcome::completed) return fail(block, lane, outcome);
+  if (!task.leaves_lane()) return;
+  const point::WorkItem item = task.item();
+  leave(block, lane);
+  run_batch({&item, 1}, scratch_, take_);
+}
+
+void Scheduler::fall_back(Block<ObserveTask>& block, std::size_t lane) {
+  ObserveTask& task = *block.tasks[lane];
+  if (task.fall_back(block.view(lane)) == stepping::Outcome::completed && !task.leaves_lane()) return;
+  take_(task.item(), observe_in_scalar_loop(task.settled(), scratch_));
+  leave(block, lane);
+  observe_next(lane);
+}
+
+/// Fails points that have spent their budget of impacts between two sections, and reports the progress of all.
+void Scheduler::take_stock() {
+  const double shares = take_stock(settling_) + take_stock(observing_);
+  if (scratch_.progress) scratch_.progress(shares);
+}
+
+template <class Task>
+double Scheduler::take_stock(Block<Task>& block) {
+  double shares = 0;
+  for (std::size_t lane = 0; lane < LaneArray::width; ++lane) {
+    if (!block.tasks[lane]) continue;
+    const LaneView view = block.view(lane);
+    if (block.tasks[lane]->has_spent_budget(view))
+      fail(block, lane, stepping::Outcome::event_budget);
+    else
+      shares += block.tasks[lane]->share(view);
   }
-  const auto found = task.at_section(block.lanes, lane);
-  if (!found) return;
-  task.keep(*found);
-  std::unique_ptr<LaneTask> left = leave(block, lane, block.lanes.section_impacts.lane[lane]);
-  if (left->lanes_can_observe()) {
-    observe_or_queue(std::move(left));
-  } else {
-    take_(left->item(), left->result(scratch_));
-  }
+  return shares;
+}
+
+void Scheduler::fail(Block<SettleTask>& block, std::size_t lane, stepping::Outcome outcome) {
+  const SettledPoint failed = block.tasks[lane]->failed(outcome, block.view(lane));
+  leave(block, lane);
+  take_(failed.item, observe_in_scalar_loop(failed, scratch_));
+}
+
+void Scheduler::fail(Block<ObserveTask>& block, std::size_t lane, stepping::Outcome outcome) {
+  const SettledPoint failed = block.tasks[lane]->failed(outcome);
+  leave(block, lane);
+  take_(failed.item, observe_in_scalar_loop(failed, scratch_));
+  observe_next(lane);
+}
+
+/// Takes a point off its lane.
+template <class Task>
+void Scheduler::leave(Block<Task>& block, std::size_t lane) {
+  const LaneMask others = ~(LaneMask{1} << lane);
+  block.lanes.arrived &= others, block.lanes.to_scalar &= others;
+  block.tasks[lane].reset(), --block.taken;
+  clear_lane(block.lanes, lane);
 }
 
 }  // namespace clatter::lanes

@@ -6,8 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include "lanes/lane_view.hpp"
-#include "point/point.hpp"
+#include "lanes/settle_task.hpp"
 
 namespace clatter::lanes {
 
@@ -21,9 +20,6 @@ class Scheduler {
   using ResultSink = std::function<void(const point::WorkItem&, point::PointResult&&)>;
 
   Scheduler(const StepFunctions& step_functions, point::ThreadScratch& scratch, WorkQueue next, ResultSink take);
-  ~Scheduler();
-  Scheduler(const Scheduler&) = delete;
-  Scheduler& operator=(const Scheduler&) = delete;
 
   /// Runs all points that `next` gives, and passes their results to `take`.
   void run();
@@ -33,31 +29,45 @@ class Scheduler {
   [[nodiscard]] double refined() const { return settling_.lanes.refined + observing_.lanes.refined; }
 
  private:
-  class LaneTask;
+  template <class Task>
   struct Block {
     BlockState lanes{};
-    std::array<std::unique_ptr<LaneTask>, LaneArray::width> tasks;
+    std::array<std::unique_ptr<Task>, LaneArray::width> tasks;
     std::size_t taken = 0;
+
+    [[nodiscard]] LaneView view(std::size_t lane) { return tasks[lane]->view(lanes, lane); }
   };
 
-  void step_block(Block& block, StepFunction step);
-  void take_stock();
-  void scalar_fallback(Block& block, std::size_t lane);
-  void handle_sections(Block& block);
-  void handle_section(Block& block, std::size_t lane);
   void fill();
   void settle_next(std::size_t lane);
   void observe_next(std::size_t lane);
-  void observe_or_queue(std::unique_ptr<LaneTask> task);
-  [[nodiscard]] std::unique_ptr<LaneTask> leave(Block& block, std::size_t lane, double impacts);
+  void finish(SettledPoint settled);
+
+  template <class Task>
+  void step_block(Block<Task>& block, StepFunction step);
+  template <class Task>
+  void handle_sections(Block<Task>& block);
+  void handle_section(Block<SettleTask>& block, std::size_t lane);
+  void handle_section(Block<ObserveTask>& block, std::size_t lane);
+  void fall_back(Block<SettleTask>& block, std::size_t lane);
+  void fall_back(Block<ObserveTask>& block, std::size_t lane);
+
+  void take_stock();
+  template <class Task>
+  [[nodiscard]] double take_stock(Block<Task>& block);
+  void fail(Block<SettleTask>& block, std::size_t lane, stepping::Outcome outcome);
+  void fail(Block<ObserveTask>& block, std::size_t lane, stepping::Outcome outcome);
+  template <class Task>
+  void leave(Block<Task>& block, std::size_t lane);
 
   StepFunctions step_functions_;
   point::ThreadScratch& scratch_;
   WorkQueue next_;
   ResultSink take_;
-  Block settling_, observing_;
-  std::vector<std::unique_ptr<LaneTask>> waiting_;  ///< to be observed: about as many as there are lanes at most
-  bool exhausted_ = false;                          ///< there are no more points
+  Block<SettleTask> settling_;
+  Block<ObserveTask> observing_;
+  std::vector<std::unique_ptr<ObserveTask>> waiting_;  ///< for a lane: about as many as there are lanes at most
+  bool exhausted_ = false;                             ///< there are no more points
   std::uint64_t steps_made_ = 0;
 };
 

@@ -58,28 +58,23 @@ Seen seen_by_scalar(const point::Problem& scene, double turns) {
 /// loop, or never stops so.
 std::optional<Seen> seen_by_lane(const point::Problem& scene, StepFunction step, int sections, double& turns) {
   BlockState lanes{};
-  lanes.extrema = lanes.counts = true;
+  observables::Observe observe;
+  observe.extrema = observe.impacts = true;
   for (std::size_t i = 0; i < LaneArray::width; ++i) clear_lane(lanes, i);
-  load_lane(lanes, 3, scene, scene.stops);
-  begin_observing(lanes, 3, false, false);
+  LaneView lane(lanes, 3, scene);
+  lane.load(scene.stops), lane.begin_observing(observe, false, false);
   for (int passed = 0, calls = 0;;) {
     if (++calls > 200) return std::nullopt;  // every call ends on a stop
     lanes.arrived = lanes.to_scalar = 0;
     step(lanes);
     if (lanes.to_scalar != 0) return std::nullopt;
     passed += lanes.arrived != 0;
-    const LaneState position = state_of(lanes, 3, scene);
+    const LaneState position = lane.state();
     if (passed < sections || position.x == scene.stops.lower || position.x == scene.stops.upper) continue;
     turns = passed + position.phase_turns;
     break;
   }
-  const double load = scene.oscillator.load, rate = lanes.rate.lane[3];
-  Seen seen{{lanes.y_low.lane[3] + load, lanes.y_high.lane[3] + load},
-            {lanes.v_low.lane[3] * rate, lanes.v_high.lane[3] * rate},
-            {}};
-  for (const std::size_t i : {0U, 1U})
-    seen.stops[i] = {lanes.count[i].lane[3], lanes.before[i].lane[3] * rate, lanes.after[i].lane[3] * rate, 0.0};
-  return seen;
+  return Seen{lane.x_range(), lane.v_range(), lane.stops()};
 }
 
 /// The largest difference of two runs' extrema and first impacts; infinite if they count different impacts.

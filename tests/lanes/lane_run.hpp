@@ -13,7 +13,7 @@ namespace clatter::lanes {
 inline constexpr Effects lane_effects = effect_sets::complete(Damping::light, Forcing::regular);
 using LaneExact = stepping::Exact<double, lane_effects>;
 
-/// A stroboscopic section as a lane reports it.
+/// The state at a stroboscopic section.
 struct Section {
   double x, v;
 };
@@ -28,9 +28,8 @@ struct LaneRun {
 };
 
 /// Reads an impact from a lane, which is on a stop with the velocity after it.
-inline motion::Impact impact_of(const BlockState& lanes, std::size_t lane, const point::Problem& scene,
-                                double sections) {
-  const LaneState position = state_of(lanes, lane, scene);
+inline motion::Impact impact_of(const LaneView& lane, const point::Problem& scene, double sections) {
+  const LaneState position = lane.state();
   const bool upper = position.x == scene.stops.upper;
   const double R = upper ? scene.stops.restitution_upper : scene.stops.restitution_lower;
   return {(sections + position.phase_turns) * period_of(scene.oscillator), upper ? Side::upper : Side::lower,
@@ -43,7 +42,7 @@ inline std::vector<LaneRun> run_lanes(const std::vector<point::Problem>& scenes,
   BlockState lanes{};
   std::vector<LaneRun> runs(scenes.size());
   for (std::size_t i = 0; i < LaneArray::width; ++i) clear_lane(lanes, i);
-  for (std::size_t i = 0; i < scenes.size(); ++i) load_lane(lanes, i, scenes[i], scenes[i].stops);
+  for (std::size_t i = 0; i < scenes.size(); ++i) LaneView(lanes, i, scenes[i]).load(scenes[i].stops);
   std::vector<bool> done(scenes.size(), false);
   for (std::size_t left = scenes.size(); left > 0;) {
     std::vector<double> before(lanes.impacts.lane, lanes.impacts.lane + LaneArray::width);
@@ -52,14 +51,13 @@ inline std::vector<LaneRun> run_lanes(const std::vector<point::Problem>& scenes,
     for (std::size_t i = 0; i < scenes.size(); ++i) {
       if (done[i]) continue;
       LaneRun& run = runs[i];
+      const LaneView lane(lanes, i, scenes[i]);
       ++run.calls;
-      if (lanes.arrived >> i & 1)
-        run.sections.push_back(
-            {scenes[i].oscillator.load + lanes.section_y.lane[i], lanes.section_v.lane[i] * lanes.rate.lane[i]});
-      if (lanes.impacts.lane[i] > before[i])
-        run.impacts.push_back(impact_of(lanes, i, scenes[i], static_cast<double>(run.sections.size())));
+      if (lanes.arrived >> i & 1) run.sections.push_back({lane.section().x, lane.section().v});
+      if (lane.impacts() > before[i])
+        run.impacts.push_back(impact_of(lane, scenes[i], static_cast<double>(run.sections.size())));
       run.to_scalar = lanes.to_scalar >> i & 1;
-      if (run.to_scalar) run.stuck_at = state_of(lanes, i, scenes[i]);
+      if (run.to_scalar) run.stuck_at = lane.state();
       done[i] = run.to_scalar || run.impacts.size() >= impacts || run.sections.size() >= sections || run.calls > 100000;
       if (done[i]) clear_lane(lanes, i), --left;
     }

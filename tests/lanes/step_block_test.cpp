@@ -66,8 +66,9 @@ TEST_P(LaneSteps, a_step_with_a_nan_in_any_input_of_its_proof_is_not_proved) {
     for (std::size_t i = 0; i < rows.size(); ++i) {
       BlockState lanes{};
       for (std::size_t lane = 0; lane < LaneArray::width; ++lane) {
-        load_lane(lanes, lane, wide_scene(), wide_scene().stops);
-        begin_observing(lanes, lane, false, false);
+        const point::Problem scene = wide_scene();
+        LaneView view(lanes, lane, scene);
+        view.load(scene.stops), view.begin_observing(scene.observe, false, false);
       }
       const std::size_t broken = i % LaneArray::width, sound = (i + 1) % LaneArray::width;
       (lanes.*rows[i]).lane[broken] = std::numeric_limits<double>::quiet_NaN();
@@ -214,7 +215,7 @@ TEST_P(LaneSteps, advance_every_lane) {
   const point::Problem scene = support::scene_of({0.1, -1.0, 0x1.07b00c4ce07bp-1, 0.0}, -stop, stop, 0.7);
   BlockState lanes{};
   for (std::size_t lane = 0; lane < LaneArray::width; ++lane) clear_lane(lanes, lane);
-  load_lane(lanes, 1, scene, scene.stops);
+  LaneView(lanes, 1, scene).load(scene.stops);
   lanes.p.lane[1] = 0x1.584ce6d702e79p-2, lanes.w.lane[1] = -0x1.3c0af122d568p+0;
   lanes.sine.lane[1] = 0x1.2ed29049b0f28p-2, lanes.cosine.lane[1] = -0x1.e9198d9f7dcb6p-1;
   lanes.y.lane[1] = -0x1.e5dc1ac0bc4dap-3, lanes.v.lane[1] = 0x1.6559d0258a1p-6;

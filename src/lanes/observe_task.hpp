@@ -1,0 +1,67 @@
+#pragma once
+
+#include "lanes/scalar_fallback.hpp"
+#include "point/point.hpp"
+
+namespace clatter::lanes {
+
+/// A point whose observed time is known, or which has failed, and the work that this took.
+struct SettledPoint {
+  point::WorkItem item;
+  ScalarLoop loop;
+  double impacts = 0.0;  ///< met in lanes
+  steady::ObservedTime observed{};
+};
+
+/// Whether lanes can observe a point.
+[[nodiscard]] bool lanes_can_observe(const SettledPoint& settled);
+
+/// The result of a point that the scalar loop observes, or of one that has failed.
+[[nodiscard]] point::PointResult observe_in_scalar_loop(const SettledPoint& settled, point::ThreadScratch& scratch);
+
+/// A point in a lane that observes it.
+class ObserveTask {
+ public:
+  explicit ObserveTask(SettledPoint settled);
+  ObserveTask(const ObserveTask&) = delete;
+  ObserveTask& operator=(const ObserveTask&) = delete;
+
+  [[nodiscard]] const point::WorkItem& item() const { return settled_.item; }
+  [[nodiscard]] LaneView view(BlockState& block, std::size_t lane) const { return {block, lane, item().problem}; }
+
+  void begin(LaneView lane);
+  /// Records the section that the lane has passed; true if the observed time is over, or the point has failed.
+  [[nodiscard]] bool pass_section(LaneView lane);
+  /// Advances the lane in the scalar loop: by two steps, or to the next section.
+  [[nodiscard]] stepping::Outcome fall_back(LaneView lane) { return fallback_.advance(lane); }
+  /// Whether the scalar loop alone would be quicker, or has to observe.
+  [[nodiscard]] bool leaves_lane() const;
+
+  [[nodiscard]] bool has_spent_budget(double impacts) const;
+  [[nodiscard]] bool has_spent_budget(LaneView lane) const { return has_spent_budget(lane.impacts()); }
+  /// The share of its limits that the point has spent.
+  [[nodiscard]] double share(LaneView lane) const;
+
+  /// The point as it was before lanes observed it, for the scalar loop to do so.
+  [[nodiscard]] const SettledPoint& settled() const { return settled_; }
+  /// The point if it can't be run on.
+  [[nodiscard]] SettledPoint failed(stepping::Outcome outcome) const;
+  /// The result of a point whose observed time is over, or that has failed or leaves its lane.
+  [[nodiscard]] point::PointResult result(LaneView lane, point::ThreadScratch& scratch) const;
+
+ private:
+  static constexpr std::int64_t longest_quiet = 15;  ///< sections
+
+  void skip_impact_at_start();
+  [[nodiscard]] bool may_end_early(LaneView lane);
+  void coast(LaneView lane) const;
+
+  SettledPoint settled_;
+  ScalarFallback fallback_;
+  std::int64_t sections_ = 0;
+  std::int64_t skipped_ = 0;  ///< sections that the lane passes without a report before the next one
+  bool coasts_ = false;       ///< no stop can be met any more
+  bool has_failed_ = false;
+};
+
+}  // namespace clatter::lanes

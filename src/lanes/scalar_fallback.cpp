@@ -1,0 +1,70 @@
+#include "lanes/scalar_fallback.hpp"
+
+#include <algorithm>
+
+namespace clatter::lanes {
+namespace {
+
+/// Shows a lane all that the scalar loop does for it.
+class LaneObserver {
+ public:
+  LaneObserver(LaneView lane, bool observes) : lane_(lane), observes_(observes) {}
+
+  template <class A>
+  void arc(const A& arc, double begin, double length) {
+    if (observes_) extrema_.arc(arc, begin, length);
+  }
+  void rest(const motion::Rest&) { rested_ = true; }
+  void impact(const motion::Impact& impact) {
+    lane_.add_impact(impact, observes_);
+    if (observes_) extrema_.impact(impact);
+  }
+
+  void finish() {
+    if (observes_) lane_.widen(extrema_);
+  }
+  [[nodiscard]] bool rested() const { return rested_; }
+
+ private:
+  LaneView lane_;
+  bool observes_;
+  bool rested_ = false;
+  observables::Extrema extrema_;
+};
+
+}  // namespace
+
+stepping::Outcome ScalarFallback::advance(LaneView lane) {
+  const LaneState now = lane.state();
+  motion::State<double> state;
+  state.x = now.x, state.v = now.v, state.phase_turns = now.phase_turns;
+  if (now.x == loop_.stops().lower) state.from_stop = Side::lower;
+  if (now.x == loop_.stops().upper) state.from_stop = Side::upper;
+  if (lane.time_to_section() == mark_) state = end_;  // a lane can't hold a release or a short offset
+  double end = std::min(1.0, state.phase_turns + lane.turns_of_two_steps());
+  LaneObserver observer(lane, observes_);
+  stepping::Outcome outcome = loop_.advance(state, end, 0, observer);
+  // all motion from the same release is the same: so that it is so to the last bit, it goes on to the section here
+  if (outcome == stepping::Outcome::completed && observer.rested())
+    outcome = loop_.advance(state, end = 1.0, 0, observer);
+  observer.finish();
+  ++calls_, rested_ = rested_ || observer.rested();
+  if (end == 1.0) {
+    lane.pass_section(state.x, state.v);
+    state.phase_turns = 0;
+  }
+  lane.set_state({state.x, state.v, state.phase_turns});
+  end_ = state, mark_ = lane.time_to_section();
+  return outcome;
+}
+
+stepping::Outcome ScalarFallback::finish_period(LaneView lane, double part) {
+  LaneObserver observer(lane, observes_);
+  const stepping::Outcome outcome = loop_.advance(end_, part, 0, observer);
+  observer.finish();
+  rested_ = rested_ || observer.rested();
+  lane.set_section(end_.x - loop_.constants().load, end_.v);
+  return outcome;
+}
+
+}  // namespace clatter::lanes

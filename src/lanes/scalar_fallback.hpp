@@ -1,0 +1,38 @@
+#pragma once
+
+#include <limits>
+
+#include "lanes/lane_view.hpp"
+#include "stepping/exact.hpp"
+
+namespace clatter::lanes {
+
+/// The scalar loop with the effects of a point in lanes.
+using ScalarLoop = stepping::Exact<double, effect_sets::complete(Damping::light, Forcing::regular)>;
+
+/// Advances a lane in the scalar loop, for motion that the vector code leaves out: chatter, rest and grazes.
+class ScalarFallback {
+ public:
+  /// Without observers if not told to observe.
+  ScalarFallback(const ScalarLoop& loop, bool observes) : loop_(loop), observes_(observes) {}
+
+  /// By two steps, or to the next section.
+  [[nodiscard]] stepping::Outcome advance(LaneView lane);
+  /// Through the first part of a forcing period, as far as a lane that has been advanced just before stopped short.
+  [[nodiscard]] stepping::Outcome finish_period(LaneView lane, double part);
+
+  [[nodiscard]] ScalarLoop& loop() { return loop_; }
+  [[nodiscard]] const ScalarLoop& loop() const { return loop_; }
+  [[nodiscard]] std::int64_t calls() const { return calls_; }
+  [[nodiscard]] bool rested() const { return rested_; }  ///< the mass has been at rest
+
+ private:
+  ScalarLoop loop_;
+  bool observes_;
+  motion::State<double> end_{};                             ///< the state in which the lane was left
+  double mark_ = std::numeric_limits<double>::quiet_NaN();  ///< the lane's time to the next section then
+  std::int64_t calls_ = 0;
+  bool rested_ = false;
+};
+
+}  // namespace clatter::lanes

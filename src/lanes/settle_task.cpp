@@ -1,0 +1,60 @@
+#include "lanes/settle_task.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace clatter::lanes {
+
+SettleTask::SettleTask(const point::WorkItem& item)
+    : item_(item),
+      fallback_({item_.problem, stops_in_reach(item_.problem.stops, item_.effects), limits_of(item_.problem)}, false),
+      log_area_(2 * std::log(std::max(loop().stops().restitution_lower, loop().stops().restitution_upper))) {}
+
+std::optional<SettledPoint> SettleTask::begin(LaneView lane) {
+  const point::Problem& problem = item_.problem;
+  motion::State<double> state;
+  state.x = problem.start.displacement, state.v = problem.start.velocity;
+  if (problem.time.mode == steady::Mode::transient) {
+    const double turns = problem.time.duration / loop().period();
+    return settled({steady::Status::transient, state, turns, 0.0, steady::FoundBy::start}, 0);
+  }
+  search_.emplace(loop(), problem, problem.time, steady::AdvancedBy::lanes);
+  if (const auto found = search_->at_section(state)) return settled(*found, 0);
+  lane.load(loop().stops());
+  return std::nullopt;
+}
+
+std::optional<SettledPoint> SettleTask::pass_section(LaneView lane) {
+  const LaneSection section = lane.section();
+  const double impacts = loop().impacts() + section.impacts;
+  ++sections_;
+  if (impacts > item_.problem.time.max_impacts)
+    return settled(search_->failure(stepping::Outcome::event_budget, {}), section.impacts);
+  search_->pass_period({section.itinerary, log_area_ * (impacts - section_impacts_)});
+  section_impacts_ = impacts;
+  motion::State<double> state;
+  state.x = section.x, state.v = section.v, state.periods = sections_;
+  const auto found = search_->at_section(state);
+  return found ? std::optional(settled(*found, section.impacts)) : std::nullopt;
+}
+
+SettledPoint SettleTask::failed(stepping::Outcome outcome, LaneView lane) const {
+  return settled(search_->failure(outcome, {}), lane.impacts());
+}
+
+SettledPoint SettleTask::settled(const steady::ObservedTime& observed, double impacts) const {
+  return {item_, loop(), impacts, observed};
+}
+
+bool SettleTask::has_spent_budget(LaneView lane) const {
+  return loop().impacts() + lane.impacts() > item_.problem.time.max_impacts;
+}
+
+double SettleTask::share(LaneView lane) const {
+  const steady::TimeSettings& time = item_.problem.time;
+  const double impacts = loop().impacts() + lane.impacts();
+  const double sections = static_cast<double>(sections_) / static_cast<double>(time.max_periods);
+  return std::min(1.0, std::max(impacts / time.max_impacts, sections));
+}
+
+}  // namespace clatter::lanes

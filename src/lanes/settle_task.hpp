@@ -1,0 +1,50 @@
+#pragma once
+
+#include <optional>
+
+#include "lanes/observe_task.hpp"
+#include "lanes/scalar_fallback.hpp"
+#include "steady/forced_search.hpp"
+
+namespace clatter::lanes {
+
+/// A point in a lane whose motion isn't known yet: its scene, and the search for its steady motion.
+class SettleTask {
+ public:
+  explicit SettleTask(const point::WorkItem& item);
+  SettleTask(const SettleTask&) = delete;
+  SettleTask& operator=(const SettleTask&) = delete;
+
+  [[nodiscard]] const point::WorkItem& item() const { return item_; }
+  [[nodiscard]] LaneView view(BlockState& block, std::size_t lane) const { return {block, lane, item_.problem}; }
+
+  /// The point if its observed time is known at the start, as for a transient; else nothing, and the lane is loaded.
+  [[nodiscard]] std::optional<SettledPoint> begin(LaneView lane);
+  /// The point if its observed time is known at the stroboscopic section that the lane has passed, or if it has failed.
+  [[nodiscard]] std::optional<SettledPoint> pass_section(LaneView lane);
+  /// The point if it can't be run on, `lane` being where it is now.
+  [[nodiscard]] SettledPoint failed(stepping::Outcome outcome, LaneView lane) const;
+
+  /// Advances the lane in the scalar loop: by two steps, or to the next section.
+  [[nodiscard]] stepping::Outcome fall_back(LaneView lane) { return fallback_.advance(lane); }
+  /// Whether the scalar loop alone would be quicker.
+  [[nodiscard]] bool leaves_lane() const { return fallback_.calls() > 64 + 2 * sections_; }
+
+  [[nodiscard]] bool has_spent_budget(LaneView lane) const;
+  /// The share of its limits that the point has spent.
+  [[nodiscard]] double share(LaneView lane) const;
+
+ private:
+  [[nodiscard]] ScalarLoop& loop() { return fallback_.loop(); }
+  [[nodiscard]] const ScalarLoop& loop() const { return fallback_.loop(); }
+  [[nodiscard]] SettledPoint settled(const steady::ObservedTime& observed, double impacts) const;
+
+  point::WorkItem item_;
+  ScalarFallback fallback_;
+  double log_area_;  ///< logarithm of the factor by which an impact shrinks areas, at the stop that shrinks them less
+  std::optional<steady::ForcedSearch<ScalarLoop::effects>> search_{};  ///< none for a transient
+  std::int64_t sections_ = 0;
+  double section_impacts_ = 0.0;  ///< impacts of lane and scalar loop, up to the last section
+};
+
+}  // namespace clatter::lanes
