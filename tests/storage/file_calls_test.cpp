@@ -33,8 +33,8 @@ class NoMoreFiles {
 
 template <typename Work>
 std::string message_without_files(Work work) {
-  const NoMoreFiles none;
   try {
+    const NoMoreFiles none;  // not beyond the exception: the sanitizers' look at it needs a descriptor
     work();
   } catch (const IoError& error) {
     return error.what();
