@@ -38,7 +38,7 @@ point::PointResult observe_in_scalar_loop(const SettledPoint& settled, point::Th
   return over;
 }
 
-ObserveTask::ObserveTask(SettledPoint settled) : settled_(std::move(settled)), fallback_(settled_.loop, true) {
+ObserveTask::ObserveTask(const SettledPoint& settled) : settled_(settled), fallback_(settled_.loop, true) {
   skip_impact_at_start();
 }
 

@@ -22,7 +22,7 @@ struct SettledPoint {
 /// A point in a lane that observes it.
 class ObserveTask {
  public:
-  explicit ObserveTask(SettledPoint settled);
+  explicit ObserveTask(const SettledPoint& settled);
   ObserveTask(const ObserveTask&) = delete;
   ObserveTask& operator=(const ObserveTask&) = delete;
 

@@ -59,9 +59,9 @@ void Scheduler::settle_next(std::size_t lane) {
 }
 
 /// Observes a point in a free lane or queues it for one, if lanes can do so; else in the scalar loop.
-void Scheduler::finish(SettledPoint settled) {
+void Scheduler::finish(const SettledPoint& settled) {
   if (!lanes_can_observe(settled)) return take_(settled.item, observe_in_scalar_loop(settled, scratch_));
-  waiting_.push_back(std::make_unique<ObserveTask>(std::move(settled)));
+  waiting_.push_back(std::make_unique<ObserveTask>(settled));
   for (std::size_t lane = 0; lane < LaneArray::width && !waiting_.empty(); ++lane)
     if (!observing_.tasks[lane]) observe_next(lane);
 }
@@ -89,10 +89,10 @@ void Scheduler::handle_sections(Block<Task>& block) {
 }
 
 void Scheduler::handle_section(Block<SettleTask>& block, std::size_t lane) {
-  auto settled = block.tasks[lane]->pass_section(block.view(lane));
+  const auto settled = block.tasks[lane]->pass_section(block.view(lane));
   if (!settled) return;
   leave(block, lane);
-  finish(*std::move(settled));
+  finish(*settled);
 }
 
 void Scheduler::handle_section(Block<ObserveTask>& block, std::size_t lane) {

@@ -41,7 +41,7 @@ class Scheduler {
   void fill();
   void settle_next(std::size_t lane);
   void observe_next(std::size_t lane);
-  void finish(SettledPoint settled);
+  void finish(const SettledPoint& settled);
 
   template <class Task>
   void step_block(Block<Task>& block, StepFunction step);
