@@ -198,7 +198,6 @@ void LaneView::widen(const observables::Extrema& seen) {
 }
 
 bool LaneView::extrema_hold(double transient) const {
-  if (!block_->extrema) return true;
   const double slack = at(block_->rounding) / 2, y = at(block_->amplitude) + transient - slack;
   const double v = (scene_->oscillator.frequency * at(block_->amplitude) + transient - slack) / at(block_->rate);
   return at(block_->y_low) <= -y && at(block_->y_high) >= y && at(block_->v_low) <= -v && at(block_->v_high) >= v;

@@ -1,4 +1,4 @@
-"""What the tests of `clatter accuracy` have in common: a small scene, its run, and the objects that it prints."""
+"""Shared by the tests of `clatter accuracy`: a small scene, its run, and the objects that it prints."""
 
 import json
 
@@ -15,7 +15,7 @@ STEADY = SCENE + "[time]\nwindow = 3\n"
 
 
 def objects(text):
-    """The JSON objects of lines, none of which may hold what is no JSON, as NaN."""
+    """The JSON objects of lines, none of which may hold a word that JSON doesn't have, such as NaN."""
 
     def refuse(word):
         raise ValueError(f"{word} is no JSON")

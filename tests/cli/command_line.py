@@ -29,7 +29,7 @@ period = true
 def runs_here(name):
     """Whether this machine has an instruction set, as Linux reports."""
     flags = set(re.search(r"^flags\s*:(.*)$", pathlib.Path("/proc/cpuinfo").read_text(), re.MULTILINE)[1].split())
-    return {"avx2": {"avx2", "fma"}, "avx512": {"avx512f", "avx512dq"}}.get(name, set()) <= flags
+    return {"avx2": {"avx2", "fma"}, "avx512": {"avx512f", "avx512dq", "avx512cd", "avx512bw", "avx512vl"}}.get(name, set()) <= flags
 
 
 class CommandLine(unittest.TestCase):

@@ -14,7 +14,7 @@ inline Config read_as(const std::string& name, const std::string& text, const st
   return read_config(directory.write(name, text), overrides);
 }
 
-/// What is wrong with a text, e.g. "a.toml:2:5: ..."; empty if nothing is.
+/// The error message for a text, e.g. "a.toml:2:5: ..."; empty if nothing is.
 inline std::string mistake_in(const std::string& name, const std::string& text,
                               const std::vector<Override>& overrides = {}) {
   const support::TemporaryDirectory directory;

@@ -1,4 +1,4 @@
-// What is observed of motion that a general method gives by polynomials, step by step.
+// Observables of motion that a general method gives by polynomials, step by step.
 
 #include <gtest/gtest.h>
 

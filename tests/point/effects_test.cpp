@@ -1,4 +1,4 @@
-// What is left out changes nothing: scenes that nobody chose, simulated with the effects they call for and with all.
+// Leaving effects out changes nothing: random scenes, simulated with the effects that they call for and with all.
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-// What counts as an impact: not that of a start into a stop, which comes before the observed time, and no touch at
+// The meaning of an impact: not that of a start into a stop, which comes before the observed time, and no touch at
 // speed 0.
 
 #include <gtest/gtest.h>

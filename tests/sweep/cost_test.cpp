@@ -1,4 +1,4 @@
-// What a point costs: memory only for what is kept, arcs evaluated only for what is observed.
+// The cost of a point: memory only for what is kept, arcs evaluated only for what is observed.
 
 #include <gtest/gtest.h>
 

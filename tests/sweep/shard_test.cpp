@@ -43,7 +43,7 @@ Dataset shard_figure(const Sweep& sweep, const Shard& shard, const RunOptions& o
   return run.result().dataset;
 }
 
-/// What a run hands over to be kept, piece by piece.
+/// The pieces that a run hands over to be kept.
 std::vector<Bytes> saved(SweepRun& run) {
   std::vector<Bytes> pieces;
   run.save([&](std::span<const std::byte> results) { pieces.emplace_back(results.begin(), results.end()); });
