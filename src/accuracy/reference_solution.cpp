@@ -11,8 +11,8 @@ namespace clatter::accuracy {
 namespace {
 
 constexpr double steady_tolerance = 1e-12;
-constexpr double agreement_tolerance =
-    1e-8;  ///< forcing periods by which double and 50 digits may differ: half the digits
+/// Forcing periods by which double and 50 digits may differ: half the digits.
+constexpr double agreement_tolerance = 1e-8;
 
 /// Finds the motion from the start in 50 digits, for as long as a run in double agrees.
 void find_motion_from_start(const point::Problem& scene, double duration, const std::function<bool()>& stopped,

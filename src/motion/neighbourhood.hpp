@@ -46,12 +46,10 @@ class Neighbourhood {
 
   /// Whether the proof holds up to here; not while the mass is so near a stop that some of the motions may have met it.
   [[nodiscard]] bool holds() const { return holds_ && approached_ == Side::none; }
-  [[nodiscard]] const Ellipse& first_order() const {
-    return first_order_;
-  }  ///< first order: the start, mapped by the derivative
-  [[nodiscard]] const Ellipse& remainder() const {
-    return remainder_;
-  }  ///< the remainder, to be added to `first_order`
+  /// The start, mapped by the derivative.
+  [[nodiscard]] const Ellipse& first_order() const { return first_order_; }
+  /// To be added to `first_order`.
+  [[nodiscard]] const Ellipse& remainder() const { return remainder_; }
 
  private:
   /// Bounds near an impact, for some time before and after it.

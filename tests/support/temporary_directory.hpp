@@ -35,14 +35,13 @@ class TemporaryDirectory {
   }
 
   /// Writes a file, in a directory that is created if need be, and returns its path.
-  std::string write(const std::string& name,
-                    std::span<const std::byte> bytes) const {  // NOLINT(modernize-use-nodiscard)
+  std::string write(const std::string& name, std::span<const std::byte> bytes) const {
     std::filesystem::create_directories((path_ / name).parent_path());
     std::ofstream{path_ / name, std::ios::binary}.write(reinterpret_cast<const char*>(bytes.data()),
                                                         static_cast<std::streamsize>(bytes.size()));
     return path(name);
   }
-  std::string write(const std::string& name, const std::string& text) const {  // NOLINT(modernize-use-nodiscard)
+  std::string write(const std::string& name, const std::string& text) const {
     return write(name, std::as_bytes(std::span(text)));
   }
 
