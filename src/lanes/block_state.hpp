@@ -17,51 +17,45 @@ using LaneMask = std::uint32_t;
 /// The state of scenes that run side by side, a lane each: all that the step functions read and write, the same for
 /// every instruction set.
 ///
-/// Each lane counts its time in steps of a length that an enclosure usually proves free of contact at once. So v and w
-/// are velocities times that length and a is the acceleration times its square; displacements count from the load's
-/// equilibrium. The motion is the steady response to the force plus a free part (p, w). Sections are the stroboscopic
-/// sections of `motion::State`.
+/// Displacements count from the load's equilibrium. The motion is the steady response to the force plus a free part.
+/// Each lane is proved free of contact in steps of a length that an enclosure usually proves at once. Sections are the
+/// stroboscopic sections of `motion::State`.
 struct BlockState {
   static constexpr std::size_t most_harmonics = 8;  ///< the highest harmonic that is summed in lanes
 
   // of the oscillator
-  LaneArray free_pp, free_pw, free_wp, free_ww;  ///< free motion over a step: p' = pp p + pw w, w' = ww w - wp p
-  LaneArray turn_sine, turn_cosine;              ///< of the forcing phase in a step
-  LaneArray in_phase, quadrature;                ///< P and Q of the response
-  LaneArray angle, rotation, decay, damping;     ///< nu, lambda, h and 2 h times the step
-  LaneArray skew, inverse_rotation;              ///< h/lambda; one over the rotation
-  LaneArray forced_jerk, stiffness;              ///< f nu times the step cubed; the step squared
-  LaneArray rate;                                ///< one over the step
-  LaneArray inverse_angle;                       ///< one over the angle
-  LaneArray amplitude, step;                     ///< amplitude of the response; the step
+  LaneArray h, twice_h, f, nu, root, inverse_root;  ///< h, 2 h, f, nu, lambda, 1/lambda
+  LaneArray in_phase, quadrature, amplitude;        ///< of the response
+  // of a step
+  LaneArray step, inverse_step;
+  LaneArray free_a, free_b, free_c;            ///< its propagator
+  LaneArray turn_sine, turn_cosine_minus_one;  ///< its turn of the forcing phase
+  LaneArray bound, bound_forced;               ///< the error of its enclosure is bound (|x| + |v|) + bound_forced
+  LaneArray bound_v, bound_forced_v;           ///< the same for the enclosure of the velocity
+  LaneArray rounding;                          ///< of displacements: the part that doesn't depend on the free motion
   // of the stops
   LaneArray lower, upper, restitution_lower, restitution_upper;
-  // of the enclosure
-  LaneArray bound, bound_forced;  ///< the error of its middle coefficient is bound (|p| + |w| rate) + bound_forced
-  LaneArray rounding;             ///< of displacements: the part that doesn't depend on the free motion
   // of the sections
   LaneArray period, start_sine, start_cosine;
   // present state
-  LaneArray p, w, sine, cosine, y, v, a;
-  LaneArray time_to_section;  ///< time to the next section
-  LaneArray to_next;          ///< time from the next section to the one after it, by the lane's clock
+  LaneArray free_x, free_v, sine, cosine, y, v, a;
+  LaneArray time_to_section;  ///< time to the next section that is reported
+  LaneArray to_next;          ///< time from that section to the next that is reported, by the lane's clock
   LaneArray excess;           ///< the relative excess of sine and cosine, taken off at the next section
   LaneArray impacts;          ///< number of impacts so far
-  LaneArray itinerary;        ///< stops met since the last section
+  LaneArray itinerary;        ///< stops met since the last section that was reported
   // reports of a step function
   LaneArray section_y, section_v;                ///< displacement and velocity at the section that was passed
   LaneArray section_itinerary, section_impacts;  ///< itinerary and impacts up to it
-  LaneMask arrived;                              ///< lanes that have passed a section and report it
+  LaneMask arrived;                              ///< lanes that have passed a section
   LaneMask to_scalar;                            ///< lanes that the scalar loop has to advance from their state
   // observation
-  LaneArray skip_sections;                 ///< sections that are passed without a report before the next one
-  LaneArray ends_here;                     ///< 1: the next section ends the observed time
-  LaneArray stop_short;                    ///< 1: stop before the section; the flight across it would overshoot
-  LaneArray bound_v, bound_forced_v;       ///< as bound and bound_forced, for the velocity
+  LaneArray ends_here;   ///< 1: the next section ends the observed time
+  LaneArray stop_short;  ///< 1: stop before the section; the flight across it would overshoot; else -1
   LaneArray y_low, y_high, v_low, v_high;  ///< least and greatest so far
   /// The beginning of the flight in which an extremum was found, and its length.
   struct Reference {
-    LaneArray p, w, sine, cosine, length;
+    LaneArray free_x, free_v, sine, cosine, length;
   };
   Reference reference_y[2], reference_v[2];  ///< [least, greatest]
   LaneArray forced_size;                     ///< bound of the change of displacement and velocity per unit of phase
@@ -73,6 +67,7 @@ struct BlockState {
   bool counts;                             ///< whether impacts are counted, and the first on each stop noted
   std::size_t harmonics;                   ///< highest k that is summed; 0: none
   // work
+  int most_contacts = 1;   ///< times that a call takes lanes to their next contact, unless a lane has to report
   double proved, refined;  ///< lanes times steps to be proved, and lanes times contacts to be refined
 };
 

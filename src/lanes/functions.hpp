@@ -3,56 +3,65 @@
 #include <array>
 #include <cstddef>
 
+#include "motion/propagation.hpp"
+
 namespace clatter::lanes {
 
-/// The inverse factorials 1/(first + 2 i)!, i = 0 ... count - 1, of alternating sign.
+/// The Taylor series in z with coefficients sign/first!, -sign/(first + step)!, ..., cut to `count` of them so that the
+/// remainder on [0, end] is as even and small as can be: Chebyshev polynomials are taken off until none of its higher
+/// powers is left (economization: Lanczos 1938).
 template <std::size_t count>
-[[nodiscard]] constexpr std::array<double, count> alternating_series(int first, int step) {
-  std::array<double, count> terms{};
-  double factorial = 1.0, sign = 1.0;
+[[nodiscard]] consteval std::array<double, count> economized_series(int first, int step, long double sign,
+                                                                    long double end) {
+  constexpr std::size_t terms = 24;
+  std::array<long double, terms> series{};  // by powers of z/end
+  long double factorial = 1, power = sign;
   int n = 1;
-  for (double& term : terms) {
+  for (long double& term : series) {
     for (; n <= first; ++n) factorial *= n;
-    term = sign / factorial;
-    first += step, sign = -sign;
+    term = power / factorial;
+    first += step, power *= -end;
   }
-  return terms;
+  for (std::size_t degree = terms - 1; degree >= count; --degree) {
+    long double coefficient = series[degree];  // of the Chebyshev polynomial on [0, 1] with this leading coefficient
+    for (std::size_t k = degree; k > 0; --k) {
+      series[k] -= coefficient;
+      const auto d = static_cast<long double>(degree), j = static_cast<long double>(k);
+      coefficient *= -j * (2 * j - 1) / (2 * (d - j + 1) * (d + j - 1));
+    }
+    series[0] -= coefficient;
+  }
+  std::array<double, count> cut{};
+  power = 1;
+  for (std::size_t i = 0; i < count; ++i, power *= end) cut[i] = static_cast<double>(series[i] / power);
+  return cut;
 }
 
 /// A polynomial with the given coefficients, by Horner's rule.
 template <class V, std::size_t count>
 [[nodiscard, gnu::always_inline]] inline V polynomial(const std::array<double, count>& coefficients, const V& x) {
   V sum(coefficients[count - 1]);
-  for (std::size_t i = count - 1; i-- > 0;) sum = fma(sum, x, V(coefficients[i]));
+  for (std::size_t i = count - 1; i-- > 0;) sum = mul_add(sum, x, V(coefficients[i]));
   return sum;
 }
 
-template <class V>
-struct SineAndCosine {
-  V sine, cosine;
-};
+inline constexpr double longest_angle = 2.0;  ///< that the functions below take
 
-/// Sine and cosine of 0 <= x <= 2.2, to 4 ulps of 1: the Taylor series of half the angle.
+/// The turn by an angle of 0 ... 2, to 2 ulps of 1 and to a few ulps of itself.
 template <class V>
-[[nodiscard, gnu::always_inline]] inline SineAndCosine<V> short_sine_cosine(const V& x) {
-  static constexpr auto sine_terms = alternating_series<9>(1, 2);
-  static constexpr auto cosine_terms = alternating_series<10>(0, 2);
-  const V half = x * 0.5, square = half * half;
-  const V sine = half * polynomial(sine_terms, square), cosine = polynomial(cosine_terms, square);
-  const V twice = sine + sine;
-  return {twice * cosine, fnma(twice, sine, V(1.0))};
+[[nodiscard, gnu::always_inline]] inline motion::Turn<V> short_turn(const V& angle) {
+  static constexpr auto sine_terms = economized_series<9>(1, 2, 1, longest_angle * longest_angle);
+  static constexpr auto cosine_terms = economized_series<9>(2, 2, -1, longest_angle * longest_angle);
+  const V square = angle * angle;
+  return {angle * polynomial(sine_terms, square), square * polynomial(cosine_terms, square)};
 }
 
-/// e^-x for 0 <= x <= 2.2, to 2 ulps of 1: e^(-x/8) - 1 by the Taylor series, doubled three times.
+/// e^-x for 0 <= x <= 2, to 2 ulps of 1: the square of e^(-x/2), both less 1.
 template <class V>
 [[nodiscard, gnu::always_inline]] inline V short_decay(const V& x) {
-  static constexpr auto terms = alternating_series<12>(1, 1);
-  const V part = x * 0.125;
-  V less = part * polynomial(terms, part);  // 1 - e^(-x/8)
-  less = fnma(less, less, less + less);
-  less = fnma(less, less, less + less);
-  less = fnma(less, less, less + less);
-  return V(1.0) - less;
+  static constexpr auto terms = economized_series<12>(1, 1, 1, longest_angle / 2);
+  const V half = x * V(0.5), less = half * polynomial(terms, half);
+  return V(1.0) - neg_mul_add(less, less, less + less);
 }
 
 }  // namespace clatter::lanes

@@ -56,11 +56,16 @@ class LaneView {
   /// Loads the scene at its start, with the stops that it may meet.
   void load(const Stops& stops);
   [[nodiscard]] LaneState state() const;
-  void set_state(const LaneState& state);
+  /// Sets the state, so many sections being passed before the next one that is reported.
+  void set_state(const LaneState& state, double sections_between);
+  /// Sections that the lane passes before the next one that it reports.
+  [[nodiscard]] double sections_between() const;
   [[nodiscard]] double impacts() const { return at(block_->impacts); }  ///< met since the lane was loaded
-  /// Time to the next section, in the lane's unit: a mark of its present instant.
-  [[nodiscard]] double time_to_section() const { return at(block_->time_to_section); }
-  [[nodiscard]] double turns_of_two_steps() const { return 2 / at(block_->period); }
+  /// Numbers that no motion leaves as they are: a mark of its present instant.
+  [[nodiscard]] std::array<double, 3> mark() const {
+    return {at(block_->free_x), at(block_->free_v), at(block_->sine)};
+  }
+  [[nodiscard]] double turns_of_two_steps() const { return 2 * at(block_->step) / at(block_->period); }
 
   /// The section that the lane has passed.
   [[nodiscard]] LaneSection section() const;
@@ -68,13 +73,14 @@ class LaneView {
   [[nodiscard]] PhaseState section_from_load() const;
   /// Replaces its state there, given from the load's equilibrium.
   void set_section(double y, double v);
-  /// Passes a section for the lane, reporting it unless it is one of those to be skipped.
-  void pass_section(double x, double v);
+  /// Passes and reports a section for the lane; returns the number of sections between it and the next report.
+  [[nodiscard]] double pass_section(double x, double v);
 
-  /// Begins to observe. If observation `ends` at the next section, the lane may have to `stop_short` of it.
-  void begin_observing(const observables::Observe& observe, bool ends, bool stop_short);
-  /// Skips reports of the next sections, and says whether observation ends at the one after them.
-  void skip_sections(std::int64_t count, bool ends, bool stop_short);
+  /// Begins to observe.
+  void begin_observing(const observables::Observe& observe);
+  /// Says, at a report, whether the next one ends the observation, and whether the lane has to stop short of it or may
+  /// overshoot, and how many periods after it the one after that is due.
+  void expect_section(bool ends, bool stop_short, std::int64_t periods_after);
   /// Adds an impact that the scalar loop has met to those of the lane, with its time since a section.
   void add_impact(const motion::Impact& impact, bool observes);
   /// Widens the ranges of displacement and velocity to those that the scalar loop has seen.

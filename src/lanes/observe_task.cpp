@@ -38,8 +38,20 @@ point::PointResult observe_in_scalar_loop(const SettledPoint& settled, point::Th
   return over;
 }
 
-ObserveTask::ObserveTask(const SettledPoint& settled) : settled_(settled), fallback_(settled_.loop, true) {
+ObserveTask::ObserveTask(const SettledPoint& settled)
+    : settled_(settled),
+      scene_(settled_.item.problem),
+      sections_in_all_(std::ceil(settled_.observed.turns)),
+      first_turns_(sections_in_all_ - settled_.observed.turns),
+      fallback_(scalar_loop(), true) {
   skip_impact_at_start();
+}
+
+/// The last section is the end of the observed time. If that is no whole number of periods, the first period is cut.
+ScalarLoop ObserveTask::scalar_loop() {
+  if (first_turns_ == 0) return settled_.loop;
+  scene_.start.phase = std::fmod(scene_.start.phase + 2 * pi<double>() * (1 - first_turns_), 2 * pi<double>());
+  return {scene_, settled_.loop.stops(), limits_of(item().problem)};
 }
 
 /// An impact at the very beginning lies outside the observed time: lanes begin after it.
@@ -55,20 +67,28 @@ void ObserveTask::skip_impact_at_start() {
 }
 
 void ObserveTask::begin(LaneView lane) {
-  const steady::ObservedTime& observed = settled_.observed;
-  const bool ends = std::floor(observed.turns) == 1;
+  const motion::State<double>& from = settled_.observed.from;
   lane.load(settled_.loop.stops());
-  lane.set_state({observed.from.x, observed.from.v, 0});
-  lane.begin_observing(item().problem.observe, ends, ends && observed.status != steady::Status::periodic);
+  lane.set_state({from.x, from.v, first_turns_}, 0);
+  lane.begin_observing(item().problem.observe);
+  expect_section(lane);
+}
+
+/// Tells the lane about the section that it reports next. Reports become rarer as it becomes likely that the motion
+/// goes on meeting stops. The lane halts at the last one, and at every one once it coasts, since the extrema it has
+/// seen there would else depend on its neighbours.
+void ObserveTask::expect_section(LaneView lane) {
+  const double left = sections_in_all_ - static_cast<double>(sections_ + to_report_);
+  const bool last = left == 0;
+  after_report_ = last || coasts_ ? 1 : std::min({1 + sections_ / 4, rarest_report, static_cast<std::int64_t>(left)});
+  lane.expect_section(last || coasts_, last && settled_.observed.status != steady::Status::periodic, after_report_);
 }
 
 bool ObserveTask::has_spent_budget(double impacts) const {
   return fallback_.loop().impacts() + settled_.impacts + impacts > item().problem.time.max_impacts;
 }
 
-bool ObserveTask::leaves_lane() const {
-  return has_failed_ || fallback_.rested() || fallback_.calls() > 64 + 2 * sections_;
-}
+bool ObserveTask::leaves_lane() const { return fallback_.rested() || fallback_.calls() > 64 + 2 * sections_; }
 
 /// However late that is found, a point that has spent its budget fails with the same numbers: those of the last section
 /// before.
@@ -80,24 +100,16 @@ SettledPoint ObserveTask::failed(stepping::Outcome outcome) const {
 
 bool ObserveTask::pass_section(LaneView lane) {
   if (has_spent_budget(lane.section().impacts)) return true;
-  sections_ += 1 + std::exchange(skipped_, 0);
-  const double turns = settled_.observed.turns, whole = std::floor(turns);
-  const double left = whole - static_cast<double>(sections_);
-  const bool over = left == 0 || may_end_early(lane);
-  if (left > 0 && over) coast(lane);
-  if (left == 0 && turns > whole) {
-    has_failed_ = fallback_.finish_period(lane, turns - whole) != stepping::Outcome::completed;
-    if (has_spent_budget(lane.section().impacts)) return true;
-  }
-  const bool ends = left == 1 || coasts_;
-  if (left > 1 && !coasts_) skipped_ = std::min({sections_ / 4, longest_quiet, static_cast<std::int64_t>(left) - 2});
-  lane.skip_sections(skipped_, ends, left == 1 && settled_.observed.status != steady::Status::periodic);
+  sections_ += std::exchange(to_report_, after_report_);
+  const bool at_end = static_cast<double>(sections_) == sections_in_all_;
+  const bool over = at_end || may_end_early(lane);
+  if (!at_end && over) coast(lane);
+  if (!over) expect_section(lane);
   return over || leaves_lane();
 }
 
 /// True if the rest of the observed time cannot change a result: no stop is in reach, and response plus transient stay
-/// within the extrema found. The lane then halts at every section; otherwise the extrema it has seen at one would
-/// depend on its neighbours.
+/// within the extrema found.
 bool ObserveTask::may_end_early(LaneView lane) {
   const Oscillator& o = item().problem.oscillator;
   const PhaseState now = lane.section_from_load();
@@ -110,20 +122,17 @@ bool ObserveTask::may_end_early(LaneView lane) {
 void ObserveTask::coast(LaneView lane) const {
   const Oscillator& o = item().problem.oscillator;
   const ScalarLoop& loop = fallback_.loop();
-  const double turns = settled_.observed.turns;
   const PhasePoint free = transient_of(o, lane.section_from_load());
-  motion::State<double> end;
-  end.phase_turns = turns - std::floor(turns);
-  const auto [sine, cosine] = loop.phase(end);
+  const auto [sine, cosine] = loop.phase({});
   const PhasePoint response = response_at(o, sine, cosine);
   const motion::Propagator<double> to =
-      loop.constants().propagator((turns - static_cast<double>(sections_)) * loop.period());
+      loop.constants().propagator((sections_in_all_ - static_cast<double>(sections_)) * loop.period());
   lane.set_section(response.x + to.a * free.x + to.b * free.v, response.v - to.b * free.x + to.c * free.v);
 }
 
 double ObserveTask::share(LaneView lane) const {
   const double impacts = fallback_.loop().impacts() + settled_.impacts + lane.impacts();
-  const double turns = static_cast<double>(sections_) / settled_.observed.turns;
+  const double turns = static_cast<double>(sections_) / sections_in_all_;
   return std::min(1.0, std::max(impacts / item().problem.time.max_impacts, turns));
 }
 

@@ -27,7 +27,7 @@ class ObserveTask {
   ObserveTask& operator=(const ObserveTask&) = delete;
 
   [[nodiscard]] const point::WorkItem& item() const { return settled_.item; }
-  [[nodiscard]] LaneView view(BlockState& block, std::size_t lane) const { return {block, lane, item().problem}; }
+  [[nodiscard]] LaneView view(BlockState& block, std::size_t lane) const { return {block, lane, scene_}; }
 
   void begin(LaneView lane);
   /// Records the section that the lane has passed; true if the observed time is over, or the point has failed.
@@ -50,18 +50,22 @@ class ObserveTask {
   [[nodiscard]] point::PointResult result(LaneView lane, point::ThreadScratch& scratch) const;
 
  private:
-  static constexpr std::int64_t longest_quiet = 15;  ///< sections
+  static constexpr std::int64_t rarest_report = 64;  ///< forcing periods
 
+  [[nodiscard]] ScalarLoop scalar_loop();
   void skip_impact_at_start();
+  void expect_section(LaneView lane);
   [[nodiscard]] bool may_end_early(LaneView lane);
   void coast(LaneView lane) const;
 
   SettledPoint settled_;
+  Scene scene_;             ///< started so that a section ends the observed time
+  double sections_in_all_;  ///< up to the end of the observed time
+  double first_turns_;      ///< forcing periods that lie before the observed time in its first period
   ScalarFallback fallback_;
   std::int64_t sections_ = 0;
-  std::int64_t skipped_ = 0;  ///< sections that the lane passes without a report before the next one
-  bool coasts_ = false;       ///< no stop can be met any more
-  bool has_failed_ = false;
+  std::int64_t to_report_ = 1, after_report_ = 1;  ///< forcing periods to the next report, and to the one after it
+  bool coasts_ = false;                            ///< no stop can be met any more
 };
 
 }  // namespace clatter::lanes

@@ -40,7 +40,7 @@ stepping::Outcome ScalarFallback::advance(LaneView lane) {
   state.x = now.x, state.v = now.v, state.phase_turns = now.phase_turns;
   if (now.x == loop_.stops().lower) state.from_stop = Side::lower;
   if (now.x == loop_.stops().upper) state.from_stop = Side::upper;
-  if (lane.time_to_section() == mark_) state = end_;  // a lane can't hold a release or a short offset
+  if (lane.mark() == mark_) state = end_;  // a lane can't hold a release or a short offset
   double end = std::min(1.0, state.phase_turns + lane.turns_of_two_steps());
   LaneObserver observer(lane, observes_);
   stepping::Outcome outcome = loop_.advance(state, end, 0, observer);
@@ -49,21 +49,13 @@ stepping::Outcome ScalarFallback::advance(LaneView lane) {
     outcome = loop_.advance(state, end = 1.0, 0, observer);
   observer.finish();
   ++calls_, rested_ = rested_ || observer.rested();
+  double between = lane.sections_between();
   if (end == 1.0) {
-    lane.pass_section(state.x, state.v);
+    between = between == 0 ? lane.pass_section(state.x, state.v) : between - 1;
     state.phase_turns = 0;
   }
-  lane.set_state({state.x, state.v, state.phase_turns});
-  end_ = state, mark_ = lane.time_to_section();
-  return outcome;
-}
-
-stepping::Outcome ScalarFallback::finish_period(LaneView lane, double part) {
-  LaneObserver observer(lane, observes_);
-  const stepping::Outcome outcome = loop_.advance(end_, part, 0, observer);
-  observer.finish();
-  rested_ = rested_ || observer.rested();
-  lane.set_section(end_.x - loop_.constants().load, end_.v);
+  lane.set_state({state.x, state.v, state.phase_turns}, between);
+  end_ = state, mark_ = lane.mark();
   return outcome;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <limits>
 
 #include "lanes/lane_view.hpp"
@@ -18,8 +19,6 @@ class ScalarFallback {
 
   /// By two steps, or to the next section.
   [[nodiscard]] stepping::Outcome advance(LaneView lane);
-  /// Through the first part of a forcing period, as far as a lane that has been advanced just before stopped short.
-  [[nodiscard]] stepping::Outcome finish_period(LaneView lane, double part);
 
   [[nodiscard]] ScalarLoop& loop() { return loop_; }
   [[nodiscard]] const ScalarLoop& loop() const { return loop_; }
@@ -27,10 +26,12 @@ class ScalarFallback {
   [[nodiscard]] bool rested() const { return rested_; }  ///< the mass has been at rest
 
  private:
+  static constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
   ScalarLoop loop_;
   bool observes_;
-  motion::State<double> end_{};                             ///< the state in which the lane was left
-  double mark_ = std::numeric_limits<double>::quiet_NaN();  ///< the lane's time to the next section then
+  motion::State<double> end_{};                ///< the state in which the lane was left
+  std::array<double, 3> mark_{nan, nan, nan};  ///< the lane's mark then
   std::int64_t calls_ = 0;
   bool rested_ = false;
 };

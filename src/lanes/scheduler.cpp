@@ -13,7 +13,8 @@ std::size_t taken_from(LaneMask& set) {
   return lane;
 }
 
-constexpr std::uint64_t between_reports = 1 << 17;  ///< steps of a block: some tenth of a second
+constexpr int contacts_in_a_step = 16;              ///< of a block, if no lane has to report before
+constexpr std::uint64_t between_reports = 1 << 14;  ///< steps of a block: some tenth of a second
 
 }  // namespace
 
@@ -24,6 +25,7 @@ Scheduler::Scheduler(const StepFunctions& step_functions, point::ThreadScratch& 
 void Scheduler::run() {
   for (std::size_t lane = 0; lane < LaneArray::width; ++lane)
     clear_lane(settling_.lanes, lane), clear_lane(observing_.lanes, lane);
+  settling_.lanes.most_contacts = observing_.lanes.most_contacts = contacts_in_a_step;
   for (;;) {
     fill();
     if (settling_.taken + observing_.taken == 0) return;

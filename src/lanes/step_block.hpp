@@ -1,5 +1,8 @@
 #pragma once
 
+#include <array>
+#include <limits>
+
 #include "lanes/lane_observers.hpp"
 #include "model/restitution.hpp"
 
@@ -13,222 +16,267 @@ namespace clatter::lanes {
 /// lanes at a contact wait until half of the vector has come to one, and then pass it together.
 template <class V, bool observes>
 class StepBlock {
-  using Mask = typename V::Mask;
+  using Mask = clatter::Mask<V>;
 
  public:
   StepBlock(BlockState& lanes, std::size_t first)
       : lanes_(lanes),
         first_(first),
-        motions_(lanes, first),
-        watch_(lanes, first, motions_),
-        here_{row(lanes.p), row(lanes.w), row(lanes.sine), row(lanes.cosine), row(lanes.y), row(lanes.v), row(lanes.a)},
+        oscillators_(lanes, first),
+        observers_(oscillators_),
+        here_{{row(lanes.free_x), row(lanes.free_v)},
+              {row(lanes.sine), row(lanes.cosine)},
+              row(lanes.y),
+              row(lanes.v),
+              row(lanes.a)},
         left_(row(lanes.time_to_section)),
         itinerary_(row(lanes.itinerary)),
-        from_{here_},
+        from_free_(here_.free),
+        from_phase_(here_.phase),
         time_(0.0),
+        active_(left_ < V(std::numeric_limits<double>::infinity())),
         none_(V(1.0) < V(0.0)),
         arrived_(none_),
-        reported_(none_),
+        to_scalar_(none_),
         unproved_(none_),
-        upper_(none_),
-        to_scalar_(none_) {}
+        ending_(none_) {}
 
-  void run() {
-    motions_.put(lanes_.section_itinerary, itinerary_), motions_.put(lanes_.section_impacts, row(lanes_.impacts));
-    step();
-    if (any(unproved_)) contact();
+  [[gnu::always_inline]] inline void run() {
+    if (!any(active_)) return;
+    for (int contacts = 1;; ++contacts) {
+      oscillators_.put(lanes_.section_itinerary, itinerary_);
+      oscillators_.put(lanes_.section_impacts, row(lanes_.impacts));
+      unproved_ = ending_ = none_;
+      step();
+      if (any(unproved_)) contact();
+      if (contacts >= lanes_.most_contacts || any(arrived_ | to_scalar_)) break;
+    }
     if (any(arrived_)) sections();
     store();
   }
 
  private:
   static constexpr int most_steps = 6;
-  /// Speed over acceleration below which a contact is left to the scalar loop.
+  /// Speed over the acceleration in a step, below which a contact is left to the scalar loop.
   static constexpr double grazing = 0x1p-12;
   /// In half steps: a contact that a shorter flight would follow is left to the scalar loop, too.
   static constexpr double shortest_flight = 0x1p-5;
+  static constexpr double longest_shift = 0x1p-7;  ///< in steps: the series around a guessed contact are then exact
 
-  V row(const LaneArray& r) const { return motions_.row(r); }
+  V row(const LaneArray& r) const { return oscillators_.row(r); }
 
   /// Takes steps that are proved free of contact (eq. 15), until at most half of the lanes can go on.
-  void step() {
-    const V one(1.0);
-    Mask stepping = !none_;
+  [[gnu::always_inline]] inline void step() {
+    const V length = row(lanes_.step);
+    Mask stepping = active_;
     for (int steps = 1;; ++steps) {
       lanes_.proved += static_cast<double>(V::size);
-      LaneMotion<V> next = motions_.step(here_);
-      const ErrorBound<V> uncertainty = motions_.uncertainty(here_);
-      Interval<V> range = enclosure(ends(next), uncertainty.error);
-      range.include(next.y);
-      const Mask above = stepping & !(range.high <= row(lanes_.upper) - uncertainty.rounding);
-      const Mask below = stepping & !(range.low >= row(lanes_.lower) + uncertainty.rounding);
-      unproved_ = unproved_ | above | below, upper_ = upper_ | (above & ((!below) | (here_.v > V(0.0))));
-      const Mask passes = left_ <= one;
-      stepping = stepping & !(above | below | (passes & arrived_));  // a second section waits for the next call
+      LaneMotion<V> next = oscillators_.step(here_);
+      path_ = hermite(ends_of(here_, next, length));
+      const ErrorBound<V> bound = oscillators_.uncertainty(here_.free);
+      const Interval<V> range = enclosure(path_, bound.error);
+      const Mask inside = (greater(next.y, range.high) <= row(lanes_.upper) - bound.rounding) &
+                          (lesser(next.y, range.low) >= row(lanes_.lower) + bound.rounding);
+      unproved_ = unproved_ | (stepping & !inside);
+      const Mask passes = left_ <= length;
+      stepping = stepping & inside & !(passes & arrived_);  // a second section waits for the next call
       if constexpr (observes) {
-        const Mask seen = watch_.flight(stepping & !clipped(one), here_, next, one, uncertainty, range);
-        to_scalar_ = to_scalar_ | (stepping & !seen), stepping = seen;
+        const Mask ends = stepping & clipped(length);
+        ending_ = ending_ | ends, unproved_ = unproved_ | ends;
+        stepping = stepping & !ends;
+        const Mask seen = observers_.flight(stepping, here_, next, length, V(1.0), bound.error, path_, range, bound);
+        to_scalar_ = to_scalar_ | (stepping & !seen);
+        stepping = seen;
       }
       const Mask arrives = stepping & passes;
-      pass_sections(arrives, next);
-      here_ = select(stepping, next, here_), left_ = select(stepping, left_ - one, left_);
-      if constexpr (observes) stepping = stepping & !(arrives & (row(lanes_.ends_here) > V(0.0)));
+      const bool some_arrive = any(arrives);
+      if (some_arrive) pass_sections(arrives, next.phase);
+      here_ = select(stepping, next, here_);
+      left_ = select(stepping, left_ - length, left_);
+      if (observes && some_arrive) stepping = stepping & !(arrived_ & (row(lanes_.ends_here) > V(0.0)));
       if (steps == most_steps || 2 * count(stepping) <= static_cast<int>(V::size)) return;
     }
   }
 
-  HermiteData<V> ends(const LaneMotion<V>& to) const { return {here_.y, here_.v, here_.a, to.y, to.v, to.a}; }
+  /// Lanes whose observed time ends within a time from here.
+  Mask clipped(const V& time) const { return left_ <= time * row(lanes_.stop_short); }
 
-  /// Lanes whose observed time ends within a time from here; the scalar loop has to take them there.
-  Mask clipped(const V& time) const { return (row(lanes_.stop_short) > V(0.0)) & (left_ <= time); }
+  /// Lanes whose next step may meet the upper stop first.
+  Mask nearer_upper(const ErrorBound<V>& bound) const {
+    const Interval<V> range = enclosure(path_, bound.error);
+    const Mask above = !(greater(path_[6], range.high) <= row(lanes_.upper) - bound.rounding);
+    const Mask below = !(lesser(path_[6], range.low) >= row(lanes_.lower) + bound.rounding);
+    return above & ((!below) | (here_.v > V(0.0)));
+  }
 
   /// The end of a flight from here: the contact, or an instant short of one.
   struct ContactGuess {
-    LaneMotion<V> at;
-    V time;              ///< of the flight, a part of a step
+    V time;              ///< of the flight
     Mask crosses, good;  ///< there is a contact; the guess can be used
   };
 
-  /// A guess of the first contact of the unproved lanes, by the quintic; if it has none, its nearest approach to the
-  /// stop.
-  ContactGuess guess_contact(const LaneMotion<V>& to, const V& error, const V& sign, const V& stop) const {
-    const V zero(0.0), one(1.0), back = -sign;
-    const QuinticHermite<V> gap(HermiteData<V>{sign * (stop - here_.y), back * here_.v, back * here_.a,
-                                               sign * (stop - to.y), back * to.v, back * to.a});
+  /// A guess of the first contact of the unproved lanes, by the quintic of the step from here; if it has none, its
+  /// nearest approach to the stop.
+  [[gnu::always_inline]] inline ContactGuess guess_contact(const V& error, const V& sign, const V& stop,
+                                                           const V& length) const {
+    const V zero(0.0), one(1.0), from = sign * stop;
+    Bernstein<V> gap;
+    for (std::size_t i = 0; i < gap.size(); ++i) gap[i] = neg_mul_add(sign, path_[i], from);
+    const Quintic<V> quintic(gap);
     ContactGuess g;
-    g.crosses = sign * (stop - to.y) < zero;
-    g.time = gap.root(unproved_);
+    g.crosses = gap[6] < zero;
+    g.time = quintic.root(polygon_root(gap), unproved_ & g.crosses);
     if (any(unproved_ & !g.crosses)) {
-      const V place = gap.least();
+      const V place = quintic.least(gap);
       // a lane has to advance: only one that moves to the stop can turn back at once
       const V soonest = select(sign * here_.v > zero, V(0x1p-40), V(0x1p-4));
       const V turning = select((place > soonest) & (place < one), place, V(0.5));
-      const V least = gap.at(turning).value, part = turning * (one - turning);
-      const V uncertain = error * (part * part * part * 20.0);
+      const V least = quintic.at(turning).value;
+      const V uncertain = error * middle_function(turning);
       const Mask misses = (!g.crosses) & (least >= -uncertain);
       // if the error leaves it open, only half of the way: a shorter flight has a far smaller error
-      g.time = select(misses, select(least > uncertain, turning, turning * 0.5), g.time);
+      g.time = select(misses, select(least > uncertain, turning, turning * V(0.5)), g.time);
       g.crosses = !misses;
     }
     g.good = unproved_ & (g.time > zero) & (g.time < one);
-    g.time = min(max(g.time, zero), one);
+    g.time = lesser(greater(g.time, zero), one) * length;
     return g;
   }
 
-  /// Refines the guess to rounding, by the closed form and the Taylor series.
-  void refine_contact(const V& stop, ContactGuess& g) const {
-    const V zero(0.0), one(1.0), longest(ClosedForm<V>::longest_shift);
+  /// Ends flights with the observed time, if no contact is guessed before.
+  void end_flights(ContactGuess& g) const {
+    const Mask ends = ending_ | (unproved_ & clipped(g.time));
+    if (!any(ends)) return;
+    g.time = select(ends, left_, g.time);
+    g.crosses = g.crosses & !ends, g.good = g.good | ends;
+  }
+
+  /// Refines the guess to rounding, by the closed form and the Taylor series; the motion at the end of the flight.
+  [[gnu::always_inline]] inline LaneMotion<V> refine_contact(const V& stop, const V& length, ContactGuess& g) const {
+    const V zero(0.0);
     for (int pass = 0;; ++pass) {
-      g.at = motions_.after(here_, g.time);
-      const Jet<V> jet = motions_.jet(g.at);
-      const V more = select(g.crosses, ClosedForm<V>::time_to(stop, g.at, jet), zero);
-      const Mask far = g.good & !((abs(more) <= longest) & (abs(more * g.at.a) <= abs(g.at.v) * 0x1p-5));
+      LaneMotion<V> at = oscillators_.after(here_, g.time);
+      const auto d = oscillators_.derivatives(at);
+      const V more = select(g.crosses, motion::time_over(stop - at.y, at.v, at.a, d), zero);
+      const Mask far =
+          g.good & !((abs(more) <= length * V(longest_shift)) & (abs(more * at.a) <= abs(at.v) * V(0x1p-5)));
       if (pass == 2 || !any(far)) {
         g.good = g.good & !far;
-        motions_.shift(g.at, jet, more);
         g.time = g.time + more;
-        g.at.y = select(g.crosses, stop, g.at.y);
-        return;
+        at.y = select(g.crosses, stop, at.y);
+        at.v = motion::velocity_after(more, at.v, at.a, d);
+        at.phase = motion::turned(at.phase, tiny_turn(row(lanes_.nu) * more));
+        at.a = oscillators_.acceleration(at.y, at.v, at.phase);
+        return at;
       }
-      g.time = select(far, min(max(g.time + more, zero), one), g.time);
+      g.time = select(far, lesser(greater(g.time + more, zero), length), g.time);
     }
+  }
+
+  /// A turn by an angle of at most 2 longest_shift.
+  static motion::Turn<V> tiny_turn(const V& angle) {
+    static constexpr std::array sine_terms{1.0, -1.0 / 6, 1.0 / 120, -1.0 / 5040};
+    static constexpr std::array cosine_terms{-1.0 / 2, 1.0 / 24, -1.0 / 720};
+    const V square = angle * angle;
+    return {angle * polynomial(sine_terms, square), square * polynomial(cosine_terms, square)};
   }
 
   /// Takes the unproved lanes to their contact, or short of it, proves the flight up to there, and reverses the
   /// velocity in a contact (eq. 4).
-  void contact() {
+  [[gnu::always_inline]] inline void contact() {
     lanes_.refined += static_cast<double>(V::size);
-    const V zero(0.0), one(1.0);
-    const ErrorBound<V> uncertainty = motions_.uncertainty(here_);
-    const V sign = select(upper_, one, V(-1.0)), stop = select(upper_, row(lanes_.upper), row(lanes_.lower));
-    ContactGuess g = guess_contact(motions_.step(here_), uncertainty.error, sign, stop);
-    refine_contact(stop, g);
-    LaneMotion<V>& at = g.at;
-    const Interval<V> range =
-        enclosure(HermiteData<V>::scaled(ends(at), g.time), uncertainty.error * sixth_power(g.time));
-    Interval<V> with_end = range;
-    with_end.include(at.y);
-    const V low = select(g.crosses, range.low, with_end.low), high = select(g.crosses, range.high, with_end.high);
-    g.good = g.good & (g.time > zero) & (g.time < one) & (low >= row(lanes_.lower) + uncertainty.rounding) &
-             (high <= row(lanes_.upper) - uncertainty.rounding);
-    const Restitution<V> law{select(upper_, row(lanes_.restitution_upper), row(lanes_.restitution_lower))};
-    const V speed = sign * at.v;
-    const V before = at.v, jump = select(g.crosses, law.jump(at.v), zero);
-    const V after = select(g.crosses, law.after(at.v), at.v), a = fnma(row(lanes_.damping), jump, at.a);
-    const Mask bounces = (speed > abs(at.a) * grazing) & (law.after(-speed) > sign * a * shortest_flight);
-    g.good = g.good & ((!g.crosses) | bounces);
+    const V zero(0.0), one(1.0), length = row(lanes_.step);
+    const ErrorBound<V> bound = oscillators_.uncertainty(here_.free);
+    const Mask upper = nearer_upper(bound);
+    const V sign = select(upper, one, V(-1.0)), stop = select(upper, row(lanes_.upper), row(lanes_.lower));
+    ContactGuess g = guess_contact(bound.error, sign, stop, length);
+    if constexpr (observes) end_flights(g);
+    LaneMotion<V> at = refine_contact(stop, length, g);
+    const V part = g.time * row(lanes_.inverse_step), error = bound.error * sixth_power(part);
+    const Bernstein<V> path = hermite(ends_of(here_, at, g.time));
+    const Interval<V> range = enclosure(path, error);
+    const V low = select(g.crosses, range.low, lesser(at.y, range.low));
+    const V high = select(g.crosses, range.high, greater(at.y, range.high));
+    g.good = g.good & (g.time > zero) & (g.time < length) & (low >= row(lanes_.lower) + bound.rounding) &
+             (high <= row(lanes_.upper) - bound.rounding);
+    const Restitution<V> law{select(upper, row(lanes_.restitution_upper), row(lanes_.restitution_lower))};
+    const V before = at.v, jump = select(g.crosses, law.jump(before), zero);
+    const V after = select(g.crosses, law.after(before), before);
+    const V a = neg_mul_add(row(lanes_.twice_h), jump, at.a);
+    const Mask bounces = (sign * before > abs(at.a * length) * V(grazing)) &
+                         (law.after(-sign * before) > sign * a * length * V(shortest_flight));
     const Mask passes = left_ <= g.time, waits = unproved_ & passes & arrived_;
-    g.good = g.good & !waits;
-    if constexpr (observes) g.good = watch_.flight(g.good & !clipped(g.time), here_, at, g.time, uncertainty, range);
+    g.good = g.good & ((!g.crosses) | bounces) & !waits;
+    if constexpr (observes)
+      g.good = observers_.flight(g.good & ((!g.crosses) | !clipped(g.time)), here_, at, g.time, part, error, path,
+                                 range, bound);
     at.v = after, at.a = a;
     const Mask met = g.good & g.crosses;
     if constexpr (observes) {
       const Mask over = (passes | arrived_) & (row(lanes_.ends_here) > zero);  // its period is over already
-      watch_.impact(met, met & !over, upper_, at, before, jump);
+      observers_.impact(met, met & !over, upper, at, before, jump);
     }
-    pass_sections(g.good & passes, at);
-    motions_.divide(at);
-    here_ = select(g.good, at, here_), left_ = select(g.good, left_ - g.time, left_);
-    itinerary_ = select(met, fma(itinerary_, V(3.0), select(upper_, V(2.0), one)), itinerary_);
-    motions_.put(lanes_.impacts, row(lanes_.impacts) + select(met, one, zero));
+    if (any(g.good & passes)) pass_sections(g.good & passes, at.phase);
+    at.free = oscillators_.free_part(at.y, at.v, at.phase);
+    here_ = select(g.good, at, here_);
+    left_ = select(g.good, left_ - g.time, left_);
+    itinerary_ = select(met, mul_add(itinerary_, V(3.0), select(upper, V(2.0), one)), itinerary_);
+    oscillators_.put(lanes_.impacts, row(lanes_.impacts) + select(met, one, zero));
     to_scalar_ = to_scalar_ | (unproved_ & !(g.good | waits));
   }
 
-  /// Records the lanes that pass a section on their flight from here to `to`, and corrects the clock, and the length of
-  /// sine and cosine, by the errors that were found at the section before.
-  void pass_sections(const Mask& arrives, LaneMotion<V>& to) {
-    if (!any(arrives)) return;
-    from_.p = select(arrives, here_.p, from_.p), from_.w = select(arrives, here_.w, from_.w);
-    from_.sine = select(arrives, here_.sine, from_.sine), from_.cosine = select(arrives, here_.cosine, from_.cosine);
+  /// Records the lanes that pass a section on their flight from here to a phase, and corrects the clock, and the length
+  /// of sine and cosine, by the errors that were found at the section before.
+  void pass_sections(const Mask& arrives, SineCosine<V>& phase) {
+    from_free_ = {select(arrives, here_.free.x, from_free_.x), select(arrives, here_.free.v, from_free_.v)};
+    from_phase_ = {select(arrives, here_.phase.sine, from_phase_.sine),
+                   select(arrives, here_.phase.cosine, from_phase_.cosine)};
     time_ = select(arrives, left_, time_);
     left_ = select(arrives, left_ + row(lanes_.to_next), left_);
     const V excess = select(arrives, row(lanes_.excess), V(0.0));
-    to.sine = fnma(excess, to.sine, to.sine), to.cosine = fnma(excess, to.cosine, to.cosine);
+    phase = {neg_mul_add(excess, phase.sine, phase.sine), neg_mul_add(excess, phase.cosine, phase.cosine)};
     itinerary_ = select(arrives, V(0.0), itinerary_);
     arrived_ = arrived_ | arrives;
   }
 
-  /// Computes the difference of clock and phase at the sections that were passed, and displacement and velocity at
-  /// those that are reported.
+  /// Reports displacement and velocity at the sections that were passed, and finds the errors of the clock and of the
+  /// length of sine and cosine. The phase says when a section was passed.
   void sections() {
-    reported_ = arrived_;
-    if constexpr (observes) {
-      const V skip_sections = row(lanes_.skip_sections), zero(0.0);
-      reported_ = arrived_ & (skip_sections <= zero);
-      motions_.put(lanes_.skip_sections, select(arrived_, max(skip_sections - V(1.0), zero), skip_sections));
-    }
     const V sine = row(lanes_.start_sine), cosine = row(lanes_.start_cosine);
-    LaneMotion<V> m;
-    motions_.move_phase(m, from_, time_);
-    const V ahead = fms(m.sine, cosine, m.cosine * sine) * row(lanes_.inverse_angle);
-    const V excess = fma(m.sine, m.sine, fms(m.cosine, m.cosine, V(1.0))) * 0.5;
-    // half of the difference, since the correction comes one section later
-    motions_.put(lanes_.to_next, select(arrived_, fnma(V(0.5), ahead, row(lanes_.period)), row(lanes_.to_next)));
-    motions_.put(lanes_.excess, select(arrived_, excess * 0.5, row(lanes_.excess)));
-    if (!any(reported_)) return;
-    motions_.move_free(m, from_, time_);
-    motions_.put(lanes_.section_y, m.p + motions_.response(sine, cosine));
-    motions_.put(lanes_.section_v, m.w + motions_.response_velocity(sine, cosine));
+    const SineCosine<V> phase = oscillators_.phase_after(from_phase_, time_);
+    const V late = mul_sub(phase.sine, cosine, phase.cosine * sine) / row(lanes_.nu);
+    const motion::FreeMotion<V> free = oscillators_.free_after(from_free_, time_ - late);
+    oscillators_.put(lanes_.section_y, free.x + oscillators_.response().displacement(sine, cosine));
+    oscillators_.put(lanes_.section_v, free.v + oscillators_.response().velocity(row(lanes_.nu), sine, cosine));
+    // half of an error, since the correction comes a section later
+    const V half_excess = mul_add(phase.sine, phase.sine, mul_sub(phase.cosine, phase.cosine, V(1.0))) * V(0.25);
+    const V to_next = neg_mul_add(V(0.5), late, row(lanes_.period));
+    oscillators_.put(lanes_.to_next, select(arrived_, to_next, row(lanes_.to_next)));
+    oscillators_.put(lanes_.excess, select(arrived_, half_excess, row(lanes_.excess)));
   }
 
   void store() const {
-    motions_.put(lanes_.p, here_.p), motions_.put(lanes_.w, here_.w);
-    motions_.put(lanes_.sine, here_.sine), motions_.put(lanes_.cosine, here_.cosine);
-    motions_.put(lanes_.y, here_.y), motions_.put(lanes_.v, here_.v), motions_.put(lanes_.a, here_.a);
-    motions_.put(lanes_.time_to_section, left_), motions_.put(lanes_.itinerary, itinerary_);
-    if constexpr (observes) watch_.store();
-    lanes_.arrived |= bits(reported_) << first_, lanes_.to_scalar |= bits(to_scalar_) << first_;
+    oscillators_.put(lanes_.free_x, here_.free.x), oscillators_.put(lanes_.free_v, here_.free.v);
+    oscillators_.put(lanes_.sine, here_.phase.sine), oscillators_.put(lanes_.cosine, here_.phase.cosine);
+    oscillators_.put(lanes_.y, here_.y), oscillators_.put(lanes_.v, here_.v), oscillators_.put(lanes_.a, here_.a);
+    oscillators_.put(lanes_.time_to_section, left_), oscillators_.put(lanes_.itinerary, itinerary_);
+    lanes_.arrived |= bits(arrived_) << first_, lanes_.to_scalar |= bits(to_scalar_) << first_;
   }
 
   BlockState& lanes_;
   std::size_t first_;
-  ClosedForm<V> motions_;
-  LaneObservers<V> watch_;
+  LaneOscillators<V> oscillators_;
+  LaneObservers<V> observers_;
   LaneMotion<V> here_;
+  Bernstein<V> path_;  ///< the displacement in the step from here
   V left_, itinerary_;
-  LaneMotion<V> from_;  ///< beginning of the flight across a section: free part and phase only
-  V time_;              ///< from there to the section
-  Mask none_, arrived_, reported_, unproved_, upper_, to_scalar_;
+  motion::FreeMotion<V> from_free_;  ///< beginning of the flight across a section
+  SineCosine<V> from_phase_;
+  V time_;       ///< from there to the section
+  Mask active_;  ///< lanes that are not idle
+  Mask none_, arrived_, to_scalar_;
+  Mask unproved_;  ///< lanes to be taken to a contact, or short of one
+  Mask ending_;    ///< lanes whose observed time ends before
 };
 
 /// Makes numbers below 1e-308 count as 0 while lanes run: a free motion that has died out would else cost a hundred

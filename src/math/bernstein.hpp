@@ -15,15 +15,73 @@ inline namespace math {
 template <class Number>
 using Bernstein = std::array<Number, 7>;
 
-/// Quintic Hermite interpolation of y, y', y'' at both ends of a step, its degree raised to 6, as Bernstein
-/// coefficients minus the value at the beginning (eq. 12). A function with |y^(6)| <= M differs from it by at most M
-/// step^6 / 14400 times the middle Bernstein function (eq. 13), so by a change of coefficient 3 alone.
+/// A function at both ends of a step: its value, and its first and second derivative by the part of the step.
 template <class Number>
-[[nodiscard]] Bernstein<Number> hermite(const Number& step, const Number& offset, const std::array<Number, 2>& first,
-                                        const std::array<Number, 2>& second) {
-  const Number v0 = step * first[0], v1 = step * first[1], a0 = step * step * second[0], a1 = step * step * second[1];
-  const Number left = 2 * v0 / 5 + a0 / 20, right = offset - 2 * v1 / 5 + a1 / 20;
-  return {Number(0), v0 / 6, v0 / 3 + a0 / 30, (left + right) / 2, offset - v1 / 3 + a1 / 30, offset - v1 / 6, offset};
+struct HermiteData {
+  Number y0, v0, a0, y1, v1, a1;
+
+  /// The same with derivatives by a time of which the step lasts `step`.
+  [[nodiscard]] static HermiteData over(const Number& step, const HermiteData& e) {
+    const Number square = step * step;
+    return {e.y0, e.v0 * step, e.a0 * square, e.y1, e.v1 * step, e.a1 * square};
+  }
+};
+
+/// Quintic Hermite interpolation of y, y', y'' at both ends of a step, its degree raised to 6, as Bernstein
+/// coefficients (eq. 12). A function with |y^(6)| <= M differs from it by at most M step^6 / 14400 times the middle
+/// Bernstein function (eq. 13), so by a change of coefficient 3 alone. That one depends on every input.
+template <class Number>
+[[nodiscard, gnu::always_inline]] inline Bernstein<Number> hermite(const HermiteData<Number>& e) {
+  const Number third = ratio<Number>(1, 3), sixth = ratio<Number>(1, 6), thirtieth = ratio<Number>(1, 30);
+  const Number left = mul_add(third, e.v0, e.y0), right = neg_mul_add(third, e.v1, e.y1);
+  const Number mean = (e.y0 + e.y1) * ratio<Number>(1, 2);
+  const Number middle = mul_add(ratio<Number>(1, 40), e.a0 + e.a1, mul_add(ratio<Number>(1, 5), e.v0 - e.v1, mean));
+  return {e.y0,   mul_add(sixth, e.v0, e.y0),      mul_add(thirtieth, e.a0, left),
+          middle, mul_add(thirtieth, e.a1, right), neg_mul_add(sixth, e.v1, e.y1),
+          e.y1};
+}
+
+template <class Number>
+struct Interval {
+  Number low, high;
+
+  /// Keeps a NaN of its own, so that no comparison then proves anything.
+  void include(const Number& y) { low = lesser(y, low), high = greater(y, high); }
+};
+
+/// Range of a function over a step, but for its values at the ends, by the inner coefficients of its interpolant and
+/// the uncertainty of the middle one (eqs. 12 and 13). NaN if any input is: the middle coefficient stands second in
+/// `lesser` and `greater`, which keep that one's NaN.
+template <class Number>
+[[nodiscard, gnu::always_inline]] inline Interval<Number> enclosure(const Bernstein<Number>& c, const Number& error) {
+  return {lesser(lesser(lesser(c[1], c[2]), lesser(c[4], c[5])), c[3] - error),
+          greater(greater(greater(c[1], c[2]), greater(c[4], c[5])), c[3] + error)};
+}
+
+/// Range of its derivative by the part of the step, but for the values at the ends: the derivative of the interpolant
+/// is off by at most M step^6 5^(1/2)/30000 (Birkhoff & Priver 1967), 1.0734 times `error`.
+template <class Number>
+[[nodiscard, gnu::always_inline]] inline Interval<Number> slope_enclosure(const Bernstein<Number>& c,
+                                                                          const Number& error) {
+  const Number d1 = c[2] - c[1], d2 = c[3] - c[2], d3 = c[4] - c[3], d4 = c[5] - c[4];
+  const Number six(6.0), off = error * Number(1.0734);
+  return {mul_sub(six, lesser(lesser(d1, d4), lesser(d2, d3)), off),
+          mul_add(six, greater(greater(d1, d4), greater(d2, d3)), off)};
+}
+
+/// The part of a step at which the control polygon of a polynomial that begins at >= 0 first falls below 0: a guess of
+/// its first root. Meaningless if none of the coefficients is negative.
+template <class Number>
+[[nodiscard, gnu::always_inline]] inline Number polygon_root(const Bernstein<Number>& c, std::size_t degree = 6) {
+  const auto at = [degree](std::size_t k) {
+    return ratio<Number>(static_cast<double>(k), static_cast<double>(degree));
+  };
+  Number before = c[degree - 1], beyond = c[degree], u = at(degree - 1);
+  for (std::size_t k = degree - 1; k-- > 0;) {
+    const auto crosses = c[k + 1] < Number(0.0);
+    before = select(crosses, c[k], before), beyond = select(crosses, c[k + 1], beyond), u = select(crosses, at(k), u);
+  }
+  return mul_add(at(1), before / (before - beyond), u);
 }
 
 /// The polynomial of degree 5 that has value and slope {y, y'} at both ends of a step and the values `thirds` at a
@@ -73,8 +131,8 @@ template <class Number>
 /// The middle Bernstein function of degree 6 at u.
 template <class Number>
 [[nodiscard]] Number middle_function(const Number& u) {
-  const Number w = u * (1 - u);
-  return 20 * w * w * w;
+  const Number w = u * (Number(1) - u);
+  return Number(20) * w * w * w;
 }
 
 /// The first u in (0, 1], to rounding, at which a polynomial that begins at >= 0 becomes negative; roots at 0 don't
@@ -120,14 +178,16 @@ class FirstRoot {
   /// that is nearer.
   [[nodiscard]] static Number single(Piece p) {
     using std::abs, std::sqrt;
+    const Number guess = polygon_root(p.c, p.degree);
     const bool from_right = abs(p.c[p.degree]) < abs(p.c[0]);
     if (from_right) std::reverse(p.c.begin(), p.c.begin() + static_cast<std::ptrdiff_t>(p.degree) + 1);
     const Bernstein<Number> q = p.by_powers();
     const Number close =
         sqrt(epsilon<Number>()) / 8;  // the next iterate is exact to rounding: convergence is quadratic
     const bool falls = q[0] > 0;
-    Number low = 0, high = std::numeric_limits<Number>::infinity(), t = -q[0] / q[1];
-    if (!(t > 0 && t < 1)) t = Number(0.5);
+    const Number turned = from_right ? Number(1 - guess) : guess;
+    Number low = 0, high = std::numeric_limits<Number>::infinity(), t = turned / (1 - turned);
+    if (!(t > 0 && t < high)) t = Number(0.5);
     for (int iteration = 0; iteration < 200; ++iteration) {
       Number value = q[p.degree], slope = 0;
       for (std::size_t i = p.degree; i-- > 0;) slope = slope * t + value, value = value * t + q[i];

@@ -26,6 +26,55 @@ template <class Number>
   return mask ? a : b;
 }
 
+// All that the physics is made of, besides + - * / and comparisons: the same source runs for double, for 50 digits and
+// for SIMD vectors, which bring their own versions of these (lanes/vector.hpp).
+
+/// The result of a comparison: bool, or a mask with a bit for each element of a vector.
+template <class Number>
+struct MaskOf {
+  using type = bool;
+};
+template <class Number>
+using Mask = typename MaskOf<Number>::type;
+/// Whether the comparison holds; for a mask, for any element.
+[[nodiscard]] inline bool any(bool mask) { return mask; }
+
+/// x y + z, in one rounding for vectors whose instruction set can do so.
+template <class Number>
+[[nodiscard]] Number mul_add(const Number& x, const Number& y, const Number& z) {
+  return x * y + z;
+}
+/// x y - z
+template <class Number>
+[[nodiscard]] Number mul_sub(const Number& x, const Number& y, const Number& z) {
+  return x * y - z;
+}
+/// z - x y
+template <class Number>
+[[nodiscard]] Number neg_mul_add(const Number& x, const Number& y, const Number& z) {
+  return z - x * y;
+}
+
+/// The lesser of two numbers; the second one if either is NaN, as in vectors.
+template <class Number>
+[[nodiscard]] Number lesser(const Number& x, const Number& y) {
+  return x < y ? x : y;
+}
+/// The greater of two numbers; the second one if either is NaN.
+template <class Number>
+[[nodiscard]] Number greater(const Number& x, const Number& y) {
+  return x > y ? x : y;
+}
+
+/// p/q, correctly rounded in each number type.
+template <class Number>
+[[nodiscard, gnu::always_inline]] inline Number ratio(double p, double q) {
+  if constexpr (requires { typename Number::Batch; })
+    return Number(p / q);
+  else
+    return Number(p) / Number(q);
+}
+
 /// (x^2 + y^2)^(1/2), also if the squares would overflow or vanish.
 template <class Number>
 [[nodiscard]] Number norm(const Number& x, const Number& y) {

@@ -14,6 +14,13 @@ template <class Number>
 struct Response {
   Number in_phase{}, quadrature{};  ///< P and Q
   Number amplitude{};               ///< (P^2 + Q^2)^(1/2)
+
+  [[nodiscard]] Number displacement(const Number& sine, const Number& cosine) const {
+    return mul_add(in_phase, sine, quadrature * cosine);
+  }
+  [[nodiscard]] Number velocity(const Number& nu, const Number& sine, const Number& cosine) const {
+    return nu * mul_sub(in_phase, cosine, quadrature * sine);
+  }
 };
 
 template <class Number>

@@ -33,7 +33,7 @@ class Arc {
 
   /// The forcing phase a time s after the start.
   [[nodiscard]] SineCosine<Number> phase_after(const Number& s) const {
-    return turned(start_, turn_by(Number(constants_->nu * s))).phase;
+    return advanced(start_, turn_by(Number(constants_->nu * s))).phase;
   }
 
   /// Motion a step of any length after `m`, an instant of this arc, in closed form; inlined, so that a caller that
@@ -54,10 +54,10 @@ class Arc {
     return m;
   }
   /// A forcing phase, and its sine and cosine less those of the phase before.
-  struct Turned {
+  struct AdvancedPhase {
     SineCosine<Number> phase, change;
   };
-  [[nodiscard]] static Turned turned(const Motion<Number>& m, const Turn<Number>& turn);
+  [[nodiscard]] static AdvancedPhase advanced(const Motion<Number>& m, const Turn<Number>& turn);
 
   const ArcConstants<Number, E>* constants_;
   Number anchor_;
@@ -65,10 +65,9 @@ class Arc {
 };
 
 template <class Number, Effects E>
-auto Arc<Number, E>::turned(const Motion<Number>& m, const Turn<Number>& turn) -> Turned {
+auto Arc<Number, E>::advanced(const Motion<Number>& m, const Turn<Number>& turn) -> AdvancedPhase {
   if constexpr (E.forcing == Forcing::none) return {{m.sine, m.cosine}, {Number(0), Number(0)}};
-  const auto& [s, c] = turn;
-  const SineCosine<Number> change{m.sine * c + m.cosine * s, m.cosine * c - m.sine * s};
+  const SineCosine<Number> change = change_by(turn, {m.sine, m.cosine});
   return {{m.sine + change.sine, m.cosine + change.cosine}, change};
 }
 
@@ -76,12 +75,12 @@ template <class Number, Effects E>
 Motion<Number> Arc<Number, E>::moved(const Motion<Number>& m, const Step<Number>& step) const {
   using std::abs;
   const Propagator<Number>& p = step.free;
-  const auto [phase, change] = turned(m, step.turn);
+  const auto [phase, change] = advanced(m, step.turn);
   const Number forced_x = constants_->response_displacement(phase.sine, phase.cosine);
   // eq. 10: no difference of positions, so that a short flight keeps its digits; the response is linear in sine, cosine
   Number offset =
       p.a_minus_one * m.free_x + p.b * m.free_v + constants_->response_displacement(change.sine, change.cosine);
-  Number free_x = p.a * m.free_x + p.b * m.free_v, free_v = p.c * m.free_v - p.b * m.free_x;
+  auto [free_x, free_v] = p.advance({m.free_x, m.free_v});
   if constexpr (E.forcing == Forcing::secular) {
     const Number response_x = m.cosine * step.displacement.cosine + m.sine * step.displacement.sine;
     const Number response_v = m.cosine * step.velocity.cosine + m.sine * step.velocity.sine;
@@ -127,7 +126,7 @@ Motion<Number> Arc<Number, E>::near(const Motion<Number>& m, const Number& d) co
     offset += t[k];
     if (k >= 2) gain += static_cast<double>(k) * t[k];
   }
-  const SineCosine<Number> phase = turned(m, turn_by(Number(constants_->nu * d))).phase;
+  const SineCosine<Number> phase = advanced(m, turn_by(Number(constants_->nu * d))).phase;
   const Number x = m.x + offset, v = m.v + gain / d;
   offset += m.offset;
   const Number a = constants_->acceleration(constants_->from_equilibrium(x, anchor_, offset), v, phase.sine);

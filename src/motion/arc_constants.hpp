@@ -8,22 +8,11 @@
 #include "model/effects.hpp"
 #include "model/oscillator.hpp"
 #include "model/response.hpp"
+#include "motion/equation_of_motion.hpp"
+#include "motion/propagation.hpp"
 #include "motion/state.hpp"
 
 namespace clatter::motion {
-
-/// Free motion over a time s (eq. 7): x(s) = A x + B v, v(s) = -B x + C v, and its acceleration -C x - D v.
-template <class Number>
-struct Propagator {
-  Number a, b, c, d;
-  Number a_minus_one;  ///< A - 1, small for short times
-};
-
-/// Sine of an angle, and its cosine less 1.
-template <class Number>
-struct Turn {
-  Number sine{}, cosine_minus_one{};
-};
 
 /// The coefficients that advance every motion of an oscillator by a time s.
 template <class Number>
@@ -33,14 +22,6 @@ struct Step {
   SineCosine<Number> displacement{}, velocity{};  ///< secular: response from rest to a unit force (eq. 11)
   Number fast_decay{};                            ///< heavy damping: e^(-fast s)
 };
-
-/// A turn by an angle, without cancellation if it is small.
-template <class Number>
-[[nodiscard]] Turn<Number> turn_by(const Number& angle) {
-  using std::cos, std::sin;
-  const Number half = sin(angle / 2);
-  return {2 * half * cos(angle / 2), -2 * half * half};
-}
 
 /// (e^z - 1)/z for z = re + i im with re <= 0, the divided difference of the exponential (eq. 11), to relative accuracy
 /// for every z.
@@ -68,6 +49,8 @@ class ArcConstants {
   static_assert(E == E.arc());  // the other effects don't change an arc, so they mustn't compile it again
 
  public:
+  using Equation = EquationOfMotion<Number, E>;
+
   explicit ArcConstants(const Oscillator& oscillator);
 
   /// Free motion over s >= 0, without cancellation for every h (eqs. 8 and 9).
@@ -79,11 +62,11 @@ class ArcConstants {
   /// Displacement and velocity of the steady forced response at a phase (eq. 5); 0 if the forcing is secular, as arcs
   /// then form response and transient together.
   [[nodiscard]] Number response_displacement(const Number& sine, const Number& cosine) const {
-    if constexpr (E.forcing == Forcing::regular) return response.in_phase * sine + response.quadrature * cosine;
+    if constexpr (E.forcing == Forcing::regular) return response.displacement(sine, cosine);
     return Number(0);
   }
   [[nodiscard]] Number response_velocity(const Number& sine, const Number& cosine) const {
-    if constexpr (E.forcing == Forcing::regular) return nu * (response.in_phase * cosine - response.quadrature * sine);
+    if constexpr (E.forcing == Forcing::regular) return response.velocity(nu, sine, cosine);
     return Number(0);
   }
 
@@ -95,21 +78,12 @@ class ArcConstants {
     return abs(from) + abs(offset) < abs(x) ? from + offset : x - load;
   }
 
-  /// Acceleration by eq. 3 at a `displacement` from the load's equilibrium.
+  /// Eq. 3, for displacements from the load's equilibrium.
+  [[nodiscard]] Equation equation() const { return {2 * h, f, nu}; }
   [[nodiscard]] Number acceleration(const Number& displacement, const Number& v, const Number& sine) const {
-    Number sum = -displacement;
-    if constexpr (E.forcing != Forcing::none) sum += f * sine;
-    if constexpr (E.damping != Damping::none) sum -= 2 * h * v;
-    return sum;
+    return equation().acceleration(displacement, v, sine);
   }
-
-  /// Derivative of the acceleration.
-  [[nodiscard]] Number jerk(const Motion<Number>& m) const {
-    Number sum = -m.v;
-    if constexpr (E.forcing != Forcing::none) sum += f * nu * m.cosine;
-    if constexpr (E.damping != Damping::none) sum -= 2 * h * m.a;
-    return sum;
-  }
+  [[nodiscard]] Number jerk(const Motion<Number>& m) const { return equation().jerk(m.v, m.a, m.cosine); }
 
   /// Bound of span^6 |y^(6)| from `m` on for a time `span`, for y = x (derivative 0) or y = x' (derivative 1), by
   /// eq. 14; under heavy damping the smaller of that and the bound mode by mode, since the fast mode dies out.
@@ -186,11 +160,11 @@ Propagator<Number> ArcConstants<Number, E>::propagator(const Number& s) const {
     const Number angle = coarse - spare, lost = (coarse - angle) - spare;
     const Number sine = sin(angle / 2), cosine = cos(angle / 2);
     const Number half = sine + lost / 2 * cosine, other = cosine - lost / 2 * sine;
-    const Number decay = exp(-h * s), cosine_minus_one = -2 * half * half;
-    const Number c = decay * (1 + cosine_minus_one), b = decay * (2 * half * other) / root, v = c - h * b;
-    const Number a_minus_one =
-        s <= Number(0.25) ? short_a_minus_one(s) : expm1(-h * s) * (1 + cosine_minus_one) + cosine_minus_one + h * b;
-    return {c + h * b, b, v, 2 * h * v + b, a_minus_one};
+    const Number cosine_minus_one = -2 * half * half;
+    Propagator<Number> free = light_propagator<Number>(exp(-h * s), 1 + cosine_minus_one, 2 * half * other / root, h);
+    free.a_minus_one = s <= Number(0.25) ? short_a_minus_one(s)
+                                         : expm1(-h * s) * (1 + cosine_minus_one) + cosine_minus_one + h * free.b;
+    return free;
   } else {
     const Number slow_decay = exp(-slow * s), fast_decay = exp(-fast * s), spread = 2 * root * s;
     const Number b =

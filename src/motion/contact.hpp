@@ -131,8 +131,8 @@ class ContactSearch {
 
   [[nodiscard]] Crossing first_crossing(const Motion<Number>& there, const Number& step) const {
     const Number error = error_of(step);
-    const Bernstein<Number> offset =
-        hermite<Number>(step, there.offset - here_.offset, {here_.v, there.v}, {here_.a, there.a});
+    const Bernstein<Number> offset = hermite(
+        HermiteData<Number>::over(step, {Number(0), here_.v, here_.a, there.offset - here_.offset, there.v, there.a}));
     const Crossing low = crossing_of(Side::lower, offset, error), high = crossing_of(Side::upper, offset, error);
     if (low.side == Side::none) return high;
     return high.side != Side::none && high.fraction < low.fraction ? high : low;

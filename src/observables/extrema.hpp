@@ -139,12 +139,10 @@ class Extrema {
     const double step = to.s - from.s;
     const auto left = jet<order>(arc, from.motion), right = jet<order>(arc, to.motion);
     const double error = hermite_error(arc.constants().sixth_bound(from.motion, step, order));
-    Bernstein<double> c = hermite<double>(step, right[0] - left[0], {left[1], right[1]}, {left[2], right[2]});
-    const double middle = c[3];
-    c[3] = middle + error;
-    const double high = left[0] + *std::max_element(c.begin(), c.end());
-    c[3] = middle - error;
-    const double low = left[0] + *std::min_element(c.begin(), c.end());
+    const Bernstein<double> c =
+        hermite(HermiteData<double>::over(step, {0.0, left[1], left[2], right[0] - left[0], right[1], right[2]}));
+    const Interval<double> inner = enclosure(c, error);  // the ends are included already
+    const double low = left[0] + inner.low, high = left[0] + inner.high;
     const double rounding = 4 * epsilon<double>() * std::max(std::abs(left[0]), std::abs(right[0]));
     if (!(high > range.high + rounding || low < range.low - rounding) || ++splits_ > max_splits) return;
     const Place middle_place = split<order>(arc, from, to);

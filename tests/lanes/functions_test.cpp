@@ -4,42 +4,43 @@
 
 #include <cmath>
 
-#include "lanes/enclosure.hpp"
 #include "lanes/vector.hpp"
-#include "math/number.hpp"
+#include "math/bernstein.hpp"
 
 namespace clatter::lanes {
 namespace {
 
 using V = Pair<xsimd::sse2>;
 
-/// 0 ... 2.2 in steps that are no multiples of each other, the ends included.
+/// 0 ... 2 in steps that are no multiples of each other, the ends included.
 template <class Look>
 void over_the_range(const Look& look) {
   constexpr int count = 40000;
-  for (int i = 0; i <= count; ++i) look(2.2 * i / count);
+  for (int i = 0; i <= count; ++i) look(longest_angle * i / count);
   for (int i = 1; i < 60; ++i) look(std::ldexp(1.9, -i));
 }
 
 double first(const V& y) { return y.first.get(0); }
 
-TEST(LaneFunctions, sine_and_cosine_are_known_to_four_ulps_of_1) {
-  // the last product and sum double the rounding of the half angle's sine and cosine; fused ones keep to two ulps
+TEST(LaneFunctions, turns_are_known_to_two_ulps_of_1) {
   double worst = 0;
   over_the_range([&](double x) {
-    const auto [sine, cosine] = short_sine_cosine(V(x));
-    worst = std::max(worst, static_cast<double>(std::abs(first(sine) - std::sin(static_cast<long double>(x)))));
-    worst = std::max(worst, static_cast<double>(std::abs(first(cosine) - std::cos(static_cast<long double>(x)))));
+    const auto [sine, less] = short_turn(V(x));
+    const long double angle = x, half = std::sin(angle / 2);
+    worst = std::max(worst, static_cast<double>(std::abs(first(sine) - std::sin(angle))));
+    worst = std::max(worst, static_cast<double>(std::abs(first(less) + 2 * half * half)));
   });
-  EXPECT_LE(worst, 4 * epsilon<double>());
+  EXPECT_LE(worst, 2 * epsilon<double>());
   EXPECT_GT(worst, 0);
 }
 
 TEST(LaneFunctions, small_angles_keep_their_digits) {
-  // the time to a contact soon after the last one is relative to itself, so the sine has to be accurate to itself
+  // the time to a contact soon after the last one is relative to itself, so both have to be accurate to themselves
   over_the_range([](double x) {
     if (x == 0 || x > 0.1) return;
-    EXPECT_NEAR(first(short_sine_cosine(V(x)).sine) / std::sin(x), 1, 4 * epsilon<double>());
+    const auto [sine, less] = short_turn(V(x));
+    EXPECT_NEAR(first(sine) / std::sin(x), 1, 4 * epsilon<double>());
+    EXPECT_NEAR(first(less) / (-2 * std::sin(x / 2) * std::sin(x / 2)), 1, 4 * epsilon<double>());
   });
 }
 
@@ -58,7 +59,7 @@ TEST(Enclosure, is_nan_if_anything_in_it_is_and_stays_so) {
     const auto input = [&](int i, double y) { return V(i == broken ? nan : y); };
     const HermiteData<V> ends{input(0, 0.1), input(1, 0.5), input(2, -0.2),
                               input(3, 0.3), input(4, 0.1), input(5, -0.3)};
-    Interval<V> range = enclosure(ends, input(6, 1e-3));
+    Interval<V> range = enclosure(hermite(ends), input(6, 1e-3));
     range.include(V(0.3));
     EXPECT_EQ(std::isnan(first(range.low)), broken >= 0) << broken;
     EXPECT_EQ(std::isnan(first(range.high)), broken >= 0) << broken;
@@ -66,8 +67,8 @@ TEST(Enclosure, is_nan_if_anything_in_it_is_and_stays_so) {
 }
 
 TEST(LaneFunctions, nothing_passes_without_time) {
-  EXPECT_EQ(first(short_sine_cosine(V(0.0)).sine), 0);
-  EXPECT_EQ(first(short_sine_cosine(V(0.0)).cosine), 1);
+  EXPECT_EQ(first(short_turn(V(0.0)).sine), 0);
+  EXPECT_EQ(first(short_turn(V(0.0)).cosine_minus_one), 0);
   EXPECT_EQ(first(short_decay(V(0.0))), 1);
 }
 

@@ -50,25 +50,20 @@ std::vector<point::Problem> lane_scenes(std::uint64_t from, std::size_t count) {
 point::Problem wide_scene() { return support::scene_of({0.1, 1.0, 1.5, 0.0}, -100, 100, 0.7); }
 
 TEST_P(LaneSteps, a_step_with_a_nan_in_any_input_of_its_proof_is_not_proved) {
-  const std::vector<LaneArray BlockState::*> rows{&BlockState::bound,       &BlockState::bound_forced,
-                                                  &BlockState::rounding,    &BlockState::free_pp,
-                                                  &BlockState::free_pw,     &BlockState::free_wp,
-                                                  &BlockState::free_ww,     &BlockState::turn_sine,
-                                                  &BlockState::in_phase,    &BlockState::quadrature,
-                                                  &BlockState::stiffness,   &BlockState::damping,
-                                                  &BlockState::angle,       &BlockState::rate,
-                                                  &BlockState::turn_cosine, &BlockState::p,
-                                                  &BlockState::w,           &BlockState::sine,
-                                                  &BlockState::cosine,      &BlockState::y,
-                                                  &BlockState::v,           &BlockState::a,
-                                                  &BlockState::lower,       &BlockState::upper};
+  const std::vector<LaneArray BlockState::*> rows{
+      &BlockState::bound,    &BlockState::bound_forced, &BlockState::rounding,  &BlockState::free_a,
+      &BlockState::free_b,   &BlockState::free_c,       &BlockState::turn_sine, &BlockState::turn_cosine_minus_one,
+      &BlockState::in_phase, &BlockState::quadrature,   &BlockState::f,         &BlockState::nu,
+      &BlockState::twice_h,  &BlockState::step,         &BlockState::free_x,    &BlockState::free_v,
+      &BlockState::sine,     &BlockState::cosine,       &BlockState::y,         &BlockState::v,
+      &BlockState::a,        &BlockState::lower,        &BlockState::upper};
   for (const StepFunction step : {step_functions_of(GetParam()).plain, step_functions_of(GetParam()).observed})
     for (std::size_t i = 0; i < rows.size(); ++i) {
       BlockState lanes{};
       for (std::size_t lane = 0; lane < LaneArray::width; ++lane) {
         const point::Problem scene = wide_scene();
         LaneView view(lanes, lane, scene);
-        view.load(scene.stops), view.begin_observing(scene.observe, false, false);
+        view.load(scene.stops), view.begin_observing(scene.observe), view.expect_section(false, false, 1);
       }
       const std::size_t broken = i % LaneArray::width, sound = (i + 1) % LaneArray::width;
       (lanes.*rows[i]).lane[broken] = std::numeric_limits<double>::quiet_NaN();
@@ -216,11 +211,11 @@ TEST_P(LaneSteps, advance_every_lane) {
   BlockState lanes{};
   for (std::size_t lane = 0; lane < LaneArray::width; ++lane) clear_lane(lanes, lane);
   LaneView(lanes, 1, scene).load(scene.stops);
-  lanes.p.lane[1] = 0x1.584ce6d702e79p-2, lanes.w.lane[1] = -0x1.3c0af122d568p+0;
+  lanes.free_x.lane[1] = 0x1.584ce6d702e79p-2, lanes.free_v.lane[1] = -0x1.3c0af122d568p-1;
   lanes.sine.lane[1] = 0x1.2ed29049b0f28p-2, lanes.cosine.lane[1] = -0x1.e9198d9f7dcb6p-1;
-  lanes.y.lane[1] = -0x1.e5dc1ac0bc4dap-3, lanes.v.lane[1] = 0x1.6559d0258a1p-6;
-  lanes.a.lane[1] = -0x1.f1022e7faa118p-3;
-  const double left = lanes.time_to_section.lane[1] = 0x1.abb50e872e83fp+1;
+  lanes.y.lane[1] = -0x1.e5dc1ac0bc4dap-3, lanes.v.lane[1] = 0x1.6559d0258a1p-7;
+  lanes.a.lane[1] = -0x1.f1022e7faa118p-5;
+  const double left = lanes.time_to_section.lane[1] = 0x1.abb50e872e83fp+2;
   step_functions_of(GetParam()).plain(lanes);
   EXPECT_TRUE(lanes.to_scalar != 0 || lanes.time_to_section.lane[1] < left - 0.01);
 }

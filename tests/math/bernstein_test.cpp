@@ -45,8 +45,8 @@ TEST(Bernstein, hermite_error_is_the_sixth_derivative_over_14400_at_most) {
   for (double step : {0.1, 0.5, 1.6}) {
     for (double from : {0.0, 1.0, 2.5}) {
       const double to = from + step;
-      const auto c = hermite<double>(step, std::cos(to) - std::cos(from), {-std::sin(from), -std::sin(to)},
-                                     {-std::cos(from), -std::cos(to)});
+      const auto c = hermite(HermiteData<double>::over(
+          step, {0.0, -std::sin(from), -std::cos(from), std::cos(to) - std::cos(from), -std::sin(to), -std::cos(to)}));
       double worst = 0.0;
       for (double u = 0.0; u <= 1.0; u += 1.0 / 128) {
         const double difference = std::abs(std::cos(from + u * step) - std::cos(from) - value(c, u));
