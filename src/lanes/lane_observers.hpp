@@ -38,8 +38,7 @@ class LaneObservers {
     if (!lanes_.extrema) return active;
     const Interval<V> slope = slope_enclosure(y, error);
     const V v_low = row(lanes_.v_low), v_high = row(lanes_.v_high);
-    const Mask y_inside =
-        (lesser(range.low, to.y) >= row(lanes_.y_low)) & (greater(range.high, to.y) <= row(lanes_.y_high));
+    const Mask y_inside = (range.low >= row(lanes_.y_low)) & (range.high <= row(lanes_.y_high));
     const Mask v_inside =
         (slope.low >= v_low * length) & (slope.high <= v_high * length) & (to.v >= v_low) & (to.v <= v_high);
     const Mask open = active & !(y_inside & v_inside);

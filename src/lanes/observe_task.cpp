@@ -66,7 +66,7 @@ void ObserveTask::skip_impact_at_start() {
   }
 }
 
-void ObserveTask::begin(LaneView lane) {
+void ObserveTask::begin(LaneView& lane) {
   const motion::State<double>& from = settled_.observed.from;
   lane.load(settled_.loop.stops());
   lane.set_state({from.x, from.v, first_turns_}, 0);
@@ -77,7 +77,7 @@ void ObserveTask::begin(LaneView lane) {
 /// Tells the lane about the section that it reports next. Reports become rarer as it becomes likely that the motion
 /// goes on meeting stops. The lane halts at the last one, and at every one once it coasts, since the extrema it has
 /// seen there would else depend on its neighbours.
-void ObserveTask::expect_section(LaneView lane) {
+void ObserveTask::expect_section(LaneView& lane) {
   const double left = sections_in_all_ - static_cast<double>(sections_ + to_report_);
   const bool last = left == 0;
   after_report_ = last || coasts_ ? 1 : std::min({1 + sections_ / 4, rarest_report, static_cast<std::int64_t>(left)});
@@ -98,7 +98,7 @@ SettledPoint ObserveTask::failed(stepping::Outcome outcome) const {
   return failed;
 }
 
-bool ObserveTask::pass_section(LaneView lane) {
+bool ObserveTask::pass_section(LaneView& lane) {
   if (has_spent_budget(lane.section().impacts)) return true;
   sections_ += std::exchange(to_report_, after_report_);
   const bool at_end = static_cast<double>(sections_) == sections_in_all_;
@@ -110,7 +110,7 @@ bool ObserveTask::pass_section(LaneView lane) {
 
 /// True if the rest of the observed time cannot change a result: no stop is in reach, and response plus transient stay
 /// within the extrema found.
-bool ObserveTask::may_end_early(LaneView lane) {
+bool ObserveTask::may_end_early(const LaneView& lane) {
   const Oscillator& o = item().problem.oscillator;
   const PhaseState now = lane.section_from_load();
   if (coasts_) return lane.extrema_hold(transient_bound(o, transient_of(o, now)));
@@ -119,7 +119,7 @@ bool ObserveTask::may_end_early(LaneView lane) {
 }
 
 /// Moves a lane that can't meet a stop from the section that it has passed to the end of the observed time.
-void ObserveTask::coast(LaneView lane) const {
+void ObserveTask::coast(LaneView& lane) const {
   const Oscillator& o = item().problem.oscillator;
   const ScalarLoop& loop = fallback_.loop();
   const PhasePoint free = transient_of(o, lane.section_from_load());
@@ -130,13 +130,13 @@ void ObserveTask::coast(LaneView lane) const {
   lane.set_section(response.x + to.a * free.x + to.b * free.v, response.v - to.b * free.x + to.c * free.v);
 }
 
-double ObserveTask::share(LaneView lane) const {
+double ObserveTask::share(const LaneView& lane) const {
   const double impacts = fallback_.loop().impacts() + settled_.impacts + lane.impacts();
   const double turns = static_cast<double>(sections_) / sections_in_all_;
   return std::min(1.0, std::max(impacts / item().problem.time.max_impacts, turns));
 }
 
-point::PointResult ObserveTask::result(LaneView lane, point::ThreadScratch& scratch) const {
+point::PointResult ObserveTask::result(const LaneView& lane, point::ThreadScratch& scratch) const {
   const steady::ObservedTime& observed = settled_.observed;
   const LaneSection section = lane.section();
   if (has_spent_budget(section.impacts))

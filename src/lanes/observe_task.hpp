@@ -29,34 +29,34 @@ class ObserveTask {
   [[nodiscard]] const point::WorkItem& item() const { return settled_.item; }
   [[nodiscard]] LaneView view(BlockState& block, std::size_t lane) const { return {block, lane, scene_}; }
 
-  void begin(LaneView lane);
+  void begin(LaneView& lane);
   /// Records the section that the lane has passed; true if the observed time is over, or the point has failed.
-  [[nodiscard]] bool pass_section(LaneView lane);
+  [[nodiscard]] bool pass_section(LaneView& lane);
   /// Advances the lane in the scalar loop: by two steps, or to the next section.
-  [[nodiscard]] stepping::Outcome fall_back(LaneView lane) { return fallback_.advance(lane); }
+  [[nodiscard]] stepping::Outcome fall_back(LaneView& lane) { return fallback_.advance(lane); }
   /// Whether the scalar loop alone would be quicker, or has to observe.
   [[nodiscard]] bool leaves_lane() const;
 
   [[nodiscard]] bool has_spent_budget(double impacts) const;
-  [[nodiscard]] bool has_spent_budget(LaneView lane) const { return has_spent_budget(lane.impacts()); }
+  [[nodiscard]] bool has_spent_budget(const LaneView& lane) const { return has_spent_budget(lane.impacts()); }
   /// The share of its limits that the point has spent.
-  [[nodiscard]] double share(LaneView lane) const;
+  [[nodiscard]] double share(const LaneView& lane) const;
 
   /// The point as it was before lanes observed it, for the scalar loop to do so.
   [[nodiscard]] const SettledPoint& settled() const { return settled_; }
   /// The point if it can't be run on.
   [[nodiscard]] SettledPoint failed(stepping::Outcome outcome) const;
   /// The result of a point whose observed time is over, or that has failed or leaves its lane.
-  [[nodiscard]] point::PointResult result(LaneView lane, point::ThreadScratch& scratch) const;
+  [[nodiscard]] point::PointResult result(const LaneView& lane, point::ThreadScratch& scratch) const;
 
  private:
   static constexpr std::int64_t rarest_report = 64;  ///< forcing periods
 
   [[nodiscard]] ScalarLoop scalar_loop();
   void skip_impact_at_start();
-  void expect_section(LaneView lane);
-  [[nodiscard]] bool may_end_early(LaneView lane);
-  void coast(LaneView lane) const;
+  void expect_section(LaneView& lane);
+  [[nodiscard]] bool may_end_early(const LaneView& lane);
+  void coast(LaneView& lane) const;
 
   SettledPoint settled_;
   Scene scene_;             ///< started so that a section ends the observed time

@@ -8,7 +8,7 @@ namespace {
 /// Shows a lane all that the scalar loop does for it.
 class LaneObserver {
  public:
-  LaneObserver(LaneView lane, bool observes) : lane_(lane), observes_(observes) {}
+  LaneObserver(const LaneView& lane, bool observes) : lane_(lane), observes_(observes) {}
 
   template <class A>
   void arc(const A& arc, double begin, double length) {
@@ -34,7 +34,7 @@ class LaneObserver {
 
 }  // namespace
 
-stepping::Outcome ScalarFallback::advance(LaneView lane) {
+stepping::Outcome ScalarFallback::advance(LaneView& lane) {
   const LaneState now = lane.state();
   motion::State<double> state;
   state.x = now.x, state.v = now.v, state.phase_turns = now.phase_turns;

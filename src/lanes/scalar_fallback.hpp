@@ -18,7 +18,7 @@ class ScalarFallback {
   ScalarFallback(const ScalarLoop& loop, bool observes) : loop_(loop), observes_(observes) {}
 
   /// By two steps, or to the next section.
-  [[nodiscard]] stepping::Outcome advance(LaneView lane);
+  [[nodiscard]] stepping::Outcome advance(LaneView& lane);
 
   [[nodiscard]] ScalarLoop& loop() { return loop_; }
   [[nodiscard]] const ScalarLoop& loop() const { return loop_; }

@@ -51,7 +51,8 @@ void Scheduler::settle_next(std::size_t lane) {
     exhausted_ = !item;
     if (exhausted_) return;
     auto task = std::make_unique<SettleTask>(*item);
-    const auto settled = task->begin(task->view(settling_.lanes, lane));
+    LaneView view = task->view(settling_.lanes, lane);
+    const auto settled = task->begin(view);
     if (!settled) {
       settling_.tasks[lane] = std::move(task), ++settling_.taken;
       return;
@@ -72,7 +73,8 @@ void Scheduler::observe_next(std::size_t lane) {
   if (waiting_.empty()) return;
   observing_.tasks[lane] = std::move(waiting_.back()), ++observing_.taken;
   waiting_.pop_back();
-  observing_.tasks[lane]->begin(observing_.view(lane));
+  LaneView view = observing_.view(lane);
+  observing_.tasks[lane]->begin(view);
 }
 
 template <class Task>
@@ -99,7 +101,7 @@ void Scheduler::handle_section(Block<SettleTask>& block, std::size_t lane) {
 
 void Scheduler::handle_section(Block<ObserveTask>& block, std::size_t lane) {
   ObserveTask& task = *block.tasks[lane];
-  const LaneView view = block.view(lane);
+  LaneView view = block.view(lane);
   if (!task.pass_section(view)) return;
   take_(task.item(), task.result(view, scratch_));
   leave(block, lane);
@@ -108,7 +110,8 @@ void Scheduler::handle_section(Block<ObserveTask>& block, std::size_t lane) {
 
 void Scheduler::fall_back(Block<SettleTask>& block, std::size_t lane) {
   SettleTask& task = *block.tasks[lane];
-  const stepping::Outcome outcome = task.fall_back(block.view(lane));
+  LaneView view = block.view(lane);
+  const stepping::Outcome outcome = task.fall_back(view);
   if (outcome != stepping::Outcome::completed) return fail(block, lane, outcome);
   if (!task.leaves_lane()) return;
   const point::WorkItem item = task.item();
@@ -118,7 +121,8 @@ void Scheduler::fall_back(Block<SettleTask>& block, std::size_t lane) {
 
 void Scheduler::fall_back(Block<ObserveTask>& block, std::size_t lane) {
   ObserveTask& task = *block.tasks[lane];
-  if (task.fall_back(block.view(lane)) == stepping::Outcome::completed && !task.leaves_lane()) return;
+  LaneView view = block.view(lane);
+  if (task.fall_back(view) == stepping::Outcome::completed && !task.leaves_lane()) return;
   take_(task.item(), observe_in_scalar_loop(task.settled(), scratch_));
   leave(block, lane);
   observe_next(lane);

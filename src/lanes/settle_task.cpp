@@ -10,7 +10,7 @@ SettleTask::SettleTask(const point::WorkItem& item)
       fallback_({item_.problem, stops_in_reach(item_.problem.stops, item_.effects), limits_of(item_.problem)}, false),
       log_area_(2 * std::log(std::max(loop().stops().restitution_lower, loop().stops().restitution_upper))) {}
 
-std::optional<SettledPoint> SettleTask::begin(LaneView lane) {
+std::optional<SettledPoint> SettleTask::begin(LaneView& lane) {
   const point::Problem& problem = item_.problem;
   motion::State<double> state;
   state.x = problem.start.displacement, state.v = problem.start.velocity;
@@ -24,7 +24,7 @@ std::optional<SettledPoint> SettleTask::begin(LaneView lane) {
   return std::nullopt;
 }
 
-std::optional<SettledPoint> SettleTask::pass_section(LaneView lane) {
+std::optional<SettledPoint> SettleTask::pass_section(const LaneView& lane) {
   const LaneSection section = lane.section();
   const double impacts = loop().impacts() + section.impacts;
   ++sections_;
@@ -38,7 +38,7 @@ std::optional<SettledPoint> SettleTask::pass_section(LaneView lane) {
   return found ? std::optional(settled(*found, section.impacts)) : std::nullopt;
 }
 
-SettledPoint SettleTask::failed(stepping::Outcome outcome, LaneView lane) const {
+SettledPoint SettleTask::failed(stepping::Outcome outcome, const LaneView& lane) const {
   return settled(search_->failure(outcome, {}), lane.impacts());
 }
 
@@ -46,11 +46,11 @@ SettledPoint SettleTask::settled(const steady::ObservedTime& observed, double im
   return {item_, loop(), impacts, observed};
 }
 
-bool SettleTask::has_spent_budget(LaneView lane) const {
+bool SettleTask::has_spent_budget(const LaneView& lane) const {
   return loop().impacts() + lane.impacts() > item_.problem.time.max_impacts;
 }
 
-double SettleTask::share(LaneView lane) const {
+double SettleTask::share(const LaneView& lane) const {
   const steady::TimeSettings& time = item_.problem.time;
   const double impacts = loop().impacts() + lane.impacts();
   const double sections = static_cast<double>(sections_) / static_cast<double>(time.max_periods);

@@ -19,20 +19,20 @@ class SettleTask {
   [[nodiscard]] LaneView view(BlockState& block, std::size_t lane) const { return {block, lane, item_.problem}; }
 
   /// The point if its observed time is known at the start, as for a transient; else nothing, and the lane is loaded.
-  [[nodiscard]] std::optional<SettledPoint> begin(LaneView lane);
+  [[nodiscard]] std::optional<SettledPoint> begin(LaneView& lane);
   /// The point if its observed time is known at the stroboscopic section that the lane has passed, or if it has failed.
-  [[nodiscard]] std::optional<SettledPoint> pass_section(LaneView lane);
+  [[nodiscard]] std::optional<SettledPoint> pass_section(const LaneView& lane);
   /// The point if it can't be run on, `lane` being where it is now.
-  [[nodiscard]] SettledPoint failed(stepping::Outcome outcome, LaneView lane) const;
+  [[nodiscard]] SettledPoint failed(stepping::Outcome outcome, const LaneView& lane) const;
 
   /// Advances the lane in the scalar loop: by two steps, or to the next section.
-  [[nodiscard]] stepping::Outcome fall_back(LaneView lane) { return fallback_.advance(lane); }
+  [[nodiscard]] stepping::Outcome fall_back(LaneView& lane) { return fallback_.advance(lane); }
   /// Whether the scalar loop alone would be quicker.
   [[nodiscard]] bool leaves_lane() const { return fallback_.calls() > 64 + 2 * sections_; }
 
-  [[nodiscard]] bool has_spent_budget(LaneView lane) const;
+  [[nodiscard]] bool has_spent_budget(const LaneView& lane) const;
   /// The share of its limits that the point has spent.
-  [[nodiscard]] double share(LaneView lane) const;
+  [[nodiscard]] double share(const LaneView& lane) const;
 
  private:
   [[nodiscard]] ScalarLoop& loop() { return fallback_.loop(); }

@@ -61,7 +61,7 @@ class StepBlock {
   static constexpr double grazing = 0x1p-12;
   /// In half steps: a contact that a shorter flight would follow is left to the scalar loop, too.
   static constexpr double shortest_flight = 0x1p-5;
-  static constexpr double longest_shift = 0x1p-7;  ///< in steps: the series around a guessed contact are then exact
+  static constexpr double longest_shift = 0x1p-9;  ///< in steps: the series around a guessed contact are then exact
 
   V row(const LaneArray& r) const { return oscillators_.row(r); }
 
@@ -73,10 +73,12 @@ class StepBlock {
       lanes_.proved += static_cast<double>(V::size);
       LaneMotion<V> next = oscillators_.step(here_);
       path_ = hermite(ends_of(here_, next, length));
-      const ErrorBound<V> bound = oscillators_.uncertainty(here_.free);
-      const Interval<V> range = enclosure(path_, bound.error);
-      const Mask inside = (greater(next.y, range.high) <= row(lanes_.upper) - bound.rounding) &
-                          (lesser(next.y, range.low) >= row(lanes_.lower) + bound.rounding);
+      bound_ = oscillators_.uncertainty(here_.free);
+      Interval<V> range = enclosure(path_, bound_.error);
+      range.include(next.y);
+      below_upper_ = range.high <= row(lanes_.upper) - bound_.rounding;
+      above_lower_ = range.low >= row(lanes_.lower) + bound_.rounding;
+      const Mask inside = below_upper_ & above_lower_;
       unproved_ = unproved_ | (stepping & !inside);
       const Mask passes = left_ <= length;
       stepping = stepping & inside & !(passes & arrived_);  // a second section waits for the next call
@@ -84,7 +86,7 @@ class StepBlock {
         const Mask ends = stepping & clipped(length);
         ending_ = ending_ | ends, unproved_ = unproved_ | ends;
         stepping = stepping & !ends;
-        const Mask seen = observers_.flight(stepping, here_, next, length, V(1.0), bound.error, path_, range, bound);
+        const Mask seen = observers_.flight(stepping, here_, next, length, V(1.0), bound_.error, path_, range, bound_);
         to_scalar_ = to_scalar_ | (stepping & !seen);
         stepping = seen;
       }
@@ -102,12 +104,7 @@ class StepBlock {
   Mask clipped(const V& time) const { return left_ <= time * row(lanes_.stop_short); }
 
   /// Lanes whose next step may meet the upper stop first.
-  Mask nearer_upper(const ErrorBound<V>& bound) const {
-    const Interval<V> range = enclosure(path_, bound.error);
-    const Mask above = !(greater(path_[6], range.high) <= row(lanes_.upper) - bound.rounding);
-    const Mask below = !(lesser(path_[6], range.low) >= row(lanes_.lower) + bound.rounding);
-    return above & ((!below) | (here_.v > V(0.0)));
-  }
+  Mask nearer_upper() const { return (!below_upper_) & (above_lower_ | (here_.v > V(0.0))); }
 
   /// The end of a flight from here: the contact, or an instant short of one.
   struct ContactGuess {
@@ -157,9 +154,9 @@ class StepBlock {
     for (int pass = 0;; ++pass) {
       LaneMotion<V> at = oscillators_.after(here_, g.time);
       const auto d = oscillators_.derivatives(at);
-      const V more = select(g.crosses, motion::time_over(stop - at.y, at.v, at.a, d), zero);
-      const Mask far =
-          g.good & !((abs(more) <= length * V(longest_shift)) & (abs(more * at.a) <= abs(at.v) * V(0x1p-5)));
+      const motion::TimeOver<V> to_stop(stop - at.y, at.v, at.a, d);
+      const V more = select(g.crosses, to_stop.time, zero);
+      const Mask far = g.good & !((abs(more) <= length * V(longest_shift)) & ((!g.crosses) | to_stop.converged()));
       if (pass == 2 || !any(far)) {
         g.good = g.good & !far;
         g.time = g.time + more;
@@ -175,8 +172,8 @@ class StepBlock {
 
   /// A turn by an angle of at most 2 longest_shift.
   static motion::Turn<V> tiny_turn(const V& angle) {
-    static constexpr std::array sine_terms{1.0, -1.0 / 6, 1.0 / 120, -1.0 / 5040};
-    static constexpr std::array cosine_terms{-1.0 / 2, 1.0 / 24, -1.0 / 720};
+    static constexpr std::array sine_terms{1.0, -1.0 / 6, 1.0 / 120};
+    static constexpr std::array cosine_terms{-1.0 / 2, 1.0 / 24};
     const V square = angle * angle;
     return {angle * polynomial(sine_terms, square), square * polynomial(cosine_terms, square)};
   }
@@ -186,19 +183,18 @@ class StepBlock {
   [[gnu::always_inline]] inline void contact() {
     lanes_.refined += static_cast<double>(V::size);
     const V zero(0.0), one(1.0), length = row(lanes_.step);
-    const ErrorBound<V> bound = oscillators_.uncertainty(here_.free);
-    const Mask upper = nearer_upper(bound);
+    const Mask upper = nearer_upper();
     const V sign = select(upper, one, V(-1.0)), stop = select(upper, row(lanes_.upper), row(lanes_.lower));
-    ContactGuess g = guess_contact(bound.error, sign, stop, length);
+    ContactGuess g = guess_contact(bound_.error, sign, stop, length);
     if constexpr (observes) end_flights(g);
     LaneMotion<V> at = refine_contact(stop, length, g);
-    const V part = g.time * row(lanes_.inverse_step), error = bound.error * sixth_power(part);
+    const V part = g.time * row(lanes_.inverse_step), error = bound_.error * sixth_power(part);
     const Bernstein<V> path = hermite(ends_of(here_, at, g.time));
-    const Interval<V> range = enclosure(path, error);
+    Interval<V> range = enclosure(path, error);
     const V low = select(g.crosses, range.low, lesser(at.y, range.low));
     const V high = select(g.crosses, range.high, greater(at.y, range.high));
-    g.good = g.good & (g.time > zero) & (g.time < length) & (low >= row(lanes_.lower) + bound.rounding) &
-             (high <= row(lanes_.upper) - bound.rounding);
+    g.good = g.good & (g.time > zero) & (g.time < length) & (low >= row(lanes_.lower) + bound_.rounding) &
+             (high <= row(lanes_.upper) - bound_.rounding);
     const Restitution<V> law{select(upper, row(lanes_.restitution_upper), row(lanes_.restitution_lower))};
     const V before = at.v, jump = select(g.crosses, law.jump(before), zero);
     const V after = select(g.crosses, law.after(before), before);
@@ -207,9 +203,10 @@ class StepBlock {
                          (law.after(-sign * before) > sign * a * length * V(shortest_flight));
     const Mask passes = left_ <= g.time, waits = unproved_ & passes & arrived_;
     g.good = g.good & ((!g.crosses) | bounces) & !waits;
+    range.include(at.y);
     if constexpr (observes)
       g.good = observers_.flight(g.good & ((!g.crosses) | !clipped(g.time)), here_, at, g.time, part, error, path,
-                                 range, bound);
+                                 range, bound_);
     at.v = after, at.a = a;
     const Mask met = g.good & g.crosses;
     if constexpr (observes) {
@@ -269,12 +266,14 @@ class StepBlock {
   LaneObservers<V> observers_;
   LaneMotion<V> here_;
   Bernstein<V> path_;  ///< the displacement in the step from here
+  ErrorBound<V> bound_;
   V left_, itinerary_;
   motion::FreeMotion<V> from_free_;  ///< beginning of the flight across a section
   SineCosine<V> from_phase_;
   V time_;       ///< from there to the section
   Mask active_;  ///< lanes that are not idle
   Mask none_, arrived_, to_scalar_;
+  Mask below_upper_, above_lower_;
   Mask unproved_;  ///< lanes to be taken to a contact, or short of one
   Mask ending_;    ///< lanes whose observed time ends before
 };

@@ -111,11 +111,24 @@ double displacement_bound(const Oscillator& oscillator, const PhaseState& now, d
   return bound;
 }
 
-bool out_of_reach(const Oscillator& oscillator, const PhaseState& now, const Stops& stops) {
-  const double gap = std::min(oscillator.load - stops.lower, stops.upper - oscillator.load);
+namespace {
+
+/// From the load's equilibrium to the nearer stop.
+double gap_of(const Oscillator& oscillator, const Stops& stops) {
+  return std::min(oscillator.load - stops.lower, stops.upper - oscillator.load);
+}
+
+}  // namespace
+
+bool response_meets(const Oscillator& oscillator, const Stops& stops) {
   const auto response = steady_response(oscillator.damping, oscillator.forcing, oscillator.frequency);
-  return response.amplitude < gap &&  // necessary, and cheap to check first
-         displacement_bound(oscillator, now, std::numeric_limits<double>::infinity(), gap) < gap;
+  return !(response.amplitude < gap_of(oscillator, stops));
+}
+
+bool out_of_reach(const Oscillator& oscillator, const PhaseState& now, const Stops& stops) {
+  if (response_meets(oscillator, stops)) return false;  // cheap to check first
+  const double gap = gap_of(oscillator, stops);
+  return displacement_bound(oscillator, now, std::numeric_limits<double>::infinity(), gap) < gap;
 }
 
 }  // namespace model

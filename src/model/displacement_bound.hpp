@@ -45,6 +45,9 @@ struct PhasePoint {
 [[nodiscard]] double displacement_bound_through_impacts(const Oscillator& oscillator, const PhaseState& now,
                                                         double duration);
 
+/// Whether the steady forced response alone meets a stop.
+[[nodiscard]] bool response_meets(const Oscillator& oscillator, const Stops& stops);
+
 /// Whether no stop can be met from an instant on, for all time.
 [[nodiscard]] bool out_of_reach(const Oscillator& oscillator, const PhaseState& now, const Stops& stops);
 

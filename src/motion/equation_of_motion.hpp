@@ -5,10 +5,10 @@
 
 namespace clatter::motion {
 
-/// Third to seventh derivative of the displacement by time.
+/// Third to sixth derivative of the displacement by time.
 template <class Number>
 struct HigherDerivatives {
-  Number d3, d4, d5, d6, d7;
+  Number d3, d4, d5, d6;
 };
 
 /// Eq. 3, solved for the acceleration, and its derivatives by time, for every number type.
@@ -30,10 +30,8 @@ struct EquationOfMotion {
     HigherDerivatives<Number> d;
     d.d3 = next(force3, a, v);
     d.d4 = next(force4, d.d3, a);
-    const Number force5 = force(square, force3);
-    d.d5 = next(force5, d.d4, d.d3);
+    d.d5 = next(force(square, force3), d.d4, d.d3);
     d.d6 = next(force(square, force4), d.d5, d.d4);
-    d.d7 = next(force(square, force5), d.d6, d.d5);
     return d;
   }
 
@@ -50,33 +48,42 @@ struct EquationOfMotion {
 };
 
 /// Time, forwards or backwards, in which a motion with velocity v and acceleration a covers a small distance: the
-/// inverse of its Taylor series to fourth order, then a step of Newton's method on the series to sixth order. In units
-/// of the time in which derivatives grow, the error is below 2^-52 if t is at most 1/64 and t a at most v/32.
+/// inverse of its Taylor series to third order, then a step of Newton's method on the series to fifth order.
 template <class Number>
-[[nodiscard, gnu::always_inline]] inline Number time_over(const Number& distance, const Number& v, const Number& a,
-                                                          const HigherDerivatives<Number>& d) {
-  const Number inverse = Number(1) / v, c2 = a * Number(0.5), c3 = d.d3 * ratio<Number>(1, 6),
-               c4 = d.d4 * ratio<Number>(1, 24);
-  const Number first = distance * inverse, along = first * inverse;
-  const Number k2 = c2 * along, k3 = c3 * first * along, k4 = c4 * first * (first * along);
-  // 1 - k2 + (2 k2^2 - k3) - (5 k2^3 - 5 k2 k3 + k4)
-  const Number square = k2 * k2, third = mul_sub(k2, mul_sub(Number(5), square, Number(5) * k3), Number(0) - k4);
-  const Number t = first * ((Number(1) - k2) + (mul_sub(Number(2), square, k3) - third));
-  const Number c5 = d.d5 * ratio<Number>(1, 120), c6 = d.d6 * ratio<Number>(1, 720);
-  const Number left =
-      neg_mul_add(t, mul_add(t, mul_add(t, mul_add(t, mul_add(t, mul_add(t, c6, c5), c4), c3), c2), v), distance);
-  const Number bend = t * mul_add(t, mul_add(t, Number(4) * c4, Number(3) * c3), a) * inverse;  // of the slope
-  const Number rough = mul_add(bend, bend, Number(1) - bend);                                   // of 1/(1 + bend)
-  return mul_add(left * inverse, mul_add(rough, neg_mul_add(Number(1) + bend, rough, Number(1)), rough), t);
-}
+struct TimeOver {
+  Number time;
+  Number rough;       ///< before the step of Newton's method
+  Number correction;  ///< that step
+  Number bend;        ///< relative change of the velocity on the way
 
-/// The velocity a short time t later, by the Taylor series to the seventh derivative of the displacement.
+  [[gnu::always_inline]] inline TimeOver(const Number& distance, const Number& v, const Number& a,
+                                         const HigherDerivatives<Number>& d) {
+    const Number inverse = Number(1) / v, c2 = a * Number(0.5), c3 = d.d3 * ratio<Number>(1, 6),
+                 c4 = d.d4 * ratio<Number>(1, 24), c5 = d.d5 * ratio<Number>(1, 120);
+    const Number first = distance * inverse, along = first * inverse, k2 = c2 * along, k3 = c3 * (first * along);
+    rough = first * ((Number(1) - k2) + mul_sub(k2 + k2, k2, k3));
+    const Number rate = mul_add(rough, mul_add(rough, mul_add(rough, mul_add(rough, c5, c4), c3), c2), v);
+    bend = rough * mul_add(rough, d.d3 * Number(0.5), a) * inverse;
+    const Number less = Number(1) - bend;  // (1 - bend)(1 + bend^2), nearly 1/(1 + bend)
+    correction = neg_mul_add(rough, rate, distance) * inverse * mul_add(less * bend, bend, less);
+    time = rough + correction;
+  }
+
+  /// Whether the distance covered in this time is exact to 2^-52, in units of the time in which derivatives grow, if it
+  /// is below 1/256 of that.
+  [[nodiscard]] Mask<Number> converged() const {
+    using std::abs;
+    return (abs(correction) <= abs(rough) * Number(0x1p-20)) & (abs(bend) <= Number(0x1p-5));
+  }
+};
+
+/// The velocity a short time t later, by the Taylor series to the sixth derivative of the displacement.
 template <class Number>
 [[nodiscard, gnu::always_inline]] inline Number velocity_after(const Number& t, const Number& v, const Number& a,
                                                                const HigherDerivatives<Number>& d) {
-  const Number c6 = d.d6 * ratio<Number>(1, 120), c7 = d.d7 * ratio<Number>(1, 720);
-  const Number c5 = d.d5 * ratio<Number>(1, 24), c4 = d.d4 * ratio<Number>(1, 6), c3 = d.d3 * Number(0.5);
-  return mul_add(t, mul_add(t, mul_add(t, mul_add(t, mul_add(t, mul_add(t, c7, c6), c5), c4), c3), a), v);
+  const Number c6 = d.d6 * ratio<Number>(1, 120), c5 = d.d5 * ratio<Number>(1, 24);
+  const Number c4 = d.d4 * ratio<Number>(1, 6), c3 = d.d3 * Number(0.5);
+  return mul_add(t, mul_add(t, mul_add(t, mul_add(t, mul_add(t, c6, c5), c4), c3), a), v);
 }
 
 }  // namespace clatter::motion

@@ -32,6 +32,9 @@ class ForcedSearch {
         scene_(scene),
         time_(time),
         in_lanes_(advanced_by == AdvancedBy::lanes),
+        may_coast_(scene.oscillator.damping != 0 &&
+                   !(E.stops() && response_meets(scene.oscillator, integrator.stops()))),
+        log_area_of_damping_(-2 * integrator.constants().h * integrator.period()),
         repeat_(time.tolerance, in_lanes_ ? 4 : 1),
         begins_before_(scene.oscillator.forcing),
         watch_(integrator.stops()),
@@ -51,7 +54,7 @@ class ForcedSearch {
 
   /// The steady state, if it is known at the next section; nothing: the motion has to go on.
   [[nodiscard]] std::optional<ObservedTime> at_section(const motion::State<double>& state) {
-    recent_[index(0)] = state;
+    if (!in_lanes_) recent_[index(0) % recent_.size()] = state;
     if (const auto found = closed_form(state)) return found;
     if (const std::size_t n = repeats(state)) return repetition(n);
     if (section_ == time_.max_periods)
@@ -94,8 +97,7 @@ class ForcedSearch {
   /// The forcing periods after which the motion repeats, 0 while it doesn't. In lanes the motion goes on until the
   /// states at the sections are as close as rounding allows, since no Newton step brings them there.
   [[nodiscard]] std::size_t repeats(const motion::State<double>& state) {
-    const double log_area =
-        section_ > 0 ? passages_[index(1)].log_area - 2 * integrator_.constants().h * integrator_.period() : 0.0;
+    const double log_area = section_ > 0 ? passages_[index(1)].log_area + log_area_of_damping_ : 0.0;
     const std::size_t n = repeat_.add(state.x, state.v, log_area);
     if (!in_lanes_ || (n == 0 && closing_in_ == 0)) return n;
     if (closing_in_ == 0) closing_in_ = n, closest_ = std::numeric_limits<double>::infinity();
@@ -107,16 +109,23 @@ class ForcedSearch {
   }
 
   [[nodiscard]] ObservedTime repetition(std::size_t n) const {
-    return {Status::periodic,       recent_[index(repeat_.first_of_last(n, begins_before_))],
+    return {Status::periodic,       recent(repeat_.first_of_last(n, begins_before_)),
             static_cast<double>(n), simulated(),
             FoundBy::repetition,    settled()};
+  }
+  /// The state so many sections ago. Lanes know no more of it than displacement and velocity.
+  [[nodiscard]] motion::State<double> recent(std::size_t ago) const {
+    if (!in_lanes_) return recent_[index(ago) % recent_.size()];
+    motion::State<double> state;
+    state.x = repeat_.x(ago), state.v = repeat_.v(ago), state.periods = section_ - static_cast<std::int64_t>(ago);
+    return state;
   }
 
   /// The steady forced response, if no stop is in reach from now on and damping removes the rest of the transient,
   /// however long that may take.
   [[nodiscard]] std::optional<ObservedTime> closed_form(const motion::State<double>& state) const {
     const Oscillator& o = scene_.oscillator;
-    if (o.damping == 0 || (section_ > 0 && passages_[index(1)].itinerary != 0)) return std::nullopt;
+    if (!may_coast_ || (section_ > 0 && passages_[index(1)].itinerary != 0)) return std::nullopt;
     const auto [sine, cosine] = integrator_.phase(motion::State<double>{});
     const PhaseState now{state.x - o.load, state.v, sine, cosine};
     if (E.stops() && !out_of_reach(o, now, integrator_.stops())) return std::nullopt;
@@ -146,9 +155,7 @@ class ForcedSearch {
   /// attempt costs as much as hundreds of them.
   [[nodiscard]] bool pays() const {
     if (closing_in_ > 0) return false;
-    if (in_lanes_)
-      return section_ >= 64 &&
-             (std::has_single_bit(static_cast<std::uint64_t>(section_)) || section_ + 1 == time_.max_periods);
+    if (in_lanes_) return section_ >= 64 && ((section_ & (section_ - 1)) == 0 || section_ + 1 == time_.max_periods);
     return section_ <= long_settling || section_ % 8 == 0;
   }
 
@@ -199,22 +206,24 @@ class ForcedSearch {
 
   stepping::Exact<double, E>& integrator_;
   const Scene& scene_;
-  const TimeSettings& time_;
+  TimeSettings time_;
   bool in_lanes_;
+  bool may_coast_;              ///< the transient may die out without a contact
+  double log_area_of_damping_;  ///< logarithm of the factor by which a forcing period shrinks areas without impacts
+  std::int64_t section_ = 0;
+  std::int64_t taken_ = 0;       ///< sections that were taken from approaches
+  std::size_t closing_in_ = 0;   ///< lanes: forcing periods after which the motion repeats; 0: not known yet
+  double closest_ = 0.0;         ///< the least distance so far of states so many sections apart
+  std::int64_t closest_at_ = 0;  ///< the section at which it was
   RepeatFinder repeat_;
   BeginsBefore begins_before_;
+  std::array<Passage, kept> passages_{};  ///< [section modulo kept]: the period from it
+  std::size_t next_ = 0;                  ///< index of the approach's next section
+  std::optional<Orbit> approach_;         ///< the periods that the last attempt followed
   SectionObserver watch_;
   StroboscopicMap<E> map_;
-  std::size_t closing_in_ = 0;     ///< lanes: forcing periods after which the motion repeats; 0: not known yet
-  double closest_ = 0.0;           ///< the least distance so far of states so many sections apart
-  std::int64_t closest_at_ = 0;    ///< the section at which it was
-  std::optional<Orbit> approach_;  ///< the periods that the last attempt followed
-  std::size_t next_ = 0;           ///< index of its next section
-  std::int64_t section_ = 0;
-  std::int64_t taken_ = 0;                                       ///< sections that were taken from approaches
-  std::array<motion::State<double>, kept> recent_{};             ///< [section modulo kept]
-  std::array<Passage, kept> passages_{};                         ///< [section modulo kept]: the period from it
-  std::array<double, RepeatFinder::longest + 1> near_enough_{};  ///< [n]: distance below which an attempt is made
+  std::array<motion::State<double>, RepeatFinder::longest> recent_{};  ///< [section modulo its size], not in lanes
+  std::array<double, RepeatFinder::longest + 1> near_enough_{};        ///< [n]: distance below which an attempt is made
 };
 
 }  // namespace clatter::steady

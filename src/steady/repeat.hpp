@@ -52,7 +52,7 @@ class RepeatFinder {
   /// of states; returns the n after which the motion repeats, 0 while it doesn't.
   [[nodiscard]] std::size_t add(double x, double v, double log_area) {
     if (size_ == capacity) forget();
-    x_[size_] = x, v_[size_] = v, log_area_[size_] = log_area;
+    x_[size_] = x, others_[size_] = {v, log_area};
     const std::size_t now = size_++;
     if (candidate_ > 0 && !repeats(now, candidate_, divisor_tolerances * tolerance_)) candidate_ = 0;
     if (candidate_ > 0 && --left_ == 0) return shortest(now, std::exchange(candidate_, 0));
@@ -72,13 +72,10 @@ class RepeatFinder {
   /// other; 0 for none.
   [[nodiscard]] std::size_t next_within(double distance, std::size_t n) const {
     const std::size_t now = size_ - 1, last = std::min(longest, now);
-    const double x = x_[now], limit = distance * std::max(std::abs(x), std::abs(v_[now]));
-    for (; n + block <= last + 1; n += block) {  // no branch for each state, so that compilers use vectors
-      const double* const before = &x_[now - n - (block - 1)];
-      int near = 0;
-      for (std::size_t i = 0; i < block; ++i) near += std::abs(x - before[i]) <= limit ? 1 : 0;
-      if (near > 0) break;
-    }
+    const double x = x_[now], limit = distance * std::max(std::abs(x), std::abs(others_[now].v));
+    std::int64_t near = 0;  // as wide as double, and without branches, so that compilers use vectors
+    for (std::size_t i = now - last; i + n <= now; ++i) near = std::abs(x - x_[i]) <= limit ? std::int64_t{1} : near;
+    if (near == 0) return 0;
     while (n <= last && !repeats(now, n, distance)) ++n;
     return n <= last ? n : 0;
   }
@@ -89,18 +86,21 @@ class RepeatFinder {
     return m + ago < size_ ? distance(size_ - 1 - ago, m) : std::numeric_limits<double>::infinity();
   }
 
+  /// Displacement and velocity so many sections ago, at most 2 longest.
+  [[nodiscard]] double x(std::size_t ago) const { return x_[size_ - 1 - ago]; }
+  [[nodiscard]] double v(std::size_t ago) const { return others_[size_ - 1 - ago].v; }
+
   /// Index among the last n states, 0 for the newest, of the one at which the observed period begins.
   [[nodiscard]] std::size_t first_of_last(std::size_t n, const BeginsBefore& before) const {
     const std::size_t now = size_ - 1;
     std::size_t best = 0;
     for (std::size_t i = 1; i < n; ++i)
-      if (before(x_[now - i], v_[now - i], x_[now - best], v_[now - best])) best = i;
+      if (before(x_[now - i], others_[now - i].v, x_[now - best], others_[now - best].v)) best = i;
     return best;
   }
 
  private:
-  static constexpr std::size_t capacity = 512;
-  static constexpr std::size_t block = 8;  ///< states that are compared together
+  static constexpr std::size_t capacity = 256;
   static constexpr double ulps = 8 * std::numeric_limits<double>::epsilon();
   static constexpr double rounding = 2048 * std::numeric_limits<double>::epsilon();  ///< of a period with its impacts
   static constexpr double most_left = 1e-8;            ///< of a transient that rounding has stopped
@@ -108,21 +108,20 @@ class RepeatFinder {
 
   void forget() {
     std::copy(x_.end() - kept, x_.end(), x_.begin());
-    std::copy(v_.end() - kept, v_.end(), v_.begin());
-    std::copy(log_area_.end() - kept, log_area_.end(), log_area_.begin());
+    std::copy(others_.end() - kept, others_.end(), others_.begin());
     size_ = static_cast<std::size_t>(kept);
   }
 
   /// Whether the states at `now` and n sections before are the same, to a tolerance.
   [[nodiscard]] bool repeats(std::size_t now, std::size_t n, double tolerance) const {
-    const double limit = tolerance * std::max(std::abs(x_[now]), std::abs(v_[now]));
-    return std::abs(x_[now] - x_[now - n]) <= limit && std::abs(v_[now] - v_[now - n]) <= limit;
+    const double limit = tolerance * std::max(std::abs(x_[now]), std::abs(others_[now].v));
+    return std::abs(x_[now] - x_[now - n]) <= limit && std::abs(others_[now].v - others_[now - n].v) <= limit;
   }
 
   /// Distance of the states at `now` and m sections before, over the larger of |x|, |v|.
   [[nodiscard]] double distance(std::size_t now, std::size_t m) const {
-    const double difference = std::max(std::abs(x_[now] - x_[now - m]), std::abs(v_[now] - v_[now - m]));
-    return difference / std::max(std::abs(x_[now]), std::abs(v_[now]));
+    const double difference = std::max(std::abs(x_[now] - x_[now - m]), std::abs(others_[now].v - others_[now - m].v));
+    return difference / std::max(std::abs(x_[now]), std::abs(others_[now].v));
   }
 
   /// Whether no divisor's distance is still shrinking at a hit at n: else a slowly alternating transient would pass for
@@ -136,7 +135,7 @@ class RepeatFinder {
   /// The modulus of the multipliers of n periods, if they are a pair, by the factor by which areas shrank in them.
   [[nodiscard]] double area_rate(std::size_t now, std::size_t n) const {
     double log_area = 0;
-    for (std::size_t i = 0; i < n; ++i) log_area += log_area_[now - i];
+    for (std::size_t i = 0; i < n; ++i) log_area += others_[now - i].log_area;
     return std::exp(log_area / 2);
   }
 
@@ -183,7 +182,12 @@ class RepeatFinder {
   std::size_t stalled_n_ = 0, stalled_for_ = 0;  ///< a hit that comes no nearer, and the sections since it last did
   double closest_ = 0.0;                         ///< its least distance
   std::size_t size_ = 0;
-  std::array<double, capacity> x_, v_, log_area_;  ///< the first `size_` are set
+  /// Of a section: its velocity, and the area's factor of the period before it.
+  struct VelocityAndArea {
+    double v, log_area;
+  };
+  std::array<double, capacity> x_;  ///< the first `size_` are set; apart from the others, since they are compared first
+  std::array<VelocityAndArea, capacity> others_;
 };
 
 /// The section from which on a run with all effects looks for a repeat: early enough before max_periods to find a
