@@ -51,7 +51,7 @@ struct BlockState {
   LaneMask to_scalar;                            ///< lanes that the scalar loop has to advance from their state
   // observation
   LaneArray ends_here;   ///< 1: the next section ends the observed time
-  LaneArray stop_short;  ///< 1: stop before the section; the flight across it would overshoot; else -1
+  LaneArray stop_short;  ///< 1: stop before the section, since the flight across it would overshoot; else 0
   LaneArray y_low, y_high, v_low, v_high;  ///< least and greatest so far
   /// The beginning of the flight in which an extremum was found, and its length.
   struct Reference {

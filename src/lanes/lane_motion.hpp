@@ -90,7 +90,7 @@ class LaneOscillators {
   [[nodiscard]] V acceleration(const V& y, const V& v, const SineCosine<V>& phase) const {
     return equation().acceleration(y, v, phase.sine);
   }
-  [[nodiscard]] V jerk(const LaneMotion<V>& m) const { return equation().jerk(m.v, m.a, m.phase.cosine); }
+  [[nodiscard]] V jerk(const V& v, const V& a, const V& cosine) const { return equation().jerk(v, a, cosine); }
   [[nodiscard]] Derivatives derivatives(const LaneMotion<V>& m) const {
     return equation().derivatives(m.v, m.a, m.phase.sine, m.phase.cosine);
   }

@@ -6,13 +6,15 @@
 
 namespace clatter::lanes {
 
-/// A flight of some lanes within a step.
+/// A flight of some lanes within a step: its beginning, its end, and its time.
 template <class V>
 struct Flight {
-  LaneMotion<V> from, to;
-  V length, part;     ///< its time; of a step
-  V error;            ///< of the middle coefficient of y
-  Interval<V> range;  ///< of the displacement, without the ends
+  struct End {
+    V y, v, a, cosine;  ///< the motion, and the cosine of the forcing phase
+  };
+  LaneMotion<V> from;
+  End to;
+  V length;
 };
 
 template <class V>
@@ -33,17 +35,18 @@ class LaneObservers {
   /// Observes a flight. Returns the lanes for which its extrema are certain; for the others nothing is recorded. Most
   /// flights stay within the extrema found so far, so that is all that is looked at first.
   [[gnu::always_inline]] inline Mask flight(const Mask& active, const LaneMotion<V>& from, const LaneMotion<V>& to,
-                                            const V& length, const V& part, const V& error, const Bernstein<V>& y,
-                                            const Interval<V>& range, const ErrorBound<V>& bound) {
+                                            const V& length, const V& error, const Bernstein<V>& y,
+                                            const Interval<V>& range) {
     if (!lanes_.extrema) return active;
     const Interval<V> slope = slope_enclosure(y, error);
     const V v_low = row(lanes_.v_low), v_high = row(lanes_.v_high);
     const Mask y_inside = (range.low >= row(lanes_.y_low)) & (range.high <= row(lanes_.y_high));
     const Mask v_inside =
         (slope.low >= v_low * length) & (slope.high <= v_high * length) & (to.v >= v_low) & (to.v <= v_high);
-    const Mask open = active & !(y_inside & v_inside);
+    const Mask open = active - (y_inside & v_inside);
     if (!any(open)) return active;
-    return active & ((!open) | look_closer(oscillators_, open, Flight<V>{from, to, length, part, error, range}, bound));
+    const Flight<V> flight{from, {to.y, to.v, to.a, to.phase.cosine}, length};
+    return active & ((!open) | look_closer(oscillators_, open, flight));
   }
 
   /// Observes an impact of the lanes `met`, with their motion `at` just after it; those that are `counted` are within
@@ -79,27 +82,30 @@ class LaneObservers {
   };
 
   /// Widens the ranges of the open lanes by a flight that may exceed them; returns those for which that is certain.
-  [[gnu::noinline]] static Mask look_closer(LaneOscillators<V> oscillators, Mask open, Flight<V> flight,
-                                            ErrorBound<V> bound) {
-    return LaneObservers(oscillators).widen(open, flight, bound);
+  [[gnu::noinline]] static Mask look_closer(LaneOscillators<V> oscillators, Mask open, Flight<V> flight) {
+    return LaneObservers(oscillators).widen(open, flight);
   }
-  Mask widen(const Mask& open, const Flight<V>& flight, const ErrorBound<V>& bound) {
-    const LaneMotion<V>&from = flight.from, &to = flight.to;
+  Mask widen(const Mask& open, const Flight<V>& flight) {
+    const LaneMotion<V>& from = flight.from;
+    const typename Flight<V>::End& to = flight.to;
+    const ErrorBound<V> bound = oscillators_.uncertainty(from.free);
+    const V change = sixth_power(flight.length * row(lanes_.inverse_step));  // of the bounds, to those of this flight
+    const V error = bound.error * change, error_v = oscillators_.error_v(bound) * change;
     Interval<V> y{row(lanes_.y_low), row(lanes_.y_high)}, v{row(lanes_.v_low), row(lanes_.v_high)};
     y.include(to.y), v.include(to.v);
     const V slack = bound.rounding * V(0.5), slack_v = slack * row(lanes_.inverse_step);
-    const V error_v = oscillators_.error_v(bound) * sixth_power(flight.part);
-    const HermiteData<V> v_ends = HermiteData<V>::over(
-        flight.length, {from.v, from.a, oscillators_.jerk(from), to.v, to.a, oscillators_.jerk(to)});
+    const HermiteData<V> y_ends = HermiteData<V>::over(flight.length, {from.y, from.v, from.a, to.y, to.v, to.a});
+    const HermiteData<V> v_ends =
+        HermiteData<V>::over(flight.length, {from.v, from.a, oscillators_.jerk(from.v, from.a, from.phase.cosine), to.v,
+                                             to.a, oscillators_.jerk(to.v, to.a, to.cosine)});
     // the flight can't exceed response plus free part at their largest
     const V forced = row(lanes_.amplitude), forced_v = forced * row(lanes_.nu);
-    const Mask open_y = open & !within(inside(flight.range, forced + bound.free), y, slack);
-    const Mask open_v = open & !within(inside(enclosure(hermite(v_ends), error_v), forced_v + bound.free), v, slack_v);
+    const Mask open_y = open - within(inside(enclosure(hermite(y_ends), error), forced + bound.free), y, slack);
+    const Mask open_v = open - within(inside(enclosure(hermite(v_ends), error_v), forced_v + bound.free), v, slack_v);
     Mask sure = open;
     if (any(open_y)) {
       const auto jet = [](const LaneMotion<V>& m, const auto& d) { return FourDerivatives{m.y, m.v, m.a, d.d3, d.d4}; };
-      sure = sure &
-             search(open_y, y, ends_of(from, to, flight.length), flight, flight.error, slack, lanes_.reference_y, jet);
+      sure = sure & search(open_y, y, y_ends, flight, error, slack, lanes_.reference_y, jet);
     }
     if (any(open_v)) {
       const auto jet = [](const LaneMotion<V>& m, const auto& d) {
@@ -125,7 +131,7 @@ class LaneObservers {
     const Mask high = !(over <= slack), low = !(under <= slack), upward = over > under;  // the farther one first
     const Mask known =
         (!(high & low)) & (like(references[0], flight, slack) | !low) & (like(references[1], flight, slack) | !high);
-    const Mask left = open & !known;
+    const Mask left = open - known;
     if (!any(left)) return (!open) | known;
     const V sign = select(upward, -one, one);  // a greatest value is a least one of the negative
     Bernstein<V> below;
@@ -138,7 +144,7 @@ class LaneObservers {
       at = derivatives(near, oscillators_.derivatives(near));
       more = -at.slope / at.curvature;
       more = neg_mul_add(at.third / at.curvature * V(0.5), more * more, more);
-      const Mask far = left & !(abs(more) <= row(lanes_.step) * V(longest_shift));
+      const Mask far = left - (abs(more) <= row(lanes_.step) * V(longest_shift));
       if (!any(far)) break;
       part = select(far, lesser(greater(part + more / length, zero), one), part);
     }
@@ -153,7 +159,7 @@ class LaneObservers {
     const Mask found = left & (abs(more) <= row(lanes_.step) * V(longest_shift)) & (part > zero) & (part < one) &
                        within(enclosure(hermite(before), error * sixth_power(part)), wider, slack) &
                        within(enclosure(hermite(after), error * sixth_power(rest)), wider, slack);
-    refer(references[0], found & !upward, flight), refer(references[1], found & upward, flight);
+    refer(references[0], found - upward, flight), refer(references[1], found & upward, flight);
     range = {select(found, wider.low, range.low), select(found, wider.high, range.high)};
     return (!open) | known | found;
   }
@@ -193,7 +199,7 @@ class LaneObservers {
     const Mask first = counted & (row(lanes_.count[0]) + row(lanes_.count[1]) <= zero);
     put(lanes_.first_before, select(first, before, row(lanes_.first_before)));
     for (const std::size_t stop : {0u, 1u}) {
-      const Mask here = stop == 1 ? counted & upper : counted & !upper;
+      const Mask here = stop == 1 ? counted & upper : counted - upper;
       const V so_far = row(lanes_.count[stop]);
       const Mask first_here = here & (so_far <= zero);
       put(lanes_.before[stop], select(first_here, before, row(lanes_.before[stop])));

@@ -164,7 +164,7 @@ void LaneView::begin_observing(const observables::Observe& observe) {
 }
 
 void LaneView::expect_section(bool ends, bool stop_short, std::int64_t periods_after) {
-  at(block_->ends_here) = ends ? 1 : 0, at(block_->stop_short) = stop_short ? 1 : -1;
+  at(block_->ends_here) = ends ? 1 : 0, at(block_->stop_short) = stop_short ? 1 : 0;
   at(block_->to_next) += static_cast<double>(periods_after - 1) * at(block_->period);
 }
 

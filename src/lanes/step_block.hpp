@@ -39,7 +39,8 @@ class StepBlock {
         arrived_(none_),
         to_scalar_(none_),
         unproved_(none_),
-        ending_(none_) {}
+        ending_(none_),
+        stops_short_(row(lanes.stop_short) > V(0.0)) {}
 
   [[gnu::always_inline]] inline void run() {
     if (!any(active_)) return;
@@ -79,15 +80,15 @@ class StepBlock {
       below_upper_ = range.high <= row(lanes_.upper) - bound_.rounding;
       above_lower_ = range.low >= row(lanes_.lower) + bound_.rounding;
       const Mask inside = below_upper_ & above_lower_;
-      unproved_ = unproved_ | (stepping & !inside);
+      unproved_ = unproved_ | (stepping - inside);
       const Mask passes = left_ <= length;
-      stepping = stepping & inside & !(passes & arrived_);  // a second section waits for the next call
+      stepping = (stepping & inside) - (passes & arrived_);  // a second section waits for the next call
       if constexpr (observes) {
-        const Mask ends = stepping & clipped(length);
+        const Mask ends = stepping & passes & stops_short_;
         ending_ = ending_ | ends, unproved_ = unproved_ | ends;
-        stepping = stepping & !ends;
-        const Mask seen = observers_.flight(stepping, here_, next, length, V(1.0), bound_.error, path_, range, bound_);
-        to_scalar_ = to_scalar_ | (stepping & !seen);
+        stepping = stepping - ends;
+        const Mask seen = observers_.flight(stepping, here_, next, length, bound_.error, path_, range);
+        to_scalar_ = to_scalar_ | (stepping - seen);
         stepping = seen;
       }
       const Mask arrives = stepping & passes;
@@ -95,16 +96,13 @@ class StepBlock {
       if (some_arrive) pass_sections(arrives, next.phase);
       here_ = select(stepping, next, here_);
       left_ = select(stepping, left_ - length, left_);
-      if (observes && some_arrive) stepping = stepping & !(arrived_ & (row(lanes_.ends_here) > V(0.0)));
+      if (observes && some_arrive) stepping = stepping - (arrived_ & (row(lanes_.ends_here) > V(0.0)));
       if (steps == most_steps || 2 * count(stepping) <= static_cast<int>(V::size)) return;
     }
   }
 
-  /// Lanes whose observed time ends within a time from here.
-  Mask clipped(const V& time) const { return left_ <= time * row(lanes_.stop_short); }
-
   /// Lanes whose next step may meet the upper stop first.
-  Mask nearer_upper() const { return (!below_upper_) & (above_lower_ | (here_.v > V(0.0))); }
+  Mask nearer_upper() const { return (above_lower_ | (here_.v > V(0.0))) - below_upper_; }
 
   /// The end of a flight from here: the contact, or an instant short of one.
   struct ContactGuess {
@@ -123,14 +121,14 @@ class StepBlock {
     ContactGuess g;
     g.crosses = gap[6] < zero;
     g.time = quintic.root(polygon_root(gap), unproved_ & g.crosses);
-    if (any(unproved_ & !g.crosses)) {
+    if (any(unproved_ - g.crosses)) {
       const V place = quintic.least(gap);
       // a lane has to advance: only one that moves to the stop can turn back at once
       const V soonest = select(sign * here_.v > zero, V(0x1p-40), V(0x1p-4));
       const V turning = select((place > soonest) & (place < one), place, V(0.5));
       const V least = quintic.at(turning).value;
       const V uncertain = error * middle_function(turning);
-      const Mask misses = (!g.crosses) & (least >= -uncertain);
+      const Mask misses = (least >= -uncertain) - g.crosses;
       // if the error leaves it open, only half of the way: a shorter flight has a far smaller error
       g.time = select(misses, select(least > uncertain, turning, turning * V(0.5)), g.time);
       g.crosses = !misses;
@@ -142,10 +140,10 @@ class StepBlock {
 
   /// Ends flights with the observed time, if no contact is guessed before.
   void end_flights(ContactGuess& g) const {
-    const Mask ends = ending_ | (unproved_ & clipped(g.time));
+    const Mask ends = ending_ | (unproved_ & stops_short_ & (left_ <= g.time));
     if (!any(ends)) return;
     g.time = select(ends, left_, g.time);
-    g.crosses = g.crosses & !ends, g.good = g.good | ends;
+    g.crosses = g.crosses - ends, g.good = g.good | ends;
   }
 
   /// Refines the guess to rounding, by the closed form and the Taylor series; the motion at the end of the flight.
@@ -156,9 +154,9 @@ class StepBlock {
       const auto d = oscillators_.derivatives(at);
       const motion::TimeOver<V> to_stop(stop - at.y, at.v, at.a, d);
       const V more = select(g.crosses, to_stop.time, zero);
-      const Mask far = g.good & !((abs(more) <= length * V(longest_shift)) & ((!g.crosses) | to_stop.converged()));
+      const Mask far = g.good - ((abs(more) <= length * V(longest_shift)) & ((!g.crosses) | to_stop.converged()));
       if (pass == 2 || !any(far)) {
-        g.good = g.good & !far;
+        g.good = g.good - far;
         g.time = g.time + more;
         at.y = select(g.crosses, stop, at.y);
         at.v = motion::velocity_after(more, at.v, at.a, d);
@@ -202,16 +200,15 @@ class StepBlock {
     const Mask bounces = (sign * before > abs(at.a * length) * V(grazing)) &
                          (law.after(-sign * before) > sign * a * length * V(shortest_flight));
     const Mask passes = left_ <= g.time, waits = unproved_ & passes & arrived_;
-    g.good = g.good & ((!g.crosses) | bounces) & !waits;
+    g.good = (g.good & ((!g.crosses) | bounces)) - waits;
     range.include(at.y);
     if constexpr (observes)
-      g.good = observers_.flight(g.good & ((!g.crosses) | !clipped(g.time)), here_, at, g.time, part, error, path,
-                                 range, bound_);
+      g.good = observers_.flight(g.good - (g.crosses & passes & stops_short_), here_, at, g.time, error, path, range);
     at.v = after, at.a = a;
     const Mask met = g.good & g.crosses;
     if constexpr (observes) {
       const Mask over = (passes | arrived_) & (row(lanes_.ends_here) > zero);  // its period is over already
-      observers_.impact(met, met & !over, upper, at, before, jump);
+      observers_.impact(met, met - over, upper, at, before, jump);
     }
     if (any(g.good & passes)) pass_sections(g.good & passes, at.phase);
     at.free = oscillators_.free_part(at.y, at.v, at.phase);
@@ -219,7 +216,7 @@ class StepBlock {
     left_ = select(g.good, left_ - g.time, left_);
     itinerary_ = select(met, mul_add(itinerary_, V(3.0), select(upper, V(2.0), one)), itinerary_);
     oscillators_.put(lanes_.impacts, row(lanes_.impacts) + select(met, one, zero));
-    to_scalar_ = to_scalar_ | (unproved_ & !(g.good | waits));
+    to_scalar_ = to_scalar_ | (unproved_ - (g.good | waits));
   }
 
   /// Records the lanes that pass a section on their flight from here to a phase, and corrects the clock, and the length
@@ -274,8 +271,9 @@ class StepBlock {
   Mask active_;  ///< lanes that are not idle
   Mask none_, arrived_, to_scalar_;
   Mask below_upper_, above_lower_;
-  Mask unproved_;  ///< lanes to be taken to a contact, or short of one
-  Mask ending_;    ///< lanes whose observed time ends before
+  Mask unproved_;     ///< lanes to be taken to a contact, or short of one
+  Mask ending_;       ///< lanes whose observed time ends before
+  Mask stops_short_;  ///< lanes whose next section ends the observed time, and may not be overshot
 };
 
 /// Makes numbers below 1e-308 count as 0 while lanes run: a free motion that has died out would else cost a hundred

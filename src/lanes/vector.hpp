@@ -46,6 +46,10 @@ struct PairMask {
     return {either(x.first, y.first), either(x.second, y.second)};
   }
   friend PairMask operator!(const PairMask& x) { return {inverse(x.first), inverse(x.second)}; }
+  /// The lanes of x that aren't in y.
+  friend PairMask operator-(const PairMask& x, const PairMask& y) {
+    return {without(x.first, y.first), without(x.second, y.second)};
+  }
 
  private:
   // AVX-512: xsimd's operators are those of integers, for which masks travel through general registers.
@@ -62,6 +66,12 @@ struct PairMask {
     if constexpr (in_mask_register) return Batch(_kor_mask8(x.data, y.data));
 #endif
     return x | y;
+  }
+  static Batch without(const Batch& x, const Batch& y) {
+#ifdef __AVX512DQ__
+    if constexpr (in_mask_register) return Batch(_kandn_mask8(y.data, x.data));
+#endif
+    return x & !y;
   }
   static Batch inverse(const Batch& x) {
 #ifdef __AVX512DQ__
