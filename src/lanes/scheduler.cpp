@@ -93,7 +93,8 @@ void Scheduler::handle_sections(Block<Task>& block) {
 }
 
 void Scheduler::handle_section(Block<SettleTask>& block, std::size_t lane) {
-  const auto settled = block.tasks[lane]->pass_section(block.view(lane));
+  LaneView view = block.view(lane);
+  const auto settled = block.tasks[lane]->pass_section(view);
   if (!settled) return;
   leave(block, lane);
   finish(*settled);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace clatter::lanes {
 
@@ -24,18 +25,20 @@ std::optional<SettledPoint> SettleTask::begin(LaneView& lane) {
   return std::nullopt;
 }
 
-std::optional<SettledPoint> SettleTask::pass_section(const LaneView& lane) {
+std::optional<SettledPoint> SettleTask::pass_section(LaneView& lane) {
   const LaneSection section = lane.section();
   const double impacts = loop().impacts() + section.impacts;
-  ++sections_;
+  sections_ += to_report_;
   if (impacts > item_.problem.time.max_impacts)
     return settled(search_->failure(stepping::Outcome::event_budget, {}), section.impacts);
-  search_->pass_period({section.itinerary, log_area_ * (impacts - section_impacts_)});
+  search_->pass_periods({section.itinerary, log_area_ * (impacts - section_impacts_)}, to_report_);
   section_impacts_ = impacts;
   motion::State<double> state;
   state.x = section.x, state.v = section.v, state.periods = sections_;
-  const auto found = search_->at_section(state);
-  return found ? std::optional(settled(*found, section.impacts)) : std::nullopt;
+  if (const auto found = search_->at_section(state)) return settled(*found, section.impacts);
+  to_report_ = std::exchange(after_report_, search_->periods_from(sections_ + after_report_));
+  lane.expect_section(false, false, after_report_);
+  return std::nullopt;
 }
 
 SettledPoint SettleTask::failed(stepping::Outcome outcome, const LaneView& lane) const {

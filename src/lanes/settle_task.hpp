@@ -21,7 +21,7 @@ class SettleTask {
   /// The point if its observed time is known at the start, as for a transient; else nothing, and the lane is loaded.
   [[nodiscard]] std::optional<SettledPoint> begin(LaneView& lane);
   /// The point if its observed time is known at the stroboscopic section that the lane has passed, or if it has failed.
-  [[nodiscard]] std::optional<SettledPoint> pass_section(const LaneView& lane);
+  [[nodiscard]] std::optional<SettledPoint> pass_section(LaneView& lane);
   /// The point if it can't be run on, `lane` being where it is now.
   [[nodiscard]] SettledPoint failed(stepping::Outcome outcome, const LaneView& lane) const;
 
@@ -44,7 +44,8 @@ class SettleTask {
   double log_area_;  ///< logarithm of the factor by which an impact shrinks areas, at the stop that shrinks them less
   std::optional<steady::ForcedSearch<ScalarLoop::effects>> search_{};  ///< none for a transient
   std::int64_t sections_ = 0;
-  double section_impacts_ = 0.0;  ///< impacts of lane and scalar loop, up to the last section
+  std::int64_t to_report_ = 1, after_report_ = 1;  ///< forcing periods to the next report, and to the one after it
+  double section_impacts_ = 0.0;                   ///< impacts of lane and scalar loop, up to the last section
 };
 
 }  // namespace clatter::lanes

@@ -61,8 +61,20 @@ class ForcedSearch {
       return ObservedTime{Status::aperiodic, state, static_cast<double>(time_.window), simulated(), FoundBy::nothing};
     return attractor(state);
   }
-  /// Records the forcing period that leads to the next section.
-  void pass_period(const Passage& passage) { passages_[index(0)] = passage, ++section_; }
+  /// Lanes: records the forcing periods that lead to the next section that is looked at.
+  void pass_periods(const Passage& passage, std::int64_t periods) {
+    passages_[index(0)] = passage, section_ += periods;
+    if ((periods > 1) != samples_) samples_ = periods > 1, closing_in_ = 0, repeat_.restart();
+  }
+  /// Lanes: forcing periods from a section ahead to the next one to look at. Motion that hasn't settled for long is
+  /// sampled, until it comes back to a sample, but for some time before each attempt by Newton's method.
+  [[nodiscard]] std::int64_t periods_from(std::int64_t section) const {
+    const std::int64_t attempt = std::min<std::int64_t>(
+        static_cast<std::int64_t>(std::bit_ceil(static_cast<std::uint64_t>(section) + 1)), time_.max_periods - 1);
+    const bool samples =
+        section >= std::max(first_sample, look_until_) && section + between_samples + looked_at <= attempt;
+    return samples ? between_samples : 1;
+  }
 
   [[nodiscard]] ObservedTime failure(stepping::Outcome outcome, const motion::State<double>& state) const {
     return {status_of(outcome), state, 0.0, simulated(), FoundBy::nothing};
@@ -73,6 +85,8 @@ class ForcedSearch {
   static constexpr std::int64_t long_settling = 128;
   static constexpr double longest_settling = 0x1p52;  ///< the most periods that double counts exactly
   static constexpr std::size_t kept = 2 * RepeatFinder::longest;
+  static constexpr std::int64_t first_sample = 256, between_samples = 8;
+  static constexpr std::int64_t looked_at = 3 * RepeatFinder::longest;  ///< sections in a row that an attempt looks at
 
   [[nodiscard]] std::size_t index(std::size_t ago) const { return (static_cast<std::size_t>(section_) - ago) % kept; }
   [[nodiscard]] double settled() const { return static_cast<double>(section_); }  ///< forcing periods of the motion
@@ -97,8 +111,13 @@ class ForcedSearch {
   /// The forcing periods after which the motion repeats, 0 while it doesn't. In lanes the motion goes on until the
   /// states at the sections are as close as rounding allows, since no Newton step brings them there.
   [[nodiscard]] std::size_t repeats(const motion::State<double>& state) {
+    if (samples_) {
+      if (repeat_.sample(state.x, state.v)) look_until_ = section_ + looked_at;
+      return 0;
+    }
     const double log_area = section_ > 0 ? passages_[index(1)].log_area + log_area_of_damping_ : 0.0;
     const std::size_t n = repeat_.add(state.x, state.v, log_area);
+    if (repeat_.confirms()) look_until_ = section_ + looked_at;
     if (!in_lanes_ || (n == 0 && closing_in_ == 0)) return n;
     if (closing_in_ == 0) closing_in_ = n, closest_ = std::numeric_limits<double>::infinity();
     const double distance = repeat_.distance_over(closing_in_);
@@ -141,8 +160,8 @@ class ForcedSearch {
   /// Once states have begun to contract, follows the next n periods together with their derivative, and looks for the
   /// periodic motion that they contract to.
   [[nodiscard]] std::optional<ObservedTime> attractor(const motion::State<double>& state) {
-    const bool under_way = approach_ && next_ < approach_->periods;
-    const std::size_t n = under_way || !pays() ? 0 : contracting();
+    if (!pays() || (approach_ && next_ < approach_->periods)) return std::nullopt;
+    const std::size_t n = contracting();
     if (n == 0 || !affordable(n)) return std::nullopt;
     near_enough_[n] = repeat_.distance_over(n) / 4;  // for the next attempt
     approach_ = map_.follow(state, n), next_ = 0;
@@ -208,8 +227,10 @@ class ForcedSearch {
   const Scene& scene_;
   TimeSettings time_;
   bool in_lanes_;
-  bool may_coast_;              ///< the transient may die out without a contact
-  double log_area_of_damping_;  ///< logarithm of the factor by which a forcing period shrinks areas without impacts
+  bool may_coast_;               ///< the transient may die out without a contact
+  double log_area_of_damping_;   ///< logarithm of the factor by which a forcing period shrinks areas without impacts
+  bool samples_ = false;         ///< lanes: sections have been left out before this one
+  std::int64_t look_until_ = 0;  ///< lanes: the section up to which none is left out
   std::int64_t section_ = 0;
   std::int64_t taken_ = 0;       ///< sections that were taken from approaches
   std::size_t closing_in_ = 0;   ///< lanes: forcing periods after which the motion repeats; 0: not known yet

@@ -51,9 +51,7 @@ class RepeatFinder {
   /// Takes the next section's state, and the logarithm of the factor by which the period before it changed a small area
   /// of states; returns the n after which the motion repeats, 0 while it doesn't.
   [[nodiscard]] std::size_t add(double x, double v, double log_area) {
-    if (size_ == capacity) forget();
-    x_[size_] = x, others_[size_] = {v, log_area};
-    const std::size_t now = size_++;
+    const std::size_t now = keep(x, v, log_area);
     if (candidate_ > 0 && !repeats(now, candidate_, divisor_tolerances * tolerance_)) candidate_ = 0;
     if (candidate_ > 0 && --left_ == 0) return shortest(now, std::exchange(candidate_, 0));
     if (candidate_ > 0 || ++waited_ < looks_every_) return 0;
@@ -67,6 +65,19 @@ class RepeatFinder {
     }
     return 0;
   }
+
+  /// Takes a later section's state, sections having been left out before it; returns whether it is that of one of the
+  /// last `longest` states taken.
+  [[nodiscard]] bool sample(double x, double v) {
+    keep(x, v, 0);
+    return next_within(tolerance_, 1) > 0;
+  }
+
+  /// Whether a repeat is being confirmed.
+  [[nodiscard]] bool confirms() const { return candidate_ > 0; }
+
+  /// Begins anew.
+  void restart() { candidate_ = stalled_n_ = size_ = 0, waited_ = looks_every_; }
 
   /// The least period, from `n` on, over which the newest state and the earlier one are within `distance` of each
   /// other; 0 for none.
@@ -106,6 +117,12 @@ class RepeatFinder {
   static constexpr double most_left = 1e-8;            ///< of a transient that rounding has stopped
   static constexpr std::ptrdiff_t kept = 2 * longest;  // two rounds of the longest motion
 
+  /// Keeps a state; returns its index.
+  std::size_t keep(double x, double v, double log_area) {
+    if (size_ == capacity) forget();
+    x_[size_] = x, others_[size_] = {v, log_area};
+    return size_++;
+  }
   void forget() {
     std::copy(x_.end() - kept, x_.end(), x_.begin());
     std::copy(others_.end() - kept, others_.end(), others_.begin());

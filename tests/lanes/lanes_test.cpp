@@ -115,6 +115,24 @@ TEST_P(InLanes, figures_20_to_23_are_those_of_the_scalar_loop) {
   }
 }
 
+TEST_P(InLanes, long_chaotic_transients_end_in_the_same_motion) {
+  // motion of period 3 beside a chaotic saddle, which starts that hardly differ leave after some 900 forcing periods
+  point::Problem scene = observed(sweep::paper_scene(2.19231, 0.827759));
+  scene.time.max_periods = 20000;
+  sweep::Axis x0{sweep::Parameter::x0, {}};
+  for (int i = 0; i < 48; ++i) x0.values.push_back(1e-11 * i);
+  const sweep::Dataset dataset = lanes(sweep::sweep_of(scene, {x0}));
+  const std::vector<double> ratio = values(dataset, "period_ratio"), periods = values(dataset, "simulated_periods"),
+                            v_max = values(dataset, "v_max"), v_min = values(dataset, "v_min");
+  std::size_t late = 0;
+  for (std::size_t i = 0; i < ratio.size(); ++i) {
+    EXPECT_EQ(ratio[i], 3) << i;
+    EXPECT_NEAR(std::max(v_max[i], -v_min[i]), std::max(v_max[0], -v_min[0]), 1e-11) << i;  // mirrored or not
+    late += periods[i] > 600 ? 1 : 0;
+  }
+  EXPECT_GT(late, 10u);
+}
+
 /// Forced motion between stops, one stop, under a load or without; a tenth has no damping, a tenth too much for lanes.
 point::Problem random_scene(std::uint64_t index) {
   support::Random random(4711, index);

@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <numbers>
+#include <vector>
 
 #include "support/runs.hpp"
 
@@ -146,6 +148,28 @@ TEST(Settle, speed_lost_at_one_stop_in_the_centre_ends_in_standstill) {
   point::Problem scene = support::scene_of({0.0, 0.0, 1.0, 0.0}, 0.0, none, 0.5);
   scene.start = {1.0, 0.0, 0.0};
   EXPECT_EQ(support::steady_of(scene).found_by, FoundBy::standstill);
+}
+
+TEST(Settle, lanes_look_at_many_sections_in_a_row_before_each_attempt_and_at_the_end) {
+  using Integrator = stepping::Exact<double, effect_sets::complete(Damping::light, Forcing::regular)>;
+  const point::Problem scene = support::scene_of({0.1, -1.0, 1.0, 0.0}, -0.5, 0.5, 0.7);
+  Integrator integrator(scene);
+  for (const std::int64_t last : {1, 100, 300, 448, 449, 520, 5000, 12345}) {
+    TimeSettings time;
+    time.max_periods = last;
+    const ForcedSearch<Integrator::effects> search(integrator, scene, time, AdvancedBy::lanes);
+    std::vector<bool> seen(static_cast<std::size_t>(last) + 1, false);
+    std::int64_t section = 0;
+    for (; section < last; section += search.periods_from(section)) seen[static_cast<std::size_t>(section)] = true;
+    EXPECT_EQ(section, last);
+    for (std::int64_t attempt = 64; attempt < 2 * last; attempt *= 2)
+      for (std::int64_t i = 0; i <= 192 && i <= attempt; ++i)
+        EXPECT_TRUE(seen[static_cast<std::size_t>(std::max<std::int64_t>(0, std::min(attempt, last - 1) - i))])
+            << last << ' ' << attempt << ' ' << i;
+    if (last >= 5000) {
+      EXPECT_LT(std::ranges::count(seen, true), last / 2);
+    }
+  }
 }
 
 TEST(Repeat, forgets_nothing_it_needs) {
