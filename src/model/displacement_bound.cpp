@@ -29,8 +29,8 @@ Complex rotation(const Oscillator& oscillator, const PhasePoint& transient) {
 /// Bound of |R + B e^{(-h + i delta) t}| for all t >= 0 (eq. 19). In each part of the first turn the second term is at
 /// most as long as at the beginning of the part; the modulus is convex in that length, so no more than with this length
 /// or without the term; later turns repeat the angles with shorter lengths. `slack` bounds the relative error of delta
-/// and the error of the angles.
-double beat_bound(const Complex& R, const Complex& B, double h, double delta) {
+/// and the error of the angles. Infinite as soon as it exceeds `most`.
+double beat_bound(const Complex& R, const Complex& B, double h, double delta, double most) {
   constexpr int parts = 48;
   constexpr double slack = 1e-4;
   const double scale = std::abs(R) + std::abs(B);  // divided out, so that squares neither overflow nor vanish
@@ -39,11 +39,13 @@ double beat_bound(const Complex& R, const Complex& B, double h, double delta) {
   const Complex turn = std::polar(1.0, part), begin = std::polar(1.0, std::arg(B) - std::arg(R));
   Complex from = delta > 0 ? begin : std::conj(begin);
   double square = steady * steady, length = whole;
+  const double most_square = (most / scale) * (most / scale);
   for (int i = 0; i < parts; ++i) {
     const Complex to = from * turn;
     const bool aligned = from.real() > 0 && from.imag() <= slack && to.imag() >= -slack;
     const double cosine = aligned ? 1.0 : std::max(from.real(), to.real()) + slack;
     square = std::max(square, steady * steady + length * length + 2 * steady * length * cosine);
+    if (square > most_square) return std::numeric_limits<double>::infinity();
     from = to, length *= decay;
   }
   return (std::sqrt(square) + rounding) * scale;
@@ -107,7 +109,8 @@ double displacement_bound(const Oscillator& oscillator, const PhaseState& now, d
   if (bound < enough || !rotates(oscillator) || !(response.amplitude > 0)) return bound;
   const Complex theta(now.cosine, now.sine), R = Complex(response.in_phase, response.quadrature) * theta;
   const double h = oscillator.damping, detuning = (oscillator.frequency - 1) + h * h / (1 + root_of(oscillator));
-  if (std::abs(detuning) > 1e-10) improve(beat_bound(R, rotation(oscillator, transient), h, -detuning));
+  const double most = enough > 0 ? enough : std::numeric_limits<double>::infinity();
+  if (std::abs(detuning) > 1e-10) improve(beat_bound(R, rotation(oscillator, transient), h, -detuning, most));
   return bound;
 }
 

@@ -32,7 +32,8 @@ struct PhasePoint {
 [[nodiscard]] double fading_time(const Oscillator& oscillator, const PhasePoint& transient, double most);
 
 /// Bound of |x - load| from an instant on for a time `duration` (inf: for all time), while no stop interferes; infinite
-/// if nothing bounds the motion. Rounding is allowed for. A bound below `enough` isn't made any sharper.
+/// if nothing bounds the motion. Rounding is allowed for. A bound below `enough` isn't made any sharper, nor, unless
+/// `enough` is 0, one that can't get below it.
 ///
 /// The least of three bounds: response plus transient (eq. 16); the energy norm, which the force raises by at most |f|
 /// in a unit of time (eq. 18); and for 0 < h < 1 the envelope of the beats of response and transient (eq. 19), which is
