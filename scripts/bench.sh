@@ -36,7 +36,7 @@ while (($# > 0)); do
     --quick)
       repetitions=(--benchmark_repetitions=1 --benchmark_min_time=0.05)
       solver_repetitions=1
-      growth_filter='^(sincos|threads|points/10{3,5}$|periods/10{1,3}$)'
+      growth_filter='^(sincos|threads|out of reach|points/10{3,5}$|periods/10{1,3}$)'
       solver_filter='^(sincos|clatter|Odeint|CVODE/1e-0)'
       processes+=(--map 60 --repetitions 1)
       shift

@@ -4,6 +4,7 @@
 import argparse
 import json
 import os
+import pathlib
 import statistics
 import subprocess
 import sys
@@ -31,6 +32,24 @@ def map_settings(points):
         "observe.period": "true",
     }
     return [text for key, value in settings.items() for text in ("--set", f"{key}={value}")]
+
+
+def basins_scene(points):
+    """The basins of attraction of Fig. 23's oscillator at nu = 1.2: the steady motions of many starts."""
+    return f"""[scene]
+f = -1.0
+h = 0.1
+R = 0.7
+xs = -3.0
+nu = 1.2
+
+[sweep]
+x0 = "linspace(-3, 3, {points})"
+v0 = "linspace(-3, 3, {points})"
+
+[observe]
+extrema = true
+"""
 
 
 def run_once(command, environment):
@@ -64,16 +83,23 @@ def measured(name, commands, repetitions, environment):
 def main():
     parser = argparse.ArgumentParser(
         description="Times `clatter run` as whole processes: a scene of one point, the 22 figures one after "
-        "the other, and a map over frequency and stops. Output files go to a temporary folder."
+        "the other, a map over frequency and stops, and the basins of as many starts. Output files go to a "
+        "temporary folder."
     )
     add_build(parser)
     parser.add_argument("--out", required=True, help="the JSON file to write")
-    parser.add_argument("--map", type=int, default=1000, metavar="N", help="the map has N x N points (default: 1000)")
+    parser.add_argument(
+        "--map",
+        type=int,
+        default=1000,
+        metavar="N",
+        help="the map has N x N points, the basins as many starts (default: 1000)",
+    )
     parser.add_argument(
         "--repetitions",
         type=int,
         default=5,
-        help="of the figures and the map (default: 5); four times as many of one point",
+        help="of the figures, the map and the basins (default: 5); four times as many of one point",
     )
     parser.add_argument("--arch", help="instruction set, as `clatter run --arch` takes it")
     arguments = parser.parse_args()
@@ -97,6 +123,8 @@ def main():
                 *options,
             ]
 
+        basins = pathlib.Path(folder) / "basins.toml"
+        basins.write_text(basins_scene(arguments.map), encoding="utf-8")
         results = [
             measured("start", [command(ONE_POINT)], 4 * arguments.repetitions, environment),
             measured("figures", [command(config) for config in FIGURES], arguments.repetitions, environment),
@@ -106,6 +134,7 @@ def main():
                 arguments.repetitions,
                 environment,
             ),
+            measured("basins", [command(basins)], arguments.repetitions, environment),
         ]
     with open(arguments.out, "w", encoding="utf-8") as file:
         json.dump(

@@ -135,7 +135,7 @@ Prepared prepare(const Trial& trial, const point::Problem& scene, const Referenc
   return prepared;
 }
 
-point::WorkItem item_of(const point::Problem& scene) { return {0, scene, effects_of(scene)}; }
+point::WorkItem item_of(const point::Problem& scene) { return {0, 0, scene, effects_of(scene)}; }
 
 /// Runs a trial once; in lanes, too, once is enough, as each lane of a full block gives the same. Nothing if lanes
 /// leave it to the scalar loop.

@@ -8,7 +8,6 @@
 
 #include "lanes/step_functions.hpp"
 #include "math/bernstein.hpp"
-#include "observables/velocity_jumps.hpp"
 
 namespace clatter::lanes {
 namespace {
@@ -168,28 +167,27 @@ void LaneView::expect_section(bool ends, bool stop_short, std::int64_t periods_a
   at(block_->to_next) += static_cast<double>(periods_after - 1) * at(block_->period);
 }
 
-void LaneView::add_impact(const motion::Impact& impact, bool observes) {
-  at(block_->itinerary) = 3 * at(block_->itinerary) + (impact.side == Side::upper ? 2 : 1);
-  if (!observes) return;
-  const double jump = impact.after - impact.before;
-  const std::size_t stop = index_of(impact.side);
-  if (at(block_->count[0]) + at(block_->count[1]) == 0) at(block_->first_before) = impact.before;
-  if (at(block_->count[stop]) == 0) at(block_->before[stop]) = impact.before, at(block_->after[stop]) = impact.after;
-  at(block_->count[stop]) += 1;
-  const double angle = scene_->oscillator.frequency * impact.time;
-  observables::over_harmonics<double>(jump, {std::sin(angle), std::cos(angle)}, block_->harmonics,
-                                      [&](std::size_t k, double real, double imaginary) {
-                                        at(block_->jump_real[k]) += real;
-                                        at(block_->jump_imaginary[k]) += imaginary;
-                                      });
+void LaneView::add_to_itinerary(Side side) {
+  at(block_->itinerary) = 3 * at(block_->itinerary) + (side == Side::upper ? 2 : 1);
 }
 
-void LaneView::widen(const observables::Extrema& seen) {
-  const auto x = seen.displacement(scene_->stops), v = seen.velocity();
+void LaneView::include(const Observed& observed) {
+  const auto x = observed.extrema.displacement(scene_->stops), v = observed.extrema.velocity();
   at(block_->y_low) = std::min(at(block_->y_low), y_of(x.low));
   at(block_->y_high) = std::max(at(block_->y_high), y_of(x.high));
   at(block_->v_low) = std::min(at(block_->v_low), v.low);
   at(block_->v_high) = std::max(at(block_->v_high), v.high);
+  if (observed.first && at(block_->count[0]) + at(block_->count[1]) == 0)
+    at(block_->first_before) = observed.first->before;
+  for (const std::size_t i : {0u, 1u}) {
+    const observables::Impacts::OfStop& stop = observed.impacts.stops()[i];
+    if (at(block_->count[i]) == 0) at(block_->before[i]) = stop.before, at(block_->after[i]) = stop.after;
+    at(block_->count[i]) += stop.count;
+  }
+  for (std::size_t k = 0; k <= block_->harmonics; ++k) {
+    at(block_->jump_real[k]) += observed.jumps.sums()[k].real();
+    at(block_->jump_imaginary[k]) += observed.jumps.sums()[k].imag();
+  }
 }
 
 bool LaneView::extrema_hold(double transient) const {

@@ -3,6 +3,7 @@
 #include <array>
 #include <complex>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "lanes/block_state.hpp"
@@ -12,6 +13,7 @@
 #include "motion/arc_constants.hpp"
 #include "motion/state.hpp"
 #include "observables/all.hpp"
+#include "observables/velocity_jumps.hpp"
 
 namespace clatter::lanes {
 
@@ -25,6 +27,14 @@ struct LaneSection {
   double x, v;
   double impacts;           ///< met by the lane up to here
   std::uint64_t itinerary;  ///< the same for the same stops in the same order since the last section, 0 for none
+};
+
+/// What the observers of the scalar loop have seen of a lane's motion.
+struct Observed {
+  observables::Extrema extrema{};
+  observables::Impacts impacts{};
+  std::optional<motion::Impact> first{};  ///< impact
+  observables::VelocityJumps jumps;
 };
 
 /// Whether a scene can run in a lane: forced motion between stops, lightly damped, away from resonance, with lengths
@@ -81,10 +91,11 @@ class LaneView {
   /// Says, at a report, whether the next one ends the observation, and whether the lane has to stop short of it or may
   /// overshoot, and how many periods after it the one after that is due.
   void expect_section(bool ends, bool stop_short, std::int64_t periods_after);
-  /// Adds an impact that the scalar loop has met to those of the lane, with its time since a section.
-  void add_impact(const motion::Impact& impact, bool observes);
-  /// Widens the ranges of displacement and velocity to those that the scalar loop has seen.
-  void widen(const observables::Extrema& seen);
+  /// Notes a stop that the scalar loop has met.
+  void add_to_itinerary(Side side);
+  /// Adds what the scalar loop has observed.
+  void include(const Observed& observed);
+  [[nodiscard]] std::size_t highest_harmonic() const { return block_->harmonics; }  ///< that is summed
 
   /// Whether the extrema seen so far hold all motion that is the response plus a transient up to this size.
   [[nodiscard]] bool extrema_hold(double transient) const;

@@ -1,35 +1,40 @@
 #include "lanes/scalar_fallback.hpp"
 
 #include <algorithm>
+#include <optional>
 
 namespace clatter::lanes {
 namespace {
 
-/// Shows a lane all that the scalar loop does for it.
+/// Observes, as in any other run, what the scalar loop does for a lane.
 class LaneObserver {
  public:
-  LaneObserver(const LaneView& lane, bool observes) : lane_(lane), observes_(observes) {}
+  LaneObserver(LaneView& lane, bool observes, double frequency) : lane_(lane) {
+    if (observes) observed_ = Observed{.jumps{frequency, lane.highest_harmonic()}};
+  }
 
   template <class A>
   void arc(const A& arc, double begin, double length) {
-    if (observes_) extrema_.arc(arc, begin, length);
+    if (observed_) observed_->extrema.arc(arc, begin, length);
   }
   void rest(const motion::Rest&) { rested_ = true; }
   void impact(const motion::Impact& impact) {
-    lane_.add_impact(impact, observes_);
-    if (observes_) extrema_.impact(impact);
+    lane_.add_to_itinerary(impact.side);
+    if (!observed_) return;
+    if (!observed_->first) observed_->first = impact;
+    observed_->extrema.impact(impact), observed_->impacts.impact(impact), observed_->jumps.impact(impact);
   }
 
+  /// Adds it to what the lane has seen.
   void finish() {
-    if (observes_) lane_.widen(extrema_);
+    if (observed_) lane_.include(*observed_);
   }
   [[nodiscard]] bool rested() const { return rested_; }
 
  private:
-  LaneView lane_;
-  bool observes_;
+  LaneView& lane_;
   bool rested_ = false;
-  observables::Extrema extrema_;
+  std::optional<Observed> observed_;
 };
 
 }  // namespace
@@ -42,7 +47,7 @@ stepping::Outcome ScalarFallback::advance(LaneView& lane) {
   if (now.x == loop_.stops().upper) state.from_stop = Side::upper;
   if (lane.mark() == mark_) state = end_;  // a lane can't hold a release or a short offset
   double end = std::min(1.0, state.phase_turns + lane.turns_of_two_steps());
-  LaneObserver observer(lane, observes_);
+  LaneObserver observer(lane, observes_, loop_.constants().nu);
   stepping::Outcome outcome = loop_.advance(state, end, 0, observer);
   // all motion from the same release is the same: so that it is so to the last bit, it goes on to the section here
   if (outcome == stepping::Outcome::completed && observer.rested())

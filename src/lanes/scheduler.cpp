@@ -63,10 +63,16 @@ void Scheduler::settle_next(std::size_t lane) {
 
 /// Observes a point in a free lane or queues it for one, if lanes can do so; else in the scalar loop.
 void Scheduler::finish(const SettledPoint& settled) {
-  if (!lanes_can_observe(settled)) return take_(settled.item, observe_in_scalar_loop(settled, scratch_));
+  if (!lanes_can_observe(settled)) return put(settled.item, observe_in_scalar_loop(settled, scratch_));
   waiting_.push_back(std::make_unique<ObserveTask>(settled));
   for (std::size_t lane = 0; lane < LaneArray::width && !waiting_.empty(); ++lane)
     if (!observing_.tasks[lane]) observe_next(lane);
+}
+
+/// Passes a result on; it may be the one that another point has waited for.
+void Scheduler::put(const point::WorkItem& item, point::PointResult&& result) {
+  take_(item, std::move(result));
+  exhausted_ = false;
 }
 
 void Scheduler::observe_next(std::size_t lane) {
@@ -104,7 +110,7 @@ void Scheduler::handle_section(Block<ObserveTask>& block, std::size_t lane) {
   ObserveTask& task = *block.tasks[lane];
   LaneView view = block.view(lane);
   if (!task.pass_section(view)) return;
-  take_(task.item(), task.result(view, scratch_));
+  put(task.item(), task.result(view, scratch_));
   leave(block, lane);
   observe_next(lane);
 }
@@ -117,14 +123,15 @@ void Scheduler::fall_back(Block<SettleTask>& block, std::size_t lane) {
   if (!task.leaves_lane()) return;
   const point::WorkItem item = task.item();
   leave(block, lane);
-  run_batch({&item, 1}, scratch_, take_);
+  run_batch({&item, 1}, scratch_,
+            [this](const point::WorkItem& done, point::PointResult&& result) { put(done, std::move(result)); });
 }
 
 void Scheduler::fall_back(Block<ObserveTask>& block, std::size_t lane) {
   ObserveTask& task = *block.tasks[lane];
   LaneView view = block.view(lane);
   if (task.fall_back(view) == stepping::Outcome::completed && !task.leaves_lane()) return;
-  take_(task.item(), observe_in_scalar_loop(task.settled(), scratch_));
+  put(task.item(), observe_in_scalar_loop(task.settled(), scratch_));
   leave(block, lane);
   observe_next(lane);
 }
@@ -152,13 +159,13 @@ double Scheduler::take_stock(Block<Task>& block) {
 void Scheduler::fail(Block<SettleTask>& block, std::size_t lane, stepping::Outcome outcome) {
   const SettledPoint failed = block.tasks[lane]->failed(outcome, block.view(lane));
   leave(block, lane);
-  take_(failed.item, observe_in_scalar_loop(failed, scratch_));
+  put(failed.item, observe_in_scalar_loop(failed, scratch_));
 }
 
 void Scheduler::fail(Block<ObserveTask>& block, std::size_t lane, stepping::Outcome outcome) {
   const SettledPoint failed = block.tasks[lane]->failed(outcome);
   leave(block, lane);
-  take_(failed.item, observe_in_scalar_loop(failed, scratch_));
+  put(failed.item, observe_in_scalar_loop(failed, scratch_));
   observe_next(lane);
 }
 

@@ -15,7 +15,7 @@ namespace clatter::lanes {
 /// out, run in the scalar loop for a short time. A point's result depends neither on its lane nor on its neighbours.
 class Scheduler {
  public:
-  /// Gives the next point that lanes accept; nothing if there are no more.
+  /// Gives the next point that lanes accept; nothing if there are no more, or none before another result is known.
   using WorkQueue = std::function<std::optional<point::WorkItem>()>;
   using ResultSink = std::function<void(const point::WorkItem&, point::PointResult&&)>;
 
@@ -42,6 +42,7 @@ class Scheduler {
   void settle_next(std::size_t lane);
   void observe_next(std::size_t lane);
   void finish(const SettledPoint& settled);
+  void put(const point::WorkItem& item, point::PointResult&& result);
 
   template <class Task>
   void step_block(Block<Task>& block, StepFunction step);
@@ -67,7 +68,7 @@ class Scheduler {
   Block<SettleTask> settling_;
   Block<ObserveTask> observing_;
   std::vector<std::unique_ptr<ObserveTask>> waiting_;  ///< for a lane: about as many as there are lanes at most
-  bool exhausted_ = false;                             ///< there are no more points
+  bool exhausted_ = false;                             ///< there are no more points for now
   std::uint64_t steps_made_ = 0;
 };
 

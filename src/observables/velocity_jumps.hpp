@@ -1,8 +1,12 @@
 #pragma once
 
+#include <cmath>
+#include <complex>
 #include <cstddef>
+#include <vector>
 
 #include "math/number.hpp"
+#include "motion/state.hpp"
 
 namespace clatter::observables {
 
@@ -18,5 +22,23 @@ void over_harmonics(const Number& jump, const SineCosine<Number>& theta, std::si
     real = turned;
   }
 }
+
+/// Sums them over impacts, whose times count from an instant at which that phase is 0.
+class VelocityJumps {
+ public:
+  VelocityJumps(double frequency, std::size_t highest) : frequency_(frequency), sums_(highest + 1) {}
+
+  void impact(const motion::Impact& impact) {
+    const double angle = frequency_ * impact.time;
+    over_harmonics<double>(
+        impact.after - impact.before, {std::sin(angle), std::cos(angle)}, sums_.size() - 1,
+        [this](std::size_t k, double real, double imaginary) { sums_[k] += std::complex(real, imaginary); });
+  }
+  [[nodiscard]] const std::vector<std::complex<double>>& sums() const { return sums_; }  ///< [harmonic]
+
+ private:
+  double frequency_;
+  std::vector<std::complex<double>> sums_;
+};
 
 }  // namespace clatter::observables

@@ -38,7 +38,7 @@ void run_batch(std::span<const WorkItem> items, ThreadScratch& scratch,
 
 PointResult run_point(const Problem& problem, ThreadScratch& scratch) {
   PointResult result;
-  const WorkItem item{0, problem, effects_of(problem)};
+  const WorkItem item{0, 0, problem, effects_of(problem)};
   run_batch({&item, 1}, scratch, [&](const WorkItem&, PointResult&& of_point) { result = std::move(of_point); });
   return result;
 }

@@ -40,7 +40,8 @@ struct ThreadScratch {
 
 /// A point that waits to be run.
 struct WorkItem {
-  std::size_t local_index = 0;  ///< of its results (`Share`)
+  std::size_t branch = 0;    ///< of a run: points that start from the ends of each other, or a single one (`Share`)
+  std::size_t position = 0;  ///< along it
   Problem problem;
   Effects effects;
 };

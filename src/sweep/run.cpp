@@ -45,12 +45,15 @@ void add(std::vector<WorkStats>& sum, const WorkStats& part) {
 /// Size of packed results from which on they are written at once.
 constexpr std::size_t enough_to_save = 256UL * 1024;  // bytes
 
+/// Branches side by side from which on lanes are quicker than the scalar loop, which settles in fewer forcing periods.
+constexpr std::size_t enough_branches = 8;
+
 /// True if points of a sweep may run in lanes: by the exact method, with every shortcut to their steady motion, and
-/// independent of each other.
+/// enough of them at once.
 bool lanes_can_run(const Sweep& sweep) {
   const stepping::Integration& integration = sweep.problem.integration;
   return integration.method == stepping::Method::exact && integration.shortcuts && !integration.all_effects &&
-         !sweep.follow;
+         !(sweep.follow && Branches(sweep).count < enough_branches);
 }
 
 /// The threads that run a sweep, and their shared state.
@@ -68,6 +71,7 @@ class WorkerPool {
                    ? 1
                    : std::clamp<std::size_t>(share_.count() / (64 * static_cast<std::size_t>(threads)), 1, 64)),
         chunks_((share_.count() + chunk_ - 1) / chunk_),
+        most_branches_((share_.count() + static_cast<std::size_t>(threads) - 1) / static_cast<std::size_t>(threads)),
         arch_(options.arch),
         in_lanes_(options.arch != lanes::InstructionSet::scalar && lanes_can_run(sweep)),
         scratches_(static_cast<std::size_t>(threads)),
@@ -131,20 +135,28 @@ class WorkerPool {
 
   [[nodiscard]] bool is_restored(std::size_t branch) const { return states_[branch] == BranchState::saved; }
 
-  /// The point of a branch that has only one.
-  point::WorkItem item_of(std::size_t branch) const {
-    point::WorkItem item{branch, problem_at(sweep_, share_.point(branch, 0)), {}};
+  /// A point of a branch, the first or, if there is an end of the one before, from that.
+  point::WorkItem item_of(std::size_t branch, std::size_t position = 0, const std::optional<Start>& end = {}) const {
+    point::WorkItem item{branch, position, problem_at(sweep_, share_.point(branch, position)), {}};
+    if (sweep_.follow) start_from(item.problem, end);
     item.effects = effects_of(item.problem);
     return item;
   }
 
-  /// Runs the points that lanes accept, and between them, one by one, those that they don't.
+  /// Runs the points that lanes accept, and between them, one by one, those that they don't. Of branches, a thread
+  /// takes no more than its share, so that the others have as many.
   void run_lanes(std::size_t thread) {
+    std::vector<point::WorkItem> ready;  // next points of branches that have been begun
+    std::size_t begun = 0, ended = 0;    // branches
     const auto take = [&](const point::WorkItem& item, point::PointResult&& result) {
-      store(item, std::move(result), thread);
+      if (auto successor = store(item, std::move(result), thread))
+        ready.push_back(std::move(*successor));
+      else
+        ++ended;
     };
     Chunk chunk{0, 0};
-    const auto next = [&]() -> std::optional<point::WorkItem> {
+    const auto begin_branch = [&]() -> std::optional<point::WorkItem> {
+      if (sweep_.follow && begun - ended >= most_branches_) return std::nullopt;
       for (;; ++chunk.begin) {
         if (chunk.begin == chunk.end) {
           const auto other = next_chunk();
@@ -152,12 +164,20 @@ class WorkerPool {
           chunk = *other;
         }
         if (is_restored(chunk.begin)) continue;
-        const point::WorkItem item = item_of(chunk.begin);
-        if (lanes::accepts(item)) {
-          ++chunk.begin;
-          return item;
+        ++begun;
+        return item_of(chunk.begin++);
+      }
+    };
+    const auto next = [&]() -> std::optional<point::WorkItem> {
+      for (;;) {
+        std::optional<point::WorkItem> item;
+        if (ready.empty()) {
+          item = begin_branch();
+        } else {
+          item = std::move(ready.back()), ready.pop_back();
         }
-        run_batch({&item, 1}, scratches_[thread], take);
+        if (!item || lanes::accepts(*item)) return item;
+        run_batch({&*item, 1}, scratches_[thread], take);
       }
     };
     lanes::Scheduler scheduler(step_functions_of(arch_), scratches_[thread], next, take);
@@ -166,26 +186,24 @@ class WorkerPool {
     lane_work_.proved += scheduler.proved(), lane_work_.refined += scheduler.refined();
   }
 
-  void store(const point::WorkItem& item, point::PointResult&& result, std::size_t thread) {
+  /// Stores a point's result; returns the next point of its branch, if there is one.
+  std::optional<point::WorkItem> store(const point::WorkItem& item, point::PointResult&& result, std::size_t thread) {
+    const std::optional<Start> end = failed(result.status) ? std::nullopt : std::optional<Start>(result.end);
     add(work_[thread], work_of(item, result));
-    store_.store(item.local_index, std::move(result));
-    if (!sweep_.follow) states_[item.local_index] = BranchState::finished;
+    store_.store(share_.local_index(item.branch, item.position), std::move(result));
     progress_.add_point(thread);
+    if (item.position + 1 < share_.length()) return item_of(item.branch, item.position + 1, end);
+    states_[item.branch] = BranchState::finished;
+    return std::nullopt;
   }
 
   /// Runs the points of a branch, each from the end of the one before.
   void run_branch(std::size_t branch, std::size_t thread) {
-    std::optional<Start> end;
-    for (std::size_t i = 0; i < share_.length(); ++i) {
-      point::WorkItem item{share_.local_index(branch, i), problem_at(sweep_, share_.point(branch, i)), {}};
-      start_from(item.problem, end);
-      item.effects = effects_of(item.problem);
-      run_batch({&item, 1}, scratches_[thread], [&](const point::WorkItem&, point::PointResult&& result) {
-        end = failed(result.status) ? std::nullopt : std::optional<Start>(result.end);
-        store(item, std::move(result), thread);
+    std::optional<point::WorkItem> item = item_of(branch), successor;
+    for (; item; item = std::move(successor))
+      run_batch({&*item, 1}, scratches_[thread], [&](const point::WorkItem& done, point::PointResult&& result) {
+        successor = store(done, std::move(result), thread);
       });
-    }
-    states_[branch] = BranchState::finished;
   }
 
   void run_chunk(const Chunk& chunk, std::size_t thread) {
@@ -220,8 +238,9 @@ class WorkerPool {
   ResultStore& store_;
   std::vector<std::atomic<BranchState>>& states_;  ///< [branch]
   SweepProgress progress_;
-  std::size_t chunk_;  ///< branches that a thread takes at once
-  Scatter chunks_;     ///< the order of the chunks
+  std::size_t chunk_;          ///< branches that a thread takes at once
+  Scatter chunks_;             ///< the order of the chunks
+  std::size_t most_branches_;  ///< that a thread has under way
   lanes::InstructionSet arch_;
   bool in_lanes_;
   std::atomic<std::size_t> turn_ = 0;            ///< the next one of the chunks

@@ -1,5 +1,5 @@
-// Growth of the time of a run with the number of points and of forcing periods, on one thread, and its reduction by two
-// threads; all on the widest instruction set of this machine.
+// Growth of the time of a run with the number of points and of forcing periods, on one thread, the time of points whose
+// stops are out of reach, and the reduction by two threads; all on the widest instruction set of this machine.
 #include <benchmark/benchmark.h>
 
 #include <cstddef>
@@ -34,6 +34,11 @@ void add_periods() {
         static_cast<double>(points) * periods);
 }
 
+void add_out_of_reach() {
+  constexpr std::size_t n = 100;
+  add("out of reach/" + std::to_string(n * n), map_out_of_reach(n), static_cast<double>(n * n));
+}
+
 /// Equal work for every point, and a map with slow points in it; in wall time.
 void add_threads() {
   for (const int threads : {1, 2}) {
@@ -50,6 +55,7 @@ int main(int count, char** arguments) {
   using namespace clatter::bench;
   add_points();
   add_periods();
+  add_out_of_reach();
   add_threads();
   return run_benchmarks(count, arguments);
 }

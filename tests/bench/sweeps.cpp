@@ -15,6 +15,27 @@ point::Problem scene_between(double xs) {
   return scene;
 }
 
+sweep::Sweep transients_over(const std::vector<double>& frequencies, double xs, double periods) {
+  sweep::Sweep sweep;
+  sweep.problem = scene_between(xs);
+  sweep.problem.time.mode = steady::Mode::transient;
+  sweep.problem.time.duration = periods * 2 * std::numbers::pi;
+  sweep.dimensions = {{{sweep::Parameter::nu, frequencies}}};
+  return sweep;
+}
+
+sweep::Sweep map_between(std::size_t n, double nearest, double farthest) {
+  sweep::Sweep sweep;
+  sweep.problem = scene_between(1.0);
+  sweep.problem.time.max_periods = 500;
+  sweep.problem.observe.harmonics = 3;
+  sweep.problem.observe.harmonics_method = observables::HarmonicsMethod::exact;
+  sweep.problem.observe.period = true;
+  sweep.dimensions = {{{sweep::Parameter::nu, linspace(0.5, 1.5, n)}},
+                      {{sweep::Parameter::xs, linspace(nearest, farthest, n)}}};
+  return sweep;
+}
+
 }  // namespace
 
 std::vector<double> linspace(double a, double b, std::size_t n) {
@@ -24,24 +45,16 @@ std::vector<double> linspace(double a, double b, std::size_t n) {
 }
 
 sweep::Sweep transients(double xs, std::size_t points, double periods) {
-  sweep::Sweep sweep;
-  sweep.problem = scene_between(xs);
-  sweep.problem.time.mode = steady::Mode::transient;
-  sweep.problem.time.duration = periods * 2 * std::numbers::pi;
-  sweep.dimensions = {{{sweep::Parameter::nu, linspace(0.5, 1.5, points)}}};
-  return sweep;
+  return transients_over(linspace(0.5, 1.5, points), xs, periods);
 }
 
-sweep::Sweep map(std::size_t n) {
-  sweep::Sweep sweep;
-  sweep.problem = scene_between(1.0);
-  sweep.problem.time.max_periods = 500;
-  sweep.problem.observe.harmonics = 3;
-  sweep.problem.observe.harmonics_method = observables::HarmonicsMethod::exact;
-  sweep.problem.observe.period = true;
-  sweep.dimensions = {{{sweep::Parameter::nu, linspace(0.5, 1.5, n)}}, {{sweep::Parameter::xs, linspace(0.2, 4.0, n)}}};
-  return sweep;
+sweep::Sweep transients_that_keep_hitting(std::size_t points, double periods) {
+  return transients_over(linspace(0.88, 1.11, points), xs_23, periods);
 }
+
+sweep::Sweep map(std::size_t n) { return map_between(n, 0.2, 4.0); }
+
+sweep::Sweep map_out_of_reach(std::size_t n) { return map_between(n, 8.0, 12.0); }
 
 Work work_of(const sweep::RunResult& result) {
   Work work;

@@ -11,7 +11,7 @@
 namespace clatter::lanes {
 namespace {
 
-point::WorkItem item_of(const point::Problem& scene) { return {0, scene, effects_of(scene)}; }
+point::WorkItem item_of(const point::Problem& scene) { return {0, 0, scene, effects_of(scene)}; }
 
 point::Problem observed_scene() {
   point::Problem scene = sweep::paper_scene(0.5, 1.0);

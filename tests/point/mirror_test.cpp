@@ -41,7 +41,7 @@ Problem mirrored(Problem scene) {
 
 PointResult result_of(const Problem& scene, lanes::InstructionSet arch) {
   ThreadScratch scratch;
-  const WorkItem item{0, scene, effects_of(scene)};
+  const WorkItem item{0, 0, scene, effects_of(scene)};
   if (arch == lanes::InstructionSet::scalar || !lanes::accepts(item)) return run_point(scene, scratch);
   return run_in_lanes(item, 1, arch, scratch);
 }
