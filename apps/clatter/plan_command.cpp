@@ -12,10 +12,11 @@ namespace {
 
 int print_plan(const Arguments& arguments) {
   const int threads = sweep::threads_used({.threads = threads_of(arguments)});
+  const lanes::InstructionSet arch = arch_of(arguments);
   const std::optional<sweep::Shard> shard = shard_of(arguments);
   const config::Config config = config_of(arguments);
   const plan::MemoryNeed need = check_memory(config, shard, threads);
-  plan::Plan plan = plan::plan_of(config.sweep, threads, need, shard);
+  plan::Plan plan = plan::plan_of(config.sweep, {.threads = threads, .arch = arch}, need, shard);
   if (arguments.has("json")) {
     join_warnings(plan, config);
     std::cout << plan_json(plan, config.sweep, threads);
@@ -44,6 +45,7 @@ Command plan_command() {
                       set_option,
                       ini_option,
                       threads_option,
+                      arch_option,
                       {"shard", 0, "K/N", "plan only points K, K + N, ... (K from 0), as for `clatter run --shard`"},
                       {"help", 'h', "", "print this help"}},
           .run = print_plan};

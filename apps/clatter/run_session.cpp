@@ -33,7 +33,8 @@ storage::JournalKey journal_key(const config::Config& config, const RunRequest& 
 }
 
 void say_plan(const config::Config& config, const RunRequest& request, const plan::MemoryNeed& need) {
-  const plan::Plan plan = plan::plan_of(config.sweep, request.threads, need, request.shard);
+  const plan::Plan plan =
+      plan::plan_of(config.sweep, {.threads = request.threads, .arch = request.arch}, need, request.shard);
   std::cerr << plan_text(plan, config.sweep, request.threads);
   say_notes(config), warn(plan);
 }

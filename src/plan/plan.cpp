@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lanes/run_in_lanes.hpp"
 #include "plan/available_memory.hpp"
 #include "plan/costliest_point.hpp"
 #include "plan/survey.hpp"
@@ -19,6 +20,26 @@ double seconds_of_work(point::Problem scene, const Effects& effects) {
   sweep::start_from(scene, std::nullopt);
   point::ThreadScratch scratch;
   return seconds_per_period(scene, scratch);
+}
+
+/// The same in lanes, measured on chaotic motion with an impact or two in a forcing period.
+double seconds_of_lane_work(const point::Problem& example, lanes::InstructionSet arch) {
+  constexpr double nu = 0.827759, gap = 2.19231, periods = 200;
+  point::Problem scene;
+  scene.oscillator = {.damping = 0.1, .forcing = -1.0, .frequency = nu};
+  scene.stops = {-gap, gap, 0.7, 0.7};
+  scene.time = {.mode = example.time.mode, .max_periods = static_cast<std::int64_t>(periods), .window = 1};
+  scene.time.duration = periods * period_of(scene.oscillator);
+  const Effects effects = effects_of(scene);
+  return lanes::seconds_per_period({0, 0, scene, effects}, arch) / work_of_period(scene, effects);
+}
+
+/// Wall time of a group's work on one thread.
+Bounds seconds_of(const Collected& group, const point::Problem& example, lanes::InstructionSet arch) {
+  Bounds seconds;
+  if (group.work.most > 0) seconds += group.work * seconds_of_work(example, group.effects);
+  if (group.lane_work.most > 0) seconds += group.lane_work * seconds_of_lane_work(example, arch);
+  return seconds;
 }
 
 /// Warns of a stop that some points have but none meets.
@@ -55,9 +76,10 @@ std::string effect_set_name(const Effects& effects) {
   return name;
 }
 
-Plan plan_of(const sweep::Sweep& sweep, int threads, const MemoryNeed& need, const std::optional<sweep::Shard>& shard) {
+Plan plan_of(const sweep::Sweep& sweep, const sweep::RunOptions& options, const MemoryNeed& need,
+             const std::optional<sweep::Shard>& shard) {
   const sweep::Share share(sweep, shard);
-  Survey survey = survey_of(sweep, share, threads);
+  Survey survey = survey_of(sweep, share, options);
   std::ranges::sort(survey.groups, cheaper, &Collected::effects);
   Plan plan;
   plan.shard = shard;
@@ -71,10 +93,10 @@ Plan plan_of(const sweep::Sweep& sweep, int threads, const MemoryNeed& need, con
                            .example = group.example.point,
                            .reasons = reasons_of(example),
                            .periods = group.periods,
-                           .seconds = group.work * seconds_of_work(example, group.effects)});
+                           .seconds = seconds_of(group, example, options.arch)});
   }
   plan.need = need;
-  plan.available_memory = memory_limit(threads).bytes;
+  plan.available_memory = memory_limit(options.threads).bytes;
   warn(sweep, survey, plan);
   return plan;
 }

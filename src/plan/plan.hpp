@@ -8,7 +8,7 @@
 #include "plan/bounds.hpp"
 #include "plan/memory_need.hpp"
 #include "plan/reasons.hpp"
-#include "sweep/share.hpp"
+#include "sweep/run.hpp"
 
 namespace clatter::plan {
 
@@ -19,7 +19,7 @@ struct Group {
   std::size_t example = 0;      ///< the point whose reasons are given: the one that comes closest to a stop
   std::vector<Reason> reasons;  ///< of that point
   Bounds periods;               ///< forcing periods to simulate, all points together
-  Bounds seconds;               ///< on one thread, from a short measurement of the compiled set of effects
+  Bounds seconds;               ///< on one thread, from short measurements of the compiled set of effects and of lanes
 };
 
 /// The plan of a sweep, or of a shard of it: its groups, work and memory, known before anything runs.
@@ -35,9 +35,10 @@ struct Plan {
   std::vector<std::string> warnings;          ///< settings that look unintended, and the remedy
 };
 
-/// Groups the points by the effects that they call for and estimates their work, on `threads` threads; runs none of
-/// them, and examines a million at most. `need` is the need of the run, which the caller has checked before.
-[[nodiscard]] Plan plan_of(const sweep::Sweep& sweep, int threads, const MemoryNeed& need,
+/// Groups the points by the effects that they call for and estimates the work of a run with these options, whose number
+/// of threads is known; runs none of them, and examines a million at most. `need` is the need of the run, which the
+/// caller has checked before.
+[[nodiscard]] Plan plan_of(const sweep::Sweep& sweep, const sweep::RunOptions& options, const MemoryNeed& need,
                            const std::optional<sweep::Shard>& shard = {});
 
 /// A compiled set of effects in words, e.g. "light damping, forcing, impacts".

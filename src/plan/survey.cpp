@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "lanes/run_in_lanes.hpp"
 #include "model/displacement_bound.hpp"
 #include "motion/contact.hpp"
 #include "plan/sample.hpp"
@@ -45,14 +46,6 @@ Bounds periods_of(const point::Problem& scene, const Effects& effects) {
   return {2, longest * 1.25 + std::min(64.0, longest) + static_cast<double>(time.window)};
 }
 
-/// Evaluations of arcs in a forcing period, from the length of the steps that are proved free of contact; two impacts a
-/// period, each worth two. The work of general methods counts in forcing periods.
-double work_of_period(const point::Problem& scene, const Effects& effects) {
-  if (scene.integration.method != stepping::Method::exact) return 1;
-  const double step = motion::usual_step(counting_frequency(scene.oscillator));
-  return effects.stops() ? std::ceil(period_of(scene.oscillator) / step) + 4 : 1;
-}
-
 /// The largest displacement over the gap of a stop that isn't met: 1 if it would touch; negative if there is no stop.
 double closeness(const Requirements& needs, double gap) {
   return gap < infinity ? (needs.effects.stops() ? needs.reach : needs.free_reach) / gap : -1;
@@ -82,7 +75,7 @@ class ExaminedPoints {
   Sample firsts_, others_;
 };
 
-void examine(const sweep::Sweep& sweep, const Sample::Draw& draw, Survey& survey) {
+void examine(const sweep::Sweep& sweep, const Sample::Draw& draw, bool lanes_run, Survey& survey) {
   const point::Problem scene = planned_problem(sweep, draw.number);
   const Requirements needs = requirements_of(scene, duration_of(scene.time));
   const bool required = scene.integration.method == stepping::Method::exact && !scene.integration.all_effects;
@@ -92,7 +85,9 @@ void examine(const sweep::Sweep& sweep, const Sample::Draw& draw, Survey& survey
       to_upper{needs.effects.upper ? 0 : closeness(needs, needs.upper_gap), draw.number};
   Closest example = to_lower;
   example.add(to_upper);
-  survey.add({effects, draw.weight, example, periods, periods * work_of_period(scene, effects)});
+  const Bounds work = periods * work_of_period(scene, effects);
+  const bool in_lanes = lanes_run && lanes::accepts({0, 0, scene, effects});
+  survey.add({effects, draw.weight, example, periods, in_lanes ? Bounds{} : work, in_lanes ? work : Bounds{}});
   survey.lower.add({needs.effects.lower, to_lower}), survey.upper.add({needs.effects.upper, to_upper});
   survey.lasting = survey.lasting || (scene.time.mode == steady::Mode::steady && scene.oscillator.forcing != 0 &&
                                       scene.oscillator.damping == 0 && !needs.effects.dissipation);
@@ -101,7 +96,8 @@ void examine(const sweep::Sweep& sweep, const Sample::Draw& draw, Survey& survey
 /// Examines points on several threads, in blocks that are the same for every number of threads, and so are the sums.
 class Surveyor {
  public:
-  Surveyor(const sweep::Sweep& sweep, const sweep::Share& share) : sweep_(sweep), points_(share) {}
+  Surveyor(const sweep::Sweep& sweep, const sweep::Share& share, lanes::InstructionSet arch)
+      : sweep_(sweep), points_(share), lanes_run_(runs_in_lanes(sweep, arch)) {}
 
   Survey run(int threads) {
     sweep::parallel_for(blocks, threads, [this](std::size_t block) { work(block); });
@@ -116,15 +112,22 @@ class Surveyor {
 
   void work(std::size_t block) {
     for (std::size_t i = block * points_.size() / blocks; i < (block + 1) * points_.size() / blocks; ++i)
-      examine(sweep_, points_[i], surveys_[block]);
+      examine(sweep_, points_[i], lanes_run_, surveys_[block]);
   }
 
   const sweep::Sweep& sweep_;
   ExaminedPoints points_;
+  bool lanes_run_;
   std::vector<Survey> surveys_ = std::vector<Survey>(blocks);
 };
 
 }  // namespace
+
+double work_of_period(const point::Problem& scene, const Effects& effects) {
+  if (scene.integration.method != stepping::Method::exact) return 1;
+  const double step = motion::usual_step(counting_frequency(scene.oscillator));
+  return effects.stops() ? std::ceil(period_of(scene.oscillator) / step) + 4 : 1;
+}
 
 point::Problem planned_problem(const sweep::Sweep& sweep, std::size_t point) {
   point::Problem problem = problem_at(sweep, point);
@@ -136,8 +139,8 @@ point::Problem planned_problem(const sweep::Sweep& sweep, std::size_t point) {
   return problem;
 }
 
-Survey survey_of(const sweep::Sweep& sweep, const sweep::Share& share, int threads) {
-  return Surveyor(sweep, share).run(threads);
+Survey survey_of(const sweep::Sweep& sweep, const sweep::Share& share, const sweep::RunOptions& options) {
+  return Surveyor(sweep, share, options.arch).run(options.threads);
 }
 
 }  // namespace clatter::plan

@@ -6,7 +6,7 @@
 
 #include "model/required_effects.hpp"
 #include "plan/bounds.hpp"
-#include "sweep/share.hpp"
+#include "sweep/run.hpp"
 
 namespace clatter::plan {
 
@@ -36,11 +36,12 @@ struct Collected {
   Effects effects;
   std::size_t points = 0;
   Closest example;
-  Bounds periods, work;
+  Bounds periods;
+  Bounds work, lane_work;  ///< of points in the scalar loop, and in lanes (`work_of_period`)
 
   void add(const Collected& other) {
     points += other.points;
-    periods += other.periods, work += other.work;
+    periods += other.periods, work += other.work, lane_work += other.lane_work;
     example.add(other.example);
   }
 };
@@ -69,7 +70,11 @@ struct Survey {
 /// A point as the plan examines it; along a followed branch its start isn't known yet, and NaN.
 [[nodiscard]] point::Problem planned_problem(const sweep::Sweep& sweep, std::size_t point);
 
+/// Evaluations of arcs in a forcing period, from the length of the steps that are proved free of contact; two impacts a
+/// period, each worth two. The work of general methods counts in forcing periods.
+[[nodiscard]] double work_of_period(const point::Problem& scene, const Effects& effects);
+
 /// Examines the points of a run, or a sample of them; the same survey for every number of threads.
-[[nodiscard]] Survey survey_of(const sweep::Sweep& sweep, const sweep::Share& share, int threads);
+[[nodiscard]] Survey survey_of(const sweep::Sweep& sweep, const sweep::Share& share, const sweep::RunOptions& options);
 
 }  // namespace clatter::plan

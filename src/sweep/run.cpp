@@ -45,17 +45,6 @@ void add(std::vector<WorkStats>& sum, const WorkStats& part) {
 /// Size of packed results from which on they are written at once.
 constexpr std::size_t enough_to_save = 256UL * 1024;  // bytes
 
-/// Branches side by side from which on lanes are quicker than the scalar loop, which settles in fewer forcing periods.
-constexpr std::size_t enough_branches = 8;
-
-/// True if points of a sweep may run in lanes: by the exact method, with every shortcut to their steady motion, and
-/// enough of them at once.
-bool lanes_can_run(const Sweep& sweep) {
-  const stepping::Integration& integration = sweep.problem.integration;
-  return integration.method == stepping::Method::exact && integration.shortcuts && !integration.all_effects &&
-         !(sweep.follow && Branches(sweep).count < enough_branches);
-}
-
 /// The threads that run a sweep, and their shared state.
 class WorkerPool {
  public:
@@ -73,7 +62,7 @@ class WorkerPool {
         chunks_((share_.count() + chunk_ - 1) / chunk_),
         most_branches_((share_.count() + static_cast<std::size_t>(threads) - 1) / static_cast<std::size_t>(threads)),
         arch_(options.arch),
-        in_lanes_(options.arch != lanes::InstructionSet::scalar && lanes_can_run(sweep)),
+        in_lanes_(runs_in_lanes(sweep, options.arch)),
         scratches_(static_cast<std::size_t>(threads)),
         work_(static_cast<std::size_t>(threads)) {
     for (std::size_t thread = 0; options.progress && thread < scratches_.size(); ++thread)
@@ -255,6 +244,13 @@ class WorkerPool {
 }  // namespace
 
 int threads_used(const RunOptions& options) { return options.threads > 0 ? options.threads : default_threads(); }
+
+/// Lanes take the exact method's shortcuts to steady motion.
+bool runs_in_lanes(const Sweep& sweep, lanes::InstructionSet arch) {
+  const stepping::Integration& integration = sweep.problem.integration;
+  return arch != lanes::InstructionSet::scalar && integration.method == stepping::Method::exact &&
+         integration.shortcuts && !integration.all_effects;
+}
 
 SweepRun::SweepRun(const Sweep& sweep, const std::optional<Shard>& shard)
     : sweep_(sweep), shard_(shard), share_(sweep, shard), store_(sweep, shard), states_(share_.count()) {}

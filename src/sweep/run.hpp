@@ -29,6 +29,9 @@ struct RunOptions {
 /// The threads that a run with these options uses.
 [[nodiscard]] int threads_used(const RunOptions& options);
 
+/// Whether a run takes those points of a sweep that lanes accept into lanes.
+[[nodiscard]] bool runs_in_lanes(const Sweep& sweep, lanes::InstructionSet arch);
+
 /// Work spent on the points with equal effects.
 struct WorkStats {
   Effects effects;

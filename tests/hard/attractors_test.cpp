@@ -96,7 +96,7 @@ point::Problem scene_number(std::uint64_t i) {
 std::vector<point::PointResult> answers_of(const point::Problem& scene) {
   point::ThreadScratch scratch;
   std::vector<point::PointResult> answers{run_point(scene, scratch)};
-  const point::WorkItem task{0, scene, effects_of(scene)};
+  const point::WorkItem task{0, 0, scene, effects_of(scene)};
   if (lanes::widest_instruction_set() != lanes::InstructionSet::scalar && lanes::accepts(task))
     answers.push_back(lanes::run_in_lanes(task, 1, lanes::widest_instruction_set(), scratch));
   return answers;

@@ -7,6 +7,7 @@
 
 #include "plan/available_memory.hpp"
 #include "plan/plans.hpp"
+#include "plan/survey.hpp"
 #include "sweep/figures.hpp"
 
 namespace clatter::plan {
@@ -66,6 +67,25 @@ TEST(Plan, points_run_with_the_effects_of_their_group_and_no_longer_than_it_says
       EXPECT_GE(plan.groups[i].seconds.most, plan.groups[i].seconds.least);
     }
   }
+}
+
+TEST(Plan, the_work_of_points_that_lanes_take_is_counted_on_its_own) {
+  const sweep::Sweep sweep = sweep::sweep_of(
+      figure(3), {{sweep::Parameter::nu, frequencies()}, {sweep::Parameter::h, {0.1, 2.0}}});  // too much for lanes
+  const sweep::Share share(sweep);
+  const Survey scalar = survey_of(sweep, share, {.threads = 1, .arch = lanes::InstructionSet::scalar});
+  const Survey lanes = survey_of(sweep, share, {.threads = 1, .arch = lanes::InstructionSet::sse2});
+  ASSERT_EQ(lanes.groups.size(), scalar.groups.size());
+  double in_lanes = 0;
+  for (std::size_t i = 0; i < lanes.groups.size(); ++i) {
+    const Collected &one = lanes.groups[i], &other = scalar.groups[i];
+    const bool fit = one.effects.stops() && one.effects.damping == Damping::light;
+    EXPECT_EQ(one.lane_work.most, fit ? other.work.most : 0);
+    EXPECT_EQ(one.work.most, fit ? 0 : other.work.most);
+    EXPECT_EQ(other.lane_work.most, 0);
+    in_lanes += one.lane_work.most;
+  }
+  EXPECT_GT(in_lanes, 0);
 }
 
 TEST(Plan, the_least_work_of_transients_and_of_conservative_motion_is_the_most) {
