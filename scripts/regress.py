@@ -6,6 +6,7 @@ import math
 import pathlib
 import subprocess
 import sys
+import tomllib
 import typing
 
 import numpy
@@ -35,6 +36,7 @@ class Output(typing.NamedTuple):
     config: str  # its sha256
     variables: dict
     is_text: bool
+    follow: int | None = None  # the dimension along which each point starts from the end of the one before
 
 
 def read_h5(path):
@@ -49,7 +51,14 @@ def read_h5(path):
             rows = dataset[()].reshape(number, dataset.size // max(number, 1)).astype(float)
             attributes = {key: str(value) for key, value in dataset.attrs.items() if key not in REFERENCES}
             variables[name] = Variable(str(dataset.dtype), dataset.shape, 1, rows, swept, attributes)
-        return Output(file.attrs["config_sha256"], variables, False)
+        return Output(file.attrs["config_sha256"], variables, False, followed_dimension(file))
+
+
+def followed_dimension(file):
+    sweep = tomllib.loads(file.attrs["config"])["sweep"]
+    axes = [key for key in sweep if key not in ("linked", "follow")]
+    alone = len(axes) == len(file["status"].shape)  # no axis is linked to another
+    return axes.index(sweep["follow"]) if alone and sweep.get("follow") in axes else None
 
 
 def text_of(output):
@@ -89,7 +98,7 @@ class Comparison:
         # if the baseline's isn't aperiodic there, status itself differs
         self.chaotic = new.variables["status"].rows[::step, 0] == APERIODIC
         self.points = len(self.chaotic)
-        self.unlike = numpy.zeros(self.points, dtype=bool)  # the aperiodic points that differ in something
+        self.found = []  # of each variable: its name, where values differ, by how much, and the variable
         left_out = SETTLING if base.is_text else ()
         for name in sorted((base.variables.keys() | new.variables.keys()) - set(left_out)):
             if name not in new.variables:
@@ -98,8 +107,7 @@ class Comparison:
                 self.differences.append(f"{name} is new")
             else:
                 self.compare(name, base.variables[name], new)
-        if self.unlike.any():
-            self.permitted.append(f"values at {numpy.count_nonzero(self.unlike)} aperiodic points")
+        self.judge(self.chaotic_starts(base, new))
         if self.differences and base.config != new.config:
             self.differences.append("config_sha256: another configuration")
 
@@ -127,20 +135,53 @@ class Comparison:
             if beyond.any():
                 self.permitted.append(f"{name} at {numpy.count_nonzero(beyond)} points")
             return
-        if now.swept and name != "status":
-            chaotic = numpy.broadcast_to(self.chaotic, len(a))
-            seen = beyond.any(axis=1) & chaotic
-            self.unlike |= seen if len(seen) == self.points else seen.any()
-            apart[chaotic], beyond[chaotic] = 0, False
-        self.variables += 1
-        if beyond.any():
-            self.differences.append(f"{name} at {numpy.count_nonzero(beyond)} of {beyond.size}")
-        if apart.size:
-            worst = numpy.argmax(apart)  # the first NaN, if any
-            row, column = numpy.unravel_index(worst, apart.shape)
-            if not (apart.flat[worst] <= self.largest or math.isnan(self.largest)):
-                place = numpy.unravel_index(row * old.step * apart.shape[1] + column, now.shape)
-                self.largest, self.where = apart.flat[worst], f"{name}[{','.join(map(str, place))}]" if place else name
+        self.found.append((name, apart, beyond, old.step, now))
+
+    def unlike(self):
+        """The points that differ in something but their status."""
+        unlike = numpy.zeros(self.points, dtype=bool)
+        for name, _, beyond, _, variable in self.found:
+            if variable.swept and name != "status":
+                seen = beyond.any(axis=1)
+                unlike |= seen if len(seen) == self.points else seen.any()
+        return unlike
+
+    def chaotic_starts(self, base, new):
+        """The points that may differ: aperiodic ones, and along a followed branch those after them, as far as all of
+        them differ, since the chaos before decides for one of several motions."""
+        status = base.variables["status"]
+        shape = status.shape if status.step == 1 else (self.points,)
+        may = self.chaotic.copy()
+        if new.follow is None or (status.step > 1 and len(status.shape) > 1):
+            return may
+        along = numpy.moveaxis(may.reshape(shape), new.follow, 0)  # views of `may` and of the differences
+        unlike = numpy.moveaxis(self.unlike().reshape(shape), new.follow, 0)
+        for i in range(1, len(along)):
+            along[i] |= along[i - 1] & unlike[i]
+        return may
+
+    def judge(self, may):
+        """Sums up the differences at all points but those that may differ."""
+        count = numpy.count_nonzero(self.unlike() & self.chaotic)
+        if count:
+            self.permitted.append(f"values at {count} aperiodic points")
+        count = numpy.count_nonzero(self.unlike() & may & ~self.chaotic)
+        if count:
+            self.permitted.append(f"values at {count} points that start from chaos")
+        for name, apart, beyond, step, variable in self.found:
+            if variable.swept and name != "status":
+                left_out = numpy.broadcast_to(may, len(apart))
+                apart[left_out], beyond[left_out] = 0, False
+            self.variables += 1
+            if beyond.any():
+                self.differences.append(f"{name} at {numpy.count_nonzero(beyond)} of {beyond.size}")
+            if apart.size:
+                worst = numpy.argmax(apart)  # the first NaN, if any
+                row, column = numpy.unravel_index(worst, apart.shape)
+                if not (apart.flat[worst] <= self.largest or math.isnan(self.largest)):
+                    place = numpy.unravel_index(row * step * apart.shape[1] + column, variable.shape)
+                    self.largest = apart.flat[worst]
+                    self.where = f"{name}[{','.join(map(str, place))}]" if place else name
 
 
 def line(name, points, variables, largest, where, h5diff, verdict, note):

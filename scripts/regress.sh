@@ -23,8 +23,8 @@ The table on stdout has a line for each output, in columns between blanks: its n
 the largest difference, where it is, what h5diff says (same, differs, - for text), the verdict (agrees, differs), and
 the differences in words. A difference is a value off by more than $tolerance, NaN beside a number, and a variable,
 shape, type or attribute that isn't the same. Only these may differ, and the line says "but for" them:
-  - values at points that are aperiodic in both, since chaos turns any other rounding into another motion; their
-    status must agree,
+  - values at points that are aperiodic in both, since chaos turns any other rounding into another motion, and along
+    "follow" those right after them, since it leaves them near another of several motions; their status must agree,
   - impact_total, simulated_periods and settling_estimate: how long settling took is no property of the motion,
   - phases by whole turns, or if the amplitude is 0.
 

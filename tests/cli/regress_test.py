@@ -241,6 +241,25 @@ esac
             [self.rows(result)[name][2] for name in ("fig20", "fig21", "fig23")], ["1.7e+00", "nan", "inf"]
         )
 
+    def test_chaos_decides_what_the_points_after_it_along_follow_settle_to_until_they_agree_again(self):
+        with h5py.File(self.outputs / "follow_up.h5") as file:
+            last = numpy.flatnonzero(file["status"][()])[-1]
+
+        def mirror(points):
+            def edit(file):
+                for point in points:
+                    file["x_max"][point], file["x_min"][point] = 3.9, -4.0
+
+            return edit
+
+        for points, verdict, note in (
+            ([last + 1, last + 2], "agrees", "but for values at 2 points that start from chaos"),
+            ([last + 2, last + 3], "differs", "x_max at 2 of 251; x_min at 2 of 251"),
+        ):
+            shutil.rmtree(self.folder / "baseline", ignore_errors=True)
+            row = self.rows(self.regress(self.edited(follow_up=mirror(points)), CLATTER=self.program()))["follow_up"]
+            self.assertEqual((row[5], row[6]), (verdict, note))
+
     @NEEDS_H5DIFF
     def test_the_line_of_the_guide(self):
         """It tells equal, slightly and grossly different files apart; h5diff alone ignores a different point count."""
