@@ -73,7 +73,8 @@ struct TimeOver {
   /// is below 1/256 of that.
   [[nodiscard]] Mask<Number> converged() const {
     using std::abs;
-    return (abs(correction) <= abs(rough) * Number(0x1p-20)) & (abs(bend) <= Number(0x1p-5));
+    const Mask<Number> straight = abs(bend) <= Number(0x1p-5);
+    return straight & (abs(correction) <= abs(rough) * Number(0x1p-20));
   }
 };
 
