@@ -76,8 +76,7 @@ void LaneView::set_bounds(const Constants& constants, const Stops& stops, double
   at(block_->rounding) = rounding * scale;
 }
 
-void LaneView::load(const Stops& stops) {
-  const Constants constants(scene_->oscillator);
+void LaneView::load(const Constants& constants, const Stops& stops) {
   const double step = usual_step / std::max(1.0, constants.nu);
   const motion::Step<double> of_step = constants.step(step);
   BlockState& block = *block_;

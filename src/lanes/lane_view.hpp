@@ -58,13 +58,13 @@ void clear_lane(BlockState& block, std::size_t lane);
 /// A lane in the units of its scene. It alone knows the rows of a block, the lane's unit of time, and that lanes count
 /// displacements from the load's equilibrium.
 class LaneView {
+ public:
   using Constants = motion::ArcConstants<double, Effects{.damping = Damping::light, .forcing = Forcing::regular}>;
 
- public:
   LaneView(BlockState& block, std::size_t lane, const Scene& scene) : block_(&block), lane_(lane), scene_(&scene) {}
 
-  /// Loads the scene at its start, with the stops that it may meet.
-  void load(const Stops& stops);
+  /// Loads the scene at its start, with the constants of its arcs and the stops that it may meet.
+  void load(const Constants& constants, const Stops& stops);
   [[nodiscard]] LaneState state() const;
   /// Sets the state, so many sections being passed before the next one that is reported.
   void set_state(const LaneState& state, double sections_between);

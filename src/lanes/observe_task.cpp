@@ -68,7 +68,7 @@ void ObserveTask::skip_impact_at_start() {
 
 void ObserveTask::begin(LaneView& lane) {
   const motion::State<double>& from = settled_.observed.from;
-  lane.load(settled_.loop.stops());
+  lane.load(settled_.loop.constants(), settled_.loop.stops());
   lane.set_state({from.x, from.v, first_turns_}, 0);
   lane.begin_observing(item().problem.observe);
   expect_section(lane);
@@ -92,7 +92,7 @@ bool ObserveTask::leaves_lane() const { return fallback_.rested() || fallback_.c
 
 /// However late that is found, a point that has spent its budget fails with the same numbers: those of the last section
 /// before.
-SettledPoint ObserveTask::failed(stepping::Outcome outcome) const {
+SettledPoint ObserveTask::failed(stepping::Outcome outcome, const LaneView&) const {
   SettledPoint failed = settled_;
   failed.observed = failure(outcome, settled_.observed.simulated + static_cast<double>(sections_));
   return failed;
@@ -140,7 +140,7 @@ point::PointResult ObserveTask::result(const LaneView& lane, point::ThreadScratc
   const steady::ObservedTime& observed = settled_.observed;
   const LaneSection section = lane.section();
   if (has_spent_budget(section.impacts))
-    return observe_in_scalar_loop(failed(stepping::Outcome::event_budget), scratch);
+    return observe_in_scalar_loop(failed(stepping::Outcome::event_budget, lane), scratch);
   if (leaves_lane()) return observe_in_scalar_loop(settled_, scratch);
   point::Point point(item().problem, scratch, fallback_.loop());
   point::Observers observers = point.begin(observed);

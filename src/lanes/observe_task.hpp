@@ -45,7 +45,7 @@ class ObserveTask {
   /// The point as it was before lanes observed it, for the scalar loop to do so.
   [[nodiscard]] const SettledPoint& settled() const { return settled_; }
   /// The point if it can't be run on.
-  [[nodiscard]] SettledPoint failed(stepping::Outcome outcome) const;
+  [[nodiscard]] SettledPoint failed(stepping::Outcome outcome, const LaneView& lane) const;
   /// The result of a point whose observed time is over, or that has failed or leaves its lane.
   [[nodiscard]] point::PointResult result(const LaneView& lane, point::ThreadScratch& scratch) const;
 

@@ -1,6 +1,7 @@
 #include "lanes/scheduler.hpp"
 
 #include <bit>
+#include <type_traits>
 #include <utility>
 
 namespace clatter::lanes {
@@ -112,7 +113,6 @@ void Scheduler::handle_section(Block<ObserveTask>& block, std::size_t lane) {
   if (!task.pass_section(view)) return;
   put(task.item(), task.result(view, scratch_));
   leave(block, lane);
-  observe_next(lane);
 }
 
 void Scheduler::fall_back(Block<SettleTask>& block, std::size_t lane) {
@@ -121,10 +121,9 @@ void Scheduler::fall_back(Block<SettleTask>& block, std::size_t lane) {
   const stepping::Outcome outcome = task.fall_back(view);
   if (outcome != stepping::Outcome::completed) return fail(block, lane, outcome);
   if (!task.leaves_lane()) return;
-  const point::WorkItem item = task.item();
-  leave(block, lane);
-  run_batch({&item, 1}, scratch_,
+  run_batch({&task.item(), 1}, scratch_,
             [this](const point::WorkItem& done, point::PointResult&& result) { put(done, std::move(result)); });
+  leave(block, lane);
 }
 
 void Scheduler::fall_back(Block<ObserveTask>& block, std::size_t lane) {
@@ -133,7 +132,6 @@ void Scheduler::fall_back(Block<ObserveTask>& block, std::size_t lane) {
   if (task.fall_back(view) == stepping::Outcome::completed && !task.leaves_lane()) return;
   put(task.item(), observe_in_scalar_loop(task.settled(), scratch_));
   leave(block, lane);
-  observe_next(lane);
 }
 
 /// Fails points that have spent their budget of impacts between two sections, and reports the progress of all.
@@ -156,26 +154,21 @@ double Scheduler::take_stock(Block<Task>& block) {
   return shares;
 }
 
-void Scheduler::fail(Block<SettleTask>& block, std::size_t lane, stepping::Outcome outcome) {
+template <class Task>
+void Scheduler::fail(Block<Task>& block, std::size_t lane, stepping::Outcome outcome) {
   const SettledPoint failed = block.tasks[lane]->failed(outcome, block.view(lane));
-  leave(block, lane);
   put(failed.item, observe_in_scalar_loop(failed, scratch_));
+  leave(block, lane);
 }
 
-void Scheduler::fail(Block<ObserveTask>& block, std::size_t lane, stepping::Outcome outcome) {
-  const SettledPoint failed = block.tasks[lane]->failed(outcome);
-  leave(block, lane);
-  put(failed.item, observe_in_scalar_loop(failed, scratch_));
-  observe_next(lane);
-}
-
-/// Takes a point off its lane.
+/// Takes a point off its lane; one that waits to be observed takes its place.
 template <class Task>
 void Scheduler::leave(Block<Task>& block, std::size_t lane) {
   const LaneMask others = ~(LaneMask{1} << lane);
   block.lanes.arrived &= others, block.lanes.to_scalar &= others;
   block.tasks[lane].reset(), --block.taken;
   clear_lane(block.lanes, lane);
+  if constexpr (std::is_same_v<Task, ObserveTask>) observe_next(lane);
 }
 
 }  // namespace clatter::lanes

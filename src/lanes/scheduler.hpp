@@ -56,8 +56,8 @@ class Scheduler {
   void take_stock();
   template <class Task>
   [[nodiscard]] double take_stock(Block<Task>& block);
-  void fail(Block<SettleTask>& block, std::size_t lane, stepping::Outcome outcome);
-  void fail(Block<ObserveTask>& block, std::size_t lane, stepping::Outcome outcome);
+  template <class Task>
+  void fail(Block<Task>& block, std::size_t lane, stepping::Outcome outcome);
   template <class Task>
   void leave(Block<Task>& block, std::size_t lane);
 

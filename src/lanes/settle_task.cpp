@@ -21,7 +21,7 @@ std::optional<SettledPoint> SettleTask::begin(LaneView& lane) {
   }
   search_.emplace(loop(), problem, problem.time, steady::AdvancedBy::lanes);
   if (const auto found = search_->at_section(state)) return settled(*found, 0);
-  lane.load(loop().stops());
+  lane.load(loop().constants(), loop().stops());
   return std::nullopt;
 }
 

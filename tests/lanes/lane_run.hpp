@@ -42,7 +42,8 @@ inline std::vector<LaneRun> run_lanes(const std::vector<point::Problem>& scenes,
   BlockState lanes{};
   std::vector<LaneRun> runs(scenes.size());
   for (std::size_t i = 0; i < LaneArray::width; ++i) clear_lane(lanes, i);
-  for (std::size_t i = 0; i < scenes.size(); ++i) LaneView(lanes, i, scenes[i]).load(scenes[i].stops);
+  for (std::size_t i = 0; i < scenes.size(); ++i)
+    LaneView(lanes, i, scenes[i]).load(LaneView::Constants(scenes[i].oscillator), scenes[i].stops);
   std::vector<bool> done(scenes.size(), false);
   for (std::size_t left = scenes.size(); left > 0;) {
     std::vector<double> before(lanes.impacts.lane, lanes.impacts.lane + LaneArray::width);

@@ -63,7 +63,7 @@ TEST_P(LaneSteps, a_step_with_a_nan_in_any_input_of_its_proof_is_not_proved) {
       for (std::size_t lane = 0; lane < LaneArray::width; ++lane) {
         const point::Problem scene = wide_scene();
         LaneView view(lanes, lane, scene);
-        view.load(scene.stops), view.begin_observing(scene.observe), view.expect_section(false, false, 1);
+        view.load(LaneView::Constants(scene.oscillator), scene.stops), view.begin_observing(scene.observe), view.expect_section(false, false, 1);
       }
       const std::size_t broken = i % LaneArray::width, sound = (i + 1) % LaneArray::width;
       (lanes.*rows[i]).lane[broken] = std::numeric_limits<double>::quiet_NaN();
@@ -215,7 +215,7 @@ TEST_P(LaneSteps, advance_every_lane) {
   const point::Problem scene = support::scene_of({0.1, -1.0, 0x1.07b00c4ce07bp-1, 0.0}, -stop, stop, 0.7);
   BlockState lanes{};
   for (std::size_t lane = 0; lane < LaneArray::width; ++lane) clear_lane(lanes, lane);
-  LaneView(lanes, 1, scene).load(scene.stops);
+  LaneView(lanes, 1, scene).load(LaneView::Constants(scene.oscillator), scene.stops);
   lanes.free_x.lane[1] = 0x1.584ce6d702e79p-2, lanes.free_v.lane[1] = -0x1.3c0af122d568p-1;
   lanes.sine.lane[1] = 0x1.2ed29049b0f28p-2, lanes.cosine.lane[1] = -0x1.e9198d9f7dcb6p-1;
   lanes.y.lane[1] = -0x1.e5dc1ac0bc4dap-3, lanes.v.lane[1] = 0x1.6559d0258a1p-7;
