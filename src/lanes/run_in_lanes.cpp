@@ -1,8 +1,5 @@
 #include "lanes/run_in_lanes.hpp"
 
-#include <algorithm>
-#include <chrono>
-#include <limits>
 #include <optional>
 #include <utility>
 
@@ -23,19 +20,6 @@ point::PointResult run_in_lanes(const point::WorkItem& item, std::size_t times, 
   Scheduler scheduler(step_functions_of(arch), scratch, next, take);
   scheduler.run();
   return result;
-}
-
-double seconds_per_period(const point::WorkItem& item, InstructionSet arch) {
-  using Clock = std::chrono::steady_clock;
-  constexpr std::size_t times = 4 * lanes_per_block;
-  point::ThreadScratch scratch;
-  double least = std::numeric_limits<double>::infinity();
-  for (int repetition = 0; repetition < 3; ++repetition) {
-    const auto begin = Clock::now();
-    const double periods = run_in_lanes(item, times, arch, scratch).periods * times;
-    least = std::min(least, std::chrono::duration<double>(Clock::now() - begin).count() / periods);
-  }
-  return least;
 }
 
 }  // namespace clatter::lanes

@@ -19,7 +19,4 @@ inline constexpr std::size_t lanes_per_block = LaneArray::width;  ///< points th
 [[nodiscard]] point::PointResult run_in_lanes(const point::WorkItem& item, std::size_t times, InstructionSet arch,
                                               point::ThreadScratch& scratch);
 
-/// Processor time of a forcing period of an accepted point, all lanes being busy with it, measured for a short time.
-[[nodiscard]] double seconds_per_period(const point::WorkItem& item, InstructionSet arch);
-
 }  // namespace clatter::lanes
