@@ -51,6 +51,11 @@ double beat_bound(const Complex& R, const Complex& B, double h, double delta, do
   return (std::sqrt(square) + rounding) * scale;
 }
 
+/// From the load's equilibrium to the nearer stop.
+double gap_of(const Oscillator& oscillator, const Stops& stops) {
+  return std::min(oscillator.load - stops.lower, stops.upper - oscillator.load);
+}
+
 }  // namespace
 
 PhasePoint response_at(const Oscillator& oscillator, double sine, double cosine) {
@@ -113,15 +118,6 @@ double displacement_bound(const Oscillator& oscillator, const PhaseState& now, d
   if (std::abs(detuning) > 1e-10) improve(beat_bound(R, rotation(oscillator, transient), h, -detuning, most));
   return bound;
 }
-
-namespace {
-
-/// From the load's equilibrium to the nearer stop.
-double gap_of(const Oscillator& oscillator, const Stops& stops) {
-  return std::min(oscillator.load - stops.lower, stops.upper - oscillator.load);
-}
-
-}  // namespace
 
 bool response_meets(const Oscillator& oscillator, const Stops& stops) {
   const auto response = steady_response(oscillator.damping, oscillator.forcing, oscillator.frequency);

@@ -180,6 +180,8 @@ class Observers<ObservableList<Os...>> {
   struct Slot {
     std::optional<O> observer;
     bool is_known = false;  ///< without the flights
+
+    Slot() {}  // not defaulted: the tuple would first clear the kilobytes that an absent observer could take
   };
 
   template <class Function>

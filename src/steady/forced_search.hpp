@@ -8,6 +8,7 @@
 #include <limits>
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "model/displacement_bound.hpp"
 #include "steady/observed_time.hpp"
@@ -54,8 +55,8 @@ class ForcedSearch {
 
   /// The steady state, if it is known at the next section; nothing: the motion has to go on.
   [[nodiscard]] std::optional<ObservedTime> at_section(const motion::State<double>& state) {
-    if (!in_lanes_) recent_[index(0) % recent_.size()] = state;
     if (const auto found = closed_form(state)) return found;
+    if (!in_lanes_) keep(state);
     if (const std::size_t n = repeats(state)) return repetition(n);
     if (section_ == time_.max_periods)
       return ObservedTime{Status::aperiodic, state, static_cast<double>(time_.window), simulated(), FoundBy::nothing};
@@ -131,6 +132,10 @@ class ForcedSearch {
     return {Status::periodic,       recent(repeat_.first_of_last(n, begins_before_)),
             static_cast<double>(n), simulated(),
             FoundBy::repetition,    settled()};
+  }
+  void keep(const motion::State<double>& state) {
+    if (recent_.empty()) recent_.resize(RepeatFinder::longest);
+    recent_[index(0) % recent_.size()] = state;
   }
   /// The state so many sections ago. Lanes know no more of it than displacement and velocity.
   [[nodiscard]] motion::State<double> recent(std::size_t ago) const {
@@ -238,13 +243,13 @@ class ForcedSearch {
   std::int64_t closest_at_ = 0;  ///< the section at which it was
   RepeatFinder repeat_;
   BeginsBefore begins_before_;
-  std::array<Passage, kept> passages_{};  ///< [section modulo kept]: the period from it
+  std::array<Passage, kept> passages_;  ///< [section modulo kept]: the period from it; set for those passed
   std::size_t next_ = 0;                  ///< index of the approach's next section
   std::optional<Orbit> approach_;         ///< the periods that the last attempt followed
   SectionObserver watch_;
   StroboscopicMap<E> map_;
-  std::array<motion::State<double>, RepeatFinder::longest> recent_{};  ///< [section modulo its size], not in lanes
-  std::array<double, RepeatFinder::longest + 1> near_enough_{};        ///< [n]: distance below which an attempt is made
+  std::vector<motion::State<double>> recent_{};                  ///< [section modulo its size], not in lanes
+  std::array<double, RepeatFinder::longest + 1> near_enough_;  ///< [n]: distance below which an attempt is made
 };
 
 }  // namespace clatter::steady
