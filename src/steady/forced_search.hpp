@@ -244,11 +244,11 @@ class ForcedSearch {
   RepeatFinder repeat_;
   BeginsBefore begins_before_;
   std::array<Passage, kept> passages_;  ///< [section modulo kept]: the period from it; set for those passed
-  std::size_t next_ = 0;                  ///< index of the approach's next section
-  std::optional<Orbit> approach_;         ///< the periods that the last attempt followed
+  std::size_t next_ = 0;                ///< index of the approach's next section
+  std::optional<Orbit> approach_;       ///< the periods that the last attempt followed
   SectionObserver watch_;
   StroboscopicMap<E> map_;
-  std::vector<motion::State<double>> recent_{};                  ///< [section modulo its size], not in lanes
+  std::vector<motion::State<double>> recent_{};                ///< [section modulo its size], not in lanes
   std::array<double, RepeatFinder::longest + 1> near_enough_;  ///< [n]: distance below which an attempt is made
 };
 

@@ -62,7 +62,8 @@ std::optional<Seen> seen_by_lane(const point::Problem& scene, StepFunction step,
   observe.extrema = observe.impacts = true;
   for (std::size_t i = 0; i < LaneArray::width; ++i) clear_lane(lanes, i);
   LaneView lane(lanes, 3, scene);
-  lane.load(LaneView::Constants(scene.oscillator), scene.stops), lane.begin_observing(observe), lane.expect_section(false, false, 1);
+  lane.load(LaneView::Constants(scene.oscillator), scene.stops), lane.begin_observing(observe),
+      lane.expect_section(false, false, 1);
   for (int passed = 0, calls = 0;;) {
     if (++calls > 200) return std::nullopt;  // every call ends on a stop
     lanes.arrived = lanes.to_scalar = 0;

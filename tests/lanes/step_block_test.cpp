@@ -63,7 +63,8 @@ TEST_P(LaneSteps, a_step_with_a_nan_in_any_input_of_its_proof_is_not_proved) {
       for (std::size_t lane = 0; lane < LaneArray::width; ++lane) {
         const point::Problem scene = wide_scene();
         LaneView view(lanes, lane, scene);
-        view.load(LaneView::Constants(scene.oscillator), scene.stops), view.begin_observing(scene.observe), view.expect_section(false, false, 1);
+        view.load(LaneView::Constants(scene.oscillator), scene.stops), view.begin_observing(scene.observe),
+            view.expect_section(false, false, 1);
       }
       const std::size_t broken = i % LaneArray::width, sound = (i + 1) % LaneArray::width;
       (lanes.*rows[i]).lane[broken] = std::numeric_limits<double>::quiet_NaN();
