@@ -8,7 +8,6 @@
 #include <limits>
 #include <optional>
 #include <span>
-#include <vector>
 
 #include "model/displacement_bound.hpp"
 #include "steady/observed_time.hpp"
@@ -134,12 +133,12 @@ class ForcedSearch {
             FoundBy::repetition,    settled()};
   }
   void keep(const motion::State<double>& state) {
-    if (recent_.empty()) recent_.resize(RepeatFinder::longest);
-    recent_[index(0) % recent_.size()] = state;
+    if (!recent_) recent_.emplace();
+    (*recent_)[index(0) % recent_->size()] = state;
   }
   /// The state so many sections ago. Lanes know no more of it than displacement and velocity.
   [[nodiscard]] motion::State<double> recent(std::size_t ago) const {
-    if (!in_lanes_) return recent_[index(ago) % recent_.size()];
+    if (!in_lanes_) return (*recent_)[index(ago) % recent_->size()];
     motion::State<double> state;
     state.x = repeat_.x(ago), state.v = repeat_.v(ago), state.periods = section_ - static_cast<std::int64_t>(ago);
     return state;
@@ -243,12 +242,13 @@ class ForcedSearch {
   std::int64_t closest_at_ = 0;  ///< the section at which it was
   RepeatFinder repeat_;
   BeginsBefore begins_before_;
-  std::array<Passage, kept> passages_;  ///< [section modulo kept]: the period from it; set for those passed
-  std::size_t next_ = 0;                ///< index of the approach's next section
-  std::optional<Orbit> approach_;       ///< the periods that the last attempt followed
+  std::array<Passage, kept> passages_{};  ///< [section modulo kept]: the period from it; before the start no contact
+  std::size_t next_ = 0;                  ///< index of the approach's next section
+  std::optional<Orbit> approach_;         ///< the periods that the last attempt followed
   SectionObserver watch_;
   StroboscopicMap<E> map_;
-  std::vector<motion::State<double>> recent_{};                ///< [section modulo its size], not in lanes
+  /// [section modulo its size]; not in lanes, nor if the first section tells all.
+  std::optional<std::array<motion::State<double>, RepeatFinder::longest>> recent_{};
   std::array<double, RepeatFinder::longest + 1> near_enough_;  ///< [n]: distance below which an attempt is made
 };
 

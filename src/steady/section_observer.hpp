@@ -10,8 +10,8 @@ namespace clatter::steady {
 
 /// Summary of one forcing period, from a stroboscopic section to the next.
 struct Passage {
-  std::uint64_t itinerary;  ///< the same for the same stops in the same order, 0 without contact
-  double log_area;          ///< logarithm of the factor by which its impacts shrink areas of states; -inf: a rest
+  std::uint64_t itinerary = 0;  ///< the same for the same stops in the same order, 0 without contact
+  double log_area = 0.0;        ///< logarithm of the factor by which its impacts shrink areas of states; -inf: a rest
 
   friend bool operator==(const Passage&, const Passage&) = default;
 };
@@ -56,7 +56,7 @@ class SectionObserver {
   Stops stops_;
   double log_lower_, log_upper_;  ///< logarithm of R^2, the factor by which an impact shrinks areas
   motion::TangentMap<double> tangent_;
-  Passage passage_{};
+  Passage passage_;
   bool differentiates_ = false;
 };
 
