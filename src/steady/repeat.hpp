@@ -59,7 +59,7 @@ class RepeatFinder {
     const std::size_t least = next_within(tolerance_, 1);
     for (std::size_t n = least; n > 0; n = next_within(tolerance_, n + 1)) {
       waited_ = looks_every_;  // a hit that doesn't stand now may stand at the next section
-      if (!stands(now, n) || !(settled(now, n) || (n == least && stalls(now, n)))) continue;
+      if (!(stands(now, n) && settled(now, n)) && !(n == least && stalls(now, n))) continue;
       candidate_ = left_ = n;
       break;
     }
@@ -173,16 +173,28 @@ class RepeatFinder {
   }
 
   /// Whether the distance at the least hit, already down to the rounding of a period, has not fallen for as long as a
-  /// pair of multipliers takes to quarter it, at least 16 rounds.
+  /// pair of multipliers takes to quarter it, at least 16 rounds, and none of the divisors' distances has fallen
+  /// throughout: rounding, in which a motion may go round for ever, makes each fall and rise.
   [[nodiscard]] bool stalls(std::size_t now, std::size_t n) {
     const double latest = distance(now, n), rate = area_rate(now, n);
     if (!(latest <= rounding)) return false;
     if (stalled_n_ != n || latest < closest_) {
-      stalled_n_ = n, closest_ = latest, stalled_for_ = 0;
+      stalled_n_ = n, closest_ = latest, stalled_for_ = 0, falling_ = divisors_of(n);
       return false;
     }
+    for (std::size_t m = 1; m < n; ++m)
+      if (now >= n + m && distance(now, m) >= distance(now - n, m)) falling_ &= ~bit(m);
     return static_cast<double>(++stalled_for_) >
-           static_cast<double>(n) * std::max(16.0, -std::log(4.0) / std::log(rate));
+               static_cast<double>(n) * std::max(16.0, -std::log(4.0) / std::log(rate)) &&
+           falling_ == 0;
+  }
+  [[nodiscard]] static std::uint64_t bit(std::size_t m) { return std::uint64_t{1} << m; }
+  /// A bit for each divisor but n itself.
+  [[nodiscard]] static std::uint64_t divisors_of(std::size_t n) {
+    std::uint64_t set = 0;
+    for (std::size_t m = 1; m < n; ++m)
+      if (n % m == 0) set |= bit(m);
+    return set;
   }
 
   /// The period of a hit at n: a divisor whose distance is down to a few tolerances and shrinks no further is as near a
@@ -198,6 +210,7 @@ class RepeatFinder {
   std::size_t candidate_ = 0, left_ = 0;         ///< a repeat to be confirmed, and the sections until then
   std::size_t stalled_n_ = 0, stalled_for_ = 0;  ///< a hit that comes no nearer, and the sections since it last did
   double closest_ = 0.0;                         ///< its least distance
+  std::uint64_t falling_ = 0;                    ///< a bit for each divisor whose distance has only fallen since
   std::size_t size_ = 0;
   /// Of a section: its velocity, and the area's factor of the period before it.
   struct VelocityAndArea {

@@ -96,6 +96,19 @@ TEST(Settle, slowly_alternating_transients_do_not_pass_for_a_longer_period) {
   EXPECT_EQ(turns(3.0, 0.868), 2.0);  // Fig. 23
 }
 
+TEST(Settle, motion_that_goes_round_in_its_rounding_is_periodic) {
+  // after 24 forcing periods the states differ by 5e-14 for ever: at each section some divisor's distance has fallen
+  for (int i = 0; i < 12; ++i) {
+    point::Problem scene =
+        support::scene_of({0.1, -1.0, 1.486986986986987, 0.0}, -0.21521521521521522, 0.21521521521521522, 0.7);
+    scene.start.velocity = -1 + i * 2.0 / 59;
+    const support::Steady steady = support::steady_of(scene);
+    EXPECT_EQ(steady.status, Status::periodic) << i;
+    EXPECT_EQ(steady.turns, 24.0) << i;
+    EXPECT_LT(steady.settled, 4000.0) << i;
+  }
+}
+
 TEST(Settle, inelastic_rest_repeats_after_exactly_one_forcing_period) {
   const support::Steady steady = support::steady_of(support::scene_of({0.1, 1.0, 0.5, 0.0}, -0.5, 0.5, 0.0));
   EXPECT_EQ(steady.status, Status::periodic);
