@@ -92,7 +92,8 @@ std::string configuration_reference() {
 
 std::string key_example(const Key& key) {
   const std::string line = std::string(key.name) + " = " + toml_value(example_setting(key)) + '\n';
-  return key.section.empty() ? line : header(key.section) + std::string(key.beside) + line;
+  const bool has_header = key.section.empty() || key.beside.starts_with('[');
+  return (has_header ? "" : header(key.section)) + std::string(key.beside) + line;
 }
 
 std::string axis_example(const Key& key) {

@@ -10,7 +10,7 @@ namespace {
 
 /// Whether a key chooses an observable; the others of [observe] say how to compute one.
 bool is_observable(const Key& key) {
-  return key.section == "observe" && key.name != "harmonics_method" && key.name != "harmonics_samples";
+  return key.section == "observe" && key.beside.empty();
 }
 
 /// Warns of a run that observes nothing, unless every observable is written as off, as by `clatter defaults`.

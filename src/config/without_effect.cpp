@@ -12,6 +12,7 @@ bool transient(const Settings& settings) { return settings.text("time", "mode") 
 bool steady(const Settings& settings) { return !transient(settings); }
 
 bool no_harmonics(const Settings& settings) { return settings.integer("observe", "harmonics") == 0; }
+bool no_section(const Settings& settings) { return settings.integer("observe", "section") == 0; }
 bool exact_harmonics(const Settings& settings) { return settings.text("observe", "harmonics_method") == "exact"; }
 
 bool not_by(const Settings& settings, std::string_view method) {
@@ -74,6 +75,8 @@ constexpr Rule rules[] = {
     {"observe", "harmonics_samples", no_harmonics, no_harmonic, or_harmonics},
     {"observe", "harmonics_samples", exact_harmonics, "with harmonics_method = \"exact\"",
      "write harmonics_method = \"fft\""},
+    {"observe", "section_phase", no_section, "without a section", "write e.g. section = 500"},
+    {"observe", "section_phase", unforced, no_force, or_force},
     {"observe", "period", no_period, "in a transient, which has none: its values will be NaN", or_steady},
     {"integrator", "tolerance", not_dopri5, "without method = \"dopri5\"",
      "write that in [integrator]; that of repeats is tolerance in [time]"},

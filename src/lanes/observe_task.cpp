@@ -20,7 +20,9 @@ bool lanes_can_observe(const SettledPoint& settled) {
   const steady::ObservedTime& observed = settled.observed;
   const bool whole = std::abs(observed.turns - std::round(observed.turns)) <= 1e-9;  // as the sums of harmonics need
   return !failed(observed.status) && observed.found_by != steady::FoundBy::closed_form && observed.turns >= 1 &&
-         (whole || problem.observe.harmonics == 0) &&
+         (whole || problem.observe.harmonics + problem.observe.section == 0) &&
+         (observed.status != steady::Status::aperiodic ||
+          static_cast<double>(problem.observe.section) <= observed.turns) &&
          observables::All::in_lanes(problem.observe, problem, problem.time.mode == steady::Mode::transient);
 }
 
@@ -71,6 +73,7 @@ void ObserveTask::begin(LaneView& lane) {
   lane.load(settled_.loop.constants(), settled_.loop.stops());
   lane.set_state({from.x, from.v, first_turns_}, 0);
   lane.begin_observing(item().problem.observe);
+  if (wants_section()) add_to_section(from.x, from.v);
   expect_section(lane);
 }
 
@@ -80,7 +83,9 @@ void ObserveTask::begin(LaneView& lane) {
 void ObserveTask::expect_section(LaneView& lane) {
   const double left = sections_in_all_ - static_cast<double>(sections_ + to_report_);
   const bool last = left == 0;
-  after_report_ = last || coasts_ ? 1 : std::min({1 + sections_ / 4, rarest_report, static_cast<std::int64_t>(left)});
+  after_report_ = last || coasts_ || wants_section()
+                      ? 1
+                      : std::min({1 + sections_ / 4, rarest_report, static_cast<std::int64_t>(left)});
   lane.expect_section(last || coasts_, last && settled_.observed.status != steady::Status::periodic, after_report_);
 }
 
@@ -102,6 +107,7 @@ bool ObserveTask::pass_section(LaneView& lane) {
   if (has_spent_budget(lane.section().impacts)) return true;
   sections_ += std::exchange(to_report_, after_report_);
   const bool at_end = static_cast<double>(sections_) == sections_in_all_;
+  if (wants_section()) add_to_section(lane.section().x, lane.section().v);
   const bool over = at_end || may_end_early(lane);
   if (!at_end && over) coast(lane);
   if (!over) expect_section(lane);
@@ -113,6 +119,7 @@ bool ObserveTask::pass_section(LaneView& lane) {
 bool ObserveTask::may_end_early(const LaneView& lane) {
   const Oscillator& o = item().problem.oscillator;
   const PhaseState now = lane.section_from_load();
+  if (wants_section()) return false;
   if (coasts_) return lane.extrema_hold(transient_bound(o, transient_of(o, now)));
   coasts_ = lane.section().itinerary == 0 && out_of_reach(o, now, settled_.loop.stops());
   return coasts_ && !item().problem.observe.extrema;
@@ -150,6 +157,7 @@ point::PointResult ObserveTask::result(const LaneView& lane, point::ThreadScratc
       end.phase_turns = observed.turns - std::floor(observed.turns);
   if (auto& extrema = observers.of<observables::Extrema>()) extrema->include(lane.x_range(), lane.v_range());
   if (auto& impacts = observers.of<observables::Impacts>()) impacts->include(lane.stops());
+  if (auto& section_of = observers.of<observables::Section>()) section_of->take(section_x_, section_v_);
   if (auto& period = observers.of<observables::Period>()) period->include(lane.first_speed());
   if (auto& harmonics = observers.of<observables::Harmonics>())
     harmonics->flights(point.span(), {observed.from.x, observed.from.v}, {end.x, end.v}, lane.velocity_jumps());

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include "lanes/scalar_fallback.hpp"
 #include "point/point.hpp"
 
@@ -57,6 +59,11 @@ class ObserveTask {
   void expect_section(LaneView& lane);
   [[nodiscard]] bool may_end_early(const LaneView& lane);
   void coast(LaneView& lane) const;
+  /// Whether states of the section (`observables::Section`) are still to come.
+  [[nodiscard]] bool wants_section() const {
+    return section_x_.size() < static_cast<std::size_t>(item().problem.observe.section);
+  }
+  void add_to_section(double x, double v) { section_x_.push_back(x), section_v_.push_back(v); }
 
   SettledPoint settled_;
   Scene scene_;             ///< started so that a section ends the observed time
@@ -66,6 +73,7 @@ class ObserveTask {
   std::int64_t sections_ = 0;
   std::int64_t to_report_ = 1, after_report_ = 1;  ///< forcing periods to the next report, and to the one after it
   bool coasts_ = false;                            ///< no stop can be met any more
+  std::vector<double> section_x_{}, section_v_{};  ///< states seen so far
 };
 
 }  // namespace clatter::lanes

@@ -32,7 +32,7 @@ struct Key {
   AllowedRange range{};
   std::span<const std::string_view> choices{};
   std::string_view other{};   ///< the key that gives the value if this one is not in use; the default is its too
-  std::string_view beside{};  ///< TOML lines of its section without which it has no effect
+  std::string_view beside{};  ///< TOML lines without which it has no effect, with a header if not all of its section
 
   /// Whether the key has a value if neither it nor an alternative is given.
   [[nodiscard]] constexpr bool has_default() const {

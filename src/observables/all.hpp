@@ -7,6 +7,7 @@
 #include "observables/impacts.hpp"
 #include "observables/observable_list.hpp"
 #include "observables/period.hpp"
+#include "observables/section.hpp"
 #include "observables/stability.hpp"
 #include "observables/trajectory.hpp"
 
@@ -14,7 +15,7 @@ namespace clatter::observables {
 
 /// Every observable, in the order of keys and results. Configuration keys, help, observers, results, plan and memory
 /// are made from this list.
-using All = ObservableList<Extrema, Harmonics, Impacts, ImpactLog, Trajectory, Period, Stability, Energy>;
+using All = ObservableList<Extrema, Harmonics, Impacts, ImpactLog, Trajectory, Section, Period, Stability, Energy>;
 
 /// The observables that are computed and stored; nothing else is.
 struct Observe : All::Settings {};

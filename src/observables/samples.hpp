@@ -18,10 +18,11 @@ enum class AtImpact { after, mean };
 /// count as on it.
 class Samples {
  public:
-  /// `count` instants `spacing` apart, from the beginning of the observed time.
-  Samples(std::size_t count, double spacing, AtImpact at_impact, const Stops& stops)
+  /// `count` instants `spacing` apart, the first one `first` spacings after the beginning of the observed time.
+  Samples(std::size_t count, double spacing, AtImpact at_impact, const Stops& stops, double first = 0.0)
       : count_(count),
         spacing_(spacing),
+        first_(first),
         rounding_(32 * epsilon<double>() * spacing * static_cast<double>(count)),
         at_impact_(at_impact),
         stops_(stops) {
@@ -74,13 +75,14 @@ class Samples {
     tau.back() = end;
     return tau;
   }
+  [[nodiscard]] bool is_complete() const { return x_.size() == count_; }
   [[nodiscard]] double evaluations() const { return static_cast<double>(evaluations_); }  ///< of arcs
   [[nodiscard]] std::vector<double>& displacement() { return x_; }
   [[nodiscard]] std::vector<double>& velocity() { return v_; }
 
  private:
   [[nodiscard]] double due() const { return instant(x_.size()); }
-  [[nodiscard]] double instant(std::size_t i) const { return static_cast<double>(i) * spacing_; }
+  [[nodiscard]] double instant(std::size_t i) const { return (first_ + static_cast<double>(i)) * spacing_; }
   [[nodiscard]] double at(const motion::Impact& impact) const {
     return at_impact_ == AtImpact::after ? impact.after : (impact.before + impact.after) / 2;
   }
@@ -104,7 +106,7 @@ class Samples {
   [[nodiscard]] double between_stops(double x) const { return std::clamp(x, stops_.lower, stops_.upper); }
 
   std::size_t count_;
-  double spacing_, rounding_;
+  double spacing_, first_, rounding_;
   AtImpact at_impact_;
   Stops stops_;
   motion::Impact last_{-std::numeric_limits<double>::infinity(), Side::none, 0, 0, 0};

@@ -41,6 +41,7 @@ class Point {
     } else {
       state.periods += static_cast<std::int64_t>(observed.turns);
     }
+    if (outcome == stepping::Outcome::completed) outcome = complete_section(observers, state);
     return end(observers, state, outcome);
   }
 
@@ -70,11 +71,23 @@ class Point {
     const auto& stability = observers.template of<observables::Stability>();
     if (stability && span_.periodic && problem_.oscillator.forcing != 0 && stability->grazes())
       complete.status = steady::Status::grazing;
-    complete.simulated += observed_.turns;
+    complete.simulated += observed_.turns + periods_beyond_;
     return result_of(complete);
   }
 
  private:
+  /// Follows motion without a period beyond the observed time, as long as its section goes on.
+  stepping::Outcome complete_section(Observers& observers, motion::State<double> state) {
+    auto& section = observers.template of<observables::Section>();
+    stepping::Outcome outcome = stepping::Outcome::completed;
+    while (section && !section->is_complete() && observed_.status == steady::Status::aperiodic &&
+           outcome == stepping::Outcome::completed) {
+      outcome = advance_to_section(integrator_, state, observed_.from.periods, *section);
+      ++periods_beyond_;
+    }
+    return outcome;
+  }
+
   void describe_span() {
     const bool forced = problem_.oscillator.forcing != 0;
     span_.total = observed_.turns * integrator_.period(), span_.turns = observed_.turns;
@@ -112,6 +125,7 @@ class Point {
   steady::ObservedTime observed_{};
   observables::ObservedSpan span_;
   PointResult result_{};
+  double periods_beyond_ = 0.0;  ///< the observed time, for the section
 };
 
 }  // namespace clatter::point

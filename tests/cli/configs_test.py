@@ -20,6 +20,7 @@ OBSERVED = {  # variables of each [observe] key
     "impacts": ("stop", "impacts_per_period", "v_before", "v_after", "rest_fraction"),
     "impact_log": ("impact_count", "impact_tau", "impact_stop", "impact_v_before", "impact_v_after"),
     "trajectory": ("tau", "x", "v"),
+    "section": ("section_x", "section_v"),
     "period": ("period", "period_ratio"),
     "stability": ("multiplier", "multiplier_re", "multiplier_im", "lyapunov"),
 }

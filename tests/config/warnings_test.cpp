@@ -119,9 +119,17 @@ TEST(Observing, nothing_is_warned_of_unless_every_observable_is_written_as_off) 
   expect_warning("[scene]\nxs = 1\n[observe]\nextrema = false\n", "3:2", "write e.g. extrema = true in [observe]");
   const std::string off =
       "[scene]\nxs = 1\n[observe]\nextrema = false\nharmonics = 0\nimpacts = false\nimpact_log = false\n"
-      "trajectory = 0\nperiod = false\nstability = false\n";
+      "trajectory = 0\nsection = 0\nperiod = false\nstability = false\n";
   expect_warning(off, "3:2", "nothing is observed");
   expect_none(off + "energy = false\n");
+}
+
+TEST(Observing, a_phase_of_a_section_without_one_is_warned_of) {
+  const auto with = [](const char* observed) { return scene + "[observe]\n" + observed + "\nsection_phase = 1\n"; };
+  expect_warning(with("extrema = true"), "6:1", "'section_phase' has no effect without a section");
+  expect_warning("[scene]\nxs = 1\n[observe]\nsection = 5\nsection_phase = 1\n", "5:1",
+                 "'section_phase' has no effect without a force");
+  expect_none(with("section = 5"));
 }
 
 TEST(Repeats, on_a_crossing_axis_are_warned_of) {

@@ -69,5 +69,57 @@ TEST(LanePoints, meet_stops_or_are_transients) {
   EXPECT_FALSE(accepts(item_of(scene)));
 }
 
+TEST(LanePoints, have_the_section_of_the_scalar_loop) {
+  struct Given {
+    double nu;
+    steady::Status status;
+    std::size_t states;
+  };
+  for (const auto& [nu, status, states] :
+       {Given{0.868, steady::Status::periodic, 2}, {1.0, steady::Status::transient, 7}}) {
+    point::Problem scene = sweep::paper_scene(3.0, nu);
+    scene.observe = {};
+    scene.observe.section = 40;
+    if (status == steady::Status::transient)
+      scene.time.mode = steady::Mode::transient, scene.time.duration = 7 * 2 * std::numbers::pi / nu;
+    point::ThreadScratch scratch;
+    const point::PointResult scalar = run_point(scene, scratch);
+    const point::PointResult lanes = run_in_lanes(item_of(scene), lanes_per_block, InstructionSet::sse2, scratch);
+    EXPECT_TRUE(lanes.in_lanes) << nu;
+    EXPECT_EQ(lanes.status, status);
+    ASSERT_EQ(scalar.section_x.size(), states);
+    ASSERT_EQ(lanes.section_x.size(), states);
+    for (std::size_t i = 0; i < states; ++i) {
+      EXPECT_NEAR(lanes.section_x[i], scalar.section_x[i], 1e-12) << nu << ", " << i;
+      EXPECT_NEAR(lanes.section_v[i], scalar.section_v[i], 1e-12) << nu << ", " << i;
+    }
+  }
+}
+
+TEST(LanePoints, of_chaotic_motion_have_a_section_within_the_window) {
+  point::Problem scene = sweep::paper_scene(3.0, 0.9);
+  scene.observe = {};
+  scene.observe.section = 40;
+  scene.time.max_periods = 300;
+  for (const std::int64_t window : {40, 39}) {
+    scene.time.window = window;
+    point::ThreadScratch scratch;
+    const point::PointResult result = run_in_lanes(item_of(scene), 1, InstructionSet::sse2, scratch);
+    ASSERT_EQ(result.status, steady::Status::aperiodic);
+    EXPECT_EQ(result.in_lanes, window == 40);
+    ASSERT_EQ(result.section_x.size(), 40u);
+    // each state leads to the next one: the scalar loop takes it there
+    point::Problem next = scene;
+    next.time.mode = steady::Mode::transient, next.time.duration = 2 * std::numbers::pi / 0.9;
+    for (std::size_t i = 0; i + 1 < 40; ++i) {
+      next.start = {result.section_x[i], result.section_v[i], 0.0};
+      next.observe.section = 0, next.observe.trajectory = 2;
+      const point::PointResult there = run_point(next, scratch);
+      EXPECT_NEAR(there.x[1], result.section_x[i + 1], 1e-10) << i;
+      EXPECT_NEAR(there.v[1], result.section_v[i + 1], 1e-10) << i;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace clatter::lanes

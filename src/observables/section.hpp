@@ -1,0 +1,164 @@
+#pragma once
+
+#include <algorithm>
+#include <boost/math/tools/toms748_solve.hpp>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "math/number.hpp"
+#include "model/displacement_bound.hpp"
+#include "observables/observable.hpp"
+#include "observables/samples.hpp"
+
+namespace clatter::observables {
+
+/// The states of a motion at one forcing phase in successive periods, its stroboscopic (Poincaré) section; without
+/// forcing, its states as it passes the load's equilibrium upward. Of periodic motion these are the states of one
+/// period, of a transient those before its end.
+class Section {
+ public:
+  struct Settings {
+    std::int64_t section = 0;    ///< states; 0: none
+    double section_phase = 0.0;  ///< of the force, rad
+  };
+  struct Values {
+    std::vector<double> section_x{}, section_v{};  ///< shape [section]
+  };
+  static constexpr std::string_view observed = "[scene]\nf = 1\n\n[observe]\nsection = 500\n";
+  static constexpr std::tuple fields{
+      Field{Key{"observe",
+                "section",
+                Kind::integer,
+                "0",
+                "500",
+                "states x, x' at one forcing phase in so many successive periods; 0: none",
+                {.low = 0, .high = 1e7}},
+            &Settings::section},
+      Field{with(observed,
+                 Key{"observe", "section_phase", Kind::number, "0", "1.5708", "forcing phase of these states, in rad"}),
+            &Settings::section_phase}};
+
+  [[nodiscard]] static bool wanted(const Settings& settings) { return settings.section > 0; }
+  [[nodiscard]] static std::string description(const Settings& settings) {
+    return "section of " + std::to_string(settings.section) + " states";
+  }
+  [[nodiscard]] static std::vector<Column<Values>> columns(const Settings& settings) {
+    const auto of = [&](const char* name, const char* long_name, std::vector<double> Values::*member) {
+      return series<Values>(name, long_name, "1", {"section", static_cast<std::size_t>(settings.section)},
+                            [member](const Values& v) -> const std::vector<double>& { return v.*member; });
+    };
+    return {of("section_x", "displacement in successive periods", &Values::section_x),
+            of("section_v", "velocity in successive periods", &Values::section_v)};
+  }
+  [[nodiscard]] static double values_held(const Settings& settings) {
+    return 2 * static_cast<double>(settings.section);
+  }
+  /// Lanes report their states at the forcing phase of the start.
+  [[nodiscard]] static bool in_lanes(const Settings& settings, const Scene& scene, bool) {
+    return scene.oscillator.forcing != 0 && turns_to(settings.section_phase, scene) == 0;
+  }
+
+  Section(const Settings& settings, const ObservedSpan& span)
+      : load_(span.scene.oscillator.load),
+        periodic_(span.periodic),
+        total_(span.total),
+        most_(static_cast<std::size_t>(settings.section)) {
+    if (span.scene.oscillator.forcing == 0) return;
+    const double turns = turns_to(settings.section_phase, span.scene);
+    if (span.periodic || span.transient)
+      most_ = std::min(most_, static_cast<std::size_t>(std::max(0.0, std::ceil(span.turns - turns))));
+    phase_ = span.scene.start.phase + 2 * pi<double>() * turns;
+    samples_.emplace(most_, period_of(span.scene.oscillator), AtImpact::after, span.scene.stops, turns);
+  }
+
+  template <class A>
+  void arc(const A& arc, double begin, double length) {
+    if (samples_) return samples_->arc(arc, begin, length);
+    find_passages(arc, begin, length);
+    bounced_ = false;
+  }
+  void rest(const motion::Rest& rest) {
+    if (samples_) samples_->rest(rest);
+  }
+  void impact(const motion::Impact& impact) {
+    if (samples_) return samples_->impact(impact);
+    bounced_ = true;
+  }
+  /// Takes the state of the steady response, whose period is that of the force.
+  bool response(const ObservedSpan& span, double) {
+    const PhasePoint response = response_at(span.scene.oscillator, std::sin(phase_), std::cos(phase_));
+    take({load_ + response.x}, {response.v});
+    return true;
+  }
+  /// Takes states that were found elsewhere, in place of those of the flights.
+  void take(std::vector<double> x, std::vector<double> v) {
+    samples_.reset();
+    x.resize(std::min(x.size(), most_)), v.resize(x.size());
+    values_ = {std::move(x), std::move(v)};
+  }
+
+  /// Whether all states have been seen; under a force they may lie beyond the observed time of motion without a period.
+  [[nodiscard]] bool is_complete() const { return !samples_ || samples_->is_complete(); }
+
+  [[nodiscard]] Values finish(const ObservedSpan& span, double x, double v) {
+    if (!samples_) return std::move(values_);
+    samples_->finish(x, v, span.total, span.periodic);
+    return {std::move(samples_->displacement()), std::move(samples_->velocity())};
+  }
+
+ private:
+  static constexpr double longest_piece = 3.0;  ///< of an arc: zeros of free motion are at least pi apart
+
+  /// From the forcing phase of the start to another one, in turns, 0 ... 1.
+  [[nodiscard]] static double turns_to(double phase, const Scene& scene) {
+    const double turns = (phase - scene.start.phase) / (2 * pi<double>()), part = turns - std::floor(turns);
+    return part < 1 - 4 * epsilon<double>() ? part : 0.0;
+  }
+
+  /// Adds the states in which an arc without force passes the load's equilibrium upward: in each piece at most one.
+  template <class A>
+  void find_passages(const A& arc, double begin, double length) {
+    const auto from_load = [&](double s) { return arc.at(s).x - load_; };
+    const motion::Motion<double> start = arc.start();
+    if (start.x == load_ && start.v > 0 && !bounced_) add(begin, start);
+    double s = 0.0, before = start.x - load_;
+    while (s < length) {
+      const double next = std::min(length, s + longest_piece), after = from_load(next);
+      if (before < 0 && after > 0) {
+        std::uintmax_t iterations = 100;
+        const auto [below, above] = boost::math::tools::toms748_solve(
+            from_load, s, next, before, after, boost::math::tools::eps_tolerance<double>(), iterations);
+        add(begin + above, arc.at(above));
+      } else if (before < 0 && after == 0 && next < length) {
+        add(begin + next, arc.at(next));
+      }
+      s = next, before = after;
+    }
+  }
+  /// The end of a period is its beginning: a passage there counts once.
+  void add(double time, const motion::Motion<double>& m) {
+    if (values_.section_x.size() == most_ || (periodic_ && time >= (1 - same_instant) * total_ && begins_here_)) return;
+    begins_here_ = begins_here_ || time <= same_instant * total_;
+    values_.section_x.push_back(m.x), values_.section_v.push_back(m.v);
+  }
+  static constexpr double same_instant = 1e-9;  ///< of the period
+
+  double load_;
+  bool periodic_;
+  double total_;
+  std::size_t most_;
+  double phase_ = 0.0;                ///< of the force
+  std::optional<Samples> samples_{};  ///< under a force
+  Values values_{};
+  bool bounced_ = false;      ///< the arc begins with an impact
+  bool begins_here_ = false;  ///< the observed time begins with a passage
+};
+
+}  // namespace clatter::observables
