@@ -9,27 +9,37 @@ HEADER = struct.Struct("<HHIQ")  # index, references, reserved, size
 
 def damaged_heap(path):
     """The place of the first damaged heap in a file, or None: zeros, which a disk error leaves, are enough."""
+    return next((place for place, longest in heaps(path) if longest is None), None)
+
+
+def longest_text(path):
+    """The bytes of the longest text in the heaps of a file without damaged ones."""
+    return max((longest for _, longest in heaps(path)), default=0)
+
+
+def heaps(path):
+    """The place of each heap in a file and the size of its largest object, None if it is damaged."""
     with open(path, "rb") as file, mmap.mmap(file.fileno(), 0, access=mmap.ACCESS_READ) as data:
         place = data.find(SIGNATURE)
         while place >= 0:
-            if not is_sound(data, place):
-                return place
+            yield place, largest_object(data, place)
             place = data.find(SIGNATURE, place + HEADER.size)
-    return None
 
 
-def is_sound(data, place):
+def largest_object(data, place):
     """Walks the objects of a heap as the library does: every step must lead forward, and none beyond the end."""
+    largest = 0
     if place + HEADER.size > len(data):
-        return True  # no heap any more, but the end of the values
+        return largest  # no heap any more, but the end of the values
     end = place + struct.unpack_from("<Q", data, place + len(SIGNATURE))[0]
     place += HEADER.size
     if not place <= end <= len(data):
-        return False
+        return None
     while end - place >= HEADER.size:
         index, _, _, size = HEADER.unpack_from(data, place)
         step = size if index == 0 else HEADER.size + (size + 7) // 8 * 8  # 0: the free rest, header included
         if step == 0 or size > end - place or step > end - place:
-            return False
+            return None
+        largest = largest if index == 0 else max(largest, size)
         place += step
-    return True
+    return largest

@@ -1,5 +1,6 @@
 """Opens an output of clatter, whoever made the file: nothing in it leads out of it."""
 
+import math
 import os
 import stat
 
@@ -7,11 +8,14 @@ import h5py
 import numpy as np
 from h5py import h5d, h5l, h5o, h5t, h5z
 
-from hdf5_heaps import damaged_heap
+from hdf5_heaps import damaged_heap, longest_text
 
 WANTED = "give a file that 'clatter run' or 'clatter accuracy' wrote"
 ANEW = "run its configuration again, or get the file anew"
 UNREADABLE = (AttributeError, LookupError, MemoryError, OSError, RuntimeError, TypeError, ValueError)  # if damaged
+TEXTS = ("impact_word", "regime")  # variables of texts; all others are numbers
+LONGEST_TEXT = 255  # bytes, of a value
+READ_AT_ONCE = 2**26  # bytes of texts
 MOST_DEFLATED = 1032  # bytes that one byte gives when it is inflated (zlib's technical details)
 FILTERS = {h5z.FILTER_SHUFFLE, h5z.FILTER_DEFLATE}
 
@@ -116,11 +120,44 @@ def unlike_clatter(path, root, name):
     filters = [properties.get_filter(place)[0] for place in range(properties.get_nfilters())]
     if not FILTERS.issuperset(filters) or len(set(filters)) < len(filters):
         return "has other filters than shuffle and deflate, each once"
-    if dataset.get_type().get_class() not in (h5t.INTEGER, h5t.FLOAT):
+    if name in TEXTS and not is_text(dataset):
+        return "holds no texts of variable length"
+    if name not in TEXTS and dataset.get_type().get_class() not in (h5t.INTEGER, h5t.FLOAT):
         return "holds something else than numbers"
     if dataset.get_space().get_simple_extent_npoints() > MOST_DEFLATED * stored_bytes(path):
         return "has more values than the file can hold"
     return None
+
+
+def is_text(dataset):
+    """Whether a low-level dataset holds texts of variable length."""
+    kind = dataset.get_type()
+    return kind.get_class() == h5t.STRING and kind.is_variable_str()
+
+
+def values_of(dataset):
+    """All values of a variable: an array of numbers, or of strings."""
+    if not is_text(dataset.id):
+        return np.asarray(dataset[()])
+    at_once = max(1, READ_AT_ONCE // max(1, longest_text(dataset.file.filename)))
+    return np.asarray(texts_in(dataset, (), at_once), str).reshape(dataset.shape)
+
+
+def texts_in(dataset, place, at_once):
+    """The texts at a place, few at a time: all of them may refer to the longest one in the file."""
+    rest = dataset.shape[len(place) :]
+    each = math.prod(rest[1:])
+    if each > at_once:
+        return [text for i in range(rest[0]) for text in texts_in(dataset, (*place, i), at_once)]
+    rows = at_once // max(each, 1)
+    parts = [(*place, slice(first, first + rows)) for first in range(0, rest[0], rows)] if rest else [place]
+    texts = []
+    for part in parts:
+        more = np.ravel(dataset.asstr()[part]).tolist()
+        if any(len(text) > LONGEST_TEXT for text in more):
+            raise ValueError(f"{dataset.name} holds a text of more than {LONGEST_TEXT} characters")
+        texts += more
+    return texts
 
 
 def stored_bytes(path):

@@ -1,5 +1,7 @@
 """Reads what `clatter run` or `clatter accuracy` wrote: variables with named dimensions, and the scene behind them."""
 
+import copy
+import dataclasses
 import re
 import tomllib
 from dataclasses import dataclass
@@ -7,7 +9,7 @@ from dataclasses import dataclass
 import h5py
 import numpy as np
 
-from plain_hdf5 import UNREADABLE, FileProblem, damaged, open_output, printable, text
+from plain_hdf5 import FileProblem, UNREADABLE, damaged, open_output, printable, text, values_of
 
 PAPER = "10.5755/j02.mech.32277"
 APERIODIC = 1  # status of motion without a period
@@ -24,6 +26,21 @@ class Variable:
     long_name: str
     units: str
 
+    def at(self, axis, index):
+        """This variable at one value of an axis; itself if it doesn't depend on it."""
+        if axis not in self.dims:
+            return self
+        place = self.dims.index(axis)
+        dims = self.dims[:place] + self.dims[place + 1 :]
+        return dataclasses.replace(self, values=np.asarray(self.values.take(index, place)), dims=dims)
+
+    def in_order(self, old, new):
+        """This variable over axes in another order; itself if it isn't over all of them."""
+        if self.dims[: len(old)] != old:
+            return self
+        places = [old.index(axis) for axis in new] + list(range(len(old), self.values.ndim))
+        return dataclasses.replace(self, values=self.values.transpose(places), dims=new + self.dims[len(old) :])
+
 
 class Output:
     """A whole output file in memory."""
@@ -36,6 +53,8 @@ class Output:
             raise damaged(path, error) from None
         self.axes = tuple(name for name in self["status"].dims if name != "row")
         self.scene = self.config.get("scene", {})
+        self.sweep = self.config.get("sweep", {})
+        self.held = {}  # axes at one value each
 
     def read(self, path):
         with open_output(path) as file:
@@ -77,12 +96,17 @@ class Output:
     @property
     def follow(self):
         """Axis along which each point started from the end of the one before, or ''."""
-        followed = self.config.get("sweep", {}).get("follow", "")
+        followed = self.sweep.get("follow", "")
         return followed if followed in self.axes else ""
+
+    @property
+    def goes_down(self):
+        """Whether the followed axis was run from its end to its beginning."""
+        return self.held.get("direction", 1 if self.sweep.get("direction", "up") == "up" else -1) < 0
 
     def swept(self, name):
         """Whether a variable is an input of the sweep (an axis, or linked to one) and not a result."""
-        return name in self.axes or name in self.config.get("sweep", {})
+        return name in self.axes or name in self.sweep
 
     def results(self):
         """Names of the variables that have a value for each point, in the order of the file."""
@@ -91,6 +115,43 @@ class Output:
             for name, variable in self.variables.items()
             if variable.dims[: len(self.axes)] == self.axes and variable.dims != (name,) and not self.swept(name)
         ]
+
+    def at(self, axis, index):
+        """This output at one value of an axis, which it then has no more."""
+        part = copy.copy(self)
+        part.held = {**self.held, axis: self.values(axis)[index].item()}
+        linked = [name for name in self.sweep if name in self and self[name].dims == (axis,)]
+        constants = {name: self.values(name)[index].item() for name in (axis, *linked)}
+        part.scene = {**self.scene, **constants}
+        part.sweep = {key: value for key, value in self.sweep.items() if key not in constants}
+        part.axes = tuple(name for name in self.axes if name != axis)
+        part.variables = {
+            name: variable.at(axis, index) for name, variable in self.variables.items() if name not in constants
+        }
+        if "impact_count" in self:
+            points = np.arange(self.values("status").size).reshape(self.shape)
+            part.keep_impacts(self, points.take(index, self.axes.index(axis)))
+        return part
+
+    def in_order(self, axes):
+        """This output with its axes in another order."""
+        if axes == self.axes:
+            return self
+        part = copy.copy(self)
+        part.axes = axes
+        part.variables = {name: variable.in_order(self.axes, axes) for name, variable in self.variables.items()}
+        if "impact_count" in self:
+            points = np.arange(self.values("status").size).reshape(self.shape)
+            part.keep_impacts(self, points.transpose([self.axes.index(axis) for axis in axes]))
+        return part
+
+    def keep_impacts(self, whole, points):
+        """Keeps the impacts of these points of a whole output, in their order."""
+        counts, points = whole.values("impact_count").ravel(), points.ravel()
+        first, kept = np.cumsum(counts) - counts, counts[points]
+        rows = np.repeat(first[points] - (np.cumsum(kept) - kept), kept) + np.arange(kept.sum())
+        for name in ("impact_tau", "impact_stop", "impact_v_before", "impact_v_after"):
+            self.variables[name] = dataclasses.replace(whole[name], values=whole.values(name)[rows])
 
     def parameter(self, key, default=np.nan):
         """A scene key at every point: its coordinate if it is swept, else its constant."""
@@ -128,7 +189,7 @@ def read_variable(item):
     dims = (name,) if h5py.h5ds.is_scale(item.id) else tuple(scales)
     return Variable(
         name,
-        item[()] if item.shape else np.asarray(item[()]),
+        values_of(item),
         dims,
         text(item.attrs.get("long_name", name)),
         text(item.attrs.get("units", "1")),

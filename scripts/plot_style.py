@@ -1,6 +1,7 @@
 """How the pictures look: fonts, colours, symbols, stops, legends."""
 
 import re
+import textwrap
 
 import matplotlib
 import numpy as np
@@ -110,8 +111,8 @@ def label(output, name):
 
 
 def number(value):
-    """A number as text, with a real minus sign."""
-    return f"{value:.6g}".replace("-", "\N{MINUS SIGN}")
+    """A number as text, with a real minus sign, and none for zero."""
+    return f"{value + 0.0:.6g}".replace("-", "\N{MINUS SIGN}")
 
 
 def typeset(title):
@@ -127,6 +128,17 @@ def heading(figure, output):
     shown, many = constants(output), int(1.2 * figure.get_figwidth())  # entries that fit a line
     lines = [",   ".join(shown[first : first + many]) for first in range(0, len(shown), many)]
     figure.suptitle("\n".join([f"{name}{typeset(output.title)}", *lines]).strip(), fontsize=10.5, linespacing=1.5)
+
+
+def caption_below(figure, notes):
+    """Notes below the panels, as many in a line as it has room for."""
+    room, lines = int(13 * figure.get_figwidth()), []
+    for note in dict.fromkeys(notes):
+        if lines and len(lines[-1]) + len(note) + 4 <= room:
+            lines[-1] += f";   {note}"
+        else:
+            lines += textwrap.wrap(note, room)
+    figure.supxlabel("\n".join(lines), fontsize=9.5, linespacing=1.4)
 
 
 def constants(output):

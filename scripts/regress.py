@@ -2,6 +2,7 @@
 """Writes baselines for scripts/regress.sh, and compares outputs with them; --help says more."""
 
 import argparse
+import json
 import math
 import pathlib
 import subprocess
@@ -11,7 +12,7 @@ import typing
 
 import numpy
 
-from plain_hdf5 import UNREADABLE, FileProblem, open_output
+from plain_hdf5 import UNREADABLE, FileProblem, open_output, values_of
 
 ROWS = 11  # of each variable in a text baseline: its points are far from tangencies, past which the last bits decide
 SETTLING = (
@@ -37,6 +38,7 @@ class Output(typing.NamedTuple):
     variables: dict
     is_text: bool
     follow: int | None = None  # the dimension along which each point starts from the end of the one before
+    direction: str = "up"  # along it
 
 
 def read_h5(path):
@@ -48,17 +50,32 @@ def read_h5(path):
                 continue  # a length, which the variables along it have, too
             swept = dataset.attrs.get("CLASS") != b"DIMENSION_SCALE" and dataset.shape[: len(sweep)] == sweep
             number = math.prod(sweep) if swept and sweep else (dataset.shape or (1,))[0]
-            rows = dataset[()].reshape(number, dataset.size // max(number, 1)).astype(float)
+            values = values_of(dataset)
+            rows = values.reshape(number, values.size // max(number, 1))
+            kind = "string" if rows.dtype.kind == "U" else str(rows.dtype)
             attributes = {key: str(value) for key, value in dataset.attrs.items() if key not in REFERENCES}
-            variables[name] = Variable(str(dataset.dtype), dataset.shape, 1, rows, swept, attributes)
-        return Output(file.attrs["config_sha256"], variables, False, followed_dimension(file))
+            rows = rows if kind == "string" else rows.astype(float)
+            variables[name] = Variable(kind, values.shape, 1, rows, swept, attributes)
+        return Output(file.attrs["config_sha256"], variables, False, *followed(file))
 
 
-def followed_dimension(file):
+def followed(file):
+    """The dimension along which each point starts from the end of the one before, or None, and the direction."""
     sweep = tomllib.loads(file.attrs["config"])["sweep"]
-    axes = [key for key in sweep if key not in ("linked", "follow")]
+    direction = sweep.pop("direction", "up")
+    axes = ["direction"] * (direction == "both") + [key for key in sweep if key not in ("linked", "follow")]
     alone = len(axes) == len(file["status"].shape)  # no axis is linked to another
-    return axes.index(sweep["follow"]) if alone and sweep.get("follow") in axes else None
+    return axes.index(sweep["follow"]) if alone and sweep.get("follow") in axes else None, direction
+
+
+def running_order(shape, follow, direction):
+    """The numbers of the points, [position along a branch][branch], as they are run one after the other."""
+    points = numpy.arange(math.prod(shape)).reshape(shape)
+    if direction == "both":
+        there, back = (numpy.moveaxis(way, follow - 1, 0) for way in points)
+        return numpy.concatenate([there, back[::-1]]).reshape(2 * len(there), -1)
+    along = numpy.moveaxis(points, follow, 0)
+    return (along[::-1] if direction == "down" else along).reshape(len(along), -1)
 
 
 def text_of(output):
@@ -71,7 +88,7 @@ def text_of(output):
         if name not in SETTLING:
             step = max(1, math.ceil(len(rows) / ROWS))
             kept = rows[::step]
-            values = [f"{value:.15g}" for value in kept.ravel()]
+            values = [json.dumps(value) if kind == "string" else f"{value:.15g}" for value in kept.ravel().tolist()]
             lines.append(
                 " ".join([name, kind, "x".join(map(str, shape)) or "scalar", str(step), str(len(kept)), *values])
             )
@@ -83,8 +100,15 @@ def read_text(path):
     variables = {}
     for name, kind, lengths, step, number, *values in map(str.split, lines):
         shape = () if lengths == "scalar" else tuple(map(int, lengths.split("x")))
-        variables[name] = Variable(kind, shape, int(step), numpy.array(values, dtype=float).reshape(int(number), -1))
+        rows = numpy.array(list(map(json.loads, values)), str) if kind == "string" else numpy.array(values, float)
+        variables[name] = Variable(kind, shape, int(step), rows.reshape(int(number), -1))
     return Output(config.split()[1], variables, True)
+
+
+def difference(a, b):
+    """Of each two numbers; NaN equals itself."""
+    with numpy.errstate(invalid="ignore"):  # inf - inf
+        return numpy.where((a == b) | (numpy.isnan(a) & numpy.isnan(b)), 0, numpy.abs(a - b))
 
 
 class Comparison:
@@ -122,8 +146,7 @@ class Comparison:
         if a.shape != b.shape:
             self.differences.append(f"{name} has {len(b)} rows, not {len(a)}")
             return
-        with numpy.errstate(invalid="ignore"):  # inf - inf
-            apart = numpy.where((a == b) | (numpy.isnan(a) & numpy.isnan(b)), 0, numpy.abs(a - b))
+        apart = numpy.where(a == b, 0, math.inf) if now.type == "string" else difference(a, b)
         if name.endswith("_phase"):  # that of a zero amplitude is noise, and pi is -pi
             amplitude = new.variables[name.replace("_phase", "_amplitude")].rows[:: old.step]
             error = numpy.abs(amplitude) * numpy.abs(numpy.remainder(apart + math.pi, 2 * math.pi) - math.pi)
@@ -154,10 +177,9 @@ class Comparison:
         may = self.chaotic.copy()
         if new.follow is None or (status.step > 1 and len(status.shape) > 1):
             return may
-        along = numpy.moveaxis(may.reshape(shape), new.follow, 0)  # views of `may` and of the differences
-        unlike = numpy.moveaxis(self.unlike().reshape(shape), new.follow, 0)
-        for i in range(1, len(along)):
-            along[i] |= along[i - 1] & unlike[i]
+        unlike, order = self.unlike(), running_order(shape, new.follow, new.direction)
+        for before, after in zip(order[:-1], order[1:]):
+            may[after] |= may[before] & unlike[after]
         return may
 
     def judge(self, may):

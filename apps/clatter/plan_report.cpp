@@ -27,13 +27,19 @@ std::string axis_text(const sweep::Axis& axis) {
          formatted("%.10g", axis.values.front()) + " to " + formatted("%.10g", axis.values.back()) + ')';
 }
 
+std::string_view way_text(const sweep::Sweep& sweep) {
+  if (sweep.direction == sweep::Direction::up) return "";
+  return sweep.direction == sweep::Direction::down ? " downward" : " up and back down";
+}
+
 std::string axes_text(const sweep::Sweep& sweep) {
   std::string text;
   for (const sweep::Dimension& dimension : sweep.dimensions) {
     text += text.empty() ? "" : " x ";
     for (std::size_t i = 0; i < dimension.size(); ++i) text += (i > 0 ? " with " : "") + axis_text(dimension[i]);
   }
-  if (sweep.follow) text += ", following " + std::string(name_of(sweep.dimensions[*sweep.follow]));
+  if (sweep.follow)
+    text += ", following " + std::string(name_of(sweep.dimensions[*sweep.follow])).append(way_text(sweep));
   return text.empty() ? "none" : text;
 }
 
@@ -149,6 +155,7 @@ std::string plan_json(const plan::Plan& plan, const sweep::Sweep& sweep, int thr
   });
   out << ",\n  \"follow\": ";
   out << (sweep.follow ? json_text(std::string(name_of(sweep.dimensions[*sweep.follow]))) : "null");
+  out << ",\n  \"direction\": \"" << sweep::direction_names[static_cast<std::size_t>(sweep.direction)] << '"';
   out << ",\n  \"observed\": ";
   list(out, plan.observed, [&](const std::string& name) { out << json_text(name); });
   out << ",\n  \"method\": " << json_text(method_of(sweep))

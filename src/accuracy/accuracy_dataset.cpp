@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "sweep/dataset_axes.hpp"
 #include "sweep/result_store.hpp"
 
 namespace clatter::accuracy {

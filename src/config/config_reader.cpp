@@ -31,6 +31,11 @@ steady::TimeSettings time_settings(const Settings& settings) {
           .max_impacts = static_cast<double>(settings.integer("time", "max_impacts"))};
 }
 
+sweep::Direction direction_of(const Settings& settings) {
+  const auto chosen = std::ranges::find(sweep::direction_names, settings.text("sweep", "direction"));
+  return static_cast<sweep::Direction>(chosen - sweep::direction_names.begin());
+}
+
 /// Reads a key into the field that it sets; an enumeration by the index of the choice.
 template <class Object, class T>
 void read(const Settings& settings, const observables::Field<Object, T>& field, Object& object) {
@@ -86,7 +91,8 @@ point::Problem scene_of(const Settings& settings) {
 }
 
 sweep::Sweep sweep_of(Settings& settings, const AxisGroups& groups) {
-  sweep::Sweep sweep{scene_of(settings), {}, followed_dimension(settings, groups), std::nullopt};
+  sweep::Sweep sweep{.problem = scene_of(settings), .follow = followed_dimension(settings, groups)};
+  if (sweep.follow) sweep.direction = direction_of(settings);
   if (const Setting* const start = settings.find("scene", "start_period"))
     sweep.start_period = std::get<double>(start->value);
   for (const std::vector<std::size_t>& group : groups) {

@@ -61,6 +61,11 @@ constexpr std::array keys_before_observe{
              "axes of equal length that run together instead of crossing, e.g. nu, f; the first names the dimension"}),
     with(a_stop_axis, Key{"sweep", "follow", names, "", "xs",
                           "one axis (or linked ones) along which each point starts from the end of the one before"}),
+    with(
+        "xs = \"linspace(1, 2, 11)\"\nfollow = \"xs\"\n",
+        one_of(sweep::direction_names,
+               Key{"sweep", "direction", choice, "up", "both",
+                   "up: follow the axis in its order; down: from its end; both: up, then down from where that ended"})),
 
     with("duration = 63.0\n",
          one_of(modes,

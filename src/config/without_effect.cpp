@@ -12,6 +12,7 @@ bool transient(const Settings& settings) { return settings.text("time", "mode") 
 bool steady(const Settings& settings) { return !transient(settings); }
 
 bool no_harmonics(const Settings& settings) { return settings.integer("observe", "harmonics") == 0; }
+bool follows_nothing(const Settings& settings) { return settings.text("sweep", "follow").empty(); }
 bool no_section(const Settings& settings) { return settings.integer("observe", "section") == 0; }
 bool exact_harmonics(const Settings& settings) { return settings.text("observe", "harmonics_method") == "exact"; }
 
@@ -66,6 +67,7 @@ constexpr Rule rules[] = {
     {"scene", "R", no_stops, "without stops", or_stops},
     {"scene", "R_lower", no_lower, "without a lower stop", "give stop_lower"},
     {"scene", "R_upper", no_upper, "without an upper stop", "give stop_upper"},
+    {"sweep", "direction", follows_nothing, "without follow", "name an axis in follow"},
     {"time", "max_periods", transient, in_transient, or_steady},
     {"time", "window", transient, in_transient, or_steady},
     {"time", "tolerance", transient, in_transient, or_steady},

@@ -18,12 +18,12 @@ steady::ObservedTime failure(stepping::Outcome outcome, double simulated) {
 bool lanes_can_observe(const SettledPoint& settled) {
   const point::Problem& problem = settled.item.problem;
   const steady::ObservedTime& observed = settled.observed;
-  const bool whole = std::abs(observed.turns - std::round(observed.turns)) <= 1e-9;  // as the sums of harmonics need
+  const observables::ObservedSpan span{.scene = problem,
+                                       .turns = observed.turns,
+                                       .periodic = observed.status == steady::Status::periodic,
+                                       .transient = observed.status == steady::Status::transient};
   return !failed(observed.status) && observed.found_by != steady::FoundBy::closed_form && observed.turns >= 1 &&
-         (whole || problem.observe.harmonics + problem.observe.section == 0) &&
-         (observed.status != steady::Status::aperiodic ||
-          static_cast<double>(problem.observe.section) <= observed.turns) &&
-         observables::All::in_lanes(problem.observe, problem, problem.time.mode == steady::Mode::transient);
+         observables::All::in_lanes(problem.observe, span);
 }
 
 point::PointResult observe_in_scalar_loop(const SettledPoint& settled, point::ThreadScratch& scratch) {

@@ -4,6 +4,7 @@
 #include "observables/extrema.hpp"
 #include "observables/harmonics.hpp"
 #include "observables/impact_log.hpp"
+#include "observables/impact_word.hpp"
 #include "observables/impacts.hpp"
 #include "observables/observable_list.hpp"
 #include "observables/period.hpp"
@@ -15,7 +16,8 @@ namespace clatter::observables {
 
 /// Every observable, in the order of keys and results. Configuration keys, help, observers, results, plan and memory
 /// are made from this list.
-using All = ObservableList<Extrema, Harmonics, Impacts, ImpactLog, Trajectory, Section, Period, Stability, Energy>;
+using All =
+    ObservableList<Extrema, Harmonics, Impacts, ImpactLog, Trajectory, Section, ImpactWord, Period, Stability, Energy>;
 
 /// The observables that are computed and stored; nothing else is.
 struct Observe : All::Settings {};

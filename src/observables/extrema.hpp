@@ -46,7 +46,7 @@ class Extrema {
             scalar("x_max", "maximum displacement", &Values::x_max),
             scalar("v_min", "minimum velocity", &Values::v_min), scalar("v_max", "maximum velocity", &Values::v_max)};
   }
-  [[nodiscard]] static bool in_lanes(const Settings&, const Scene&, bool) { return true; }
+  [[nodiscard]] static bool in_lanes(const Settings&, const ObservedSpan&) { return true; }
 
   Extrema() = default;
   Extrema(const Settings&, const ObservedSpan&) {}

@@ -54,11 +54,11 @@ FourierScratch Harmonics::scratch_for(const Settings& settings) {
   return {std::move(transform), std::move(workspace)};
 }
 
-bool Harmonics::in_lanes(const Settings& settings, const Scene& scene, bool transient) {
+bool Harmonics::in_lanes(const Settings& settings, const ObservedSpan& span) {
   if (settings.harmonics_method != HarmonicsMethod::exact || settings.harmonics > most_in_lanes) return false;
-  const Oscillator& o = scene.oscillator;
-  const bool of_force = settings.base_frequency == 0 ? !transient : settings.base_frequency == o.frequency;
-  if (!of_force) return false;
+  const Oscillator& o = span.scene.oscillator;
+  const bool of_force = settings.base_frequency == 0 ? !span.transient : settings.base_frequency == o.frequency;
+  if (!of_force || !span.has_whole_turns()) return false;
   for (std::int64_t k = 0; k <= settings.harmonics; ++k) {
     const double w = static_cast<double>(k) * o.frequency;
     if (ExactHarmonics::resonates(ExactHarmonics::impedance(o.damping, w))) return false;

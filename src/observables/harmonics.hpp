@@ -81,7 +81,7 @@ class Harmonics {
   /// Lanes sum the jumps of the velocity at impacts: for the exact method, the force's own frequency, harmonics of it
   /// that nothing resonates with; over whole forcing periods. The base frequency of a transient is its own unless it is
   /// given.
-  [[nodiscard]] static bool in_lanes(const Settings& settings, const Scene& scene, bool transient);
+  [[nodiscard]] static bool in_lanes(const Settings& settings, const ObservedSpan& span);
 
   Harmonics(const Settings& settings, const ObservedSpan& span) : highest_(count_of(settings) - 1) {
     if (from_samples(settings)) {

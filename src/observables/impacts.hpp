@@ -36,7 +36,7 @@ class Impacts {
             pair("v_after", "velocity after the first impact", stop, &Values::v_after),
             pair("rest_fraction", "share of time at rest on the stop", stop, &Values::rest_fraction)};
   }
-  [[nodiscard]] static bool in_lanes(const Settings&, const Scene&, bool) { return true; }
+  [[nodiscard]] static bool in_lanes(const Settings&, const ObservedSpan&) { return true; }
 
   struct OfStop {
     double count = 0.0;

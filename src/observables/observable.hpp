@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -48,6 +49,8 @@ struct Column {
   std::string name, long_name, units;
   std::vector<Coordinate> along;                           ///< dimensions beyond the sweep's axes, at most one
   std::function<void(const Values&, double* values)> put;  ///< writes `width()` values
+  std::function<std::string(const Values&)> text{};        ///< instead of numbers: a text in UTF-8
+  std::size_t longest_text = 0;                            ///< bytes
 
   [[nodiscard]] std::size_t width() const { return along.empty() ? 1 : along.front().length; }
 };
@@ -55,6 +58,12 @@ struct Column {
 template <class Values>
 [[nodiscard]] Column<Values> scalar(std::string name, std::string long_name, double Values::*member) {
   return {std::move(name), std::move(long_name), "1", {}, [member](const Values& v, double* out) { *out = v.*member; }};
+}
+
+template <class Values>
+[[nodiscard]] Column<Values> text(std::string name, std::string long_name, std::string Values::*member,
+                                  std::size_t longest) {
+  return {std::move(name), std::move(long_name), "1", {}, {}, [member](const Values& v) { return v.*member; }, longest};
 }
 
 /// Two values, over `stop` or another coordinate of that length.
@@ -90,6 +99,8 @@ struct ObservedSpan {
   bool stands_still = false;    ///< nothing moves any more
   const FourierScratch* fourier = nullptr;  ///< for harmonics from samples
 
+  /// Whether it is a whole number of forcing periods, as the sums of harmonics and sections in lanes need.
+  [[nodiscard]] bool has_whole_turns() const { return std::abs(turns - std::round(turns)) <= 1e-9; }
   /// Whether it counts as one period of its own: a transient, and a period of free motion.
   [[nodiscard]] bool counts_as_one_period() const { return transient || (scene.oscillator.forcing == 0 && periodic); }
 };

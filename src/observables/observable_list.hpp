@@ -30,8 +30,8 @@ concept Observable = requires(const typename O::Settings& settings, O& observer,
 namespace detail {
 
 template <class O>
-bool lanes_observe(const typename O::Settings& settings, const Scene& scene, bool transient) {
-  if constexpr (requires { O::in_lanes(settings, scene, transient); }) return O::in_lanes(settings, scene, transient);
+bool lanes_observe(const typename O::Settings& settings, const ObservedSpan& span) {
+  if constexpr (requires { O::in_lanes(settings, span); }) return O::in_lanes(settings, span);
   return false;
 }
 
@@ -78,10 +78,20 @@ struct ObservableList {
     each([&]<class O>() {
       if (!O::wanted(settings)) return;
       for (Column<typename O::Values>& c : O::columns(settings))
-        all.push_back(
-            {std::move(c.name), std::move(c.long_name), std::move(c.units), std::move(c.along), std::move(c.put)});
+        all.push_back({std::move(c.name), std::move(c.long_name), std::move(c.units), std::move(c.along),
+                       std::move(c.put), std::move(c.text), c.longest_text});
     });
     return all;
+  }
+
+  /// The names of all columns of texts.
+  [[nodiscard]] static std::vector<std::string> names_of_texts() {
+    std::vector<std::string> names;
+    each([&]<class O>() {
+      for (const Column<typename O::Values>& column : O::columns(typename O::Settings{}))
+        if (column.text) names.push_back(column.name);
+    });
+    return names;
   }
 
   /// The dimensions that they add, each once.
@@ -99,9 +109,9 @@ struct ObservableList {
     return (detail::values_held<Os>(settings) + ...);
   }
 
-  /// Whether SIMD lanes can observe all that is asked for.
-  [[nodiscard]] static bool in_lanes(const Settings& settings, const Scene& scene, bool transient) {
-    return ((!Os::wanted(settings) || detail::lanes_observe<Os>(settings, scene, transient)) && ...);
+  /// Whether SIMD lanes can observe all that is asked for, over a span whose turns and kind are known.
+  [[nodiscard]] static bool in_lanes(const Settings& settings, const ObservedSpan& span) {
+    return ((!Os::wanted(settings) || detail::lanes_observe<Os>(settings, span)) && ...);
   }
 };
 

@@ -35,7 +35,7 @@ class Period {
             scalar("eigenfrequency", "2 pi over the period of unforced motion", &Values::eigenfrequency),
             scalar("velocity_ratio", "|velocity before impact / xs|", &Values::velocity_ratio)};
   }
-  [[nodiscard]] static bool in_lanes(const Settings&, const Scene&, bool) { return true; }
+  [[nodiscard]] static bool in_lanes(const Settings&, const ObservedSpan&) { return true; }
 
   Period(const Settings&, const ObservedSpan&) {}
 

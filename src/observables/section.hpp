@@ -60,9 +60,11 @@ class Section {
   [[nodiscard]] static double values_held(const Settings& settings) {
     return 2 * static_cast<double>(settings.section);
   }
-  /// Lanes report their states at the forcing phase of the start.
-  [[nodiscard]] static bool in_lanes(const Settings& settings, const Scene& scene, bool) {
-    return scene.oscillator.forcing != 0 && turns_to(settings.section_phase, scene) == 0;
+  /// Lanes report their states at the forcing phase of the start, and follow no motion beyond the observed time.
+  [[nodiscard]] static bool in_lanes(const Settings& settings, const ObservedSpan& span) {
+    const bool reaches = span.periodic || span.transient || static_cast<double>(settings.section) <= span.turns;
+    return span.scene.oscillator.forcing != 0 && span.has_whole_turns() && reaches &&
+           turns_to(settings.section_phase, span.scene) == 0;
   }
 
   Section(const Settings& settings, const ObservedSpan& span)

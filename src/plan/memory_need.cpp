@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "plan/impact_estimate.hpp"
@@ -15,6 +16,7 @@ constexpr double program = 10.5 * kibi * kibi;  ///< the program and its librari
 constexpr double thread = 64 * kibi;            ///< stack and heap of a thread
 constexpr double value = sizeof(double);
 
+constexpr double short_text = 2 * sizeof(std::string);  ///< most are short; in the file a reference, a header, letters
 constexpr double logged = 3 * sizeof(double) + sizeof(std::int8_t);  ///< an impact in the file
 constexpr double heap = 2 * sizeof(void*);                           ///< overhead of a block
 constexpr double lone_block = 128 * kibi;  ///< size from which on a block is returned to the system by itself
@@ -39,6 +41,7 @@ void add_coordinates(const sweep::Sweep& sweep, bool is_shard, Parts& parts) {
     parts.largest = std::max(parts.largest, axis);
   }
   parts.coordinates = parts.axes;
+  if (sweep.direction == sweep::Direction::both) parts.coordinates += 2 * sizeof(std::int8_t);
   if (is_shard) parts.coordinates += sizeof(std::int64_t) * parts.points;  // index in the sweep
   for (const observables::Coordinate& coordinate : observables::All::coordinates(sweep.problem.observe)) {
     const auto bytes = [&]<class T>(const T& values) -> double {
@@ -58,7 +61,7 @@ Parts parts_of(const sweep::Sweep& sweep, const std::optional<sweep::Shard>& sha
   parts.results = (sizeof(std::uint8_t) + sizeof(std::int64_t) + value) * parts.points;  // status, impacts, periods
   parts.largest = std::max(parts.largest, value * parts.points);
   for (const sweep::OutputVariable& output : sweep::outputs_of(sweep.problem)) {
-    const double bytes = static_cast<double>(output.width()) * value * parts.points;
+    const double bytes = (output.text ? short_text : static_cast<double>(output.width()) * value) * parts.points;
     parts.results += bytes, parts.largest = std::max(parts.largest, bytes);
   }
   if (!sweep.problem.observe.impact_log) return parts;

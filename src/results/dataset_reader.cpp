@@ -13,6 +13,7 @@
 #include "results/hdf5_plain.hpp"
 #include "results/hdf5_shape.hpp"
 #include "results/hdf5_soundness.hpp"
+#include "results/hdf5_texts.hpp"
 #include "results/summary_bytes.hpp"
 #include "storage/error.hpp"
 #include "storage/input_file.hpp"
@@ -85,8 +86,9 @@ std::vector<std::pair<std::string, std::string>> root_attributes(hid_t file, Tex
   return attributes;
 }
 
-/// "float64" and the like, as numpy and xarray call them.
+/// "float64" and the like, as numpy and xarray call them; "string" for texts.
 std::string type_name(hid_t dataset) {
+  if (detail::is_text(dataset)) return "string";
   const Handle type{H5Dget_type(dataset), H5Tclose};
   const std::string bits = std::to_string(8 * H5Tget_size(type));
   if (H5Tget_class(type) == H5T_FLOAT) return "float" + bits;

@@ -15,6 +15,7 @@
 #include "results/hdf5_handle.hpp"
 #include "results/hdf5_image.hpp"
 #include "results/hdf5_shape.hpp"
+#include "results/hdf5_texts.hpp"
 #include "results/sha256.hpp"
 #include "results/version.hpp"
 #include "storage/error.hpp"
@@ -73,15 +74,14 @@ Handle dataspace_of(const Shape& shape) {
   return {H5Screate_simple(static_cast<int>(shape.size()), shape.data(), nullptr), H5Sclose};
 }
 
-/// Writes the values in one call: the order in which deflated chunks are written changes the file.
+/// Writes the values, of `type`, in one call: the order in which deflated chunks are written changes the file.
 template <typename Value>
 Handle write_values(hid_t file, const sweep::Variable& variable, const Shape& shape, const std::vector<Value>& values,
-                    int level) {
+                    const ValueType& type, int level) {
   if (values.size() != detail::count(shape))
     throw std::logic_error{variable.name + ": values don't fill its dimensions"};
-  const ValueType type = type_of(Value{});
   const Handle properties = dataset_properties();
-  compress(properties, shape, sizeof(Value), level);
+  compress(properties, shape, H5Tget_size(type.file), level);
   const bool has_fill = std::is_same_v<Value, double> && !is_coordinate(variable);
   if (has_fill) checked(H5Pset_fill_value(properties, H5T_NATIVE_DOUBLE, &nan));
   Handle dataset{
@@ -90,6 +90,21 @@ Handle write_values(hid_t file, const sweep::Variable& variable, const Shape& sh
   if (!values.empty()) checked(H5Dwrite(dataset, type.memory, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()));
   if (has_fill) put(dataset, "_FillValue", nan);
   return dataset;
+}
+
+template <typename Value>
+Handle write_values(hid_t file, const sweep::Variable& variable, const Shape& shape, const std::vector<Value>& values,
+                    int level) {
+  return write_values(file, variable, shape, values, type_of(Value{}), level);
+}
+
+Handle write_values(hid_t file, const sweep::Variable& variable, const Shape& shape,
+                    const std::vector<std::string>& texts, int level) {
+  std::vector<const char*> pointers;
+  pointers.reserve(texts.size());
+  for (const std::string& text : texts) pointers.push_back(text.c_str());
+  const Handle type = detail::text_type();
+  return write_values(file, variable, shape, pointers, {type, type}, level);
 }
 
 void put(hid_t object, const std::vector<sweep::Attribute>& attributes) {

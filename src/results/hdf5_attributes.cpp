@@ -1,16 +1,10 @@
 #include "results/hdf5_attributes.hpp"
 
 #include "results/hdf5_handle.hpp"
+#include "results/hdf5_texts.hpp"
 
 namespace clatter::results::detail {
 namespace {
-
-Handle text_type() {
-  Handle type{H5Tcopy(H5T_C_S1), H5Tclose};
-  checked(H5Tset_size(type, H5T_VARIABLE));
-  checked(H5Tset_cset(type, H5T_CSET_UTF8));
-  return type;
-}
 
 void put(hid_t object, const std::string& name, const ValueType& type, const Handle& space, const void* values) {
   const Handle attribute{H5Acreate2(object, name.c_str(), type.file, space, H5P_DEFAULT, H5P_DEFAULT), H5Aclose};

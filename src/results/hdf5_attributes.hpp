@@ -18,8 +18,7 @@ inline ValueType type_of(std::uint8_t) { return {H5T_STD_U8LE, H5T_NATIVE_UINT8}
 inline ValueType type_of(std::int8_t) { return {H5T_STD_I8LE, H5T_NATIVE_INT8}; }
 inline ValueType type_of(std::int64_t) { return {H5T_STD_I64LE, H5T_NATIVE_INT64}; }
 
-/// Writes a text as a UTF-8 string of variable length, which every reader of netCDF-4 takes and which may be as long as
-/// a configuration.
+/// Writes a text, which may be as long as a configuration.
 void put(hid_t object, const std::string& name, const std::string& text);
 
 /// Writes numbers as lists, a single number as well: netCDF's _FillValue has to be a list of one.

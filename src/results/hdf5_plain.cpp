@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <tuple>
 
+#include "observables/all.hpp"
+#include "results/hdf5_texts.hpp"
 #include "storage/utf8.hpp"
 
 namespace clatter::results::detail {
@@ -44,6 +46,12 @@ void require_own_filters(hid_t properties, const std::string& name) {
   }
 }
 
+/// Whether clatter writes texts under this name.
+bool holds_texts(const std::string& name) {
+  static const std::vector<std::string> names = observables::All::names_of_texts();
+  return std::ranges::find(names, name) != names.end();
+}
+
 void require_own_storage(hid_t dataset, const std::string& name) {
   const Handle properties{H5Dget_create_plist(dataset), H5Pclose};
   const H5D_layout_t layout = H5Pget_layout(properties);
@@ -53,7 +61,11 @@ void require_own_storage(hid_t dataset, const std::string& name) {
   require_own_filters(properties, name);
   const Handle type{H5Dget_type(dataset), H5Tclose};
   const H5T_class_t kind = H5Tget_class(type);
-  if (kind != H5T_INTEGER && kind != H5T_FLOAT) refuse(name, "holds no numbers");
+  if (holds_texts(name)) {
+    if (!is_text(dataset)) refuse(name, "holds no texts of variable length");
+  } else if (kind != H5T_INTEGER && kind != H5T_FLOAT) {
+    refuse(name, "holds no numbers");
+  }
 }
 
 struct Link {

@@ -43,7 +43,8 @@ Shape blocks_of(const Shape& shape, std::size_t value_size) {
   return blocks;
 }
 
-void read_blocks(hid_t dataset, hid_t type, void* memory, const std::function<void(std::size_t)>& take) {
+void read_blocks(hid_t dataset, hid_t type, void* memory, const std::function<void(std::size_t)>& take,
+                 hid_t transfer) {
   const Shape shape = shape_of(dataset);
   if (std::ranges::find(shape, hsize_t{0}) != shape.end()) return;
   const Handle space{H5Dget_space(dataset), H5Sclose};
@@ -55,7 +56,7 @@ void read_blocks(hid_t dataset, hid_t type, void* memory, const std::function<vo
       checked(H5Sselect_hyperslab(space, H5S_SELECT_SET, begin.data(), nullptr, size.data(), nullptr));
     const hsize_t values = count(size);
     const Handle room{H5Screate_simple(1, &values, nullptr), H5Sclose};
-    checked(H5Dread(dataset, type, room, space, H5P_DEFAULT, memory));
+    checked(H5Dread(dataset, type, room, space, transfer, memory));
     take(static_cast<std::size_t>(values));
   } while (advance(begin, blocks, shape));
 }

@@ -25,8 +25,9 @@ inline constexpr double most_deflated = 1032;
 /// next one in equal parts, so that no block is mostly empty.
 [[nodiscard]] Shape blocks_of(const Shape& shape, std::size_t value_size);
 
-/// Reads a variable block by block into `memory` of `largest_block` bytes, as values of `type`, and calls
-/// `take(number of values)` after each. Throws Failure.
-void read_blocks(hid_t dataset, hid_t type, void* memory, const std::function<void(std::size_t)>& take);
+/// Reads a variable block by block into `memory` of `largest_block` bytes, as values of `type` and with the properties
+/// `transfer`, and calls `take(number of values)` after each. Throws Failure.
+void read_blocks(hid_t dataset, hid_t type, void* memory, const std::function<void(std::size_t)>& take,
+                 hid_t transfer = H5P_DEFAULT);
 
 }  // namespace clatter::results::detail

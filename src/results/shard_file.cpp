@@ -15,6 +15,7 @@
 #include "results/hdf5_handle.hpp"
 #include "results/hdf5_plain.hpp"
 #include "results/hdf5_shape.hpp"
+#include "results/hdf5_texts.hpp"
 #include "storage/error.hpp"
 #include "storage/input_file.hpp"
 #include "storage/packed.hpp"
@@ -57,6 +58,7 @@ sweep::ValueArray values_of(const Handle& dataset) {
 }
 
 sweep::ValueArray column_of(const Handle& dataset) {
+  if (detail::is_text(dataset)) return detail::read_texts(dataset);
   const Handle type{H5Dget_type(dataset), H5Tclose};
   const bool is_integer = H5Tget_class(type) == H5T_INTEGER, is_wide = H5Tget_size(type) > 1;
   if (!is_integer) return values_of<double>(dataset);
@@ -88,6 +90,7 @@ std::uint64_t values_in(const Handle& file) {
 void try_values(const Handle& file) {
   std::vector<std::byte> memory(detail::largest_block);
   walk_variables(file, [&](const std::string&, const Handle& dataset) {
+    if (detail::is_text(dataset)) return detail::try_texts(dataset);
     const Handle type{H5Dget_type(dataset), H5Tclose}, native{H5Tget_native_type(type, H5T_DIR_ASCEND), H5Tclose};
     detail::read_blocks(dataset, native, memory.data(), [](std::size_t) {});
   });

@@ -10,21 +10,35 @@ namespace clatter::sweep {
 
 /// Points that run one after the other: along `follow` a whole branch, else a single point.
 struct Branches {
-  std::size_t count = 0, length = 1, stride = 1;
+  std::size_t count = 0;                ///< branches
+  std::size_t length = 1;               ///< points of a branch
+  std::size_t values = 1;               ///< of the followed dimension; in both directions half the length
+  std::size_t stride = 1;               ///< between points that are neighbours in the followed dimension
+  Direction direction = Direction::up;  ///< along it
 
-  explicit Branches(const Sweep& sweep) : count(size(sweep)) {
+  explicit Branches(const Sweep& sweep) : count(size_one_way(sweep)) {
     if (!sweep.follow) return;
-    length = clatter::sweep::length(sweep.dimensions[*sweep.follow]);
+    direction = sweep.direction, values = clatter::sweep::length(sweep.dimensions[*sweep.follow]);
+    length = direction == Direction::both ? 2 * values : values;
     for (std::size_t d = *sweep.follow + 1; d < sweep.dimensions.size(); ++d)
       stride *= clatter::sweep::length(sweep.dimensions[d]);
-    count /= length;
+    count /= values;
+  }
+  /// Whether the i-th point of a branch lies on the way back.
+  [[nodiscard]] bool returns(std::size_t i) const { return i >= values; }
+  /// Index of its value in the followed dimension.
+  [[nodiscard]] std::size_t value(std::size_t i) const {
+    return returns(i) || direction == Direction::down ? length - 1 - i : i;
   }
   /// Index of the i-th point of a branch.
   [[nodiscard]] std::size_t point(std::size_t branch, std::size_t i) const {
-    return (branch / stride * length + i) * stride + branch % stride;
+    const std::size_t way = returns(i) ? count * values : 0;
+    return way + (branch / stride * values + value(i)) * stride + branch % stride;
   }
   /// Whether a point begins its branch, so that its start is known before anything runs.
-  [[nodiscard]] bool begins(std::size_t point) const { return point / stride % length == 0; }
+  [[nodiscard]] bool begins(std::size_t point) const {
+    return point < count * values && point / stride % values == value(0);
+  }
 };
 
 /// Starts a point of a branch from the end of the one before, or from the scene's own start if that one failed. A

@@ -7,42 +7,10 @@
 #include <stdexcept>
 #include <type_traits>
 
+#include "sweep/dataset_axes.hpp"
+
 namespace clatter::sweep {
 namespace {
-
-const char* long_name_of(Parameter parameter) {
-  switch (parameter) {
-    case Parameter::h:
-      return "damping ratio";
-    case Parameter::f:
-      return "force amplitude over stiffness";
-    case Parameter::nu:
-      return "excitation over natural frequency";
-    case Parameter::phase:
-      return "forcing phase at tau = 0";
-    case Parameter::R:
-      return "restitution of velocity";
-    case Parameter::xs:
-      return "place of the symmetric stops";
-    case Parameter::stop_lower:
-      return "place of the lower stop";
-    case Parameter::stop_upper:
-      return "place of the upper stop";
-    case Parameter::R_lower:
-      return "restitution of the lower stop";
-    case Parameter::R_upper:
-      return "restitution of the upper stop";
-    case Parameter::load:
-      return "constant force over stiffness";
-    case Parameter::x0:
-      return "displacement at tau = 0";
-    case Parameter::v0:
-      return "velocity at tau = 0";
-    case Parameter::start_period:
-      return "period of the free vibration that the start lies on";
-  }
-  return "";
-}
 
 template <class T>
 requires std::is_trivially_copyable_v<T>
@@ -58,6 +26,20 @@ bool take_off(std::span<const std::byte>& from, std::span<T> values) {
   std::ranges::copy(from.first(values.size_bytes()), std::as_writable_bytes(values).begin());
   from = from.subspan(values.size_bytes());
   return true;
+}
+
+using TextLength = std::uint32_t;
+
+void append_text(std::vector<std::byte>& to, const std::string& text) {
+  const auto length = static_cast<TextLength>(text.size());
+  append(to, std::span(&length, 1)), append(to, std::span<const char>(text));
+}
+
+bool take_off_text(std::span<const std::byte>& from, std::string& text) {
+  TextLength length = 0;
+  if (!take_off(from, std::span(&length, 1)) || length > from.size()) return false;
+  text.resize(length);
+  return take_off(from, std::span<char>(text));
 }
 
 /// The number of impacts in the whole log, so that its columns are allocated at once.
@@ -91,40 +73,6 @@ std::vector<std::int64_t> point_numbers(const Share& share) {
 
 }  // namespace
 
-void add_axes(const Sweep& sweep, Dataset& dataset) {
-  for (const Dimension& dimension : sweep.dimensions) {
-    dataset.dimensions.push_back({std::string(name_of(dimension)), length(dimension)});
-    for (const Axis& axis : dimension)
-      dataset.variables.push_back({std::string(key_of(axis.parameter)),
-                                   {std::string(name_of(dimension))},
-                                   axis.values,
-                                   long_name_of(axis.parameter),
-                                   axis.parameter == Parameter::phase ? "rad" : "1"});
-  }
-}
-
-void name_linked_axes(const Sweep& sweep, Dataset& dataset) {
-  std::vector<std::string> axes;
-  for (const Dimension& dimension : sweep.dimensions)
-    for (const Axis& axis : dimension) axes.emplace_back(key_of(axis.parameter));
-  for (Variable& variable : dataset.variables) {
-    if (std::ranges::find(axes, variable.name) != axes.end()) continue;
-    std::string linked;
-    for (const Dimension& dimension : sweep.dimensions) {
-      if (std::ranges::find(variable.dimensions, name_of(dimension)) == variable.dimensions.end()) continue;
-      for (const Axis& axis : std::span(dimension).subspan(1))
-        linked.append(linked.empty() ? "" : " ").append(key_of(axis.parameter));
-    }
-    if (!linked.empty()) variable.attributes.emplace_back("coordinates", linked);
-  }
-}
-
-std::vector<std::string> axis_names(const Sweep& sweep) {
-  std::vector<std::string> names;
-  for (const Dimension& dimension : sweep.dimensions) names.emplace_back(name_of(dimension));
-  return names;
-}
-
 std::vector<Attribute> flag_attributes(std::span<const std::pair<std::uint8_t, std::string_view>> meanings) {
   std::vector<std::uint8_t> values;
   std::string text;
@@ -145,7 +93,7 @@ std::vector<Attribute> status_flags() {
 double most_values(const Sweep& sweep, const std::optional<Shard>& shard) {
   double of_point = 5;  // status, impact_total, simulated_periods, index in the sweep, impact_count
   for (const OutputVariable& output : outputs_of(sweep.problem)) of_point += static_cast<double>(output.width());
-  double coordinates = 0;
+  double coordinates = sweep.direction == Direction::both ? 2 : 0;
   for (const observables::Coordinate& coordinate : observables::All::coordinates(sweep.problem.observe))
     coordinates += static_cast<double>(coordinate.length);
   for (const Dimension& dimension : sweep.dimensions)
@@ -162,7 +110,10 @@ ResultStore::ResultStore(const Sweep& sweep, const std::optional<Shard>& shard)
       impacts_(status_.size(), 0),
       periods_(status_.size(), 0.0),
       outputs_(outputs_of(sweep.problem)) {
-  for (const OutputVariable& output : outputs_) values_.emplace_back(status_.size() * output.width(), point::no_value);
+  for (const OutputVariable& output : outputs_) {
+    values_.emplace_back(output.text ? 0 : status_.size() * output.width(), point::no_value);
+    texts_.emplace_back(output.text ? status_.size() : 0);
+  }
   if (sweep.problem.observe.impact_log) log_.resize(status_.size());
 }
 
@@ -170,27 +121,36 @@ void ResultStore::store(std::size_t local_index, point::PointResult&& result) {
   status_[local_index] = static_cast<std::uint8_t>(result.status);
   impacts_[local_index] = static_cast<std::int64_t>(result.impacts);
   periods_[local_index] = result.periods;
-  for (std::size_t i = 0; i < outputs_.size(); ++i)
-    outputs_[i].put(result, &values_[i][local_index * outputs_[i].width()]);
+  for (std::size_t i = 0; i < outputs_.size(); ++i) {
+    if (outputs_[i].text)
+      texts_[i][local_index] = outputs_[i].text(result);
+    else
+      outputs_[i].put(result, &values_[i][local_index * outputs_[i].width()]);
+  }
   if (!log_.empty())
     log_[local_index] = std::move(result.log), log_[local_index].shrink_to_fit();  // it grew by doubling
 }
 
-std::size_t ResultStore::packed_size_without_log() const {
+std::size_t ResultStore::most_packed_without_log() const {
   std::size_t bytes = sizeof(std::uint8_t) + sizeof(std::int64_t) + sizeof(double);
-  for (const OutputVariable& output : outputs_) bytes += output.width() * sizeof(double);
+  for (const OutputVariable& output : outputs_)
+    bytes += output.text ? sizeof(TextLength) + output.longest_text : output.width() * sizeof(double);
   return log_.empty() ? bytes : bytes + sizeof(std::uint64_t);
 }
 
-std::size_t ResultStore::packed_size(std::size_t local_index) const {
-  return packed_size_without_log() + (log_.empty() ? 0 : log_[local_index].size() * sizeof(motion::Impact));
+std::size_t ResultStore::most_packed(std::size_t local_index) const {
+  return most_packed_without_log() + (log_.empty() ? 0 : log_[local_index].size() * sizeof(motion::Impact));
 }
 
 void ResultStore::pack(std::size_t local_index, std::vector<std::byte>& to) const {
   append(to, std::span(&status_[local_index], 1)), append(to, std::span(&impacts_[local_index], 1));
   append(to, std::span(&periods_[local_index], 1));
-  for (std::size_t i = 0; i < outputs_.size(); ++i)
-    append(to, std::span(values_[i]).subspan(local_index * outputs_[i].width(), outputs_[i].width()));
+  for (std::size_t i = 0; i < outputs_.size(); ++i) {
+    if (outputs_[i].text)
+      append_text(to, texts_[i][local_index]);
+    else
+      append(to, std::span(values_[i]).subspan(local_index * outputs_[i].width(), outputs_[i].width()));
+  }
   if (log_.empty()) return;
   const std::uint64_t count = log_[local_index].size();
   append(to, std::span(&count, 1));
@@ -201,8 +161,11 @@ bool ResultStore::unpack(std::size_t local_index, std::span<const std::byte>& fr
   bool whole = take_off(from, std::span(&status_[local_index], 1)) &&
                take_off(from, std::span(&impacts_[local_index], 1)) &&
                take_off(from, std::span(&periods_[local_index], 1));
-  for (std::size_t i = 0; whole && i < outputs_.size(); ++i)
-    whole = take_off(from, std::span(values_[i]).subspan(local_index * outputs_[i].width(), outputs_[i].width()));
+  for (std::size_t i = 0; whole && i < outputs_.size(); ++i) {
+    const std::size_t width = outputs_[i].width();
+    whole = outputs_[i].text ? take_off_text(from, texts_[i][local_index])
+                             : take_off(from, std::span(values_[i]).subspan(local_index * width, width));
+  }
   std::uint64_t count = 0;
   if (!whole || log_.empty()) return whole;
   if (!take_off(from, std::span(&count, 1)) || count > from.size() / sizeof(motion::Impact)) return false;
@@ -237,11 +200,16 @@ void ResultStore::take(Dataset& dataset, const Shard& shard) {
     std::vector<T>& from = values_in<T>(dataset, name);
     require_length(name, from.size(), numbers.size() * width);
     for (std::size_t i = 0; i < numbers.size(); ++i)
-      std::ranges::copy(std::span(from).subspan(i * width, width), &to[static_cast<std::size_t>(numbers[i]) * width]);
+      std::ranges::move(std::span(from).subspan(i * width, width), &to[static_cast<std::size_t>(numbers[i]) * width]);
     std::vector<T>().swap(from);
   };
   scatter("status", 1, status_), scatter("impact_total", 1, impacts_), scatter("simulated_periods", 1, periods_);
-  for (std::size_t i = 0; i < outputs_.size(); ++i) scatter(outputs_[i].name, outputs_[i].width(), values_[i]);
+  for (std::size_t i = 0; i < outputs_.size(); ++i) {
+    if (outputs_[i].text)
+      scatter(outputs_[i].name, 1, texts_[i]);
+    else
+      scatter(outputs_[i].name, outputs_[i].width(), values_[i]);
+  }
   if (sweep_.problem.observe.impact_log) take_impact_log(dataset, numbers);
 }
 
@@ -309,8 +277,10 @@ Dataset ResultStore::dataset() {
     OutputVariable& output = outputs_[i];
     std::vector<std::string> dimensions = along_;
     for (const observables::Coordinate& along : output.along) dimensions.push_back(along.name);
+    ValueArray values = std::move(values_[i]);
+    if (output.text) values = std::move(texts_[i]);
     dataset.variables.push_back(
-        {output.name, std::move(dimensions), std::move(values_[i]), output.long_name, output.units});
+        {output.name, std::move(dimensions), std::move(values), output.long_name, output.units});
   }
   if (sweep_.problem.observe.impact_log) add_impact_log(dataset);
   name_linked_axes(sweep_, dataset);

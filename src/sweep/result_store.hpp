@@ -23,16 +23,6 @@ using OutputVariable = observables::Column<point::PointResult>;
 /// estimate of its settling time.
 [[nodiscard]] std::vector<OutputVariable> outputs_of(const point::Problem& scene);
 
-/// Adds the sweep's dimensions and the coordinates along them.
-void add_axes(const Sweep& sweep, Dataset& dataset);
-
-/// Names linked axes in the attribute `coordinates` of each variable over their dimension, so that readers take them
-/// for coordinates (CF conventions, 5). Call it once all variables are added.
-void name_linked_axes(const Sweep& sweep, Dataset& dataset);
-
-/// Names of the sweep's dimensions.
-[[nodiscard]] std::vector<std::string> axis_names(const Sweep& sweep);
-
 /// Attributes that give the meanings of the values of a variable.
 [[nodiscard]] std::vector<Attribute> flag_attributes(
     std::span<const std::pair<std::uint8_t, std::string_view>> meanings);
@@ -54,9 +44,9 @@ class ResultStore {
   /// Stores a point's result; different points may be stored at the same time.
   void store(std::size_t local_index, point::PointResult&& result);
 
-  /// Bytes that `pack` appends for a point.
-  [[nodiscard]] std::size_t packed_size(std::size_t local_index) const;
-  [[nodiscard]] std::size_t packed_size_without_log() const;
+  /// Bytes that `pack` appends for a point, at most.
+  [[nodiscard]] std::size_t most_packed(std::size_t local_index) const;
+  [[nodiscard]] std::size_t most_packed_without_log() const;
   /// Appends a point's results, as `unpack` takes them from a run of the same sweep.
   void pack(std::size_t local_index, std::vector<std::byte>& to) const;
   /// Takes a point's results off the beginning of `from`. Returns false if they don't belong to this sweep; the point's
@@ -86,7 +76,8 @@ class ResultStore {
   std::vector<std::int64_t> impacts_;
   std::vector<double> periods_;
   std::vector<OutputVariable> outputs_;
-  std::vector<std::vector<double>> values_;       ///< [output][local index][width]
+  std::vector<std::vector<double>> values_;       ///< [output][local index][width]; empty for texts
+  std::vector<std::vector<std::string>> texts_;   ///< [output][local index]; empty for numbers
   std::vector<std::vector<motion::Impact>> log_;  ///< [local index]; empty if no log is observed
 };
 

@@ -271,7 +271,7 @@ bool SweepRun::restore(std::span<const std::byte> results) {
 
 double SweepRun::most_saved() const {
   return enough_to_save + sizeof(std::uint64_t) +
-         static_cast<double>(share_.length()) * static_cast<double>(store_.packed_size_without_log());
+         static_cast<double>(share_.length()) * static_cast<double>(store_.most_packed_without_log());
 }
 
 void SweepRun::save(const std::function<void(std::span<const std::byte> results)>& write) {
@@ -285,7 +285,7 @@ void SweepRun::save(const std::function<void(std::span<const std::byte> results)
   for (std::uint64_t branch = 0; branch < share_.count(); ++branch) {
     if (states_[branch] != BranchState::finished) continue;
     std::size_t more = sizeof branch;
-    for (std::size_t i = 0; i < share_.length(); ++i) more += store_.packed_size(share_.local_index(branch, i));
+    for (std::size_t i = 0; i < share_.length(); ++i) more += store_.most_packed(share_.local_index(branch, i));
     if (more > enough_to_save)
       results.reserve(results.size() + more);  // growing by doubling would take up to twice as much
     const auto number = std::as_bytes(std::span(&branch, 1));

@@ -39,7 +39,8 @@ class Share {
   [[nodiscard]] std::size_t local_index(std::size_t n, std::size_t i) const {
     const std::size_t block = (shard_.number + n * shard_.of) / branches_.stride * branches_.stride;
     const std::size_t first = before(block), beside = before(block + branches_.stride) - first;
-    return first * branches_.length + i * beside + (n - first);
+    const std::size_t way = branches_.returns(i) ? count_ * branches_.values : 0;
+    return way + first * branches_.values + branches_.value(i) * beside + (n - first);
   }
 
  private:

@@ -2,7 +2,7 @@
 
 namespace clatter::sweep {
 
-std::size_t size(const Sweep& sweep) {
+std::size_t size_one_way(const Sweep& sweep) {
   std::size_t points = 1;
   for (const Dimension& dimension : sweep.dimensions) points *= length(dimension);
   return points;

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <string_view>
 #include <vector>
@@ -19,11 +21,18 @@ struct Axis {
 /// Axes of equal length that run together; named by the first.
 using Dimension = std::vector<Axis>;
 
-/// Every combination of the dimensions' values; the first dimension varies slowest.
+/// The order in which a followed dimension is run; `both`: up, and from there down.
+enum class Direction : std::uint8_t { up, down, both };
+
+/// In the order of `Direction`.
+inline constexpr std::array<std::string_view, 3> direction_names{"up", "down", "both"};
+
+/// Every combination of the dimensions' values; the first dimension varies slowest, the two directions slower still.
 struct Sweep {
-  point::Problem problem;             ///< the problem that the axes vary
-  std::vector<Dimension> dimensions;  ///< empty: one point
-  std::optional<std::size_t> follow;  ///< the dimension along which each point starts from the end of the one before
+  point::Problem problem{};             ///< the problem that the axes vary
+  std::vector<Dimension> dimensions{};  ///< empty: one point
+  std::optional<std::size_t> follow{};  ///< the dimension along which each point starts from the end of the one before
+  Direction direction = Direction::up;  ///< along `follow`
   std::optional<double>
       start_period{};  ///< start_period of [scene], set at each point after its stops; empty: x0 and v0 are the start
 };
@@ -35,13 +44,18 @@ struct Sweep {
   return key_of(dimension.front().parameter);
 }
 
+/// Number of points in each direction.
+[[nodiscard]] std::size_t size_one_way(const Sweep& sweep);
+
 /// Number of points.
-[[nodiscard]] std::size_t size(const Sweep& sweep);
+[[nodiscard]] inline std::size_t size(const Sweep& sweep) {
+  return size_one_way(sweep) * (sweep.direction == Direction::both ? 2 : 1);
+}
 
 /// Calls `take(axis, value)` for each axis at a point.
 template <class Take>
 void each_coordinate(const Sweep& sweep, std::size_t point, const Take& take) {
-  std::size_t stride = size(sweep);
+  std::size_t stride = size_one_way(sweep);
   for (const Dimension& dimension : sweep.dimensions) {
     stride /= length(dimension);
     const std::size_t index = point / stride % length(dimension);
@@ -49,7 +63,7 @@ void each_coordinate(const Sweep& sweep, std::size_t point, const Take& take) {
   }
 }
 
-/// The problem of a point, 0 <= point < size(sweep), in row-major order of the dimensions.
+/// The problem of a point, 0 <= point < size(sweep), in row-major order of the directions and dimensions.
 [[nodiscard]] point::Problem problem_at(const Sweep& sweep, std::size_t point);
 
 }  // namespace clatter::sweep

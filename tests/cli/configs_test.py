@@ -21,6 +21,7 @@ OBSERVED = {  # variables of each [observe] key
     "impact_log": ("impact_count", "impact_tau", "impact_stop", "impact_v_before", "impact_v_after"),
     "trajectory": ("tau", "x", "v"),
     "section": ("section_x", "section_v"),
+    "word": ("impact_word", "regime", "symmetric"),
     "period": ("period", "period_ratio"),
     "stability": ("multiplier", "multiplier_re", "multiplier_im", "lyapunov"),
 }
@@ -115,6 +116,15 @@ class Configs(unittest.TestCase):
         apart = np.abs(up[1] - down[1]) > 0.5
         self.assertGreater(apart.sum(), 20)
         self.assertFalse(apart[0] or apart[-1])
+
+    def test_hysteresis_in_one_sweep_is_that_of_the_sweeps_up_and_down(self):
+        with h5py.File(self.runs[CONFIGS / "hysteresis.toml"][1]) as both:
+            self.assertEqual(both["direction"][()].tolist(), [1, -1])
+            for name, way in (("follow_up", both["x_max"][0]), ("follow_down", both["x_max"][1][::-1])):
+                with h5py.File(self.runs[CONFIGS / f"{name}.toml"][1]) as file:
+                    periodic = file["status"][()] == 0
+                    self.assertGreater(periodic.sum(), 200)
+                    np.testing.assert_allclose(way[periodic], file["x_max"][periodic], rtol=1e-9)
 
 
 if __name__ == "__main__":

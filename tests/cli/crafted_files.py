@@ -78,6 +78,15 @@ def create(file, name, lengths, properties, kind=h5py.h5t.NATIVE_DOUBLE, shape=N
     h5py.h5d.create(file.id, name.encode(), kind, shape or h5py.h5s.create_simple(lengths), properties)
 
 
+def words(**settings):
+    """impact_word appears, over the points of x_max."""
+
+    def change(file, folder):
+        file.create_dataset("impact_word", file["x_max"].shape, **settings)
+
+    return change
+
+
 def compact(file, folder, points):
     properties = h5py.h5p.create(h5py.h5p.DATASET_CREATE)
     properties.set_layout(h5py.h5d.COMPACT)
@@ -120,6 +129,8 @@ CHANGES = {
     "deflated_twice": replaced(deflated_twice),
     "compact": replaced(compact),
     "texts": replaced(lambda file, folder, points: file.create_dataset("x_max", data=["a"] * points)),
+    "number_words": words(dtype="f8", fillvalue=1.0),
+    "fixed_words": words(dtype="S5", fillvalue=b"LU"),
     "references": replaced(lambda file, folder, points: file.create_dataset("x_max", (points,), h5py.ref_dtype)),
     "name": lambda file, folder: file.__setitem__("a" + CONTROLS, [1.0]),
 }

@@ -13,12 +13,13 @@ from pathlib import Path
 import h5py
 
 from command_line import CLATTER, SMALL, SOURCE
-from crafted_files import CHANGES, SECRET, can_trace, claim, hide_variables, make_surroundings
+from crafted_files import CHANGES, SECRET, can_trace, claim, hide_variables, make_surroundings, words
 
 PYTHON = "/usr/bin/python3"
 ELSEWHERE, LINK = "'x_max' has its values in other files", "'x_max' is a link to another place"
 FILTER = "'x_max' has other filters than shuffle and deflate, each once"
 NO_NUMBERS = "'x_max' holds something else than numbers"
+NO_TEXTS = "'impact_word' holds no texts of variable length"
 REASONS = {  # what is said of each
     "external": ELSEWHERE,
     "external_pipe": ELSEWHERE,
@@ -38,17 +39,21 @@ REASONS = {  # what is said of each
     "deflated_twice": FILTER,
     "compact": "'x_max' is stored in an unknown layout",
     "texts": NO_NUMBERS,
+    "number_words": NO_TEXTS,
+    "fixed_words": NO_TEXTS,
     "references": NO_NUMBERS,
     "name": "'a\\x1b]0;title\\x07\\x1b[2J\\u202e\\x9b\\nclatter: all is well' is no name of a variable",
     "schema": "its schema is '\\x1b[2J'",
     "claimed": "'status' has more values than the file can hold",
     "hidden": "it lacks its status or configuration",
+    "long_words": "holds a text of more than 255 characters",
 }
 CASES = {
     **CHANGES,
     "schema": lambda file, folder: file.attrs.__setitem__("clatter_schema", "\x1b[2J"),
     "claimed": lambda file, folder: claim("status", (4 << 30,), file),
     "hidden": CHANGES["external_link"],
+    "long_words": words(dtype=h5py.string_dtype(), data=["L" * 256] * 5),
 }
 
 

@@ -18,6 +18,7 @@ from crafted_files import CHANGES, CONTROLS, SECRET, can_trace, claim, hide_vari
 
 ELSEWHERE, LINK = "'x_max' has its values in another file", "'x_max' is a link to something else"
 NO_NUMBERS = "'x_max' holds no numbers"
+NO_TEXTS = "'impact_word' holds no texts of variable length"
 REASONS = {  # what is said of each
     "external": ELSEWHERE,
     "external_pipe": ELSEWHERE,
@@ -37,6 +38,8 @@ REASONS = {  # what is said of each
     "deflated_twice": "'x_max' passes through filter 1",
     "compact": "'x_max' is stored compactly",
     "texts": NO_NUMBERS,
+    "number_words": NO_TEXTS,
+    "fixed_words": NO_TEXTS,
     "references": NO_NUMBERS,
     "name": "'a\\x1b]0;title\\x07\\x1b[2J\\xe2\\x80\\xae\\xc2\\x9b\\x0aclatter: all is well' is a group",
     "hidden": "its list of variables is damaged",

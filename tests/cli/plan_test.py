@@ -110,6 +110,12 @@ class Plan(CommandLine):
         reasons = {e["effect"]: e["why"] for e in plan["groups"][1]["effects"]}
         self.assertIn("isn't known yet", reasons["lower stop"])
 
+    def test_both_directions_are_twice_the_points(self):
+        for direction, points in (("down", 5), ("both", 10)):
+            plan = self.plan(SMALL, "--set", "sweep.follow=nu", "--set", f"sweep.direction={direction}")
+            self.assertEqual((plan["points"], plan["direction"]), (points, direction))
+            self.assertEqual([group["points"] for group in plan["groups"]], [1, points - 1])
+
     def test_savings_are_those_of_the_ladder(self):
         """The guide of model has the ladder: for each effect that is left out, the share of time with it kept in."""
         guide = (SOURCE / "src" / "model" / "README.md").read_text(encoding="utf-8")

@@ -56,7 +56,9 @@ class Readers(RunTest):
                     self.assertEqual(found, variables)
         with self.subTest(reader="netCDF4"), netCDF4.Dataset(path) as data:
             self.assertEqual({name: len(dimension) for name, dimension in data.dimensions.items()}, dimensions)
-            found = {name: (data[name].dimensions, str(data[name].dtype)) for name in data.variables}
+            kinds = {name: data[name].dtype for name in data.variables}
+            kinds = {name: "object" if kind is str else str(kind) for name, kind in kinds.items()}
+            found = {name: (data[name].dimensions, kinds[name]) for name in data.variables}
             self.assertEqual(found, variables)
         with self.subTest(reader="h5py"):
             self.assert_hdf5(path, dimensions, variables)
@@ -81,12 +83,29 @@ class Readers(RunTest):
                     self.assertTrue(numpy.isnan(dataset.fillvalue))
 
     def assert_ncdump(self, path, variables):
-        kinds = {"float64": "double", "uint8": "ubyte", "int8": "byte", "int64": "int64"}
+        kinds = {"float64": "double", "uint8": "ubyte", "int8": "byte", "int64": "int64", "object": "string"}
         done = subprocess.run(["ncdump", "-h", path], capture_output=True, text=True, check=True, timeout=60)
         self.assertEqual(done.stderr, "")
         for name, (names, kind) in variables.items():
             shape = f"({', '.join(names)})" if names else ""
             self.assertIn(f"\t{kinds[kind]} {name}{shape} ;\n", done.stdout)
+
+    def test_words(self):
+        config = toml(sweep={"nu": [0.3, 0.9], "xs": [-0.5, -9.0]}, observe={"word": True})
+        path = self.run_clatter(config)
+        axes = {"nu": (("nu",), "float64"), "xs": (("xs",), "float64")}
+        results = {**ALWAYS, "impact_word": "object", "regime": "object", "symmetric": "float64"}
+        over = {name: (("nu", "xs"), kind) for name, kind in results.items()}
+        self.assert_contents(path, {"nu": 2, "xs": 2}, {**axes, **over})
+        words, regimes = [["L*U*", ""], ["LU", ""]], [["inf/1", "0/1"], ["1/1", "0/1"]]
+        for engine in ("h5netcdf", "netcdf4"):
+            with xarray.open_dataset(path, engine=engine) as data:
+                self.assertEqual(data["impact_word"].values.tolist(), words)
+                self.assertEqual(data["regime"].values.tolist(), regimes)
+        with h5py.File(path) as file:
+            self.assertEqual(file["impact_word"].asstr()[()].tolist(), words)
+        done = subprocess.run(["ncdump", "-v", "regime", path], capture_output=True, text=True, check=True)
+        self.assertIn('"inf/1", "0/1",\n  "1/1", "0/1" ;', done.stdout)
 
     def test_one_axis(self):
         config = toml(
@@ -294,14 +313,15 @@ class Readers(RunTest):
                     sweep = tomllib.loads(file.attrs["config"]).get("sweep", {})
                 linked = [key.strip() for key in sweep.pop("linked", "").split(",")]
                 sweep.pop("follow", None)
-                axes = [key for key in sweep if key not in linked[1:]]
+                both = ["direction"] if sweep.pop("direction", "up") == "both" else []
+                axes = both + [key for key in sweep if key not in linked[1:]]
                 for engine in ("h5netcdf", "netcdf4"):
                     with xarray.open_dataset(path, engine=engine) as data:
                         self.assertEqual(list(data.status.dims), axes)
                         self.assertTrue(set(sweep) <= set(data.variables))
                 header = subprocess.run(["ncdump", "-h", path], capture_output=True, text=True, check=True).stdout
                 for axis in axes:
-                    self.assertIn(f"double {axis}({axis}) ;", header)
+                    self.assertIn(f"{'byte' if axis == 'direction' else 'double'} {axis}({axis}) ;", header)
 
     def test_the_configuration_inside_gives_the_same_file(self):
         path = self.run_clatter(SOURCE / "configs" / "fig16.toml")

@@ -214,6 +214,7 @@ esac
             stability=put("status", 7, 1),
             follow_down=lambda file: file["x_max"].attrs.__setitem__("units", "m"),
             fig12=put("v_phase", (7, 1), phase + 1e-6),
+            regimes=put("impact_word", (100, 0), "LLLUU"),
             transient=lambda file: file["sample"].attrs.__setitem__("more", 1),
             asymmetric=lambda file: file.create_group("more"),
         )
@@ -231,6 +232,7 @@ esac
             stability="status at 1 of 501",
             follow_down="attributes of x_max",
             fig12="v_phase at 1 of 2364",
+            regimes="impact_word at 1 of 8181",
             transient="h5diff finds what isn't seen here",
             asymmetric="'more' is no dataset, which clatter doesn't write",
             fig02="can't be read",

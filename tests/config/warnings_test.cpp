@@ -119,9 +119,15 @@ TEST(Observing, nothing_is_warned_of_unless_every_observable_is_written_as_off) 
   expect_warning("[scene]\nxs = 1\n[observe]\nextrema = false\n", "3:2", "write e.g. extrema = true in [observe]");
   const std::string off =
       "[scene]\nxs = 1\n[observe]\nextrema = false\nharmonics = 0\nimpacts = false\nimpact_log = false\n"
-      "trajectory = 0\nsection = 0\nperiod = false\nstability = false\n";
+      "trajectory = 0\nsection = 0\nword = false\nperiod = false\nstability = false\n";
   expect_warning(off, "3:2", "nothing is observed");
   expect_none(off + "energy = false\n");
+}
+
+TEST(Following, a_direction_of_nothing_is_warned_of) {
+  const std::string sweep = observing(scene + "[sweep]\nnu = [0.8, 0.9]\ndirection = \"down\"\n");
+  expect_warning(sweep, "6:1", "'direction' has no effect without follow; leave it out, or name an axis in follow");
+  expect_none(observing(scene + "[sweep]\nnu = [0.8, 0.9]\nfollow = \"nu\"\ndirection = \"down\"\n"));
 }
 
 TEST(Observing, a_phase_of_a_section_without_one_is_warned_of) {

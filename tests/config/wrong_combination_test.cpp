@@ -84,6 +84,7 @@ TEST(Together, linked_and_follow_name_axes) {
       {both + "follow = \"nuu\"\n", "5:10", "follow names 'nuu', which is no axis of [sweep]; did you mean 'nu'?"},
       {both + "follow = \"xs\"\n", "5:10", "follow names 'xs', which is no axis of [sweep]"},
       {"[scene]\nxs = 1\n[sweep]\nfollow = \"nu\"\n", "4:10", "[sweep] has no axes"},
+      {both + "follow = \"nu\"\ndirection = \"back\"\n", "6:13", "expected one of up, down, both"},
   };
   expect_all("a.toml", table);
   expect_all("a.ini", table);

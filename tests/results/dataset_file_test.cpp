@@ -12,6 +12,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "results/shard_file.hpp"
 #include "storage/error.hpp"
 #include "support/lookup3.hpp"
 #include "support/temporary_directory.hpp"
@@ -159,6 +160,31 @@ TEST_F(DatasetFile, a_configuration_may_be_long) {
   config.text = std::string(300'000, '#');  // an object header holds at most 64 KiB
   const FileSummary summary = read_summary(write("long.h5", bytes_of(sweep(5, 7), config)));
   EXPECT_TRUE(summary.attributes[6].second == config.text);  // not EXPECT_EQ, which would print both
+}
+
+/// Words over nu and R: empty ones, letters beyond ASCII, and one of this many bytes.
+sweep::Dataset words(std::size_t longest) {
+  return {{{"nu", 2}, {"R", 2}},
+          {{"impact_word",
+            {"nu", "R"},
+            std::vector<std::string>{"LU", "", "L*U…", std::string(longest, 'U')},
+            "impacts of one period",
+            "1"}}};
+}
+
+constexpr std::size_t longest = 255;  // bytes of a text
+
+TEST_F(DatasetFile, texts_come_back_as_they_were) {
+  const sweep::Dataset dataset = words(longest);
+  const std::string path = write("words.h5", bytes_of(dataset, configuration()));
+  EXPECT_EQ(read_shard(path).variables[0].values, dataset.variables[0].values);
+  EXPECT_EQ(read_summary(path).variables[0].type, "string");
+  EXPECT_EQ(bytes_of(dataset, configuration()), bytes_of(dataset, configuration()));
+}
+
+TEST_F(DatasetFile, texts_that_are_longer_than_any_of_clatter_are_refused) {
+  const std::string path = write("long.h5", bytes_of(words(longest + 1), configuration()));
+  EXPECT_THROW(static_cast<void>(read_shard(path)), storage::IoError);
 }
 
 TEST_F(DatasetFile, large_arrays_are_deflated_and_small_ones_are_not) {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstring>
 #include <stdexcept>
+#include <type_traits>
 
 #include "sweep/run.hpp"
 
@@ -38,7 +39,7 @@ inline std::vector<std::uint8_t> statuses(const Dataset& figure) {
 
 /// A sweep whose axes cross.
 inline Sweep sweep_of(const point::Problem& scene, std::vector<Axis> axes) {
-  Sweep sweep{.problem = scene, .dimensions = {}, .follow = {}};
+  Sweep sweep{.problem = scene};
   for (Axis& axis : axes) sweep.dimensions.push_back({std::move(axis)});
   return sweep;
 }
@@ -52,7 +53,10 @@ inline void expect_same(const Dataset& a, const Dataset& b) {
         [&](const auto& left) {
           const auto& right = std::get<std::decay_t<decltype(left)>>(b.variables[i].values);
           ASSERT_EQ(left.size(), right.size());
-          EXPECT_EQ(std::memcmp(left.data(), right.data(), left.size() * sizeof(left[0])), 0) << a.variables[i].name;
+          if constexpr (std::is_same_v<decltype(left), const std::vector<std::string>&>)
+            EXPECT_EQ(left, right) << a.variables[i].name;
+          else
+            EXPECT_EQ(std::memcmp(left.data(), right.data(), left.size() * sizeof(left[0])), 0) << a.variables[i].name;
         },
         a.variables[i].values);
   }

@@ -92,6 +92,39 @@ TEST(Run, follow_stays_on_its_branch_upwards_and_downwards) {
   EXPECT_LT(values(falling, "x_max")[0], 1.0);
 }
 
+TEST(Run, follow_downwards_and_both_ways_is_that_along_the_values_in_their_order) {
+  point::Problem scene = paper_scene(4.0, 1.0);  // two branches between folds
+  scene.observe.extrema = true, scene.observe.section = 1;
+  const Axis R{Parameter::R, {0.6, 0.7}};
+  Axis nu{Parameter::nu, {}}, there_and_back;
+  for (int i = 0; i <= 50; ++i) nu.values.push_back(0.8 + 0.01 * i);
+  there_and_back = nu;
+  there_and_back.values.insert(there_and_back.values.end(), nu.values.rbegin(), nu.values.rend());
+  const auto followed = [&](const Axis& axis, Direction direction) {
+    Sweep sweep = sweep_of(scene, {R, axis});
+    sweep.follow = 1, sweep.direction = direction;
+    return run(sweep, {.threads = 2}).dataset;
+  };
+  const Dataset wanted = followed(there_and_back, Direction::up), both = followed(nu, Direction::both);
+  Axis falling = nu;
+  std::ranges::reverse(falling.values);
+  const Dataset down = followed(nu, Direction::down), reversed = followed(falling, Direction::up);
+  ASSERT_EQ(find(both, "x_max")->dimensions, (std::vector<std::string>{"direction", "R", "nu"}));
+  EXPECT_EQ(std::get<std::vector<std::int8_t>>(find(both, "direction")->values), (std::vector<std::int8_t>{1, -1}));
+  const std::size_t n = nu.values.size();
+  std::size_t apart = 0;
+  for (const char* name : {"x_max", "section_v"})
+    for (std::size_t r = 0; r < 2; ++r)
+      for (std::size_t i = 0; i < n; ++i) {
+        const double up = values(both, name)[r * n + i], back = values(both, name)[(2 + r) * n + i];
+        EXPECT_EQ(up, values(wanted, name)[2 * r * n + i]);
+        EXPECT_EQ(back, values(wanted, name)[2 * r * n + 2 * n - 1 - i]);
+        EXPECT_EQ(values(down, name)[r * n + i], values(reversed, name)[r * n + n - 1 - i]);
+        apart += std::abs(up - back) > 0.1;
+      }
+  EXPECT_GT(apart, 4u);
+}
+
 TEST(Run, follow_moves_a_state_outside_narrower_stops_onto_the_stop) {
   point::Problem scene = paper_scene(3.0, 1.0);
   scene.time.mode = steady::Mode::transient;

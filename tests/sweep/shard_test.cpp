@@ -18,8 +18,14 @@ namespace {
 
 using Bytes = std::vector<std::byte>;
 
+/// How the points of a sweep start from each other.
+struct Order {
+  std::optional<std::size_t> follow{};
+  Direction direction = Direction::up;
+};
+
 /// 30 points of every kind: periodic, aperiodic, with chatter and with no impact at all; each observable.
-Sweep any_sweep(std::optional<std::size_t> follow = {}) {
+Sweep any_sweep(const Order& order = {}) {
   point::Problem scene = paper_scene(0.5, 1.0);
   scene.time.max_periods = 300;
   scene.observe = {};
@@ -29,11 +35,12 @@ Sweep any_sweep(std::optional<std::size_t> follow = {}) {
   scene.observe.impacts = true;
   scene.observe.impact_log = true;
   scene.observe.trajectory = 5;
+  scene.observe.word = true;
   scene.observe.period = true;
   scene.observe.stability = true;
   Sweep sweep = sweep_of(
       scene, {{Parameter::f, {-1, 2}}, {Parameter::nu, {0.5, 0.7, 0.9, 1.1, 1.3}}, {Parameter::R, {0, 0.5, 0.9}}});
-  sweep.follow = follow;
+  sweep.follow = order.follow, sweep.direction = order.direction;
   return sweep;
 }
 
@@ -50,7 +57,8 @@ std::vector<Bytes> saved(SweepRun& run) {
   return pieces;
 }
 
-const std::vector<std::optional<std::size_t>> every_follow{std::nullopt, 0, 1, 2};
+const std::vector<Order> every_order{
+    {}, {0}, {1}, {2}, {1, Direction::down}, {0, Direction::both}, {1, Direction::both}, {2, Direction::both}};
 
 TEST(Shard, is_named_by_number_and_count) {
   EXPECT_EQ(shard_named("0/1"), (Shard{0, 1}));
@@ -62,8 +70,8 @@ TEST(Shard, is_named_by_number_and_count) {
 }
 
 TEST(Shard, has_each_point_once_in_ascending_order_and_whole_branches) {
-  for (const auto& follow : every_follow) {
-    const Sweep sweep = any_sweep(follow);
+  for (const Order& order : every_order) {
+    const Sweep sweep = any_sweep(order);
     const Branches branches(sweep);
     for (std::size_t of = 1; of <= 33; ++of) {
       std::vector<int> owners(size(sweep), 0);
@@ -85,8 +93,8 @@ TEST(Shard, has_each_point_once_in_ascending_order_and_whole_branches) {
 }
 
 TEST(Shard, figures_make_that_of_the_whole_sweep_bit_for_bit) {
-  for (const auto& follow : every_follow) {
-    const Sweep sweep = any_sweep(follow);
+  for (const Order& order : every_order) {
+    const Sweep sweep = any_sweep(order);
     const Dataset whole = run(sweep, {.threads = 1}).dataset;
     for (const std::size_t of : {1U, 2U, 3U, 7U, 40U}) {
       ResultStore columns(sweep);
@@ -133,7 +141,7 @@ TEST(Shard, figure_of_another_one_is_refused) {
 
 TEST(Shard, takes_memory_by_its_points) {
   Sweep sweep = any_sweep();
-  sweep.problem.observe.impact_log = false;
+  sweep.problem.observe.impact_log = sweep.problem.observe.word = false;  // neither has one size for every point
   for (const Shard shard : {Shard{0, 4}, Shard{3, 4}, Shard{35, 40}}) {
     double bytes = 0;
     for (const Variable& variable : shard_figure(sweep, shard).variables)
@@ -144,8 +152,8 @@ TEST(Shard, takes_memory_by_its_points) {
 }
 
 TEST(SavedRun, goes_on_from_whatever_was_saved_to_the_same_bits) {
-  for (const auto& follow : {every_follow[0], every_follow[2]}) {
-    Sweep sweep = any_sweep(follow);
+  for (const Order& order : {every_order[0], every_order[2], every_order[6]}) {
+    Sweep sweep = any_sweep(order);
     sweep.dimensions[1][0].values.resize(2);  // every length of what was saved is tried
     const Dataset whole = run(sweep, {.threads = 2}).dataset;
     SweepRun first(sweep);
@@ -191,9 +199,9 @@ TEST(SavedRun, refuses_results_that_are_not_its_own) {
 }
 
 TEST(SavedRun, may_be_saved_while_it_is_at_work) {
-  Sweep alone = any_sweep(2);  // branches of one point
+  Sweep alone = any_sweep({2});  // branches of one point
   alone.dimensions[2][0].values.resize(1);
-  for (const Sweep& sweep : {any_sweep(), any_sweep(1), alone}) {
+  for (const Sweep& sweep : {any_sweep(), any_sweep({1}), alone}) {
     const Dataset whole = run(sweep, {.threads = 1}).dataset;
     for (int round = 0; round < 10; ++round) {
       std::vector<Bytes> pieces;

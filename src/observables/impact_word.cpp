@@ -1,0 +1,122 @@
+#include "observables/impact_word.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string_view>
+
+namespace clatter::observables {
+namespace {
+
+using Contact = ImpactWord::Contact;
+
+/// The letters of a word in the order in which texts of them sort.
+enum class Letter : unsigned char { lower_ending_in_rest, lower, upper_ending_in_rest, upper };
+constexpr std::array<std::string_view, 4> letter_texts{"L*", "L", "U*", "U"};
+constexpr std::string_view cut = "…";
+
+/// The letters of one period. They begin after a rest, if there is one, so that no series of impacts that ends in rest
+/// is cut in two.
+std::vector<Letter> letters_of(std::vector<Contact> contacts) {
+  const auto last_rest =
+      std::find_if(contacts.rbegin(), contacts.rend(), [](const Contact& c) { return c.before == 0; });
+  std::rotate(contacts.begin(), last_rest == contacts.rend() ? contacts.begin() : last_rest.base(), contacts.end());
+  std::vector<Letter> letters;
+  for (const Contact& contact : contacts) {
+    const bool upper = contact.side == Side::upper;
+    const Letter impact = upper ? Letter::upper : Letter::lower;
+    if (contact.before != 0) {
+      letters.push_back(impact);
+    } else if (!letters.empty() && letters.back() == impact) {  // else a rest that goes on
+      while (!letters.empty() && letters.back() == impact) letters.pop_back();
+      letters.push_back(upper ? Letter::upper_ending_in_rest : Letter::lower_ending_in_rest);
+    }
+  }
+  return letters;
+}
+
+/// Where the rotation begins that sorts first. Of two candidates that have some items in common, the one that is
+/// greater after them is given up, and with it every rotation that begins among them.
+template <class T>
+std::size_t first_rotation(const std::vector<T>& items) {
+  const std::size_t count = items.size();
+  std::size_t one = 0, other = 1, same = 0;  // the candidates, and how many items they have in common
+  while (one < count && other < count && same < count) {
+    const T &a = items[(one + same) % count], &b = items[(other + same) % count];
+    if (a == b) {
+      ++same;
+      continue;
+    }
+    (a > b ? one : other) += same + 1;
+    if (one == other) ++other;
+    same = 0;
+  }
+  return std::min(one, other);
+}
+
+bool is_symmetric(const Scene& scene) {
+  const Stops& stops = scene.stops;
+  const bool bounded = std::isfinite(stops.upper);
+  return stops.lower == -stops.upper && (!bounded || stops.restitution_lower == stops.restitution_upper) &&
+         scene.oscillator.load == 0;
+}
+
+}  // namespace
+
+std::vector<Column<ImpactWord::Values>> ImpactWord::columns(const Settings&) {
+  return {text("impact_word", "impacts of one period in order, L: lower stop, U: upper stop, *: until at rest",
+               &Values::impact_word, longest + cut.size()),
+          text("regime", "impacts on the stop with more of them / forcing periods", &Values::regime, 40),
+          scalar("symmetric", "1: half a period later the motion is its mirror image", &Values::symmetric)};
+}
+
+std::string ImpactWord::word_of(const std::vector<Contact>& contacts) {
+  std::vector<Letter> letters = letters_of(contacts);
+  std::ranges::rotate(letters, letters.begin() + static_cast<std::ptrdiff_t>(first_rotation(letters)));
+  std::string word;
+  for (const Letter letter : letters) {
+    const std::string_view more = letter_texts[static_cast<std::size_t>(letter)];
+    if (word.size() + more.size() > longest) return word += cut;
+    word += more;
+  }
+  return word;
+}
+
+std::string ImpactWord::regime_of(const std::vector<Contact>& contacts, double periods) {
+  std::array<std::size_t, 4> counts{};
+  for (const Letter letter : letters_of(contacts)) ++counts[static_cast<std::size_t>(letter)];
+  const auto count = [&](Letter letter) { return counts[static_cast<std::size_t>(letter)]; };
+  const bool rests = count(Letter::lower_ending_in_rest) + count(Letter::upper_ending_in_rest) > 0;
+  const std::size_t most = std::max(count(Letter::lower), count(Letter::upper));
+  return (rests ? "inf" : std::to_string(most)) + '/' + std::to_string(std::llround(periods));
+}
+
+/// The whole motion follows from the state after one impact: it is its own mirror image if the mirror image of that
+/// impact comes half a period later. The force has turned into its mirror image by then if the period is an odd number
+/// of its own.
+bool ImpactWord::is_mirrored(const ObservedSpan& span, double x, double v) const {
+  if (is_response_) return true;
+  if (span.scene.oscillator.forcing != 0 && std::llround(span.turns) % 2 == 0) return false;
+  const auto slower = [](const Contact& a, const Contact& b) { return std::abs(a.before) < std::abs(b.before); };
+  const auto fastest = std::ranges::max_element(contacts_, slower);
+  if (fastest == contacts_.end() || fastest->before == 0) {
+    const PhasePoint later = halfway_.value_or(PhasePoint{x, v});  // it stands still
+    return std::abs(x + later.x) + std::abs(v + later.v) <= same * (std::abs(x) + std::abs(v));
+  }
+  return std::ranges::any_of(contacts_, [&](const Contact& other) {
+    const double late = std::remainder(other.time - fastest->time - span.total / 2, span.total);
+    return other.side != fastest->side && std::abs(late) <= same * span.total &&
+           std::abs(other.before + fastest->before) <= same * std::abs(fastest->before);
+  });
+}
+
+ImpactWord::Values ImpactWord::finish(const ObservedSpan& span, double x, double v) const {
+  Values values;
+  if (!span.periodic) return values;
+  values.impact_word = word_of(contacts_);
+  if (span.scene.oscillator.forcing != 0) values.regime = regime_of(contacts_, span.turns);
+  if (is_symmetric(span.scene)) values.symmetric = is_mirrored(span, x, v) ? 1.0 : 0.0;
+  return values;
+}
+
+}  // namespace clatter::observables

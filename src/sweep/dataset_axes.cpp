@@ -1,0 +1,90 @@
+#include "sweep/dataset_axes.hpp"
+
+#include <algorithm>
+#include <span>
+
+namespace clatter::sweep {
+namespace {
+
+constexpr const char* direction = "direction";  ///< the dimension of two directions
+
+const char* long_name_of(Parameter parameter) {
+  switch (parameter) {
+    case Parameter::h:
+      return "damping ratio";
+    case Parameter::f:
+      return "force amplitude over stiffness";
+    case Parameter::nu:
+      return "excitation over natural frequency";
+    case Parameter::phase:
+      return "forcing phase at tau = 0";
+    case Parameter::R:
+      return "restitution of velocity";
+    case Parameter::xs:
+      return "place of the symmetric stops";
+    case Parameter::stop_lower:
+      return "place of the lower stop";
+    case Parameter::stop_upper:
+      return "place of the upper stop";
+    case Parameter::R_lower:
+      return "restitution of the lower stop";
+    case Parameter::R_upper:
+      return "restitution of the upper stop";
+    case Parameter::load:
+      return "constant force over stiffness";
+    case Parameter::x0:
+      return "displacement at tau = 0";
+    case Parameter::v0:
+      return "velocity at tau = 0";
+    case Parameter::start_period:
+      return "period of the free vibration that the start lies on";
+  }
+  return "";
+}
+
+}  // namespace
+
+void add_axes(const Sweep& sweep, Dataset& dataset) {
+  if (sweep.direction == Direction::both) {
+    dataset.dimensions.push_back({direction, 2});
+    dataset.variables.push_back({direction,
+                                 {direction},
+                                 std::vector<std::int8_t>{1, -1},
+                                 "+1: in the order of the followed axis, -1: back from its end",
+                                 "1"});
+  }
+  for (const Dimension& dimension : sweep.dimensions) {
+    dataset.dimensions.push_back({std::string(name_of(dimension)), length(dimension)});
+    for (const Axis& axis : dimension)
+      dataset.variables.push_back({std::string(key_of(axis.parameter)),
+                                   {std::string(name_of(dimension))},
+                                   axis.values,
+                                   long_name_of(axis.parameter),
+                                   axis.parameter == Parameter::phase ? "rad" : "1"});
+  }
+}
+
+void name_linked_axes(const Sweep& sweep, Dataset& dataset) {
+  std::vector<std::string> axes;
+  for (const Dimension& dimension : sweep.dimensions)
+    for (const Axis& axis : dimension) axes.emplace_back(key_of(axis.parameter));
+  for (Variable& variable : dataset.variables) {
+    if (std::ranges::find(axes, variable.name) != axes.end()) continue;
+    std::string linked;
+    for (const Dimension& dimension : sweep.dimensions) {
+      if (std::ranges::find(variable.dimensions, name_of(dimension)) == variable.dimensions.end()) continue;
+      for (const Axis& axis : std::span(dimension).subspan(1))
+        linked.append(linked.empty() ? "" : " ").append(key_of(axis.parameter));
+    }
+    if (!linked.empty()) variable.attributes.emplace_back("coordinates", linked);
+  }
+}
+
+std::vector<std::string> axis_names(const Sweep& sweep) {
+  std::vector<std::string> names;
+  if (sweep.direction == Direction::both) names.emplace_back(direction);
+  for (const Dimension& dimension : sweep.dimensions) names.emplace_back(name_of(dimension));
+  return names;
+}
+
+}  // namespace clatter::sweep
