@@ -155,7 +155,8 @@ def texts_in(dataset, place, at_once):
     for part in parts:
         more = np.ravel(dataset.asstr()[part]).tolist()
         if any(len(text) > LONGEST_TEXT for text in more):
-            raise ValueError(f"{dataset.name} holds a text of more than {LONGEST_TEXT} characters")
+            text = f"{dataset.name} holds a text of more than {LONGEST_TEXT} characters"
+            raise damaged(dataset.file.filename, text)
         texts += more
     return texts
 

@@ -1,12 +1,9 @@
 #!/usr/bin/python3
-"""Draws any output of clatter by what it contains: curves, time histories, phase planes, impacts, harmonics, maps, and
-what accuracy costs in time."""
+"""Draws outputs of clatter by what they hold; --help says more."""
 
-import argparse
 import logging
 import sys
 import warnings
-from itertools import takewhile
 from pathlib import Path
 
 if not sys.warnoptions:  # warnings of numpy and matplotlib are for those who work on this program
@@ -17,73 +14,91 @@ try:
     import plot_style
     from matplotlib import pyplot
     from plot_accuracy import accuracy_figure
+    from plot_bifurcation import keep_words_with_room
+    from plot_choice import ChoiceProblem, members_of, results_named, together
     from plot_data import FileProblem, Output
     from plot_figures import paper_figure
     from plot_generic import generic_figure
+    from plot_options import command_line
 except ImportError as error:
     sys.exit(f"plot.py: {error}; install python3-h5py and python3-matplotlib (Debian), or h5py and matplotlib (pip)")
 
 BAD_COMMAND, BAD_FILE = 2, 74  # exit codes, clatter's
 DATELESS = {"svg": {"Date": None}, "pdf": {"CreationDate": None}, "png": {}}  # the same bytes on every run
+ENCODING = {"png": {"pil_kwargs": {"compress_level": 4}}}  # nearly as small as at 6, sooner
+RASTER = {"svg": 150, "pdf": 200, "png": 200}  # dots per inch of what is drawn as an image
 
 
-def command_line():
-    parser = argparse.ArgumentParser(
-        usage="plot.py [-o DIR] [--format svg|png|pdf...] FILE.h5...",
-        description=__doc__,
-        allow_abbrev=False,
-        epilog="Exit codes: 0 done, 2 wrong command line, 74 a file cannot be read or written.",
-    )
-    parser.add_argument("files", nargs="*", metavar="FILE.h5", help="output of 'clatter run' or 'clatter accuracy'")
-    parser.add_argument("-o", "--output", metavar="DIR", help="folder for the pictures; default: beside each file")
-    parser.add_argument(
-        "--format",
-        nargs="+",
-        default=["svg", "png"],
-        metavar="svg|png|pdf",
-        help="one or more formats; default: svg png",
-    )
-    options = parser.parse_intermixed_args()
-    end_formats(parser, options)
-    if not options.files:
-        parser.error("no FILE.h5")
-    return options
+def pictures(options):
+    """(stem of the name, figure) for each picture, drawn one at a time."""
+    outputs = (Output(path) for path in options.files)
+    shared = shared_members(options)
+    if shared:
+        yield "+".join(Path(path).stem for path in options.files), figure_of(shared, options)
+        return
+    for path, output in zip(options.files, outputs):
+        yield Path(path).stem, single_figure(output, options)
 
 
-def end_formats(parser, options):
-    """Takes what follows the formats for files, if it looks like one: argparse takes all of it for formats."""
-    words = options.format
-    options.format = list(takewhile(DATELESS.__contains__, words))
-    rest = words[len(options.format) :]
-    for word in rest:
-        if not options.format or not Path(word).suffix and not Path(word).exists():
-            parser.error(f"argument --format: '{word}' is none of {', '.join(sorted(DATELESS))}")
-    options.files += rest
+def shared_members(options):
+    """What all files together draw in one picture, if they can share one."""
+    if len(options.files) < 2:
+        return None
+    parts = []
+    for path in options.files:
+        output = Output(path)
+        if output.is_accuracy or output.figure:
+            return None
+        members = members_of(output, options.along, options.over, options.at)
+        if len(members) > 1 or len(members[0].output.axes) != 1:
+            return None
+        parts.append(members[0].output)
+    return together(parts)
 
 
-def draw(path, folder, formats):
-    """Draws one file and returns the pictures' names."""
-    figure = figure_of(Output(path))
-    folder = Path(folder) if folder else Path(path).parent
-    pictures = []
-    for kind in dict.fromkeys(formats):
-        picture = folder / f"{Path(path).stem}.{kind}"
-        try:
-            figure.savefig(picture, metadata=DATELESS[kind])
-        except OSError as error:
-            raise FileProblem(f"{picture}: cannot be written ({error.strerror}); name another folder with -o") from None
-        pictures.append(str(picture))
-    pyplot.close(figure)
-    return pictures
-
-
-def figure_of(output):
-    """The figure, with its heading, that suits what the file contains."""
+def single_figure(output, options):
     if output.is_accuracy:
         return accuracy_figure(output)
-    figure = (paper_figure(output) or generic_figure)(output)
-    plot_style.heading(figure, output)
+    chosen = options.only or options.along or options.over or options.at
+    draw = None if chosen else paper_figure(output)
+    if draw is None:
+        return figure_of(members_of(output, options.along, options.over, options.at), options)
+    figure = draw(output)
+    plot_style.heading(figure, output, options.title)
+    return finished(figure, options)
+
+
+def figure_of(members, options):
+    figure = generic_figure(members, results_named(members, options.only), options)
+    plot_style.heading(figure, members[0].output, options.title, [member.output for member in members])
+    return finished(figure, options)
+
+
+def finished(figure, options):
+    """Sets what the options say of every panel, and the layout once for all formats."""
+    for axes in figure.axes:
+        if axes.get_label() != "<colorbar>":
+            plot_style.set_view(axes, options)
+    if options.size:
+        figure.set_size_inches(options.size)
+    figure.get_layout_engine().execute(figure)
+    figure.set_layout_engine("none")
+    keep_words_with_room(figure)
     return figure
+
+
+def save(figure, folder, stem, formats):
+    """Writes a picture in each format and returns their names."""
+    names = []
+    for kind in dict.fromkeys(formats):
+        name = folder / f"{stem}.{kind}"
+        try:
+            figure.savefig(name, metadata=DATELESS[kind], dpi=RASTER[kind], **ENCODING.get(kind, {}))
+        except OSError as error:
+            raise FileProblem(f"{name}: cannot be written ({error.strerror}); name another folder with -o") from None
+        names.append(str(name))
+    pyplot.close(figure)
+    return names
 
 
 def main():
@@ -92,8 +107,13 @@ def main():
     try:
         if options.output:
             make_folder(options.output)
-        for path in options.files:
-            print("\n".join(draw(path, options.output, options.format)))
+        places = iter(options.files)
+        for stem, figure in pictures(options):
+            folder = Path(options.output) if options.output else Path(next(places)).parent
+            print("\n".join(save(figure, folder, stem, options.format)))
+    except ChoiceProblem as problem:
+        print(f"plot.py: {problem}", file=sys.stderr)
+        return BAD_COMMAND
     except FileProblem as problem:
         print(f"plot.py: {problem}", file=sys.stderr)
         return BAD_FILE

@@ -1,11 +1,15 @@
 """Panels of results over the only axis, with the status of the points, and those of a single point."""
 
+from itertools import product
+
 import numpy as np
 from matplotlib import ticker
 
 from plot_data import APERIODIC, FIRST_FAILURE
-from plot_style import BLUE, CYCLE, STOP, draw_walls, label, legend_above, number, set_axis
+from plot_scales import is_integer, shown_values
+from plot_style import BLUE, CYCLE, STOP, draw_walls, label, legend_above, number, set_axis, symbol
 
+MARGIN = 0.012  # of an axis beside its points
 DENSE = 60  # points from which a curve is drawn without markers
 
 
@@ -83,58 +87,74 @@ def draw_stops_along(axes, output, name):
     return None
 
 
-def curves(output, name, group, axes):
+def curves(members, group, axes):
     """One panel of related results over the only axis; `group` lists (variable, component or None, title)."""
-    first, shown, status = group[0][0], False, output.values("status")
-    many_periods = "period_ratio" in output and bool((output.values("period_ratio") > 1).any())
-    for place, (result, part, title) in enumerate(group):
-        values = output.values(result).astype(float)
+    output, first, name = members[0].output, group[0][0], members[0].output.axes[0]
+    several, shown = len(members) > 1, False
+    for place, (member, (result, part, title)) in enumerate(product(members, group)):
+        values, status = shown_values(member.output, result), member.output.values("status")
         values = values if part is None else values[:, part]
-        if result == "period_ratio":
-            values = np.where(values > 0, values, np.nan)
         shown = shown or bool(np.isfinite(values[status == APERIODIC]).any())
-        dots = result == "period_ratio" or result == "period" and many_periods
-        dashes = "none" if dots else (0, (4, 1.5)) if part is not None and place % 2 else "-"
+        member_title = member.title if (result, part, title) == group[0] else None
         draw_branch(
             axes,
-            output,
+            member.output,
             name,
             values,
-            CYCLE[place % len(CYCLE)],
-            title if len(group) > 1 else None,
-            ls=dashes,
-            **({"marker": ".", "ms": 3.0} if dots else {}),
+            CYCLE[(place // len(group) if several else place) % len(CYCLE)],
+            member_title if several else title if len(group) > 1 else None,
+            **line_style(members, len(group), result, part, place),
         )
-    set_axis(axes, output, name)
+    set_axis(axes, output, name, MARGIN)
     axes.margins(y=0.08)
-    if first in ("x_min", "x_max"):
+    if first in ("x_min", "x_max") and have_same_stops(members):
         draw_stops_along(axes, output, name)
-    name_statuses(axes, output, name, shown=shown)
-    axes.set_ylabel(common_label(output, [result for result, _, _ in group]))
+    for member in members:
+        name_statuses(axes, member.output, name, shown=shown)
+    axes.set_ylabel(common_label(output, group))
     if first == "period_ratio":
         axes.set_ylim(0.5, (axes.dataLim.y1 if np.isfinite(axes.dataLim.y1) else 1) + 0.5)  # none may have a period
-    if first in ("period_ratio", "impacts_per_period"):
+    if first == "impacts_per_period" or all(is_integer(shown_values(output, result)) for result, _, _ in group):
         axes.yaxis.set_major_locator(ticker.MaxNLocator(integer=True))
     if first == "rest_fraction":
         axes.set_ylim(-0.02, max(1.02 * axes.get_ylim()[1], 0.1))
-    if output.follow == name:
-        upwards = output.values(name)[-1] > output.values(name)[0]
-        axes.set_xlabel(f"{label(output, name)}, followed " + (r"$\rightarrow$" if upwards else r"$\leftarrow$"))
-    legend_above(axes, columns=4 if len(axes.get_legend_handles_labels()[0]) < 5 else 3)
+    if output.follow == name and not several:
+        rises = (output.values(name)[-1] > output.values(name)[0]) != output.goes_down
+        axes.set_xlabel(f"{label(output, name)}, followed " + (r"$\rightarrow$" if rises else r"$\leftarrow$"))
+    legend_above(axes, columns=3 if several or len(axes.get_legend_handles_labels()[0]) > 4 else 4)
 
 
-def common_label(output, names):
-    """The label of results that share a panel."""
-    first = names[0]
+def have_same_stops(members):
+    stops = [np.stack(member.output.stops()) for member in members]
+    return all(np.array_equal(other, stops[0]) for other in stops)
+
+
+def line_style(members, parts, result, part, place):
+    """Dots for periods, which jump; of two curves the first broad, since the second may cover it; dashes for the second
+    of two components."""
+    ratios = [member.output.values("period_ratio") for member in members if "period_ratio" in member.output]
+    many_periods = any((ratio > 1).any() for ratio in ratios)
+    if result == "period_ratio" or result == "period" and many_periods:
+        return {"ls": "none", "marker": ".", "ms": 3.0}
+    if len(members) == 2:
+        return {"lw": 2.4 if place < parts else 1.0}
+    return {"ls": (0, (4, 1.5)) if part is not None and place % 2 and len(members) == 1 else "-"}
+
+
+def common_label(output, group):
+    """The label of the results that share a panel."""
+    names, first = {result for result, _, _ in group}, group[0][0]
     if first in ("x_min", "x_max"):
         return r"displacement $x$"
     if first in ("v_min", "v_max"):
         return "velocity $x$\N{PRIME}"
-    if set(names) == {"v_before", "v_after"}:
+    if names == {"v_before", "v_after"}:
         return "velocity at impact $x$\N{PRIME}"
-    if set(names) == {"work_in", "loss_damping"}:
+    if names == {"work_in", "loss_damping"}:
         return "energy in the observed time"
-    return label(output, first)
+    title = group[0][2]
+    is_part = len(group) == 1 and group[0][1] is not None
+    return f"{label(output, first)}\n{title.removeprefix(symbol(first)).strip()}" if is_part else label(output, first)
 
 
 def spectrum(output, name, axes):

@@ -4,11 +4,13 @@ from math import ceil
 
 import numpy as np
 
+from plot_bifurcation import impact_diagram, poincare, section_diagram
 from plot_curves import curves, scalars, spectrum
-from plot_data import APERIODIC, FIRST_FAILURE
-from plot_maps import kind_map, value_map
-from plot_motion import chosen_points, impact_cloud, impact_log, phase_plane, time_history
-from plot_style import label, legend_above, new_figure, number, symbol
+from plot_data import FIRST_FAILURE
+from plot_maps import Grid, kind_map, regime_map, value_map
+from plot_motion import chosen_points, impact_log, phase_plane, time_history
+from plot_scales import constant_value, is_constant, largest, shown_values
+from plot_style import caption_below, label, legend_above, new_figure, number, symbol
 
 BOOKKEEPING = (
     "status",
@@ -26,12 +28,14 @@ TOGETHER = (
     ("work_in", "loss_damping"),
 )  # results that share a panel
 RECORDS = ("tau", "x", "v")
+TEXTS = ("impact_word", "regime")
 MAP_LIMIT = 4  # components of one variable (harmonics, stops) that maps show
 ORDER = (
     "x_min",
     "x_max",
     "v_min",
     "v_max",
+    "symmetric",
     "period_ratio",
     "period",
     "eigenfrequency",
@@ -55,23 +59,48 @@ ORDER = (
 )
 
 
-def generic_figure(output):
-    """A figure with every panel that the output gives something to."""
-    panels = motion_panels(output) + {0: point_panels, 1: curve_panels}.get(len(output.axes), map_panels)(output)
+def generic_figure(members, only, options):
+    """A figure with every panel that the outputs give something to, and a caption for what needs none. A map has one
+    member, curves over one axis any number of them; `only` names the results that are drawn, or is empty."""
+    output, caption = members[0].output, []
+
+    def drawn(*names):
+        return not only or any(name in only for name in names)
+
+    panels = motion_panels(output, drawn) if len(members) == 1 else []
+    if len(output.axes) == 0:
+        panels += point_panels(output, drawn)
+    elif len(output.axes) == 1:
+        panels += curve_panels(members, drawn, caption)
+    else:
+        grid = Grid(output, output.axes, (options.xlim, options.ylim), options.log)
+        panels += map_panels(output, grid, drawn, caption)
     columns = min(len(panels), 3 if len(panels) > 8 else 2)
     rows = ceil(len(panels) / columns)
     width = 4.6 if columns == 1 else 3.5 * columns
     figure = new_figure(0.5 + (2.5 if columns > 1 else 3.2) * rows, width)
     for place, draw in enumerate(panels):
-        draw(figure, figure.add_subplot(rows, columns, place + 1))
-    if len(output.axes) > 1:
-        figure.supxlabel(map_note(output), fontsize=10)
+        axes = figure.add_subplot(rows, columns, place + 1)
+        caption += draw(figure, axes) or []
+        if len(output.axes) > 1:
+            label_outside(axes, is_first=place % columns == 0, is_last=place + columns >= len(panels))
+    caption_below(figure, caption)
     return figure
 
 
-def motion_panels(output):
+def label_outside(axes, is_first, is_last):
+    """Leaves labels and numbers to the first panel of a row and the last of a column: all have the same axes."""
+    if not is_first:
+        axes.set_ylabel("")
+        axes.tick_params(labelleft=False)
+    if not is_last:
+        axes.set_xlabel("")
+        axes.tick_params(labelbottom=False)
+
+
+def motion_panels(output, drawn):
     """Time histories, phase plane and impacts, as far as they were recorded."""
-    if any(name not in output for name in RECORDS):
+    if any(name not in output for name in RECORDS) or not drawn(*RECORDS):
         return []
     points = chosen_points(output)
     named = len(points) > 1
@@ -90,17 +119,19 @@ def motion_panels(output):
     return panels
 
 
-def point_panels(output):
+def point_panels(output, drawn):
     """The panels of a sweep without axes, besides its motion: its harmonics, and its numbers."""
     panels = []
-    if "impact_count" in output and any(name not in output for name in RECORDS):
+    if "section_x" in output and drawn("section_x", "section_v"):
+        panels.append(lambda figure, axes: poincare(output, axes))
+    if "impact_count" in output and any(name not in output for name in RECORDS) and drawn("impact_count"):
         panels.append(lambda figure, axes: impact_log(output, (), axes))
-    for name in in_order(output.results()):
+    for name in in_order(filter(drawn, output.results())):
         if output[name].dims == ("harmonic",):
             panels.append(lambda figure, axes, name=name: spectrum(output, name, axes))
     names = [
         name
-        for name in in_order(output.results())
+        for name in in_order(filter(drawn, output.results()))
         if output[name].dims in ((), ("stop",), ("multiplier",)) and name not in BOOKKEEPING
     ]
     if names or not panels and any(name not in output for name in RECORDS):
@@ -108,20 +139,38 @@ def point_panels(output):
     return panels
 
 
-def curve_panels(output):
-    """Each group of results over the only axis."""
-    name = output.axes[0]
-    groups = [parts for group in result_groups(output) if (parts := components(output, group))]
-    panels = [lambda figure, axes, parts=parts: curves(output, name, parts, axes) for parts in groups]
-    if "impact_count" in output:
-        panels.append(lambda figure, axes: impact_cloud(output, name, axes))
-    return panels or [lambda figure, axes: curves(output, name, [("impact_total", None, "")], axes)]
+def curve_panels(members, drawn, caption):
+    """Each group of results over the only axis, and points instead of curves for sections and impacts."""
+    output, panels = members[0].output, []
+    for name in ("section_x", "section_v"):
+        if name in output and drawn(name):
+            panels.append(lambda figure, axes, name=name: section_diagram(members, name, axes))
+    for group in result_groups(output, drawn):
+        parts = [part for part in components(output, group) if all(part[0] in member.output for member in members)]
+        if all(is_one_value(members, part) for part in parts):
+            caption += [constant_note(output, *part) for part in parts]
+            continue
+        together = len(members) == 1 or group in TOGETHER[:2]
+        varying = [part for part in parts if not is_one_value(members, part)]
+        alone = [[(name, part, component_name(output, name, part))] for name, part, _ in varying]
+        for shown in [parts] if together else alone:
+            panels.append(lambda figure, axes, shown=shown: curves(members, shown, axes))
+    if "impact_count" in output and drawn("impact_count"):
+        panels.append(lambda figure, axes: impact_diagram(members, axes))
+    return panels or [lambda figure, axes: curves(members, [("impact_total", None, "")], axes)]
 
 
-def result_groups(output):
+def is_one_value(members, part):
+    """Whether a component of a result is constant, and the same for all members."""
+    name, component, _ = part
+    values = np.concatenate([component_values(member.output, name, component).ravel() for member in members])
+    return is_constant(values, max(scale_of(member.output, name) for member in members))
+
+
+def result_groups(output, drawn):
     """The results to be drawn, those that belong together as one group."""
-    names = [name for name in output.results() if name not in BOOKKEEPING + RECORDS]
-    names = [name for name in names if np.isfinite(output.values(name).astype(float)).any()]
+    names = [name for name in output.results() if name not in BOOKKEEPING + RECORDS + TEXTS and drawn(name)]
+    names = [name for name in names if np.isfinite(shown_values(output, name)).any()]
     groups = []
     for name in in_order(names):
         group = next((group for group in TOGETHER if name in group), (name,))
@@ -140,63 +189,80 @@ def components(output, group):
     """(variable, component, legend entry) of each curve in a panel."""
     parts = []
     for name in group:
-        extra = output[name].dims[len(output.axes) :]
-        if not extra:
+        dims = output[name].dims[len(output.axes) :]
+        if not dims:
             parts.append((name, None, symbol(name)))
-        elif len(extra) == 1 and extra[0] in output:
-            for place, value in enumerate(output.values(extra[0])):
-                if np.isfinite(output.values(name)[..., place].astype(float)).any():
-                    parts.append((name, place, component_title(name, extra[0], value, len(group) > 1)))
+        elif len(dims) == 1 and dims[0] in output:
+            known = np.isfinite(shown_values(output, name)).reshape(-1, len(output.values(dims[0]))).any(axis=0)
+            prefix = f"{symbol(name)} " if len(group) > 1 else ""
+            parts += [(name, part, prefix + component_name(output, name, part)) for part in np.flatnonzero(known)]
     return parts
 
 
-def component_title(name, dimension, value, several):
+def component_name(output, name, part):
+    """The name of a component of a result, e.g. 'lower stop'."""
+    if part is None:
+        return symbol(name)
+    dimension = output[name].dims[-1]
+    value = output.values(dimension)[part]
     if dimension == "stop":
-        side = "lower" if value < 0 else "upper"
-        return f"{symbol(name)} {side}" if several else f"{side} stop"
+        return "lower stop" if value < 0 else "upper stop"
     if dimension == "multiplier":
-        return f"{'larger' if value == 1 else 'smaller'} modulus"
+        return "larger modulus" if value == 1 else "smaller modulus"
     return f"${'k' if dimension == 'harmonic' else dimension} = {number(float(value))}$"
 
 
-def map_panels(output):
-    """Each result over the first two axes; further axes stand at their first value."""
-    names, rest = output.axes[:2], (0,) * (len(output.axes) - 2)
-    cut = (slice(None), slice(None)) + rest
-    status = output.values("status")[cut]
-    panels, drawn = [], ()
-    if "period_ratio" in output:
-        drawn = ("period_ratio", "period")
-        ratio = output.values("period_ratio")[cut]
-        panels.append(lambda figure, axes: kind_map(output, figure, axes, names, status, ratio))
-    for group in result_groups(output):
-        for name, part, title in components(output, group):
-            values = output.values(name)[cut] if part is None else output.values(name)[cut + (part,)]
-            if name in drawn or part is not None and part >= MAP_LIMIT:
-                continue
-            if np.isfinite(values[status < FIRST_FAILURE].astype(float)).any():
-                shown = map_title(output, name, part, title)
-                panels.append(
-                    lambda figure, axes, values=values, shown=shown: value_map(
-                        output, figure, axes, names, shown, values, status
-                    )
-                )
-    return panels or [
-        lambda figure, axes: value_map(
-            output, figure, axes, names, "impacts simulated", output.values("impact_total")[cut], status
+def map_panels(output, grid, drawn, caption):
+    """Each result over two axes."""
+    status = output.values("status")
+    panels = []
+    if "regime" in output and drawn(*TEXTS):
+        panels.append(lambda figure, axes: regime_map(figure, axes, grid, status, output.values("regime")))
+    if "period_ratio" in output and drawn("period_ratio"):
+        ratio = output.values("period_ratio")
+        panels.append(lambda figure, axes: kind_map(figure, axes, grid, status, ratio))
+    results = [name for group in result_groups(output, drawn) for name in group]
+    for name, part, title in [part for name in results for part in components(output, (name,))]:
+        values = component_values(output, name, part)
+        if name in ("period_ratio", "period") and "period_ratio" in output or part is not None and part >= MAP_LIMIT:
+            continue
+        if is_constant(values[status < FIRST_FAILURE], scale_of(output, name)):
+            caption.append(constant_note(output, name, part, title))
+        elif np.isfinite(values[status < FIRST_FAILURE]).any():
+            panels.append(value_panel(output, grid, map_title(output, name, part, title), values, status))
+    if not panels:
+        panels.append(
+            value_panel(output, grid, "impacts simulated", output.values("impact_total").astype(float), status)
         )
-    ]
+    return panels
+
+
+def value_panel(output, grid, title, values, status):
+    return lambda figure, axes: value_map(figure, axes, grid, title, values, status)
+
+
+def component_values(output, name, part):
+    values = shown_values(output, name)
+    return values if part is None else values[..., part]
+
+
+def scale_of(output, name):
+    """The scale of a result: of minimum and maximum together, and of all its components."""
+    group = next((group for group in TOGETHER if name in group), (name,))
+    return max(largest(shown_values(output, member)) for member in group if member in output)
+
+
+def constant_note(output, name, part, title):
+    value = constant_value(component_values(output, name, part), scale_of(output, name))
+    return f"{plain_title(output, name, part, title)} = {number(value)}"
+
+
+def plain_title(output, name, part, title):
+    """A result in words, and which component of it."""
+    words = output[name].long_name
+    return words if part is None else f"{words}, {title.removeprefix(symbol(name)).strip()}"
 
 
 def map_title(output, name, part, title):
-    """Label of a map's colour bar: the result, and which component of it."""
+    """Title of a map: the result, and which component of it."""
     return label(output, name) if part is None else f"{label(output, name)}, {title.removeprefix(symbol(name)).strip()}"
-
-
-def map_note(output):
-    """The meaning of the marks in maps, and the values at which further axes are held."""
-    status = output.values("status")
-    notes = ["hatched: no period"] * bool((status == APERIODIC).any())
-    notes += ["black: failed"] * bool((status >= FIRST_FAILURE).any())
-    notes += [f"{symbol(axis)} = {number(output.values(axis)[0])}" for axis in output.axes[2:]]
-    return ";  ".join(notes)

@@ -2,8 +2,10 @@
 
 import numpy as np
 
-from plot_curves import name_statuses
-from plot_style import BLUE, CYCLE, GRID, STOP, VERMILION, draw_walls, label, legend_above, number, set_axis, symbol
+from plot_data import APERIODIC
+from plot_style import BLUE, CYCLE, GRID, STOP, VERMILION, draw_walls, label, legend_above, number, symbol
+
+LAST_PERIODS = 20  # of motion without a period that are drawn
 
 
 def motion(output, index):
@@ -46,15 +48,47 @@ def chosen_points(output, most=5):
     ]
 
 
+def is_aperiodic(output, index):
+    return int(output.values("status")[index]) == APERIODIC
+
+
+def shown_motion(output, index):
+    """The motion of a point, of one without a period its last forcing periods alone, and how thick its line is."""
+    tau, x, v = motion(output, index)
+    if not is_aperiodic(output, index):
+        return tau, x, v, 1.1
+    late = tau >= first_shown(output, index)
+    return tau[late], x[late], v[late], 0.5
+
+
+def first_shown(output, index):
+    """The time from which on motion without a period is drawn."""
+    period = 2 * np.pi / float(output.parameter("nu", 1.0)[index])
+    return output.values("tau")[index][-1] - LAST_PERIODS * period
+
+
+def mark_impacts(output, index, draw, color):
+    """The impacts of motion without a period, by draw(time, position, velocity before, style)."""
+    if "impact_count" not in output or not is_aperiodic(output, index):
+        return
+    times, sides, before, _ = output.impacts(index)
+    late = times >= first_shown(output, index)
+    position = np.where(sides < 0, *(stop[index] for stop in output.stops()))
+    draw(times[late], position[late], before[late], {"ls": "none", "marker": ".", "ms": 4.5, "mew": 0, "color": color})
+
+
 def time_history(output, quantity, points, axes, end=None):
     """x or x' against time, for one point or a few; periodic motion is repeated to `end`."""
     for place, (point, title) in enumerate(points):
-        tau, x, v = motion(output, point)
-        values = x if quantity == "x" else v
+        tau, x, v, width = shown_motion(output, point)
+        values, color = x if quantity == "x" else v, CYCLE[place % len(CYCLE)]
         if end is not None:
             tau, values = repeated(tau, values, tau[-1], end)
             axes.set_xlim(0.0, end)
-        axes.plot(tau, values, color=CYCLE[place % len(CYCLE)], lw=1.1, label=title or None)
+        axes.plot(tau, values, color=color, lw=width, label=title or None)
+        mark_impacts(
+            output, point, lambda t, p, w, style: axes.plot(t, p if quantity == "x" else w, **style), VERMILION
+        )
     axes.margins(y=0.08)
     if quantity == "x":
         draw_common_walls(axes, output)
@@ -74,8 +108,9 @@ def draw_common_walls(axes, output, vertical=False):
 def phase_plane(output, points, axes):
     """x' against x."""
     for place, (point, title) in enumerate(points):
-        _, x, v = motion(output, point)
-        axes.plot(x, v, color=CYCLE[place % len(CYCLE)], lw=1.1, label=title or None)
+        _, x, v, width = shown_motion(output, point)
+        axes.plot(x, v, color=CYCLE[place % len(CYCLE)], lw=width, label=title or None)
+        mark_impacts(output, point, lambda t, p, w, style: axes.plot(p, w, **style), VERMILION)
     axes.margins(x=0.08, y=0.08)
     draw_common_walls(axes, output, vertical=True)
     axes.axhline(0.0, color=GRID, lw=0.7, zorder=0)
@@ -86,7 +121,10 @@ def phase_plane(output, points, axes):
 def impact_log(output, index, axes, period=None):
     """Velocity before each observed impact of one point, as stems at their times."""
     times, sides, before, _ = output.impacts(index)
-    end = output.values("tau")[index][-1] if "tau" in output else None
+    begin, end = 0.0, output.values("tau")[index][-1] if "tau" in output else None
+    if end is not None and is_aperiodic(output, index):
+        begin = first_shown(output, index)
+        times, sides, before = (part[times >= begin] for part in (times, sides, before))
     if period is not None:
         end = 2 * period
         sides, before = (repeated(times, part, period, end)[1] for part in (sides, before))
@@ -106,29 +144,7 @@ def impact_log(output, index, axes, period=None):
                 label=title,
             )
     axes.margins(y=0.1)
-    axes.set_xlim(0.0, end if end is None or np.isfinite(end) else None)
+    axes.set_xlim(begin, end if end is None or np.isfinite(end) else None)
     axes.set_xlabel(label(output, "tau"))
     axes.set_ylabel(label(output, "v_before"))
-    legend_above(axes)
-
-
-def impact_cloud(output, name, axes):
-    """Velocities before all observed impacts over the only axis: a bifurcation diagram."""
-    along = np.repeat(output.values(name), output.values("impact_count"))
-    sides, before = output.values("impact_stop"), output.values("impact_v_before")
-    for side, color, title in ((-1, BLUE, "lower stop"), (1, VERMILION, "upper stop")):
-        axes.plot(
-            along[sides == side],
-            before[sides == side],
-            ls="none",
-            marker=".",
-            mew=0,
-            color=color,
-            ms=2.0 if len(along) > 2000 else 4.0,
-            label=title,
-            rasterized=True,
-        )
-    set_axis(axes, output, name)
-    axes.set_ylabel(label(output, "v_before"))
-    name_statuses(axes, output, name, shown=False)
     legend_above(axes)

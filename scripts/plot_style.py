@@ -51,11 +51,12 @@ LABELS = {
     "v_amplitude": ("amplitude of velocity", "$a$\N{PRIME}$_k$"),
     "x_phase": ("phase of displacement", r"$\varphi_k$"),
     "v_phase": ("phase of velocity", "$\\varphi$\N{PRIME}$_k$"),
-    "multiplier_re": ("real part of multipliers", r"$\mathrm{Re}\,\mu$"),
-    "multiplier_im": ("imaginary part of multipliers", r"$\mathrm{Im}\,\mu$"),
-    "lyapunov": ("largest Lyapunov exponent", r"$\lambda$"),
+    "multiplier_re": ("multipliers", r"$\mathrm{Re}\,\mu$"),
+    "multiplier_im": ("multipliers", r"$\mathrm{Im}\,\mu$"),
+    "lyapunov": ("Lyapunov exponent", r"$\lambda$"),
     "impacts_per_period": ("impacts per period", ""),
     "rest_fraction": ("share of time at rest", ""),
+    "symmetric": ("symmetric motion", ""),
     "work_in": ("work of force and load", "work"),
     "loss_damping": ("loss by damping", "damping"),
     "loss_impact": ("loss by impacts", ""),
@@ -90,7 +91,6 @@ def use_style():
             "axes.formatter.limits": (-4, 5),
             "axes.xmargin": 0.0,
             "hatch.linewidth": 0.5,
-            "savefig.dpi": 300,
             "svg.hashsalt": "clatter",
             "figure.max_open_warning": 0,
         }
@@ -99,6 +99,10 @@ def use_style():
 
 def symbol(name):
     return LABELS.get(name, ("", ""))[1] or name.replace("_", " ")
+
+
+def words_of(name):
+    return LABELS.get(name, ("", ""))[0] or name.replace("_", " ")
 
 
 def label(output, name):
@@ -122,12 +126,25 @@ def typeset(title):
     return re.sub(r"(?<=[=,( ])-(?=\d)", "\N{MINUS SIGN}", title)
 
 
-def heading(figure, output):
-    """Title above the picture, and below it the constants that it does not already name."""
+def heading(figure, output, title=None, others=()):
+    """Title above the picture, and below it the constants that it does not already name, common to all outputs."""
     name = f"Fig. {output.figure}.  " if output.figure else "Accuracy and time.  " if output.is_accuracy else ""
-    shown, many = constants(output), int(1.2 * figure.get_figwidth())  # entries that fit a line
+    titles = {other.title for other in others}
+    own = output.title if len(titles) < 2 else ""
+    shown = constants(output, own, others)
+    many = int(1.2 * figure.get_figwidth())  # entries that fit a line
     lines = [",   ".join(shown[first : first + many]) for first in range(0, len(shown), many)]
-    figure.suptitle("\n".join([f"{name}{typeset(output.title)}", *lines]).strip(), fontsize=10.5, linespacing=1.5)
+    first = f"{name}{typeset(own)}" if title is None else title.replace("$", r"\$")
+    figure.suptitle("\n".join([first, *lines]).strip(), fontsize=10.5, linespacing=1.5)
+
+
+def set_view(axes, options):
+    """The scales and limits that the command line asks for."""
+    for axis, limits in (("x", options.xlim), ("y", options.ylim)):
+        if axis in options.log:
+            getattr(axes, f"set_{axis}scale")("log")
+        if limits:
+            getattr(axes, f"set_{axis}lim")(*limits)
 
 
 def caption_below(figure, notes):
@@ -141,20 +158,26 @@ def caption_below(figure, notes):
     figure.supxlabel("\n".join(lines), fontsize=9.5, linespacing=1.4)
 
 
-def constants(output):
+def constants(output, title, others=()):
     """The fixed numbers of the scene that the title doesn't name, e.g. ['h = 0.1', 'f = −1']."""
     hidden = {"phase": 0.0, "load": 0.0}  # nothing to say at these values
-    named = {key for key in LABELS if re.search(rf"\b{key} = ", output.title)}
+    named = {key for key in LABELS if re.search(rf"\b{key} = ", title)}
     keys = [key for key in LABELS if key in output.scene and key not in named and not output.swept(key)]
+    keys = [key for key in keys if all(other.scene.get(key) == output.scene[key] for other in others)]
     if float(output.scene.get("f", 0.0)) == 0.0 and not output.swept("f"):
         keys = [key for key in keys if key not in ("nu", "phase")]  # no force, no frequency
-    shown = [key for key in keys if not (key in hidden and output.scene[key] == hidden[key])]
-    return [f"{symbol(key)} = {number(float(output.scene[key]))}" for key in shown]
+    values = {key: float(output.scene[key]) for key in keys}
+    return [
+        f"{symbol(key)} = {number(value)}"
+        for key, value in values.items()
+        if np.isfinite(value) and not (key in hidden and value == hidden[key])
+    ]
 
 
 def legend_above(axes, columns=4, **options):
     """A legend on top of the panel's frame, where it covers no data."""
-    handles, names = axes.get_legend_handles_labels()
+    entries = dict(zip(*reversed(axes.get_legend_handles_labels())))  # each name once
+    names, handles = list(entries), list(entries.values())
     if handles:
         axes.legend(
             handles,
@@ -195,14 +218,16 @@ def is_geometric(values):
     return np.allclose(steps, steps[0], rtol=1e-6)
 
 
-def set_axis(axes, output, name, vertical=False):
-    """Limits, scale and label of a swept axis."""
+def set_axis(axes, output, name, margin=0.0):
+    """Scale, label and limits of a swept axis; a margin, as a share of its length, keeps markers off the frame."""
     values = output.values(name)
     if is_geometric(values):
-        (axes.set_yscale if vertical else axes.set_xscale)("log")
+        axes.set_xscale("log")
     if values.min() < values.max():
-        (axes.set_ylim if vertical else axes.set_xlim)(values.min(), values.max())
-    (axes.set_ylabel if vertical else axes.set_xlabel)(label(output, name))
+        to_scale, from_scale = (np.log, np.exp) if is_geometric(values) else (np.asarray, np.asarray)
+        low, high = to_scale([values.min(), values.max()])
+        axes.set_xlim(from_scale([low - margin * (high - low), high + margin * (high - low)]))
+    axes.set_xlabel(label(output, name))
 
 
 def new_figure(height, width=WIDTH):

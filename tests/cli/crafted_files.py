@@ -78,7 +78,7 @@ def create(file, name, lengths, properties, kind=h5py.h5t.NATIVE_DOUBLE, shape=N
     h5py.h5d.create(file.id, name.encode(), kind, shape or h5py.h5s.create_simple(lengths), properties)
 
 
-def words(**settings):
+def impact_words(**settings):
     """impact_word appears, over the points of x_max."""
 
     def change(file, folder):
@@ -129,8 +129,8 @@ CHANGES = {
     "deflated_twice": replaced(deflated_twice),
     "compact": replaced(compact),
     "texts": replaced(lambda file, folder, points: file.create_dataset("x_max", data=["a"] * points)),
-    "number_words": words(dtype="f8", fillvalue=1.0),
-    "fixed_words": words(dtype="S5", fillvalue=b"LU"),
+    "number_words": impact_words(dtype="f8", fillvalue=1.0),
+    "fixed_words": impact_words(dtype="S5", fillvalue=b"LU"),
     "references": replaced(lambda file, folder, points: file.create_dataset("x_max", (points,), h5py.ref_dtype)),
     "name": lambda file, folder: file.__setitem__("a" + CONTROLS, [1.0]),
 }

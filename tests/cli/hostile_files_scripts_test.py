@@ -13,7 +13,7 @@ from pathlib import Path
 import h5py
 
 from command_line import CLATTER, SMALL, SOURCE
-from crafted_files import CHANGES, SECRET, can_trace, claim, hide_variables, make_surroundings, words
+from crafted_files import CHANGES, SECRET, can_trace, claim, hide_variables, impact_words, make_surroundings
 
 PYTHON = "/usr/bin/python3"
 ELSEWHERE, LINK = "'x_max' has its values in other files", "'x_max' is a link to another place"
@@ -53,7 +53,7 @@ CASES = {
     "schema": lambda file, folder: file.attrs.__setitem__("clatter_schema", "\x1b[2J"),
     "claimed": lambda file, folder: claim("status", (4 << 30,), file),
     "hidden": CHANGES["external_link"],
-    "long_words": words(dtype=h5py.string_dtype(), data=["L" * 256] * 5),
+    "long_words": impact_words(dtype=h5py.string_dtype(), data=["L" * 256] * 5),
 }
 
 

@@ -214,7 +214,7 @@ esac
             stability=put("status", 7, 1),
             follow_down=lambda file: file["x_max"].attrs.__setitem__("units", "m"),
             fig12=put("v_phase", (7, 1), phase + 1e-6),
-            regimes=put("impact_word", (100, 0), "LLLUU"),
+            regimes=put("impact_word", (50, 40), "LLLUU"),
             transient=lambda file: file["sample"].attrs.__setitem__("more", 1),
             asymmetric=lambda file: file.create_group("more"),
         )

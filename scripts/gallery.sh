@@ -1,0 +1,45 @@
+#!/usr/bin/env bash
+# Makes the pictures that the guides show; --help says more.
+set -euo pipefail
+source_dir=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
+clatter=${CLATTER:-$source_dir/build/release/apps/clatter/clatter}
+
+usage() {
+  cat <<END
+usage: scripts/gallery.sh [DIR]
+
+Runs shipped configurations and draws the pictures that README.md and the guides show, as SVG, into DIR; default: configs.
+The program is build/release/apps/clatter/clatter, or what CLATTER names.
+END
+}
+
+case "${1-}" in
+  -h | --help) usage; exit 0 ;;
+  -*) echo "gallery.sh: unknown option '$1'; try --help" >&2; exit 2 ;;
+esac
+if (($# > 1)); then
+  echo "gallery.sh: one directory at most; try --help" >&2
+  exit 2
+fi
+if [[ ! -x $clatter ]]; then
+  echo "gallery.sh: there is no program '$clatter'; build it with: cmake --preset release && cmake --build --preset release" >&2
+  exit 2
+fi
+mkdir -p "${1:-$source_dir/configs}"
+out=$(cd "${1:-$source_dir/configs}" && pwd)
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+
+draw() { # configuration, then options of plot.py
+  "$clatter" run "$source_dir/configs/$1.toml" -o "$work/$1.h5" -q
+  "$source_dir/scripts/plot.py" "$work/$1.h5" "${@:2}" --format svg -o "$out"
+}
+
+"$clatter" run "$source_dir/configs/fig22.toml" --set sweep.nu='linspace(0.7, 1.3, 121)' -o "$work/fig22.h5" -q
+"$source_dir/scripts/plot.py" "$work/fig22.h5" --format svg -o "$out"
+draw bifurcation --only section_x --size 7x4
+draw poincare --only section --size 5x4
+draw hysteresis --only v_max --xlim 0.95,1.25 --ylim 2,4.5 --size 5x3.5
+draw family_R --only v_before --size 7x3.4
+draw one_stop --only x_min,x_max --size 5x3.8
+draw regimes --only word --size 6x4

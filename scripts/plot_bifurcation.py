@@ -1,0 +1,144 @@
+"""Points instead of curves: bifurcation diagrams over one axis, and Poincaré sections of one scene."""
+
+import numpy as np
+
+from plot_curves import MARGIN, name_statuses
+from plot_scales import shown_values
+from plot_style import BLUE, CYCLE, GREEN, STOP, VERMILION, label, legend_above, set_axis, symbol
+
+MANY = 2000  # points, from which on they are small
+WORD = "impact word"  # marks the texts that may have to go
+CRITICAL = 0.97  # modulus from which on a multiplier tells which bifurcation is near
+
+
+def dots(axes, x, y, color, title=None):
+    """Points, as one image in vector formats; the more there are, the smaller, and at last translucent."""
+    many, crowded = len(x) > MANY, len(x) > 100 * MANY
+    style = {"marker": ","} if crowded else {"marker": ".", "mew": 0, "ms": 1.6 if many else 4.0}
+    axes.plot(x, y, ls="none", color=color, alpha=0.4 if crowded else None, rasterized=True, **style)
+    if title:
+        axes.plot([], [], ls="none", marker="o", mew=0, ms=4, color=color, label=title)
+
+
+def instants(output):
+    """When the states of a section are taken."""
+    is_forced = bool(np.any(output.parameter("f", 0.0)))
+    return "once a forcing period" if is_forced else "on the way up"
+
+
+def section_diagram(members, name, axes):
+    """The states of each point's section over the only axis."""
+    axis = members[0].output.axes[0]
+    for place, member in enumerate(members):
+        values = shown_values(member.output, name)
+        known = np.isfinite(values)
+        along = np.broadcast_to(member.output.values(axis)[:, None], values.shape)
+        dots(axes, along[known], values[known], CYCLE[place % len(CYCLE)], member.title)
+    finish(members, axes, axis)
+    axes.set_ylabel(f"{symbol(name.removeprefix('section_'))} {instants(members[0].output)}")
+
+
+def impact_diagram(members, axes):
+    """Velocities before all observed impacts over the only axis."""
+    axis, several = members[0].output.axes[0], len(members) > 1
+    for place, member in enumerate(members):
+        output = member.output
+        along = np.repeat(output.values(axis), output.values("impact_count"))
+        sides, before = output.values("impact_stop"), output.values("impact_v_before")
+        for side, color, title in ((-1, BLUE, "lower stop"), (1, VERMILION, "upper stop")):
+            hit = sides == side
+            if several:
+                color, title = CYCLE[place % len(CYCLE)], member.title if side < 0 else None
+            if hit.any():
+                dots(axes, along[hit], before[hit], color, title)
+    finish(members, axes, axis)
+    axes.set_ylabel(label(members[0].output, "v_before"))
+
+
+def finish(members, axes, axis):
+    set_axis(axes, members[0].output, axis, MARGIN)
+    axes.margins(y=0.08)
+    for member in members:
+        name_statuses(axes, member.output, axis, shown=False)
+    if len(members) == 1:
+        mark_words(axes, members[0].output, axis)
+        mark_multipliers(axes, members[0].output, axis)
+    legend_above(axes, columns=3)
+
+
+def mark_words(axes, output, axis):
+    """A line between neighbours with different impact words, and the words as far as there is room."""
+    if "impact_word" not in output:
+        return
+    words, along = output.values("impact_word"), output.values(axis)
+    order = np.argsort(along, kind="stable")
+    words, along = words[order], along[order]
+    starts = np.flatnonzero(np.append(True, words[1:] != words[:-1]))
+    for start in starts[1:]:
+        axes.axvline((along[start - 1] + along[start]) / 2, color=STOP, lw=0.5, ls=(0, (1, 2)), zorder=0.5)
+    ends = np.append(starts[1:], len(words)) - 1
+    runs = [(start, end) for start, end in zip(starts, ends) if words[start]]
+    low, high = axes.get_ylim()
+    axes.set_ylim(low, high + 0.1 * (high - low))  # room for the words
+    for start, end in sorted(runs, key=lambda run: along[run[0]] - along[run[1]]):  # the widest first
+        axes.text(
+            (along[start] + along[end]) / 2,
+            0.96,
+            words[start],
+            fontsize=7,
+            va="top",
+            ha="center",
+            color=STOP,
+            transform=axes.get_xaxis_transform(),
+            gid=WORD,
+        ).set_in_layout(False)
+
+
+def keep_words_with_room(figure):
+    """Removes the words that lie on another one or beyond their panel; everything else must be in the figure."""
+    kept = {}
+    for text in figure.findobj(lambda artist: artist.get_gid() == WORD):
+        box, boxes = text.get_window_extent().padded(2.0), kept.setdefault(text.axes, [])
+        inside = text.axes.bbox.x0 < box.x0 and box.x1 < text.axes.bbox.x1
+        if inside and not any(box.overlaps(other) for other in boxes):
+            boxes.append(box)
+        else:
+            text.remove()
+
+
+def mark_multipliers(axes, output, axis):
+    """Triangles at the foot of a panel where a multiplier comes close to the unit circle: a bifurcation is near."""
+    if "multiplier_re" not in output:
+        return
+    re, im = (shown_values(output, f"multiplier_{part}")[:, 0] for part in ("re", "im"))
+    modulus = np.hypot(re, im)
+    inner = np.nan_to_num(modulus, nan=0.0)
+    peak = (inner >= CRITICAL) & (inner >= np.append(inner[1:], 0)) & (inner > np.insert(inner[:-1], 0, 0))
+    kinds = (
+        ("multiplier near −1", VERMILION, peak & (im == 0) & (re < 0)),
+        ("multiplier near +1", GREEN, peak & (im == 0) & (re > 0)),
+        ("complex multipliers near the unit circle", CYCLE[3], peak & (im != 0)),
+    )
+    for title, color, here in kinds:
+        if here.any():
+            axes.plot(
+                output.values(axis)[here],
+                np.full(here.sum(), 0.02),
+                transform=axes.get_xaxis_transform(),
+                ls="none",
+                marker="^",
+                ms=4.5,
+                color=color,
+                label=title,
+                clip_on=False,
+                zorder=4,
+            )
+
+
+def poincare(output, axes):
+    """The section of one scene: x' against x once a forcing period."""
+    x, v = (shown_values(output, f"section_{name}") for name in "xv")
+    dots(axes, x, v, BLUE)
+    axes.margins(x=0.05, y=0.05)
+    axes.set_xlabel(f"{label(output, 'x')} {instants(output)}")
+    axes.set_ylabel(label(output, "v"))

@@ -1,0 +1,166 @@
+"""Which part of an output a picture shows: curves over one axis, one for each value of another, or a map over two."""
+
+import difflib
+import itertools
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from plot_data import Output
+from plot_style import number, symbol, words_of
+
+OBSERVED = {  # the results of each key of [observe]
+    "extrema": ("x_min", "x_max", "v_min", "v_max"),
+    "harmonics": ("x_amplitude", "x_phase", "v_amplitude", "v_phase", "base_frequency"),
+    "impacts": ("impacts_per_period", "v_before", "v_after", "rest_fraction"),
+    "impact_log": ("impact_count",),
+    "trajectory": ("tau", "x", "v"),
+    "section": ("section_x", "section_v"),
+    "word": ("impact_word", "regime", "symmetric"),
+    "period": ("period", "period_ratio", "eigenfrequency", "velocity_ratio"),
+    "stability": ("multiplier_re", "multiplier_im", "lyapunov"),
+    "energy": ("work_in", "loss_damping", "loss_impact", "impulse", "energy_residual", "impact_power"),
+}
+FEW = 6  # values of an axis that make a family of curves rather than a map
+MOST = 12  # curves that can be told apart
+
+
+class ChoiceProblem(Exception):
+    """A choice that the file doesn't offer; the message is one line that names it and the way out."""
+
+
+@dataclass
+class Member:
+    """One of several outputs in a picture, over the same axes as the others, and its name in the legend."""
+
+    title: str
+    output: Output
+
+
+def members_of(output, along="", over="", at=()):
+    """The outputs that share the picture of one file, at most one of them if they have two axes."""
+    for axis, value in at:
+        output = output.at(require_axis(output, axis, "--at"), index_at(output, axis, value))
+    for axis, option in ((along, "--along"), (over, "--over")):
+        if axis:
+            require_axis(output, axis, option)
+    if along and along == over:
+        raise ChoiceProblem(f"--along and --over both name '{along}'; name two axes")
+    if len(output.axes) < 2:
+        if over:
+            raise ChoiceProblem(f"--over {over}: no axis is left to draw along; the file has {axes_text(output)}")
+        return [Member("", output)]
+    families = families_of(output, along, over)
+    if not families:
+        return [Member("", map_of(output, along))]
+    along = along or longest(output, families)
+    for axis in output.axes:
+        if axis not in (along, *families):
+            output = output.at(axis, 0)
+    return [Member(*part) for part in parts(output, families)]
+
+
+def families_of(output, along, over):
+    """The axes of which each value has its own curves; none for a map."""
+    others = [axis for axis in output.axes if axis != (along or longest(output))]
+    if over:
+        families = [axis for axis in output.axes if axis in (over, "direction") and axis != along]
+        if curves(output, families) > MOST:
+            raise ChoiceProblem(
+                f"--over {over}: {curves(output, families)} curves; at most {MOST}: choose some with --at"
+            )
+        return families
+    return others if curves(output, [axis for axis in others if axis != "direction"]) <= FEW else []
+
+
+def curves(output, axes):
+    return int(np.prod([len(output.values(axis)) for axis in axes], dtype=int))
+
+
+def longest(output, without=()):
+    """The axis with the most values, the last of equals, which varies fastest."""
+    axes = [axis for axis in output.axes if axis not in without]
+    return max(reversed(axes), key=lambda axis: len(output.values(axis)))
+
+
+def map_of(output, along):
+    """The output over two axes, the abscissa first; further axes at their first value."""
+    first = along or next(axis for axis in output.axes if axis != "direction")
+    second = next(axis for axis in output.axes if axis not in (first, "direction"))
+    for axis in output.axes:
+        if axis not in (first, second):
+            output = output.at(axis, 0)
+    return output.in_order((first, second))
+
+
+def parts(output, families):
+    """(title, output) for each combination of the values of these axes."""
+    for indexes in itertools.product(*(range(len(output.values(axis))) for axis in families)):
+        part, names = output, []
+        for axis, index in zip(families, indexes):
+            names.append(value_name(axis, output.values(axis)[index]))
+            part = part.at(axis, index)
+        yield ", ".join(names), part
+
+
+def value_name(axis, value):
+    if axis == "direction":
+        return "up" if value > 0 else "down"
+    if not np.isfinite(value):
+        return f"no {words_of(axis)}"
+    return f"{symbol(axis)} = {number(value)}"
+
+
+def require_axis(output, axis, option):
+    if axis in output.axes:
+        return axis
+    raise ChoiceProblem(f"{option}: '{axis}' is no axis of this file, which has {axes_text(output)}")
+
+
+def axes_text(output):
+    return ", ".join(output.axes) or "none"
+
+
+def index_at(output, axis, value):
+    """The index of the value of an axis that is nearest to this one. Throws beyond its range."""
+    values = output.values(axis).astype(float)
+    low, high = values.min(), values.max()
+    if not low <= value <= high:
+        raise ChoiceProblem(f"--at {axis}={value:g}: beyond the axis, which goes from {low:g} to {high:g}")
+    return int(np.argmin(np.abs(values - value)))
+
+
+def results_named(members, only):
+    """The results that --only names, by themselves or by their key of [observe]; empty if it names none."""
+    output, results = members[0].output, []
+    there = [name for name in output.results() if name != "status"]
+    keys = [key for key, names in OBSERVED.items() if any(name in output for name in names)]
+    for name in only:
+        if name not in there + keys:
+            near = difflib.get_close_matches(name, there + keys, 1)
+            hint = f"did you mean '{near[0]}'?" if near else f"there are {', '.join(keys + there)}"
+            raise ChoiceProblem(f"--only: '{name}' is no result in {output.path}; {hint}")
+        results += [name] if name in there else OBSERVED[name]
+    return results
+
+
+def together(outputs):
+    """One member for each file, if all hold curves over the same axis; else None."""
+    if len({output.axes for output in outputs}) != 1 or len(outputs) > MOST:
+        return None
+    return [Member(name, output) for name, output in zip(differences(outputs), outputs)]
+
+
+def differences(outputs):
+    """A name for each output: the constants of the scene in which they differ, else the name of its file."""
+    keys = [key for key in outputs[0].scene if len({output.scene.get(key) for output in outputs}) > 1]
+    names = [
+        ", ".join(value_name(key, output.scene[key]) for key in keys if is_number(output.scene.get(key)))
+        for output in outputs
+    ]
+    return names if len(set(names)) == len(names) else [Path(output.path).stem for output in outputs]
+
+
+def is_number(value):
+    return isinstance(value, (int, float)) and not isinstance(value, bool)

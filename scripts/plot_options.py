@@ -1,0 +1,104 @@
+"""The command line of plot.py."""
+
+import argparse
+import re
+import sys
+from itertools import takewhile
+from pathlib import Path
+
+FORMATS = ("pdf", "png", "svg")
+USAGE = """plot.py [-o DIR] [--format svg|png|pdf...] [--only NAME,...] [--along AXIS]
+               [--over AXIS] [--at AXIS=VALUE] [--size WxH] [--xlim A,B] [--ylim A,B]
+               [--log x|y|xy] [--title TEXT] FILE.h5..."""
+DESCRIPTION = """Draws outputs of clatter by what they hold: curves and families of them, bifurcation diagrams,
+hysteresis, Poincaré sections, time histories, phase planes, impacts, harmonics, maps, and what accuracy costs in
+time."""
+EPILOG = """Several files share a picture if all of them hold curves over the same axis and none is a figure of the
+paper. Exit codes: 0 done, 2 wrong command line, 74 a file cannot be read or written."""
+
+
+def command_line():
+    """The options and files; ends the program on a mistake, with one line that names it."""
+    parser = argparse.ArgumentParser(usage=USAGE, description=DESCRIPTION, allow_abbrev=False, epilog=EPILOG)
+    add = parser.add_argument
+    add("files", nargs="*", metavar="FILE.h5", help="output of 'clatter run' or 'clatter accuracy'")
+    add("-o", "--output", metavar="DIR", help="folder for the pictures; default: beside each file")
+    add("--format", nargs="+", default=["svg", "png"], metavar="svg|png|pdf", help="default: svg png")
+    add("--only", type=names, default=(), metavar="NAME,...", help="panels of these results, or of keys of [observe]")
+    add(
+        "--along", default="", metavar="AXIS", help="the axis on the abscissa; default: the longest, of a map the first"
+    )
+    add(
+        "--over", default="", metavar="AXIS", help="a curve for each value of this axis; default: those with few values"
+    )
+    add("--at", type=place, action="append", default=[], metavar="AXIS=VALUE", help="one value of an axis, the nearest")
+    add("--size", type=size, metavar="WxH", help="of the picture in inches, or with cm at the end")
+    add("--xlim", type=limits, metavar="A,B", help="limits of the abscissa of every panel")
+    add("--ylim", type=limits, metavar="A,B", help="limits of the ordinate of every panel")
+    add("--log", choices=("x", "y", "xy"), default="", metavar="x|y|xy", help="logarithmic scales")
+    add("--title", metavar="TEXT", help="in place of the configuration's")
+    options = parser.parse_intermixed_args(joined())
+    end_formats(parser, options)
+    if not options.files:
+        parser.error("no FILE.h5")
+    return options
+
+
+def joined():
+    """The arguments, with limits that begin with a minus sign joined to their option: argparse takes them for one."""
+    words = []
+    for word in sys.argv[1:]:
+        if words and words[-1] in ("--xlim", "--ylim") and re.match(r"-[\d.]", word):
+            words[-1] += f"={word}"
+        else:
+            words.append(word)
+    return words
+
+
+def names(text):
+    parts = tuple(part.strip() for part in text.split(","))
+    if not all(parts):
+        raise argparse.ArgumentTypeError(f"'{text}' has an empty name; write e.g. x_max,section")
+    return parts
+
+
+def place(text):
+    axis, _, value = text.partition("=")
+    return axis.strip(), finite(value, text, "AXIS=VALUE, e.g. nu=1")
+
+
+def size(text):
+    found = re.fullmatch(r"([\d.]+)x([\d.]+)(cm)?", text)
+    sides = [finite(side, text, "WxH in inches, e.g. 7x5, or 18x12cm") for side in found.groups()[:2]] if found else []
+    unit = 2.54 if found and found.group(3) else 1.0
+    if not sides or not all(1.0 <= side / unit <= 100.0 for side in sides):
+        raise argparse.ArgumentTypeError(f"'{text}' is no size; write WxH in inches, 1 to 100, e.g. 7x5, or 18x12cm")
+    return tuple(side / unit for side in sides)
+
+
+def limits(text):
+    parts = [finite(part, text, "A,B, e.g. 0.9,1.1") for part in text.split(",")]
+    if len(parts) != 2 or parts[0] == parts[1]:
+        raise argparse.ArgumentTypeError(f"'{text}' is no pair of limits; write A,B, e.g. 0.9,1.1")
+    return tuple(parts)
+
+
+def finite(word, text, wanted):
+    try:
+        value = float(word)
+    except ValueError:
+        value = float("nan")
+    if not abs(value) < float("inf"):
+        raise argparse.ArgumentTypeError(f"'{text}' is no {wanted}")
+    return value
+
+
+def end_formats(parser, options):
+    """Takes what follows the formats for files, if it looks like one: argparse takes all of it for formats."""
+    words = options.format
+    options.format = list(takewhile(FORMATS.__contains__, words))
+    rest = words[len(options.format) :]
+    for word in rest:
+        if not options.format or not Path(word).suffix and not Path(word).exists():
+            parser.error(f"argument --format: '{word}' is none of {', '.join(FORMATS)}")
+    options.files += rest

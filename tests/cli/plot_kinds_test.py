@@ -1,0 +1,297 @@
+"""plot.py chooses the kind of a picture by what the file holds; each has its elements, and no text lies on another.
+
+Environment: CLATTER, the program; CLATTER_SOURCE, the source directory.
+"""
+
+import subprocess
+import tempfile
+import unittest
+from pathlib import Path
+from types import SimpleNamespace
+
+import h5py
+import numpy as np
+from matplotlib.cm import ScalarMappable
+from matplotlib.colors import Normalize
+
+from command_line import CLATTER, SOURCE
+from plot_checks import Svg, overlapping_texts
+
+import plot
+import plot_style
+from plot_choice import ChoiceProblem, members_of
+from plot_data import Output
+from plot_scales import colour_range, is_constant, is_count, shown_values
+
+PLOT = ["/usr/bin/python3", SOURCE / "scripts" / "plot.py"]
+FORCED = "[scene]\nf = -1.0\nh = 0.1\n"
+ALONG_NU = '[sweep]\nnu = "linspace(0.84, 1.0, 81)"\n'
+CONFIGURATIONS = {
+    "section": FORCED + "R = 0.7\nxs = -3\n" + ALONG_NU + "[time]\nmax_periods = 300\n"
+    "[observe]\nsection = 40\nword = true\nstability = true\n",
+    "impacts": FORCED + "R = 0.7\nxs = -3\n" + ALONG_NU + "[time]\nmax_periods = 300\n[observe]\nimpact_log = true\n",
+    "chaos": FORCED + "R = 0.7\nxs = -3\nnu = 0.9\n[time]\nmax_periods = 200\n"
+    "[observe]\nsection = 500\ntrajectory = 1601\nimpact_log = true\n",
+    "family": FORCED + "xs = -3\n" + '[sweep]\nR = [0.3, 0.6, 0.9]\nnu = "linspace(1, 1.2, 21)"\n'
+    "[observe]\nextrema = true\nimpacts = true\n",
+    "hysteresis": FORCED + 'R = 0.7\nxs = -4\n[sweep]\nnu = "linspace(0.8, 1.3, 101)"\nfollow = "nu"\n'
+    'direction = "both"\n[observe]\nextrema = true\n',
+    "map": FORCED + 'R = 0.7\n[sweep]\nnu = "linspace(0.3, 1.3, 21)"\nxs = "linspace(0.1, 2, 17)"\n'
+    "[time]\nmax_periods = 200\n"
+    "[observe]\nextrema = true\nimpacts = true\nperiod = true\nword = true\nstability = true\n",
+    "uneven": FORCED + 'R = 0.7\n[sweep]\nnu = [0.3, 0.5, 0.6, 0.65, 0.8, 1.0, 1.4]\nxs = "logspace(0.1, 10, 9)"\n'
+    "[observe]\nextrema = true\n",
+    "cube": FORCED + '[sweep]\nR = [0.3, 0.8]\nnu = "linspace(0.8, 1.2, 9)"\nxs = "linspace(2, 4, 8)"\n'
+    "[observe]\nextrema = true\n",
+    "one_stop": FORCED + 'R = 0.6\n[sweep]\nstop_upper = [0.0, inf]\nnu = "linspace(0.5, 1.5, 21)"\n'
+    "[observe]\nextrema = true\n",
+    "linear": FORCED + 'xs = 20\n[sweep]\nnu = "linspace(0.5, 1.5, 21)"\n[observe]\nextrema = true\nharmonics = 2\n'
+    "impacts = true\n",
+}
+NO_CHOICE = SimpleNamespace(only=(), along="", over="", at=(), size=None, xlim=None, ylim=None, log="", title=None)
+
+
+def choice(**options):
+    return SimpleNamespace(**{**vars(NO_CHOICE), **options})
+
+
+class Kinds(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        kept = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(kept.cleanup)
+        cls.folder = Path(kept.name)
+        for name, text in CONFIGURATIONS.items():
+            (cls.folder / f"{name}.toml").write_text(text)
+            command = [CLATTER, "run", cls.folder / f"{name}.toml", "-o", cls.folder / f"{name}.h5", "-q"]
+            subprocess.run(command, check=True, timeout=300)
+        plot_style.use_style()
+
+    def draw(self, *names, arguments=()):
+        """The picture of these files, by the program."""
+        words = [*PLOT, *(self.folder / f"{name}.h5" for name in names), *arguments, "--format", "svg"]
+        result = subprocess.run(words, capture_output=True, text=True, timeout=300)
+        self.assertEqual((result.returncode, result.stderr), (0, ""))
+        (path,) = result.stdout.split()
+        return Svg(path)
+
+    def output(self, name):
+        return Output(self.folder / f"{name}.h5")
+
+    def refuse(self, name, *arguments):
+        words = [*PLOT, self.folder / f"{name}.h5", *arguments, "-o", self.folder / "refused"]
+        result = subprocess.run(words, capture_output=True, text=True, timeout=300)
+        self.assertEqual((result.returncode, result.stdout), (2, ""))
+        self.assertEqual(list((self.folder / "refused").glob("*")), [])
+        return result.stderr.splitlines()[-1]
+
+    def test_no_text_lies_on_another(self):
+        for name in CONFIGURATIONS:
+            with self.subTest(name):
+                figure = plot.single_figure(self.output(name), NO_CHOICE)
+                self.assertEqual(overlapping_texts(figure), [])
+
+    def test_overlapping_texts_are_found(self):
+        figure = plot.single_figure(self.output("linear"), NO_CHOICE)
+        figure.text(0.5, 0.5, "one")
+        figure.text(0.505, 0.5, "other")
+        self.assertIn(("one", "other"), overlapping_texts(figure))
+
+    def test_bifurcation_diagram_of_sections(self):
+        picture = self.draw("section")
+        x, v = picture.panels[:2]
+        for panel, name in ((x, "x once a forcing period"), (v, "x′ once a forcing period")):
+            self.assertEqual(len(panel.images()), 1)  # all points
+            self.assertTrue(any(text.replace("$", "") == name for text in panel.texts()), panel.texts())
+        self.assertTrue({"multiplier near −1", "multiplier near +1"} & set(x.legend()))
+        words = set(self.output("section").values("impact_word").tolist())
+        self.assertTrue(set(x.texts()) & (words - {""}))
+        # lines between neighbours with different words
+        changes = np.count_nonzero(np.diff([hash(word) for word in self.output("section").values("impact_word")]))
+        figure = plot.single_figure(self.output("section"), NO_CHOICE)
+        upright = [
+            line for line in figure.axes[0].lines if len(line.get_xdata()) == 2 and np.ptp(line.get_xdata()) == 0
+        ]
+        self.assertEqual(len(upright), changes)
+        self.assertGreater(changes, 1)
+
+    def test_every_state_of_a_section_is_a_point(self):
+        figure = plot.single_figure(self.output("section"), NO_CHOICE)
+        (points,) = (line for line in figure.axes[0].lines if line.get_rasterized())
+        values = self.output("section").values("section_x")
+        self.assertEqual(len(points.get_xdata()), np.isfinite(values).sum())
+        self.assertEqual(sorted(points.get_ydata()), sorted(values[np.isfinite(values)]))
+
+    def test_bifurcation_diagram_of_impacts(self):
+        (panel,) = self.draw("impacts").panels
+        self.assertEqual(panel.legend(), ["lower stop", "upper stop"])
+        figure = plot.single_figure(self.output("impacts"), NO_CHOICE)
+        points = sum(len(line.get_xdata()) for line in figure.axes[0].lines if line.get_rasterized())
+        self.assertEqual(points, len(self.output("impacts").values("impact_tau")))
+
+    def test_chaos_has_its_section_and_its_last_periods_with_impacts(self):
+        output = self.output("chaos")
+        figure = plot.single_figure(output, NO_CHOICE)
+        history, phase_plane, _, impacts, section = figure.axes
+        (points,) = (line for line in section.lines if line.get_rasterized())
+        self.assertEqual(len(points.get_xdata()), 500)
+        motion, marks = (line for line in history.lines if len(line.get_xdata()) > 2)
+        begin = output.values("tau")[-1] - 20 * 2 * np.pi / 0.9
+        self.assertGreaterEqual(motion.get_xdata()[0], begin)
+        self.assertLess(motion.get_linewidth(), 1)
+        self.assertEqual(len(marks.get_xdata()), np.count_nonzero(output.values("impact_tau") >= begin))
+        self.assertGreaterEqual(impacts.get_xlim()[0], begin)
+        self.assertEqual(len(self.draw("chaos").panels), 5)
+
+    def test_family_has_a_curve_for_each_value(self):
+        picture = self.draw("family")
+        names = ["$R = 0.3$", "$R = 0.6$", "$R = 0.9$"]
+        for panel in picture.panels:
+            self.assertEqual(
+                [text.replace("$", "") for text in panel.legend()[:3]], [n.replace("$", "") for n in names]
+            )
+        extrema = plot.single_figure(self.output("family"), NO_CHOICE).axes[0]
+        curves = [line for line in extrema.lines if np.isfinite(np.asarray(line.get_ydata(), float)).sum() > 10]
+        self.assertEqual(len(curves), 6)  # minimum and maximum
+        self.assertEqual(len({line.get_color() for line in curves}), 3)
+
+    def test_hysteresis_is_two_curves_in_one_picture(self):
+        (x, v) = self.draw("hysteresis").panels
+        self.assertEqual(x.legend()[:2], ["up", "down"])
+        self.assertEqual(v.legend()[:2], ["up", "down"])
+
+    def test_files_over_the_same_axis_share_a_picture(self):
+        text = (self.folder / "hysteresis.toml").read_text().replace('"both"', '"{}"')
+        for way in ("up", "down"):
+            (self.folder / f"{way}.toml").write_text(text.format(way))
+            command = [CLATTER, "run", self.folder / f"{way}.toml", "-o", self.folder / f"{way}.h5", "-q"]
+            subprocess.run(command, check=True)
+        picture = self.draw("up", "down")
+        self.assertEqual(picture.panels[0].legend()[:2], ["up", "down"])  # the names of the files
+        self.assertTrue((self.folder / "up+down.svg").is_file())
+        words = [*PLOT, self.folder / "up.h5", self.folder / "map.h5", "--format", "svg"]
+        result = subprocess.run(words, capture_output=True, text=True)
+        self.assertEqual(result.stdout.split(), [str(self.folder / name) for name in ("up.svg", "map.svg")])
+
+    def test_files_of_different_scenes_are_named_by_what_differs(self):
+        for R in ("0.5", "0.8"):
+            command = [CLATTER, "run", self.folder / "linear.toml", "-o", self.folder / f"R{R}.h5", "-q"]
+            subprocess.run([*command, "--set", "scene.xs=1.2", "--set", f"scene.R={R}"], check=True)
+        legend = self.draw("R0.5", "R0.8").panels[0].legend()[:2]
+        self.assertEqual([text.replace("$", "") for text in legend], ["R = 0.5", "R = 0.8"])
+
+    def test_map_is_images_and_names_regimes(self):
+        picture = self.draw("map")
+        titles = [text for panel in picture.panels for text in panel.texts()]
+        for title in ("regime, impacts on a stop / forcing periods", "kind of motion", "symmetric motion"):
+            self.assertIn(title, titles)
+        names = {name.replace("inf", "∞") for name in self.output("map").values("regime").ravel().tolist()}
+        self.assertGreater(len(names & set(titles)), 3)
+        self.assertLess((self.folder / "map.svg").stat().st_size, 600_000)
+        self.assertFalse([path for path in picture.root.iter() if path.tag == "{http://www.w3.org/2000/svg}pattern"])
+
+    def test_a_map_shows_each_value_where_its_point_lies(self):
+        for name in ("map", "uneven"):
+            output = self.output(name)
+            axes = plot.single_figure(output, choice(only=("x_max",))).axes[0]
+            image = axes.images[0]
+            pixels, values = image.get_array(), output.values("x_max")
+            bar = ScalarMappable(Normalize(values.min(), values.max()), "viridis")
+            for i, nu in enumerate(output.values("nu")):
+                for j, xs in enumerate(output.values("xs")):
+                    x, y = axes.transAxes.inverted().transform(axes.transData.transform((nu, xs)))
+                    row, column = int(y * pixels.shape[0]), int(x * pixels.shape[1])
+                    wanted = bar.to_rgba(values[i, j], bytes=True)
+                    self.assertEqual(pixels[row, column].tolist(), list(wanted), (name, nu, xs))
+
+    def test_a_hatch_is_one_image(self):
+        output = self.output("map")
+        self.assertTrue((output.values("status") == 1).any())
+        axes = plot.single_figure(output, choice(only=("x_max",))).axes[0]
+        self.assertEqual(len(axes.images), 2)
+        self.assertEqual(len(axes.collections), 0)
+
+    def test_a_constant_is_a_line_and_no_panel(self):
+        picture = self.draw("linear")
+        labels = " ".join(picture.texts())
+        self.assertIn("impacts per forcing period, lower stop = 0", labels)
+        self.assertNotIn("share of time at rest\n", labels)
+        output = self.output("linear")
+        self.assertTrue(is_constant(output.values("x_amplitude")[:, 0], 1.0))
+        phases = shown_values(output, "x_phase")
+        self.assertTrue(np.isfinite(phases[:, 1]).all())
+        self.assertTrue(np.isnan(phases[:, 2]).all())  # of nothing
+
+    def test_chatter_does_not_flatten_a_map(self):
+        values = np.ones((50, 50))
+        values[:5], values[5:9] = 80.0, 2.0
+        self.assertEqual(colour_range(values), (1.0, 4.0, True))
+        self.assertEqual(colour_range(values[5:]), (1.0, 2.0, False))
+        self.assertEqual(colour_range(values + 0.5), (1.5, 80.5, False))  # no counts
+        self.assertFalse(is_count(np.array([0.0] * 99 + [0.3, 1.0])))
+        self.assertIn("greatest values clipped", " ".join(self.draw("map").texts()))
+
+    def test_a_stop_that_is_not_there_is_not_listed(self):
+        texts = " ".join(self.draw("one_stop").texts())
+        self.assertIn("no upper stop", texts)
+        self.assertNotIn("inf", texts)
+
+    def test_choices(self):
+        output = self.output("cube")
+        self.assertEqual([m.title for m in members_of(output)], [""])
+        self.assertEqual(members_of(output)[0].output.axes, ("R", "nu"))
+        (held,) = members_of(output, at=[("R", 0.75)])
+        self.assertEqual((held.output.axes, held.output.scene["R"]), (("nu", "xs"), 0.8))
+        np.testing.assert_array_equal(held.output.values("x_max"), output.values("x_max")[1])
+        family = members_of(output, along="nu", over="R", at=[("xs", 3)])
+        self.assertEqual([m.title.replace("$", "") for m in family], ["R = 0.3", "R = 0.8"])
+        np.testing.assert_array_equal(family[1].output.values("x_max"), output.values("x_max")[1, :, 3])
+        (turned,) = members_of(output, along="xs", at=[("R", 0.3)])
+        self.assertEqual(turned.output.axes, ("xs", "nu"))
+        np.testing.assert_array_equal(turned.output.values("x_max"), output.values("x_max")[0].T)
+
+    def test_impacts_follow_their_points(self):
+        with h5py.File(self.folder / "impacts.h5") as file:
+            counts, tau = file["impact_count"][()], file["impact_tau"][()]
+        first = np.cumsum(counts) - counts
+        for index in (0, 40, 80):
+            times, *_ = self.output("impacts").at("nu", index).impacts(())
+            np.testing.assert_array_equal(times, tau[first[index] : first[index] + counts[index]])
+
+    def test_views(self):
+        picture = ("--size", "12x9cm", "--xlim", "0.9,1.1", "--ylim", "-5,5", "--title", "My $own", "--only", "x_max")
+        svg = self.draw("linear", arguments=picture)
+        self.assertEqual(svg.root.get("width"), f"{12 / 2.54 * 72:.6f}".rstrip("0") + "pt")
+        self.assertIn("My $own", " ".join(svg.texts()).replace("\\", ""))
+        axes = plot.single_figure(self.output("linear"), choice(xlim=(0.9, 1.1), ylim=(-5, 5), log="x")).axes[0]
+        self.assertEqual((axes.get_xlim(), axes.get_ylim(), axes.get_xscale()), ((0.9, 1.1), (-5, 5), "log"))
+
+    def test_wrong_choices(self):
+        for name, arguments, words in (
+            ("cube", ["--only", "x_maxx"], "--only: 'x_maxx' is no result in .*; did you mean 'x_max'?"),
+            ("cube", ["--only", "zzz"], "--only: 'zzz' is no result in .*; there are .*x_min"),
+            ("cube", ["--only", "x_max,"], "'x_max,' has an empty name"),
+            ("cube", ["--along", "nuu"], "--along: 'nuu' is no axis of this file, which has R, nu, xs"),
+            ("cube", ["--over", "h"], "--over: 'h' is no axis of this file"),
+            ("cube", ["--over", "nu", "--along", "nu"], "--along and --over both name 'nu'"),
+            ("linear", ["--over", "nu"], "--over nu: no axis is left to draw along"),
+            ("map", ["--over", "nu"], "--over nu: 21 curves; at most 12"),
+            ("cube", ["--at", "nu=3"], "--at nu=3: beyond the axis, which goes from 0.8 to 1.2"),
+            ("cube", ["--at", "h=3"], "--at: 'h' is no axis of this file"),
+            ("cube", ["--at", "nu"], "'nu' is no AXIS=VALUE"),
+            ("cube", ["--at", "nu=inf"], "'nu=inf' is no AXIS=VALUE"),
+            ("cube", ["--size", "7"], "'7' is no size; write WxH in inches, 1 to 100"),
+            ("cube", ["--size", "0x4"], "'0x4' is no size"),
+            ("cube", ["--xlim", "1"], "'1' is no pair of limits; write A,B"),
+            ("cube", ["--ylim", "1,1"], "'1,1' is no pair of limits"),
+            ("cube", ["--ylim", "a,b"], "'a,b' is no A,B"),
+            ("cube", ["--log", "z"], "argument --log: invalid choice: 'z'"),
+        ):
+            with self.subTest(arguments):
+                self.assertRegex(self.refuse(name, *arguments), words.replace("?", r"\?"))
+        with self.assertRaises(ChoiceProblem):
+            members_of(self.output("linear"), over="nu")
+
+
+if __name__ == "__main__":
+    unittest.main()
