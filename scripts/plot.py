@@ -20,13 +20,14 @@ try:
     from plot_figures import paper_figure
     from plot_generic import generic_figure
     from plot_options import command_line
+    from plot_scales import tidy_ticks
 except ImportError as error:
     sys.exit(f"plot.py: {error}; install python3-h5py and python3-matplotlib (Debian), or h5py and matplotlib (pip)")
 
 BAD_COMMAND, BAD_FILE = 2, 74  # exit codes, clatter's
 DATELESS = {"svg": {"Date": None}, "pdf": {"CreationDate": None}, "png": {}}  # the same bytes on every run
 ENCODING = {"png": {"pil_kwargs": {"compress_level": 4}}}  # nearly as small as at 6, sooner
-RASTER = {"svg": 150, "pdf": 200, "png": 200}  # dots per inch of what is drawn as an image
+RASTER = {"svg": 150, "pdf": 200, "png": plot_style.DPI}  # dots per inch of what is drawn as an image
 
 
 def pictures(options):
@@ -79,10 +80,10 @@ def finished(figure, options):
     for axes in figure.axes:
         if axes.get_label() != "<colorbar>":
             plot_style.set_view(axes, options)
+            tidy_ticks(axes)
     if options.size:
         figure.set_size_inches(options.size)
-    figure.get_layout_engine().execute(figure)
-    figure.set_layout_engine("none")
+    plot_style.lay_out(figure)
     keep_words_with_room(figure)
     return figure
 
@@ -93,7 +94,9 @@ def save(figure, folder, stem, formats):
     for kind in dict.fromkeys(formats):
         name = folder / f"{stem}.{kind}"
         try:
-            figure.savefig(name, metadata=DATELESS[kind], dpi=RASTER[kind], **ENCODING.get(kind, {}))
+            figure.savefig(
+                name, metadata=DATELESS[kind], dpi=plot_style.resolution(figure, RASTER[kind]), **ENCODING.get(kind, {})
+            )
         except OSError as error:
             raise FileProblem(f"{name}: cannot be written ({error.strerror}); name another folder with -o") from None
         names.append(str(name))

@@ -183,8 +183,11 @@ def scalar_parts(output, name):
     if variable.values.ndim == 0:
         return [(variable.long_name, variable.values)]
     if variable.dims == ("stop",):
-        sides = [("lower" if side < 0 else "upper") for side in output.values("stop")]
-        return [(f"{variable.long_name}, {side} stop", value) for side, value in zip(sides, variable.values)]
+        return [
+            (f"{variable.long_name}, {'lower' if side < 0 else 'upper'} stop", value)
+            for side, value in zip(output.values("stop"), variable.values)
+            if output.has_stop(side)
+        ]
     if variable.dims == ("multiplier",):
         return [
             (f"{variable.long_name}, {which} modulus", value)

@@ -13,6 +13,7 @@ from plain_hdf5 import FileProblem, UNREADABLE, damaged, open_output, printable,
 
 PAPER = "10.5755/j02.mech.32277"
 APERIODIC = 1  # status of motion without a period
+GRAZING = 3  # status of periodic motion without multipliers, since it just touches a stop
 FIRST_FAILURE = 16  # status values from here on are failures
 
 
@@ -168,6 +169,10 @@ class Output:
             gap = np.abs(self.parameter("xs"))
             return -gap, gap
         return self.parameter("stop_lower", -np.inf), self.parameter("stop_upper", np.inf)
+
+    def has_stop(self, side):
+        """Whether any point has a stop on this side: -1 lower, 1 upper."""
+        return bool(np.isfinite(self.stops()[0 if side < 0 else 1]).any())
 
     def impacts(self, index):
         """Times, stops, velocities before and after of one point's observed impacts."""

@@ -7,7 +7,7 @@ import numpy as np
 from plot_bifurcation import impact_diagram, poincare, section_diagram
 from plot_curves import curves, scalars, spectrum
 from plot_data import FIRST_FAILURE
-from plot_maps import Grid, kind_map, regime_map, value_map
+from plot_maps import Grid, kind_map, quantity, regime_map, value_map
 from plot_motion import chosen_points, impact_log, phase_plane, time_history
 from plot_scales import constant_value, is_constant, largest, shown_values
 from plot_style import caption_below, label, legend_above, new_figure, number, symbol
@@ -75,10 +75,11 @@ def generic_figure(members, only, options):
     else:
         grid = Grid(output, output.axes, (options.xlim, options.ylim), options.log)
         panels += map_panels(output, grid, drawn, caption)
-    columns = min(len(panels), 3 if len(panels) > 8 else 2)
+    columns = min(len(panels), 2 + (len(panels) > 8) + (len(panels) > 16))
     rows = ceil(len(panels) / columns)
-    width = 4.6 if columns == 1 else 3.5 * columns
-    figure = new_figure(0.5 + (2.5 if columns > 1 else 3.2) * rows, width)
+    width = 4.6 if columns == 1 else min(3.5 * columns, 10.5)
+    height = (3.2, 2.5, 2.5, 2.1)[columns - 1]
+    figure = new_figure(0.5 + height * rows, width)
     for place, draw in enumerate(panels):
         axes = figure.add_subplot(rows, columns, place + 1)
         caption += draw(figure, axes) or []
@@ -194,6 +195,8 @@ def components(output, group):
             parts.append((name, None, symbol(name)))
         elif len(dims) == 1 and dims[0] in output:
             known = np.isfinite(shown_values(output, name)).reshape(-1, len(output.values(dims[0]))).any(axis=0)
+            if dims[0] == "stop":
+                known &= [output.has_stop(side) for side in output.values("stop")]
             prefix = f"{symbol(name)} " if len(group) > 1 else ""
             parts += [(name, part, prefix + component_name(output, name, part)) for part in np.flatnonzero(known)]
     return parts
@@ -229,16 +232,14 @@ def map_panels(output, grid, drawn, caption):
         if is_constant(values[status < FIRST_FAILURE], scale_of(output, name)):
             caption.append(constant_note(output, name, part, title))
         elif np.isfinite(values[status < FIRST_FAILURE]).any():
-            panels.append(value_panel(output, grid, map_title(output, name, part, title), values, status))
+            panels.append(value_panel(grid, quantity(output, name, part, map_title(output, name, part, title)), status))
     if not panels:
-        panels.append(
-            value_panel(output, grid, "impacts simulated", output.values("impact_total").astype(float), status)
-        )
+        panels.append(value_panel(grid, quantity(output, "impact_total", None, "impacts simulated"), status))
     return panels
 
 
-def value_panel(output, grid, title, values, status):
-    return lambda figure, axes: value_map(figure, axes, grid, title, values, status)
+def value_panel(grid, shown, status):
+    return lambda figure, axes: value_map(figure, axes, grid, shown, status)
 
 
 def component_values(output, name, part):
@@ -254,7 +255,8 @@ def scale_of(output, name):
 
 def constant_note(output, name, part, title):
     value = constant_value(component_values(output, name, part), scale_of(output, name))
-    return f"{plain_title(output, name, part, title)} = {number(value)}"
+    words = plain_title(output, name, part, title)
+    return f"{words}{':' if '=' in words else ' ='} {number(value)}"
 
 
 def plain_title(output, name, part, title):

@@ -1,19 +1,54 @@
 """Panels of results over two axes, drawn as images: one for the values, one for the hatch."""
 
-import copy
 from collections import Counter
+from dataclasses import dataclass
 
 import numpy as np
-from matplotlib import cm, colormaps, colors, ticker
+from matplotlib import cm, colormaps, colors
 
-from plot_data import APERIODIC, FIRST_FAILURE
-from plot_scales import MOST_LEVELS, colour_range, is_count
-from plot_style import BLUE, CYCLE, GREEN, ORANGE, is_geometric, label
+from plot_data import APERIODIC, FIRST_FAILURE, GRAZING
+from plot_scales import integer_levels, shown_values, tidy_ticks
+from plot_style import BLUE, CYCLE, GREEN, ORANGE, is_geometric, label, number
 
-PIXELS = (900, 700)  # of an image, if its cells aren't all equal, and of a hatch
+PIXELS = (900, 700)  # of an image if its cells aren't all equal
 MOST_PIXELS = 1200  # along one axis; of more points the nearest to each pixel is shown
-STRIPE = 6  # pixels from one line of the hatch to the next
+HATCH = (420, 330)  # pixels of a hatch; it is stretched over the panel
+STRIPE, STROKE, INK = 9, 1.5, 170  # pixels from one stroke of the hatch to the next, their width, their opacity of 255
 NO_PERIOD = "#cfcfcf"
+REGIME_COLOURS = ("#e8f1f8", *CYCLE, "#8c510a", "#80cdc1", "#543005")
+
+# Why a result has no value at a point whose motion is periodic.
+MISSING = {
+    "v_before": "no impact",
+    "v_after": "no impact",
+    "velocity_ratio": "no impact",
+    "x_phase": "amplitude is negligible",
+    "v_phase": "amplitude is negligible",
+    "symmetric": "scene isn't symmetric",
+    "period": "mass stands still",
+    "eigenfrequency": "mass stands still",
+}
+
+
+@dataclass
+class Quantity:
+    """A result over two axes, or one component of it."""
+
+    name: str  # of the variable
+    title: str
+    values: np.ndarray  # float64, shape of the two axes; NaN if there is none
+    at_rest: np.ndarray  # bool, the same shape: the exponent is minus infinity
+
+    @property
+    def is_angle(self):
+        return self.name.endswith("_phase")
+
+
+def quantity(output, name, part, title):
+    """A component of a result (None: all of it) of an output over two axes."""
+    place = () if part is None else (..., part)
+    raw = output.values(name)[place]
+    return Quantity(name, title, shown_values(output, name)[place], np.isneginf(raw.astype(float)))
 
 
 class Grid:
@@ -26,69 +61,59 @@ class Grid:
             for values, view, axis in zip((output.values(name) for name in names), limits, "xy")
         ]
 
-    def image(self, values):
+    def image(self, values, pixels=(None, None)):
         """The values of the cells, shape of the two axes, as pixels: rows from below."""
-        column, row = (side.cells for side in self.sides)
-        pixels = values[np.ix_(np.maximum(column, 0), np.maximum(row, 0))].T
+        column, row = (side.cells(count) for side, count in zip(self.sides, pixels))
+        image = values[np.ix_(np.maximum(column, 0), np.maximum(row, 0))].T
         outside = (row < 0)[:, None] | (column < 0)
-        return np.ma.masked_where(outside, pixels) if outside.any() else pixels
+        return np.ma.masked_where(outside, image) if outside.any() else image
 
-    def draw(self, axes, pixels):
+    def draw(self, axes, pixels, interpolation="nearest"):
         """Fills the frame with pixels, [row][column][red, green, blue, opacity] as bytes."""
-        axes.imshow(
-            pixels,
-            origin="lower",
-            aspect="auto",
-            extent=(0, 1, 0, 1),
-            transform=axes.transAxes,
-            interpolation="nearest",
-        )
+        place = {"origin": "lower", "aspect": "auto", "extent": (0, 1, 0, 1), "transform": axes.transAxes}
+        axes.imshow(pixels, interpolation=interpolation, **place)
+
+    def colour(self, axes, values, shade):
+        """Fills the frame with values in the colours of a ScalarMappable, none for NaN."""
+        self.draw(axes, shade.to_rgba(np.ma.masked_invalid(self.image(values)), bytes=True))
+
+    def set_axes(self, axes):
         for side, name, axis in zip(self.sides, self.names, "xy"):
             getattr(axes, f"set_{axis}scale")("log" if side.is_log else "linear")
             getattr(axes, f"set_{axis}lim")(*side.view)
             getattr(axes, f"set_{axis}label")(label(self.output, name))
         axes.tick_params(which="both", top=False, right=False)
 
-    def colour(self, axes, values, **shades):
-        """Fills the frame with values in colours, none if they are NaN; returns what a colour bar takes."""
-        shade = cm.ScalarMappable(colors.Normalize(shades["vmin"], shades["vmax"]), shades["cmap"])
-        self.draw(axes, shade.to_rgba(np.ma.masked_invalid(self.image(values)), bytes=True))
-        return shade
-
     def hatch(self, axes, cells):
         """Strokes over these cells, all of them in one image."""
-        fine = copy.copy(self)
-        fine.sides = [side.finer(pixels) for side, pixels in zip(self.sides, PIXELS)]
-        covered = np.ma.filled(fine.image(cells), False)
+        covered = np.ma.filled(self.image(cells, HATCH), False)
         rows, columns = np.indices(covered.shape)
+        away = np.abs((columns - rows) % STRIPE - STRIPE / 2) / np.sqrt(2)
         strokes = np.zeros((*covered.shape, 4), np.uint8)
-        strokes[covered & ((rows - columns) % STRIPE < 1), 3] = 160
-        self.draw(axes, strokes)
+        strokes[..., 3] = INK * covered * np.clip(STROKE / 2 + 0.5 - away, 0, 1)
+        self.draw(axes, strokes, "bilinear")
 
 
 class Side:
-    """One axis of a map: its scale, its limits, and the cell that each pixel shows, -1 for none."""
+    """One axis of a map: its scale, its limits, and the cells between them."""
 
-    def __init__(self, values, view, is_log, pixels=None):
-        self.values, self.is_log = values, is_log and values.min() > 0
-        order = np.argsort(values, kind="stable")
-        place = self.to_scale(values[order])
-        middles = (place[1:] + place[:-1]) / 2
-        first, last = (middles[0] - place[0], place[-1] - middles[-1]) if len(values) > 1 else (0.5, 0.5)
-        edges = np.concatenate([[place[0] - first], middles, [place[-1] + last]])
-        if edges[0] == edges[-1]:
-            edges = edges + np.linspace(-0.5, 0.5, len(edges))  # all values are one
-        low, high = self.to_scale(np.asarray(view, float)) if view else (edges[0], edges[-1])
-        self.view = self.from_scale(low), self.from_scale(high)
-        even = not view and len(values) <= MOST_PIXELS and np.allclose(np.diff(edges), edges[1] - edges[0], rtol=1e-6)
-        count = pixels or (len(values) if even else PIXELS[0] if len(values) <= PIXELS[0] else MOST_PIXELS)
-        centres = low + (np.arange(count) + 0.5) / count * (high - low)
-        cell = np.searchsorted(edges, centres) - 1
-        inside = (cell >= 0) & (cell < len(values))
-        self.cells = np.where(inside, order[np.clip(cell, 0, len(values) - 1)], -1)
+    def __init__(self, values, view, is_log):
+        self.is_log = is_log and values.min() > 0
+        self.order = np.argsort(values, kind="stable")
+        self.edges = edges_between(self.to_scale(values[self.order]))
+        self.low, self.high = self.to_scale(np.asarray(view, float)) if view else self.edges[[0, -1]]
+        self.view = self.from_scale(self.low), self.from_scale(self.high)
+        steps = np.diff(self.edges)
+        is_even = not view and len(values) <= MOST_PIXELS and np.allclose(steps, steps[0], rtol=1e-6)
+        self.pixels = len(values) if is_even else PIXELS[0] if len(values) <= PIXELS[0] else MOST_PIXELS
 
-    def finer(self, pixels):
-        return Side(self.values, self.view, self.is_log, pixels)
+    def cells(self, pixels=None):
+        """The index of the value that each pixel shows, -1 for none."""
+        pixels = pixels or self.pixels
+        centres = self.low + (np.arange(pixels) + 0.5) / pixels * (self.high - self.low)
+        cell = np.searchsorted(self.edges, centres) - 1
+        inside = (cell >= 0) & (cell < len(self.order))
+        return np.where(inside, self.order[np.clip(cell, 0, len(self.order) - 1)], -1)
 
     def to_scale(self, values):
         return np.log(values) if self.is_log else np.asarray(values, float)
@@ -97,35 +122,87 @@ class Side:
         return float(np.exp(value) if self.is_log else value)
 
 
-def value_map(figure, axes, grid, title, values, status):
-    """A result over two axes in colours; hatched where motion has no period, black where the point failed. Returns
-    the notes that explain it."""
-    values = np.where(status >= FIRST_FAILURE, np.nan, values)
-    low, high, is_clipped = colour_range(values)
-    steps = is_count(values) and low == round(low) and high - low < MOST_LEVELS
-    shades = {"vmin": low, "vmax": high, "cmap": "viridis"}
-    if steps:
-        high = np.ceil(high)
-        levels = int(high - low) + 1
-        shades = {"vmin": low - 0.5, "vmax": high + 0.5, "cmap": colors.ListedColormap(step_colours(levels))}
-    elif low < 0.0 < high:
+def edges_between(places):
+    """The limits of cells around sorted places, halfway to the neighbours; any if all places are one."""
+    if places[0] == places[-1]:
+        return places[0] + np.linspace(-0.5, 0.5, len(places) + 1)
+    middles = (places[1:] + places[:-1]) / 2
+    return np.concatenate([[2 * places[0] - middles[0]], middles, [2 * places[-1] - middles[-1]]])
+
+
+def value_map(figure, axes, grid, shown, status):
+    """A quantity in colours; hatched where motion has no period, black where the point failed. Returns the notes that
+    explain it."""
+    values = np.where(status >= FIRST_FAILURE, np.nan, shown.values)
+    levels = None if shown.is_angle else integer_levels(values, shown.name)
+    shade = level_colours(levels) if levels else range_colours(values, shown.is_angle)
+    grid.colour(axes, values, shade)
+    notes = mark_points(axes, grid, status)
+    grid.set_axes(axes)
+    bar = figure.colorbar(shade, ax=axes, pad=0.02, **bar_style(levels))
+    name_panel(axes, shown.title, name_levels(bar, levels, shown.name) if levels else tidy_ticks(bar.ax)["y"])
+    return notes + clip_notes(shown, levels) + white_notes(shown, status)
+
+
+def level_colours(levels):
+    """Colours of whole numbers from dark to light, and of the gaps between them if there is something."""
+    count = len(levels.boundaries) - 1
+    shades = colormaps["viridis"](np.linspace(0, 0.95, count)) if count > 1 else [BLUE]
+    shades = colors.ListedColormap(shades).with_extremes(over="#fff3b0")
+    return cm.ScalarMappable(colors.BoundaryNorm(levels.boundaries, count), shades)
+
+
+def range_colours(values, is_angle):
+    """Colours of a quantity between its extremes: around zero if it has both signs; cyclic for angles that go far."""
+    low, high = np.nanmin(values), np.nanmax(values)
+    if is_angle and high - low > np.pi:
+        return cm.ScalarMappable(colors.Normalize(-np.pi, np.pi), "twilight")
+    if low < 0.0 < high:
         most = max(-low, high)
-        shades = {"vmin": -most, "vmax": most, "cmap": "RdBu_r"}
-    shade = grid.colour(axes, values, **shades)
-    bar = figure.colorbar(shade, ax=axes, pad=0.02, extend="max" if is_clipped else "neither")
-    if steps:
-        bar.set_ticks(np.arange(low, high + 0.5))
-        bar.ax.tick_params(which="both", length=0)
-    else:
-        bar.ax.yaxis.set_major_locator(ticker.MaxNLocator(6, integer=is_count(values)))
-    axes.set_title(title, fontsize=10)
-    notes = ["greatest values clipped"] * is_clipped + mark_points(axes, grid, status)
-    return notes + ["white: no value"] * bool((np.isnan(values) & (status < FIRST_FAILURE)).any())
+        return cm.ScalarMappable(colors.Normalize(-most, most), "coolwarm")  # its middle is grey: white is no value
+    return cm.ScalarMappable(colors.Normalize(low, high), "viridis")
 
 
-def step_colours(count):
-    """A colour for each of a few integers, from dark to light."""
-    return colormaps["viridis"](np.linspace(0, 1, count)) if count > 1 else [BLUE]
+def bar_style(levels):
+    if not levels:
+        return {}
+    return {"spacing": "uniform", "extend": "max" if levels.is_clipped else "neither", "extendfrac": 0.06}
+
+
+def name_levels(bar, levels, name):
+    """Numbers beside the whole ones in a colour bar."""
+    words = {"symmetric": ("no", "yes")}.get(name, tuple(map(str, levels.integers)))
+    bar.set_ticks(levels.integers, labels=words)
+    bar.ax.tick_params(which="both", length=0)
+    bar.minorticks_off()
+
+
+def name_panel(axes, title, words=None):
+    """The title of a panel, in more lines than one if its column has no room, and what the numbers have in common."""
+    text = axes.set_title(title, fontsize=10, pad=4.0)
+    room = 0.86 * axes.figure.bbox.width / axes.get_subplotspec().get_gridspec().ncols
+    if text.get_window_extent().width > room:
+        title = ",\n".join(title.rsplit(", ", 1))
+    text.set_text(f"{title}\n{words}" if words else title)
+
+
+def clip_notes(shown, levels):
+    if not levels or not levels.is_clipped:
+        return []
+    words = shown.title.split(", ")[0]
+    return [f"colours of {words} end at {levels.last}, values at {number(levels.greatest)}"]
+
+
+def white_notes(shown, status):
+    """Why cells are white."""
+    empty = np.isnan(shown.values) & (status < FIRST_FAILURE)
+    loose, grazing = empty & (status == APERIODIC), empty & (status == GRAZING)
+    rest = empty & ~loose & ~grazing & shown.at_rest
+    other = empty & ~loose & ~grazing & ~rest
+    reasons = ["no period"] * bool(loose.any() and MISSING.get(shown.name) != "no impact")
+    reasons += ["a stop is just touched"] * bool(grazing.any()) + ["rest in every period"] * bool(rest.any())
+    reasons += [MISSING.get(shown.name, "no value")] * bool(other.any() or loose.any() and not reasons)
+    return [f"white: {reason}" for reason in reasons]
 
 
 def mark_points(axes, grid, status):
@@ -141,16 +218,22 @@ def mark_points(axes, grid, status):
     return ["hatched: no period"] * bool(loose.any()) + ["black: failed"] * bool(failed.any())
 
 
-def class_map(figure, axes, grid, title, classes, codes):
-    """Named classes over two axes, each with its colour; `codes` has the number of its class for each point, NaN for
-    none."""
-    shades = colors.ListedColormap([colour for _, colour in classes])
-    shade = grid.colour(axes, codes, cmap=shades, vmin=-0.5, vmax=len(classes) - 0.5)
-    bar = figure.colorbar(shade, ax=axes, ticks=range(len(classes)), pad=0.02)
-    bar.ax.set_yticklabels([name for name, _ in classes])
+def class_map(figure, axes, grid, title, kinds):
+    """Kinds of motion over two axes; `kinds` lists name, colour and cells of each. Those that occur have a colour."""
+    kinds = [kind for kind in kinds if kind[2].any()]
+    codes = np.full(kinds[0][2].shape, np.nan)
+    for code, (_, _, cells) in enumerate(kinds):
+        codes[cells] = code
+    shades = colors.ListedColormap([colour for _, colour, _ in kinds])
+    shade = cm.ScalarMappable(colors.Normalize(-0.5, len(kinds) - 0.5), shades)
+    grid.colour(axes, codes, shade)
+    grid.set_axes(axes)
+    bar = figure.colorbar(shade, ax=axes, pad=0.02)
+    bar.set_ticks(range(len(kinds)), labels=[name for name, _, _ in kinds])
     bar.ax.tick_params(which="both", length=0)
-    axes.set_title(title, fontsize=10)
-    return []
+    bar.minorticks_off()
+    name_panel(axes, title)
+    return ["white: no value"] if np.isnan(codes).any() else []
 
 
 def kind_map(figure, axes, grid, status, ratio):
@@ -162,23 +245,25 @@ def kind_map(figure, axes, grid, status, ratio):
         ("no period", ORANGE, status == APERIODIC),
         ("failed", "black", status >= FIRST_FAILURE),
     ]
-    return class_map(figure, axes, grid, "kind of motion", *coded(kinds))
+    return class_map(figure, axes, grid, "kind of motion", kinds)
 
 
 def regime_map(figure, axes, grid, status, regimes):
     """Regimes n/p, the most frequent ones each with a colour."""
-    counts = Counter(regimes[regimes != ""].tolist())
-    named = sorted((name for name, _ in counts.most_common(len(REGIME_COLOURS))), key=regime_order)
-    kinds = [(regime_name(name), colour, regimes == name) for name, colour in zip(named, REGIME_COLOURS)]
+    names, place = np.unique(regimes, return_inverse=True)
+    place = place.reshape(regimes.shape)
+    counts = Counter(dict(zip(range(len(names)), np.bincount(place.ravel(), minlength=len(names)))))
+    counts.pop(0 if names[0] == "" else -1, None)
+    frequent = sorted(
+        (code for code, _ in counts.most_common(len(REGIME_COLOURS))), key=lambda c: regime_order(names[c])
+    )
+    kinds = [(regime_name(names[c]), colour, place == c) for c, colour in zip(frequent, REGIME_COLOURS)]
     kinds += [
-        ("others", "#7f7f7f", (regimes != "") & ~np.isin(regimes, named)),
+        ("others", "#7f7f7f", (regimes != "") & ~np.isin(place, frequent)),
         ("no period", NO_PERIOD, status == APERIODIC),
         ("failed", "black", status >= FIRST_FAILURE),
     ]
-    return class_map(figure, axes, grid, "regime, impacts on a stop / forcing periods", *coded(kinds))
-
-
-REGIME_COLOURS = ("#e8f1f8", *CYCLE, "#8c510a", "#80cdc1", "#543005")
+    return class_map(figure, axes, grid, "regime, impacts on a stop / forcing periods", kinds)
 
 
 def regime_order(name):
@@ -189,12 +274,3 @@ def regime_order(name):
 
 def regime_name(name):
     return name.replace("inf", "∞")
-
-
-def coded(kinds):
-    """The names and colours of the kinds that occur, and the number of each point's kind."""
-    kinds = [kind for kind in kinds if kind[2].any()]
-    codes = np.full(kinds[0][2].shape if kinds else (1, 1), np.nan)
-    for code, (_, _, cells) in enumerate(kinds):
-        codes[cells] = code
-    return [(name, colour) for name, colour, _ in kinds], codes

@@ -9,6 +9,8 @@ import numpy as np
 matplotlib.use("Agg")
 from matplotlib import pyplot  # noqa: E402  (the backend comes first)
 
+DPI = 200  # of PNG; texts are measured for it, once
+LARGE = 90.0  # square inches, of a picture that has fewer dots an inch
 WIDTH = 7.0  # inches, two columns of a journal: fonts below are in points at this size
 
 # Colours that stay apart for colour-blind readers and in grey (Okabe and Ito).
@@ -87,10 +89,12 @@ def use_style():
             "legend.frameon": False,
             "legend.handlelength": 1.8,
             "axes.prop_cycle": matplotlib.cycler(color=CYCLE),
+            "axes.titley": 1.0,
             "axes.formatter.useoffset": False,
             "axes.formatter.limits": (-4, 5),
             "axes.xmargin": 0.0,
             "hatch.linewidth": 0.5,
+            "figure.dpi": DPI,
             "svg.hashsalt": "clatter",
             "figure.max_open_warning": 0,
         }
@@ -116,12 +120,12 @@ def label(output, name):
 
 def number(value):
     """A number as text, with a real minus sign, and none for zero."""
-    return f"{value + 0.0:.6g}".replace("-", "\N{MINUS SIGN}")
+    return re.sub(r"e([-+])0", r"e\1", f"{value + 0.0:.6g}").replace("-", "\N{MINUS SIGN}")
 
 
 def typeset(title):
     """A configuration's title with its keys as symbols: 'xs = -4' becomes x_s = −4."""
-    title = title.replace("$", r"\$")
+    title = plain(title)
     title = re.sub(r"\b(xs|nu|x0|v0|R|h|f)(?= = )", lambda key: symbol(key.group(1)), title)
     return re.sub(r"(?<=[=,( ])-(?=\d)", "\N{MINUS SIGN}", title)
 
@@ -134,8 +138,22 @@ def heading(figure, output, title=None, others=()):
     shown = constants(output, own, others)
     many = int(1.2 * figure.get_figwidth())  # entries that fit a line
     lines = [",   ".join(shown[first : first + many]) for first in range(0, len(shown), many)]
-    first = f"{name}{typeset(own)}" if title is None else title.replace("$", r"\$")
-    figure.suptitle("\n".join([first, *lines]).strip(), fontsize=10.5, linespacing=1.5)
+    first = title_lines(figure, f"{name}{own}" if title is None else title, typeset if title is None else plain)
+    figure.suptitle("\n".join([*first, *lines]).strip(), fontsize=10.5, linespacing=1.5)
+
+
+def plain(text):
+    """A text without mathematics."""
+    return text.replace("$", r"\$")
+
+
+def title_lines(figure, title, to_text):
+    """A title as text, in as many lines as a figure needs; an equation isn't divided."""
+    width = figure.suptitle(to_text(title), fontsize=10.5).get_window_extent().width
+    room = int(0.97 * figure.bbox.width / max(width, 1.0) * len(title))
+    joined = re.sub(r" (?== )|(?<= =) ", "\0", title)
+    parts = [title] if room >= len(title) else textwrap.wrap(joined, room)
+    return [to_text(part.replace("\0", " ")) for part in parts]
 
 
 def set_view(axes, options):
@@ -150,12 +168,24 @@ def set_view(axes, options):
 def caption_below(figure, notes):
     """Notes below the panels, as many in a line as it has room for."""
     room, lines = int(13 * figure.get_figwidth()), []
-    for note in dict.fromkeys(notes):
+    for note in gathered(dict.fromkeys(notes)):
         if lines and len(lines[-1]) + len(note) + 4 <= room:
             lines[-1] += f";   {note}"
         else:
             lines += textwrap.wrap(note, room)
     figure.supxlabel("\n".join(lines), fontsize=9.5, linespacing=1.4)
+
+
+def gathered(notes):
+    """The notes, with those alike for both stops as one, and the reasons for white in the last."""
+    white = "white: "
+    reasons = [note.removeprefix(white) for note in notes if note.startswith(white)]
+    others = [note for note in notes if not note.startswith(white)]
+    for note in list(others):
+        if ", lower stop" in note and (twin := note.replace(", lower", ", upper")) in others:
+            others[others.index(note)] = note.replace(", lower stop", ", both stops")
+            others.remove(twin)
+    return [*others, white + ", or ".join(reasons)] if reasons else others
 
 
 def constants(output, title, others=()):
@@ -228,6 +258,20 @@ def set_axis(axes, output, name, margin=0.0):
         low, high = to_scale([values.min(), values.max()])
         axes.set_xlim(from_scale([low - margin * (high - low), high + margin * (high - low)]))
     axes.set_xlabel(label(output, name))
+
+
+def lay_out(figure):
+    """Finds the place of every panel, once for all formats. Titles stand on their frames: to look for ticks and labels
+    above a frame takes longer than to draw."""
+    for axes in figure.axes:
+        axes.set_title(axes.get_title(), fontsize=axes.title.get_fontsize())
+    figure.get_layout_engine().execute(figure)
+    figure.set_layout_engine(None)  # else every format is drawn twice, first to lay it out
+
+
+def resolution(figure, dpi):
+    """Dots per inch of a figure: fewer for one of many panels, whose file would have megabytes."""
+    return dpi * min(1.0, (LARGE / np.prod(figure.get_size_inches())) ** 0.5)
 
 
 def new_figure(height, width=WIDTH):
