@@ -85,9 +85,10 @@ Arguments collect(const Command& command, const po::parsed_options& parsed) {
   return arguments;
 }
 
-/// Refuses standard output for results: HDF5 is not written as a stream.
-void check_output(const Arguments& arguments) {
-  if (arguments.value("output") == "-")
+/// Refuses standard output for HDF5, which is not written as a stream.
+void check_output(const Command& command, const Arguments& arguments) {
+  const auto output = std::ranges::find(command.options, "output", &Option::name);
+  if (arguments.value("output") == "-" && output->argument == "FILE.h5")
     throw UsageError("-o - is no file, and HDF5 can't go to standard output; name a file (./- for one called -)");
 }
 
@@ -124,7 +125,7 @@ Arguments parse_arguments(const Command& command, const std::vector<std::string>
   try {
     const auto parsed = po::command_line_parser(words).options(description).positional(operands).style(style).run();
     Arguments arguments = collect(command, parsed);
-    if (!arguments.has("help")) check_operands(command, arguments.operands), check_output(arguments);
+    if (!arguments.has("help")) check_operands(command, arguments.operands), check_output(command, arguments);
     return arguments;
   } catch (const po::error& error) {
     refuse(command, error);

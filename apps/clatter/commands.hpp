@@ -43,6 +43,7 @@ struct Command {
 [[nodiscard]] Command plan_command();
 [[nodiscard]] Command accuracy_command();
 [[nodiscard]] Command merge_command();
+[[nodiscard]] Command export_command();
 [[nodiscard]] Command info_command();
 [[nodiscard]] Command defaults_command();
 [[nodiscard]] Command help_command();

@@ -39,4 +39,7 @@ struct FileSummary {
 /// Reads a clatter file. Throws IoError if it cannot be read, is no HDF5 file, or was not written by clatter.
 [[nodiscard]] FileSummary read_summary(const std::string& path);
 
+/// Reads the values of some variables of such a file, in this order, with the meanings of flags. Throws IoError.
+[[nodiscard]] sweep::Dataset read_variables(const std::string& path, const std::vector<std::string>& names);
+
 }  // namespace clatter::results

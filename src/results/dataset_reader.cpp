@@ -14,6 +14,7 @@
 #include "results/hdf5_shape.hpp"
 #include "results/hdf5_soundness.hpp"
 #include "results/hdf5_texts.hpp"
+#include "results/hdf5_values.hpp"
 #include "results/summary_bytes.hpp"
 #include "storage/error.hpp"
 #include "storage/input_file.hpp"
@@ -194,7 +195,47 @@ FileSummary unguarded_summary(const std::string& path, std::uint64_t stored_byte
   refuse_damaged(path, "it holds an impossible length");
 }
 
+sweep::Variable variable_in(const Handle& file, const std::string& name) {
+  const Handle dataset = detail::open_variable(file, name);
+  sweep::Variable variable{name, {}, detail::values_of(dataset), "", ""};
+  for (const sweep::NamedLength& dimension : dimensions_of(dataset, name))
+    variable.dimensions.push_back(dimension.name);
+  if (std::string meanings = text_attribute(dataset, "flag_meanings"); !meanings.empty())
+    variable.attributes = {{"flag_values", detail::byte_attribute(dataset, "flag_values")},
+                           {"flag_meanings", std::move(meanings)}};
+  return variable;
+}
+
+/// Reads the values as `read_variables` does and keeps none, in a process that the library may crash.
+void try_variables(const std::string& path, const std::vector<std::string>& names, std::uint64_t stored_bytes) try {
+  const detail::QuietErrors quiet;
+  const Handle file = open(path);
+  for (const std::string& name : names) {
+    const Handle dataset = detail::open_variable(file, name);
+    if (static_cast<double>(detail::length_of(dataset)) > detail::most_deflated * static_cast<double>(stored_bytes))
+      throw detail::Failure("its '" + name + "' is longer than a file of its size can hold");
+    detail::try_values(dataset);
+  }
+} catch (const detail::Failure& failure) {
+  refuse_damaged(path, failure.what());
+}
+
 }  // namespace
+
+sweep::Dataset read_variables(const std::string& path, const std::vector<std::string>& names) try {
+  const std::uint64_t stored = storage::open_input(path, "an output of clatter").stored_bytes;
+  static_cast<void>(
+      storage::run_in_child([&] { return try_variables(path, names, stored), ""; }, storage::limits_for(stored)));
+  const detail::QuietErrors quiet;
+  const Handle file = open(path);
+  sweep::Dataset dataset;
+  for (const std::string& name : names) dataset.variables.push_back(variable_in(file, name));
+  return dataset;
+} catch (const detail::Failure& failure) {
+  refuse_damaged(path, failure.what());
+} catch (const storage::ChildFailed& death) {
+  refuse_damaged(path, death.what());
+}
 
 FileSummary read_summary(const std::string& path) try {
   const std::uint64_t stored = storage::open_input(path, "an output of clatter").stored_bytes;

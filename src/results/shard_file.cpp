@@ -15,7 +15,7 @@
 #include "results/hdf5_handle.hpp"
 #include "results/hdf5_plain.hpp"
 #include "results/hdf5_shape.hpp"
-#include "results/hdf5_texts.hpp"
+#include "results/hdf5_values.hpp"
 #include "storage/error.hpp"
 #include "storage/input_file.hpp"
 #include "storage/packed.hpp"
@@ -44,33 +44,11 @@ auto read_file(const std::string& path, Read read) try {
   refuse(path, failure.what());
 }
 
-std::size_t length_of(const Handle& dataset) {
-  const Handle space{H5Dget_space(dataset), H5Sclose};
-  return static_cast<std::size_t>(checked(H5Sget_simple_extent_npoints(space)));
-}
-
-template <typename Value>
-sweep::ValueArray values_of(const Handle& dataset) {
-  std::vector<Value> values(length_of(dataset));
-  if (!values.empty())
-    checked(H5Dread(dataset, detail::type_of(Value{}).memory, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()));
-  return values;
-}
-
-sweep::ValueArray column_of(const Handle& dataset) {
-  if (detail::is_text(dataset)) return detail::read_texts(dataset);
-  const Handle type{H5Dget_type(dataset), H5Tclose};
-  const bool is_integer = H5Tget_class(type) == H5T_INTEGER, is_wide = H5Tget_size(type) > 1;
-  if (!is_integer) return values_of<double>(dataset);
-  if (is_wide) return values_of<std::int64_t>(dataset);
-  return H5Tget_sign(type) == H5T_SGN_NONE ? values_of<std::uint8_t>(dataset) : values_of<std::int8_t>(dataset);
-}
-
 void walk_variables(const Handle& file,
                     const std::function<void(const std::string& name, const Handle& dataset)>& visit) {
   for (const std::string& name : detail::variables_in(file)) {
     const Handle dataset = detail::open_variable(file, name);
-    if (length_of(dataset) == 0 || H5Dget_storage_size(dataset) > 0) visit(name, dataset);  // not a bare scale
+    if (detail::length_of(dataset) == 0 || H5Dget_storage_size(dataset) > 0) visit(name, dataset);  // not a bare scale
   }
 }
 
@@ -88,12 +66,7 @@ std::uint64_t values_in(const Handle& file) {
 
 /// Reads all values as `read_shard` does, and keeps none.
 void try_values(const Handle& file) {
-  std::vector<std::byte> memory(detail::largest_block);
-  walk_variables(file, [&](const std::string&, const Handle& dataset) {
-    if (detail::is_text(dataset)) return detail::try_texts(dataset);
-    const Handle type{H5Dget_type(dataset), H5Tclose}, native{H5Tget_native_type(type, H5T_DIR_ASCEND), H5Tclose};
-    detail::read_blocks(dataset, native, memory.data(), [](std::size_t) {});
-  });
+  walk_variables(file, [](const std::string&, const Handle& dataset) { detail::try_values(dataset); });
 }
 
 ShardHeader header_of(const Handle& file, const std::string& path) {
@@ -110,7 +83,7 @@ ShardHeader header_of(const Handle& file, const std::string& path) {
                      .rounding = text_attribute(file, "rounding"),
                      .values = values_in(file)};
   if (checked(H5Lexists(file, "impact_tau", H5P_DEFAULT)) > 0)
-    header.impacts = length_of(detail::open_variable(file, "impact_tau"));
+    header.impacts = detail::length_of(detail::open_variable(file, "impact_tau"));
   return header;
 }
 
@@ -174,7 +147,7 @@ sweep::Dataset read_shard(const std::string& path) {
   return read_file(path, [](const Handle& file) {
     sweep::Dataset dataset;
     walk_variables(file, [&](const std::string& name, const Handle& variable) {
-      dataset.variables.push_back({name, {}, column_of(variable), "", ""});
+      dataset.variables.push_back({name, {}, detail::values_of(variable), "", ""});
     });
     return dataset;
   });

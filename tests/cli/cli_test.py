@@ -16,7 +16,7 @@ class WrongCommandLines(CommandLine):
         cases = [
             ([], "no command; see `clatter --help`"),
             (["rnu", config], "unknown command 'rnu'; did you mean 'run'?"),
-            (["frobnicate"], "the commands are: run, plan, accuracy, merge, info, defaults, help"),
+            (["frobnicate"], "the commands are: run, plan, accuracy, merge, export, info, defaults, help"),
             (
                 ["--verbose"],
                 "unknown option '--verbose' before the command; write it behind: clatter COMMAND ... --verbose",
@@ -53,6 +53,12 @@ class WrongCommandLines(CommandLine):
             (["info"], "FILE.h5 is missing"),
             (["info", "a.h5", "--jsn"], "did you mean '--json'?"),
             (["info", "a.h5", "--json", "--config"], "--json conflicts with --config"),
+            (["export"], "FILE.h5 is missing"),
+            (["export", "a.h5", "--ony", "x"], "did you mean '--only'?"),
+            (["export", "a.h5", "--only", "x_max,"], "--only 'x_max,' has an empty name"),
+            (["export", "a.h5", "--where", "nu"], "--where 'nu'; expected AXIS=VALUE, e.g. nu=1.0"),
+            (["export", "a.h5", "--where", "nu=one"], "--where 'nu=one'; expected AXIS=VALUE"),
+            (["export", "a.h5", "--where", "=1"], "--where '=1'; expected AXIS=VALUE"),
             (["defaults", "toml"], "unexpected argument 'toml'"),
             (["defaults", "--in"], "unknown option '--in'; did you mean '--ini'?"),
         ]

@@ -5,7 +5,7 @@ import unittest
 
 from command_line import SOURCE, CommandLine
 
-COMMANDS = ("run", "plan", "accuracy", "merge", "info", "defaults", "help")
+COMMANDS = ("run", "plan", "accuracy", "merge", "export", "info", "defaults", "help")
 SECTIONS = ("scene", "sweep", "time", "observe", "integrator", "output")
 
 
