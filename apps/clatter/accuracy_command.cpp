@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "accuracy/accuracy_dataset.hpp"
+#include "accuracy_answer.hpp"
 #include "accuracy_report.hpp"
 #include "commands.hpp"
 #include "common_options.hpp"
@@ -27,9 +28,18 @@ void check_starts(const config::Config& config, const std::string& file) {
 /// Sections that an accuracy run ignores: it chooses observables and integrators itself.
 constexpr std::string_view not_read[] = {"observe", "integrator"};
 
+using PointText = std::string (*)(const accuracy::PointAccuracy& of_point, const sweep::Sweep& sweep,
+                                  std::size_t point);
+
+PointText text_of(const Arguments& arguments) {
+  if (arguments.has("json") && arguments.has("verbose"))
+    throw UsageError("--json conflicts with --verbose, since it has every row; give one of them");
+  return arguments.has("json") ? accuracy_json : arguments.has("verbose") ? accuracy_text : accuracy_answer;
+}
+
 /// Measures and prints all points, or fewer if it is interrupted.
-std::vector<accuracy::PointAccuracy> measure_points(const sweep::Sweep& sweep, lanes::InstructionSet arch, bool json,
-                                                    bool shown) {
+std::vector<accuracy::PointAccuracy> measure_points(const sweep::Sweep& sweep, lanes::InstructionSet arch,
+                                                    PointText text_of, bool shown) {
   const std::vector<accuracy::Trial> trials = accuracy::trials_of(sweep.problem.time.mode, arch);
   Progress progress(shown, "runs");
   accuracy::AccuracyOptions options{.stopped = [] { return Interrupt::signal() != 0; }};
@@ -48,7 +58,7 @@ std::vector<accuracy::PointAccuracy> measure_points(const sweep::Sweep& sweep, l
   for (std::size_t point = 0; point < size(sweep); ++point) {
     accuracy::PointAccuracy of_point = measure_accuracy(problem_at(sweep, point), trials, options);
     if (Interrupt::signal() != 0) break;
-    std::cout << (json ? accuracy_json : accuracy_text)(of_point, sweep, point) << std::flush;
+    std::cout << text_of(of_point, sweep, point) << std::flush;
     points.push_back(std::move(of_point));
   }
   return points;
@@ -63,6 +73,7 @@ bool any_failed(const std::vector<accuracy::PointAccuracy>& points) {
 
 int run_accuracy(const Arguments& arguments) {
   const lanes::InstructionSet arch = arch_of(arguments);
+  const PointText text_of_point = text_of(arguments);
   const bool shown = progress_wanted(arguments);
   const std::string output = output_of(arguments, ".accuracy.h5");
   const config::Config config = config_of(arguments);
@@ -72,7 +83,7 @@ int run_accuracy(const Arguments& arguments) {
   storage::require_idle(output);
   if (!arguments.has("quiet")) warn(config, not_read);
   const Interrupt interrupt;
-  const std::vector<accuracy::PointAccuracy> points = measure_points(config.sweep, arch, arguments.has("json"), shown);
+  const std::vector<accuracy::PointAccuracy> points = measure_points(config.sweep, arch, text_of_point, shown);
   if (const int signal = Interrupt::signal()) {
     std::cerr << "stopped after " << points.size() << " of " << size(config.sweep) << " points; "
               << storage::printable(output) << " is not written\n";
@@ -101,9 +112,10 @@ Command accuracy_command() {
                       set_option,
                       ini_option,
                       arch_option,
-                      {"json", 0, "", "print a JSON object per row instead of the table"},
+                      {"verbose", 'v', "", "print every row as well: all settings, errors and counts"},
+                      {"json", 0, "", "print a JSON object per row instead"},
                       progress_option,
-                      {"quiet", 'q', "", "print only rows and errors"},
+                      {"quiet", 'q', "", "print only answers and errors"},
                       {"help", 'h', "", "print this help"}},
           .run = run_accuracy};
 }

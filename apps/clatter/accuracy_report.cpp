@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "accuracy/accuracy_dataset.hpp"
+#include "accuracy_answer.hpp"
 #include "coordinates.hpp"
 #include "format.hpp"
 
@@ -76,38 +77,32 @@ std::string row_text(const accuracy::WorkPrecision& row, const accuracy::PointAc
   return text + remark(row, of_point) + '\n';
 }
 
-/// Says what the errors refer to.
-std::string horizon_text(const accuracy::PointAccuracy& of_point, bool forced) {
-  const std::string events = counted(of_point.impacts, "impact") + " and " + counted(of_point.rests, "rest");
-  const std::string asked = formatted("%.6g", of_point.asked) + (forced ? " forcing period" : " turn") +
-                            (of_point.asked == 1 ? "" : "s") + (forced ? "" : " of 2 pi");
-  const steady::Status status = of_point.rows.front().status;
-  std::string text;
-  if (failed(status))
-    text = "not compared, since the run fails: " + status_name(status);
-  else if (of_point.horizon == of_point.asked)
-    text = "compared with 50 digits over " + asked + " from the start: " + events;
-  else if (of_point.horizon > 0)
-    text = "compared with 50 digits over " + formatted("%.6g", of_point.horizon) + " of " + asked +
-           " from the start: " + events + "; from there on double and 50 digits differ, as chaotic motion lets them";
-  else
-    text = "not compared: double and 50 digits differ within the first of " + asked;
-  text += ".\n";
+/// Says which motion harmonics and repeats are of.
+std::string steady_text(const accuracy::PointAccuracy& of_point) {
   if (of_point.steady_periods > 0)
-    text += "Harmonics and repeats are those of the steady motion, " +
-            counted(of_point.steady_periods, "forcing period") + " long, in 50 digits.\n";
-  else
-    text += "Harmonics are those of the time compared; there is no steady forced motion to compare repeats with.\n";
-  return text;
+    return "Harmonics and repeats are those of the steady motion, " +
+           counted(of_point.steady_periods, "forcing period") + " long, in 50 digits.\n";
+  return "Harmonics are those of the time compared; there is no steady forced motion to compare repeats with.\n";
 }
 
 }  // namespace
 
+std::string comparison_text(const accuracy::PointAccuracy& of_point, bool forced) {
+  const std::string events = counted(of_point.impacts, "impact") + " and " + counted(of_point.rests, "rest");
+  const std::string asked = formatted("%.6g", of_point.asked) + (forced ? " forcing period" : " turn") +
+                            (of_point.asked == 1 ? "" : "s") + (forced ? "" : " of 2 pi");
+  const steady::Status status = of_point.rows.front().status;
+  if (failed(status)) return "not compared, since the run fails: " + status_name(status) + '.';
+  if (of_point.horizon == of_point.asked)
+    return "compared with 50 digits over " + asked + " from the start: " + events + '.';
+  if (of_point.horizon > 0)
+    return "compared with 50 digits over " + formatted("%.6g", of_point.horizon) + " of " + asked +
+           " from the start: " + events + "; from there on double and 50 digits differ, as chaotic motion lets them.";
+  return "not compared: double and 50 digits differ within the first of " + asked + '.';
+}
+
 std::string accuracy_text(const accuracy::PointAccuracy& of_point, const sweep::Sweep& sweep, std::size_t point) {
-  std::string text = coordinates_text(sweep, point);
-  if (!text.empty()) text += '\n';
-  text += horizon_text(of_point, problem_at(sweep, point).oscillator.forcing != 0);
-  text += header();
+  std::string text = accuracy_answer(of_point, sweep, point) + steady_text(of_point) + header();
   for (const accuracy::WorkPrecision& row : of_point.rows) text += row_text(row, of_point);
   return text + '\n';
 }

@@ -8,7 +8,10 @@
 
 namespace clatter::app {
 
-/// The accuracy at a point as a table for people.
+/// Says over which time, and with how many events, methods are compared.
+[[nodiscard]] std::string comparison_text(const accuracy::PointAccuracy& of_point, bool forced);
+
+/// The short answer at a point, then every row as a table.
 [[nodiscard]] std::string accuracy_text(const accuracy::PointAccuracy& of_point, const sweep::Sweep& sweep,
                                         std::size_t point);
 

@@ -104,21 +104,38 @@ class Accuracy(AccuracyRuns):
     def repeats(self, name):
         """The configuration in the file gives the same file, but for times; the table has a line a row."""
         self.write("again.toml", self.clatter("info", name, "--config").stdout)
-        result = self.accuracy("again.toml")
+        result = self.accuracy("again.toml", "-v")
         self.assertEqual(result.stderr, "again.accuracy.h5\n")  # no bar without a terminal
         with h5py.File(self.directory / name) as one, h5py.File(self.directory / "again.accuracy.h5") as other:
             self.assertEqual(set(one), set(other))
             self.assertEqual(one.attrs["config"], other.attrs["config"])
             for variable in set(one) - TIMES:
                 self.assertEqual(one[variable][()].tobytes(), other[variable][()].tobytes(), variable)
-        first, second, *table = result.stdout.splitlines()
-        self.assertIn("compared with 50 digits over 3 forcing periods from the start: 6 impacts and 0 rests.", first)
-        self.assertIn("steady motion, 1 forcing period long", second)
+        answer, steady, rows = result.stdout.partition("Harmonics and repeats are those of the ")
+        self.assert_answers(answer)
+        self.assertTrue(rows.startswith("steady motion, 1 forcing period long"), rows)
+        table = rows.splitlines()[1:]
         lines = [line.split() for line in table if re.match(r"[a-z]", line)]
         self.assertEqual([line[0] for line in lines], ["method"] + METHODS + REPEATS)
         self.assertEqual({len(line) for line in lines[1:]}, {len(lines[1])})  # as many columns in each
         self.assertEqual([line[2] for line in lines[1:5]], ["-", "-", "1e-03", "1e-04"])
         self.assertLessEqual(max(map(len, result.stdout.splitlines())), 160)
+
+    def assert_answers(self, answer):
+        """For each error each method's cheapest setting, none cheaper than once the cheapest; in 80 columns."""
+        lines = answer.splitlines()
+        self.assertLessEqual(max(map(len, lines)), 80)
+        text = " ".join(lines)
+        self.assertIn("compared with 50 digits over 3 forcing periods from the start: 6 impacts and 0 rests.", text)
+        levels = [line for line in lines if re.match(r" 1e-\d\d ", line)]
+        self.assertEqual([line.split()[0] for line in levels], [f"1e-{digits:02}" for digits in range(2, 15, 2)])
+        self.assertEqual({len(line) for line in levels}, {76})
+        for line in levels[:5]:
+            times = [float(ratio) for ratio in re.findall(r" [num]?s +([\d.]+)", line)]
+            self.assertEqual(min(times), 1)
+        found = r"exact in lanes \(\w+\): \de-1\d at \d+ ns a period; Dormand-Prince takes \d+ times as long for 1e-06"
+        self.assertRegex(text, found)
+        self.assertRegex(text, r"(Impacts are missed or invented by|No method misses)")
 
     def test_of_a_sweep_has_its_axes_before_the_rows(self):
         config = self.write("a.toml", SWEEP)
@@ -147,7 +164,8 @@ class Accuracy(AccuracyRuns):
             self.assertGreaterEqual(row["status"], 16)
             self.assertEqual(row["horizon"], 0)
         self.assert_file_holds("a.accuracy.h5", rows)
-        table = self.accuracy(config, "-o", "b.h5", code=1).stdout
+        self.assertEqual(self.accuracy(config, "-o", "b.h5", code=1).stdout.count("\n"), 2)
+        table = self.accuracy(config, "-v", "-o", "c.h5", code=1).stdout
         self.assertIn("not compared", table)
         self.assertEqual(table.count("  event_budget\n"), 61)
 
@@ -169,7 +187,7 @@ class Accuracy(AccuracyRuns):
     def test_of_points_that_lanes_leave_to_the_scalar_loop_says_so(self):
         scene = SCENE.replace("h = 0.1\n", "")
         config = self.write("a.toml", scene + "[sweep]\nh = [0.1, 2]\n[time]\nwindow = 1\nmax_periods = 100\n")
-        table = self.accuracy(config, "-q").stdout
+        table = self.accuracy(config, "-q", "-v").stdout
         sentence = r"^(exact|steady) +\w+  not in lanes: this motion is left to the scalar loop$"
         self.assertEqual(re.findall(sentence, table, re.MULTILINE), ["exact", "steady"])
         self.assertLess(table.index("h = 2"), table.index("not in lanes"))
@@ -192,6 +210,7 @@ class Refusals(AccuracyRuns):
             ([], "CONFIG is missing; write: clatter accuracy CONFIG"),
             ([config, config], "unexpected argument 'a.toml'"),
             ([config, "--jsn"], "unknown option '--jsn'; did you mean '--json'?"),
+            ([config, "--json", "-v"], "--json conflicts with --verbose"),
             ([config, "--threads", "2"], "unknown option '--threads'; see `clatter help accuracy`"),
             ([config, "--arch", "avx"], "--arch 'avx'; expected one of scalar, sse2, avx2, avx512"),
             ([config, "--progress", "sometimes"], "expected one of auto, always, never"),
