@@ -18,11 +18,11 @@ LARGE_MAP = (
     "observe.period=false",
     "observe.word=true",
 )  # four extrema and the regimes: five panels, and the symmetry
-DIAGRAM = ("sweep.nu=linspace(0.82, 1.0, 20001)", "observe.section=100", "observe.stability=false")
+DIAGRAM = ("sweep.nu=linspace(0.82, 1.0, 21501)", "observe.section=100", "observe.stability=false")
 PICTURES = (  # name, configuration, settings, options of plot.py, seconds wanted
     ("map_nu_xs.toml", "map_nu_xs", (), (), 3),
     ("map of 1000 x 1000, five panels", "map_nu_xs", LARGE_MAP, ("--only", "extrema,word"), 10),
-    ("bifurcation diagram", "bifurcation", DIAGRAM, ("--only", "section_x"), 5),
+    ("bifurcation diagram, 10^6 points", "bifurcation", DIAGRAM, ("--only", "section_x"), 5),
 )
 
 

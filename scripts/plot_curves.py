@@ -11,6 +11,7 @@ from plot_style import BLUE, CYCLE, STOP, draw_walls, label, legend_above, numbe
 
 MARGIN = 0.012  # of an axis beside its points
 DENSE = 60  # points from which a curve is drawn without markers
+MANY = 2000  # markers from which on they are an image in vector formats
 
 
 def draw_branch(axes, output, name, values, color, title, loose_color=None, **style):
@@ -19,9 +20,10 @@ def draw_branch(axes, output, name, values, color, title, loose_color=None, **st
     along, values, loose = split_at_jumps(along, values, loose)
     steady = np.where(loose, np.nan, values)
     marker = "." if len(along) < DENSE else None
-    axes.plot(along, steady, label=title, color=color, **{"lw": 1.2, "marker": marker, **style})
+    style = {"lw": 1.2, "marker": marker, **style}
+    axes.plot(along, steady, label=title, color=color, rasterized=bool(style["marker"]) and len(along) > MANY, **style)
     alone = lonely(steady)
-    axes.plot(along[alone], steady[alone], ls="none", marker=".", ms=3.2, color=color)
+    axes.plot(along[alone], steady[alone], ls="none", marker=".", ms=3.2, color=color, rasterized=alone.sum() > MANY)
     axes.plot(
         along[loose],
         values[loose],
@@ -32,6 +34,7 @@ def draw_branch(axes, output, name, values, color, title, loose_color=None, **st
         mec=loose_color or color,
         mew=0.8,
         zorder=3,
+        rasterized=loose.sum() > MANY,
     )
 
 

@@ -5,15 +5,15 @@ from dataclasses import dataclass
 
 import numpy as np
 from matplotlib import cm, colormaps, colors
+from matplotlib.image import AxesImage
 
 from plot_data import APERIODIC, FIRST_FAILURE, GRAZING
 from plot_scales import integer_levels, shown_values, tidy_ticks
 from plot_style import BLUE, CYCLE, GREEN, ORANGE, is_geometric, label, number
 
-PIXELS = (900, 700)  # of an image if its cells aren't all equal
+PIXELS = 900  # along an axis of an image, if its cells aren't all equal
 MOST_PIXELS = 1200  # along one axis; of more points the nearest to each pixel is shown
-HATCH = (420, 330)  # pixels of a hatch; it is stretched over the panel
-STRIPE, STROKE, INK = 9, 1.5, 170  # pixels from one stroke of the hatch to the next, their width, their opacity of 255
+STRIPE, STROKE, INK = 4.3, 0.7, 170  # points from one stroke of a hatch to the next, their width; opacity of 255
 NO_PERIOD = "#cfcfcf"
 REGIME_COLOURS = ("#e8f1f8", *CYCLE, "#8c510a", "#80cdc1", "#543005")
 
@@ -61,17 +61,19 @@ class Grid:
             for values, view, axis in zip((output.values(name) for name in names), limits, "xy")
         ]
 
-    def image(self, values, pixels=(None, None)):
+    def image(self, values):
         """The values of the cells, shape of the two axes, as pixels: rows from below."""
-        column, row = (side.cells(count) for side, count in zip(self.sides, pixels))
+        column, row = (side.cells() for side in self.sides)
         image = values[np.ix_(np.maximum(column, 0), np.maximum(row, 0))].T
         outside = (row < 0)[:, None] | (column < 0)
         return np.ma.masked_where(outside, image) if outside.any() else image
 
-    def draw(self, axes, pixels, interpolation="nearest"):
+    def draw(self, axes, pixels, kind=AxesImage):
         """Fills the frame with pixels, [row][column][red, green, blue, opacity] as bytes."""
-        place = {"origin": "lower", "aspect": "auto", "extent": (0, 1, 0, 1), "transform": axes.transAxes}
-        axes.imshow(pixels, interpolation=interpolation, **place)
+        image = kind(axes, origin="lower", extent=(0, 1, 0, 1), interpolation="nearest", transform=axes.transAxes)
+        image.set_data(pixels)
+        image.set_clip_path(axes.patch)
+        axes.add_image(image)
 
     def colour(self, axes, values, shade):
         """Fills the frame with values in the colours of a ScalarMappable, none for NaN."""
@@ -86,12 +88,28 @@ class Grid:
 
     def hatch(self, axes, cells):
         """Strokes over these cells, all of them in one image."""
-        covered = np.ma.filled(self.image(cells, HATCH), False)
-        rows, columns = np.indices(covered.shape)
-        away = np.abs((columns - rows) % STRIPE - STRIPE / 2) / np.sqrt(2)
-        strokes = np.zeros((*covered.shape, 4), np.uint8)
-        strokes[..., 3] = INK * covered * np.clip(STROKE / 2 + 0.5 - away, 0, 1)
-        self.draw(axes, strokes, "bilinear")
+        covered = np.ma.filled(self.image(cells), False)
+        self.draw(axes, one_colour(covered, INK), Hatch)
+
+
+def one_colour(covered, opacity):
+    """Black pixels of this opacity, 0 to 255, where they are covered."""
+    pixels = np.zeros((*covered.shape, 4), np.uint8)
+    pixels[covered, 3] = opacity
+    return pixels
+
+
+class Hatch(AxesImage):
+    """An image of which only strokes are left, a whole number of pixels apart: files of such strokes are small."""
+
+    def make_image(self, renderer, magnification=1.0, unsampled=False):
+        pixels, *place = super().make_image(renderer, magnification, unsampled)
+        point = self.figure.dpi * magnification / 72.0
+        step, width = max(4, round(STRIPE * point)), STROKE * point
+        rows, columns = np.indices(pixels.shape[:2])
+        away = np.abs((columns - rows) % step - step // 2) / np.sqrt(2)
+        pixels[..., 3] = pixels[..., 3] * np.clip(width / 2 + 0.5 - away, 0, 1)
+        return pixels, *place
 
 
 class Side:
@@ -105,12 +123,11 @@ class Side:
         self.view = self.from_scale(self.low), self.from_scale(self.high)
         steps = np.diff(self.edges)
         is_even = not view and len(values) <= MOST_PIXELS and np.allclose(steps, steps[0], rtol=1e-6)
-        self.pixels = len(values) if is_even else PIXELS[0] if len(values) <= PIXELS[0] else MOST_PIXELS
+        self.pixels = len(values) if is_even else PIXELS if len(values) <= PIXELS else MOST_PIXELS
 
-    def cells(self, pixels=None):
+    def cells(self):
         """The index of the value that each pixel shows, -1 for none."""
-        pixels = pixels or self.pixels
-        centres = self.low + (np.arange(pixels) + 0.5) / pixels * (self.high - self.low)
+        centres = self.low + (np.arange(self.pixels) + 0.5) / self.pixels * (self.high - self.low)
         cell = np.searchsorted(self.edges, centres) - 1
         inside = (cell >= 0) & (cell < len(self.order))
         return np.where(inside, self.order[np.clip(cell, 0, len(self.order) - 1)], -1)
@@ -212,9 +229,7 @@ def mark_points(axes, grid, status):
         grid.hatch(axes, loose)
     if failed.any():
         cells = np.ma.filled(grid.image(failed), False)
-        black = np.zeros((*cells.shape, 4), np.uint8)
-        black[cells, 3] = 255
-        grid.draw(axes, black)
+        grid.draw(axes, one_colour(cells, 255))
     return ["hatched: no period"] * bool(loose.any()) + ["black: failed"] * bool(failed.any())
 
 

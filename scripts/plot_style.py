@@ -10,7 +10,7 @@ matplotlib.use("Agg")
 from matplotlib import pyplot  # noqa: E402  (the backend comes first)
 
 DPI = 200  # of PNG; texts are measured for it, once
-LARGE = 90.0  # square inches, of a picture that has fewer dots an inch
+LARGE = 115.0  # square inches, of a picture that has fewer dots an inch
 WIDTH = 7.0  # inches, two columns of a journal: fonts below are in points at this size
 
 # Colours that stay apart for colour-blind readers and in grey (Okabe and Ito).
@@ -84,6 +84,8 @@ def use_style():
             "lines.linewidth": 1.2,
             "xtick.direction": "in",
             "ytick.direction": "in",
+            "xtick.major.pad": 5.5,  # numbers of both axes stand apart in the corner
+            "xtick.minor.pad": 5.5,
             "xtick.top": True,
             "ytick.right": True,
             "legend.frameon": False,
