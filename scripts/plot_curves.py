@@ -11,6 +11,7 @@ from plot_style import BLUE, CYCLE, STOP, draw_walls, label, legend_above, numbe
 
 MARGIN = 0.012  # of an axis beside its points
 DENSE = 60  # points from which a curve is drawn without markers
+LONGEST = 24  # letters of a text in a table
 MANY = 2000  # markers from which on they are an image in vector formats
 
 
@@ -162,7 +163,7 @@ def common_label(output, group):
 
 def spectrum(output, name, axes):
     """Amplitudes or phases of the harmonics of a single point."""
-    order, values = output.values("harmonic"), output.values(name)
+    order, values = output.values("harmonic"), shown_values(output, name)
     axes.vlines(order, 0.0, values, color=BLUE, lw=1.2)
     axes.plot(order, values, ls="none", marker="o", ms=4, color=BLUE)
     axes.axhline(0.0, color=STOP, lw=0.7)
@@ -172,28 +173,30 @@ def spectrum(output, name, axes):
     axes.set_ylabel(label(output, name))
 
 
-def scalars(output, names, axes):
-    """The results of a single point, as a table in words."""
+def scalars(rows, axes):
+    """The results of a single point, as a table in words: (words, text) of each line."""
     axes.set_axis_off()
-    rows = [part for name in names for part in scalar_parts(output, name) if np.isfinite(part[1])]
-    for side, x, column in (("right", 0.78, 0), ("left", 0.82, 1)):
-        lines = [row[0] if column == 0 else number(float(row[1])) for row in rows]
-        axes.text(x, 1.0, "\n".join(lines), transform=axes.transAxes, va="top", ha=side, linespacing=1.6)
+    axes.set_ylim(len(rows), 0)
+    for line, (words, text) in enumerate(rows):
+        axes.text(0.7, line + 0.5, words, va="baseline", ha="right", transform=axes.get_yaxis_transform())
+        axes.text(0.72, line + 0.5, text, va="baseline", ha="left", transform=axes.get_yaxis_transform())
 
 
 def scalar_parts(output, name):
+    """(words, text) of each number or text of a result of a single point; none of what doesn't exist."""
     variable = output[name]
-    if variable.values.ndim == 0:
-        return [(variable.long_name, variable.values)]
+    if variable.values.ndim > 1 or variable.dims not in ((), ("stop",), ("multiplier",)):
+        return []
+    if variable.values.dtype.kind == "U":
+        text = str(variable.values).replace("inf", "∞")
+        return [(variable.long_name, text if len(text) <= LONGEST else f"{text[:LONGEST]}…")] if text else []
+    values = zip(component_names(output, variable), np.atleast_1d(shown_values(output, name)))
+    return [(variable.long_name + part, number(value)) for part, value in values if part is not None and value == value]
+
+
+def component_names(output, variable):
+    """What each value of a result of a single point is called, None if it is of a stop that isn't there."""
     if variable.dims == ("stop",):
-        return [
-            (f"{variable.long_name}, {'lower' if side < 0 else 'upper'} stop", value)
-            for side, value in zip(output.values("stop"), variable.values)
-            if output.has_stop(side)
-        ]
-    if variable.dims == ("multiplier",):
-        return [
-            (f"{variable.long_name}, {which} modulus", value)
-            for which, value in zip(("larger", "smaller"), variable.values)
-        ]
-    return []
+        names = ((side, ", lower stop" if side < 0 else ", upper stop") for side in output.values("stop"))
+        return [words if output.has_stop(side) else None for side, words in names]
+    return [", larger modulus", ", smaller modulus"] if variable.dims == ("multiplier",) else [""]

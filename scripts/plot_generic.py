@@ -5,7 +5,7 @@ from math import ceil
 import numpy as np
 
 from plot_bifurcation import impact_diagram, poincare, section_diagram
-from plot_curves import curves, scalars, spectrum
+from plot_curves import curves, scalar_parts, scalars, spectrum
 from plot_data import FIRST_FAILURE
 from plot_maps import Grid, kind_map, quantity, regime_map, value_map
 from plot_motion import chosen_points, impact_log, phase_plane, time_history
@@ -29,6 +29,7 @@ TOGETHER = (
 )  # results that share a panel
 RECORDS = ("tau", "x", "v")
 TEXTS = ("impact_word", "regime")
+LINE = 0.2  # inches, of a line in a table
 MAP_LIMIT = 4  # components of one variable (harmonics, stops) that maps show
 ORDER = (
     "x_min",
@@ -62,7 +63,7 @@ ORDER = (
 def generic_figure(members, only, options):
     """A figure with every panel that the outputs give something to, and a caption for what needs none. A map has one
     member, curves over one axis any number of them; `only` names the results that are drawn, or is empty."""
-    output, caption = members[0].output, []
+    output, caption, table = members[0].output, [], []
 
     def drawn(*names):
         return not only or any(name in only for name in names)
@@ -70,21 +71,24 @@ def generic_figure(members, only, options):
     panels = motion_panels(output, drawn) if len(members) == 1 else []
     if len(output.axes) == 0:
         panels += point_panels(output, drawn)
+        table = table_of(output, drawn, may_be_empty=bool(panels))
     elif len(output.axes) == 1:
         panels += curve_panels(members, drawn, caption)
     else:
         grid = Grid(output, output.axes, (options.xlim, options.ylim), options.log)
         panels += map_panels(output, grid, drawn, caption)
-    columns = min(len(panels), 2 + (len(panels) > 8) + (len(panels) > 16))
-    rows = ceil(len(panels) / columns)
-    width = 4.6 if columns == 1 else min(3.5 * columns, 10.5)
-    height = (3.2, 2.5, 2.5, 2.1)[columns - 1]
-    figure = new_figure(0.5 + height * rows, width)
+    columns = max(1, min(len(panels), 2 + (len(panels) > 8) + (len(panels) > 16)))
+    heights = [(3.2, 2.5, 2.5, 2.1)[columns - 1]] * ceil(len(panels) / columns) + [LINE * len(table)] * bool(table)
+    width = 4.6 if columns == 1 and not table else min(max(3.5 * columns, 7.0), 10.5)
+    figure = new_figure(0.5 + sum(heights), width)
+    grid_spec = figure.add_gridspec(len(heights), columns, height_ratios=heights)
     for place, draw in enumerate(panels):
-        axes = figure.add_subplot(rows, columns, place + 1)
+        axes = figure.add_subplot(grid_spec[place // columns, place % columns])
         caption += draw(figure, axes) or []
         if len(output.axes) > 1:
             label_outside(axes, is_first=place % columns == 0, is_last=place + columns >= len(panels))
+    if table:
+        scalars(table, figure.add_subplot(grid_spec[-1, :]))
     caption_below(figure, caption)
     return figure
 
@@ -121,7 +125,7 @@ def motion_panels(output, drawn):
 
 
 def point_panels(output, drawn):
-    """The panels of a sweep without axes, besides its motion: its harmonics, and its numbers."""
+    """The panels of a sweep without axes, besides its motion: section, impacts, harmonics."""
     panels = []
     if "section_x" in output and drawn("section_x", "section_v"):
         panels.append(lambda figure, axes: poincare(output, axes))
@@ -130,14 +134,14 @@ def point_panels(output, drawn):
     for name in in_order(filter(drawn, output.results())):
         if output[name].dims == ("harmonic",):
             panels.append(lambda figure, axes, name=name: spectrum(output, name, axes))
-    names = [
-        name
-        for name in in_order(filter(drawn, output.results()))
-        if output[name].dims in ((), ("stop",), ("multiplier",)) and name not in BOOKKEEPING
-    ]
-    if names or not panels and any(name not in output for name in RECORDS):
-        panels.append(lambda figure, axes: scalars(output, names or BOOKKEEPING[:3], axes))
     return panels
+
+
+def table_of(output, drawn, may_be_empty):
+    """(words, number or text) of each result of a single point that is one; of its bookkeeping if there is none."""
+    names = [name for name in in_order(filter(drawn, output.results())) if name not in BOOKKEEPING]
+    rows = [row for name in names for row in scalar_parts(output, name)]
+    return rows or [row for name in BOOKKEEPING[:3] for row in scalar_parts(output, name) if not may_be_empty]
 
 
 def curve_panels(members, drawn, caption):

@@ -198,7 +198,8 @@ def constants(output, title, others=()):
     keys = [key for key in keys if all(other.scene.get(key) == output.scene[key] for other in others)]
     if float(output.scene.get("f", 0.0)) == 0.0 and not output.swept("f"):
         keys = [key for key in keys if key not in ("nu", "phase")]  # no force, no frequency
-    values = {key: float(output.scene[key]) for key in keys}
+    absent = {key for key, side in (("R_lower", -1), ("R_upper", 1)) if not output.has_stop(side)}
+    values = {key: float(output.scene[key]) for key in keys if key not in absent}
     return [
         f"{symbol(key)} = {number(value)}"
         for key, value in values.items()

@@ -48,6 +48,13 @@ CONFIGURATIONS = {
     "linear": FORCED + 'xs = 20\n[sweep]\nnu = "linspace(0.5, 1.5, 21)"\n[observe]\nextrema = true\nharmonics = 2\n'
     "impacts = true\n",
 }
+OBSERVED = "[observe]\nextrema = true\nimpacts = true\nharmonics = 4\nharmonics_method = 'exact'\nstability = true\n"
+CONFIGURATIONS |= {
+    "point": FORCED + "nu = 0.8\nstop_lower = -0.5\nR_lower = 0.6\nR_upper = 0.9\n" + OBSERVED + "word = true\n",
+    "linear_point": FORCED + "nu = 0.8\nxs = 20\n" + OBSERVED,
+    "numbers": FORCED + "nu = 0.8\nxs = 0.5\n[observe]\nword = true\n",
+    "chatter": FORCED + "nu = 0.05\nxs = 0.2\nR = 0.7\n[observe]\nword = true\nstability = true\n",
+}
 NO_CHOICE = SimpleNamespace(only=(), along="", over="", at=(), size=None, xlim=None, ylim=None, log="", title=None)
 
 
@@ -235,6 +242,31 @@ class Kinds(unittest.TestCase):
         texts = " ".join(self.draw("one_stop").texts())
         self.assertIn("no upper stop", texts)
         self.assertNotIn("inf", texts)
+
+    def test_a_point_has_a_table_of_what_there_is(self):
+        texts = self.draw("point").texts()
+        for text in ("velocity before the first impact, lower stop", str(self.output("point").values("impact_word"))):
+            self.assertIn(text, texts)
+        self.assertFalse([text for text in texts if ", upper stop" in text or "R_+" in text])
+        self.assertIn("2/1", texts)
+        self.assertEqual(len(self.draw("numbers").panels), 1)
+        texts = self.draw("chatter").texts()  # its exponent is minus infinity
+        self.assertIn("∞/1", texts)
+        self.assertFalse([text for text in texts if "inf" in text or "Lyapunov" in text])
+
+    def test_phases_of_nothing_are_not_drawn(self):
+        figure = plot.single_figure(self.output("linear_point"), NO_CHOICE)
+        panels = {axes.get_ylabel(): axes for axes in figure.axes}
+        for quantity in ("displacement $\\varphi_k$", "velocity $\\varphi$\N{PRIME}$_k$"):
+            marks = next(line for line in panels[f"phase of {quantity} (rad)"].lines if line.get_marker() == "o")
+            self.assertEqual(np.isfinite(marks.get_ydata()).tolist(), [False, True, False, False, False])
+
+    def test_many_markers_are_an_image_in_vector_formats(self):
+        command = [CLATTER, "run", self.folder / "impacts.toml", "-o", self.folder / "dense.h5", "-q"]
+        settings = ("sweep.nu=linspace(0.84, 1, 3001)", "observe.period=true", "observe.impact_log=false")
+        subprocess.run([*command, *(word for setting in settings for word in ("--set", setting))], check=True)
+        (panel,) = self.draw("dense", arguments=["--only", "period_ratio"]).panels
+        self.assertEqual(len(panel.images()), 1)
 
     def test_choices(self):
         output = self.output("cube")
