@@ -11,6 +11,7 @@ from matplotlib import pyplot  # noqa: E402  (the backend comes first)
 
 DPI = 200  # of PNG; texts are measured for it, once
 LARGE = 115.0  # square inches, of a picture that has fewer dots an inch
+NOTE = 0.19  # inches, of a line of a caption
 WIDTH = 7.0  # inches, two columns of a journal: fonts below are in points at this size
 
 # Colours that stay apart for colour-blind readers and in grey (Okabe and Ito).
@@ -168,7 +169,7 @@ def set_view(axes, options):
 
 
 def caption_below(figure, notes):
-    """Notes below the panels, as many in a line as it has room for."""
+    """Notes below the panels, as many in a line as it has room for; a figure of many notes grows with them."""
     room, lines = int(13 * figure.get_figwidth()), []
     for note in gathered(dict.fromkeys(notes)):
         if lines and len(lines[-1]) + len(note) + 4 <= room:
@@ -176,6 +177,7 @@ def caption_below(figure, notes):
         else:
             lines += textwrap.wrap(note, room)
     figure.supxlabel("\n".join(lines), fontsize=9.5, linespacing=1.4)
+    figure.set_figheight(figure.get_figheight() + NOTE * max(0, len(lines) - 2))
 
 
 def gathered(notes):
