@@ -24,7 +24,15 @@ def draw_branch(axes, output, name, values, color, title, loose_color=None, **st
     style = {"lw": 1.2, "marker": marker, **style}
     axes.plot(along, steady, label=title, color=color, rasterized=bool(style["marker"]) and len(along) > MANY, **style)
     alone = lonely(steady)
-    axes.plot(along[alone], steady[alone], ls="none", marker=".", ms=3.2, color=color, rasterized=alone.sum() > MANY)
+    axes.plot(
+        along[alone],
+        steady[alone],
+        ls="none",
+        marker=".",
+        ms=style.get("ms", 3.2),
+        color=color,
+        rasterized=alone.sum() > MANY,
+    )
     axes.plot(
         along[loose],
         values[loose],
@@ -139,7 +147,7 @@ def line_style(members, parts, result, part, place):
     ratios = [member.output.values("period_ratio") for member in members if "period_ratio" in member.output]
     many_periods = any((ratio > 1).any() for ratio in ratios)
     if result == "period_ratio" or result == "period" and many_periods:
-        return {"ls": "none", "marker": ".", "ms": 3.0}
+        return {"ls": "none", "marker": ".", "ms": 6.0 if len(members) == 2 and place < parts else 3.0}
     if len(members) == 2:
         return {"lw": 2.4 if place < parts else 1.0}
     return {"ls": (0, (4, 1.5)) if part is not None and place % 2 and len(members) == 1 else "-"}
