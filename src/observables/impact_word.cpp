@@ -72,7 +72,7 @@ std::vector<Column<ImpactWord::Values>> ImpactWord::columns(const Settings&) {
 
 std::string ImpactWord::word_of(const std::vector<Contact>& contacts) {
   std::vector<Letter> letters = letters_of(contacts);
-  std::ranges::rotate(letters, letters.begin() + static_cast<std::ptrdiff_t>(first_rotation(letters)));
+  std::rotate(letters.begin(), letters.begin() + static_cast<std::ptrdiff_t>(first_rotation(letters)), letters.end());
   std::string word;
   for (const Letter letter : letters) {
     const std::string_view more = letter_texts[static_cast<std::size_t>(letter)];

@@ -57,7 +57,7 @@ TEST(Word, is_the_rotation_that_sorts_first) {
     for (int i = 0; i < 1 + trial % 12; ++i) letters += random.happens(0.5) ? 'L' : 'U';
     const std::string first = word(letters);
     for (std::size_t i = 0; i < letters.size(); ++i) {
-      std::ranges::rotate(letters, letters.begin() + 1);
+      std::rotate(letters.begin(), letters.begin() + 1, letters.end());
       EXPECT_LE(first, letters);
       EXPECT_EQ(word(letters), first);
     }
@@ -68,7 +68,7 @@ TEST(Word, has_one_sign_for_impacts_that_end_in_rest_wherever_the_period_begins)
   // two series of impacts that end in rest, on L and on U, with two impacts on U before the flight to L
   std::string letters = "LLLLlUUUuLU";
   for (std::size_t i = 0; i < letters.size(); ++i) {
-    std::ranges::rotate(letters, letters.begin() + 1);
+    std::rotate(letters.begin(), letters.begin() + 1, letters.end());
     EXPECT_EQ(word(letters), "L*U*LU") << letters;
     EXPECT_EQ(regime(letters, 1), "inf/1");
   }
