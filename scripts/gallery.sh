@@ -42,4 +42,6 @@ draw poincare --only section --size 5x4
 draw hysteresis --only v_max --xlim 0.95,1.25 --ylim 2,4.5 --size 5x3.5
 draw family_R --only v_before --size 7x3.4
 draw one_stop --only x_min,x_max --size 5x3.8
+draw basins --only attractor --size 6x3.8
+draw zones --size 8x4.2
 draw regimes --only word --size 6x4

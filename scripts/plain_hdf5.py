@@ -13,7 +13,7 @@ from hdf5_heaps import damaged_heap, longest_text
 WANTED = "give a file that 'clatter run' or 'clatter accuracy' wrote"
 ANEW = "run its configuration again, or get the file anew"
 UNREADABLE = (AttributeError, LookupError, MemoryError, OSError, RuntimeError, TypeError, ValueError)  # if damaged
-TEXTS = ("impact_word", "regime")  # variables of texts; all others are numbers
+TEXTS = ("impact_word", "regime", "motion_word", "motion_regime")  # variables of texts; all others are numbers
 LONGEST_TEXT = 255  # bytes, of a value
 READ_AT_ONCE = 2**26  # bytes of texts
 MOST_DEFLATED = 1032  # bytes that one byte gives when it is inflated (zlib's technical details)

@@ -20,6 +20,8 @@ OBSERVED = {  # the results of each key of [observe]
     "word": ("impact_word", "regime", "symmetric"),
     "period": ("period", "period_ratio", "eigenfrequency", "velocity_ratio"),
     "stability": ("multiplier_re", "multiplier_im", "lyapunov"),
+    "settling": ("settling_periods",),
+    "attractor": ("attractor",),
     "energy": ("work_in", "loss_damping", "loss_impact", "impulse", "energy_residual", "impact_power"),
 }
 FEW = 6  # values of an axis that make a family of curves rather than a map

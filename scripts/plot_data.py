@@ -110,11 +110,14 @@ class Output:
         return name in self.axes or name in self.sweep
 
     def results(self):
-        """Names of the variables that have a value for each point, in the order of the file."""
+        """Names of the variables that have values for each point, in the order of the file."""
         return [
             name
             for name, variable in self.variables.items()
-            if variable.dims[: len(self.axes)] == self.axes and variable.dims != (name,) and not self.swept(name)
+            if variable.dims[: len(self.axes)] == self.axes
+            and variable.dims != (name,)
+            and not self.swept(name)
+            and not name.startswith("motion_")
         ]
 
     def at(self, axis, index):

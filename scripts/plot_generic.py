@@ -4,6 +4,16 @@ from math import ceil
 
 import numpy as np
 
+from plot_attractors import (
+    attractor_map,
+    basin_points,
+    has_linked_starts,
+    has_shares,
+    is_start,
+    share_panel,
+    start_plane,
+    value_points,
+)
 from plot_bifurcation import impact_diagram, poincare, section_diagram
 from plot_curves import curves, scalar_parts, scalars, spectrum
 from plot_data import FIRST_FAILURE
@@ -29,6 +39,7 @@ TOGETHER = (
 )  # results that share a panel
 RECORDS = ("tau", "x", "v")
 TEXTS = ("impact_word", "regime")
+NAMES = (*TEXTS, "attractor")  # results that no scale orders
 LINE = 0.2  # inches, of a line in a table
 MAP_LIMIT = 4  # components of one variable (harmonics, stops) that maps show
 ORDER = (
@@ -45,6 +56,7 @@ ORDER = (
     "v_before",
     "v_after",
     "rest_fraction",
+    "settling_periods",
     "x_amplitude",
     "x_phase",
     "v_amplitude",
@@ -79,7 +91,7 @@ def generic_figure(members, only, options):
         panels += map_panels(output, grid, drawn, caption)
     columns = max(1, min(len(panels), 2 + (len(panels) > 8) + (len(panels) > 16)))
     heights = [(3.2, 2.5, 2.5, 2.1)[columns - 1]] * ceil(len(panels) / columns) + [LINE * len(table)] * bool(table)
-    width = 4.6 if columns == 1 and not table else min(max(3.5 * columns, 7.0), 10.5)
+    width = 4.6 if columns == 1 and not table and not has_shares(output) else min(max(3.5 * columns, 7.0), 10.5)
     figure = new_figure(0.5 + sum(heights), width)
     grid_spec = figure.add_gridspec(len(heights), columns, height_ratios=heights)
     for place, draw in enumerate(panels):
@@ -144,9 +156,24 @@ def table_of(output, drawn, may_be_empty):
     return rows or [row for name in BOOKKEEPING[:3] for row in scalar_parts(output, name) if not may_be_empty]
 
 
+def start_panels(output, drawn, caption):
+    """Each result at starts that fill a plane, though they run along one dimension."""
+    panels = []
+    if "attractor" in output and drawn("attractor"):
+        panels.append(lambda figure, axes: basin_points(axes, output))
+    for name, part, title in (part for group in result_groups(output, drawn) for part in components(output, group)):
+        if part is None and is_constant(shown_values(output, name), scale_of(output, name)):
+            caption.append(constant_note(output, name, part, title))
+        elif part is None:
+            panels.append(lambda figure, axes, name=name: value_points(figure, axes, output, name))
+    return panels
+
+
 def curve_panels(members, drawn, caption):
     """Each group of results over the only axis, and points instead of curves for sections and impacts."""
     output, panels = members[0].output, []
+    if len(members) == 1 and start_plane(output) and (shown := start_panels(output, drawn, caption)):
+        return shown
     for name in ("section_x", "section_v"):
         if name in output and drawn(name):
             panels.append(lambda figure, axes, name=name: section_diagram(members, name, axes))
@@ -162,6 +189,8 @@ def curve_panels(members, drawn, caption):
             panels.append(lambda figure, axes, shown=shown: curves(members, shown, axes))
     if "impact_count" in output and drawn("impact_count"):
         panels.append(lambda figure, axes: impact_diagram(members, axes))
+    if "attractor" in output and drawn("attractor") and len(members) == 1 and has_shares(output):
+        panels.insert(0, lambda figure, axes: share_panel(figure, axes, output))
     return panels or [lambda figure, axes: curves(members, [("impact_total", None, "")], axes)]
 
 
@@ -174,7 +203,7 @@ def is_one_value(members, part):
 
 def result_groups(output, drawn):
     """The results to be drawn, those that belong together as one group."""
-    names = [name for name in output.results() if name not in BOOKKEEPING + RECORDS + TEXTS and drawn(name)]
+    names = [name for name in output.results() if name not in BOOKKEEPING + RECORDS + NAMES and drawn(name)]
     names = [name for name in names if np.isfinite(shown_values(output, name)).any()]
     groups = []
     for name in in_order(names):
@@ -222,7 +251,9 @@ def component_name(output, name, part):
 def map_panels(output, grid, drawn, caption):
     """Each result over two axes."""
     status = output.values("status")
-    panels = []
+    panels = attractor_panels(output, grid, drawn)
+    if panels and has_linked_starts(output):
+        return panels  # no map can show what depends on both
     if "regime" in output and drawn(*TEXTS):
         panels.append(lambda figure, axes: regime_map(figure, axes, grid, status, output.values("regime")))
     if "period_ratio" in output and drawn("period_ratio"):
@@ -240,6 +271,15 @@ def map_panels(output, grid, drawn, caption):
     if not panels:
         panels.append(value_panel(grid, quantity(output, "impact_total", None, "impacts simulated"), status))
     return panels
+
+
+def attractor_panels(output, grid, drawn):
+    """Shares of the starts over a parameter, else the motions over the two axes."""
+    if "attractor" not in output or not drawn("attractor"):
+        return []
+    if any(map(is_start, output.axes)) and not all(map(is_start, output.axes)):
+        return [lambda figure, axes: share_panel(figure, axes, output)] * has_shares(output)
+    return [lambda figure, axes: attractor_map(figure, axes, grid, output)]
 
 
 def value_panel(grid, shown, status):

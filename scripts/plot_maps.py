@@ -239,16 +239,22 @@ def class_map(figure, axes, grid, title, kinds):
     codes = np.full(kinds[0][2].shape, np.nan)
     for code, (_, _, cells) in enumerate(kinds):
         codes[cells] = code
-    shades = colors.ListedColormap([colour for _, colour, _ in kinds])
-    shade = cm.ScalarMappable(colors.Normalize(-0.5, len(kinds) - 0.5), shades)
+    shade = name_colours(figure, axes, kinds)
     grid.colour(axes, codes, shade)
     grid.set_axes(axes)
-    bar = figure.colorbar(shade, ax=axes, pad=0.02)
-    bar.set_ticks(range(len(kinds)), labels=[name for name, _, _ in kinds])
-    bar.ax.tick_params(which="both", length=0)
-    bar.minorticks_off()
     name_panel(axes, title)
     return ["white: no value"] if np.isnan(codes).any() else []
+
+
+def name_colours(figure, axes, kinds):
+    """A bar of the colours of some kinds, their names beside it; the first two items of each are name and colour."""
+    shades = colors.ListedColormap([kind[1] for kind in kinds])
+    shade = cm.ScalarMappable(colors.Normalize(-0.5, len(kinds) - 0.5), shades)
+    bar = figure.colorbar(shade, ax=axes, pad=0.02)
+    bar.set_ticks(range(len(kinds)), labels=[kind[0] for kind in kinds])
+    bar.ax.tick_params(which="both", length=0)
+    bar.minorticks_off()
+    return shade
 
 
 def kind_map(figure, axes, grid, status, ratio):

@@ -15,6 +15,7 @@ PLAIN = (-4, 5)  # powers of ten below which, and from which on, the numbers bes
 LETTER = 0.53  # width of a digit over the size of its font
 MINUS = "\N{MINUS SIGN}"
 COUNTS = ("impacts_per_period", "period_ratio", "impact_total", "impact_count", "symmetric")  # whole in regular motion
+TIMES = ("settling_periods",)  # whole, but no counts
 
 
 def shown_values(output, name):
@@ -82,7 +83,7 @@ class Levels:
 
 def integer_levels(values, name=""):
     """The levels of a quantity that counts: one of whole numbers, or named so. None if it is neither or has many."""
-    if name not in COUNTS and not is_integer(values):
+    if name in TIMES or name not in COUNTS and not is_integer(values):
         return None
     known = values[np.isfinite(values)]
     if known.size == 0 or np.median(known) > known.min() + MOST_LEVELS:

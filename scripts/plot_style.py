@@ -60,6 +60,8 @@ LABELS = {
     "impacts_per_period": ("impacts per period", ""),
     "rest_fraction": ("share of time at rest", ""),
     "symmetric": ("symmetric motion", ""),
+    "attractor": ("motion", ""),
+    "settling_periods": ("periods until settled", ""),
     "work_in": ("work of force and load", "work"),
     "loss_damping": ("loss by damping", "damping"),
     "loss_impact": ("loss by impacts", ""),

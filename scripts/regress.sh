@@ -25,6 +25,8 @@ the differences in words. A difference is a value off by more than $tolerance, N
 shape, type or attribute that isn't the same. Only these may differ, and the line says "but for" them:
   - values at points that are aperiodic in both, since chaos turns any other rounding into another motion, and along
     "follow" those right after them, since it leaves them near another of several motions; their status must agree,
+  - all values at starts that end in another motion, if they are at most 0.2 % of the points: boundaries of basins may
+    be so finely mixed that rounding decides; counts and shares of the starts by 2 %, states of aperiodic motions,
   - impact_total, simulated_periods and settling_estimate: how long settling took is no property of the motion,
   - phases by whole turns, or if the amplitude is 0.
 

@@ -1,8 +1,10 @@
 #include "config/axis_functions.hpp"
 
 #include <algorithm>
+#include <boost/random/sobol.hpp>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
 
 #include "config/value_grammar.hpp"
@@ -75,10 +77,19 @@ std::string arange(const Arguments& arguments, std::vector<double>& values) {
   return {};
 }
 
-constexpr std::array<std::string_view, 3> names{"linspace", "logspace", "arange"};
-constexpr std::array<AxisFunction, 3> functions{AxisFunction{names[0], "linspace(a, b, n)", linspace},
-                                                AxisFunction{names[1], "logspace(a, b, n)", logspace},
-                                                AxisFunction{names[2], "arange(a, b, step)", arange}};
+std::string sobol(const Arguments& arguments, std::vector<double>& values) {
+  const auto [a, b, n] = arguments;
+  if (!all_finite(arguments)) return not_finite;
+  if (std::string mistake = wrong_count(n); !mistake.empty()) return mistake;
+  if (!std::isfinite(b - a)) return "sobol spans more than double precision holds; expected ends closer together";
+  values = sobol_values(a, b, static_cast<std::size_t>(n), 0, 1);
+  return {};
+}
+
+constexpr std::array<std::string_view, 4> names{"linspace", "logspace", "arange", sobol_name};
+constexpr std::array<AxisFunction, 4> functions{
+    AxisFunction{names[0], "linspace(a, b, n)", linspace}, AxisFunction{names[1], "logspace(a, b, n)", logspace},
+    AxisFunction{names[2], "arange(a, b, step)", arange}, AxisFunction{names[3], "sobol(a, b, n)", sobol}};
 
 }  // namespace
 
@@ -87,6 +98,17 @@ std::optional<AxisFunction> axis_function(std::string_view name) {
     if (function.name == name) return function;
   }
   return std::nullopt;
+}
+
+std::vector<double> sobol_values(double a, double b, std::size_t n, std::size_t dimension, std::size_t dimensions) {
+  boost::random::sobol sequence(dimensions);
+  std::vector<double> values(n);
+  for (double& value : values)
+    for (std::size_t i = 0; i < dimensions; ++i) {
+      const std::uint64_t digits = sequence();
+      if (i == dimension) value = a + (b - a) * std::ldexp(static_cast<double>(digits >> 11), -53);
+    }
+  return values;
 }
 
 std::span<const std::string_view> axis_function_names() { return names; }

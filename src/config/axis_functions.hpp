@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <optional>
 #include <span>
 #include <string>
@@ -18,6 +19,13 @@ struct AxisFunction {
 };
 
 [[nodiscard]] std::optional<AxisFunction> axis_function(std::string_view name);
+
+inline constexpr std::string_view sobol_name = "sobol";
+
+/// The values of one dimension of Sobol's sequence, from its first point on, which has u = 1/2 in each: a + (b - a) u.
+/// The points fill all dimensions together evenly.
+[[nodiscard]] std::vector<double> sobol_values(double a, double b, std::size_t n, std::size_t dimension,
+                                               std::size_t dimensions);
 
 [[nodiscard]] std::span<const std::string_view> axis_function_names();
 

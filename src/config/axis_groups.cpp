@@ -2,6 +2,7 @@
 #include <string>
 #include <string_view>
 
+#include "config/axis_functions.hpp"
 #include "config/consistency.hpp"
 #include "config/suggestion.hpp"
 #include "config/text_file.hpp"
@@ -75,6 +76,33 @@ std::vector<std::string> split_names(std::string_view text) {
     begin = end + 1;
   }
   return names;
+}
+
+void spread_sobol(Settings& settings) {
+  std::vector<std::size_t> axes;
+  for (std::size_t axis = 0; axis < settings.axes.size(); ++axis)
+    if (std::get<AxisValues>(settings.axes[axis].value).sobol) axes.push_back(axis);
+  const auto fail_at = [&](std::size_t axis, const std::string& message) {
+    fail(settings.axes[axis].location, name_of(settings.axes[axis]) + " = sobol(...)" + message);
+  };
+  for (const std::size_t axis : axes) {
+    const std::string name = name_of(settings.axes[axis]);
+    if (name != "x0" && name != "v0" && name != "phase")
+      fail_at(axis, ", which only starts can have: x0, v0, phase; write linspace(a, b, n)");
+  }
+  if (axes.size() > 1) {
+    const std::vector<std::size_t> linked = linked_axes(settings);
+    std::string names;
+    for (const std::size_t axis : axes) names.append(names.empty() ? "" : ", ").append(name_of(settings.axes[axis]));
+    for (const std::size_t axis : axes)
+      if (std::ranges::find(linked, axis) == linked.end())
+        fail_at(axis, " without its partners, which would cross them; write linked = \"" + names + '"');
+  }
+  for (std::size_t i = 0; i < axes.size(); ++i) {
+    auto& axis = std::get<AxisValues>(settings.axes[axes[i]].value);
+    const auto [a, b] = *axis.sobol;
+    axis.values = sobol_values(a, b, axis.values.size(), i, axes.size());
+  }
 }
 
 AxisGroups group_axes(const Settings& settings) {

@@ -116,7 +116,7 @@ sweep::Sweep sweep_of(Settings& settings, const AxisGroups& groups) {
       const std::size_t length = toml_value(setting).size();
       if (length <= longest) continue;
       longest = length, location = setting.key_location, name = setting.key->name;
-      way_out = setting.is_axis() ? "write it as linspace, logspace or arange" : "shorten it";
+      way_out = setting.is_axis() ? "write it as a function, e.g. linspace(a, b, n)" : "shorten it";
     }
   }
   fail(location, "the complete configuration is more than 1 MiB, of which '" + name + "' takes " +
@@ -127,6 +127,7 @@ Config config_of(ParsedConfig parsed) {
   Settings settings = check_keys(std::move(parsed));
   let_command_line_win(settings);
   check_alternatives(settings);
+  spread_sobol(settings);
   const AxisGroups groups = group_axes(settings);
   check_stops_and_start(settings, groups);
   Config config{settings.text("", "title"), settings.text("", "source"), {}, 0, config_text(settings), {}, {}};

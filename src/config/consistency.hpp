@@ -13,6 +13,10 @@ namespace clatter::config {
 /// The names between the commas of `linked` or `follow`.
 [[nodiscard]] std::vector<std::string> split_names(std::string_view text);
 
+/// Gives each axis of sobol(a, b, n) a dimension of the sequence, in the order of the axes. Throws ConfigError if one
+/// is no start, or if several are not linked.
+void spread_sobol(Settings& settings);
+
 /// The axes of each dimension of a sweep by index: linked ones together, beginning with the one that names the
 /// dimension.
 using AxisGroups = std::vector<std::vector<std::size_t>>;

@@ -13,11 +13,12 @@ namespace {
 constexpr std::string_view toml_head =
     "# Every key of clatter with its default. A line such as \"#R_lower = 0.5\" shows\n"
     "# a key that is not in use. Values: 0.5, 2*pi in quotes; axes: [a, b, c],\n"
-    "# \"linspace(a, b, n)\", \"logspace(a, b, n)\", \"arange(a, b, step)\".\n\n";
+    "# \"linspace(a, b, n)\", \"logspace(a, b, n)\", \"arange(a, b, step)\",\n"
+    "# \"sobol(a, b, n)\".\n\n";
 constexpr std::string_view ini_head =
     "; Every key of clatter with its default. A line such as \";R_lower = 0.5\" shows\n"
     "; a key that is not in use. Values: 0.5, 2*pi; axes: a, b, c or\n"
-    "; linspace(a, b, n), logspace(a, b, n), arange(a, b, step).\n\n";
+    "; linspace(a, b, n), logspace(a, b, n), arange(a, b, step), sobol(a, b, n).\n\n";
 
 /// The value to show: the default, or an example if there is none.
 std::string shown_value(const Key& key, Format format) {

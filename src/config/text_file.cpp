@@ -45,7 +45,7 @@ std::string read_pieces(int file, const std::string& name) {
 std::string as_text(const std::string& name, std::string bytes) {
   if (bytes.find('\0') != std::string::npos) unreadable(name, "it holds NUL bytes; a configuration is UTF-8 text");
   if (bytes.size() > max_config_bytes)
-    fail({name, 1, 1}, "more than 1 MiB; write long lists as linspace, logspace or arange");
+    fail({name, 1, 1}, "more than 1 MiB; write long lists as functions, e.g. linspace(a, b, n)");
   if (bytes.starts_with("\xEF\xBB\xBF")) bytes.erase(0, 3);
   return bytes;
 }

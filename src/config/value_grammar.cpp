@@ -147,6 +147,7 @@ class Parser {
     AxisValues axis;
     if (const std::string mistake = function->evaluate(arguments, axis.values); !mistake.empty())
       fail_at(begin, mistake);
+    if (name == sobol_name) axis.sobol = {arguments[0], arguments[1]};
     axis.text = '"' + std::string(name) + '(' + number_text(arguments[0]) + ", " + number_text(arguments[1]) + ", " +
                 number_text(arguments[2]) + ")\"";
     return axis;

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -18,8 +20,10 @@ struct SourceText {
 /// The values of an axis, and the text that reads back to them.
 struct AxisValues {
   std::vector<double> values;
-  std::vector<SourceLocation> locations;  ///< of each element of a list; empty for linspace, logspace, arange
-  std::string text;                       ///< TOML: "\"linspace(0.5, 1.5, 501)\"" or "[1.0, 2.0]"
+  std::vector<SourceLocation> locations;  ///< of each element of a list; empty for those of a function
+  std::optional<std::array<double, 2>>
+      sobol{};  ///< a and b of sobol(a, b, n); the values are those of the first dimension until all axes are known
+  std::string text;  ///< TOML: "\"linspace(0.5, 1.5, 501)\"" or "[1.0, 2.0]"
 
   [[nodiscard]] bool operator==(const AxisValues&) const = default;
 };
@@ -31,8 +35,8 @@ inline constexpr double max_points = 1e9;
 /// Reads a number, in which `pi` may stand as a number or factor: 0.5, pi, -2*pi/3, inf. Throws ConfigError.
 [[nodiscard]] double parse_number(const SourceText& source);
 
-/// Reads linspace(a, b, n), logspace(a, b, n), arange(a, b, step), or numbers between commas in optional brackets.
-/// Throws ConfigError.
+/// Reads linspace(a, b, n), logspace(a, b, n), arange(a, b, step), sobol(a, b, n), or numbers between commas in
+/// optional brackets. Throws ConfigError.
 [[nodiscard]] AxisValues parse_axis(const SourceText& source);
 
 /// The shortest text that reads back to the same number.

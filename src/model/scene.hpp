@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cmath>
+
 #include "model/oscillator.hpp"
 #include "model/stops.hpp"
 
@@ -19,6 +21,14 @@ struct Scene {
   Stops stops;
   Start start;
 };
+
+/// Whether the mirror image of each motion, half a forcing period later, is a motion too.
+[[nodiscard]] inline bool is_symmetric(const Scene& scene) {
+  const Stops& stops = scene.stops;
+  const bool bounded = std::isfinite(stops.upper);
+  return stops.lower == -stops.upper && (!bounded || stops.restitution_lower == stops.restitution_upper) &&
+         scene.oscillator.load == 0;
+}
 
 }  // namespace model
 }  // namespace clatter

@@ -54,13 +54,6 @@ std::size_t first_rotation(const std::vector<T>& items) {
   return std::min(one, other);
 }
 
-bool is_symmetric(const Scene& scene) {
-  const Stops& stops = scene.stops;
-  const bool bounded = std::isfinite(stops.upper);
-  return stops.lower == -stops.upper && (!bounded || stops.restitution_lower == stops.restitution_upper) &&
-         scene.oscillator.load == 0;
-}
-
 }  // namespace
 
 std::vector<Column<ImpactWord::Values>> ImpactWord::columns(const Settings&) {

@@ -51,6 +51,7 @@ struct Column {
   std::function<void(const Values&, double* values)> put;  ///< writes `width()` values
   std::function<std::string(const Values&)> text{};        ///< instead of numbers: a text in UTF-8
   std::size_t longest_text = 0;                            ///< bytes
+  bool intermediate = false;  ///< a number for later work on the whole sweep: in journals and shards only
 
   [[nodiscard]] std::size_t width() const { return along.empty() ? 1 : along.front().length; }
 };

@@ -79,7 +79,7 @@ struct ObservableList {
       if (!O::wanted(settings)) return;
       for (Column<typename O::Values>& c : O::columns(settings))
         all.push_back({std::move(c.name), std::move(c.long_name), std::move(c.units), std::move(c.along),
-                       std::move(c.put), std::move(c.text), c.longest_text});
+                       std::move(c.put), std::move(c.text), c.longest_text, c.intermediate});
     });
     return all;
   }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "plan/impact_estimate.hpp"
+#include "sweep/attractor_table.hpp"
 #include "sweep/result_store.hpp"
 
 namespace clatter::plan {
@@ -24,12 +25,13 @@ constexpr double lone_block = 128 * kibi;  ///< size from which on a block is re
 /// Sizes of everything that is held value by value, in bytes.
 struct Parts {
   double points = 0.0, branches = 0.0;
-  double axes = 0.0;         ///< coordinates that are axes of the sweep, which holds them too
-  double coordinates = 0.0;  ///< all of the file
-  double results = 0.0;      ///< all but the log
-  double largest = 0.0;      ///< largest variable of the file
-  double impacts = 0.0;      ///< number of impacts in the log
-  double counts = 0.0;       ///< the numbers of impacts of each point
+  double axes = 0.0;          ///< coordinates that are axes of the sweep, which holds them too
+  double coordinates = 0.0;   ///< all of the file
+  double results = 0.0;       ///< all but the log
+  double intermediate = 0.0;  ///< results that aren't in the file, and what numbering the motions takes
+  double largest = 0.0;       ///< largest variable of the file
+  double impacts = 0.0;       ///< number of impacts in the log
+  double counts = 0.0;        ///< the numbers of impacts of each point
 
   [[nodiscard]] double logged_in_file() const { return impacts * logged + counts; }
 };
@@ -54,6 +56,16 @@ void add_coordinates(const sweep::Sweep& sweep, bool is_shard, Parts& parts) {
   }
 }
 
+/// The numbers of the points, and the motions of each ensemble, of which most have few.
+void add_numbering(const sweep::Sweep& sweep, Parts& parts) {
+  constexpr double few = 4, of_share = 3 * value;
+  const double ensembles = std::min(parts.points, static_cast<double>(sweep::ensembles_of(sweep)));
+  const double motions = std::min(parts.points, few * ensembles);
+  parts.results +=
+      sizeof(std::int32_t) * parts.points + (value + std::min(few, parts.points / ensembles) * of_share) * ensembles;
+  parts.intermediate += attractors::bytes_of_motion * motions + sizeof(std::uint32_t) * ensembles;
+}
+
 Parts parts_of(const sweep::Sweep& sweep, const std::optional<sweep::Shard>& shard, double impacts) {
   const sweep::Share share(sweep, shard);
   Parts parts{.points = static_cast<double>(share.points()), .branches = static_cast<double>(share.count())};
@@ -62,8 +74,13 @@ Parts parts_of(const sweep::Sweep& sweep, const std::optional<sweep::Shard>& sha
   parts.largest = std::max(parts.largest, value * parts.points);
   for (const sweep::OutputVariable& output : sweep::outputs_of(sweep.problem)) {
     const double bytes = (output.text ? short_text : static_cast<double>(output.width()) * value) * parts.points;
+    if (output.intermediate && !shard) {
+      parts.intermediate += bytes;
+      continue;
+    }
     parts.results += bytes, parts.largest = std::max(parts.largest, bytes);
   }
+  if (sweep.problem.observe.attractor) add_numbering(sweep, parts);
   if (!sweep.problem.observe.impact_log) return parts;
   parts.impacts = impacts, parts.counts = sizeof(std::int64_t) * parts.points;
   parts.largest = std::max(parts.largest, value * impacts);
@@ -105,7 +122,8 @@ MemoryNeed memory_need(const sweep::Sweep& sweep, const std::optional<sweep::Sha
 MemoryNeed memory_need(const sweep::Sweep& sweep, const std::optional<sweep::Shard>& shard, int threads,
                        double impacts) {
   const Parts parts = parts_of(sweep, shard, impacts);
-  const double log = log_bytes(sweep, parts), held = parts.results + parts.branches;  // a byte tells a branch's state
+  const double log = log_bytes(sweep, parts),
+               held = parts.results + parts.intermediate + parts.branches;  // a byte tells a branch's state
   const double working = threads * value * observables::All::values_held(sweep.problem.observe);
   const double running = held + log + std::max(working, saving_bytes(sweep, parts, log));
   const double collecting = parts.coordinates + held + log;
@@ -123,8 +141,10 @@ double merge_bytes(const sweep::Sweep& sweep, std::span<const ShardSize> shards)
     largest = std::max(largest, shard.coordinates + shard.results + shard.logged_in_file());
   }
   const Parts parts = parts_of(sweep, std::nullopt, impacts);
-  const double log = log_bytes(sweep, parts), reading = parts.results + held_log_bytes(sweep, parts) + largest;
-  return before_bytes(parts, 0) + std::max({reading, parts.coordinates + parts.results + log, building_bytes(parts)});
+  const double log = log_bytes(sweep, parts),
+               reading = parts.results + parts.intermediate + held_log_bytes(sweep, parts) + largest;
+  return before_bytes(parts, 0) +
+         std::max({reading, parts.coordinates + parts.results + parts.intermediate + log, building_bytes(parts)});
 }
 
 }  // namespace clatter::plan

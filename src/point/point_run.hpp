@@ -7,6 +7,7 @@
 #include "observables/observable_list.hpp"
 #include "point/point.hpp"
 #include "steady/find_steady.hpp"
+#include "steady/settling_periods.hpp"
 
 namespace clatter::point {
 
@@ -22,9 +23,7 @@ class Point {
   }
 
   PointResult run() {
-    motion::State<double> state;
-    state.x = problem_.start.displacement, state.v = problem_.start.velocity;
-    return observe(find_steady(integrator_, state, problem_, problem_.time, problem_.integration));
+    return observe(find_steady(integrator_, start(), problem_, problem_.time, problem_.integration));
   }
 
   /// The result of a motion whose observed time is known.
@@ -67,6 +66,9 @@ class Point {
     if (state.phase_turns > 0)
       result_.end.phase = std::fmod(problem_.start.phase + 2 * pi<double>() * state.phase_turns, 2 * pi<double>());
     observers.finish(span_, state.x, state.v, result_);
+    if (problem_.observe.settling && problem_.oscillator.forcing != 0)
+      result_.settling_periods =
+          settling_periods(integrator_, start(), observed_, problem_.time, observables::Settling::settled);
     steady::ObservedTime complete = observed_;
     const auto& stability = observers.template of<observables::Stability>();
     if (stability && span_.periodic && problem_.oscillator.forcing != 0 && stability->grazes())
@@ -76,6 +78,12 @@ class Point {
   }
 
  private:
+  [[nodiscard]] motion::State<double> start() const {
+    motion::State<double> state;
+    state.x = problem_.start.displacement, state.v = problem_.start.velocity;
+    return state;
+  }
+
   /// Follows motion without a period beyond the observed time, as long as its section goes on.
   stepping::Outcome complete_section(Observers& observers, motion::State<double> state) {
     auto& section = observers.template of<observables::Section>();

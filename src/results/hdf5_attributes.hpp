@@ -16,6 +16,7 @@ struct ValueType {
 inline ValueType type_of(double) { return {H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE}; }
 inline ValueType type_of(std::uint8_t) { return {H5T_STD_U8LE, H5T_NATIVE_UINT8}; }
 inline ValueType type_of(std::int8_t) { return {H5T_STD_I8LE, H5T_NATIVE_INT8}; }
+inline ValueType type_of(std::int32_t) { return {H5T_STD_I32LE, H5T_NATIVE_INT32}; }
 inline ValueType type_of(std::int64_t) { return {H5T_STD_I64LE, H5T_NATIVE_INT64}; }
 
 /// Writes a text, which may be as long as a configuration.

@@ -4,9 +4,9 @@
 #include <cstdint>
 #include <tuple>
 
-#include "observables/all.hpp"
 #include "results/hdf5_texts.hpp"
 #include "storage/utf8.hpp"
+#include "sweep/result_store.hpp"
 
 namespace clatter::results::detail {
 namespace {
@@ -48,7 +48,7 @@ void require_own_filters(hid_t properties, const std::string& name) {
 
 /// Whether clatter writes texts under this name.
 bool holds_texts(const std::string& name) {
-  static const std::vector<std::string> names = observables::All::names_of_texts();
+  static const std::vector<std::string> names = sweep::names_of_texts();
   return std::ranges::find(names, name) != names.end();
 }
 

@@ -27,9 +27,10 @@ std::size_t length_of(hid_t dataset) {
 sweep::ValueArray values_of(hid_t dataset) {
   if (is_text(dataset)) return read_texts(dataset);
   const Handle type{H5Dget_type(dataset), H5Tclose};
-  const bool is_integer = H5Tget_class(type) == H5T_INTEGER, is_wide = H5Tget_size(type) > 1;
-  if (!is_integer) return numbers_of<double>(dataset);
-  if (is_wide) return numbers_of<std::int64_t>(dataset);
+  const std::size_t bytes = H5Tget_size(type);
+  if (H5Tget_class(type) != H5T_INTEGER) return numbers_of<double>(dataset);
+  if (bytes == sizeof(std::int32_t)) return numbers_of<std::int32_t>(dataset);
+  if (bytes > 1) return numbers_of<std::int64_t>(dataset);
   return H5Tget_sign(type) == H5T_SGN_NONE ? numbers_of<std::uint8_t>(dataset) : numbers_of<std::int8_t>(dataset);
 }
 

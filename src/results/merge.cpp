@@ -8,6 +8,7 @@
 #include "storage/config_diff.hpp"
 #include "storage/error.hpp"
 #include "storage/utf8.hpp"
+#include "sweep/parallel.hpp"
 #include "sweep/result_store.hpp"
 
 namespace clatter::results {
@@ -117,6 +118,7 @@ Merged merge(const ShardSet& shards) {
                              error.what() + "; run shard " + text_of(header.shard) + " again");
     }
   }
+  store.number_motions(sweep::default_threads());
   const std::size_t failed_points = store.failed_points();
   return {store.dataset(), failed_points};
 }

@@ -11,7 +11,7 @@ namespace clatter::sweep {
 
 /// The values of one variable, row-major over its dimensions; texts are UTF-8.
 using ValueArray = std::variant<std::vector<double>, std::vector<std::uint8_t>, std::vector<std::int8_t>,
-                                std::vector<std::int64_t>, std::vector<std::string>>;
+                                std::vector<std::int32_t>, std::vector<std::int64_t>, std::vector<std::string>>;
 
 using Attribute = std::pair<std::string, std::variant<std::string, double, std::vector<std::uint8_t>>>;
 

@@ -13,4 +13,10 @@ std::vector<OutputVariable> outputs_of(const point::Problem& scene) {
   return outputs;
 }
 
+std::vector<std::string> names_of_texts() {
+  std::vector<std::string> names = observables::All::names_of_texts();
+  names.insert(names.end(), {"motion_word", "motion_regime"});
+  return names;
+}
+
 }  // namespace clatter::sweep

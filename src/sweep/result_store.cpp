@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <type_traits>
 
+#include "sweep/attractor_table.hpp"
 #include "sweep/dataset_axes.hpp"
 
 namespace clatter::sweep {
@@ -98,6 +99,7 @@ double most_values(const Sweep& sweep, const std::optional<Shard>& shard) {
     coordinates += static_cast<double>(coordinate.length);
   for (const Dimension& dimension : sweep.dimensions)
     coordinates += static_cast<double>(dimension.size() * length(dimension));
+  if (sweep.problem.observe.attractor) of_point += attractor_values;
   return of_point * static_cast<double>(Share(sweep, shard).points()) + coordinates;
 }
 
@@ -279,12 +281,34 @@ Dataset ResultStore::dataset() {
     for (const observables::Coordinate& along : output.along) dimensions.push_back(along.name);
     ValueArray values = std::move(values_[i]);
     if (output.text) values = std::move(texts_[i]);
+    if (output.intermediate && !shard_) continue;
     dataset.variables.push_back(
         {output.name, std::move(dimensions), std::move(values), output.long_name, output.units});
   }
+  if (numbering_) add_attractors(sweep_, shard_.has_value(), along_, std::move(*numbering_), dataset);
   if (sweep_.problem.observe.impact_log) add_impact_log(dataset);
   name_linked_axes(sweep_, dataset);
   return dataset;
+}
+
+std::vector<double>& ResultStore::values_of(std::string_view output) {
+  const auto found = std::ranges::find(outputs_, output, &OutputVariable::name);
+  return values_[static_cast<std::size_t>(found - outputs_.begin())];
+}
+
+void ResultStore::number_motions(int threads) {
+  if (!sweep_.problem.observe.attractor) return;
+  const std::vector<double>&x = values_of("attractor_x"), &v = values_of("attractor_v"),
+        &periods = values_of("attractor_periods");
+  const std::vector<std::int64_t> numbers = shard_ ? point_numbers(share_) : std::vector<std::int64_t>{};
+  const auto index = [&](std::size_t point) -> std::optional<std::size_t> {
+    if (!shard_) return point;
+    const auto found = std::ranges::lower_bound(numbers, static_cast<std::int64_t>(point));
+    if (found == numbers.end() || *found != static_cast<std::int64_t>(point)) return std::nullopt;
+    return static_cast<std::size_t>(found - numbers.begin());
+  };
+  const auto ending = [&](std::size_t i) { return attractors::Ending{{x[i], v[i]}, periods[i]}; };
+  numbering_ = numbering_of(sweep_, threads, {status_.size(), index, ending});
 }
 
 std::size_t ResultStore::failed_points() const {

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "attractors/numbering.hpp"
 #include "point/point.hpp"
 #include "sweep/dataset.hpp"
 #include "sweep/share.hpp"
@@ -22,6 +23,9 @@ using OutputVariable = observables::Column<point::PointResult>;
 /// The variables of a point's observables, except the impact log and the integer ones; for steady motion also the
 /// estimate of its settling time.
 [[nodiscard]] std::vector<OutputVariable> outputs_of(const point::Problem& scene);
+
+/// The names of all variables of texts.
+[[nodiscard]] std::vector<std::string> names_of_texts();
 
 /// Attributes that give the meanings of the values of a variable.
 [[nodiscard]] std::vector<Attribute> flag_attributes(
@@ -60,12 +64,16 @@ class ResultStore {
   /// The dataset over the sweep's axes, or over the points of a shard. Empties the store.
   [[nodiscard]] Dataset dataset();
 
+  /// Numbers the motions that the points end in, once all results are there. Throws std::bad_alloc.
+  void number_motions(int threads);
+
   [[nodiscard]] std::size_t failed_points() const;
 
  private:
   void add_coordinates(Dataset& dataset) const;
   void add_always(Dataset& dataset);
   void add_impact_log(Dataset& dataset);
+  [[nodiscard]] std::vector<double>& values_of(std::string_view output);
   void take_impact_log(Dataset& dataset, std::span<const std::int64_t> numbers);
 
   const Sweep& sweep_;
@@ -79,6 +87,7 @@ class ResultStore {
   std::vector<std::vector<double>> values_;       ///< [output][local index][width]; empty for texts
   std::vector<std::vector<std::string>> texts_;   ///< [output][local index]; empty for numbers
   std::vector<std::vector<motion::Impact>> log_;  ///< [local index]; empty if no log is observed
+  std::optional<attractors::Numbering> numbering_;
 };
 
 }  // namespace clatter::sweep

@@ -306,6 +306,7 @@ void SweepRun::run(const RunOptions& options) {
   WorkerPool pool(sweep_, share_, options, result_.threads, store_, states_, restored_);
   pool.run();
   pool.rethrow();
+  store_.number_motions(result_.threads);
   result_.work = pool.work();
   result_.arch = options.arch, result_.lanes = pool.lane_work();
   result_.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();

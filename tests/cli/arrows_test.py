@@ -1,6 +1,6 @@
 """Rooms of src include only their right-hand neighbours, and each has its own namespace:
 apps -> { results, accuracy }, results -> { config, plan }, config -> { sweep, storage },
-{ accuracy, plan } -> sweep -> lanes -> point -> { steady, observables },
+{ accuracy, plan } -> sweep -> { lanes, attractors } -> point -> { steady, observables },
 steady -> stepping -> motion, observables -> motion -> model -> math."""
 
 import os
@@ -19,7 +19,8 @@ NEXT = {  # room: its right-hand neighbours; what these may include, it may incl
     "observables": {"motion"},
     "point": {"steady", "observables"},
     "lanes": {"point"},
-    "sweep": {"lanes"},
+    "attractors": {"point"},
+    "sweep": {"lanes", "attractors"},
     "plan": {"sweep"},
     "accuracy": {"sweep"},
     "storage": set(),
@@ -35,9 +36,10 @@ KNOWN_TO = {  # library header: the only rooms that see it
     r"zlib": {"storage"},
     r"boost/program_options": {"config", "apps"},
     r"boost/multiprecision": {"math"},
-    r"boost/math": {"observables"},
+    r"boost/math": {"observables", "sweep"},
     r"boost/numeric/odeint": {"stepping"},
     r"nettle": {"results"},
+    r"boost/random": {"config"},
     r"xsimd": {"lanes"},
 }
 WORDS_OF_ALL = {"math", "model"}  # their namespaces are inline: every room says Scene, Effects, pi without their name

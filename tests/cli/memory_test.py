@@ -73,6 +73,11 @@ SHAPES = {
         (),
     ),
     "a shard": (sweep({"nu": linspace(3000000)}), ("--shard", "0/3")),
+    "attractors of many starts": (
+        sweep({"x0": linspace(1000), "v0": linspace(1000)}, time="", observe="attractor = true"),
+        (),
+    ),
+    "attractors of a map": (sweep({"nu": linspace(500), "f": linspace(400)}, time="", observe="attractor = true"), ()),
     "a list": (sweep({"phase": long_list()}), ()),
     "followed branches": (sweep({"nu": linspace(1000), "load": linspace(1000, 0, 1)}, more='follow = "nu"'), ()),
 }

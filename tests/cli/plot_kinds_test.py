@@ -55,6 +55,21 @@ CONFIGURATIONS |= {
     "numbers": FORCED + "nu = 0.8\nxs = 0.5\n[observe]\nword = true\n",
     "chatter": FORCED + "nu = 0.05\nxs = 0.2\nR = 0.7\n[observe]\nword = true\nstability = true\n",
 }
+STARTS = '[sweep]\n{}x0 = "{}(-3, 3, {})"\nv0 = "{}(-6, 6, {})"\n'
+STEADY = FORCED + "R = 0.7\nxs = -3\n"
+CONFIGURATIONS |= {
+    "basins": STEADY
+    + "nu = 1.2\n"
+    + STARTS.format("", "linspace", 24, "linspace", 20)
+    + "[observe]\nattractor = true\nsettling = true\n",
+    "starts": STEADY
+    + "nu = 1.2\n"
+    + STARTS.format('linked = "x0, v0"\n', "sobol", 64, "sobol", 64)
+    + "[observe]\nattractor = true\nsettling = true\n",
+    "zones": STEADY
+    + STARTS.format('nu = "linspace(0.9, 1.5, 25)"\nlinked = "x0, v0"\n', "sobol", 32, "sobol", 32)
+    + "[time]\nmax_periods = 300\n[observe]\nattractor = true\n",
+}
 NO_CHOICE = SimpleNamespace(only=(), along="", over="", at=(), size=None, xlim=None, ylim=None, log="", title=None)
 
 
@@ -186,6 +201,56 @@ class Kinds(unittest.TestCase):
             subprocess.run([*command, "--set", "scene.xs=1.2", "--set", f"scene.R={R}"], check=True)
         legend = self.draw("R0.5", "R0.8").panels[0].legend()[:2]
         self.assertEqual([text.replace("$", "") for text in legend], ["R = 0.5", "R = 0.8"])
+
+    def test_basins_have_a_colour_and_a_name_for_each_motion_and_its_state(self):
+        basins = plot.single_figure(self.output("basins"), choice(only=("attractor",))).axes[0]
+        output = self.output("basins")
+        (points,) = [image for image in basins.images]
+        colours = {tuple(pixel) for pixel in points.get_array().reshape(-1, 4).tolist()}
+        self.assertEqual(len(colours), 2)
+        states = [(line.get_gid(), *map(float, (*line.get_xdata(), *line.get_ydata()))) for line in basins.lines]
+        x, v = output.values("motion_x"), output.values("motion_v")
+        self.assertEqual(states, [(f"motion {i}", x[i], v[i]) for i in range(2)])
+        shares = np.bincount(output.values("attractor").ravel()) / output.values("attractor").size
+        names = [f"no impacts, {100 * shares[0]:.0f} %", f"1/1 symmetric, LU, {100 * shares[1]:.0f} %"]
+        picture = self.draw("basins")
+        self.assertEqual([text for panel in picture.panels for text in panel.texts() if text in names], names)
+        self.assertIn("periods until settled", [text for panel in picture.panels for text in panel.texts()])
+        self.assertFalse(overlapping_texts(plot.single_figure(output, NO_CHOICE)))
+
+    def test_starts_along_one_dimension_are_points(self):
+        figure = plot.single_figure(self.output("starts"), NO_CHOICE)
+        output, basins = self.output("starts"), figure.axes[0]
+        for number, line in enumerate(basins.lines):
+            mine = output.values("attractor") == number
+            self.assertEqual(line.get_xdata().tolist(), output.values("x0")[mine].tolist())
+            self.assertEqual(line.get_ydata().tolist(), output.values("v0")[mine].tolist())
+        self.assertEqual(len(basins.lines), 2)
+        self.assertEqual(len(figure.axes[1].collections[0].get_offsets()), 64)
+        self.assertFalse(overlapping_texts(figure))
+
+    def test_zones_are_stacked_shares_with_names(self):
+        output = self.output("zones")
+        figure = plot.single_figure(output, NO_CHOICE)
+        panel = figure.axes[0]
+        tops = np.max([patch.get_data().values.max() for patch in panel.patches])
+        self.assertAlmostEqual(tops, 1.0)
+        words = [text.get_text() for text in panel.texts]
+        self.assertEqual(sorted(set(words)), ["hard", "quiet", "soft"])
+        strips = {name: [c for c in panel.collections if c.get_gid() == name] for name in ("soft", "hard", "quiet")}
+        several = (output.values("motion_share") > 0).sum(axis=1) > 1
+        self.assertTrue((several == (output.values("motion_count") > 1)).all())
+        runs = np.count_nonzero(np.diff(np.concatenate([[0], several.astype(int)])) == 1)
+        self.assertEqual(len(strips["hard"]), runs)
+        self.assertEqual(len(strips["quiet"]), 1)
+        self.assertFalse(overlapping_texts(figure))
+
+    def test_a_motion_has_one_colour_in_all_pictures_of_a_file(self):
+        output = self.output("zones")
+        low, high = (plot.single_figure(output, choice(at=(("nu", nu),))).axes[0] for nu in (1.2, 1.4))
+        colours = [{line.get_label().split(",")[0]: line.get_color() for line in axes.lines} for axes in (low, high)]
+        self.assertEqual(colours[0], colours[1])
+        self.assertEqual(len(colours[0]), 2)
 
     def test_map_is_images_and_names_regimes(self):
         picture = self.draw("map")

@@ -121,7 +121,7 @@ TEST(Config, too_long_to_run_again_is_refused_at_the_longest_value) {
       "a.toml:1:1: the complete configuration is more than 1 MiB, of which 'title' takes 1800002 bytes; shorten it");
   EXPECT_EQ(mistake_in("a.toml", "[scene]\nxs = 1\n[sweep]\nf = [" + numbers + "]\n"),
             "a.toml:4:1: the complete configuration is more than 1 MiB, of which 'f' takes 1500005 bytes; write it as "
-            "linspace, logspace or arange");
+            "a function, e.g. linspace(a, b, n)");
 }
 
 TEST(Config, text_keeps_the_given_alternatives_only) {

@@ -121,7 +121,7 @@ TEST(Observing, nothing_is_warned_of_unless_every_observable_is_written_as_off) 
       "[scene]\nxs = 1\n[observe]\nextrema = false\nharmonics = 0\nimpacts = false\nimpact_log = false\n"
       "trajectory = 0\nsection = 0\nword = false\nperiod = false\nstability = false\n";
   expect_warning(off, "3:2", "nothing is observed");
-  expect_none(off + "energy = false\n");
+  expect_none(off + "energy = false\nsettling = false\nattractor = false\n");
 }
 
 TEST(Following, a_direction_of_nothing_is_warned_of) {

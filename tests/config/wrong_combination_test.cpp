@@ -73,6 +73,19 @@ TEST(Together, start_period_belongs_to_free_motion_between_symmetric_stops) {
   expect_all("a.ini", table);
 }
 
+TEST(Together, axes_of_sobol_are_starts_and_linked) {
+  const std::string scene = "[scene]\nxs = 9\nf = 1\n[sweep]\n";
+  const std::string crossed = scene + "x0 = \"sobol(-1, 1, 8)\"\nv0 = \"sobol(-1, 1, 8)\"\n";
+  const std::vector<Wrong> table{
+      {scene + "nu = \"sobol(1, 2, 8)\"\n", "5:6", "nu = sobol(...), which only starts can have: x0, v0, phase"},
+      {crossed, "5:6", "x0 = sobol(...) without its partners, which would cross them; write linked = \"x0, v0\""},
+      {crossed + "phase = \"sobol(0, 6, 8)\"\nlinked = \"x0, v0\"\n", "7:9", "write linked = \"x0, v0, phase\""},
+      {crossed + "phase = \"sobol(0, 6, 9)\"\nlinked = \"x0, v0, phase\"\n", "8:10",
+       "linked axes of different lengths"},
+  };
+  expect_all("a.toml", table);
+}
+
 TEST(Together, linked_and_follow_name_axes) {
   const std::vector<Wrong> table{
       {both + "linked = \"nu\"\n", "5:10", "linked names one axis"},

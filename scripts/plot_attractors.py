@@ -1,0 +1,217 @@
+"""Which motions the starts end in: basins over two starts, shares and zones over a parameter."""
+
+import numpy as np
+from matplotlib import colors
+
+from plot_data import FIRST_FAILURE
+from plot_maps import class_map, edges_between, name_colours, name_panel
+from plot_scales import shown_values, tidy_ticks
+from plot_style import CYCLE, GREEN, SKY, label, legend_above, number, symbol
+
+STARTS = ("x0", "v0", "phase", "start_period")
+COLOURS = (  # by number, over and over
+    *CYCLE,
+    *("#8c510a", "#80cdc1", "#762a83", "#b2df8a", "#003c30", "#fdbf6f", "#a50026", "#c7c7f0", "#666666"),
+    *("#f4a582", "#4d9221", "#2166ac", "#fee391", "#7a0177", "#41b6c4", "#bc80bd", "#543005", "#d9ef8b"),
+)
+OTHERS, UNDECIDED = "#bfbfbf", "#ffffff"
+MOST = 16  # motions with an entry of their own in a legend
+LEAST = 0.005  # share of the starts at its largest below which a motion is one of the others
+ZONES = (("soft", GREEN), ("hard", "#b2182b"), ("quiet", SKY))  # strips above shares
+STRIP, GAP = 0.075, 0.02  # of the height of a panel
+
+
+def is_start(axis):
+    return axis in STARTS or axis == "direction"
+
+
+def colour_of(motion):
+    return COLOURS[motion % len(COLOURS)]
+
+
+def name_of(output, motion):
+    """A motion in words, e.g. "1/1 symmetric, LU"."""
+    word, regime = output.values("motion_word")[motion], output.values("motion_regime")[motion]
+    if output.values("motion_period_ratio")[motion] == 0:
+        return "no period" + ", symmetric" * bool(output.values("motion_symmetric")[motion] == 1)
+    if not word:
+        return "no impacts"
+    symmetry = " symmetric" if output.values("motion_symmetric")[motion] == 1 else ""
+    short = word if len(word) <= 12 else word[:11] + "…"
+    return f"{regime}{symmetry}, {short}".replace("inf", "∞").replace("*", "∗")
+
+
+def frequent(shares, most=MOST):
+    """The motions with entries of their own, by number, and whether there are others."""
+    there = np.flatnonzero(shares > 0)
+    chosen = sorted(there[np.argsort(-shares[there], kind="stable")][:most])
+    chosen = [motion for motion in chosen if shares[motion] >= LEAST] or chosen
+    return chosen, len(chosen) < len(there)
+
+
+def percent(share):
+    return "< 1 %" if 0 < share < 0.005 else f"{100 * share:.0f} %"
+
+
+def basin_kinds(output):
+    """(name, colour, points) of each motion that points of an output end in."""
+    numbers, status = output.values("attractor"), output.values("status")
+    counts = np.bincount(numbers[numbers >= 0], minlength=len(output.values("motion")))
+    shares = counts / max(1, numbers.size)
+    chosen, more = frequent(shares)
+    kinds = [
+        (f"{name_of(output, motion)}, {percent(shares[motion])}", colour_of(motion), numbers == motion)
+        for motion in chosen
+    ]
+    if more:
+        kinds.append(("others", OTHERS, (numbers >= 0) & ~np.isin(numbers, chosen)))
+    kinds.append(("undecided", "#e0e0e0", (numbers < 0) & (status < FIRST_FAILURE)))
+    kinds.append(("failed", "black", status >= FIRST_FAILURE))
+    return kinds
+
+
+def attractor_map(figure, axes, grid, output):
+    """Motions over two axes; over x0 and v0 with the states of the motions at the forcing phase of the start."""
+    basins = all(is_start(axis) for axis in output.axes)
+    title = "motion that the start ends in" if basins else "motion"
+    notes = class_map(figure, axes, grid, title, basin_kinds(output))
+    return notes + (section_points(axes, output) if output.axes in (("x0", "v0"), ("v0", "x0")) else [])
+
+
+def section_points(axes, output):
+    """States of the motions on the plane of the starts."""
+    drawn = False
+    for motion in np.unique(output.values("attractor")):
+        x, v = section_of(output, motion)
+        if x.size == 0:
+            continue
+        drawn = True
+        place = (x, v) if output.axes[0] == "x0" else (v, x)
+        axes.plot(*place, "o", ms=5.5, mfc=colour_of(motion), mec="white", mew=1.2, zorder=4, gid=f"motion {motion}")
+    return ["points: states of the motions at the forcing phase of the start"] * drawn
+
+
+def section_of(output, motion):
+    """The states of a motion at the forcing phase of the starts, as far as the file has them: its section if that is
+    observed, else the one of the table, which is for phase 0 and the parameters of the example."""
+    nothing = np.empty(0), np.empty(0)
+    if motion < 0:
+        return nothing
+    phase = float(output.scene.get("phase", 0.0))
+    if "section_x" in output and float(output.config.get("observe", {}).get("section_phase", 0.0)) == phase:
+        point = np.argmax(output.values("attractor").ravel() == motion)
+        x, v = (
+            output.values(name).reshape(-1, output.values(name).shape[-1])[point] for name in ("section_x", "section_v")
+        )
+        return x[np.isfinite(x)], v[np.isfinite(v)]
+    if phase != 0.0 or output.held:
+        return nothing
+    return output.values("motion_x")[[motion]], output.values("motion_v")[[motion]]
+
+
+def basin_points(axes, output):
+    """Basins of starts that run along one dimension, such as those of Sobol's sequence."""
+    first, second = start_plane(output)
+    x, y = (output.values(name) for name in (first, second))
+    for name, colour, points in basin_kinds(output):
+        if points.any():
+            axes.plot(
+                x[points], y[points], "o", ms=2.2, mew=0, color=colour, label=name, rasterized=points.sum() > 2000
+            )
+    axes.set_xlabel(label(output, first))
+    axes.set_ylabel(label(output, second))
+    legend_above(axes, columns=2, markerscale=2.0)
+
+
+def start_plane(output):
+    """The two starts that are linked along the only axis; empty if there is none."""
+    linked = [name for name in STARTS if name in output and output[name].dims == output.axes]
+    return linked[:2] if len(linked) >= 2 else []
+
+
+def value_points(figure, axes, output, name):
+    """A result at starts that run along one dimension, in colours."""
+    first, second = start_plane(output)
+    values = shown_values(output, name)
+    known = np.isfinite(values)
+    points = axes.scatter(output.values(first)[known], output.values(second)[known], s=6, lw=0, c=values[known])
+    axes.set_xlabel(label(output, first))
+    axes.set_ylabel(label(output, second))
+    name_panel(axes, label(output, name), tidy_ticks(figure.colorbar(points, ax=axes, pad=0.02).ax)["y"])
+
+
+def has_linked_starts(output):
+    """Whether another start runs along an axis of starts."""
+    return any(
+        name in output and name not in output.axes and output[name].dims[:1] in [(s,) for s in STARTS]
+        for name in STARTS
+    )
+
+
+def has_shares(output):
+    """Whether the output has shares over one parameter."""
+    return "motion_share" in output and len(output["motion_share"].dims) == 2
+
+
+def share_panel(figure, axes, output):
+    """Shares of the starts over the parameter, stacked, and the zones above them. Returns the notes that explain it."""
+    parameter = output["motion_share"].dims[0]
+    shares = output.values("motion_share")
+    places = output.values(parameter).astype(float)
+    order = np.argsort(places, kind="stable")
+    places, shares = places[order], shares[order]
+    edges = edges_between(places)
+    chosen, more = frequent(shares.max(axis=0))
+    names = apart([name_of(output, motion) for motion in chosen], shares[:, chosen], places, symbol(parameter))
+    parts = [(name, colour_of(motion), shares[:, motion]) for name, motion in zip(names, chosen)]
+    if more:
+        parts.append(("others", OTHERS, np.delete(shares, chosen, axis=1).sum(axis=1)))
+    below = np.zeros(len(places))
+    for _, colour, share in parts:
+        for begin, end in runs(share > 0):
+            part = slice(begin, end)
+            low, high = below[part], below[part] + share[part]
+            axes.stairs(high, edges[begin : end + 1], baseline=low, fill=True, color=colour, lw=0.0)
+        below = below + share
+    rest = [] if (below > 1 - 1e-9).all() else ["white: undecided or failed"]
+    zone_strips(axes, edges, shares, [motion for motion in range(shares.shape[1]) if is_quiet(output, motion)])
+    axes.set_xlim(edges[0], edges[-1])
+    axes.set_ylim(0.0, 1.0 + 3 * GAP + 2 * STRIP)
+    axes.set_yticks(np.linspace(0, 1, 6), labels=[f"{share:.0f} %" for share in np.linspace(0, 100, 6)])
+    axes.set_xlabel(label(output, parameter))
+    axes.set_ylabel("share of the starts")
+    axes.tick_params(which="both", top=False, right=False)
+    name_colours(figure, axes, parts)
+    return rest + ["soft: one motion", "hard: several", "quiet: one of them has no impacts"]
+
+
+def apart(names, shares, places, parameter):
+    """The names, those of several motions with the parameter from which on each is there."""
+    begins = [number(places[np.argmax(share > 0)]) for share in shares.T]
+    return [f"{name}, {parameter} ≥ {begin}" if names.count(name) > 1 else name for name, begin in zip(names, begins)]
+
+
+def is_quiet(output, motion):
+    return output.values("motion_word")[motion] == "" and output.values("motion_period_ratio")[motion] != 0
+
+
+def zone_strips(axes, edges, shares, quiet):
+    """Where the motion is the only one, one of several, and where motion without impacts is among them."""
+    several = (shares > 0).sum(axis=1) > 1
+    calm = (shares[:, quiet] > 0).any(axis=1)
+    for row, covered in ((0, (("soft", ~several), ("hard", several))), (1, (("quiet", calm),))):
+        low = 1.0 + GAP + row * (STRIP + GAP)
+        for name, cells in covered:
+            for begin, end in runs(cells):
+                axes.fill_between(
+                    edges[[begin, end]], low, low + STRIP, color=colors.to_rgba(dict(ZONES)[name], 0.45), lw=0, gid=name
+                )
+                if edges[end] - edges[begin] >= 0.07 * (edges[-1] - edges[0]):
+                    middle = (edges[begin] + edges[end]) / 2
+                    axes.text(middle, low + 0.45 * STRIP, name, fontsize=8.5, ha="center", va="center_baseline")
+
+
+def runs(cells):
+    """(begin, end) of each run of true cells."""
+    changes = np.flatnonzero(np.diff(np.concatenate([[0], cells.astype(int), [0]])))
+    return list(zip(changes[::2], changes[1::2]))

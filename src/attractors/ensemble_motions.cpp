@@ -1,0 +1,120 @@
+#include "attractors/ensemble_motions.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "math/number.hpp"
+
+namespace clatter::attractors {
+namespace {
+
+/// From the forcing phase of the start to phase 0, in forcing periods, 0 ... 1.
+double turns_to_phase_zero(const point::Problem& problem) {
+  const double turns = problem.start.phase / (2 * pi<double>());
+  return std::ceil(turns) - turns;
+}
+
+}  // namespace
+
+std::optional<std::size_t> EnsembleMotions::motion_of(const point::Problem& problem, const Ending& ending) {
+  if (!(ending.periods >= 0)) return std::nullopt;
+  PhasePoint state = ending.state;
+  if (problem.oscillator.forcing == 0) {
+    if (const auto known = passing(state)) return known;
+    return add({.periodic = standstill(problem, state.x), .state = state});
+  }
+  if (const double turns = turns_to_phase_zero(problem); turns > 0) {
+    const auto later = state_after(started(problem, state, problem.start.phase), turns);
+    if (!later) return std::nullopt;
+    state = *later;
+  }
+  return ending.periods > 0 ? periodic_of(problem, state, static_cast<std::size_t>(ending.periods))
+                            : aperiodic_of(problem, state);
+}
+
+void EnsembleMotions::restore(const point::Problem& problem, const Ending& ending) {
+  Motion motion{.state = ending.state};
+  if (problem.oscillator.forcing == 0) {
+    motion.periodic = standstill(problem, ending.state.x);
+  } else if (ending.periods > 0) {
+    motion.periodic = periodic_motion(problem, ending.state, static_cast<std::size_t>(ending.periods));
+  } else if (const auto sections = run_sections(started(problem, ending.state, 0.0), VisitedCells::long_look)) {
+    motion.cells = VisitedCells(sections->states);
+    motion.symmetric = is_symmetric(problem) && visits_mirror(problem, motion);
+  }
+  add(std::move(motion));
+}
+
+std::optional<std::size_t> EnsembleMotions::passing(const PhasePoint& state) const {
+  const double reach = same_motion * largest_;
+  for (auto near = by_x_.lower_bound(state.x - reach); near != by_x_.end() && near->first <= state.x + reach; ++near)
+    if (motions_[near->second].periodic->passes(state)) return near->second;
+  return std::nullopt;
+}
+
+std::optional<std::size_t> EnsembleMotions::periodic_of(const point::Problem& problem, const PhasePoint& state,
+                                                        std::size_t periods) {
+  if (const auto known = passing(after_impact(problem.stops, state, largest_))) return known;
+  std::optional<PeriodicMotion> motion = periodic_motion(problem, state, periods);
+  if (!motion || !motion->contracts) return std::nullopt;
+  const PhasePoint first = motion->cycle.front();
+  if (const auto known = passing(first)) return known;
+  return add({.periodic = std::move(motion), .state = first});
+}
+
+std::optional<std::size_t> EnsembleMotions::visiting(std::span<const PhasePoint> states) const {
+  for (std::size_t i = 0; i < motions_.size(); ++i)
+    if (!motions_[i].periodic && motions_[i].cells.are_visited_by(states)) return i;
+  return std::nullopt;
+}
+
+/// A short look tells most motions from those that are known, a long one those that stay in a part of the cells for
+/// long.
+std::optional<std::size_t> EnsembleMotions::aperiodic_of(const point::Problem& problem, const PhasePoint& state) {
+  const bool has_known = std::ranges::any_of(motions_, [](const Motion& motion) { return !motion.periodic; });
+  if (has_known) {
+    const auto sections = run_sections(started(problem, state, 0.0), VisitedCells::short_look);
+    if (!sections) return std::nullopt;
+    if (const auto known = visiting(sections->states)) return known;
+  }
+  std::vector<PhasePoint> states;
+  double log_area = 0.0;
+  PhasePoint last = state;
+  while (states.size() < (has_known ? longest_look_ : VisitedCells::long_look)) {
+    const auto sections = run_sections(started(problem, last, 0.0), VisitedCells::at_once);
+    if (!sections) return std::nullopt;
+    last = sections->states.back(), log_area += sections->log_area;
+    if (sections->repeats_after > 0) return periodic_of(problem, last, sections->repeats_after);
+    if (const auto known = visiting(sections->states)) return known;
+    states.insert(states.end(), sections->states.begin(), sections->states.end());
+  }
+  if (!(log_area < -1e-12)) return std::nullopt;  // nothing attracts it
+  Motion motion{.state = state, .cells = VisitedCells(states)};
+  motion.symmetric = is_symmetric(problem) && visits_mirror(problem, motion);
+  return add(std::move(motion));
+}
+
+/// Whether a motion without a period visits the cells of its mirror image.
+bool EnsembleMotions::visits_mirror(const point::Problem& problem, const Motion& motion) const {
+  std::optional<PhasePoint> last = mirrored(problem, motion.state);
+  for (std::size_t look = 0; last && look < longest_look_; look += VisitedCells::at_once) {
+    const auto sections = run_sections(started(problem, *last, 0.0), VisitedCells::at_once);
+    if (!sections || sections->repeats_after > 0) return false;
+    if (motion.cells.are_visited_by(sections->states)) return true;
+    last = sections->states.back();
+  }
+  return false;
+}
+
+std::size_t EnsembleMotions::add(Motion motion) {
+  const std::size_t index = motions_.size();
+  if (motion.periodic) {
+    largest_ = std::max(largest_, motion.periodic->size);
+    for (const PhasePoint& state : motion.periodic->cycle) by_x_.emplace(state.x, index);
+  }
+  motions_.push_back(std::move(motion));
+  return index;
+}
+
+}  // namespace clatter::attractors

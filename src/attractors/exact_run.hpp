@@ -1,0 +1,42 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "model/displacement_bound.hpp"
+#include "observables/impact_word.hpp"
+#include "point/problem.hpp"
+#include "steady/stroboscopic_map.hpp"
+
+namespace clatter::attractors {
+
+/// A problem that starts from another state, at another forcing phase (rad).
+[[nodiscard]] point::Problem started(point::Problem problem, const PhasePoint& state, double phase);
+
+/// A motion over some forcing periods with its derivative and its contacts.
+struct Round {
+  steady::Orbit orbit;
+  std::vector<observables::ImpactWord::Contact> contacts;  ///< times in tau since the start
+  double middle_of_flight = 0.0;  ///< of the longest one, forcing periods after the start; a flight may span the end
+  double fastest = 0.0;           ///< speed of an impact
+};
+
+/// Runs a problem exactly from its start over whole forcing periods, at most RepeatFinder::longest; nothing if it
+/// fails.
+[[nodiscard]] std::optional<Round> run_round(const point::Problem& problem, std::size_t periods);
+
+/// The state so many forcing periods after the start; nothing if the run fails.
+[[nodiscard]] std::optional<PhasePoint> state_after(const point::Problem& problem, double turns);
+
+/// The states at the forcing phase of the start in successive periods.
+struct Sections {
+  std::vector<PhasePoint> states;  ///< after 1, 2, … periods, until the motion repeats
+  std::size_t repeats_after = 0;   ///< forcing periods; 0: it doesn't repeat
+  double log_area = 0.0;           ///< logarithm of the factor by which all of them changed a small area of states
+};
+
+/// Runs a problem for so many forcing periods, or until it repeats; nothing if it fails.
+[[nodiscard]] std::optional<Sections> run_sections(const point::Problem& problem, std::size_t periods);
+
+}  // namespace clatter::attractors

@@ -1,0 +1,99 @@
+#include "attractors/periodic_motion.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+
+#include "math/number.hpp"
+#include "steady/contraction.hpp"
+#include "steady/repeat.hpp"
+
+namespace clatter::attractors {
+namespace {
+
+using observables::ImpactWord;
+
+[[nodiscard]] bool inside(const Stops& stops, const PhasePoint& state) {
+  return state.x >= stops.lower && state.x <= stops.upper && std::isfinite(state.v);
+}
+
+double larger_of(double x, double v) { return std::max(std::abs(x), std::abs(v)); }
+
+double size_of(const Round& round) {
+  double size = round.fastest;
+  for (const motion::State<double>& state : std::span(round.orbit.states).first(round.orbit.periods))
+    size = std::max(size, larger_of(state.x, state.v));
+  return size;
+}
+
+/// The exact round near another one, as far as Newton's method, which must meet the same stops in the same order, gets
+/// there.
+Round polished(const point::Problem& problem, Round round) {
+  constexpr int most_iterations = 6;
+  for (int iteration = 0; iteration < most_iterations; ++iteration) {
+    const double gap = round.orbit.gap().size();
+    if (!(gap > 0)) break;
+    const motion::Perturbation step = steady::newton_step(round.orbit.derivative(), round.orbit.gap());
+    const motion::State<double>& from = round.orbit.states[0];
+    const PhasePoint next{from.x + step.x, from.v + step.v};
+    if (!inside(problem.stops, next)) break;
+    const std::optional<Round> closer = run_round(started(problem, next, 0.0), round.orbit.periods);
+    if (!closer || closer->orbit.passages != round.orbit.passages || !(closer->orbit.gap().size() < gap)) break;
+    round = *closer;
+  }
+  return round;
+}
+
+}  // namespace
+
+bool PeriodicMotion::passes(const PhasePoint& state) const {
+  return std::ranges::any_of(
+      cycle, [&](const PhasePoint& own) { return larger_of(own.x - state.x, own.v - state.v) <= same_motion * size; });
+}
+
+PhasePoint after_impact(const Stops& stops, PhasePoint state, double size) {
+  if (state.v < 0 && std::abs(state.x - stops.lower) <= same_motion * size) state.v *= -stops.restitution_lower;
+  if (state.v > 0 && std::abs(state.x - stops.upper) <= same_motion * size) state.v *= -stops.restitution_upper;
+  return state;
+}
+
+std::optional<PeriodicMotion> periodic_motion(const point::Problem& problem, PhasePoint state, std::size_t periods) {
+  const std::optional<Round> first = run_round(started(problem, state, 0.0), periods);
+  if (!first) return std::nullopt;
+  Round round = polished(problem, *first);
+  PeriodicMotion motion{.size = size_of(round)};
+  const auto states = std::span(round.orbit.states);
+  const std::size_t shortest = steady::least_divisor(periods, [&](std::size_t m) {
+    return motion::Perturbation(between(states[0], states[m])).size() <= same_motion * motion.size;
+  });
+  if (shortest < periods) {  // contacts, word and flight of the shorter period
+    const auto again = run_round(started(problem, {states[0].x, states[0].v}, 0.0), shortest);
+    if (!again) return std::nullopt;
+    round = *again;
+  }
+  double log_area = -2 * problem.oscillator.damping * period_of(problem.oscillator) * static_cast<double>(shortest);
+  for (std::size_t i = 0; i < shortest; ++i) {
+    motion.cycle.push_back(after_impact(problem.stops, {states[i].x, states[i].v}, motion.size));
+    log_area += round.orbit.passages[i].log_area;
+  }
+  motion.contracts = log_area < -1e-12;
+  motion.word = ImpactWord::word_of(round.contacts);
+  motion.regime = ImpactWord::regime_of(round.contacts, static_cast<double>(shortest));
+  motion.middle_of_flight = round.middle_of_flight;
+  return motion;
+}
+
+PeriodicMotion standstill(const point::Problem& problem, double x) {
+  double size = larger_of(x, problem.oscillator.load);
+  for (const double stop : {problem.stops.lower, problem.stops.upper})
+    if (std::isfinite(stop)) size = std::max(size, std::abs(stop));
+  return {.cycle = {{x, 0.0}}, .word = {}, .regime = {}, .size = std::max(size, 1.0), .contracts = true};
+}
+
+std::optional<PhasePoint> mirrored(const point::Problem& problem, const PhasePoint& state) {
+  if (problem.oscillator.forcing == 0) return PhasePoint{-state.x, -state.v};
+  const std::optional<PhasePoint> later = state_after(started(problem, state, 0.0), 0.5);
+  return later ? std::optional(PhasePoint{-later->x, -later->v}) : std::nullopt;
+}
+
+}  // namespace clatter::attractors

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "attractors/exact_run.hpp"
+
+namespace clatter::attractors {
+
+/// Motions that agree to this share of their size are the same.
+inline constexpr double same_motion = 1e-9;
+
+/// A periodic motion at given parameters.
+struct PeriodicMotion {
+  std::vector<PhasePoint>
+      cycle{};                   ///< its states at forcing phase 0 in successive periods, as many as it takes to repeat
+  std::string word{}, regime{};  ///< as `ImpactWord` gives them
+  double size = 0.0;             ///< the largest of |x|, |v| at forcing phase 0 and of the impact speeds
+  double middle_of_flight = 0.0;  ///< of the longest one, in forcing periods from cycle[0] on
+  bool contracts = false;         ///< it shrinks areas of states: else it is one of a family, and no attractor
+
+  /// Whether a state at forcing phase 0 is one of its own.
+  [[nodiscard]] bool passes(const PhasePoint& state) const;
+};
+
+/// The motion of period 1 or more forcing periods that a state at forcing phase 0 is near, made exact by Newton's
+/// method as long as that brings it closer to a repeat; nothing if the run fails. Motion that grazes a stop, or rests
+/// in every period, stays as it is.
+[[nodiscard]] std::optional<PeriodicMotion> periodic_motion(const point::Problem& problem, PhasePoint state,
+                                                            std::size_t periods);
+
+/// A mass that stands still at x without a force.
+[[nodiscard]] PeriodicMotion standstill(const point::Problem& problem, double x);
+
+/// A state on a stop, to the accuracy to which motions are compared, that moves into it: the state after the impact.
+[[nodiscard]] PhasePoint after_impact(const Stops& stops, PhasePoint state, double size);
+
+/// The state at forcing phase 0 of the mirror image of a motion: half a period after `state`, mirrored; nothing if the
+/// run fails.
+[[nodiscard]] std::optional<PhasePoint> mirrored(const point::Problem& problem, const PhasePoint& state);
+
+}  // namespace clatter::attractors

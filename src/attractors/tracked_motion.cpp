@@ -1,0 +1,133 @@
+#include "attractors/tracked_motion.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "math/number.hpp"
+#include "steady/contraction.hpp"
+
+namespace clatter::attractors {
+namespace {
+
+/// A problem whose parameters lie between those of two others, at a share 0 ... 1 of the way.
+point::Problem between(const point::Problem& from, const point::Problem& to, double share) {
+  point::Problem problem = to;
+  const auto mix = [share](double a, double b) { return a == b ? b : a + share * (b - a); };
+  const Oscillator &a = from.oscillator, &b = to.oscillator;
+  Oscillator& o = problem.oscillator;
+  o.damping = mix(a.damping, b.damping), o.forcing = mix(a.forcing, b.forcing);
+  o.frequency = mix(a.frequency, b.frequency), o.load = mix(a.load, b.load);
+  problem.stops = {mix(from.stops.lower, to.stops.lower), mix(from.stops.upper, to.stops.upper),
+                   mix(from.stops.restitution_lower, to.stops.restitution_lower),
+                   mix(from.stops.restitution_upper, to.stops.restitution_upper)};
+  return problem;
+}
+
+PhasePoint inside(const Stops& stops, const PhasePoint& state) {
+  return {std::clamp(state.x, stops.lower, stops.upper), state.v};
+}
+
+/// The displacement at which a mass that stands still at x does so at other parameters: on its stop, or in equilibrium.
+double place_of_rest(const point::Problem& from, const point::Problem& to, double x) {
+  if (x == from.stops.lower) return to.stops.lower;
+  return x == from.stops.upper ? to.stops.upper : to.oscillator.load;
+}
+
+}  // namespace
+
+TrackedMotion::TrackedMotion(const point::Problem& problem, const Motion& motion)
+    : at_(problem), state_(motion.state), periods_(motion.periods()), symmetric_(motion.symmetric) {
+  if (!motion.periodic) return;
+  const PeriodicMotion& periodic = *motion.periodic;
+  word_ = periodic.word, size_ = periodic.size;
+  state_ = periodic.cycle[static_cast<std::size_t>(periodic.middle_of_flight)];
+  phase_turns_ = periodic.middle_of_flight - std::floor(periodic.middle_of_flight);
+  if (problem.oscillator.forcing == 0 || phase_turns_ == 0) return;
+  const auto there = state_after(started(problem, state_, 0.0), phase_turns_);
+  lost_ = !there;
+  if (there) state_ = *there;
+}
+
+bool TrackedMotion::follow(const point::Problem& to) {
+  if (lost_) return false;
+  bool followed = true;
+  if (to.oscillator.forcing == 0 || at_.oscillator.forcing == 0) {
+    followed = to.oscillator.forcing == at_.oscillator.forcing;
+    state_.x = place_of_rest(at_, to, state_.x);
+  } else if (is_periodic()) {
+    followed = follow_periodic(to);
+  } else {
+    const auto sections = run_sections(started(to, inside(to.stops, state_), 0.0), VisitedCells::long_look);
+    followed = sections && sections->repeats_after == 0;
+    if (followed) {
+      state_ = sections->states.back();
+      states_ = sections->states;
+    }
+  }
+  at_ = to;
+  return followed;
+}
+
+bool TrackedMotion::follow_periodic(const point::Problem& to) {
+  constexpr double shortest = 1.0 / 64;
+  const point::Problem from = at_;
+  double done = 0.0;
+  for (double step = 1.0; done < 1.0;) {
+    const double next = std::min(1.0, done + step);
+    const TrackedMotion before = *this;
+    if (correct(next == 1.0 ? to : between(from, to, next))) {
+      done = next, step *= 2;
+      continue;
+    }
+    *this = before, step /= 2;
+    if (step < shortest) return false;
+  }
+  return true;
+}
+
+/// Newton's method from the present state, at other parameters. Its first step is the prediction by the derivative of
+/// the stroboscopic map; each further one must be much shorter.
+bool TrackedMotion::correct(const point::Problem& problem) {
+  constexpr int most_iterations = 8;
+  const double phase = 2 * pi<double>() * phase_turns_, enough = 1e-11 * size_;
+  double before = std::numeric_limits<double>::infinity();
+  state_ = inside(problem.stops, state_);
+  for (int iteration = 0; iteration < most_iterations; ++iteration) {
+    const auto round = run_round(started(problem, state_, phase), periods_);
+    if (!round) return false;
+    const motion::Perturbation step = steady::newton_step(round->orbit.derivative(), round->orbit.gap());
+    const double length = step.size();
+    if (length <= enough)
+      return observables::ImpactWord::word_of(round->contacts) == word_ &&
+             steady::spectral_radius(round->orbit.derivative()) < 1 && move_section(problem, *round);
+    if (!(length <= before / 4)) return false;
+    before = length;
+    state_ = inside(problem.stops, {state_.x + step.x, state_.v + step.v});
+  }
+  return false;
+}
+
+/// Moves the section into the middle of the longest flight.
+bool TrackedMotion::move_section(const point::Problem& problem, const Round& round) {
+  const double turns = round.middle_of_flight;
+  size_ = round.fastest;
+  for (std::size_t i = 0; i < periods_; ++i)
+    size_ = std::max({size_, std::abs(round.orbit.states[i].x), std::abs(round.orbit.states[i].v)});
+  const auto there = state_after(started(problem, state_, 2 * pi<double>() * phase_turns_), turns);
+  if (!there) return false;
+  state_ = *there, phase_turns_ += turns, phase_turns_ -= std::floor(phase_turns_);
+  return true;
+}
+
+std::optional<std::size_t> TrackedMotion::among(const EnsembleMotions& motions) const {
+  if (!is_periodic()) {
+    const auto met = motions.visiting(states_);
+    return met && motions.motions()[*met].symmetric == symmetric_ ? met : std::nullopt;
+  }
+  if (at_.oscillator.forcing == 0) return motions.passing(state_);
+  const auto there = state_after(started(at_, state_, 2 * pi<double>() * phase_turns_), 1 - phase_turns_);
+  return there ? motions.passing(after_impact(at_.stops, *there, size_)) : std::nullopt;
+}
+
+}  // namespace clatter::attractors

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <unordered_set>
+
+#include "model/displacement_bound.hpp"
+
+namespace clatter::attractors {
+
+/// The cells of the section plane that a motion without a period visits, after Datseris & Wagemakers (Chaos 32, 023104,
+/// 2022). Another motion is the same if its states lie in them. Cells are 1/64 of the motion's own range in x and in v,
+/// or 1/32, 1/16, 1/8: the smallest in which most of its later states fall where it has been before.
+class VisitedCells {
+ public:
+  /// States that make the set; those that are looked at before a motion counts as another one, so many at once.
+  static constexpr std::size_t long_look = 1024, longest_look = 8 * long_look, at_once = 256;
+  static constexpr std::size_t short_look = 32;  ///< states that are looked at first
+
+  VisitedCells() = default;
+  explicit VisitedCells(std::span<const PhasePoint> states);
+
+  /// Whether at least three in four of 128 successive states, or of all if they are fewer, lie in visited cells.
+  [[nodiscard]] bool are_visited_by(std::span<const PhasePoint> states) const;
+
+ private:
+  static constexpr std::size_t successive = 128;
+  static constexpr double most = 0.75;
+
+  void add(std::span<const PhasePoint> states);
+  [[nodiscard]] double share_of(std::span<const PhasePoint> states) const;  ///< that lie in visited cells
+  void divide(std::span<const PhasePoint> states, double cells);
+  [[nodiscard]] std::uint64_t cell_of(const PhasePoint& state) const;
+
+  PhasePoint corner_{0, 0}, side_{1, 1};
+  std::unordered_set<std::uint64_t> visited_;
+};
+
+}  // namespace clatter::attractors

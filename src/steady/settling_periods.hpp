@@ -1,0 +1,51 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include "steady/observed_time.hpp"
+#include "steady/time_settings.hpp"
+#include "stepping/run.hpp"
+
+namespace clatter::steady {
+
+/// Forcing periods after which forced motion from `start` stays within `distance` of the periodic one that it was found
+/// to end in: from that stroboscopic section on, no state is further from that of the periodic motion at the same
+/// section, relative to the larger of its |x| and |v|. NaN if it has none, or isn't that close after max_periods.
+template <stepping::Integrator I>
+[[nodiscard]] double settling_periods(I integrator, motion::State<double> start, const ObservedTime& found,
+                                      const TimeSettings& time, double distance) {
+  constexpr double never = std::numeric_limits<double>::quiet_NaN();
+  if (!(found.status == Status::periodic || found.status == Status::grazing) || !std::isfinite(found.settling))
+    return never;
+  stepping::NoObserver nobody;
+  const auto advance = [&](motion::State<double>& state) {
+    return advance_to_section(integrator, state, state.periods, nobody) == stepping::Outcome::completed;
+  };
+  std::vector<motion::State<double>> cycle{found.from};
+  while (static_cast<double>(cycle.size()) < found.turns) {
+    motion::State<double> next = cycle.back();
+    if (!advance(next)) return never;
+    cycle.push_back(next);
+  }
+  const auto period = static_cast<std::int64_t>(cycle.size());
+  const auto is_near = [&](const motion::State<double>& state) {
+    const std::int64_t ahead = (state.periods - found.from.periods) % period;
+    const motion::State<double>& steady = cycle[static_cast<std::size_t>(ahead < 0 ? ahead + period : ahead)];
+    const double limit = distance * std::max(std::abs(steady.x), std::abs(steady.v));
+    return std::abs(state.x - steady.x) <= limit && std::abs(state.v - steady.v) <= limit;
+  };
+  const auto last =
+      static_cast<std::int64_t>(std::min(std::ceil(found.settling), static_cast<double>(time.max_periods)));
+  std::int64_t settled = is_near(start) ? 0 : 1;  // sections up to the last one that is too far away
+  while (start.periods < last) {
+    if (!advance(start)) return never;
+    if (!is_near(start)) settled = start.periods + 1;
+  }
+  return settled > last ? never : static_cast<double>(settled);
+}
+
+}  // namespace clatter::steady
