@@ -76,6 +76,9 @@ std::string points_text(const plan::Plan& plan, const sweep::Sweep& sweep) {
   if (plan.sampled_points)
     text += line("", "examined " + std::to_string(*plan.sampled_points) + " of " + std::to_string(plan.points) +
                          " points; counts are estimates");
+  if (plan.mirror_images > 0)
+    text += line("", std::to_string(plan.mirror_images) +
+                         " are mirror images of others, (-x0, -v0) half a period later, and follow from them");
   return text;
 }
 
@@ -145,7 +148,7 @@ std::string plan_json(const plan::Plan& plan, const sweep::Sweep& sweep, int thr
   out << "{\n  \"schema\": \"clatter-plan/1\",\n  \"shard\": "
       << (plan.shard ? json_text(text_of(*plan.shard)) : "null") << ",\n  \"points\": " << plan.points
       << ",\n  \"sampled_points\": " << (plan.sampled_points ? std::to_string(*plan.sampled_points) : "null")
-      << ",\n  \"dimensions\": ";
+      << ",\n  \"mirror_images\": " << plan.mirror_images << ",\n  \"dimensions\": ";
   list(out, sweep.dimensions, [&](const sweep::Dimension& dimension) {
     list(out, dimension, [&](const sweep::Axis& axis) {
       out << "{\"key\": " << json_text(std::string(key_of(axis.parameter))) << ", \"length\": " << axis.values.size()

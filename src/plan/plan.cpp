@@ -11,6 +11,7 @@
 #include "plan/survey.hpp"
 #include "point/point.hpp"
 #include "sweep/branches.hpp"
+#include "sweep/mirror_images.hpp"
 
 namespace clatter::plan {
 namespace {
@@ -106,6 +107,10 @@ Plan plan_of(const sweep::Sweep& sweep, const sweep::RunOptions& options, const 
                            .periods = group.periods,
                            .seconds = seconds_of(group, example, options.arch)});
   }
+  if (!shard) plan.mirror_images = sweep::MirrorImages(sweep).count();
+  const double run =
+      1 - static_cast<double>(plan.mirror_images) / static_cast<double>(std::max<std::size_t>(1, plan.points));
+  for (Group& group : plan.groups) group.periods = group.periods * run, group.seconds = group.seconds * run;
   plan.need = need;
   plan.available_memory = memory_limit(options.threads).bytes;
   warn(sweep, survey, plan);

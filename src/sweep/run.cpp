@@ -14,6 +14,7 @@
 #include "lanes/scheduler.hpp"
 #include "point/point.hpp"
 #include "sweep/branches.hpp"
+#include "sweep/mirror_images.hpp"
 #include "sweep/parallel.hpp"
 #include "sweep/result_store.hpp"
 #include "sweep/rounding_fingerprint.hpp"
@@ -63,12 +64,17 @@ class WorkerPool {
         most_branches_((share_.count() + static_cast<std::size_t>(threads) - 1) / static_cast<std::size_t>(threads)),
         arch_(options.arch),
         in_lanes_(runs_in_lanes(sweep, options.arch)),
+        mirror_images_(sweep),
+        has_whole_pairs_(mirror_images_.exist() && share.points() == size(sweep)),
         scratches_(static_cast<std::size_t>(threads)),
         work_(static_cast<std::size_t>(threads)) {
     for (std::size_t thread = 0; options.progress && thread < scratches_.size(); ++thread)
       scratches_[thread].progress = [this, thread](double part) { progress_.add_part(thread, part); };
     const observables::FourierScratch fourier = observables::Harmonics::scratch_for(sweep.problem.observe);
     for (point::ThreadScratch& scratch : scratches_) scratch.fourier = fourier.for_another_thread();
+    for (std::size_t point = 0; has_whole_pairs_ && restored > 0 && point < share_.count(); ++point)
+      if (const auto original = mirror_images_.original_of(point))
+        if (states_[point] == BranchState::open && states_[*original] == BranchState::saved) bereft_.push_back(point);
   }
 
   /// Runs every branch; results go by index, so their bits don't depend on which thread runs what.
@@ -123,10 +129,17 @@ class WorkerPool {
   }
 
   [[nodiscard]] bool is_restored(std::size_t branch) const { return states_[branch] == BranchState::saved; }
+  /// Whether a branch needs no run: it is restored, or follows from its mirror image.
+  [[nodiscard]] bool is_left_out(std::size_t branch) const {
+    return is_restored(branch) || (has_whole_pairs_ && mirror_images_.original_of(branch) && !is_bereft(branch));
+  }
+  /// Whether the original of a mirror image is restored, and can't give it its result any more.
+  [[nodiscard]] bool is_bereft(std::size_t point) const { return std::ranges::binary_search(bereft_, point); }
 
   /// A point of a branch, the first or, if there is an end of the one before, from that.
   point::WorkItem item_of(std::size_t branch, std::size_t position = 0, const std::optional<Start>& end = {}) const {
-    point::WorkItem item{branch, position, problem_at(sweep_, share_.point(branch, position)), {}};
+    const std::size_t point = share_.point(branch, position);
+    point::WorkItem item{branch, position, problem_at(sweep_, mirror_images_.original_of(point).value_or(point)), {}};
     if (sweep_.follow) start_from(item.problem, end);
     item.effects = effects_of(item.problem);
     return item;
@@ -152,7 +165,7 @@ class WorkerPool {
           if (!other) return std::nullopt;
           chunk = *other;
         }
-        if (is_restored(chunk.begin)) continue;
+        if (is_left_out(chunk.begin)) continue;
         ++begun;
         return item_of(chunk.begin++);
       }
@@ -179,11 +192,28 @@ class WorkerPool {
   std::optional<point::WorkItem> store(const point::WorkItem& item, point::PointResult&& result, std::size_t thread) {
     const std::optional<Start> end = failed(result.status) ? std::nullopt : std::optional<Start>(result.end);
     add(work_[thread], work_of(item, result));
+    if (mirror_images_.exist()) {
+      const std::size_t point = share_.point(item.branch, item.position);
+      if (mirror_images_.original_of(point)) {
+        result = mirrored(result);
+      } else if (has_whole_pairs_) {
+        store_image_of(point, result, thread);
+      }
+    }
     store_.store(share_.local_index(item.branch, item.position), std::move(result));
     progress_.add_point(thread);
     if (item.position + 1 < share_.length()) return item_of(item.branch, item.position + 1, end);
     states_[item.branch] = BranchState::finished;
     return std::nullopt;
+  }
+
+  /// Stores the result of a point's mirror image, which no other thread touches.
+  void store_image_of(std::size_t point, const point::PointResult& result, std::size_t thread) {
+    const auto image = mirror_images_.image_of(point);
+    if (!image || is_restored(*image) || is_bereft(*image)) return;
+    store_.store(*image, mirrored(result));
+    progress_.add_point(thread);
+    states_[*image] = BranchState::finished;
   }
 
   /// Runs the points of a branch, each from the end of the one before.
@@ -208,7 +238,7 @@ class WorkerPool {
     std::vector<point::WorkItem> items;
     items.reserve(chunk.end - chunk.begin);
     for (std::size_t branch = chunk.begin; branch < chunk.end; ++branch)
-      if (!is_restored(branch)) items.push_back(item_of(branch));
+      if (!is_left_out(branch)) items.push_back(item_of(branch));
     const auto set_of = [](const point::WorkItem& item) { return effect_set_of(item.effects); };
     std::ranges::stable_sort(items, {}, set_of);
     for (std::span<const point::WorkItem> left(items); !left.empty();) {
@@ -232,7 +262,10 @@ class WorkerPool {
   std::size_t most_branches_;  ///< that a thread has under way
   lanes::InstructionSet arch_;
   bool in_lanes_;
-  std::atomic<std::size_t> turn_ = 0;            ///< the next one of the chunks
+  MirrorImages mirror_images_;
+  bool has_whole_pairs_;               ///< both points of every pair are in this run, and only one of them is run
+  std::vector<std::size_t> bereft_;    ///< mirror images whose originals are restored without them
+  std::atomic<std::size_t> turn_ = 0;  ///< the next one of the chunks
   std::vector<point::ThreadScratch> scratches_;  ///< [thread]
   std::vector<std::vector<WorkStats>> work_;     ///< [thread]
   LaneWork lane_work_;

@@ -3,6 +3,7 @@
 Environment: CLATTER, the program.
 """
 
+import json
 import unittest
 
 import h5py
@@ -30,6 +31,17 @@ attractor = true
 settling = true
 """
 )
+PHASES = (  # half of these starts are mirror images of the others
+    SCENE
+    + """nu = 0.868
+[sweep]
+x0 = "linspace(-2.9, 2.9, 10)"
+v0 = "linspace(-5.9, 5.9, 10)"
+phase = "arange(0, 2*pi, pi/4)"
+[observe]
+attractor = true
+"""
+)
 
 
 class Attractors(CommandLine):
@@ -39,7 +51,12 @@ class Attractors(CommandLine):
         return (self.directory / name).read_bytes()
 
     def test_every_way_to_run_a_sweep_gives_the_same_bytes(self):
-        self.write("a.toml", ZONES)
+        for text in (ZONES, PHASES):
+            with self.subTest(text=text):
+                self.assert_same_bytes(text)
+
+    def assert_same_bytes(self, text):
+        self.write("a.toml", text)
         whole = self.run_to("whole.h5", "--threads", "1")
         self.assertEqual(self.run_to("threads.h5", "--threads", "3"), whole)
         for number in range(3):
@@ -48,13 +65,22 @@ class Attractors(CommandLine):
         self.assertEqual((self.directory / "merged.h5").read_bytes(), whole)
         stops = 0
         for attempt in range(1, 200):
-            result = self.clatter("run", "a.toml", "-o", "stopped.h5", "-q", "--max-time", f"{0.005 * attempt:g}")
+            result = self.clatter("run", "a.toml", "-o", "stopped.h5", "-q", "--max-time", f"{0.003 * attempt:g}")
             if result.returncode == 0:
                 break
             self.assertEqual(result.returncode, 124)
             stops += 1
         self.assertGreater(stops, 0)
         self.assertEqual((self.directory / "stopped.h5").read_bytes(), whole)
+        for path in self.directory.glob("*.h5"):
+            path.unlink()
+
+    def test_plan_tells_of_mirror_images(self):
+        self.write("a.toml", PHASES)
+        said = self.clatter("plan", "a.toml").stdout
+        self.assertIn("400 are mirror images of others, (-x0, -v0) half a period later", said)
+        self.assertEqual(json.loads(self.clatter("plan", "a.toml", "--json").stdout)["mirror_images"], 400)
+        self.assertIn("groups           400 points", self.clatter("run", "a.toml", "-v").stderr)
 
     def test_a_shard_has_numbers_of_its_own_and_the_states_behind_them(self):
         self.write("a.toml", ZONES)
