@@ -34,8 +34,9 @@ def map_settings(points):
     return [text for key, value in settings.items() for text in ("--set", f"{key}={value}")]
 
 
-def basins_scene(points):
-    """The basins of attraction of Fig. 23's oscillator at nu = 1.2: the steady motions of many starts."""
+def basins_scene(points, numbered):
+    """The basins of attraction of Fig. 23's oscillator at nu = 1.2: the steady motions of many starts, and if asked for
+    the numbers of the motions."""
     return f"""[scene]
 f = -1.0
 h = 0.1
@@ -49,6 +50,7 @@ v0 = "linspace(-3, 3, {points})"
 
 [observe]
 extrema = true
+attractor = {str(numbered).lower()}
 """
 
 
@@ -123,8 +125,9 @@ def main():
                 *options,
             ]
 
-        basins = pathlib.Path(folder) / "basins.toml"
-        basins.write_text(basins_scene(arguments.map), encoding="utf-8")
+        basins, numbered = (pathlib.Path(folder) / f"{name}.toml" for name in ("basins", "numbered"))
+        basins.write_text(basins_scene(arguments.map, False), encoding="utf-8")
+        numbered.write_text(basins_scene(arguments.map, True), encoding="utf-8")
         results = [
             measured("start", [command(ONE_POINT)], 4 * arguments.repetitions, environment),
             measured("figures", [command(config) for config in FIGURES], arguments.repetitions, environment),
@@ -135,6 +138,7 @@ def main():
                 environment,
             ),
             measured("basins", [command(basins)], arguments.repetitions, environment),
+            measured("numbered basins", [command(numbered)], arguments.repetitions, environment),
         ]
     with open(arguments.out, "w", encoding="utf-8") as file:
         json.dump(

@@ -244,6 +244,12 @@ def wanted_times(wanted, content, figures):
     if content["context"]["map"] == 1000:
         times.append((f"the map, {content['context']['cores']} cores", seconds["map"], 4))
         times.append((f"basins, {content['context']['cores']} cores", seconds["basins"], 1))
+        wanted.at_most(
+            "basins with numbers over those without",
+            seconds["numbered basins"] / seconds["basins"],
+            1.3,
+            lambda ratio: f"{ratio:.2f}",
+        )
         megabytes = next(one["megabytes"] for one in content["processes"] if one["name"] == "map")
         wanted.at_most("the map: memory", megabytes, 300, lambda value: f"{value:.0f} MB")
     for what, value, bound in times:

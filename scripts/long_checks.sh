@@ -6,23 +6,25 @@ usage() {
   cat <<END
 usage: scripts/long_checks.sh NAME [COUNT]
 
-Runs the long form of a test in tests/hard or tests/cli; build first (scripts/test.sh). NAME is one of
+Runs the long form of a test in tests/hard, tests/attractors or tests/cli; build first (scripts/test.sh). NAME is one of
   random       COUNT scenes with chatter and rest against 50 digits            (default 10000; about 0.1 s each)
   arcs         COUNT arcs of every scale against 50 digits                     (default 10000000; about 0.1 ms each)
   properties   the laws that every motion obeys, on COUNT random scenes        (default 1000000; about 4 ms each)
-  attractors   COUNT steady scenes with every shortcut and with none           (default 10000; about 0.1 s each)
+  shortcuts    COUNT steady scenes with every shortcut and with none           (default 10000; about 0.1 s each)
+  attractors   the motions of COUNT scenes, numbered and told apart by long runs (default 1000; about 0.5 s each)
   drift        the speed of contact over COUNT conservative impacts            (default 100000000; about 1 us each)
   kills        COUNT runs killed, each sweep again and again until it is done  (default 1000; about 0.5 s each)
   disks        a sweep on disks that are full at COUNT sizes                   (default 100; about 1 s each)
 END
 }
 
-filter="" count=""
+filter="" count="" tests=hard_tests
 case "${1-}" in
   random) filter='*RandomScenes*' count=10000 ;;
   arcs) filter='Arcs.agree*' count=10000000 ;;
   properties) filter='Properties.*' count=1000000 ;;
-  attractors) filter='Attractors.no_shortcut*' count=10000 ;;
+  shortcuts) filter='Attractors.no_shortcut*' count=10000 ;;
+  attractors) filter='BruteForce.*' count=1000 tests=attractors_tests ;;
   drift) filter='Long.conservative*' count=100000000 ;;
   kills) filter=resume_test.Resume.test_killed_at_random_moments_it_loses_nothing_that_was_saved count=1000 ;;
   disks) filter=faults_test.Faults.test_a_disk_that_is_full_at_any_size_loses_nothing count=100 ;;
@@ -41,7 +43,7 @@ if [[ $1 == kills || $1 == disks ]]; then
   exec /usr/bin/python3 -m unittest -v "$filter"
 fi
 
-program=$top/build/release/tests/hard_tests
+program=$top/build/release/tests/$tests
 [[ -x $program ]] || { echo "long_checks.sh: $program is missing; scripts/test.sh builds it" >&2; exit 2; }
 
 if [[ $1 == drift ]]; then

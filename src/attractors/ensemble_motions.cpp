@@ -15,10 +15,18 @@ double turns_to_phase_zero(const point::Problem& problem) {
   return std::ceil(turns) - turns;
 }
 
+/// Whether a point can have ended so: what was read from a file may be anything.
+bool is_possible(const point::Problem& problem, const Ending& ending) {
+  const auto [x, v] = ending.state;
+  return ending.periods >= 0 && ending.periods <= static_cast<double>(steady::RepeatFinder::longest) &&
+         ending.periods == std::floor(ending.periods) && std::isfinite(v) && std::isfinite(x) &&
+         x >= problem.stops.lower && x <= problem.stops.upper;
+}
+
 }  // namespace
 
 std::optional<std::size_t> EnsembleMotions::motion_of(const point::Problem& problem, const Ending& ending) {
-  if (!(ending.periods >= 0)) return std::nullopt;
+  if (!is_possible(problem, ending)) return std::nullopt;
   PhasePoint state = ending.state;
   if (problem.oscillator.forcing == 0) {
     if (const auto known = passing(state)) return known;

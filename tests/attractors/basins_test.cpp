@@ -150,7 +150,7 @@ TEST(Basins, of_bistable_motion_hold_both_closed_forms_under_two_numbers) {
     // at each frequency the motions that a run of its own finds, with their states, are the closed forms
     const point::Problem at = scene(3.0, nu[i], -1.0);
     const ClosedForm closed(at);
-    EXPECT_EQ(counts[i] == 2, !closed.symmetric().empty()) << nu[i];  // up to its fold at nu = 1.44
+    EXPECT_EQ(counts[i] == 2, !closed.symmetric().empty()) << nu[i];  // up to its fold
     const Dataset here = basins_of(at, 3.0, 6.0, 16);
     const auto& words = of<std::string>(here, "motion_word");
     ASSERT_EQ(words.size(), static_cast<std::size_t>(counts[i]));
