@@ -36,13 +36,13 @@ packages, runs each gate, names those that fail, and exits with 1 if any does:
   clang++       no warning by clang++, without making code (build/clang)
   clang-tidy    no finding in any source file (.clang-tidy); takes longest
   asan          AddressSanitizer and UndefinedBehaviorSanitizer find nothing in
-                the tests of lanes, attractors, files, configurations, observables,
-                plans, and sweeps on several threads, nor in the program when its files
-                are hostile, read by others, split into shards, piped
-                (build/asan)
-  tsan          ThreadSanitizer finds nothing in the tests of lanes, attractors, plans
-                and sweeps on several threads, nor in the program's shards and pipes
-                (build/tsan)
+                the tests of lanes, attractors, files, configurations,
+                observables, plans, and sweeps on several threads, nor in the
+                program when its files are hostile, read by others, split into
+                shards, piped (build/asan)
+  tsan          ThreadSanitizer finds nothing in the tests of lanes, attractors,
+                plans and sweeps on several threads, nor in the program's shards
+                and pipes (build/tsan)
 END
 }
 
