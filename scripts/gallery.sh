@@ -45,3 +45,5 @@ draw one_stop --only x_min,x_max --size 5x3.8
 draw basins --only attractor --size 6x3.8
 draw zones --size 8x4.2
 draw regimes --only word --size 6x4
+"$clatter" branch "$source_dir/configs/branch.toml" -o "$work/branch.h5" -q > /dev/null
+"$source_dir/scripts/plot.py" "$work/branch.h5" --only impact_speed --size 7x4 --format svg -o "$out"

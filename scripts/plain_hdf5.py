@@ -10,10 +10,13 @@ from h5py import h5d, h5l, h5o, h5t, h5z
 
 from hdf5_heaps import damaged_heap, longest_text
 
-WANTED = "give a file that 'clatter run' or 'clatter accuracy' wrote"
+WANTED = "give a file that 'clatter run', 'clatter accuracy' or 'clatter branch' wrote"
 ANEW = "run its configuration again, or get the file anew"
 UNREADABLE = (AttributeError, LookupError, MemoryError, OSError, RuntimeError, TypeError, ValueError)  # if damaged
-TEXTS = ("impact_word", "regime", "motion_word", "motion_regime")  # variables of texts; all others are numbers
+TEXTS = (  # variables of texts; all others are numbers
+    *("impact_word", "regime", "motion_word", "motion_regime"),
+    *("word", "special_kind", "special_word", "special_regime"),
+)
 LONGEST_TEXT = 255  # bytes, of a value
 READ_AT_ONCE = 2**26  # bytes of texts
 MOST_DEFLATED = 1032  # bytes that one byte gives when it is inflated (zlib's technical details)
@@ -95,7 +98,7 @@ def require_plain(path, file):
     names = list(file)  # of links, none of which is followed
     for name in names:
         require_variable(path, file, name)
-    if "status" not in names or "config" not in file.attrs:
+    if not {"status", "arclength"} & set(names) or "config" not in file.attrs:
         raise FileProblem(f"{path}: not a clatter/1 file (it lacks its status or configuration); {WANTED}")
 
 

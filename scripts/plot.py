@@ -15,6 +15,7 @@ try:
     from matplotlib import pyplot
     from plot_accuracy import accuracy_figure
     from plot_bifurcation import keep_words_with_room
+    from plot_branch import branch_figure
     from plot_choice import ChoiceProblem, members_of, results_named, together
     from plot_data import FileProblem, Output
     from plot_figures import paper_figure
@@ -32,6 +33,9 @@ RASTER = {"svg": 150, "pdf": 200, "png": plot_style.DPI}  # dots per inch of wha
 
 def pictures(options):
     """(stem of the name, figure) for each picture, drawn one at a time."""
+    if any(is_branch(path) for path in options.files):
+        yield "+".join(Path(path).stem for path in options.files), branches_together(options)
+        return
     outputs = (Output(path) for path in options.files)
     shared = shared_members(options)
     if shared:
@@ -39,6 +43,19 @@ def pictures(options):
         return
     for path, output in zip(options.files, outputs):
         yield Path(path).stem, single_figure(output, options)
+
+
+def is_branch(path):
+    return Output(path).is_branch
+
+
+def branches_together(options):
+    """All branches of the files in one picture, with the results of sweeps behind them."""
+    outputs = [Output(path) for path in options.files]
+    figure = branch_figure(outputs, options.only)
+    first = next(output for output in outputs if output.is_branch)
+    plot_style.heading(figure, first, options.title)
+    return finished(figure, options)
 
 
 def shared_members(options):

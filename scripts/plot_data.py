@@ -52,9 +52,11 @@ class Output:
             self.read(path)
         except UNREADABLE as error:
             raise damaged(path, error) from None
-        self.axes = tuple(name for name in self["status"].dims if name != "row")
+        self.axes = () if self.is_branch else tuple(name for name in self["status"].dims if name != "row")
         self.scene = self.config.get("scene", {})
         self.sweep = self.config.get("sweep", {})
+        if self.is_branch:
+            self.sweep = {self.config["branch"]["along"]: self.config["branch"]["range"]}
         self.held = {}  # axes at one value each
 
     def read(self, path):
@@ -66,7 +68,7 @@ class Output:
             self.source = text(file.attrs.get("source", ""))
             self.config = tomllib.loads(text(file.attrs["config"]))
             self.variables = {name: read_variable(item) for name, item in file.items() if not is_bare_dimension(item)}
-            self.meanings = flag_meanings(file["status"])
+            self.meanings = flag_meanings(file["status"]) if "status" in file else {}
             self.methods = flag_meanings(file["method"]) if "method" in file else {}
 
     def __contains__(self, name):
@@ -81,12 +83,17 @@ class Output:
     @property
     def shape(self):
         """Points along each axis of the sweep."""
-        return self.values("status").shape[: len(self.axes)]
+        return () if self.is_branch else self.values("status").shape[: len(self.axes)]
 
     @property
     def is_accuracy(self):
         """Whether `clatter accuracy` wrote this file: rows of methods at every point of the sweep."""
         return "method" in self and "ns_per_period" in self
+
+    @property
+    def is_branch(self):
+        """Whether `clatter branch` wrote this file: branches of periodic motion, and no points of a sweep."""
+        return "arclength" in self
 
     @property
     def figure(self):

@@ -21,7 +21,7 @@ def command_line():
     """The options and files; ends the program on a mistake, with one line that names it."""
     parser = argparse.ArgumentParser(usage=USAGE, description=DESCRIPTION, allow_abbrev=False, epilog=EPILOG)
     add = parser.add_argument
-    add("files", nargs="*", metavar="FILE.h5", help="output of 'clatter run' or 'clatter accuracy'")
+    add("files", nargs="*", metavar="FILE.h5", help="output of 'clatter run', 'clatter accuracy' or 'clatter branch'")
     add("-o", "--output", metavar="DIR", help="folder for the pictures; default: beside each file")
     add("--format", nargs="+", default=["svg", "png"], metavar="svg|png|pdf", help="default: svg png")
     add("--only", type=names, default=(), metavar="NAME,...", help="panels of these results, or of keys of [observe]")

@@ -79,7 +79,7 @@ int run_accuracy(const Arguments& arguments) {
   const config::Config config = config_of(arguments);
   check_not_config(arguments.operands[0], output);
   check_starts(config, arguments.operands[0]);
-  const results::OutputPlace place(output, {.is_accuracy = true, .title = config.title}, arguments.has("force"));
+  const results::OutputPlace place(output, {.command = "accuracy", .title = config.title}, arguments.has("force"));
   storage::require_idle(output);
   if (!arguments.has("quiet")) warn(config, not_read);
   const Interrupt interrupt;

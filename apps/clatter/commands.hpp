@@ -42,6 +42,7 @@ struct Command {
 [[nodiscard]] Command run_command();
 [[nodiscard]] Command plan_command();
 [[nodiscard]] Command accuracy_command();
+[[nodiscard]] Command branch_command();
 [[nodiscard]] Command merge_command();
 [[nodiscard]] Command export_command();
 [[nodiscard]] Command info_command();

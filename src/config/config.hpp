@@ -1,10 +1,12 @@
 #pragma once
 
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "branches/settings.hpp"
 #include "sweep/sweep.hpp"
 
 namespace clatter::config {
@@ -23,8 +25,9 @@ struct Config {
   std::string title;
   std::string source;
   sweep::Sweep sweep;
-  int compression = 0;  ///< deflate level of the output, 0 ... 9
-  std::string text;     ///< complete with defaults, as TOML that runs again (root attribute `config`)
+  std::optional<branches::BranchSettings> branch{};  ///< if the text has [branch]
+  int compression = 0;                               ///< deflate level of the output, 0 ... 9
+  std::string text;  ///< complete with defaults, as TOML that runs again (root attribute `config`)
   std::vector<Warning> warnings;
   std::vector<std::string> notes;  ///< settings of the file that the command line replaced by other keys
 };

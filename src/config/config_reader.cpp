@@ -106,6 +106,36 @@ sweep::Sweep sweep_of(Settings& settings, const AxisGroups& groups) {
   return sweep;
 }
 
+/// [branch]. Throws ConfigError if along or range is missing, or a value of the range isn't permitted, or [sweep] has
+/// an axis of the same key.
+std::optional<branches::BranchSettings> branch_of(const Settings& settings) {
+  const Setting *const along = settings.find("branch", "along"), *const range = settings.find("branch", "range");
+  if (along == nullptr && range == nullptr) return std::nullopt;
+  if (along == nullptr)
+    fail(settings.location_of_section("branch"), "[branch] without 'along'; add a key of [scene], e.g. along = \"nu\"");
+  if (range == nullptr)
+    fail(settings.location_of_section("branch"),
+         "[branch] without 'range'; add the values to stop at, e.g. range = [0.8, 1.5]");
+  const std::string name = settings.text("branch", "along");
+  branches::BranchSettings branch{.along = sweep::parameter_of(name).value(),
+                                  .range = settings.interval("branch", "range"),
+                                  .period = settings.integer("branch", "period"),
+                                  .tolerance = settings.number("branch", "tolerance"),
+                                  .largest_step = settings.number("branch", "largest_step"),
+                                  .max_points = settings.integer("branch", "max_points"),
+                                  .generations = settings.integer("branch", "switch")};
+  const Key& key = *find_key("scene", name);
+  for (const double end : branch.range)
+    if (!contains(key.range, end))
+      fail(range->location, "range has " + name + " = " + number_text(end) + "; expected " + permitted(key));
+  for (const Setting& axis : settings.axes)
+    if (axis.key->name == name)
+      fail(axis.key_location, "'" + name +
+                                  "' in both [sweep] and [branch] along; remove it from [sweep], and give the value to "
+                                  "begin at in [scene]");
+  return branch;
+}
+
 /// Refuses a configuration whose complete text would be too long to be read again, at the longest of its values.
 [[noreturn]] void refuse_long(const Settings& settings) {
   std::size_t longest = 0;
@@ -130,7 +160,14 @@ Config config_of(ParsedConfig parsed) {
   spread_sobol(settings);
   const AxisGroups groups = group_axes(settings);
   check_stops_and_start(settings, groups);
-  Config config{settings.text("", "title"), settings.text("", "source"), {}, 0, config_text(settings), {}, {}};
+  Config config{settings.text("", "title"),
+                settings.text("", "source"),
+                {},
+                branch_of(settings),
+                0,
+                config_text(settings),
+                {},
+                {}};
   for (const Replaced& replaced : settings.replaced) config.notes.push_back(to_string(replaced));
   config.warnings = warnings_of(settings, groups);
   if (config.text.size() > max_config_bytes) refuse_long(settings);

@@ -24,6 +24,7 @@ bool default_counts(const Settings& settings, const Key& key) {
 
 /// The lines of one section; axes come first, in their order.
 std::string section_text(const Settings& settings, std::string_view section) {
+  if (section == "branch" && settings.find("branch", "along") == nullptr) return {};  // nothing to be followed
   std::string text;
   const auto add = [&](std::string_view name, const std::string& value) {
     text += std::string(name) + " = " + value + '\n';
@@ -51,6 +52,7 @@ std::string toml_value(const Setting& setting) {
     if constexpr (std::is_same_v<Type, double>) return toml_number(value);
     if constexpr (std::is_same_v<Type, std::int64_t>) return std::to_string(value);
     if constexpr (std::is_same_v<Type, bool>) return value ? "true" : "false";
+    if constexpr (std::is_same_v<Type, Interval>) return toml_list({value.begin(), value.end()});
     if constexpr (std::is_same_v<Type, AxisValues>) return value.text;
   };
   return std::visit(text, setting.value);
@@ -74,8 +76,10 @@ std::string toml_text(std::string_view text) {
 
 std::string config_text(const Settings& settings) {
   std::string text = section_text(settings, "");
-  for (const std::string_view section : sections())
-    text += "\n[" + std::string(section) + "]\n" + section_text(settings, section);
+  for (const std::string_view section : sections()) {
+    const std::string lines = section_text(settings, section);
+    if (section != "branch" || !lines.empty()) text += "\n[" + std::string(section) + "]\n" + lines;
+  }
   return text;
 }
 

@@ -130,6 +130,17 @@ AxisValues list_of(const Key& key, const ParsedList& list) {
   return axis;
 }
 
+Interval interval_of(const Key& key, const ParsedValue& written) {
+  const auto* const text = std::get_if<std::string>(&written.data);
+  const bool several = std::holds_alternative<ParsedList>(written.data) || (text != nullptr && written.untyped);
+  if (!several) wrong_kind(key, written);
+  const std::vector<double> values = text != nullptr ? parse_axis(source_text(*text, written)).values
+                                                     : list_of(key, std::get<ParsedList>(written.data)).values;
+  if (values.size() != 2 || !(values[0] < values[1]) || !std::isfinite(values[1] - values[0]))
+    fail(written.location, std::string(key.name) + " = " + toml_list(values) + expected(key));
+  return {values[0], values[1]};
+}
+
 AxisValues unchecked_axis(const Key& key, const ParsedValue& written) {
   if (const auto* const list = std::get_if<ParsedList>(&written.data)) return list_of(key, *list);
   if (const auto* const text = std::get_if<std::string>(&written.data)) return parse_axis(source_text(*text, written));
@@ -143,6 +154,8 @@ Value convert(const Key& key, const ParsedValue& written) {
   switch (key.kind) {
     case Kind::number:
       return in_range(key, number_of(key, written), written.location);
+    case Kind::interval:
+      return interval_of(key, written);
     case Kind::integer:
       return integer_of(key, written);
     case Kind::flag:

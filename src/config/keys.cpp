@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "branches/settings.hpp"
 #include "config/suggestion.hpp"
 #include "config/value_grammar.hpp"
 #include "observables/all.hpp"
@@ -27,7 +28,8 @@ constexpr std::array<std::string_view, 2> effects{"required", "all"};
 using enum Kind;
 
 constexpr std::string_view a_force = "f = 1.0\n", stops = "xs = 1.0\n", a_stop_axis = "xs = \"linspace(1, 2, 11)\"\n",
-                           is_transient = "mode = \"transient\"\n", by_moreau = "method = \"moreau\"\n";
+                           is_transient = "mode = \"transient\"\n", by_moreau = "method = \"moreau\"\n",
+                           a_range = "range = [0.8, 1.5]\n", a_branch = "along = \"nu\"\nrange = [0.8, 1.5]\n";
 
 constexpr std::array keys_before_observe{
     Key{"", "title", text, "", "My sweep", "what the configuration shows; the output file keeps it"},
@@ -102,6 +104,24 @@ constexpr std::array keys_after_observe{
                         "required: simulate what a scene calls for; all: to compare with, simulate every effect, run "
                         "max_periods, and look for the repeat only then"}),
 
+    with(a_range,
+         one_of(branches::parameter_names, Key{"branch", "along", choice, "", "nu",
+                                               "key of [scene] along which `clatter branch` follows a motion"})),
+    with("along = \"nu\"\n", Key{"branch", "range", interval, "", "0.8, 1.5", "of that key; there the branch ends"}),
+    with(a_branch, Key{"branch", "period", integer, "0", "2",
+                       "forcing periods of the motion near x0, v0 to begin with, unstable or not; 0: that which the "
+                       "scene settles on",
+                       AllowedRange{.low = 0, .high = 64}}),
+    with(a_branch, Key{"branch", "tolerance", number, "1e-12", "1e-10", "of Newton's method, relative",
+                       AllowedRange{.low = 1e-14, .high = 1e-3}}),
+    with(a_branch, Key{"branch", "largest_step", number, "0.02", "0.01",
+                       "along the branch, relative to the width of the range", AllowedRange{.low = 1e-6, .high = 1}}),
+    with(a_branch, Key{"branch", "max_points", integer, "10000", "1000", "points after which following is given up",
+                       AllowedRange{.low = 2, .high = 1e7}}),
+    with(a_branch, Key{"branch", "switch", integer, "0", "2",
+                       "generations of what is born at flips and symmetry breaking that are followed, too",
+                       AllowedRange{.low = 0, .high = 20}}),
+
     Key{"output", "compression", integer, "0", "4", "deflate level of the output file; 0: none",
         AllowedRange{.low = 0, .high = 9}},
 };
@@ -115,7 +135,8 @@ const std::vector<Key> all_keys = [] {
   return keys;
 }();
 
-constexpr std::array<std::string_view, 6> all_sections{"scene", "sweep", "time", "observe", "integrator", "output"};
+constexpr std::array<std::string_view, 7> all_sections{"scene",      "sweep",  "time",  "observe",
+                                                       "integrator", "branch", "output"};
 
 /// A bound in the usual notation: 1e9, not 1e+09, and 1e-9, not 1e-09.
 std::string bound_text(double bound) {
@@ -185,6 +206,8 @@ std::string permitted(const Key& key) {
       return joined(key.choices);
     case integer:
       return "a whole number, " + describe(key.range);
+    case interval:
+      return "two numbers, the lower first";
     case number:
       break;
   }

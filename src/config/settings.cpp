@@ -107,6 +107,10 @@ bool Settings::flag(std::string_view section, std::string_view name) const {
   return value_of<bool>(*this, section, name);
 }
 
+Interval Settings::interval(std::string_view section, std::string_view name) const {
+  return value_of<Interval>(*this, section, name);
+}
+
 SourceLocation Settings::location_of_section(std::string_view name) const {
   for (const ParsedSection& section : sections) {
     if (section.name == name) return section.location;

@@ -15,7 +15,7 @@
 namespace clatter::config {
 
 /// One value of a key's kind, or the values of an axis.
-using Value = std::variant<std::string, double, std::int64_t, bool, AxisValues>;
+using Value = std::variant<std::string, double, std::int64_t, bool, Interval, AxisValues>;
 
 /// A key that was given: one value, or several as an axis of [sweep], each of the key's kind and within its range.
 struct Setting {
@@ -60,6 +60,7 @@ struct Settings {
   [[nodiscard]] double number(std::string_view section, std::string_view name) const;
   [[nodiscard]] std::int64_t integer(std::string_view section, std::string_view name) const;
   [[nodiscard]] bool flag(std::string_view section, std::string_view name) const;
+  [[nodiscard]] Interval interval(std::string_view section, std::string_view name) const;
 
   /// The location of a missing key: the header of its section, or the beginning of the file.
   [[nodiscard]] SourceLocation location_of_section(std::string_view name) const;

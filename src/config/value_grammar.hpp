@@ -17,6 +17,9 @@ struct SourceText {
   bool columns = false;     ///< the text is on one line there, so a mistake inside has a column of its own
 };
 
+/// Two numbers, the lower first.
+using Interval = std::array<double, 2>;
+
 /// The values of an axis, and the text that reads back to them.
 struct AxisValues {
   std::vector<double> values;

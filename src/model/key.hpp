@@ -8,7 +8,7 @@
 namespace clatter {
 inline namespace model {
 
-enum class Kind : std::uint8_t { text, names, number, integer, flag, choice };
+enum class Kind : std::uint8_t { text, names, number, interval, integer, flag, choice };
 
 /// The numbers that a key takes.
 struct AllowedRange {

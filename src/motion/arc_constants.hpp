@@ -51,7 +51,14 @@ class ArcConstants {
  public:
   using Equation = EquationOfMotion<Number, E>;
 
-  explicit ArcConstants(const Oscillator& oscillator);
+  explicit ArcConstants(const Oscillator& oscillator)
+      : ArcConstants(Coefficients{}, Number(oscillator.damping), Number(oscillator.forcing),
+                     Number(counting_frequency(oscillator)), Number(oscillator.load)) {}
+
+  /// From the coefficients of eq. 3, which may be of a type that carries derivatives.
+  [[nodiscard]] static ArcConstants of(const Number& h, const Number& f, const Number& nu, const Number& load) {
+    return {Coefficients{}, h, f, nu, load};
+  }
 
   /// Free motion over s >= 0, without cancellation for every h (eqs. 8 and 9).
   [[nodiscard]] Propagator<Number> propagator(const Number& s) const;
@@ -105,6 +112,9 @@ class ArcConstants {
   Number rate;                ///< the fastest of the motion's frequencies and decay rates
   Number period;              ///< of the force; without forcing 2 pi
  private:
+  struct Coefficients {};  ///< tells the numbers of eq. 3 from those of an oscillator in braces
+  ArcConstants(Coefficients, const Number& damping, const Number& forcing, const Number& frequency,
+               const Number& constant_force);
   void bound_derivatives();
   [[nodiscard]] Number short_a_minus_one(const Number& s) const;
   void respond_from_rest(const Number& s, Step<Number>& step) const;
@@ -115,8 +125,9 @@ class ArcConstants {
 };
 
 template <class Number, Effects E>
-ArcConstants<Number, E>::ArcConstants(const Oscillator& o)
-    : h(o.damping), f(o.forcing), nu(counting_frequency(o)), load(o.load) {
+ArcConstants<Number, E>::ArcConstants(Coefficients, const Number& damping, const Number& forcing,
+                                      const Number& frequency, const Number& constant_force)
+    : h(damping), f(forcing), nu(frequency), load(constant_force) {
   using std::abs, std::max, std::sqrt;
   root = sqrt(abs((1 - h) * (1 + h)));
   coarse_root_ = select<Number>(h < Number(0.5), Number(1), root);

@@ -109,6 +109,9 @@ CsvTable::CsvTable(const FileSummary& summary, const std::string& path, TableCho
     if (name == "shard")
       throw storage::IoError(storage::quoted_name(path_) + " is shard " + storage::excerpt(value) +
                              " of a sweep; join all with `clatter merge` first");
+  if (status == nullptr && find("arclength") != nullptr)
+    throw storage::IoError(storage::quoted_name(path_) +
+                           " holds branches, not points of a sweep; read it with h5py, xarray or plot.py");
   if (status == nullptr) storage::refuse_reading(path_, "has no status", "name a whole output of clatter");
   rows_ = status->dimensions;
   for (const sweep::NamedLength& dimension : rows_)

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <tuple>
 
+#include "branches/branch_dataset.hpp"
 #include "results/hdf5_texts.hpp"
 #include "storage/utf8.hpp"
 #include "sweep/result_store.hpp"
@@ -48,7 +49,11 @@ void require_own_filters(hid_t properties, const std::string& name) {
 
 /// Whether clatter writes texts under this name.
 bool holds_texts(const std::string& name) {
-  static const std::vector<std::string> names = sweep::names_of_texts();
+  static const std::vector<std::string> names = [] {
+    std::vector<std::string> all = sweep::names_of_texts();
+    for (std::string& own : branches::names_of_texts()) all.push_back(std::move(own));
+    return all;
+  }();
   return std::ranges::find(names, name) != names.end();
 }
 

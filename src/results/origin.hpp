@@ -7,8 +7,8 @@ namespace clatter::results {
 
 /// The command, shard and title of an output, which distinguish it from others.
 struct Origin {
-  bool is_accuracy = false;  ///< an accuracy run (`clatter accuracy`), else `clatter run`
-  std::string shard{};       ///< "K/N"; empty: all points
+  std::string command = "run";  ///< that wrote it: run, accuracy or branch
+  std::string shard{};          ///< "K/N"; empty: all points
   std::string title{};
 
   bool operator==(const Origin&) const = default;

@@ -14,12 +14,12 @@ namespace {
 
 /// The reason why an output must not replace another file; empty if it may.
 std::string difference(const std::optional<Origin>& there, const Origin& ours) {
-  const auto command = [](const Origin& origin) { return origin.is_accuracy ? "`clatter accuracy`" : "`clatter run`"; };
+  const auto command = [](const Origin& origin) { return "`clatter " + origin.command + '`'; };
   const auto part = [](const Origin& origin) {
     return origin.shard.empty() ? std::string("all points") : "shard " + origin.shard;
   };
   if (!there) return "the file there is not an output of clatter, or is damaged";
-  if (there->is_accuracy != ours.is_accuracy)
+  if (there->command != ours.command)
     return std::string("the file there is an output of ")
         .append(command(*there))
         .append(", this is one of ")

@@ -1,6 +1,6 @@
 """Rooms of src include only their right-hand neighbours, and each has its own namespace:
-apps -> { results, accuracy }, results -> { config, plan }, config -> { sweep, storage },
-{ accuracy, plan } -> sweep -> { lanes, attractors } -> point -> { steady, observables },
+apps -> { results, accuracy }, results -> { config, plan }, config -> { branches, storage },
+{ accuracy, branches, plan } -> sweep -> { lanes, attractors } -> point -> { steady, observables },
 steady -> stepping -> motion, observables -> motion -> model -> math."""
 
 import os
@@ -24,7 +24,8 @@ NEXT = {  # room: its right-hand neighbours; what these may include, it may incl
     "plan": {"sweep"},
     "accuracy": {"sweep"},
     "storage": set(),
-    "config": {"sweep", "storage"},
+    "branches": {"sweep"},
+    "config": {"branches", "storage"},
     "results": {"config", "plan"},
     "apps": {"results", "accuracy"},
 }
@@ -36,7 +37,7 @@ KNOWN_TO = {  # library header: the only rooms that see it
     r"zlib": {"storage"},
     r"boost/program_options": {"config", "apps"},
     r"boost/multiprecision": {"math"},
-    r"boost/math": {"observables", "sweep"},
+    r"boost/math": {"branches", "observables", "sweep"},
     r"boost/numeric/odeint": {"stepping"},
     r"nettle": {"results"},
     r"boost/random": {"config"},

@@ -17,12 +17,13 @@ ALWAYS = ("status", "impact_total", "simulated_periods")
 OBSERVED = {  # variables of each [observe] key
     "extrema": ("x_min", "x_max", "v_min", "v_max"),
     "harmonics": ("harmonic", "x_amplitude", "x_phase", "v_amplitude", "v_phase", "base_frequency"),
-    "impacts": ("stop", "impacts_per_period", "v_before", "v_after", "rest_fraction"),
+    "impacts": ("impacts_per_period", "v_before", "v_after", "rest_fraction"),
     "impact_log": ("impact_count", "impact_tau", "impact_stop", "impact_v_before", "impact_v_after"),
     "trajectory": ("tau", "x", "v"),
     "section": ("section_x", "section_v"),
     "word": ("impact_word", "regime", "symmetric"),
     "period": ("period", "period_ratio"),
+    "energy": ("work_in", "loss_damping", "loss_impact", "impulse", "energy_residual", "impact_power"),
     "stability": ("multiplier", "multiplier_re", "multiplier_im", "lyapunov"),
 }
 PLOTTED = {  # what each of the paper's figures needs, with its axes and number of points
@@ -63,6 +64,7 @@ class Configs(unittest.TestCase):
                 for key, names in OBSERVED.items():
                     for name in names:
                         self.assertEqual(name in file, bool(observe[key]), name)
+                self.assertEqual("stop" in file, bool(observe["impacts"] or observe["energy"]))
                 for name in ALWAYS:
                     self.assertIn(name, file)
 

@@ -5,8 +5,8 @@ import unittest
 
 from command_line import SOURCE, CommandLine
 
-COMMANDS = ("run", "plan", "accuracy", "merge", "export", "info", "defaults", "help")
-SECTIONS = ("scene", "sweep", "time", "observe", "integrator", "output")
+COMMANDS = ("run", "plan", "accuracy", "branch", "merge", "export", "info", "defaults", "help")
+SECTIONS = ("scene", "sweep", "time", "observe", "integrator", "branch", "output")
 
 
 class Help(CommandLine):

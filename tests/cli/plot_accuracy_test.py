@@ -167,7 +167,7 @@ class Pictures(unittest.TestCase):
     def test_help_and_refusals_name_both_commands(self):
         (self.folder / "text.h5").write_text("no HDF5\n")
         for text in (plot("--help").stdout, plot(self.folder / "text.h5").stderr):
-            self.assertIn("'clatter run' or 'clatter accuracy'", " ".join(text.split()))
+            self.assertIn("'clatter run', 'clatter accuracy' or 'clatter branch'", " ".join(text.split()))
 
     def test_labels_cover_nothing(self):
         for name in ("scalar", "sweep", "transient", "map"):

@@ -87,6 +87,10 @@ TEST(EveryKey, of_the_wrong_kind_says_what_is_expected) {
     } else if (key.kind == Kind::flag) {
       for (const char* value : {"1", "yes", "True"}) expect_wrong_value(key, value, words, "ini");
       for (const char* value : {"1", "\"true\"", "0.0", "[true]"}) expect_wrong_value(key, value, words, "toml");
+    } else if (key.kind == Kind::interval) {
+      for (const char* value : {"1", "true", "\"a\"", "[1]", "[2, 1]", "[1, 1]", "[1, 2, 3]", "[1, inf]"})
+        expect_wrong_value(key, value, words, "toml");
+      for (const char* value : {"1", "2, 1", "1, 2, 3"}) expect_wrong_value(key, value, words, "ini");
     } else {
       for (const char* value : {"1", "true", "[\"a\"]"}) expect_wrong_value(key, value, words, "toml");
     }

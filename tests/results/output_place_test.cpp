@@ -31,13 +31,14 @@ class OutputPlaceTest : public testing::Test {
 std::string output(const Origin& origin) {
   config::Config config;
   config.title = origin.title;
-  sweep::Dataset dataset{{}, {{origin.is_accuracy ? "ns_per_period" : "x_min", {}, std::vector<double>{1.0}, "", "1"}}};
+  sweep::Dataset dataset{
+      {}, {{origin.command == "accuracy" ? "ns_per_period" : "x_min", {}, std::vector<double>{1.0}, "", "1"}}};
   if (!origin.shard.empty()) dataset.attributes = {{"shard", origin.shard}};
   const FileImage image = file_image(std::move(dataset), config);
   return {reinterpret_cast<const char*>(image.bytes.data()), image.bytes.size()};
 }
 
-const Origin run{.title = "größter Ausschlag"}, accuracy{.is_accuracy = true, .title = run.title},
+const Origin run{.title = "größter Ausschlag"}, accuracy{.command = "accuracy", .title = run.title},
     shard{.shard = "1/3", .title = run.title}, other{.title = "another"};
 
 void publish_new(const OutputPlace& place) {

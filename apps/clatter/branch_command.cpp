@@ -1,0 +1,124 @@
+#include <algorithm>
+#include <cmath>
+#include <iostream>
+
+#include "branches/branch_dataset.hpp"
+#include "branches/measures.hpp"
+#include "commands.hpp"
+#include "common_options.hpp"
+#include "format.hpp"
+#include "results/dataset_file.hpp"
+#include "results/output_place.hpp"
+#include "storage/journal.hpp"
+#include "storage/utf8.hpp"
+
+namespace clatter::app {
+namespace {
+
+using branches::SpecialPoint;
+
+double fastest_impact(const SpecialPoint& special) {
+  double speed = 0;
+  for (const branches::OrbitImpact& impact : special.at.orbit.impacts) speed = std::max(speed, std::abs(impact.before));
+  return speed;
+}
+
+/// {"kind": "fold", "nu": 1.42, ..., "multipliers": [[1, 0], [0.1, 0]]}: one line; real and imaginary parts.
+std::string special_json(const SpecialPoint& special, sweep::Parameter along) {
+  const branches::BranchPoint& at = special.at;
+  const PhasePoint state = branches::state_at_phase_zero(at.scene, at.orbit);
+  const auto pair = [](double re, double im) { return '[' + json_number(re) + ", " + json_number(im) + ']'; };
+  std::string numbers;
+  for (const std::size_t branch : special.branches) numbers += (numbers.empty() ? "" : ", ") + std::to_string(branch);
+  return "{\"kind\": " + json_text(std::string(name_of(special.kind))) + ", " +
+         json_text(std::string(sweep::key_of(along))) + ": " + json_number(branches::value_of(at.scene, along)) +
+         ", \"impact_speed\": " + json_number(fastest_impact(special)) + ", \"x\": " + json_number(state.x) +
+         ", \"v\": " + json_number(state.v) + ", \"period_ratio\": " + json_number(at.orbit.period_ratio()) +
+         ", \"word\": " + json_text(at.orbit.word()) + ", \"stable\": " + (at.stable ? "true" : "false") +
+         ", \"multipliers\": [" + pair(at.multiplier_re[0], at.multiplier_im[0]) + ", " +
+         pair(at.multiplier_re[1], at.multiplier_im[1]) + "], \"branches\": [" + numbers + "]}\n";
+}
+
+/// "fold                  nu = 1.42486182628998  speed 1.72122564705845  LU  branch 0"
+std::string special_text(const SpecialPoint& special, sweep::Parameter along) {
+  std::string name(name_of(special.kind)), word = special.at.orbit.word();
+  name.resize(22, ' ');
+  std::string text = name + std::string(sweep::key_of(along)) + " = " +
+                     formatted("%-18.15g", branches::value_of(special.at.scene, along)) + " speed " +
+                     formatted("%-18.15g", fastest_impact(special)) + ' ' + (word.empty() ? "no impacts" : word) +
+                     (special.branches.size() > 1 ? "  branches" : "  branch");
+  for (const std::size_t branch : special.branches) text += ' ' + std::to_string(branch);
+  return text + '\n';
+}
+
+/// "mine.toml: branch 2 stops at nu = 0.91: branch.max_points is spent"
+void tell_failures(const branches::Branches& found, sweep::Parameter along, const std::string& file) {
+  for (const branches::BranchEnd& end : found.ends)
+    if (end.failed)
+      std::cerr << storage::printable(file) << ": branch " << end.branch << " stops at " << sweep::key_of(along)
+                << " = " << formatted("%.9g", end.parameter) << ": " << end.reason << '\n';
+}
+
+const branches::BranchSettings& branch_of(const config::Config& config, const std::string& file) {
+  if (!config.branch)
+    throw UsageError(storage::printable(file) +
+                     ": no branch.along and branch.range, along which to follow; e.g. --set branch.along=nu "
+                     "--set branch.range='0.8, 1.5'");
+  if (!config.sweep.dimensions.empty())
+    throw UsageError(storage::printable(file) + ": [sweep] has the axis " +
+                     std::string(sweep::key_of(config.sweep.dimensions[0][0].parameter)) +
+                     ", and a branch is followed at one value of it; give that in [scene]");
+  return *config.branch;
+}
+
+int run_branch(const Arguments& arguments) {
+  const std::string output = output_of(arguments, ".branch.h5");
+  const config::Config config = config_of(arguments);
+  const std::string& file = arguments.operands[0];
+  check_not_config(file, output);
+  const branches::BranchSettings& settings = branch_of(config, file);
+  const results::OutputPlace place(output, {.command = "branch", .title = config.title}, arguments.has("force"));
+  storage::require_idle(output);
+  branches::Branches found;
+  try {
+    found = branches::follow_branches(config.sweep.problem, settings);
+  } catch (const branches::StartError& error) {
+    std::cerr << storage::printable(file) << ": " << error.what() << '\n';
+    return points_failed;
+  }
+  for (const SpecialPoint& special : found.special)
+    std::cout << (arguments.has("json") ? special_json : special_text)(special, settings.along);
+  std::cout << std::flush;
+  place.write_atomically(results::file_image(branch_dataset(found, settings), config).bytes);
+  tell_failures(found, settings.along, file);
+  if (!arguments.has("quiet"))
+    std::cerr << counted(static_cast<double>(found.points.size()), "point") << ", "
+              << counted(static_cast<double>(found.special.size()), "special point") << ", "
+              << storage::printable(output) << '\n';
+  return std::ranges::any_of(found.ends, &branches::BranchEnd::failed) ? points_failed : done;
+}
+
+constexpr std::string_view examples =
+    "  clatter branch configs/branch.toml\n"
+    "  clatter branch mine.toml --json --set branch.range='0.8, 1.5' | jq .nu\n";
+
+}  // namespace
+
+Command branch_command() {
+  return {.name = "branch",
+          .usage = "branch CONFIG [OPTION]...",
+          .summary = "follow periodic motion, stable and unstable, along a parameter",
+          .examples = examples,
+          .operands = {"CONFIG"},
+          .required_operands = 1,
+          .options = {{"output", 'o', "FILE.h5", "output file; default: NAME.branch.h5 in this directory"},
+                      force_option,
+                      set_option,
+                      ini_option,
+                      {"json", 0, "", "print a JSON object per special point instead"},
+                      {"quiet", 'q', "", "print only special points and errors"},
+                      {"help", 'h', "", "print this help"}},
+          .run = run_branch};
+}
+
+}  // namespace clatter::app

@@ -1,0 +1,365 @@
+#include "branches/branch.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <deque>
+#include <functional>
+#include <limits>
+#include <numbers>
+
+#include "attractors/periodic_motion.hpp"
+#include "branches/measures.hpp"
+#include "branches/start.hpp"
+#include "branches/walk.hpp"
+
+namespace clatter::branches {
+namespace {
+
+constexpr std::array<std::string_view, 10> special_names{"fold",
+                                                         "flip",
+                                                         "symmetry breaking",
+                                                         "graze",
+                                                         "chatter limit",
+                                                         "maximum impact_speed",
+                                                         "maximum impact_power",
+                                                         "maximum harmonic",
+                                                         "resonant graze",
+                                                         "cusp"};
+
+/// A branch that waits to be followed.
+struct Waiting {
+  Scene scene;
+  Orbit orbit;
+  std::optional<Vector> direction{};     ///< along which it begins; nothing: both ways
+  std::optional<std::size_t> special{};  ///< that it comes from
+  std::int64_t generation = 0;
+};
+
+/// Everything about following one branch after the other.
+class Follower {
+ public:
+  Follower(const point::Problem& problem, const BranchSettings& settings)
+      : problem_(problem), settings_(settings), width_(settings.range[1] - settings.range[0]) {}
+
+  Branches run() {
+    waiting_.push_back({problem_, start_orbit(problem_, settings_.period), {}, {}, 0});
+    while (!waiting_.empty()) {
+      const Waiting next = waiting_.front();
+      waiting_.pop_front();
+      follow(next);
+    }
+    return std::move(result_);
+  }
+
+ private:
+  [[nodiscard]] OrbitEquations equations_for(const Orbit& orbit, const Condition& condition = {}) const {
+    return {problem_, orbit, {{settings_.along, width_}}, speed_unit_, condition};
+  }
+  [[nodiscard]] double parameter(const Scene& scene) const { return value_of(scene, settings_.along); }
+  [[nodiscard]] bool in_range(double value) const { return value >= settings_.range[0] && value <= settings_.range[1]; }
+  [[nodiscard]] WalkLimits limits() const {
+    return {settings_.tolerance, settings_.largest_step, static_cast<std::size_t>(settings_.max_points)};
+  }
+
+  BranchPoint point_of(const OrbitEquations& equations, const CurvePoint& point) const {
+    BranchPoint out{branch_, point.arclength, equations.scene_at(point.at), equations.orbit_at(point.at), false, {},
+                    {}};
+    const Multipliers of = multipliers(out.scene, out.orbit);
+    out.stable = of.stable, out.multiplier_re = of.re, out.multiplier_im = of.im;
+    return out;
+  }
+
+  void follow(const Waiting& from) {
+    branch_ = result_.ends.empty() ? 0 : result_.ends.back().branch + 1;
+    if (from.orbit.size() > 0 && speed_unit_ == 0)
+      for (const OrbitImpact& impact : from.orbit.impacts) speed_unit_ = std::max(speed_unit_, std::abs(impact.before));
+    if (speed_unit_ == 0) speed_unit_ = std::max(1e-3, std::abs(problem_.oscillator.forcing));
+    const OrbitEquations equations = equations_for(from.orbit);
+    generation_ = from.generation;
+    CurvePoint start{equations.unknowns_of(from.scene, from.orbit), {}, 0.0};
+    Vector axis(equations.unknowns(), 0.0);
+    axis.back() = 1;
+    if (from.special) {
+      const auto first = first_step(equations, start, from.direction);
+      if (!first) return;
+      result_.special[*from.special].branches.push_back(branch_);
+      start.tangent = *first;
+      add(point_of(equations, start));
+      walk(equations, start, from.special);
+      return;
+    }
+    const auto at = corrected(equations, start.at, axis, settings_.tolerance);
+    const auto along = at ? tangent(equations, *at, axis) : std::nullopt;
+    if (!along)
+      throw StartError(
+          "Newton's method does not converge from the motion at the start; move it away from a special point");
+    start.at = *at, start.tangent = *along;
+    if (violation(equations.scene_at(start.at), equations.orbit_at(start.at)))
+      throw StartError(
+          "Newton's method leads from the start to no motion between the stops; set x0 and v0 nearer to the motion "
+          "that is meant");
+    CurvePoint back = start;
+    for (double& x : back.tangent) x = -x;
+    walk(equations, back, {});
+    // the way back was walked first, and is turned round
+    std::ranges::reverse(result_.points);
+    for (BranchPoint& point : result_.points) point.arclength = -point.arclength;
+    for (SpecialPoint& point : result_.special) point.at.arclength = -point.at.arclength;
+    add(point_of(equations, start));
+    walk(equations, start, {});
+  }
+
+  /// The direction from a special point into a branch that begins there, in which it is motion between the stops.
+  [[nodiscard]] std::optional<Vector> first_step(const OrbitEquations& equations, const CurvePoint& start,
+                                                 const std::optional<Vector>& direction) const {
+    std::vector<Vector> tried;
+    if (direction) {
+      tried = {*direction};
+    } else {
+      Vector axis(equations.unknowns(), 1.0);
+      const auto along = tangent(equations, start.at, axis);
+      if (!along) return std::nullopt;
+      tried = {*along, sum(*along, -2.0, *along)};
+    }
+    for (const double s : {1e-5, 1e-4, 1e-3, 1e-2})
+      for (const Vector& tangent_there : tried) {
+        const auto at = corrected(equations, sum(start.at, s, tangent_there), tangent_there, settings_.tolerance);
+        if (at && !violation(equations.scene_at(*at), equations.orbit_at(*at))) return tangent_there;
+      }
+    return std::nullopt;
+  }
+
+  void add(const BranchPoint& point) { result_.points.push_back(point); }
+
+  [[nodiscard]] bool budget_is_spent() const {
+    return result_.points.size() >= static_cast<std::size_t>(settings_.max_points);
+  }
+
+  void end(const BranchPoint& last, std::string reason, bool failed = false) {
+    result_.ends.push_back({branch_, parameter(last.scene), std::move(reason), failed});
+  }
+
+  void walk(const OrbitEquations& equations, const CurvePoint& start, std::optional<std::size_t> from) {
+    Walk walk(equations, start, limits());
+    BranchPoint last = point_of(equations, start);
+    for (;;) {
+      if (budget_is_spent()) return end(last, "branch.max_points is spent", true);
+      const auto next = walk.next();
+      if (!next) return end(last, "no step leads on", true);
+      const double step = next->arclength - walk.here().arclength;
+      const Scene scene = equations.scene_at(next->at);
+      const Orbit orbit = equations.orbit_at(next->at);
+      if (!in_range(parameter(scene))) return end_of_range(equations, walk, step);
+      if (const auto found = violation(scene, orbit)) return end_in_graze(equations, walk, step);
+      const bool born = special_between(equations, walk, step, from);
+      if (born) return end(last, "born");
+      walk.move_to(*next);
+      last = point_of(equations, *next);
+      add(last);
+      from.reset();
+    }
+  }
+
+  void end_of_range(const OrbitEquations& equations, const Walk& walk, double step) {
+    for (const double bound : settings_.range) {
+      const auto zero = walk.zero([&](const CurvePoint& p) { return p.at.back() * width_ - bound; }, step);
+      if (!zero) continue;
+      const double length = zero->arclength - walk.here().arclength;
+      if (violation(equations.scene_at(zero->at), equations.orbit_at(zero->at)))
+        return end_in_graze(equations, walk, length);
+      special_between(equations, walk, length, {});
+      const BranchPoint last = point_of(equations, *zero);
+      add(last);
+      return end(last, "range");
+    }
+    end(point_of(equations, walk.here()), "no step leads on", true);
+  }
+
+  /// Special points within a step. Returns true if the branch is born in one of them, which ends it.
+  bool special_between(const OrbitEquations& equations, const Walk& walk, double step,
+                       const std::optional<std::size_t>& from) {
+    struct Found {
+      SpecialKind kind;
+      CurvePoint point;
+    };
+    std::vector<Found> found;
+    const auto look = [&](SpecialKind kind, const TestFunction& test, bool only_down) {
+      const auto there = walk.after(step);
+      if (!there) return;
+      const double a = test(walk.here()), b = test(*there);
+      if ((a < 0) == (b < 0) || (only_down && a < 0)) return;
+      if (const auto zero = walk.zero(test, step)) found.push_back({kind, *zero});
+    };
+    if (!from)
+      look(
+          SpecialKind::fold, [](const CurvePoint& p) { return p.tangent.back(); }, false);
+    const bool has_impacts = equations.shape().size() > 0;
+    if (has_impacts) {
+      const SpecialKind kind = equations.shape().mirrored ? SpecialKind::symmetry_breaking : SpecialKind::flip;
+      look(
+          kind,
+          [&](const CurvePoint& p) {
+            return impact_map(equations.scene_at(p.at), equations.orbit_at(p.at)).distance_to(-1);
+          },
+          false);
+      const auto look_for_maximum = [&](SpecialKind of,
+                                        Measure (*measure)(const OrbitEquations&, const Vector&, const Vector&)) {
+        look(
+            of, [&, measure](const CurvePoint& p) { return measure(equations, p.at, p.tangent).slope; }, true);
+      };
+      look_for_maximum(SpecialKind::impact_speed, impact_speed);
+      if (problem_.observe.energy) look_for_maximum(SpecialKind::impact_power, impact_power);
+      if (problem_.observe.harmonics > 0) look_for_maximum(SpecialKind::harmonic, harmonic);
+    }
+    std::ranges::sort(found, {}, [](const Found& f) { return f.point.arclength; });
+    for (Found& f : found) {
+      if (f.kind == SpecialKind::fold) {
+        const Orbit orbit = equations.orbit_at(f.point.at);
+        const Orbit half = orbit.half_if_same(1e-4, is_symmetric(problem_));
+        if (half.size() < orbit.size()) return note_birth(equations, f.point, half), true;
+      }
+      note(equations, f.kind, f.point);
+    }
+    return false;
+  }
+
+  /// A branch of half the symmetry, or twice the period, of another one ends on it.
+  void note_birth(const OrbitEquations& equations, const CurvePoint& point, const Orbit& half) {
+    const Condition condition{Condition::Kind::multiplier, -1, 0};
+    const OrbitEquations there = equations_for(half, condition);
+    const auto exact = solution(there, there.unknowns_of(equations.scene_at(point.at), half), settings_.tolerance);
+    const SpecialKind kind = half.mirrored ? SpecialKind::symmetry_breaking : SpecialKind::flip;
+    const std::size_t special =
+        add_special(kind, exact ? point_of(there, {*exact, {}, point.arclength}) : point_of(equations, point));
+    if (generation_ < settings_.generations && exact && result_.special[special].branches.size() == 1)
+      waiting_.push_back({there.scene_at(*exact), there.orbit_at(*exact), {}, special, generation_ + 1});
+  }
+
+  /// The special point of that kind near another, known already or new; it belongs to this branch.
+  std::size_t add_special(SpecialKind kind, BranchPoint at) {
+    at.branch = branch_;
+    for (std::size_t i = 0; i < result_.special.size(); ++i) {
+      SpecialPoint& known = result_.special[i];
+      const PhasePoint a = state_at_phase_zero(at.scene, at.orbit),
+                       b = state_at_phase_zero(known.at.scene, known.at.orbit);
+      if (known.kind == kind && std::abs(parameter(known.at.scene) - parameter(at.scene)) <= 1e-8 * width_ &&
+          std::hypot(a.x - b.x, a.v - b.v) <= 1e-5 * speed_unit_) {
+        if (std::ranges::find(known.branches, branch_) == known.branches.end()) known.branches.push_back(branch_);
+        return i;
+      }
+    }
+    result_.special.push_back({kind, std::move(at), {branch_}});
+    return result_.special.size() - 1;
+  }
+
+  /// A special point on the branch; what is born there waits.
+  void note(const OrbitEquations& equations, SpecialKind kind, const CurvePoint& point) {
+    CurvePoint exact = point;
+    if (kind == SpecialKind::fold || kind == SpecialKind::flip || kind == SpecialKind::symmetry_breaking) {
+      const int multiplier = kind == SpecialKind::fold ? 1 : -1;
+      const OrbitEquations there = equations_for(equations.shape(), {Condition::Kind::multiplier, multiplier, 0});
+      if (const auto at = solution(there, point.at, settings_.tolerance)) exact.at = *at;
+    }
+    const BranchPoint at = point_of(equations, exact);
+    const std::size_t before = result_.special.size(), special = add_special(kind, at);
+    const bool is_new = result_.special.size() > before;
+    if (!is_new || generation_ >= settings_.generations) return;
+    if (kind == SpecialKind::flip || kind == SpecialKind::symmetry_breaking) wait_for_daughter(at, special);
+  }
+
+  /// What is born at a flip or a loss of symmetry begins along the eigenvector of multiplier -1.
+  void wait_for_daughter(const BranchPoint& at, std::size_t special) {
+    const Orbit daughter = at.orbit.mirrored ? at.orbit.whole() : at.orbit.twice();
+    const ImpactMap map = impact_map(at.scene, at.orbit);
+    const auto& m = map.numerator;
+    const double c = map.denominator;
+    std::array<double, 2> vector{-m[0][1], m[0][0] + c};  // of (M + 1) v = 0, by the larger row
+    if (std::hypot(m[1][0], m[1][1] + c) > std::hypot(m[0][1], m[0][0] + c)) vector = {m[1][1] + c, -m[1][0]};
+    const auto changes = spread(at.scene, daughter, vector);
+    Vector direction;
+    for (const auto& [phase, before] : changes) direction.push_back(phase), direction.push_back(before / speed_unit_);
+    direction.push_back(0.0);
+    const double length = std::sqrt(product(direction, direction));
+    for (double& x : direction) x /= length;
+    waiting_.push_back({at.scene, daughter, direction, special, generation_ + 1});
+  }
+
+  /// The branch ends within a step, at a graze.
+  void end_in_graze(const OrbitEquations& equations, const Walk& walk, double step) {
+    double good = 0.0, bad = step;
+    std::optional<Violation> found;
+    std::optional<CurvePoint> beyond;
+    for (int halving = 0; halving < 40 && bad - good > 1e-7 * step; ++halving) {
+      const double middle = halving == 0 ? bad : (good + bad) / 2;
+      const auto point = walk.after(middle);
+      if (!point) return end(point_of(equations, walk.here()), "no step leads on", true);
+      const auto violated = violation(equations.scene_at(point->at), equations.orbit_at(point->at));
+      if (violated)
+        bad = middle, found = violated, beyond = point;
+      else
+        good = middle;
+    }
+    if (!found) return end(point_of(equations, walk.here()), "no step leads on", true);
+    special_between(equations, walk, good, {});
+    const Orbit orbit = equations.orbit_at(beyond->at);
+    const Scene scene = equations.scene_at(beyond->at);
+    Orbit touching = orbit;
+    std::size_t impact = found->impact;
+    if (found->kind == Violation::Kind::passes_through) {
+      impact = orbit.size() == 0 ? 0 : found->impact + 1;
+      touching = orbit.with(found->turning, impact);
+    }
+    if (orbit.size() == 0 && touching.mirrored) touching = in_first_half(touching);
+    const OrbitEquations there = equations_for(touching, {Condition::Kind::graze, 1, impact});
+    const auto exact = solution(there, there.unknowns_of(scene, touching), settings_.tolerance);
+    const auto last_good = walk.after(good);
+    const BranchPoint last = point_of(equations, last_good ? *last_good : walk.here());
+    if (!exact || std::abs(exact->back() - beyond->at.back()) > 10 * step)
+      return add(last), end(last, "a contact that no graze explains", true);
+    const Orbit graze = there.orbit_at(*exact);
+    const Scene at = there.scene_at(*exact);
+    BranchPoint point = last;
+    point.scene = at;
+    point.orbit = found->kind == Violation::Kind::passes_through ? orbit : graze;
+    if (found->kind == Violation::Kind::passes_through) {  // the last point of the branch, without the new impact
+      const Orbit without = graze.without(impact);
+      point.orbit = without;
+    }
+    add(point);
+    const std::size_t before = result_.special.size();
+    BranchPoint with_graze = point;
+    with_graze.orbit = graze;
+    const std::size_t special = add_special(SpecialKind::graze, with_graze);
+    end(point, "graze");
+    if (result_.special.size() == before) return;
+    Orbit beyond_graze = found->kind == Violation::Kind::passes_through ? graze : graze.without(impact);
+    if (beyond_graze.size() == 0) beyond_graze = Orbit{}.half_if_same(0.0, is_symmetric(problem_));
+    waiting_.push_back({at, beyond_graze, {}, special, generation_});
+  }
+
+  /// The only impact of a mirrored orbit that is just born, at a phase of 0 ... pi.
+  static Orbit in_first_half(Orbit orbit) {
+    OrbitImpact& impact = orbit.impacts[0];
+    impact.phase = std::remainder(impact.phase, 2 * std::numbers::pi);
+    return orbit;
+  }
+
+  point::Problem problem_;
+  BranchSettings settings_;
+  double width_;
+  double speed_unit_ = 0.0;
+  std::size_t branch_ = 0;
+  std::int64_t generation_ = 0;
+  std::deque<Waiting> waiting_;
+  Branches result_;
+};
+
+}  // namespace
+
+std::string_view name_of(SpecialKind kind) { return special_names[static_cast<std::size_t>(kind)]; }
+
+Branches follow_branches(const point::Problem& problem, const BranchSettings& settings) {
+  return Follower(problem, settings).run();
+}
+
+}  // namespace clatter::branches

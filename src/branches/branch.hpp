@@ -1,0 +1,70 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "branches/equations.hpp"
+#include "branches/settings.hpp"
+#include "branches/start.hpp"
+#include "branches/violation.hpp"
+#include "point/problem.hpp"
+
+namespace clatter::branches {
+
+/// Special points of branches and of curves in two parameters.
+enum class SpecialKind : std::uint8_t {
+  fold,
+  flip,
+  symmetry_breaking,
+  graze,
+  chatter_limit,
+  impact_speed,    ///< largest along the branch
+  impact_power,    ///< likewise
+  harmonic,        ///< likewise
+  resonant_graze,  ///< of a curve: a graze in which multipliers +1 and -1 meet
+  cusp             ///< of a curve of folds: two folds meet
+};
+[[nodiscard]] std::string_view name_of(SpecialKind kind);
+
+/// A periodic motion on a branch, with its multipliers.
+struct BranchPoint {
+  std::size_t branch = 0;
+  double arclength = 0.0;  ///< from the branch's first point, in the units of the equations; backwards negative
+  Scene scene;
+  Orbit orbit;
+  bool stable = false;
+  /// Of the whole period, the one of larger modulus first: real and imaginary parts.
+  std::array<double, 2> multiplier_re{}, multiplier_im{};
+};
+
+struct SpecialPoint {
+  SpecialKind kind = SpecialKind::fold;
+  BranchPoint at;
+  std::vector<std::size_t> branches;  ///< that meet there
+};
+
+/// How the end of a branch came about.
+struct BranchEnd {
+  std::size_t branch = 0;
+  double parameter = 0.0;  ///< of the last good point
+  std::string reason;      ///< "range", "graze", ...; anything else is a failure
+  bool failed = false;
+};
+
+struct Branches {
+  std::vector<BranchPoint> points;  ///< branch after branch, each in the order of its arclength
+  std::vector<SpecialPoint> special;
+  std::vector<BranchEnd> ends;
+};
+
+/// Follows the branch of a problem both ways from its start, and what it leads to. Throws StartError if the scene
+/// settles on nothing that can be followed.
+[[nodiscard]] Branches follow_branches(const point::Problem& problem, const BranchSettings& settings);
+
+}  // namespace clatter::branches

@@ -1,0 +1,125 @@
+#include "branches/branch_dataset.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "branches/measures.hpp"
+
+namespace clatter::branches {
+namespace {
+
+constexpr double no_value = std::numeric_limits<double>::quiet_NaN();
+
+std::vector<std::int32_t> numbers_of(const std::vector<std::size_t>& branches, std::size_t width) {
+  std::vector<std::int32_t> numbers(width, -1);
+  for (std::size_t i = 0; i < branches.size(); ++i) numbers[i] = static_cast<std::int32_t>(branches[i]);
+  return numbers;
+}
+
+/// Variables over one dimension, column by column.
+class Columns {
+ public:
+  Columns(sweep::Dataset& dataset, std::string dimension, std::size_t length, std::string prefix)
+      : dataset_(dataset), dimension_(std::move(dimension)), prefix_(std::move(prefix)) {
+    dataset_.dimensions.push_back({dimension_, length});
+  }
+
+  template <class Values>
+  void add(const std::string& name, Values values, const std::string& long_name,
+           const std::vector<std::string>& more = {}) {
+    std::vector<std::string> over{dimension_};
+    over.insert(over.end(), more.begin(), more.end());
+    dataset_.variables.push_back({prefix_ + name, over, std::move(values), long_name, "1"});
+  }
+
+  /// What a motion is, for all of them.
+  void add_motions(const std::vector<BranchPoint>& points, const std::string& parameter_name,
+                   sweep::Parameter parameter) {
+    std::vector<double> value, x, v, period, symmetric, re, im;
+    std::vector<std::uint8_t> stable;
+    std::vector<std::string> word, regime;
+    std::vector<double> low, high, v_low, v_high, speed, power;
+    for (const BranchPoint& point : points) {
+      const PhasePoint state = state_at_phase_zero(point.scene, point.orbit);
+      const observables::Extrema range = extrema(point.scene, point.orbit);
+      value.push_back(value_of(point.scene, parameter)), x.push_back(state.x), v.push_back(state.v);
+      period.push_back(point.orbit.period_ratio()), word.push_back(point.orbit.word());
+      regime.push_back(point.orbit.regime());
+      symmetric.push_back(is_symmetric(point.scene) ? point.orbit.mirrored : no_value);
+      stable.push_back(point.stable);
+      re.insert(re.end(), point.multiplier_re.begin(), point.multiplier_re.end());
+      im.insert(im.end(), point.multiplier_im.begin(), point.multiplier_im.end());
+      const auto displacement = range.displacement(point.scene.stops);
+      low.push_back(displacement.low), high.push_back(displacement.high);
+      v_low.push_back(range.velocity().low), v_high.push_back(range.velocity().high);
+      double fastest = 0, lost = 0;
+      const Orbit whole = point.orbit.whole();
+      for (const OrbitImpact& impact : whole.impacts) {
+        const double R =
+            impact.side == Side::upper ? point.scene.stops.restitution_upper : point.scene.stops.restitution_lower;
+        fastest = std::max(fastest, std::abs(impact.before));
+        lost += (1 - R) * (1 + R) * impact.before * impact.before / 2;
+      }
+      speed.push_back(fastest);
+      power.push_back(lost / (point.orbit.period_ratio() * period_of(point.scene.oscillator)));
+    }
+    add(parameter_name, std::move(value), "parameter along which the motion is followed");
+    add("x", std::move(x), "displacement at forcing phase 0");
+    add("v", std::move(v), "velocity at forcing phase 0");
+    add("period_ratio", std::move(period), "period of the motion over the forcing period");
+    add("word", std::move(word), "impacts of one period in order, L and U");
+    add("regime", std::move(regime), "impacts on one stop over forcing periods");
+    add("symmetric", std::move(symmetric), "1: the motion is its own mirror image; NaN: the scene isn't symmetric");
+    add("stable", std::move(stable), "1: all multipliers lie within the unit circle");
+    add("multiplier_re", std::move(re), "real parts of the multipliers of one period", {"multiplier"});
+    add("multiplier_im", std::move(im), "imaginary parts of the multipliers of one period", {"multiplier"});
+    add("x_min", std::move(low), "minimum displacement"), add("x_max", std::move(high), "maximum displacement");
+    add("v_min", std::move(v_low), "minimum velocity"), add("v_max", std::move(v_high), "maximum velocity");
+    add("impact_speed", std::move(speed), "speed of the fastest impact");
+    add("impact_power", std::move(power), "energy lost in impacts per tau, per unit mass");
+  }
+
+ private:
+  sweep::Dataset& dataset_;
+  std::string dimension_, prefix_;
+};
+
+}  // namespace
+
+std::vector<std::string> names_of_texts() { return {"word", "regime", "special_kind", "special_word", "special_regime"}; }
+
+sweep::Dataset branch_dataset(const Branches& branches, const BranchSettings& settings) {
+  sweep::Dataset dataset;
+  const std::string along(sweep::key_of(settings.along));
+  std::vector<std::int32_t> branch;
+  std::vector<double> arclength;
+  for (const BranchPoint& point : branches.points) {
+    branch.push_back(static_cast<std::int32_t>(point.branch));
+    arclength.push_back(point.arclength);
+  }
+  Columns points(dataset, "point", branches.points.size(), "");
+  dataset.dimensions.push_back({"multiplier", 2});
+  points.add("branch", std::move(branch), "number of the branch");
+  points.add("arclength", std::move(arclength), "along the branch, over the width of its range");
+  points.add_motions(branches.points, along, settings.along);
+
+  std::size_t most = 1;
+  std::vector<std::string> kind;
+  std::vector<BranchPoint> at;
+  std::vector<std::int32_t> meeting;
+  for (const SpecialPoint& special : branches.special) most = std::max(most, special.branches.size());
+  for (const SpecialPoint& special : branches.special) {
+    kind.emplace_back(name_of(special.kind)), at.push_back(special.at);
+    const std::vector<std::int32_t> numbers = numbers_of(special.branches, most);
+    meeting.insert(meeting.end(), numbers.begin(), numbers.end());
+  }
+  Columns specials(dataset, "special", at.size(), "special_");
+  dataset.dimensions.push_back({"meeting", most});
+  specials.add("kind", std::move(kind), "kind of the special point");
+  specials.add("branch", std::move(meeting), "numbers of the branches that meet there; -1: no more", {"meeting"});
+  specials.add_motions(at, along, settings.along);
+  return dataset;
+}
+
+}  // namespace clatter::branches

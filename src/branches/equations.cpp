@@ -1,0 +1,313 @@
+#include "branches/equations.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "math/dual.hpp"
+
+namespace clatter::branches {
+namespace {
+
+using sweep::Parameter;
+
+/// Derivatives by phase and velocity at the beginning of a flight, by the phase at its end, and by two parameters.
+constexpr std::size_t by_begin = 0, by_before = 1, by_end = 2, by_first_axis = 3, most_variables = 5;
+using First = Dual<double, most_variables>;
+using Second = Dual<First, 3>;  // of the first three, each with its derivatives by all of them
+
+double& reference_to(Scene& scene, Parameter parameter) {
+  switch (parameter) {
+    case Parameter::h:
+      return scene.oscillator.damping;
+    case Parameter::f:
+      return scene.oscillator.forcing;
+    case Parameter::nu:
+      return scene.oscillator.frequency;
+    case Parameter::load:
+      return scene.oscillator.load;
+    case Parameter::stop_lower:
+      return scene.stops.lower;
+    case Parameter::R_lower:
+      return scene.stops.restitution_lower;
+    case Parameter::R:
+    case Parameter::R_upper:
+      return scene.stops.restitution_upper;
+    default:
+      return scene.stops.upper;
+  }
+}
+
+/// Makes a parameter a variable.
+template <class Number>
+void vary(Parameters<Number>& p, Parameter parameter, std::size_t variable) {
+  const auto seed = [variable](Number& number, double slope) {
+    if constexpr (std::is_same_v<Number, Second>)
+      number.value.slope[variable] = slope;
+    else
+      number.slope[variable] = slope;
+  };
+  switch (parameter) {
+    case Parameter::h:
+      return seed(p.h, 1);
+    case Parameter::f:
+      return seed(p.f, 1);
+    case Parameter::nu:
+      return seed(p.nu, 1);
+    case Parameter::load:
+      return seed(p.load, 1);
+    case Parameter::stop_lower:
+      return seed(p.lower, 1);
+    case Parameter::stop_upper:
+      return seed(p.upper, 1);
+    case Parameter::R_lower:
+      return seed(p.R_lower, 1);
+    case Parameter::R_upper:
+      return seed(p.R_upper, 1);
+    case Parameter::R:
+      return seed(p.R_lower, 1), seed(p.R_upper, 1);
+    default:
+      return seed(p.lower, -1), seed(p.upper, 1);  // xs
+  }
+}
+
+/// The variable that a flight's first three derivatives belong to.
+Second variable(double value, std::size_t index) {
+  Second number(First(value, index), index);
+  return number;
+}
+
+template <class Number>
+Flight<Number> flight_of(const Orbit& orbit, std::size_t i) {
+  const OrbitImpact from = orbit.impact(i), to = orbit.impact(i + 1);
+  if constexpr (std::is_same_v<Number, Second>)
+    return {from.side, variable(from.phase, by_begin), variable(from.before, by_before), to.side,
+            variable(to.phase, by_end)};
+  else
+    return {from.side, Number(from.phase, by_begin), Number(from.before, by_before), to.side, Number(to.phase, by_end)};
+}
+
+template <class Number>
+Parameters<Number> parameters_of(const Scene& scene, const std::vector<OrbitEquations::Axis>& axes) {
+  Parameters<Number> p(scene);
+  for (std::size_t k = 0; k < axes.size(); ++k) vary(p, axes[k].parameter, by_first_axis + k);
+  return p;
+}
+
+template <class Number>
+using Square = std::array<std::array<Number, 2>, 2>;
+
+template <class A, class B>
+auto product(const Square<A>& a, const Square<B>& b) {
+  Square<decltype(a[0][0] * b[0][0])> c;
+  for (std::size_t i = 0; i < 2; ++i)
+    for (std::size_t j = 0; j < 2; ++j) c[i][j] = a[i][0] * b[0][j] + a[i][1] * b[1][j];
+  return c;
+}
+
+/// One flight's derivative of the next impact by the last, times the denominator.
+template <class Number>
+struct Link {
+  Square<Number> numerator;
+  Number denominator;
+};
+
+/// From derivatives of gap and velocity by the beginning's phase and velocity and by the end's phase. The mirrored
+/// orbit's last flight ends in the mirror image of its first impact.
+template <class Number>
+Link<Number> link_of(const std::array<Number, 3>& x, const std::array<Number, 3>& v, bool mirrored) {
+  Link<Number> link{{{{-x[0], -x[1]}, {x[2] * v[0] - v[2] * x[0], x[2] * v[1] - v[2] * x[1]}}}, x[2]};
+  if (mirrored) link.numerator[1] = {-link.numerator[1][0], -link.numerator[1][1]};
+  return link;
+}
+
+bool last_is_mirrored(const Orbit& orbit, std::size_t i) { return orbit.mirrored && i + 1 == orbit.size(); }
+
+template <class Number>
+std::vector<Link<double>> links_of(const Scene& scene, const Orbit& orbit) {
+  return with_arcs(scene.oscillator, [&]<Effects E>() {
+    const Parameters<Number> p(scene);
+    std::vector<Link<double>> links;
+    for (std::size_t i = 0; i < orbit.size(); ++i) {
+      const FlightEnd<Number> end = fly<E>(p, flight_of<Number>(orbit, i));
+      links.push_back(link_of(end.beyond.slope, end.velocity.slope, last_is_mirrored(orbit, i)));
+    }
+    return links;
+  });
+}
+
+/// R^(2n) e^(-2 h T) of the impacts of an orbit as it is kept.
+template <class Number>
+Number determinant_of(const Parameters<Number>& p, const Orbit& orbit) {
+  using std::exp;
+  Number determinant = exp(Number(-2) * p.h * (Number(orbit.advance()) / p.nu));
+  for (const OrbitImpact& impact : orbit.impacts)
+    determinant *= p.restitution(impact.side) * p.restitution(impact.side);
+  return determinant;
+}
+
+}  // namespace
+
+Scene changed(Scene scene, Parameter parameter, double value) {
+  if (parameter == Parameter::xs) value = std::abs(value);
+  reference_to(scene, parameter) = value;
+  if (parameter == Parameter::xs) scene.stops.lower = -value;
+  if (parameter == Parameter::R) scene.stops.restitution_lower = value;
+  return scene;
+}
+
+double value_of(const Scene& scene, Parameter parameter) {
+  Scene copy = scene;
+  return reference_to(copy, parameter);
+}
+
+OrbitEquations::OrbitEquations(const Scene& scene, const Orbit& shape, std::vector<Axis> axes, double speed_unit,
+                               const Condition& condition)
+    : scene_(scene), shape_(shape), axes_(std::move(axes)), speed_unit_(speed_unit), condition_(condition) {}
+
+Vector OrbitEquations::unknowns_of(const Scene& scene, const Orbit& orbit) const {
+  Vector z(unknowns());
+  for (std::size_t i = 0; i < orbit.size(); ++i)
+    z[2 * i] = orbit.impacts[i].phase, z[2 * i + 1] = orbit.impacts[i].before / speed_unit_;
+  for (std::size_t k = 0; k < axes_.size(); ++k)
+    z[2 * orbit.size() + k] = value_of(scene, axes_[k].parameter) / axes_[k].unit;
+  return z;
+}
+
+Orbit OrbitEquations::orbit_at(const Vector& z) const {
+  Orbit orbit = shape_;
+  for (std::size_t i = 0; i < orbit.size(); ++i)
+    orbit.impacts[i].phase = z[2 * i], orbit.impacts[i].before = z[2 * i + 1] * speed_unit_;
+  return orbit;
+}
+
+Scene OrbitEquations::scene_at(const Vector& z) const {
+  Scene scene = scene_;
+  for (std::size_t k = 0; k < axes_.size(); ++k)
+    scene = changed(scene, axes_[k].parameter, z[2 * shape_.size() + k] * axes_[k].unit);
+  return scene;
+}
+
+std::optional<OrbitEquations::Linearised> OrbitEquations::at(const Vector& z) const {
+  const Scene scene = scene_at(z);
+  const Orbit orbit = orbit_at(z);
+  if (!(scene.oscillator.frequency > 0) || !(scene.stops.lower < scene.stops.upper)) return std::nullopt;
+  for (const double number : z)
+    if (!std::isfinite(number)) return std::nullopt;
+  for (std::size_t i = 0; i < orbit.size(); ++i)
+    if (!(orbit.impact(i).phase < orbit.impact(i + 1).phase)) return std::nullopt;
+  Linearised out{Vector(equations(), 0.0), Matrix(equations(), unknowns())};
+  with_arcs(scene.oscillator, [&]<Effects E>() {
+    const Parameters<First> p = parameters_of<First>(scene, axes_);
+    const std::size_t count = orbit.size();
+    for (std::size_t i = 0; i < count; ++i) {
+      const FlightEnd<First> end = fly<E>(p, flight_of<First>(orbit, i));
+      const bool closes = i + 1 == count;
+      const std::size_t row = 2 * i, next = closes ? 0 : 2 * (i + 1);
+      const double sign = last_is_mirrored(orbit, i) ? -1 : 1;
+      out.residual[row] = end.beyond.value;
+      out.residual[row + 1] = end.velocity.value - orbit.impact(i + 1).before;
+      for (const auto& [equation, slope] :
+           {std::pair(row, &end.beyond.slope), std::pair(row + 1, &end.velocity.slope)}) {
+        out.slope(equation, 2 * i) += (*slope)[by_begin];
+        out.slope(equation, 2 * i + 1) += (*slope)[by_before] * speed_unit_;
+        out.slope(equation, next) += (*slope)[by_end];
+        for (std::size_t k = 0; k < axes_.size(); ++k)
+          out.slope(equation, 2 * count + k) += (*slope)[by_first_axis + k] * axes_[k].unit;
+      }
+      out.slope(row + 1, next + 1) -= sign * speed_unit_;
+    }
+  });
+  add_condition(scene, orbit, out);
+  return out;
+}
+
+void OrbitEquations::add_condition(const Scene& scene, const Orbit& orbit, Linearised& out) const {
+  const std::size_t count = orbit.size(), row = 2 * count;
+  if (condition_.kind == Condition::Kind::none) return;
+  if (condition_.kind == Condition::Kind::graze) {
+    out.residual[row] = orbit.impacts[condition_.impact].before;
+    out.slope(row, 2 * condition_.impact + 1) = speed_unit_;
+    return;
+  }
+  std::vector<Link<First>> links;
+  Parameters<First> p = parameters_of<First>(scene, axes_);
+  with_arcs(scene.oscillator, [&]<Effects E>() {
+    const Parameters<Second> twice = parameters_of<Second>(scene, axes_);
+    for (std::size_t i = 0; i < count; ++i) {
+      const FlightEnd<Second> end = fly<E>(twice, flight_of<Second>(orbit, i));
+      links.push_back(link_of(end.beyond.slope, end.velocity.slope, last_is_mirrored(orbit, i)));
+    }
+  });
+  // g = c (1 + D) - sigma tr(K_n ... K_1), c the product of the links' denominators
+  const auto plain = [](const Link<First>& link) {
+    Square<double> k;
+    for (std::size_t i = 0; i < 2; ++i)
+      for (std::size_t j = 0; j < 2; ++j) k[i][j] = link.numerator[i][j].value;
+    return k;
+  };
+  const double sigma = condition_.multiplier;
+  const First determinant = determinant_of(p, orbit);
+  std::vector<Square<double>> before{{{{1, 0}, {0, 1}}}}, after(count + 1, {{{1, 0}, {0, 1}}});
+  std::vector<double> c_before{1}, c_after(count + 1, 1.0);
+  for (std::size_t i = 0; i < count; ++i) {
+    before.push_back(product(plain(links[i]), before[i]));
+    c_before.push_back(c_before[i] * links[i].denominator.value);
+  }
+  for (std::size_t i = count; i-- > 0;) {
+    after[i] = product(after[i + 1], plain(links[i]));
+    c_after[i] = c_after[i + 1] * links[i].denominator.value;
+  }
+  out.residual[row] = c_before[count] * (1 + determinant.value) - sigma * (before[count][0][0] + before[count][1][1]);
+  const auto add = [&](std::size_t i, std::size_t variable, std::size_t unknown, double unit) {
+    double trace = 0;
+    const Square<double> around = product(before[i], after[i + 1]);  // tr(A dK B) = tr(B A dK)
+    for (std::size_t r = 0; r < 2; ++r)
+      for (std::size_t s = 0; s < 2; ++s) trace += around[s][r] * links[i].numerator[r][s].slope[variable];
+    const double denominator = c_before[i] * c_after[i + 1] * links[i].denominator.slope[variable];
+    out.slope(row, unknown) += unit * (denominator * (1 + determinant.value) - sigma * trace);
+  };
+  for (std::size_t i = 0; i < count; ++i) {
+    add(i, by_begin, 2 * i, 1.0);
+    add(i, by_before, 2 * i + 1, speed_unit_);
+    add(i, by_end, i + 1 == count ? 0 : 2 * (i + 1), 1.0);
+    for (std::size_t k = 0; k < axes_.size(); ++k) add(i, by_first_axis + k, 2 * count + k, axes_[k].unit);
+  }
+  for (std::size_t k = 0; k < axes_.size(); ++k)
+    out.slope(row, 2 * count + k) += axes_[k].unit * c_before[count] * determinant.slope[by_first_axis + k];
+}
+
+ImpactMap impact_map(const Scene& scene, const Orbit& orbit) {
+  ImpactMap map{.determinant = determinant_of(Parameters<double>(scene), orbit)};
+  if (orbit.size() == 0) {  // free motion around the response
+    with_arcs(scene.oscillator, [&]<Effects E>() {
+      const motion::ArcConstants<double, E> constants(scene.oscillator);
+      const motion::Propagator<double> free = constants.propagator(orbit.advance() / constants.nu);
+      const double sign = orbit.mirrored ? -1 : 1;
+      map.numerator[0][0] = sign * free.a, map.numerator[0][1] = sign * free.b;
+      map.numerator[1][0] = -sign * free.b, map.numerator[1][1] = sign * free.c;
+    });
+    return map;
+  }
+  Square<double> matrix{{{1, 0}, {0, 1}}};
+  for (const Link<double>& link : links_of<Dual<double, 3>>(scene, orbit)) {
+    matrix = product(link.numerator, matrix), map.denominator *= link.denominator;
+  }
+  for (std::size_t i = 0; i < 2; ++i)
+    for (std::size_t j = 0; j < 2; ++j) map.numerator[i][j] = matrix[i][j];
+  return map;
+}
+
+std::vector<std::array<double, 2>> spread(const Scene& scene, const Orbit& orbit, std::array<double, 2> change) {
+  std::vector<std::array<double, 2>> changes{change};
+  for (const Link<double>& link : links_of<Dual<double, 3>>(scene, orbit)) {
+    const auto& k = link.numerator;
+    const auto& [a, b] = changes.back();
+    changes.push_back({(k[0][0] * a + k[0][1] * b) / link.denominator, (k[1][0] * a + k[1][1] * b) / link.denominator});
+  }
+  changes.pop_back();
+  return changes;
+}
+
+}  // namespace clatter::branches

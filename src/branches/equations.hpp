@@ -1,0 +1,96 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "branches/flight.hpp"
+#include "branches/linear_system.hpp"
+#include "branches/orbit.hpp"
+#include "sweep/parameter.hpp"
+
+namespace clatter::branches {
+
+/// A scene with one of its parameters changed; `xs` and `R` change both stops.
+[[nodiscard]] Scene changed(Scene scene, sweep::Parameter parameter, double value);
+[[nodiscard]] double value_of(const Scene& scene, sweep::Parameter parameter);
+
+/// The equation that singles out a special point on a branch, or a curve of them if two parameters vary.
+struct Condition {
+  enum class Kind : std::uint8_t {
+    none,
+    multiplier,  ///< a multiplier of the orbit as it is kept is `multiplier`, +1 or -1
+    graze        ///< impact number `impact` has no speed
+  };
+  Kind kind = Kind::none;
+  int multiplier = 1;
+  std::size_t impact = 0;
+};
+
+/// The equations of periodic motion with given impacts (multiple shooting over arcs): every flight ends on the stop of
+/// the next impact, with its velocity. Unknowns are phase and velocity of each impact, then one or two parameters, in
+/// units of `Units`. They hold for motion through stops, too: whether no flight is cut short is another question
+/// (`violation`).
+class OrbitEquations {
+ public:
+  /// One parameter, or two; the units of a parameter are the width of its range.
+  struct Axis {
+    sweep::Parameter parameter;
+    double unit = 1.0;
+  };
+
+  OrbitEquations(const Scene& scene, const Orbit& shape, std::vector<Axis> axes, double speed_unit,
+                 const Condition& condition = {});
+
+  [[nodiscard]] std::size_t equations() const { return 2 * shape_.size() + (condition_.kind != Condition::Kind::none); }
+  [[nodiscard]] std::size_t unknowns() const { return 2 * shape_.size() + axes_.size(); }
+
+  /// Residuals and their derivatives by the unknowns, [equation][unknown].
+  struct Linearised {
+    Vector residual;
+    Matrix slope;
+  };
+  /// Nothing if two impacts have changed places, or a parameter has left its range.
+  [[nodiscard]] std::optional<Linearised> at(const Vector& unknowns) const;
+
+  [[nodiscard]] Vector unknowns_of(const Scene& scene, const Orbit& orbit) const;
+  [[nodiscard]] Orbit orbit_at(const Vector& unknowns) const;
+  [[nodiscard]] Scene scene_at(const Vector& unknowns) const;
+
+  [[nodiscard]] const Orbit& shape() const { return shape_; }
+  [[nodiscard]] const std::vector<Axis>& axes() const { return axes_; }
+  [[nodiscard]] double speed_unit() const { return speed_unit_; }
+  [[nodiscard]] const Condition& condition() const { return condition_; }
+
+ private:
+  void add_condition(const Scene& scene, const Orbit& orbit, Linearised& out) const;
+
+  Scene scene_;
+  Orbit shape_;
+  std::vector<Axis> axes_;
+  double speed_unit_;
+  Condition condition_;
+};
+
+/// The derivative of the map of one impact to the same impact a period, or half a period, later (impact phase and
+/// velocity): an impact that grazes has an infinite one, so its denominators are kept apart.
+struct ImpactMap {
+  double denominator = 1.0;                           ///< product of velocity over nu at all impacts
+  double numerator[2][2] = {{1.0, 0.0}, {0.0, 1.0}};  ///< [phase, velocity][phase, velocity]
+  double determinant = 1.0;                           ///< R^(2n) e^(-2 h T): of the map itself
+
+  [[nodiscard]] double trace() const { return (numerator[0][0] + numerator[1][1]) / denominator; }
+  /// Zero if `multiplier`, +1 or -1, is a multiplier; finite in a graze.
+  [[nodiscard]] double distance_to(int multiplier) const {
+    return denominator * (1 + determinant) - multiplier * (numerator[0][0] + numerator[1][1]);
+  }
+};
+[[nodiscard]] ImpactMap impact_map(const Scene& scene, const Orbit& orbit);
+
+/// [impact i][phase, velocity]: how a small change of the first impact spreads over the others.
+[[nodiscard]] std::vector<std::array<double, 2>> spread(const Scene& scene, const Orbit& orbit,
+                                                        std::array<double, 2> change);
+
+}  // namespace clatter::branches

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "attractors/exact_run.hpp"
+#include "model/scene.hpp"
+
+namespace clatter::branches {
+
+/// One impact of a periodic motion.
+struct OrbitImpact {
+  Side side = Side::none;
+  double phase = 0.0;   ///< forcing phase, rad, growing from impact to impact
+  double before = 0.0;  ///< velocity before the impact
+};
+
+/// A periodic motion by its impacts. A motion that is its own mirror image half a period later is kept as that half,
+/// so that the loss of its symmetry and its fold are told apart.
+struct Orbit {
+  std::vector<OrbitImpact> impacts;
+  int half_turns = 2;     ///< half forcing periods after which the impacts begin again, mirrored if so said
+  bool mirrored = false;  ///< then half_turns is odd
+
+  [[nodiscard]] std::size_t size() const { return impacts.size(); }
+  [[nodiscard]] double advance() const;       ///< of the forcing phase, rad
+  [[nodiscard]] double period_ratio() const;  ///< period in forcing periods
+  /// Impact i = 0 ... size: the last one is the first, half a period or a period later.
+  [[nodiscard]] OrbitImpact impact(std::size_t i) const;
+
+  [[nodiscard]] Orbit whole() const;  ///< both halves, if one is kept
+  [[nodiscard]] Orbit twice() const;  ///< of the whole, as if it repeated only after two periods
+  [[nodiscard]] Orbit half_if_same(double tolerance, bool symmetric_scene) const;  ///< kept as a half, if it can be
+  [[nodiscard]] Orbit with(const OrbitImpact& impact, std::size_t after) const;
+  [[nodiscard]] Orbit without(std::size_t i) const;
+
+  [[nodiscard]] std::string word() const;    ///< as `ImpactWord` gives it
+  [[nodiscard]] std::string regime() const;  ///< likewise
+};
+
+/// The impacts of a motion that was run over whole forcing periods from phase 0.
+[[nodiscard]] Orbit orbit_of(const attractors::Round& round, double nu);
+
+}  // namespace clatter::branches

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string_view>
+
+#include "sweep/parameter.hpp"
+
+namespace clatter::branches {
+
+/// The keys of [scene] along which a motion can be followed.
+inline constexpr std::array<std::string_view, 10> parameter_names{
+    "h", "f", "nu", "R", "xs", "stop_lower", "stop_upper", "R_lower", "R_upper", "load"};
+
+/// How a branch is followed; [branch] of a configuration.
+struct BranchSettings {
+  sweep::Parameter along = sweep::Parameter::nu;
+  std::array<double, 2> range{};    ///< of that parameter, low and high
+  std::int64_t period = 0;          ///< forcing periods of the motion near x0, v0; 0: that which the scene settles on
+  double tolerance = 1e-12;         ///< of Newton's method, relative
+  double largest_step = 0.02;       ///< over the width of the range
+  std::int64_t max_points = 10000;  ///< of all branches together
+  std::int64_t generations = 0;     ///< of what is born at flips and symmetry breaking that are followed, too
+};
+
+}  // namespace clatter::branches

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <cstdint>
+#include <stdexcept>
+
+#include "branches/orbit.hpp"
+#include "point/problem.hpp"
+
+namespace clatter::branches {
+
+/// Why a start can't be followed, and what to set instead.
+struct StartError : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// The periodic motion that a branch begins with: that which the scene settles on, or, for a period > 0 in forcing
+/// periods, that near x0, v0. Throws StartError.
+[[nodiscard]] Orbit start_orbit(const point::Problem& problem, std::int64_t period);
+
+}  // namespace clatter::branches

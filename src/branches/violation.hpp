@@ -1,0 +1,25 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+
+#include "branches/orbit.hpp"
+#include "model/scene.hpp"
+
+namespace clatter::branches {
+
+/// Why a solution of the equations is no motion between stops.
+struct Violation {
+  enum class Kind : std::uint8_t {
+    passes_through,  ///< a flight meets a stop before its end
+    pulls            ///< an impact's velocity points away from its stop
+  };
+  Kind kind = Kind::passes_through;
+  std::size_t impact = 0;  ///< that the flight began with; or that pulls
+  OrbitImpact turning{};   ///< passes_through: the turning point beyond the stop, as an impact without speed
+};
+
+/// The first violation of an orbit, by the proof of first contact on each of its flights; nothing: it is a motion.
+[[nodiscard]] std::optional<Violation> violation(const Scene& scene, const Orbit& orbit);
+
+}  // namespace clatter::branches

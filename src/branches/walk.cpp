@@ -1,0 +1,49 @@
+#include "branches/walk.hpp"
+
+#include <algorithm>
+#include <boost/math/tools/roots.hpp>
+#include <cmath>
+
+namespace clatter::branches {
+
+std::optional<CurvePoint> Walk::after(double s) const {
+  if (s == 0) return here_;
+  const auto at = corrected(equations_, sum(here_.at, s, here_.tangent), here_.tangent, limits_.tolerance);
+  if (!at) return std::nullopt;
+  const auto along = tangent(equations_, *at, here_.tangent);
+  if (!along) return std::nullopt;
+  return CurvePoint{*at, *along, here_.arclength + s};
+}
+
+std::optional<CurvePoint> Walk::next() {
+  constexpr double least_cosine = 0.98, shortest = 1e-9;
+  for (; step_ > shortest * limits_.largest_step; step_ /= 2) {
+    const std::optional<CurvePoint> point = after(step_);
+    if (!point) continue;
+    const double cosine = product(point->tangent, here_.tangent);
+    if (!(cosine > least_cosine)) continue;
+    if (cosine > 0.998) step_ = std::min(1.6 * step_, limits_.largest_step);
+    return point;
+  }
+  return std::nullopt;
+}
+
+std::optional<CurvePoint> Walk::zero(const TestFunction& test, double s) const {
+  std::optional<CurvePoint> best;
+  bool followed = true;
+  const auto value = [&](double part) {
+    const auto point = after(part);
+    if (!point) return followed = false, 0.0;
+    best = point;
+    return test(*point);
+  };
+  const double low = value(0.0), high = value(s);
+  if (!followed || !((low < 0) != (high < 0))) return std::nullopt;
+  std::uintmax_t most = 60;
+  const auto [a, b] = boost::math::tools::toms748_solve(
+      value, 0.0, s, low, high, [s](double x, double y) { return std::abs(x - y) <= 4e-16 * s; }, most);
+  static_cast<void>(value(a + (b - a) / 2));
+  return followed ? best : std::nullopt;
+}
+
+}  // namespace clatter::branches

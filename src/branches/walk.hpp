@@ -1,0 +1,56 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "branches/newton.hpp"
+
+namespace clatter::branches {
+
+/// A point of a solution curve, with its unit tangent.
+struct CurvePoint {
+  Vector at, tangent;
+  double arclength = 0.0;
+};
+
+/// How a solution curve is followed.
+struct WalkLimits {
+  double tolerance = 1e-12;
+  double largest_step = 0.02;
+  std::size_t most_points = 10000;
+};
+
+/// A function along the curve whose zero is a special point, found where it changes sign from `before` to `after`.
+using TestFunction = std::function<double(const CurvePoint&)>;
+
+/// Follows a solution curve by pseudo-arclength steps (Keller 1977): as long as Newton's method converges fast and the
+/// tangent turns little they grow, else they shrink.
+class Walk {
+ public:
+  Walk(const OrbitEquations& equations, CurvePoint start, const WalkLimits& limits)
+      : equations_(equations), here_(std::move(start)), limits_(limits), step_(limits.largest_step / 8) {}
+
+  [[nodiscard]] const CurvePoint& here() const { return here_; }
+
+  /// The next point; nothing if no step, however short, leads on.
+  [[nodiscard]] std::optional<CurvePoint> next();
+  /// Goes on from a point that `next` gave.
+  void move_to(CurvePoint point) { here_ = std::move(point); }
+
+  /// The point of the curve a distance s <= that of `next` after the present one, along its tangent.
+  [[nodiscard]] std::optional<CurvePoint> after(double s) const;
+
+  /// The zero of a test function between the present point and one a distance `s` on, by a bracketing method of high
+  /// order (Alefeld, Potra and Shi 1995); nothing if its sign doesn't change, or it can't be followed.
+  [[nodiscard]] std::optional<CurvePoint> zero(const TestFunction& test, double s) const;
+
+ private:
+  const OrbitEquations& equations_;
+  CurvePoint here_;
+  WalkLimits limits_;
+  double step_;
+};
+
+}  // namespace clatter::branches

@@ -1,0 +1,199 @@
+#include "branches/equations.hpp"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "branches/newton.hpp"
+#include "branches/violation.hpp"
+#include "math/dual.hpp"
+#include "math/fifty_digits.hpp"
+
+namespace clatter::branches {
+namespace {
+
+using sweep::Parameter;
+
+Scene symmetric_scene(double h, double f, double nu, double R, double xs) {
+  Scene scene;
+  scene.oscillator = {h, f, nu, 0.0};
+  scene.stops = {-xs, xs, R, R};
+  return scene;
+}
+
+Scene random_scene(std::mt19937& random) {
+  const auto in = [&](double a, double b) { return std::uniform_real_distribution(a, b)(random); };
+  return symmetric_scene(in(0.0, 1.0) < 0.2 ? in(1.05, 2.0) : in(0.0, 0.5), in(0.3, 2.0), in(0.3, 4.0), in(0.1, 0.98),
+                         in(0.1, 2.0));
+}
+
+/// Symmetric motion with one impact on each stop and period in closed form (Masri and Caughey 1966; Shaw 1985): the
+/// speed before the impact, the phase of that on the upper stop, and the trace of half a period's map.
+struct ClosedForm {
+  double phase, speed, trace;
+};
+std::vector<ClosedForm> closed_forms(const Scene& scene) {
+  using N = FiftyDigits;
+  const N R = scene.stops.restitution_upper, g = scene.stops.upper;
+  return with_arcs(scene.oscillator, [&]<Effects E>() -> std::vector<ClosedForm> {
+    const motion::ArcConstants<N, Effects{E.damping, Forcing::regular}> c(scene.oscillator);
+    const auto flow = c.propagator(N(pi<N>() / c.nu));
+    const N det = exp(N(-2 * c.h * pi<N>() / c.nu)), d = 1 + (flow.a + flow.c) + det;
+    const N alpha = (1 + R) * flow.b / d, gamma = ((1 + R) * (1 + flow.a) / d - R) / c.nu;
+    const N amplitude = c.response.amplitude, square = alpha * alpha + gamma * gamma;
+    const N disc = alpha * alpha * g * g - square * (g * g - amplitude * amplitude);
+    std::vector<ClosedForm> found;
+    if (disc < 0) return found;
+    for (const int sign : {-1, 1}) {
+      const N u = (alpha * g + sign * sqrt(disc)) / square;
+      if (u <= 0) continue;
+      // (1 + flow) r = flow (-g, R u) - (g, u), the response r at the impact on the lower stop
+      const N p = flow.a * -g + flow.b * R * u - g, q = flow.b * g + flow.c * R * u - u;
+      const N x = ((1 + flow.c) * p - flow.b * q) / d, v = (flow.b * p + (1 + flow.a) * q) / d;
+      // x = P sin + Q cos, v/nu = P cos - Q sin
+      const N P = c.response.in_phase, Q = c.response.quadrature, size = amplitude * amplitude;
+      const N sine = (P * x - Q * v / c.nu) / size, cosine = (Q * x + P * v / c.nu) / size;
+      const N phase = atan2(sine, cosine) + pi<N>();  // of the upper stop
+      const N force = c.f * sin(phase), before = force - g - 2 * c.h * u, after = force - g + 2 * c.h * R * u;
+      const N corner = (R * before + after) / u;  // S = [[-R, 0], [corner, -R]]; the map is -flow S
+      const N trace = -(flow.a * -R + flow.b * corner + flow.c * -R);
+      found.push_back({static_cast<double>(phase), static_cast<double>(u), static_cast<double>(trace)});
+    }
+    return found;
+  });
+}
+
+TEST(OrbitEquations, have_the_closed_form_of_one_impact_on_each_stop_as_solution) {
+  std::mt19937 random(23);
+  std::size_t solutions = 0;
+  for (int i = 0; i < 1000; ++i) {
+    const Scene scene = random_scene(random);
+    for (const ClosedForm& known : closed_forms(scene)) {
+      if (known.speed < 1e-3) continue;  // nearly a graze: ill-conditioned
+      const Orbit shape{{{Side::upper, known.phase + 1e-6, known.speed * (1 + 1e-6)}}, 1, true};
+      const OrbitEquations equations(scene, shape, {}, known.speed);
+      const auto at = solution(equations, equations.unknowns_of(scene, shape), 1e-12);
+      ASSERT_TRUE(at) << i;
+      const Orbit orbit = equations.orbit_at(*at);
+      const ImpactMap map = impact_map(scene, orbit);
+      // the closer to a fold, the worse conditioned: the distance of a multiplier from 1
+      const double condition = 1 + (1 + std::abs(map.trace())) / std::abs(1 + map.determinant - map.trace());
+      EXPECT_NEAR(orbit.impacts[0].before, known.speed, 1e-13 * condition * std::max(1.0, known.speed)) << i;
+      EXPECT_NEAR(std::remainder(orbit.impacts[0].phase - known.phase, 2 * M_PI), 0.0, 1e-12 * condition) << i;
+      EXPECT_NEAR(map.trace(), known.trace, 1e-11 * condition * (1 + std::abs(known.trace)) / known.speed) << i;
+      ++solutions;
+    }
+  }
+  EXPECT_GT(solutions, 400);
+}
+
+TEST(OrbitEquations, know_the_multipliers_of_an_unstable_motion) {
+  const Scene scene = symmetric_scene(0.1, 1.0, 2.0, 0.7, 0.5);
+  const Orbit guess{{{Side::upper, 4.4663, 0.205}}, 1, true};
+  const OrbitEquations equations(scene, guess, {}, 1.0);
+  const auto at = solution(equations, equations.unknowns_of(scene, guess), 1e-13);
+  ASSERT_TRUE(at);
+  EXPECT_NEAR(equations.orbit_at(*at).impacts[0].before, 0.205083731882872, 1e-14);
+  const ImpactMap map = impact_map(scene, equations.orbit_at(*at));
+  EXPECT_NEAR(map.trace() / 2 + std::sqrt(map.trace() * map.trace() / 4 - map.determinant), 10.4402938, 5e-8);
+}
+
+/// The end of a flight in 50 digits, at parameters and instants that are a step away along one of them.
+struct Stepped {
+  FiftyDigits begin, before, end, h, f, nu, load, upper, R;
+};
+FlightEnd<FiftyDigits> flown(const Stepped& s) {
+  Scene scene = symmetric_scene(0.1, 1.0, 1.0, 0.7, 1.0);
+  Parameters<FiftyDigits> p(scene);
+  p.h = s.h, p.f = s.f, p.nu = s.nu, p.load = s.load, p.upper = s.upper, p.lower = -s.upper, p.R_lower = s.R;
+  const Flight<FiftyDigits> flight{Side::lower, s.begin, s.before, Side::upper, s.end};
+  if (s.h >= 1) return fly<Effects{Damping::heavy, Forcing::regular}>(p, flight);
+  return fly<Effects{Damping::light, Forcing::regular}>(p, flight);
+}
+
+TEST(Flight, has_the_derivatives_that_differences_in_fifty_digits_have) {
+  using Six = Dual<double, 9>;
+  constexpr FiftyDigits Stepped::*variables[] = {&Stepped::begin, &Stepped::before, &Stepped::end,
+                                                 &Stepped::h,     &Stepped::f,      &Stepped::nu,
+                                                 &Stepped::load,  &Stepped::upper,  &Stepped::R};
+  std::mt19937 random(5);
+  for (int i = 0; i < 100; ++i) {
+    const auto in = [&](double a, double b) { return std::uniform_real_distribution(a, b)(random); };
+    const double nu = in(0.2, 4), h = i % 4 == 0 ? in(1.1, 2) : in(0.01, 0.9);
+    const Stepped here{in(0, 6), in(-2, -0.1), 0, h, in(0.2, 2), nu, in(-0.3, 0.3), in(0.2, 2), in(0, 1)};
+    Stepped at = here;
+    at.end = here.begin + nu * in(0.05, 6);
+    Parameters<Six> p(symmetric_scene(0, 0, 1, 1, 1));
+    const auto variable = [&](std::size_t k) { return Six(static_cast<double>(at.*variables[k]), k); };
+    p.h = variable(3), p.f = variable(4), p.nu = variable(5), p.load = variable(6), p.upper = variable(7);
+    p.lower = -variable(7), p.R_lower = variable(8);
+    const Flight<Six> flight{Side::lower, variable(0), variable(1), Side::upper, variable(2)};
+    const FlightEnd<Six> exact = h >= 1 ? fly<Effects{Damping::heavy, Forcing::regular}>(p, flight)
+                                 : std::hypot(h, nu - 1) < secular_distance
+                                     ? fly<Effects{Damping::light, Forcing::secular}>(p, flight)
+                                     : fly<Effects{Damping::light, Forcing::regular}>(p, flight);
+    for (std::size_t k = 0; k < 9; ++k) {
+      const FiftyDigits step("1e-16");  // error of a central difference: 1e-32 and 1e-34
+      Stepped ahead = at, behind = at;
+      ahead.*variables[k] += step, behind.*variables[k] -= step;
+      const auto a = flown(ahead), b = flown(behind);
+      const double x = static_cast<double>((a.beyond - b.beyond) / (2 * step)),
+                   v = static_cast<double>((a.velocity - b.velocity) / (2 * step));
+      EXPECT_NEAR(exact.beyond.slope[k], x, 2e-12 * (1 + std::abs(x)) / std::min(1.0, std::abs(1 - h)))
+          << i << ' ' << k;
+      EXPECT_NEAR(exact.velocity.slope[k], v, 2e-12 * (1 + std::abs(v)) / std::min(1.0, std::abs(1 - h)))
+          << i << ' ' << k;
+    }
+  }
+}
+
+TEST(OrbitEquations, of_a_multiplier_have_the_derivatives_of_their_differences) {
+  const Scene scene = symmetric_scene(0.1, 1.0, 2.0, 0.7, 0.5);
+  const Orbit orbit{{{Side::lower, 0.9, -0.8}, {Side::upper, 4.2, 0.9}}, 2, false};
+  const OrbitEquations equations(scene, orbit, {{Parameter::nu, 0.5}, {Parameter::R, 0.3}}, 0.7,
+                                 {Condition::Kind::multiplier, -1, 0});
+  const Vector z = equations.unknowns_of(scene, orbit);
+  const auto here = equations.at(z);
+  ASSERT_TRUE(here);
+  for (std::size_t k = 0; k < z.size(); ++k) {
+    Vector axis(z.size(), 0.0);
+    axis[k] = 1e-6;  // truncation 1e-12, rounding 1e-10
+    const auto ahead = equations.at(sum(z, 1.0, axis)), behind = equations.at(sum(z, -1.0, axis));
+    for (std::size_t i = 0; i < equations.equations(); ++i)
+      EXPECT_NEAR(here->slope(i, k), (ahead->residual[i] - behind->residual[i]) / 2e-6, 1e-8) << i << ' ' << k;
+  }
+}
+
+TEST(Violation, tells_a_flight_through_a_stop_and_an_impact_that_pulls) {
+  const Scene scene = symmetric_scene(0.1, 1.0, 2.0, 0.7, 0.5);
+  const Orbit guess{{{Side::upper, 1.98, 0.93}}, 1, true};
+  const OrbitEquations equations(scene, guess, {}, 1.0);
+  const auto at = solution(equations, equations.unknowns_of(scene, guess), 1e-13);
+  ASSERT_TRUE(at);
+  const Orbit orbit = equations.orbit_at(*at);
+  EXPECT_FALSE(violation(scene, orbit));
+  Orbit pulling = orbit;
+  pulling.impacts[0].before = -0.1;
+  ASSERT_TRUE(violation(scene, pulling));
+  EXPECT_EQ(violation(scene, pulling)->kind, Violation::Kind::pulls);
+  const auto quiet = violation(scene, {{}, 1, true});  // the response has an amplitude of 0.33
+  EXPECT_FALSE(quiet);
+  const auto through = violation(symmetric_scene(0.1, 1.0, 2.0, 0.7, 0.3), {{}, 1, true});
+  ASSERT_TRUE(through);
+  EXPECT_EQ(through->kind, Violation::Kind::passes_through);
+}
+
+TEST(LinearSystem, is_solved_with_pivots) {
+  Matrix matrix(3, 3);
+  matrix.elements = {0, 2, 1, 1e-9, 1e-9, 0, 3, 0, 1};
+  const auto x = solve(matrix, {7, 3e-9, 6});
+  ASSERT_TRUE(x);
+  EXPECT_NEAR((*x)[0], 1, 1e-14);
+  EXPECT_NEAR((*x)[1], 2, 1e-14);
+  EXPECT_NEAR((*x)[2], 3, 1e-14);
+  matrix.elements = {1, 2, 3, 2, 4, 6, 0, 0, 1};
+  EXPECT_FALSE(solve(matrix, {1, 2, 3}));
+}
+
+}  // namespace
+}  // namespace clatter::branches

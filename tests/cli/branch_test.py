@@ -1,0 +1,128 @@
+"""`clatter branch`: its file, its text and JSON, the picture, and every way in which it refuses.
+
+Environment: CLATTER, the program; CLATTER_SOURCE, the source directory.
+"""
+
+import json
+import subprocess
+import unittest
+
+import h5py
+import numpy as np
+import xarray
+from command_line import SOURCE, CommandLine
+
+SCENE = "[scene]\nh = 0.1\nf = -1.0\nR = 0.7\nxs = -3\nnu = 1.1\nx0 = 2\nv0 = 3\n"
+BRANCH = '[branch]\nalong = "nu"\nrange = [0.85, 1.5]\n'
+
+
+class Branch(CommandLine):
+    def branch(self, text, *words):
+        self.write("a.toml", text)
+        return self.clatter("branch", "a.toml", *words)
+
+    def test_file_has_points_and_special_points_that_tools_read(self):
+        result = self.branch(SCENE + BRANCH)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        with xarray.open_dataset((self.directory / "a.branch.h5")) as data:
+            self.assertEqual(data["nu"].dims, ("point",))
+            self.assertEqual(data["multiplier_re"].dims, ("point", "multiplier"))
+            inside = np.hypot(data["multiplier_re"], data["multiplier_im"]).max("multiplier") < 1
+            np.testing.assert_array_equal(inside, data["stable"] == 1)
+            self.assertEqual(set(data["branch"].values), {0, 1})
+            for branch in (0, 1):
+                self.assertTrue((np.diff(data["arclength"].values[data["branch"] == branch]) >= 0).all())
+            kinds = [kind if isinstance(kind, str) else kind.decode() for kind in data["special_kind"].values]
+            fold = kinds.index("fold")
+            self.assertAlmostEqual(float(data["special_nu"][fold]), 1.42486182628998, 13)
+            self.assertLessEqual(float(data["nu"].max()), 1.5)
+
+    def test_json_is_an_object_a_special_point(self):
+        lines = self.branch(SCENE + BRANCH, "--json", "-q").stdout.splitlines()
+        special = [json.loads(line) for line in lines]
+        graze = next(point for point in special if point["kind"] == "graze")
+        self.assertAlmostEqual(graze["nu"], 1.11687761860245, 13)
+        self.assertEqual((graze["impact_speed"], graze["branches"], graze["period_ratio"]), (0.0, [0, 1], 1))
+
+    def test_ini_and_set_say_the_same_as_toml(self):
+        plain = self.branch(SCENE + BRANCH, "-q").stdout
+        ini = (SCENE + BRANCH).replace('"', "").replace("[0.85, 1.5]", "0.85, 1.5")
+        self.write("b.ini", ini)
+        self.assertEqual(self.clatter("branch", "b.ini", "-q").stdout, plain)
+        words = ("--set", "branch.along=nu", "--set", "branch.range=0.85, 1.5")
+        self.write("c.toml", SCENE)
+        self.assertEqual(self.clatter("branch", "c.toml", "-q", *words).stdout, plain)
+
+    def test_output_names_its_configuration_which_runs_again(self):
+        self.branch(SCENE + BRANCH, "-q")
+        config = self.clatter("info", "a.branch.h5", "--config").stdout
+        self.write("again.toml", config)
+        self.assertEqual(self.clatter("branch", "again.toml", "-q").returncode, 0)
+        with h5py.File((self.directory / "a.branch.h5")) as one, h5py.File(
+            (self.directory / "again.branch.h5")
+        ) as other:
+            np.testing.assert_array_equal(one["x"][:], other["x"][:])
+
+    def test_mistakes_are_told_with_their_place_and_the_way_out(self):
+        for text, words in (
+            (SCENE, ("a.toml: no branch.along and branch.range", "--set branch.along=nu")),
+            (SCENE + "[branch]\nrange = [1, 2]\n", ("a.toml:9:2", "without 'along'")),
+            (SCENE + '[branch]\nalong = "nu"\n', ("a.toml:9:2", "without 'range'")),
+            (SCENE + '[branch]\nalong = "x0"\nrange = [1, 2]\n', ("a.toml:10:9", "expected one of h, f, nu")),
+            (SCENE + '[branch]\nalong = "nu"\nrange = [2, 1]\n', ("a.toml:11:9", "two numbers, the lower first")),
+            (SCENE + '[branch]\nalong = "nu"\nrange = 2\n', ("a.toml:11:9", "two numbers, the lower first")),
+            (SCENE + '[branch]\nalong = "nu"\nrange = [-1, 1]\n', ("a.toml:11:9", "nu = -1", "> 0")),
+            (SCENE.replace("nu = 1.1\n", "") + "[sweep]\nnu = [1, 2]\n" + BRANCH, ("a.toml:9:1", "both [sweep] and")),
+            (SCENE.replace("x0 = 2\n", "") + "[sweep]\nx0 = [1, 2]\n" + BRANCH, ("axis x0", "give that in [scene]")),
+        ):
+            result = self.branch(text)
+            self.assertEqual(result.returncode, 2, text)
+            for part in words:
+                self.assertIn(part, result.stderr)
+            self.assertFalse((self.directory / "a.branch.h5").exists())
+
+    def test_starts_that_cannot_be_followed_say_what_to_set(self):
+        for text, part in (
+            (SCENE.replace("f = -1.0", "f = 0"), "set scene.f"),
+            (SCENE.replace("nu = 1.1", "nu = 0.9") + "[time]\nmax_periods = 60\n", "settles on no periodic motion"),
+        ):
+            result = self.branch(text + BRANCH)
+            self.assertEqual(result.returncode, 1)
+            self.assertIn(part, result.stderr)
+            self.assertFalse((self.directory / "a.branch.h5").exists())
+
+    def test_a_budget_that_is_spent_is_told_with_the_last_point_and_the_file_is_written(self):
+        result = self.branch(SCENE + BRANCH + "max_points = 20\n")
+        self.assertEqual(result.returncode, 1)
+        self.assertRegex(result.stderr, r"branch 0 stops at nu = [\d.]+: branch.max_points is spent")
+        with h5py.File((self.directory / "a.branch.h5")) as file:
+            self.assertLessEqual(len(file["nu"]), 21)
+
+    def test_other_outputs_are_not_overwritten(self):
+        self.write("a.toml", SCENE + "[observe]\nextrema = true\n" + BRANCH)
+        self.assertEqual(self.clatter("run", "a.toml", "-o", "a.h5", "-q").returncode, 0)
+        result = self.clatter("branch", "a.toml", "-o", "a.h5")
+        self.assertNotEqual(result.returncode, 0)
+        self.assertIn("`clatter run`, this is one of `clatter branch`", result.stderr)
+
+    def test_export_says_that_branches_are_no_points(self):
+        self.branch(SCENE + BRANCH, "-q")
+        result = self.clatter("export", "a.branch.h5")
+        self.assertEqual(result.returncode, 74)
+        self.assertIn("holds branches", result.stderr)
+
+    def test_picture_has_branches_special_points_and_a_sweep_behind(self):
+        self.branch(SCENE + BRANCH, "-q")
+        self.write("s.toml", SCENE.replace("nu = 1.1\n", "") + "[sweep]\nnu = [1.1, 1.3]\n[observe]\nextrema = true\n")
+        self.assertEqual(self.clatter("run", "s.toml", "-q").returncode, 0)
+        plot = ["/usr/bin/python3", SOURCE / "scripts" / "plot.py", "--format", "svg"]
+        files = [(self.directory / "a.branch.h5"), (self.directory / "s.h5")]
+        result = subprocess.run([*plot, *files], capture_output=True, text=True, cwd=self.directory)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        svg = (self.directory / "a.branch+s.svg").read_text(encoding="utf-8")
+        for part in ('id="branch 0"', 'id="branch 1"', "<!-- fold -->", "<!-- graze -->", "<!-- sweep -->"):
+            self.assertIn(part, svg)
+
+
+if __name__ == "__main__":
+    unittest.main()
