@@ -21,7 +21,7 @@ class Shards(StoppedRuns):
         output = self.directory / f"a.{number}-of-{of}.h5"
         share = ("--shard", f"{number}/{of}", *words)
         if interrupted:
-            self.stops += self.in_steps(*share, output=output, seconds=0.01, **more)
+            self.stops += self.in_steps(*share, output=output, **more)
         else:
             result = self.run_command(*share, output=output, **more)
             self.assertEqual(result.returncode, 0, result.stderr)

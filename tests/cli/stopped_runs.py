@@ -94,11 +94,12 @@ class StoppedRuns(CommandLine):
         said = process.communicate(timeout=300)[1]
         return process.returncode, said
 
-    def in_steps(self, *words, seconds=0.03, **more):
-        """Runs with --max-time until it is done; returns how often it was stopped with something finished."""
+    def in_steps(self, *words, **more):
+        """Runs with --max-time, longer and longer, until it is done; returns how often it was stopped with something
+        finished. Times grow in small ratios, so that on a machine of any speed some end in the middle."""
         stops = 0
-        for attempt in range(1, 200):
-            result = self.run_command("--max-time", f"{seconds * attempt:g}", *words, **more)
+        for attempt in range(100):
+            result = self.run_command("--max-time", f"{0.001 * 1.2**attempt:.4g}", *words, **more)
             if result.returncode == 0:
                 return stops
             self.assertEqual(result.returncode, 124, result.stderr)
