@@ -35,14 +35,39 @@ struct Waiting {
   std::int64_t generation = 0;
 };
 
+/// Whether every scene along a branch is symmetric.
+bool stays_symmetric(const Scene& scene, sweep::Parameter along) {
+  using enum sweep::Parameter;
+  const bool one_sided =
+      along == load || along == stop_lower || along == stop_upper || along == R_lower || along == R_upper;
+  return is_symmetric(scene) && !one_sided;
+}
+
+/// Throws StartError if the scene doesn't lie on the branch that is asked for.
+void require_start_in_range(const Scene& scene, const BranchSettings& settings) {
+  const Stops& stops = scene.stops;
+  const std::string name(sweep::key_of(settings.along));
+  if (settings.along == sweep::Parameter::xs && stops.lower != -stops.upper)
+    throw StartError("branch.along = xs moves both stops, which aren't symmetric; follow stop_lower or stop_upper");
+  if (settings.along == sweep::Parameter::R && stops.restitution_lower != stops.restitution_upper)
+    throw StartError("branch.along = R changes both stops, whose R differ; follow R_lower or R_upper");
+  const double at = value_of(scene, settings.along);
+  if (!(at >= settings.range[0] && at <= settings.range[1]))
+    throw StartError("the start lies outside branch.range; give scene." + name + " a value within it");
+}
+
 /// Everything about following one branch after the other.
 class Follower {
  public:
   Follower(const point::Problem& problem, const BranchSettings& settings)
-      : problem_(problem), settings_(settings), width_(settings.range[1] - settings.range[0]) {}
+      : problem_(problem),
+        settings_(settings),
+        width_(settings.range[1] - settings.range[0]),
+        symmetric_(stays_symmetric(problem, settings.along)) {}
 
   Branches run() {
-    waiting_.push_back({problem_, start_orbit(problem_, settings_.period), {}, {}, 0});
+    require_start_in_range(problem_, settings_);
+    waiting_.push_back({problem_, start_orbit(problem_, settings_.period, symmetric_), {}, {}, 0});
     while (!waiting_.empty()) {
       const Waiting next = waiting_.front();
       waiting_.pop_front();
@@ -215,7 +240,7 @@ class Follower {
     for (Found& f : found) {
       if (f.kind == SpecialKind::fold) {
         const Orbit orbit = equations.orbit_at(f.point.at);
-        const Orbit half = orbit.half_if_same(1e-4, is_symmetric(problem_));
+        const Orbit half = orbit.half_if_same(1e-4, symmetric_);
         if (half.size() < orbit.size()) return note_birth(equations, f.point, half), true;
       }
       note(equations, f.kind, f.point);
@@ -333,7 +358,7 @@ class Follower {
     end(point, "graze");
     if (result_.special.size() == before) return;
     Orbit beyond_graze = found->kind == Violation::Kind::passes_through ? graze : graze.without(impact);
-    if (beyond_graze.size() == 0) beyond_graze = Orbit{}.half_if_same(0.0, is_symmetric(problem_));
+    if (beyond_graze.size() == 0) beyond_graze = Orbit{}.half_if_same(0.0, symmetric_);
     waiting_.push_back({at, beyond_graze, {}, special, generation_});
   }
 
@@ -347,6 +372,7 @@ class Follower {
   point::Problem problem_;
   BranchSettings settings_;
   double width_;
+  bool symmetric_;  ///< all scenes of the branch
   double speed_unit_ = 0.0;
   std::size_t branch_ = 0;
   std::int64_t generation_ = 0;

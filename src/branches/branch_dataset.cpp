@@ -87,7 +87,9 @@ class Columns {
 
 }  // namespace
 
-std::vector<std::string> names_of_texts() { return {"word", "regime", "special_kind", "special_word", "special_regime"}; }
+std::vector<std::string> names_of_texts() {
+  return {"word", "regime", "special_kind", "special_word", "special_regime"};
+}
 
 sweep::Dataset branch_dataset(const Branches& branches, const BranchSettings& settings) {
   sweep::Dataset dataset;

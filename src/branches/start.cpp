@@ -26,7 +26,7 @@ std::pair<PhasePoint, std::int64_t> settled(point::Problem problem) {
 
 }  // namespace
 
-Orbit start_orbit(const point::Problem& problem, std::int64_t period) {
+Orbit start_orbit(const point::Problem& problem, std::int64_t period, bool symmetric) {
   if (problem.oscillator.forcing == 0) throw StartError("a branch needs a force, whose periods it counts: set scene.f");
   PhasePoint state{problem.start.displacement, problem.start.velocity};
   if (period == 0) {
@@ -42,7 +42,7 @@ Orbit start_orbit(const point::Problem& problem, std::int64_t period) {
   Orbit orbit = orbit_of(*round, problem.oscillator.frequency);
   for (const OrbitImpact& impact : orbit.impacts)
     if (impact.before == 0) throw StartError("the motion at the start rests on a stop; begin where it doesn't");
-  return orbit.half_if_same(1e-6, is_symmetric(problem));
+  return orbit.half_if_same(1e-6, symmetric);
 }
 
 }  // namespace clatter::branches

@@ -129,7 +129,8 @@ TEST(Branch, is_stable_where_a_run_stays_on_it) {
 
 /// Flips of one stop's motion over two forcing periods: VIVID (arXiv 2510.16218, its tables).
 TEST(Branch, flips_where_vivid_says) {
-  for (const auto& [nu, flip] : {std::pair(0.81, 0.347533397412283), {0.90011, 0.354356256854738}}) {
+  for (const auto& known : {std::pair(0.81, 0.347533397412283), {0.90011, 0.354356256854738}}) {
+    const double nu = known.first, flip = known.second;
     Stops stops;
     stops.upper = 1.0, stops.restitution_upper = 0.9;
     point::Problem problem = problem_of(0.02, 0.36, nu, stops);
@@ -169,7 +170,7 @@ TEST(Branch, measures_are_the_observables_of_a_run) {
   problem.observe.extrema = true, problem.observe.harmonics_method = observables::HarmonicsMethod::exact;
   point::ThreadScratch scratch;
   const point::PointResult run = run_point(problem, scratch);
-  const Orbit orbit = start_orbit(problem, 0);
+  const Orbit orbit = start_orbit(problem, 0, true);
   const OrbitEquations equations(problem, orbit, {{Parameter::nu, 1.0}}, 1.0);
   const Vector z = equations.unknowns_of(problem, orbit), still(z.size(), 0.0);
   EXPECT_NEAR(impact_power(equations, z, still).value, run.impact_power, 1e-12);
@@ -179,9 +180,37 @@ TEST(Branch, measures_are_the_observables_of_a_run) {
   EXPECT_NEAR(range.velocity().high, run.v_max, 1e-11);
 }
 
+/// A load, or one stop that moves, takes the symmetry away: no half of a motion stands for the other then.
+TEST(Branch, of_motion_that_loses_its_symmetry_by_the_parameter_is_that_of_runs) {
+  for (const Parameter along : {Parameter::load, Parameter::stop_upper, Parameter::R_upper}) {
+    point::Problem problem = problem_of(0.1, 1.0, 2.0, {-0.5, 0.5, 0.7, 0.7});
+    problem.start = {0.1, 1.0, 0.0};
+    const double here = value_of(problem, along);
+    const Branches found = follow_branches(problem, {.along = along, .range = {here - 0.05, here + 0.05}});
+    for (const std::size_t i : {std::size_t{0}, found.points.size() - 1}) {
+      const BranchPoint& point = found.points[i];
+      ASSERT_TRUE(point.stable);
+      EXPECT_FALSE(point.orbit.mirrored);
+      EXPECT_NEAR(std::abs(value_of(point.scene, along) - here), 0.05, 1e-15);
+      point::Problem run = problem;
+      static_cast<Scene&>(run) = point.scene;
+      run.observe = {}, run.observe.attractor = true, run.start = {0.1, 1.0, 0.0};
+      point::ThreadScratch scratch;
+      const point::PointResult result = run_point(run, scratch);
+      const PhasePoint state = state_at_phase_zero(point.scene, point.orbit);
+      EXPECT_NEAR(result.attractor_x, state.x, 1e-10);
+      EXPECT_NEAR(result.attractor_v, state.v, 1e-10);
+    }
+  }
+}
+
 TEST(Branch, refuses_starts_that_it_cannot_follow) {
-  const auto follow = [](const point::Problem& problem) { return follow_branches(problem, {.range = {0.5, 1.5}}); };
+  const auto follow = [](const point::Problem& problem) { return follow_branches(problem, {.range = {0.5, 3.0}}); };
   EXPECT_THROW((void)follow(problem_of(0.1, 0.0, 1.0, {-1.0, 1.0, 0.7, 0.7})), StartError);
+  EXPECT_THROW((void)follow(problem_of(0.1, 1.0, 3.5, {-1.0, 1.0, 0.7, 0.7})), StartError);  // outside the range
+  const point::Problem uneven = problem_of(0.1, 1.0, 1.0, {-1.0, 2.0, 0.7, 0.5});
+  EXPECT_THROW((void)follow_branches(uneven, {.along = Parameter::xs, .range = {0.5, 3}}), StartError);
+  EXPECT_THROW((void)follow_branches(uneven, {.along = Parameter::R, .range = {0.1, 1}}), StartError);
   point::Problem chaos = problem_of(0.1, 1.0, 2.8, {});
   chaos.stops.upper = 0.0, chaos.stops.restitution_upper = 0.7;
   chaos.time.max_periods = 50;
