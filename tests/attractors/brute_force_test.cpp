@@ -81,15 +81,14 @@ double distance_of(const std::vector<PhasePoint>& a, const std::vector<PhasePoin
   constexpr int boxes = 12;
   std::vector<PhasePoint> all = a;
   all.insert(all.end(), b.begin(), b.end());
-  const auto [left, right] = std::ranges::minmax(all, {}, &PhasePoint::x);
-  const auto [low, high] = std::ranges::minmax(all, {}, &PhasePoint::v);
+  const auto x = std::ranges::minmax(all, {}, &PhasePoint::x), v = std::ranges::minmax(all, {}, &PhasePoint::v);
   const auto part = [](double value, double from, double to) {
     return std::clamp(static_cast<int>(boxes * (value - from) / (to - from)), 0, boxes - 1);
   };
   std::array<double, std::size_t{boxes} * boxes> shares{};
   const auto add = [&](const std::vector<PhasePoint>& states, double weight) {
     for (const PhasePoint& s : states)
-      shares[static_cast<std::size_t>(part(s.x, left.x, right.x) * boxes + part(s.v, low.v, high.v))] += weight;
+      shares[static_cast<std::size_t>(part(s.x, x.min.x, x.max.x) * boxes + part(s.v, v.min.v, v.max.v))] += weight;
   };
   add(a, 1.0 / static_cast<double>(a.size())), add(b, -1.0 / static_cast<double>(b.size()));
   return std::accumulate(shares.begin(), shares.end(), 0.0, [](double sum, double d) { return sum + std::abs(d); }) / 2;
