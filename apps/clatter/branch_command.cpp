@@ -3,6 +3,7 @@
 #include <iostream>
 
 #include "branches/branch_dataset.hpp"
+#include "branches/curve.hpp"
 #include "branches/measures.hpp"
 #include "commands.hpp"
 #include "common_options.hpp"
@@ -24,14 +25,17 @@ double fastest_impact(const SpecialPoint& special) {
 }
 
 /// {"kind": "fold", "nu": 1.42, ..., "multipliers": [[1, 0], [0.1, 0]]}: one line; real and imaginary parts.
-std::string special_json(const SpecialPoint& special, sweep::Parameter along) {
+std::string special_json(const SpecialPoint& special, const std::vector<sweep::Parameter>& parameters) {
   const branches::BranchPoint& at = special.at;
   const PhasePoint state = branches::state_at_phase_zero(at.scene, at.orbit);
   const auto pair = [](double re, double im) { return '[' + json_number(re) + ", " + json_number(im) + ']'; };
   std::string numbers;
   for (const std::size_t branch : special.branches) numbers += (numbers.empty() ? "" : ", ") + std::to_string(branch);
-  return "{\"kind\": " + json_text(std::string(name_of(special.kind))) + ", " +
-         json_text(std::string(sweep::key_of(along))) + ": " + json_number(branches::value_of(at.scene, along)) +
+  std::string values;
+  for (const sweep::Parameter parameter : parameters)
+    values += ", " + json_text(std::string(sweep::key_of(parameter))) + ": " +
+              json_number(branches::value_of(at.scene, parameter));
+  return "{\"kind\": " + json_text(std::string(name_of(special.kind))) + values +
          ", \"impact_speed\": " + json_number(fastest_impact(special)) + ", \"x\": " + json_number(state.x) +
          ", \"v\": " + json_number(state.v) + ", \"period_ratio\": " + json_number(at.orbit.period_ratio()) +
          ", \"word\": " + json_text(at.orbit.word()) + ", \"stable\": " + (at.stable ? "true" : "false") +
@@ -40,23 +44,26 @@ std::string special_json(const SpecialPoint& special, sweep::Parameter along) {
 }
 
 /// "fold                  nu = 1.42486182628998  speed 1.72122564705845  LU  branch 0"
-std::string special_text(const SpecialPoint& special, sweep::Parameter along) {
-  std::string name(name_of(special.kind)), word = special.at.orbit.word();
-  name.resize(22, ' ');
-  std::string text = name + std::string(sweep::key_of(along)) + " = " +
-                     formatted("%-18.15g", branches::value_of(special.at.scene, along)) + " speed " +
-                     formatted("%-18.15g", fastest_impact(special)) + ' ' + (word.empty() ? "no impacts" : word) +
-                     (special.branches.size() > 1 ? "  branches" : "  branch");
+std::string special_text(const SpecialPoint& special, const std::vector<sweep::Parameter>& parameters) {
+  std::string text(name_of(special.kind));
+  const std::string word = special.at.orbit.word();
+  text.resize(22, ' ');
+  for (const sweep::Parameter parameter : parameters)
+    text += std::string(sweep::key_of(parameter)) + " = " +
+            formatted("%-18.15g", branches::value_of(special.at.scene, parameter)) + ' ';
+  text += "speed " + formatted("%-18.15g", fastest_impact(special)) + ' ' + (word.empty() ? "no impacts" : word) +
+          (parameters.size() > 1 ? "  curve" : "  branch") + (special.branches.size() > 1 ? "es" : "");
   for (const std::size_t branch : special.branches) text += ' ' + std::to_string(branch);
   return text + '\n';
 }
 
 /// "mine.toml: branch 2 stops at nu = 0.91: branch.max_points is spent"
-void tell_failures(const branches::Branches& found, sweep::Parameter along, const std::string& file) {
+void tell_failures(const branches::Branches& found, const branches::BranchSettings& settings, const std::string& file) {
   for (const branches::BranchEnd& end : found.ends)
     if (end.failed)
-      std::cerr << storage::printable(file) << ": branch " << end.branch << " stops at " << sweep::key_of(along)
-                << " = " << formatted("%.9g", end.parameter) << ": " << end.reason << '\n';
+      std::cerr << storage::printable(file) << (settings.across ? ": curve " : ": branch ") << end.branch
+                << " stops at " << sweep::key_of(settings.along) << " = " << formatted("%.9g", end.parameter) << ": "
+                << end.reason << '\n';
 }
 
 const branches::BranchSettings& branch_of(const config::Config& config, const std::string& file) {
@@ -81,16 +88,19 @@ int run_branch(const Arguments& arguments) {
   storage::require_idle(output);
   branches::Branches found;
   try {
-    found = branches::follow_branches(config.sweep.problem, settings);
+    found = settings.across ? branches::follow_curves(config.sweep.problem, settings)
+                            : branches::follow_branches(config.sweep.problem, settings);
   } catch (const branches::StartError& error) {
     std::cerr << storage::printable(file) << ": " << error.what() << '\n';
     return points_failed;
   }
+  std::vector<sweep::Parameter> parameters{settings.along};
+  if (settings.across) parameters.push_back(*settings.across);
   for (const SpecialPoint& special : found.special)
-    std::cout << (arguments.has("json") ? special_json : special_text)(special, settings.along);
+    std::cout << (arguments.has("json") ? special_json : special_text)(special, parameters);
   std::cout << std::flush;
   place.write_atomically(results::file_image(branch_dataset(found, settings), config).bytes);
-  tell_failures(found, settings.along, file);
+  tell_failures(found, settings, file);
   if (!arguments.has("quiet"))
     std::cerr << counted(static_cast<double>(found.points.size()), "point") << ", "
               << counted(static_cast<double>(found.special.size()), "special point") << ", "

@@ -10,7 +10,7 @@
 #include "attractors/periodic_motion.hpp"
 #include "branches/measures.hpp"
 #include "branches/start.hpp"
-#include "branches/walk.hpp"
+#include "branches/touch.hpp"
 
 namespace clatter::branches {
 namespace {
@@ -26,6 +26,8 @@ constexpr std::array<std::string_view, 10> special_names{"fold",
                                                          "resonant graze",
                                                          "cusp"};
 
+constexpr std::string_view closed_curve = "closed";
+
 /// A branch that waits to be followed.
 struct Waiting {
   Scene scene;
@@ -35,12 +37,11 @@ struct Waiting {
   std::int64_t generation = 0;
 };
 
-/// Whether every scene along a branch is symmetric.
-bool stays_symmetric(const Scene& scene, sweep::Parameter along) {
+/// Whether a scene stays symmetric if a parameter changes.
+bool keeps_symmetry(sweep::Parameter parameter) {
   using enum sweep::Parameter;
-  const bool one_sided =
-      along == load || along == stop_lower || along == stop_upper || along == R_lower || along == R_upper;
-  return is_symmetric(scene) && !one_sided;
+  return parameter != load && parameter != stop_lower && parameter != stop_upper && parameter != R_lower &&
+         parameter != R_upper;
 }
 
 /// Throws StartError if the scene doesn't lie on the branch that is asked for.
@@ -63,7 +64,8 @@ class Follower {
       : problem_(problem),
         settings_(settings),
         width_(settings.range[1] - settings.range[0]),
-        symmetric_(stays_symmetric(problem, settings.along)) {}
+        symmetric_(is_symmetric(problem) && keeps_symmetry(settings.along) &&
+                   (!settings.across || keeps_symmetry(*settings.across))) {}
 
   Branches run() {
     require_start_in_range(problem_, settings_);
@@ -77,14 +79,12 @@ class Follower {
   }
 
  private:
-  [[nodiscard]] OrbitEquations equations_for(const Orbit& orbit, const Condition& condition = {}) const {
-    return {problem_, orbit, {{settings_.along, width_}}, speed_unit_, condition};
+  [[nodiscard]] OrbitEquations equations_for(const Orbit& orbit, std::vector<Condition> conditions = {}) const {
+    return {problem_, orbit, {{settings_.along, width_}}, speed_unit_, std::move(conditions)};
   }
   [[nodiscard]] double parameter(const Scene& scene) const { return value_of(scene, settings_.along); }
   [[nodiscard]] bool in_range(double value) const { return value >= settings_.range[0] && value <= settings_.range[1]; }
-  [[nodiscard]] WalkLimits limits() const {
-    return {settings_.tolerance, settings_.largest_step, static_cast<std::size_t>(settings_.max_points)};
-  }
+  [[nodiscard]] WalkLimits limits() const { return {settings_.tolerance, settings_.largest_step}; }
 
   BranchPoint point_of(const OrbitEquations& equations, const CurvePoint& point) const {
     BranchPoint out{branch_, point.arclength, equations.scene_at(point.at), equations.orbit_at(point.at), false, {},
@@ -119,19 +119,20 @@ class Follower {
       throw StartError(
           "Newton's method does not converge from the motion at the start; move it away from a special point");
     start.at = *at, start.tangent = *along;
-    if (violation(equations.scene_at(start.at), equations.orbit_at(start.at)))
+    if (violation(equations, start.at))
       throw StartError(
           "Newton's method leads from the start to no motion between the stops; set x0 and v0 nearer to the motion "
           "that is meant");
     CurvePoint back = start;
     for (double& x : back.tangent) x = -x;
     walk(equations, back, {});
+    const bool closed = result_.ends.back().reason == closed_curve;
     // the way back was walked first, and is turned round
     std::ranges::reverse(result_.points);
     for (BranchPoint& point : result_.points) point.arclength = -point.arclength;
     for (SpecialPoint& point : result_.special) point.at.arclength = -point.at.arclength;
     add(point_of(equations, start));
-    walk(equations, start, {});
+    if (!closed) walk(equations, start, {});
   }
 
   /// The direction from a special point into a branch that begins there, in which it is motion between the stops.
@@ -149,7 +150,7 @@ class Follower {
     for (const double s : {1e-5, 1e-4, 1e-3, 1e-2})
       for (const Vector& tangent_there : tried) {
         const auto at = corrected(equations, sum(start.at, s, tangent_there), tangent_there, settings_.tolerance);
-        if (at && !violation(equations.scene_at(*at), equations.orbit_at(*at))) return tangent_there;
+        if (at && !violation(equations, *at)) return tangent_there;
       }
     return std::nullopt;
   }
@@ -172,12 +173,16 @@ class Follower {
       const auto next = walk.next();
       if (!next) return end(last, "no step leads on", true);
       const double step = next->arclength - walk.here().arclength;
-      const Scene scene = equations.scene_at(next->at);
-      const Orbit orbit = equations.orbit_at(next->at);
-      if (!in_range(parameter(scene))) return end_of_range(equations, walk, step);
-      if (const auto found = violation(scene, orbit)) return end_in_graze(equations, walk, step);
+      if (!in_range(parameter(equations.scene_at(next->at)))) return end_of_range(equations, walk, step);
+      if (violation(equations, next->at)) return end_in_graze(equations, walk, step);
       const bool born = special_between(equations, walk, step, from);
       if (born) return end(last, "born");
+      if (!from && walk.passes(start, *next)) {
+        CurvePoint closing = start;
+        closing.arclength = next->arclength;
+        last = point_of(equations, closing);
+        return add(last), end(last, std::string(closed_curve));
+      }
       walk.move_to(*next);
       last = point_of(equations, *next);
       add(last);
@@ -190,8 +195,7 @@ class Follower {
       const auto zero = walk.zero([&](const CurvePoint& p) { return p.at.back() * width_ - bound; }, step);
       if (!zero) continue;
       const double length = zero->arclength - walk.here().arclength;
-      if (violation(equations.scene_at(zero->at), equations.orbit_at(zero->at)))
-        return end_in_graze(equations, walk, length);
+      if (violation(equations, zero->at)) return end_in_graze(equations, walk, length);
       special_between(equations, walk, length, {});
       const BranchPoint last = point_of(equations, *zero);
       add(last);
@@ -250,8 +254,7 @@ class Follower {
 
   /// A branch of half the symmetry, or twice the period, of another one ends on it.
   void note_birth(const OrbitEquations& equations, const CurvePoint& point, const Orbit& half) {
-    const Condition condition{Condition::Kind::multiplier, -1, 0};
-    const OrbitEquations there = equations_for(half, condition);
+    const OrbitEquations there = equations_for(half, {{Condition::Kind::multiplier, -1}});
     const auto exact = solution(there, there.unknowns_of(equations.scene_at(point.at), half), settings_.tolerance);
     const SpecialKind kind = half.mirrored ? SpecialKind::symmetry_breaking : SpecialKind::flip;
     const std::size_t special =
@@ -282,7 +285,7 @@ class Follower {
     CurvePoint exact = point;
     if (kind == SpecialKind::fold || kind == SpecialKind::flip || kind == SpecialKind::symmetry_breaking) {
       const int multiplier = kind == SpecialKind::fold ? 1 : -1;
-      const OrbitEquations there = equations_for(equations.shape(), {Condition::Kind::multiplier, multiplier, 0});
+      const OrbitEquations there = equations_for(equations.shape(), {{Condition::Kind::multiplier, multiplier}});
       if (const auto at = solution(there, point.at, settings_.tolerance)) exact.at = *at;
     }
     const BranchPoint at = point_of(equations, exact);
@@ -294,7 +297,7 @@ class Follower {
 
   /// What is born at a flip or a loss of symmetry begins along the eigenvector of multiplier -1.
   void wait_for_daughter(const BranchPoint& at, std::size_t special) {
-    const Orbit daughter = at.orbit.mirrored ? at.orbit.whole() : at.orbit.twice();
+    const Orbit daughter = at.orbit.mirrored ? at.orbit.whole() : at.orbit.repeated(2);
     const ImpactMap map = impact_map(at.scene, at.orbit);
     const auto& m = map.numerator;
     const double c = map.denominator;
@@ -311,62 +314,27 @@ class Follower {
 
   /// The branch ends within a step, at a graze.
   void end_in_graze(const OrbitEquations& equations, const Walk& walk, double step) {
-    double good = 0.0, bad = step;
-    std::optional<Violation> found;
-    std::optional<CurvePoint> beyond;
-    for (int halving = 0; halving < 40 && bad - good > 1e-7 * step; ++halving) {
-      const double middle = halving == 0 ? bad : (good + bad) / 2;
-      const auto point = walk.after(middle);
-      if (!point) return end(point_of(equations, walk.here()), "no step leads on", true);
-      const auto violated = violation(equations.scene_at(point->at), equations.orbit_at(point->at));
-      if (violated)
-        bad = middle, found = violated, beyond = point;
-      else
-        good = middle;
-    }
-    if (!found) return end(point_of(equations, walk.here()), "no step leads on", true);
-    special_between(equations, walk, good, {});
-    const Orbit orbit = equations.orbit_at(beyond->at);
-    const Scene scene = equations.scene_at(beyond->at);
-    Orbit touching = orbit;
-    std::size_t impact = found->impact;
-    if (found->kind == Violation::Kind::passes_through) {
-      impact = orbit.size() == 0 ? 0 : found->impact + 1;
-      touching = orbit.with(found->turning, impact);
-    }
-    if (orbit.size() == 0 && touching.mirrored) touching = in_first_half(touching);
-    const OrbitEquations there = equations_for(touching, {Condition::Kind::graze, 1, impact});
-    const auto exact = solution(there, there.unknowns_of(scene, touching), settings_.tolerance);
-    const auto last_good = walk.after(good);
-    const BranchPoint last = point_of(equations, last_good ? *last_good : walk.here());
-    if (!exact || std::abs(exact->back() - beyond->at.back()) > 10 * step)
+    const std::optional<Touch> touch = touch_within(equations, walk, step);
+    if (!touch) return end(point_of(equations, walk.here()), "no step leads on", true);
+    special_between(equations, walk, touch->last_good.arclength - walk.here().arclength, {});
+    const OrbitEquations there = equations_for(touch->orbit, {{Condition::Kind::graze, 1, touch->impact}});
+    const Vector guess = there.unknowns_of(equations.scene_at(touch->beyond.at), touch->orbit);
+    const auto exact = solution(there, guess, settings_.tolerance);
+    BranchPoint last = point_of(equations, touch->last_good);
+    if (!exact || std::abs(exact->back() - guess.back()) > 10 * step)
       return add(last), end(last, "a contact that no graze explains", true);
-    const Orbit graze = there.orbit_at(*exact);
-    const Scene at = there.scene_at(*exact);
-    BranchPoint point = last;
-    point.scene = at;
-    point.orbit = found->kind == Violation::Kind::passes_through ? orbit : graze;
-    if (found->kind == Violation::Kind::passes_through) {  // the last point of the branch, without the new impact
-      const Orbit without = graze.without(impact);
-      point.orbit = without;
-    }
-    add(point);
+    const Orbit with = there.orbit_at(*exact), without = with.without(touch->impact);
+    last.scene = there.scene_at(*exact), last.orbit = touch->appears ? without : with;
+    add(last);
     const std::size_t before = result_.special.size();
-    BranchPoint with_graze = point;
-    with_graze.orbit = graze;
-    const std::size_t special = add_special(SpecialKind::graze, with_graze);
-    end(point, "graze");
+    BranchPoint at = last;
+    at.orbit = with;
+    const std::size_t special = add_special(SpecialKind::graze, at);
+    end(last, "graze");
     if (result_.special.size() == before) return;
-    Orbit beyond_graze = found->kind == Violation::Kind::passes_through ? graze : graze.without(impact);
-    if (beyond_graze.size() == 0) beyond_graze = Orbit{}.half_if_same(0.0, symmetric_);
-    waiting_.push_back({at, beyond_graze, {}, special, generation_});
-  }
-
-  /// The only impact of a mirrored orbit that is just born, at a phase of 0 ... pi.
-  static Orbit in_first_half(Orbit orbit) {
-    OrbitImpact& impact = orbit.impacts[0];
-    impact.phase = std::remainder(impact.phase, 2 * std::numbers::pi);
-    return orbit;
+    Orbit beyond = touch->appears ? with : without;
+    if (beyond.size() == 0) beyond = Orbit{}.half_if_same(0.0, symmetric_);
+    waiting_.push_back({at.scene, beyond, {}, special, generation_});
   }
 
   point::Problem problem_;

@@ -27,8 +27,8 @@ enum class SpecialKind : std::uint8_t {
   impact_speed,    ///< largest along the branch
   impact_power,    ///< likewise
   harmonic,        ///< likewise
-  resonant_graze,  ///< of a curve: a graze in which multipliers +1 and -1 meet
-  cusp             ///< of a curve of folds: two folds meet
+  resonant_graze,  ///< of a curve: an impact that vanishes on curves of multipliers +1 and -1
+  cusp             ///< of a curve: two special points meet and vanish
 };
 [[nodiscard]] std::string_view name_of(SpecialKind kind);
 

@@ -34,16 +34,17 @@ class Columns {
   }
 
   /// What a motion is, for all of them.
-  void add_motions(const std::vector<BranchPoint>& points, const std::string& parameter_name,
-                   sweep::Parameter parameter) {
-    std::vector<double> value, x, v, period, symmetric, re, im;
+  void add_motions(const std::vector<BranchPoint>& points, const BranchSettings& settings) {
+    std::vector<double> value, second, x, v, period, symmetric, re, im;
     std::vector<std::uint8_t> stable;
     std::vector<std::string> word, regime;
     std::vector<double> low, high, v_low, v_high, speed, power;
     for (const BranchPoint& point : points) {
       const PhasePoint state = state_at_phase_zero(point.scene, point.orbit);
       const observables::Extrema range = extrema(point.scene, point.orbit);
-      value.push_back(value_of(point.scene, parameter)), x.push_back(state.x), v.push_back(state.v);
+      value.push_back(value_of(point.scene, settings.along));
+      if (settings.across) second.push_back(value_of(point.scene, *settings.across));
+      x.push_back(state.x), v.push_back(state.v);
       period.push_back(point.orbit.period_ratio()), word.push_back(point.orbit.word());
       regime.push_back(point.orbit.regime());
       symmetric.push_back(is_symmetric(point.scene) ? point.orbit.mirrored : no_value);
@@ -64,7 +65,9 @@ class Columns {
       speed.push_back(fastest);
       power.push_back(lost / (point.orbit.period_ratio() * period_of(point.scene.oscillator)));
     }
-    add(parameter_name, std::move(value), "parameter along which the motion is followed");
+    add(std::string(sweep::key_of(settings.along)), std::move(value), "parameter along which the motion is followed");
+    if (settings.across)
+      add(std::string(sweep::key_of(*settings.across)), std::move(second), "second parameter of the curve");
     add("x", std::move(x), "displacement at forcing phase 0");
     add("v", std::move(v), "velocity at forcing phase 0");
     add("period_ratio", std::move(period), "period of the motion over the forcing period");
@@ -93,7 +96,6 @@ std::vector<std::string> names_of_texts() {
 
 sweep::Dataset branch_dataset(const Branches& branches, const BranchSettings& settings) {
   sweep::Dataset dataset;
-  const std::string along(sweep::key_of(settings.along));
   std::vector<std::int32_t> branch;
   std::vector<double> arclength;
   for (const BranchPoint& point : branches.points) {
@@ -102,9 +104,9 @@ sweep::Dataset branch_dataset(const Branches& branches, const BranchSettings& se
   }
   Columns points(dataset, "point", branches.points.size(), "");
   dataset.dimensions.push_back({"multiplier", 2});
-  points.add("branch", std::move(branch), "number of the branch");
-  points.add("arclength", std::move(arclength), "along the branch, over the width of its range");
-  points.add_motions(branches.points, along, settings.along);
+  points.add("branch", std::move(branch), settings.across ? "number of the curve" : "number of the branch");
+  points.add("arclength", std::move(arclength), "along the branch or curve, over the width of its range");
+  points.add_motions(branches.points, settings);
 
   std::size_t most = 1;
   std::vector<std::string> kind;
@@ -119,8 +121,9 @@ sweep::Dataset branch_dataset(const Branches& branches, const BranchSettings& se
   Columns specials(dataset, "special", at.size(), "special_");
   dataset.dimensions.push_back({"meeting", most});
   specials.add("kind", std::move(kind), "kind of the special point");
-  specials.add("branch", std::move(meeting), "numbers of the branches that meet there; -1: no more", {"meeting"});
-  specials.add_motions(at, along, settings.along);
+  specials.add("branch", std::move(meeting), "numbers of the branches, or the curves, that meet there; -1: no more",
+               {"meeting"});
+  specials.add_motions(at, settings);
   return dataset;
 }
 

@@ -163,8 +163,18 @@ double value_of(const Scene& scene, Parameter parameter) {
 }
 
 OrbitEquations::OrbitEquations(const Scene& scene, const Orbit& shape, std::vector<Axis> axes, double speed_unit,
-                               const Condition& condition)
-    : scene_(scene), shape_(shape), axes_(std::move(axes)), speed_unit_(speed_unit), condition_(condition) {}
+                               std::vector<Condition> conditions)
+    : scene_(scene),
+      shape_(shape),
+      axes_(std::move(axes)),
+      speed_unit_(speed_unit),
+      conditions_(std::move(conditions)) {}
+
+std::optional<std::size_t> OrbitEquations::grazing() const {
+  for (const Condition& condition : conditions_)
+    if (condition.kind == Condition::Kind::graze) return condition.impact;
+  return std::nullopt;
+}
 
 Vector OrbitEquations::unknowns_of(const Scene& scene, const Orbit& orbit) const {
   Vector z(unknowns());
@@ -219,18 +229,29 @@ std::optional<OrbitEquations::Linearised> OrbitEquations::at(const Vector& z) co
       out.slope(row + 1, next + 1) -= sign * speed_unit_;
     }
   });
-  add_condition(scene, orbit, out);
+  std::size_t row = 2 * orbit.size();
+  for (const Condition& condition : conditions_) {
+    if (condition.kind == Condition::Kind::graze)
+      add_graze(orbit, condition.impact, row, out);
+    else
+      add_multiplier(scene, orbit, condition, row, out);
+    ++row;
+  }
   return out;
 }
 
-void OrbitEquations::add_condition(const Scene& scene, const Orbit& orbit, Linearised& out) const {
-  const std::size_t count = orbit.size(), row = 2 * count;
-  if (condition_.kind == Condition::Kind::none) return;
-  if (condition_.kind == Condition::Kind::graze) {
-    out.residual[row] = orbit.impacts[condition_.impact].before;
-    out.slope(row, 2 * condition_.impact + 1) = speed_unit_;
-    return;
-  }
+void OrbitEquations::add_graze(const Orbit& orbit, std::size_t impact, std::size_t row, Linearised& out) const {
+  out.residual[row] = orbit.impacts[impact].before;
+  out.slope(row, 2 * impact + 1) = speed_unit_;
+}
+
+void OrbitEquations::add_multiplier(const Scene& scene, const Orbit& all, const Condition& condition, std::size_t row,
+                                    Linearised& out) const {
+  const Orbit orbit = condition.without ? all.without(*condition.without) : all;
+  const std::size_t count = orbit.size(), parameters = 2 * all.size();
+  const auto unknown_of = [&](std::size_t impact) {
+    return 2 * (impact + (condition.without && *condition.without <= impact));
+  };
   std::vector<Link<First>> links;
   Parameters<First> p = parameters_of<First>(scene, axes_);
   with_arcs(scene.oscillator, [&]<Effects E>() {
@@ -247,7 +268,7 @@ void OrbitEquations::add_condition(const Scene& scene, const Orbit& orbit, Linea
       for (std::size_t j = 0; j < 2; ++j) k[i][j] = link.numerator[i][j].value;
     return k;
   };
-  const double sigma = condition_.multiplier;
+  const double sigma = condition.multiplier;
   const First determinant = determinant_of(p, orbit);
   std::vector<Square<double>> before{{{{1, 0}, {0, 1}}}}, after(count + 1, {{{1, 0}, {0, 1}}});
   std::vector<double> c_before{1}, c_after(count + 1, 1.0);
@@ -269,13 +290,13 @@ void OrbitEquations::add_condition(const Scene& scene, const Orbit& orbit, Linea
     out.slope(row, unknown) += unit * (denominator * (1 + determinant.value) - sigma * trace);
   };
   for (std::size_t i = 0; i < count; ++i) {
-    add(i, by_begin, 2 * i, 1.0);
-    add(i, by_before, 2 * i + 1, speed_unit_);
-    add(i, by_end, i + 1 == count ? 0 : 2 * (i + 1), 1.0);
-    for (std::size_t k = 0; k < axes_.size(); ++k) add(i, by_first_axis + k, 2 * count + k, axes_[k].unit);
+    add(i, by_begin, unknown_of(i), 1.0);
+    add(i, by_before, unknown_of(i) + 1, speed_unit_);
+    add(i, by_end, unknown_of(i + 1 == count ? 0 : i + 1), 1.0);
+    for (std::size_t k = 0; k < axes_.size(); ++k) add(i, by_first_axis + k, parameters + k, axes_[k].unit);
   }
   for (std::size_t k = 0; k < axes_.size(); ++k)
-    out.slope(row, 2 * count + k) += axes_[k].unit * c_before[count] * determinant.slope[by_first_axis + k];
+    out.slope(row, parameters + k) += axes_[k].unit * c_before[count] * determinant.slope[by_first_axis + k];
 }
 
 ImpactMap impact_map(const Scene& scene, const Orbit& orbit) {

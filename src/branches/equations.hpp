@@ -17,16 +17,16 @@ namespace clatter::branches {
 [[nodiscard]] Scene changed(Scene scene, sweep::Parameter parameter, double value);
 [[nodiscard]] double value_of(const Scene& scene, sweep::Parameter parameter);
 
-/// The equation that singles out a special point on a branch, or a curve of them if two parameters vary.
+/// An equation that singles out a special point on a branch, or a curve of them if two parameters vary.
 struct Condition {
   enum class Kind : std::uint8_t {
-    none,
     multiplier,  ///< a multiplier of the orbit as it is kept is `multiplier`, +1 or -1
     graze        ///< impact number `impact` has no speed
   };
-  Kind kind = Kind::none;
+  Kind kind = Kind::multiplier;
   int multiplier = 1;
   std::size_t impact = 0;
+  std::optional<std::size_t> without{};  ///< the multiplier is that of the orbit without this impact, which grazes
 };
 
 /// The equations of periodic motion with given impacts (multiple shooting over arcs): every flight ends on the stop of
@@ -42,9 +42,9 @@ class OrbitEquations {
   };
 
   OrbitEquations(const Scene& scene, const Orbit& shape, std::vector<Axis> axes, double speed_unit,
-                 const Condition& condition = {});
+                 std::vector<Condition> conditions = {});
 
-  [[nodiscard]] std::size_t equations() const { return 2 * shape_.size() + (condition_.kind != Condition::Kind::none); }
+  [[nodiscard]] std::size_t equations() const { return 2 * shape_.size() + conditions_.size(); }
   [[nodiscard]] std::size_t unknowns() const { return 2 * shape_.size() + axes_.size(); }
 
   /// Residuals and their derivatives by the unknowns, [equation][unknown].
@@ -62,16 +62,20 @@ class OrbitEquations {
   [[nodiscard]] const Orbit& shape() const { return shape_; }
   [[nodiscard]] const std::vector<Axis>& axes() const { return axes_; }
   [[nodiscard]] double speed_unit() const { return speed_unit_; }
-  [[nodiscard]] const Condition& condition() const { return condition_; }
+  [[nodiscard]] const std::vector<Condition>& conditions() const { return conditions_; }
+  /// The impact that grazes by a condition, if there is one.
+  [[nodiscard]] std::optional<std::size_t> grazing() const;
 
  private:
-  void add_condition(const Scene& scene, const Orbit& orbit, Linearised& out) const;
+  void add_graze(const Orbit& orbit, std::size_t impact, std::size_t row, Linearised& out) const;
+  void add_multiplier(const Scene& scene, const Orbit& all, const Condition& condition, std::size_t row,
+                      Linearised& out) const;
 
   Scene scene_;
   Orbit shape_;
   std::vector<Axis> axes_;
   double speed_unit_;
-  Condition condition_;
+  std::vector<Condition> conditions_;
 };
 
 /// The derivative of the map of one impact to the same impact a period, or half a period, later (impact phase and

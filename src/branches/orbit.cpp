@@ -44,11 +44,11 @@ Orbit Orbit::whole() const {
   return orbit;
 }
 
-Orbit Orbit::twice() const {
-  Orbit orbit = whole();
-  const std::size_t count = orbit.size();
-  for (std::size_t i = 0; i < count; ++i) orbit.impacts.push_back(later(orbit.impacts[i], orbit.advance()));
-  orbit.half_turns *= 2;
+Orbit Orbit::repeated(int times) const {
+  const Orbit one = whole();
+  Orbit orbit{{}, times * one.half_turns, false};
+  for (int round = 0; round < times; ++round)
+    for (const OrbitImpact& impact : one.impacts) orbit.impacts.push_back(later(impact, round * one.advance()));
   return orbit;
 }
 
@@ -77,6 +77,18 @@ Orbit Orbit::without(std::size_t i) const {
   Orbit orbit = *this;
   orbit.impacts.erase(orbit.impacts.begin() + static_cast<std::ptrdiff_t>(i));
   return orbit;
+}
+
+Orbit Orbit::once_with_graze(std::size_t i, bool symmetric_scene) const {
+  const Orbit left = without(i), once = left.half_if_same(1e-6, symmetric_scene);
+  if (once.half_turns == half_turns) return *this;
+  OrbitImpact graze = impacts[i];
+  const double first = once.size() > 0 ? once.impacts[0].phase : 0.0;
+  const double repetition = std::floor((graze.phase - first) / once.advance());
+  if (once.mirrored && std::remainder(repetition, 2.0) != 0) graze = branches::mirrored(graze);
+  graze.phase -= repetition * once.advance();
+  const auto later_ones = std::ranges::upper_bound(once.impacts, graze.phase, {}, &OrbitImpact::phase);
+  return once.with(graze, static_cast<std::size_t>(later_ones - once.impacts.begin()));
 }
 
 std::string Orbit::word() const { return ImpactWord::word_of(contacts_of(*this)); }

@@ -2,6 +2,8 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
+#include <string>
 #include <string_view>
 
 #include "sweep/parameter.hpp"
@@ -12,10 +14,16 @@ namespace clatter::branches {
 inline constexpr std::array<std::string_view, 10> parameter_names{
     "h", "f", "nu", "R", "xs", "stop_lower", "stop_upper", "R_lower", "R_upper", "load"};
 
+/// The special points that can be followed in two parameters.
+inline constexpr std::array<std::string_view, 4> curve_names{"fold", "flip", "symmetry breaking", "graze"};
+
 /// How a branch is followed; [branch] of a configuration.
 struct BranchSettings {
   sweep::Parameter along = sweep::Parameter::nu;
-  std::array<double, 2> range{};    ///< of that parameter, low and high
+  std::array<double, 2> range{};             ///< of that parameter, low and high
+  std::optional<sweep::Parameter> across{};  ///< second parameter, of a curve of special points
+  std::array<double, 2> across_range{};      ///< of that parameter, low and high, or infinite
+  std::string curve{};                       ///< one of curve_names; empty without a second parameter
   std::int64_t period = 0;          ///< forcing periods of the motion near x0, v0; 0: that which the scene settles on
   double tolerance = 1e-12;         ///< of Newton's method, relative
   double largest_step = 0.02;       ///< over the width of the range

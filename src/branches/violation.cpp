@@ -40,9 +40,9 @@ std::optional<Violation> cut_short(const Scene& scene, const motion::Arc<double,
 
 }  // namespace
 
-std::optional<Violation> violation(const Scene& scene, const Orbit& orbit) {
+std::optional<Violation> violation(const Scene& scene, const Orbit& orbit, std::optional<std::size_t> grazing) {
   for (std::size_t i = 0; i < orbit.size(); ++i)
-    if (!(sign_of(orbit.impacts[i].side) * orbit.impacts[i].before > 0))
+    if (i != grazing && !(sign_of(orbit.impacts[i].side) * orbit.impacts[i].before > 0))
       return Violation{Violation::Kind::pulls, i, {}};
   return with_arcs(scene.oscillator, [&]<Effects E>() -> std::optional<Violation> {
     const motion::ArcConstants<double, E> constants(scene.oscillator);
@@ -59,7 +59,9 @@ std::optional<Violation> violation(const Scene& scene, const Orbit& orbit) {
       return cut_short(scene, arc, 0.0, orbit.advance() / p.nu, 0, Side::none);
     }
     for (std::size_t i = 0; i < orbit.size(); ++i) {
-      const OrbitImpact from = orbit.impact(i), to = orbit.impact(i + 1);
+      OrbitImpact from = orbit.impact(i);
+      const OrbitImpact to = orbit.impact(i + 1);
+      if (i == grazing) from.before = 0;
       const motion::Arc<double, E> arc = arc_of(constants, p, {from.side, from.phase, from.before, to.side, to.phase});
       if (auto found = cut_short(scene, arc, from.phase, (to.phase - from.phase) / p.nu, i, to.side)) return found;
     }

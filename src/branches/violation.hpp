@@ -3,8 +3,7 @@
 #include <cstddef>
 #include <optional>
 
-#include "branches/orbit.hpp"
-#include "model/scene.hpp"
+#include "branches/equations.hpp"
 
 namespace clatter::branches {
 
@@ -19,7 +18,13 @@ struct Violation {
   OrbitImpact turning{};   ///< passes_through: the turning point beyond the stop, as an impact without speed
 };
 
-/// The first violation of an orbit, by the proof of first contact on each of its flights; nothing: it is a motion.
-[[nodiscard]] std::optional<Violation> violation(const Scene& scene, const Orbit& orbit);
+/// The first violation of an orbit, by the proof of first contact on each of its flights; nothing: it is a motion. The
+/// impact `grazing` may be without speed.
+[[nodiscard]] std::optional<Violation> violation(const Scene& scene, const Orbit& orbit,
+                                                 std::optional<std::size_t> grazing = {});
+/// Of a point of a branch or a curve.
+[[nodiscard]] inline std::optional<Violation> violation(const OrbitEquations& equations, const Vector& point) {
+  return violation(equations.scene_at(point), equations.orbit_at(point), equations.grazing());
+}
 
 }  // namespace clatter::branches

@@ -28,6 +28,15 @@ std::optional<CurvePoint> Walk::next() {
   return std::nullopt;
 }
 
+bool Walk::passes(const CurvePoint& other, const CurvePoint& next) const {
+  const double step = next.arclength - here_.arclength;
+  const Vector way = sum(other.at, -1.0, here_.at);
+  const double ahead = product(way, here_.tangent);
+  if (!(ahead > 0 && ahead <= step) || !(product(other.tangent, here_.tangent) > 0.9)) return false;
+  const Vector aside = sum(way, -ahead, here_.tangent);
+  return product(aside, aside) <= 0.04 * ahead * ahead + 1e-16;
+}
+
 std::optional<CurvePoint> Walk::zero(const TestFunction& test, double s) const {
   std::optional<CurvePoint> best;
   bool followed = true;

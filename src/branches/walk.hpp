@@ -19,7 +19,6 @@ struct CurvePoint {
 struct WalkLimits {
   double tolerance = 1e-12;
   double largest_step = 0.02;
-  std::size_t most_points = 10000;
 };
 
 /// A function along the curve whose zero is a special point, found where it changes sign from `before` to `after`.
@@ -38,6 +37,9 @@ class Walk {
   [[nodiscard]] std::optional<CurvePoint> next();
   /// Goes on from a point that `next` gave.
   void move_to(CurvePoint point) { here_ = std::move(point); }
+
+  /// Whether the step to a point that `next` gave passes another point: on the way back to its start a curve is closed.
+  [[nodiscard]] bool passes(const CurvePoint& other, const CurvePoint& next) const;
 
   /// The point of the curve a distance s <= that of `next` after the present one, along its tangent.
   [[nodiscard]] std::optional<CurvePoint> after(double s) const;

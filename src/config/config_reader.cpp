@@ -106,11 +106,51 @@ sweep::Sweep sweep_of(Settings& settings, const AxisGroups& groups) {
   return sweep;
 }
 
-/// [branch]. Throws ConfigError if along or range is missing, or a value of the range isn't permitted, or [sweep] has
-/// an axis of the same key.
+/// Throws ConfigError if a value of an interval isn't permitted for the key of [scene] that it is about, or [sweep] has
+/// an axis of that key, too.
+void check_followed(const Settings& settings, const std::string& name, std::string_view chosen_by,
+                    const Setting* interval) {
+  const Key& key = *find_key("scene", name);
+  if (interval != nullptr)
+    for (const double end : std::get<Interval>(interval->value))
+      if (!contains(key.range, end))
+        fail(interval->location, std::string(interval->key->name) + " has " + name + " = " + number_text(end) +
+                                     "; expected " + permitted(key));
+  for (const Setting& axis : settings.axes)
+    if (axis.key->name == name)
+      fail(axis.key_location, "'" + name + "' in both [sweep] and [branch] " + std::string(chosen_by) +
+                                  "; remove it from [sweep], and give the value to begin at in [scene]");
+}
+
+/// The second parameter of [branch], if there is one, and the special points that are followed across it. Throws
+/// ConfigError as `branch_of` does.
+void add_second_parameter(const Settings& settings, branches::BranchSettings& branch) {
+  const Setting *const across = settings.find("branch", "across"), *const curve = settings.find("branch", "curve"),
+                       *const range = settings.find("branch", "across_range");
+  if (across == nullptr && curve != nullptr)
+    fail(curve->key_location, "'curve' without 'across'; add the second parameter, e.g. across = \"xs\"");
+  if (across == nullptr && range != nullptr)
+    fail(range->key_location, "'across_range' without 'across'; add the second parameter, e.g. across = \"xs\"");
+  if (across == nullptr) return;
+  if (curve == nullptr)
+    fail(across->key_location,
+         "'across' without 'curve'; add the special points that are followed, e.g. curve = \"fold\"");
+  const std::string name = settings.text("branch", "across");
+  branch.across = sweep::parameter_of(name).value(), branch.curve = settings.text("branch", "curve");
+  if (branch.across == branch.along)
+    fail(across->location, "'across' is '" + name + "' as 'along' is; expected another key of [scene]");
+  check_followed(settings, name, "across", range);
+  const AllowedRange& permitted_values = find_key("scene", name)->range;
+  branch.across_range = {permitted_values.not_zero ? 0.0 : permitted_values.low, permitted_values.high};
+  if (range != nullptr) branch.across_range = settings.interval("branch", "across_range");
+}
+
+/// [branch]. Throws ConfigError if a key is missing, or a value of a range isn't permitted, or [sweep] has an axis of
+/// the same key.
 std::optional<branches::BranchSettings> branch_of(const Settings& settings) {
   const Setting *const along = settings.find("branch", "along"), *const range = settings.find("branch", "range");
-  if (along == nullptr && range == nullptr) return std::nullopt;
+  const auto is_of_branch = [](const Setting& setting) { return setting.key->section == "branch"; };
+  if (std::ranges::none_of(settings.values, is_of_branch)) return std::nullopt;
   if (along == nullptr)
     fail(settings.location_of_section("branch"), "[branch] without 'along'; add a key of [scene], e.g. along = \"nu\"");
   if (range == nullptr)
@@ -124,15 +164,8 @@ std::optional<branches::BranchSettings> branch_of(const Settings& settings) {
                                   .largest_step = settings.number("branch", "largest_step"),
                                   .max_points = settings.integer("branch", "max_points"),
                                   .generations = settings.integer("branch", "switch")};
-  const Key& key = *find_key("scene", name);
-  for (const double end : branch.range)
-    if (!contains(key.range, end))
-      fail(range->location, "range has " + name + " = " + number_text(end) + "; expected " + permitted(key));
-  for (const Setting& axis : settings.axes)
-    if (axis.key->name == name)
-      fail(axis.key_location, "'" + name +
-                                  "' in both [sweep] and [branch] along; remove it from [sweep], and give the value to "
-                                  "begin at in [scene]");
+  check_followed(settings, name, "along", range);
+  add_second_parameter(settings, branch);
   return branch;
 }
 

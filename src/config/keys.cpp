@@ -29,7 +29,10 @@ using enum Kind;
 
 constexpr std::string_view a_force = "f = 1.0\n", stops = "xs = 1.0\n", a_stop_axis = "xs = \"linspace(1, 2, 11)\"\n",
                            is_transient = "mode = \"transient\"\n", by_moreau = "method = \"moreau\"\n",
-                           a_range = "range = [0.8, 1.5]\n", a_branch = "along = \"nu\"\nrange = [0.8, 1.5]\n";
+                           a_range = "range = [0.8, 1.5]\n", a_branch = "along = \"nu\"\nrange = [0.8, 1.5]\n",
+                           a_kind = "along = \"nu\"\nrange = [0.8, 1.5]\ncurve = \"fold\"\n",
+                           a_second = "along = \"nu\"\nrange = [0.8, 1.5]\nacross = \"xs\"\n",
+                           a_curve = "along = \"nu\"\nrange = [0.8, 1.5]\nacross = \"xs\"\ncurve = \"fold\"\n";
 
 constexpr std::array keys_before_observe{
     Key{"", "title", text, "", "My sweep", "what the configuration shows; the output file keeps it"},
@@ -108,6 +111,14 @@ constexpr std::array keys_after_observe{
          one_of(branches::parameter_names, Key{"branch", "along", choice, "", "nu",
                                                "key of [scene] along which `clatter branch` follows a motion"})),
     with("along = \"nu\"\n", Key{"branch", "range", interval, "", "0.8, 1.5", "of that key; there the branch ends"}),
+    with(a_kind,
+         one_of(branches::parameter_names, Key{"branch", "across", choice, "", "xs",
+                                               "second key of [scene]: special points are followed in the plane of "
+                                               "both"})),
+    with(a_curve, Key{"branch", "across_range", interval, "", "0.5, 4",
+                      "of that second key; without it, all that is permitted"}),
+    with(a_second, one_of(branches::curve_names, Key{"branch", "curve", choice, "", "fold",
+                                                     "special points on the branch that are followed across"})),
     with(a_branch, Key{"branch", "period", integer, "0", "2",
                        "forcing periods of the motion near x0, v0 to begin with, unstable or not; 0: that which the "
                        "scene settles on",

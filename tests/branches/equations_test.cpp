@@ -151,7 +151,7 @@ TEST(OrbitEquations, of_a_multiplier_have_the_derivatives_of_their_differences) 
   const Scene scene = symmetric_scene(0.1, 1.0, 2.0, 0.7, 0.5);
   const Orbit orbit{{{Side::lower, 0.9, -0.8}, {Side::upper, 4.2, 0.9}}, 2, false};
   const OrbitEquations equations(scene, orbit, {{Parameter::nu, 0.5}, {Parameter::R, 0.3}}, 0.7,
-                                 {Condition::Kind::multiplier, -1, 0});
+                                 {{Condition::Kind::multiplier, -1}});
   const Vector z = equations.unknowns_of(scene, orbit);
   const auto here = equations.at(z);
   ASSERT_TRUE(here);

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+
+#include "branches/violation.hpp"
+#include "branches/walk.hpp"
+
+namespace clatter::branches {
+
+/// The motion with a graze that ends a branch, or a curve: near it, to be made exact by equations.
+struct Touch {
+  CurvePoint last_good;    ///< before the graze, of which the proof of first contact holds
+  CurvePoint beyond;       ///< the same motion a little beyond the graze
+  Orbit orbit;             ///< with the impact that grazes
+  std::size_t impact = 0;  ///< its number
+  bool appears = false;    ///< beyond the graze there is one impact more; else one less
+};
+
+/// The graze within a step of a walk; nothing if motion between the stops can be followed as far as that.
+[[nodiscard]] std::optional<Touch> touch_within(const OrbitEquations& equations, const Walk& walk, double step);
+
+}  // namespace clatter::branches
