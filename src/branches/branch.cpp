@@ -244,23 +244,25 @@ class Follower {
     for (Found& f : found) {
       if (f.kind == SpecialKind::fold) {
         const Orbit orbit = equations.orbit_at(f.point.at);
-        const Orbit half = orbit.half_if_same(1e-4, symmetric_);
-        if (half.size() < orbit.size()) return note_birth(equations, f.point, half), true;
+        const Orbit half = orbit.half_if_same(1e-3, symmetric_);
+        if (half.size() < orbit.size() && note_birth(equations, f.point, half)) return true;
       }
       note(equations, f.kind, f.point);
     }
     return false;
   }
 
-  /// A branch of half the symmetry, or twice the period, of another one ends on it.
-  void note_birth(const OrbitEquations& equations, const CurvePoint& point, const Orbit& half) {
+  /// A branch of half the symmetry, or twice the period, of another one ends on it. Returns false if there is no such
+  /// branch at its fold.
+  bool note_birth(const OrbitEquations& equations, const CurvePoint& point, const Orbit& half) {
     const OrbitEquations there = equations_for(half, {{Condition::Kind::multiplier, -1}});
     const auto exact = solution(there, there.unknowns_of(equations.scene_at(point.at), half), settings_.tolerance);
+    if (!exact || std::abs(exact->back() - point.at.back()) > 1e-6) return false;
     const SpecialKind kind = half.mirrored ? SpecialKind::symmetry_breaking : SpecialKind::flip;
-    const std::size_t special =
-        add_special(kind, exact ? point_of(there, {*exact, {}, point.arclength}) : point_of(equations, point));
-    if (generation_ < settings_.generations && exact && result_.special[special].branches.size() == 1)
+    const std::size_t special = add_special(kind, point_of(there, {*exact, {}, point.arclength}));
+    if (generation_ < settings_.generations && result_.special[special].branches.size() == 1)
       waiting_.push_back({there.scene_at(*exact), there.orbit_at(*exact), {}, special, generation_ + 1});
+    return true;
   }
 
   /// The special point of that kind near another, known already or new; it belongs to this branch.

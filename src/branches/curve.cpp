@@ -49,7 +49,7 @@ class CurveFollower {
                        "; widen branch.range, raise branch.switch, or begin "
                        "on another motion");
     for (const SpecialPoint& start : starts_)
-      if (!is_known(start)) follow(start);
+      if (!is_known(start) && !budget_is_spent()) follow(start);
     return std::move(result_);
   }
 
@@ -86,6 +86,9 @@ class CurveFollower {
     return out;
   }
 
+  [[nodiscard]] bool budget_is_spent() const {
+    return result_.points.size() >= static_cast<std::size_t>(settings_.max_points);
+  }
   void add(const BranchPoint& point) { result_.points.push_back(point); }
   void note(SpecialKind kind, const BranchPoint& at) {
     const SpecialPoint special{kind, at, {curve_}};
@@ -118,7 +121,7 @@ class CurveFollower {
     for (std::size_t i = first_special; i < result_.special.size(); ++i) result_.special[i].at.arclength *= -1;
     add(point_of(equations, start));
     note(from.kind, point_of(equations, start));
-    if (!closed) walk(equations, start);
+    if (!closed && !budget_is_spent()) walk(equations, start);
   }
 
   /// Returns true if the curve is closed.
@@ -126,8 +129,7 @@ class CurveFollower {
     Walk walk(equations, start, {settings_.tolerance, settings_.largest_step});
     BranchPoint last = point_of(equations, start);
     for (;;) {
-      if (result_.points.size() >= static_cast<std::size_t>(settings_.max_points))
-        return end(last, "branch.max_points is spent", true), false;
+      if (budget_is_spent()) return end(last, "branch.max_points is spent", true), false;
       const auto next = walk.next();
       if (!next) return end(last, "no step leads on", true), false;
       const double step = next->arclength - walk.here().arclength;

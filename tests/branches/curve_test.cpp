@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "branches/newton.hpp"
+#include "branches/walk.hpp"
 
 namespace clatter::branches {
 namespace {
@@ -152,6 +153,45 @@ TEST(Curve, of_flips_and_lost_symmetry_has_multiplier_minus_one_all_along) {
     }
     for (const BranchEnd& end : found.ends) EXPECT_FALSE(end.failed) << curve << ": " << end.reason;
   }
+}
+
+/// Two folds of a branch meet in a cusp: on one side of it the branch has both, on the other neither.
+TEST(Curve, of_folds_has_a_cusp_where_two_folds_of_a_branch_meet) {
+  point::Problem problem;
+  problem.oscillator = {0.02, 1.0, 3.2, 0.0};
+  problem.stops = {-1.4665642739725373, 1.4665642739725373, 0.8, 0.8};
+  problem.start = {0.0, 1.0, 0.0};
+  const Branches found = follow_curves(
+      problem,
+      {.range = {0.3, 4.0}, .across = Parameter::xs, .across_range = {0.02, 5.0}, .curve = "fold", .generations = 1});
+  const SpecialPoint* cusp = of_kind(found, SpecialKind::cusp);
+  ASSERT_NE(cusp, nullptr);
+  const auto folds_near = [&](double xs) {
+    const Scene scene = changed(cusp->at.scene, Parameter::xs, xs);
+    const OrbitEquations equations(scene, cusp->at.orbit, {{Parameter::nu, 1.0}}, 1.0);
+    const double nu = cusp->at.scene.oscillator.frequency;
+    Vector speed(equations.unknowns(), 0.0);  // the branch crosses the cusp in the direction of its orbit
+    speed[1] = 1;
+    std::size_t folds = 0;
+    const auto at = corrected(equations, equations.unknowns_of(scene, cusp->at.orbit), speed, 1e-12);
+    if (!at) return std::size_t{99};
+    for (const double sign : {-1.0, 1.0}) {
+      Vector towards(equations.unknowns(), 0.0);
+      towards[1] = sign;
+      Walk walk(equations, {*at, tangent(equations, *at, towards).value(), 0.0}, {1e-12, 0.002});
+      while (std::abs(walk.here().at.back() - nu) < 0.002 && walk.here().arclength < 0.2) {
+        const auto next = walk.next();
+        if (!next) return std::size_t{99};
+        folds += (next->tangent.back() < 0) != (walk.here().tangent.back() < 0);
+        walk.move_to(*next);
+      }
+    }
+    return folds;
+  };
+  const double xs = cusp->at.scene.stops.upper;
+  const std::size_t below = folds_near(xs * (1 - 1e-4)), above = folds_near(xs * (1 + 1e-4));
+  EXPECT_EQ(below + above, 2);
+  EXPECT_EQ(below * above, 0);
 }
 
 TEST(Curve, needs_a_point_to_begin_with) {
