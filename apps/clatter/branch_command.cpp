@@ -18,12 +18,6 @@ namespace {
 
 using branches::SpecialPoint;
 
-double fastest_impact(const SpecialPoint& special) {
-  double speed = 0;
-  for (const branches::OrbitImpact& impact : special.at.orbit.impacts) speed = std::max(speed, std::abs(impact.before));
-  return speed;
-}
-
 /// {"kind": "fold", "nu": 1.42, ..., "multipliers": [[1, 0], [0.1, 0]]}: one line; real and imaginary parts.
 std::string special_json(const SpecialPoint& special, const std::vector<sweep::Parameter>& parameters) {
   const branches::BranchPoint& at = special.at;
@@ -36,7 +30,7 @@ std::string special_json(const SpecialPoint& special, const std::vector<sweep::P
     values += ", " + json_text(std::string(sweep::key_of(parameter))) + ": " +
               json_number(branches::value_of(at.scene, parameter));
   return "{\"kind\": " + json_text(std::string(name_of(special.kind))) + values +
-         ", \"impact_speed\": " + json_number(fastest_impact(special)) + ", \"x\": " + json_number(state.x) +
+         ", \"impact_speed\": " + json_number(branches::impact_speed(special.at.orbit)) + ", \"x\": " + json_number(state.x) +
          ", \"v\": " + json_number(state.v) + ", \"period_ratio\": " + json_number(at.orbit.period_ratio()) +
          ", \"word\": " + json_text(at.orbit.word()) + ", \"stable\": " + (at.stable ? "true" : "false") +
          ", \"multipliers\": [" + pair(at.multiplier_re[0], at.multiplier_im[0]) + ", " +
@@ -51,7 +45,7 @@ std::string special_text(const SpecialPoint& special, const std::vector<sweep::P
   for (const sweep::Parameter parameter : parameters)
     text += std::string(sweep::key_of(parameter)) + " = " +
             formatted("%-18.15g", branches::value_of(special.at.scene, parameter)) + ' ';
-  text += "speed " + formatted("%-18.15g", fastest_impact(special)) + ' ' + (word.empty() ? "no impacts" : word) +
+  text += "speed " + formatted("%-18.15g", branches::impact_speed(special.at.orbit)) + ' ' + (word.empty() ? "no impacts" : word) +
           (parameters.size() > 1 ? "  curve" : "  branch") + (special.branches.size() > 1 ? "es" : "");
   for (const std::size_t branch : special.branches) text += ' ' + std::to_string(branch);
   return text + '\n';

@@ -1,25 +1,27 @@
 #include "branches/branch.hpp"
 
 #include <algorithm>
+#include <boost/math/tools/roots.hpp>
 #include <cmath>
 #include <deque>
 #include <functional>
 #include <limits>
 #include <numbers>
 
-#include "attractors/periodic_motion.hpp"
 #include "branches/measures.hpp"
+#include "branches/resting.hpp"
 #include "branches/start.hpp"
 #include "branches/touch.hpp"
 
 namespace clatter::branches {
 namespace {
 
-constexpr std::array<std::string_view, 10> special_names{"fold",
+constexpr std::array<std::string_view, 11> special_names{"fold",
                                                          "flip",
                                                          "symmetry breaking",
                                                          "graze",
                                                          "chatter limit",
+                                                         "release tangency",
                                                          "maximum impact_speed",
                                                          "maximum impact_power",
                                                          "maximum harmonic",
@@ -35,6 +37,8 @@ struct Waiting {
   std::optional<Vector> direction{};     ///< along which it begins; nothing: both ways
   std::optional<std::size_t> special{};  ///< that it comes from
   std::int64_t generation = 0;
+  int heading = 0;                       ///< of motion that rests: up or down the parameter; 0: both ways
+  std::optional<std::size_t> cascade{};  ///< the branch that came near it through ever more grazes
 };
 
 /// Whether a scene stays symmetric if a parameter changes.
@@ -69,7 +73,7 @@ class Follower {
 
   Branches run() {
     require_start_in_range(problem_, settings_);
-    waiting_.push_back({problem_, start_orbit(problem_, settings_.period, symmetric_), {}, {}, 0});
+    waiting_.push_back({problem_, start_orbit(problem_, settings_.period, symmetric_)});
     while (!waiting_.empty()) {
       const Waiting next = waiting_.front();
       waiting_.pop_front();
@@ -96,11 +100,11 @@ class Follower {
 
   void follow(const Waiting& from) {
     branch_ = result_.ends.empty() ? 0 : result_.ends.back().branch + 1;
-    if (from.orbit.size() > 0 && speed_unit_ == 0)
-      for (const OrbitImpact& impact : from.orbit.impacts) speed_unit_ = std::max(speed_unit_, std::abs(impact.before));
+    if (speed_unit_ == 0) speed_unit_ = impact_speed(from.orbit);
     if (speed_unit_ == 0) speed_unit_ = std::max(1e-3, std::abs(problem_.oscillator.forcing));
-    const OrbitEquations equations = equations_for(from.orbit);
     generation_ = from.generation;
+    if (from.orbit.rests()) return follow_resting(from);
+    const OrbitEquations equations = equations_for(from.orbit);
     CurvePoint start{equations.unknowns_of(from.scene, from.orbit), {}, 0.0};
     Vector axis(equations.unknowns(), 0.0);
     axis.back() = 1;
@@ -127,12 +131,16 @@ class Follower {
     for (double& x : back.tangent) x = -x;
     walk(equations, back, {});
     const bool closed = result_.ends.back().reason == closed_curve;
-    // the way back was walked first, and is turned round
-    std::ranges::reverse(result_.points);
-    for (BranchPoint& point : result_.points) point.arclength = -point.arclength;
-    for (SpecialPoint& point : result_.special) point.at.arclength = -point.at.arclength;
+    turn_round(0, 0);
     add(point_of(equations, start));
     if (!closed) walk(equations, start, {});
+  }
+
+  /// The way back is walked first; its points are brought into the order of the whole branch.
+  void turn_round(std::size_t first_point, std::size_t first_special) {
+    std::reverse(result_.points.begin() + static_cast<std::ptrdiff_t>(first_point), result_.points.end());
+    for (std::size_t i = first_point; i < result_.points.size(); ++i) result_.points[i].arclength *= -1;
+    for (std::size_t i = first_special; i < result_.special.size(); ++i) result_.special[i].at.arclength *= -1;
   }
 
   /// The direction from a special point into a branch that begins there, in which it is motion between the stops.
@@ -231,10 +239,10 @@ class Follower {
             return impact_map(equations.scene_at(p.at), equations.orbit_at(p.at)).distance_to(-1);
           },
           false);
-      const auto look_for_maximum = [&](SpecialKind of,
-                                        Measure (*measure)(const OrbitEquations&, const Vector&, const Vector&)) {
+      const auto look_for_maximum = [&](SpecialKind of, Along (*measure)(const Moving&)) {
         look(
-            of, [&, measure](const CurvePoint& p) { return measure(equations, p.at, p.tangent).slope; }, true);
+            of, [&, measure](const CurvePoint& p) { return measure(moving(equations, p.at, p.tangent)).slope[0]; },
+            true);
       };
       look_for_maximum(SpecialKind::impact_speed, impact_speed);
       if (problem_.observe.energy) look_for_maximum(SpecialKind::impact_power, impact_power);
@@ -274,12 +282,16 @@ class Follower {
                        b = state_at_phase_zero(known.at.scene, known.at.orbit);
       if (known.kind == kind && std::abs(parameter(known.at.scene) - parameter(at.scene)) <= 1e-8 * width_ &&
           std::hypot(a.x - b.x, a.v - b.v) <= 1e-5 * speed_unit_) {
-        if (std::ranges::find(known.branches, branch_) == known.branches.end()) known.branches.push_back(branch_);
+        meet(known, branch_);
         return i;
       }
     }
     result_.special.push_back({kind, std::move(at), {branch_}});
     return result_.special.size() - 1;
+  }
+
+  static void meet(SpecialPoint& special, std::size_t branch) {
+    if (std::ranges::find(special.branches, branch) == special.branches.end()) special.branches.push_back(branch);
   }
 
   /// A special point on the branch; what is born there waits.
@@ -328,6 +340,7 @@ class Follower {
     const Orbit with = there.orbit_at(*exact), without = with.without(touch->impact);
     last.scene = there.scene_at(*exact), last.orbit = touch->appears ? without : with;
     add(last);
+    if (ends_in_chatter(last, with.impacts[touch->impact].side)) return end(last, "chatter limit");
     const std::size_t before = result_.special.size();
     BranchPoint at = last;
     at.orbit = with;
@@ -337,6 +350,146 @@ class Follower {
     Orbit beyond = touch->appears ? with : without;
     if (beyond.size() == 0) beyond = Orbit{}.half_if_same(0.0, symmetric_);
     waiting_.push_back({at.scene, beyond, {}, special, generation_});
+  }
+
+  /// Motion that rests is a function of the parameter: the run from its release. It is walked along the parameter.
+  void follow_resting(const Waiting& from) {
+    const Side stop = from.orbit.impacts.back().side;
+    const double start = parameter(from.scene);
+    if (from.special) result_.special[*from.special].branches.push_back(branch_);
+    if (from.heading != 0) {
+      add(resting_point(start, start, from.orbit));
+      return walk_resting(stop, start, from.orbit, from.heading);
+    }
+    const std::size_t first_point = result_.points.size(), first_special = result_.special.size();
+    walk_resting(stop, start, from.orbit, -1);
+    turn_round(first_point, first_special);
+    add(resting_point(start, start, from.orbit));
+    walk_resting(stop, start, from.orbit, 1);
+    if (!from.cascade) return;
+    for (std::size_t i = first_special; i < result_.special.size(); ++i)
+      if (result_.special[i].kind == SpecialKind::chatter_limit) return meet(result_.special[i], *from.cascade);
+  }
+
+  [[nodiscard]] std::optional<Orbit> resting_at(double value, Side stop, const Orbit& like) const {
+    point::Problem problem = problem_;
+    static_cast<Scene&>(problem) = changed(problem_, settings_.along, value);
+    return resting_orbit(problem, stop, like.half_turns / 2);
+  }
+
+  [[nodiscard]] BranchPoint resting_point(double value, double start, const Orbit& orbit) const {
+    return {branch_,
+            std::abs(value - start) / width_,
+            changed(problem_, settings_.along, value),
+            orbit.half_if_same(1e-6, symmetric_),
+            true,
+            {},
+            {}};
+  }
+
+  void walk_resting(Side stop, double start, Orbit orbit, int heading) {
+    const double bound = settings_.range[heading > 0 ? 1 : 0];
+    // short steps, as all that happens within one unseen is that an impact comes and goes
+    const double step = heading * settings_.largest_step / 4 * width_;
+    double here = start;
+    while (here != bound) {
+      if (budget_is_spent()) return end(resting_point(here, start, orbit), "branch.max_points is spent", true);
+      const double next = heading * (bound - here) < heading * step ? bound : here + step;
+      const std::optional<Orbit> there = resting_at(next, stop, orbit);
+      if (!there || letters_of(*there) != letters_of(orbit)) {
+        const auto [last, beyond] = change_between(here, next, stop, orbit);
+        const std::optional<Orbit> good = resting_at(last, stop, orbit), other = resting_at(beyond, stop, orbit);
+        maxima_between(here, last, stop, start, orbit);
+        if (!other || is_new_contact(*good, *other))
+          return end_resting(stop, start, last, *good, beyond, other, heading);
+        orbit = *other, here = beyond;  // an impact passed another in speed
+      } else {
+        maxima_between(here, next, stop, start, orbit);
+        orbit = *there, here = next;
+      }
+      add(resting_point(here, start, orbit));
+    }
+    end(resting_point(here, start, orbit), "range");
+  }
+
+  /// Neighbours, as good as, between which the letters of the motion change: the last value with those of `orbit`, and
+  /// the next one.
+  [[nodiscard]] std::pair<double, double> change_between(double good, double bad, Side stop, const Orbit& orbit) const {
+    const std::string letters = letters_of(orbit);
+    for (;;) {
+      const double middle = good + (bad - good) / 2;
+      if (middle == good || middle == bad) return {good, bad};
+      const std::optional<Orbit> there = resting_at(middle, stop, orbit);
+      (there && letters_of(*there) == letters ? good : bad) = middle;
+    }
+  }
+
+  /// Whether of two neighbouring motions one has a rest, or an impact without speed, that the other hasn't.
+  [[nodiscard]] bool is_new_contact(const Orbit& one, const Orbit& other) const {
+    return rests_of(one) != rests_of(other) ||
+           std::min(slowest_letter(one), slowest_letter(other)) < 1e-4 * speed_unit_;
+  }
+  static std::ptrdiff_t rests_of(const Orbit& orbit) {
+    return std::ranges::count_if(orbit.impacts, [](const OrbitImpact& impact) { return impact.rest > 0; });
+  }
+
+  void end_resting(Side stop, double start, double last, const Orbit& good, double beyond,
+                   const std::optional<Orbit>& other, int heading) {
+    BranchPoint at = resting_point(last, start, good);
+    const std::optional<double> tangency = release_tangency(at.scene, stop, settings_.along);
+    SpecialKind kind = SpecialKind::chatter_limit;
+    // nearby, flights are too short to be told from rest
+    if (tangency && std::abs(*tangency - last) <= 1e-9 * (std::abs(last) + width_))
+      kind = SpecialKind::release_tangency, at.scene = changed(problem_, settings_.along, *tangency);
+    else if (other && rests_of(*other) == rests_of(good))
+      kind = SpecialKind::graze;
+    add(at);
+    if (kind == SpecialKind::graze && ends_in_chatter(at, stop)) return end(at, "chatter limit");
+    const std::size_t before = result_.special.size(), special = add_special(kind, at);
+    end(at, std::string(name_of(kind)));
+    if (kind == SpecialKind::graze && result_.special.size() > before)
+      waiting_.push_back({changed(problem_, settings_.along, beyond), *other, {}, special, generation_, heading, {}});
+  }
+
+  /// Largest speeds and losses of motion that rests, between two values of the parameter.
+  void maxima_between(double here, double next, Side stop, double start, const Orbit& like) {
+    const auto look = [&](SpecialKind kind, Along (*measure)(const Moving&)) {
+      const auto slope = [&](double value) {
+        const std::optional<Orbit> orbit = resting_at(value, stop, like);
+        return orbit ? measure(moving_from_release(changed(problem_, settings_.along, value), *orbit, settings_.along))
+                           .slope[0]
+                     : 0.0;
+      };
+      const double low = std::min(here, next), high = std::max(here, next), first = slope(low), last = slope(high);
+      if (!(first > 0 && last < 0)) return;
+      std::uintmax_t most = 60;
+      const auto [a, b] = boost::math::tools::toms748_solve(
+          slope, low, high, first, last, [](double x, double y) { return std::abs(x - y) <= 4e-16 * std::abs(x); },
+          most);
+      const double value = a + (b - a) / 2;
+      if (const auto orbit = resting_at(value, stop, like)) add_special(kind, resting_point(value, start, *orbit));
+    };
+    look(SpecialKind::impact_speed, impact_speed);
+    if (problem_.observe.energy) look(SpecialKind::impact_power, impact_power);
+  }
+
+  /// A branch that was born at a graze not long ago ends in another one: they accumulate where a chatter ends in rest
+  /// just at its release. The motion that rests begins not far beyond.
+  [[nodiscard]] bool ends_in_chatter(const BranchPoint& last, Side stop) {
+    const auto first = std::ranges::find(result_.points, branch_, &BranchPoint::branch);
+    const double distance = parameter(last.scene) - parameter(first->scene);
+    if (last.orbit.size() < 8 || distance == 0 || std::abs(distance) > 1e-5 * width_) return false;
+    for (double ahead = distance; std::abs(ahead) < 0.01 * width_; ahead *= 2) {
+      const double value = parameter(last.scene) + ahead;
+      if (!in_range(value)) return false;
+      const Orbit whole = last.orbit.whole();
+      const auto orbit = resting_at(value, stop, whole);
+      if (orbit && rests_of(*orbit) > rests_of(whole)) {
+        waiting_.push_back({changed(problem_, settings_.along, value), *orbit, {}, {}, generation_, 0, branch_});
+        return true;
+      }
+    }
+    return false;
   }
 
   point::Problem problem_;

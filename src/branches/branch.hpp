@@ -23,12 +23,13 @@ enum class SpecialKind : std::uint8_t {
   flip,
   symmetry_breaking,
   graze,
-  chatter_limit,
-  impact_speed,    ///< largest along the branch
-  impact_power,    ///< likewise
-  harmonic,        ///< likewise
-  resonant_graze,  ///< of a curve: an impact that vanishes on curves of multipliers +1 and -1
-  cusp             ///< of a curve: two special points meet and vanish
+  chatter_limit,     ///< a chatter ends in rest just at the release: beyond it the mass doesn't rest
+  release_tangency,  ///< beyond it the mass is never released
+  impact_speed,      ///< largest along the branch
+  impact_power,      ///< likewise
+  harmonic,          ///< likewise
+  resonant_graze,    ///< of a curve: an impact that vanishes on curves of multipliers +1 and -1
+  cusp               ///< of a curve: two special points meet and vanish
 };
 [[nodiscard]] std::string_view name_of(SpecialKind kind);
 

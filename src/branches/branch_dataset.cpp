@@ -54,16 +54,7 @@ class Columns {
       const auto displacement = range.displacement(point.scene.stops);
       low.push_back(displacement.low), high.push_back(displacement.high);
       v_low.push_back(range.velocity().low), v_high.push_back(range.velocity().high);
-      double fastest = 0, lost = 0;
-      const Orbit whole = point.orbit.whole();
-      for (const OrbitImpact& impact : whole.impacts) {
-        const double R =
-            impact.side == Side::upper ? point.scene.stops.restitution_upper : point.scene.stops.restitution_lower;
-        fastest = std::max(fastest, std::abs(impact.before));
-        lost += (1 - R) * (1 + R) * impact.before * impact.before / 2;
-      }
-      speed.push_back(fastest);
-      power.push_back(lost / (point.orbit.period_ratio() * period_of(point.scene.oscillator)));
+      speed.push_back(impact_speed(point.orbit)), power.push_back(impact_power(point.scene, point.orbit));
     }
     add(std::string(sweep::key_of(settings.along)), std::move(value), "parameter along which the motion is followed");
     if (settings.across)

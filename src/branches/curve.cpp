@@ -38,7 +38,7 @@ class CurveFollower {
       throw StartError("the start lies outside branch.across_range; give scene." +
                        std::string(sweep::key_of(*settings_.across)) + " a value within it");
     for (SpecialPoint& special : follow_branches(problem_, settings_).special) {
-      if (name_of(special.kind) != settings_.curve) continue;
+      if (name_of(special.kind) != settings_.curve || special.at.orbit.rests()) continue;
       Orbit& orbit = special.at.orbit;
       if (special.kind == SpecialKind::graze)
         orbit = orbit.once_with_graze(slowest_impact(orbit), is_symmetric(special.at.scene));

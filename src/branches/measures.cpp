@@ -10,8 +10,6 @@
 namespace clatter::branches {
 namespace {
 
-using Along = Dual<double, 1>;  // with the derivative along a tangent
-
 /// Calls `function(arc, length)` for each flight of an orbit in turn.
 template <class Function>
 void each_flight(const Scene& scene, const Orbit& orbit, Function&& function) {
@@ -25,49 +23,102 @@ void each_flight(const Scene& scene, const Orbit& orbit, Function&& function) {
       return function(arc, 0.0, constants.period);
     }
     for (std::size_t i = 0; i < orbit.size(); ++i) {
-      const OrbitImpact from = orbit.impact(i), to = orbit.impact(i + 1);
+      OrbitImpact from = orbit.impact(i);
+      const OrbitImpact to = orbit.impact(i + 1);
+      if (to.rest > 0) continue;  // the flights that are left of a chatter reach nowhere
+      from.phase += from.rest;
       function(arc_of(constants, p, {from.side, from.phase, from.before, to.side, to.phase}), from.phase,
                (to.phase - from.phase) / p.nu);
     }
   });
 }
 
-/// A scene's parameters and an orbit's impacts, as they change along a tangent.
-struct Moving {
-  Parameters<Along> p;
-  struct Impact {
-    Side side;
-    Along phase, before;
+/// The parameters of a scene that changes to another one, linearly, over `distance`.
+Parameters<Along> towards(const Scene& scene, const Scene& other, double distance) {
+  Parameters<Along> p(scene);
+  const Parameters<double> here(scene), there(other);
+  const auto seed = [distance](Along& number, double from, double to) {
+    number.slope[0] = std::isfinite(from) ? (to - from) / distance : 0.0;
   };
-  std::vector<Impact> impacts;
-  Along period;  ///< in tau
-};
-
-Moving moving(const OrbitEquations& equations, const Vector& point, const Vector& tangent) {
-  const Scene scene = equations.scene_at(point);
-  const Orbit orbit = equations.orbit_at(point);
-  Moving m{Parameters<Along>(scene), {}, {}};
-  // the parameters are linear in the point, and so is a scene a small step along the tangent
-  const Parameters<double> here(scene), there(equations.scene_at(sum(point, 1e-3, tangent)));
-  const auto seed = [](Along& number, double from, double to) {
-    number.slope[0] = std::isfinite(from) ? (to - from) / 1e-3 : 0.0;
-  };
-  seed(m.p.h, here.h, there.h), seed(m.p.f, here.f, there.f), seed(m.p.nu, here.nu, there.nu);
-  seed(m.p.load, here.load, there.load), seed(m.p.lower, here.lower, there.lower);
-  seed(m.p.upper, here.upper, there.upper), seed(m.p.R_lower, here.R_lower, there.R_lower);
-  seed(m.p.R_upper, here.R_upper, there.R_upper);
-  for (std::size_t i = 0; i < orbit.size(); ++i) {
-    Along phase(orbit.impacts[i].phase), before(orbit.impacts[i].before);
-    phase.slope[0] = tangent[2 * i], before.slope[0] = tangent[2 * i + 1] * equations.speed_unit();
-    m.impacts.push_back({orbit.impacts[i].side, phase, before});
-  }
-  m.period = Along(2 * std::numbers::pi * orbit.period_ratio()) / m.p.nu;
-  return m;
+  seed(p.h, here.h, there.h), seed(p.f, here.f, there.f), seed(p.nu, here.nu, there.nu);
+  seed(p.load, here.load, there.load), seed(p.lower, here.lower, there.lower), seed(p.upper, here.upper, there.upper);
+  seed(p.R_lower, here.R_lower, there.R_lower), seed(p.R_upper, here.R_upper, there.R_upper);
+  return p;
 }
+
+/// Energy lost in an impact, per unit mass.
+template <class Number>
+Number lost(const Number& R, const Number& before, bool rests) {
+  return rests ? Number(before * before / 2) : Number((1 - R) * (1 + R) * before * before / 2);
+}
+
+bool next_is_rest(const Orbit& orbit, std::size_t i) { return i + 1 < orbit.size() && orbit.impacts[i + 1].rest > 0; }
 
 }  // namespace
 
+Moving moving(const OrbitEquations& equations, const Vector& point, const Vector& tangent) {
+  const Orbit orbit = equations.orbit_at(point);
+  constexpr double step = 1e-3;  // the parameters are linear in the point
+  Moving m{towards(equations.scene_at(point), equations.scene_at(sum(point, step, tangent)), step), {}, {}};
+  for (std::size_t i = 0; i < orbit.size(); ++i) {
+    Along phase(orbit.impacts[i].phase), before(orbit.impacts[i].before);
+    phase.slope[0] = tangent[2 * i], before.slope[0] = tangent[2 * i + 1] * equations.speed_unit();
+    m.impacts.push_back({orbit.impacts[i].side, phase, before, false});
+  }
+  m.period = Along(orbit.advance()) / m.p.nu;
+  return m;
+}
+
+Moving moving_from_release(const Scene& scene, const Orbit& orbit, sweep::Parameter parameter) {
+  constexpr std::size_t by_begin = 0, by_before = 1, by_end = 2, by_parameter = 3;
+  using Four = Dual<double, 4>;
+  constexpr double step = 1e-3;
+  Moving m{towards(scene, changed(scene, parameter, value_of(scene, parameter) + step), step), {}, {}};
+  Parameters<Four> p(scene);
+  constexpr Along Parameters<Along>::*from[] = {
+      &Parameters<Along>::h,     &Parameters<Along>::f,     &Parameters<Along>::nu,      &Parameters<Along>::load,
+      &Parameters<Along>::lower, &Parameters<Along>::upper, &Parameters<Along>::R_lower, &Parameters<Along>::R_upper};
+  constexpr Four Parameters<Four>::*to[] = {
+      &Parameters<Four>::h,     &Parameters<Four>::f,     &Parameters<Four>::nu,      &Parameters<Four>::load,
+      &Parameters<Four>::lower, &Parameters<Four>::upper, &Parameters<Four>::R_lower, &Parameters<Four>::R_upper};
+  for (std::size_t i = 0; i < std::size(from); ++i) (p.*to[i]).slope[by_parameter] = (m.p.*from[i]).slope[0];
+  m.period = Along(orbit.advance()) / m.p.nu;
+  // f sin(phase) + load = x at a release
+  const auto release = [&](const OrbitImpact& rest) {
+    Along phase(rest.phase + rest.rest);
+    const double sine = std::sin(phase.value), cosine = std::cos(phase.value);
+    phase.slope[0] =
+        (m.p.position(rest.side).slope[0] - m.p.load.slope[0] - m.p.f.slope[0] * sine) / (m.p.f.value * cosine);
+    return phase;
+  };
+  with_arcs(scene.oscillator, [&]<Effects E>() {
+    OrbitImpact last = orbit.impacts.back();
+    Along begin = release(last), before = 0;
+    begin.value -= orbit.advance();
+    for (std::size_t i = 0; i < orbit.size(); ++i) {
+      const OrbitImpact& impact = orbit.impacts[i];
+      Along end(impact.phase), speed(impact.before);
+      if (impact.rest > 0) {
+        end = release(impact), speed = 0;
+      } else {
+        const FlightEnd<Four> flown = fly<E>(p, {last.side, Four(begin.value, by_begin), Four(before.value, by_before),
+                                                 impact.side, Four(impact.phase, by_end)});
+        const auto along = [&](const Four& number) {
+          return number.slope[by_begin] * begin.slope[0] + number.slope[by_before] * before.slope[0] +
+                 number.slope[by_parameter];
+        };
+        end.slope[0] = -along(flown.beyond) / flown.beyond.slope[by_end];
+        speed.slope[0] = along(flown.velocity) + flown.velocity.slope[by_end] * end.slope[0];
+        m.impacts.push_back({impact.side, end, speed, next_is_rest(orbit, i)});
+      }
+      begin = end, before = speed, last = impact;
+    }
+  });
+  return m;
+}
+
 Multipliers multipliers(const Scene& scene, const Orbit& orbit) {
+  if (orbit.rests()) return {{0, 0}, {0, 0}, true};
   const ImpactMap map = impact_map(scene, orbit);
   const double half = map.trace() / 2;
   const std::complex<double> root = std::sqrt(std::complex<double>(half * half - map.determinant));
@@ -80,15 +131,20 @@ Multipliers multipliers(const Scene& scene, const Orbit& orbit) {
 
 PhasePoint state_at_phase_zero(const Scene& scene, const Orbit& orbit) {
   std::optional<PhasePoint> state;
+  constexpr double turn = 2 * std::numbers::pi;
   const Orbit whole = orbit.whole();
   each_flight(scene, whole, [&](const auto& arc, double begin, double length) {
-    constexpr double turn = 2 * std::numbers::pi;
     const double nu = arc.constants().nu, next = std::ceil(begin / turn) * turn;
     if (state || (next > begin + nu * length && whole.size() > 0)) return;
     const motion::Motion<double> m = arc.at(whole.size() == 0 ? 0.0 : (next - begin) / nu);
     state = {m.x, m.v};
   });
-  return *state;
+  if (state) return *state;
+  for (const OrbitImpact& impact : whole.impacts)  // it rests then, or is about to
+    if (std::ceil(impact.phase / turn) * turn <= impact.phase + impact.rest)
+      return {Parameters<double>(scene).position(impact.side), 0.0};
+  const auto rest = std::ranges::find_if(whole.impacts, [](const OrbitImpact& impact) { return impact.rest > 0; });
+  return {Parameters<double>(scene).position(rest->side), 0.0};
 }
 
 observables::Extrema extrema(const Scene& scene, const Orbit& orbit) {
@@ -103,37 +159,43 @@ observables::Extrema extrema(const Scene& scene, const Orbit& orbit) {
   return extrema;
 }
 
-Measure impact_speed(const OrbitEquations& equations, const Vector& point, const Vector& tangent) {
-  Measure fastest;
-  for (const auto& [side, phase, before] : moving(equations, point, tangent).impacts) {
-    const double speed = sign_of(side) * before.value;
-    if (speed > fastest.value) fastest = {speed, sign_of(side) * before.slope[0]};
-  }
+double impact_speed(const Orbit& orbit) {
+  double fastest = 0;
+  for (const OrbitImpact& impact : orbit.impacts) fastest = std::max(fastest, std::abs(impact.before));
   return fastest;
 }
 
-Measure impact_power(const OrbitEquations& equations, const Vector& point, const Vector& tangent) {
-  const Moving m = moving(equations, point, tangent);
-  Along lost = 0;
-  for (const auto& [side, phase, before] : m.impacts) {
-    const Along& R = m.p.restitution(side);
-    lost += (1 - R) * (1 + R) * before * before / 2;
-  }
-  const Along power = (equations.shape().mirrored ? 2 : 1) * lost / m.period;
-  return {power.value, power.slope[0]};
+double impact_power(const Scene& scene, const Orbit& orbit) {
+  const Parameters<double> p(scene);
+  double all = 0;
+  for (std::size_t i = 0; i < orbit.size(); ++i)
+    all += lost(p.restitution(orbit.impacts[i].side), orbit.impacts[i].before, next_is_rest(orbit, i));
+  return all * p.nu / orbit.advance();
 }
 
-Measure harmonic(const OrbitEquations& equations, const Vector& point, const Vector& tangent) {
-  const Moving m = moving(equations, point, tangent);
+Along impact_speed(const Moving& moving) {
+  Along fastest = 0;
+  for (const auto& [side, phase, before, rests] : moving.impacts) fastest = std::max(fastest, abs(before));
+  return fastest;
+}
+
+Along impact_power(const Moving& moving) {
+  Along all = 0;
+  for (const auto& [side, phase, before, rests] : moving.impacts)
+    all += lost(moving.p.restitution(side), before, rests);
+  return all / moving.period;
+}
+
+Along harmonic(const Moving& moving) {
   // (1 - nu^2 + 2 i h nu) X = F + (1/T) sum of (v+ - v-) e^{-i phase}, with F = -i f/2; mirror images add the same
-  Along re = 0, im = -m.p.f / 2;
-  for (const auto& [side, phase, before] : m.impacts) {
-    const Along jump = -(1 + m.p.restitution(side)) * before * (equations.shape().mirrored ? 2 : 1) / m.period;
+  const Parameters<Along>& p = moving.p;
+  Along re = 0, im = -p.f / 2;
+  for (const auto& [side, phase, before, rests] : moving.impacts) {
+    const Along jump = -(1 + p.restitution(side)) * before / moving.period;
     re += jump * cos(phase), im -= jump * sin(phase);
   }
-  const Along a = (1 - m.p.nu) * (1 + m.p.nu), b = 2 * m.p.h * m.p.nu;
-  const Along amplitude = 2 * sqrt(re * re + im * im) / sqrt(a * a + b * b);
-  return {amplitude.value, amplitude.slope[0]};
+  const Along a = (1 - p.nu) * (1 + p.nu), b = 2 * p.h * p.nu;
+  return 2 * sqrt(re * re + im * im) / sqrt(a * a + b * b);
 }
 
 }  // namespace clatter::branches

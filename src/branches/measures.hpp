@@ -4,11 +4,13 @@
 #include <vector>
 
 #include "branches/equations.hpp"
+#include "math/dual.hpp"
 #include "observables/extrema.hpp"
 
 namespace clatter::branches {
 
-/// Multipliers of an orbit over its whole period, and whether both lie within the unit circle.
+/// Multipliers of an orbit over its whole period, and whether both lie within the unit circle. A rest forgets all that
+/// went before it: both are zero then.
 struct Multipliers {
   std::array<double, 2> re, im;  ///< the one of larger modulus first
   bool stable;
@@ -21,15 +23,33 @@ struct Multipliers {
 /// Least and greatest displacement and velocity.
 [[nodiscard]] observables::Extrema extrema(const Scene& scene, const Orbit& orbit);
 
-/// Quantities that have maxima along a branch, with their derivatives along a tangent of its equations.
-struct Measure {
-  double value = 0.0, slope = 0.0;
-};
 /// Speed of the fastest impact.
-[[nodiscard]] Measure impact_speed(const OrbitEquations& equations, const Vector& point, const Vector& tangent);
-/// Energy lost in impacts per tau, per unit mass.
-[[nodiscard]] Measure impact_power(const OrbitEquations& equations, const Vector& point, const Vector& tangent);
-/// Amplitude of the harmonic of x at the forcing frequency (eq. 28).
-[[nodiscard]] Measure harmonic(const OrbitEquations& equations, const Vector& point, const Vector& tangent);
+[[nodiscard]] double impact_speed(const Orbit& orbit);
+/// Energy lost in impacts per tau, per unit mass; a chatter that ends in rest loses all that it has.
+[[nodiscard]] double impact_power(const Scene& scene, const Orbit& orbit);
+
+/// A scene's parameters and an orbit's impacts with their derivatives along a branch.
+using Along = Dual<double, 1>;
+struct Moving {
+  Parameters<Along> p;
+  struct Impact {
+    Side side;
+    Along phase, before;
+    bool rests;  ///< the next contact is a rest: this impact and those that follow lose all
+  };
+  std::vector<Impact> impacts;
+  Along period;  ///< of the impacts as they are kept, in tau
+};
+/// Along a tangent of equations.
+[[nodiscard]] Moving moving(const OrbitEquations& equations, const Vector& point, const Vector& tangent);
+/// Along a parameter, for a motion that rests: its impacts follow from the release. Those of a chatter that ends in
+/// rest don't move.
+[[nodiscard]] Moving moving_from_release(const Scene& scene, const Orbit& orbit, sweep::Parameter parameter);
+
+/// Quantities that have maxima along a branch: speed of the fastest impact, energy lost in impacts per tau, and
+/// amplitude of the harmonic of x at the forcing frequency (eq. 28; of motion that doesn't rest).
+[[nodiscard]] Along impact_speed(const Moving& moving);
+[[nodiscard]] Along impact_power(const Moving& moving);
+[[nodiscard]] Along harmonic(const Moving& moving);
 
 }  // namespace clatter::branches

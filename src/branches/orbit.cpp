@@ -11,7 +11,9 @@ using observables::ImpactWord;
 
 Side mirror_image(Side side) { return static_cast<Side>(-sign_of(side)); }
 
-OrbitImpact mirrored(OrbitImpact impact) { return {mirror_image(impact.side), impact.phase, -impact.before}; }
+OrbitImpact mirrored(OrbitImpact impact) {
+  return {mirror_image(impact.side), impact.phase, -impact.before, impact.rest};
+}
 
 OrbitImpact later(OrbitImpact impact, double advance) {
   impact.phase += advance;
@@ -20,9 +22,10 @@ OrbitImpact later(OrbitImpact impact, double advance) {
 
 std::vector<ImpactWord::Contact> contacts_of(const Orbit& orbit) {
   std::vector<ImpactWord::Contact> contacts;
-  for (const OrbitImpact& impact :
-       orbit.whole().impacts)  // a graze is an impact, too: without speed it would be a rest
-    contacts.push_back({impact.phase, impact.before != 0 ? impact.before : 1.0, impact.side});
+  for (const OrbitImpact& impact : orbit.whole().impacts) {
+    const bool grazes = impact.before == 0 && impact.rest == 0;  // an impact, too: without speed it would be a rest
+    contacts.push_back({impact.phase, grazes ? 1.0 : impact.before, impact.side});
+  }
   return contacts;
 }
 
@@ -31,6 +34,10 @@ std::vector<ImpactWord::Contact> contacts_of(const Orbit& orbit) {
 double Orbit::advance() const { return std::numbers::pi * half_turns; }
 
 double Orbit::period_ratio() const { return mirrored ? half_turns : half_turns / 2.0; }
+
+bool Orbit::rests() const {
+  return std::ranges::any_of(impacts, [](const OrbitImpact& impact) { return impact.rest > 0; });
+}
 
 OrbitImpact Orbit::impact(std::size_t i) const {
   if (i < size()) return impacts[i];

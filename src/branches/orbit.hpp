@@ -9,11 +9,12 @@
 
 namespace clatter::branches {
 
-/// One impact of a periodic motion.
+/// One impact of a periodic motion, or the instant at which it comes to rest on a stop.
 struct OrbitImpact {
   Side side = Side::none;
   double phase = 0.0;   ///< forcing phase, rad, growing from impact to impact
   double before = 0.0;  ///< velocity before the impact
+  double rest = 0.0;    ///< forcing phase, rad, for which the mass rests from then on
 };
 
 /// A periodic motion by its impacts. A motion that is its own mirror image half a period later is kept as that half,
@@ -24,6 +25,7 @@ struct Orbit {
   bool mirrored = false;  ///< then half_turns is odd
 
   [[nodiscard]] std::size_t size() const { return impacts.size(); }
+  [[nodiscard]] bool rests() const;           ///< on a stop, once in a period or more often
   [[nodiscard]] double advance() const;       ///< of the forcing phase, rad
   [[nodiscard]] double period_ratio() const;  ///< period in forcing periods
   /// Impact i = 0 ... size: the last one is the first, half a period or a period later.

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "attractors/periodic_motion.hpp"
+#include "branches/resting.hpp"
 #include "point/point.hpp"
 
 namespace clatter::branches {
@@ -24,6 +25,11 @@ std::pair<PhasePoint, std::int64_t> settled(point::Problem problem) {
   return {{result.attractor_x, result.attractor_v}, static_cast<std::int64_t>(result.attractor_periods)};
 }
 
+Orbit resting_start(const point::Problem& problem, Side stop, std::int64_t period) {
+  if (auto orbit = resting_orbit(problem, stop, period)) return std::move(*orbit);
+  throw StartError("the motion at the start rests on a stop for good; begin where the force takes it off");
+}
+
 }  // namespace
 
 Orbit start_orbit(const point::Problem& problem, std::int64_t period, bool symmetric) {
@@ -41,7 +47,7 @@ Orbit start_orbit(const point::Problem& problem, std::int64_t period, bool symme
   if (!round) throw StartError("the run from the start fails");
   Orbit orbit = orbit_of(*round, problem.oscillator.frequency);
   for (const OrbitImpact& impact : orbit.impacts)
-    if (impact.before == 0) throw StartError("the motion at the start rests on a stop; begin where it doesn't");
+    if (impact.before == 0) return resting_start(problem, impact.side, period);
   return orbit.half_if_same(1e-6, symmetric);
 }
 

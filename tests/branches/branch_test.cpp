@@ -173,8 +173,8 @@ TEST(Branch, measures_are_the_observables_of_a_run) {
   const Orbit orbit = start_orbit(problem, 0, true);
   const OrbitEquations equations(problem, orbit, {{Parameter::nu, 1.0}}, 1.0);
   const Vector z = equations.unknowns_of(problem, orbit), still(z.size(), 0.0);
-  EXPECT_NEAR(impact_power(equations, z, still).value, run.impact_power, 1e-12);
-  EXPECT_NEAR(harmonic(equations, z, still).value, run.x_spectrum.amplitude[1], 1e-12);
+  EXPECT_NEAR(impact_power(moving(equations, z, still)).value, run.impact_power, 1e-12);
+  EXPECT_NEAR(harmonic(moving(equations, z, still)).value, run.x_spectrum.amplitude[1], 1e-12);
   const observables::Extrema range = extrema(problem, orbit);
   EXPECT_NEAR(range.displacement(problem.stops).high, run.x_max, 1e-12);
   EXPECT_NEAR(range.velocity().high, run.v_max, 1e-11);
@@ -215,7 +215,9 @@ TEST(Branch, refuses_starts_that_it_cannot_follow) {
   chaos.stops.upper = 0.0, chaos.stops.restitution_upper = 0.7;
   chaos.time.max_periods = 50;
   EXPECT_THROW((void)follow(chaos), StartError);
-  EXPECT_THROW((void)follow(problem_of(0.1, 1.0, 0.5, {-0.5, 0.5, 0.0, 0.0})), StartError);  // rests on its stops
+  point::Problem pressed = problem_of(0.1, 1.0, 1.0, {});
+  pressed.stops.upper = 0.2, pressed.stops.restitution_upper = 0.5, pressed.oscillator.load = 2.0;
+  EXPECT_THROW((void)follow(pressed), StartError);  // rests for good
 }
 
 }  // namespace

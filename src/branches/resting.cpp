@@ -1,0 +1,116 @@
+#include "branches/resting.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "attractors/exact_run.hpp"
+
+namespace clatter::branches {
+namespace {
+
+constexpr double turn = 2 * std::numbers::pi;
+
+double position_of(const Scene& scene, Side stop) {
+  return stop == Side::upper ? scene.stops.upper : scene.stops.lower;
+}
+
+/// The first of the impacts of a chatter that ends in rest number i: they get slower from impact to impact.
+std::size_t begin_of_chatter(const Orbit& orbit, std::size_t rest) {
+  std::size_t first = rest;
+  while (first > 0) {
+    const OrbitImpact &before = orbit.impacts[first - 1], &after = orbit.impacts[first];
+    if (before.side != after.side || before.rest > 0 || std::abs(before.before) < std::abs(after.before)) break;
+    --first;
+  }
+  return first;
+}
+
+/// Calls `function(impact)` for impacts that are letters of their own, and `function(rest)` for each rest.
+template <class Function>
+void each_letter(const Orbit& orbit, Function&& function) {
+  std::size_t next = 0;
+  for (std::size_t i = 0; i < orbit.size(); ++i) {
+    if (orbit.impacts[i].rest == 0) continue;
+    const std::size_t chatter = std::max(next, begin_of_chatter(orbit, i));
+    for (; next < chatter; ++next) function(orbit.impacts[next]);
+    function(orbit.impacts[i]);
+    next = i + 1;
+  }
+}
+
+}  // namespace
+
+std::optional<double> release_phase(const Scene& scene, Side stop) {
+  const double f = scene.oscillator.forcing;
+  const double sine = (position_of(scene, stop) - scene.oscillator.load) / f;  // f sin(phase) + load = x
+  if (!(std::abs(sine) < 1)) return std::nullopt;
+  const double rising = std::asin(sine), falling = std::numbers::pi - rising;
+  const double phase = sign_of(stop) * f * std::cos(rising) < 0 ? rising : falling;
+  return phase < 0 ? phase + turn : phase;
+}
+
+std::optional<double> release_tangency(const Scene& scene, Side stop, sweep::Parameter parameter) {
+  const double sign = sign_of(stop), load = scene.oscillator.load, f = std::abs(scene.oscillator.forcing);
+  const double x = position_of(scene, stop);  // tangency: x = load - sign |f|
+  switch (parameter) {
+    case sweep::Parameter::f:
+      return std::copysign(sign * (load - x), scene.oscillator.forcing);
+    case sweep::Parameter::load:
+      return x + sign * f;
+    case sweep::Parameter::xs:
+      return sign * (load - sign * f);
+    case sweep::Parameter::stop_lower:
+      return stop == Side::lower ? std::optional(load + f) : std::nullopt;
+    case sweep::Parameter::stop_upper:
+      return stop == Side::upper ? std::optional(load - f) : std::nullopt;
+    default:
+      return std::nullopt;
+  }
+}
+
+std::optional<Orbit> resting_orbit(const point::Problem& problem, Side stop, std::int64_t most_periods) {
+  const std::optional<double> release = release_phase(problem, stop);
+  if (!release) return std::nullopt;
+  const double nu = problem.oscillator.frequency;
+  const point::Problem start = attractors::started(problem, {position_of(problem, stop), 0.0}, *release);
+  for (std::int64_t periods = 1; periods <= most_periods; ++periods) {
+    const auto round = attractors::run_round(start, static_cast<std::size_t>(periods));
+    if (!round) return std::nullopt;
+    Orbit orbit{{}, static_cast<int>(2 * periods), false};
+    for (const auto& [time, before, side] : round->contacts) {
+      OrbitImpact impact{side, *release + nu * time, before};
+      if (before == 0) {
+        const std::optional<double> next = release_phase(problem, side);
+        if (!next) return std::nullopt;
+        impact.rest = std::max(*next + turn * std::ceil((impact.phase - *next) / turn) - impact.phase, 0.0);
+      }
+      if (before != 0 || impact.rest > 1e-12) orbit.impacts.push_back(impact);
+    }
+    if (orbit.size() == 0) continue;
+    OrbitImpact& last = orbit.impacts.back();
+    const double end = *release + orbit.advance();
+    if (last.side == stop && last.rest > 0 && std::abs(last.phase + last.rest - end) < 1e-6) return orbit;
+  }
+  return std::nullopt;
+}
+
+std::string letters_of(const Orbit& orbit) {
+  std::string letters;
+  each_letter(orbit, [&](const OrbitImpact& impact) {
+    letters += impact.side == Side::upper ? 'U' : 'L';
+    if (impact.rest > 0) letters += '*';
+  });
+  return letters;
+}
+
+double slowest_letter(const Orbit& orbit) {
+  double slowest = std::numeric_limits<double>::infinity();
+  each_letter(orbit, [&](const OrbitImpact& impact) {
+    if (impact.rest == 0) slowest = std::min(slowest, std::abs(impact.before));
+  });
+  return slowest;
+}
+
+}  // namespace clatter::branches

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "branches/equations.hpp"
+#include "point/problem.hpp"
+
+namespace clatter::branches {
+
+/// The forcing phase in 0 ... 2 pi at which the force takes a mass at rest off a stop: the pressing force is zero and
+/// falls. Nothing if it always or never presses.
+[[nodiscard]] std::optional<double> release_phase(const Scene& scene, Side stop);
+
+/// The value of a parameter at which the release from a stop vanishes, as the force presses all the time: load and
+/// force amplitude balance. Nothing if the parameter has no part in that.
+[[nodiscard]] std::optional<double> release_tangency(const Scene& scene, Side stop, sweep::Parameter parameter);
+
+/// The periodic motion that rests on a stop until its release from there, and again after at most so many forcing
+/// periods: the run from the release is all there is to find. It begins with the first impact after the release; its
+/// last element is that rest. Nothing if the run doesn't come back to rest.
+[[nodiscard]] std::optional<Orbit> resting_orbit(const point::Problem& problem, Side stop, std::int64_t most_periods);
+
+/// The impacts of a resting motion as letters, each chatter that ends in a rest as one: the impacts on the same stop
+/// before it that get slower and slower.
+[[nodiscard]] std::string letters_of(const Orbit& orbit);
+
+/// The speed of the slowest impact that is no part of such a chatter; infinite without one.
+[[nodiscard]] double slowest_letter(const Orbit& orbit);
+
+}  // namespace clatter::branches
