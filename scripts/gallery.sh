@@ -45,5 +45,24 @@ draw one_stop --only x_min,x_max --size 5x3.8
 draw basins --only attractor --size 6x3.8
 draw zones --size 8x4.2
 draw regimes --only word --size 6x4
+for xs in 0.45 1.0 1.6; do
+  for curve in fold symmetry\ breaking graze; do
+    case "$xs $curve" in 0.45\ fold | 0.45\ graze) continue ;; esac # too many of them for a picture
+    "$clatter" branch "$source_dir/configs/curves.toml" --set scene.xs="$xs" --set branch.curve="$curve" -q \
+      -o "$work/$xs ${curve%% *}.h5" > /dev/null || true # those that end in a point of higher order are drawn, too
+  done
+done
+"$source_dir/scripts/plot.py" "$work/regimes.h5" "$work"/?.*\ *.h5 --size 6x4.6 --format svg -o "$work"
+mv "$work"/regimes+*.svg "$out/curves.svg"
 "$clatter" branch "$source_dir/configs/branch.toml" -o "$work/branch.h5" -q > /dev/null
 "$source_dir/scripts/plot.py" "$work/branch.h5" --only impact_speed --size 7x4 --format svg -o "$out"
+optimal() { # name, then settings of the start
+  "$clatter" branch "$source_dir/configs/optimal.toml" -o "$work/$1.h5" -q "${@:2}" > /dev/null
+}
+"$clatter" run "$source_dir/configs/optimal_zones.toml" -o "$work/shares.h5" -q
+optimal one
+optimal two --set scene.nu=4.95 --set scene.x0=-0.2575 --set scene.v0=0.9394 --set branch.period=2
+optimal three --set scene.nu=7 --set scene.x0=0.25 --set scene.v0=-2.5
+"$source_dir/scripts/plot.py" "$work"/{shares,one,two,three}.h5 --only impact_speed --backbone --size 8x5 --format svg \
+  -o "$work"
+mv "$work/shares+one+two+three.svg" "$out/optimal.svg"

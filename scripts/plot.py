@@ -15,7 +15,7 @@ try:
     from matplotlib import pyplot
     from plot_accuracy import accuracy_figure
     from plot_bifurcation import keep_words_with_room
-    from plot_branch import branch_figure
+    from plot_branch import branch_figure, curve_figure, plane_of
     from plot_choice import ChoiceProblem, members_of, results_named, together
     from plot_data import FileProblem, Output
     from plot_figures import paper_figure
@@ -50,11 +50,11 @@ def is_branch(path):
 
 
 def branches_together(options):
-    """All branches of the files in one picture, with the results of sweeps behind them."""
+    """All branches, or curves, of the files in one picture, with the results of sweeps behind them."""
     outputs = [Output(path) for path in options.files]
-    figure = branch_figure(outputs, options.only)
-    first = next(output for output in outputs if output.is_branch)
-    plot_style.heading(figure, first, options.title)
+    branches = [output for output in outputs if output.is_branch]
+    figure = curve_figure(outputs, options) if plane_of(branches[0]) else branch_figure(outputs, options)
+    plot_style.heading(figure, branches[0], options.title, branches)
     return finished(figure, options)
 
 

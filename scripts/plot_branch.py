@@ -1,8 +1,12 @@
-"""The picture of branches of periodic motion: stable and unstable, with their special points."""
+"""Pictures of branches of periodic motion, stable and unstable, with their special points, and of curves of these
+points in the plane of two parameters."""
 
 import numpy as np
+from matplotlib import colors
 
+from plot_attractors import ZONES, has_shares, runs
 from plot_choice import ChoiceProblem
+from plot_maps import Grid, edges_between, kind_map, regime_map
 from plot_style import CYCLE, STOP, caption_below, label, legend_above, new_figure
 
 PANELS = ("v_max", "impact_speed")  # unless --only names others
@@ -13,38 +17,111 @@ MARKS = {  # special point: its symbol, and whether it is filled
     "symmetry breaking": ("^", True),
     "graze": ("o", False),
     "chatter limit": ("X", False),
+    "release tangency": ("d", False),
     "maximum impact_speed": ("*", True),
     "maximum impact_power": ("P", True),
     "maximum harmonic": ("v", True),
+    "resonant graze": ("h", False),
+    "cusp": ("p", True),
+}
+CURVES = {  # special point: name and dashes of its curve in the plane of two parameters
+    "fold": ("folds", "-"),
+    "flip": ("flips", (0, (5, 1.5))),
+    "symmetry breaking": ("losses of symmetry", (0, (5, 1.5, 1, 1.5))),
+    "graze": ("grazes", (0, (1.2, 1.2))),
 }
 BEHIND = "#b8b8b8"
 
 
-def branch_figure(outputs, only):
+def branch_figure(outputs, options):
     """One panel for each quantity, all over the parameter along which the branches were followed."""
     branches = [output for output in outputs if output.is_branch]
     parameters = {parameter_of(output) for output in branches}
     if len(parameters) > 1:
         raise ChoiceProblem(f"the branches run along {' and '.join(sorted(parameters))}; draw those along one of them")
     parameter = parameters.pop()
-    names = chosen(only)
+    names = chosen(options.only)
+    notes = ["solid: stable", "dashed: unstable"]
     figure = new_figure(1.2 + 2.6 * len(names))
     panels = figure.subplots(len(names), sharex=True, squeeze=False)[:, 0]
     for axes, name in zip(panels, names):
         for output in outputs:
             if not output.is_branch:
-                points_behind(axes, output, parameter, name)
-        for output in branches:
-            draw_branches(axes, output, parameter, name)
+                sweep_behind(axes, output, parameter, name)
+        if options.backbone and name == "impact_speed":
+            notes += draw_backbones(axes, branches, parameter)
+        for place, output in enumerate(branches):
+            draw_branches(axes, output, parameter, name, place if len(branches) > 1 else None)
         for output in branches:
             draw_specials(axes, output, parameter, name)
         axes.set_ylabel(label(branches[0], name))
-        low, high = (bound for bound in branches[0].config["branch"]["range"])
-        axes.set_xlim(low, high)
+        ranges = [output.config["branch"]["range"] for output in branches]
+        axes.set_xlim(min(low for low, _ in ranges), max(high for _, high in ranges))
     panels[-1].set_xlabel(label(branches[0], parameter))
     legend_above(panels[0], columns=3)
-    caption_below(figure, ["solid: stable", "dashed: unstable"])
+    caption_below(figure, notes)
     return figure
+
+
+def curve_figure(outputs, options):
+    """Curves of special points in the plane of two parameters, over the map of a sweep over the same two, if given."""
+    curves = [output for output in outputs if output.is_branch]
+    planes = {plane_of(output) for output in curves}
+    if len(planes) > 1 or None in planes:
+        raise ChoiceProblem(
+            "branches and curves, or curves over different parameters; draw each in a picture of its own"
+        )
+    plane = planes.pop()
+    figure = new_figure(4.6, 6.4)
+    axes = figure.subplots()
+    notes = []
+    for output in outputs:
+        if not output.is_branch:
+            notes += map_behind(figure, axes, output, plane, options)
+    for output in curves:
+        draw_curves(axes, output, plane)
+    for output in curves:
+        draw_specials(axes, output, *plane, skip=output.config["branch"]["curve"])
+    if len(curves) == len(outputs):
+        axes.set_xlabel(label(curves[0], plane[0]))
+        axes.set_ylabel(label(curves[0], plane[1]))
+        axes.set_xlim(*curves[0].config["branch"]["range"])
+        if "across_range" in curves[0].config["branch"]:
+            axes.set_ylim(*curves[0].config["branch"]["across_range"])
+    legend_above(axes, columns=3)
+    caption_below(figure, notes)
+    return figure
+
+
+def plane_of(output):
+    """The two parameters of a file of curves; None of branches."""
+    branch = output.config["branch"]
+    return (branch["along"], branch["across"]) if "across" in branch else None
+
+
+def map_behind(figure, axes, output, plane, options):
+    """The regimes, or kinds of motion, of a sweep over the plane of the curves."""
+    if output.axes not in (plane, plane[::-1]):
+        raise ChoiceProblem(
+            f"a map behind curves runs over {' and '.join(plane)}; '{output.title}' runs over {', '.join(output.axes)}"
+        )
+    output = output.in_order(plane)
+    grid = Grid(output, plane, (options.xlim, options.ylim), options.log)
+    status = output.values("status")
+    if "regime" in output:
+        notes = regime_map(figure, axes, grid, status, output.values("regime"))
+    else:
+        notes = kind_map(figure, axes, grid, status, output.values("period_ratio"))
+    axes.set_title("")
+    return notes or []
+
+
+def draw_curves(axes, output, plane):
+    number, (kind, dashes) = output.values("branch"), CURVES[output.config["branch"]["curve"]]
+    x, y = (output.values(name) for name in plane)
+    for curve in np.unique(number):
+        own = number == curve
+        axes.plot(x[own], y[own], ls=dashes, lw=1.1, color=STOP, label=kind, zorder=3, gid=f"{kind} {curve}")
 
 
 def parameter_of(output):
@@ -60,19 +137,37 @@ def chosen(only):
     return tuple(only)
 
 
-def draw_branches(axes, output, parameter, name):
-    """Each branch in its colour; solid where it is stable."""
+def draw_branches(axes, output, parameter, name, place):
+    """Each branch in its colour, or all of a file in one if there are several; solid where it is stable."""
     number, stable = output.values("branch"), output.values("stable") == 1
-    x, y, words = output.values(parameter), output.values(name), output.values("word")
+    x, y, words, regimes = (output.values(key) for key in (parameter, name, "word", "regime"))
     for branch in np.unique(number):
         own = np.flatnonzero(number == branch)
-        colour = CYCLE[branch % len(CYCLE)]
-        title = f"{words[own[len(own) // 2]] or 'no impacts'}, branch {branch}"
-        axes.plot([], [], color=colour, label=title)
+        middle = own[len(own) // 2]
+        colour = CYCLE[(branch if place is None else place) % len(CYCLE)]
+        if place is None:
+            axes.plot([], [], color=colour, label=f"{words[middle] or 'no impacts'}, branch {branch}")
+        elif branch == 0:
+            axes.plot([], [], color=colour, label=f"{regimes[middle]}, {words[middle] or 'no impacts'}")
         for begin, end in stretches(stable[own]):
             part = own[begin : min(end + 1, len(own))]
             style = "-" if stable[part[0]] else (0, (4, 2))
             axes.plot(x[part], y[part], ls=style, color=colour, zorder=2, gid=f"branch {branch}")
+
+
+def draw_backbones(axes, branches, parameter):
+    """The speed of conservative motion between the stops that repeats after as many forcing periods as the branches:
+    x_s cot(n pi / (2 nu)), eq. 21 with the frequency nu / n. Returns the note that explains it."""
+    low, high = branches[0].config["branch"]["range"]
+    gap = branches[0].scene.get("xs")
+    if parameter != "nu" or gap is None or branches[0].scene.get("load", 0) != 0:
+        raise ChoiceProblem("--backbone is of branches along nu between symmetric stops, xs, without a load")
+    for n in sorted({round(output.values("period_ratio")[0]) for output in branches}):
+        nu = np.linspace(max(low, n), high, 600)
+        axes.plot(
+            nu, abs(gap) / np.tan(n * np.pi / (2 * nu)), ls=":", lw=1.2, color=STOP, zorder=1.5, gid=f"backbone {n}"
+        )
+    return ["dotted: conservative motion"]
 
 
 def stretches(flags):
@@ -81,15 +176,34 @@ def stretches(flags):
     return list(zip(changes[:-1], changes[1:]))
 
 
-def draw_specials(axes, output, parameter, name):
-    """Special points with a symbol for each kind."""
+def draw_specials(axes, output, parameter, name, skip=""):
+    """Special points with a symbol for each kind but one."""
     kinds = output.values("special_kind")
     x, y = output.values(f"special_{parameter}"), output.values(f"special_{name}")
-    for kind in dict.fromkeys(kinds):
+    for kind in dict.fromkeys(kind for kind in kinds if kind != skip):
         own = np.array([other == kind for other in kinds])
         marker, filled = MARKS.get(kind, (".", True))
         look = {"ms": 5.5, "color": STOP, "mfc": STOP if filled else "white", "zorder": 4}
         axes.plot(x[own], y[own], marker, label=kind.replace("_", " "), **look)
+
+
+def sweep_behind(axes, output, parameter, name):
+    """Behind branches, the zones of a sweep with shares of its motions, or else the results of one."""
+    if has_shares(output) and output["motion_share"].dims[0] == parameter:
+        return zones_behind(axes, output, parameter)
+    return points_behind(axes, output, parameter, name)
+
+
+def zones_behind(axes, output, parameter):
+    """Where all starts end in one motion, and where in several, as the colour of the ground."""
+    places = output.values(parameter).astype(float)
+    order = np.argsort(places, kind="stable")
+    edges, several = edges_between(places[order]), (output.values("motion_share")[order] > 0).sum(axis=1) > 1
+    for name, cells in (("soft", ~several), ("hard", several)):
+        colour = colors.to_rgba(dict(ZONES)[name], 0.13)
+        for part, (begin, end) in enumerate(runs(cells)):
+            title = f"{name} zone" if part == 0 else None
+            axes.axvspan(edges[begin], edges[end], color=colour, lw=0, zorder=0, label=title, gid=f"{name} zone")
 
 
 def points_behind(axes, output, parameter, name):

@@ -56,7 +56,10 @@ class Output:
         self.scene = self.config.get("scene", {})
         self.sweep = self.config.get("sweep", {})
         if self.is_branch:
-            self.sweep = {self.config["branch"]["along"]: self.config["branch"]["range"]}
+            branch = self.config["branch"]
+            self.sweep = {
+                branch[key]: branch.get(f"{key}_range", branch["range"]) for key in ("along", "across") if key in branch
+            }
         self.held = {}  # axes at one value each
 
     def read(self, path):
@@ -165,8 +168,8 @@ class Output:
             self.variables[name] = dataclasses.replace(whole[name], values=whole.values(name)[rows])
 
     def parameter(self, key, default=np.nan):
-        """A scene key at every point: its coordinate if it is swept, else its constant."""
-        if self.swept(key):
+        """A scene key at every point: its coordinate if it is swept, else its constant; of branches, their start's."""
+        if self.swept(key) and not self.is_branch:
             variable = self[key]
             place = self.axes.index(variable.dims[0])
             along = [-1 if axis == place else 1 for axis in range(len(self.axes))]

@@ -36,6 +36,7 @@ def command_line():
     add("--xlim", type=limits, metavar="A,B", help="limits of the abscissa of every panel")
     add("--ylim", type=limits, metavar="A,B", help="limits of the ordinate of every panel")
     add("--log", choices=("x", "y", "xy"), default="", metavar="x|y|xy", help="logarithmic scales")
+    add("--backbone", action="store_true", help="behind branches along nu, the speed of conservative motion")
     add("--title", metavar="TEXT", help="in place of the configuration's")
     options = parser.parse_intermixed_args(joined())
     end_formats(parser, options)

@@ -30,11 +30,12 @@ std::string special_json(const SpecialPoint& special, const std::vector<sweep::P
     values += ", " + json_text(std::string(sweep::key_of(parameter))) + ": " +
               json_number(branches::value_of(at.scene, parameter));
   return "{\"kind\": " + json_text(std::string(name_of(special.kind))) + values +
-         ", \"impact_speed\": " + json_number(branches::impact_speed(special.at.orbit)) + ", \"x\": " + json_number(state.x) +
-         ", \"v\": " + json_number(state.v) + ", \"period_ratio\": " + json_number(at.orbit.period_ratio()) +
-         ", \"word\": " + json_text(at.orbit.word()) + ", \"stable\": " + (at.stable ? "true" : "false") +
-         ", \"multipliers\": [" + pair(at.multiplier_re[0], at.multiplier_im[0]) + ", " +
-         pair(at.multiplier_re[1], at.multiplier_im[1]) + "], \"branches\": [" + numbers + "]}\n";
+         ", \"impact_speed\": " + json_number(branches::impact_speed(special.at.orbit)) +
+         ", \"x\": " + json_number(state.x) + ", \"v\": " + json_number(state.v) +
+         ", \"period_ratio\": " + json_number(at.orbit.period_ratio()) + ", \"word\": " + json_text(at.orbit.word()) +
+         ", \"stable\": " + (at.stable ? "true" : "false") + ", \"multipliers\": [" +
+         pair(at.multiplier_re[0], at.multiplier_im[0]) + ", " + pair(at.multiplier_re[1], at.multiplier_im[1]) +
+         "], \"branches\": [" + numbers + "]}\n";
 }
 
 /// "fold                  nu = 1.42486182628998  speed 1.72122564705845  LU  branch 0"
@@ -45,8 +46,9 @@ std::string special_text(const SpecialPoint& special, const std::vector<sweep::P
   for (const sweep::Parameter parameter : parameters)
     text += std::string(sweep::key_of(parameter)) + " = " +
             formatted("%-18.15g", branches::value_of(special.at.scene, parameter)) + ' ';
-  text += "speed " + formatted("%-18.15g", branches::impact_speed(special.at.orbit)) + ' ' + (word.empty() ? "no impacts" : word) +
-          (parameters.size() > 1 ? "  curve" : "  branch") + (special.branches.size() > 1 ? "es" : "");
+  text += "speed " + formatted("%-18.15g", branches::impact_speed(special.at.orbit)) + ' ' +
+          (word.empty() ? "no impacts" : word) + (parameters.size() > 1 ? "  curve" : "  branch");
+  if (special.branches.size() > 1) text += parameters.size() > 1 ? "s" : "es";
   for (const std::size_t branch : special.branches) text += ' ' + std::to_string(branch);
   return text + '\n';
 }

@@ -200,8 +200,9 @@ class Follower {
 
   void end_of_range(const OrbitEquations& equations, const Walk& walk, double step) {
     for (const double bound : settings_.range) {
-      const auto zero = walk.zero([&](const CurvePoint& p) { return p.at.back() * width_ - bound; }, step);
+      auto zero = walk.zero([&](const CurvePoint& p) { return p.at.back() * width_ - bound; }, step);
       if (!zero) continue;
+      zero->at.back() = bound / width_;  // R = 0 less a rounding would be no impact
       const double length = zero->arclength - walk.here().arclength;
       if (violation(equations, zero->at)) return end_in_graze(equations, walk, length);
       special_between(equations, walk, length, {});
@@ -381,7 +382,7 @@ class Follower {
     return {branch_,
             std::abs(value - start) / width_,
             changed(problem_, settings_.along, value),
-            orbit.half_if_same(1e-6, symmetric_),
+            half_of_resting(orbit, symmetric_),
             true,
             {},
             {}};

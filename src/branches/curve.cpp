@@ -152,8 +152,9 @@ class CurveFollower {
   }
 
   void end_at_bound(const OrbitEquations& equations, const Walk& walk, std::size_t axis, double bound, double step) {
-    const auto zero = walk.zero([&](const CurvePoint& p) { return parameter(p.at, axis) - bound; }, step);
+    auto zero = walk.zero([&](const CurvePoint& p) { return parameter(p.at, axis) - bound; }, step);
     if (!zero) return end(point_of(equations, walk.here()), "no step leads on", true);
+    zero->at[zero->at.size() - 2 + axis] = bound / axes_[axis].unit;  // R = 0 less a rounding would be no impact
     const double length = zero->arclength - walk.here().arclength;
     if (violation(equations, zero->at)) return end_in_graze(equations, walk, length);
     special_between(equations, walk, length);
@@ -248,8 +249,8 @@ class CurveFollower {
     }
   }
 
-  /// Zero if an impact without speed in every n periods of a motion is as likely to be born with speed as not: its map
-  /// has no term in the square root of the distance from the graze then (Nordmark 2001).
+  /// Zero in a resonant graze: the nth iterate of the motion's map has no term in the square root of the distance from
+  /// the graze (Simpson & Ghosh 2026).
   static double resonance(const OrbitEquations& equations, const Vector& at, int n) {
     const Scene scene = equations.scene_at(at);
     const Orbit orbit = equations.orbit_at(at);
@@ -257,7 +258,7 @@ class CurveFollower {
       const ImpactMap map = impact_map(scene, orbit);
       return map.numerator[0][0] + map.numerator[1][1];
     }
-    // M^n has an element of velocity to displacement sin(n phi) / sin(phi) as large as that of M, cos(phi) = tr M / 2
+    // the element of M^n from velocity to displacement: sin(n phi) / sin(phi) times that of M, cos(phi) = tr M / 2
     // over the root of the determinant
     const ImpactMap map = impact_map(scene, without_graze(orbit, *equations.grazing()));
     const double square = map.trace() * map.trace(), factor = n == 2 ? 0 : n == 3 ? 1 : 2;

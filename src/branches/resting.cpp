@@ -96,6 +96,19 @@ std::optional<Orbit> resting_orbit(const point::Problem& problem, Side stop, std
   return std::nullopt;
 }
 
+Orbit half_of_resting(const Orbit& orbit, bool symmetric_scene) {
+  const int half_turns = orbit.half_turns / 2;
+  if (!symmetric_scene || half_turns % 2 == 0) return orbit;
+  const OrbitImpact& last = orbit.impacts.back();
+  const double release = last.phase + last.rest - orbit.advance() / 2;
+  for (std::size_t i = 0; i + 1 < orbit.size(); ++i) {
+    const OrbitImpact& rest = orbit.impacts[i];
+    if (rest.rest > 0 && rest.side != last.side && std::abs(rest.phase + rest.rest - release) < 1e-6)
+      return {{orbit.impacts.begin(), orbit.impacts.begin() + static_cast<std::ptrdiff_t>(i) + 1}, half_turns, true};
+  }
+  return orbit;
+}
+
 std::string letters_of(const Orbit& orbit) {
   std::string letters;
   each_letter(orbit, [&](const OrbitImpact& impact) {

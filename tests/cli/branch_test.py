@@ -14,6 +14,7 @@ from command_line import SOURCE, CommandLine
 
 SCENE = "[scene]\nh = 0.1\nf = -1.0\nR = 0.7\nxs = -3\nnu = 1.1\nx0 = 2\nv0 = 3\n"
 BRANCH = '[branch]\nalong = "nu"\nrange = [0.85, 1.5]\n'
+WIDE = '[branch]\nalong = "nu"\nrange = [0.5, 2]\n'
 
 
 class Branch(CommandLine):
@@ -63,6 +64,47 @@ class Branch(CommandLine):
         ) as other:
             np.testing.assert_array_equal(one["x"][:], other["x"][:])
 
+    def test_curves_have_both_parameters_and_end_in_special_points_of_their_own(self):
+        result = self.branch(SCENE + WIDE + 'across = "xs"\nacross_range = [0.05, 6]\ncurve = "fold"\n', "--json", "-q")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        points = [json.loads(line) for line in result.stdout.splitlines()]
+        self.assertEqual({point["kind"] for point in points}, {"fold", "resonant graze"})
+        for point in points:
+            self.assertEqual(list(point)[:3], ["kind", "nu", "xs"])
+        fold = next(point for point in points if point["kind"] == "fold")
+        self.assertAlmostEqual(fold["nu"], 1.42486182628998, 13)
+        self.assertEqual(fold["xs"], 3)
+        with xarray.open_dataset((self.directory / "a.branch.h5")) as data:
+            self.assertEqual(data["xs"].dims, ("point",))
+            self.assertEqual(data["special_xs"].dims, ("special",))
+            self.assertGreaterEqual(float(data["xs"].min()), 0.05)
+            np.testing.assert_allclose(data["multiplier_re"].max("multiplier"), 1, rtol=0, atol=1e-5)
+
+    def test_curves_need_no_range_across(self):
+        result = self.branch(SCENE + WIDE + 'across = "R"\ncurve = "fold"\n', "-q")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        with h5py.File((self.directory / "a.branch.h5")) as file:
+            self.assertGreater(len(file["R"]), 10)
+            self.assertLessEqual(file["R"][:].max(), 1)
+            self.assertGreaterEqual(file["R"][:].min(), 0)
+
+    def test_curves_without_a_point_to_begin_with_say_so(self):
+        result = self.branch(SCENE + BRANCH + 'across = "xs"\ncurve = "flip"\n')
+        self.assertEqual(result.returncode, 1)
+        self.assertIn("the branch has no flip; widen branch.range", result.stderr)
+        self.assertFalse((self.directory / "a.branch.h5").exists())
+
+    def test_motion_that_rests_is_followed_to_its_chatter_limit(self):
+        scene = SCENE.replace("xs = -3", "xs = 0.4").replace("nu = 1.1", "nu = 0.3").replace("x0 = 2", "x0 = 0")
+        result = self.branch(scene + BRANCH.replace("0.85, 1.5", "0.2, 1"), "--json", "-q")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        limit = json.loads(result.stdout.splitlines()[-1])
+        self.assertEqual((limit["kind"], limit["word"]), ("chatter limit", "L*U*"))
+        self.assertEqual(limit["multipliers"], [[0, 0], [0, 0]])
+        with xarray.open_dataset((self.directory / "a.branch.h5")) as data:
+            self.assertTrue((data["stable"] == 1).all())
+            self.assertTrue((data["symmetric"] == 1).all())
+
     def test_mistakes_are_told_with_their_place_and_the_way_out(self):
         for text, words in (
             (SCENE, ("a.toml: no branch.along and branch.range", "--set branch.along=nu")),
@@ -72,6 +114,16 @@ class Branch(CommandLine):
             (SCENE + '[branch]\nalong = "nu"\nrange = [2, 1]\n', ("a.toml:11:9", "two numbers, the lower first")),
             (SCENE + '[branch]\nalong = "nu"\nrange = 2\n', ("a.toml:11:9", "two numbers, the lower first")),
             (SCENE + '[branch]\nalong = "nu"\nrange = [-1, 1]\n', ("a.toml:11:9", "nu = -1", "> 0")),
+            (SCENE + "[branch]\nmax_points = 9\n", ("a.toml:9:2", "without 'along'")),
+            (SCENE + BRANCH + 'across = "xs"\n', ("a.toml:12:1", "'across' without 'curve'")),
+            (SCENE + BRANCH + 'curve = "fold"\n', ("a.toml:12:1", "'curve' without 'across'")),
+            (SCENE + BRANCH + "across_range = [1, 2]\n", ("a.toml:12:1", "'across_range' without 'across'")),
+            (SCENE + BRANCH + 'across = "nu"\ncurve = "fold"\n', ("a.toml:12:10", "expected another key")),
+            (SCENE + BRANCH + 'across = "xs"\ncurve = "cusp"\n', ("a.toml:13:9", "fold, flip, symmetry breaking")),
+            (
+                SCENE + BRANCH + 'across = "R"\ncurve = "fold"\nacross_range = [0.5, 2]\n',
+                ("a.toml:14:16", "across_range has R = 2", "0 ... 1"),
+            ),
             (SCENE.replace("nu = 1.1\n", "") + "[sweep]\nnu = [1, 2]\n" + BRANCH, ("a.toml:9:1", "both [sweep] and")),
             (SCENE.replace("x0 = 2\n", "") + "[sweep]\nx0 = [1, 2]\n" + BRANCH, ("axis x0", "give that in [scene]")),
         ):
@@ -122,6 +174,42 @@ class Branch(CommandLine):
         svg = (self.directory / "a.branch+s.svg").read_text(encoding="utf-8")
         for part in ('id="branch 0"', 'id="branch 1"', "<!-- fold -->", "<!-- graze -->", "<!-- sweep -->"):
             self.assertIn(part, svg)
+
+    def test_picture_has_zones_and_the_conservative_motion_behind(self):
+        scene = SCENE.replace("xs = -3", "xs = 0.5").replace("nu = 1.1", "nu = 2").replace("x0 = 2\nv0 = 3\n", "")
+        self.branch(scene + '[branch]\nalong = "nu"\nrange = [1.3, 4]\n', "-q")
+        starts = '[sweep]\nnu = [1.5, 2, 3]\nx0 = "sobol(-0.5, 0.5, 64)"\nv0 = "sobol(-2, 2, 64)"\nlinked = "x0, v0"\n'
+        self.write("z.toml", scene.replace("nu = 2\n", "") + starts + "[observe]\nattractor = true\n")
+        self.assertEqual(self.clatter("run", "z.toml", "-q").returncode, 0)
+        plot = ["/usr/bin/python3", SOURCE / "scripts" / "plot.py", "--format", "svg", "--backbone"]
+        files = [self.directory / "z.h5", self.directory / "a.branch.h5"]
+        result = subprocess.run([*plot, *files], capture_output=True, text=True, cwd=self.directory)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        svg = (self.directory / "z+a.branch.svg").read_text(encoding="utf-8")
+        for part in ('id="soft zone"', 'id="hard zone"', 'id="backbone 1"', "dotted: conservative motion"):
+            self.assertIn(part, svg)
+        self.branch(SCENE.replace("xs = -3", "stop_upper = 3") + BRANCH, "-q")
+        result = subprocess.run([*plot, files[1]], capture_output=True, text=True)
+        self.assertEqual(result.returncode, 2)
+        self.assertIn("--backbone is of branches along nu between symmetric stops", result.stderr)
+
+    def test_picture_of_curves_has_the_map_of_a_sweep_behind(self):
+        self.branch(SCENE + WIDE + 'across = "xs"\nacross_range = [2, 6]\ncurve = "fold"\n', "-q")
+        scene = SCENE.replace("nu = 1.1\n", "").replace("xs = -3\n", "")
+        self.write("m.toml", scene + "[sweep]\nxs = [2, 4, 6]\nnu = [0.5, 1, 2]\n[observe]\nword = true\n")
+        self.assertEqual(self.clatter("run", "m.toml", "-q").returncode, 0)
+        self.write("s.toml", scene + "xs = 3\n[sweep]\nnu = [0.5, 1]\n[observe]\nword = true\n")
+        self.assertEqual(self.clatter("run", "s.toml", "-q").returncode, 0)
+        plot = ["/usr/bin/python3", SOURCE / "scripts" / "plot.py", "--format", "svg"]
+        files = [(self.directory / "m.h5"), (self.directory / "a.branch.h5")]
+        result = subprocess.run([*plot, *files], capture_output=True, text=True, cwd=self.directory)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        svg = (self.directory / "m+a.branch.svg").read_text(encoding="utf-8")
+        for part in ('id="folds 0"', "<!-- folds -->", "<!-- resonant graze -->", "<image"):
+            self.assertIn(part, svg)
+        result = subprocess.run([*plot, self.directory / "s.h5", files[1]], capture_output=True, text=True)
+        self.assertEqual(result.returncode, 2)
+        self.assertIn("a map behind curves runs over nu and xs", result.stderr)
 
 
 if __name__ == "__main__":
