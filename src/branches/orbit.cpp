@@ -81,6 +81,7 @@ Orbit Orbit::with(const OrbitImpact& impact, std::size_t after) const {
 }
 
 Orbit Orbit::without(std::size_t i) const {
+  if (size() == 1) return {{}, mirrored ? 1 : 2, mirrored};
   Orbit orbit = *this;
   orbit.impacts.erase(orbit.impacts.begin() + static_cast<std::ptrdiff_t>(i));
   return orbit;

@@ -35,7 +35,7 @@ struct Orbit {
   [[nodiscard]] Orbit repeated(int times) const;  ///< of the whole, as if it repeated only after so many periods
   [[nodiscard]] Orbit half_if_same(double tolerance, bool symmetric_scene) const;  ///< kept as a half, if it can be
   [[nodiscard]] Orbit with(const OrbitImpact& impact, std::size_t after) const;
-  [[nodiscard]] Orbit without(std::size_t i) const;
+  [[nodiscard]] Orbit without(std::size_t i) const;  ///< motion without impacts has the force's period
   /// The same, in one repetition of what is left without impact i, which has no speed: a motion over many periods that
   /// grazes in one of them grazes in all.
   [[nodiscard]] Orbit once_with_graze(std::size_t i, bool symmetric_scene) const;

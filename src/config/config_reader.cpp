@@ -149,8 +149,11 @@ void add_second_parameter(const Settings& settings, branches::BranchSettings& br
 /// the same key.
 std::optional<branches::BranchSettings> branch_of(const Settings& settings) {
   const Setting *const along = settings.find("branch", "along"), *const range = settings.find("branch", "range");
-  const auto is_of_branch = [](const Setting& setting) { return setting.key->section == "branch"; };
-  if (std::ranges::none_of(settings.values, is_of_branch)) return std::nullopt;
+  const auto asks_for_branch = [](const Setting& setting) {
+    const Key& key = *setting.key;
+    return key.section == "branch" && (key.fallback.empty() || setting.value != default_setting(key).value);
+  };
+  if (along == nullptr && std::ranges::none_of(settings.values, asks_for_branch)) return std::nullopt;
   if (along == nullptr)
     fail(settings.location_of_section("branch"), "[branch] without 'along'; add a key of [scene], e.g. along = \"nu\"");
   if (range == nullptr)

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <optional>
 #include <random>
 
 #include "branches/newton.hpp"
@@ -81,6 +82,52 @@ TEST(OrbitEquations, have_the_closed_form_of_one_impact_on_each_stop_as_solution
       EXPECT_NEAR(orbit.impacts[0].before, known.speed, 1e-13 * condition * std::max(1.0, known.speed)) << i;
       EXPECT_NEAR(std::remainder(orbit.impacts[0].phase - known.phase, 2 * M_PI), 0.0, 1e-12 * condition) << i;
       EXPECT_NEAR(map.trace(), known.trace, 1e-11 * condition * (1 + std::abs(known.trace)) / known.speed) << i;
+      ++solutions;
+    }
+  }
+  EXPECT_GT(solutions, 400);
+}
+
+/// The force amplitude at which both motions of the closed form become one, and the speed of their impacts: the
+/// discriminant vanishes. Nothing if that speed isn't positive.
+struct Fold {
+  double forcing, speed;
+};
+std::optional<Fold> fold_of(const Scene& scene) {
+  using N = FiftyDigits;
+  const N R = scene.stops.restitution_upper, g = scene.stops.upper;
+  return with_arcs(scene.oscillator, [&]<Effects E>() -> std::optional<Fold> {
+    const motion::ArcConstants<N, Effects{E.damping, Forcing::regular}> c(scene.oscillator);
+    const auto flow = c.propagator(N(pi<N>() / c.nu));
+    const N d = 1 + (flow.a + flow.c) + exp(N(-2 * c.h * pi<N>() / c.nu));
+    const N alpha = (1 + R) * flow.b / d, gamma = ((1 + R) * (1 + flow.a) / d - R) / c.nu;
+    const N square = alpha * alpha + gamma * gamma, amplitude = g * abs(gamma) / sqrt(square);
+    if (alpha <= 0) return std::nullopt;
+    return Fold{static_cast<double>(N(c.f * amplitude / c.response.amplitude)),
+                static_cast<double>(N(alpha * g / square))};
+  });
+}
+
+TEST(OrbitEquations, with_a_multiplier_of_one_have_the_fold_of_the_closed_form_as_solution) {
+  std::mt19937 random(29);
+  std::size_t solutions = 0;
+  for (int i = 0; i < 1000; ++i) {
+    Scene scene = random_scene(random);
+    const std::optional<Fold> fold = fold_of(scene);
+    if (!fold || fold->speed < 1e-2) continue;
+    scene.oscillator.forcing = fold->forcing * (1 + 1e-6);  // where there are two motions
+    for (const ClosedForm& near : closed_forms(scene)) {
+      const Orbit shape{{{Side::upper, near.phase, near.speed}}, 1, true};
+      const OrbitEquations equations(scene, shape, {{Parameter::f, fold->forcing}}, fold->speed,
+                                     {{Condition::Kind::multiplier, 1}});
+      const auto at = solution(equations, equations.unknowns_of(scene, shape), 1e-12);
+      ASSERT_TRUE(at) << i;
+      const Scene there = equations.scene_at(*at);
+      const Orbit orbit = equations.orbit_at(*at);
+      const double condition = 1 + 1 / fold->speed;
+      EXPECT_NEAR(there.oscillator.forcing / fold->forcing, 1.0, 1e-13 * condition) << i;
+      EXPECT_NEAR(orbit.impacts[0].before / fold->speed, 1.0, 1e-10 * condition) << i;
+      EXPECT_NEAR(impact_map(there, orbit).distance_to(1), 0.0, 1e-12 * condition) << i;
       ++solutions;
     }
   }

@@ -1,0 +1,60 @@
+#include "branches/record.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "branches/measures.hpp"
+
+namespace clatter::branches {
+
+void Record::begin(double speed_unit) {
+  branch_ = found_.ends.empty() ? 0 : found_.ends.back().branch + 1;
+  first_point_ = found_.points.size(), first_special_ = specials();
+  speed_unit_ = speed_unit;
+}
+
+BranchPoint Record::point(const OrbitEquations& equations, const CurvePoint& at) const {
+  BranchPoint out{branch_, at.arclength, equations.scene_at(at.at), equations.orbit_at(at.at), false, {}, {}};
+  const auto grazing = equations.grazing();  // the multipliers are those without the impact that has no speed
+  const Multipliers of = multipliers(out.scene, grazing ? out.orbit.without(*grazing) : out.orbit);
+  out.stable = of.stable, out.multiplier_re = of.re, out.multiplier_im = of.im;
+  return out;
+}
+
+std::size_t Record::number_of(SpecialKind kind, const BranchPoint& at) const {
+  const PhasePoint here = state_at_phase_zero(at.scene, at.orbit);
+  const auto known = std::ranges::find_if(found_.special, [&](const SpecialPoint& special) {
+    if (special.kind != kind) return false;
+    for (const auto& [parameter, unit] : axes_)
+      if (std::abs(value_of(special.at.scene, parameter) - value_of(at.scene, parameter)) > 1e-8 * unit) return false;
+    const PhasePoint there = state_at_phase_zero(special.at.scene, special.at.orbit);
+    return std::hypot(here.x - there.x, here.v - there.v) <= 1e-5 * speed_unit_;
+  });
+  return static_cast<std::size_t>(known - found_.special.begin());
+}
+
+Record::Noted Record::note(SpecialKind kind, BranchPoint at) {
+  const std::size_t number = number_of(kind, at);
+  const bool is_new = number == specials();
+  at.branch = branch_;
+  if (is_new) found_.special.push_back({kind, std::move(at), {}});
+  meet(number, branch_);
+  return {number, is_new};
+}
+
+void Record::meet(std::size_t special, std::size_t branch) {
+  std::vector<std::size_t>& meeting = found_.special[special].branches;
+  if (std::ranges::find(meeting, branch) == meeting.end()) meeting.push_back(branch);
+}
+
+void Record::end(const BranchPoint& last, std::string reason, bool failed) {
+  found_.ends.push_back({branch_, value_of(last.scene, axes_[0].parameter), std::move(reason), failed});
+}
+
+void Record::turn_round() {
+  std::reverse(found_.points.begin() + static_cast<std::ptrdiff_t>(first_point_), found_.points.end());
+  for (std::size_t i = first_point_; i < found_.points.size(); ++i) found_.points[i].arclength *= -1;
+  for (std::size_t i = first_special_; i < specials(); ++i) found_.special[i].at.arclength *= -1;
+}
+
+}  // namespace clatter::branches

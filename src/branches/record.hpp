@@ -1,0 +1,56 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "branches/branch.hpp"
+#include "branches/walk.hpp"
+
+namespace clatter::branches {
+
+/// Points, special points and ends of branches, or of curves, as they are found.
+class Record {
+ public:
+  Record(std::vector<OrbitEquations::Axis> axes, std::int64_t max_points)
+      : axes_(std::move(axes)), max_points_(static_cast<std::size_t>(max_points)) {}
+
+  /// Begins the next branch. Against this speed states of special points are compared.
+  void begin(double speed_unit);
+  [[nodiscard]] std::size_t branch() const { return branch_; }
+
+  /// A point of the present branch, with multipliers.
+  [[nodiscard]] BranchPoint point(const OrbitEquations& equations, const CurvePoint& at) const;
+  void add(const BranchPoint& point) { found_.points.push_back(point); }
+  [[nodiscard]] bool is_full() const { return found_.points.size() >= max_points_; }
+
+  /// The special point of that kind near another, known already or new; the present branch belongs to it.
+  struct Noted {
+    std::size_t number;
+    bool is_new;
+  };
+  Noted note(SpecialKind kind, BranchPoint at);
+  [[nodiscard]] bool knows(SpecialKind kind, const BranchPoint& at) const { return number_of(kind, at) < specials(); }
+  /// A branch belongs to a special point, too.
+  void meet(std::size_t special, std::size_t branch);
+
+  void end(const BranchPoint& last, std::string reason, bool failed = false);
+
+  /// All of the present branch so far was walked backwards: brings it into the order of the whole branch.
+  void turn_round();
+
+  [[nodiscard]] const Branches& found() const { return found_; }
+  [[nodiscard]] Branches take() { return std::move(found_); }
+
+ private:
+  [[nodiscard]] std::size_t specials() const { return found_.special.size(); }
+  [[nodiscard]] std::size_t number_of(SpecialKind kind, const BranchPoint& at) const;
+
+  std::vector<OrbitEquations::Axis> axes_;
+  std::size_t max_points_, branch_ = 0, first_point_ = 0, first_special_ = 0;
+  double speed_unit_ = 1.0;
+  Branches found_;
+};
+
+}  // namespace clatter::branches

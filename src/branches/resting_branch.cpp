@@ -1,0 +1,152 @@
+#include "branches/resting_branch.hpp"
+
+#include <algorithm>
+#include <boost/math/tools/roots.hpp>
+#include <cmath>
+
+#include "branches/measures.hpp"
+#include "branches/resting.hpp"
+
+namespace clatter::branches {
+namespace {
+
+std::ptrdiff_t rests_of(const Orbit& orbit) {
+  return std::ranges::count_if(orbit.impacts, [](const OrbitImpact& impact) { return impact.rest > 0; });
+}
+
+}  // namespace
+
+RestingBranch::RestingBranch(const point::Problem& problem, const BranchSettings& settings, bool symmetric,
+                             double speed_unit, Record& record, std::deque<Waiting>& waiting)
+    : problem_(problem),
+      settings_(settings),
+      symmetric_(symmetric),
+      width_(settings.range[1] - settings.range[0]),
+      speed_unit_(speed_unit),
+      record_(record),
+      waiting_(waiting) {}
+
+void RestingBranch::follow(const Waiting& from) {
+  stop_ = from.orbit.impacts.back().side, start_ = value_of(from.scene, settings_.along);
+  generation_ = from.generation;
+  if (from.special) record_.meet(*from.special, record_.branch());
+  if (from.heading != 0) {
+    record_.add(point(start_, from.orbit));
+    return walk(from.orbit, from.heading);
+  }
+  const std::size_t first_special = record_.found().special.size();
+  walk(from.orbit, -1);
+  record_.turn_round();
+  record_.add(point(start_, from.orbit));
+  walk(from.orbit, 1);
+  if (!from.cascade) return;
+  for (std::size_t i = first_special; i < record_.found().special.size(); ++i)
+    if (record_.found().special[i].kind == SpecialKind::chatter_limit) return record_.meet(i, *from.cascade);
+}
+
+std::optional<Orbit> RestingBranch::orbit(double value, Side stop, const Orbit& like) const {
+  point::Problem problem = problem_;
+  static_cast<Scene&>(problem) = scene(value);
+  return resting_orbit(problem, stop, like.half_turns / 2);
+}
+
+BranchPoint RestingBranch::point(double value, const Orbit& orbit) const {
+  const double arclength = std::abs(value - start_) / width_;
+  return {record_.branch(), arclength, scene(value), half_of_resting(orbit, symmetric_), true, {}, {}};
+}
+
+void RestingBranch::walk(Orbit here_orbit, int heading) {
+  const double bound = settings_.range[heading > 0 ? 1 : 0];
+  // short steps, as all that happens within one unseen is that an impact comes and goes
+  const double step = heading * settings_.largest_step / 4 * width_;
+  double here = start_;
+  while (here != bound) {
+    if (record_.is_full()) return record_.end(point(here, here_orbit), "branch.max_points is spent", true);
+    const double next = heading * (bound - here) < heading * step ? bound : here + step;
+    const std::optional<Orbit> there = orbit(next, stop_, here_orbit);
+    if (!there || letters_of(*there) != letters_of(here_orbit)) {
+      const auto [last, beyond] = change_between(here, next, here_orbit);
+      const std::optional<Orbit> good = orbit(last, stop_, here_orbit), other = orbit(beyond, stop_, here_orbit);
+      note_maxima(here, last, here_orbit);
+      if (!other || is_new_contact(*good, *other)) return end(last, *good, beyond, other, heading);
+      here_orbit = *other, here = beyond;  // an impact passed another in speed
+    } else {
+      note_maxima(here, next, here_orbit);
+      here_orbit = *there, here = next;
+    }
+    record_.add(point(here, here_orbit));
+  }
+  record_.end(point(here, here_orbit), "range");
+}
+
+/// Neighbours, as good as, between which the letters of the motion change: the last value with those of `like`, and the
+/// next one.
+std::pair<double, double> RestingBranch::change_between(double good, double bad, const Orbit& like) const {
+  const std::string letters = letters_of(like);
+  for (;;) {
+    const double middle = good + (bad - good) / 2;
+    if (middle == good || middle == bad) return {good, bad};
+    const std::optional<Orbit> there = orbit(middle, stop_, like);
+    (there && letters_of(*there) == letters ? good : bad) = middle;
+  }
+}
+
+/// Whether of two neighbouring motions one has a rest, or an impact without speed, that the other hasn't.
+bool RestingBranch::is_new_contact(const Orbit& one, const Orbit& other) const {
+  return rests_of(one) != rests_of(other) || std::min(slowest_letter(one), slowest_letter(other)) < 1e-4 * speed_unit_;
+}
+
+void RestingBranch::end(double last, const Orbit& good, double beyond, const std::optional<Orbit>& other, int heading) {
+  BranchPoint at = point(last, good);
+  const std::optional<double> tangency = release_tangency(at.scene, stop_, settings_.along);
+  SpecialKind kind = SpecialKind::chatter_limit;
+  // nearby, flights are too short to be told from rest
+  if (tangency && std::abs(*tangency - last) <= 1e-9 * (std::abs(last) + width_))
+    kind = SpecialKind::release_tangency, at.scene = scene(*tangency);
+  else if (other && rests_of(*other) == rests_of(good))
+    kind = SpecialKind::graze;
+  record_.add(at);
+  if (kind == SpecialKind::graze && waits_beyond(at, stop_, generation_)) return record_.end(at, "chatter limit");
+  const auto [special, is_new] = record_.note(kind, at);
+  record_.end(at, std::string(name_of(kind)));
+  if (kind == SpecialKind::graze && is_new)
+    waiting_.push_back({scene(beyond), *other, {}, special, generation_, heading, {}});
+}
+
+/// Largest speeds and losses between two values of the parameter.
+void RestingBranch::note_maxima(double here, double next, const Orbit& like) {
+  const auto look = [&](SpecialKind kind, Along (*measure)(const Moving&)) {
+    const auto slope = [&](double value) {
+      const std::optional<Orbit> there = orbit(value, stop_, like);
+      return there ? measure(moving_from_release(scene(value), *there, settings_.along)).slope[0] : 0.0;
+    };
+    const double low = std::min(here, next), high = std::max(here, next), first = slope(low), last = slope(high);
+    if (!(first > 0 && last < 0)) return;
+    std::uintmax_t most = 60;
+    const auto bracket = boost::math::tools::toms748_solve(
+        slope, low, high, first, last, [](double x, double y) { return std::abs(x - y) <= 4e-16 * std::abs(x); }, most);
+    const double value = bracket.first + (bracket.second - bracket.first) / 2;
+    if (const auto there = orbit(value, stop_, like)) record_.note(kind, point(value, *there));
+  };
+  look(SpecialKind::impact_speed, impact_speed);
+  if (problem_.observe.energy) look(SpecialKind::impact_power, impact_power);
+}
+
+bool RestingBranch::waits_beyond(const BranchPoint& last, Side stop, std::int64_t generation) {
+  const auto first = std::ranges::find(record_.found().points, record_.branch(), &BranchPoint::branch);
+  const double end = value_of(last.scene, settings_.along), distance = end - value_of(first->scene, settings_.along);
+  if (last.orbit.size() < 8 || distance == 0 || std::abs(distance) > 1e-5 * width_) return false;
+  const Orbit whole = last.orbit.whole();
+  for (double ahead = distance; std::abs(ahead) < 0.01 * width_; ahead *= 2) {
+    const double value = end + ahead;
+    if (value < settings_.range[0] || value > settings_.range[1]) return false;
+    const auto resting = orbit(value, stop, whole);
+    if (resting && rests_of(*resting) > rests_of(whole)) {
+      waiting_.push_back({scene(value), *resting, {}, {}, generation, 0, record_.branch()});
+      return true;
+    }
+  }
+  return false;
+}
+
+}  // namespace clatter::branches

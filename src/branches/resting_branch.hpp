@@ -1,0 +1,56 @@
+#pragma once
+
+#include <deque>
+#include <optional>
+
+#include "branches/record.hpp"
+
+namespace clatter::branches {
+
+/// A branch that waits to be followed.
+struct Waiting {
+  Scene scene;
+  Orbit orbit;
+  std::optional<Vector> direction{};     ///< along which it begins; nothing: both ways
+  std::optional<std::size_t> special{};  ///< that it comes from
+  std::int64_t generation = 0;
+  int heading = 0;                       ///< of motion that rests: up or down the parameter; 0: both ways
+  std::optional<std::size_t> cascade{};  ///< the branch that came near it through ever more grazes
+};
+
+/// Follows motion that rests. It is a function of the parameter, the run from its release, and walked along that.
+class RestingBranch {
+ public:
+  /// `symmetric`: all scenes along the parameter are.
+  RestingBranch(const point::Problem& problem, const BranchSettings& settings, bool symmetric, double speed_unit,
+                Record& record, std::deque<Waiting>& waiting);
+
+  /// Both ways, or one if the branch has a heading; what begins at its ends waits.
+  void follow(const Waiting& from);
+
+  /// If a branch that was born at a graze not long ago ends in another one, they accumulate where a chatter ends in
+  /// rest just at its release. Returns whether this is so; the motion that rests, not far beyond, waits then.
+  bool waits_beyond(const BranchPoint& last, Side stop, std::int64_t generation);
+
+ private:
+  [[nodiscard]] Scene scene(double value) const { return changed(problem_, settings_.along, value); }
+  [[nodiscard]] std::optional<Orbit> orbit(double value, Side stop, const Orbit& like) const;
+  [[nodiscard]] BranchPoint point(double value, const Orbit& orbit) const;
+  [[nodiscard]] std::pair<double, double> change_between(double good, double bad, const Orbit& orbit) const;
+  [[nodiscard]] bool is_new_contact(const Orbit& one, const Orbit& other) const;
+  void walk(Orbit orbit, int heading);
+  void end(double last, const Orbit& good, double beyond, const std::optional<Orbit>& other, int heading);
+  void note_maxima(double here, double next, const Orbit& like);
+
+  point::Problem problem_;
+  BranchSettings settings_;
+  bool symmetric_;
+  double width_, speed_unit_;
+  Record& record_;
+  std::deque<Waiting>& waiting_;
+  Side stop_ = Side::none;  ///< from which the motion is released, as long as a branch is followed
+  double start_ = 0.0;
+  std::int64_t generation_ = 0;
+};
+
+}  // namespace clatter::branches
