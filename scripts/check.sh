@@ -14,10 +14,10 @@ all=("${quick[@]}" clang-tidy "${sanitize[@]}")
 # The tests that the sanitizers run, and the programs they need: those that read files or share memory, some minutes.
 # ThreadSanitizer runs only those in which threads meet.
 threads='attractors\.(Basins|Ensemble|Tracked|Settling)|sweep\.(Run|SavedRun|Shard)|lanes\.(Of/)?(LaneBits|LanePoints)|plan\.Plan'
-asan_tests="^(lanes|storage|config|results|observables)\.|^($threads)\.|^cli\.(hostile_files|readers|shards|streams)_test$"
+asan_tests="^(lanes|branches|storage|config|results|observables)\.|^($threads)\.|^cli\.(hostile_files|readers|shards|streams)_test$"
 tsan_tests="^($threads)\.|^cli\.(shards|streams)_test$"
 asan_targets=(
-  clatter lanes_tests attractors_tests storage_tests config_tests results_tests observables_tests sweep_tests plan_tests
+  clatter lanes_tests attractors_tests branches_tests storage_tests config_tests results_tests observables_tests sweep_tests plan_tests
 )
 tsan_targets=(clatter lanes_tests attractors_tests sweep_tests plan_tests)
 
@@ -36,8 +36,8 @@ packages, runs each gate, names those that fail, and exits with 1 if any does:
   clang++       no warning by clang++, without making code (build/clang)
   clang-tidy    no finding in any source file (.clang-tidy); takes longest
   asan          AddressSanitizer and UndefinedBehaviorSanitizer find nothing in
-                the tests of lanes, attractors, files, configurations,
-                observables, plans, and sweeps on several threads, nor in the
+                the tests of lanes, attractors, branches, files,
+                configurations, observables, plans, and sweeps on several threads, nor in the
                 program when its files are hostile, read by others, split into
                 shards, piped (build/asan)
   tsan          ThreadSanitizer finds nothing in the tests of lanes, attractors,
