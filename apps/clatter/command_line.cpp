@@ -106,7 +106,7 @@ std::vector<std::string> Arguments::values(std::string_view option) const {
 
 void refuse_option(const std::string& written) {
   const std::string message = "unknown option " + config::in_quotes(written) + " before the command";
-  const std::vector<std::string> own{"--help", "--version"};
+  const std::vector<std::string> own{"--help", "--version", "--cite"};
   std::vector<std::string> all = own;
   for (const Command& command : commands()) {
     for (const std::string& name : names_of(command)) all.push_back(name);

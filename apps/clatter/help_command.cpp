@@ -65,6 +65,7 @@ std::string program_help() {
   std::vector<Row> rows;
   for (const Command& command : commands()) rows.emplace_back(command.usage, command.summary);
   rows.emplace_back("--version", "print version, commit and compiler");
+  rows.emplace_back("--cite", "print BibTeX to cite clatter");
   rows.emplace_back("--help", "print this help");
   return "clatter: exact sweeps of oscillators between rigid stops\n\nCommands\n" + table(rows) + '\n' +
          std::string(exit_codes) +

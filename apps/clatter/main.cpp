@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "citation.hpp"
 #include "commands.hpp"
 #include "config/config.hpp"
 #include "results/version.hpp"
@@ -24,7 +25,7 @@ namespace {
 using namespace clatter;
 using namespace clatter::app;
 
-/// Runs a command, or --help or --version in its place.
+/// Runs a command, or --help, --version or --cite in its place.
 int run_program(const std::vector<std::string>& words) {
   if (words.empty()) throw UsageError("no command; see `clatter --help`");
   if (words[0] == "--help" || words[0] == "-h") {
@@ -34,6 +35,10 @@ int run_program(const std::vector<std::string>& words) {
   if (words[0] == "--version") {
     std::cout << "clatter " << results::version() << " (commit " << results::git_commit() << ", " << results::compiler()
               << ")\n";
+    return done;
+  }
+  if (words[0] == "--cite") {
+    std::cout << citation();
     return done;
   }
   if (words[0].starts_with('-')) refuse_option(words[0]);

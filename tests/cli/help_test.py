@@ -98,6 +98,18 @@ class Help(CommandLine):
         reference = self.page("help", "configuration")
         self.assertIn(reference.strip(), (SOURCE / "configs" / "README.md").read_text(encoding="utf-8"))
 
+    def test_the_citation_is_that_of_the_citation_file(self):
+        file = (SOURCE / "CITATION.cff").read_text(encoding="utf-8")
+        text = self.page("--cite")
+        version = self.page("--version").split()[1]
+        self.assertIn(f'version: "{version}"', file)
+        self.assertIn(f"version = {{{version}}}", text)
+        for words in ("The clatter authors", "Vibration Drives with Two Impacting Pairs for Precise Robots", "Mechanika"):
+            self.assertIn(words, file)
+            self.assertIn(words, text)
+        self.assertIn("doi     = {" + re.search(r"doi: (\S+)", file)[1] + "}", text)
+        self.assertIn("year    = {" + re.search(r'date-released: "(\d{4})', file)[1] + "}", text)
+
     def test_the_version_names_the_commit(self):
         self.assertRegex(self.page("--version"), r"^clatter \d+\.\d+\.\d+ \(commit \S+, .+\)\n$")
 
