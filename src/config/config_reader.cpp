@@ -122,6 +122,18 @@ void check_followed(const Settings& settings, const std::string& name, std::stri
                                   "; remove it from [sweep], and give the value to begin at in [scene]");
 }
 
+/// Whether two keys of [scene] are one, or stand for a stop or restitution that both change.
+bool change_the_same(sweep::Parameter one, sweep::Parameter other) {
+  using enum sweep::Parameter;
+  const auto parts = [](sweep::Parameter parameter) {
+    if (parameter == xs) return std::vector{stop_lower, stop_upper};
+    if (parameter == R) return std::vector{R_lower, R_upper};
+    return std::vector{parameter};
+  };
+  const std::vector<sweep::Parameter> first = parts(one), second = parts(other);
+  return std::ranges::find_first_of(first, second) != first.end();
+}
+
 /// The second parameter of [branch], if there is one, and the special points that are followed across it. Throws
 /// ConfigError as `branch_of` does.
 void add_second_parameter(const Settings& settings, branches::BranchSettings& branch) {
@@ -137,8 +149,9 @@ void add_second_parameter(const Settings& settings, branches::BranchSettings& br
          "'across' without 'curve'; add the special points that are followed, e.g. curve = \"fold\"");
   const std::string name = settings.text("branch", "across");
   branch.across = sweep::parameter_of(name).value(), branch.curve = settings.text("branch", "curve");
-  if (branch.across == branch.along)
-    fail(across->location, "'across' is '" + name + "' as 'along' is; expected another key of [scene]");
+  if (change_the_same(*branch.across, branch.along))
+    fail(across->location, "'" + name + "' and '" + std::string(sweep::key_of(branch.along)) +
+                               "' change the same; expected another key of [scene]");
   check_followed(settings, name, "across", range);
   const AllowedRange& permitted_values = find_key("scene", name)->range;
   branch.across_range = {permitted_values.not_zero ? 0.0 : permitted_values.low, permitted_values.high};

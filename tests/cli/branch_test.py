@@ -119,6 +119,11 @@ class Branch(CommandLine):
             (SCENE + BRANCH + 'curve = "fold"\n', ("a.toml:12:1", "'curve' without 'across'")),
             (SCENE + BRANCH + "across_range = [1, 2]\n", ("a.toml:12:1", "'across_range' without 'across'")),
             (SCENE + BRANCH + 'across = "nu"\ncurve = "fold"\n', ("a.toml:12:10", "expected another key")),
+            (SCENE + BRANCH.replace('"nu"', '"xs"') + 'across = "stop_upper"\ncurve = "fold"\n', ("change the same",)),
+            (
+                SCENE + BRANCH.replace('"nu"', '"R_lower"').replace("1.5", "0.9") + 'across = "R"\ncurve = "fold"\n',
+                ("change the same",),
+            ),
             (SCENE + BRANCH + 'across = "xs"\ncurve = "cusp"\n', ("a.toml:13:9", "fold, flip, symmetry breaking")),
             (
                 SCENE + BRANCH + 'across = "R"\ncurve = "fold"\nacross_range = [0.5, 2]\n',
