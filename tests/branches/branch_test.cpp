@@ -7,6 +7,7 @@
 #include "branches/branch_dataset.hpp"
 #include "branches/measures.hpp"
 #include "branches/newton.hpp"
+#include "branches/special_values.hpp"
 #include "point/point.hpp"
 
 namespace clatter::branches {
@@ -23,18 +24,9 @@ point::Problem problem_of(double h, double f, double nu, const Stops& stops) {
   return problem;
 }
 
-/// Special points of one kind, by their parameter.
-std::vector<double> values(const Branches& found, SpecialKind kind, Parameter along) {
-  std::vector<double> all;
-  for (const SpecialPoint& special : found.special)
-    if (special.kind == kind) all.push_back(value_of(special.at.scene, along));
-  std::ranges::sort(all);
-  return all;
-}
-
 void expect_values(const Branches& found, SpecialKind kind, const std::vector<double>& expected, double tolerance,
                    Parameter along = Parameter::nu) {
-  const std::vector<double> all = values(found, kind, along);
+  const std::vector<double> all = special_values(found, kind, along);
   ASSERT_EQ(all.size(), expected.size()) << name_of(kind);
   for (std::size_t i = 0; i < all.size(); ++i) EXPECT_NEAR(all[i], expected[i], tolerance) << name_of(kind);
 }
@@ -141,12 +133,12 @@ TEST(Branch, flips_where_vivid_says) {
         problem.start = {x, v, 0.0};
         try {
           Branches all = follow_branches(problem, {.along = Parameter::f, .range = {0.34, 0.42}, .period = 2});
-          if (!values(all, SpecialKind::flip, Parameter::f).empty()) found = std::move(all);
+          if (!special_values(all, SpecialKind::flip, Parameter::f).empty()) found = std::move(all);
         } catch (const StartError&) {
         }
       }
     ASSERT_TRUE(found) << nu;
-    const std::vector<double> flips = values(*found, SpecialKind::flip, Parameter::f);
+    const std::vector<double> flips = special_values(*found, SpecialKind::flip, Parameter::f);
     EXPECT_TRUE(std::ranges::any_of(flips, [&](double f) { return std::abs(f - flip) < 1e-12; })) << nu;
   }
 }

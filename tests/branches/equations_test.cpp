@@ -28,20 +28,37 @@ Scene random_scene(std::mt19937& random) {
                          in(0.1, 2.0));
 }
 
-/// Symmetric motion with one impact on each stop and period in closed form (Masri and Caughey 1966; Shaw 1985): the
-/// speed before the impact, the phase of that on the upper stop, and the trace of half a period's map.
+/// Symmetric motion with one impact on each stop and period in closed form (Masri and Caughey 1966; Shaw 1985), in 50
+/// digits: alpha u - g and gamma u are components of the response at an impact of speed u.
+template <Effects E>
+struct HalfPeriod {
+  using N = FiftyDigits;
+  explicit HalfPeriod(const Scene& scene)
+      : R(scene.stops.restitution_upper),
+        g(scene.stops.upper),
+        c(scene.oscillator),
+        flow(c.propagator(N(pi<N>() / c.nu))),
+        d(1 + (flow.a + flow.c) + exp(N(-2 * c.h * pi<N>() / c.nu))),
+        alpha((1 + R) * flow.b / d),
+        gamma(((1 + R) * (1 + flow.a) / d - R) / c.nu),
+        square(alpha * alpha + gamma * gamma) {}
+
+  N R, g;
+  motion::ArcConstants<N, Effects{E.damping, Forcing::regular}> c;
+  motion::Propagator<N> flow;
+  N d, alpha, gamma, square;
+};
+
+/// The speed before the impact, the phase of that on the upper stop, and the trace of half a period's map.
 struct ClosedForm {
   double phase, speed, trace;
 };
 std::vector<ClosedForm> closed_forms(const Scene& scene) {
   using N = FiftyDigits;
-  const N R = scene.stops.restitution_upper, g = scene.stops.upper;
   return with_arcs(scene.oscillator, [&]<Effects E>() -> std::vector<ClosedForm> {
-    const motion::ArcConstants<N, Effects{E.damping, Forcing::regular}> c(scene.oscillator);
-    const auto flow = c.propagator(N(pi<N>() / c.nu));
-    const N det = exp(N(-2 * c.h * pi<N>() / c.nu)), d = 1 + (flow.a + flow.c) + det;
-    const N alpha = (1 + R) * flow.b / d, gamma = ((1 + R) * (1 + flow.a) / d - R) / c.nu;
-    const N amplitude = c.response.amplitude, square = alpha * alpha + gamma * gamma;
+    const HalfPeriod<E> half(scene);
+    const auto& [R, g, c, flow, d, alpha, gamma, square] = half;
+    const N amplitude = c.response.amplitude;
     const N disc = alpha * alpha * g * g - square * (g * g - amplitude * amplitude);
     std::vector<ClosedForm> found;
     if (disc < 0) return found;
@@ -95,13 +112,10 @@ struct Fold {
 };
 std::optional<Fold> fold_of(const Scene& scene) {
   using N = FiftyDigits;
-  const N R = scene.stops.restitution_upper, g = scene.stops.upper;
   return with_arcs(scene.oscillator, [&]<Effects E>() -> std::optional<Fold> {
-    const motion::ArcConstants<N, Effects{E.damping, Forcing::regular}> c(scene.oscillator);
-    const auto flow = c.propagator(N(pi<N>() / c.nu));
-    const N d = 1 + (flow.a + flow.c) + exp(N(-2 * c.h * pi<N>() / c.nu));
-    const N alpha = (1 + R) * flow.b / d, gamma = ((1 + R) * (1 + flow.a) / d - R) / c.nu;
-    const N square = alpha * alpha + gamma * gamma, amplitude = g * abs(gamma) / sqrt(square);
+    const HalfPeriod<E> half(scene);
+    const auto& [R, g, c, flow, d, alpha, gamma, square] = half;
+    const N amplitude = g * abs(gamma) / sqrt(square);
     if (alpha <= 0) return std::nullopt;
     return Fold{static_cast<double>(N(c.f * amplitude / c.response.amplitude)),
                 static_cast<double>(N(alpha * g / square))};

@@ -6,6 +6,7 @@
 
 #include "branches/branch.hpp"
 #include "branches/measures.hpp"
+#include "branches/special_values.hpp"
 #include "point/point.hpp"
 
 namespace clatter::branches {
@@ -30,14 +31,6 @@ point::Problem loaded(double load) {
   problem.stops.upper = 0.2, problem.stops.restitution_upper = 0.5;
   problem.start = {0.0, 1.0, 0.0};
   return problem;
-}
-
-std::vector<double> values(const Branches& found, SpecialKind kind, Parameter along) {
-  std::vector<double> all;
-  for (const SpecialPoint& special : found.special)
-    if (special.kind == kind) all.push_back(value_of(special.at.scene, along));
-  std::ranges::sort(all);
-  return all;
 }
 
 TEST(RestingOrbit, is_the_motion_of_a_run) {
@@ -104,13 +97,13 @@ TEST(MovingFromRelease, has_the_derivatives_of_differences) {
 TEST(ChatterLimit, is_where_grazes_accumulate_and_rests_vanish) {
   const BranchSettings settings{.range = {0.2, 1.1}};
   const Branches down = follow_branches(two_stops(0.8), settings), up = follow_branches(two_stops(0.3), settings);
-  const std::vector<double> one = values(down, SpecialKind::chatter_limit, Parameter::nu),
-                            other = values(up, SpecialKind::chatter_limit, Parameter::nu);
+  const std::vector<double> one = special_values(down, SpecialKind::chatter_limit, Parameter::nu),
+                            other = special_values(up, SpecialKind::chatter_limit, Parameter::nu);
   ASSERT_EQ(one.size(), 1);
   ASSERT_EQ(other.size(), 1);
   EXPECT_NEAR(one[0], other[0], 1e-14);
   // the impact numbers' grazes accumulate there as a geometric series
-  const std::vector<double> grazes = values(down, SpecialKind::graze, Parameter::nu);
+  const std::vector<double> grazes = special_values(down, SpecialKind::graze, Parameter::nu);
   ASSERT_GT(grazes.size(), 10);
   const double a = grazes[2] - grazes[1], b = grazes[1] - grazes[0], ratio = b / a;
   EXPECT_NEAR(grazes[0] - b * ratio / (1 - ratio), one[0], 0.02 * b);
@@ -119,23 +112,23 @@ TEST(ChatterLimit, is_where_grazes_accumulate_and_rests_vanish) {
 
 TEST(ChatterLimit, separates_runs_that_rest_from_runs_that_do_not) {
   const Branches found = follow_branches(two_stops(0.3), {.range = {0.2, 1.1}});
-  const double limit = values(found, SpecialKind::chatter_limit, Parameter::nu).at(0);
+  const double limit = special_values(found, SpecialKind::chatter_limit, Parameter::nu).at(0);
   EXPECT_TRUE(resting_orbit(two_stops(limit * (1 - 1e-13)), Side::upper, 1));
   EXPECT_FALSE(resting_orbit(two_stops(limit * (1 + 1e-13)), Side::upper, 1));
 }
 
 TEST(ReleaseTangency, is_where_load_and_force_balance) {
   const Branches along_load = follow_branches(loaded(0.3), {.along = Parameter::load, .range = {-0.5, 2.0}});
-  EXPECT_EQ(values(along_load, SpecialKind::release_tangency, Parameter::load), (std::vector<double>{1.2}));
+  EXPECT_EQ(special_values(along_load, SpecialKind::release_tangency, Parameter::load), (std::vector<double>{1.2}));
   const Branches along_force = follow_branches(loaded(0.3), {.along = Parameter::f, .range = {0.01, 3.0}});
-  const std::vector<double> force = values(along_force, SpecialKind::release_tangency, Parameter::f);
+  const std::vector<double> force = special_values(along_force, SpecialKind::release_tangency, Parameter::f);
   ASSERT_EQ(force.size(), 1);
   EXPECT_NEAR(force[0], 0.1, 1e-16);
 }
 
 TEST(RestingBranch, has_its_largest_speed_where_no_neighbour_is_faster) {
   const Branches found = follow_branches(loaded(0.3), {.along = Parameter::load, .range = {-0.5, 2.0}});
-  const std::vector<double> best = values(found, SpecialKind::impact_speed, Parameter::load);
+  const std::vector<double> best = special_values(found, SpecialKind::impact_speed, Parameter::load);
   ASSERT_EQ(best.size(), 1);
   const auto speed_at = [](double load) { return impact_speed(resting_orbit(loaded(load), Side::upper, 1).value()); };
   EXPECT_LT(speed_at(best[0] - 1e-5), speed_at(best[0]));
