@@ -48,8 +48,10 @@ draw regimes --only word --size 6x4
 for xs in 0.45 1.0 1.6; do
   for curve in fold symmetry\ breaking graze; do
     case "$xs $curve" in 0.45\ fold | 0.45\ graze) continue ;; esac # too many of them for a picture
+    code=0
     "$clatter" branch "$source_dir/configs/curves.toml" --set scene.xs="$xs" --set branch.curve="$curve" -q \
-      -o "$work/$xs ${curve%% *}.h5" > /dev/null || true # those that end in a point of higher order are drawn, too
+      -o "$work/$xs ${curve%% *}.h5" > /dev/null 2> "$work/failures" || code=$?
+    ((code <= 1)) || { cat "$work/failures" >&2; exit "$code"; } # 1: some end in a point of higher order
   done
 done
 "$source_dir/scripts/plot.py" "$work/regimes.h5" "$work"/?.*\ *.h5 --size 6x4.6 --format svg -o "$work"

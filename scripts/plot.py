@@ -53,7 +53,7 @@ def branches_together(options):
     """All branches, or curves, of the files in one picture, with the results of sweeps behind them."""
     outputs = [Output(path) for path in options.files]
     branches = [output for output in outputs if output.is_branch]
-    figure = curve_figure(outputs, options) if plane_of(branches[0]) else branch_figure(outputs, options)
+    figure = curve_figure(outputs, options) if any(map(plane_of, branches)) else branch_figure(outputs, options)
     plot_style.heading(figure, branches[0], options.title, branches)
     return finished(figure, options)
 

@@ -31,6 +31,7 @@ CURVES = {  # special point: name and dashes of its curve in the plane of two pa
     "graze": ("grazes", (0, (1.2, 1.2))),
 }
 BEHIND = "#b8b8b8"
+BACKBONE = (("xs", None), ("R", 1.0), ("load", 0.0))  # keys of the scene, with their defaults
 
 
 def branch_figure(outputs, options):
@@ -71,6 +72,9 @@ def curve_figure(outputs, options):
         raise ChoiceProblem(
             "branches and curves, or curves over different parameters; draw each in a picture of its own"
         )
+    for option in ("only", "along", "over", "at", "backbone"):
+        if getattr(options, option):
+            raise ChoiceProblem(f"--{option}: curves in the plane of two parameters have one picture")
     plane = planes.pop()
     figure = new_figure(4.6, 6.4)
     axes = figure.subplots()
@@ -157,17 +161,27 @@ def draw_branches(axes, output, parameter, name, place):
 
 def draw_backbones(axes, branches, parameter):
     """The speed of conservative motion between the stops that repeats after as many forcing periods as the branches:
-    x_s cot(n pi / (2 nu)), eq. 21 with the frequency nu / n. Returns the note that explains it."""
+    x_s cot(n pi / (2 nu)), eq. 21 with the frequency nu / n, as the mean of those before and after an impact. Returns
+    the note that explains it."""
     low, high = branches[0].config["branch"]["range"]
-    gap = branches[0].scene.get("xs")
-    if parameter != "nu" or gap is None or branches[0].scene.get("load", 0) != 0:
-        raise ChoiceProblem("--backbone is of branches along nu between symmetric stops, xs, without a load")
+    scenes = {tuple(output.scene.get(key, default) for key, default in BACKBONE) for output in branches}
+    gap, R, load = scenes.pop()
+    if parameter != "nu" or gap is None or load != 0 or scenes:
+        raise ChoiceProblem("--backbone is of branches along nu of one machine, between stops xs without a load")
     for n in sorted({round(output.values("period_ratio")[0]) for output in branches}):
+        if n >= high:
+            continue
         nu = np.linspace(max(low, n), high, 600)
         axes.plot(
-            nu, abs(gap) / np.tan(n * np.pi / (2 * nu)), ls=":", lw=1.2, color=STOP, zorder=1.5, gid=f"backbone {n}"
+            nu,
+            2 / (1 + R) * abs(gap) / np.tan(n * np.pi / (2 * nu)),
+            ls=":",
+            lw=1.2,
+            color=STOP,
+            zorder=1.5,
+            gid=f"backbone {n}",
         )
-    return ["dotted: conservative motion"]
+    return ["dotted: conservative motion of the mean speed before and after impact"]
 
 
 def stretches(flags):

@@ -53,13 +53,20 @@ std::string special_text(const SpecialPoint& special, const std::vector<sweep::P
   return text + '\n';
 }
 
+/// "nu = 0.91"
+std::string place_of(const Scene& scene, sweep::Parameter parameter) {
+  return std::string(sweep::key_of(parameter)) + " = " + formatted("%.9g", branches::value_of(scene, parameter));
+}
+
 /// "mine.toml: branch 2 stops at nu = 0.91: branch.max_points is spent"
 void tell_failures(const branches::Branches& found, const branches::BranchSettings& settings, const std::string& file) {
   for (const branches::BranchEnd& end : found.ends)
-    if (end.failed)
-      std::cerr << storage::printable(file) << (settings.across ? ": curve " : ": branch ") << end.branch
-                << " stops at " << sweep::key_of(settings.along) << " = " << formatted("%.9g", end.parameter) << ": "
-                << end.reason << '\n';
+    if (end.failed) {
+      std::cerr << storage::printable(file) << (end.of_curve ? ": curve " : ": branch ") << end.branch << " stops at "
+                << place_of(end.scene, settings.along);
+      if (end.of_curve) std::cerr << ", " << place_of(end.scene, *settings.across);
+      std::cerr << ": " << end.reason << '\n';
+    }
 }
 
 const branches::BranchSettings& branch_of(const config::Config& config, const std::string& file) {

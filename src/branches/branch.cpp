@@ -33,19 +33,6 @@ bool keeps_symmetry(sweep::Parameter parameter) {
          parameter != R_upper;
 }
 
-/// Throws StartError if the scene doesn't lie on the branch that is asked for.
-void require_start_in_range(const Scene& scene, const BranchSettings& settings) {
-  const Stops& stops = scene.stops;
-  const std::string name(sweep::key_of(settings.along));
-  if (settings.along == sweep::Parameter::xs && stops.lower != -stops.upper)
-    throw StartError("branch.along = xs moves both stops, which aren't symmetric; follow stop_lower or stop_upper");
-  if (settings.along == sweep::Parameter::R && stops.restitution_lower != stops.restitution_upper)
-    throw StartError("branch.along = R changes both stops, whose R differ; follow R_lower or R_upper");
-  const double at = value_of(scene, settings.along);
-  if (!(at >= settings.range[0] && at <= settings.range[1]))
-    throw StartError("the start lies outside branch.range; give scene." + name + " a value within it");
-}
-
 /// Everything about following one branch after the other.
 class Follower {
  public:
@@ -58,13 +45,15 @@ class Follower {
         record_({{settings.along, width_}}, settings.max_points) {}
 
   Branches run() {
-    require_start_in_range(problem_, settings_);
+    require_start_in_range(problem_, settings_.along, settings_.range, "along");
     waiting_.push_back({problem_, start_orbit(problem_, settings_.period, symmetric_)});
-    while (!waiting_.empty()) {
+    while (!waiting_.empty() && !record_.is_full()) {
       const Waiting next = waiting_.front();
       waiting_.pop_front();
       follow(next);
     }
+    if (!waiting_.empty() && record_.found().ends.back().reason != max_points_spent)
+      record_.fail(record_.found().points.back(), max_points_spent);
     return record_.take();
   }
 
@@ -78,8 +67,7 @@ class Follower {
   [[nodiscard]] WalkLimits limits() const { return {settings_.tolerance, settings_.largest_step}; }
 
   void follow(const Waiting& from) {
-    if (speed_unit_ == 0) speed_unit_ = impact_speed(from.orbit);
-    if (speed_unit_ == 0) speed_unit_ = std::max(1e-3, std::abs(problem_.oscillator.forcing));
+    speed_unit_ = speed_scale(from.scene, from.orbit);
     record_.begin(speed_unit_);
     generation_ = from.generation;
     if (from.orbit.rests()) return resting().follow(from);
@@ -89,7 +77,7 @@ class Follower {
     axis.back() = 1;
     if (from.special) {
       const auto first = first_step(equations, start, from.direction);
-      if (!first) return;
+      if (!first) return record_.fail(record_.point(equations, start), "no step leads off its special point");
       record_.meet(*from.special, record_.branch());
       start.tangent = *first;
       record_.add(record_.point(equations, start));
@@ -112,7 +100,7 @@ class Follower {
     const bool closed = record_.found().ends.back().reason == closed_curve;
     record_.turn_round();
     record_.add(record_.point(equations, start));
-    if (!closed) walk(equations, start, {});
+    if (!closed && !record_.is_full()) walk(equations, start, {});
   }
 
   /// The direction from a special point into a branch that begins there, in which it is motion between the stops.
@@ -138,13 +126,14 @@ class Follower {
   void walk(const OrbitEquations& equations, const CurvePoint& start, std::optional<std::size_t> from) {
     Walk walk(equations, start, limits());
     BranchPoint last = record_.point(equations, start);
+    if (leaves_range(start)) return record_.end(last, "range");
     for (;;) {
-      if (record_.is_full()) return record_.end(last, "branch.max_points is spent", true);
+      if (record_.is_full()) return record_.fail(last, max_points_spent);
       const auto next = walk.next();
-      if (!next) return record_.end(last, "no step leads on", true);
+      if (!next) return record_.fail(last, no_step);
       const double step = next->arclength - walk.here().arclength;
-      if (!in_range(parameter(equations.scene_at(next->at)))) return end_of_range(equations, walk, step);
-      if (violation(equations, next->at)) return end_in_graze(equations, walk, step);
+      if (!in_range(parameter(equations.scene_at(next->at)))) return end_of_range(equations, walk, step, from);
+      if (violation(equations, next->at)) return end_in_graze(equations, walk, step, from);
       const bool born = special_between(equations, walk, step, from);
       if (born) return record_.end(last, "born");
       if (!from && walk.passes(start, *next)) {
@@ -160,19 +149,27 @@ class Follower {
     }
   }
 
-  void end_of_range(const OrbitEquations& equations, const Walk& walk, double step) {
+  /// Whether a walk begins on a bound of the range, outwards.
+  [[nodiscard]] bool leaves_range(const CurvePoint& start) const {
+    const double at = start.at.back() * width_, rounding = 1e-14 * width_;
+    return (start.tangent.back() < 0 && at - settings_.range[0] <= rounding) ||
+           (start.tangent.back() > 0 && settings_.range[1] - at <= rounding);
+  }
+
+  void end_of_range(const OrbitEquations& equations, const Walk& walk, double step,
+                    const std::optional<std::size_t>& from) {
     for (const double bound : settings_.range) {
       auto zero = walk.zero([&](const CurvePoint& p) { return p.at.back() * width_ - bound; }, step);
       if (!zero) continue;
       zero->at.back() = bound / width_;  // R = 0 less a rounding would be no impact
       const double length = zero->arclength - walk.here().arclength;
-      if (violation(equations, zero->at)) return end_in_graze(equations, walk, length);
-      special_between(equations, walk, length, {});
+      if (violation(equations, zero->at)) return end_in_graze(equations, walk, length, from);
+      if (special_between(equations, walk, length, from)) return record_.end(record_.point(equations, *zero), "born");
       const BranchPoint last = record_.point(equations, *zero);
       record_.add(last);
       return record_.end(last, "range");
     }
-    record_.end(record_.point(equations, walk.here()), "no step leads on", true);
+    record_.fail(record_.point(equations, walk.here()), no_step);
   }
 
   /// Special points within a step. Returns true if the branch is born in one of them, which ends it.
@@ -183,9 +180,9 @@ class Follower {
       CurvePoint point;
     };
     std::vector<Found> found;
+    const auto there = walk.after(step);
+    if (!there) return false;
     const auto look = [&](SpecialKind kind, const TestFunction& test, bool only_down) {
-      const auto there = walk.after(step);
-      if (!there) return;
       const double a = test(walk.here()), b = test(*there);
       if ((a < 0) == (b < 0) || (only_down && a < 0)) return;
       if (const auto zero = walk.zero(test, step)) found.push_back({kind, *zero});
@@ -259,8 +256,9 @@ class Follower {
     std::array<double, 2> vector{-m[0][1], m[0][0] + c};  // of (M + 1) v = 0, by the larger row
     if (std::hypot(m[1][0], m[1][1] + c) > std::hypot(m[0][1], m[0][0] + c)) vector = {m[1][1] + c, -m[1][0]};
     const auto changes = spread(at.scene, daughter, vector);
+    const double unit = speed_scale(at.scene, daughter);
     Vector direction;
-    for (const auto& [phase, before] : changes) direction.push_back(phase), direction.push_back(before / speed_unit_);
+    for (const auto& [phase, before] : changes) direction.push_back(phase), direction.push_back(before / unit);
     direction.push_back(0.0);
     const double length = std::sqrt(product(direction, direction));
     for (double& x : direction) x /= length;
@@ -268,16 +266,18 @@ class Follower {
   }
 
   /// The branch ends within a step, at a graze.
-  void end_in_graze(const OrbitEquations& equations, const Walk& walk, double step) {
+  void end_in_graze(const OrbitEquations& equations, const Walk& walk, double step,
+                    const std::optional<std::size_t>& from) {
     const std::optional<Touch> touch = touch_within(equations, walk, step);
-    if (!touch) return record_.end(record_.point(equations, walk.here()), "no step leads on", true);
-    special_between(equations, walk, touch->last_good.arclength - walk.here().arclength, {});
+    if (!touch) return record_.fail(record_.point(equations, walk.here()), no_step);
+    if (special_between(equations, walk, touch->last_good.arclength - walk.here().arclength, from))
+      return record_.end(record_.point(equations, touch->last_good), "born");
     const OrbitEquations there = equations_for(touch->orbit, {{Condition::Kind::graze, 1, touch->impact}});
     const Vector guess = there.unknowns_of(equations.scene_at(touch->beyond.at), touch->orbit);
     const auto exact = solution(there, guess, settings_.tolerance);
     BranchPoint last = record_.point(equations, touch->last_good);
     if (!exact || std::abs(exact->back() - guess.back()) > 10 * step)
-      return record_.add(last), record_.end(last, "a contact that no graze explains", true);
+      return record_.add(last), record_.fail(last, no_graze);
     const Orbit with = there.orbit_at(*exact), without = with.without(touch->impact);
     last.scene = there.scene_at(*exact), last.orbit = touch->appears ? without : with;
     record_.add(last);
@@ -287,7 +287,7 @@ class Follower {
     at.orbit = with;
     const auto [special, is_new] = record_.note(SpecialKind::graze, at);
     record_.end(last, "graze");
-    if (!is_new) return;
+    if (!is_new) return no_longer_waits(waiting_, special, last.orbit);  // this is the branch that waits there
     Orbit beyond = touch->appears ? with : without;
     if (beyond.size() == 0) beyond = Orbit{}.half_if_same(0.0, symmetric_);
     waiting_.push_back({at.scene, beyond, {}, special, generation_});

@@ -50,13 +50,19 @@ struct SpecialPoint {
   std::vector<std::size_t> branches;  ///< that meet there
 };
 
-/// How the end of a branch came about.
+/// How the end of a branch, or of a curve, came about.
 struct BranchEnd {
   std::size_t branch = 0;
-  double parameter = 0.0;  ///< of the last good point
-  std::string reason;      ///< "range", "graze", ...; anything else is a failure
+  Scene scene;         ///< of the last good point
+  std::string reason;  ///< "range", "graze", ..., or the words of a failure
   bool failed = false;
+  bool of_curve = false;
 };
+
+constexpr std::string_view max_points_spent = "branch.max_points is spent; raise it";
+constexpr std::string_view no_step = "no step leads on; try a smaller branch.largest_step, or begin beyond";
+constexpr std::string_view no_graze =
+    "a contact that no graze explains; try a smaller branch.largest_step, or begin beyond";
 
 struct Branches {
   std::vector<BranchPoint> points;  ///< branch after branch, each in the order of its arclength

@@ -35,29 +35,37 @@ class CurveFollower {
         record_(axes_, settings.max_points) {}
 
   Branches run() {
-    const double across = value_of(problem_, *settings_.across);
-    if (!(across >= ranges_[across_axis][0] && across <= ranges_[across_axis][1]))
-      throw StartError("the start lies outside branch.across_range; give scene." +
-                       std::string(sweep::key_of(*settings_.across)) + " a value within it");
-    for (SpecialPoint& special : follow_branches(problem_, settings_).special) {
-      if (name_of(special.kind) != settings_.curve || special.at.orbit.rests()) continue;
-      Orbit& orbit = special.at.orbit;
-      if (special.kind == SpecialKind::graze)
-        orbit = orbit.once_with_graze(slowest_impact(orbit), is_symmetric(special.at.scene));
-      starts_.push_back(std::move(special));
-    }
-    if (starts_.empty())
-      throw StartError("the branch has no " + settings_.curve +
-                       "; widen branch.range, raise branch.switch, or begin on another motion");
-    for (const SpecialPoint& start : starts_)
+    require_start_in_range(problem_, *settings_.across, settings_.across_range, "across");
+    Branches along = follow_branches(problem_, settings_);
+    std::erase_if(along.ends, [](const BranchEnd& end) { return !end.failed; });
+    std::erase_if(along.special, [&](const SpecialPoint& special) { return name_of(special.kind) != settings_.curve; });
+    if (along.special.empty()) throw StartError("the branch has no " + settings_.curve + way_out(along));
+    std::erase_if(along.special, [](const SpecialPoint& special) { return special.at.orbit.rests(); });
+    if (along.special.empty())
+      throw StartError("each " + settings_.curve +
+                       " on the branch is of motion that rests, whose special points begin no curves; begin on another "
+                       "motion");
+    for (SpecialPoint& start : along.special) {
+      Orbit& orbit = start.at.orbit;
+      if (start.kind == SpecialKind::graze)
+        orbit = orbit.once_with_graze(slowest_impact(orbit), is_symmetric(start.at.scene));
       if (!record_.knows(start.kind, start.at) && !record_.is_full()) follow(start);
-    return record_.take();
+    }
+    Branches found = record_.take();
+    found.ends.insert(found.ends.end(), along.ends.begin(), along.ends.end());
+    return found;
   }
 
  private:
   double width_of(std::size_t axis) const {
     const double width = ranges_[axis][1] - ranges_[axis][0];
     return std::isfinite(width) ? width : std::max(0.1, std::abs(value_of(problem_, *settings_.across)));
+  }
+  /// What to do if the branches that could be followed have no point to begin with.
+  [[nodiscard]] std::string way_out(const Branches& along) const {
+    if (along.ends.empty()) return "; widen branch.range, raise branch.switch, or begin on another motion";
+    return " up to its end at " + std::string(sweep::key_of(settings_.along)) + " = " +
+           std::to_string(value_of(along.ends.front().scene, settings_.along)) + ": " + along.ends.front().reason;
   }
   [[nodiscard]] OrbitEquations equations_for(const Orbit& orbit, std::vector<Condition> conditions) const {
     return {problem_, orbit, axes_, speed_unit_, std::move(conditions)};
@@ -67,8 +75,7 @@ class CurveFollower {
   }
 
   void follow(const SpecialPoint& from) {
-    kind_ = from.kind, speed_unit_ = impact_speed(from.at.orbit);
-    if (speed_unit_ < 1e-6) speed_unit_ = std::max(1e-3, std::abs(problem_.oscillator.forcing));
+    kind_ = from.kind, speed_unit_ = speed_scale(from.at.scene, from.at.orbit);
     record_.begin(speed_unit_);
     const OrbitEquations equations = equations_for(from.at.orbit, {condition_of(from.kind, from.at.orbit)});
     Vector across(equations.unknowns(), 0.0);
@@ -76,7 +83,8 @@ class CurveFollower {
     CurvePoint start{equations.unknowns_of(from.at.scene, from.at.orbit), {}, 0.0};
     const auto at = corrected(equations, start.at, across, settings_.tolerance);
     const auto tangent_there = at ? tangent(equations, *at, across) : std::nullopt;
-    if (!tangent_there) return record_.end(from.at, "Newton's method does not converge at its start", true);
+    if (!tangent_there)
+      return record_.fail(from.at, "Newton\'s method does not converge at its start; begin on another branch");
     start.at = *at, start.tangent = *tangent_there;
     CurvePoint back = start;
     for (double& x : back.tangent) x = -x;
@@ -91,10 +99,11 @@ class CurveFollower {
   bool walk(const OrbitEquations& equations, const CurvePoint& start) {
     Walk walk(equations, start, {settings_.tolerance, settings_.largest_step});
     BranchPoint last = record_.point(equations, start);
+    if (leaves_ranges(start)) return record_.end(last, "range"), false;
     for (;;) {
-      if (record_.is_full()) return record_.end(last, "branch.max_points is spent", true), false;
+      if (record_.is_full()) return record_.fail(last, max_points_spent), false;
       const auto next = walk.next();
-      if (!next) return record_.end(last, "no step leads on", true), false;
+      if (!next) return record_.fail(last, no_step), false;
       const double step = next->arclength - walk.here().arclength;
       for (const std::size_t axis : {along_axis, across_axis})
         for (const double bound : ranges_[axis])
@@ -114,9 +123,20 @@ class CurveFollower {
     }
   }
 
+  /// Whether a walk begins on a bound of a range, outwards.
+  [[nodiscard]] bool leaves_ranges(const CurvePoint& start) const {
+    for (const std::size_t axis : {along_axis, across_axis}) {
+      const double at = parameter(start.at, axis), rounding = 1e-14 * axes_[axis].unit;
+      const double ahead = start.tangent[start.tangent.size() - 2 + axis];
+      if ((ahead < 0 && at - ranges_[axis][0] <= rounding) || (ahead > 0 && ranges_[axis][1] - at <= rounding))
+        return true;
+    }
+    return false;
+  }
+
   void end_at_bound(const OrbitEquations& equations, const Walk& walk, std::size_t axis, double bound, double step) {
     auto zero = walk.zero([&](const CurvePoint& p) { return parameter(p.at, axis) - bound; }, step);
-    if (!zero) return record_.end(record_.point(equations, walk.here()), "no step leads on", true);
+    if (!zero) return record_.fail(record_.point(equations, walk.here()), no_step);
     zero->at[zero->at.size() - 2 + axis] = bound / axes_[axis].unit;  // R = 0 less a rounding would be no impact
     const double length = zero->arclength - walk.here().arclength;
     if (violation(equations, zero->at)) return end_in_graze(equations, walk, length);
@@ -130,7 +150,7 @@ class CurveFollower {
   /// in which curves of multipliers +1 and -1 meet that of the graze.
   void end_in_graze(const OrbitEquations& equations, const Walk& walk, double step) {
     const auto touch = touch_within(equations, walk, step);
-    if (!touch) return record_.end(record_.point(equations, walk.here()), "no step leads on", true);
+    if (!touch) return record_.fail(record_.point(equations, walk.here()), no_step);
     special_between(equations, walk, touch->last_good.arclength - walk.here().arclength);
     Condition condition = equations.conditions().front();
     const bool of_multiplier = condition.kind == Condition::Kind::multiplier;
@@ -148,7 +168,7 @@ class CurveFollower {
       exact = solved({{Condition::Kind::graze, 1, slowest_impact(once)}, {Condition::Kind::multiplier, 1}}, near, once);
       kind = SpecialKind::resonant_graze;
     }
-    if (!exact) return record_.add(last), record_.end(last, "a contact that no graze explains", true);
+    if (!exact) return record_.add(last), record_.fail(last, no_graze);
     std::tie(last.scene, last.orbit) = *exact;
     record_.note(kind, last);
     if (touch->appears && kind == SpecialKind::graze) last.orbit = last.orbit.without(touch->impact);
@@ -243,7 +263,6 @@ class CurveFollower {
   std::vector<OrbitEquations::Axis> axes_;
   double speed_unit_ = 0.0;
   SpecialKind kind_ = SpecialKind::fold;  ///< of the points of the curve
-  std::vector<SpecialPoint> starts_;
   Record record_;
 };
 

@@ -31,7 +31,8 @@ struct Condition {
 
 /// The equations of periodic motion with given impacts (multiple shooting over arcs): every flight ends on the stop of
 /// the next impact, with its velocity. Unknowns are phase and velocity of each impact, then one or two parameters, in
-/// units of `Units`. They hold for motion through stops, too: whether no flight is cut short is another question
+/// units of the speed and the widths that the constructor is given. They hold for motion through stops, too: whether no
+/// flight is cut short is another question
 /// (`violation`).
 class OrbitEquations {
  public:
@@ -52,7 +53,7 @@ class OrbitEquations {
     Vector residual;
     Matrix slope;
   };
-  /// Nothing if two impacts have changed places, or a parameter has left its range.
+  /// Nothing if two impacts have changed places, or the scene has no positive frequency, or stops in the wrong order.
   [[nodiscard]] std::optional<Linearised> at(const Vector& unknowns) const;
 
   [[nodiscard]] Vector unknowns_of(const Scene& scene, const Orbit& orbit) const;

@@ -48,7 +48,17 @@ void Record::meet(std::size_t special, std::size_t branch) {
 }
 
 void Record::end(const BranchPoint& last, std::string reason, bool failed) {
-  found_.ends.push_back({branch_, value_of(last.scene, axes_[0].parameter), std::move(reason), failed});
+  found_.ends.push_back({branch_, last.scene, std::move(reason), failed, axes_.size() > 1});
+}
+
+std::optional<std::size_t> Record::branch_of(const std::string& word, double value) const {
+  for (std::size_t i = 0; i + 1 < found_.points.size(); ++i) {
+    const BranchPoint &one = found_.points[i], &other = found_.points[i + 1];
+    if (one.branch != other.branch || one.orbit.word() != word || other.orbit.word() != word) continue;
+    const double a = value_of(one.scene, axes_[0].parameter), b = value_of(other.scene, axes_[0].parameter);
+    if (value >= std::min(a, b) && value <= std::max(a, b)) return one.branch;
+  }
+  return std::nullopt;
 }
 
 void Record::turn_round() {

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,6 +14,7 @@ namespace clatter::branches {
 /// Points, special points and ends of branches, or of curves, as they are found.
 class Record {
  public:
+  /// Of branches along one axis, or of curves in the plane of two.
   Record(std::vector<OrbitEquations::Axis> axes, std::int64_t max_points)
       : axes_(std::move(axes)), max_points_(static_cast<std::size_t>(max_points)) {}
 
@@ -35,7 +37,11 @@ class Record {
   /// A branch belongs to a special point, too.
   void meet(std::size_t special, std::size_t branch);
 
-  void end(const BranchPoint& last, std::string reason, bool failed = false);
+  void end(const BranchPoint& last, std::string reason) { end(last, std::move(reason), false); }
+  void fail(const BranchPoint& last, std::string_view reason) { end(last, std::string(reason), true); }
+
+  /// The branch that has motion of these letters at a value of the first parameter, between two of its points.
+  [[nodiscard]] std::optional<std::size_t> branch_of(const std::string& word, double value) const;
 
   /// All of the present branch so far was walked backwards: brings it into the order of the whole branch.
   void turn_round();
@@ -44,6 +50,7 @@ class Record {
   [[nodiscard]] Branches take() { return std::move(found_); }
 
  private:
+  void end(const BranchPoint& last, std::string reason, bool failed);
   [[nodiscard]] std::size_t specials() const { return found_.special.size(); }
   [[nodiscard]] std::size_t number_of(SpecialKind kind, const BranchPoint& at) const;
 

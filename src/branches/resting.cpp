@@ -40,6 +40,13 @@ void each_letter(const Orbit& orbit, Function&& function) {
   }
 }
 
+/// Whether a motion has come to rest on a stop and isn't released by then.
+bool is_at_rest(const Orbit& orbit, Side side, double phase) {
+  if (orbit.size() == 0) return false;
+  const OrbitImpact& last = orbit.impacts.back();
+  return last.side == side && last.rest > 0 && phase < last.phase + last.rest;
+}
+
 }  // namespace
 
 std::optional<double> release_phase(const Scene& scene, Side stop) {
@@ -81,6 +88,7 @@ std::optional<Orbit> resting_orbit(const point::Problem& problem, Side stop, std
     Orbit orbit{{}, static_cast<int>(2 * periods), false};
     for (const auto& [time, before, side] : round->contacts) {
       OrbitImpact impact{side, *release + nu * time, before};
+      if (before == 0 && is_at_rest(orbit, side, impact.phase)) continue;  // a chatter's end, then the rest
       if (before == 0) {
         const std::optional<double> next = release_phase(problem, side);
         if (!next) return std::nullopt;

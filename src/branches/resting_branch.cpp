@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <boost/math/tools/roots.hpp>
 #include <cmath>
+#include <limits>
 
 #include "branches/measures.hpp"
 #include "branches/resting.hpp"
@@ -14,7 +15,19 @@ std::ptrdiff_t rests_of(const Orbit& orbit) {
   return std::ranges::count_if(orbit.impacts, [](const OrbitImpact& impact) { return impact.rest > 0; });
 }
 
+double shortest_rest(const Orbit& orbit) {
+  double shortest = std::numeric_limits<double>::infinity();
+  for (const OrbitImpact& impact : orbit.impacts)
+    if (impact.rest > 0) shortest = std::min(shortest, impact.rest);
+  return shortest;
+}
+
 }  // namespace
+
+void no_longer_waits(std::deque<Waiting>& waiting, std::size_t special, const Orbit& orbit) {
+  std::erase_if(waiting,
+                [&](const Waiting& one) { return one.special == special && one.orbit.word() == orbit.word(); });
+}
 
 RestingBranch::RestingBranch(const point::Problem& problem, const BranchSettings& settings, bool symmetric,
                              double speed_unit, Record& record, std::deque<Waiting>& waiting)
@@ -28,20 +41,33 @@ RestingBranch::RestingBranch(const point::Problem& problem, const BranchSettings
 
 void RestingBranch::follow(const Waiting& from) {
   stop_ = from.orbit.impacts.back().side, start_ = value_of(from.scene, settings_.along);
-  generation_ = from.generation;
+  generation_ = from.generation, cascade_side_ = from.cascade_side;
+  if (from.cascade)
+    if (const auto known = record_.branch_of(from.orbit.word(), start_)) return join(*known, from);
   if (from.special) record_.meet(*from.special, record_.branch());
   if (from.heading != 0) {
     record_.add(point(start_, from.orbit));
     return walk(from.orbit, from.heading);
   }
-  const std::size_t first_special = record_.found().special.size();
   walk(from.orbit, -1);
   record_.turn_round();
   record_.add(point(start_, from.orbit));
-  walk(from.orbit, 1);
-  if (!from.cascade) return;
-  for (std::size_t i = first_special; i < record_.found().special.size(); ++i)
-    if (record_.found().special[i].kind == SpecialKind::chatter_limit) return record_.meet(i, *from.cascade);
+  if (!record_.is_full()) walk(from.orbit, 1);
+  if (from.cascade) join(record_.branch(), from);
+}
+
+/// A cascade that came near a branch ends in that of its chatter limits which is nearest.
+void RestingBranch::join(std::size_t branch, const Waiting& cascade) {
+  std::optional<std::size_t> nearest;
+  double least = std::numeric_limits<double>::infinity();
+  const std::vector<SpecialPoint>& special = record_.found().special;
+  for (std::size_t i = 0; i < special.size(); ++i) {
+    if (special[i].kind != SpecialKind::chatter_limit || !std::ranges::count(special[i].branches, branch)) continue;
+    const double distance =
+        std::abs(value_of(special[i].at.scene, settings_.along) - value_of(cascade.scene, settings_.along));
+    if (distance < least) least = distance, nearest = i;
+  }
+  if (nearest) record_.meet(*nearest, *cascade.cascade);
 }
 
 std::optional<Orbit> RestingBranch::orbit(double value, Side stop, const Orbit& like) const {
@@ -61,7 +87,7 @@ void RestingBranch::walk(Orbit here_orbit, int heading) {
   const double step = heading * settings_.largest_step / 4 * width_;
   double here = start_;
   while (here != bound) {
-    if (record_.is_full()) return record_.end(point(here, here_orbit), "branch.max_points is spent", true);
+    if (record_.is_full()) return record_.fail(point(here, here_orbit), max_points_spent);
     const double next = heading * (bound - here) < heading * step ? bound : here + step;
     const std::optional<Orbit> there = orbit(next, stop_, here_orbit);
     if (!there || letters_of(*there) != letters_of(here_orbit)) {
@@ -106,11 +132,28 @@ void RestingBranch::end(double last, const Orbit& good, double beyond, const std
   else if (other && rests_of(*other) == rests_of(good))
     kind = SpecialKind::graze;
   record_.add(at);
+  if (kind == SpecialKind::chatter_limit && std::min(shortest_rest(good), other ? shortest_rest(*other) : 1) > 1e-3)
+    return record_.fail(at, "its impacts change at no special point; begin beyond");
   if (kind == SpecialKind::graze && waits_beyond(at, stop_, generation_)) return record_.end(at, "chatter limit");
   const auto [special, is_new] = record_.note(kind, at);
   record_.end(at, std::string(name_of(kind)));
-  if (kind == SpecialKind::graze && is_new)
-    waiting_.push_back({scene(beyond), *other, {}, special, generation_, heading, {}});
+  if (!is_new) return no_longer_waits(waiting_, special, good);  // this is the branch that waits there
+  if (kind == SpecialKind::graze) waiting_.push_back({scene(beyond), *other, {}, special, generation_, heading});
+  if (kind == SpecialKind::chatter_limit && heading != cascade_side_)
+    go_on_beyond(special, last, good, beyond, other, heading);
+}
+
+/// Where a rest begins or vanishes, there may be another one in each period. On the side of fewer rests, grazes
+/// accumulate near the limit: the branch is followed from a little further on.
+void RestingBranch::go_on_beyond(std::size_t limit, double last, const Orbit& good, double beyond,
+                                 const std::optional<Orbit>& other, int heading) {
+  if (other && rests_of(*other) > rests_of(good))
+    return waiting_.push_back({scene(beyond), *other, {}, limit, generation_, heading});
+  const double value = last + heading * 1e-5 * width_;
+  if (value < settings_.range[0] || value > settings_.range[1]) return;
+  for (const Side stop : {Side::lower, Side::upper})
+    if (const auto resting = orbit(value, stop, good))
+      return waiting_.push_back({scene(value), *resting, {}, limit, generation_});
 }
 
 /// Largest speeds and losses between two values of the parameter.
@@ -142,7 +185,7 @@ bool RestingBranch::waits_beyond(const BranchPoint& last, Side stop, std::int64_
     if (value < settings_.range[0] || value > settings_.range[1]) return false;
     const auto resting = orbit(value, stop, whole);
     if (resting && rests_of(*resting) > rests_of(whole)) {
-      waiting_.push_back({scene(value), *resting, {}, {}, generation, 0, record_.branch()});
+      waiting_.push_back({scene(value), *resting, {}, {}, generation, 0, record_.branch(), ahead > 0 ? -1 : 1});
       return true;
     }
   }

@@ -16,7 +16,11 @@ struct Waiting {
   std::int64_t generation = 0;
   int heading = 0;                       ///< of motion that rests: up or down the parameter; 0: both ways
   std::optional<std::size_t> cascade{};  ///< the branch that came near it through ever more grazes
+  int cascade_side = 0;                  ///< on which that lies: up or down the parameter
 };
+
+/// A branch that came to its end in a special point needn't begin there any more.
+void no_longer_waits(std::deque<Waiting>& waiting, std::size_t special, const Orbit& orbit);
 
 /// Follows motion that rests. It is a function of the parameter, the run from its release, and walked along that.
 class RestingBranch {
@@ -40,6 +44,9 @@ class RestingBranch {
   [[nodiscard]] bool is_new_contact(const Orbit& one, const Orbit& other) const;
   void walk(Orbit orbit, int heading);
   void end(double last, const Orbit& good, double beyond, const std::optional<Orbit>& other, int heading);
+  void go_on_beyond(std::size_t limit, double last, const Orbit& good, double beyond, const std::optional<Orbit>& other,
+                    int heading);
+  void join(std::size_t branch, const Waiting& cascade);
   void note_maxima(double here, double next, const Orbit& like);
 
   point::Problem problem_;
@@ -50,6 +57,7 @@ class RestingBranch {
   std::deque<Waiting>& waiting_;
   Side stop_ = Side::none;  ///< from which the motion is released, as long as a branch is followed
   double start_ = 0.0;
+  int cascade_side_ = 0;
   std::int64_t generation_ = 0;
 };
 

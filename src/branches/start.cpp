@@ -4,7 +4,9 @@
 #include <string>
 
 #include "attractors/periodic_motion.hpp"
+#include "branches/measures.hpp"
 #include "branches/resting.hpp"
+#include "model/response.hpp"
 #include "point/point.hpp"
 
 namespace clatter::branches {
@@ -27,10 +29,45 @@ std::pair<PhasePoint, std::int64_t> settled(point::Problem problem) {
 
 Orbit resting_start(const point::Problem& problem, Side stop, std::int64_t period) {
   if (auto orbit = resting_orbit(problem, stop, period)) return std::move(*orbit);
-  throw StartError("the motion at the start rests on a stop for good; begin where the force takes it off");
+  if (!release_phase(problem, stop))
+    throw StartError("the motion at the start rests on a stop for good; begin where the force takes it off");
+  throw StartError(
+      "the motion at the start rests on a stop, and a run from its release doesn't come back to rest within its "
+      "period; "
+      "set branch.period to several times as much");
 }
 
 }  // namespace
+
+void require_start_in_range(const Scene& scene, sweep::Parameter parameter, const std::array<double, 2>& range,
+                            const std::string& key) {
+  using enum sweep::Parameter;
+  const Stops& stops = scene.stops;
+  const std::string name(sweep::key_of(parameter)), interval = key == "along" ? "branch.range" : "branch.across_range";
+  if (parameter == xs && stops.lower != -stops.upper)
+    throw StartError("branch." + key + " = xs moves both stops, which aren't symmetric; take stop_lower or stop_upper");
+  if (parameter == R && stops.restitution_lower != stops.restitution_upper)
+    throw StartError("branch." + key + " = R changes both stops, whose R differ; take R_lower or R_upper");
+  const double at = value_of(scene, parameter);
+  if (!std::isfinite(at)) throw StartError("there is no stop to move by branch." + key + "; give scene." + name);
+  if (!(at >= range[0] && at <= range[1]))
+    throw StartError("the start lies outside " + interval + "; give scene." + name + " a value within it");
+  if (parameter == stop_lower && range[1] >= stops.upper && std::isfinite(range[1]))
+    throw StartError(interval + " reaches the upper stop; end it below stop_upper");
+  if (parameter == stop_upper && range[0] <= stops.lower && std::isfinite(range[0]))
+    throw StartError(interval + " reaches the lower stop; begin it above stop_lower");
+  if (parameter == h && at == 1)
+    throw StartError("derivatives by h don't exist at h = 1, where the formulas change; begin at another scene.h");
+}
+
+double speed_scale(const Scene& scene, const Orbit& orbit) {
+  const Oscillator& oscillator = scene.oscillator;
+  const double nu = oscillator.frequency;
+  const double response = nu * steady_response(oscillator.damping, oscillator.forcing, nu).amplitude;
+  const double free = std::isfinite(response) ? response : std::abs(oscillator.forcing);
+  const double speed = impact_speed(orbit);
+  return speed > 1e-2 * free ? speed : std::max(free, 1e-12);
+}
 
 Orbit start_orbit(const point::Problem& problem, std::int64_t period, bool symmetric) {
   if (problem.oscillator.forcing == 0) throw StartError("a branch needs a force, whose periods it counts: set scene.f");

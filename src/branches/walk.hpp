@@ -21,7 +21,7 @@ struct WalkLimits {
   double largest_step = 0.02;
 };
 
-/// A function along the curve whose zero is a special point, found where it changes sign from `before` to `after`.
+/// A function along the curve whose zero is a special point, found where it changes sign.
 using TestFunction = std::function<double(const CurvePoint&)>;
 
 /// Follows a solution curve by pseudo-arclength steps (Keller 1977): as long as Newton's method converges fast and the

@@ -116,6 +116,8 @@ void check_followed(const Settings& settings, const std::string& name, std::stri
       if (!contains(key.range, end))
         fail(interval->location, std::string(interval->key->name) + " has " + name + " = " + number_text(end) +
                                      "; expected " + permitted(key));
+  if (name == "xs" && interval != nullptr && std::get<Interval>(interval->value)[0] < 0)
+    fail(interval->location, "xs stands for |xs|; expected two numbers above 0");
   for (const Setting& axis : settings.axes)
     if (axis.key->name == name)
       fail(axis.key_location, "'" + name + "' in both [sweep] and [branch] " + std::string(chosen_by) +
@@ -151,7 +153,7 @@ void add_second_parameter(const Settings& settings, branches::BranchSettings& br
   branch.across = sweep::parameter_of(name).value(), branch.curve = settings.text("branch", "curve");
   if (change_the_same(*branch.across, branch.along))
     fail(across->location, "'" + name + "' and '" + std::string(sweep::key_of(branch.along)) +
-                               "' change the same; expected another key of [scene]");
+                               "' change the same quantity; expected another key of [scene]");
   check_followed(settings, name, "across", range);
   const AllowedRange& permitted_values = find_key("scene", name)->range;
   branch.across_range = {permitted_values.not_zero ? 0.0 : permitted_values.low, permitted_values.high};

@@ -23,6 +23,15 @@ struct Dual {
   /// A variable: its derivative by itself is 1.
   Dual(const T& at, std::size_t variable) : value(at) { slope[variable] = T(1); }
 
+  [[nodiscard]] bool is_constant() const {
+    for (const T& by : slope) {
+      if (by != T(0)) return false;
+      if constexpr (requires { by.is_constant(); })
+        if (!by.is_constant()) return false;
+    }
+    return true;
+  }
+
   friend Dual operator-(const Dual& x) { return chained(-x.value, T(-1), x); }
   friend Dual operator+(const Dual& x, const Dual& y) {
     Dual sum(x.value + y.value);
@@ -71,6 +80,7 @@ struct Dual {
   friend Dual sqrt(const Dual& x) {
     using std::sqrt;
     const T y = sqrt(x.value);
+    if (x.is_constant()) return y;  // at 0, too
     return chained(y, T(1) / (T(2) * y), x);
   }
   friend Dual atan(const Dual& x) {

@@ -196,6 +196,41 @@ TEST(Branch, of_motion_that_loses_its_symmetry_by_the_parameter_is_that_of_runs)
   }
 }
 
+TEST(Branch, may_begin_on_a_bound_of_its_range) {
+  point::Problem problem = problem_of(0.1, 1.0, 1.1, {-3.0, 3.0, 0.7, 0.7});
+  problem.start = {2.0, 3.0, 0.0};
+  for (const std::array<double, 2> range : {std::array{0.9, 1.1}, std::array{1.1, 1.3}}) {
+    const Branches found = follow_branches(problem, {.range = range});
+    for (const BranchEnd& end : found.ends) EXPECT_FALSE(end.failed) << end.reason;
+    EXPECT_GT(found.points.size(), 10);
+    for (const BranchPoint& point : found.points) {
+      EXPECT_GE(point.scene.oscillator.frequency, range[0] - 2e-16);
+      EXPECT_LE(point.scene.oscillator.frequency, range[1] + 2e-16);
+    }
+  }
+}
+
+TEST(Branch, of_small_motion_at_its_start_takes_no_more_points) {
+  const auto points = [](double f) {
+    const point::Problem problem = problem_of(0.1, f, 1.1, {-3.0, 3.0, 0.7, 0.7});
+    return follow_branches(problem, {.along = Parameter::f, .range = {0.0, 1.0}}).points.size();
+  };
+  EXPECT_LT(points(1e-3), 2 * points(0.5));
+}
+
+TEST(Branch, at_critical_damping_is_like_its_neighbours) {
+  const auto speeds = [](double h) {
+    point::Problem problem = problem_of(h, 1.0, 0.6, {-0.3, 0.3, 0.7, 0.7});
+    problem.start = {0.0, 1.0, 0.0};
+    const Branches found = follow_branches(problem, {.range = {0.55, 0.7}});
+    return std::pair(impact_speed(found.points.front().orbit), impact_speed(found.points.back().orbit));
+  };
+  const auto below = speeds(1 - 1e-9), at = speeds(1.0);
+  EXPECT_GT(at.first, 0.01);
+  EXPECT_NEAR(at.first, below.first, 1e-7);
+  EXPECT_NEAR(at.second, below.second, 1e-7);
+}
+
 TEST(Branch, refuses_starts_that_it_cannot_follow) {
   const auto follow = [](const point::Problem& problem) { return follow_branches(problem, {.range = {0.5, 3.0}}); };
   EXPECT_THROW((void)follow(problem_of(0.1, 0.0, 1.0, {-1.0, 1.0, 0.7, 0.7})), StartError);

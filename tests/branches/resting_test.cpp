@@ -136,6 +136,57 @@ TEST(RestingBranch, has_its_largest_speed_where_no_neighbour_is_faster) {
   EXPECT_NEAR(speed_at(best[0] - 1e-5), speed_at(best[0] + 1e-5), 1e-13);
 }
 
+TEST(RestingOrbit, has_a_letter_for_each_chatter_and_each_landing_without_restitution) {
+  for (const double R : {0.0, 1e-10, 0.3}) {
+    point::Problem problem = two_stops(0.3);
+    problem.stops.restitution_lower = problem.stops.restitution_upper = R;
+    const auto orbit = resting_orbit(problem, Side::upper, 1);
+    ASSERT_TRUE(orbit);
+    EXPECT_EQ(letters_of(*orbit), "L*U*") << R;
+  }
+}
+
+/// Beyond the limit of one stop's chatter the mass may still rest on the other: that motion is the one of runs.
+TEST(ChatterLimit, of_one_stop_leads_to_motion_that_rests_on_the_other) {
+  point::Problem problem = two_stops(0.3);
+  problem.stops.lower = -0.5, problem.stops.upper = 0.5;
+  const Branches found = follow_branches(problem, {.along = Parameter::load, .range = {0.0, 1.0}});
+  const double limit = special_values(found, SpecialKind::chatter_limit, Parameter::load).at(0);
+  for (const double load : {limit + 1e-3, 0.3, 0.6}) {
+    problem.oscillator.load = load;
+    const auto orbit = resting_orbit(problem, Side::upper, 1);
+    ASSERT_TRUE(orbit) << load;
+    const auto holds = [&](std::size_t i) {
+      const BranchPoint &one = found.points[i], &other = found.points[i + 1];
+      const double a = one.scene.oscillator.load, b = other.scene.oscillator.load;
+      return one.branch == other.branch && std::min(a, b) <= load && load <= std::max(a, b) &&
+             one.orbit.word() == orbit->word();
+    };
+    std::size_t i = 0;
+    while (i + 1 < found.points.size() && !holds(i)) ++i;
+    EXPECT_LT(i + 1, found.points.size()) << load;
+  }
+}
+
+/// Several cascades, of motion and of its doubled periods, end in the same chatter limit.
+TEST(RestingBranch, is_followed_once) {
+  point::Problem problem;
+  problem.oscillator = {0.02, 1.0, 1.26176, 0.0};
+  problem.stops.upper = 0.798751, problem.stops.restitution_upper = 0.214054;
+  const Branches found = follow_branches(problem, {.range = {0.05, 2.0}, .generations = 1});
+  std::vector<std::size_t> resting;
+  for (const BranchPoint& point : found.points)
+    if (point.orbit.rests() && (resting.empty() || resting.back() != point.branch)) resting.push_back(point.branch);
+  EXPECT_EQ(resting.size(), 1);
+  const auto limit = std::ranges::find(found.special, SpecialKind::chatter_limit, &SpecialPoint::kind);
+  ASSERT_NE(limit, found.special.end());
+  for (const BranchEnd& end : found.ends) {
+    if (end.reason == "chatter limit") {
+      EXPECT_EQ(std::ranges::count(limit->branches, end.branch), 1) << end.branch;
+    }
+  }
+}
+
 /// A turning point of a flight touches the other stop, or an impact there vanishes: the branch goes on with another
 /// word.
 TEST(RestingBranch, goes_on_beyond_its_grazes) {

@@ -84,9 +84,9 @@ class Branch(CommandLine):
         result = self.branch(SCENE + WIDE + 'across = "R"\ncurve = "fold"\n', "-q")
         self.assertEqual(result.returncode, 0, result.stderr)
         with h5py.File((self.directory / "a.branch.h5")) as file:
-            self.assertGreater(len(file["R"]), 10)
-            self.assertLessEqual(file["R"][:].max(), 1)
-            self.assertGreaterEqual(file["R"][:].min(), 0)
+            np.testing.assert_allclose(file["multiplier_re"][:].max(axis=1), 1, rtol=0, atol=1e-5)
+            self.assertEqual((file["R"][0], file["R"][-1]), (0, 1))
+            self.assertTrue((np.diff(file["R"][:]) > 0).all())
 
     def test_curves_without_a_point_to_begin_with_say_so(self):
         result = self.branch(SCENE + BRANCH + 'across = "xs"\ncurve = "flip"\n')
@@ -115,11 +115,15 @@ class Branch(CommandLine):
             (SCENE + '[branch]\nalong = "nu"\nrange = 2\n', ("a.toml:11:9", "two numbers, the lower first")),
             (SCENE + '[branch]\nalong = "nu"\nrange = [-1, 1]\n', ("a.toml:11:9", "nu = -1", "> 0")),
             (SCENE + "[branch]\nmax_points = 9\n", ("a.toml:9:2", "without 'along'")),
+            (SCENE + '[branch]\nalong = "xs"\nrange = [-4, -1]\n', ("a.toml:11:9", "two numbers above 0")),
             (SCENE + BRANCH + 'across = "xs"\n', ("a.toml:12:1", "'across' without 'curve'")),
             (SCENE + BRANCH + 'curve = "fold"\n', ("a.toml:12:1", "'curve' without 'across'")),
             (SCENE + BRANCH + "across_range = [1, 2]\n", ("a.toml:12:1", "'across_range' without 'across'")),
             (SCENE + BRANCH + 'across = "nu"\ncurve = "fold"\n', ("a.toml:12:10", "expected another key")),
-            (SCENE + BRANCH.replace('"nu"', '"xs"') + 'across = "stop_upper"\ncurve = "fold"\n', ("change the same",)),
+            (
+                SCENE + BRANCH.replace('"nu"', '"xs"') + 'across = "stop_upper"\ncurve = "fold"\n',
+                ("change the same quantity",),
+            ),
             (
                 SCENE + BRANCH.replace('"nu"', '"R_lower"').replace("1.5", "0.9") + 'across = "R"\ncurve = "fold"\n',
                 ("change the same",),
@@ -145,6 +149,20 @@ class Branch(CommandLine):
         ):
             result = self.branch(text + BRANCH)
             self.assertEqual(result.returncode, 1)
+            self.assertIn(part, result.stderr)
+            self.assertFalse((self.directory / "a.branch.h5").exists())
+
+    def test_curves_that_have_no_branch_to_begin_on_say_why(self):
+        uneven = SCENE.replace("xs = -3", "stop_lower = -3\nstop_upper = 2.9")
+        spent = "the branch has no fold up to its end at nu = "
+        for text, part in (
+            (uneven + WIDE + 'across = "xs"\ncurve = "fold"\n', "moves both stops, which aren't symmetric"),
+            (SCENE.replace("xs = -3", "stop_upper = 3") + WIDE + 'across = "stop_lower"\ncurve = "fold"\n', "no stop"),
+            (SCENE + WIDE + 'across = "xs"\ncurve = "fold"\nmax_points = 30\n', spent),
+            (SCENE + WIDE + 'across = "xs"\nacross_range = [4, 5]\ncurve = "fold"\n', "outside branch.across_range"),
+        ):
+            result = self.branch(text)
+            self.assertEqual(result.returncode, 1, text)
             self.assertIn(part, result.stderr)
             self.assertFalse((self.directory / "a.branch.h5").exists())
 
@@ -191,12 +209,12 @@ class Branch(CommandLine):
         result = subprocess.run([*plot, *files], capture_output=True, text=True, cwd=self.directory)
         self.assertEqual(result.returncode, 0, result.stderr)
         svg = (self.directory / "z+a.branch.svg").read_text(encoding="utf-8")
-        for part in ('id="soft zone"', 'id="hard zone"', 'id="backbone 1"', "dotted: conservative motion"):
+        for part in ('id="soft zone"', 'id="hard zone"', 'id="backbone 1"', "dotted: conservative motion of the mean speed"):
             self.assertIn(part, svg)
         self.branch(SCENE.replace("xs = -3", "stop_upper = 3") + BRANCH, "-q")
         result = subprocess.run([*plot, files[1]], capture_output=True, text=True)
         self.assertEqual(result.returncode, 2)
-        self.assertIn("--backbone is of branches along nu between symmetric stops", result.stderr)
+        self.assertIn("--backbone is of branches along nu of one machine", result.stderr)
 
     def test_picture_of_curves_has_the_map_of_a_sweep_behind(self):
         self.branch(SCENE + WIDE + 'across = "xs"\nacross_range = [2, 6]\ncurve = "fold"\n', "-q")
