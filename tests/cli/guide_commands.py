@@ -74,6 +74,7 @@ class Workplace:
             "HOME": str(folder),
             "MPLBACKEND": "Agg",
             "PYTHONDONTWRITEBYTECODE": "1",
+            "PYTHONPATH": str(root / "scripts"),  # the module clatter, as if it were installed
         }
 
     def furnish(self):
