@@ -10,6 +10,7 @@ line_length=120  # of Python; .flake8 has it again
 quick=(clang-format shellcheck black flake8 arrows g++ clang++)
 sanitize=(asan tsan)
 all=("${quick[@]}" clang-tidy "${sanitize[@]}")
+by_name=(packages)
 
 # The tests that the sanitizers run, and the programs they need: those that read files or share memory, some minutes.
 # ThreadSanitizer runs only those in which threads meet.
@@ -43,6 +44,8 @@ packages, runs each gate, names those that fail, and exits with 1 if any does:
   tsan          ThreadSanitizer finds nothing in the tests of lanes, attractors,
                 plans and sweeps on several threads, nor in the program's shards
                 and pipes (build/tsan)
+  packages      only by name: tarball and Debian package are right
+                (scripts/check_packages.sh --help says more)
 END
 }
 
@@ -52,7 +55,7 @@ usage: scripts/check.sh [--quick] [--sanitize] [GATE...]
 
   --quick      all but clang-tidy, asan, tsan; .ci/run calls it after the tests
   --sanitize   ${sanitize[*]}
-  GATE...      one by one; with no argument all of them
+  GATE...      one by one; with no argument all of them but ${by_name[*]}
 
 END
   steps
@@ -95,6 +98,7 @@ run_gate() {
       ;;
     asan) run_sanitized asan "$asan_tests" "${asan_targets[@]}" ;;
     tsan) run_sanitized tsan "$tsan_tests" "${tsan_targets[@]}" ;;
+    packages) scripts/check_packages.sh ;;
   esac
 }
 
@@ -105,7 +109,7 @@ for argument in "$@"; do
     --sanitize) gates+=("${sanitize[@]}") ;;
     -h | --help) usage; exit 0 ;;
     *)
-      if [[ " ${all[*]} " != *" $argument "* ]]; then
+      if [[ " ${all[*]} ${by_name[*]} " != *" $argument "* ]]; then
         echo "check.sh: unknown argument '$argument'; try --help" >&2
         exit 2
       fi

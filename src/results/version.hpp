@@ -4,7 +4,7 @@
 
 namespace clatter::results {
 
-/// The project's version, e.g. "0.1.0".
+/// The project's version, e.g. "0.2.0".
 [[nodiscard]] std::string_view version();
 
 /// The commit from which it was built, with "-dirty" if files had changed; that of the archive if there is no git, else

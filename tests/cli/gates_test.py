@@ -12,6 +12,7 @@ import yaml
 SOURCE = Path(os.environ["CLATTER_SOURCE"])
 QUICK = ("clang-format", "shellcheck", "black", "flake8", "arrows", "g++", "clang++")
 LONG = ("clang-tidy", "asan", "tsan")
+BY_NAME = ("packages",)
 CPP = "int twice(int x) { return 2 * x; }\n"
 
 
@@ -138,7 +139,7 @@ add_custom_target(clatter_version)
     def test_help_names_every_gate_and_installs_nothing(self):
         result = self.check("--help")
         self.assertEqual(result.returncode, 0, result.stdout)
-        self.assertEqual(re.findall(r"(?m)^  ([a-z]\S+)  +\w", result.stdout), [*QUICK, *LONG])
+        self.assertEqual(re.findall(r"(?m)^  ([a-z]\S+)  +\w", result.stdout), [*QUICK, *LONG, *BY_NAME])
         self.assertRegex(result.stdout, rf"--quick +all but {', '.join(LONG)};")
 
     def test_an_unknown_word_is_refused_before_anything_runs(self):
@@ -152,13 +153,13 @@ class CiRun(Folder):
     def run_with(self, code_of_tests):
         """The calls of .ci/run, and its exit code, if the tests end with this one."""
         self.write(".ci/run", read(".ci/run"), 0o755)
-        for name, code in (("test.sh", code_of_tests), ("check.sh", 0)):
+        for name, code in (("test.sh", code_of_tests), ("check.sh", 0), ("check_packages.sh", 0)):
             self.write(f"scripts/{name}", f'#!/bin/sh\necho "{name} $*" >>"{self.root}/calls"\nexit {code}\n', 0o755)
         done = subprocess.run([self.root / ".ci" / "run"], check=False)
         return (self.root / "calls").read_text().splitlines(), done.returncode
 
-    def test_it_calls_the_tests_and_then_the_quick_gates(self):
-        self.assertEqual(self.run_with(0), (["test.sh ", "check.sh --quick"], 0))
+    def test_it_calls_the_tests_and_then_the_quick_gates_and_makes_the_tarball(self):
+        self.assertEqual(self.run_with(0), (["test.sh ", "check.sh --quick", "check_packages.sh --tarball"], 0))
 
     def test_it_ends_with_tests_that_fail(self):
         self.assertEqual(self.run_with(8), (["test.sh "], 8))
