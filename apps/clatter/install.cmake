@@ -6,13 +6,15 @@ install(TARGETS clatter RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 file(GLOB configs CONFIGURE_DEPENDS configs/*.toml configs/*.ini)
 install(FILES ${configs} DESTINATION ${share}/configs)
 
-# Scripts for users. Those for who works on clatter need its sources, and stay there.
+# Scripts for users. The others need the sources, and stay there.
 file(GLOB modules CONFIGURE_DEPENDS scripts/plot*.py scripts/report*.py scripts/plain_hdf5.py scripts/hdf5_heaps.py)
 set(entries ${modules})
 list(FILTER entries INCLUDE REGEX "/(plot|report)[.]py$")
 list(REMOVE_ITEM modules ${entries})
 install(FILES ${modules} DESTINATION ${share}/scripts)
 install(PROGRAMS ${entries} DESTINATION ${share}/scripts)
+file(GLOB python_module CONFIGURE_DEPENDS scripts/clatter/*.py)
+install(FILES ${python_module} DESTINATION ${share}/scripts/clatter)
 install(PROGRAMS scripts/slurm/submit.sh scripts/slurm/sweep.sbatch DESTINATION ${share}/scripts/slurm)
 
 # clatter-plot and clatter-report: links that hold wherever the prefix is moved.

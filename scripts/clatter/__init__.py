@@ -14,4 +14,4 @@ The program does all the work: values are those of the file that `clatter run` w
 from ._program import ClatterError, ClatterWarning, ConfigError, branch, plan, run
 
 __all__ = ["ClatterError", "ClatterWarning", "ConfigError", "branch", "plan", "run"]
-__version__ = "0.1.0"
+__version__ = "0.2.0"
