@@ -11,7 +11,9 @@ std::string citation() {
          "  version = {" +
          std::string(results::version()) +
          "},\n"
-         "  year    = {2026}\n"
+         "  year    = {" +
+         std::string(results::release_date().substr(0, 4)) +
+         "}\n"
          "}\n\n"
          "@article{ragulskis2023,\n"
          "  title   = {Vibration Drives with Two Impacting Pairs for Precise Robots},\n"

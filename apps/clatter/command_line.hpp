@@ -2,6 +2,7 @@
 
 #include <map>
 #include <optional>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -21,6 +22,7 @@ struct Option {
   std::string_view argument;  ///< "FILE.h5"; empty: a switch
   std::string_view help;
   bool repeatable = false;
+  std::span<const std::string_view> choices{};  ///< the words that the argument may be; empty: any
 };
 
 /// The arguments of a subcommand.

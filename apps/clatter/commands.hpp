@@ -20,6 +20,13 @@ enum ExitCode : int {
   timed_out = 124  ///< a signal gives 128 + its number
 };
 
+/// Exit codes and what they tell, e.g. "129" and "stopped by SIGHUP".
+struct ExitMeaning {
+  std::string_view code, meaning;
+};
+
+[[nodiscard]] std::span<const ExitMeaning> exit_meanings();
+
 /// A subcommand: its operands and options, its help, and its function.
 struct Command {
   std::string_view name;
@@ -48,6 +55,15 @@ struct Command {
 [[nodiscard]] Command info_command();
 [[nodiscard]] Command defaults_command();
 [[nodiscard]] Command help_command();
+
+/// Options in place of a command.
+[[nodiscard]] std::span<const Option> program_options();
+
+/// Examples of the whole program, for the end of its help.
+[[nodiscard]] std::string_view program_examples();
+
+/// What the program is, in one line.
+inline constexpr std::string_view program_summary = "exact sweeps of oscillators between rigid stops";
 
 /// The help of the program, and of one command.
 [[nodiscard]] std::string program_help();

@@ -55,7 +55,7 @@ lanes::InstructionSet arch_of(const Arguments& arguments) {
   const std::string name = option ? *option : variable;
   const std::string given = std::string(option ? "--arch " : "CLATTER_ARCH=").append(config::in_quotes(name));
   const std::optional<lanes::InstructionSet> arch = lanes::instruction_set_named(name);
-  if (!arch) throw UsageError(given + "; expected one of scalar, sse2, avx2, avx512");
+  if (!arch) throw UsageError(given + "; expected one of " + config::joined(lanes::instruction_set_names));
   if (!is_supported(*arch))
     throw UsageError(given + ": this machine doesn't have it; its widest is " +
                      std::string(lanes::name_of(lanes::widest_instruction_set())));
@@ -66,7 +66,7 @@ bool progress_wanted(const Arguments& arguments) {
   const std::string when = arguments.value("progress").value_or("auto");
   if (when == "always" || when == "never") return when == "always";
   if (when == "auto") return stderr_is_terminal() && !arguments.has("quiet");
-  throw UsageError("--progress " + config::in_quotes(when) + "; expected one of auto, always, never");
+  throw UsageError("--progress " + config::in_quotes(when) + "; expected one of " + config::joined(progress_choices));
 }
 
 std::string output_of(const Arguments& arguments, const std::string& ending) {

@@ -27,8 +27,10 @@ inline const Option threads_option{"threads", 0, "N",
 /// The shard of --shard; nothing if it isn't given. Throws UsageError.
 [[nodiscard]] std::optional<sweep::Shard> shard_of(const Arguments& arguments);
 
-inline const Option arch_option{"arch", 0, "NAME",
-                                "instruction set: scalar, sse2, avx2, avx512; default: CLATTER_ARCH, else the widest"};
+inline const Option arch_option{
+    "arch", 0,
+    "NAME", "instruction set: scalar, sse2, avx2, avx512; default: CLATTER_ARCH, else the widest",
+    false,  lanes::instruction_set_names};
 
 /// The instruction set that --arch or else CLATTER_ARCH names; by default the widest of this machine. Throws
 /// UsageError.
@@ -38,7 +40,9 @@ inline const Option arch_option{"arch", 0, "NAME",
 inline const Option output_option{"output", 'o', "FILE.h5",
                                   "output file; default: the configuration's name with .h5, in this directory"};
 inline const Option force_option{"force", 0, "", "replace whatever file has the output's name"};
-inline const Option progress_option{"progress", 0, "WHEN", "show progress: auto (on a terminal), always or never"};
+inline constexpr std::string_view progress_choices[] = {"auto", "always", "never"};
+inline const Option progress_option{
+    "progress", 0, "WHEN", "show progress: auto (on a terminal), always or never", false, progress_choices};
 
 /// Whether to show progress. Throws UsageError.
 [[nodiscard]] bool progress_wanted(const Arguments& arguments);

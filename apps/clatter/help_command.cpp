@@ -1,24 +1,19 @@
 #include <algorithm>
+#include <filesystem>
 #include <iostream>
 
 #include "commands.hpp"
+#include "completions.hpp"
+#include "config/suggestion.hpp"
 #include "config/wrapped.hpp"
 #include "help_topics.hpp"
+#include "manual_pages.hpp"
+#include "storage/atomic_write.hpp"
+#include "storage/error.hpp"
+#include "storage/utf8.hpp"
 
 namespace clatter::app {
 namespace {
-
-constexpr std::string_view exit_codes = R"(Exit codes
-  0    done
-  1    done, but some points failed; their status says why
-  2    wrong command line or configuration
-  70   a bug in clatter
-  74   a file cannot be read or written, or the system refuses memory,
-       threads, stacks or open files
-  75   another run is writing the output
-  124  stopped by --max-time
-  129  stopped by SIGHUP; 130: by SIGINT; 143: by SIGTERM
-)";
 
 /// A term and its explanation.
 using Row = std::pair<std::string, std::string_view>;
@@ -42,7 +37,29 @@ Row row_of(const Option& option) {
   return {letter + "--" + std::string(option.name) + argument, option.help};
 }
 
+/// Writes each file below a folder, which is made if need be.
+void write_manual(const std::filesystem::path& folder) {
+  for (const std::vector<ManualFile>& files : {manual_pages(), completions()}) {
+    for (const ManualFile& file : files) {
+      const std::filesystem::path path = folder / file.path;
+      std::error_code error;
+      std::filesystem::create_directories(path.parent_path(), error);
+      if (error)
+        throw storage::IoError("cannot make the folder " + storage::quoted_name(path.parent_path().string()) + ": " +
+                               error.message());
+      storage::write_atomically(path.string(), std::as_bytes(std::span(file.text)));
+    }
+  }
+}
+
 int print_help(const Arguments& arguments) {
+  if (const std::optional<std::string> folder = arguments.value("manual")) {
+    if (!arguments.operands.empty())
+      throw UsageError("--manual conflicts with " + config::in_quotes(arguments.operands[0]) +
+                       "; it writes all pages, so leave that out");
+    write_manual(*folder);
+    return done;
+  }
   std::cout << (arguments.operands.empty() ? program_help() : help_on(arguments.operands[0]));
   return done;
 }
@@ -50,7 +67,22 @@ int print_help(const Arguments& arguments) {
 constexpr std::string_view examples =
     "  clatter help run\n"
     "  clatter help configuration\n"
-    "  clatter help R                also scene.R, sweep.R, [scene], linspace\n";
+    "  clatter help R                also scene.R, sweep.R, [scene], linspace\n"
+    "  clatter help --manual ~/.local/share\n";
+
+constexpr Option options_of_program[] = {{"version", 0, "", "print version, commit and compiler"},
+                                         {"cite", 0, "", "print BibTeX to cite clatter"},
+                                         {"help", 0, "", "print this help"}};
+
+constexpr ExitMeaning meanings[] = {
+    {"0", "done"},
+    {"1", "done, but some points failed; their status says why"},
+    {"2", "wrong command line or configuration"},
+    {"70", "a bug in clatter"},
+    {"74", "a file cannot be read or written, or the system refuses memory, threads, stacks or open files"},
+    {"75", "another run is writing the output"},
+    {"124", "stopped by --max-time"},
+    {"129", "stopped by SIGHUP; 130: by SIGINT; 143: by SIGTERM"}};
 
 }  // namespace
 
@@ -64,13 +96,19 @@ std::string command_help(const Command& command) {
 std::string program_help() {
   std::vector<Row> rows;
   for (const Command& command : commands()) rows.emplace_back(command.usage, command.summary);
-  rows.emplace_back("--version", "print version, commit and compiler");
-  rows.emplace_back("--cite", "print BibTeX to cite clatter");
-  rows.emplace_back("--help", "print this help");
-  return "clatter: exact sweeps of oscillators between rigid stops\n\nCommands\n" + table(rows) + '\n' +
-         std::string(exit_codes) +
-         "\nExamples\n"
-         "  clatter run configs/fig22.toml\n"
+  for (const Option& option : program_options()) rows.emplace_back("--" + std::string(option.name), option.help);
+  std::vector<Row> codes;
+  for (const ExitMeaning& exit : exit_meanings()) codes.emplace_back(exit.code, exit.meaning);
+  return "clatter: " + std::string(program_summary) + "\n\nCommands\n" + table(rows) + "\nExit codes\n" + table(codes) +
+         "\nExamples\n" + std::string(program_examples());
+}
+
+std::span<const ExitMeaning> exit_meanings() { return meanings; }
+
+std::span<const Option> program_options() { return options_of_program; }
+
+std::string_view program_examples() {
+  return "  clatter run configs/fig22.toml\n"
          "  clatter run configs/fig22.toml -o coarse.h5 \\\n"
          "    --set sweep.nu='linspace(0.5, 1.5, 51)'\n"
          "  clatter info fig22.h5\n"
@@ -87,7 +125,9 @@ Command help_command() {
           .examples = examples,
           .operands = {"COMMAND|KEY"},
           .required_operands = 0,
-          .options = {{"help", 'h', "", "print this help"}},
+          .options = {{"manual", 0, "DIR",
+                       "write the man pages, and completions for bash, zsh and fish, as they lie in PREFIX/share"},
+                      {"help", 'h', "", "print this help"}},
           .run = print_help};
 }
 

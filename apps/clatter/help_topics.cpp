@@ -39,8 +39,20 @@ std::string references(const std::vector<const Key*>& named) {
   return text;
 }
 
-/// Every topic, commands first, since the first of equally near ones is suggested.
-std::vector<std::string> topics() {
+[[noreturn]] void refuse(const std::string& topic) {
+  const std::vector<std::string> all = help_topics();  // the first of equally near ones is suggested
+  const std::vector<std::string_view> names(all.begin(), all.end());
+  if (const std::string_view near = config::nearest(topic, names); !near.empty())
+    throw UsageError("no help on " + config::in_quotes(topic) + "; did you mean '" + std::string(near) + "'?");
+  std::vector<std::string_view> first{whole};
+  for (const Command& command : commands()) first.push_back(command.name);
+  throw UsageError("no help on " + config::in_quotes(topic) + "; there is help on: " + config::joined(first) +
+                   ", and on every section and key");
+}
+
+}  // namespace
+
+std::vector<std::string> help_topics() {
   std::vector<std::string> all;
   for (const Command& command : commands()) all.emplace_back(command.name);
   all.emplace_back(whole);
@@ -53,19 +65,6 @@ std::vector<std::string> topics() {
   for (const std::string_view function : config::axis_function_names()) all.emplace_back(function);
   return all;
 }
-
-[[noreturn]] void refuse(const std::string& topic) {
-  const std::vector<std::string> all = topics();
-  const std::vector<std::string_view> names(all.begin(), all.end());
-  if (const std::string_view near = config::nearest(topic, names); !near.empty())
-    throw UsageError("no help on " + config::in_quotes(topic) + "; did you mean '" + std::string(near) + "'?");
-  std::vector<std::string_view> first{whole};
-  for (const Command& command : commands()) first.push_back(command.name);
-  throw UsageError("no help on " + config::in_quotes(topic) + "; there is help on: " + config::joined(first) +
-                   ", and on every section and key");
-}
-
-}  // namespace
 
 std::string help_on(const std::string& topic) {
   std::string_view name = topic;

@@ -1,11 +1,15 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 namespace clatter::app {
 
 /// The help on a topic: a command, a key, a section, a function of values, or the whole configuration. Throws
 /// UsageError if there is none.
 [[nodiscard]] std::string help_on(const std::string& topic);
+
+/// Every topic, commands first.
+[[nodiscard]] std::vector<std::string> help_topics();
 
 }  // namespace clatter::app

@@ -27,11 +27,11 @@ Old Changelog:
 ${changes}")
 execute_process(COMMAND gzip -9 --no-name --force ${documents}/changelog COMMAND_ERROR_IS_FATAL ANY)
 
-# Pages of the manual are compressed there.
+# Debian's zsh looks for the completions of packages elsewhere, and pages of the manual are compressed there.
+file(RENAME ${CPACK_TEMPORARY_INSTALL_DIRECTORY}/usr/share/zsh/site-functions
+  ${CPACK_TEMPORARY_INSTALL_DIRECTORY}/usr/share/zsh/vendor-completions)
 file(GLOB pages ${CPACK_TEMPORARY_INSTALL_DIRECTORY}/usr/share/man/man*/*.[1-8])
-if(pages)
-  execute_process(COMMAND gzip -9 --no-name ${pages} COMMAND_ERROR_IS_FATAL ANY)
-endif()
+execute_process(COMMAND gzip -9 --no-name ${pages} COMMAND_ERROR_IS_FATAL ANY)
 
 execute_process(COMMAND find ${CPACK_TEMPORARY_INSTALL_DIRECTORY} -exec touch --no-dereference --date=@${seconds} {} +
   COMMAND_ERROR_IS_FATAL ANY)

@@ -34,14 +34,16 @@ std::string fallback(const Key& key) {
   return key.fallback.empty() ? "empty" : std::string(key.fallback);
 }
 
-std::string permitted_and_default(const Key& key) { return permitted(key) + "; default: " + fallback(key); }
+constexpr std::size_t indent = 21;
 
-std::string entry(const Key& key) {
-  constexpr std::size_t indent = 21;
-  std::string name = "  " + std::string(key.name);
-  name.resize(indent, ' ');
-  return name + wrapped(key.help, indent) + std::string(indent, ' ') + wrapped(permitted_and_default(key), indent);
+/// A name and its explanation in two columns.
+std::string row(std::string_view name, std::string_view help) {
+  std::string text = "  " + std::string(name);
+  text.resize(indent, ' ');
+  return text + wrapped(help, indent);
 }
+
+std::string entry(const Key& key) { return row(key.name, key.help) + row("", permitted_and_default(key)); }
 
 std::string header(std::string_view section) {
   return section.empty() ? "Before the first section\n" : '[' + std::string(section) + "]\n";
@@ -73,13 +75,14 @@ std::string set_command(std::string_view section, const Key& key, const std::str
 
 }  // namespace
 
+std::string permitted_and_default(const Key& key) { return permitted(key) + "; default: " + fallback(key); }
+
 std::string_view value_reference() { return values; }
 
 std::string section_reference(std::string_view section) {
   std::string text = header(section);
   if (section == "sweep") {
-    text += "  any key of [scene] an axis, one a line; the first varies slowest; every\n" + std::string(21, ' ') +
-            "combination of the axes is a point\n";
+    text += row("any key of [scene]", axes_help);
   }
   for (const Key& key : keys()) {
     if (key.section == section) text += entry(key);

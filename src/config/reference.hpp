@@ -11,6 +11,13 @@ namespace clatter::config {
 /// configs/README.md.
 [[nodiscard]] std::string configuration_reference();
 
+/// The values that a key permits, and its default: "0 ... 1; default: 1".
+[[nodiscard]] std::string permitted_and_default(const Key& key);
+
+/// The axes of [sweep] in words.
+inline constexpr std::string_view axes_help =
+    "an axis, one a line; the first varies slowest; every combination of the axes is a point";
+
 /// The keys of one section.
 [[nodiscard]] std::string section_reference(std::string_view section);
 

@@ -42,7 +42,7 @@ class Build(unittest.TestCase):
         source = self.folder / "my work" / "it's clatter"
         for part in ("apps", "src"):
             shutil.copytree(SOURCE / part, source / part)
-        for name in ("CMakePresets.json", "LICENSE", "CHANGELOG.md"):
+        for name in ("CMakePresets.json", "LICENSE", "CHANGELOG.md", "CITATION.cff"):
             shutil.copy(SOURCE / name, source)
         lists = (SOURCE / "CMakeLists.txt").read_text(encoding="utf-8")
         (source / "CMakeLists.txt").write_text(lists + PROBE, encoding="utf-8")

@@ -1,0 +1,94 @@
+"""Man pages: without complaint from mandoc, with every command, option and key, and an example that runs."""
+
+import re
+import subprocess
+import unittest
+
+from command_line import SOURCE, CommandLine
+
+
+class Manual(CommandLine):
+    def setUp(self):
+        super().setUp()
+        result = self.clatter("help", "--manual", "deep/share")
+        self.assertEqual((result.returncode, result.stdout, result.stderr), (0, "", ""))
+        self.man = self.directory / "deep/share/man"
+
+    def help(self, *words):
+        return self.clatter("help", *words).stdout
+
+    def shown(self, name):
+        """A page as a reader sees it."""
+        page = subprocess.run(
+            ["mandoc", "-Tascii", "-O", "width=200", self.man / f"man{name[-1]}" / name],
+            capture_output=True,
+            check=True,
+        ).stdout.decode("ascii")
+        return re.sub(".\b", "", page)
+
+    def commands(self):
+        return re.findall(r"^  (\w+) .*  ", self.help().split("Exit codes")[0], re.MULTILINE)
+
+    def test_mandoc_finds_no_fault(self):
+        pages = sorted(self.man.rglob("*.[1-8]"))
+        self.assertEqual(len(pages), 2 + len(self.commands()))
+        for page in pages:
+            lint = subprocess.run(["mandoc", "-Tlint", page], capture_output=True, text=True)
+            self.assertEqual((lint.returncode, lint.stdout), (0, ""), page)
+
+    def test_every_command_has_a_page_with_its_options_and_examples(self):
+        commands = self.commands()
+        self.assertIn("branch", commands)
+        main = self.shown("clatter.1")
+        for command in commands:
+            self.assertIn(f"clatter-{command}(1)", main)
+            page = self.shown(f"clatter-{command}.1")
+            options, examples = self.help(command).split("Options\n")[1].split("\nExamples\n")
+            for option in re.findall(r"--[\w-]+", re.sub(r"(?m)^ {10}.*", "", options)):
+                self.assertRegex(page, rf"(?m)^ .*{option}\b", command)
+            for line in examples.splitlines():
+                self.assertIn(" ".join(line.split()), " ".join(page.split()))
+
+    def test_every_exit_code_is_there(self):
+        page = self.shown("clatter.1").split("EXIT STATUS")[1]
+        codes = re.findall(r"(?m)^  (\d+) ", self.help().split("Exit codes\n")[1])
+        self.assertGreater(len(codes), 5)
+        for code in codes:
+            self.assertRegex(page, rf"(?m)^ +{code} ")
+
+    def test_every_key_is_there_with_its_values(self):
+        page = " ".join(self.shown("clatter-config.5").split())
+        self.assertIn("[scene]", page)
+        reference = self.help("configuration").split("Values, in TOML")[0]
+        entries = re.findall(r"(?m)^  (\w+) +((?:.*\n)(?: {21}.*\n)+)", reference)
+        self.assertGreater(len(entries), 35)
+        for name, text in entries:
+            self.assertIn(f"{name} {' '.join(text.split())}", page)
+
+    def test_the_example_runs(self):
+        lines = self.shown("clatter-config.5").split("EXAMPLE\n")[1].split("SEE ALSO")[0].splitlines()
+        (self.directory / "a.toml").write_text("\n".join(line.strip() for line in lines) + "\n", encoding="utf-8")
+        result = self.clatter("run", "a.toml", "-q")
+        self.assertEqual((result.returncode, result.stderr), (0, ""))
+
+    def test_pages_tell_version_and_release(self):
+        version = re.search(r"VERSION ([\d.]+)", (SOURCE / "CMakeLists.txt").read_text().split("project(")[1])[1]
+        date = re.search(r'date-released: "([\d-]+)"', (SOURCE / "CITATION.cff").read_text())[1]
+        last_line = self.shown("clatter.1").splitlines()[-1]
+        self.assertEqual(last_line.split(), ["clatter", version, date, "CLATTER(1)"])
+
+    def test_a_folder_that_cannot_be_made_is_named(self):
+        (self.directory / "file").touch()
+        result = self.clatter("help", "--manual", "file")
+        self.assertEqual(result.returncode, 74)
+        self.assertRegex(result.stderr, r"^clatter: cannot make the folder '?file/man/man1'?: Not a directory\n$")
+
+    def test_a_topic_beside_it_is_refused(self):
+        result = self.clatter("help", "run", "--manual", "here")
+        self.assertEqual(result.returncode, 2)
+        self.assertIn("--manual conflicts with 'run'", result.stderr)
+        self.assertFalse((self.directory / "here").exists())
+
+
+if __name__ == "__main__":
+    unittest.main()
