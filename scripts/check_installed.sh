@@ -1,8 +1,15 @@
 #!/usr/bin/env bash
 # Tries the package in a bare system, whose root it takes for its own: scripts/check_packages.sh calls it there.
-# usage: check_installed.sh PACKAGE.deb
 set -euo pipefail
 export DEBIAN_FRONTEND=noninteractive LC_ALL=C.UTF-8
+
+if [[ $# != 1 || $1 == -* ]]; then
+  echo "usage: check_installed.sh PACKAGE.deb"
+  echo
+  echo "Installs the package on this system, runs and draws a figure, and removes the package again."
+  [[ ${1-} == -h || ${1-} == --help ]]
+  exit
+fi
 
 fail() {
   echo "check_installed.sh: $1" >&2

@@ -1,13 +1,13 @@
 #pragma once
 
-#include <vector>
-
-#include "manual_file.hpp"
+#include <string>
 
 namespace clatter::app {
 
-/// Completions for bash, zsh and fish, made from the same tables as the help: commands, options with their words, files
-/// by their endings, keys after --set with what they permit.
-[[nodiscard]] std::vector<ManualFile> completions();
+/// Completions, made from the same tables as the help: commands, options with their words, files by their endings, keys
+/// after --set with their permitted values.
+[[nodiscard]] std::string bash_completion();
+[[nodiscard]] std::string zsh_completion();
+[[nodiscard]] std::string fish_completion();
 
 }  // namespace clatter::app

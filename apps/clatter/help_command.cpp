@@ -37,19 +37,22 @@ Row row_of(const Option& option) {
   return {letter + "--" + std::string(option.name) + argument, option.help};
 }
 
-/// Writes each file below a folder, which is made if need be.
+/// Writes a file of the manual; makes its folder if need be.
+void write_below(const std::filesystem::path& folder, const std::string& name, const std::string& text) {
+  const std::filesystem::path path = folder / name;
+  std::error_code error;
+  std::filesystem::create_directories(path.parent_path(), error);
+  if (error)
+    throw storage::IoError("cannot make the folder " + storage::quoted_name(path.parent_path().string()) + ": " +
+                           error.message());
+  storage::write_atomically(path.string(), std::as_bytes(std::span(text)));
+}
+
 void write_manual(const std::filesystem::path& folder) {
-  for (const std::vector<ManualFile>& files : {manual_pages(), completions()}) {
-    for (const ManualFile& file : files) {
-      const std::filesystem::path path = folder / file.path;
-      std::error_code error;
-      std::filesystem::create_directories(path.parent_path(), error);
-      if (error)
-        throw storage::IoError("cannot make the folder " + storage::quoted_name(path.parent_path().string()) + ": " +
-                               error.message());
-      storage::write_atomically(path.string(), std::as_bytes(std::span(file.text)));
-    }
-  }
+  for (const ManualPage& page : manual_pages()) write_below(folder, page.path, page.text);
+  write_below(folder, "bash-completion/completions/clatter.bash", bash_completion());
+  write_below(folder, "zsh/site-functions/_clatter", zsh_completion());
+  write_below(folder, "fish/vendor_completions.d/clatter.fish", fish_completion());
 }
 
 int print_help(const Arguments& arguments) {

@@ -79,7 +79,7 @@ std::string see_also(const std::vector<std::string>& pages) {
   return section("SEE ALSO", text + '\n');
 }
 
-ManualFile page(std::string_view name, char volume, std::string_view summary, const std::string& body) {
+ManualPage page(std::string_view name, char volume, std::string_view summary, const std::string& body) {
   std::string title(name);
   std::ranges::transform(title, title.begin(), [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
   const std::string folder = std::string("man/man") + volume + '/';
@@ -104,7 +104,7 @@ std::string option_items(std::span<const Option> options) {
 
 std::string examples_section(std::string_view lines) { return section("EXAMPLES", verbatim(lines)); }
 
-ManualFile command_page(const Command& command) {
+ManualPage command_page(const Command& command) {
   const std::string_view operands = command.usage.substr(command.name.size());
   const std::string synopsis = bold("clatter " + std::string(command.name)) + roff(operands) + '\n';
   return page(page_name(command), '1', command.summary,
@@ -124,7 +124,7 @@ constexpr std::string_view method =
     "steady motion at each point, and writes one HDF5 file that is netCDF-4 too. A configuration in TOML or INI says "
     "which scenes to run and which of their results to keep.";
 
-ManualFile program_page() {
+ManualPage program_page() {
   std::string items, codes;
   std::vector<std::string> others{reference_to("clatter-config", '5')};
   for (const Command& command : commands()) {
@@ -174,7 +174,7 @@ constexpr std::string_view example =
     "  extrema = true\n"
     "  impacts = true\n";
 
-ManualFile config_page() {
+ManualPage config_page() {
   std::string sections = section_of_keys("");
   for (const std::string_view name : config::sections()) sections += section_of_keys(name);
   const std::string about = prose(
@@ -190,8 +190,8 @@ ManualFile config_page() {
 
 }  // namespace
 
-std::vector<ManualFile> manual_pages() {
-  std::vector<ManualFile> pages{program_page(), config_page()};
+std::vector<ManualPage> manual_pages() {
+  std::vector<ManualPage> pages{program_page(), config_page()};
   for (const Command& command : commands()) pages.push_back(command_page(command));
   return pages;
 }

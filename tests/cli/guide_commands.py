@@ -22,8 +22,9 @@ SLOW_SCRIPTS = (
     "scripts/effects_ladder.py",
     "scripts/long_checks.sh",
     "scripts/slurm/check.sh",
+    "scripts/check_packages.sh",
 )
-SLOW_PROGRAMS = ("apt-get", "cmake", "ctest", "build/release/tests/")
+SLOW_PROGRAMS = ("apt", "apt-get", "cpack", "cmake", "ctest", "build/release/tests/")
 SHORTER = ((r"^(clatter accuracy \S+)", r"\1 -q --set time.window=1"),)
 
 # The files that a guide takes to be there.
