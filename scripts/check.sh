@@ -10,7 +10,7 @@ line_length=120  # of Python; .flake8 has it again
 quick=(clang-format shellcheck black flake8 arrows g++ clang++)
 sanitize=(asan tsan)
 all=("${quick[@]}" clang-tidy "${sanitize[@]}")
-by_name=(packages)
+by_name=(packages report)
 
 # The tests that the sanitizers run, and the programs they need: those that read files or share memory, some minutes.
 # ThreadSanitizer runs only those in which threads meet.
@@ -46,6 +46,8 @@ packages, runs each gate, names those that fail, and exits with 1 if any does:
                 and pipes (build/tsan)
   packages      only by name: tarball and Debian package are right
                 (scripts/check_packages.sh --help says more)
+  report        only by name: pages of scripts/report.py in headless Chromium;
+                leaves pictures of them in build/report
 END
 }
 
@@ -99,6 +101,10 @@ run_gate() {
     asan) run_sanitized asan "$asan_tests" "${asan_targets[@]}" ;;
     tsan) run_sanitized tsan "$tsan_tests" "${tsan_targets[@]}" ;;
     packages) scripts/check_packages.sh ;;
+    report)
+      CLATTER=$source_dir/build/release/apps/clatter/clatter CLATTER_SOURCE=$source_dir \
+        /usr/bin/python3 -B tests/cli/report_in_browser.py build/report
+      ;;
   esac
 }
 
@@ -123,6 +129,7 @@ steps
 packages=("${BUILD_PACKAGES[@]}" "${CHECK_PACKAGES[@]}")
 [[ " ${gates[*]} " != *" clang-tidy "* ]] || packages+=("${TIDY_PACKAGES[@]}")
 [[ " ${gates[*]} " != *san* ]] || packages+=("${PLOT_PACKAGES[@]}" "${TEST_PACKAGES[@]}")
+[[ " ${gates[*]} " != *" report "* ]] || packages+=("${PLOT_PACKAGES[@]}" "${BROWSER_PACKAGES[@]}")
 install_missing "${packages[@]}"
 
 cd "$source_dir"

@@ -13,6 +13,7 @@ FUZZ_PACKAGES=(clang libclang-rt-14-dev libomp-dev)
 BENCH_PACKAGES=(libbenchmark-dev libsundials-dev python3)
 TARBALL_PACKAGES=(git)
 PACKAGE_PACKAGES=(dpkg-dev file lintian mmdebstrap)
+BROWSER_PACKAGES=(chromium chromium-driver python3-selenium)
 SLURM_PACKAGES=(slurm-wlm munge)
 
 # A part of an item in a help text, which may name many packages, in lines of at most 119 columns.

@@ -10,7 +10,8 @@ with play. It follows the motion from impact to impact in closed form, sweeps
 any parameters on all cores, finds the steady motion at each point, and
 writes one HDF5 file that is netCDF-4 too.
 .
-clatter-plot draws these files; it needs the recommended packages.")
+clatter-plot draws these files, clatter-report makes a page of them; both need
+the recommended packages.")
 set(CPACK_STRIP_FILES ON)
 set(CPACK_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS
   OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE WORLD_READ WORLD_EXECUTE)

@@ -209,7 +209,12 @@ class Branch(CommandLine):
         result = subprocess.run([*plot, *files], capture_output=True, text=True, cwd=self.directory)
         self.assertEqual(result.returncode, 0, result.stderr)
         svg = (self.directory / "z+a.branch.svg").read_text(encoding="utf-8")
-        for part in ('id="soft zone"', 'id="hard zone"', 'id="backbone 1"', "dotted: conservative motion of the mean speed"):
+        for part in (
+            'id="soft zone"',
+            'id="hard zone"',
+            'id="backbone 1"',
+            "dotted: conservative motion of the mean speed",
+        ):
             self.assertIn(part, svg)
         self.branch(SCENE.replace("xs = -3", "stop_upper = 3") + BRANCH, "-q")
         result = subprocess.run([*plot, files[1]], capture_output=True, text=True)

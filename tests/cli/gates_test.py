@@ -12,7 +12,7 @@ import yaml
 SOURCE = Path(os.environ["CLATTER_SOURCE"])
 QUICK = ("clang-format", "shellcheck", "black", "flake8", "arrows", "g++", "clang++")
 LONG = ("clang-tidy", "asan", "tsan")
-BY_NAME = ("packages",)
+BY_NAME = ("packages", "report")
 CPP = "int twice(int x) { return 2 * x; }\n"
 
 

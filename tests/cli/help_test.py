@@ -104,7 +104,11 @@ class Help(CommandLine):
         version = self.page("--version").split()[1]
         self.assertIn(f'version: "{version}"', file)
         self.assertIn(f"version = {{{version}}}", text)
-        for words in ("The clatter authors", "Vibration Drives with Two Impacting Pairs for Precise Robots", "Mechanika"):
+        for words in (
+            "The clatter authors",
+            "Vibration Drives with Two Impacting Pairs for Precise Robots",
+            "Mechanika",
+        ):
             self.assertIn(words, file)
             self.assertIn(words, text)
         self.assertIn("doi     = {" + re.search(r"doi: (\S+)", file)[1] + "}", text)

@@ -1,0 +1,93 @@
+#!/usr/bin/python3
+"""Makes one page of outputs of clatter, which shows every point's numbers; --help says more."""
+
+import argparse
+import logging
+import os
+import sys
+import tempfile
+import warnings
+from pathlib import Path
+
+if not sys.warnoptions:  # warnings of numpy and matplotlib are for those who work on this program
+    warnings.simplefilter("ignore")
+    logging.getLogger("matplotlib").setLevel(logging.ERROR)
+
+try:
+    from plot_choice import ChoiceProblem
+    from plot_data import FileProblem, Output
+    from plot_style import use_style
+    from report_page import MARK, page
+except ImportError as error:
+    sys.exit(f"clatter-report: {error}; install python3-h5py and python3-matplotlib (Debian), or h5py and matplotlib")
+
+BAD_COMMAND, BAD_FILE = 2, 74  # exit codes, clatter's
+DESCRIPTION = """Makes one self-contained page of outputs of clatter: how they were made, pictures, tables; a click or
+the arrow keys on a picture show a point's numbers, its motion, and the command that runs it alone. The page needs no
+network."""
+EPILOG = """The motion of up to 200 points of each sweep is computed for the page by the program clatter: the one that
+the variable CLATTER names, else that beside this script, else that on PATH. Exit codes: 0 done, 2 wrong command line,
+74 a file cannot be read or written."""
+
+
+def command_line():
+    parser = argparse.ArgumentParser(prog="clatter-report", description=DESCRIPTION, epilog=EPILOG, allow_abbrev=False)
+    add = parser.add_argument
+    add("files", nargs="+", metavar="FILE.h5", help="output of 'clatter run', 'clatter accuracy' or 'clatter branch'")
+    add("-o", "--output", metavar="FILE.html", default="report.html", help="the page; default: report.html")
+    add("--title", metavar="TEXT", help="in place of that of the first file")
+    add("--no-histories", action="store_true", help="compute no motion for the page")
+    return parser.parse_args()
+
+
+def check_place(path):
+    """An older report may be replaced, any other file not."""
+    if not path.parent.is_dir():
+        raise FileProblem(f"{path}: there is no folder {path.parent}; make it, or name another file with -o")
+    if not path.exists():
+        return
+    try:
+        with open(path, "rb") as file:
+            is_report = path.is_file() and file.read(200).decode(errors="replace").splitlines()[1:2] == [MARK]
+    except OSError as error:
+        raise FileProblem(f"{path}: cannot be read ({error.strerror}); name another file with -o") from None
+    if not is_report:
+        raise FileProblem(f"{path}: is no report, so it is kept; name another file with -o, or move that one away")
+
+
+def write(path, text):
+    """The whole page or none."""
+    try:
+        number, name = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name}.")
+        try:
+            with open(number, "w", encoding="utf-8") as file:
+                file.write(text)
+            os.chmod(name, 0o644)
+            os.replace(name, path)
+        except OSError:
+            os.unlink(name)
+            raise
+    except OSError as error:
+        raise FileProblem(f"{path}: cannot be written ({error.strerror}); name another file with -o") from None
+
+
+def main():
+    options = command_line()
+    use_style()
+    path = Path(options.output)
+    try:
+        check_place(path)
+        outputs = [Output(name) for name in options.files]
+        write(path, page(outputs, options.title, not options.no_histories))
+    except ChoiceProblem as problem:
+        print(f"clatter-report: {problem}", file=sys.stderr)
+        return BAD_COMMAND
+    except FileProblem as problem:
+        print(f"clatter-report: {problem}", file=sys.stderr)
+        return BAD_FILE
+    print(path)
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,139 @@
+"""The page itself: one file with its style, its script, pictures, tables and the numbers of points."""
+
+import base64
+import hashlib
+import json
+import re
+import subprocess
+from html import escape
+from pathlib import Path
+from urllib.parse import quote
+
+import h5py
+
+from plain_hdf5 import UNREADABLE, damaged, printable, text
+from report_histories import NoHistories, config_text, histories, program
+from report_pictures import picture
+from report_points import Points
+from report_tables import tables
+
+HERE = Path(__file__).resolve().parent
+TIME = r", [^,\n]* on one thread|estimated time .*\n|memory .*\n"  # in a plan: not the same on every run or machine
+MARK = "<!-- a report of clatter -->"
+ORIGIN = ("clatter_version", "git_commit", "compiler", "source", "config_sha256", "instruction_set")
+
+
+def page(outputs, title, may_run):
+    """The page as text; the same for the same files."""
+    script, style = (Path(HERE / f"report.{kind}").read_text(encoding="utf-8") for kind in ("js", "css"))
+    title = title or outputs[0].title or Path(outputs[0].path).stem
+    many = len(outputs) > 1
+    sections = [section(place, output, may_run, many) for place, output in enumerate(outputs)]
+    policy = f"default-src 'none'; img-src data:; style-src {hashed(style)}; script-src {hashed(script)}"
+    links = "".join(f'<a href="#file-{i}">{escape(Path(o.path).name)}</a>' for i, o in enumerate(outputs))
+    return (
+        f"<!doctype html>\n{MARK}\n<html lang=en>\n<head>\n<meta charset=utf-8>\n"
+        f'<meta http-equiv=Content-Security-Policy content="{policy}">\n'
+        f'<meta name=viewport content="width=device-width, initial-scale=1">\n<title>{escape(title)}</title>\n'
+        f"<style>{style}</style>\n</head>\n<body>\n<header><h1>{escape(title)}</h1>"
+        f"<button id=theme type=button hidden>Dark or light</button></header>\n"
+        f"{f'<nav>{links}</nav>' if many else ''}\n<main>\n"
+        + "\n".join(sections)
+        + f"\n</main>\n<script>{script}</script>\n</body>\n</html>\n"
+    )
+
+
+def hashed(content):
+    return f"'sha256-{base64.b64encode(hashlib.sha256(content.encode()).digest()).decode()}'"
+
+
+def section(place, output, may_run, has_title):
+    """All of one file."""
+    points = Points(output) if not output.is_accuracy else None
+    svg, panels = picture(output)
+    name = Path(output.path).stem
+    toml = config_of(output)
+    data = {"panels": panels, "config": f"{name}.toml", **(points.packed() if points else {"shape": [0]})}
+    notes = []
+    try:
+        data["histories"] = histories(output, may_run)
+    except NoHistories as reason:
+        notes.append(str(reason))
+    if points and not points.are_all:
+        notes.append(
+            f"The page has the numbers of {' × '.join(map(str, points.shape))} points, evenly spread over the "
+            f"{' × '.join(map(str, points.whole))} of the file; a click shows the nearest of them."
+        )
+    if output.follow:
+        notes.append(
+            "Each point started from the end of the one before. The command of a point starts it from x0 and v0 of the "
+            "configuration, so it may find another motion."
+        )
+    data["linked"] = bool(output.sweep.get("linked"))
+    if output.is_branch:
+        data["start"] = {**{key: key for key in output.sweep}, "x0": "x", "v0": "v"}
+        notes.append(
+            "The command of a point starts from its state. Motion that is unstable there leaves it, so the run ends in "
+            "another."
+        )
+    explorer = f"""<div class=explorer>
+<figure class=picture tabindex=0>
+<div class=frame><img alt="Picture of {escape(name)}" src="data:image/svg+xml;base64,{encoded(svg)}"></div>
+<figcaption class=script>Click on the picture, or step through the points by the arrow keys, ten at a time with Shift.
+</figcaption></figure>
+<aside class=point aria-live=polite></aside>
+</div>"""
+    return (
+        f'<section class=file id="file-{place}">\n{f"<h2>{escape(output.title or name)}</h2>" if has_title else ""}\n'
+        f"<p class=path>{escape(str(Path(output.path).name))}</p>\n{explorer}\n"
+        + "".join(f"<p class=note>{escape(note)}</p>" for note in notes)
+        + tables(output, points)
+        + how_it_was_made(output, name, toml, may_run)
+        + f"\n<script type=application/json>{safe_json(data)}</script>\n</section>"
+    )
+
+
+def encoded(content):
+    return base64.b64encode(content.encode()).decode()
+
+
+def safe_json(data):
+    """JSON that ends no element of the page."""
+    return json.dumps(data, separators=(",", ":")).replace("<", "\\u003c")
+
+
+def config_of(output):
+    try:
+        return config_text(output)
+    except UNREADABLE as error:
+        raise damaged(output.path, error) from None
+
+
+def how_it_was_made(output, name, toml, may_run):
+    """Configuration, version and plan."""
+    with h5py.File(output.path, "r") as file:
+        origin = [(key, printable(text(file.attrs[key]))) for key in ORIGIN if key in file.attrs]
+    rows = "".join(
+        f"<dt>{escape(key.replace('_', ' '))}</dt><dd>{escape(value)}</dd>" for key, value in origin if value
+    )
+    link = (
+        f'<a download="{escape(name)}.toml" href="data:text/plain;charset=utf-8,{quote(toml)}">{escape(name)}.toml</a>'
+    )
+    plan = f"<h4>Plan</h4><pre>{escape(plan_of(toml))}</pre>" if may_run and not output.is_branch else ""
+    return (
+        f"<details open><summary>How it was made</summary><dl>{rows}</dl><h4>Configuration {link}</h4>"
+        f"<pre>{escape(toml)}</pre>{plan}</details>"
+    )
+
+
+def plan_of(toml):
+    """The plan as the program prints it, or why there is none."""
+    try:
+        done = subprocess.run([program(), "plan", "-"], input=toml, capture_output=True, text=True, timeout=60)
+    except NoHistories:
+        return "There is no program clatter here that could tell it."
+    except (OSError, subprocess.TimeoutExpired) as error:
+        return f"The program doesn't tell it: {error}"
+    return (
+        re.sub(TIME, "", done.stdout) if done.returncode == 0 else f"The program doesn't tell it: {done.stderr.strip()}"
+    )

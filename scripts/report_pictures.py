@@ -1,0 +1,81 @@
+"""The picture of an output for a page, and which point lies under each of its places."""
+
+import io
+
+from matplotlib import pyplot
+
+import plot
+import plot_style
+from plot_branch import chosen, parameter_of, plane_of
+from plot_choice import members_of
+from plot_maps import AxesImage
+
+LARGEST = 1_500_000  # bytes of a picture
+RESOLUTIONS = (150, 110, 80, 55)  # dots per inch of what is drawn as an image
+
+
+class Choices:
+    """The options of plot.py, at their defaults."""
+
+    only, along, over, at, size, xlim, ylim, log, backbone, title = (), "", "", (), None, None, None, "", False, None
+
+    def __init__(self, path):
+        self.files = [path]
+
+
+def picture(output):
+    """The picture as SVG, and its panels."""
+    options = Choices(output.path)
+    if output.is_branch:
+        figure = plot.branches_together(options)
+        panels = branch_panels(figure, output)
+    elif output.is_accuracy:
+        figure = plot.single_figure(output, options)
+        panels = []
+    else:
+        members = members_of(output)
+        figure = plot.figure_of(members, options)
+        panels = sweep_panels(figure, output, members[0].output)
+    svg = svg_of(figure)
+    pyplot.close(figure)
+    return svg, panels
+
+
+def svg_of(figure):
+    """The picture, coarser if it would be large."""
+    for dpi in RESOLUTIONS:
+        file = io.StringIO()
+        figure.savefig(file, format="svg", metadata=plot.DATELESS["svg"], dpi=plot_style.resolution(figure, dpi))
+        if file.tell() < LARGEST:
+            break
+    return file.getvalue()
+
+
+def branch_panels(figure, output):
+    plane = plane_of(output)
+    if plane:
+        return [frame(figure.axes[0], columns=list(plane))]
+    return [frame(axes, columns=[parameter_of(output), name]) for axes, name in zip(figure.axes, chosen(()))]
+
+
+def sweep_panels(figure, output, shown):
+    """Panels whose places stand for points: maps of the two axes that are shown, or curves over one."""
+    places = [output.axes.index(axis) for axis in shown.axes]
+    panels = []
+    for axes in figure.axes:
+        is_map = len(places) == 2 and any(isinstance(image, AxesImage) for image in axes.images)
+        is_curve = len(places) == 1 and axes.get_xlabel() == plot_style.label(shown, shown.axes[0])
+        if axes.get_label() != "<colorbar>" and (is_map or is_curve):
+            panels.append(frame(axes, axes=places))
+    return panels
+
+
+def frame(panel, **under):
+    """Where a panel lies in the picture, as shares of its width and height from the upper left, and its scales."""
+    box = panel.get_position()
+    return {
+        "box": [box.x0, 1 - box.y1, box.x1, 1 - box.y0],
+        "limits": [*map(float, panel.get_xlim()), *map(float, panel.get_ylim())],
+        "log": [panel.get_xscale() == "log", panel.get_yscale() == "log"],
+        **under,
+    }

@@ -1,0 +1,120 @@
+"""Tables of a page, as HTML: special points, motions, extremes of every result, what became of the points."""
+
+from html import escape
+
+import numpy as np
+
+from plot_attractors import name_of
+from plot_data import FIRST_FAILURE
+
+MOST = 300  # rows
+
+
+def table(title, heads, rows, note=""):
+    """A table; each cell is a text, or a number to align."""
+    body = "".join("<tr>" + "".join(map(cell, row)) + "</tr>" for row in rows[:MOST])
+    head = "".join(f"<th scope=col>{escape(str(text))}</th>" for text in heads)
+    more = f"{len(rows) - MOST} more rows are only in the file. " if len(rows) > MOST else ""
+    notes = f"<p class=note>{escape(more + note)}</p>" if more + note else ""
+    return (
+        f"<h3>{escape(title)}</h3><div class=wide><table><thead><tr>{head}</tr></thead>"
+        f"<tbody>{body}</tbody></table></div>{notes}"
+    )
+
+
+def cell(value):
+    if isinstance(value, str):
+        return f"<td>{escape(value)}</td>"
+    return f"<td class=number>{escape(shown(value))}</td>"
+
+
+def shown(value):
+    """A number with the digits that read back to it."""
+    if isinstance(value, (int, np.integer)):
+        return str(int(value))
+    value = float(value)
+    return "–" if np.isnan(value) else str(int(value)) if value.is_integer() and abs(value) < 1e15 else repr(value)
+
+
+def tables(output, points):
+    """Every table that the output has something for."""
+    if output.is_branch:
+        return special_points(output)
+    if output.is_accuracy:
+        return methods(output)
+    parts = motions(output) if "motion_share" in output else ""
+    return parts + (extremes(output, points) if output.axes else "") + outcomes(output)
+
+
+def special_points(output):
+    parameters = [f"special_{name}" for name in output.sweep]
+    names = ["special_x", "special_v", "special_impact_speed", "special_period_ratio", "special_word"]
+    names = [name for name in (*parameters, *names) if name in output]
+    rows = []
+    for place, kind in enumerate(output.values("special_kind")):
+        pairs = zip(output.values("special_multiplier_re")[place], output.values("special_multiplier_im")[place])
+        multipliers = ",  ".join(complex_text(*pair) for pair in pairs)
+        rows.append([str(kind), *(plain(output.values(name)[place]) for name in names), multipliers])
+    if not rows:
+        return "<h3>Special points</h3><p>There are none.</p>"
+    heads = [name.removeprefix("special_").replace("_", " ") for name in names]
+    return table("Special points", ["kind", *heads, "multipliers"], rows)
+
+
+def complex_text(real, imaginary):
+    return f"{real:.9g}" if imaginary == 0 else f"{real:.9g}{imaginary:+.9g}i"
+
+
+def plain(value):
+    return str(value) if isinstance(value, str) else value
+
+
+def motions(output):
+    rows = []
+    for motion in np.argsort(-output.values("motion_share"), kind="stable"):
+        names = ("motion_share", "motion_share_low", "motion_share_high", "motion_period_ratio", "motion_x", "motion_v")
+        rows.append([motion, name_of(output, motion), *(output.values(name)[motion] for name in names)])
+    heads = ["number", "motion", "share", "at least", "at most", "periods of the force", "x", "x′"]
+    return table("Motions", heads, rows, "The bounds of a share hold with 95 % confidence; x and x′ are its section.")
+
+
+def extremes(output, points):
+    rows = []
+    for name, variable, part in points.columns:
+        values = variable.values[(..., *part)]
+        if values.dtype.kind not in "fiu" or name == "status":
+            continue
+        known = np.isfinite(values.astype(float))
+        if not known.any():
+            continue
+        least, most = (find(np.where(known, values, bad)) for find, bad in ((np.argmin, np.inf), (np.argmax, -np.inf)))
+        row = [name]
+        for flat in (least, most):
+            index = np.unravel_index(flat, values.shape)
+            row += [values[index], ", ".join(place_of(output, axis, i) for axis, i in zip(output.axes, index))]
+        rows.append([*row, int(np.size(known) - np.count_nonzero(known))])
+    return table("Extremes", ["result", "least", "at", "greatest", "at", "points without value"], rows)
+
+
+def place_of(output, axis, index):
+    return f"{axis} = {shown(output.values(axis)[index])}"
+
+
+def outcomes(output):
+    codes, counts = np.unique(output.values("status"), return_counts=True)
+    rows = []
+    for code, count in zip(codes, counts):
+        meaning = output.meanings.get(int(code), str(code)).replace("_", " ")
+        rows.append([meaning, "failed" if code >= FIRST_FAILURE else "done", int(count)])
+    return table("What became of the points", ["status", "", "points"], rows)
+
+
+def methods(output):
+    """The rows of accuracy at the first point."""
+    names = [name for name, variable in output.variables.items() if variable.dims[-1:] == ("row",)]
+    first = {name: output.values(name)[(0,) * (output[name].values.ndim - 1)] for name in names}
+    rows = []
+    for place in range(len(first["method"])):
+        row = [first[name][place] for name in names if name != "method"]
+        rows.append([output.methods.get(int(first["method"][place]), "?"), *map(plain, row)])
+    return table("Methods and settings", ["method", *(name for name in names if name != "method")], rows)
