@@ -53,10 +53,11 @@ END
 
 usage() {
   cat <<END
-usage: scripts/check.sh [--quick] [--sanitize] [GATE...]
+usage: scripts/check.sh [--quick] [--sanitize] [--packages] [GATE...]
 
   --quick      all but clang-tidy, asan, tsan; .ci/run calls it after the tests
   --sanitize   ${sanitize[*]}
+  --packages   packages, in some ten minutes
   GATE...      one by one; with no argument all of them but ${by_name[*]}
 
 END
@@ -113,6 +114,7 @@ for argument in "$@"; do
   case "$argument" in
     --quick) gates+=("${quick[@]}") ;;
     --sanitize) gates+=("${sanitize[@]}") ;;
+    --packages) gates+=(packages) ;;
     -h | --help) usage; exit 0 ;;
     *)
       if [[ " ${all[*]} ${by_name[*]} " != *" $argument "* ]]; then

@@ -24,7 +24,9 @@ wrong=$(dpkg --verify clatter)
 [[ -z $wrong ]] || fail "installed files differ from those of the package: $wrong"
 [[ -s /usr/share/doc/clatter/copyright ]] || fail "there is no copyright file"
 clatter --version
-[[ -s /usr/share/man/man1/clatter.1.gz ]] || fail "there is no man page"
+for page in clatter clatter-plot clatter-report; do
+  [[ -s /usr/share/man/man1/$page.1.gz ]] || fail "there is no man page of $page"
+done
 
 cd "$(mktemp -d)"
 clatter run /usr/share/clatter/configs/fig22.toml -q || fail "clatter doesn't run Fig. 22"

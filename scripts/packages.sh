@@ -12,7 +12,7 @@ TIDY_PACKAGES=(clang-tidy)
 FUZZ_PACKAGES=(clang libclang-rt-14-dev libomp-dev)
 BENCH_PACKAGES=(libbenchmark-dev libsundials-dev python3)
 TARBALL_PACKAGES=(git)
-PACKAGE_PACKAGES=(dpkg-dev file lintian mmdebstrap)
+PACKAGE_PACKAGES=(dpkg-dev file lintian mmdebstrap python3)
 BROWSER_PACKAGES=(chromium chromium-driver python3-selenium)
 SLURM_PACKAGES=(slurm-wlm munge)
 

@@ -7,18 +7,21 @@ from itertools import takewhile
 from pathlib import Path
 
 FORMATS = ("pdf", "png", "svg")
-USAGE = """plot.py [-o DIR] [--format svg|png|pdf...] [--only NAME,...] [--along AXIS]
-               [--over AXIS] [--at AXIS=VALUE] [--size WxH] [--xlim A,B] [--ylim A,B]
-               [--log x|y|xy] [--title TEXT] FILE.h5..."""
+USAGE = """%(prog)s [-o DIR] [--format svg|png|pdf...] [--only NAME,...]
+               [--along AXIS] [--over AXIS] [--at AXIS=VALUE]
+               [--size WxH] [--xlim A,B] [--ylim A,B] [--log x|y|xy]
+               [--backbone] [--title TEXT] FILE.h5..."""
+SUMMARY = "draw outputs of clatter"
 DESCRIPTION = """Draws outputs of clatter by what they hold: curves and families of them, bifurcation diagrams,
-hysteresis, Poincaré sections, time histories, phase planes, impacts, harmonics, maps, and what accuracy costs in
-time."""
+hysteresis, Poincaré sections, time histories, phase planes, impacts, harmonics, maps, basins, shares of motions,
+branches of stable and unstable motion with a sweep behind them, and what accuracy costs in time."""
 EPILOG = """Several files share a picture if all of them hold curves over the same axis and none is a figure of the
-paper. Exit codes: 0 done, 2 wrong command line, 74 a file cannot be read or written."""
+paper, or if one of them holds branches. Exit codes: 0 done, 2 wrong command line, 74 a file cannot be read or
+written."""
 
 
-def command_line():
-    """The options and files; ends the program on a mistake, with one line that names it."""
+def options_parser():
+    """All that --help and the man page tell."""
     parser = argparse.ArgumentParser(usage=USAGE, description=DESCRIPTION, allow_abbrev=False, epilog=EPILOG)
     add = parser.add_argument
     add("files", nargs="*", metavar="FILE.h5", help="output of 'clatter run', 'clatter accuracy' or 'clatter branch'")
@@ -38,6 +41,12 @@ def command_line():
     add("--log", choices=("x", "y", "xy"), default="", metavar="x|y|xy", help="logarithmic scales")
     add("--backbone", action="store_true", help="behind branches along nu, the speed of conservative motion")
     add("--title", metavar="TEXT", help="in place of the configuration's")
+    return parser
+
+
+def command_line():
+    """The options and files; ends the program on a mistake, with one line that names it."""
+    parser = options_parser()
     options = parser.parse_intermixed_args(joined())
     end_formats(parser, options)
     if not options.files:

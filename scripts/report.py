@@ -1,7 +1,6 @@
 #!/usr/bin/python3
 """Makes one page of outputs of clatter, which shows every point's numbers; --help says more."""
 
-import argparse
 import logging
 import os
 import sys
@@ -17,27 +16,12 @@ try:
     from plot_choice import ChoiceProblem
     from plot_data import FileProblem, Output
     from plot_style import use_style
+    from report_options import command_line
     from report_page import MARK, page
 except ImportError as error:
     sys.exit(f"clatter-report: {error}; install python3-h5py and python3-matplotlib (Debian), or h5py and matplotlib")
 
 BAD_COMMAND, BAD_FILE = 2, 74  # exit codes, clatter's
-DESCRIPTION = """Makes one self-contained page of outputs of clatter: how they were made, pictures, tables; a click or
-the arrow keys on a picture show a point's numbers, its motion, and the command that runs it alone. The page needs no
-network."""
-EPILOG = """The motion of up to 200 points of each sweep is computed for the page by the program clatter: the one that
-the variable CLATTER names, else that beside this script, else that on PATH. Exit codes: 0 done, 2 wrong command line,
-74 a file cannot be read or written."""
-
-
-def command_line():
-    parser = argparse.ArgumentParser(prog="clatter-report", description=DESCRIPTION, epilog=EPILOG, allow_abbrev=False)
-    add = parser.add_argument
-    add("files", nargs="+", metavar="FILE.h5", help="output of 'clatter run', 'clatter accuracy' or 'clatter branch'")
-    add("-o", "--output", metavar="FILE.html", default="report.html", help="the page; default: report.html")
-    add("--title", metavar="TEXT", help="in place of that of the first file")
-    add("--no-histories", action="store_true", help="compute no motion for the page")
-    return parser.parse_args()
 
 
 def check_place(path):

@@ -141,6 +141,14 @@ add_custom_target(clatter_version)
         self.assertEqual(result.returncode, 0, result.stdout)
         self.assertEqual(re.findall(r"(?m)^  ([a-z]\S+)  +\w", result.stdout), [*QUICK, *LONG, *BY_NAME])
         self.assertRegex(result.stdout, rf"--quick +all but {', '.join(LONG)};")
+        self.assertRegex(result.stdout, r"(?m)^  --packages +packages,")
+
+    def test_packages_are_a_gate_and_an_option(self):
+        self.write("scripts/check_packages.sh", '#!/bin/sh\necho "tried $*"\n', 0o755)
+        result = self.check("--packages")
+        self.assertEqual(result.returncode, 0, result.stdout)
+        self.assertIn("tried \n", result.stdout)
+        self.assertRegex(result.stdout, r"(?m)^packages +passed")
 
     def test_an_unknown_word_is_refused_before_anything_runs(self):
         for words in (["black2"], ["--fast"], ["--quick", "none"], [""]):

@@ -90,5 +90,40 @@ class Manual(CommandLine):
         self.assertFalse((self.directory / "here").exists())
 
 
+class ManualOfScripts(CommandLine):
+    """The pages of clatter-plot and clatter-report, from the parsers that --help prints."""
+
+    def setUp(self):
+        super().setUp()
+        subprocess.run(["/usr/bin/python3", "-B", SOURCE / "scripts/manual.py", self.directory / "share"], check=True)
+        self.pages = sorted((self.directory / "share/man/man1").iterdir())
+
+    def test_mandoc_finds_no_fault(self):
+        self.assertEqual([page.name for page in self.pages], ["clatter-plot.1", "clatter-report.1"])
+        for page in self.pages:
+            lint = subprocess.run(["mandoc", "-Tlint", page], capture_output=True, text=True)
+            self.assertEqual((lint.returncode, lint.stdout), (0, ""), page)
+
+    def test_every_option_is_there_with_its_explanation(self):
+        for page in self.pages:
+            script = SOURCE / "scripts" / f"{page.stem.removeprefix('clatter-')}.py"
+            text = subprocess.run(
+                ["/usr/bin/python3", "-B", script, "--help"],
+                capture_output=True,
+                check=True,
+                text=True,
+                env={"COLUMNS": "300", "PATH": "/usr/bin:/bin"},
+            ).stdout
+            entries = re.findall(r"(?m)^  (-\S.*?)(?:  +|\n +)(\S.*)$", text)
+            self.assertGreater(len(entries), 3)
+            shown = subprocess.run(
+                ["mandoc", "-Tascii", "-O", "width=300", page], capture_output=True, check=True, text=True
+            ).stdout
+            shown = re.sub(".\b", "", shown)
+            for option, explanation in entries:
+                name = re.findall(r"--[\w-]+", option)[-1]
+                self.assertRegex(shown, rf"(?m)^ .*{name}\b.*\n +{re.escape(explanation)}$")
+
+
 if __name__ == "__main__":
     unittest.main()
