@@ -10,6 +10,17 @@ std::vector<std::string_view> command_names() {
   return names;
 }
 
+/// The values of a key as compgen splits them: a value with a blank is one word, with the backslash that a shell needs.
+std::string bash_values(const Setting& setting) {
+  std::vector<std::string> words;
+  for (const std::string_view value : setting.values) {
+    std::string word;
+    for (const char c : value) (word += c == ' ' ? "\\" : "") += c;
+    words.push_back(word.size() > value.size() ? '"' + word + '"' : word);
+  }
+  return quoted(joined(words, " "));
+}
+
 /// The call that offers it.
 std::string bash_call(const Offer& offer) {
   switch (offer.kind) {
@@ -88,8 +99,7 @@ std::string bash_completion() {
   for (const Setting& setting : settings()) {
     (names += names.empty() ? "" : " ") += setting.name;
     values += "    " + setting.name + ") ";
-    values += setting.values.empty() ? "permitted=" + quoted(setting.permitted)
-                                     : "values=" + quoted(joined(setting.values, " "));
+    values += setting.values.empty() ? "permitted=" + quoted(setting.permitted) : "values=" + bash_values(setting);
     values += " ;;\n";
   }
   std::string text = std::string(bash_functions) + "_clatter_keys=" + quoted(names) +

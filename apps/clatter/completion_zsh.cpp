@@ -49,6 +49,12 @@ std::string zsh_case(const Command& command) {
   return text + " ;;\n";
 }
 
+std::string zsh_values(const Setting& setting) {
+  std::string words;
+  for (const std::string_view value : setting.values) words += ' ' + quoted(std::string(value));
+  return words;
+}
+
 }  // namespace
 
 std::string zsh_completion() {
@@ -56,8 +62,7 @@ std::string zsh_completion() {
   for (const Setting& setting : settings()) {
     keys += "    " + quoted(setting.name + ':' + setting.help + "; " + setting.permitted) + '\n';
     values += "      " + setting.name + ") ";
-    values +=
-        setting.values.empty() ? "compadd -x " + quoted(setting.permitted) : "compadd " + joined(setting.values, " ");
+    values += setting.values.empty() ? "compadd -x " + quoted(setting.permitted) : "compadd" + zsh_values(setting);
     values += " ;;\n";
   }
   std::string text =

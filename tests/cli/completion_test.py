@@ -114,6 +114,8 @@ class Typed:
         self.assertRegex(text, r"steady\s+transient")
         self.assertIn("time.mode=transient", self.shell.typed("clatter run --set time.mode=tr\t"))
         self.assertIn("observe.extrema=true", self.shell.typed("clatter plan --set observe.extrema=t\t"))
+        line = self.shell.typed("clatter branch --set branch.curve=sym\t")
+        self.assertIn(r"branch.curve=symmetry\ breaking", line)
 
     def test_topics_of_help(self):
         self.assertIn("clatter help configuration", self.shell.typed("clatter help conf\t"))
