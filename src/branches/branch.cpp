@@ -96,6 +96,7 @@ class Follower {
           "that is meant");
     CurvePoint back = start;
     for (double& x : back.tangent) x = -x;
+    record_.walk_back();
     walk(equations, back, {});
     const bool closed = record_.found().ends.back().reason == closed_curve;
     record_.turn_round();

@@ -88,6 +88,7 @@ class CurveFollower {
     start.at = *at, start.tangent = *tangent_there;
     CurvePoint back = start;
     for (double& x : back.tangent) x = -x;
+    record_.walk_back();
     const bool closed = walk(equations, back);
     record_.turn_round();
     record_.add(record_.point(equations, start));

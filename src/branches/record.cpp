@@ -62,6 +62,7 @@ std::optional<std::size_t> Record::branch_of(const std::string& word, double val
 }
 
 void Record::turn_round() {
+  kept_for_start_ = 0;
   std::reverse(found_.points.begin() + static_cast<std::ptrdiff_t>(first_point_), found_.points.end());
   for (std::size_t i = first_point_; i < found_.points.size(); ++i) found_.points[i].arclength *= -1;
   for (std::size_t i = first_special_; i < specials(); ++i) found_.special[i].at.arclength *= -1;

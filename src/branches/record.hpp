@@ -25,7 +25,7 @@ class Record {
   /// A point of the present branch, with multipliers.
   [[nodiscard]] BranchPoint point(const OrbitEquations& equations, const CurvePoint& at) const;
   void add(const BranchPoint& point) { found_.points.push_back(point); }
-  [[nodiscard]] bool is_full() const { return found_.points.size() >= max_points_; }
+  [[nodiscard]] bool is_full() const { return found_.points.size() + kept_for_start_ >= max_points_; }
 
   /// The special point of that kind near another, known already or new; the present branch belongs to it.
   struct Noted {
@@ -43,6 +43,8 @@ class Record {
   /// The branch that has motion of these letters at a value of the first parameter, between two of its points.
   [[nodiscard]] std::optional<std::size_t> branch_of(const std::string& word, double value) const;
 
+  /// The present branch is walked backwards first, from a start that is added only after turn_round().
+  void walk_back() { kept_for_start_ = 1; }
   /// All of the present branch so far was walked backwards: brings it into the order of the whole branch.
   void turn_round();
 
@@ -55,7 +57,7 @@ class Record {
   [[nodiscard]] std::size_t number_of(SpecialKind kind, const BranchPoint& at) const;
 
   std::vector<OrbitEquations::Axis> axes_;
-  std::size_t max_points_, branch_ = 0, first_point_ = 0, first_special_ = 0;
+  std::size_t max_points_, branch_ = 0, first_point_ = 0, first_special_ = 0, kept_for_start_ = 0;
   double speed_unit_ = 1.0;
   Branches found_;
 };

@@ -49,6 +49,7 @@ void RestingBranch::follow(const Waiting& from) {
     record_.add(point(start_, from.orbit));
     return walk(from.orbit, from.heading);
   }
+  record_.walk_back();
   walk(from.orbit, -1);
   record_.turn_round();
   record_.add(point(start_, from.orbit));

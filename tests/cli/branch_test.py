@@ -171,7 +171,14 @@ class Branch(CommandLine):
         self.assertEqual(result.returncode, 1)
         self.assertRegex(result.stderr, r"branch 0 stops at nu = [\d.]+: branch.max_points is spent")
         with h5py.File((self.directory / "a.branch.h5")) as file:
-            self.assertLessEqual(len(file["nu"]), 21)
+            self.assertEqual(len(file["nu"]), 20)
+        resting = SCENE.replace("xs = -3", "xs = 0.4").replace("nu = 1.1", "nu = 0.3").replace("x0 = 2", "x0 = 0")
+        for scene in (SCENE, resting):
+            for points in (2, 3):
+                text = scene + BRANCH.replace("0.85", "0.2") + f"max_points = {points}\n"
+                self.assertEqual(self.branch(text, "-q").returncode, 1)
+                with h5py.File((self.directory / "a.branch.h5")) as file:
+                    self.assertEqual(len(file["nu"]), points, text)
 
     def test_other_outputs_are_not_overwritten(self):
         self.write("a.toml", SCENE + "[observe]\nextrema = true\n" + BRANCH)
