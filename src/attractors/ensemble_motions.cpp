@@ -9,9 +9,12 @@
 namespace clatter::attractors {
 namespace {
 
-/// From the forcing phase of the start to phase 0, in forcing periods, 0 ... 1.
+/// The phase of the start: of the force, or of the shaking.
+double start_phase(const point::Problem& problem) { return problem.start.phase - problem.shaking.lead; }
+
+/// From the phase of the start to phase 0, in forcing periods, 0 ... 1.
 double turns_to_phase_zero(const point::Problem& problem) {
-  const double turns = problem.start.phase / (2 * pi<double>());
+  const double turns = start_phase(problem) / (2 * pi<double>());
   return std::ceil(turns) - turns;
 }
 
@@ -33,7 +36,7 @@ std::optional<std::size_t> EnsembleMotions::motion_of(const point::Problem& prob
     return add({.periodic = standstill(problem, state.x), .state = state});
   }
   if (const double turns = turns_to_phase_zero(problem); turns > 0) {
-    const auto later = state_after(started(problem, state, problem.start.phase), turns);
+    const auto later = state_after(started(problem, state, start_phase(problem)), turns);
     if (!later) return std::nullopt;
     state = *later;
   }

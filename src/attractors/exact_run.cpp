@@ -61,7 +61,7 @@ auto with_start(const point::Problem& problem, Function&& function) {
 }  // namespace
 
 point::Problem started(point::Problem problem, const PhasePoint& state, double phase) {
-  problem.start = {state.x, state.v, phase};
+  problem.start = {state.x, state.v, phase + problem.shaking.lead};
   return problem;
 }
 

@@ -11,7 +11,7 @@
 
 namespace clatter::attractors {
 
-/// A problem that starts from another state, at another forcing phase (rad).
+/// A problem that starts from another state, at another phase of the force or of the shaking (rad).
 [[nodiscard]] point::Problem started(point::Problem problem, const PhasePoint& state, double phase);
 
 /// A motion over some forcing periods with its derivative and its contacts.

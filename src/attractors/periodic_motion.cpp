@@ -84,7 +84,7 @@ std::optional<PeriodicMotion> periodic_motion(const point::Problem& problem, Pha
 }
 
 PeriodicMotion standstill(const point::Problem& problem, double x) {
-  double size = larger_of(x, problem.oscillator.load);
+  double size = larger_of(x, equilibrium_of(problem.oscillator));
   for (const double stop : {problem.stops.lower, problem.stops.upper})
     if (std::isfinite(stop)) size = std::max(size, std::abs(stop));
   return {.cycle = {{x, 0.0}}, .word = {}, .regime = {}, .size = std::max(size, 1.0), .contracts = true};

@@ -18,6 +18,7 @@ point::Problem between(const point::Problem& from, const point::Problem& to, dou
   Oscillator& o = problem.oscillator;
   o.damping = mix(a.damping, b.damping), o.forcing = mix(a.forcing, b.forcing);
   o.frequency = mix(a.frequency, b.frequency), o.load = mix(a.load, b.load);
+  o.stiffness = mix(a.stiffness, b.stiffness);
   problem.stops = {mix(from.stops.lower, to.stops.lower), mix(from.stops.upper, to.stops.upper),
                    mix(from.stops.restitution_lower, to.stops.restitution_lower),
                    mix(from.stops.restitution_upper, to.stops.restitution_upper)};
@@ -31,7 +32,7 @@ PhasePoint inside(const Stops& stops, const PhasePoint& state) {
 /// The displacement at which a mass that stands still at x does so at other parameters: on its stop, or in equilibrium.
 double place_of_rest(const point::Problem& from, const point::Problem& to, double x) {
   if (x == from.stops.lower) return to.stops.lower;
-  return x == from.stops.upper ? to.stops.upper : to.oscillator.load;
+  return x == from.stops.upper ? to.stops.upper : equilibrium_of(to.oscillator);
 }
 
 }  // namespace

@@ -63,7 +63,7 @@ void require_start_in_range(const Scene& scene, sweep::Parameter parameter, cons
 double speed_scale(const Scene& scene, const Orbit& orbit) {
   const Oscillator& oscillator = scene.oscillator;
   const double nu = oscillator.frequency;
-  const double response = nu * steady_response(oscillator.damping, oscillator.forcing, nu).amplitude;
+  const double response = nu * steady_response(oscillator).amplitude;
   const double free = std::isfinite(response) ? response : std::abs(oscillator.forcing);
   const double speed = impact_speed(orbit);
   return speed > 1e-2 * free ? speed : std::max(free, 1e-12);

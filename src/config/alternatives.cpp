@@ -30,6 +30,7 @@ void check_start_period(const Settings& settings) {
     }
   };
   for (const sweep::Parameter parameter : {h, f, load}) demand(parameter, 0);
+  demand(stiffness, 1);
   for (const sweep::Parameter parameter : {R, R_lower, R_upper}) demand(parameter, 1);
   if (!settings.given(xs))
     fail(start->key_location,

@@ -54,6 +54,18 @@ constexpr std::array keys_before_observe{
     with(stops, or_as("R", Key{"scene", "R_upper", number, "1", "0.5", "restitution of the upper stop, in place of R",
                                zero_to_one})),
     Key{"scene", "load", number, "0", "-0.2", "constant force over stiffness", any},
+    Key{"scene", "stiffness", number, "1", "4",
+        "k of the spring, in units in which mass is 1; 0: none, negative: pushes away from x = 0. With k not 1, h is "
+        "half the damping over the mass, f and load are forces over the mass",
+        any},
+    with(stops, Key{"scene", "stop_amplitude", number, "0", "0.1",
+                    "both stops move as that times sin(nu tau + phase); displacements, x0, v0 and impact speeds are "
+                    "relative to them",
+                    any}),
+    Key{"scene", "base_amplitude", number, "0", "0.1",
+        "the base, and with it the stops, moves as that times sin(nu tau + phase); displacements, x0, v0 and impact "
+        "speeds are relative to it",
+        any},
     Key{"scene", "x0", number, "0", "0.2", "displacement at tau = 0, between the stops", any},
     Key{"scene", "v0", number, "0", "-1.5", "velocity at tau = 0", any},
     with(stops, Key{"scene", "start_period", number, "", "3",

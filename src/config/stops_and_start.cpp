@@ -65,9 +65,51 @@ void compare(const Quantity& low, const Quantity& high, Permitted permitted, con
   if (!permitted(low.values[low_index], high.values[high_index])) refuse(low, low_index, high, high_index, rule);
 }
 
+/// The place of a value other than 0 of an amplitude, or nullptr.
+const SourceLocation* place_of_shaking(const Setting* amplitude) {
+  if (amplitude == nullptr) return nullptr;
+  const auto values = amplitude->numbers();
+  const auto found = std::ranges::find_if(values, [](double value) { return value != 0; });
+  return found == values.end() ? nullptr : &amplitude->location_of(static_cast<std::size_t>(found - values.begin()));
+}
+
+/// Throws ConfigError if neither a spring nor a stop keeps the mass.
+void check_unsprung(const Settings& settings) {
+  const Setting* const given = settings.given(stiffness);
+  if (given == nullptr) return;
+  const auto absent = [&](sweep::Parameter stop) {
+    const Setting* const position = settings.given(stop);
+    return position == nullptr ||
+           std::ranges::any_of(position->numbers(), [](double value) { return std::isinf(value); });
+  };
+  if (settings.given(xs) != nullptr || !absent(stop_lower) || !absent(stop_upper)) return;
+  const auto values = given->numbers();
+  const auto found = std::ranges::find_if(values, [](double value) { return value <= 0; });
+  if (found == values.end()) return;
+  fail(given->location_of(static_cast<std::size_t>(found - values.begin())),
+       "stiffness = " + number_text(*found) +
+           " without stops, so nothing bounds the motion; give xs, stop_lower or stop_upper, or a stiffness > 0");
+}
+
+/// Throws ConfigError if both amplitudes, or an amplitude and start_period, are given, or there is no stop to move.
+void check_shaking(const Settings& settings) {
+  const SourceLocation* const moved = place_of_shaking(settings.given(stop_amplitude));
+  const SourceLocation* const carried = place_of_shaking(settings.given(base_amplitude));
+  if (moved != nullptr && carried != nullptr)
+    fail(*carried, "'base_amplitude' and 'stop_amplitude'; give one of them, as the base moves the stops, too");
+  const SourceLocation* const shaken = moved != nullptr ? moved : carried;
+  if (shaken != nullptr && settings.given(start_period) != nullptr)
+    fail(*shaken, "an amplitude conflicts with 'start_period', which is that of free motion; give x0 and v0 instead");
+  if (moved != nullptr && settings.given(xs) == nullptr && settings.given(stop_lower) == nullptr &&
+      settings.given(stop_upper) == nullptr)
+    fail(*moved, "'stop_amplitude' without stops; give xs, stop_lower or stop_upper");
+}
+
 }  // namespace
 
 void check_stops_and_start(const Settings& settings, const AxisGroups& groups) {
+  check_unsprung(settings);
+  check_shaking(settings);
   const bool symmetric = settings.given(xs) != nullptr;
   Quantity lower = symmetric ? symmetric_stop(settings, groups, -1) : quantity(settings, groups, stop_lower);
   Quantity upper = symmetric ? symmetric_stop(settings, groups, 1) : quantity(settings, groups, stop_upper);

@@ -31,7 +31,9 @@ bool everywhere(const Settings& settings, sweep::Parameter parameter, Test test)
   return given == nullptr || std::ranges::all_of(given->numbers(), test);
 }
 bool unforced(const Settings& settings) {
-  return everywhere(settings, f, [](double value) { return value == 0; });
+  const auto zero = [](double value) { return value == 0; };
+  return everywhere(settings, f, zero) && everywhere(settings, stop_amplitude, zero) &&
+         everywhere(settings, base_amplitude, zero);
 }
 bool absent(const Settings& settings, sweep::Parameter stop) {
   return !settings.given(xs) && everywhere(settings, stop, [](double value) { return std::isinf(value); });

@@ -19,7 +19,9 @@ constexpr double rounding = 64 * std::numeric_limits<double>::epsilon();
 /// lambda = (1 - h^2)^(1/2) of light damping.
 double root_of(const Oscillator& oscillator) { return std::sqrt((1 - oscillator.damping) * (1 + oscillator.damping)); }
 
-bool rotates(const Oscillator& oscillator) { return oscillator.damping > 0 && oscillator.damping < 1; }
+bool rotates_decaying(const Oscillator& oscillator) {
+  return oscillator.stiffness == 1.0 && oscillator.damping > 0 && oscillator.damping < 1;
+}
 
 /// B of the transient Im(B e^{(-h + i lambda) t}), the T of eq. 19.
 Complex rotation(const Oscillator& oscillator, const PhasePoint& transient) {
@@ -53,14 +55,15 @@ double beat_bound(const Complex& R, const Complex& B, double h, double delta, do
 
 /// From the load's equilibrium to the nearer stop.
 double gap_of(const Oscillator& oscillator, const Stops& stops) {
-  return std::min(oscillator.load - stops.lower, stops.upper - oscillator.load);
+  const double middle = equilibrium_of(oscillator);
+  return std::min(middle - stops.lower, stops.upper - middle);
 }
 
 }  // namespace
 
 PhasePoint response_at(const Oscillator& oscillator, double sine, double cosine) {
   const double nu = oscillator.frequency;
-  const auto [P, Q, amplitude] = steady_response(oscillator.damping, oscillator.forcing, nu);
+  const auto [P, Q, amplitude] = steady_response(oscillator);
   if (amplitude == 0) return {0, 0};
   return {P * sine + Q * cosine, nu * (P * cosine - Q * sine)};
 }
@@ -70,10 +73,35 @@ PhasePoint transient_of(const Oscillator& oscillator, const PhaseState& now) {
   return {now.x - response.x, now.v - response.v};
 }
 
+namespace {
+
+bool has_other_spring(const Oscillator& oscillator) { return oscillator.stiffness > 0 && oscillator.stiffness != 1.0; }
+
+/// The same velocities, and times, in units in which the stiffness is 1.
+PhasePoint with_unit_spring(const Oscillator& oscillator, const PhasePoint& transient) {
+  return {transient.x, transient.v / natural_frequency(oscillator)};
+}
+PhaseState with_unit_spring(const Oscillator& oscillator, const PhaseState& now) {
+  return {now.x, now.v / natural_frequency(oscillator), now.sine, now.cosine};
+}
+
+/// Without a spring free motion goes on by v/(2h) at most; with an unstable one nothing bounds it.
+double unsprung_transient_bound(const Oscillator& oscillator, const PhasePoint& transient) {
+  if (oscillator.stiffness < 0 || oscillator.load != 0) return std::numeric_limits<double>::infinity();
+  return std::abs(transient.x) + std::abs(transient.v) / (2 * oscillator.damping);
+}
+
+}  // namespace
+
 double transient_bound(const Oscillator& oscillator, const PhasePoint& transient, double after) {
+  if (has_other_spring(oscillator))
+    return transient_bound(with_unit_spring(oscillator), with_unit_spring(oscillator, transient),
+                           after * natural_frequency(oscillator));
+  if (oscillator.stiffness <= 0) return unsprung_transient_bound(oscillator, transient);
   const double h = oscillator.damping, energy = norm(transient.x, transient.v);
   if (h == 0) return energy;
-  if (rotates(oscillator)) return std::min(energy, std::abs(rotation(oscillator, transient)) * std::exp(-h * after));
+  if (rotates_decaying(oscillator))
+    return std::min(energy, std::abs(rotation(oscillator, transient)) * std::exp(-h * after));
   // e^{-slow t} [x + (v + slow x) (1 - e^{-2 lambda t})/(2 lambda)], the last factor being at most t
   const double root = std::sqrt((h - 1) * (h + 1)), slow = 1 / (h + root), decay = std::exp(-slow * after);
   const double longest = std::max(after, 1 / slow);  // the t >= after at which t e^{-slow t} is greatest
@@ -82,10 +110,15 @@ double transient_bound(const Oscillator& oscillator, const PhasePoint& transient
 }
 
 double fading_time(const Oscillator& oscillator, const PhasePoint& transient, double most) {
+  if (has_other_spring(oscillator))
+    return fading_time(with_unit_spring(oscillator), with_unit_spring(oscillator, transient), most) /
+           natural_frequency(oscillator);
+  if (oscillator.stiffness <= 0) return std::numeric_limits<double>::infinity();
   const double h = oscillator.damping;
   if (norm(transient.x, transient.v) <= most) return 0;
   if (h == 0) return std::numeric_limits<double>::infinity();
-  if (rotates(oscillator)) return std::max(0.0, std::log(std::abs(rotation(oscillator, transient)) / most) / h);
+  if (rotates_decaying(oscillator))
+    return std::max(0.0, std::log(std::abs(rotation(oscillator, transient)) / most) / h);
   // for t >= 1/slow the bound is e^{-slow t} (|x| + |v + slow x| min(t, 1/(2 lambda))): solved for the exponent's t
   const double root = std::sqrt((h - 1) * (h + 1)), slow = 1 / (h + root);
   const double begin = std::abs(transient.x), creep = std::abs(transient.v + slow * transient.x);
@@ -96,13 +129,27 @@ double fading_time(const Oscillator& oscillator, const PhasePoint& transient, do
 }
 
 double displacement_bound_through_impacts(const Oscillator& oscillator, const PhaseState& now, double duration) {
+  const double rate = natural_frequency(oscillator);
+  if (has_other_spring(oscillator))
+    return displacement_bound_through_impacts(with_unit_spring(oscillator), with_unit_spring(oscillator, now),
+                                              duration * rate);
+  if (oscillator.stiffness <= 0) {  // eq. 47; the load pushes, too, if no spring balances it
+    const double all = std::abs(oscillator.forcing) + (rate > 0 ? 0.0 : std::abs(oscillator.load));
+    const double speed = std::abs(now.v) + rate * std::abs(now.x) + (all == 0 ? 0.0 : all * duration);
+    const double way = speed == 0 ? 0.0 : speed * duration;
+    const double bound = (std::abs(now.x) + way) * (rate > 0 ? std::exp(rate * duration) : 1.0) * (1 + rounding);
+    return bound >= 0 && oscillator.damping >= 0 ? bound : std::numeric_limits<double>::infinity();
+  }
   const double push = oscillator.forcing == 0 ? 0.0 : std::abs(oscillator.forcing) * duration;
   const double bound = (norm(now.x, now.v) + push) * (1 + rounding);
   return bound >= 0 && oscillator.damping >= 0 ? bound : std::numeric_limits<double>::infinity();
 }
 
 double displacement_bound(const Oscillator& oscillator, const PhaseState& now, double duration, double enough) {
-  const auto response = steady_response(oscillator.damping, oscillator.forcing, oscillator.frequency);
+  if (has_other_spring(oscillator))
+    return displacement_bound(with_unit_spring(oscillator), with_unit_spring(oscillator, now),
+                              duration * natural_frequency(oscillator), enough);
+  const auto response = steady_response(oscillator);
   const PhasePoint transient = transient_of(oscillator, now);
   double bound = std::numeric_limits<double>::infinity();
   if (!(oscillator.damping >= 0)) return bound;
@@ -111,7 +158,7 @@ double displacement_bound(const Oscillator& oscillator, const PhaseState& now, d
   };
   improve(response.amplitude + transient_bound(oscillator, transient) + rounding * response.amplitude);
   improve(displacement_bound_through_impacts(oscillator, now, duration));
-  if (bound < enough || !rotates(oscillator) || !(response.amplitude > 0)) return bound;
+  if (bound < enough || !rotates_decaying(oscillator) || !(response.amplitude > 0)) return bound;
   const Complex theta(now.cosine, now.sine), R = Complex(response.in_phase, response.quadrature) * theta;
   const double h = oscillator.damping, detuning = (oscillator.frequency - 1) + h * h / (1 + root_of(oscillator));
   const double most = enough > 0 ? enough : std::numeric_limits<double>::infinity();
@@ -120,8 +167,29 @@ double displacement_bound(const Oscillator& oscillator, const PhaseState& now, d
 }
 
 bool response_meets(const Oscillator& oscillator, const Stops& stops) {
-  const auto response = steady_response(oscillator.damping, oscillator.forcing, oscillator.frequency);
+  const auto response = steady_response(oscillator);
   return !(response.amplitude < gap_of(oscillator, stops));
+}
+
+bool escapes(const Scene& scene, double x, double v, const SineCosine<double>& phase) {
+  const auto& [o, stops, start] = scene;
+  if (!(o.stiffness <= 0) || (std::isfinite(stops.lower) && std::isfinite(stops.upper))) return false;
+  const PhasePoint free = transient_of(o, {x - equilibrium_of(o), v, phase.sine, phase.cosine});
+  const double h = o.damping, size = steady_response(o).amplitude;
+  double departing = 0, nearest = 0;  // amount of what grows; the least of |x| on its way, response apart
+  if (o.stiffness < 0) {
+    const double root = norm(h, natural_frequency(o)), slow = o.stiffness / (h + root);
+    const double fading = -(slow * free.x + free.v) / (2 * root);
+    departing = free.x - fading, nearest = departing - std::copysign(std::abs(fading), departing);
+  } else {
+    departing = o.load != 0 ? o.load : h > 0 ? 0.0 : free.v;
+    const double back = free.v * departing < 0 ? free.v : 0.0;  // it turns back only once
+    const double way = h > 0 ? back / (2 * h) : o.load != 0 ? -back * back / (2 * o.load) : 0.0;
+    nearest = free.x + way;
+  }
+  if (!(std::abs(departing) > rounding * (std::abs(free.x) + std::abs(free.v) + size))) return false;
+  if (departing > 0) return std::isinf(stops.upper) && nearest - size > stops.lower - equilibrium_of(o);
+  return departing < 0 && std::isinf(stops.lower) && nearest + size < stops.upper - equilibrium_of(o);
 }
 
 bool out_of_reach(const Oscillator& oscillator, const PhaseState& now, const Stops& stops) {

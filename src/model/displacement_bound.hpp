@@ -1,7 +1,8 @@
 #pragma once
 
+#include "math/number.hpp"
 #include "model/oscillator.hpp"
-#include "model/stops.hpp"
+#include "model/scene.hpp"
 
 namespace clatter {
 inline namespace model {
@@ -31,9 +32,9 @@ struct PhasePoint {
 /// The time after which `transient_bound` is no larger than `most`; infinite if it never is.
 [[nodiscard]] double fading_time(const Oscillator& oscillator, const PhasePoint& transient, double most);
 
-/// Bound of |x - load| from an instant on for a time `duration` (inf: for all time), while no stop interferes; infinite
-/// if nothing bounds the motion. Rounding is allowed for. A bound below `enough` isn't made any sharper, nor, unless
-/// `enough` is 0, one that can't get below it.
+/// Bound of the distance from the equilibrium from an instant on for a time `duration` (inf: for all time), while no
+/// stop interferes; infinite if nothing bounds the motion. Rounding is allowed for. A bound below `enough` isn't made
+/// any sharper, nor, unless `enough` is 0, one that can't get below it.
 ///
 /// The least of three bounds: response plus transient (eq. 16); the energy norm, which the force raises by at most |f|
 /// in a unit of time (eq. 18); and for 0 < h < 1 the envelope of the beats of response and transient (eq. 19), which is
@@ -41,13 +42,17 @@ struct PhasePoint {
 [[nodiscard]] double displacement_bound(const Oscillator& oscillator, const PhaseState& now, double duration,
                                         double enough);
 
-/// Bound of |x - load| for a time `duration` that holds through impacts too, since they take energy (eq. 18); infinite
-/// if nothing bounds the motion.
+/// Bound of the distance from the equilibrium for a time `duration` that holds through impacts too, since they take
+/// energy (eq. 18); infinite if nothing bounds the motion.
 [[nodiscard]] double displacement_bound_through_impacts(const Oscillator& oscillator, const PhaseState& now,
                                                         double duration);
 
 /// Whether the steady forced response alone meets a stop.
 [[nodiscard]] bool response_meets(const Oscillator& oscillator, const Stops& stops);
+
+/// Whether motion from displacement x and velocity v at a forcing phase is proved to depart for ever in a direction in
+/// which there is no stop, and never to meet the other one (eq. 49). Only for k <= 0; false if a spring holds the mass.
+[[nodiscard]] bool escapes(const Scene& scene, double x, double v, const SineCosine<double>& phase);
 
 /// Whether no stop can be met from an instant on, for all time.
 [[nodiscard]] bool out_of_reach(const Oscillator& oscillator, const PhaseState& now, const Stops& stops);

@@ -11,7 +11,8 @@
 namespace clatter {
 inline namespace model {
 
-/// h = 0, 0 < h < 1, h = 1, h > 1: no decay, a decaying rotation, its limit, two decaying exponentials.
+/// h = 0, 0 < h^2 < k, h^2 = k, h^2 > k: no decay, a decaying rotation, its limit, two exponentials. Without a spring
+/// (k <= 0) motion is always the sum of two exponentials, one of which doesn't decay.
 enum class Damping : std::uint8_t { none, light, critical, heavy };
 
 /// f = 0, away from resonance, at it or so near that the response is nearly secular.
@@ -26,11 +27,14 @@ struct Effects {
   bool lower = false, upper = false;  ///< a stop in reach
   bool dissipation = false;           ///< speed is lost at a stop in reach: R < 1
   bool rest = false;                  ///< chatter and rest: a stop in reach may be pressed
+  bool stiffness = false;             ///< a spring of stiffness k other than 1, or none
 
   [[nodiscard]] constexpr bool stops() const { return lower || upper; }
 
   /// The effects that arcs between impacts depend on.
-  [[nodiscard]] constexpr Effects arc() const { return {.damping = damping, .forcing = forcing}; }
+  [[nodiscard]] constexpr Effects arc() const {
+    return {.damping = damping, .forcing = forcing, .stiffness = stiffness};
+  }
 
   friend constexpr bool operator==(const Effects&, const Effects&) = default;
 };
@@ -40,8 +44,9 @@ struct Effects {
   const bool decays_twice = some.damping >= Damping::critical;
   const bool damping =
       decays_twice ? all.damping == Damping::heavy : all.damping <= Damping::light && all.damping >= some.damping;
-  return damping && all.forcing >= some.forcing && all.load >= some.load && all.lower >= some.lower &&
-         all.upper >= some.upper && all.dissipation >= some.dissipation && all.rest >= some.rest;
+  return damping && all.forcing >= some.forcing && all.stiffness == some.stiffness && all.load >= some.load &&
+         all.lower >= some.lower && all.upper >= some.upper && all.dissipation >= some.dissipation &&
+         all.rest >= some.rest;
 }
 
 namespace effect_sets {
@@ -58,13 +63,20 @@ namespace effect_sets {
           .dissipation = true,
           .rest = true};
 }
+[[nodiscard]] constexpr Effects of_any_stiffness(Damping damping, Forcing forcing) {
+  Effects effects = complete(damping, forcing);
+  effects.stiffness = true;
+  return effects;
+}
 
 }  // namespace effect_sets
 
 /// The compiled sets of effects, the cheaper before the dearer. An effect has sets without it if leaving it out saves
 /// 5 % or more of a run. The others cost less to carry: the load (one addition), the second stop (one check a step, not
 /// in every evaluation), dissipation (one multiplication an impact), chatter and rest (one comparison an impact), and
-/// critical damping, which is rare. src/model/README.md has the cost of each effect.
+/// critical damping, which is rare. A stiffness other than 1 has two sets that contain all the rest: points with k > 0
+/// are run with k = 1, in other units of time, so only those without a spring or with an unstable one need them.
+/// src/model/README.md has the cost of each effect.
 inline constexpr std::array compiled_effects{
     effect_sets::free_of_stops(Damping::none, Forcing::none),
     effect_sets::free_of_stops(Damping::light, Forcing::regular),
@@ -78,6 +90,8 @@ inline constexpr std::array compiled_effects{
     effect_sets::complete(Damping::light, Forcing::secular),
     effect_sets::complete(Damping::heavy, Forcing::none),
     effect_sets::complete(Damping::heavy, Forcing::regular),
+    effect_sets::of_any_stiffness(Damping::light, Forcing::secular),
+    effect_sets::of_any_stiffness(Damping::heavy, Forcing::regular),
 };
 
 /// The cheapest compiled set that contains the effects: an index of `compiled_effects`.
@@ -91,7 +105,8 @@ inline constexpr std::array compiled_effects{
 /// order.
 [[nodiscard]] inline bool cheaper(const Effects& one, const Effects& other) {
   const auto key = [](const Effects& e) {
-    return std::tuple(effect_set_of(e), e.damping, e.forcing, e.load, e.lower, e.upper, e.dissipation, e.rest);
+    return std::tuple(effect_set_of(e), e.damping, e.forcing, e.stiffness, e.load, e.lower, e.upper, e.dissipation,
+                      e.rest);
   };
   return key(one) < key(other);
 }
@@ -100,19 +115,34 @@ inline constexpr std::array compiled_effects{
 /// at this distance each is up to 1/(2 * distance) times the force, and so would be the rounding error of their sum.
 inline constexpr double secular_distance = 1.0 / 16.0;
 
-/// Every effect that an oscillator of damping h can have; from h = 1/16 on there is no resonance.
-[[nodiscard]] constexpr Effects all_effects(double h) {
+/// h^2/k as it decides the class of free motion; a rotation is below 1. Without a spring there is none.
+[[nodiscard]] constexpr bool rotates(const Oscillator& oscillator) {
+  return oscillator.damping * oscillator.damping < oscillator.stiffness;
+}
+
+/// Every effect that an oscillator with this damping and stiffness can have; from h = 1/16 on there is no resonance.
+[[nodiscard]] constexpr Effects all_effects(const Oscillator& oscillator) {
+  const double h = oscillator.damping;
+  if (oscillator.stiffness != 1.0)
+    return rotates(oscillator) ? effect_sets::of_any_stiffness(Damping::light, Forcing::secular)
+                               : effect_sets::of_any_stiffness(Damping::heavy, Forcing::regular);
   if (h >= 1.0) return effect_sets::complete(Damping::heavy, Forcing::regular);
   return effect_sets::complete(Damping::light, h >= secular_distance ? Forcing::regular : Forcing::secular);
 }
 
 [[nodiscard]] constexpr Damping damping_of(const Oscillator& oscillator) {
-  const double h = oscillator.damping;
+  const double h = oscillator.damping, k = oscillator.stiffness;
+  if (k != 1.0) {
+    if (!rotates(oscillator)) return h * h == k && k > 0 ? Damping::critical : Damping::heavy;
+    return h == 0.0 ? Damping::none : Damping::light;
+  }
   return h == 0.0 ? Damping::none : h < 1.0 ? Damping::light : h == 1.0 ? Damping::critical : Damping::heavy;
 }
 
 [[nodiscard]] inline Forcing forcing_of(const Oscillator& oscillator) {
   if (oscillator.forcing == 0.0) return Forcing::none;
+  if (oscillator.stiffness != 1.0)
+    return rotates(oscillator) ? forcing_of(with_unit_spring(oscillator)) : Forcing::regular;
   const bool secular = std::hypot(oscillator.damping, oscillator.frequency - 1.0) < secular_distance;
   return secular ? Forcing::secular : Forcing::regular;
 }
@@ -121,7 +151,8 @@ inline constexpr double secular_distance = 1.0 / 16.0;
   for (const double h : {0.0, secular_distance / 2, secular_distance, 1.0, 2.0})
     for (const Forcing forcing : {Forcing::none, Forcing::regular, Forcing::secular}) {
       const bool exists = forcing != Forcing::secular || h < secular_distance;
-      if (exists && !contains(all_effects(h), effect_sets::complete(damping_of({.damping = h}), forcing))) return false;
+      if (exists && !contains(all_effects({.damping = h}), effect_sets::complete(damping_of({.damping = h}), forcing)))
+        return false;
     }
   return true;
 }
@@ -138,7 +169,10 @@ decltype(auto) with_effects(const Effects& effects, Function&& function) {
 }
 
 /// The effects that general methods simulate in every scene; damping only says how small changes of a motion decay.
-[[nodiscard]] constexpr Effects general_effects(double h) {
+[[nodiscard]] constexpr Effects general_effects(const Oscillator& oscillator) {
+  const double h = oscillator.damping;
+  if (oscillator.stiffness != 1.0)
+    return effect_sets::of_any_stiffness(rotates(oscillator) ? Damping::light : Damping::heavy, Forcing::regular);
   const Damping damping = h == 0 ? Damping::none : h < 1 ? Damping::light : Damping::heavy;
   return effect_sets::complete(damping, Forcing::regular);
 }
@@ -146,15 +180,25 @@ decltype(auto) with_effects(const Effects& effects, Function&& function) {
 /// Calls `function.operator()<effects>()` for the effects that general methods simulate for an oscillator.
 template <class Function>
 decltype(auto) with_general_effects(const Oscillator& oscillator, Function&& function) {
-  const Damping damping = general_effects(oscillator.damping).damping;
-  if (damping == Damping::none) return function.template operator()<general_effects(0.0)>();
-  if (damping == Damping::light) return function.template operator()<general_effects(0.5)>();
-  return function.template operator()<general_effects(1.0)>();
+  const Effects effects = general_effects(oscillator);
+  if (effects.stiffness) {
+    if (effects.damping == Damping::light)
+      return function.template operator()<effect_sets::of_any_stiffness(Damping::light, Forcing::regular)>();
+    return function.template operator()<effect_sets::of_any_stiffness(Damping::heavy, Forcing::regular)>();
+  }
+  if (effects.damping == Damping::none) return function.template operator()<general_effects({.damping = 0.0})>();
+  if (effects.damping == Damping::light) return function.template operator()<general_effects({.damping = 0.5})>();
+  return function.template operator()<general_effects({.damping = 1.0})>();
 }
 
-/// Calls `function.operator()<set>()` for an oscillator between any stops: one of the eight complete sets.
+/// Calls `function.operator()<set>()` for an oscillator between any stops: one of the ten complete sets.
 template <class Function>
 decltype(auto) with_any_stops(const Oscillator& oscillator, Function&& function) {
+  if (oscillator.stiffness != 1.0) {
+    if (rotates(oscillator))
+      return function.template operator()<effect_sets::of_any_stiffness(Damping::light, Forcing::secular)>();
+    return function.template operator()<effect_sets::of_any_stiffness(Damping::heavy, Forcing::regular)>();
+  }
   const Damping damping = damping_of(oscillator);
   const Forcing forcing = forcing_of(oscillator);
   const auto with_damping = [&]<Damping d>() -> decltype(auto) {

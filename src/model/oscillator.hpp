@@ -1,25 +1,52 @@
 #pragma once
 
+#include <cmath>
 #include <numbers>
 
 namespace clatter {
 inline namespace model {
 
-/// x'' + 2 h x' + x = f sin(nu tau + phase) + load, in units of the natural frequency and the spring (eq. 3).
+/// x'' + 2 h x' + k x = f sin(nu tau + phase) + load (eq. 3): with k = 1 in units of the natural frequency and the
+/// spring.
 struct Oscillator {
   double damping = 0.0;    ///< h, damping ratio, >= 0
   double forcing = 0.0;    ///< f, force amplitude over stiffness, any finite
   double frequency = 1.0;  ///< nu, excitation over natural frequency, > 0
   double load = 0.0;       ///< constant force over stiffness, any finite
+  double stiffness = 1.0;  ///< k, any finite: 0 without a spring, negative for one that pushes away
 };
 
-/// The frequency of the periods in which a run is counted: nu under forcing, else 1.
-[[nodiscard]] constexpr double counting_frequency(const Oscillator& oscillator) {
-  return oscillator.forcing == 0.0 ? 1.0 : oscillator.frequency;
+/// The natural frequency of the spring, |k|^(1/2); of an unstable one (k < 0) the rate at which motion departs.
+[[nodiscard]] inline double natural_frequency(const Oscillator& oscillator) {
+  return std::sqrt(std::abs(oscillator.stiffness));
 }
 
-/// Forcing period in tau; without forcing 2 pi.
-[[nodiscard]] constexpr double period_of(const Oscillator& oscillator) {
+/// The displacement at which the spring balances the load; 0 without a spring.
+[[nodiscard]] constexpr double equilibrium_of(const Oscillator& oscillator) {
+  return oscillator.stiffness == 0.0 ? 0.0 : oscillator.load / oscillator.stiffness;
+}
+
+/// The constant part of the force on a mass at a displacement.
+[[nodiscard]] constexpr double constant_force(const Oscillator& oscillator, double x) {
+  return oscillator.load - oscillator.stiffness * x;
+}
+
+/// The same oscillator with its time in units of its natural frequency, so that its stiffness is 1, or -1; not for k =
+/// 0. Displacements stay as they are, velocities are divided by that frequency.
+[[nodiscard]] inline Oscillator with_unit_spring(const Oscillator& oscillator) {
+  const double k = std::abs(oscillator.stiffness), rate = natural_frequency(oscillator);
+  return {oscillator.damping / rate, oscillator.forcing / k, oscillator.frequency / rate, oscillator.load / k,
+          std::copysign(1.0, oscillator.stiffness)};
+}
+
+/// The frequency of the periods in which a run is counted: nu under forcing, else that of the spring, 1 if it has none.
+[[nodiscard]] inline double counting_frequency(const Oscillator& oscillator) {
+  if (oscillator.forcing != 0.0) return oscillator.frequency;
+  return oscillator.stiffness > 0.0 ? natural_frequency(oscillator) : 1.0;
+}
+
+/// Forcing period in tau; without forcing that of the spring, 2 pi at k = 1.
+[[nodiscard]] inline double period_of(const Oscillator& oscillator) {
   return 2 * std::numbers::pi / counting_frequency(oscillator);
 }
 

@@ -17,9 +17,11 @@ enum class Sharpness { sufficient, sharpest };
 Requirements requirements(const Scene& scene, double duration, Sharpness bounds) {
   const Oscillator& o = scene.oscillator;
   const Stops& stops = scene.stops;
-  Requirements needs{{.damping = damping_of(o), .forcing = forcing_of(o), .load = o.load != 0}};
-  needs.lower_gap = o.load - stops.lower, needs.upper_gap = stops.upper - o.load;
-  const PhaseState start{scene.start.displacement - o.load, scene.start.velocity, std::sin(scene.start.phase),
+  Requirements needs{
+      {.damping = damping_of(o), .forcing = forcing_of(o), .load = o.load != 0, .stiffness = o.stiffness != 1.0}};
+  const double middle = equilibrium_of(o);
+  needs.lower_gap = middle - stops.lower, needs.upper_gap = stops.upper - middle;
+  const PhaseState start{scene.start.displacement - middle, scene.start.velocity, std::sin(scene.start.phase),
                          std::cos(scene.start.phase)};
   const double enough = bounds == Sharpness::sharpest ? 0.0 : std::fmin(needs.lower_gap, needs.upper_gap);
   needs.free_reach = displacement_bound(o, start, duration, enough);
@@ -32,7 +34,8 @@ Requirements requirements(const Scene& scene, double duration, Sharpness bounds)
   effects.dissipation =
       (effects.lower && !(stops.restitution_lower >= 1)) || (effects.upper && !(stops.restitution_upper >= 1));
   const double push = std::abs(o.forcing) * (1 + 4 * std::numeric_limits<double>::epsilon());
-  effects.rest = (effects.lower && !(push < needs.lower_gap)) || (effects.upper && !(push < needs.upper_gap));
+  effects.rest = (effects.lower && !(push < constant_force(o, stops.lower))) ||
+                 (effects.upper && !(push < -constant_force(o, stops.upper)));
   return needs;
 }
 

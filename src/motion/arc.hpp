@@ -53,6 +53,11 @@ class Arc {
     if constexpr (E.damping == Damping::heavy) m.fast_x = constants_->fast_mode(m.free_x, m.free_v);
     return m;
   }
+  /// Acceleration of the free part of a motion a step after m, and of the load if no spring balances it.
+  [[nodiscard]] Number free_acceleration(const Propagator<Number>& p, const Motion<Number>& m) const {
+    if constexpr (E.stiffness) return constants_->unbalanced * p.c - (constants_->k * p.c * m.free_x + p.d * m.free_v);
+    return -(p.c * m.free_x + p.d * m.free_v);
+  }
   /// A forcing phase, and its sine and cosine less those of the phase before.
   struct AdvancedPhase {
     SineCosine<Number> phase, change;
@@ -80,22 +85,26 @@ Motion<Number> Arc<Number, E>::moved(const Motion<Number>& m, const Step<Number>
   // eq. 10: no difference of positions, so that a short flight keeps its digits; the response is linear in sine, cosine
   Number offset =
       p.a_minus_one * m.free_x + p.b * m.free_v + constants_->response_displacement(change.sine, change.cosine);
-  auto [free_x, free_v] = p.advance({m.free_x, m.free_v});
+  auto [free_x, free_v] = constants_->advanced(p, {m.free_x, m.free_v});
   if constexpr (E.forcing == Forcing::secular) {
     const Number response_x = m.cosine * step.displacement.cosine + m.sine * step.displacement.sine;
     const Number response_v = m.cosine * step.velocity.cosine + m.sine * step.velocity.sine;
     offset += constants_->f * response_x, free_x += constants_->f * response_x, free_v += constants_->f * response_v;
   }
+  if constexpr (E.stiffness) {
+    const Number& pull = constants_->unbalanced;
+    offset += pull * step.pulled, free_x += pull * step.pulled, free_v += pull * p.b;
+  }
   offset += m.offset;
   // of two sums for x the one with the smaller terms: between close stops that is anchor + offset
-  const Number whole = abs(constants_->load) + abs(forced_x) + abs(free_x);
+  const Number whole = abs(constants_->equilibrium) + abs(forced_x) + abs(free_x);
   const bool rises = abs(anchor_) + abs(offset) < whole;
-  const Number x = rises ? anchor_ + offset : constants_->load + forced_x + free_x;
+  const Number x = rises ? anchor_ + offset : constants_->equilibrium + forced_x + free_x;
   const Number v = constants_->response_velocity(phase.sine, phase.cosine) + free_v;
   const Number a =
       E.forcing == Forcing::secular
           ? constants_->acceleration(rises ? constants_->from_equilibrium(x, anchor_, offset) : free_x, v, phase.sine)
-          : Number(-(p.c * m.free_x + p.d * m.free_v) - constants_->nu * constants_->nu * forced_x);
+          : free_acceleration(p, m) - constants_->nu * constants_->nu * forced_x;
   Number fast_x = 0;
   if constexpr (E.damping == Damping::heavy) fast_x = m.fast_x * step.fast_decay;
   return {offset, x, v, a, phase.sine, phase.cosine, free_x, free_v, fast_x};
@@ -111,7 +120,7 @@ Motion<Number> Arc<Number, E>::near(const Motion<Number>& m, const Number& d) co
   t[0] = 0, t[1] = m.v * d, t[2] = m.a * square / 2;
   Number force = constants_->f * square, drive = m.sine, next = m.cosine;  // force: f d^2 (nu d)^k / k!
   for (std::size_t k = 1; k + 2 < terms; ++k) {
-    Number sum = -square * t[k];
+    Number sum = -square * constants_->spring(t[k]);
     if constexpr (E.damping != Damping::none) sum -= 2 * constants_->h * d * (static_cast<double>(k) + 1) * t[k + 1];
     if constexpr (E.forcing != Forcing::none) {
       force *= constants_->nu * d / static_cast<double>(k);

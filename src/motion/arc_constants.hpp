@@ -21,6 +21,7 @@ struct Step {
   Turn<Number> turn{};                            ///< by nu s
   SineCosine<Number> displacement{}, velocity{};  ///< secular: response from rest to a unit force (eq. 11)
   Number fast_decay{};                            ///< heavy damping: e^(-fast s)
+  Number pulled{};                                ///< displacement from rest under a unit force that no spring balances
 };
 
 /// (e^z - 1)/z for z = re + i im with re <= 0, the divided difference of the exponential (eq. 11), to relative accuracy
@@ -35,6 +36,17 @@ template <class Number>
   }
   const Number half = sin(im / 2), u = expm1(re) * cos(im) - 2 * half * half, w = exp(re) * sin(im);
   return {(u * re + w * im) / square, (w * re - u * im) / square};
+}
+
+/// (z - 1 + e^-z)/z^2 for z >= 0, to relative accuracy (eq. 45).
+template <class Number>
+[[nodiscard]] Number second_divided_decay(const Number& z) {
+  using std::expm1;
+  if (z >= 1) return (z + expm1(-z)) / (z * z);
+  constexpr int terms = std::numeric_limits<Number>::digits <= 64 ? 18 : 42;  // 1/terms! is below rounding
+  Number sum = 0;
+  for (int k = terms; k >= 2; --k) sum = (1 - z * sum) / k;  // 1/2! - z/3! + z^2/4! - ...
+  return sum;
 }
 
 /// y z^6, one factor at a time, so that 0 meets infinity only if y or z is not finite.
@@ -53,15 +65,22 @@ class ArcConstants {
 
   explicit ArcConstants(const Oscillator& oscillator)
       : ArcConstants(Coefficients{}, Number(oscillator.damping), Number(oscillator.forcing),
-                     Number(counting_frequency(oscillator)), Number(oscillator.load)) {}
+                     counting_frequency_of(oscillator), Number(oscillator.load), Number(oscillator.stiffness)) {}
 
   /// From the coefficients of eq. 3, which may be of a type that carries derivatives.
-  [[nodiscard]] static ArcConstants of(const Number& h, const Number& f, const Number& nu, const Number& load) {
-    return {Coefficients{}, h, f, nu, load};
+  [[nodiscard]] static ArcConstants of(const Number& h, const Number& f, const Number& nu, const Number& load,
+                                       const Number& k = Number(1)) {
+    return {Coefficients{}, h, f, nu, load, k};
   }
 
   /// Free motion over s >= 0, without cancellation for every h (eqs. 8 and 9).
   [[nodiscard]] Propagator<Number> propagator(const Number& s) const;
+
+  /// Free motion advanced by a propagator.
+  [[nodiscard]] FreeMotion<Number> advanced(const Propagator<Number>& p, const FreeMotion<Number>& from) const {
+    if constexpr (E.stiffness) return {mul_add(p.a, from.x, p.b * from.v), mul_sub(p.c, from.v, k * p.b * from.x)};
+    return p.advance(from);
+  }
 
   /// All coefficients of a step by a time s >= 0 (`Arc::moved`).
   [[nodiscard]] Step<Number> step(const Number& s) const;
@@ -81,12 +100,28 @@ class ArcConstants {
   /// keeps more digits.
   [[nodiscard]] Number from_equilibrium(const Number& x, const Number& anchor, const Number& offset) const {
     using std::abs;
-    const Number from = anchor - load;
-    return abs(from) + abs(offset) < abs(x) ? from + offset : x - load;
+    const Number from = anchor - equilibrium;
+    return abs(from) + abs(offset) < abs(x) ? from + offset : x - equilibrium;
   }
 
+  /// k y: the force of the spring at a displacement, or any other product with its stiffness.
+  [[nodiscard]] Number spring(const Number& y) const {
+    if constexpr (E.stiffness) return k * y;
+    return y;
+  }
+  /// The force on a mass at x = 0, at a forcing phase.
+  [[nodiscard]] Number force(const Number& sine) const {
+    if constexpr (E.forcing == Forcing::none) return load;
+    return load + f * sine;
+  }
+  /// The constant part of the force on a mass at x.
+  [[nodiscard]] Number constant_force(const Number& x) const { return load - spring(x); }
+
   /// Eq. 3, for displacements from the load's equilibrium.
-  [[nodiscard]] Equation equation() const { return {2 * h, f, nu}; }
+  [[nodiscard]] Equation equation() const {
+    if constexpr (E.stiffness) return {2 * h, f, nu, k, unbalanced};
+    return {2 * h, f, nu};
+  }
   [[nodiscard]] Number acceleration(const Number& displacement, const Number& v, const Number& sine) const {
     return equation().acceleration(displacement, v, sine);
   }
@@ -96,17 +131,27 @@ class ArcConstants {
   /// eq. 14; under heavy damping the smaller of that and the bound mode by mode, since the fast mode dies out.
   [[nodiscard]] Number sixth_bound(const Motion<Number>& m, const Number& span, int derivative) const;
 
-  /// Bound of |x - load| from `m` on for a time `span` (eq. 16); at resonance the force may raise the energy norm by
-  /// |f| in a unit of time.
+  /// Bound of |x - equilibrium| from `m` on for a time `span` (eq. 16); at resonance the force may raise the energy
+  /// norm by |f| in a unit of time. Without a spring the motion may drift, with an unstable one it departs: eq. 47.
   [[nodiscard]] Number reach(const Motion<Number>& m, const Number& span) const;
 
-  /// Displacement of the fast mode of heavy damping in a free motion (x, v); infinite or NaN at h = 1, which has no two
-  /// modes.
+  /// Displacement of the fast mode of heavy damping in a free motion (x, v); infinite or NaN at h^2 = k, which has no
+  /// two modes.
   [[nodiscard]] Number fast_mode(const Number& x, const Number& v) const { return -(slow * x + v) / (2 * root); }
 
-  Number h, f, nu, load;      ///< of the oscillator; without forcing nu = 1, so that a period is 2 pi
-  Number root;                ///< lambda = |1 - h^2|^(1/2)
-  Number slow, fast;          ///< decay rates of heavy damping
+  /// Whether free motion is a decaying rotation.
+  [[nodiscard]] bool rotates() const {
+    if constexpr (E.stiffness) return h * h < k;
+    return h < 1;
+  }
+
+  Number h, f, nu, load;      ///< of the oscillator; without forcing nu is that of `counting_frequency`
+  Number k;                   ///< stiffness; 1 unless it is an effect
+  Number equilibrium;         ///< the displacement at which the spring balances the load; 0 without a spring
+  Number unbalanced;          ///< the load, if no spring balances it, else 0
+  Number natural;             ///< |k|^(1/2)
+  Number root;                ///< lambda = |k - h^2|^(1/2)
+  Number slow, fast;          ///< decay rates of heavy damping; slow < 0 with an unstable spring
   Response<Number> response;  ///< eq. 6; 0 if arcs form it together with the free motion (secular)
   Number detuning;            ///< nu - lambda, without cancellation
   Number rate;                ///< the fastest of the motion's frequencies and decay rates
@@ -114,8 +159,17 @@ class ArcConstants {
  private:
   struct Coefficients {};  ///< tells the numbers of eq. 3 from those of an oscillator in braces
   ArcConstants(Coefficients, const Number& damping, const Number& forcing, const Number& frequency,
-               const Number& constant_force);
+               const Number& constant_force, const Number& stiffness);
+  /// That of `counting_frequency`, to the digits of the number type.
+  [[nodiscard]] static Number counting_frequency_of(const Oscillator& oscillator) {
+    using std::sqrt;
+    if constexpr (E.stiffness)
+      if (oscillator.forcing == 0 && oscillator.stiffness > 0) return sqrt(Number(oscillator.stiffness));
+    return Number(counting_frequency(oscillator));
+  }
+  void set_stiffness(const Number& stiffness);
   void bound_derivatives();
+  [[nodiscard]] Number unsprung_sixth_bound(const Motion<Number>& m, const Number& span, int derivative) const;
   [[nodiscard]] Number short_a_minus_one(const Number& s) const;
   void respond_from_rest(const Number& s, Step<Number>& step) const;
 
@@ -126,32 +180,54 @@ class ArcConstants {
 
 template <class Number, Effects E>
 ArcConstants<Number, E>::ArcConstants(Coefficients, const Number& damping, const Number& forcing,
-                                      const Number& frequency, const Number& constant_force)
-    : h(damping), f(forcing), nu(frequency), load(constant_force) {
+                                      const Number& frequency, const Number& constant_force, const Number& stiffness)
+    : h(damping), f(forcing), nu(frequency), load(constant_force), k(1), equilibrium(load), unbalanced(0), natural(1) {
   using std::abs, std::max, std::sqrt;
-  root = sqrt(abs((1 - h) * (1 + h)));
-  coarse_root_ = select<Number>(h < Number(0.5), Number(1), root);
-  spare_root_ = select<Number>(h < Number(0.5), Number(h * h / (1 + root)), Number(0));
-  fast = h + root;
-  slow = 1 / fast;
-  if constexpr (E.forcing == Forcing::regular) response = steady_response(h, f, nu);
-  detuning = (nu - 1) + h * h / (1 + root);
-  rate = max(nu, max(Number(1), Number(2 * h)));
+  if constexpr (E.stiffness) {
+    set_stiffness(stiffness);
+  } else {
+    root = sqrt(abs((1 - h) * (1 + h)));
+    fast = h + root;
+    slow = 1 / fast;
+    if constexpr (E.forcing == Forcing::regular) response = steady_response(h, f, nu);
+    rate = max(nu, max(Number(1), Number(2 * h)));
+  }
+  coarse_root_ = select<Number>(h < natural / 2, natural, root);
+  spare_root_ = select<Number>(h < natural / 2, Number(h * h / (natural + root)), Number(0));
+  detuning = (nu - natural) + h * h / (natural + root);
   period = 2 * pi<Number>() / nu;
   bound_derivatives();
 }
 
 template <class Number, Effects E>
+void ArcConstants<Number, E>::set_stiffness(const Number& stiffness) {
+  using std::abs, std::max, std::sqrt;
+  k = stiffness;
+  const bool sprung = k < 0 || k > 0;
+  natural = sprung ? Number(sqrt(abs(k))) : Number(0);
+  equilibrium = sprung ? Number(load / k) : Number(0);
+  unbalanced = sprung ? Number(0) : load;
+  root = k > 0 ? Number(sqrt(abs((natural - h) * (natural + h)))) : norm(h, natural);
+  fast = h + root;
+  slow = sprung ? Number(k / fast) : Number(0);
+  if constexpr (E.forcing == Forcing::regular) response = response_to(Number(k - nu * nu), h, f, nu);
+  rate = max(nu, max(natural, Number(k > 0 ? 2 * h : fast)));
+}
+
+template <class Number, Effects E>
 void ArcConstants<Number, E>::bound_derivatives() {
   using std::abs;
-  Number x_part = 1, v_part = 0;  // x^(k) = x_part x + v_part v + f Im(e^{i theta} (re + i im))
+  Number x_part = 1, v_part = 0;  // x^(order) = x_part x + v_part v + f Im(e^{i theta} (re + i im))
   Number re = 0, im = 0, next_re = 0, next_im = 0;
-  Number power_re = 1, power_im = 0;  // (i nu)^k
-  for (std::size_t k = 0; k < 8; ++k) {
-    if (k >= 6) free_bound_[k - 6] = norm(x_part, v_part), forced_bound_[k - 6] = abs(f) * norm(re, im);
-    const Number x_next = -v_part, v_next = x_part - 2 * h * v_part;
+  Number power_re = 1, power_im = 0;  // (i nu)^order
+  for (std::size_t order = 0; order < 8; ++order) {
+    Number per_energy = x_part;
+    if constexpr (E.stiffness) per_energy = natural > 0 ? Number(x_part / natural) : Number(0);  // of k > 0 only
+    if (order >= 6) free_bound_[order - 6] = norm(per_energy, v_part), forced_bound_[order - 6] = abs(f) * norm(re, im);
+    const Number x_next = -spring(v_part), v_next = x_part - 2 * h * v_part;
     x_part = x_next, v_part = v_next;
-    const Number after_re = -2 * h * next_re - re + power_re, after_im = -2 * h * next_im - im + power_im;
+    const Number after_re = -2 * h * next_re - spring(re) + power_re,
+                 after_im = -2 * h * next_im - spring(im) + power_im;
     re = next_re, im = next_im, next_re = after_re, next_im = after_im;
     const Number turned = -nu * power_im;
     power_im = nu * power_re, power_re = turned;
@@ -173,15 +249,18 @@ Propagator<Number> ArcConstants<Number, E>::propagator(const Number& s) const {
     const Number half = sine + lost / 2 * cosine, other = cosine - lost / 2 * sine;
     const Number cosine_minus_one = -2 * half * half;
     Propagator<Number> free = light_propagator<Number>(exp(-h * s), 1 + cosine_minus_one, 2 * half * other / root, h);
-    free.a_minus_one = s <= Number(0.25) ? short_a_minus_one(s)
-                                         : expm1(-h * s) * (1 + cosine_minus_one) + cosine_minus_one + h * free.b;
+    if constexpr (E.stiffness) free.d = mul_add(h + h, free.c, k * free.b);
+    free.a_minus_one = s * natural <= Number(0.25)
+                           ? short_a_minus_one(s)
+                           : expm1(-h * s) * (1 + cosine_minus_one) + cosine_minus_one + h * free.b;
     return free;
   } else {
     const Number slow_decay = exp(-slow * s), fast_decay = exp(-fast * s), spread = 2 * root * s;
     const Number b =
         slow_decay * select<Number>(spread > 0, -expm1(-spread) / (2 * root), s);  // root = 0: critical damping
-    const Number d = 2 * h * fast_decay - slow * slow * b;                         // 2 h slow - 1 = slow^2
-    const Number a_minus_one = 8 * h * s <= 1 ? short_a_minus_one(s) : Number(expm1(-slow * s) + slow * b);
+    const Number d = 2 * h * fast_decay - slow * slow * b;                         // 2 h slow - k = slow^2
+    const bool is_short = 8 * h * s <= 1 && (!E.stiffness || 4 * natural * s <= 1);
+    const Number a_minus_one = is_short ? short_a_minus_one(s) : Number(expm1(-slow * s) + slow * b);
     return {slow_decay + slow * b, b, fast_decay - slow * b, d, a_minus_one};
   }
 }
@@ -193,6 +272,8 @@ Step<Number> ArcConstants<Number, E>::step(const Number& s) const {
   if constexpr (E.forcing != Forcing::none) step.turn = turn_by(Number(nu * s));
   if constexpr (E.forcing == Forcing::secular) respond_from_rest(s, step);
   if constexpr (E.damping == Damping::heavy) step.fast_decay = exp(-fast * s);
+  if constexpr (E.stiffness)
+    if (unbalanced < 0 || unbalanced > 0) step.pulled = s * s * second_divided_decay(Number(2 * h * s));
   return step;
 }
 
@@ -220,9 +301,9 @@ void ArcConstants<Number, E>::respond_from_rest(const Number& s, Step<Number>& s
 template <class Number, Effects E>
 Number ArcConstants<Number, E>::short_a_minus_one(const Number& s) const {
   constexpr int terms = std::numeric_limits<Number>::digits <= 64 ? 13 : 36;  // (1/4)^n / n! below rounding
-  Number before = 0, last = -s * s / 2, sum = last;                           // of s^k A^(k)(0) / k!
-  for (int k = 3; k < terms; ++k) {
-    const Number next = -(s * s * before + 2 * h * s * (k - 1) * last) / (k * (k - 1));
+  Number before = 0, last = -spring(s * s) / 2, sum = last;                   // of s^n A^(n)(0) / n!
+  for (int n = 3; n < terms; ++n) {
+    const Number next = -(spring(s * s * before) + 2 * h * s * (n - 1) * last) / (n * (n - 1));
     sum += next, before = last, last = next;
   }
   return sum;
@@ -233,7 +314,10 @@ Number ArcConstants<Number, E>::sixth_bound(const Motion<Number>& m, const Numbe
   using std::abs;
   const auto i = static_cast<std::size_t>(derivative);
   const auto times = [derivative](const Number& y, const Number& z) { return derivative == 0 ? y : Number(y * z); };
+  if constexpr (E.stiffness && E.damping == Damping::heavy)
+    if (!(k > 0)) return unsprung_sixth_bound(m, span, derivative);
   Number energy_norm = abs(m.free_x) + abs(m.free_v);
+  if constexpr (E.stiffness) energy_norm = natural * abs(m.free_x) + abs(m.free_v);
   if constexpr (E.forcing == Forcing::secular) energy_norm += abs(f) * span;
   Number bound = times_sixth_power(Number(free_bound_[i] * energy_norm), span);
   if constexpr (E.damping == Damping::heavy) {
@@ -250,10 +334,31 @@ Number ArcConstants<Number, E>::sixth_bound(const Motion<Number>& m, const Numbe
 
 template <class Number, Effects E>
 Number ArcConstants<Number, E>::reach(const Motion<Number>& m, const Number& span) const {
-  using std::abs;
+  using std::abs, std::exp;
   Number bound = response.amplitude + norm(m.free_x, m.free_v);
   if constexpr (E.forcing == Forcing::secular) bound += abs(f) * span;
+  if constexpr (E.stiffness) {
+    Number free = k > 0 ? norm(m.free_x, Number(m.free_v / natural))
+                        : Number((abs(m.free_x) + abs(m.free_v) * span) * exp(-slow * span));
+    if constexpr (E.forcing == Forcing::secular) free += abs(f) * span / natural;
+    bound = response.amplitude + free + abs(unbalanced) * span * span / 2;
+  }
   return bound * (1 + 16 * epsilon<Number>());
+}
+
+/// With k <= 0 by modes (eq. 46): a slow one that grows or stays, and a fast one that decays.
+template <class Number, Effects E>
+Number ArcConstants<Number, E>::unsprung_sixth_bound(const Motion<Number>& m, const Number& span,
+                                                     int derivative) const {
+  using std::abs, std::exp;
+  const auto times = [derivative](const Number& y, const Number& z) { return derivative == 0 ? y : Number(y * z); };
+  const Number creep = -slow, growth = exp(creep * span);
+  Number bound = times_sixth_power(times(response.amplitude, nu), Number(nu * span));
+  if (root > 0)
+    bound += times_sixth_power(times(abs(m.free_x - m.fast_x) * growth, creep), Number(creep * span)) +
+             times_sixth_power(times(abs(m.fast_x), fast), Number(fast * span));
+  const Number decay = 2 * h * span, square = decay * decay;  // of the pull of the load, which has k = 0
+  return bound + times(abs(unbalanced), 2 * h) * span * span * square * square;
 }
 
 }  // namespace clatter::motion

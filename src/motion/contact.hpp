@@ -20,11 +20,11 @@ struct Contact {
   bool resolved = true;     ///< false: a bound overflows, or the step that can be proved has fallen below rounding
 };
 
-/// The usual length of a step that is proved free of contact.
+/// The usual length of a step that is proved free of contact, by the frequencies of the spring and of the force.
 template <class Number>
-[[nodiscard]] Number usual_step(const Number& nu) {
+[[nodiscard]] Number usual_step(const Number& natural, const Number& nu) {
   using std::max;
-  return Number(1.6) / max(Number(1), nu);
+  return Number(1.6) / max(natural, nu);
 }
 
 /// Searches an arc for its first contact. An enclosure of the arc proves each step free of impacts (eq. 15), or proves
@@ -88,8 +88,8 @@ class ContactSearch {
   [[nodiscard]] static Number closing(Side side, const Number& y) { return side == Side::upper ? y : Number(-y); }
 
   [[nodiscard]] bool out_of_reach() const {
-    const Number reach = arc_.constants().reach(here_, horizon_ - elapsed_), load = arc_.constants().load;
-    return lower_ < load - reach && load + reach < upper_;
+    const Number reach = arc_.constants().reach(here_, horizon_ - elapsed_), middle = arc_.constants().equilibrium;
+    return lower_ < middle - reach && middle + reach < upper_;
   }
 
   /// The width that an enclosure has to resolve.
@@ -97,6 +97,7 @@ class ContactSearch {
     using std::abs, std::min;
     return min(Number(upper_ - lower_), Number(abs(here_.x) + abs(here_.v) + arc_.constants().response.amplitude));
   }
+  [[nodiscard]] Number usual_length() const { return usual_step(arc_.constants().natural, arc_.constants().nu); }
   [[nodiscard]] Number error_of(const Number& step) const {
     return hermite_error(arc_.constants().sixth_bound(here_, step, 0));
   }
@@ -105,7 +106,7 @@ class ContactSearch {
   /// products vanish.
   [[nodiscard]] Number first_step() const {
     using std::pow;
-    const Number step = usual_step(arc_.constants().nu), error = error_of(step), aim = width() / 20;
+    const Number step = usual_length(), error = error_of(step), aim = width() / 20;
     if (upper_ - lower_ < std::numeric_limits<Number>::min() / (epsilon<Number>() * epsilon<Number>()))
       return Number(0);
     return aim > 0 && error > aim ? Number(step * pow(aim / error, Number(1) / 6)) : step;
@@ -116,8 +117,8 @@ class ContactSearch {
   [[nodiscard]] Number longer(const Number& step) const {
     using std::min;
     const Number twice = 2 * step;
-    if (twice > usual_step(arc_.constants().nu) && error_of(twice) <= width() / 20000) return twice;
-    return min(twice, usual_step(arc_.constants().nu));
+    if (twice > usual_length() && error_of(twice) <= width() / 20000) return twice;
+    return min(twice, usual_length());
   }
 
   [[nodiscard]] Motion<Number> evaluate(const Number& s) {
@@ -184,11 +185,17 @@ class ContactSearch {
     return at(side, elapsed, m);
   }
 
+  /// Whether the energy of the flight is conserved.
+  [[nodiscard]] bool conserves() const {
+    if constexpr (E.stiffness) return arc_.constants().h == 0 && arc_.constants().f == 0;
+    return E.damping == Damping::none && E.forcing == Forcing::none;
+  }
   /// Speed at a position by the energy of free undamped motion (eq. 17): exact however softly the mass touches.
   [[nodiscard]] Number conserved_speed(const Number& x) const {
     using std::abs, std::max, std::sqrt;
     const Motion<Number>& from = arc_.start();
-    const Number fall = (arc_.anchor() - x) + from.offset, middle = from.x + x - 2 * arc_.constants().load;
+    const Number fall = (arc_.anchor() - x) + from.offset,
+                 middle = arc_.constants().spring(from.x + x) - 2 * arc_.constants().load;
     const Number scale = max(max(Number(abs(fall)), Number(abs(middle))), Number(abs(from.v)));
     if (!(scale > 0)) return Number(0);
     return scale *
@@ -197,7 +204,7 @@ class ContactSearch {
 
   [[nodiscard]] Contact<Number> at(Side side, const Number& elapsed, Motion<Number> m) const {
     m.x = side == Side::upper ? upper_ : lower_;
-    if constexpr (E.damping == Damping::none && E.forcing == Forcing::none) m.v = closing(side, conserved_speed(m.x));
+    if (conserves()) m.v = closing(side, conserved_speed(m.x));
     return {side, elapsed, m, evaluations_, true};
   }
 

@@ -35,19 +35,19 @@ struct ContactForce {
 template <class Number, Effects E>
 [[nodiscard]] ContactForce<Number> contact_force(const ArcConstants<Number, E>& constants, const Stop<Number>& stop,
                                                  const SineCosine<Number>& phase) {
-  if constexpr (E.forcing == Forcing::none) return {stop.into(constants.load - stop.position), Number(0)};
-  return {stop.into(constants.f * phase.sine + (constants.load - stop.position)),
+  if constexpr (E.forcing == Forcing::none) return {stop.into(constants.constant_force(stop.position)), Number(0)};
+  return {stop.into(constants.f * phase.sine + constants.constant_force(stop.position)),
           stop.into(constants.f * constants.nu * phase.cosine)};
 }
 
 /// Whether a stop holds a mass at rest from this instant on. Decided without the force if it can't change the answer:
-/// at a tangency |f| = |x_stop - load| its rounding would release a mass that is always pressed, or hold one that never
-/// is.
+/// at a tangency |f| = |k x_stop - load| its rounding would release a mass that is always pressed, or hold one that
+/// never is.
 template <class Number, Effects E>
 [[nodiscard]] bool holds(const ArcConstants<Number, E>& constants, const Stop<Number>& stop,
                          const SineCosine<Number>& phase) {
   using std::abs;
-  const Number constant = stop.into(constants.load - stop.position);
+  const Number constant = stop.into(constants.constant_force(stop.position));
   if constexpr (E.forcing == Forcing::none) return constant > 0;
   if (constant <= -abs(constants.f)) return false;
   if (constant >= abs(constants.f)) return true;
@@ -60,7 +60,7 @@ template <class Number, Effects E>
 template <class Number, Effects E>
 [[nodiscard]] std::optional<Number> release_phase(const ArcConstants<Number, E>& constants, const Stop<Number>& stop) {
   using std::abs, std::atan2, std::sqrt;
-  const Number needed = stop.position - constants.load, f = constants.f;
+  const Number needed = constants.spring(stop.position) - constants.load, f = constants.f;
   if (E.forcing == Forcing::none || !(abs(needed) < abs(f))) return std::nullopt;
   // |cos(theta)|, over |f| so that no square vanishes; the pressing force falls if into(f cos) < 0
   const Number size = abs(f), along = sqrt((size - needed) / size * ((size + needed) / size));
@@ -84,7 +84,7 @@ template <class Number, Effects E>
   using std::abs;
   const Number &a = press.force, &h = constants.h;
   const Number slope = press.rate / a, bend = abs(constants.f) / a * constants.nu * constants.nu;
-  const Number time = 2 * (rebound / a) / (1 - stop.law.R), rates = 1 + 2 * h + abs(slope);
+  const Number time = 2 * (rebound / a) / (1 - stop.law.R), rates = constants.natural + 2 * h + abs(slope);
   return {time - (h + slope) * time * time / 3, (rates * rates + bend) * time * time * time};
 }
 

@@ -15,9 +15,12 @@ struct HigherDerivatives {
 template <class Number, Effects E>
 struct EquationOfMotion {
   Number twice_h, f, nu;
+  Number k{1.0};           ///< stiffness; not read unless it is an effect
+  Number unbalanced{0.0};  ///< the load, if no spring balances it; likewise
 
   /// At a displacement y from the load's equilibrium.
   [[nodiscard]] Number acceleration(const Number& y, const Number& v, const Number& sine) const {
+    if constexpr (E.stiffness) return next(force(f, sine) + unbalanced, v, y);
     return next(force(f, sine), v, y);
   }
   [[nodiscard]] Number jerk(const Number& v, const Number& a, const Number& cosine) const {
@@ -42,6 +45,7 @@ struct EquationOfMotion {
   }
   /// A derivative of the displacement from that of the force and from the two before.
   [[nodiscard]] Number next(const Number& derivative_of_force, const Number& last, const Number& before) const {
+    if constexpr (E.stiffness) return derivative_of_force - mul_add(twice_h, last, k * before);
     if constexpr (E.damping == Damping::none) return derivative_of_force - before;
     return derivative_of_force - mul_add(twice_h, last, before);
   }

@@ -14,12 +14,13 @@ struct FreeMotion {
   Number x, v;
 };
 
-/// Free motion over a time s (eq. 7): x(s) = A x + B v, v(s) = -B x + C v, and its acceleration -C x - D v.
+/// Free motion over a time s (eq. 7): x(s) = A x + B v, v(s) = -k B x + C v, and its acceleration -k C x - D v.
 template <class Number>
 struct Propagator {
   Number a, b, c, d;
   Number a_minus_one;  ///< A - 1, small for short times
 
+  /// With k = 1.
   [[nodiscard]] FreeMotion<Number> advance(const FreeMotion<Number>& from) const {
     return {mul_add(a, from.x, b * from.v), mul_sub(c, from.v, b * from.x)};
   }
@@ -53,7 +54,8 @@ template <class Number>
   return {from.sine + change.sine, from.cosine + change.cosine};
 }
 
-/// The propagator of light damping over a time s (eq. 8), from e^(-h s), cos(lambda s), sin(lambda s)/lambda and h.
+/// The propagator of light damping at k = 1 over a time s (eq. 8), from e^(-h s), cos(lambda s), sin(lambda s)/lambda
+/// and h.
 template <class Number>
 [[nodiscard]] Propagator<Number> light_propagator(const Number& decay, const Number& cosine,
                                                   const Number& sine_over_root, const Number& h) {

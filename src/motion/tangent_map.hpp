@@ -25,16 +25,15 @@ class TangentMap {
   void arc(const A& arc, double, double length) {
     const auto& constants = arc.constants();
     multiply(power_of(constants, Number(length)));
-    h_ = constants.h,
-    force_ = constants.load + constants.acceleration(Number(0), Number(0), arc.phase_after(Number(length)).sine);
+    h_ = constants.h, k_ = constants.k, force_ = constants.force(arc.phase_after(Number(length)).sine);
   }
   void rest(const Rest&) { top_ = shear_ = bottom_ = 0; }
   void impact(const Impact& impact) {
     const Number before(impact.before), after(impact.after);
     const Number slope = stop_at<Number>(stops_, impact.side).law.derivative();
     if (before == 0) return;  // it touches, and the velocity is not reversed
-    const Number a_before = force_ - impact.position - 2 * h_ * before,
-                 a_after = force_ - impact.position - 2 * h_ * after;
+    const Number force = force_ - k_ * impact.position;
+    const Number a_before = force - 2 * h_ * before, a_after = force - 2 * h_ * after;
     multiply({{slope, Number(0), (a_after - slope * a_before) / before, slope}, slope * slope});
   }
 
@@ -88,13 +87,13 @@ class TangentMap {
   /// Free motion over a time of any length, as a power of one over a time so short that it doesn't underflow.
   template <class ArcConstants>
   [[nodiscard]] static ScaledMap power_of(const ArcConstants& constants, const Number& length) {
-    using std::exp;
+    using std::abs, std::exp;
     int doublings = 0;
     Number piece = length;
-    const Number slower = constants.h < 1 ? constants.h : constants.slow;  // the faster decay may vanish
+    const Number slower = constants.rotates() ? constants.h : Number(abs(constants.slow));  // the faster may vanish
     for (; slower * piece > 64; ++doublings) piece /= 2;
     const auto p = constants.propagator(piece);
-    ScaledMap power{{p.a, p.b, -p.b, p.c}, exp(-2 * constants.h * piece)};
+    ScaledMap power{{p.a, p.b, -constants.spring(p.b), p.c}, exp(-2 * constants.h * piece)};
     for (; doublings > 0; --doublings) {
       const auto [a, b, c, d] = power.map;
       power.map = {a * a + b * c, b * (a + d), c * (a + d), b * c + d * d};
@@ -127,7 +126,7 @@ class TangentMap {
   Number cosine_ = 1, sine_ = 0;             ///< the rotation
   Number top_ = 1, shear_ = 0, bottom_ = 1;  ///< the triangle,
   double exponent_ = 0;                      ///< times 2^exponent
-  Number h_ = 0, force_ = 0;                 ///< damping, and the force at the end of the last arc
+  Number h_ = 0, k_ = 1, force_ = 0;         ///< damping, stiffness, and the force at the end of the last arc
 };
 
 }  // namespace clatter::motion

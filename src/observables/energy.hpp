@@ -14,8 +14,8 @@
 
 namespace clatter::observables {
 
-/// The energy ledger of the observed time, per unit mass (eqs. 31 to 34). The energy is (x'^2 + x^2)/2; the work of the
-/// force and the load, less the losses by damping and impacts, is its growth, and the residual says how well this
+/// The energy ledger of the observed time, per unit mass (eqs. 31 to 34). The energy is (x'^2 + k x^2)/2; the work of
+/// the force and the load, less the losses by damping and impacts, is its growth, and the residual says how well this
 /// holds.
 ///
 /// Work and damping are integrated over each arc by Gauss-Legendre quadrature, exact to rounding.
@@ -40,13 +40,24 @@ class Energy {
   [[nodiscard]] static std::string description(const Settings&) { return "energy"; }
   [[nodiscard]] static std::vector<Column<Values>> columns(const Settings&) {
     const Coordinate stop = stop_coordinate();
-    return {
-        scalar("work_in", "work of the force and the load in the observed time, per unit mass", &Values::work_in),
-        scalar("loss_damping", "energy lost to damping in the observed time, per unit mass", &Values::loss_damping),
-        pair("loss_impact", "energy lost in impacts in the observed time, per unit mass", stop, &Values::loss_impact),
-        pair("impulse", "impulse on the stop in the observed time, per unit mass", stop, &Values::impulse),
-        scalar("energy_residual", "work less losses and growth of the energy, per unit mass", &Values::energy_residual),
-        scalar("impact_power", "energy lost in impacts per tau, per unit mass", &Values::impact_power)};
+    return {in_si("work of the force and the load in the observed time",
+                  scalar("work_in", "work of the force and the load in the observed time, per unit mass",
+                         &Values::work_in, Quantity::energy)),
+            in_si("energy lost to damping in the observed time",
+                  scalar("loss_damping", "energy lost to damping in the observed time, per unit mass",
+                         &Values::loss_damping, Quantity::energy)),
+            in_si("energy lost in impacts in the observed time",
+                  pair("loss_impact", "energy lost in impacts in the observed time, per unit mass", stop,
+                       &Values::loss_impact, Quantity::energy)),
+            in_si("impulse on the stop in the observed time",
+                  pair("impulse", "impulse on the stop in the observed time, per unit mass", stop, &Values::impulse,
+                       Quantity::impulse)),
+            in_si("work less losses and growth of the energy",
+                  scalar("energy_residual", "work less losses and growth of the energy, per unit mass",
+                         &Values::energy_residual, Quantity::energy)),
+            in_si("energy lost in impacts per second",
+                  scalar("impact_power", "energy lost in impacts per tau, per unit mass", &Values::impact_power,
+                         Quantity::power))};
   }
 
   Energy(const Settings&, const ObservedSpan& span)
@@ -81,7 +92,8 @@ class Energy {
     Values values{.work_in = force_work_ + oscillator_.load * (x - x_begin_), .loss_damping = loss_damping_};
     values.loss_impact = loss_impact_, values.impulse = impulse_;
     const double lost = loss_impact_[0] + loss_impact_[1];
-    const double growth = ((v - v_begin_) * (v + v_begin_) + (x - x_begin_) * (x + x_begin_)) / 2;
+    const double k = oscillator_.stiffness,
+                 growth = ((v - v_begin_) * (v + v_begin_) + k * (x - x_begin_) * (x + x_begin_)) / 2;
     values.energy_residual = values.work_in - loss_damping_ - lost - growth;
     values.impact_power = lost / span.total;
     return values;
@@ -111,7 +123,7 @@ class Energy {
   /// Integral of the force that presses the mass into a stop, eq. 22, over a rest.
   [[nodiscard]] double pressing(const motion::Rest& rest) const {
     const Oscillator& o = oscillator_;
-    double sum = (o.load - rest.position) * rest.length;
+    double sum = constant_force(o, rest.position) * rest.length;
     if (o.forcing != 0) {
       const double half = o.frequency * rest.length / 2;
       sum += 2 * o.forcing / o.frequency * std::sin(phase_ + o.frequency * rest.time + half) * std::sin(half);

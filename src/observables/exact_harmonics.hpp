@@ -16,7 +16,7 @@ namespace clatter::observables {
 /// Harmonics integrated over the arcs themselves, without samples and so without aliasing.
 ///
 /// With w = k Omega, integrating eq. 3 by parts over an arc gives its part of the integral of x e^{-iw tau},
-/// Z X = int (f sin theta + load) e^{-iw tau} - [(x' + (iw + 2h) x) e^{-iw tau}],  Z = 1 - w^2 + 2ihw; eq. 38
+/// Z X = int (f sin theta + load) e^{-iw tau} - [(x' + (iw + 2h) x) e^{-iw tau}],  Z = k - w^2 + 2ihw; eq. 38
 /// is their sum. If Z is small, at a resonance, the right-hand side cancels, and Gauss-Legendre quadrature takes its
 /// place, exact to rounding; so it does for arcs by polynomials, which fulfil eq. 3 only to their error.
 class ExactHarmonics {
@@ -43,7 +43,7 @@ class ExactHarmonics {
     if (!(begin > 0.0)) first_x_ = first.x;
     for (std::size_t k = 0; k < x_.size(); ++k) {
       const double w = base_ * static_cast<double>(k), h = arc.constants().h;
-      const Complex z = impedance(h, w);
+      const Complex z = impedance(h, w, arc.constants().k);
       if (resonates(z)) {
         x_[k] += quadrature<20>(arc, w, begin, length);
         continue;
@@ -73,18 +73,20 @@ class ExactHarmonics {
       const Complex slope(2 * o.damping, w), growth = (last.v - first.v) + slope * (last.x - first.x);
       Complex force = k == 0 ? o.load * total : 0.0;
       if (k == 1) force = o.forcing * total / 2 * Complex(std::sin(phase), -std::cos(phase));
-      x_[k] = (force + jumps[k] - growth) / impedance(o.damping, w);
+      x_[k] = (force + jumps[k] - growth) / impedance(o.damping, w, o.stiffness);
     }
   }
   /// A time `total` of the steady response to the force, whole periods of it from displacement x on, base frequency nu.
   void response(const Oscillator& o, double phase, double x, double total) {
-    const auto [in_phase, quadrature, amplitude] = steady_response(o.damping, o.forcing, o.frequency);
+    const auto [in_phase, quadrature, amplitude] = steady_response(o);
     first_x_ = x;
-    x_[0] = o.load * total;
+    x_[0] = equilibrium_of(o) * total;
     if (x_.size() > 1) x_[1] = total / 2 * Complex(quadrature, -in_phase) * std::polar(1.0, phase);
   }
   /// Z of harmonic w.
-  [[nodiscard]] static Complex impedance(double h, double w) { return {1 - w * w, 2 * h * w}; }
+  [[nodiscard]] static Complex impedance(double h, double w, double stiffness) {
+    return {stiffness - w * w, 2 * h * w};
+  }
   /// Whether Z is so small that quadrature has to take the place of a division by it.
   [[nodiscard]] static bool resonates(const Complex& z) { return std::norm(z) < 1.0 / 64; }
 

@@ -42,9 +42,10 @@ class Extrema {
   [[nodiscard]] static bool wanted(const Settings& settings) { return settings.extrema; }
   [[nodiscard]] static std::string description(const Settings&) { return "extrema"; }
   [[nodiscard]] static std::vector<Column<Values>> columns(const Settings&) {
-    return {scalar("x_min", "minimum displacement", &Values::x_min),
-            scalar("x_max", "maximum displacement", &Values::x_max),
-            scalar("v_min", "minimum velocity", &Values::v_min), scalar("v_max", "maximum velocity", &Values::v_max)};
+    return {scalar("x_min", "minimum displacement", &Values::x_min, Quantity::length),
+            scalar("x_max", "maximum displacement", &Values::x_max, Quantity::length),
+            scalar("v_min", "minimum velocity", &Values::v_min, Quantity::velocity),
+            scalar("v_max", "maximum velocity", &Values::v_max, Quantity::velocity)};
   }
   [[nodiscard]] static bool in_lanes(const Settings&, const ObservedSpan&) { return true; }
 
@@ -78,8 +79,8 @@ class Extrema {
   /// The ranges of the steady response to the force.
   bool response(const ObservedSpan& span, double) {
     const Oscillator& o = span.scene.oscillator;
-    const double amplitude = steady_response(o.damping, o.forcing, o.frequency).amplitude, v = o.frequency * amplitude;
-    include({o.load - amplitude, o.load + amplitude}, {-v, v});
+    const double amplitude = steady_response(o).amplitude, v = o.frequency * amplitude, middle = equilibrium_of(o);
+    include({middle - amplitude, middle + amplitude}, {-v, v});
     return true;
   }
   void rest(const motion::Rest& rest) { x_.include(rest.position), v_.include(0.0); }

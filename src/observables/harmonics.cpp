@@ -33,18 +33,22 @@ Coordinate harmonic_coordinate(std::size_t count) {
 
 std::vector<Column<Harmonics::Values>> Harmonics::columns(const Settings& settings) {
   const Coordinate harmonic = harmonic_coordinate(count_of(settings));
-  const auto of = [&](const char* name, const char* long_name, const char* units, Spectrum Values::*spectrum,
+  const auto of = [&](const char* name, const char* long_name, Quantity quantity, Spectrum Values::*spectrum,
                       std::vector<double> Spectrum::*part) {
     return series<Values>(
-        name, long_name, units, harmonic,
+        name, long_name, quantity, harmonic,
         [spectrum, part](const Values& v) -> const std::vector<double>& { return v.*spectrum.*part; });
   };
-  return {
-      of("x_amplitude", "amplitude of the harmonics of displacement", "1", &Values::x_spectrum, &Spectrum::amplitude),
-      of("x_phase", "phase of the harmonics of displacement at tau = 0", "rad", &Values::x_spectrum, &Spectrum::phase),
-      of("v_amplitude", "amplitude of the harmonics of velocity", "1", &Values::v_spectrum, &Spectrum::amplitude),
-      of("v_phase", "phase of the harmonics of velocity at tau = 0", "rad", &Values::v_spectrum, &Spectrum::phase),
-      scalar("base_frequency", "frequency whose multiples the harmonics are", &Values::base_frequency)};
+  return {of("x_amplitude", "amplitude of the harmonics of displacement", Quantity::length, &Values::x_spectrum,
+             &Spectrum::amplitude),
+          of("x_phase", "phase of the harmonics of displacement at tau = 0", Quantity::angle, &Values::x_spectrum,
+             &Spectrum::phase),
+          of("v_amplitude", "amplitude of the harmonics of velocity", Quantity::velocity, &Values::v_spectrum,
+             &Spectrum::amplitude),
+          of("v_phase", "phase of the harmonics of velocity at tau = 0", Quantity::angle, &Values::v_spectrum,
+             &Spectrum::phase),
+          scalar("base_frequency", "frequency whose multiples the harmonics are", &Values::base_frequency,
+                 Quantity::frequency)};
 }
 
 FourierScratch Harmonics::scratch_for(const Settings& settings) {
@@ -61,7 +65,7 @@ bool Harmonics::in_lanes(const Settings& settings, const ObservedSpan& span) {
   if (!of_force || !span.has_whole_turns()) return false;
   for (std::int64_t k = 0; k <= settings.harmonics; ++k) {
     const double w = static_cast<double>(k) * o.frequency;
-    if (ExactHarmonics::resonates(ExactHarmonics::impedance(o.damping, w))) return false;
+    if (ExactHarmonics::resonates(ExactHarmonics::impedance(o.damping, w, o.stiffness))) return false;
   }
   return true;
 }

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "model/key.hpp"
+#include "model/quantity.hpp"
 #include "model/scene.hpp"
 #include "observables/fourier_transform.hpp"
 
@@ -46,45 +47,59 @@ struct Coordinate {
 /// A variable of the results, and how to extract it from the values of a point.
 template <class Values>
 struct Column {
-  std::string name, long_name, units;
+  std::string name, long_name;
+  Quantity quantity = Quantity::number;
   std::vector<Coordinate> along;                           ///< dimensions beyond the sweep's axes, at most one
   std::function<void(const Values&, double* values)> put;  ///< writes `width()` values
   std::function<std::string(const Values&)> text{};        ///< instead of numbers: a text in UTF-8
   std::size_t longest_text = 0;                            ///< bytes
   bool intermediate = false;  ///< a number for later work on the whole sweep: in journals and shards only
+  std::string name_in_si{};   ///< the long name in the results of a machine, if that is another
 
   [[nodiscard]] std::size_t width() const { return along.empty() ? 1 : along.front().length; }
 };
 
 template <class Values>
-[[nodiscard]] Column<Values> scalar(std::string name, std::string long_name, double Values::*member) {
-  return {std::move(name), std::move(long_name), "1", {}, [member](const Values& v, double* out) { *out = v.*member; }};
+[[nodiscard]] Column<Values> scalar(std::string name, std::string long_name, double Values::*member,
+                                    Quantity quantity = Quantity::number) {
+  return {std::move(name), std::move(long_name), quantity, {}, [member](const Values& v, double* out) {
+            *out = v.*member;
+          }};
 }
 
 template <class Values>
 [[nodiscard]] Column<Values> text(std::string name, std::string long_name, std::string Values::*member,
                                   std::size_t longest) {
-  return {std::move(name), std::move(long_name), "1", {}, {}, [member](const Values& v) { return v.*member; }, longest};
+  return {
+      std::move(name), std::move(long_name), Quantity::number, {}, {}, [member](const Values& v) { return v.*member; },
+      longest};
 }
 
 /// Two values, over `stop` or another coordinate of that length.
 template <class Values>
 [[nodiscard]] Column<Values> pair(std::string name, std::string long_name, Coordinate along,
-                                  std::array<double, 2> Values::*member) {
+                                  std::array<double, 2> Values::*member, Quantity quantity = Quantity::number) {
   const auto put = [member](const Values& v, double* out) { std::ranges::copy(v.*member, out); };
-  return {std::move(name), std::move(long_name), "1", {std::move(along)}, put};
+  return {std::move(name), std::move(long_name), quantity, {std::move(along)}, put};
 }
 
 /// The values of a vector, NaN beyond its end; `get` gives the vector.
 template <class Values, class Get>
-[[nodiscard]] Column<Values> series(std::string name, std::string long_name, std::string units, Coordinate along,
+[[nodiscard]] Column<Values> series(std::string name, std::string long_name, Quantity quantity, Coordinate along,
                                     Get get) {
   const auto put = [width = along.length, get](const Values& v, double* out) {
     const std::vector<double>& values = get(v);
     const std::size_t present = std::min(width, values.size());
     std::fill_n(std::copy_n(values.begin(), present, out), width - present, no_value);
   };
-  return {std::move(name), std::move(long_name), std::move(units), {std::move(along)}, put};
+  return {std::move(name), std::move(long_name), quantity, {std::move(along)}, put};
+}
+
+/// A column whose long name is another one in the results of a machine.
+template <class Values>
+[[nodiscard]] Column<Values> in_si(std::string long_name, Column<Values> column) {
+  column.name_in_si = std::move(long_name);
+  return column;
 }
 
 /// The observed time of a point, as observers see it when it begins.

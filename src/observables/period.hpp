@@ -30,10 +30,12 @@ class Period {
   [[nodiscard]] static bool wanted(const Settings& settings) { return settings.period; }
   [[nodiscard]] static std::string description(const Settings&) { return "period"; }
   [[nodiscard]] static std::vector<Column<Values>> columns(const Settings&) {
-    return {scalar("period", "period of the motion", &Values::period),
+    return {scalar("period", "period of the motion", &Values::period, Quantity::time),
             scalar("period_ratio", "period of the motion in forcing periods", &Values::period_ratio),
-            scalar("eigenfrequency", "2 pi over the period of unforced motion", &Values::eigenfrequency),
-            scalar("velocity_ratio", "|velocity before impact / xs|", &Values::velocity_ratio)};
+            in_si("one over the period of unforced motion",
+                  scalar("eigenfrequency", "2 pi over the period of unforced motion", &Values::eigenfrequency,
+                         Quantity::frequency)),
+            scalar("velocity_ratio", "|velocity before impact / xs|", &Values::velocity_ratio, Quantity::rate)};
   }
   [[nodiscard]] static bool in_lanes(const Settings&, const ObservedSpan&) { return true; }
 

@@ -50,12 +50,13 @@ class Section {
     return "section of " + std::to_string(settings.section) + " states";
   }
   [[nodiscard]] static std::vector<Column<Values>> columns(const Settings& settings) {
-    const auto of = [&](const char* name, const char* long_name, std::vector<double> Values::*member) {
-      return series<Values>(name, long_name, "1", {"section", static_cast<std::size_t>(settings.section)},
+    const auto of = [&](const char* name, const char* long_name, std::vector<double> Values::*member,
+                        Quantity quantity) {
+      return series<Values>(name, long_name, quantity, {"section", static_cast<std::size_t>(settings.section)},
                             [member](const Values& v) -> const std::vector<double>& { return v.*member; });
     };
-    return {of("section_x", "displacement in successive periods", &Values::section_x),
-            of("section_v", "velocity in successive periods", &Values::section_v)};
+    return {of("section_x", "displacement in successive periods", &Values::section_x, Quantity::length),
+            of("section_v", "velocity in successive periods", &Values::section_v, Quantity::velocity)};
   }
   [[nodiscard]] static double values_held(const Settings& settings) {
     return 2 * static_cast<double>(settings.section);
@@ -68,7 +69,7 @@ class Section {
   }
 
   Section(const Settings& settings, const ObservedSpan& span)
-      : load_(span.scene.oscillator.load),
+      : middle_(equilibrium_of(span.scene.oscillator)),
         periodic_(span.periodic),
         total_(span.total),
         most_(static_cast<std::size_t>(settings.section)) {
@@ -96,7 +97,7 @@ class Section {
   /// Takes the state of the steady response, whose period is that of the force.
   bool response(const ObservedSpan& span, double) {
     const PhasePoint response = response_at(span.scene.oscillator, std::sin(phase_), std::cos(phase_));
-    take({load_ + response.x}, {response.v});
+    take({middle_ + response.x}, {response.v});
     return true;
   }
   /// Takes states that were found elsewhere, in place of those of the flights.
@@ -116,7 +117,8 @@ class Section {
   }
 
  private:
-  static constexpr double longest_piece = 3.0;  ///< of an arc: zeros of free motion are at least pi apart
+  /// Of an arc, times the natural frequency: zeros of a decaying rotation are at least pi apart.
+  static constexpr double longest_piece = 3.0;
 
   /// From the forcing phase of the start to another one, in turns, 0 ... 1.
   [[nodiscard]] static double turns_to(double phase, const Scene& scene) {
@@ -127,22 +129,38 @@ class Section {
   /// Adds the states in which an arc without force passes the load's equilibrium upward: in each piece at most one.
   template <class A>
   void find_passages(const A& arc, double begin, double length) {
-    const auto from_load = [&](double s) { return arc.at(s).x - load_; };
+    const auto from_middle = [&](double s) { return arc.at(s).x - middle_; };
     const motion::Motion<double> start = arc.start();
-    if (start.x == load_ && start.v > 0 && !bounced_) add(begin, start);
-    double s = 0.0, before = start.x - load_;
+    if (start.x == middle_ && start.v > 0 && !bounced_) add(begin, start);
+    const bool rotates = arc.constants().rotates();
+    const double turn = rotates ? length : turning_point(arc, length);
+    double s = 0.0, before = start.x - middle_;
     while (s < length) {
-      const double next = std::min(length, s + longest_piece), after = from_load(next);
+      const double end = s < turn ? turn : length, piece = longest_piece / arc.constants().natural;
+      const double next = rotates ? std::min(end, s + piece) : end, after = from_middle(next);
       if (before < 0 && after > 0) {
-        std::uintmax_t iterations = 100;
-        const auto [below, above] = boost::math::tools::toms748_solve(
-            from_load, s, next, before, after, boost::math::tools::eps_tolerance<double>(), iterations);
+        const double above = root_of(from_middle, s, next, before, after);
         add(begin + above, arc.at(above));
       } else if (before < 0 && after == 0 && next < length) {
         add(begin + next, arc.at(next));
       }
       s = next, before = after;
     }
+  }
+  /// The one instant at which a sum of two exponentials turns back, else the end of the flight.
+  template <class A>
+  static double turning_point(const A& arc, double length) {
+    const auto velocity = [&](double s) { return arc.at(s).v; };
+    const double first = arc.start().v, last = velocity(length);
+    return first * last < 0 ? root_of(velocity, 0.0, length, first, last) : length;
+  }
+  /// The end of a bracket of a root, on the side of `high` (Alefeld et al. 1995).
+  template <class Function>
+  static double root_of(const Function& function, double low, double high, double at_low, double at_high) {
+    std::uintmax_t iterations = 100;
+    return boost::math::tools::toms748_solve(function, low, high, at_low, at_high,
+                                             boost::math::tools::eps_tolerance<double>(), iterations)
+        .second;
   }
   /// The end of a period is its beginning: a passage there counts once.
   void add(double time, const motion::Motion<double>& m) {
@@ -152,7 +170,7 @@ class Section {
   }
   static constexpr double same_instant = 1e-9;  ///< of the period
 
-  double load_;
+  double middle_;  ///< the equilibrium
   bool periodic_;
   double total_;
   std::size_t most_;

@@ -42,7 +42,8 @@ class Stability {
                                 "number of the multiplier, 1: the larger modulus"};
     return {pair("multiplier_re", "real part of the period's multipliers", multiplier, &Values::multiplier_re),
             pair("multiplier_im", "imaginary part of the period's multipliers", multiplier, &Values::multiplier_im),
-            scalar("lyapunov", "largest Lyapunov exponent per tau", &Values::lyapunov)};
+            in_si("largest Lyapunov exponent",
+                  scalar("lyapunov", "largest Lyapunov exponent per tau", &Values::lyapunov, Quantity::rate))};
   }
 
   Stability(const Settings&, const ObservedSpan& span) : Stability(span.scene.stops, span.uncertainty) {}

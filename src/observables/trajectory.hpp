@@ -35,12 +35,13 @@ class Trajectory {
     return "trajectory of " + std::to_string(settings.trajectory) + " samples";
   }
   [[nodiscard]] static std::vector<Column<Values>> columns(const Settings& settings) {
-    const auto of = [&](const char* name, const char* long_name, std::vector<double> Values::*member) {
-      return series<Values>(name, long_name, "1", {"sample", count_of(settings)},
+    const auto of = [&](const char* name, const char* long_name, std::vector<double> Values::*member,
+                        Quantity quantity) {
+      return series<Values>(name, long_name, quantity, {"sample", count_of(settings)},
                             [member](const Values& v) -> const std::vector<double>& { return v.*member; });
     };
-    return {of("tau", "time since the beginning of the observed time", &Values::tau),
-            of("x", "displacement", &Values::x), of("v", "velocity", &Values::v)};
+    return {of("tau", "time since the beginning of the observed time", &Values::tau, Quantity::time),
+            of("x", "displacement", &Values::x, Quantity::length), of("v", "velocity", &Values::v, Quantity::velocity)};
   }
   [[nodiscard]] static double values_held(const Settings& settings) {
     return 3 * static_cast<double>(settings.trajectory);

@@ -27,8 +27,8 @@ double longest_time(const point::Problem& scene) {
 double way_of(const point::Problem& scene) {
   const Oscillator& o = scene.oscillator;
   const double time = longest_time(scene);
-  const double begun = norm(scene.start.displacement - o.load, scene.start.velocity);
-  const double response = (1 + o.frequency) * steady_response(o.damping, o.forcing, o.frequency).amplitude;
+  const double begun = norm(scene.start.displacement - equilibrium_of(o), scene.start.velocity);
+  const double response = (1 + o.frequency) * steady_response(o).amplitude;
   const double forced = std::min(response, std::abs(o.forcing) * time);  // at resonance it grows
   return begun * std::min(time, 1 / o.damping) + forced * time;
 }
@@ -51,7 +51,8 @@ double impacts_without_loss(const point::Problem& scene) {
   const bool lower = needs.effects.lower && stops.restitution_lower >= 1,
              upper = needs.effects.upper && stops.restitution_upper >= 1;
   const double push = std::abs(o.forcing);
-  if ((lower && !(push < needs.lower_gap)) || (upper && !(push < needs.upper_gap))) return scene.time.max_impacts;
+  if ((lower && !(push < constant_force(o, stops.lower))) || (upper && !(push < -constant_force(o, stops.upper))))
+    return scene.time.max_impacts;
   if (!(lower && upper) || std::isnan(scene.start.displacement)) return 0;
   return std::min(scene.time.max_impacts, way_of(scene) / (stops.upper - stops.lower));
 }

@@ -56,7 +56,7 @@ double expected_impacts(const sweep::Sweep& sweep, const std::optional<sweep::Sh
   for (std::size_t i = 0; i < examined; ++i) {
     const std::size_t local_index = (2 * i + 1) * points / (2 * examined);  // the middles of equal parts
     point::Problem scene = problem_at(sweep, share.point(local_index / share.length(), local_index % share.length()));
-    sweep::start_from(scene, std::nullopt);
+    sweep::start_from(scene, std::nullopt, {});
     scene.observe = {}, scene.observe.impact_log = true, scene.integration.all_effects = false;
     impacts += scene.time.mode == steady::Mode::transient ? impacts_of_transient(scene, trial)
                                                           : impacts_of_steady_motion(scene, trial);

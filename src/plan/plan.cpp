@@ -20,7 +20,7 @@ namespace {
 double seconds_of_work(point::Problem scene, const Effects& effects) {
   if (scene.integration.method == stepping::Method::exact) return point::seconds_per_evaluation(effects);
   if (!std::isfinite(scene.start.displacement)) scene.start = {};
-  sweep::start_from(scene, std::nullopt);
+  sweep::start_from(scene, std::nullopt, {});
   point::ThreadScratch scratch;
   return seconds_per_period(scene, scratch);
 }
@@ -80,7 +80,8 @@ void warn(const sweep::Sweep& sweep, const Survey& survey, Plan& plan) {
 
 std::string effect_set_name(const Effects& effects) {
   const Effects& set = compiled_effects[effect_set_of(effects)];
-  std::string name = set.damping == Damping::none    ? "no damping"
+  std::string name = set.stiffness                   ? "any spring"
+                     : set.damping == Damping::none  ? "no damping"
                      : set.damping == Damping::light ? "light damping"
                                                      : "heavy damping";
   if (set.forcing != Forcing::none) name += set.forcing == Forcing::regular ? ", forcing" : ", resonant forcing";

@@ -39,6 +39,10 @@ std::string duration_text(const point::Problem& scene) {
 
 Reason damping_reason(const Oscillator& oscillator) {
   const std::string h = "h = " + text(oscillator.damping);
+  if (oscillator.stiffness <= 0)
+    return {"damping", oscillator.damping != 0,
+            h + (oscillator.stiffness < 0 ? ", k < 0: free motion is the sum of a growth and a decay"
+                                          : ", k = 0: free motion is a drift that damping brings to a halt")};
   switch (damping_of(oscillator)) {
     case Damping::none:
       return {"damping", false, "h = 0: no damping"};
@@ -56,13 +60,34 @@ Reason forcing_reason(const Oscillator& oscillator) {
   return {"forcing", true, "f = " + text(oscillator.forcing)};
 }
 
+/// The force that takes the place of shaken stops or a shaken base.
+Reason shaking_reason(const point::Problem& scene) {
+  const bool stops = scene.shaking.stops != 0;
+  const std::string key =
+      stops ? "stop_amplitude = " + text(scene.shaking.stops) : "base_amplitude = " + text(scene.shaking.base);
+  return {"shaking", true,
+          key + ": in the frame of the " + (stops ? "stops" : "base") + " the force f above, its phase " +
+              text(scene.shaking.lead) + " ahead"};
+}
+
 Reason resonance_reason(const Oscillator& oscillator) {
+  if (oscillator.stiffness <= 0) return {"resonance", false, "no spring that a force could be in resonance with"};
   const double distance = std::hypot(oscillator.damping, oscillator.frequency - 1);
   if (oscillator.forcing == 0) return {"resonance", false, "f = 0: nothing to resonate with"};
   const std::string what = "hypot(h, nu - 1) = " + text(distance);
   if (forcing_of(oscillator) == Forcing::secular)
     return {"resonance", true, what + " < 1/16: response and transient nearly cancel"};
   return {"resonance", false, what + " >= 1/16: response and transient keep their digits apart"};
+}
+
+/// A spring of another stiffness than 1. Points with k > 0 are computed with k = 1, in another unit of time.
+Reason stiffness_reason(const point::Problem& scene) {
+  const double computed = scene.oscillator.stiffness, k = computed / (scene.units.time * scene.units.time);
+  const std::string is = "k = " + text(k);
+  if (computed == 0) return {"stiffness", true, "k = 0: no spring"};
+  const std::string rate = text(1 / scene.units.time);
+  const std::string in_units = scene.units.time == 1 ? "" : ": times here are in 1/" + rate + ", velocities in " + rate;
+  return {"stiffness", computed != 1, is + (computed < 0 ? ", an unstable spring" : "") + in_units};
 }
 
 Reason load_reason(const Oscillator& oscillator) {
@@ -101,10 +126,13 @@ Reason rest_reason(const point::Problem& scene, const Requirements& needs) {
   const std::string effect = "chatter and rest";
   if (!needs.effects.stops()) return {effect, false, "no stop in reach"};
   const bool lower_first = needs.effects.lower && (!needs.effects.upper || needs.lower_gap < needs.upper_gap);
-  const double gap = lower_first ? needs.lower_gap : needs.upper_gap;
+  const double gap = lower_first ? constant_force(scene.oscillator, scene.stops.lower)
+                                 : -constant_force(scene.oscillator, scene.stops.upper);
   const std::string force = "|f| = " + text(std::abs(scene.oscillator.forcing)) +
                             (needs.effects.rest ? " >= " : " < ") + text(gap) +
-                            (scene.oscillator.load == 0 ? "" : ", the gap from the load");
+                            (scene.oscillator.stiffness != 1 ? ", k times the stop less the load"
+                             : scene.oscillator.load == 0    ? ""
+                                                             : ", the gap from the load");
   return {effect, needs.effects.rest,
           force + (needs.effects.rest ? ": a stop can be pressed" : ": no stop can hold the mass")};
 }
@@ -134,6 +162,8 @@ std::vector<Reason> reasons_of(const point::Problem& scene) {
                               resonance_reason(scene.oscillator),       load_reason(scene.oscillator),
                               stop_reason(scene, needs, false),         stop_reason(scene, needs, true),
                               dissipation_reason(scene, needs.effects), rest_reason(scene, needs)};
+  if (scene.oscillator.stiffness != 1 || scene.units.time != 1) reasons.push_back(stiffness_reason(scene));
+  if (is_shaken(scene.shaking)) reasons.push_back(shaking_reason(scene));
   for (Reason& reason : reasons) {
     const bool has_no_set = effect_set_of(kept_in(needs.effects, reason.effect)) == effect_set_of(needs.effects);
     if (!reason.required && !has_no_set) reason.saving = measured_saving(reason.effect);

@@ -24,8 +24,8 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 bool comes_to_its_end(const point::Problem& scene, double time) {
   const Oscillator& o = scene.oscillator;
   if (o.forcing != 0) return o.damping > 0;
-  const double x = scene.start.displacement - o.load, v = scene.start.velocity;
-  const double scale = std::max({std::abs(scene.start.displacement), std::abs(v), std::abs(o.load)});
+  const double x = scene.start.displacement - equilibrium_of(o), v = scene.start.velocity;
+  const double scale = std::max({std::abs(scene.start.displacement), std::abs(v), std::abs(equilibrium_of(o))});
   return o.damping == 0 || fading_time(o, {x, v}, scene.time.tolerance * scale) <= time;
 }
 
@@ -125,14 +125,14 @@ class Surveyor {
 
 double work_of_period(const point::Problem& scene, const Effects& effects) {
   if (scene.integration.method != stepping::Method::exact) return 1;
-  const double step = motion::usual_step(counting_frequency(scene.oscillator));
+  const double step = motion::usual_step(natural_frequency(scene.oscillator), counting_frequency(scene.oscillator));
   return effects.stops() ? std::ceil(period_of(scene.oscillator) / step) + 4 : 1;
 }
 
 point::Problem planned_problem(const sweep::Sweep& sweep, std::size_t point) {
   point::Problem problem = problem_at(sweep, point);
   if (sweep::Branches(sweep).begins(point)) {
-    sweep::start_from(problem, std::nullopt);
+    sweep::start_from(problem, std::nullopt, {});
   } else {
     problem.start = {point::no_value, point::no_value, point::no_value};
   }

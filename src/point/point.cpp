@@ -12,9 +12,10 @@
 namespace clatter::point {
 
 Effects effects_of(const Problem& problem) {
-  const double h = problem.oscillator.damping;
-  if (problem.integration.method != stepping::Method::exact) return general_effects(h);
-  return problem.integration.all_effects ? all_effects(h) : required_effects(problem, duration_of(problem.time));
+  const Oscillator& oscillator = problem.oscillator;
+  if (problem.integration.method != stepping::Method::exact) return general_effects(oscillator);
+  return problem.integration.all_effects ? all_effects(oscillator)
+                                         : required_effects(problem, duration_of(problem.time));
 }
 
 void run_batch(std::span<const WorkItem> items, ThreadScratch& scratch,
@@ -62,6 +63,7 @@ double seconds_per_evaluation(const Effects& effects) {
     problem.oscillator.damping = E.damping == Damping::none ? 0.0 : E.damping == Damping::light ? 0.04 : 2.0;
     problem.oscillator.forcing = E.forcing == Forcing::none ? 0.0 : 1.0;
     problem.oscillator.frequency = E.forcing == Forcing::secular ? 1.03 : 1.3;
+    if (E.stiffness) problem.oscillator.stiffness = E.damping == Damping::light ? 1.1 : 0.0;
     problem.start.velocity = 1.0;
     if (E.stops()) problem.stops = {-0.5, 0.5, 0.7, 0.7};
     using Clock = std::chrono::steady_clock;

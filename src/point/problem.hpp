@@ -1,6 +1,8 @@
 #pragma once
 
 #include "model/scene.hpp"
+#include "model/shaking.hpp"
+#include "model/units.hpp"
 #include "observables/all.hpp"
 #include "steady/time_settings.hpp"
 #include "stepping/integration.hpp"
@@ -12,6 +14,8 @@ struct Problem : Scene {
   steady::TimeSettings time;
   observables::Observe observe;
   stepping::Integration integration;
+  Shaking shaking{};  ///< of the stops or the base, by which the displacement counts
+  Units units{};      ///< of all its numbers
 };
 
 /// The limits of a run of a problem.

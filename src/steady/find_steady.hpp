@@ -12,8 +12,8 @@ namespace clatter::steady {
 
 /// Runs forced motion until it repeats; repeats count from the stroboscopic section `from` on.
 template <stepping::Integrator I>
-[[nodiscard]] ObservedTime find_repetition(I& integrator, motion::State<double> state, const TimeSettings& time,
-                                           std::int64_t from) {
+[[nodiscard]] ObservedTime find_repetition(I& integrator, motion::State<double> state, const Scene& scene,
+                                           const TimeSettings& time, std::int64_t from) {
   constexpr auto longest = static_cast<std::int64_t>(RepeatFinder::longest);
   SectionObserver watch(integrator.stops());
   RepeatFinder repeat(time.tolerance);
@@ -31,6 +31,7 @@ template <stepping::Integrator I>
                 FoundBy::repetition,    settled};
       }
     }
+    if (escapes(scene, state.x, state.v, integrator.phase(motion::State<double>{}))) return escape(state, settled);
     if (section == time.max_periods)
       return {Status::aperiodic, state, static_cast<double>(time.window), settled, FoundBy::nothing};
     watch.begin_section();
@@ -51,10 +52,10 @@ template <stepping::Integrator I>
   if (!forced) return FreeSearch(integrator, scene, time, integration.all_effects).run(state);
   if constexpr (E.forcing != Forcing::none) {
     if (integration.all_effects)
-      return find_repetition(integrator, state, time, last_look(scene.oscillator, time.max_periods));
+      return find_repetition(integrator, state, scene, time, last_look(scene.oscillator, time.max_periods));
     if constexpr (I::in_closed_form)
       if (integration.shortcuts) return ForcedSearch<E>(integrator, scene, time).run(state);
-    return find_repetition(integrator, state, time, 0);
+    return find_repetition(integrator, state, scene, time, 0);
   }
   return {};
 }

@@ -55,6 +55,9 @@ class ForcedSearch {
   /// The steady state, if it is known at the next section; nothing: the motion has to go on.
   [[nodiscard]] std::optional<ObservedTime> at_section(const motion::State<double>& state) {
     if (const auto found = closed_form(state)) return found;
+    if constexpr (E.stiffness)
+      if (escapes(scene_, state.x, state.v, integrator_.phase(motion::State<double>{})))
+        return escape(state, simulated());
     if (!in_lanes_) keep(state);
     if (const std::size_t n = repeats(state)) return repetition(n);
     if (section_ == time_.max_periods)
@@ -150,10 +153,11 @@ class ForcedSearch {
     const Oscillator& o = scene_.oscillator;
     if (!may_coast_ || (section_ > 0 && passages_[index(1)].itinerary != 0)) return std::nullopt;
     const auto [sine, cosine] = integrator_.phase(motion::State<double>{});
-    const PhaseState now{state.x - o.load, state.v, sine, cosine};
+    const double middle = equilibrium_of(o);
+    const PhaseState now{state.x - middle, state.v, sine, cosine};
     if (E.stops() && !out_of_reach(o, now, integrator_.stops())) return std::nullopt;
     const PhasePoint response = response_at(o, sine, cosine), left = transient_of(o, now);
-    const double x = o.load + response.x, most = time_.tolerance * std::max(std::abs(x), std::abs(response.v));
+    const double x = middle + response.x, most = time_.tolerance * std::max(std::abs(x), std::abs(response.v));
     const double periods = fading_time(o, left, most) / integrator_.period();
     if (!(periods < longest_settling)) return std::nullopt;
     motion::State<double> steady = state;

@@ -29,6 +29,7 @@ class FreeSearch {
     const std::int64_t most = time_.max_periods;
     for (std::int64_t section = 0;; ++section) {
       const auto settled = static_cast<double>(section);
+      if (escapes(scene_, state.x, state.v, {0.0, 1.0})) return escape(state, settled);
       if (stands_still(state)) return {Status::periodic, state, 1.0, settled, FoundBy::standstill, settled};
       if (I::in_closed_form && !all_effects_) {
         const double turns = section == 0 && conservative() ? free_turns(start) : 0.0;
@@ -60,7 +61,11 @@ class FreeSearch {
            keeps(stops.upper, stops.restitution_upper);
   }
   [[nodiscard]] double free_turns(const motion::State<double>& start) const {
-    return free_period<double>(scene_.oscillator.load, integrator_.stops(), start.x, start.v) / integrator_.period();
+    const Oscillator& o = scene_.oscillator;
+    if (!(o.stiffness > 0)) return 0;
+    const double rate = natural_frequency(o);  // 1 at k = 1
+    return free_period<double>(equilibrium_of(o), integrator_.stops(), start.x, start.v / rate) /
+           (rate * integrator_.period());
   }
 
   /// The final form of a motion once no stop is in reach: free vibration, or the equilibrium if damping brings the
@@ -68,14 +73,15 @@ class FreeSearch {
   [[nodiscard]] std::optional<ObservedTime> closed_form(const motion::State<double>& state,
                                                         std::int64_t section) const {
     const Oscillator& o = scene_.oscillator;
-    const PhaseState now{state.x - o.load, state.v, 0.0, 1.0};
+    if (!(o.stiffness > 0)) return std::nullopt;
+    const PhaseState now{state.x - equilibrium_of(o), state.v, 0.0, 1.0};
     if (I::effects.stops() && !out_of_reach(o, now, integrator_.stops())) return std::nullopt;
     const auto settled = static_cast<double>(section);
     if (o.damping == 0) return ObservedTime{Status::periodic, state, 1.0, settled, FoundBy::closed_form, settled};
     const double end_at = settled + fading_time(o, transient_of(o, now), returns_.least()) / integrator_.period();
     if (!(end_at <= static_cast<double>(time_.max_periods))) return std::nullopt;
     motion::State<double> end = state;
-    end.x = o.load, end.v = 0, end.from_stop = Side::none;
+    end.x = equilibrium_of(o), end.v = 0, end.from_stop = Side::none;
     return ObservedTime{Status::periodic, end, 1.0, settled, FoundBy::standstill, end_at};
   }
 

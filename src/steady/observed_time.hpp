@@ -36,4 +36,9 @@ struct ObservedTime {
   double settling = std::numeric_limits<double>::quiet_NaN();
 };
 
+/// The end of a search for motion that is proved to escape from a state, after so many simulated periods.
+[[nodiscard]] inline ObservedTime escape(const motion::State<double>& state, double simulated) {
+  return {Status::escaped, state, 0.0, simulated, FoundBy::nothing};
+}
+
 }  // namespace clatter::steady

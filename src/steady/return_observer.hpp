@@ -16,7 +16,9 @@ class ReturnObserver {
  public:
   ReturnObserver(const Scene& scene, double tolerance)
       : tolerance_(tolerance),
-        equilibrium_(scene.oscillator.load),
+        equilibrium_(equilibrium_of(scene.oscillator)),
+        stiffness_(scene.oscillator.stiffness),
+        is_loaded_(scene.oscillator.load != 0.0),
         damped_(scene.oscillator.damping > 0.0),
         scale_(std::max({std::abs(scene.start.displacement), std::abs(scene.start.velocity), std::abs(equilibrium_)})),
         conserved_(!damped_) {}
@@ -33,7 +35,7 @@ class ReturnObserver {
     last = impact;
   }
 
-  /// Begins the next period of 2 pi; impacts then count their time from there.
+  /// Begins the next period; impacts then count their time from there.
   void begin_period(double turn) {
     touched_ = false;
     for (motion::Impact& last : last_) last.time -= turn;
@@ -41,21 +43,25 @@ class ReturnObserver {
   [[nodiscard]] double period() const { return period_; }  ///< 0 while the motion has not returned
   /// Whether no energy was lost since the start, which is then on the periodic motion.
   [[nodiscard]] bool conserved() const { return conserved_; }
-  /// Whether undamped motion has passed a whole period of 2 pi without impact: then none will come.
-  [[nodiscard]] bool free_rotation() const { return !touched_ && !damped_; }
+  /// Whether undamped motion has passed a whole period of the spring without impact: then none will come.
+  [[nodiscard]] bool free_rotation() const { return !touched_ && !damped_ && stiffness_ > 0; }
 
   /// Whether the mass is held by a stop, or so near the equilibrium that the rest of the motion is below the tolerance.
+  /// Without spring and load any place is one, with a load and no spring none; that of an unstable spring holds only a
+  /// mass that is exactly there.
   [[nodiscard]] bool stands_still(double x, double v, bool held) const {
-    const double left = std::max(std::abs(x - equilibrium_), std::abs(v));
-    return held || left == 0.0 || (!conserved_ && left <= least());
+    if (held) return true;
+    if (stiffness_ == 0 && is_loaded_) return false;
+    const double left = std::max(stiffness_ == 0 ? 0.0 : std::abs(x - equilibrium_), std::abs(v));
+    return left == 0.0 || (!conserved_ && stiffness_ >= 0 && left <= least());
   }
   /// Displacements and velocities up to this size count as 0.
   [[nodiscard]] double least() const { return tolerance_ * scale_; }
 
  private:
-  double tolerance_, equilibrium_;
-  bool damped_;
-  double scale_;  ///< the larger of |x| and |x'| at the start and |load|
+  double tolerance_, equilibrium_, stiffness_;
+  bool is_loaded_, damped_;
+  double scale_;  ///< the larger of |x| and |x'| at the start and |equilibrium|
   bool conserved_;
   bool touched_ = false;
   double period_ = 0.0;

@@ -17,18 +17,20 @@ enum class Status : std::uint8_t {
   grazing = 3,  ///< periodic, but touches a stop within rounding: its stability doesn't exist
   event_budget = 16,
   not_finite = 17,
-  unresolved = 18
+  unresolved = 18,
+  escaped = 19  ///< no stop and no spring brings the mass back
 };
 
 /// Every status and its name.
-inline constexpr std::array<std::pair<Status, std::string_view>, 7> status_names{
+inline constexpr std::array<std::pair<Status, std::string_view>, 8> status_names{
     {{Status::periodic, "periodic"},
      {Status::aperiodic, "aperiodic"},
      {Status::transient, "transient"},
      {Status::grazing, "grazing"},
      {Status::event_budget, "event_budget"},
      {Status::not_finite, "not_finite"},
-     {Status::unresolved, "unresolved"}}};
+     {Status::unresolved, "unresolved"},
+     {Status::escaped, "escaped"}}};
 
 [[nodiscard]] constexpr bool failed(Status status) { return status >= Status::event_budget; }
 

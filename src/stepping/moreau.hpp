@@ -70,7 +70,7 @@ class Moreau : public IntegratorBase<double, E> {
   }
 
   [[nodiscard]] double force(double x, double v, double sine) const {
-    return this->constants().acceleration(x - this->constants().load, v, sine);
+    return this->constants().acceleration(x - this->constants().equilibrium, v, sine);
   }
 
   [[nodiscard]] Free free_step(const motion::State<double>& state, double turns) {
@@ -81,7 +81,8 @@ class Moreau : public IntegratorBase<double, E> {
         force(state.x + (length - part) * state.v, 0.0, sine);  // without the term in v there, which is implicit
     this->count_evaluations(1);
     return {length, sine,
-            (state.v + (length - part) * at_begin + part * at_end) / (1 + part * (2 * this->constants().h + part))};
+            (state.v + (length - part) * at_begin + part * at_end) /
+                (1 + part * (2 * this->constants().h + this->constants().spring(part)))};
   }
 
   /// The stop that the mass is beyond in the middle of the step, at its present velocity.

@@ -144,11 +144,13 @@ void add_attractors(const Sweep& sweep, bool is_shard, const std::vector<std::st
                     attractors::Numbering numbering, Dataset& dataset) {
   const std::vector<attractors::NumberedMotion>& motions = numbering.motions;
   dataset.dimensions.push_back({"motion", motions.size()});
-  const auto add = [&]<class T>(const char* name, const char* long_name, T value_of) {
+  const auto add = [&]<class T>(const char* name, const char* long_name, T value_of,
+                                Quantity quantity = Quantity::number) {
     std::vector<decltype(value_of(motions.front()))> values;
     values.reserve(motions.size());
     for (const attractors::NumberedMotion& motion : motions) values.push_back(value_of(motion));
-    dataset.variables.push_back({name, {"motion"}, std::move(values), long_name, "1"});
+    dataset.variables.push_back(
+        {name, {"motion"}, std::move(values), long_name, std::string(unit_of(quantity, sweep.machine.has_value()))});
   };
   using Motion = attractors::NumberedMotion;
   std::size_t number = 0;
@@ -167,10 +169,16 @@ void add_attractors(const Sweep& sweep, bool is_shard, const std::vector<std::st
   });
   add("motion_mirror", "number of its mirror image, -1: no start ends in it", [](const Motion& m) { return m.mirror; });
   add("motion_points", "points that end in it", [](const Motion& m) { return static_cast<std::int64_t>(m.points); });
-  add("motion_x", "displacement at forcing phase 0, at the parameters of the example",
-      [](const Motion& m) { return m.state.x; });
-  add("motion_v", "velocity at forcing phase 0, at the parameters of the example",
-      [](const Motion& m) { return m.state.v; });
+  add(
+      "motion_x", "displacement at forcing phase 0, at the parameters of the example",
+      [](const Motion& m) { return m.state.x; }, Quantity::length);
+  add(
+      "motion_v", "velocity at forcing phase 0, at the parameters of the example",
+      [&](const Motion& m) {
+        const Units units = problem_at(sweep, m.example % size_one_way(sweep)).units;
+        return units == Units{} ? m.state.v : m.state.v * factor_of(units, Quantity::velocity);
+      },
+      Quantity::velocity);
   add("motion_example", "index of the first point that ends in it, row-major over the sweep",
       [](const Motion& m) { return static_cast<std::int64_t>(m.example); });
   if (!is_shard) add_counts(sweep, grid_of(sweep), numbering, dataset);

@@ -8,6 +8,22 @@ namespace {
 
 constexpr const char* direction = "direction";  ///< the dimension of two directions
 
+/// Of keys that mean another thing in [machine]; nothing for the others.
+const char* name_in_si(Parameter parameter) {
+  switch (parameter) {
+    case Parameter::load:
+      return "constant force";
+    case Parameter::x0:
+      return "displacement at t = 0";
+    case Parameter::v0:
+      return "velocity at t = 0";
+    case Parameter::phase:
+      return "forcing phase at t = 0";
+    default:
+      return nullptr;
+  }
+}
+
 const char* long_name_of(Parameter parameter) {
   switch (parameter) {
     case Parameter::h:
@@ -32,6 +48,26 @@ const char* long_name_of(Parameter parameter) {
       return "restitution of the upper stop";
     case Parameter::load:
       return "constant force over stiffness";
+    case Parameter::stiffness:
+      return "stiffness of the spring";
+    case Parameter::stop_amplitude:
+      return "amplitude of the motion of both stops";
+    case Parameter::base_amplitude:
+      return "amplitude of the motion of the base";
+    case Parameter::mass:
+      return "mass";
+    case Parameter::damping:
+      return "damping coefficient";
+    case Parameter::damping_ratio:
+      return "damping ratio";
+    case Parameter::quality:
+      return "quality factor";
+    case Parameter::force:
+      return "force amplitude";
+    case Parameter::frequency:
+      return "excitation frequency";
+    case Parameter::gap:
+      return "distance of the symmetric stops from the middle";
     case Parameter::x0:
       return "displacement at tau = 0";
     case Parameter::v0:
@@ -45,6 +81,7 @@ const char* long_name_of(Parameter parameter) {
 }  // namespace
 
 void add_axes(const Sweep& sweep, Dataset& dataset) {
+  const bool is_si = sweep.machine.has_value();
   if (sweep.direction == Direction::both) {
     dataset.dimensions.push_back({direction, 2});
     dataset.variables.push_back({direction,
@@ -56,11 +93,12 @@ void add_axes(const Sweep& sweep, Dataset& dataset) {
   for (const Dimension& dimension : sweep.dimensions) {
     dataset.dimensions.push_back({std::string(name_of(dimension)), length(dimension)});
     for (const Axis& axis : dimension)
-      dataset.variables.push_back({std::string(key_of(axis.parameter)),
-                                   {std::string(name_of(dimension))},
-                                   axis.values,
-                                   long_name_of(axis.parameter),
-                                   axis.parameter == Parameter::phase ? "rad" : "1"});
+      dataset.variables.push_back(
+          {std::string(key_of(axis.parameter)),
+           {std::string(name_of(dimension))},
+           axis.values,
+           is_si && name_in_si(axis.parameter) != nullptr ? name_in_si(axis.parameter) : long_name_of(axis.parameter),
+           std::string(unit_of(quantity_of(axis.parameter), is_si))});
   }
 }
 

@@ -1,6 +1,7 @@
 #include "sweep/mirror_images.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -83,7 +84,10 @@ bool is_swept(const Sweep& sweep, Parameter parameter) {
 MirrorImages::MirrorImages(const Sweep& sweep) : points_(size_one_way(sweep)) {
   constexpr std::size_t longest = 100'000;  // of a dimension, whose images are looked for one by one
   const point::Problem& problem = sweep.problem;
-  const bool forced = problem.oscillator.forcing != 0 || is_swept(sweep, Parameter::f);
+  constexpr std::array forces{Parameter::f, Parameter::force, Parameter::stop_amplitude, Parameter::base_amplitude};
+  const double force = sweep.machine ? sweep.machine->force : problem.oscillator.forcing;
+  const bool forced = force != 0 || is_shaken(problem.shaking) ||
+                      std::ranges::any_of(forces, [&](Parameter parameter) { return is_swept(sweep, parameter); });
   const bool paired = (problem.start.displacement == 0 || is_swept(sweep, Parameter::x0)) &&
                       (problem.start.velocity == 0 || is_swept(sweep, Parameter::v0)) &&
                       (!forced || is_swept(sweep, Parameter::phase));

@@ -11,9 +11,30 @@ namespace {
 using enum Parameter;
 
 /// The keys in the order of the enumeration.
-constexpr std::array<std::string_view, 14> keys{"h",    "f",          "nu",         "phase",       "R",
-                                                "xs",   "stop_lower", "stop_upper", "R_lower",     "R_upper",
-                                                "load", "x0",         "v0",         "start_period"};
+constexpr std::array<std::string_view, 24> keys{"h",
+                                                "f",
+                                                "nu",
+                                                "phase",
+                                                "R",
+                                                "xs",
+                                                "stop_lower",
+                                                "stop_upper",
+                                                "R_lower",
+                                                "R_upper",
+                                                "load",
+                                                "x0",
+                                                "v0",
+                                                "stiffness",
+                                                "stop_amplitude",
+                                                "base_amplitude",
+                                                "mass",
+                                                "damping",
+                                                "damping_ratio",
+                                                "quality",
+                                                "force",
+                                                "frequency",
+                                                "gap",
+                                                "start_period"};
 static_assert(keys[static_cast<std::size_t>(start_period)] == "start_period");
 
 void set_symmetric_stops(Stops& stops, double xs_value) {
@@ -52,6 +73,9 @@ void set(point::Problem& scene, Parameter parameter, double value) {
     case load:
       scene.oscillator.load = value;
       break;
+    case stiffness:
+      scene.oscillator.stiffness = value;
+      break;
     case phase:
       scene.start.phase = value;
       break;
@@ -62,6 +86,7 @@ void set(point::Problem& scene, Parameter parameter, double value) {
       scene.start.velocity = value;
       break;
     case xs:
+    case gap:
       set_symmetric_stops(scene.stops, value);
       break;
     case stop_lower:
@@ -79,9 +104,84 @@ void set(point::Problem& scene, Parameter parameter, double value) {
     case R_upper:
       scene.stops.restitution_upper = value;
       break;
+    case stop_amplitude:
+      scene.shaking.stops = value;
+      break;
+    case base_amplitude:
+      scene.shaking.base = value;
+      break;
     case start_period:
       set_start(scene, value);
       break;
+    case mass:
+    case damping:
+    case damping_ratio:
+    case quality:
+    case force:
+    case frequency:
+      break;  // of machines alone
+  }
+}
+
+bool set(Machine& machine, Parameter parameter, double value) {
+  const auto set_damping = [&](DampingGiven given) { machine.damping = value, machine.damping_given = given; };
+  switch (parameter) {
+    case mass:
+      machine.mass = value;
+      return true;
+    case stiffness:
+      machine.stiffness = value;
+      return true;
+    case damping:
+      set_damping(DampingGiven::coefficient);
+      return true;
+    case damping_ratio:
+      set_damping(DampingGiven::ratio);
+      return true;
+    case quality:
+      set_damping(DampingGiven::quality);
+      return true;
+    case force:
+      machine.force = value;
+      return true;
+    case frequency:
+      machine.frequency = value;
+      return true;
+    case load:
+      machine.load = value;
+      return true;
+    default:
+      return false;
+  }
+}
+
+Quantity quantity_of(Parameter parameter) {
+  switch (parameter) {
+    case phase:
+      return Quantity::angle;
+    case xs:
+    case gap:
+    case stop_lower:
+    case stop_upper:
+    case x0:
+    case stop_amplitude:
+    case base_amplitude:
+      return Quantity::length;
+    case v0:
+      return Quantity::velocity;
+    case mass:
+      return Quantity::mass;
+    case stiffness:
+      return Quantity::stiffness;
+    case damping:
+      return Quantity::damping;
+    case force:
+    case load:
+      return Quantity::force;
+    case frequency:
+      return Quantity::frequency;
+    default:
+      return Quantity::number;
   }
 }
 

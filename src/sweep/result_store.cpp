@@ -119,7 +119,7 @@ ResultStore::ResultStore(const Sweep& sweep, const std::optional<Shard>& shard)
   if (sweep.problem.observe.impact_log) log_.resize(status_.size());
 }
 
-void ResultStore::store(std::size_t local_index, point::PointResult&& result) {
+void ResultStore::store(std::size_t local_index, point::PointResult&& result, const Units& units) {
   status_[local_index] = static_cast<std::uint8_t>(result.status);
   impacts_[local_index] = static_cast<std::int64_t>(result.impacts);
   periods_[local_index] = result.periods;
@@ -131,6 +131,21 @@ void ResultStore::store(std::size_t local_index, point::PointResult&& result) {
   }
   if (!log_.empty())
     log_[local_index] = std::move(result.log), log_[local_index].shrink_to_fit();  // it grew by doubling
+  if (units != Units{}) to_users_units(local_index, units);
+}
+
+/// Intermediate values stay as they were computed, since the motions of the whole sweep are told apart by them.
+void ResultStore::to_users_units(std::size_t local_index, const Units& units) {
+  for (std::size_t i = 0; i < outputs_.size(); ++i) {
+    if (outputs_[i].text || outputs_[i].intermediate) continue;
+    const double factor = factor_of(units, outputs_[i].quantity);
+    for (double& value : std::span(values_[i]).subspan(local_index * outputs_[i].width(), outputs_[i].width()))
+      value *= factor;
+  }
+  if (log_.empty()) return;
+  const double time = factor_of(units, Quantity::time), velocity = factor_of(units, Quantity::velocity);
+  for (motion::Impact& impact : log_[local_index])
+    impact.time *= time, impact.before *= velocity, impact.after *= velocity;
 }
 
 std::size_t ResultStore::most_packed_without_log() const {
@@ -261,14 +276,17 @@ void ResultStore::add_impact_log(Dataset& dataset) {
   log_ = {};
   malloc_trim(0);  // otherwise blocks between others stay with the process
   const std::vector<std::string> along{"impact"};
+  const auto unit = [this](Quantity quantity) { return std::string(unit_of(quantity, sweep_.machine.has_value())); };
   dataset.dimensions.push_back({"impact", tau.size()});
   dataset.variables.push_back({"impact_count", along_, std::move(counts), "impacts in the log of the point", "1"});
   dataset.variables.back().attributes = {{"sample_dimension", "impact"}};
-  dataset.variables.push_back(
-      {"impact_tau", along, std::move(tau), "time of the impact since the beginning of the observed time", "1"});
+  dataset.variables.push_back({"impact_tau", along, std::move(tau),
+                               "time of the impact since the beginning of the observed time", unit(Quantity::time)});
   dataset.variables.push_back({"impact_stop", along, std::move(stops), "stop that is hit, -1: lower, +1: upper", "1"});
-  dataset.variables.push_back({"impact_v_before", along, std::move(before), "velocity before the impact", "1"});
-  dataset.variables.push_back({"impact_v_after", along, std::move(after), "velocity after the impact", "1"});
+  dataset.variables.push_back(
+      {"impact_v_before", along, std::move(before), "velocity before the impact", unit(Quantity::velocity)});
+  dataset.variables.push_back(
+      {"impact_v_after", along, std::move(after), "velocity after the impact", unit(Quantity::velocity)});
 }
 
 Dataset ResultStore::dataset() {
@@ -282,8 +300,11 @@ Dataset ResultStore::dataset() {
     ValueArray values = std::move(values_[i]);
     if (output.text) values = std::move(texts_[i]);
     if (output.intermediate && !shard_) continue;
+    const bool is_si = sweep_.machine.has_value();
+    const std::string& long_name = is_si && !output.name_in_si.empty() ? output.name_in_si : output.long_name;
+    const Quantity quantity = output.intermediate ? Quantity::number : output.quantity;
     dataset.variables.push_back(
-        {output.name, std::move(dimensions), std::move(values), output.long_name, output.units});
+        {output.name, std::move(dimensions), std::move(values), long_name, std::string(unit_of(quantity, is_si))});
   }
   if (numbering_) add_attractors(sweep_, shard_.has_value(), along_, std::move(*numbering_), dataset);
   if (sweep_.problem.observe.impact_log) add_impact_log(dataset);

@@ -45,8 +45,9 @@ class ResultStore {
   /// Makes room for the results of a whole sweep, or of a shard. Throws std::bad_alloc.
   explicit ResultStore(const Sweep& sweep, const std::optional<Shard>& shard = {});
 
-  /// Stores a point's result; different points may be stored at the same time.
-  void store(std::size_t local_index, point::PointResult&& result);
+  /// Stores a point's result, which is in `units`, in those of the user; different points may be stored at the same
+  /// time.
+  void store(std::size_t local_index, point::PointResult&& result, const Units& units);
 
   /// Bytes that `pack` appends for a point, at most.
   [[nodiscard]] std::size_t most_packed(std::size_t local_index) const;
@@ -70,6 +71,7 @@ class ResultStore {
   [[nodiscard]] std::size_t failed_points() const;
 
  private:
+  void to_users_units(std::size_t local_index, const Units& units);
   void add_coordinates(Dataset& dataset) const;
   void add_always(Dataset& dataset);
   void add_impact_log(Dataset& dataset);

@@ -137,10 +137,11 @@ class WorkerPool {
   [[nodiscard]] bool is_bereft(std::size_t point) const { return std::ranges::binary_search(bereft_, point); }
 
   /// A point of a branch, the first or, if there is an end of the one before, from that.
-  point::WorkItem item_of(std::size_t branch, std::size_t position = 0, const std::optional<Start>& end = {}) const {
+  point::WorkItem item_of(std::size_t branch, std::size_t position = 0, const std::optional<Start>& end = {},
+                          const Units& units_of_end = {}) const {
     const std::size_t point = share_.point(branch, position);
     point::WorkItem item{branch, position, problem_at(sweep_, mirror_images_.original_of(point).value_or(point)), {}};
-    if (sweep_.follow) start_from(item.problem, end);
+    if (sweep_.follow) start_from(item.problem, end, units_of_end);
     item.effects = effects_of(item.problem);
     return item;
   }
@@ -190,28 +191,29 @@ class WorkerPool {
 
   /// Stores a point's result; returns the next point of its branch, if there is one.
   std::optional<point::WorkItem> store(const point::WorkItem& item, point::PointResult&& result, std::size_t thread) {
-    const std::optional<Start> end = failed(result.status) ? std::nullopt : std::optional<Start>(result.end);
+    std::optional<Start> end = failed(result.status) ? std::nullopt : std::optional<Start>(result.end);
+    if (end) end->phase -= item.problem.shaking.lead;
     add(work_[thread], work_of(item, result));
     if (mirror_images_.exist()) {
       const std::size_t point = share_.point(item.branch, item.position);
       if (mirror_images_.original_of(point)) {
         result = mirrored(result);
       } else if (has_whole_pairs_) {
-        store_image_of(point, result, thread);
+        store_image_of(point, result, item.problem.units, thread);
       }
     }
-    store_.store(share_.local_index(item.branch, item.position), std::move(result));
+    store_.store(share_.local_index(item.branch, item.position), std::move(result), item.problem.units);
     progress_.add_point(thread);
-    if (item.position + 1 < share_.length()) return item_of(item.branch, item.position + 1, end);
+    if (item.position + 1 < share_.length()) return item_of(item.branch, item.position + 1, end, item.problem.units);
     states_[item.branch] = BranchState::finished;
     return std::nullopt;
   }
 
   /// Stores the result of a point's mirror image, which no other thread touches.
-  void store_image_of(std::size_t point, const point::PointResult& result, std::size_t thread) {
+  void store_image_of(std::size_t point, const point::PointResult& result, const Units& units, std::size_t thread) {
     const auto image = mirror_images_.image_of(point);
     if (!image || is_restored(*image) || is_bereft(*image)) return;
-    store_.store(*image, mirrored(result));
+    store_.store(*image, mirrored(result), units);
     progress_.add_point(thread);
     states_[*image] = BranchState::finished;
   }

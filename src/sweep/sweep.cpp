@@ -1,6 +1,18 @@
 #include "sweep/sweep.hpp"
 
 namespace clatter::sweep {
+namespace {
+
+/// Puts the force in the moving frame in place of the shaking (eqs. 39 to 41); phases that the user gave are those of
+/// the shaking.
+void enter_shaken_frame(point::Problem& problem) {
+  if (!is_shaken(problem.shaking)) return;
+  const auto [amplitude, lead] = force_in_frame(problem.oscillator, problem.shaking);
+  problem.oscillator.forcing = amplitude, problem.shaking.lead = lead;
+  problem.start.phase += lead, problem.observe.section_phase += lead;
+}
+
+}  // namespace
 
 std::size_t size_one_way(const Sweep& sweep) {
   std::size_t points = 1;
@@ -11,14 +23,17 @@ std::size_t size_one_way(const Sweep& sweep) {
 point::Problem problem_at(const Sweep& sweep, std::size_t point) {
   point::Problem problem = sweep.problem;
   std::optional<double> start_period = sweep.start_period;
+  std::optional<Machine> machine = sweep.machine;
   each_coordinate(sweep, point, [&](const Axis& axis, double value) {
     if (axis.parameter == Parameter::start_period) {
       start_period = value;
-    } else {
+    } else if (!machine || !set(*machine, axis.parameter, value)) {
       set(problem, axis.parameter, value);
     }
   });
   if (start_period) set(problem, Parameter::start_period, *start_period);  // last: it depends on the stops
+  enter_shaken_frame(problem);
+  to_computed_units(problem, machine);
   return problem;
 }
 

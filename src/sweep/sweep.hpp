@@ -9,6 +9,7 @@
 
 #include "point/problem.hpp"
 #include "sweep/parameter.hpp"
+#include "sweep/scaling.hpp"
 
 namespace clatter::sweep {
 
@@ -35,6 +36,8 @@ struct Sweep {
   Direction direction = Direction::up;  ///< along `follow`
   std::optional<double>
       start_period{};  ///< start_period of [scene], set at each point after its stops; empty: x0 and v0 are the start
+  std::optional<Machine>
+      machine{};  ///< in SI, in place of the oscillator of the problem, whose other numbers are in SI too
 };
 
 [[nodiscard]] inline std::size_t length(const Dimension& dimension) { return dimension.front().values.size(); }
@@ -63,7 +66,8 @@ void each_coordinate(const Sweep& sweep, std::size_t point, const Take& take) {
   }
 }
 
-/// The problem of a point, 0 <= point < size(sweep), in row-major order of the directions and dimensions.
+/// The problem of a point, 0 <= point < size(sweep), in row-major order of the directions and dimensions, in the units
+/// that it is computed in; of a shaken scene that in the moving frame.
 [[nodiscard]] point::Problem problem_at(const Sweep& sweep, std::size_t point);
 
 }  // namespace clatter::sweep

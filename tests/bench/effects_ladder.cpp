@@ -144,7 +144,7 @@ bool same_run(const Rung& rung, const Effects& a, const Effects& b) {
 
 /// Benchmarks called e.g. "1/resonance/own" and "1/resonance/kept in, all".
 void add(std::size_t number, const Rung& rung) {
-  const Effects own = required_effects(rung.scene), all = all_effects(rung.scene.oscillator.damping);
+  const Effects own = required_effects(rung.scene), all = all_effects(rung.scene.oscillator);
   std::vector<std::pair<std::string, Effects>> runs{{"own", own}};
   const auto compare_with = [&](const std::string& what, const Effects& effects) {
     for (auto& [names, known] : runs)

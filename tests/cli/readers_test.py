@@ -30,6 +30,7 @@ FLAGS = {
     16: "event_budget",
     17: "not_finite",
     18: "unresolved",
+    19: "escaped",
 }
 ROOT = [
     "Conventions",

@@ -21,6 +21,25 @@ TEST(Together, alternatives_exclude_each_other) {
   expect_all("a.ini", table);
 }
 
+TEST(Together, something_has_to_bound_the_motion) {
+  const std::vector<Wrong> table{
+      {"[scene]\nstiffness = -1\nstop_lower = -inf\n", "2:13", "stiffness = -1 without stops, so nothing bounds"},
+      {"[scene]\nstiffness = 0\nstop_upper = inf\n", "2:13", "give xs, stop_lower or stop_upper, or a stiffness > 0"},
+      {"[scene]\nstop_upper = inf\n[sweep]\nstiffness = [1, 0]\n", "4:17", "stiffness = 0 without stops"},
+      {"[scene]\nxs = 1\nstiffness = 2\nstart_period = 3\n", "3:13", "stiffness = 2 conflicts with 'start_period'"},
+  };
+  expect_all("a.toml", table);
+}
+
+TEST(Together, one_thing_is_shaken) {
+  const std::vector<Wrong> table{
+      {"[scene]\nxs = 1\nstop_amplitude = 1\nbase_amplitude = 2\n", "4:18", "give one of them"},
+      {"[scene]\nxs = 1\nbase_amplitude = 2\n[sweep]\nstop_amplitude = [0, 1]\n", "3:18", "give one of them"},
+      {"[scene]\nxs = 1\nstop_amplitude = 1\nstart_period = 3\n", "3:18", "conflicts with 'start_period'"},
+  };
+  expect_all("a.toml", table);
+}
+
 TEST(Together, missing_keys_are_reported_at_their_section) {
   const std::vector<Wrong> table{
       {"", "1:1", "'xs' is missing in [scene]"},

@@ -34,6 +34,14 @@ inline Oscillator any_oscillator(support::Random& random) {
   return {h, f, nu, random.happens(0.5) ? 0 : random.uniform(-1.5, 1.5)};
 }
 
+/// No spring or, for a time in which rounding grows by no more than 1e4, an unstable one between two stops. Points with
+/// k > 0 are computed with k = 1.
+inline double any_stiffness(support::Random& random, const Stops& stops, double duration) {
+  const bool bounded = std::isfinite(stops.lower) && std::isfinite(stops.upper);
+  if (!bounded || random.happens(0.5)) return 0;
+  return -std::min(random.logarithmic(1e-3, 3), 80 / (duration * duration));
+}
+
 inline double any_restitution(support::Random& random) {
   const double kind = random.uniform(0, 1);
   return kind < 0.1 ? 0 : kind < 0.2 ? 1 : random.uniform(kind < 0.3 ? 0.9 : 0, 1);
@@ -71,6 +79,8 @@ inline Start any_start(support::Random& random, const Stops& stops) {
   scene.time.mode = steady::Mode::transient;
   scene.time.max_impacts = 2e3;
   scene.time.duration = scene.oscillator.forcing == 0 ? 20.0 : 3.3 * 2 * std::numbers::pi / scene.oscillator.frequency;
+  support::Random other(20240, index);
+  if (index % 4 == 3) scene.oscillator.stiffness = any_stiffness(other, scene.stops, scene.time.duration);
   return {index, scene, scene.time.duration};
 }
 

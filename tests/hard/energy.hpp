@@ -9,7 +9,7 @@
 
 namespace clatter::hard {
 
-/// Checks the balance of the energy E = x'^2/2 + x^2/2 - load x (eq. 34): the work of the force, less the losses by
+/// Checks the balance of the energy E = x'^2/2 + k x^2/2 - load x (eq. 34): the work of the force, less the losses by
 /// damping and impacts, is the growth of E.
 class EnergyBooks : public Watcher {
  public:
@@ -48,8 +48,8 @@ class EnergyBooks : public Watcher {
     meet(state.x, state.v);
     const double now = energy(state.x, state.v);
     all_gained_ += gained_, all_moved_ += moved_;
-    raise(of_period_, std::abs(now - before_ - gained_) / (highest_ + moved_));
-    of_run_ = std::abs(now - begin_ - all_gained_) / (all_highest_ + all_moved_);
+    raise(of_period_, relative(now - before_ - gained_, highest_ + moved_));
+    of_run_ = relative(now - begin_ - all_gained_, all_highest_ + all_moved_);
     before_ = now, gained_ = 0, moved_ = 0, highest_ = 0;
     meet(state.x, state.v);
   }
@@ -62,9 +62,14 @@ class EnergyBooks : public Watcher {
   [[nodiscard]] double left_over() const { return std::abs(all_gained_) / (all_highest_ + all_moved_); }
 
  private:
-  [[nodiscard]] double energy(double x, double v) const { return v * v / 2 + x * x / 2 - oscillator_.load * x; }
+  /// Without a spring a mass at rest has no energy at all.
+  [[nodiscard]] static double relative(double error, double size) { return error == 0 ? 0.0 : std::abs(error) / size; }
+  [[nodiscard]] double energy(double x, double v) const {
+    return v * v / 2 + oscillator_.stiffness * x * x / 2 - oscillator_.load * x;
+  }
   void meet(double x, double v) {
-    highest_ = std::max(highest_, v * v / 2 + x * x / 2 + std::abs(oscillator_.load * x));
+    highest_ =
+        std::max(highest_, v * v / 2 + std::abs(oscillator_.stiffness) * x * x / 2 + std::abs(oscillator_.load * x));
     all_highest_ = std::max(all_highest_, highest_);
   }
   void gain(double energy, double size) { gained_ += energy, moved_ += size; }

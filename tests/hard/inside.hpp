@@ -35,10 +35,15 @@ class BeyondStops : public Watcher {
     const auto& start = arc.start();
     const double amplitude = arc.constants().response.amplitude, f = std::abs(oscillator_.forcing);
     const double response = (amplitude > 0 ? amplitude : f * s) * (1 + oscillator_.frequency * s);  // f s: resonance
-    scale_ = std::max(flight_, std::abs(oscillator_.load) + std::abs(arc.anchor()) + response + std::abs(start.free_x) +
+    scale_ = std::max(flight_, std::abs(pulled(s)) + std::abs(arc.anchor()) + response + std::abs(start.free_x) +
                                    std::abs(start.free_v) + std::abs(m.v) * s);
     const double beyond = std::max(stops_.lower - m.x, m.x - stops_.upper);
     if (beyond > 0) raise(ulps_, beyond / (epsilon<double>() * scale_));
+  }
+
+  /// The place to which the load pulls: the equilibrium, or where it has taken a mass without a spring.
+  [[nodiscard]] double pulled(double s) const {
+    return oscillator_.stiffness == 0 ? oscillator_.load * s * s / 2 : equilibrium_of(oscillator_);
   }
 
   Oscillator oscillator_;

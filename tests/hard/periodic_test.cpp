@@ -69,7 +69,7 @@ struct Shares {
 };
 
 Shares shares_of(const point::Problem& scene, const Period& period, std::size_t k) {
-  const auto& [h, f, nu, load] = scene.oscillator;
+  const auto& [h, f, nu, load, stiffness] = scene.oscillator;
   Shares shares{k == 0 ? Complex(load) : k == 1 ? f * std::polar(0.5, scene.start.phase - std::numbers::pi / 2) : 0, 0};
   shares.size = std::abs(shares.sum);
   for (const motion::Impact& impact : period.impacts) {
@@ -86,7 +86,7 @@ double difference_of_harmonics(const point::Problem& scene, const Period& period
   double worst = 0;
   for (std::size_t k = 0; k <= highest; ++k) {
     const double w = period.base * static_cast<double>(k), h = scene.oscillator.damping;
-    const Complex z(1 - w * w, 2 * h * w);
+    const Complex z(scene.oscillator.stiffness - w * w, 2 * h * w);
     if (std::norm(z) < 1.0 / 64) continue;
     const auto [sum, size] = shares_of(scene, period, k);
     const double rounding =

@@ -13,7 +13,8 @@
 namespace clatter::hard {
 namespace {
 
-/// A random scene: damping from none to heavy, two stops with a restitution each, a load in half of the scenes.
+/// A random scene: damping from none to heavy, two stops with a restitution each, a load in half of the scenes, in a
+/// fifth of them no spring, an unstable one, or one of another stiffness than 1.
 point::Problem random_scene(std::uint64_t index) {
   support::Random random(20230, index);
   point::Problem scene;
@@ -24,6 +25,13 @@ point::Problem random_scene(std::uint64_t index) {
   scene.stops = {-gap * random.uniform(0.2, 1.2), gap * random.uniform(0.2, 1.2), random.uniform(0, 0.9),
                  random.uniform(0, 0.9)};
   scene.start = {random.uniform(scene.stops.lower, scene.stops.upper), random.uniform(-1, 1), random.uniform(0, 6)};
+  if (index % 5 == 4) {
+    support::Random other(20240, index);
+    const double kind = other.uniform(0, 1);
+    scene.oscillator.stiffness = kind < 0.3   ? 0
+                                 : kind < 0.6 ? -other.logarithmic(1e-2, 2)
+                                              : other.logarithmic(1e-2, 20);
+  }
   return scene;
 }
 

@@ -81,16 +81,25 @@ class Rescan : public Watcher {
   /// longer one is a sum of forced response and free motion, which near resonance are larger than their sum.
   template <class M>
   void allow(const M& m, double length, double rate) {
-    const auto& [h, f, nu, load] = oscillator_;
-    const double response =
-        f == 0 ? 0 : std::abs(f) * std::min(1 / std::hypot((1 - nu) * (1 + nu), 2 * h * nu), 16 + length);
-    const double part = std::min(1.0, length), terms = length * rate > 0.25 ? response * part : 0;
-    const double way = std::abs(m.offset) + std::abs(m.v) * part;  // the offset that it reaches without a force
-    acceleration_ = std::abs(load - anchor_) + way + std::abs(f) + 2 * h * std::abs(m.v);
-    const double unit = ulps * epsilon<double>();
+    const auto& [h, f, nu, load, k] = oscillator_;
+    const double natural = std::sqrt(std::abs(k)), near = k > 0 ? 16 / k : 16.0;
+    const double response = f == 0 ? 0
+                                   : std::abs(f) * std::min(1 / std::hypot(k - nu * nu, 2 * h * nu),
+                                                            near + length / std::max(natural, 1e-3));
+    // the time over which an error of the force adds up, before the spring brings it back
+    const double part = std::min(length, k == 1 ? 1.0 : 1 / std::max(natural, 1e-300));
+    const double terms = length * rate > 0.25 ? response * std::min(1.0, length) : 0;
+    const double way = std::abs(m.offset) + std::abs(m.v) * part;    // the offset that it reaches without a force
+    const double growth = k < 0 ? std::exp(natural * length) : 1.0;  // of what rounding has left
+    // load - x is exact close to the equilibrium, the product k x is rounded
+    const double pull = k == 1 ? std::abs(load - anchor_) : std::abs(load) + std::abs(k * anchor_);
+    acceleration_ = pull + std::abs(k) * way + std::abs(f) + 2 * h * std::abs(m.v);
+    const double unit = ulps * epsilon<double>() * growth;
     near_ = unit * (way + acceleration_ * part * part + terms);
-    whole_ = near_ + unit * (std::abs(anchor_) + std::abs(load) + terms);
-    fast_ = unit * (std::abs(m.v) + acceleration_ * part + terms * std::max(1.0, nu));
+    whole_ = near_ + unit * (std::abs(anchor_) + std::abs(k == 0 ? load * part * part : load / k) + terms);
+    // without a spring a damped velocity fades below all normal numbers
+    fast_ = unit * (std::abs(m.v) + acceleration_ * part + terms * std::max(natural, nu)) +
+            std::numeric_limits<double>::min();
   }
 
   [[nodiscard]] Real angle(double time) const { return phase_ + static_cast<Real>(oscillator_.frequency) * time; }
@@ -103,13 +112,16 @@ class Rescan : public Watcher {
     raise(broken, off / (ulps * epsilon<double>()));  // a phase in turns is known to an ulp
   }
 
-  /// The force on a mass at rest, f sin(theta) + load - x, into its stop (eq. 22).
+  /// The force on a mass at rest, f sin(theta) + load - k x, into its stop (eq. 22).
   [[nodiscard]] Real force(const motion::Rest& rest, Real sine) const {
-    return sign_of(rest.side) * (oscillator_.forcing * sine + (static_cast<Real>(oscillator_.load) - rest.position));
+    return sign_of(rest.side) *
+           (oscillator_.forcing * sine +
+            (static_cast<Real>(oscillator_.load) - static_cast<Real>(oscillator_.stiffness) * rest.position));
   }
   [[nodiscard]] double force_rounding(const motion::Rest& rest) const {
     return ulps * epsilon<double>() *
-           (std::abs(oscillator_.forcing) + std::abs(oscillator_.load) + std::abs(rest.position));
+           (std::abs(oscillator_.forcing) + std::abs(oscillator_.load) +
+            std::abs(oscillator_.stiffness * rest.position));
   }
 
   /// Checks that the force presses all the time, also at its least.

@@ -30,8 +30,9 @@ class TaylorScan {
       : h_(oscillator.damping),
         f_(oscillator.forcing),
         nu_(oscillator.frequency),
-        pull_(static_cast<Real>(oscillator.load) - anchor),
-        rate_(std::max({Real(1), 2 * h_, f_ == 0 ? Real(0) : nu_})) {}
+        k_(oscillator.stiffness),
+        pull_(static_cast<Real>(oscillator.load) - k_ * anchor),
+        rate_(std::max({std::sqrt(std::abs(k_)), 2 * h_, f_ == 0 ? Real(0) : nu_, Real(0.01)})) {}
 
   [[nodiscard]] Flight fly(const PhaseState& start, double length) const {
     Flight flight{start, start.offset, start.offset};
@@ -65,7 +66,7 @@ class TaylorScan {
     Real force = f_ * square, drive = m.sine, next = m.cosine;
     for (std::size_t k = 0; k + 2 <= order; ++k) {
       const auto n = static_cast<Real>(k + 1);
-      c[k + 2] = (force * drive - friction * n * c[k + 1] - square * (c[k] - (k == 0 ? pull_ : 0))) * inverse[k];
+      c[k + 2] = (force * drive - friction * n * c[k + 1] - square * (k_ * c[k] - (k == 0 ? pull_ : 0))) * inverse[k];
       force *= turn / n;
       const Real after = -drive;
       drive = next, next = after;
@@ -122,7 +123,7 @@ class TaylorScan {
     return left;
   }
 
-  Real h_, f_, nu_;
+  Real h_, f_, nu_, k_;
   Real pull_;  ///< of the load and the spring, at the anchor
   Real rate_;  ///< the fastest that the motion changes
 };

@@ -12,7 +12,7 @@ namespace clatter::motion {
 namespace {
 
 constexpr double ulp = std::numeric_limits<double>::epsilon(), pi_ = std::numbers::pi;
-constexpr Effects effects = general_effects(0.1).arc();
+constexpr Effects effects = general_effects({.damping = 0.1}).arc();
 using TestFlow = ArcConstants<double, effects>;
 
 TEST(PolynomialArc, gives_its_polynomials_and_the_equations_acceleration) {

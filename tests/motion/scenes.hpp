@@ -13,7 +13,7 @@ inline Contact<double> first_contact(const Oscillator& oscillator, const Stops& 
   return with_any_stops(oscillator, [&]<Effects effects>() {
     const ArcConstants<double, effects.arc()> constants(oscillator);
     const Arc<double, effects.arc()> arc(constants,
-                                         {0, x, v, constants.acceleration(x - constants.load, v, 0.0), 0, 1});
+                                         {0, x, v, constants.acceleration(x - constants.equilibrium, v, 0.0), 0, 1});
     return next_contact(arc, stops, horizon);
   });
 }

@@ -20,7 +20,7 @@ namespace clatter::observables {
 namespace {
 
 constexpr double ulp = std::numeric_limits<double>::epsilon();
-constexpr Effects effects = general_effects(0.1).arc();
+constexpr Effects effects = general_effects({.damping = 0.1}).arc();
 constexpr Stops no_stops{};
 using Complex = std::complex<double>;
 
@@ -182,7 +182,7 @@ TEST(PolynomialArcs, multipliers_are_those_of_the_closed_form) {
   // check 5, in twelve digits; the motion is as far off as its steps
   for (const double tolerance : {1e-6, 1e-9, 1e-12}) {
     const point::Problem scene = with_tolerance(paper_scene(0.5, 0.7, 1.0), tolerance);
-    stepping::DormandPrince<general_effects(0.1)> integrator(scene, scene.integration, limits_of(scene));
+    stepping::DormandPrince<general_effects({.damping = 0.1})> integrator(scene, scene.integration, limits_of(scene));
     Stability stability(scene.stops, 64 * epsilon<double>());
     observe_by(integrator, scene, [&](double total, auto run) {
       run(stability);
@@ -205,7 +205,8 @@ TEST(PolynomialArcs, extrema_and_harmonics_come_as_near_to_the_exact_ones_as_the
     expected->finish(run(*expected, exact).x, total);
   });
   for (const double tolerance : {1e-5, 1e-8, 1e-11}) {
-    stepping::DormandPrince<general_effects(0.1)> integrator(scene, with_tolerance(scene, tolerance).integration);
+    stepping::DormandPrince<general_effects({.damping = 0.1})> integrator(scene,
+                                                                          with_tolerance(scene, tolerance).integration);
     std::optional<ExactHarmonics> harmonics;
     Extrema extrema;
     observe_by(integrator, scene, [&](double total, auto run) {

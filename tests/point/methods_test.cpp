@@ -206,11 +206,11 @@ TEST(Methods, with_all_effects_dopri5_runs_to_the_end_and_finds_the_same_motion)
   for (auto& [name, scene] : scenes()) {
     scene.observe = everything(observables::HarmonicsMethod::exact);
     scene.integration.method = stepping::Method::dopri5, scene.integration.tolerance = 1e-11;
-    EXPECT_EQ(effects_of(scene), general_effects(scene.oscillator.damping));
+    EXPECT_EQ(effects_of(scene), general_effects(scene.oscillator));
     if (scene.time.max_periods > 300) scene.time.max_periods = 300;
     const PointResult some = result_of(scene);
     scene.integration.all_effects = true;
-    EXPECT_EQ(effects_of(scene), general_effects(scene.oscillator.damping));
+    EXPECT_EQ(effects_of(scene), general_effects(scene.oscillator));
     const PointResult all = result_of(scene);
     EXPECT_LT(difference(some, all, name), name == "fading" ? scene.time.tolerance : 1e-11) << name;
     if (some.status == steady::Status::periodic && scene.oscillator.forcing != 0) {

@@ -63,7 +63,7 @@ Deviation deviation(const accuracy::RunRecord& record, const accuracy::RunRecord
 
 double conditioning(const point::Problem& scene, const accuracy::RunRecord& reference) {
   double worst = 0;
-  for (const unsigned signs : {0b010110101u, 0b100111000u}) {
+  for (const unsigned signs : {0b1010110101u, 0b0100111000u}) {
     point::Problem moved = scene;
     Oscillator& o = moved.oscillator;
     Stops& stops = moved.stops;
@@ -71,8 +71,9 @@ double conditioning(const point::Problem& scene, const accuracy::RunRecord& refe
     unsigned i = 0;
     start.phase += epsilon<double>();  // the force's phase is rounded to an ulp of a turn
     for (double* value : {&o.damping, &o.forcing, &o.frequency, &o.load, &stops.restitution_lower,
-                          &stops.restitution_upper, &start.velocity, &start.phase, &start.displacement})
-      if (*value != 0.0) *value *= 1 + (signs >> i++ & 1 ? 1 : -1) * epsilon<double>();
+                          &stops.restitution_upper, &start.velocity, &start.phase, &start.displacement, &o.stiffness})
+      if (*value != 0.0 && !(value == &o.stiffness && *value == 1.0))
+        *value *= 1 + (signs >> i++ & 1 ? 1 : -1) * epsilon<double>();
     for (double* value : {&stops.lower, &stops.upper}) {
       const bool on_it = scene.start.displacement == *value;
       *value *= 1 + epsilon<double>();
@@ -89,7 +90,8 @@ double conditioning(const point::Problem& scene, const accuracy::RunRecord& refe
 std::string configuration_of(const point::Problem& s, double duration) {
   std::ostringstream out;
   out << std::setprecision(17) << "[scene]\nh = " << s.oscillator.damping << "\nf = " << s.oscillator.forcing
-      << "\nnu = " << s.oscillator.frequency << "\nload = " << s.oscillator.load << "\nphase = " << s.start.phase
+      << "\nnu = " << s.oscillator.frequency << "\nload = " << s.oscillator.load
+      << "\nstiffness = " << s.oscillator.stiffness << "\nphase = " << s.start.phase
       << "\nx0 = " << s.start.displacement << "\nv0 = " << s.start.velocity << "\nstop_lower = " << s.stops.lower
       << "\nstop_upper = " << s.stops.upper << "\nR_lower = " << s.stops.restitution_lower
       << "\nR_upper = " << s.stops.restitution_upper << "\n[time]\nmode = \"transient\"\nduration = " << duration

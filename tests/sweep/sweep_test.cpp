@@ -40,8 +40,10 @@ TEST(Sweep, linked_axes_run_together) {
 }
 
 TEST(Parameter, every_key_leads_to_its_parameter_and_back) {
-  constexpr std::array all{h,          f,       nu,      phase, R,  xs, stop_lower,
-                           stop_upper, R_lower, R_upper, load,  x0, v0, start_period};
+  constexpr std::array all{h,           f,          nu,         phase,          R,
+                           xs,          stop_lower, stop_upper, R_lower,        R_upper,
+                           load,        x0,         v0,         stop_amplitude, base_amplitude,
+                           start_period};
   for (const Parameter parameter : all) EXPECT_EQ(parameter_of(key_of(parameter)), parameter) << key_of(parameter);
   EXPECT_EQ(parameter_of("tau"), std::nullopt);
 }

@@ -24,6 +24,7 @@ inline Sweep sweep_over(const std::vector<point::Problem>& scenes) {
                             axis(Parameter::h, [](const point::Problem& s) { return s.oscillator.damping; }),
                             axis(Parameter::f, [](const point::Problem& s) { return s.oscillator.forcing; }),
                             axis(Parameter::load, [](const point::Problem& s) { return s.oscillator.load; }),
+                            axis(Parameter::stiffness, [](const point::Problem& s) { return s.oscillator.stiffness; }),
                             axis(Parameter::stop_lower, [](const point::Problem& s) { return s.stops.lower; }),
                             axis(Parameter::stop_upper, [](const point::Problem& s) { return s.stops.upper; }),
                             axis(Parameter::R_lower, [](const point::Problem& s) { return s.stops.restitution_lower; }),
