@@ -7,10 +7,9 @@ import signal
 import subprocess
 import time
 import unittest
-from pathlib import Path
 
 from accuracy_runs import STEADY, AccuracyRuns, objects
-from command_line import CLATTER
+from command_line import CLATTER, handled_signals
 
 NOTED = "\nclatter: stopping after the present run; a second signal stops at once\n"  # the signal
 
@@ -75,11 +74,7 @@ class Interrupts(AccuracyRuns):
     def wait_for_handlers(self, process, numbers):
         """Waits until a process handles these of SIGINT and SIGTERM."""
         deadline = time.monotonic() + 120
-        while True:
-            status = Path(f"/proc/{process.pid}/status").read_text(encoding="utf-8")
-            caught = int(re.search(r"^SigCgt:\s*(\w+)$", status, re.MULTILINE)[1], 16)
-            if {number for number in (signal.SIGINT, signal.SIGTERM) if caught >> (number - 1) & 1} == numbers:
-                return
+        while handled_signals(process) != numbers:
             self.assertIsNone(process.poll(), "it ended before the signal")
             self.assertLess(time.monotonic(), deadline, f"it never came to handle {numbers}")
             time.sleep(0.01)

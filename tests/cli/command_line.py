@@ -3,6 +3,7 @@
 import os
 import pathlib
 import re
+import signal
 import subprocess
 import tempfile
 import unittest
@@ -31,6 +32,13 @@ def runs_here(name):
     flags = set(re.search(r"^flags\s*:(.*)$", pathlib.Path("/proc/cpuinfo").read_text(), re.MULTILINE)[1].split())
     needed = {"avx2": "avx2 fma", "avx512": "avx512f avx512dq avx512cd avx512bw avx512vl"}
     return set(needed.get(name, "").split()) <= flags
+
+
+def handled_signals(process):
+    """Those of SIGINT and SIGTERM that a process handles; none once it has ended."""
+    status = pathlib.Path(f"/proc/{process.pid}/status").read_text(encoding="utf-8")
+    caught = int(re.search(r"^SigCgt:\s*(\w+)$", status, re.MULTILINE)[1], 16)
+    return {number for number in (signal.SIGINT, signal.SIGTERM) if caught >> (number - 1) & 1}
 
 
 class CommandLine(unittest.TestCase):

@@ -10,20 +10,10 @@ import time
 import unittest
 
 from command_line import SMALL
-from stopped_runs import StoppedRuns
+from stopped_runs import StoppedRuns, holds_points
 
 
 class Resume(StoppedRuns):
-    def stopped_with_points(self, number):
-        """Stops a run by a signal, later and later until it had finished some points."""
-        for attempt in range(1, 100):
-            code, said = self.stopped(0.05 * attempt, number)
-            self.assertEqual(code, 128 + number, said)
-            self.assertFalse(self.output.exists())
-            if "no point was finished yet" not in said:
-                return said
-        self.fail("no point is ever finished")
-
     def test_a_signal_saves_and_the_same_command_goes_on(self):
         self.sweep(nu=200, xs=100)
         whole = self.undisturbed()
@@ -42,7 +32,7 @@ class Resume(StoppedRuns):
     def test_points_are_saved_about_once_a_second_while_it_runs(self):
         self.sweep(nu=400, xs=200)
         process = subprocess.Popen(self.command(threads=1), stderr=subprocess.DEVNULL)
-        while not (self.journal.exists() and self.journal.stat().st_size > 0) and process.poll() is None:
+        while not (self.journal.exists() and holds_points(self.journal.read_bytes())) and process.poll() is None:
             time.sleep(0.01)
         process.kill()
         self.assertNotEqual(process.wait(), 0, "the sweep is too short for this machine")
@@ -103,10 +93,10 @@ class Resume(StoppedRuns):
     def test_a_second_run_on_the_same_output_waits_for_nobody(self):
         self.sweep(nu=200, xs=100)
         first = subprocess.Popen(self.command(), stderr=subprocess.DEVNULL)
-        while not self.journal.exists() and first.poll() is None:
-            time.sleep(0.001)
+        self.wait_until_it_listens(first)
+        first.send_signal(signal.SIGSTOP)  # or it might end meanwhile
         result = self.run_command()
-        self.assertIsNone(first.poll(), "the sweep is too short for this machine")
+        first.send_signal(signal.SIGCONT)
         self.assertEqual(result.returncode, 75, result.stderr)
         self.assertIn("another run", result.stderr)
         self.assertEqual(first.wait(), 0)
@@ -120,22 +110,14 @@ class Resume(StoppedRuns):
                 os.close(file)
 
         for closed in ((0, 1, 2), (2,), (0, 2)):
-            for attempt in range(1, 100):
-                process = subprocess.Popen(self.command(), preexec_fn=lambda: close(*closed))
-                try:
-                    process.wait(0.1 * attempt)
-                except subprocess.TimeoutExpired:
-                    process.terminate()
-                self.assertEqual(process.wait(300), 143)
-                if self.journal.exists():
-                    break
+            self.stopped_with_points(signal.SIGTERM, popen={"preexec_fn": lambda closed=closed: close(*closed)})
             self.assertEqual(self.complete()[0], whole, closed)
             self.output.unlink()
         reader, writer = os.pipe()
         os.close(reader)
         for number, code in ((signal.SIGINT, 130), (signal.SIGHUP, 129)):
             process = subprocess.Popen(self.command("--progress", "always", "--restart"), stderr=writer)
-            time.sleep(0.3)
+            self.wait_until_it_listens(process)
             process.send_signal(number)
             self.assertEqual(process.wait(300), code)
         os.close(writer)
@@ -144,7 +126,7 @@ class Resume(StoppedRuns):
     def test_a_second_signal_of_any_kind_leaves_at_once(self):
         self.sweep(nu=400, xs=200)
         process = subprocess.Popen(self.command(), stderr=subprocess.DEVNULL)
-        time.sleep(0.3)
+        self.wait_until_it_listens(process)
         process.send_signal(signal.SIGINT)
         process.send_signal(signal.SIGTERM)
         self.assertIn(process.wait(300), (130, 143, -signal.SIGINT, -signal.SIGTERM))

@@ -4,9 +4,10 @@ import random
 import signal
 import struct
 import subprocess
+import time
 import zlib
 
-from command_line import CLATTER, CommandLine
+from command_line import CLATTER, CommandLine, handled_signals
 
 # Periodic and aperiodic motion, with and without impacts; ragged results too. Fractions of a second to seconds.
 SWEEP = """[scene]
@@ -47,6 +48,14 @@ def whole_records(journal):
     return journal[:at] if len(journal) >= at else b""
 
 
+def holds_points(journal):
+    """Whether a journal has a whole record of results after that of the configuration."""
+    records = whole_records(journal)
+    return (
+        len(records) > len(MAGIC) and len(records) > len(MAGIC) + 16 + struct.unpack_from("<Q", records, len(MAGIC))[0]
+    )
+
+
 class StoppedRuns(CommandLine):
     def setUp(self):
         super().setUp()
@@ -84,15 +93,40 @@ class StoppedRuns(CommandLine):
         whole.unlink()
         return content
 
-    def stopped(self, seconds, number, *words, **more):
-        """The exit code and what was said by a run that gets a signal after so long."""
-        process = subprocess.Popen(self.command(*words, **more), stderr=subprocess.PIPE, text=True)
+    def wait_until_it_listens(self, process):
+        """Waits until a run handles signals, from when on it stops in an orderly way, or until it has ended."""
+        while not handled_signals(process) and process.poll() is None:
+            time.sleep(0.001)
+
+    def stopped(self, seconds, number, *words, popen=None, **more):
+        """The exit code and what was said by a run that gets a signal after so long, SIGKILL at any moment, others
+        once it listens."""
+        process = subprocess.Popen(self.command(*words, **more), stderr=subprocess.PIPE, text=True, **(popen or {}))
         try:
             process.wait(seconds)
         except subprocess.TimeoutExpired:
+            if number != signal.SIGKILL:
+                self.wait_until_it_listens(process)
             process.send_signal(number)
         said = process.communicate(timeout=300)[1]
         return process.returncode, said
+
+    def stopped_with_points(self, number, popen=None):
+        """What was said by a run that a signal stopped after some points and before the last: later if none was
+        finished, sooner if all were."""
+        seconds = 0.05
+        for _ in range(100):
+            code, said = self.stopped(seconds, number, popen=popen)
+            if code == 0:
+                self.output.unlink()
+                seconds /= 2
+                continue
+            self.assertEqual(code, 128 + number, said)
+            self.assertFalse(self.output.exists())
+            if self.journal.exists():
+                return said
+            seconds *= 1.5
+        return self.fail("it never stops between two points")
 
     def in_steps(self, *words, **more):
         """Runs with --max-time, longer and longer, until it is done; returns how often it was stopped with something
