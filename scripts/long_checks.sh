@@ -6,11 +6,13 @@ usage() {
   cat <<END
 usage: scripts/long_checks.sh NAME [COUNT]
 
-Runs the long form of a test in tests/hard, tests/attractors or tests/cli; build first (scripts/test.sh). NAME is one of
+Runs the long form of a test in tests/hard, tests/attractors,
+tests/stepping or tests/cli; build first (scripts/test.sh). NAME is one of
   random       COUNT scenes with chatter and rest against 50 digits            (default 10000; about 0.1 s each)
   arcs         COUNT arcs of every scale against 50 digits                     (default 10000000; about 0.1 ms each)
   properties   the laws that every motion obeys, on COUNT random scenes        (default 1000000; about 4 ms each)
   shortcuts    COUNT steady scenes with every shortcut and with none           (default 10000; about 0.1 s each)
+  soft         COUNT scenes with soft stops against 50 digits and a general solver (default 100000; about 0.1 s each)
   attractors   the motions of COUNT scenes, numbered and told apart by long runs (default 1000; about 0.5 s each)
   drift        the speed of contact over COUNT conservative impacts            (default 100000000; about 1 us each)
   kills        COUNT runs killed, each sweep again and again until it is done  (default 1000; about 0.5 s each)
@@ -25,6 +27,7 @@ case "${1-}" in
   properties) filter='Properties.*' count=1000000 ;;
   shortcuts) filter='Attractors.no_shortcut*' count=10000 ;;
   attractors) filter='BruteForce.*' count=1000 tests=attractors_tests ;;
+  soft) filter='SoftStops.random*:SoftStops.no_contact*' count=100000 tests=stepping_tests ;;
   drift) filter='Long.conservative*' count=100000000 ;;
   kills) filter=resume_test.Resume.test_killed_at_random_moments_it_loses_nothing_that_was_saved count=1000 ;;
   disks) filter=faults_test.Faults.test_a_disk_that_is_full_at_any_size_loses_nothing count=100 ;;

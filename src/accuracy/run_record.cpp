@@ -26,13 +26,18 @@ class RunObserver {
     if (observables) harmonics_.emplace(observables->harmonics, observables->base_frequency);
   }
 
-  template <class A>
-  void arc(const A& arc, double begin, double length) {
+  template <Effects Of>
+  void arc(const motion::Arc<Number, Of>& arc, double begin, double length) {
     if (differentiates_) tangent_.arc(arc, begin, length);
     if (!harmonics_) return;
-    const motion::Arc<double, E.arc()> in_double(constants_, rounded(arc.start()), static_cast<double>(arc.anchor()));
-    extrema_.arc(in_double, begin, length);
-    harmonics_->arc(in_double, begin, length);
+    if constexpr (E.soft) {
+      const Side side = arc.constants().stop.side;
+      if (side != Side::none) {
+        const auto stop = motion::soft_stop_at<double>(stops_, side);
+        return see(arc, motion::ArcConstants<double, Of>::in_contact(constants_, stop), begin, length);
+      }
+    }
+    if constexpr (Of == E.arc()) see(arc, constants_, begin, length);
   }
   void rest(const motion::Rest& rest) {
     events.push_back(event_of(rest));
@@ -45,6 +50,12 @@ class RunObserver {
     if (harmonics_) extrema_.impact(impact);
   }
 
+  /// A contact with a soft stop is an event like an impact.
+  void touch(const motion::Touch& touch) {
+    events.push_back({Event::Kind::impact, touch.side, touch.time, std::abs(touch.velocity), 0.0});
+    if (differentiates_) tangent_.touch(touch);
+  }
+
   void differentiate() { differentiates_ = true; }
   [[nodiscard]] motion::Jacobian<Number> derivative() const { return tangent_.map(); }
 
@@ -53,12 +64,21 @@ class RunObserver {
     if (!harmonics_) return;
     harmonics_->finish(record.x, record.duration);
     record.harmonics = harmonics_->displacement(), record.v_harmonics = harmonics_->velocity();
-    record.x_range = extrema_.displacement(stops_), record.v_range = extrema_.velocity();
+    record.x_range = extrema_.displacement(rigid_ones(stops_)), record.v_range = extrema_.velocity();
   }
 
   std::vector<Event> events{};
 
  private:
+  /// Shows an arc in double to the observables.
+  template <Effects Of>
+  void see(const motion::Arc<Number, Of>& arc, const motion::ArcConstants<double, Of>& constants, double begin,
+           double length) {
+    const motion::Arc<double, Of> in_double(constants, rounded(arc.start()), static_cast<double>(arc.anchor()));
+    extrema_.arc(in_double, begin, length);
+    harmonics_->arc(in_double, begin, length);
+  }
+
   Stops stops_;
   motion::ArcConstants<double, E.arc()> constants_;
   motion::TangentMap<Number> tangent_;
@@ -106,7 +126,7 @@ RunRecord run_from(const point::Problem& scene, motion::State<Number> state, con
 template <class Number>
 RunRecord run_in(const point::Problem& scene, double duration, const std::optional<RecordObservables>& observables,
                  const std::function<bool()>& stopped) {
-  return with_any_stops(scene.oscillator, [&]<Effects effects>() {
+  return with_any_stops(scene, [&]<Effects effects>() {
     const Number period = 2 * pi<Number>() / Number(counting_frequency(scene.oscillator));
     return run_from<Number, effects>(scene, start_of<Number>(scene), Number(Number(duration) / period), duration,
                                      observables, stopped);
@@ -131,7 +151,7 @@ bool to_fixed_point(const point::Problem& scene, motion::State<FiftyDigits>& sta
     const FiftyDigits determinant = (1 - D[0]) * (1 - D[3]) - D[1] * D[2];
     start.x += ((1 - D[3]) * dx + D[1] * dv) / determinant;
     start.v += (D[2] * dx + (1 - D[0]) * dv) / determinant;
-    start.from_stop = Side::none, start.released = false;
+    start.from_stop = start.within = Side::none, start.released = start.pressed = false;
   }
   return false;
 }
@@ -168,7 +188,7 @@ std::optional<RunRecord> periodic_reference(const point::Problem& scene, double 
                                             const RecordObservables& observables,
                                             const std::function<bool()>& stopped) {
   if (periods != std::floor(periods)) return std::nullopt;
-  return with_any_stops(scene.oscillator, [&]<Effects effects>() -> std::optional<RunRecord> {
+  return with_any_stops(scene, [&]<Effects effects>() -> std::optional<RunRecord> {
     motion::State<FiftyDigits> start = start_of<FiftyDigits>(scene);
     if (!to_fixed_point<effects>(scene, start, periods, stopped)) return std::nullopt;
     const double duration = periods * period_of(scene.oscillator);

@@ -24,6 +24,15 @@ class ContactObserver {
     fastest_ = std::max(fastest_, std::abs(impact.before));
   }
 
+  void touch(const motion::Touch& touch) {
+    if (!touch.from_outside) return;
+    add({touch.time, touch.velocity, touch.side}, touch.time);
+    fastest_ = std::max(fastest_, std::abs(touch.velocity));
+  }
+  void separate(const motion::Separation& separation) {
+    if (!ends_.empty()) ends_.back() = separation.time;
+  }
+
   /// Adds what was seen in a round of that length, in tau.
   void finish(double length, Round& round) {
     double longest = 0.0;

@@ -52,8 +52,9 @@ bool PeriodicMotion::passes(const PhasePoint& state) const {
 }
 
 PhasePoint after_impact(const Stops& stops, PhasePoint state, double size) {
-  if (state.v < 0 && std::abs(state.x - stops.lower) <= same_motion * size) state.v *= -stops.restitution_lower;
-  if (state.v > 0 && std::abs(state.x - stops.upper) <= same_motion * size) state.v *= -stops.restitution_upper;
+  const Stops rigid = rigid_ones(stops);
+  if (state.v < 0 && std::abs(state.x - rigid.lower) <= same_motion * size) state.v *= -stops.restitution_lower;
+  if (state.v > 0 && std::abs(state.x - rigid.upper) <= same_motion * size) state.v *= -stops.restitution_upper;
   return state;
 }
 

@@ -19,14 +19,20 @@ point::Problem between(const point::Problem& from, const point::Problem& to, dou
   o.damping = mix(a.damping, b.damping), o.forcing = mix(a.forcing, b.forcing);
   o.frequency = mix(a.frequency, b.frequency), o.load = mix(a.load, b.load);
   o.stiffness = mix(a.stiffness, b.stiffness);
-  problem.stops = {mix(from.stops.lower, to.stops.lower), mix(from.stops.upper, to.stops.upper),
+  problem.stops = {mix(from.stops.lower, to.stops.lower),
+                   mix(from.stops.upper, to.stops.upper),
                    mix(from.stops.restitution_lower, to.stops.restitution_lower),
-                   mix(from.stops.restitution_upper, to.stops.restitution_upper)};
+                   mix(from.stops.restitution_upper, to.stops.restitution_upper),
+                   mix(from.stops.stiffness_lower, to.stops.stiffness_lower),
+                   mix(from.stops.stiffness_upper, to.stops.stiffness_upper),
+                   mix(from.stops.damping_lower, to.stops.damping_lower),
+                   mix(from.stops.damping_upper, to.stops.damping_upper)};
   return problem;
 }
 
 PhasePoint inside(const Stops& stops, const PhasePoint& state) {
-  return {std::clamp(state.x, stops.lower, stops.upper), state.v};
+  const Stops rigid = rigid_ones(stops);
+  return {std::clamp(state.x, rigid.lower, rigid.upper), state.v};
 }
 
 /// The displacement at which a mass that stands still at x does so at other parameters: on its stop, or in equilibrium.

@@ -1,3 +1,4 @@
+#include <limits>
 #include <string>
 
 #include "config/consistency.hpp"
@@ -32,6 +33,8 @@ void check_start_period(const Settings& settings) {
   for (const sweep::Parameter parameter : {h, f, load}) demand(parameter, 0);
   demand(stiffness, 1);
   for (const sweep::Parameter parameter : {R, R_lower, R_upper}) demand(parameter, 1);
+  for (const sweep::Parameter parameter : {stop_stiffness, stop_stiffness_lower, stop_stiffness_upper})
+    demand(parameter, std::numeric_limits<double>::infinity());
   if (!settings.given(xs))
     fail(start->key_location,
          "'start_period' without 'xs'; give the stops by xs, or x0 and v0 in place of start_period");

@@ -92,6 +92,8 @@ point::Problem scene_of(const Settings& settings) {
 
 sweep::Sweep sweep_of(Settings& settings, const AxisGroups& groups) {
   sweep::Sweep sweep{.problem = scene_of(settings), .follow = followed_dimension(settings, groups)};
+  sweep.problem.observe.of_soft_stops =
+      is_soft_somewhere(settings, Side::lower) || is_soft_somewhere(settings, Side::upper);
   if (sweep.follow) sweep.direction = direction_of(settings);
   if (const Setting* const start = settings.find("scene", "start_period"))
     sweep.start_period = std::get<double>(start->value);
@@ -211,6 +213,7 @@ Config config_of(ParsedConfig parsed) {
   spread_sobol(settings);
   const AxisGroups groups = group_axes(settings);
   check_stops_and_start(settings, groups);
+  check_soft_stops(settings);
   Config config{settings.text("", "title"),
                 settings.text("", "source"),
                 {},

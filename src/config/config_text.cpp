@@ -1,7 +1,10 @@
 #include "config/config_text.hpp"
 
 #include <algorithm>
+#include <array>
 #include <type_traits>
+
+#include "config/consistency.hpp"
 
 namespace clatter::config {
 namespace {
@@ -12,11 +15,21 @@ bool is_swept(const Settings& settings, const Key& key) {
   return std::ranges::find(settings.axes, &key, &Setting::key) != settings.axes.end();
 }
 
+/// Whether a soft stop excludes a key, which is a restitution.
+bool is_excluded(const Settings& settings, const Key& key) {
+  const bool lower = is_soft_somewhere(settings, Side::lower), upper = is_soft_somewhere(settings, Side::upper);
+  return (key.name == "R" && (lower || upper)) || (key.name == "R_lower" && lower) || (key.name == "R_upper" && upper);
+}
+
 /// Whether the default of a key belongs in the text: not if its alternative was given.
 bool default_counts(const Settings& settings, const Key& key) {
-  const bool each_stop = settings.given(R_lower) || settings.given(R_upper);
-  if (key.other == "R") return each_stop;
-  if (key.name == "R") return !each_stop;
+  for (const auto& [both, lower, upper] : {std::array{R, R_lower, R_upper},
+                                           {stop_stiffness, stop_stiffness_lower, stop_stiffness_upper},
+                                           {stop_damping, stop_damping_lower, stop_damping_upper}}) {
+    const bool each_stop = settings.given(lower) || settings.given(upper);
+    if (key.other == sweep::key_of(both)) return each_stop && !is_excluded(settings, key);
+    if (key.section == "scene" && key.name == sweep::key_of(both)) return !each_stop && !is_excluded(settings, key);
+  }
   if (key.other == "xs") return !settings.given(xs);
   if (key.name == "x0" || key.name == "v0") return !settings.given(start_period);
   return key.has_default();

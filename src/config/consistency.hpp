@@ -39,6 +39,13 @@ void check_alternatives(const Settings& settings);
 /// Throws ConfigError if at some point of the sweep the stops are in the wrong order or the start is not between them.
 void check_stops_and_start(const Settings& settings, const AxisGroups& groups);
 
+/// Whether a stop is soft at some point of the sweep, or at every one.
+[[nodiscard]] bool is_soft_somewhere(const Settings& settings, Side side);
+[[nodiscard]] bool is_soft_everywhere(const Settings& settings, Side side);
+
+/// Throws ConfigError if soft stops can't hold the mass, or the method is for rigid ones.
+void check_soft_stops(const Settings& settings);
+
 /// Warns of keys without effect, values twice on an axis, and a run that observes nothing.
 [[nodiscard]] std::vector<Warning> warnings_of(const Settings& settings, const AxisGroups& groups);
 

@@ -19,6 +19,7 @@ constexpr AllowedRange any{};
 constexpr AllowedRange any_or_infinite{.infinite = true};
 constexpr AllowedRange not_negative{.low = 0};
 constexpr AllowedRange positive{.low = 0, .open = true};
+constexpr AllowedRange positive_or_infinite{.low = 0, .open = true, .infinite = true};
 constexpr AllowedRange not_zero{.not_zero = true};
 constexpr AllowedRange zero_to_one{.low = 0, .high = 1};
 
@@ -28,8 +29,9 @@ constexpr std::array<std::string_view, 2> effects{"required", "all"};
 using enum Kind;
 
 constexpr std::string_view a_force = "f = 1.0\n", stops = "xs = 1.0\n", a_stop_axis = "xs = \"linspace(1, 2, 11)\"\n",
-                           is_transient = "mode = \"transient\"\n", by_moreau = "method = \"moreau\"\n",
-                           a_range = "range = [0.8, 1.5]\n", a_branch = "along = \"nu\"\nrange = [0.8, 1.5]\n",
+                           soft = "xs = 1.0\nstop_stiffness = 100.0\n", is_transient = "mode = \"transient\"\n",
+                           by_moreau = "method = \"moreau\"\n", a_range = "range = [0.8, 1.5]\n",
+                           a_branch = "along = \"nu\"\nrange = [0.8, 1.5]\n",
                            a_kind = "along = \"nu\"\nrange = [0.8, 1.5]\ncurve = \"fold\"\n",
                            a_second = "along = \"nu\"\nrange = [0.8, 1.5]\nacross = \"xs\"\n",
                            a_curve = "along = \"nu\"\nrange = [0.8, 1.5]\nacross = \"xs\"\ncurve = \"fold\"\n";
@@ -53,6 +55,24 @@ constexpr std::array keys_before_observe{
                                zero_to_one})),
     with(stops, or_as("R", Key{"scene", "R_upper", number, "1", "0.5", "restitution of the upper stop, in place of R",
                                zero_to_one})),
+    with(stops, Key{"scene", "stop_stiffness", number, "inf", "100",
+                    "kappa of both stops, in the unit of the spring's; inf: rigid. A soft stop, in place of R, pushes "
+                    "with kappa times the depth beyond it plus damping, and never pulls",
+                    positive_or_infinite}),
+    with(stops, or_as("stop_stiffness",
+                      Key{"scene", "stop_stiffness_lower", number, "inf", "100",
+                          "kappa of the lower stop, in place of stop_stiffness; inf: rigid", positive_or_infinite})),
+    with(stops, or_as("stop_stiffness",
+                      Key{"scene", "stop_stiffness_upper", number, "inf", "100",
+                          "kappa of the upper stop, in place of stop_stiffness; inf: rigid", positive_or_infinite})),
+    with(soft, Key{"scene", "stop_damping", number, "0", "0.1",
+                   "damping ratio zeta of both soft stops: 2 zeta kappa^(1/2) is the factor of x'", not_negative}),
+    with(soft,
+         or_as("stop_damping", Key{"scene", "stop_damping_lower", number, "0", "0.1",
+                                   "damping ratio of the lower soft stop, in place of stop_damping", not_negative})),
+    with(soft,
+         or_as("stop_damping", Key{"scene", "stop_damping_upper", number, "0", "0.1",
+                                   "damping ratio of the upper soft stop, in place of stop_damping", not_negative})),
     Key{"scene", "load", number, "0", "-0.2", "constant force over stiffness", any},
     Key{"scene", "stiffness", number, "1", "4",
         "k of the spring, in units in which mass is 1; 0: none, negative: pushes away from x = 0. With k not 1, h is "
@@ -173,7 +193,8 @@ std::string bound_text(double bound) {
 }
 
 std::string describe(const AllowedRange& range) {
-  if (range.infinite) return "any number, -inf or inf";
+  if (range.infinite && range.low == -infinity) return "any number, -inf or inf";
+  if (range.infinite) return "> " + bound_text(range.low) + " or inf";
   if (range.not_zero) return "any number but 0";
   if (range.low == -infinity) return "any number";
   const std::string low = bound_text(range.low);
@@ -211,7 +232,7 @@ bool is_free_text(std::string_view section, std::string_view name) {
 }
 
 bool contains(const AllowedRange& range, double value) {
-  if (std::isinf(value)) return range.infinite;
+  if (std::isinf(value)) return range.infinite && (value > 0 || range.low == -infinity);
   if (value == 0 && range.or_zero) return true;
   if (value == 0 && range.not_zero) return false;
   return range.open ? value > range.low && value < range.high : value >= range.low && value <= range.high;

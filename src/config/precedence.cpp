@@ -97,7 +97,10 @@ double stop_of(sweep::Parameter side, double xs_value) {
   return side == stop_lower ? -std::abs(xs_value) : std::abs(xs_value);
 }
 
-constexpr Pair pairs[] = {{xs, stop_lower, stop_upper, stop_of}, {R, R_lower, R_upper, same}};
+constexpr Pair pairs[] = {{xs, stop_lower, stop_upper, stop_of},
+                          {R, R_lower, R_upper, same},
+                          {stop_stiffness, stop_stiffness_lower, stop_stiffness_upper, same},
+                          {stop_damping, stop_damping_lower, stop_damping_upper, same}};
 
 /// Makes a setting of the pair's common key one of the remaining half.
 void halve(Setting& setting, const Pair& pair, sweep::Parameter remaining) {
@@ -129,6 +132,16 @@ void replace_half(Settings& settings, const Pair& pair, sweep::Parameter by, swe
   halve(settings, pair, remaining);
 }
 
+/// A soft stop has no restitution.
+void let_soft_stop_or_restitution_win(Settings& settings, Side side) {
+  const bool lower = side == Side::lower;
+  for (const sweep::Parameter soft : {stop_stiffness, lower ? stop_stiffness_lower : stop_stiffness_upper})
+    for (const sweep::Parameter rigid : {R, lower ? R_lower : R_upper}) {
+      exclude(settings, soft, rigid);
+      replace(settings, soft, rigid), replace(settings, rigid, soft);
+    }
+}
+
 }  // namespace
 
 void let_command_line_win(Settings& settings) {
@@ -139,6 +152,8 @@ void let_command_line_win(Settings& settings) {
     replace(settings, pair.both, pair.one), replace(settings, pair.both, pair.other);
     replace_half(settings, pair, pair.one, pair.other), replace_half(settings, pair, pair.other, pair.one);
   }
+  for (const Side side : {Side::lower, Side::upper})
+    if (is_soft_somewhere(settings, side)) let_soft_stop_or_restitution_win(settings, side);
   for (const sweep::Parameter start : {x0, v0}) exclude(settings, start_period, start);
   for (const sweep::Parameter start : {x0, v0})
     replace(settings, start_period, start), replace(settings, start, start_period);

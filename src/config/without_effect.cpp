@@ -40,6 +40,9 @@ bool absent(const Settings& settings, sweep::Parameter stop) {
 }
 bool no_lower(const Settings& settings) { return absent(settings, stop_lower); }
 bool no_upper(const Settings& settings) { return absent(settings, stop_upper); }
+bool no_soft_lower(const Settings& settings) { return !is_soft_somewhere(settings, Side::lower); }
+bool no_soft_upper(const Settings& settings) { return !is_soft_somewhere(settings, Side::upper); }
+bool no_soft_stop(const Settings& settings) { return no_soft_lower(settings) && no_soft_upper(settings); }
 bool no_stops(const Settings& settings) { return no_lower(settings) && no_upper(settings); }
 
 /// A transient has no period; at symmetric stops `period` still gives the ratio of velocities.
@@ -59,6 +62,7 @@ struct Rule {
 
 constexpr std::string_view in_transient = "in a transient", or_steady = "write mode = \"steady\" in [time]";
 constexpr std::string_view no_force = "without a force", or_force = "give a force f";
+constexpr std::string_view or_soft = "give a finite stop_stiffness";
 constexpr std::string_view or_stops = "give xs, stop_lower or stop_upper";
 constexpr std::string_view no_harmonic = "without harmonics", or_harmonics = "write e.g. harmonics = 3";
 constexpr std::string_view only_moreau = "without method = \"moreau\"", or_moreau = "write that in [integrator]";
@@ -69,6 +73,12 @@ constexpr Rule rules[] = {
     {"scene", "R", no_stops, "without stops", or_stops},
     {"scene", "R_lower", no_lower, "without a lower stop", "give stop_lower"},
     {"scene", "R_upper", no_upper, "without an upper stop", "give stop_upper"},
+    {"scene", "stop_stiffness", no_stops, "without stops", or_stops},
+    {"scene", "stop_stiffness_lower", no_lower, "without a lower stop", "give stop_lower"},
+    {"scene", "stop_stiffness_upper", no_upper, "without an upper stop", "give stop_upper"},
+    {"scene", "stop_damping", no_soft_stop, "without a soft stop", or_soft},
+    {"scene", "stop_damping_lower", no_soft_lower, "without a soft lower stop", or_soft},
+    {"scene", "stop_damping_upper", no_soft_upper, "without a soft upper stop", or_soft},
     {"sweep", "direction", follows_nothing, "without follow", "name an axis in follow"},
     {"time", "max_periods", transient, in_transient, or_steady},
     {"time", "window", transient, in_transient, or_steady},

@@ -39,8 +39,8 @@ bool accepts(const Scene& scene) {
       o.forcing != 0 && o.damping >= 0 && o.damping <= 0.9 && o.stiffness == 1.0 && forcing_of(o) == Forcing::regular;
   const double amplitude = steady_response(o).amplitude, room = stops.upper - stops.lower;
   const bool bounces = std::min(stops.restitution_lower, stops.restitution_upper) >= 1.0 / 16;
-  return moves && o.frequency >= 1e-3 && o.frequency <= 1e3 && bounces && amplitude > 1e-100 && amplitude < 1e100 &&
-         room > amplitude / 64 && std::min(std::abs(stops.lower), std::abs(stops.upper)) < 1e100;
+  return moves && !has_soft_stop(stops) && o.frequency >= 1e-3 && o.frequency <= 1e3 && bounces && amplitude > 1e-100 &&
+         amplitude < 1e100 && room > amplitude / 64 && std::min(std::abs(stops.lower), std::abs(stops.upper)) < 1e100;
 }
 
 StepFunctions step_functions_of(InstructionSet arch) {

@@ -7,6 +7,7 @@
 #include <tuple>
 
 #include "model/oscillator.hpp"
+#include "model/scene.hpp"
 
 namespace clatter {
 inline namespace model {
@@ -28,6 +29,7 @@ struct Effects {
   bool dissipation = false;           ///< speed is lost at a stop in reach: R < 1
   bool rest = false;                  ///< chatter and rest: a stop in reach may be pressed
   bool stiffness = false;             ///< a spring of stiffness k other than 1, or none
+  bool soft = false;                  ///< a soft stop in reach
 
   [[nodiscard]] constexpr bool stops() const { return lower || upper; }
 
@@ -44,9 +46,10 @@ struct Effects {
   const bool decays_twice = some.damping >= Damping::critical;
   const bool damping =
       decays_twice ? all.damping == Damping::heavy : all.damping <= Damping::light && all.damping >= some.damping;
-  return damping && all.forcing >= some.forcing && all.stiffness == some.stiffness && all.load >= some.load &&
-         all.lower >= some.lower && all.upper >= some.upper && all.dissipation >= some.dissipation &&
-         all.rest >= some.rest;
+  const bool stiffness = all.stiffness == some.stiffness || (all.soft && all.stiffness);
+  return damping && stiffness && all.forcing >= some.forcing && all.load >= some.load && all.lower >= some.lower &&
+         all.upper >= some.upper && all.dissipation >= some.dissipation && all.rest >= some.rest &&
+         all.soft >= some.soft;
 }
 
 namespace effect_sets {
@@ -68,6 +71,11 @@ namespace effect_sets {
   effects.stiffness = true;
   return effects;
 }
+[[nodiscard]] constexpr Effects with_soft_stops(Damping damping, Forcing forcing) {
+  Effects effects = of_any_stiffness(damping, forcing);
+  effects.soft = true;
+  return effects;
+}
 
 }  // namespace effect_sets
 
@@ -76,7 +84,8 @@ namespace effect_sets {
 /// in every evaluation), dissipation (one multiplication an impact), chatter and rest (one comparison an impact), and
 /// critical damping, which is rare. A stiffness other than 1 has two sets that contain all the rest: points with k > 0
 /// are run with k = 1, in other units of time, so only those without a spring or with an unstable one need them.
-/// src/model/README.md has the cost of each effect.
+/// Soft stops need them, too, as the mass moves on another spring while it is in contact. src/model/README.md has the
+/// cost of each effect.
 inline constexpr std::array compiled_effects{
     effect_sets::free_of_stops(Damping::none, Forcing::none),
     effect_sets::free_of_stops(Damping::light, Forcing::regular),
@@ -92,6 +101,8 @@ inline constexpr std::array compiled_effects{
     effect_sets::complete(Damping::heavy, Forcing::regular),
     effect_sets::of_any_stiffness(Damping::light, Forcing::secular),
     effect_sets::of_any_stiffness(Damping::heavy, Forcing::regular),
+    effect_sets::with_soft_stops(Damping::light, Forcing::secular),
+    effect_sets::with_soft_stops(Damping::heavy, Forcing::regular),
 };
 
 /// The cheapest compiled set that contains the effects: an index of `compiled_effects`.
@@ -106,7 +117,7 @@ inline constexpr std::array compiled_effects{
 [[nodiscard]] inline bool cheaper(const Effects& one, const Effects& other) {
   const auto key = [](const Effects& e) {
     return std::tuple(effect_set_of(e), e.damping, e.forcing, e.stiffness, e.load, e.lower, e.upper, e.dissipation,
-                      e.rest);
+                      e.rest, e.soft);
   };
   return key(one) < key(other);
 }
@@ -128,6 +139,13 @@ inline constexpr double secular_distance = 1.0 / 16.0;
                                : effect_sets::of_any_stiffness(Damping::heavy, Forcing::regular);
   if (h >= 1.0) return effect_sets::complete(Damping::heavy, Forcing::regular);
   return effect_sets::complete(Damping::light, h >= secular_distance ? Forcing::regular : Forcing::secular);
+}
+
+/// Every effect that a scene can have.
+[[nodiscard]] inline Effects all_effects(const Scene& scene) {
+  if (!has_soft_stop(scene.stops)) return all_effects(scene.oscillator);
+  return rotates(scene.oscillator) ? effect_sets::with_soft_stops(Damping::light, Forcing::secular)
+                                   : effect_sets::with_soft_stops(Damping::heavy, Forcing::regular);
 }
 
 [[nodiscard]] constexpr Damping damping_of(const Oscillator& oscillator) {
@@ -177,6 +195,12 @@ decltype(auto) with_effects(const Effects& effects, Function&& function) {
   return effect_sets::complete(damping, Forcing::regular);
 }
 
+/// The same for a scene, which may have soft stops.
+[[nodiscard]] inline Effects general_effects(const Scene& scene) {
+  if (!has_soft_stop(scene.stops)) return general_effects(scene.oscillator);
+  return effect_sets::with_soft_stops(rotates(scene.oscillator) ? Damping::light : Damping::heavy, Forcing::regular);
+}
+
 /// Calls `function.operator()<effects>()` for the effects that general methods simulate for an oscillator.
 template <class Function>
 decltype(auto) with_general_effects(const Oscillator& oscillator, Function&& function) {
@@ -191,7 +215,16 @@ decltype(auto) with_general_effects(const Oscillator& oscillator, Function&& fun
   return function.template operator()<general_effects({.damping = 1.0})>();
 }
 
-/// Calls `function.operator()<set>()` for an oscillator between any stops: one of the ten complete sets.
+/// The same for a scene, which may have soft stops.
+template <class Function>
+decltype(auto) with_general_effects(const Scene& scene, Function&& function) {
+  if (!has_soft_stop(scene.stops)) return with_general_effects(scene.oscillator, static_cast<Function&&>(function));
+  if (rotates(scene.oscillator))
+    return function.template operator()<effect_sets::with_soft_stops(Damping::light, Forcing::regular)>();
+  return function.template operator()<effect_sets::with_soft_stops(Damping::heavy, Forcing::regular)>();
+}
+
+/// Calls `function.operator()<set>()` for an oscillator between any rigid stops: one of the twelve complete sets.
 template <class Function>
 decltype(auto) with_any_stops(const Oscillator& oscillator, Function&& function) {
   if (oscillator.stiffness != 1.0) {
@@ -211,6 +244,15 @@ decltype(auto) with_any_stops(const Oscillator& oscillator, Function&& function)
   if (damping == Damping::none) return with_damping.template operator()<Damping::none>();
   if (damping == Damping::light) return with_damping.template operator()<Damping::light>();
   return with_damping.template operator()<Damping::heavy>();
+}
+
+/// The same for a scene, which may have soft stops.
+template <class Function>
+decltype(auto) with_any_stops(const Scene& scene, Function&& function) {
+  if (!has_soft_stop(scene.stops)) return with_any_stops(scene.oscillator, static_cast<Function&&>(function));
+  if (rotates(scene.oscillator))
+    return function.template operator()<effect_sets::with_soft_stops(Damping::light, Forcing::secular)>();
+  return function.template operator()<effect_sets::with_soft_stops(Damping::heavy, Forcing::regular)>();
 }
 
 }  // namespace model

@@ -17,7 +17,7 @@ struct AllowedRange {
   bool open = false;      ///< the ends themselves are excluded
   bool not_zero = false;  ///< 0 is excluded
   bool or_zero = false;   ///< 0 is permitted too
-  bool infinite = false;  ///< -inf and inf are permitted
+  bool infinite = false;  ///< inf is permitted, and -inf if there is no lower bound
 };
 
 /// All that is known of a configuration key, as plain data: reading, validation, `clatter defaults`, the help and the

@@ -25,17 +25,22 @@ Requirements requirements(const Scene& scene, double duration, Sharpness bounds)
                          std::cos(scene.start.phase)};
   const double enough = bounds == Sharpness::sharpest ? 0.0 : std::fmin(needs.lower_gap, needs.upper_gap);
   needs.free_reach = displacement_bound(o, start, duration, enough);
-  needs.reach = displacement_bound_through_impacts(o, start, duration);
+  const bool soft_lower = is_soft(stops, Side::lower), soft_upper = is_soft(stops, Side::upper);
+  const double x0 = scene.start.displacement;
+  const bool in_a_stop = (soft_lower && x0 < stops.lower) || (soft_upper && x0 > stops.upper);
+  needs.reach = in_a_stop ? infinity : displacement_bound_through_impacts(o, start, duration);  // it stores energy
   Effects& effects = needs.effects;
   if (!(needs.free_reach < needs.lower_gap && needs.free_reach < needs.upper_gap)) {  // else none is ever met
     effects.lower = std::isfinite(stops.lower) && !(needs.reach < needs.lower_gap);
     effects.upper = std::isfinite(stops.upper) && !(needs.reach < needs.upper_gap);
   }
-  effects.dissipation =
-      (effects.lower && !(stops.restitution_lower >= 1)) || (effects.upper && !(stops.restitution_upper >= 1));
+  const auto loses = [](bool soft, double R, double zeta) { return soft ? !(zeta <= 0) : !(R >= 1); };
+  effects.soft = (effects.lower && soft_lower) || (effects.upper && soft_upper);
+  effects.dissipation = (effects.lower && loses(soft_lower, stops.restitution_lower, stops.damping_lower)) ||
+                        (effects.upper && loses(soft_upper, stops.restitution_upper, stops.damping_upper));
   const double push = std::abs(o.forcing) * (1 + 4 * std::numeric_limits<double>::epsilon());
-  effects.rest = (effects.lower && !(push < constant_force(o, stops.lower))) ||
-                 (effects.upper && !(push < -constant_force(o, stops.upper)));
+  effects.rest = (effects.lower && !soft_lower && !(push < constant_force(o, stops.lower))) ||
+                 (effects.upper && !soft_upper && !(push < -constant_force(o, stops.upper)));
   return needs;
 }
 

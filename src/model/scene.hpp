@@ -26,8 +26,9 @@ struct Scene {
 [[nodiscard]] inline bool is_symmetric(const Scene& scene) {
   const Stops& stops = scene.stops;
   const bool bounded = std::isfinite(stops.upper);
-  return stops.lower == -stops.upper && (!bounded || stops.restitution_lower == stops.restitution_upper) &&
-         scene.oscillator.load == 0;
+  const bool alike = stops.restitution_lower == stops.restitution_upper &&
+                     stops.stiffness_lower == stops.stiffness_upper && stops.damping_lower == stops.damping_upper;
+  return stops.lower == -stops.upper && (!bounded || alike) && scene.oscillator.load == 0;
 }
 
 }  // namespace model

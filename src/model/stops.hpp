@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -15,13 +16,34 @@ enum class Side : std::int8_t { lower = -1, none = 0, upper = 1 };
 /// +1 at the upper stop, -1 at the lower one.
 [[nodiscard]] constexpr int sign_of(Side side) { return static_cast<int>(side); }
 
-/// The two rigid stops and the share of its speed that the mass keeps at each (eq. 4): x'+ = -R x'-.
+/// The two stops. At a rigid one the mass keeps a share of its speed (eq. 4): x'+ = -R x'-. A soft one is a spring and
+/// a damper that push the mass back while it is beyond the stop's position (eq. 50), and never pull.
 struct Stops {
-  double lower = -std::numeric_limits<double>::infinity();  ///< position of the lower stop; -inf: none
-  double upper = std::numeric_limits<double>::infinity();   ///< position of the upper stop; +inf: none
-  double restitution_lower = 1.0;                           ///< R of the lower stop, 0 ... 1
-  double restitution_upper = 1.0;                           ///< R of the upper stop, 0 ... 1
+  double lower = -std::numeric_limits<double>::infinity();           ///< position of the lower stop; -inf: none
+  double upper = std::numeric_limits<double>::infinity();            ///< position of the upper stop; +inf: none
+  double restitution_lower = 1.0;                                    ///< R of the lower stop, 0 ... 1
+  double restitution_upper = 1.0;                                    ///< R of the upper stop, 0 ... 1
+  double stiffness_lower = std::numeric_limits<double>::infinity();  ///< kappa of the lower stop, > 0; inf: rigid
+  double stiffness_upper = std::numeric_limits<double>::infinity();  ///< kappa of the upper stop, > 0; inf: rigid
+  double damping_lower = 0.0;  ///< zeta, damping ratio of the lower stop, >= 0; only of a soft one
+  double damping_upper = 0.0;  ///< zeta, damping ratio of the upper stop, >= 0; only of a soft one
 };
+
+/// Whether there is a soft stop on a side.
+[[nodiscard]] inline bool is_soft(const Stops& stops, Side side) {
+  if (side == Side::lower) return std::isfinite(stops.lower) && std::isfinite(stops.stiffness_lower);
+  return side == Side::upper && std::isfinite(stops.upper) && std::isfinite(stops.stiffness_upper);
+}
+[[nodiscard]] inline bool has_soft_stop(const Stops& stops) {
+  return is_soft(stops, Side::lower) || is_soft(stops, Side::upper);
+}
+
+/// The stops that the mass can't pass: soft ones count as none.
+[[nodiscard]] inline Stops rigid_ones(Stops stops) {
+  if (is_soft(stops, Side::lower)) stops.lower = -std::numeric_limits<double>::infinity();
+  if (is_soft(stops, Side::upper)) stops.upper = std::numeric_limits<double>::infinity();
+  return stops;
+}
 
 }  // namespace model
 }  // namespace clatter

@@ -13,6 +13,7 @@ template <class N, Effects E>
 class Arc {
  public:
   using Number = N;
+  static constexpr Effects effects = E;
 
   /// Starts at displacement x, velocity v, phase (sine, cosine) and acceleration a: that of eq. 3, or 0 at a release.
   Arc(const ArcConstants<Number, E>& constants, const Motion<Number>& start) : Arc(constants, start, start.x) {}

@@ -8,8 +8,10 @@
 #include "model/effects.hpp"
 #include "model/oscillator.hpp"
 #include "model/response.hpp"
+#include "motion/divided_exponentials.hpp"
 #include "motion/equation_of_motion.hpp"
 #include "motion/propagation.hpp"
+#include "motion/soft_stop.hpp"
 #include "motion/state.hpp"
 
 namespace clatter::motion {
@@ -23,37 +25,6 @@ struct Step {
   Number fast_decay{};                            ///< heavy damping: e^(-fast s)
   Number pulled{};                                ///< displacement from rest under a unit force that no spring balances
 };
-
-/// (e^z - 1)/z for z = re + i im with re <= 0, the divided difference of the exponential (eq. 11), to relative accuracy
-/// for every z.
-template <class Number>
-[[nodiscard]] std::array<Number, 2> divided_exponential(const Number& re, const Number& im) {
-  using std::cos, std::exp, std::expm1, std::sin, std::sqrt;
-  const Number square = re * re + im * im;
-  if (square < sqrt(epsilon<Number>())) {  // 1 + z/2 + z^2/6 + z^3/24: the next term is below rounding
-    const Number re2 = (re - im) * (re + im), im2 = 2 * re * im;
-    return {1 + re / 2 + re2 / 6 + (re * re2 - im * im2) / 24, im / 2 + im2 / 6 + (re * im2 + im * re2) / 24};
-  }
-  const Number half = sin(im / 2), u = expm1(re) * cos(im) - 2 * half * half, w = exp(re) * sin(im);
-  return {(u * re + w * im) / square, (w * re - u * im) / square};
-}
-
-/// (z - 1 + e^-z)/z^2 for z >= 0, to relative accuracy (eq. 45).
-template <class Number>
-[[nodiscard]] Number second_divided_decay(const Number& z) {
-  using std::expm1;
-  if (z >= 1) return (z + expm1(-z)) / (z * z);
-  constexpr int terms = std::numeric_limits<Number>::digits <= 64 ? 18 : 42;  // 1/terms! is below rounding
-  Number sum = 0;
-  for (int k = terms; k >= 2; --k) sum = (1 - z * sum) / k;  // 1/2! - z/3! + z^2/4! - ...
-  return sum;
-}
-
-/// y z^6, one factor at a time, so that 0 meets infinity only if y or z is not finite.
-template <class Number>
-[[nodiscard]] Number times_sixth_power(const Number& y, const Number& z) {
-  return y * z * z * z * z * z * z;
-}
 
 /// The constants of an oscillator that all its arcs share, its free motion and its bounds.
 template <class Number, Effects E>
@@ -71,6 +42,21 @@ class ArcConstants {
   [[nodiscard]] static ArcConstants of(const Number& h, const Number& f, const Number& nu, const Number& load,
                                        const Number& k = Number(1)) {
     return {Coefficients{}, h, f, nu, load, k};
+  }
+
+  /// Of motion in contact with a soft stop (eq. 51). The equilibrium counts from the stop, or its digits would be lost
+  /// to those of the stop's position.
+  template <Effects Free>
+  [[nodiscard]] static ArcConstants in_contact(const ArcConstants<Number, Free>& free,
+                                               const SoftStop<Number>& stop) requires(E.stiffness) {
+    ArcConstants pressed =
+        of(free.h + stop.damping, free.f, free.nu, free.load + stop.stiffness * stop.position, free.k + stop.stiffness);
+    pressed.stop = stop;
+    if (pressed.natural > 0) {
+      pressed.origin = stop.position, pressed.balance = (free.load - free.k * stop.position) / pressed.k;
+      pressed.equilibrium = pressed.origin + pressed.balance;
+    }
+    return pressed;
   }
 
   /// Free motion over s >= 0, without cancellation for every h (eqs. 8 and 9).
@@ -100,7 +86,8 @@ class ArcConstants {
   /// keeps more digits.
   [[nodiscard]] Number from_equilibrium(const Number& x, const Number& anchor, const Number& offset) const {
     using std::abs;
-    const Number from = anchor - equilibrium;
+    Number from = anchor - equilibrium;
+    if constexpr (E.stiffness) from = (anchor - origin) - balance;
     return abs(from) + abs(offset) < abs(x) ? from + offset : x - equilibrium;
   }
 
@@ -135,6 +122,14 @@ class ArcConstants {
   /// norm by |f| in a unit of time. Without a spring the motion may drift, with an unstable one it departs: eq. 47.
   [[nodiscard]] Number reach(const Motion<Number>& m, const Number& span) const;
 
+  /// Speed at the soft stop in contact of a free undamped motion that is `offset` beyond it with velocity v, by its
+  /// energy.
+  [[nodiscard]] Number speed_at_stop(const Number& offset, const Number& v) const {
+    using std::max, std::sqrt;
+    const Number force = natural > 0 ? Number(k * balance) : unbalanced;
+    return sqrt(max(Number(0), Number(v * v + offset * (k * offset - 2 * force))));
+  }
+
   /// Displacement of the fast mode of heavy damping in a free motion (x, v); infinite or NaN at h^2 = k, which has no
   /// two modes.
   [[nodiscard]] Number fast_mode(const Number& x, const Number& v) const { return -(slow * x + v) / (2 * root); }
@@ -145,17 +140,19 @@ class ArcConstants {
     return h < 1;
   }
 
-  Number h, f, nu, load;      ///< of the oscillator; without forcing nu is that of `counting_frequency`
-  Number k;                   ///< stiffness; 1 unless it is an effect
-  Number equilibrium;         ///< the displacement at which the spring balances the load; 0 without a spring
-  Number unbalanced;          ///< the load, if no spring balances it, else 0
-  Number natural;             ///< |k|^(1/2)
-  Number root;                ///< lambda = |k - h^2|^(1/2)
-  Number slow, fast;          ///< decay rates of heavy damping; slow < 0 with an unstable spring
-  Response<Number> response;  ///< eq. 6; 0 if arcs form it together with the free motion (secular)
-  Number detuning;            ///< nu - lambda, without cancellation
-  Number rate;                ///< the fastest of the motion's frequencies and decay rates
-  Number period;              ///< of the force; without forcing 2 pi
+  Number h, f, nu, load;       ///< of the oscillator; without forcing nu is that of `counting_frequency`
+  Number k;                    ///< stiffness; 1 unless it is an effect
+  Number equilibrium;          ///< the displacement at which the spring balances the load; 0 without a spring
+  Number unbalanced;           ///< the load, if no spring balances it, else 0
+  Number origin{}, balance{};  ///< the equilibrium is their sum; in contact with a soft stop the first is its position
+  SoftStop<Number> stop{};     ///< the one in contact; side none: none is
+  Number natural;              ///< |k|^(1/2)
+  Number root;                 ///< lambda = |k - h^2|^(1/2)
+  Number slow, fast;           ///< decay rates of heavy damping; slow < 0 with an unstable spring
+  Response<Number> response;   ///< eq. 6; 0 if arcs form it together with the free motion (secular)
+  Number detuning;             ///< nu - lambda, without cancellation
+  Number rate;                 ///< the fastest of the motion's frequencies and decay rates
+  Number period;               ///< of the force; without forcing 2 pi
  private:
   struct Coefficients {};  ///< tells the numbers of eq. 3 from those of an oscillator in braces
   ArcConstants(Coefficients, const Number& damping, const Number& forcing, const Number& frequency,
@@ -207,6 +204,7 @@ void ArcConstants<Number, E>::set_stiffness(const Number& stiffness) {
   natural = sprung ? Number(sqrt(abs(k))) : Number(0);
   equilibrium = sprung ? Number(load / k) : Number(0);
   unbalanced = sprung ? Number(0) : load;
+  balance = equilibrium;
   root = k > 0 ? Number(sqrt(abs((natural - h) * (natural + h)))) : norm(h, natural);
   fast = h + root;
   slow = sprung ? Number(k / fast) : Number(0);

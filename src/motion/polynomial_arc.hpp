@@ -11,6 +11,7 @@ template <Effects E>
 class PolynomialArc {
  public:
   using Number = double;
+  static constexpr Effects effects = E;
 
   /// `offset` from the anchor and `velocity` over a step of length `length` that begins at the forcing phase `turns`,
   /// in turns.

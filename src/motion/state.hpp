@@ -18,6 +18,8 @@ struct State {
   bool released = false;        ///< a stop releases the mass at this instant: v = 0 and the acceleration is exactly 0
   Side from_stop = Side::none;  ///< the stop that the present flight began on
   Number offset{};              ///< x minus the position of that stop: keeps the digits of a flight that a section cuts
+  Side within = Side::none;     ///< the soft stop beyond whose position the mass is; then also `from_stop`
+  bool pressed = false;         ///< that stop pushes the mass; false: the mass outruns it
 };
 
 /// Motion at one instant of an arc.
@@ -40,6 +42,22 @@ struct Impact {
   double before;    ///< velocity before
   double after;     ///< velocity after
   double position;  ///< of the stop
+};
+
+/// The beginning of a contact with a soft stop, as it is reported to observers.
+struct Touch {
+  double time;        ///< tau since observation began
+  Side side;          ///< the stop
+  double velocity;    ///< of the mass
+  double position;    ///< of the stop
+  bool from_outside;  ///< the mass passes that position; false: beyond it, it meets a stop that it had outrun
+};
+
+/// The end of a contact with a soft stop: its force falls to 0.
+struct Separation {
+  double time;      ///< tau since observation began
+  Side side;        ///< the stop
+  double velocity;  ///< of the mass
 };
 
 /// A time on a stop, as it is reported to observers.

@@ -37,6 +37,14 @@ class TangentMap {
     multiply({{slope, Number(0), (a_after - slope * a_before) / before, slope}, slope * slope});
   }
 
+  /// The damper of a soft stop pushes from the touch on, so the acceleration jumps (eq. 53); where the mass leaves the
+  /// stop nothing does.
+  void touch(const Touch& touch) {
+    if (!touch.from_outside) return;
+    const Number slower = -2 * soft_stop_at<Number>(stops_, touch.side).damping;
+    multiply({{Number(1), Number(0), slower, Number(1)}, Number(1)});
+  }
+
   [[nodiscard]] Jacobian<Number> map() const {
     Jacobian<Number> map = mantissa();
     for (Number& entry : map) entry = scaled(entry, exponent_);

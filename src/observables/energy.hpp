@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -7,6 +8,7 @@
 #include <tuple>
 #include <vector>
 
+#include "motion/soft_stop.hpp"
 #include "motion/state.hpp"
 #include "observables/impacts.hpp"
 #include "observables/observable.hpp"
@@ -14,9 +16,9 @@
 
 namespace clatter::observables {
 
-/// The energy ledger of the observed time, per unit mass (eqs. 31 to 34). The energy is (x'^2 + k x^2)/2; the work of
-/// the force and the load, less the losses by damping and impacts, is its growth, and the residual says how well this
-/// holds.
+/// The energy ledger of the observed time, per unit mass (eqs. 31 to 34). The energy is (x'^2 + k x^2)/2, and that of
+/// the springs of soft stops beyond whose position the mass is (eq. 54); the work of the force and the load, less the
+/// losses by damping and on the stops, is its growth, and the residual says how well this holds.
 ///
 /// Work and damping are integrated over each arc by Gauss-Legendre quadrature, exact to rounding.
 class Energy {
@@ -61,7 +63,7 @@ class Energy {
   }
 
   Energy(const Settings&, const ObservedSpan& span)
-      : oscillator_(span.scene.oscillator), phase_(span.scene.start.phase) {}
+      : oscillator_(span.scene.oscillator), stops_(span.scene.stops), phase_(span.scene.start.phase) {}
 
   template <class A>
   void arc(const A& arc, double, double length) {
@@ -92,8 +94,8 @@ class Energy {
     Values values{.work_in = force_work_ + oscillator_.load * (x - x_begin_), .loss_damping = loss_damping_};
     values.loss_impact = loss_impact_, values.impulse = impulse_;
     const double lost = loss_impact_[0] + loss_impact_[1];
-    const double k = oscillator_.stiffness,
-                 growth = ((v - v_begin_) * (v + v_begin_) + k * (x - x_begin_) * (x + x_begin_)) / 2;
+    const double k = oscillator_.stiffness, stored = stored_at(x) - stored_at(x_begin_),
+                 growth = ((v - v_begin_) * (v + v_begin_) + k * (x - x_begin_) * (x + x_begin_)) / 2 + stored;
     values.energy_residual = values.work_in - loss_damping_ - lost - growth;
     values.impact_power = lost / span.total;
     return values;
@@ -111,13 +113,44 @@ class Energy {
   void integrate(const A& arc, double length) {
     const auto& constants = arc.constants();
     const auto panels = static_cast<std::size_t>(std::ceil(length * constants.rate / 2));
-    double work = 0, squares = 0;
+    double work = 0, squares = 0, impulse = 0;
+    const auto* stop = soft_stop_of(arc);
     over_panels<20>(length, panels, [&](double s, double weight) {
       const motion::Motion<double> m = arc.at(s);
       work += weight * m.v * m.sine, squares += weight * m.v * m.v;
+      if (stop != nullptr) impulse += weight * stop->force(stop->into(m.offset), stop->into(m.v));
     });
-    force_work_ += constants.f * work, loss_damping_ += 2 * constants.h * squares;
+    force_work_ += constants.f * work;
+    if (stop != nullptr) {
+      loss_damping_ += 2 * oscillator_.damping * squares;
+      loss_impact_[index_of(stop->side)] += 2 * stop->damping * squares;
+      impulse_[index_of(stop->side)] += impulse;
+    } else {
+      loss_damping_ += 2 * constants.h * squares;
+      if (is_soft_) lose_stored(arc.start().x, arc.at(length).x);
+    }
     evaluations_ += 20 * static_cast<double>(panels);
+  }
+
+  /// The soft stop that an arc is in contact with, or nullptr.
+  template <class A>
+  [[nodiscard]] static const motion::SoftStop<double>* soft_stop_of(const A& arc) {
+    if constexpr (A::effects.stiffness)
+      if (arc.constants().stop.side != Side::none) return &arc.constants().stop;
+    return nullptr;
+  }
+  /// Energy of the spring of a soft stop at a displacement beyond it.
+  [[nodiscard]] double stored_at(double x, Side side) const {
+    if (!is_soft(stops_, side)) return 0.0;
+    const auto stop = motion::soft_stop_at<double>(stops_, side);
+    const double depth = std::max(0.0, stop.into(x - stop.position));
+    return stop.stiffness * depth * depth / 2;
+  }
+  [[nodiscard]] double stored_at(double x) const { return stored_at(x, Side::lower) + stored_at(x, Side::upper); }
+  /// A stop that the mass outruns loses the energy of its spring as it relaxes.
+  void lose_stored(double from, double to) {
+    for (const Side side : {Side::lower, Side::upper})
+      loss_impact_[index_of(side)] += stored_at(from, side) - stored_at(to, side);
   }
 
   /// Integral of the force that presses the mass into a stop, eq. 22, over a rest.
@@ -132,6 +165,8 @@ class Energy {
   }
 
   Oscillator oscillator_;
+  Stops stops_;
+  bool is_soft_ = has_soft_stop(stops_);
   double phase_;  ///< of the force at the beginning, a section
   bool has_begun_ = false;
   double x_begin_ = 0, v_begin_ = 0;

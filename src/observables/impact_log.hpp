@@ -40,6 +40,15 @@ class ImpactLog {
   void impact_at_start(const motion::Impact& at_start) {
     if (full_) impact(at_start);
   }
+  /// A contact with a soft stop is logged with the velocities at its beginning and its end, NaN if that isn't observed.
+  void touch(const motion::Touch& touch) {
+    if (!touch.from_outside) return;
+    values_.log.push_back({touch.time, touch.side, touch.velocity, no_value, touch.position});
+  }
+  void separate(const motion::Separation& separation) {
+    if (!values_.log.empty() && values_.log.back().side == separation.side)
+      values_.log.back().after = separation.velocity;
+  }
   /// The response meets no stop.
   bool response(const ObservedSpan&, double) { return true; }
 

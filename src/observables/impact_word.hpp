@@ -45,6 +45,10 @@ class ImpactWord {
   }
   void rest(const motion::Rest& rest) { see(rest.time, rest.side, 0.0); }
   void impact(const motion::Impact& impact) { see(impact.time, impact.side, impact.before); }
+  /// The touch of a soft stop has the letter of an impact.
+  void touch(const motion::Touch& touch) {
+    if (touch.from_outside) see(touch.time, touch.side, touch.velocity);
+  }
   /// The response has no impacts, and turns into its mirror whenever the force does.
   bool response(const ObservedSpan&, double) {
     is_response_ = true;

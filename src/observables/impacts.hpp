@@ -2,25 +2,31 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <string>
 #include <tuple>
 #include <vector>
 
+#include "motion/polynomial_arc.hpp"
 #include "motion/state.hpp"
 #include "observables/observable.hpp"
+#include "observables/range_search.hpp"
 
 namespace clatter::observables {
 
-/// Counts impacts and sums the time at rest, for each stop.
+/// Counts impacts and sums the time at rest, for each stop; of soft stops the contacts, the time in contact, and the
+/// greatest force.
 class Impacts {
  public:
   struct Settings {
     bool impacts = false;
+    bool of_soft_stops = false;  ///< with it: what only soft stops have
   };
   struct Values {
     std::array<double, 2> impacts_per_period{no_value, no_value};  ///< [stop]
     std::array<double, 2> v_before{no_value, no_value}, v_after{no_value, no_value};
     std::array<double, 2> rest_fraction{no_value, no_value};
+    std::array<double, 2> contact_fraction{no_value, no_value}, contact_force_max{no_value, no_value};
   };
   static constexpr std::tuple fields{
       Field{Key{"observe", "impacts", Kind::flag, "false", "true",
@@ -29,27 +35,40 @@ class Impacts {
 
   [[nodiscard]] static bool wanted(const Settings& settings) { return settings.impacts; }
   [[nodiscard]] static std::string description(const Settings&) { return "impacts"; }
-  [[nodiscard]] static std::vector<Column<Values>> columns(const Settings&) {
+  [[nodiscard]] static std::vector<Column<Values>> columns(const Settings& settings) {
     const Coordinate stop = stop_coordinate();
-    return {pair("impacts_per_period", "impacts per forcing period", stop, &Values::impacts_per_period),
-            pair("v_before", "velocity before the first impact", stop, &Values::v_before, Quantity::velocity),
-            pair("v_after", "velocity after the first impact", stop, &Values::v_after, Quantity::velocity),
-            pair("rest_fraction", "share of time at rest on the stop", stop, &Values::rest_fraction)};
+    std::vector<Column<Values>> all{
+        pair("impacts_per_period", "impacts per forcing period", stop, &Values::impacts_per_period),
+        pair("v_before", "velocity before the first impact", stop, &Values::v_before, Quantity::velocity),
+        pair("v_after", "velocity after the first impact", stop, &Values::v_after, Quantity::velocity),
+        pair("rest_fraction", "share of time at rest on the stop", stop, &Values::rest_fraction)};
+    if (!settings.of_soft_stops) return all;
+    all.push_back(pair("contact_fraction", "share of time in contact with the stop", stop, &Values::contact_fraction));
+    all.push_back(in_si("greatest force of the soft stop",
+                        pair("contact_force_max", "greatest force of the soft stop, per unit mass", stop,
+                             &Values::contact_force_max, Quantity::force)));
+    return all;
   }
   [[nodiscard]] static bool in_lanes(const Settings&, const ObservedSpan&) { return true; }
 
   struct OfStop {
     double count = 0.0;
-    double before = no_value;  ///< velocity before the first impact, signed
-    double after = no_value;   ///< velocity after it
-    double rest_time = 0.0;    ///< in tau
+    double before = no_value;      ///< velocity before the first impact, signed
+    double after = no_value;       ///< velocity after it
+    double left_first = no_value;  ///< velocity at the end of the first contact with a soft stop that ends
+    double rest_time = 0.0;        ///< in tau
+    double contact_time = 0.0;     ///< with a soft stop, in tau
+    Range force{};                 ///< of a soft stop, while in contact
   };
 
   Impacts() = default;
   Impacts(const Settings&, const ObservedSpan&) {}
 
   template <class A>
-  void arc(const A&, double, double) {}
+  void arc(const A& arc, double, double length) {
+    if constexpr (A::effects.stiffness)
+      if (arc.constants().stop.side != Side::none && length > 0) contact(arc, length);
+  }
   void rest(const motion::Rest& rest) {
     if (rest.held) stops_[index_of(rest.side)].rest_time += rest.length;
   }
@@ -57,6 +76,19 @@ class Impacts {
     OfStop& stop = stops_[index_of(impact.side)];
     if (stop.count == 0.0) stop.before = impact.before, stop.after = impact.after;
     stop.count += 1.0;
+  }
+  /// A contact with a soft stop counts like an impact if the mass comes from outside; its velocities are those at the
+  /// touch and where the stop's force has fallen to 0.
+  void touch(const motion::Touch& touch) {
+    if (!touch.from_outside) return;
+    OfStop& stop = stops_[index_of(touch.side)];
+    if (stop.count == 0.0) stop.before = touch.velocity;
+    stop.count += 1.0;
+  }
+  void separate(const motion::Separation& separation) {
+    OfStop& stop = stops_[index_of(separation.side)];
+    if (std::isnan(stop.after) && stop.count > 0.0) stop.after = separation.velocity;
+    if (std::isnan(stop.left_first)) stop.left_first = separation.velocity;
   }
   /// Takes over what was counted elsewhere, in motion that never rests.
   void include(const std::array<OfStop, 2>& stops) { stops_ = stops; }
@@ -71,12 +103,38 @@ class Impacts {
     for (std::size_t i = 0; i < stops_.size(); ++i) {
       values.impacts_per_period[i] = stops_[i].count / periods;
       values.v_before[i] = stops_[i].before, values.v_after[i] = stops_[i].after;
+      if (span.periodic && std::isnan(values.v_after[i])) values.v_after[i] = stops_[i].left_first;
       values.rest_fraction[i] = std::min(1.0, stops_[i].rest_time / span.total);
+      values.contact_fraction[i] = std::min(1.0, (stops_[i].rest_time + stops_[i].contact_time) / span.total);
+      if (is_soft(span.scene.stops, i == 0 ? Side::lower : Side::upper))
+        values.contact_force_max[i] = std::max(0.0, stops_[i].force.high);
     }
     return values;
   }
 
  private:
+  template <Effects E>
+  void contact(const motion::Arc<double, E>& arc, double length) {
+    const motion::SoftStop<double>& of_arc = arc.constants().stop;
+    OfStop& stop = stops_[index_of(of_arc.side)];
+    stop.contact_time += length;
+    const auto see = [&](const motion::Motion<double>& m) {
+      stop.force.include(of_arc.force(of_arc.into(m.offset), of_arc.into(m.v)));
+    };
+    RangeSearch(arc, length, see).exceed(StopForceOnArc{}, stop.force);
+  }
+  template <motion::Polynomial A>
+  void contact(const A& arc, double length) {
+    const motion::SoftStop<double>& of_arc = arc.constants().stop;
+    OfStop& stop = stops_[index_of(of_arc.side)];
+    stop.contact_time += length;
+    if (!(arc.length() > 0)) return;
+    Bernstein<double> force;
+    for (std::size_t i = 0; i < force.size(); ++i)
+      force[i] = of_arc.force(of_arc.into(arc.offset()[i]), of_arc.into(arc.velocity()[i]));
+    include_polynomial(stop.force, split_off(force, length / arc.length()));
+  }
+
   std::array<OfStop, 2> stops_{};
 };
 

@@ -168,6 +168,21 @@ class Observers<ObservableList<Os...>> {
     });
   }
 
+  /// The beginning of a contact with a soft stop, and its end, for those that ask for them; one at the very beginning
+  /// belongs to the time before, like an impact.
+  void touch(const motion::Touch& touch) {
+    if (!(touch.time > 0.0)) return;
+    present([&](auto& observer) {
+      if constexpr (requires { observer.touch(touch); }) observer.touch(touch);
+    });
+  }
+  void separate(const motion::Separation& separation) {
+    if (!(separation.time > 0.0)) return;
+    present([&](auto& observer) {
+      if constexpr (requires { observer.separate(separation); }) observer.separate(separation);
+    });
+  }
+
   /// Ends the observed time in a state, and fills in the values of every observer.
   void finish(const ObservedSpan& span, double x, double v, typename List::Values& values) {
     each([&]<class O>(Slot<O>& slot) {

@@ -49,6 +49,9 @@ class Period {
   void impact(const motion::Impact& impact) {
     if (!(first_speed_ >= 0.0)) first_speed_ = std::abs(impact.before);
   }
+  void touch(const motion::Touch& touch) {
+    if (!(first_speed_ >= 0.0)) first_speed_ = std::abs(touch.velocity);
+  }
   /// Takes over the speed before the first impact, NaN if there is none, of motion that isn't at rest throughout.
   void include(double first_speed) { first_speed_ = first_speed, moves_ = true; }
   bool response(const ObservedSpan&, double) { return include(no_value), true; }

@@ -25,7 +25,7 @@ class Samples {
         first_(first),
         rounding_(32 * epsilon<double>() * spacing * static_cast<double>(count)),
         at_impact_(at_impact),
-        stops_(stops) {
+        stops_(rigid_ones(stops)) {
     x_.reserve(count), v_.reserve(count);
   }
 
@@ -34,10 +34,13 @@ class Samples {
     while (is_due_before(begin + length)) add(arc.at(std::max(0.0, due() - begin)));
   }
   /// On an arc in closed form one sample in 64 is evaluated, and those after it follow by steps of 1, 2, ... spacings.
-  /// On an arc so short that every digit of it counts, each sample is evaluated. All arcs belong to one oscillator.
+  /// On an arc so short that every digit of it counts, each sample is evaluated. The steps are made anew only if the
+  /// arc belongs to another oscillator than the one before, as in contact with a soft stop.
   template <Effects E>
   void arc(const motion::Arc<double, E>& arc, double begin, double length) {
     const std::size_t most = length * arc.constants().rate > 0.25 ? steps_.size() : 0;
+    if constexpr (E.stiffness)  // soft stops are among its effects
+      if (&arc.constants() != steps_of_) steps_of_ = &arc.constants(), steps_made_ = 0;
     while (is_due_before(begin + length)) {
       const motion::Motion<double> here = arc.at(std::max(0.0, due() - begin));
       add(here);
@@ -111,6 +114,7 @@ class Samples {
   Stops stops_;
   motion::Impact last_{-std::numeric_limits<double>::infinity(), Side::none, 0, 0, 0};
   std::array<motion::Step<double>, 63> steps_;  ///< over 1, 2, ... spacings; as many are made as an arc asks for
+  const void* steps_of_ = nullptr;              ///< their oscillator
   std::size_t steps_made_ = 0, evaluations_ = 0;
   std::vector<double> x_, v_;
 };

@@ -133,11 +133,14 @@ class Section {
     const motion::Motion<double> start = arc.start();
     if (start.x == middle_ && start.v > 0 && !bounced_) add(begin, start);
     const bool rotates = arc.constants().rotates();
-    const double turn = rotates ? length : turning_point(arc, length);
+    const double turn = rotates ? length : turning_point(arc, 0.0, length);
+    const bool around_another = arc.constants().stop.side != Side::none;  // in contact it goes round another equilibrium
     double s = 0.0, before = start.x - middle_;
     while (s < length) {
       const double end = s < turn ? turn : length, piece = longest_piece / arc.constants().natural;
-      const double next = rotates ? std::min(end, s + piece) : end, after = from_middle(next);
+      double next = rotates ? std::min(end, s + piece) : end;
+      if (rotates && around_another) next = turning_point(arc, s, next);
+      const double after = from_middle(next);
       if (before < 0 && after > 0) {
         const double above = root_of(from_middle, s, next, before, after);
         add(begin + above, arc.at(above));
@@ -147,12 +150,12 @@ class Section {
       s = next, before = after;
     }
   }
-  /// The one instant at which a sum of two exponentials turns back, else the end of the flight.
+  /// The one instant between two others at which an arc turns back, else the later one.
   template <class A>
-  static double turning_point(const A& arc, double length) {
+  static double turning_point(const A& arc, double low, double high) {
     const auto velocity = [&](double s) { return arc.at(s).v; };
-    const double first = arc.start().v, last = velocity(length);
-    return first * last < 0 ? root_of(velocity, 0.0, length, first, last) : length;
+    const double first = velocity(low), last = velocity(high);
+    return first * last < 0 ? root_of(velocity, low, high, first, last) : high;
   }
   /// The end of a bracket of a root, on the side of `high` (Alefeld et al. 1995).
   template <class Function>

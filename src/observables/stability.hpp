@@ -50,24 +50,31 @@ class Stability {
 
   /// `rounding` bounds the errors of displacements and velocities.
   Stability(const Stops& stops, double rounding)
-      : tangent_(stops), nearby_(stops, motion::Ellipse::disc(rounding), rounding) {}
+      : tangent_(stops),
+        nearby_(stops, motion::Ellipse::disc(rounding), rounding),
+        graze_matters_(!has_soft_stop(stops)) {}
 
   template <class A>
   void arc(const A& arc, double begin, double length) {
     tangent_.arc(arc, begin, length);
     ++evaluations_;
     if constexpr (motion::Polynomial<A>) {
-      exact_ = false;
+      graze_matters_ = false;
     } else {
-      nearby_.arc(arc, begin, length);
+      if (graze_matters_) nearby_.arc(arc, begin, length);
     }
   }
   void rest(const motion::Rest& rest) { tangent_.rest(rest), rests_ = true; }
-  void impact(const motion::Impact& impact) { tangent_.impact(impact), nearby_.impact(impact); }
+  void impact(const motion::Impact& impact) {
+    tangent_.impact(impact);
+    if (graze_matters_) nearby_.impact(impact);
+  }
+  void touch(const motion::Touch& touch) { tangent_.touch(touch); }
 
   /// True if motions that differ from this one by rounding meet other stops. After a rest no difference is left; and
-  /// motion by general methods isn't known to rounding.
-  [[nodiscard]] bool grazes() const { return exact_ && !rests_ && !nearby_.holds(); }
+  /// motion by general methods isn't known to rounding. A graze of a soft stop changes little, and beside one those of
+  /// a rigid stop aren't told.
+  [[nodiscard]] bool grazes() const { return graze_matters_ && !rests_ && !nearby_.holds(); }
 
   /// Ends the observed time, one period. Unforced motion (`autonomous`) is periodic only when it loses nothing; a shift
   /// of time along it, and one to a neighbouring speed, stay what they are: both multipliers are 1.
@@ -109,7 +116,7 @@ class Stability {
  private:
   motion::TangentMap<double> tangent_;
   motion::Neighbourhood nearby_;
-  bool exact_ = true, rests_ = false;
+  bool graze_matters_, rests_ = false;
   Complex first_{no_value, no_value}, second_{no_value, no_value};
   double exponent_ = no_value;
   double evaluations_ = 0.0;

@@ -48,8 +48,8 @@ double impacts_without_loss(const point::Problem& scene) {
   if (scene.time.mode == steady::Mode::steady && o.forcing == 0)
     return 0;  // its period is known in closed form, or it comes to a standstill
   const Requirements needs = requirements_of(scene, duration_of(scene.time));
-  const bool lower = needs.effects.lower && stops.restitution_lower >= 1,
-             upper = needs.effects.upper && stops.restitution_upper >= 1;
+  const bool lower = needs.effects.lower && !is_soft(stops, Side::lower) && stops.restitution_lower >= 1,
+             upper = needs.effects.upper && !is_soft(stops, Side::upper) && stops.restitution_upper >= 1;
   const double push = std::abs(o.forcing);
   if ((lower && !(push < constant_force(o, stops.lower))) || (upper && !(push < -constant_force(o, stops.upper))))
     return scene.time.max_impacts;

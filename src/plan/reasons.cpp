@@ -115,17 +115,40 @@ Reason stop_reason(const point::Problem& scene, const Requirements& needs, bool 
 
 Reason dissipation_reason(const point::Problem& scene, const Effects& effects) {
   if (!effects.stops()) return {"dissipation", false, "no stop in reach"};
+  const Stops& stops = scene.stops;
+  if (effects.soft)
+    return {"dissipation", effects.dissipation,
+            effects.dissipation ? "contact takes energy" : "stop_damping = 0: contact keeps the energy"};
   if (!effects.dissipation) return {"dissipation", false, "R = 1: impacts keep the speed"};
-  const auto& [lower, upper, R_lower, R_upper] = scene.stops;
+  const double R_lower = stops.restitution_lower, R_upper = stops.restitution_upper;
   if (R_lower == R_upper || !effects.lower || !effects.upper)
     return {"dissipation", true, "R = " + text(effects.lower ? R_lower : R_upper)};
   return {"dissipation", true, "R = " + text(R_lower) + " and " + text(R_upper)};
 }
 
+/// Stops that are springs and dampers.
+Reason soft_reason(const point::Problem& scene, const Effects& effects) {
+  if (!effects.soft) return {"soft stops", false, "out of reach"};
+  const auto described = [](double kappa, double zeta) {
+    return "stop_stiffness = " + text(kappa) + ", stop_damping = " + text(zeta);
+  };
+  const Stops& stops = scene.stops;
+  const std::string lower = described(stops.stiffness_lower, stops.damping_lower),
+                    upper = described(stops.stiffness_upper, stops.damping_upper);
+  const bool of_lower = effects.lower && is_soft(stops, Side::lower),
+             of_upper = effects.upper && is_soft(stops, Side::upper);
+  if (of_lower && of_upper && lower != upper) return {"soft stops", true, "lower: " + lower + "; upper: " + upper};
+  return {"soft stops", true, of_lower ? lower : upper};
+}
+
 Reason rest_reason(const point::Problem& scene, const Requirements& needs) {
   const std::string effect = "chatter and rest";
   if (!needs.effects.stops()) return {effect, false, "no stop in reach"};
-  const bool lower_first = needs.effects.lower && (!needs.effects.upper || needs.lower_gap < needs.upper_gap);
+  if (needs.effects.soft && !needs.effects.rest)
+    return {effect, false, "a soft stop holds no mass, and no rigid one in reach can"};
+  const bool lower = needs.effects.lower && !is_soft(scene.stops, Side::lower),
+             upper = needs.effects.upper && !is_soft(scene.stops, Side::upper);
+  const bool lower_first = lower && (!upper || needs.lower_gap < needs.upper_gap);
   const double gap = lower_first ? constant_force(scene.oscillator, scene.stops.lower)
                                  : -constant_force(scene.oscillator, scene.stops.upper);
   const std::string force = "|f| = " + text(std::abs(scene.oscillator.forcing)) +
@@ -163,6 +186,7 @@ std::vector<Reason> reasons_of(const point::Problem& scene) {
                               stop_reason(scene, needs, false),         stop_reason(scene, needs, true),
                               dissipation_reason(scene, needs.effects), rest_reason(scene, needs)};
   if (scene.oscillator.stiffness != 1 || scene.units.time != 1) reasons.push_back(stiffness_reason(scene));
+  if (has_soft_stop(scene.stops)) reasons.push_back(soft_reason(scene, needs.effects));
   if (is_shaken(scene.shaking)) reasons.push_back(shaking_reason(scene));
   for (Reason& reason : reasons) {
     const bool has_no_set = effect_set_of(kept_in(needs.effects, reason.effect)) == effect_set_of(needs.effects);

@@ -12,10 +12,9 @@
 namespace clatter::point {
 
 Effects effects_of(const Problem& problem) {
-  const Oscillator& oscillator = problem.oscillator;
-  if (problem.integration.method != stepping::Method::exact) return general_effects(oscillator);
-  return problem.integration.all_effects ? all_effects(oscillator)
-                                         : required_effects(problem, duration_of(problem.time));
+  const Scene& scene = problem;
+  if (problem.integration.method != stepping::Method::exact) return general_effects(scene);
+  return problem.integration.all_effects ? all_effects(scene) : required_effects(problem, duration_of(problem.time));
 }
 
 void run_batch(std::span<const WorkItem> items, ThreadScratch& scratch,
@@ -66,6 +65,7 @@ double seconds_per_evaluation(const Effects& effects) {
     if (E.stiffness) problem.oscillator.stiffness = E.damping == Damping::light ? 1.1 : 0.0;
     problem.start.velocity = 1.0;
     if (E.stops()) problem.stops = {-0.5, 0.5, 0.7, 0.7};
+    if (E.soft) problem.stops.stiffness_lower = problem.stops.stiffness_upper = 100.0;
     using Clock = std::chrono::steady_clock;
     double least = std::numeric_limits<double>::infinity();
     for (int repetition = 0; repetition < 3; ++repetition) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 
@@ -30,6 +31,8 @@ class FreeSearch {
     for (std::int64_t section = 0;; ++section) {
       const auto settled = static_cast<double>(section);
       if (escapes(scene_, state.x, state.v, {0.0, 1.0})) return escape(state, settled);
+      if constexpr (I::effects.soft)
+        if (const auto found = pressed(state, settled)) return *found;
       if (stands_still(state)) return {Status::periodic, state, 1.0, settled, FoundBy::standstill, settled};
       if (I::in_closed_form && !all_effects_) {
         const double turns = section == 0 && conservative() ? free_turns(start) : 0.0;
@@ -42,7 +45,8 @@ class FreeSearch {
       const stepping::Outcome outcome = advance_to_section(integrator_, state, state.periods, returns_);
       if (outcome != stepping::Outcome::completed) return {status_of(outcome), state, 0.0, settled, FoundBy::nothing};
       if (integrator_.holding_stop(state) || (all_effects_ && section + 1 < most)) continue;
-      const double turns = returns_.free_rotation() ? 1.0 : returns_.period() / integrator_.period();
+      const bool rotates = returns_.free_rotation() && state.within == Side::none;
+      const double turns = rotates ? 1.0 : returns_.period() / integrator_.period();
       if (turns > 0)
         return {Status::periodic, returns_.conserved() ? start : state, turns, settled + 1, FoundBy::repetition,
                 settled + 1};
@@ -56,6 +60,7 @@ class FreeSearch {
 
   [[nodiscard]] bool conservative() const {
     const Stops& stops = integrator_.stops();
+    if (I::effects.soft) return false;  // its period is no angle between two contacts
     const auto keeps = [](double position, double R) { return std::isinf(position) || R == 1.0; };
     return scene_.oscillator.damping == 0 && keeps(stops.lower, stops.restitution_lower) &&
            keeps(stops.upper, stops.restitution_upper);
@@ -66,6 +71,22 @@ class FreeSearch {
     const double rate = natural_frequency(o);  // 1 at k = 1
     return free_period<double>(equilibrium_of(o), integrator_.stops(), start.x, start.v / rate) /
            (rate * integrator_.period());
+  }
+
+  /// The final form of a motion that never leaves a soft stop any more: undamped, it goes round the equilibrium that it
+  /// has there; damped, it comes to a standstill there.
+  [[nodiscard]] std::optional<ObservedTime> pressed(const motion::State<double>& state, double settled) const {
+    if (!state.pressed) return std::nullopt;
+    return integrator_.in_contact(state.within, [&](const auto& constants) -> std::optional<ObservedTime> {
+      const double y = state.offset - constants.balance;
+      if (!(constants.k > 0 && norm(y, state.v / constants.natural) < std::abs(constants.balance))) return std::nullopt;
+      if (constants.h == 0) {
+        const double turns = 2 * pi<double>() / constants.natural / integrator_.period();
+        return ObservedTime{Status::periodic, state, turns, settled, FoundBy::closed_form, settled};
+      }
+      if (!(std::max(std::abs(y), std::abs(state.v)) <= returns_.least())) return std::nullopt;
+      return ObservedTime{Status::periodic, state, 1.0, settled, FoundBy::standstill, settled};
+    });
   }
 
   /// The final form of a motion once no stop is in reach: free vibration, or the equilibrium if damping brings the

@@ -6,16 +6,19 @@
 #include <limits>
 
 #include "model/scene.hpp"
+#include "motion/soft_stop.hpp"
 #include "motion/state.hpp"
 
 namespace clatter::steady {
 
-/// Finds the period of unforced motion: the time between two impacts that leave the same stop with the same speed.
+/// Finds the period of unforced motion: the time between two impacts, or two contacts with a soft stop, that leave the
+/// same stop with the same speed.
 /// Unforced motion is a curve in the plane of x and x', so it has returned when that one number has.
 class ReturnObserver {
  public:
   ReturnObserver(const Scene& scene, double tolerance)
       : tolerance_(tolerance),
+        stops_(scene.stops),
         equilibrium_(equilibrium_of(scene.oscillator)),
         stiffness_(scene.oscillator.stiffness),
         is_loaded_(scene.oscillator.load != 0.0),
@@ -27,18 +30,20 @@ class ReturnObserver {
   void arc(const A&, double, double) {}
   void rest(const motion::Rest&) {}
   void impact(const motion::Impact& impact) {
-    touched_ = true;
     conserved_ = conserved_ && std::abs(impact.after) == std::abs(impact.before);
-    motion::Impact& last = last_[index_of(impact.side)];
-    const bool again = std::abs(impact.after - last.after) <= tolerance_ * std::abs(impact.after);
-    if (again && impact.after != 0.0 && !(period_ > 0.0)) period_ = impact.time - last.time;
-    last = impact;
+    leave({impact.time, impact.after}, impact.side);
+  }
+  void touch(const motion::Touch&) { touched_ = true; }
+  void separate(const motion::Separation& separation) {
+    const auto stop = motion::soft_stop_at<double>(stops_, separation.side);
+    conserved_ = conserved_ && stop.damping == 0;
+    leave({separation.time, separation.velocity}, separation.side);
   }
 
   /// Begins the next period; impacts then count their time from there.
   void begin_period(double turn) {
     touched_ = false;
-    for (motion::Impact& last : last_) last.time -= turn;
+    for (Leaving& last : last_) last.time -= turn;
   }
   [[nodiscard]] double period() const { return period_; }  ///< 0 while the motion has not returned
   /// Whether no energy was lost since the start, which is then on the periodic motion.
@@ -59,15 +64,30 @@ class ReturnObserver {
   [[nodiscard]] double least() const { return tolerance_ * scale_; }
 
  private:
-  double tolerance_, equilibrium_, stiffness_;
+  static constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+  /// The end of an impact or a contact.
+  struct Leaving {
+    double time = 0.0, velocity = nan;
+  };
+
+  void leave(const Leaving& now, Side side) {
+    touched_ = true;
+    Leaving& last = last_[index_of(side)];
+    const bool again = std::abs(now.velocity - last.velocity) <= tolerance_ * std::abs(now.velocity);
+    if (again && now.velocity != 0.0 && !(period_ > 0.0)) period_ = now.time - last.time;
+    last = now;
+  }
+
+  double tolerance_;
+  Stops stops_;
+  double equilibrium_, stiffness_;
   bool is_loaded_, damped_;
   double scale_;  ///< the larger of |x| and |x'| at the start and |equilibrium|
   bool conserved_;
   bool touched_ = false;
   double period_ = 0.0;
-  static constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-  std::array<motion::Impact, 2> last_{motion::Impact{0, Side::lower, nan, nan, nan},
-                                      motion::Impact{0, Side::upper, nan, nan, nan}};
+  std::array<Leaving, 2> last_{};  ///< [stop]
 };
 
 }  // namespace clatter::steady

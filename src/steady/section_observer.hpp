@@ -11,7 +11,7 @@ namespace clatter::steady {
 /// Summary of one forcing period, from a stroboscopic section to the next.
 struct Passage {
   std::uint64_t itinerary = 0;  ///< the same for the same stops in the same order, 0 without contact
-  double log_area = 0.0;        ///< logarithm of the factor by which its impacts shrink areas of states; -inf: a rest
+  double log_area = 0.0;        ///< logarithm of the factor by which its stops shrink areas of states; -inf: a rest
 
   friend bool operator==(const Passage&, const Passage&) = default;
 };
@@ -30,6 +30,8 @@ class SectionObserver {
   void arc(const A& arc, double begin, double length) {
     if (differentiates_) [[unlikely]]
       tangent_.arc(arc, begin, length);
+    if constexpr (A::effects.stiffness)
+      if (arc.constants().stop.side != Side::none) passage_.log_area -= 2 * arc.constants().stop.damping * length;
   }
   void rest(const motion::Rest& rest) {
     add(rest.side == Side::upper ? 4 : 3);
@@ -41,6 +43,11 @@ class SectionObserver {
     add(upper ? 2 : 1);
     passage_.log_area += upper ? log_upper_ : log_lower_;
     if (differentiates_) tangent_.impact(impact);
+  }
+
+  void touch(const motion::Touch& touch) {
+    add(touch.side == Side::upper ? 6 : 5);
+    if (differentiates_) tangent_.touch(touch);
   }
 
   void begin_section() { passage_ = {}; }

@@ -109,6 +109,7 @@ class StroboscopicMap {
   [[nodiscard]] static motion::State<double> moved(motion::State<double> state, const motion::Perturbation& change) {
     if (change.x == 0 && change.v == 0) return state;
     state.x += change.x, state.offset += change.x, state.v += change.v, state.released = false;
+    state.within = Side::none, state.pressed = false;  // which the next arc finds out
     return state;
   }
 

@@ -9,6 +9,7 @@
 #include <limits>
 #include <utility>
 
+#include "motion/crossing.hpp"
 #include "motion/polynomial_arc.hpp"
 #include "stepping/event_driven.hpp"
 #include "stepping/integration.hpp"
@@ -42,10 +43,8 @@ class DormandPrince : public EventDriven<DormandPrince<E>, double, E> {
   /// The next step's arc and its first contact; without a contact it ends with the step, or at the horizon.
   [[nodiscard]] Flight<DenseArc> fly(const motion::State<double>& state, const motion::Motion<double>& start,
                                      double anchor, double horizon) {
-    const bool goes_on = Place{state.x, state.v, state.phase_turns} == reached_;
-    if (!goes_on) begin(state, start, anchor);
-    reached_ = nowhere;
-    Flight<DenseArc> flight{standing(state)};
+    go_on(this->constants(), state, start, anchor);
+    Flight<DenseArc> flight{standing(this->constants(), state)};
     if (const Side side = entered(); side != Side::none) {
       flight.contact = {side, 0.0, start};
       flight.contact.motion.x =
@@ -53,7 +52,7 @@ class DormandPrince : public EventDriven<DormandPrince<E>, double, E> {
       return flight;
     }
     try {
-      flight.arc = step(state, start.a);
+      flight.arc = step(this->constants(), state, start.a);
     } catch (const boost::numeric::odeint::odeint_error&) {  // no step is short enough
       flight.contact = {Side::none, 0.0, start, 0, false};
       return flight;
@@ -62,6 +61,33 @@ class DormandPrince : public EventDriven<DormandPrince<E>, double, E> {
     const double turns = state.phase_turns + contact.elapsed / this->period();
     contact.resolved = this->finite(contact.motion.x) && (contact.side != Side::none || turns > state.phase_turns);
     if (contact.side == Side::none && contact.elapsed < horizon) reached_ = {contact.motion.x, contact.motion.v, turns};
+    return flight;
+  }
+
+  /// The same beyond the position of a soft stop, with the first of some margins that falls to 0.
+  template <Effects Within, std::size_t count>
+  [[nodiscard]] FlightWithin<motion::PolynomialArc<Within>> fly_within(
+      const motion::ArcConstants<double, Within>& constants, const motion::State<double>& state,
+      const motion::Motion<double>& start, double anchor, const std::array<motion::Margin<double>, count>& margins,
+      double horizon) {
+    go_on(constants, state, start, anchor);
+    FlightWithin<motion::PolynomialArc<Within>> flight{standing(constants, state), {count, 0.0, start}};
+    for (std::size_t i = 0; i < count; ++i) {
+      if (!(margins[i].of(start) <= 0 && margins[i].slope(start) < 0)) continue;
+      flight.crossing.margin = i;
+      return flight;
+    }
+    try {
+      flight.arc = step(constants, state, start.a);
+    } catch (const boost::numeric::odeint::odeint_error&) {  // no step is short enough
+      flight.crossing.resolved = false;
+      return flight;
+    }
+    motion::Crossing<double>& crossing = flight.crossing = first_crossing(flight.arc, margins, horizon);
+    const double turns = state.phase_turns + crossing.elapsed / this->period();
+    crossing.resolved = this->finite(crossing.motion.x) && (crossing.margin < count || turns > state.phase_turns);
+    if (crossing.margin == count && crossing.elapsed < horizon)
+      reached_ = {crossing.motion.x, crossing.motion.v, turns};
     return flight;
   }
 
@@ -84,8 +110,17 @@ class DormandPrince : public EventDriven<DormandPrince<E>, double, E> {
     return size > 0 ? size : 1.0;
   }
 
-  void begin(const motion::State<double>& state, const motion::Motion<double>& start, double anchor) {
-    const auto& constants = this->constants();
+  /// Begins the steps of a flight, unless the state is the one that the last step reached.
+  template <Effects Of>
+  void go_on(const motion::ArcConstants<double, Of>& constants, const motion::State<double>& state,
+             const motion::Motion<double>& start, double anchor) {
+    const bool goes_on = Place{state.x, state.v, state.phase_turns} == reached_;
+    if (!goes_on) begin(constants, state, start, anchor);
+    reached_ = nowhere;
+  }
+  template <Effects Of>
+  void begin(const motion::ArcConstants<double, Of>& constants, const motion::State<double>& state,
+             const motion::Motion<double>& start, double anchor) {
     anchor_ = anchor, angle_ = 2 * pi<double>() * (this->start_turns() + state.phase_turns);
     double first_step = std::pow(tolerance_, 0.2) / constants.rate / 2;
     if (state.from_stop != Side::none && start.offset == 0) {  // no longer than the flight, if the force ends it soon
@@ -96,29 +131,35 @@ class DormandPrince : public EventDriven<DormandPrince<E>, double, E> {
     stepper_.initialize(here_, 0.0, first_step);
   }
 
-  [[nodiscard]] double acceleration(const Values& y, double s) {
-    const auto& constants = this->constants();
+  template <Effects Of>
+  [[nodiscard]] double acceleration(const motion::ArcConstants<double, Of>& constants, const Values& y, double s) {
     this->count_evaluations(1);
     const double sine = constants.f == 0 ? 0.0 : std::sin(angle_ + constants.nu * s);
     return constants.acceleration(constants.from_equilibrium(anchor_ + y[0], anchor_, y[0]), y[1], sine);
   }
 
-  [[nodiscard]] DenseArc standing(const motion::State<double>& state) const {
+  template <Effects Of>
+  [[nodiscard]] motion::PolynomialArc<Of> standing(const motion::ArcConstants<double, Of>& constants,
+                                                   const motion::State<double>& state) const {
     Bernstein<double> offset, velocity;
     offset.fill(here_[0]), velocity.fill(here_[1]);
-    return {this->constants(), anchor_, this->start_turns() + state.phase_turns, 0.0, offset, velocity};
+    return {constants, anchor_, this->start_turns() + state.phase_turns, 0.0, offset, velocity};
   }
 
   /// Makes a step from here, with acceleration a at its beginning, and returns its dense output as an arc.
-  [[nodiscard]] DenseArc step(const motion::State<double>& state, double a) {
-    const auto equation = [this](const Values& y, Values& rate, double s) { rate = {y[1], acceleration(y, s)}; };
+  template <Effects Of>
+  [[nodiscard]] motion::PolynomialArc<Of> step(const motion::ArcConstants<double, Of>& constants,
+                                               const motion::State<double>& state, double a) {
+    const auto equation = [&](const Values& y, Values& rate, double s) {
+      rate = {y[1], acceleration(constants, y, s)};
+    };
     const auto [from, to] = stepper_.do_step(equation);
     const double length = to - from;
     const Values begin = std::exchange(here_, stepper_.current_state());
     Values third, two_thirds;
     stepper_.calc_state(from + length / 3, third), stepper_.calc_state(from + 2 * length / 3, two_thirds);
-    const double a_end = acceleration(here_, to);
-    return {this->constants(),
+    const double a_end = acceleration(constants, here_, to);
+    return {constants,
             anchor_,
             this->start_turns() + state.phase_turns,
             length,
@@ -155,6 +196,24 @@ class DormandPrince : public EventDriven<DormandPrince<E>, double, E> {
     if (first.side == Side::none) return first;
     first.motion.x = motion::stop_at<double>(this->stops(), first.side).position;
     if (sign_of(first.side) * first.motion.v <= 0) first.motion.v = 0;  // the two polynomials differ by their errors
+    return first;
+  }
+
+  /// The first of some margins that the polynomial carries below 0; else its end, or the horizon.
+  template <Effects Of, std::size_t count>
+  [[nodiscard]] static motion::Crossing<double> first_crossing(const motion::PolynomialArc<Of>& arc,
+                                                               const std::array<motion::Margin<double>, count>& margins,
+                                                               double horizon) {
+    motion::Crossing<double> first{count, std::min(arc.length(), horizon), {}};
+    for (std::size_t i = 0; i < count; ++i) {
+      Bernstein<double> c;
+      for (std::size_t j = 0; j < c.size(); ++j)
+        c[j] = margins[i].place * arc.offset()[j] + margins[i].speed * arc.velocity()[j];
+      c[0] = std::max(c[0], 0.0);
+      const auto root = FirstRoot<double>::of(c);
+      if (root && *root * arc.length() <= first.elapsed) first.margin = i, first.elapsed = *root * arc.length();
+    }
+    first.motion = arc.at(first.elapsed);
     return first;
   }
 

@@ -1,10 +1,12 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 
 #include "motion/contact.hpp"
+#include "motion/crossing.hpp"
 #include "stepping/integrator.hpp"
 
 namespace clatter::stepping {
@@ -17,8 +19,17 @@ struct Flight {
   motion::Contact<typename A::Number> contact{};
 };
 
+/// An arc within a soft stop and its end: the first of some margins that falls to 0, else the horizon, or an earlier
+/// instant if the method divides the flight into several arcs.
+template <class A>
+struct FlightWithin {
+  A arc;
+  motion::Crossing<typename A::Number> crossing{};
+};
+
 /// Event-driven integration: from contact to contact, chatter completed, rests released at their exact time. The method
-/// computes the flight and its contact: `fly(state, motion, anchor, horizon)`.
+/// computes the flight and its contact: `fly(state, motion, anchor, horizon)`; beyond the position of a soft stop
+/// `fly_within(constants, state, motion, anchor, margins, horizon)`.
 template <class Method, class N, Effects E>
 class EventDriven : public IntegratorBase<N, E> {
   using Base = IntegratorBase<N, E>;
@@ -34,6 +45,13 @@ class EventDriven : public IntegratorBase<N, E> {
                                 Observer& observer) {
     while (end - state.phase_turns > 2 * epsilon<Number>()) {  // fly, find the contact, rebound: the whole algorithm
       this->report(state);
+      if constexpr (E.soft) {
+        if (const Side side = soft_stop_around(state); side != Side::none) {
+          const Outcome outcome = run_within(state, end, origin, observer);
+          if (outcome != Outcome::completed) return outcome;
+          continue;
+        }
+      }
       if (const auto stop = this->holding_stop(state)) {
         rest(state, *stop, end, origin, observer);
         continue;
@@ -42,6 +60,7 @@ class EventDriven : public IntegratorBase<N, E> {
       const auto [arc, contact] = static_cast<Method&>(*this).fly(state, motion(state), anchor(state), horizon);
       if (!contact.resolved) return this->finite(contact.motion.x) ? Outcome::unresolved : Outcome::not_finite;
       if (contact.side != Side::none && contact.elapsed == 0 && state.v == 0) {
+        if (E.soft && is_soft(this->stops(), contact.side) && begin_pressed(state, contact)) continue;
         pass_zero_force(state, motion::stop_at<Number>(this->stops(), contact.side), end, origin, observer);
         continue;
       }
@@ -51,6 +70,12 @@ class EventDriven : public IntegratorBase<N, E> {
       state.released = false;
       if (contact.side == Side::none && contact.elapsed == horizon) break;
       if (contact.side == Side::none) continue;
+      if constexpr (E.soft) {
+        if (is_soft(this->stops(), contact.side)) {
+          if (!touch(state, contact.side, origin, observer)) return Outcome::event_budget;
+          continue;
+        }
+      }
       const bool touches = state.v == 0;  // no impact
       rebound(state, motion::stop_at<Number>(this->stops(), contact.side), end, origin, observer);
       if (!touches && !this->count_impact()) return Outcome::event_budget;
@@ -112,6 +137,104 @@ class EventDriven : public IntegratorBase<N, E> {
     }
     this->show_rest(state, stop, Number(until - state.phase_turns), true, origin, observer);
     state.phase_turns = until;
+  }
+
+  /// The soft stop beyond whose position the mass is. A state that comes from elsewhere says no more than displacement
+  /// and velocity: they decide whether the stop pushes.
+  [[nodiscard]] Side soft_stop_around(motion::State<Number>& state) const {
+    if (state.within != Side::none) return state.within;
+    for (const Side side : {Side::lower, Side::upper}) {
+      if (!is_soft(this->stops(), side)) continue;
+      const auto stop = motion::soft_stop_at<Number>(this->stops(), side);
+      const Number depth = stop.into(state.x - stop.position);
+      if (!(depth > 0)) continue;
+      state.within = state.from_stop = side, state.offset = state.x - stop.position;
+      state.pressed = stop.force(depth, stop.into(state.v)) > 0;
+    }
+    return state.within;
+  }
+
+  /// Begins a contact with a soft stop at its position; false if the impact budget is exceeded. A mass that only
+  /// touches, without speed, flies on.
+  template <class Observer>
+  [[nodiscard]] bool touch(motion::State<Number>& state, Side side, std::int64_t origin, Observer& observer) {
+    state.from_stop = side, state.offset = 0;
+    if (state.v == 0) return true;
+    state.within = side, state.pressed = true;
+    this->show_touch(state, true, origin, observer);
+    return this->count_impact();
+  }
+  /// Presses a mass without speed into the soft stop that it is on, if the force does so.
+  [[nodiscard]] bool begin_pressed(motion::State<Number>& state, const motion::Contact<Number>& contact) const {
+    const auto stop = motion::soft_stop_at<Number>(this->stops(), contact.side);
+    if (!(stop.into(contact.motion.a) > 0)) return false;
+    state.x = stop.position, state.offset = 0, state.from_stop = state.within = contact.side, state.pressed = true;
+    return true;
+  }
+
+  /// Runs a mass beyond a soft stop's position: in contact until the stop's force falls to 0, else free until it comes
+  /// back to that position or the stop, which relaxes at once, pushes again (eqs. 50 and 51).
+  template <class Observer>
+  [[nodiscard]] Outcome run_within(motion::State<Number>& state, const Number& end, std::int64_t origin,
+                                   Observer& observer) {
+    const auto stop = motion::soft_stop_at<Number>(this->stops(), state.within);
+    const Number one = stop.into(Number(1)), relaxation = stop.into(stop.relaxation());
+    const motion::Margin<Number> depth{one, Number(0)}, force{one, relaxation}, pull{-one, -relaxation};
+    if (state.pressed) {
+      return this->in_contact(state.within, [&](const auto& constants) {
+        const Number offset = state.offset, v = state.v;
+        const auto crossing = cross(constants, state, std::array{force}, end, origin, observer);
+        if (crossing.resolved && crossing.margin == 0) {
+          if (constants.h == 0 && constants.f == 0) state.v = stop.into(-constants.speed_at_stop(offset, v));
+          separate(state, stop, origin, observer);
+        }
+        return outcome_at(crossing);
+      });
+    }
+    const auto crossing = cross(this->constants(), state, std::array{depth, pull}, end, origin, observer);
+    if (crossing.resolved && crossing.margin == 0) leave(state, stop);
+    if (crossing.resolved && crossing.margin == 1) {
+      state.pressed = true;
+      this->show_touch(state, false, origin, observer);
+      if (!this->count_impact()) return Outcome::event_budget;
+    }
+    return outcome_at(crossing);
+  }
+  [[nodiscard]] static Outcome outcome_at(const motion::Crossing<Number>& crossing) {
+    if (crossing.resolved) return Outcome::completed;
+    return Base::finite(crossing.motion.x) ? Outcome::unresolved : Outcome::not_finite;
+  }
+
+  /// One arc with these constants, up to the first margin that falls to 0.
+  template <class Constants, std::size_t count, class Observer>
+  motion::Crossing<Number> cross(const Constants& constants, motion::State<Number>& state,
+                                 const std::array<motion::Margin<Number>, count>& margins, const Number& end,
+                                 std::int64_t origin, Observer& observer) {
+    const auto [sine, cosine] = this->phase(state);
+    const Number from = anchor(state), displacement = constants.from_equilibrium(state.x, from, state.offset);
+    const motion::Motion<Number> start{
+        state.offset, state.x, state.v, constants.acceleration(displacement, state.v, sine), sine, cosine};
+    const Number horizon = (end - state.phase_turns) * this->period();
+    const auto [arc, crossing] =
+        static_cast<Method&>(*this).fly_within(constants, state, start, from, margins, horizon);
+    if (!crossing.resolved) return crossing;
+    observer.arc(arc, this->time(state, origin), static_cast<double>(crossing.elapsed));
+    pass(state, crossing.elapsed);
+    state.x = crossing.motion.x, state.v = crossing.motion.v, state.offset = crossing.motion.offset;
+    return crossing;
+  }
+
+  /// Ends a contact. Without a damper the stop's force falls to 0 at its position.
+  template <class Observer>
+  void separate(motion::State<Number>& state, const motion::SoftStop<Number>& stop, std::int64_t origin,
+                Observer& observer) const {
+    state.pressed = false;
+    this->show_separation(state, stop.side, origin, observer);
+    if (stop.damping == 0 || !(stop.into(state.offset) > 0)) leave(state, stop);
+  }
+  /// Leaves the region beyond a soft stop's position.
+  static void leave(motion::State<Number>& state, const motion::SoftStop<Number>& stop) {
+    state.x = stop.position, state.offset = 0, state.within = Side::none, state.pressed = false;
   }
 
   /// Moves a mass at rest past an instant at which the contact force is zero to rounding, so its sign decides nothing.

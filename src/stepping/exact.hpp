@@ -32,6 +32,18 @@ class Exact : public EventDriven<Exact<N, E>, N, E> {
     this->count_evaluations(flight.contact.evaluations);
     return flight;
   }
+
+  /// The same beyond the position of a soft stop, with the first of some margins that falls to 0.
+  template <Effects Within, std::size_t count>
+  [[nodiscard]] FlightWithin<motion::Arc<Number, Within>> fly_within(
+      const motion::ArcConstants<Number, Within>& constants, const motion::State<Number>&,
+      const motion::Motion<Number>& start, const Number& anchor,
+      const std::array<motion::Margin<Number>, count>& margins, const Number& horizon) {
+    FlightWithin<motion::Arc<Number, Within>> flight{motion::Arc<Number, Within>(constants, start, anchor)};
+    flight.crossing = first_crossing(flight.arc, margins, horizon);
+    this->count_evaluations(flight.crossing.evaluations);
+    return flight;
+  }
 };
 
 }  // namespace clatter::stepping

@@ -7,9 +7,12 @@
 #include <functional>
 #include <limits>
 #include <optional>
+#include <type_traits>
+#include <utility>
 
 #include "model/scene.hpp"
 #include "motion/contact_force.hpp"
+#include "stepping/soft_contact.hpp"
 
 namespace clatter::stepping {
 
@@ -41,6 +44,7 @@ class IntegratorBase {
   IntegratorBase(const Scene& scene, const Stops& in_reach, const Limits& limits)
       : constants_(scene.oscillator),
         stops_(in_reach),
+        soft_(constants_, stops_),
         budget_(limits.impacts),
         longest_(limits.periods),
         start_turns_(turns_of(scene.start.phase)) {}
@@ -65,10 +69,17 @@ class IntegratorBase {
   [[nodiscard]] std::optional<motion::Stop<Number>> holding_stop(const motion::State<Number>& state) const {
     if (!E.rest || state.v != 0 || state.released) return std::nullopt;
     for (const Side side : {Side::lower, Side::upper}) {
+      if (E.soft && is_soft(stops_, side)) continue;
       const auto stop = motion::stop_at<Number>(stops_, side);
       if (state.x == stop.position && holds(constants_, stop, phase(state))) return stop;
     }
     return std::nullopt;
+  }
+
+  /// Calls `function(constants)` with those of motion in contact with a soft stop.
+  template <class Function>
+  decltype(auto) in_contact(Side side, Function&& function) const {
+    return soft_.with_constants(side, std::forward<Function>(function));
   }
 
   /// The forcing phase.
@@ -106,6 +117,18 @@ class IntegratorBase {
                                    static_cast<double>(state.v), static_cast<double>(stop.position)});
   }
   template <class Observer>
+  void show_touch(const motion::State<Number>& state, bool from_outside, std::int64_t origin,
+                  Observer& observer) const {
+    if constexpr (requires { observer.touch(motion::Touch{}); })
+      observer.touch(motion::Touch{time(state, origin), state.within, static_cast<double>(state.v),
+                                   state.within == Side::upper ? stops_.upper : stops_.lower, from_outside});
+  }
+  template <class Observer>
+  void show_separation(const motion::State<Number>& state, Side side, std::int64_t origin, Observer& observer) const {
+    if constexpr (requires { observer.separate(motion::Separation{}); })
+      observer.separate(motion::Separation{time(state, origin), side, static_cast<double>(state.v)});
+  }
+  template <class Observer>
   void show_rest(const motion::State<Number>& state, const motion::Stop<Number>& stop, const Number& turns, bool held,
                  std::int64_t origin, Observer& observer) const {
     observer.rest(motion::Rest{time(state, origin), static_cast<double>(turns * constants_.period), stop.side,
@@ -124,6 +147,7 @@ class IntegratorBase {
 
   motion::ArcConstants<Number, E.arc()> constants_;
   Stops stops_;
+  [[no_unique_address]] std::conditional_t<E.soft, SoftContact<Number>, NoSoftContact> soft_;
   double budget_;
   double longest_;  ///< forcing periods that a run may take
   Number start_turns_;

@@ -54,6 +54,18 @@ const char* long_name_of(Parameter parameter) {
       return "amplitude of the motion of both stops";
     case Parameter::base_amplitude:
       return "amplitude of the motion of the base";
+    case Parameter::stop_stiffness:
+      return "stiffness of both stops";
+    case Parameter::stop_stiffness_lower:
+      return "stiffness of the lower stop";
+    case Parameter::stop_stiffness_upper:
+      return "stiffness of the upper stop";
+    case Parameter::stop_damping:
+      return "damping ratio of both stops";
+    case Parameter::stop_damping_lower:
+      return "damping ratio of the lower stop";
+    case Parameter::stop_damping_upper:
+      return "damping ratio of the upper stop";
     case Parameter::mass:
       return "mass";
     case Parameter::damping:

@@ -67,7 +67,9 @@ bool is_always_symmetric(const Sweep& sweep) {
     return std::ranges::any_of(dimension, [](const Axis& axis) {
       using enum Parameter;
       return axis.parameter == load || axis.parameter == stop_lower || axis.parameter == stop_upper ||
-             axis.parameter == R_lower || axis.parameter == R_upper;
+             axis.parameter == R_lower || axis.parameter == R_upper || axis.parameter == stop_stiffness_lower ||
+             axis.parameter == stop_stiffness_upper || axis.parameter == stop_damping_lower ||
+             axis.parameter == stop_damping_upper;
     });
   });
   return !varies && is_symmetric(problem_at(sweep, 0));

@@ -11,7 +11,7 @@ namespace {
 using enum Parameter;
 
 /// The keys in the order of the enumeration.
-constexpr std::array<std::string_view, 24> keys{"h",
+constexpr std::array<std::string_view, 30> keys{"h",
                                                 "f",
                                                 "nu",
                                                 "phase",
@@ -27,6 +27,12 @@ constexpr std::array<std::string_view, 24> keys{"h",
                                                 "stiffness",
                                                 "stop_amplitude",
                                                 "base_amplitude",
+                                                "stop_stiffness",
+                                                "stop_stiffness_lower",
+                                                "stop_stiffness_upper",
+                                                "stop_damping",
+                                                "stop_damping_lower",
+                                                "stop_damping_upper",
                                                 "mass",
                                                 "damping",
                                                 "damping_ratio",
@@ -110,6 +116,24 @@ void set(point::Problem& scene, Parameter parameter, double value) {
     case base_amplitude:
       scene.shaking.base = value;
       break;
+    case stop_stiffness:
+      scene.stops.stiffness_lower = scene.stops.stiffness_upper = value;
+      break;
+    case stop_stiffness_lower:
+      scene.stops.stiffness_lower = value;
+      break;
+    case stop_stiffness_upper:
+      scene.stops.stiffness_upper = value;
+      break;
+    case stop_damping:
+      scene.stops.damping_lower = scene.stops.damping_upper = value;
+      break;
+    case stop_damping_lower:
+      scene.stops.damping_lower = value;
+      break;
+    case stop_damping_upper:
+      scene.stops.damping_upper = value;
+      break;
     case start_period:
       set_start(scene, value);
       break;
@@ -172,6 +196,9 @@ Quantity quantity_of(Parameter parameter) {
     case mass:
       return Quantity::mass;
     case stiffness:
+    case stop_stiffness:
+    case stop_stiffness_lower:
+    case stop_stiffness_upper:
       return Quantity::stiffness;
     case damping:
       return Quantity::damping;

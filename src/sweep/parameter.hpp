@@ -26,6 +26,12 @@ enum class Parameter {
   stiffness,
   stop_amplitude,
   base_amplitude,
+  stop_stiffness,
+  stop_stiffness_lower,
+  stop_stiffness_upper,
+  stop_damping,
+  stop_damping_lower,
+  stop_damping_upper,
   mass,
   damping,
   damping_ratio,
@@ -42,9 +48,9 @@ enum class Parameter {
 /// The parameter of a key; empty if no parameter has that name.
 [[nodiscard]] std::optional<Parameter> parameter_of(std::string_view key);
 
-/// Sets a parameter of the scene. `xs` and `gap` set both stops to -|xs| and +|xs|, `R` both restitutions;
-/// `start_period` sets x0 and v0 from the lower stop, v0 = |xs| cot(start_period / 4) (eq. 36), so it is set after
-/// the stops.
+/// Sets a parameter of the scene. `xs` and `gap` set both stops to -|xs| and +|xs|, `R` both restitutions,
+/// `stop_stiffness` and `stop_damping` those of both stops; `start_period` sets x0 and v0 from the lower stop, v0 =
+/// |xs| cot(start_period / 4) (eq. 36), so it is set after the stops.
 void set(point::Problem& scene, Parameter parameter, double value);
 
 /// Sets a parameter of a machine; returns false if it isn't one of mass, spring, damper and force.

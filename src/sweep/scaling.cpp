@@ -11,6 +11,8 @@ void to_units(point::Problem& problem, const Units& units) {
   problem.units = units;
   problem.start.velocity *= units.time;
   problem.time.duration /= units.time;
+  for (double* const kappa : {&problem.stops.stiffness_lower, &problem.stops.stiffness_upper})
+    *kappa *= units.time * units.time;
   problem.observe.base_frequency *= units.is_si ? 2 * std::numbers::pi * units.time : units.time;
 }
 

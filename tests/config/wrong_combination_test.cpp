@@ -31,6 +31,23 @@ TEST(Together, something_has_to_bound_the_motion) {
   expect_all("a.toml", table);
 }
 
+TEST(Together, a_soft_stop_has_no_restitution_and_holds_the_mass) {
+  const std::vector<Wrong> table{
+      {"[scene]\nxs = 1\nR = 0.5\nstop_stiffness = 10\n", "4:1", "'stop_stiffness' conflicts with 'R'"},
+      {"[scene]\nxs = 1\nstop_stiffness_upper = 10\nR_upper = 0.5\n", "4:1", "conflicts with 'stop_stiffness_upper'"},
+      {"[scene]\nxs = 1\nR = 0.5\n[sweep]\nstop_stiffness = [10, inf]\n", "5:1", "remove one of them"},
+      {"[scene]\nxs = 1\nstop_stiffness = 0\n", "3:18", "stop_stiffness = 0 is out of range; expected > 0 or inf"},
+      {"[scene]\nxs = 1\nstop_stiffness = -inf\n", "3:18", "expected > 0 or inf"},
+      {"[scene]\nxs = 1\nstop_stiffness = nan\n", "3:18", "stop_stiffness"},
+      {"[scene]\nxs = 1\nstop_stiffness = 1\nstop_damping = -1\n", "4:16", "expected >= 0"},
+      {"[scene]\nxs = 1\nstiffness = -3\nstop_stiffness = 3\n", "4:18", "expected more than 3"},
+      {"[scene]\nxs = 1\nstop_stiffness_lower = 2\n[sweep]\nstiffness = [1, -2.5]\n", "3:24", "expected more than 2.5"},
+      {"[scene]\nxs = 1\nstop_stiffness = 3\nstart_period = 3\n", "3:18", "conflicts with 'start_period'"},
+      {"[scene]\nxs = 1\nstop_stiffness = 3\n[integrator]\nmethod = \"moreau\"\n", "5:10", "expected exact or dopri5"},
+  };
+  expect_all("a.toml", table);
+}
+
 TEST(Together, one_thing_is_shaken) {
   const std::vector<Wrong> table{
       {"[scene]\nxs = 1\nstop_amplitude = 1\nbase_amplitude = 2\n", "4:18", "give one of them"},

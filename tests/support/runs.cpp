@@ -6,7 +6,7 @@ namespace clatter::support {
 
 template <class Number>
 Run<Number> run_scene(const point::Problem& scene, double duration) {
-  return with_any_stops(scene.oscillator, [&]<Effects effects>() {
+  return with_any_stops(scene, [&]<Effects effects>() {
     Run<Number> run;
     stepping::Exact<Number, effects> integrator(scene, limits_of(scene));
     run.end.x = scene.start.displacement, run.end.v = scene.start.velocity;
@@ -20,7 +20,7 @@ template Run<double> run_scene(const point::Problem&, double);
 template Run<FiftyDigits> run_scene(const point::Problem&, double);
 
 Steady steady_of(const point::Problem& scene) {
-  return with_any_stops(scene.oscillator, [&]<Effects effects>() {
+  return with_any_stops(scene, [&]<Effects effects>() {
     stepping::Exact<double, effects> integrator(scene, limits_of(scene));
     motion::State<double> state;
     state.x = scene.start.displacement, state.v = scene.start.velocity;

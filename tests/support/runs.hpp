@@ -7,15 +7,19 @@
 
 namespace clatter::support {
 
-/// Records every impact and rest of a run.
+/// Records every impact, rest and contact of a run.
 struct Recorder {
   std::vector<motion::Impact> impacts{};
   std::vector<motion::Rest> rests{};
+  std::vector<motion::Touch> touches{};
+  std::vector<motion::Separation> separations{};
 
   template <class A>
   void arc(const A&, double, double) {}
   void rest(const motion::Rest& rest) { rests.push_back(rest); }
   void impact(const motion::Impact& impact) { impacts.push_back(impact); }
+  void touch(const motion::Touch& touch) { touches.push_back(touch); }
+  void separate(const motion::Separation& separation) { separations.push_back(separation); }
 };
 
 /// A scene with both restitutions equal.

@@ -1,0 +1,176 @@
+// What is observed of motion between soft stops, against closed forms, samples, differences and a general solver.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <limits>
+#include <numbers>
+
+#include "point/point.hpp"
+#include "support/runs.hpp"
+#include "support/soft_scene.hpp"
+
+namespace clatter::point {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+PointResult run(const Problem& scene) {
+  ThreadScratch scratch{.fourier = observables::Harmonics::scratch_for(scene.observe)};
+  return run_point(scene, scratch);
+}
+
+/// Stops at -g and g, everything observed that impacts and energy are about.
+Problem between_soft(const Oscillator& oscillator, double g, double kappa, double zeta) {
+  Problem scene = support::scene_of(oscillator, -g, g, 1.0);
+  scene.stops.stiffness_lower = scene.stops.stiffness_upper = kappa;
+  scene.stops.damping_lower = scene.stops.damping_upper = zeta;
+  scene.observe.extrema = scene.observe.impacts = scene.observe.of_soft_stops = true;
+  scene.observe.period = scene.observe.energy = true;
+  return scene;
+}
+
+TEST(SoftStops, energy_closes_over_any_time) {
+  for (std::uint64_t i = 0; i < 300; ++i) {
+    Problem scene = support::soft_scene(i);
+    scene.observe.energy = scene.observe.extrema = true;
+    const PointResult found = run(scene);
+    ASSERT_FALSE(failed(found.status)) << i;
+    const double fastest = std::max(std::abs(found.v_min), std::abs(found.v_max));
+    const double size =
+        found.loss_damping + std::abs(found.work_in) + found.loss_impact[0] + found.loss_impact[1] + fastest * fastest;
+    EXPECT_LT(std::abs(found.energy_residual), 1e-12 * size) << i;  // some thousand terms, each to rounding
+    EXPECT_GE(found.loss_impact[0], -1e-14 * size) << i;
+    EXPECT_GE(found.loss_impact[1], -1e-14 * size) << i;
+  }
+}
+
+TEST(SoftStops, free_motion_has_the_period_of_eq_56_and_the_depth_of_its_energy) {
+  for (const double kappa : {3.0, 1e5})
+    for (const double V : {1.5, 4.0}) {
+      Problem scene = between_soft({}, 1.0, kappa, 0.0);
+      scene.start.velocity = V;
+      const PointResult found = run(scene);
+      const double stiff = std::sqrt(1 + kappa), far = std::sqrt(V * V - 1);
+      ASSERT_EQ(found.status, steady::Status::periodic);
+      EXPECT_EQ(found.found_by, steady::FoundBy::repetition);
+      EXPECT_NEAR(found.period, 4 * (std::asin(1 / V) + std::atan(stiff * far) / stiff), 1e-13);
+      const double depth = (std::sqrt(1 + (1 + kappa) * far * far) - 1) / (1 + kappa);  // (x^2 + kappa d^2 = V^2)
+      EXPECT_NEAR(found.x_max, 1 + depth, 1e-14 * (1 + depth));
+      EXPECT_NEAR(found.contact_force_max[1], kappa * depth, 1e-11 * kappa * depth);
+      EXPECT_NEAR(found.v_before[1], far, 1e-14 * V * V / far);
+      EXPECT_NEAR(found.v_after[1], -far, 1e-14 * V * V / far);
+      const double contact = std::numbers::pi - 2 * std::atan(1 / (stiff * far));
+      EXPECT_NEAR(found.contact_fraction[1], contact / stiff / found.period, 1e-12);
+    }
+}
+
+TEST(SoftStops, forced_motion_is_that_of_a_dense_scan) {
+  for (const double zeta : {0.0, 0.3, 2.0}) {
+    Problem scene = between_soft({0.1, -1.0, 1.0, 0.05}, 0.5, 40.0, zeta);
+    scene.observe.trajectory = 400001;
+    const PointResult found = run(scene);
+    ASSERT_EQ(found.status, steady::Status::periodic);
+    double highest = -infinity, in_contact = 0, force = 0;
+    for (std::size_t i = 0; i + 1 < found.x.size(); ++i) {
+      highest = std::max(highest, found.x[i]);
+      const double depth = found.x[i] - 0.5, push = 40 * depth + 2 * zeta * std::sqrt(40) * found.v[i];
+      if (depth > 0 && push > 0) in_contact += 1, force = std::max(force, push);
+    }
+    const double step = 2 * std::numbers::pi / 400000;
+    EXPECT_NEAR(found.x_max, highest, 40 * step * step);  // the scan misses a turn by half a step at most
+    EXPECT_NEAR(found.contact_fraction[1], in_contact / 400000, 3.0 / 400000);
+    const double slope =
+        40 * found.v_max + 2 * zeta * std::sqrt(40.0) * 40;  // of the force, where it jumps at the touch
+    EXPECT_NEAR(found.contact_force_max[1], force, slope * step);
+    EXPECT_LE(force, found.contact_force_max[1] * (1 + 1e-12));
+    EXPECT_EQ(found.impacts_per_period[1], 1);
+    EXPECT_LT(found.v_after[1], 0);
+  }
+}
+
+TEST(SoftStops, exact_harmonics_are_those_of_samples) {
+  Problem scene = between_soft({0.1, -1.0, 1.0, 0.05}, 0.5, 400.0, 0.2);
+  scene.observe.harmonics = 5, scene.observe.harmonics_method = observables::HarmonicsMethod::exact;
+  const PointResult exact = run(scene);
+  scene.observe.harmonics_method = observables::HarmonicsMethod::fft, scene.observe.harmonics_samples = 1 << 18;
+  const PointResult sampled = run(scene);
+  for (std::size_t k = 0; k <= 5; ++k) {
+    // the acceleration jumps, so aliases fall as the square of the number of samples
+    EXPECT_NEAR(exact.x_spectrum.amplitude[k], sampled.x_spectrum.amplitude[k], 1e-9) << k;
+    EXPECT_NEAR(exact.v_spectrum.amplitude[k], sampled.v_spectrum.amplitude[k], 1e-9) << k;
+  }
+}
+
+TEST(SoftStops, multipliers_are_those_of_differences) {
+  for (const double zeta : {0.0, 0.4, 1.5}) {
+    Problem scene = between_soft({0.1, -1.0, 1.0, 0.05}, 0.5, 40.0, zeta);
+    scene.observe.stability = true;
+    const PointResult found = run(scene);
+    ASSERT_EQ(found.status, steady::Status::periodic);
+    const double period = 2 * std::numbers::pi, small = 1e-5;
+    const auto end = [&](double x, double v) {
+      Problem moved = scene;
+      moved.start = {found.end.displacement + x, found.end.velocity + v, found.end.phase};
+      return support::run_scene(moved, period).end;
+    };
+    const auto right = end(small, 0), left = end(-small, 0), up = end(0, small), down = end(0, -small);
+    const double a = (right.x - left.x) / (2 * small), c = (right.v - left.v) / (2 * small),
+                 b = (up.x - down.x) / (2 * small), d = (up.v - down.v) / (2 * small);
+    const auto& re = found.multiplier_re;
+    const auto& im = found.multiplier_im;
+    EXPECT_NEAR(re[0] + re[1], a + d, 1e-7);  // third derivatives of the map times the square of the step
+    EXPECT_NEAR(re[0] * re[1] - im[0] * im[1], a * d - b * c, 1e-7);
+  }
+}
+
+TEST(SoftStops, a_load_presses_the_mass_to_rest_in_the_stop) {
+  for (const double zeta : {0.0, 0.2, 3.0})
+    for (const double h : {0.0, 0.1}) {
+      if (h == 0 && zeta == 0) continue;  // it never comes to rest
+      Problem scene = between_soft({h, 0.0, 1.0, 2.0}, 1.0, 9.0, zeta);
+      const PointResult found = run(scene);
+      ASSERT_EQ(found.status, steady::Status::periodic) << h << ' ' << zeta;
+      EXPECT_EQ(found.found_by, steady::FoundBy::standstill);
+      EXPECT_NEAR(found.x_max, (2.0 + 9.0) / 10.0, 1e-11);  // of the settling's tolerance
+      EXPECT_NEAR(found.contact_fraction[1], 1, 1e-15);
+    }
+}
+
+TEST(SoftStops, undamped_motion_that_stays_in_contact_has_the_period_of_both_springs) {
+  Problem scene = between_soft({0.0, 0.0, 1.0, 2.0}, 1.0, 9.0, 0.0);
+  scene.start = {1.12, 0.05, 0.0};
+  const PointResult found = run(scene);
+  ASSERT_EQ(found.status, steady::Status::periodic);
+  EXPECT_NEAR(found.period, 2 * std::numbers::pi / std::sqrt(10.0), 1e-14);
+  EXPECT_NEAR(found.x_max, 1.1 + std::hypot(0.02, 0.05 / std::sqrt(10.0)), 1e-15);
+}
+
+TEST(SoftStops, a_general_solver_finds_the_same) {
+  Problem scene = between_soft({0.1, -1.0, 1.0, 0.05}, 0.5, 40.0, 0.3);
+  scene.observe.stability = true;
+  const PointResult exact = run(scene);
+  scene.integration.method = stepping::Method::dopri5, scene.integration.tolerance = 1e-12;
+  scene.time.tolerance = 1e-10;
+  const PointResult solved = run(scene);
+  ASSERT_EQ(solved.status, steady::Status::periodic);
+  const double error = 1e-8;  // some thousand steps of 1e-12, through multipliers near 1
+  EXPECT_NEAR(solved.x_max, exact.x_max, error);
+  EXPECT_NEAR(solved.contact_force_max[1], exact.contact_force_max[1], 100 * error);
+  EXPECT_NEAR(solved.contact_fraction[1], exact.contact_fraction[1], error);
+  EXPECT_NEAR(solved.loss_impact[1], exact.loss_impact[1], error);
+  EXPECT_NEAR(solved.multiplier_re[0], exact.multiplier_re[0], 1e-6);
+}
+
+TEST(SoftStops, out_of_reach_cost_nothing) {
+  Problem scene = between_soft({0.1, -1.0, 1.5, 0.0}, 3.0, 40.0, 0.3), without = scene;
+  without.stops = Stops{};
+  EXPECT_FALSE(effects_of(scene).soft);
+  EXPECT_EQ(effect_set_of(effects_of(scene)), effect_set_of(effects_of(without)));
+  EXPECT_EQ(run(scene).x_max, run(without).x_max);
+}
+
+}  // namespace
+}  // namespace clatter::point
