@@ -69,6 +69,15 @@ struct BlockState {
   // work
   int most_contacts = 1;   ///< times that a call takes lanes to their next contact, unless a lane has to report
   double proved, refined;  ///< lanes times steps to be proved, and lanes times contacts to be refined
+  /// Of lanes without a spring, or with an unstable one.
+  struct Unsprung {
+    LaneArray k, pull;             ///< stiffness, 0 or -1; the load if there is no spring, else 0
+    LaneArray root_square;         ///< k - h^2: -lambda^2
+    LaneArray free_kb;             ///< k times the propagator's b over a step
+    LaneArray pulled_x, pulled_v;  ///< where the load takes a mass at rest in a step
+    LaneArray reach_x, reach_v;    ///< over a step x and v stay below reach_x |x| + reach_v |v| + reach_of_pull
+    LaneArray reach_of_pull;
+  } unsprung;
 };
 
 }  // namespace clatter::lanes

@@ -56,12 +56,31 @@ template <class V>
   return {angle * polynomial(sine_terms, square), square * polynomial(cosine_terms, square)};
 }
 
+/// (z - 1 + e^-z)/z^2 for 0 <= z <= 2 (eq. 45), to 2 ulps of 1.
+template <class V>
+[[nodiscard, gnu::always_inline]] inline V short_second_divided_decay(const V& z) {
+  static constexpr auto terms = economized_series<14>(2, 1, 1, longest_angle);
+  return polynomial(terms, z);
+}
+
 /// e^-x for 0 <= x <= 2, to 2 ulps of 1: the square of e^(-x/2), both less 1.
 template <class V>
 [[nodiscard, gnu::always_inline]] inline V short_decay(const V& x) {
   static constexpr auto terms = economized_series<12>(1, 1, 1, longest_angle / 2);
   const V half = x * V(0.5), less = half * polynomial(terms, half);
   return V(1.0) - neg_mul_add(less, less, less + less);
+}
+
+/// The propagator of two exponentials over a time 0 <= s <= 2/(h + lambda), from h and k - h^2 = -lambda^2 <= 0, to
+/// some ulps of its largest coefficient: eq. 8 with hyperbolic functions. Its d is not that of eq. 43.
+template <class V>
+[[nodiscard, gnu::always_inline]] inline motion::Propagator<V> short_propagator(const V& s, const V& h,
+                                                                                const V& root_square) {
+  static constexpr auto sinh_terms = economized_series<9>(1, 2, 1, -longest_angle * longest_angle);
+  static constexpr auto cosh_terms = economized_series<9>(2, 2, -1, -longest_angle * longest_angle);
+  const V z = root_square * (s * s);
+  return motion::light_propagator(short_decay(h * s), mul_add(z, polynomial(cosh_terms, z), V(1.0)),
+                                  s * polynomial(sinh_terms, z), h);
 }
 
 }  // namespace clatter::lanes

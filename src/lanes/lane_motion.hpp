@@ -37,12 +37,12 @@ template <class V>
 /// Error bounds of a step.
 template <class V>
 struct ErrorBound {
-  V free;             ///< size of the free motion
+  V free;             ///< bound of the free motion over the step
   V error, rounding;  ///< of the enclosure's middle coefficient (eq. 13); of displacements
 };
 
-/// The oscillators of some lanes, and their motion in closed form.
-template <class V>
+/// The oscillators of some lanes, and their motion in closed form. E: the effects of their arcs.
+template <class V, Effects E>
 class LaneOscillators {
  public:
   using Derivatives = motion::HigherDerivatives<V>;
@@ -56,15 +56,16 @@ class LaneOscillators {
   [[nodiscard]] Response<V> response() const {
     return {row(lanes_.in_phase), row(lanes_.quadrature), row(lanes_.amplitude)};
   }
-  [[nodiscard]] motion::EquationOfMotion<V, Effects{.damping = Damping::light, .forcing = Forcing::regular}> equation()
-      const {
+  [[nodiscard]] motion::EquationOfMotion<V, E> equation() const {
+    if constexpr (E.stiffness)
+      return {row(lanes_.twice_h), row(lanes_.f), row(lanes_.nu), row(lanes_.unsprung.k), row(lanes_.unsprung.pull)};
     return {row(lanes_.twice_h), row(lanes_.f), row(lanes_.nu)};
   }
 
   /// The instant a step later.
   [[nodiscard]] LaneMotion<V> step(const LaneMotion<V>& m) const {
     const motion::Propagator<V> free{row(lanes_.free_a), row(lanes_.free_b), row(lanes_.free_c), {}, {}};
-    return at(free.advance(m.free),
+    return at(advance_by_step(free, m.free),
               motion::turned(m.phase, {row(lanes_.turn_sine), row(lanes_.turn_cosine_minus_one)}));
   }
   /// The instant a time 0 <= s <= step later.
@@ -72,6 +73,13 @@ class LaneOscillators {
     return at(free_after(m.free, s), phase_after(m.phase, s));
   }
   [[nodiscard]] motion::FreeMotion<V> free_after(const motion::FreeMotion<V>& from, const V& s) const {
+    if constexpr (E.stiffness) {
+      const V pull = row(lanes_.unsprung.pull);
+      const motion::Propagator<V> p = short_propagator(s, row(lanes_.h), row(lanes_.unsprung.root_square));
+      const V pulled = s * s * short_second_divided_decay(row(lanes_.twice_h) * s);
+      return {mul_add(p.a, from.x, mul_add(p.b, from.v, pull * pulled)),
+              mul_add(p.c, from.v, p.b * neg_mul_add(row(lanes_.unsprung.k), from.x, pull))};
+    }
     const motion::Turn<V> turn = short_turn(row(lanes_.root) * s);
     return motion::light_propagator(short_decay(row(lanes_.h) * s), V(1.0) + turn.cosine_minus_one,
                                     turn.sine * row(lanes_.inverse_root), row(lanes_.h))
@@ -97,9 +105,17 @@ class LaneOscillators {
 
   /// The error bounds of a step that begins with this free motion (eqs. 13 and 14).
   [[nodiscard]] ErrorBound<V> uncertainty(const motion::FreeMotion<V>& m) const {
-    const V free = abs(m.x) + abs(m.v);
+    V free = size(m);
+    if constexpr (E.stiffness) free = free + row(lanes_.unsprung.reach_of_pull);
     return {free, mul_add(row(lanes_.bound), free, row(lanes_.bound_forced)),
             mul_add(V(0x1p-49), free, row(lanes_.rounding))};
+  }
+  /// Bound of the displacement and of the velocity of a free motion, or of the difference of two motions, over a step:
+  /// the energy norm never grows under a spring (eq. 14), and modes do without one (eq. 47).
+  [[nodiscard]] V size(const motion::FreeMotion<V>& m) const {
+    if constexpr (E.stiffness)
+      return mul_add(row(lanes_.unsprung.reach_x), abs(m.x), row(lanes_.unsprung.reach_v) * abs(m.v));
+    return abs(m.x) + abs(m.v);
   }
   /// The error bound of the velocity's enclosure.
   [[nodiscard]] V error_v(const ErrorBound<V>& u) const {
@@ -107,6 +123,13 @@ class LaneOscillators {
   }
 
  private:
+  [[nodiscard]] motion::FreeMotion<V> advance_by_step(const motion::Propagator<V>& p,
+                                                      const motion::FreeMotion<V>& from) const {
+    if constexpr (E.stiffness)
+      return {mul_add(p.a, from.x, mul_add(p.b, from.v, row(lanes_.unsprung.pulled_x))),
+              mul_add(p.c, from.v, neg_mul_add(row(lanes_.unsprung.free_kb), from.x, row(lanes_.unsprung.pulled_v)))};
+    return p.advance(from);
+  }
   [[nodiscard]] LaneMotion<V> at(const motion::FreeMotion<V>& free, const SineCosine<V>& phase) const {
     const Response<V> forced = response();
     const V y = forced.displacement(phase.sine, phase.cosine) + free.x;

@@ -24,12 +24,12 @@ template <class V>
 }
 
 /// The observers of flights and impacts for the lanes of a vector, as those of the scalar loop.
-template <class V>
+template <class V, Effects E>
 class LaneObservers {
   using Mask = clatter::Mask<V>;
 
  public:
-  explicit LaneObservers(const LaneOscillators<V>& oscillators)
+  explicit LaneObservers(const LaneOscillators<V, E>& oscillators)
       : oscillators_(oscillators), lanes_(oscillators.lanes()) {}
 
   /// Observes a flight. Returns the lanes for which its extrema are certain; for the others nothing is recorded. Most
@@ -82,7 +82,7 @@ class LaneObservers {
   };
 
   /// Widens the ranges of the open lanes by a flight that may exceed them; returns those for which that is certain.
-  [[gnu::noinline]] static Mask look_closer(LaneOscillators<V> oscillators, Mask open, Flight<V> flight) {
+  [[gnu::noinline]] static Mask look_closer(LaneOscillators<V, E> oscillators, Mask open, Flight<V> flight) {
     return LaneObservers(oscillators).widen(open, flight);
   }
   Mask widen(const Mask& open, const Flight<V>& flight) {
@@ -165,11 +165,11 @@ class LaneObservers {
   }
   static constexpr double longest_shift = 0x1p-10;  ///< of an extremum, in steps
 
-  /// Whether a flight begins as the reference did, and lasts no longer: then it stays as close to the reference as it
-  /// began, since their difference is a free motion and a constant shift of the forcing phase.
+  /// Whether a flight begins as the reference did, and lasts no longer: then it stays as close to the reference as the
+  /// bound says, since their difference is a free motion and a constant shift of the forcing phase.
   Mask like(const BlockState::Reference& r, const Flight<V>& flight, const V& slack) const {
     const LaneMotion<V>& from = flight.from;
-    const V free = abs(from.free.v - row(r.free_v)) + abs(from.free.x - row(r.free_x));
+    const V free = oscillators_.size({from.free.x - row(r.free_x), from.free.v - row(r.free_v)});
     const V phase = abs(from.phase.sine - row(r.sine)) + abs(from.phase.cosine - row(r.cosine));
     return (mul_add(phase, row(lanes_.forced_size), free) <= slack * V(0.5)) &
            (flight.length <= row(r.length) * V(1 + 0x1p-44));
@@ -208,7 +208,7 @@ class LaneObservers {
     }
   }
 
-  LaneOscillators<V> oscillators_;
+  LaneOscillators<V, E> oscillators_;
   BlockState& lanes_;
 };
 

@@ -30,23 +30,44 @@ void begin_sums(BlockState& block, std::size_t lane) {
     block.jump_real[k].lane[lane] = block.jump_imaginary[k].lane[lane] = 0;
 }
 
+/// The rate that the damping of lanes is relative to: that of the spring, without one that of the force.
+double rate_of(const Oscillator& oscillator) { return oscillator.stiffness == 0 ? oscillator.frequency : 1.0; }
+
+/// Whether the spring or the stops hold the mass for ever, or a load does that presses it onto the only stop; points
+/// have k = 1, 0 or -1.
+bool holds(const Scene& scene) {
+  const double k = scene.oscillator.stiffness, load = scene.oscillator.load;
+  if (k == 1) return true;
+  const bool above = std::isfinite(scene.stops.lower), below = std::isfinite(scene.stops.upper);
+  if (above && below) return k == 0 || k == -1;
+  return k == 0 && ((above && load < 0) || (below && load > 0));
+}
+
 }  // namespace
 
 bool accepts(const Scene& scene) {
   const Oscillator& o = scene.oscillator;
   const Stops& stops = scene.stops;
-  const bool moves =
-      o.forcing != 0 && o.damping >= 0 && o.damping <= 0.9 && o.stiffness == 1.0 && forcing_of(o) == Forcing::regular;
+  const bool moves = o.forcing != 0 && o.damping >= 0 && o.damping <= 0.9 * rate_of(o) && holds(scene) &&
+                     forcing_of(o) == Forcing::regular;
   const double amplitude = steady_response(o).amplitude, room = stops.upper - stops.lower;
   const bool bounces = std::min(stops.restitution_lower, stops.restitution_upper) >= 1.0 / 16;
   return moves && !has_soft_stop(stops) && o.frequency >= 1e-3 && o.frequency <= 1e3 && bounces && amplitude > 1e-100 &&
          amplitude < 1e100 && room > amplitude / 64 && std::min(std::abs(stops.lower), std::abs(stops.upper)) < 1e100;
 }
 
-StepFunctions step_functions_of(InstructionSet arch) {
+template <>
+StepFunctions step_functions_of<sprung>(InstructionSet arch) {
   if (arch == InstructionSet::avx512) return {step_avx512, step_observed_avx512};
   if (arch == InstructionSet::avx2) return {step_avx2, step_observed_avx2};
   return {step_sse2, step_observed_sse2};
+}
+
+template <>
+StepFunctions step_functions_of<unsprung>(InstructionSet arch) {
+  if (arch == InstructionSet::avx512) return {step_unsprung_avx512, step_unsprung_observed_avx512};
+  if (arch == InstructionSet::avx2) return {step_unsprung_avx2, step_unsprung_observed_avx2};
+  return {step_unsprung_sse2, step_unsprung_observed_sse2};
 }
 
 void clear_lane(BlockState& block, std::size_t lane) {
@@ -60,24 +81,49 @@ void clear_lane(BlockState& block, std::size_t lane) {
   begin_sums(block, lane);
 }
 
-/// Sets the error bounds of the lane's enclosures.
-void LaneView::set_bounds(const Constants& constants, const Stops& stops, double step) {
-  const auto error_of = [&](double free, int derivative) {
+/// Sets the error bounds of the lane's enclosures. Without a spring displacement and velocity have bounds of their own.
+template <Effects arcs>
+void LaneView::set_bounds(const motion::ArcConstants<double, arcs>& constants, const Stops& stops, double step) {
+  const auto error_of = [&](double free_x, double free_v, int derivative) {
     motion::Motion<double> m{};
-    m.free_x = free;
+    m.free_x = free_x, m.free_v = free_v;
+    if constexpr (arcs.damping == Damping::heavy) m.fast_x = constants.fast_mode(free_x, free_v);
     return hermite_error(constants.sixth_bound(m, step, derivative));
   };
-  at(block_->bound_forced) = error_of(0, 0), at(block_->bound) = error_of(1, 0) - error_of(0, 0);
-  at(block_->bound_forced_v) = error_of(0, 1), at(block_->bound_v) = error_of(1, 1) - error_of(0, 1);
+  const double size = std::max(1.0, constants.response.amplitude / 1024);  // that isn't lost beside the forced part
+  const auto error_of_size = [&](int derivative) {
+    if constexpr (!arcs.stiffness) return error_of(size, 0, derivative);
+    const double of_x = error_of(size / at(block_->unsprung.reach_x), 0, derivative);
+    return std::max(of_x, error_of(0, size / at(block_->unsprung.reach_v), derivative));
+  };
+  const auto set = [&](LaneArray& bound, LaneArray& forced, int derivative) {
+    at(forced) = error_of(0, 0, derivative), at(bound) = (error_of_size(derivative) - at(forced)) / size;
+  };
+  set(block_->bound, block_->bound_forced, 0), set(block_->bound_v, block_->bound_forced_v, 1);
   at(block_->forced_size) = 2 * constants.response.amplitude * (1 + constants.nu);
   double scale = constants.response.amplitude * (1 + constants.nu * constants.nu * step * step);
   for (const double stop : {stops.lower, stops.upper})
-    if (std::isfinite(stop)) scale += std::abs(stop) + std::abs(constants.load);
+    if (std::isfinite(stop)) scale += std::abs(stop) + std::abs(constants.equilibrium);
+  if constexpr (arcs.stiffness) scale += std::abs(constants.unbalanced) * step * step;
   at(block_->rounding) = rounding * scale;
 }
 
-void LaneView::load(const Constants& constants, const Stops& stops) {
-  const double step = usual_step / std::max(1.0, constants.nu);
+/// Loads all that lanes without a spring have besides (eqs. 43, 45 and 47).
+template <Effects arcs>
+void LaneView::load_unsprung(const motion::ArcConstants<double, arcs>& constants, double step) {
+  BlockState::Unsprung& rows = block_->unsprung;
+  const motion::Step<double> of_step = constants.step(step);
+  const double k = constants.k, pull = constants.unbalanced, growth = std::exp(-constants.slow * step);
+  at(rows.k) = k, at(rows.pull) = pull, at(rows.root_square) = -constants.root * constants.root;
+  at(rows.free_kb) = k * of_step.free.b;
+  at(rows.pulled_x) = pull * of_step.pulled, at(rows.pulled_v) = pull * of_step.free.b;
+  at(rows.reach_x) = growth * std::max(1.0, -k * step), at(rows.reach_v) = growth * std::max(1.0, step);
+  at(rows.reach_of_pull) = std::abs(pull) * std::max(step, step * step / 2);
+}
+
+template <Effects arcs>
+void LaneView::load(const motion::ArcConstants<double, arcs>& constants, const Stops& stops) {
+  const double step = usual_step / (arcs.stiffness ? constants.rate : std::max(1.0, constants.nu));
   const motion::Step<double> of_step = constants.step(step);
   BlockState& block = *block_;
   at(block.h) = constants.h, at(block.twice_h) = 2 * constants.h, at(block.f) = constants.f;
@@ -87,8 +133,9 @@ void LaneView::load(const Constants& constants, const Stops& stops) {
   at(block.step) = step, at(block.inverse_step) = 1 / step;
   at(block.free_a) = of_step.free.a, at(block.free_b) = of_step.free.b, at(block.free_c) = of_step.free.c;
   at(block.turn_sine) = of_step.turn.sine, at(block.turn_cosine_minus_one) = of_step.turn.cosine_minus_one;
-  at(block.lower) = stops.lower - constants.load, at(block.upper) = stops.upper - constants.load;
+  at(block.lower) = stops.lower - constants.equilibrium, at(block.upper) = stops.upper - constants.equilibrium;
   at(block.restitution_lower) = stops.restitution_lower, at(block.restitution_upper) = stops.restitution_upper;
+  if constexpr (arcs.stiffness) load_unsprung(constants, step);
   set_bounds(constants, stops, step);
   at(block.period) = constants.period;
   at(block.start_sine) = std::sin(scene_->start.phase), at(block.start_cosine) = std::cos(scene_->start.phase);
@@ -97,16 +144,26 @@ void LaneView::load(const Constants& constants, const Stops& stops) {
   set_state({scene_->start.displacement, scene_->start.velocity, 0}, 0);
 }
 
+template void LaneView::load(const Constants<sprung>&, const Stops&);
+template void LaneView::load(const Constants<unsprung>&, const Stops&);
+
+double LaneView::acceleration(double y, double v, double sine) const {
+  const Oscillator& o = scene_->oscillator;
+  const double twice_h = 2 * o.damping, pull = o.stiffness == 0 ? o.load : 0.0;
+  if (o.stiffness == 1) return Constants<sprung>::Equation{twice_h, o.forcing, o.frequency}.acceleration(y, v, sine);
+  return Constants<unsprung>::Equation{twice_h, o.forcing, o.frequency, o.stiffness, pull}.acceleration(y, v, sine);
+}
+
 double LaneView::x_of(double y) const {
   if (y == at(block_->lower)) return scene_->stops.lower;
   if (y == at(block_->upper)) return scene_->stops.upper;
-  return scene_->oscillator.load + y;
+  return equilibrium_of(scene_->oscillator) + y;
 }
 
 double LaneView::y_of(double x) const {
   if (x == scene_->stops.lower) return at(block_->lower);
   if (x == scene_->stops.upper) return at(block_->upper);
-  return x - scene_->oscillator.load;
+  return x - equilibrium_of(scene_->oscillator);
 }
 
 double LaneView::sections_between() const {
@@ -128,7 +185,7 @@ void LaneView::set_state(const LaneState& state, double sections_between) {
   at(block_->y) = y, at(block_->v) = state.v;
   at(block_->free_x) = y - forced.displacement(sine, cosine);
   at(block_->free_v) = state.v - forced.velocity(nu, sine, cosine);
-  at(block_->a) = Constants::Equation{at(block_->twice_h), at(block_->f), nu}.acceleration(y, state.v, sine);
+  at(block_->a) = acceleration(y, state.v, sine);
   at(block_->time_to_section) = (1 - state.phase_turns + sections_between) * at(block_->period);
   at(block_->to_next) = std::round(at(block_->to_next) / at(block_->period)) * at(block_->period);
   at(block_->excess) = 0;
@@ -146,7 +203,7 @@ PhaseState LaneView::section_from_load() const {
 void LaneView::set_section(double y, double v) { at(block_->section_y) = y, at(block_->section_v) = v; }
 
 double LaneView::pass_section(double x, double v) {
-  set_section(x - scene_->oscillator.load, v);
+  set_section(x - equilibrium_of(scene_->oscillator), v);
   at(block_->section_itinerary) = std::exchange(at(block_->itinerary), 0.0);
   at(block_->section_impacts) = at(block_->impacts);
   block_->arrived |= LaneMask{1} << lane_;

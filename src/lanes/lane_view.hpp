@@ -8,6 +8,7 @@
 
 #include "lanes/block_state.hpp"
 #include "lanes/instruction_set.hpp"
+#include "lanes/lane_effects.hpp"
 #include "model/displacement_bound.hpp"
 #include "model/scene.hpp"
 #include "motion/arc_constants.hpp"
@@ -38,7 +39,7 @@ struct Observed {
 };
 
 /// Whether a scene can run in a lane: forced motion between stops, lightly damped, away from resonance, with lengths
-/// and frequencies that leave an enclosure room.
+/// and frequencies that leave an enclosure room; without a spring it must be bounded.
 [[nodiscard]] bool accepts(const Scene& scene);
 
 /// Advances every lane: to its next contact, past the next section, or by a few steps, whichever comes first.
@@ -49,7 +50,8 @@ struct StepFunctions {
   StepFunction plain, observed;
 };
 
-/// The step functions for an instruction set that this machine has, not scalar.
+/// The step functions for an instruction set that this machine has, not scalar, and the effects of lanes.
+template <Effects E = sprung>
 [[nodiscard]] StepFunctions step_functions_of(InstructionSet arch);
 
 /// Clears a lane: it stands still and reports nothing.
@@ -59,12 +61,14 @@ void clear_lane(BlockState& block, std::size_t lane);
 /// displacements from the load's equilibrium.
 class LaneView {
  public:
-  using Constants = motion::ArcConstants<double, Effects{.damping = Damping::light, .forcing = Forcing::regular}>;
+  template <Effects E = sprung>
+  using Constants = motion::ArcConstants<double, E.arc()>;
 
   LaneView(BlockState& block, std::size_t lane, const Scene& scene) : block_(&block), lane_(lane), scene_(&scene) {}
 
   /// Loads the scene at its start, with the constants of its arcs and the stops that it may meet.
-  void load(const Constants& constants, const Stops& stops);
+  template <Effects arcs>
+  void load(const motion::ArcConstants<double, arcs>& constants, const Stops& stops);
   [[nodiscard]] LaneState state() const;
   /// Sets the state, so many sections being passed before the next one that is reported.
   void set_state(const LaneState& state, double sections_between);
@@ -110,7 +114,11 @@ class LaneView {
   [[nodiscard]] double& at(LaneArray& row) const { return row.lane[lane_]; }
   [[nodiscard]] double x_of(double y) const;
   [[nodiscard]] double y_of(double x) const;
-  void set_bounds(const Constants& constants, const Stops& stops, double step);
+  [[nodiscard]] double acceleration(double y, double v, double sine) const;
+  template <Effects arcs>
+  void load_unsprung(const motion::ArcConstants<double, arcs>& constants, double step);
+  template <Effects arcs>
+  void set_bounds(const motion::ArcConstants<double, arcs>& constants, const Stops& stops, double step);
 
   BlockState* block_;
   std::size_t lane_;

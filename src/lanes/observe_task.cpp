@@ -15,7 +15,8 @@ steady::ObservedTime failure(stepping::Outcome outcome, double simulated) {
 
 }  // namespace
 
-bool lanes_can_observe(const SettledPoint& settled) {
+template <Effects E>
+bool lanes_can_observe(const SettledPoint<E>& settled) {
   const point::Problem& problem = settled.item.problem;
   const steady::ObservedTime& observed = settled.observed;
   const observables::ObservedSpan span{.scene = problem,
@@ -26,7 +27,8 @@ bool lanes_can_observe(const SettledPoint& settled) {
          observables::All::in_lanes(problem.observe, span);
 }
 
-point::PointResult observe_in_scalar_loop(const SettledPoint& settled, point::ThreadScratch& scratch) {
+template <Effects E>
+point::PointResult observe_in_scalar_loop(const SettledPoint<E>& settled, point::ThreadScratch& scratch) {
   const point::Problem& problem = settled.item.problem;
   const auto observe = [&](const steady::ObservedTime& observed) {
     return point::Point(problem, scratch, settled.loop).observe(observed);
@@ -40,7 +42,8 @@ point::PointResult observe_in_scalar_loop(const SettledPoint& settled, point::Th
   return over;
 }
 
-ObserveTask::ObserveTask(const SettledPoint& settled)
+template <Effects E>
+ObserveTask<E>::ObserveTask(const SettledPoint<E>& settled)
     : settled_(settled),
       scene_(settled_.item.problem),
       sections_in_all_(std::ceil(settled_.observed.turns)),
@@ -50,14 +53,16 @@ ObserveTask::ObserveTask(const SettledPoint& settled)
 }
 
 /// The last section is the end of the observed time. If that is no whole number of periods, the first period is cut.
-ScalarLoop ObserveTask::scalar_loop() {
+template <Effects E>
+ScalarLoop<E> ObserveTask<E>::scalar_loop() {
   if (first_turns_ == 0) return settled_.loop;
   scene_.start.phase = std::fmod(scene_.start.phase + 2 * pi<double>() * (1 - first_turns_), 2 * pi<double>());
   return {scene_, settled_.loop.stops(), limits_of(item().problem)};
 }
 
 /// An impact at the very beginning lies outside the observed time: lanes begin after it.
-void ObserveTask::skip_impact_at_start() {
+template <Effects E>
+void ObserveTask<E>::skip_impact_at_start() {
   motion::State<double>& from = settled_.observed.from;
   for (const Side side : {Side::lower, Side::upper}) {
     const motion::Stop<double> stop = motion::stop_at<double>(settled_.loop.stops(), side);
@@ -68,7 +73,8 @@ void ObserveTask::skip_impact_at_start() {
   }
 }
 
-void ObserveTask::begin(LaneView& lane) {
+template <Effects E>
+void ObserveTask<E>::begin(LaneView& lane) {
   const motion::State<double>& from = settled_.observed.from;
   lane.load(settled_.loop.constants(), settled_.loop.stops());
   lane.set_state({from.x, from.v, first_turns_}, 0);
@@ -80,7 +86,8 @@ void ObserveTask::begin(LaneView& lane) {
 /// Tells the lane about the section that it reports next. Reports become rarer as it becomes likely that the motion
 /// goes on meeting stops. The lane halts at the last one, and at every one once it coasts, since the extrema it has
 /// seen there would else depend on its neighbours.
-void ObserveTask::expect_section(LaneView& lane) {
+template <Effects E>
+void ObserveTask<E>::expect_section(LaneView& lane) {
   const double left = sections_in_all_ - static_cast<double>(sections_ + to_report_);
   const bool last = left == 0;
   after_report_ = last || coasts_ || wants_section()
@@ -89,21 +96,27 @@ void ObserveTask::expect_section(LaneView& lane) {
   lane.expect_section(last || coasts_, last && settled_.observed.status != steady::Status::periodic, after_report_);
 }
 
-bool ObserveTask::has_spent_budget(double impacts) const {
+template <Effects E>
+bool ObserveTask<E>::has_spent_budget(double impacts) const {
   return fallback_.loop().impacts() + settled_.impacts + impacts > item().problem.time.max_impacts;
 }
 
-bool ObserveTask::leaves_lane() const { return fallback_.rested() || fallback_.calls() > 64 + 2 * sections_; }
+template <Effects E>
+bool ObserveTask<E>::leaves_lane() const {
+  return fallback_.rested() || fallback_.calls() > 64 + 2 * sections_;
+}
 
 /// However late that is found, a point that has spent its budget fails with the same numbers: those of the last section
 /// before.
-SettledPoint ObserveTask::failed(stepping::Outcome outcome, const LaneView&) const {
-  SettledPoint failed = settled_;
+template <Effects E>
+SettledPoint<E> ObserveTask<E>::failed(stepping::Outcome outcome, const LaneView&) const {
+  SettledPoint<E> failed = settled_;
   failed.observed = failure(outcome, settled_.observed.simulated + static_cast<double>(sections_));
   return failed;
 }
 
-bool ObserveTask::pass_section(LaneView& lane) {
+template <Effects E>
+bool ObserveTask<E>::pass_section(LaneView& lane) {
   if (has_spent_budget(lane.section().impacts)) return true;
   sections_ += std::exchange(to_report_, after_report_);
   const bool at_end = static_cast<double>(sections_) == sections_in_all_;
@@ -116,34 +129,43 @@ bool ObserveTask::pass_section(LaneView& lane) {
 
 /// True if the rest of the observed time cannot change a result: no stop is in reach, and response plus transient stay
 /// within the extrema found.
-bool ObserveTask::may_end_early(const LaneView& lane) {
+template <Effects E>
+bool ObserveTask<E>::may_end_early(const LaneView& lane) {
   const Oscillator& o = item().problem.oscillator;
   const PhaseState now = lane.section_from_load();
   if (wants_section()) return false;
-  if (coasts_) return lane.extrema_hold(transient_bound(o, transient_of(o, now)));
+  if (coasts_) {
+    const PhasePoint transient = transient_of(o, now);
+    const double most = transient_bound(o, transient);
+    return lane.extrema_hold(E.stiffness ? std::max(most, std::abs(transient.v)) : most);  // of k = 0: v only decays
+  }
   coasts_ = lane.section().itinerary == 0 && out_of_reach(o, now, settled_.loop.stops());
   return coasts_ && !item().problem.observe.extrema;
 }
 
 /// Moves a lane that can't meet a stop from the section that it has passed to the end of the observed time.
-void ObserveTask::coast(LaneView& lane) const {
+template <Effects E>
+void ObserveTask<E>::coast(LaneView& lane) const {
   const Oscillator& o = item().problem.oscillator;
-  const ScalarLoop& loop = fallback_.loop();
+  const ScalarLoop<E>& loop = fallback_.loop();
   const PhasePoint free = transient_of(o, lane.section_from_load());
   const auto [sine, cosine] = loop.phase({});
   const PhasePoint response = response_at(o, sine, cosine);
   const motion::Propagator<double> to =
       loop.constants().propagator((sections_in_all_ - static_cast<double>(sections_)) * loop.period());
-  lane.set_section(response.x + to.a * free.x + to.b * free.v, response.v - to.b * free.x + to.c * free.v);
+  lane.set_section(response.x + to.a * free.x + to.b * free.v,
+                   response.v - loop.constants().spring(to.b * free.x) + to.c * free.v);
 }
 
-double ObserveTask::share(const LaneView& lane) const {
+template <Effects E>
+double ObserveTask<E>::share(const LaneView& lane) const {
   const double impacts = fallback_.loop().impacts() + settled_.impacts + lane.impacts();
   const double turns = static_cast<double>(sections_) / sections_in_all_;
   return std::min(1.0, std::max(impacts / item().problem.time.max_impacts, turns));
 }
 
-point::PointResult ObserveTask::result(const LaneView& lane, point::ThreadScratch& scratch) const {
+template <Effects E>
+point::PointResult ObserveTask<E>::result(const LaneView& lane, point::ThreadScratch& scratch) const {
   const steady::ObservedTime& observed = settled_.observed;
   const LaneSection section = lane.section();
   if (has_spent_budget(section.impacts))
@@ -165,5 +187,12 @@ point::PointResult ObserveTask::result(const LaneView& lane, point::ThreadScratc
   result.impacts += settled_.impacts + section.impacts, result.in_lanes = true;
   return result;
 }
+
+template bool lanes_can_observe(const SettledPoint<sprung>&);
+template bool lanes_can_observe(const SettledPoint<unsprung>&);
+template point::PointResult observe_in_scalar_loop(const SettledPoint<sprung>&, point::ThreadScratch&);
+template point::PointResult observe_in_scalar_loop(const SettledPoint<unsprung>&, point::ThreadScratch&);
+template class ObserveTask<sprung>;
+template class ObserveTask<unsprung>;
 
 }  // namespace clatter::lanes

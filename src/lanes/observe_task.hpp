@@ -8,23 +8,27 @@
 namespace clatter::lanes {
 
 /// A point whose observed time is known, or which has failed, and the work that this took.
+template <Effects E>
 struct SettledPoint {
   point::WorkItem item;
-  ScalarLoop loop;
+  ScalarLoop<E> loop;
   double impacts = 0.0;  ///< met in lanes
   steady::ObservedTime observed{};
 };
 
 /// Whether lanes can observe a point.
-[[nodiscard]] bool lanes_can_observe(const SettledPoint& settled);
+template <Effects E>
+[[nodiscard]] bool lanes_can_observe(const SettledPoint<E>& settled);
 
 /// The result of a point that the scalar loop observes, or of one that has failed.
-[[nodiscard]] point::PointResult observe_in_scalar_loop(const SettledPoint& settled, point::ThreadScratch& scratch);
+template <Effects E>
+[[nodiscard]] point::PointResult observe_in_scalar_loop(const SettledPoint<E>& settled, point::ThreadScratch& scratch);
 
 /// A point in a lane that observes it.
+template <Effects E>
 class ObserveTask {
  public:
-  explicit ObserveTask(const SettledPoint& settled);
+  explicit ObserveTask(const SettledPoint<E>& settled);
   ObserveTask(const ObserveTask&) = delete;
   ObserveTask& operator=(const ObserveTask&) = delete;
 
@@ -45,16 +49,16 @@ class ObserveTask {
   [[nodiscard]] double share(const LaneView& lane) const;
 
   /// The point as it was before lanes observed it, for the scalar loop to do so.
-  [[nodiscard]] const SettledPoint& settled() const { return settled_; }
+  [[nodiscard]] const SettledPoint<E>& settled() const { return settled_; }
   /// The point if it can't be run on.
-  [[nodiscard]] SettledPoint failed(stepping::Outcome outcome, const LaneView& lane) const;
+  [[nodiscard]] SettledPoint<E> failed(stepping::Outcome outcome, const LaneView& lane) const;
   /// The result of a point whose observed time is over, or that has failed or leaves its lane.
   [[nodiscard]] point::PointResult result(const LaneView& lane, point::ThreadScratch& scratch) const;
 
  private:
   static constexpr std::int64_t rarest_report = 64;  ///< forcing periods
 
-  [[nodiscard]] ScalarLoop scalar_loop();
+  [[nodiscard]] ScalarLoop<E> scalar_loop();
   void skip_impact_at_start();
   void expect_section(LaneView& lane);
   [[nodiscard]] bool may_end_early(const LaneView& lane);
@@ -65,11 +69,11 @@ class ObserveTask {
   }
   void add_to_section(double x, double v) { section_x_.push_back(x), section_v_.push_back(v); }
 
-  SettledPoint settled_;
+  SettledPoint<E> settled_;
   Scene scene_;             ///< started so that a section ends the observed time
   double sections_in_all_;  ///< up to the end of the observed time
   double first_turns_;      ///< forcing periods that lie before the observed time in its first period
-  ScalarFallback fallback_;
+  ScalarFallback<E> fallback_;
   std::int64_t sections_ = 0;
   std::int64_t to_report_ = 1, after_report_ = 1;  ///< forcing periods to the next report, and to the one after it
   bool coasts_ = false;                            ///< no stop can be met any more

@@ -17,7 +17,7 @@ point::PointResult run_in_lanes(const point::WorkItem& item, std::size_t times, 
   std::size_t begun = 0;
   const auto next = [&] { return begun++ < times ? std::optional(item) : std::nullopt; };
   const auto take = [&](const point::WorkItem&, point::PointResult&& of_point) { result = std::move(of_point); };
-  Scheduler scheduler(step_functions_of(arch), scratch, next, take);
+  Scheduler scheduler(arch, scratch, next, take);
   scheduler.run();
   return result;
 }

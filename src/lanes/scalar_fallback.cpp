@@ -39,7 +39,8 @@ class LaneObserver {
 
 }  // namespace
 
-stepping::Outcome ScalarFallback::advance(LaneView& lane) {
+template <Effects E>
+stepping::Outcome ScalarFallback<E>::advance(LaneView& lane) {
   const LaneState now = lane.state();
   motion::State<double> state;
   state.x = now.x, state.v = now.v, state.phase_turns = now.phase_turns;
@@ -63,5 +64,8 @@ stepping::Outcome ScalarFallback::advance(LaneView& lane) {
   end_ = state, mark_ = lane.mark();
   return outcome;
 }
+
+template class ScalarFallback<sprung>;
+template class ScalarFallback<unsprung>;
 
 }  // namespace clatter::lanes

@@ -9,26 +9,28 @@
 namespace clatter::lanes {
 
 /// The scalar loop with the effects of a point in lanes.
-using ScalarLoop = stepping::Exact<double, effect_sets::complete(Damping::light, Forcing::regular)>;
+template <Effects E>
+using ScalarLoop = stepping::Exact<double, E>;
 
 /// Advances a lane in the scalar loop, for motion that the vector code leaves out: chatter, rest and grazes.
+template <Effects E>
 class ScalarFallback {
  public:
   /// Without observers if not told to observe.
-  ScalarFallback(const ScalarLoop& loop, bool observes) : loop_(loop), observes_(observes) {}
+  ScalarFallback(const ScalarLoop<E>& loop, bool observes) : loop_(loop), observes_(observes) {}
 
   /// By two steps, or to the next section.
   [[nodiscard]] stepping::Outcome advance(LaneView& lane);
 
-  [[nodiscard]] ScalarLoop& loop() { return loop_; }
-  [[nodiscard]] const ScalarLoop& loop() const { return loop_; }
+  [[nodiscard]] ScalarLoop<E>& loop() { return loop_; }
+  [[nodiscard]] const ScalarLoop<E>& loop() const { return loop_; }
   [[nodiscard]] std::int64_t calls() const { return calls_; }
   [[nodiscard]] bool rested() const { return rested_; }  ///< the mass has been at rest
 
  private:
   static constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
-  ScalarLoop loop_;
+  ScalarLoop<E> loop_;
   bool observes_;
   motion::State<double> end_{};                ///< the state in which the lane was left
   std::array<double, 3> mark_{nan, nan, nan};  ///< the lane's mark then

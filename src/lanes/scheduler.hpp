@@ -1,75 +1,37 @@
 #pragma once
 
-#include <array>
-#include <functional>
-#include <memory>
 #include <optional>
 #include <vector>
 
-#include "lanes/settle_task.hpp"
+#include "lanes/block_scheduler.hpp"
 
 namespace clatter::lanes {
 
-/// Runs the points of one thread side by side in SIMD lanes: first until their motion is known, then, in other lanes,
-/// to observe it. A lane whose point is done takes the next one; chatter, rest and grazes, which the vector code leaves
-/// out, run in the scalar loop for a short time. A point's result depends neither on its lane nor on its neighbours.
+/// Runs the points of one thread in SIMD lanes. Those that need other step functions than the ones now at work wait
+/// until these are done, or until too many wait.
 class Scheduler {
  public:
-  /// Gives the next point that lanes accept; nothing if there are no more, or none before another result is known.
-  using WorkQueue = std::function<std::optional<point::WorkItem>()>;
-  using ResultSink = std::function<void(const point::WorkItem&, point::PointResult&&)>;
-
-  Scheduler(const StepFunctions& step_functions, point::ThreadScratch& scratch, WorkQueue next, ResultSink take);
+  Scheduler(InstructionSet arch, point::ThreadScratch& scratch, WorkQueue next, ResultSink take);
 
   /// Runs all points that `next` gives, and passes their results to `take`.
   void run();
 
   /// Lanes times steps to be proved free of contact, and lanes times contacts to be refined.
-  [[nodiscard]] double proved() const { return settling_.lanes.proved + observing_.lanes.proved; }
-  [[nodiscard]] double refined() const { return settling_.lanes.refined + observing_.lanes.refined; }
+  [[nodiscard]] double proved() const { return proved_; }
+  [[nodiscard]] double refined() const { return refined_; }
 
  private:
-  template <class Task>
-  struct Block {
-    BlockState lanes{};
-    std::array<std::unique_ptr<Task>, LaneArray::width> tasks;
-    std::size_t taken = 0;
+  template <Effects E>
+  void run_with();
+  /// The next point with or without a spring.
+  [[nodiscard]] std::optional<point::WorkItem> next_with(bool stiffness);
 
-    [[nodiscard]] LaneView view(std::size_t lane) { return tasks[lane]->view(lanes, lane); }
-  };
-
-  void fill();
-  void settle_next(std::size_t lane);
-  void observe_next(std::size_t lane);
-  void finish(const SettledPoint& settled);
-  void put(const point::WorkItem& item, point::PointResult&& result);
-
-  template <class Task>
-  void step_block(Block<Task>& block, StepFunction step);
-  template <class Task>
-  void handle_sections(Block<Task>& block);
-  void handle_section(Block<SettleTask>& block, std::size_t lane);
-  void handle_section(Block<ObserveTask>& block, std::size_t lane);
-  void fall_back(Block<SettleTask>& block, std::size_t lane);
-  void fall_back(Block<ObserveTask>& block, std::size_t lane);
-
-  void take_stock();
-  template <class Task>
-  [[nodiscard]] double take_stock(Block<Task>& block);
-  template <class Task>
-  void fail(Block<Task>& block, std::size_t lane, stepping::Outcome outcome);
-  template <class Task>
-  void leave(Block<Task>& block, std::size_t lane);
-
-  StepFunctions step_functions_;
+  InstructionSet arch_;
   point::ThreadScratch& scratch_;
   WorkQueue next_;
   ResultSink take_;
-  Block<SettleTask> settling_;
-  Block<ObserveTask> observing_;
-  std::vector<std::unique_ptr<ObserveTask>> waiting_;  ///< for a lane: about as many as there are lanes at most
-  bool exhausted_ = false;                             ///< there are no more points for now
-  std::uint64_t steps_made_ = 0;
+  std::vector<point::WorkItem> waiting_[2];  ///< [whether the stiffness is an effect]
+  double proved_ = 0.0, refined_ = 0.0;
 };
 
 }  // namespace clatter::lanes

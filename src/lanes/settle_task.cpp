@@ -6,12 +6,14 @@
 
 namespace clatter::lanes {
 
-SettleTask::SettleTask(const point::WorkItem& item)
+template <Effects E>
+SettleTask<E>::SettleTask(const point::WorkItem& item)
     : item_(item),
       fallback_({item_.problem, stops_in_reach(item_.problem.stops, item_.effects), limits_of(item_.problem)}, false),
       log_area_(2 * std::log(std::max(loop().stops().restitution_lower, loop().stops().restitution_upper))) {}
 
-std::optional<SettledPoint> SettleTask::begin(LaneView& lane) {
+template <Effects E>
+std::optional<SettledPoint<E>> SettleTask<E>::begin(LaneView& lane) {
   const point::Problem& problem = item_.problem;
   motion::State<double> state;
   state.x = problem.start.displacement, state.v = problem.start.velocity;
@@ -25,7 +27,8 @@ std::optional<SettledPoint> SettleTask::begin(LaneView& lane) {
   return std::nullopt;
 }
 
-std::optional<SettledPoint> SettleTask::pass_section(LaneView& lane) {
+template <Effects E>
+std::optional<SettledPoint<E>> SettleTask<E>::pass_section(LaneView& lane) {
   const LaneSection section = lane.section();
   const double impacts = loop().impacts() + section.impacts;
   sections_ += to_report_;
@@ -41,23 +44,30 @@ std::optional<SettledPoint> SettleTask::pass_section(LaneView& lane) {
   return std::nullopt;
 }
 
-SettledPoint SettleTask::failed(stepping::Outcome outcome, const LaneView& lane) const {
+template <Effects E>
+SettledPoint<E> SettleTask<E>::failed(stepping::Outcome outcome, const LaneView& lane) const {
   return settled(search_->failure(outcome, {}), lane.impacts());
 }
 
-SettledPoint SettleTask::settled(const steady::ObservedTime& observed, double impacts) const {
+template <Effects E>
+SettledPoint<E> SettleTask<E>::settled(const steady::ObservedTime& observed, double impacts) const {
   return {item_, loop(), impacts, observed};
 }
 
-bool SettleTask::has_spent_budget(const LaneView& lane) const {
+template <Effects E>
+bool SettleTask<E>::has_spent_budget(const LaneView& lane) const {
   return loop().impacts() + lane.impacts() > item_.problem.time.max_impacts;
 }
 
-double SettleTask::share(const LaneView& lane) const {
+template <Effects E>
+double SettleTask<E>::share(const LaneView& lane) const {
   const steady::TimeSettings& time = item_.problem.time;
   const double impacts = loop().impacts() + lane.impacts();
   const double sections = static_cast<double>(sections_) / static_cast<double>(time.max_periods);
   return std::min(1.0, std::max(impacts / time.max_impacts, sections));
 }
+
+template class SettleTask<sprung>;
+template class SettleTask<unsprung>;
 
 }  // namespace clatter::lanes

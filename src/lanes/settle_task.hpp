@@ -9,6 +9,7 @@
 namespace clatter::lanes {
 
 /// A point in a lane whose motion isn't known yet: its scene, and the search for its steady motion.
+template <Effects E>
 class SettleTask {
  public:
   explicit SettleTask(const point::WorkItem& item);
@@ -19,11 +20,11 @@ class SettleTask {
   [[nodiscard]] LaneView view(BlockState& block, std::size_t lane) const { return {block, lane, item_.problem}; }
 
   /// The point if its observed time is known at the start, as for a transient; else nothing, and the lane is loaded.
-  [[nodiscard]] std::optional<SettledPoint> begin(LaneView& lane);
+  [[nodiscard]] std::optional<SettledPoint<E>> begin(LaneView& lane);
   /// The point if its observed time is known at the stroboscopic section that the lane has passed, or if it has failed.
-  [[nodiscard]] std::optional<SettledPoint> pass_section(LaneView& lane);
+  [[nodiscard]] std::optional<SettledPoint<E>> pass_section(LaneView& lane);
   /// The point if it can't be run on, `lane` being where it is now.
-  [[nodiscard]] SettledPoint failed(stepping::Outcome outcome, const LaneView& lane) const;
+  [[nodiscard]] SettledPoint<E> failed(stepping::Outcome outcome, const LaneView& lane) const;
 
   /// Advances the lane in the scalar loop: by two steps, or to the next section.
   [[nodiscard]] stepping::Outcome fall_back(LaneView& lane) { return fallback_.advance(lane); }
@@ -35,14 +36,14 @@ class SettleTask {
   [[nodiscard]] double share(const LaneView& lane) const;
 
  private:
-  [[nodiscard]] ScalarLoop& loop() { return fallback_.loop(); }
-  [[nodiscard]] const ScalarLoop& loop() const { return fallback_.loop(); }
-  [[nodiscard]] SettledPoint settled(const steady::ObservedTime& observed, double impacts) const;
+  [[nodiscard]] ScalarLoop<E>& loop() { return fallback_.loop(); }
+  [[nodiscard]] const ScalarLoop<E>& loop() const { return fallback_.loop(); }
+  [[nodiscard]] SettledPoint<E> settled(const steady::ObservedTime& observed, double impacts) const;
 
   point::WorkItem item_;
-  ScalarFallback fallback_;
+  ScalarFallback<E> fallback_;
   double log_area_;  ///< logarithm of the factor by which an impact shrinks areas, at the stop that shrinks them less
-  std::optional<steady::ForcedSearch<ScalarLoop::effects>> search_{};  ///< none for a transient
+  std::optional<steady::ForcedSearch<E>> search_{};  ///< none for a transient
   std::int64_t sections_ = 0;
   std::int64_t to_report_ = 1, after_report_ = 1;  ///< forcing periods to the next report, and to the one after it
   double section_impacts_ = 0.0;                   ///< impacts of lane and scalar loop, up to the last section

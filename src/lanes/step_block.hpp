@@ -10,11 +10,11 @@ namespace clatter::lanes {
 
 /// Advances the lanes of a vector: each to its next contact, past its next stroboscopic section, or by a few steps.
 /// Everything here is a template on the vector's type V, so that no code of one instruction set is ever merged with
-/// that of another.
+/// that of another. E: the effects of the lanes' arcs.
 ///
 /// The motion of a lane depends on that lane alone. How far it advances in a call depends on its neighbours, since
 /// lanes at a contact wait until half of the vector has come to one, and then pass it together.
-template <class V, bool observes>
+template <class V, Effects E, bool observes>
 class StepBlock {
   using Mask = clatter::Mask<V>;
 
@@ -259,8 +259,8 @@ class StepBlock {
 
   BlockState& lanes_;
   std::size_t first_;
-  LaneOscillators<V> oscillators_;
-  LaneObservers<V> observers_;
+  LaneOscillators<V, E> oscillators_;
+  LaneObservers<V, E> observers_;
   LaneMotion<V> here_;
   Bernstein<V> path_;  ///< the displacement in the step from here
   ErrorBound<V> bound_;
@@ -291,11 +291,12 @@ class FlushToZero {
 };
 
 /// Advances every lane.
-template <class A, bool observes>
+template <class A, Effects E, bool observes>
 void step_all(BlockState& lanes) {
   using V = Pair<A>;
   const FlushToZero<A> flush;
-  for (std::size_t first = 0; first < LaneArray::width; first += V::size) StepBlock<V, observes>(lanes, first).run();
+  for (std::size_t first = 0; first < LaneArray::width; first += V::size)
+    StepBlock<V, E.arc(), observes>(lanes, first).run();
 }
 
 }  // namespace clatter::lanes

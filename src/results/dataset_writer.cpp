@@ -74,8 +74,9 @@ Handle dataspace_of(const Shape& shape) {
   return {H5Screate_simple(static_cast<int>(shape.size()), shape.data(), nullptr), H5Sclose};
 }
 
-/// Of a transfer: texts are converted in a buffer that HDF5 fills with zeros for each variable, 1 MiB by default.
-Handle transfer_properties(std::size_t bytes) {
+/// Of a transfer of texts: they are converted in a buffer that HDF5 fills with zeros for each variable, 1 MiB by
+/// default. Other values need none, and each list of properties costs as much as to write a small variable.
+Handle text_transfer(std::size_t bytes) {
   constexpr std::size_t least = 4096, most = std::size_t{1} << 20;
   Handle properties{H5Pcreate(H5P_DATASET_XFER), H5Pclose};
   checked(H5Pset_buffer(properties, std::clamp(bytes, least, most), nullptr, nullptr));
@@ -95,9 +96,13 @@ Handle write_values(hid_t file, const sweep::Variable& variable, const Shape& sh
   Handle dataset{
       H5Dcreate2(file, variable.name.c_str(), type.file, dataspace_of(shape), H5P_DEFAULT, properties, H5P_DEFAULT),
       H5Dclose};
-  if (!values.empty()) {
-    const Handle transfer = transfer_properties(values.size() * H5Tget_size(type.file));
+  const auto write = [&](hid_t transfer) {
     checked(H5Dwrite(dataset, type.memory, H5S_ALL, H5S_ALL, transfer, values.data()));
+  };
+  if (!values.empty() && H5Tget_class(type.file) == H5T_STRING) {
+    write(text_transfer(values.size() * H5Tget_size(type.file)));
+  } else if (!values.empty()) {
+    write(H5P_DEFAULT);
   }
   if (has_fill) put(dataset, "_FillValue", nan);
   return dataset;

@@ -183,7 +183,7 @@ class WorkerPool {
         run_batch({&*item, 1}, scratches_[thread], take);
       }
     };
-    lanes::Scheduler scheduler(step_functions_of(arch_), scratches_[thread], next, take);
+    lanes::Scheduler scheduler(arch_, scratches_[thread], next, take);
     scheduler.run();
     const std::lock_guard lock(mutex_);
     lane_work_.proved += scheduler.proved(), lane_work_.refined += scheduler.refined();

@@ -45,9 +45,10 @@ struct Both {
   void impact(const motion::Impact& impact) { extrema.impact(impact), impacts.impact(impact); }
 };
 
+template <Effects E>
 Seen seen_by_scalar(const point::Problem& scene, double turns) {
   Both both;
-  LaneExact exact(scene);
+  LaneExact<E> exact(scene);
   motion::State<double> state;
   state.x = scene.start.displacement, state.v = scene.start.velocity;
   EXPECT_EQ(run_for(exact, state, turns, both), stepping::Outcome::completed);
@@ -56,13 +57,14 @@ Seen seen_by_scalar(const point::Problem& scene, double turns) {
 
 /// The same from a lane, which stops in the middle of a flight, after so many sections; nothing if it needs the scalar
 /// loop, or never stops so.
+template <Effects E>
 std::optional<Seen> seen_by_lane(const point::Problem& scene, StepFunction step, int sections, double& turns) {
   BlockState lanes{};
   observables::Observe observe;
   observe.extrema = observe.impacts = true;
   for (std::size_t i = 0; i < LaneArray::width; ++i) clear_lane(lanes, i);
   LaneView lane(lanes, 3, scene);
-  lane.load(LaneView::Constants(scene.oscillator), scene.stops), lane.begin_observing(observe),
+  lane.load(LaneView::Constants<E>(scene.oscillator), scene.stops), lane.begin_observing(observe),
       lane.expect_section(false, false, 1);
   for (int passed = 0, calls = 0;;) {
     if (++calls > 200) return std::nullopt;  // every call ends on a stop
@@ -92,32 +94,48 @@ double difference(const Seen& a, const Seen& b) {
 }
 
 /// Allows 1e-14 of the motion, some ten roundings an impact, and 32 times the effect of an ulp of the inputs.
+template <Effects E>
 void expect_same(const Seen& lane, const Seen& scalar, const point::Problem& scene, double turns) {
   const double off = difference(lane, scalar);
   const double size = std::max({-scalar.x.low, scalar.x.high, -scalar.v.low, scalar.v.high});
   if (off <= 1e-14 * size) return;
   double own = 0;
   for (const unsigned signs : move_signs)
-    own = std::max(own, difference(seen_by_scalar(moved(scene, signs), turns), scalar));
+    own = std::max(own, difference(seen_by_scalar<E>(moved(scene, signs), turns), scalar));
   EXPECT_LE(off, 1e-14 * size + 32 * own) << support::configuration_of(scene, 0);
 }
 
 class LaneWatch : public testing::TestWithParam<InstructionSet> {};
 
-TEST_P(LaneWatch, sees_the_extrema_and_impacts_that_the_scalar_observers_see) {
-  if (!is_supported(GetParam())) GTEST_SKIP() << "this machine has no " << name_of(GetParam());
+/// Compares what lanes and scalar observers see of 2000 scenes.
+template <Effects E, class Change>
+void expect_same_seen(InstructionSet arch, const Change& change) {
   std::size_t seen = 0, free = 0;
   for (std::uint64_t i = 0; i < 2000; ++i) {
-    const point::Problem scene = watched_scene(i);
+    point::Problem scene = watched_scene(i);
+    change(scene, i);
     double turns = 0;
-    const auto lane = seen_by_lane(scene, step_functions_of(GetParam()).observed, 2, turns);
+    const auto lane = seen_by_lane<E>(scene, step_functions_of<E>(arch).observed, 2, turns);
     if (!lane) continue;
-    const Seen scalar = seen_by_scalar(scene, turns);
-    expect_same(*lane, scalar, scene, turns);
+    const Seen scalar = seen_by_scalar<E>(scene, turns);
+    expect_same<E>(*lane, scalar, scene, turns);
     ++seen, free += scalar.stops[0].count + scalar.stops[1].count == 0;
   }
   std::cout << seen << " of 2000 seen to the end, " << free << " without an impact\n";
   EXPECT_GT(seen, 500u);  // the others chatter or rest, or end each call on a stop
+}
+
+TEST_P(LaneWatch, sees_the_extrema_and_impacts_that_the_scalar_observers_see) {
+  if (!is_supported(GetParam())) GTEST_SKIP() << "this machine has no " << name_of(GetParam());
+  expect_same_seen<sprung>(GetParam(), [](point::Problem&, std::uint64_t) {});
+}
+
+TEST_P(LaneWatch, sees_them_without_a_spring_and_with_an_unstable_one) {
+  if (!is_supported(GetParam())) GTEST_SKIP() << "this machine has no " << name_of(GetParam());
+  expect_same_seen<unsprung>(GetParam(), [](point::Problem& scene, std::uint64_t i) {
+    scene.oscillator.stiffness = i % 2 == 0 ? 0 : -1;
+    scene.oscillator.damping *= std::min(1.0, scene.oscillator.frequency);
+  });
 }
 
 INSTANTIATE_TEST_SUITE_P(Of, LaneWatch,

@@ -10,8 +10,8 @@
 namespace clatter::lanes {
 
 /// The scalar integrator with the effects of lanes.
-inline constexpr Effects lane_effects = effect_sets::complete(Damping::light, Forcing::regular);
-using LaneExact = stepping::Exact<double, lane_effects>;
+template <Effects E = sprung>
+using LaneExact = stepping::Exact<double, E>;
 
 /// The state at a stroboscopic section.
 struct Section {
@@ -37,13 +37,14 @@ inline motion::Impact impact_of(const LaneView& lane, const point::Problem& scen
 }
 
 /// Runs scenes side by side until each has met so many impacts, passed so many sections, or needs the scalar loop.
-inline std::vector<LaneRun> run_lanes(const std::vector<point::Problem>& scenes, StepFunction step, std::size_t impacts,
-                                      std::size_t sections) {
+template <Effects E = sprung>
+std::vector<LaneRun> run_lanes(const std::vector<point::Problem>& scenes, StepFunction step, std::size_t impacts,
+                               std::size_t sections) {
   BlockState lanes{};
   std::vector<LaneRun> runs(scenes.size());
   for (std::size_t i = 0; i < LaneArray::width; ++i) clear_lane(lanes, i);
   for (std::size_t i = 0; i < scenes.size(); ++i)
-    LaneView(lanes, i, scenes[i]).load(LaneView::Constants(scenes[i].oscillator), scenes[i].stops);
+    LaneView(lanes, i, scenes[i]).load(LaneView::Constants<E>(scenes[i].oscillator), scenes[i].stops);
   std::vector<bool> done(scenes.size(), false);
   for (std::size_t left = scenes.size(); left > 0;) {
     std::vector<double> before(lanes.impacts.lane, lanes.impacts.lane + LaneArray::width);
@@ -72,9 +73,10 @@ struct ScalarRun {
   std::vector<Section> sections{};
 };
 
-inline ScalarRun run_scalar(const point::Problem& scene, std::size_t sections) {
+template <Effects E = sprung>
+ScalarRun run_scalar(const point::Problem& scene, std::size_t sections) {
   ScalarRun run;
-  LaneExact exact(scene);
+  LaneExact<E> exact(scene);
   motion::State<double> state;
   state.x = scene.start.displacement, state.v = scene.start.velocity;
   for (std::size_t i = 0; i < sections; ++i) {

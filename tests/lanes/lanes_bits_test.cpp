@@ -31,6 +31,9 @@ std::vector<point::Problem> scenes_of_all_kinds(steady::Mode mode) {
     const point::Problem paper = sweep::paper_scene(3.0, 0.85 + i / 1000.0);
     scene.oscillator = paper.oscillator, scene.stops = paper.stops, scene.start = paper.start;
     scenes.push_back(scene);
+    scene.oscillator.stiffness = i % 2 == 0 ? 0 : -1;  // between walls, with lanes of their own
+    scene.oscillator.forcing = 4, scene.stops = {-1, 1, 0.8, 0.8};
+    scenes.push_back(scene);
   }
   return scenes;
 }

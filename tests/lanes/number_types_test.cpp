@@ -6,6 +6,8 @@
 #include <array>
 #include <vector>
 
+#include "lanes/functions.hpp"
+#include "lanes/lane_effects.hpp"
 #include "lanes/vector.hpp"
 #include "math/fifty_digits.hpp"
 #include "math/quintic.hpp"
@@ -85,6 +87,26 @@ TEST(OnePhysics, equation_of_motion) {
     const auto d = equation.derivatives(in[4], a, in[5], in[6]);
     return Results{
         {exact(a), exact(equation.jerk(in[4], a, in[6])), exact(d.d3), exact(d.d4), exact(d.d5), exact(d.d6)}, 8};
+  });
+}
+
+TEST(OnePhysics, equation_of_motion_without_a_spring_or_with_an_unstable_one) {
+  expect_one_physics<9>([](const auto& in) {
+    using N = NumberOf<std::decay_t<decltype(in)>>;
+    const motion::EquationOfMotion<N, unsprung.arc()> equation{in[0], in[1], in[2], in[7], in[8]};
+    const N a = equation.acceleration(in[3], in[4], in[5]);
+    const auto d = equation.derivatives(in[4], a, in[5], in[6]);
+    return Results{
+        {exact(a), exact(equation.jerk(in[4], a, in[6])), exact(d.d3), exact(d.d4), exact(d.d5), exact(d.d6)}, 16};
+  });
+}
+
+TEST(OnePhysics, two_exponentials_and_the_pull_of_a_load) {
+  expect_one_physics<3>([](const auto& in) {
+    using N = NumberOf<std::decay_t<decltype(in)>>;
+    const N s = in[0] * in[0], h = in[1] * in[1];
+    const auto p = short_propagator<N>(s, h, -(h * h + in[2] * in[2]));
+    return Results{{exact(p.a), exact(p.b), exact(p.c), exact(short_second_divided_decay<N>(N(2.0) * s * h))}, 2};
   });
 }
 

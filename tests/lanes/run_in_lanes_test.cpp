@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "sweep/figures.hpp"
@@ -67,6 +69,52 @@ TEST(LanePoints, meet_stops_or_are_transients) {
   EXPECT_TRUE(accepts(item_of(scene)));
   scene.oscillator.damping = 1;
   EXPECT_FALSE(accepts(item_of(scene)));
+}
+
+TEST(LanePoints, without_a_spring_are_bounded_by_stops_or_pressed_onto_the_only_one) {
+  const double none = std::numeric_limits<double>::infinity();
+  struct Given {
+    double k, load;
+    Stops stops;
+    bool accepted;
+  };
+  for (const auto& [k, load, stops, accepted] : {Given{0, 0, {-1, 1, 0.7, 0.7}, true},
+                                                 {-1, 0.2, {-1, 1, 0.7, 0.7}, true},
+                                                 {-0.5, 0, {-1, 1, 0.7, 0.7}, false},  // runs with k = -1
+                                                 {0, -0.5, {0, none, 0.7, 0.7}, true},
+                                                 {0, 0.5, {-none, 0, 0.7, 0.7}, true},
+                                                 {0, 0.5, {0, none, 0.7, 0.7}, false},  // escapes
+                                                 {0, 0, {0, none, 0.7, 0.7}, false},
+                                                 {-1, -0.5, {0, none, 0.7, 0.7}, false}}) {
+    point::Problem scene = observed_scene();
+    scene.oscillator = {0.1, 2.0, 1.0, load, k};
+    scene.stops = stops;
+    EXPECT_EQ(accepts(item_of(scene)), accepted) << k << ' ' << load;
+  }
+}
+
+TEST(LanePoints, of_a_bouncing_ball_have_its_closed_form) {
+  // once in a period it leaves the table with 2 pi R/(1 + R), for any force from pi (1 - R)/(1 + R) to the flip
+  const double R = 0.8, least = pi<double>() * (1 - R) / (1 + R), flip = std::hypot(least, 2 * (1 + R * R) / 3.24);
+  for (const double part : {0.05, 0.4, 0.9}) {
+    const double force = least + part * (flip - least), sine = std::sqrt(force * force - least * least) / force;
+    const double after = 2 * pi<double>() * R / (1 + R);
+    point::Problem scene = observed_scene();
+    scene.observe.harmonics = 0;  // without a spring impacts don't tell the mean displacement
+    scene.oscillator = {0.0, force, 1.0, -1.0, 0.0};
+    scene.stops = {0.0, std::numeric_limits<double>::infinity(), R, R};
+    // half a period after an impact, and a little off the motion, which attracts
+    scene.start = {after * pi<double>() - pi<double>() * pi<double>() / 2 + 2 * force * sine + least * pi<double>(),
+                   after - pi<double>() + 2 * least, std::asin(sine) + pi<double>()};
+    scene.start.displacement += 1e-4;
+    ASSERT_TRUE(accepts(item_of(scene)));
+    point::ThreadScratch scratch;
+    const point::PointResult result = run_in_lanes(item_of(scene), 1, InstructionSet::sse2, scratch);
+    EXPECT_TRUE(result.in_lanes);
+    EXPECT_EQ(result.status, steady::Status::periodic) << part;
+    EXPECT_NEAR(result.v_after[0], after, 1e-10) << part;  // a repeat to 1e-12, seen through its slow multiplier
+    EXPECT_NEAR(result.v_before[0], -after / R, 1e-10) << part;
+  }
 }
 
 TEST(LanePoints, have_the_section_of_the_scalar_loop) {
