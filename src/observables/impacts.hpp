@@ -32,8 +32,10 @@ class Impacts {
   [[nodiscard]] static std::vector<Column<Values>> columns(const Settings&) {
     const Coordinate stop = stop_coordinate();
     return {pair("impacts_per_period", "impacts per forcing period", stop, &Values::impacts_per_period),
-            pair("v_before", "velocity before the first impact", stop, &Values::v_before, Quantity::velocity),
-            pair("v_after", "velocity after the first impact", stop, &Values::v_after, Quantity::velocity),
+            in_relative_frame(
+                pair("v_before", "velocity before the first impact", stop, &Values::v_before, Quantity::velocity)),
+            in_relative_frame(
+                pair("v_after", "velocity after the first impact", stop, &Values::v_after, Quantity::velocity)),
             pair("rest_fraction", "share of time at rest on the stop", stop, &Values::rest_fraction)};
   }
   [[nodiscard]] static bool in_lanes(const Settings&, const ObservedSpan&) { return true; }
