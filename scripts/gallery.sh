@@ -44,6 +44,11 @@ draw family_R --only v_before --size 7x3.4
 draw one_stop --only x_min,x_max --size 5x3.8
 draw basins --only attractor --size 6x3.8
 draw zones --size 8x4.2
+for frame in relative absolute; do
+  "$clatter" run "$source_dir/configs/shaken_stops.toml" --set observe.frame=$frame -o "$work/$frame.h5" -q
+done
+"$source_dir/scripts/plot.py" "$work"/{relative,absolute}.h5 --only x_min,x_max --size 5x3.8 --format svg -o "$work"
+mv "$work/relative+absolute.svg" "$out/shaken_stops.svg"
 draw regimes --only word --size 6x4
 for xs in 0.45 1.0 1.6; do
   for curve in fold symmetry\ breaking graze; do

@@ -7,7 +7,7 @@ from matplotlib import ticker
 
 from plot_data import APERIODIC, FIRST_FAILURE
 from plot_scales import is_integer, shown_values
-from plot_style import BLUE, CYCLE, STOP, draw_walls, label, legend_above, number, set_axis, symbol
+from plot_style import BLUE, CYCLE, STOP, draw_walls, in_frame, label, legend_above, number, set_axis, symbol
 
 MARGIN = 0.012  # of an axis beside its points
 DENSE = 60  # points from which a curve is drawn without markers
@@ -91,11 +91,12 @@ def name_statuses(axes, output, name, color=STOP, shown=True):
 
 def draw_stops_along(axes, output, name):
     """The stops in a panel of displacements over a swept axis."""
-    along, (lower, upper) = output.values(name), output.stops()
+    along, (lower, upper) = output.values(name), output.reach()
+    words = "reach of the stops" if output.is_absolute else "stops"
     if np.ptp(lower) == 0.0 and np.ptp(upper) == 0.0 or not np.isfinite([lower, upper]).all():
-        return draw_walls(axes, lower.flat[0], upper.flat[0])
+        return draw_walls(axes, lower.flat[0], upper.flat[0], named=words)
     for place, stop in enumerate((lower, upper)):
-        axes.plot(along, stop, color=STOP, lw=1.0, ls=(0, (5, 2)), zorder=1.5, label=None if place else "stops")
+        axes.plot(along, stop, color=STOP, lw=1.0, ls=(0, (5, 2)), zorder=1.5, label=None if place else words)
     return None
 
 
@@ -123,7 +124,7 @@ def curves(members, group, axes):
         draw_stops_along(axes, output, name)
     for member in members:
         name_statuses(axes, member.output, name, shown=shown)
-    axes.set_ylabel(common_label(output, group))
+    axes.set_ylabel(common_label(members, group))
     if first == "period_ratio":
         axes.set_ylim(0.5, (axes.dataLim.y1 if np.isfinite(axes.dataLim.y1) else 1) + 0.5)  # none may have a period
     if first == "impacts_per_period" or all(is_integer(shown_values(output, result)) for result, _, _ in group):
@@ -137,7 +138,7 @@ def curves(members, group, axes):
 
 
 def have_same_stops(members):
-    stops = [np.stack(member.output.stops()) for member in members]
+    stops = [np.stack(member.output.reach()) for member in members]
     return all(np.array_equal(other, stops[0]) for other in stops)
 
 
@@ -153,13 +154,21 @@ def line_style(members, parts, result, part, place):
     return {"ls": (0, (4, 1.5)) if part is not None and place % 2 and len(members) == 1 else "-"}
 
 
-def common_label(output, group):
-    """The label of the results that share a panel."""
+def common_label(members, group):
+    """The label of the results that share a panel; without a frame if they are given in both."""
+    output, first = members[0].output, group[0][0]
+    frames = {member.output[first].frame for member in members}
+    words = label_of(output, group)
+    return words if len(frames) == 1 else words.replace(f", {output[first].frame}", "")
+
+
+def label_of(output, group):
+    """The label of results of an output that share a panel."""
     names, first = {result for result, _, _ in group}, group[0][0]
     if first in ("x_min", "x_max"):
-        return r"displacement $x$"
+        return in_frame(output, first, r"displacement $x$")
     if first in ("v_min", "v_max"):
-        return "velocity $x$\N{PRIME}"
+        return in_frame(output, first, "velocity $x$\N{PRIME}")
     if names == {"v_before", "v_after"}:
         return "velocity at impact $x$\N{PRIME}"
     if names == {"work_in", "loss_damping"}:

@@ -26,6 +26,7 @@ class Variable:
     dims: tuple
     long_name: str
     units: str
+    frame: str = ""  # "relative" or "absolute" in scenes that are shaken
 
     def at(self, axis, index):
         """This variable at one value of an axis; itself if it doesn't depend on it."""
@@ -183,6 +184,19 @@ class Output:
             return -gap, gap
         return self.parameter("stop_lower", -np.inf), self.parameter("stop_upper", np.inf)
 
+    @property
+    def is_absolute(self):
+        """Whether displacements and velocities are those on the ground, where stops or base are shaken."""
+        return any(variable.frame == "absolute" for variable in self.variables.values())
+
+    def reach(self):
+        """The farthest places of the lower and the upper stop at every point, in the frame of the displacements."""
+        lower, upper = self.stops()
+        if not self.is_absolute:
+            return lower, upper
+        moved = np.abs(self.parameter("stop_amplitude", 0.0)) + np.abs(self.parameter("base_amplitude", 0.0))
+        return lower - moved, upper + moved
+
     def has_stop(self, side):
         """Whether any point has a stop on this side: -1 lower, 1 upper."""
         return bool(np.isfinite(self.stops()[0 if side < 0 else 1]).any())
@@ -211,6 +225,7 @@ def read_variable(item):
         dims,
         text(item.attrs.get("long_name", name)),
         text(item.attrs.get("units", "1")),
+        text(item.attrs.get("frame", "")),
     )
 
 

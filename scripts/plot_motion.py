@@ -11,7 +11,7 @@ LAST_PERIODS = 20  # of motion without a period that are drawn
 def motion(output, index):
     """Time, displacement, velocity of one point, with both sides of every logged impact put in."""
     tau, x, v = (output.values(name)[index] for name in ("tau", "x", "v"))
-    if "impact_count" not in output:
+    if "impact_count" not in output or output.is_absolute:  # impacts are relative
         return tau, x, v
     times, sides, before, after = output.impacts(index)
     lower, upper = (stop[index] for stop in output.stops())
@@ -69,7 +69,7 @@ def first_shown(output, index):
 
 def mark_impacts(output, index, draw, color):
     """The impacts of motion without a period, by draw(time, position, velocity before, style)."""
-    if "impact_count" not in output or not is_aperiodic(output, index):
+    if "impact_count" not in output or output.is_absolute or not is_aperiodic(output, index):
         return
     times, sides, before, _ = output.impacts(index)
     late = times >= first_shown(output, index)
@@ -100,7 +100,7 @@ def time_history(output, quantity, points, axes, end=None):
 
 def draw_common_walls(axes, output, vertical=False):
     """The stops, if they are the same at every point."""
-    lower, upper = output.stops()
+    lower, upper = output.reach()
     if np.unique(lower).size == 1 and np.unique(upper).size == 1:
         draw_walls(axes, lower.flat[0], upper.flat[0], vertical, named=False)
 

@@ -120,7 +120,13 @@ def label(output, name):
     variable = output.variables.get(name)
     full = f"{words} {sign if sign not in words else ''}".strip() or (variable.long_name if variable else name)
     unit = variable.units if variable else "1"
-    return f"{full} ({unit})" if unit not in ("1", "") else full
+    return in_frame(output, name, f"{full} ({unit})" if unit not in ("1", "") else full)
+
+
+def in_frame(output, name, words):
+    """Words for a variable, and its frame if something is shaken."""
+    variable = output.variables.get(name)
+    return f"{words}, {variable.frame}" if variable and variable.frame else words
 
 
 def number(value):
@@ -229,7 +235,7 @@ def legend_above(axes, columns=4, **options):
         )
 
 
-def draw_walls(axes, lower, upper, vertical=False, named=True):
+def draw_walls(axes, lower, upper, vertical=False, named="stops"):
     """Stops as lines with the wall behind them shaded; the view reaches a little into the walls."""
     line, span = (axes.axvline, axes.axvspan) if vertical else (axes.axhline, axes.axhspan)
     view, set_view = (axes.get_xlim, axes.set_xlim) if vertical else (axes.get_ylim, axes.set_ylim)
@@ -241,7 +247,7 @@ def draw_walls(axes, lower, upper, vertical=False, named=True):
     low = lower - margin if np.isfinite(lower) else low
     high = upper + margin if np.isfinite(upper) else high
     for place, stop in enumerate(stops):
-        line(stop, color=STOP, lw=1.0, zorder=1.5, label="stops" if named and place == 0 else None)
+        line(stop, color=STOP, lw=1.0, zorder=1.5, label=named if named and place == 0 else None)
         span(stop, low if stop == lower else high, color=WALL, lw=0, zorder=0)
     set_view(low, high)
 

@@ -57,7 +57,7 @@ def record(output, index, rows):
     if len(tau) < 2:
         return None
     first = max(0, len(tau) - rows)
-    lower, upper = (float(stop[index]) for stop in output.stops())
+    lower, upper = (float(stop[index]) for stop in output.reach())
     stops = [stop for stop in (lower, upper) if np.isfinite(stop)]
     values = np.concatenate([tau[first:], x[first:], v[first:]]).astype("<f4")  # fewer digits, so that they deflate
     return {"values": packed(values), "stops": stops}

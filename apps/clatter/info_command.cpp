@@ -34,7 +34,7 @@ void print_variables(const results::FileSummary& summary) {
   for (const auto& entry : summary.variables) {
     const std::string unit = entry.units.empty() || entry.units == "1" ? "" : ", " + entry.units;
     std::cout << "  " << column(entry.name, name_width) << column(entry.type, 7)
-              << column(shape_text(entry), shape_width) << entry.long_name << unit << '\n';
+              << column(shape_text(entry), shape_width) << entry.meaning() << unit << '\n';
   }
 }
 
@@ -43,7 +43,8 @@ results::FileSummary harmless(results::FileSummary summary) {
   const auto clean = [](std::string& text) { text = storage::printable(text); };
   for (auto& [name, value] : summary.attributes) clean(name), clean(value);
   for (results::FileSummary::Entry& entry : summary.variables) {
-    for (std::string* const text : {&entry.name, &entry.type, &entry.units, &entry.long_name}) clean(*text);
+    for (std::string* const text : {&entry.name, &entry.type, &entry.units, &entry.long_name, &entry.frame})
+      clean(*text);
     for (sweep::NamedLength& dimension : entry.dimensions) clean(dimension.name);
   }
   for (auto& [meaning, count] : summary.status_counts) clean(meaning);

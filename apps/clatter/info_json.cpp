@@ -21,7 +21,8 @@ std::string entry_json(const results::FileSummary::Entry& entry) {
   }
   return "{\"name\": " + json_text(entry.name) + ", \"type\": " + json_text(entry.type) + ", \"dimensions\": [" +
          names + "], \"shape\": [" + shape + "], \"units\": " + json_text(entry.units) +
-         ", \"long_name\": " + json_text(entry.long_name) + '}';
+         ", \"long_name\": " + json_text(entry.long_name) +
+         (entry.frame.empty() ? "" : ", \"frame\": " + json_text(entry.frame)) + '}';
 }
 
 }  // namespace

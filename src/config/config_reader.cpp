@@ -59,6 +59,7 @@ observables::Observe observe(const Settings& settings) {
     typename O::Settings& of_observable = observe;
     std::apply([&](const auto&... field) { (read(settings, field, of_observable), ...); }, O::fields);
   });
+  observe.frame = settings.text("observe", "frame") == "absolute" ? Frame::absolute : Frame::relative;
   return observe;
 }
 

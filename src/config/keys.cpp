@@ -7,6 +7,7 @@
 #include "branches/settings.hpp"
 #include "config/suggestion.hpp"
 #include "config/value_grammar.hpp"
+#include "model/shaking.hpp"
 #include "observables/all.hpp"
 #include "stepping/integration.hpp"
 
@@ -121,6 +122,10 @@ constexpr std::array keys_before_observe{
 };
 
 constexpr std::array keys_after_observe{
+    with("[scene]\nbase_amplitude = 0.1\n\n[observe]\nextrema = true\n",
+         one_of(frame_names, Key{"observe", "frame", choice, "relative", "absolute",
+                                 "of displacements and velocities, if stops or base are shaken: relative to them, or "
+                                 "absolute; impact speeds, energies, x0 and v0 stay relative"})),
     one_of(stepping::method_names,
            Key{"integrator", "method", choice, "exact", "dopri5",
                "exact: closed-form arcs, proved contacts; to compare with, dopri5: Dormand-Prince pair "

@@ -30,10 +30,15 @@ bool everywhere(const Settings& settings, sweep::Parameter parameter, Test test)
   const Setting* const given = settings.given(parameter);
   return given == nullptr || std::ranges::all_of(given->numbers(), test);
 }
-bool unforced(const Settings& settings) {
-  const auto zero = [](double value) { return value == 0; };
-  return everywhere(settings, f, zero) && everywhere(settings, stop_amplitude, zero) &&
-         everywhere(settings, base_amplitude, zero);
+bool zero(double value) { return value == 0; }
+bool unshaken(const Settings& settings) {
+  return everywhere(settings, stop_amplitude, zero) && everywhere(settings, base_amplitude, zero);
+}
+bool unforced(const Settings& settings) { return everywhere(settings, f, zero) && unshaken(settings); }
+/// Whether nothing is observed that frame decides.
+bool frameless(const Settings& settings) {
+  return no_harmonics(settings) && no_section(settings) && !settings.flag("observe", "extrema") &&
+         settings.integer("observe", "trajectory") == 0 && !settings.flag("observe", "attractor");
 }
 bool absent(const Settings& settings, sweep::Parameter stop) {
   return !settings.given(xs) && everywhere(settings, stop, [](double value) { return std::isinf(value); });
@@ -95,6 +100,8 @@ constexpr Rule rules[] = {
     {"observe", "section_phase", no_section, "without a section", "write e.g. section = 500"},
     {"observe", "section_phase", unforced, no_force, or_force},
     {"observe", "period", no_period, "in a transient, which has none: its values will be NaN", or_steady},
+    {"observe", "frame", unshaken, "without stop_amplitude or base_amplitude", "give one of them in [scene]"},
+    {"observe", "frame", frameless, "without displacements or velocities of the mass", "write e.g. extrema = true"},
     {"integrator", "tolerance", not_dopri5, "without method = \"dopri5\"",
      "write that in [integrator]; that of repeats is tolerance in [time]"},
     {"integrator", "step", not_moreau, only_moreau, or_moreau},

@@ -22,7 +22,8 @@ bool lanes_can_observe(const SettledPoint<E>& settled) {
   const observables::ObservedSpan span{.scene = problem,
                                        .turns = observed.turns,
                                        .periodic = observed.status == steady::Status::periodic,
-                                       .transient = observed.status == steady::Status::transient};
+                                       .transient = observed.status == steady::Status::transient,
+                                       .frame = observed_frame(problem)};
   return !failed(observed.status) && observed.found_by != steady::FoundBy::closed_form && observed.turns >= 1 &&
          observables::All::in_lanes(problem.observe, span);
 }

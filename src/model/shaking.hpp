@@ -1,7 +1,12 @@
 #pragma once
 
+#include <array>
 #include <cmath>
+#include <cstdint>
+#include <numbers>
+#include <string_view>
 
+#include "math/number.hpp"
 #include "model/oscillator.hpp"
 
 namespace clatter {
@@ -32,6 +37,55 @@ struct LeadingForce {
   if (quadrature == 0) return {in_phase, 0.0};  // a sign, no jump of the phase by pi, when the force passes 0
   return {std::hypot(in_phase, quadrature), std::atan2(quadrature, in_phase)};
 }
+
+/// The frame in which displacements and velocities are given: that of what is shaken, or that of the ground.
+enum class Frame : std::uint8_t { relative, absolute };
+
+inline constexpr std::array<std::string_view, 2> frame_names{"relative", "absolute"};  ///< in the order of Frame
+
+/// The motion of stops or base during an observed time, b sin(theta): absolute motion less relative motion.
+class FrameMotion {
+ public:
+  /// From the instant at which theta is `phase` (rad); of an oscillator in the moving frame.
+  FrameMotion(const Shaking& shaking, const Oscillator& oscillator, double phase)
+      : b_(shaking.stops + shaking.base),
+        nu_(oscillator.frequency),
+        phase_(phase),
+        lead_{std::sin(shaking.lead), std::cos(shaking.lead)},
+        is_forced_(oscillator.forcing != 0) {}
+
+  [[nodiscard]] double amplitude() const { return std::abs(b_); }
+  [[nodiscard]] double frequency() const { return nu_; }
+  [[nodiscard]] double phase() const { return phase_; }  ///< theta at the beginning, rad
+  /// Whether a force is left in the moving frame, so that arcs keep its phase.
+  [[nodiscard]] bool is_forced() const { return is_forced_; }
+
+  /// Sine and cosine of theta a time tau after the beginning.
+  [[nodiscard]] SineCosine<double> at(double tau) const {
+    return {std::sin(nu_ * tau + phase_), std::cos(nu_ * tau + phase_)};
+  }
+  /// Sine and cosine of theta from those of the phase of the force.
+  [[nodiscard]] SineCosine<double> by_force(double sine, double cosine) const {
+    return {sine * lead_.cosine - cosine * lead_.sine, cosine * lead_.cosine + sine * lead_.sine};
+  }
+
+  [[nodiscard]] double displacement(const SineCosine<double>& theta) const { return b_ * theta.sine; }
+  [[nodiscard]] double velocity(const SineCosine<double>& theta) const { return b_ * nu_ * theta.cosine; }
+  [[nodiscard]] double acceleration(const SineCosine<double>& theta) const { return -b_ * nu_ * nu_ * theta.sine; }
+  [[nodiscard]] double jerk(const SineCosine<double>& theta) const { return -b_ * nu_ * nu_ * nu_ * theta.cosine; }
+
+  /// Whether theta passes a quarter turn (0 ... 3, of any whole turn) in a time `length` from `tau` on; at 1 and 3 the
+  /// displacement turns back, at 0 and 2 the velocity.
+  [[nodiscard]] bool passes(int quarter, double tau, double length) const {
+    const auto turns = [&](double at) { return (nu_ * at + phase_) / (2 * std::numbers::pi) - quarter / 4.0; };
+    return std::floor(turns(tau + length)) > std::floor(turns(tau));
+  }
+
+ private:
+  double b_, nu_, phase_;
+  SineCosine<double> lead_;  ///< of the force
+  bool is_forced_;
+};
 
 }  // namespace model
 }  // namespace clatter

@@ -22,6 +22,8 @@ using All = ObservableList<Extrema, Harmonics, Impacts, ImpactLog, Trajectory, S
                            Energy, Settling, Attractor>;
 
 /// The observables that are computed and stored; nothing else is.
-struct Observe : All::Settings {};
+struct Observe : All::Settings {
+  Frame frame = Frame::relative;  ///< of displacements and velocities
+};
 
 }  // namespace clatter::observables

@@ -33,10 +33,11 @@ class Attractor {
       column.intermediate = true;
       return column;
     };
-    return {intermediate("attractor_x", "displacement in which the point ended", &Values::attractor_x),
-            intermediate("attractor_v", "velocity in which the point ended", &Values::attractor_v),
-            intermediate("attractor_periods", "forcing periods after which it repeats, 0: none",
-                         &Values::attractor_periods)};
+    return {
+        in_relative_frame(intermediate("attractor_x", "displacement in which the point ended", &Values::attractor_x)),
+        in_relative_frame(intermediate("attractor_v", "velocity in which the point ended", &Values::attractor_v)),
+        intermediate("attractor_periods", "forcing periods after which it repeats, 0: none",
+                     &Values::attractor_periods)};
   }
   [[nodiscard]] static bool in_lanes(const Settings&, const ObservedSpan&) { return true; }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "model/displacement_bound.hpp"
+#include "model/shaking.hpp"
 #include "motion/arc.hpp"
 #include "motion/polynomial_arc.hpp"
 #include "observables/quadrature.hpp"
@@ -97,6 +98,18 @@ class ExactHarmonics {
       const double w = base_ * static_cast<double>(k);
       x_[k] /= total;
       v_[k] = Complex(0, w) * x_[k] + (x * turn(w * total) - first_x_) / total;
+    }
+  }
+  /// Adds the harmonics of a frame's motion over the observed time, once that has ended.
+  void add(const FrameMotion& frame, double total) {
+    const double nu = frame.frequency();
+    const SineCosine<double> first = frame.at(0.0);  // b sin = (rising + falling)/2, each turning one way
+    const Complex rising(frame.displacement(first), -frame.velocity(first) / nu), falling = std::conj(rising);
+    for (std::size_t k = 0; k < x_.size(); ++k) {
+      const double w = base_ * static_cast<double>(k);
+      const Complex up = rising * wave(nu - w, total) / (2 * total),
+                    down = falling * wave(-nu - w, total) / (2 * total);
+      x_[k] += up + down, v_[k] += Complex(0, nu) * (up - down);
     }
   }
   [[nodiscard]] const std::vector<Complex>& displacement() const { return x_; }

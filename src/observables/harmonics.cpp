@@ -39,14 +39,14 @@ std::vector<Column<Harmonics::Values>> Harmonics::columns(const Settings& settin
         name, long_name, quantity, harmonic,
         [spectrum, part](const Values& v) -> const std::vector<double>& { return v.*spectrum.*part; });
   };
-  return {of("x_amplitude", "amplitude of the harmonics of displacement", Quantity::length, &Values::x_spectrum,
-             &Spectrum::amplitude),
-          of("x_phase", "phase of the harmonics of displacement at tau = 0", Quantity::angle, &Values::x_spectrum,
-             &Spectrum::phase),
-          of("v_amplitude", "amplitude of the harmonics of velocity", Quantity::velocity, &Values::v_spectrum,
-             &Spectrum::amplitude),
-          of("v_phase", "phase of the harmonics of velocity at tau = 0", Quantity::angle, &Values::v_spectrum,
-             &Spectrum::phase),
+  return {in_observed_frame(of("x_amplitude", "amplitude of the harmonics of displacement", Quantity::length,
+                               &Values::x_spectrum, &Spectrum::amplitude)),
+          in_observed_frame(of("x_phase", "phase of the harmonics of displacement at tau = 0", Quantity::angle,
+                               &Values::x_spectrum, &Spectrum::phase)),
+          in_observed_frame(of("v_amplitude", "amplitude of the harmonics of velocity", Quantity::velocity,
+                               &Values::v_spectrum, &Spectrum::amplitude)),
+          in_observed_frame(of("v_phase", "phase of the harmonics of velocity at tau = 0", Quantity::angle,
+                               &Values::v_spectrum, &Spectrum::phase)),
           scalar("base_frequency", "frequency whose multiples the harmonics are", &Values::base_frequency,
                  Quantity::frequency)};
 }
@@ -73,9 +73,11 @@ bool Harmonics::in_lanes(const Settings& settings, const ObservedSpan& span) {
 Harmonics::Values Harmonics::finish(const ObservedSpan& span, double x, double v) {
   if (exact_) {
     exact_->finish(x, span.total);
+    if (span.frame) exact_->add(*span.frame, span.total);
     return {Spectrum::of(exact_->displacement()), Spectrum::of(exact_->velocity()), span.base_frequency};
   }
   samples_->finish(x, v, span.total, span.periodic);
+  if (span.frame) samples_->add(*span.frame);
   const std::vector<double>&displacement = samples_->displacement(), &velocity = samples_->velocity();
   const auto sums = span.fourier->transform->transform({displacement, velocity}, *span.fourier->workspace);
   return {sampled_spectrum(sums[0], displacement.size(), span.base_turns, highest_),

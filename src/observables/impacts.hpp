@@ -39,8 +39,10 @@ class Impacts {
     const Coordinate stop = stop_coordinate();
     std::vector<Column<Values>> all{
         pair("impacts_per_period", "impacts per forcing period", stop, &Values::impacts_per_period),
-        pair("v_before", "velocity before the first impact", stop, &Values::v_before, Quantity::velocity),
-        pair("v_after", "velocity after the first impact", stop, &Values::v_after, Quantity::velocity),
+        in_relative_frame(
+            pair("v_before", "velocity before the first impact", stop, &Values::v_before, Quantity::velocity)),
+        in_relative_frame(
+            pair("v_after", "velocity after the first impact", stop, &Values::v_after, Quantity::velocity)),
         pair("rest_fraction", "share of time at rest on the stop", stop, &Values::rest_fraction)};
     if (!settings.of_soft_stops) return all;
     all.push_back(pair("contact_fraction", "share of time in contact with the stop", stop, &Values::contact_fraction));

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
+#include <optional>
 #include <string>
 #include <utility>
 #include <variant>
@@ -15,6 +16,7 @@
 #include "model/key.hpp"
 #include "model/quantity.hpp"
 #include "model/scene.hpp"
+#include "model/shaking.hpp"
 #include "observables/fourier_transform.hpp"
 
 namespace clatter::observables {
@@ -44,6 +46,13 @@ struct Coordinate {
   return {"stop", 2, std::vector<std::int8_t>{-1, 1}, "-1: lower stop, +1: upper stop"};
 }
 
+/// The frame of a column in a scene that is shaken.
+enum class FrameOf : std::uint8_t {
+  any,       ///< the values are the same in both
+  relative,  ///< always that of what is shaken
+  observed   ///< the one that is asked for
+};
+
 /// A variable of the results, and how to extract it from the values of a point.
 template <class Values>
 struct Column {
@@ -55,6 +64,7 @@ struct Column {
   std::size_t longest_text = 0;                            ///< bytes
   bool intermediate = false;  ///< a number for later work on the whole sweep: in journals and shards only
   std::string name_in_si{};   ///< the long name in the results of a machine, if that is another
+  FrameOf frame = FrameOf::any;
 
   [[nodiscard]] std::size_t width() const { return along.empty() ? 1 : along.front().length; }
 };
@@ -102,6 +112,20 @@ template <class Values>
   return column;
 }
 
+/// A column that is given in the frame that is asked for.
+template <class Values>
+[[nodiscard]] Column<Values> in_observed_frame(Column<Values> column) {
+  column.frame = FrameOf::observed;
+  return column;
+}
+
+/// A column that is always relative to what is shaken.
+template <class Values>
+[[nodiscard]] Column<Values> in_relative_frame(Column<Values> column) {
+  column.frame = FrameOf::relative;
+  return column;
+}
+
 /// The observed time of a point, as observers see it when it begins.
 struct ObservedSpan {
   const Scene& scene;
@@ -114,6 +138,7 @@ struct ObservedSpan {
   bool transient = false;       ///< it begins at the start of the scene
   bool stands_still = false;    ///< nothing moves any more
   const FourierScratch* fourier = nullptr;  ///< for harmonics from samples
+  std::optional<FrameMotion> frame{};       ///< if absolute motion is asked for, and something is shaken
 
   /// Whether it is a whole number of forcing periods, as the sums of harmonics and sections in lanes need.
   [[nodiscard]] bool has_whole_turns() const { return std::abs(turns - std::round(turns)) <= 1e-9; }

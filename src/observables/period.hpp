@@ -35,7 +35,8 @@ class Period {
             in_si("one over the period of unforced motion",
                   scalar("eigenfrequency", "2 pi over the period of unforced motion", &Values::eigenfrequency,
                          Quantity::frequency)),
-            scalar("velocity_ratio", "|velocity before impact / xs|", &Values::velocity_ratio, Quantity::rate)};
+            in_relative_frame(
+                scalar("velocity_ratio", "|velocity before impact / xs|", &Values::velocity_ratio, Quantity::rate))};
   }
   [[nodiscard]] static bool in_lanes(const Settings&, const ObservedSpan&) { return true; }
 

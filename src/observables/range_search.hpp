@@ -33,40 +33,49 @@ inline void include_polynomial(Range& range, Bernstein<double> y, double offset 
 // instant on.
 
 struct DisplacementOnArc {
-  template <Effects E>
-  [[nodiscard]] std::array<double, 3> jet(const motion::Arc<double, E>&, const motion::Motion<double>& m) const {
+  template <class A>
+  [[nodiscard]] std::array<double, 3> jet(const A&, const motion::Motion<double>& m) const {
     return {m.x, m.v, m.a};
   }
-  template <Effects E>
-  [[nodiscard]] double sixth_bound(const motion::Arc<double, E>& arc, const motion::Motion<double>& m,
-                                   double step) const {
+  template <class A>
+  [[nodiscard]] double sixth_bound(const A& arc, const motion::Motion<double>& m, double step) const {
     return arc.constants().sixth_bound(m, step, 0);
   }
+  /// Of a part that the rest may cancel, so that its rounding stays.
+  template <class A>
+  [[nodiscard]] double size(const A& arc) const requires requires {
+    arc.size(0);
+  }
+  { return arc.size(0); }
 };
 
 struct VelocityOnArc {
-  template <Effects E>
-  [[nodiscard]] std::array<double, 3> jet(const motion::Arc<double, E>& arc, const motion::Motion<double>& m) const {
+  template <class A>
+  [[nodiscard]] std::array<double, 3> jet(const A& arc, const motion::Motion<double>& m) const {
     return {m.v, m.a, arc.constants().jerk(m)};
   }
-  template <Effects E>
-  [[nodiscard]] double sixth_bound(const motion::Arc<double, E>& arc, const motion::Motion<double>& m,
-                                   double step) const {
+  template <class A>
+  [[nodiscard]] double sixth_bound(const A& arc, const motion::Motion<double>& m, double step) const {
     return arc.constants().sixth_bound(m, step, 1);
   }
+  /// Of a part that the rest may cancel, so that its rounding stays.
+  template <class A>
+  [[nodiscard]] double size(const A& arc) const requires requires {
+    arc.size(1);
+  }
+  { return arc.size(1); }
 };
 
 /// The force of the soft stop that the arc is in contact with (eq. 50); arcs are anchored on it.
 struct StopForceOnArc {
-  template <Effects E>
-  [[nodiscard]] std::array<double, 3> jet(const motion::Arc<double, E>& arc, const motion::Motion<double>& m) const {
+  template <class A>
+  [[nodiscard]] std::array<double, 3> jet(const A& arc, const motion::Motion<double>& m) const {
     const auto& stop = arc.constants().stop;
     return {stop.force(stop.into(m.offset), stop.into(m.v)), stop.force(stop.into(m.v), stop.into(m.a)),
             stop.force(stop.into(m.a), stop.into(arc.constants().jerk(m)))};
   }
-  template <Effects E>
-  [[nodiscard]] double sixth_bound(const motion::Arc<double, E>& arc, const motion::Motion<double>& m,
-                                   double step) const {
+  template <class A>
+  [[nodiscard]] double sixth_bound(const A& arc, const motion::Motion<double>& m, double step) const {
     const auto& stop = arc.constants().stop;
     const auto weighed = [&](double factor, int derivative) {
       return factor == 0 ? 0.0 : factor * arc.constants().sixth_bound(m, step, derivative);
@@ -78,10 +87,10 @@ struct StopForceOnArc {
 /// Visits an arc of positive length wherever a quantity may exceed its range: every stretch is either proved not to, by
 /// the enclosure that finds contacts (eq. 13), or split, at the quantity's turning point if it has one. `see(motion)`
 /// gets both ends and every instant visited, and widens the ranges.
-template <Effects E, class See>
+template <class A, class See>
 class RangeSearch {
  public:
-  RangeSearch(const motion::Arc<double, E>& arc, double length, const See& see)
+  RangeSearch(const A& arc, double length, const See& see)
       : arc_(arc), see_(see), from_{0.0, arc.start()}, to_{length, at(length)} {
     see_(from_.motion), see_(to_.motion);
   }
@@ -114,7 +123,9 @@ class RangeSearch {
         hermite(HermiteData<double>::over(step, {0.0, left[1], left[2], right[0] - left[0], right[1], right[2]}));
     const Interval<double> inner = enclosure(c, error);  // the ends are included already
     const double low = left[0] + inner.low, high = left[0] + inner.high;
-    const double rounding = 4 * epsilon<double>() * std::max(std::abs(left[0]), std::abs(right[0]));
+    double size = std::max(std::abs(left[0]), std::abs(right[0]));
+    if constexpr (requires { quantity.size(arc_); }) size += 2 * quantity.size(arc_);
+    const double rounding = 4 * epsilon<double>() * size;
     if (!(high > range.high + rounding || low < range.low - rounding) || ++splits_ > max_splits) return;
     const Place middle = split(quantity, from, to);
     if (!(middle.s > from.s && middle.s < to.s)) return;
@@ -146,7 +157,7 @@ class RangeSearch {
     return {s, m};
   }
 
-  const motion::Arc<double, E>& arc_;
+  const A& arc_;
   const See& see_;
   double evaluations_ = 0.0;
   int splits_ = 0;

@@ -6,6 +6,7 @@
 #include <limits>
 #include <vector>
 
+#include "model/shaking.hpp"
 #include "model/stops.hpp"
 #include "motion/arc.hpp"
 
@@ -69,6 +70,14 @@ class Samples {
   void finish(double x, double v, double total, bool periodic) {
     while (x_.size() < count_) add(x, v);
     if (periodic && at_impact_ == AtImpact::mean && last_.time >= total - rounding_) v_.front() = at(last_);
+  }
+
+  /// Adds what a frame moves since the beginning of the observed time, once that has ended.
+  void add(const FrameMotion& frame) {
+    for (std::size_t i = 0; i < x_.size(); ++i) {
+      const SineCosine<double> theta = frame.at(instant(i));
+      x_[i] += frame.displacement(theta), v_[i] += frame.velocity(theta);
+    }
   }
 
   /// The instants since the beginning of the observed time, `end` being the last.

@@ -55,8 +55,9 @@ class Section {
       return series<Values>(name, long_name, quantity, {"section", static_cast<std::size_t>(settings.section)},
                             [member](const Values& v) -> const std::vector<double>& { return v.*member; });
     };
-    return {of("section_x", "displacement in successive periods", &Values::section_x, Quantity::length),
-            of("section_v", "velocity in successive periods", &Values::section_v, Quantity::velocity)};
+    return {
+        in_observed_frame(of("section_x", "displacement in successive periods", &Values::section_x, Quantity::length)),
+        in_observed_frame(of("section_v", "velocity in successive periods", &Values::section_v, Quantity::velocity))};
   }
   [[nodiscard]] static double values_held(const Settings& settings) {
     return 2 * static_cast<double>(settings.section);
@@ -111,14 +112,26 @@ class Section {
   [[nodiscard]] bool is_complete() const { return !samples_ || samples_->is_complete(); }
 
   [[nodiscard]] Values finish(const ObservedSpan& span, double x, double v) {
-    if (!samples_) return std::move(values_);
-    samples_->finish(x, v, span.total, span.periodic);
-    return {std::move(samples_->displacement()), std::move(samples_->velocity())};
+    if (samples_) {
+      samples_->finish(x, v, span.total, span.periodic);
+      values_ = {std::move(samples_->displacement()), std::move(samples_->velocity())};
+    }
+    if (span.frame) add(*span.frame);
+    return std::move(values_);
   }
 
  private:
   /// Of an arc, times the natural frequency: zeros of a decaying rotation are at least pi apart.
   static constexpr double longest_piece = 3.0;
+
+  /// Adds what a frame moves: at the phase of a section the same in each period, else at the time of each passage.
+  void add(const FrameMotion& frame) {
+    const SineCosine<double> at_phase = frame.by_force(std::sin(phase_), std::cos(phase_));
+    for (std::size_t i = 0; i < values_.section_x.size(); ++i) {
+      const SineCosine<double> theta = frame.is_forced() ? at_phase : frame.at(times_[i]);
+      values_.section_x[i] += frame.displacement(theta), values_.section_v[i] += frame.velocity(theta);
+    }
+  }
 
   /// From the forcing phase of the start to another one, in turns, 0 ... 1.
   [[nodiscard]] static double turns_to(double phase, const Scene& scene) {
@@ -134,7 +147,8 @@ class Section {
     if (start.x == middle_ && start.v > 0 && !bounced_) add(begin, start);
     const bool rotates = arc.constants().rotates();
     const double turn = rotates ? length : turning_point(arc, 0.0, length);
-    const bool around_another = arc.constants().stop.side != Side::none;  // in contact it goes round another equilibrium
+    const bool around_another =
+        arc.constants().stop.side != Side::none;  // in contact it goes round another equilibrium
     double s = 0.0, before = start.x - middle_;
     while (s < length) {
       const double end = s < turn ? turn : length, piece = longest_piece / arc.constants().natural;
@@ -169,7 +183,7 @@ class Section {
   void add(double time, const motion::Motion<double>& m) {
     if (values_.section_x.size() == most_ || (periodic_ && time >= (1 - same_instant) * total_ && begins_here_)) return;
     begins_here_ = begins_here_ || time <= same_instant * total_;
-    values_.section_x.push_back(m.x), values_.section_v.push_back(m.v);
+    values_.section_x.push_back(m.x), values_.section_v.push_back(m.v), times_.push_back(time);
   }
   static constexpr double same_instant = 1e-9;  ///< of the period
 
@@ -180,8 +194,9 @@ class Section {
   double phase_ = 0.0;                ///< of the force
   std::optional<Samples> samples_{};  ///< under a force
   Values values_{};
-  bool bounced_ = false;      ///< the arc begins with an impact
-  bool begins_here_ = false;  ///< the observed time begins with a passage
+  std::vector<double> times_{};  ///< of passages without a force, tau
+  bool bounced_ = false;         ///< the arc begins with an impact
+  bool begins_here_ = false;     ///< the observed time begins with a passage
 };
 
 }  // namespace clatter::observables

@@ -41,7 +41,8 @@ class Trajectory {
                             [member](const Values& v) -> const std::vector<double>& { return v.*member; });
     };
     return {of("tau", "time since the beginning of the observed time", &Values::tau, Quantity::time),
-            of("x", "displacement", &Values::x, Quantity::length), of("v", "velocity", &Values::v, Quantity::velocity)};
+            in_observed_frame(of("x", "displacement", &Values::x, Quantity::length)),
+            in_observed_frame(of("v", "velocity", &Values::v, Quantity::velocity))};
   }
   [[nodiscard]] static double values_held(const Settings& settings) {
     return 3 * static_cast<double>(settings.trajectory);
@@ -60,6 +61,7 @@ class Trajectory {
 
   [[nodiscard]] Values finish(const ObservedSpan& span, double x, double v) {
     samples_.finish(x, v, span.total, span.periodic);
+    if (span.frame) samples_.add(*span.frame);
     return {samples_.times(span.total), std::move(samples_.displacement()), std::move(samples_.velocity())};
   }
   [[nodiscard]] double evaluations() const { return samples_.evaluations(); }  ///< of arcs

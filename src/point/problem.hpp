@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "model/scene.hpp"
 #include "model/shaking.hpp"
 #include "model/units.hpp"
@@ -17,6 +19,14 @@ struct Problem : Scene {
   Shaking shaking{};  ///< of the stops or the base, by which the displacement counts
   Units units{};      ///< of all its numbers
 };
+
+/// The motion of the frame from the start of a problem on, or from a time after it, if absolute motion is asked for and
+/// something is shaken.
+[[nodiscard]] inline std::optional<FrameMotion> observed_frame(const Problem& problem, double after = 0.0) {
+  if (problem.observe.frame == Frame::relative || !is_shaken(problem.shaking)) return std::nullopt;
+  const double phase = problem.start.phase - problem.shaking.lead + problem.oscillator.frequency * after;
+  return FrameMotion(problem.shaking, problem.oscillator, phase);
+}
 
 /// The limits of a run of a problem.
 [[nodiscard]] inline stepping::Limits limits_of(const Problem& problem) {

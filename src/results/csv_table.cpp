@@ -236,7 +236,7 @@ std::string CsvTable::comments(const std::vector<Column>& columns) const {
     if (std::exchange(last, column.variable->name) == column.variable->name) continue;
     const Entry& entry = *find(column.variable->name);
     text +=
-        "# " + entry.name + " (" + storage::printable(entry.units) + "): " + storage::printable(entry.long_name) + '\n';
+        "# " + entry.name + " (" + storage::printable(entry.units) + "): " + storage::printable(entry.meaning()) + '\n';
   }
   return text;
 }

@@ -30,6 +30,10 @@ struct FileSummary {
   struct Entry {
     std::string name, type, units, long_name;
     std::vector<sweep::NamedLength> dimensions;
+    std::string frame{};  ///< of displacements and velocities, if something is shaken
+
+    /// The long name, and the frame, if there is one.
+    [[nodiscard]] std::string meaning() const { return frame.empty() ? long_name : long_name + ", " + frame; }
   };
   std::vector<std::pair<std::string, std::string>> attributes;  ///< root attributes in their order, `config` among them
   std::vector<Entry> variables;

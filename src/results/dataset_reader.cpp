@@ -165,7 +165,7 @@ void add_variable(FileSummary& summary, hid_t file, const std::string& name, Tex
   const Handle dataset = detail::open_variable(file, name);
   if (is_bare_scale(dataset)) return;
   summary.variables.push_back({name, type_name(dataset), texts.of(dataset, "units"), texts.of(dataset, "long_name"),
-                               dimensions_of(dataset, name)});
+                               dimensions_of(dataset, name), texts.of(dataset, "frame")});
 }
 
 FileSummary summary_of(const Handle& file, const std::string& path, std::uint64_t stored_bytes) {

@@ -14,6 +14,7 @@ void pass_all(Pass& pass, Summary& summary) {
   const auto dimension = [](auto& each, auto& item) { each(item.name), each(item.length); };
   const auto entry = [&](auto& each, auto& item) {
     each(item.name), each(item.type), each(item.units), each(item.long_name), each(item.dimensions, dimension);
+    each(item.frame);
   };
   pass(summary.attributes, pair), pass(summary.variables, entry), pass(summary.status_counts, pair);
 }

@@ -124,6 +124,12 @@ void add_counts(const Sweep& sweep, const attractors::Grid& grid, const attracto
       {"motion_share_high", along, std::move(high), "upper end of the 95 % interval of the share", "1"});
 }
 
+/// A relative velocity at phase 0 in the frame and the units of the user.
+double example_velocity(const point::Problem& problem, double v) {
+  if (const auto frame = observed_frame(problem)) v += frame->velocity({0.0, 1.0});
+  return problem.units == Units{} ? v : v * factor_of(problem.units, Quantity::velocity);
+}
+
 }  // namespace
 
 attractors::Numbering numbering_of(const Sweep& sweep, int threads, const PointEndings& endings) {
@@ -171,14 +177,13 @@ void add_attractors(const Sweep& sweep, bool is_shard, const std::vector<std::st
   add("motion_points", "points that end in it", [](const Motion& m) { return static_cast<std::int64_t>(m.points); });
   add(
       "motion_x", "displacement at forcing phase 0, at the parameters of the example",
-      [](const Motion& m) { return m.state.x; }, Quantity::length);
+      [](const Motion& m) { return m.state.x; }, Quantity::length);  // in both frames: what is shaken is at 0, too
+  name_frame(sweep, observables::FrameOf::observed, dataset.variables.back());
   add(
       "motion_v", "velocity at forcing phase 0, at the parameters of the example",
-      [&](const Motion& m) {
-        const Units units = problem_at(sweep, m.example % size_one_way(sweep)).units;
-        return units == Units{} ? m.state.v : m.state.v * factor_of(units, Quantity::velocity);
-      },
+      [&](const Motion& m) { return example_velocity(problem_at(sweep, m.example % size_one_way(sweep)), m.state.v); },
       Quantity::velocity);
+  name_frame(sweep, observables::FrameOf::observed, dataset.variables.back());
   add("motion_example", "index of the first point that ends in it, row-major over the sweep",
       [](const Motion& m) { return static_cast<std::int64_t>(m.example); });
   if (!is_shard) add_counts(sweep, grid_of(sweep), numbering, dataset);

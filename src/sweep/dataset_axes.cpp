@@ -90,7 +90,22 @@ const char* long_name_of(Parameter parameter) {
   return "";
 }
 
+/// Places and starts stay relative to what is shaken.
+observables::FrameOf frame_of(Parameter parameter) {
+  const Quantity quantity = quantity_of(parameter);
+  const bool is_amplitude = parameter == Parameter::stop_amplitude || parameter == Parameter::base_amplitude;
+  const bool is_of_frame = (quantity == Quantity::length && !is_amplitude) || quantity == Quantity::velocity;
+  return is_of_frame ? observables::FrameOf::relative : observables::FrameOf::any;
+}
+
 }  // namespace
+
+void name_frame(const Sweep& sweep, observables::FrameOf frame, Variable& variable) {
+  if (frame == observables::FrameOf::any || !is_shaken(sweep)) return;
+  const bool is_absolute = frame == observables::FrameOf::observed && sweep.problem.observe.frame == Frame::absolute;
+  const Frame given = is_absolute ? Frame::absolute : Frame::relative;
+  variable.attributes.emplace_back("frame", std::string(frame_names[static_cast<std::size_t>(given)]));
+}
 
 void add_axes(const Sweep& sweep, Dataset& dataset) {
   const bool is_si = sweep.machine.has_value();
@@ -104,13 +119,15 @@ void add_axes(const Sweep& sweep, Dataset& dataset) {
   }
   for (const Dimension& dimension : sweep.dimensions) {
     dataset.dimensions.push_back({std::string(name_of(dimension)), length(dimension)});
-    for (const Axis& axis : dimension)
+    for (const Axis& axis : dimension) {
       dataset.variables.push_back(
           {std::string(key_of(axis.parameter)),
            {std::string(name_of(dimension))},
            axis.values,
            is_si && name_in_si(axis.parameter) != nullptr ? name_in_si(axis.parameter) : long_name_of(axis.parameter),
            std::string(unit_of(quantity_of(axis.parameter), is_si))});
+      name_frame(sweep, frame_of(axis.parameter), dataset.variables.back());
+    }
   }
 }
 

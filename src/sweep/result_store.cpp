@@ -285,8 +285,10 @@ void ResultStore::add_impact_log(Dataset& dataset) {
   dataset.variables.push_back({"impact_stop", along, std::move(stops), "stop that is hit, -1: lower, +1: upper", "1"});
   dataset.variables.push_back(
       {"impact_v_before", along, std::move(before), "velocity before the impact", unit(Quantity::velocity)});
+  name_frame(sweep_, observables::FrameOf::relative, dataset.variables.back());
   dataset.variables.push_back(
       {"impact_v_after", along, std::move(after), "velocity after the impact", unit(Quantity::velocity)});
+  name_frame(sweep_, observables::FrameOf::relative, dataset.variables.back());
 }
 
 Dataset ResultStore::dataset() {
@@ -305,6 +307,7 @@ Dataset ResultStore::dataset() {
     const Quantity quantity = output.intermediate ? Quantity::number : output.quantity;
     dataset.variables.push_back(
         {output.name, std::move(dimensions), std::move(values), long_name, std::string(unit_of(quantity, is_si))});
+    name_frame(sweep_, output.frame, dataset.variables.back());
   }
   if (numbering_) add_attractors(sweep_, shard_.has_value(), along_, std::move(*numbering_), dataset);
   if (sweep_.problem.observe.impact_log) add_impact_log(dataset);

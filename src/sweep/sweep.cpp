@@ -1,5 +1,7 @@
 #include "sweep/sweep.hpp"
 
+#include <algorithm>
+
 namespace clatter::sweep {
 namespace {
 
@@ -13,6 +15,17 @@ void enter_shaken_frame(point::Problem& problem) {
 }
 
 }  // namespace
+
+bool is_shaken(const Sweep& sweep) {
+  const auto shakes = [](const Axis& axis) {
+    const bool is_amplitude =
+        axis.parameter == Parameter::stop_amplitude || axis.parameter == Parameter::base_amplitude;
+    return is_amplitude && std::ranges::any_of(axis.values, [](double value) { return value != 0; });
+  };
+  return is_shaken(sweep.problem.shaking) || std::ranges::any_of(sweep.dimensions, [&](const Dimension& dimension) {
+           return std::ranges::any_of(dimension, shakes);
+         });
+}
 
 std::size_t size_one_way(const Sweep& sweep) {
   std::size_t points = 1;

@@ -66,6 +66,9 @@ void each_coordinate(const Sweep& sweep, std::size_t point, const Take& take) {
   }
 }
 
+/// Whether stops or base are shaken at any point.
+[[nodiscard]] bool is_shaken(const Sweep& sweep);
+
 /// The problem of a point, 0 <= point < size(sweep), in row-major order of the directions and dimensions, in the units
 /// that it is computed in; of a shaken scene that in the moving frame.
 [[nodiscard]] point::Problem problem_at(const Sweep& sweep, std::size_t point);

@@ -124,6 +124,20 @@ TEST(Observing, nothing_is_warned_of_unless_every_observable_is_written_as_off) 
   expect_none(off + "energy = false\nsettling = false\nattractor = false\n");
 }
 
+TEST(WithoutEffect, a_frame_of_stops_at_rest_is_warned_of) {
+  const std::string absolute = "frame = \"absolute\"\n", shaken = "[scene]\nxs = 1\nstop_amplitude = 0.1\n[observe]\n";
+  expect_warning(observing(scene) + absolute, "7:1",
+                 "'frame' has no effect without stop_amplitude or base_amplitude; leave it out, or give one of them");
+  expect_warning(shaken + "impacts = true\n" + absolute, "6:1",
+                 "'frame' has no effect without displacements or velocities of the mass; leave it out, or write e.g. "
+                 "extrema = true");
+  for (const std::string observed :
+       {"extrema = true", "trajectory = 9", "section = 3", "harmonics = 1", "attractor = true"})
+    expect_none(shaken + observed + "\n" + absolute);
+  expect_none("[scene]\nxs = 1\n[sweep]\nbase_amplitude = [0, 0.1]\n[observe]\nextrema = true\n" + absolute);
+  expect_none(observing(scene) + "frame = \"relative\"\n");
+}
+
 TEST(Following, a_direction_of_nothing_is_warned_of) {
   const std::string sweep = observing(scene + "[sweep]\nnu = [0.8, 0.9]\ndirection = \"down\"\n");
   expect_warning(sweep, "6:1", "'direction' has no effect without follow; leave it out, or name an axis in follow");
