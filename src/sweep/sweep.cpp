@@ -1,18 +1,13 @@
 #include "sweep/sweep.hpp"
 
 namespace clatter::sweep {
-namespace {
 
-/// Puts the force in the moving frame in place of the shaking (eqs. 39 to 41); phases that the user gave are those of
-/// the shaking.
 void enter_shaken_frame(point::Problem& problem) {
   if (!is_shaken(problem.shaking)) return;
   const auto [amplitude, lead] = force_in_frame(problem.oscillator, problem.shaking);
   problem.oscillator.forcing = amplitude, problem.shaking.lead = lead;
   problem.start.phase += lead, problem.observe.section_phase += lead;
 }
-
-}  // namespace
 
 std::size_t size_one_way(const Sweep& sweep) {
   std::size_t points = 1;
