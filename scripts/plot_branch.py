@@ -31,7 +31,7 @@ CURVES = {  # special point: name and dashes of its curve in the plane of two pa
     "graze": ("grazes", (0, (1.2, 1.2))),
 }
 BEHIND = "#b8b8b8"
-BACKBONE = (("xs", None), ("R", 1.0), ("load", 0.0))  # keys of the scene, with their defaults
+BACKBONE = (("xs", None), ("R", 1.0), ("load", 0.0), ("stiffness", 1.0))  # keys of the scene, with their defaults
 
 
 def branch_figure(outputs, options):
@@ -165,9 +165,11 @@ def draw_backbones(axes, branches, parameter):
     the note that explains it."""
     low, high = branches[0].config["branch"]["range"]
     scenes = {tuple(output.scene.get(key, default) for key, default in BACKBONE) for output in branches}
-    gap, R, load = scenes.pop()
-    if parameter != "nu" or gap is None or load != 0 or scenes:
-        raise ChoiceProblem("--backbone is of branches along nu of one machine, between stops xs without a load")
+    gap, R, load, stiffness = scenes.pop()
+    if parameter != "nu" or gap is None or load != 0 or stiffness != 1 or scenes:
+        raise ChoiceProblem(
+            "--backbone is of branches along nu of one machine, between stops xs without a load, at stiffness 1"
+        )
     for n in sorted({round(output.values("period_ratio")[0]) for output in branches}):
         if n >= high:
             continue

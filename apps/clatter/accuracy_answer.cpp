@@ -141,7 +141,7 @@ std::string misses(Rows rows, const accuracy::PointAccuracy& of_point) {
 std::string accuracy_answer(const accuracy::PointAccuracy& of_point, const sweep::Sweep& sweep, std::size_t point) {
   std::string text = coordinates_text(sweep, point);
   if (!text.empty()) text = config::wrapped(text, 0);
-  text += config::wrapped(comparison_text(of_point, problem_at(sweep, point).oscillator.forcing != 0), 0);
+  text += config::wrapped(comparison_text(of_point, problem_at(sweep, point)), 0);
   if (!(of_point.horizon > 0)) return text + '\n';
   const Rows rows(of_point.rows);
   return text + table(rows) + config::wrapped(sentence(rows), 0) + config::wrapped(misses(rows, of_point), 0) + '\n';

@@ -85,12 +85,20 @@ std::string steady_text(const accuracy::PointAccuracy& of_point) {
   return "Harmonics are those of the time compared; there is no steady forced motion to compare repeats with.\n";
 }
 
+/// "forcing period", or without a force the time that counts as one, in the user's units: "turn of 2 pi".
+std::string period_text(const point::Problem& problem, bool many) {
+  const std::string plural = many ? "s" : "";
+  if (problem.oscillator.forcing != 0) return " forcing period" + plural;
+  const double frequency = counting_frequency(problem.oscillator) / problem.units.time;
+  const std::string length = frequency == 1 ? "2 pi" : formatted("%.6g", 2 * pi<double>() / frequency);
+  return " turn" + plural + " of " + length + (problem.units.is_si ? " s" : "");
+}
+
 }  // namespace
 
-std::string comparison_text(const accuracy::PointAccuracy& of_point, bool forced) {
+std::string comparison_text(const accuracy::PointAccuracy& of_point, const point::Problem& problem) {
   const std::string events = counted(of_point.impacts, "impact") + " and " + counted(of_point.rests, "rest");
-  const std::string asked = formatted("%.6g", of_point.asked) + (forced ? " forcing period" : " turn") +
-                            (of_point.asked == 1 ? "" : "s") + (forced ? "" : " of 2 pi");
+  const std::string asked = formatted("%.6g", of_point.asked) + period_text(problem, of_point.asked != 1);
   const steady::Status status = of_point.rows.front().status;
   if (failed(status)) return "not compared, since the run fails: " + status_name(status) + '.';
   if (of_point.horizon == of_point.asked)

@@ -8,8 +8,8 @@
 
 namespace clatter::app {
 
-/// Says over which time, and with how many events, methods are compared.
-[[nodiscard]] std::string comparison_text(const accuracy::PointAccuracy& of_point, bool forced);
+/// Says over which time of a problem, and with how many events, methods are compared.
+[[nodiscard]] std::string comparison_text(const accuracy::PointAccuracy& of_point, const point::Problem& problem);
 
 /// The short answer at a point, then every row as a table.
 [[nodiscard]] std::string accuracy_text(const accuracy::PointAccuracy& of_point, const sweep::Sweep& sweep,

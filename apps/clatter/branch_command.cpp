@@ -78,15 +78,11 @@ const branches::BranchSettings& branch_of(const config::Config& config, const st
     throw UsageError(storage::printable(file) + ": [sweep] has the axis " +
                      std::string(sweep::key_of(config.sweep.dimensions[0][0].parameter)) +
                      ", and a branch is followed at one value of it; give that in [scene]");
-  if (config.sweep.problem.oscillator.stiffness != 1.0)
+  if (config.sweep.machine)
     throw UsageError(
         storage::printable(file) +
-        ": a branch is followed at stiffness = 1; with k > 0 give h/w, f/w^2, nu/w, load/w^2 and v0/w, w = "
-        "k^(1/2), in place of h, f, nu, load and v0, or sweep with follow instead");
-  if (is_shaken(config.sweep.problem.shaking))
-    throw UsageError(storage::printable(file) +
-                     ": a branch is followed between stops and on a base at rest; remove stop_amplitude and "
-                     "base_amplitude, or sweep with follow instead");
+        ": a branch is followed in the units of [scene]; give the scene that `clatter plan` shows in place of "
+        "[machine]");
   return *config.branch;
 }
 

@@ -32,7 +32,8 @@ struct WorkPrecision {
   double ns_spread = point::no_value;      ///< interquartile range of ns_per_period; NaN if it was measured once
 };
 
-/// The cost of accuracy at one point of a sweep. Periods are forcing periods; without forcing 2 pi.
+/// The cost of accuracy at one point of a sweep. Periods are forcing periods, without forcing those of the spring, 2 pi
+/// at k = 1. No value has a unit but ns_per_period, so all are the same in any units of the scene.
 struct PointAccuracy {
   double asked = 0.0;                       ///< periods to compare: the duration of a transient, else the window
   double horizon = 0.0;                     ///< periods compared: as long as double and 50 digits agree

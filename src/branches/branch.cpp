@@ -62,7 +62,7 @@ class Follower {
     return {problem_, orbit, {{settings_.along, width_}}, speed_unit_, std::move(conditions)};
   }
   [[nodiscard]] RestingBranch resting() { return {problem_, settings_, symmetric_, speed_unit_, record_, waiting_}; }
-  [[nodiscard]] double parameter(const Scene& scene) const { return value_of(scene, settings_.along); }
+  [[nodiscard]] double parameter(const ShakenScene& scene) const { return value_of(scene, settings_.along); }
   [[nodiscard]] bool in_range(double value) const { return value >= settings_.range[0] && value <= settings_.range[1]; }
   [[nodiscard]] WalkLimits limits() const { return {settings_.tolerance, settings_.largest_step}; }
 
@@ -76,7 +76,7 @@ class Follower {
     Vector axis(equations.unknowns(), 0.0);
     axis.back() = 1;
     if (from.special) {
-      const auto first = first_step(equations, start, from.direction);
+      const auto first = first_step(equations, start, from);
       if (!first) return record_.fail(record_.point(equations, start), "no step leads off its special point");
       record_.meet(*from.special, record_.branch());
       start.tangent = *first;
@@ -106,15 +106,17 @@ class Follower {
 
   /// The direction from a special point into a branch that begins there, in which it is motion between the stops.
   [[nodiscard]] std::optional<Vector> first_step(const OrbitEquations& equations, const CurvePoint& start,
-                                                 const std::optional<Vector>& direction) const {
+                                                 const Waiting& from) const {
     std::vector<Vector> tried;
-    if (direction) {
-      tried = {*direction};
+    if (from.direction) {
+      tried = {*from.direction};
     } else {
-      Vector axis(equations.unknowns(), 1.0);
+      Vector axis(equations.unknowns(), from.heading == 0 ? 1.0 : 0.0);
+      if (from.heading != 0) axis.back() = from.heading;
       const auto along = tangent(equations, start.at, axis);
       if (!along) return std::nullopt;
-      tried = {*along, sum(*along, -2.0, *along)};
+      tried = {*along};
+      if (from.heading == 0) tried.push_back(sum(*along, -2.0, *along));
     }
     for (const double s : {1e-5, 1e-4, 1e-3, 1e-2})
       for (const Vector& tangent_there : tried) {
@@ -201,9 +203,11 @@ class Follower {
           },
           false);
       const auto look_for_maximum = [&](SpecialKind of, Along (*measure)(const Moving&)) {
+        const auto at = [&, measure](const CurvePoint& p) { return measure(moving(equations, p.at, p.tangent)); };
+        const Along here = at(walk.here()), next = at(*there);
+        if (!changes(here) && !changes(next)) return;
         look(
-            of, [&, measure](const CurvePoint& p) { return measure(moving(equations, p.at, p.tangent)).slope[0]; },
-            true);
+            of, [at](const CurvePoint& p) { return at(p).slope[0]; }, true);
       };
       look_for_maximum(SpecialKind::impact_speed, impact_speed);
       if (problem_.observe.energy) look_for_maximum(SpecialKind::impact_power, impact_power);
@@ -266,6 +270,27 @@ class Follower {
     waiting_.push_back({at.scene, daughter, direction, special, generation_ + 1});
   }
 
+  /// Without restitution, a flight that begins with a turn into its stop doesn't begin: the mass is pressed, and rests.
+  /// Returns whether this is how the branch ends. The motion that rests waits then.
+  bool ends_in_rest(const OrbitEquations& equations, const Touch& touch, double step) {
+    const std::size_t impact = touch.impact - 1;
+    const Side side = equations.shape().impacts[impact].side;
+    if (touch.orbit.impacts[touch.impact].side != side) return false;
+    if (Parameters<double>(equations.scene_at(touch.beyond.at)).restitution(side) != 0) return false;
+    const OrbitEquations there = equations_for(equations.shape(), {{Condition::Kind::release, 1, impact}});
+    const auto exact = solution(there, touch.beyond.at, settings_.tolerance);
+    if (!exact || std::abs(exact->back() - touch.beyond.at.back()) > 10 * step) return false;
+    const BranchPoint last = record_.point(there, {*exact, {}, touch.last_good.arclength});
+    record_.add(last);
+    const auto [special, is_new] = record_.note(SpecialKind::chatter_limit, last);
+    record_.end(last, "chatter limit");
+    if (!is_new)
+      no_longer_waits(waiting_, special, last.orbit);  // this is the branch that waits there
+    else
+      resting().wait_beyond(last, side, (touch.beyond.at.back() - exact->back()) * width_, special, generation_);
+    return true;
+  }
+
   /// The branch ends within a step, at a graze.
   void end_in_graze(const OrbitEquations& equations, const Walk& walk, double step,
                     const std::optional<std::size_t>& from) {
@@ -273,6 +298,7 @@ class Follower {
     if (!touch) return record_.fail(record_.point(equations, walk.here()), no_step);
     if (special_between(equations, walk, touch->last_good.arclength - walk.here().arclength, from))
       return record_.end(record_.point(equations, touch->last_good), "born");
+    if (touch->appears && equations.shape().size() > 0 && ends_in_rest(equations, *touch, step)) return;
     const OrbitEquations there = equations_for(touch->orbit, {{Condition::Kind::graze, 1, touch->impact}});
     const Vector guess = there.unknowns_of(equations.scene_at(touch->beyond.at), touch->orbit);
     const auto exact = solution(there, guess, settings_.tolerance);
@@ -290,6 +316,7 @@ class Follower {
     record_.end(last, "graze");
     if (!is_new) return no_longer_waits(waiting_, special, last.orbit);  // this is the branch that waits there
     Orbit beyond = touch->appears ? with : without;
+    if (beyond.size() == 0 && at.scene.oscillator.stiffness == 0) return;  // it drifts, or has no place of its own
     if (beyond.size() == 0) beyond = Orbit{}.half_if_same(0.0, symmetric_);
     waiting_.push_back({at.scene, beyond, {}, special, generation_});
   }

@@ -37,7 +37,7 @@ enum class SpecialKind : std::uint8_t {
 struct BranchPoint {
   std::size_t branch = 0;
   double arclength = 0.0;  ///< from the branch's first point, in the units of the equations; backwards negative
-  Scene scene;
+  ShakenScene scene;
   Orbit orbit;
   bool stable = false;
   /// Of the whole period, the one of larger modulus first: real and imaginary parts.
@@ -53,7 +53,7 @@ struct SpecialPoint {
 /// How the end of a branch, or of a curve, came about.
 struct BranchEnd {
   std::size_t branch = 0;
-  Scene scene;         ///< of the last good point
+  ShakenScene scene;   ///< of the last good point
   std::string reason;  ///< "range", "graze", ..., or the words of a failure
   bool failed = false;
   bool of_curve = false;

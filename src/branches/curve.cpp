@@ -35,6 +35,12 @@ class CurveFollower {
         record_(axes_, settings.max_points) {}
 
   Branches run() {
+    using enum sweep::Parameter;
+    const auto shakes = [](sweep::Parameter parameter) {
+      return parameter == stop_amplitude || parameter == base_amplitude;
+    };
+    if (shakes(settings_.along) && shakes(*settings_.across))
+      throw StartError("stops and base can't be shaken at once; expected another branch.across");
     require_start_in_range(problem_, *settings_.across, settings_.across_range, "across");
     Branches along = follow_branches(problem_, settings_);
     std::erase_if(along.ends, [](const BranchEnd& end) { return !end.failed; });
@@ -158,7 +164,7 @@ class CurveFollower {
     if (touch->appears && of_multiplier) condition.without = touch->impact;
     if (touch->appears && !of_multiplier && touch->impact <= condition.impact) ++condition.impact;
     BranchPoint last = record_.point(equations, touch->last_good);
-    const Scene near = equations.scene_at(touch->beyond.at);
+    const ShakenScene near = equations.scene_at(touch->beyond.at);
     SpecialKind kind = of_multiplier && !touch->appears ? SpecialKind::resonant_graze : SpecialKind::graze;
     auto exact = solved({condition, {Condition::Kind::graze, 1, touch->impact}}, near, touch->orbit);
     for (const bool symmetric : {is_symmetric(near), false}) {
@@ -177,8 +183,9 @@ class CurveFollower {
   }
 
   /// The solution of an orbit's equations with two conditions near a guess; nothing if there is none near.
-  [[nodiscard]] std::optional<std::pair<Scene, Orbit>> solved(std::vector<Condition> conditions, const Scene& scene,
-                                                              const Orbit& orbit) const {
+  [[nodiscard]] std::optional<std::pair<ShakenScene, Orbit>> solved(std::vector<Condition> conditions,
+                                                                    const ShakenScene& scene,
+                                                                    const Orbit& orbit) const {
     const OrbitEquations equations = equations_for(orbit, std::move(conditions));
     const Vector guess = equations.unknowns_of(scene, orbit);
     const auto at = solution(equations, guess, settings_.tolerance);
@@ -236,7 +243,7 @@ class CurveFollower {
   /// Zero in a resonant graze: the nth iterate of the motion's map has no term in the square root of the distance from
   /// the graze (Simpson & Ghosh 2026).
   static double resonance(const OrbitEquations& equations, const Vector& at, int n) {
-    const Scene scene = equations.scene_at(at);
+    const ShakenScene scene = equations.scene_at(at);
     const Orbit orbit = equations.orbit_at(at);
     if (n == 1) {
       const ImpactMap map = impact_map(scene, orbit);

@@ -17,28 +17,6 @@ constexpr std::size_t by_begin = 0, by_before = 1, by_end = 2, by_first_axis = 3
 using First = Dual<double, most_variables>;
 using Second = Dual<First, 3>;  // of the first three, each with its derivatives by all of them
 
-double& reference_to(Scene& scene, Parameter parameter) {
-  switch (parameter) {
-    case Parameter::h:
-      return scene.oscillator.damping;
-    case Parameter::f:
-      return scene.oscillator.forcing;
-    case Parameter::nu:
-      return scene.oscillator.frequency;
-    case Parameter::load:
-      return scene.oscillator.load;
-    case Parameter::stop_lower:
-      return scene.stops.lower;
-    case Parameter::R_lower:
-      return scene.stops.restitution_lower;
-    case Parameter::R:
-    case Parameter::R_upper:
-      return scene.stops.restitution_upper;
-    default:
-      return scene.stops.upper;
-  }
-}
-
 /// Makes a parameter a variable.
 template <class Number>
 void vary(Parameters<Number>& p, Parameter parameter, std::size_t variable) {
@@ -57,6 +35,12 @@ void vary(Parameters<Number>& p, Parameter parameter, std::size_t variable) {
       return seed(p.nu, 1);
     case Parameter::load:
       return seed(p.load, 1);
+    case Parameter::stiffness:
+      return seed(p.k, 1);
+    case Parameter::stop_amplitude:
+      return seed(p.stop_amplitude, 1);
+    case Parameter::base_amplitude:
+      return seed(p.base_amplitude, 1);
     case Parameter::stop_lower:
       return seed(p.lower, 1);
     case Parameter::stop_upper:
@@ -89,10 +73,15 @@ Flight<Number> flight_of(const Orbit& orbit, std::size_t i) {
 }
 
 template <class Number>
-Parameters<Number> parameters_of(const Scene& scene, const std::vector<OrbitEquations::Axis>& axes) {
+Parameters<Number> parameters_of(const ShakenScene& scene, const std::vector<OrbitEquations::Axis>& axes) {
   Parameters<Number> p(scene);
   for (std::size_t k = 0; k < axes.size(); ++k) vary(p, axes[k].parameter, by_first_axis + k);
   return p;
+}
+
+/// Whether a parameter is one of those that vary.
+bool varies(const std::vector<OrbitEquations::Axis>& axes, Parameter parameter) {
+  return std::ranges::find(axes, parameter, &OrbitEquations::Axis::parameter) != axes.end();
 }
 
 template <class Number>
@@ -125,12 +114,12 @@ Link<Number> link_of(const std::array<Number, 3>& x, const std::array<Number, 3>
 bool last_is_mirrored(const Orbit& orbit, std::size_t i) { return orbit.mirrored && i + 1 == orbit.size(); }
 
 template <class Number>
-std::vector<Link<double>> links_of(const Scene& scene, const Orbit& orbit) {
-  return with_arcs(scene.oscillator, [&]<Effects E>() {
-    const Parameters<Number> p(scene);
+std::vector<Link<double>> links_of(const ShakenScene& scene, const Orbit& orbit) {
+  return with_arcs(scene, [&]<Effects E>() {
+    const Flights<Number, E> flights{Parameters<Number>(scene)};
     std::vector<Link<double>> links;
     for (std::size_t i = 0; i < orbit.size(); ++i) {
-      const FlightEnd<Number> end = fly<E>(p, flight_of<Number>(orbit, i));
+      const FlightEnd<Number> end = flights.fly(flight_of<Number>(orbit, i));
       links.push_back(link_of(end.beyond.slope, end.velocity.slope, last_is_mirrored(orbit, i)));
     }
     return links;
@@ -149,20 +138,7 @@ Number determinant_of(const Parameters<Number>& p, const Orbit& orbit) {
 
 }  // namespace
 
-Scene changed(Scene scene, Parameter parameter, double value) {
-  if (parameter == Parameter::xs) value = std::abs(value);
-  reference_to(scene, parameter) = value;
-  if (parameter == Parameter::xs) scene.stops.lower = -value;
-  if (parameter == Parameter::R) scene.stops.restitution_lower = value;
-  return scene;
-}
-
-double value_of(const Scene& scene, Parameter parameter) {
-  Scene copy = scene;
-  return reference_to(copy, parameter);
-}
-
-OrbitEquations::OrbitEquations(const Scene& scene, const Orbit& shape, std::vector<Axis> axes, double speed_unit,
+OrbitEquations::OrbitEquations(const ShakenScene& scene, const Orbit& shape, std::vector<Axis> axes, double speed_unit,
                                std::vector<Condition> conditions)
     : scene_(scene),
       shape_(shape),
@@ -176,7 +152,7 @@ std::optional<std::size_t> OrbitEquations::grazing() const {
   return std::nullopt;
 }
 
-Vector OrbitEquations::unknowns_of(const Scene& scene, const Orbit& orbit) const {
+Vector OrbitEquations::unknowns_of(const ShakenScene& scene, const Orbit& orbit) const {
   Vector z(unknowns());
   for (std::size_t i = 0; i < orbit.size(); ++i)
     z[2 * i] = orbit.impacts[i].phase, z[2 * i + 1] = orbit.impacts[i].before / speed_unit_;
@@ -192,15 +168,15 @@ Orbit OrbitEquations::orbit_at(const Vector& z) const {
   return orbit;
 }
 
-Scene OrbitEquations::scene_at(const Vector& z) const {
-  Scene scene = scene_;
+ShakenScene OrbitEquations::scene_at(const Vector& z) const {
+  ShakenScene scene = scene_;
   for (std::size_t k = 0; k < axes_.size(); ++k)
     scene = changed(scene, axes_[k].parameter, z[2 * shape_.size() + k] * axes_[k].unit);
   return scene;
 }
 
 std::optional<OrbitEquations::Linearised> OrbitEquations::at(const Vector& z) const {
-  const Scene scene = scene_at(z);
+  const ShakenScene scene = scene_at(z);
   const Orbit orbit = orbit_at(z);
   if (!(scene.oscillator.frequency > 0) || !(scene.stops.lower < scene.stops.upper)) return std::nullopt;
   for (const double number : z)
@@ -208,11 +184,11 @@ std::optional<OrbitEquations::Linearised> OrbitEquations::at(const Vector& z) co
   for (std::size_t i = 0; i < orbit.size(); ++i)
     if (!(orbit.impact(i).phase < orbit.impact(i + 1).phase)) return std::nullopt;
   Linearised out{Vector(equations(), 0.0), Matrix(equations(), unknowns())};
-  with_arcs(scene.oscillator, [&]<Effects E>() {
-    const Parameters<First> p = parameters_of<First>(scene, axes_);
+  const auto add_flights = [&]<Effects E>() {
+    const Flights<First, E> flights(parameters_of<First>(scene, axes_));
     const std::size_t count = orbit.size();
     for (std::size_t i = 0; i < count; ++i) {
-      const FlightEnd<First> end = fly<E>(p, flight_of<First>(orbit, i));
+      const FlightEnd<First> end = flights.fly(flight_of<First>(orbit, i));
       const bool closes = i + 1 == count;
       const std::size_t row = 2 * i, next = closes ? 0 : 2 * (i + 1);
       const double sign = last_is_mirrored(orbit, i) ? -1 : 1;
@@ -228,11 +204,14 @@ std::optional<OrbitEquations::Linearised> OrbitEquations::at(const Vector& z) co
       }
       out.slope(row + 1, next + 1) -= sign * speed_unit_;
     }
-  });
+  };
+  with_arcs(scene, add_flights, varies(axes_, Parameter::stiffness));
   std::size_t row = 2 * orbit.size();
   for (const Condition& condition : conditions_) {
     if (condition.kind == Condition::Kind::graze)
       add_graze(orbit, condition.impact, row, out);
+    else if (condition.kind == Condition::Kind::release)
+      add_release(scene, orbit.impacts[condition.impact], 2 * condition.impact, row, out);
     else
       add_multiplier(scene, orbit, condition, row, out);
     ++row;
@@ -245,22 +224,33 @@ void OrbitEquations::add_graze(const Orbit& orbit, std::size_t impact, std::size
   out.slope(row, 2 * impact + 1) = speed_unit_;
 }
 
-void OrbitEquations::add_multiplier(const Scene& scene, const Orbit& all, const Condition& condition, std::size_t row,
-                                    Linearised& out) const {
+void OrbitEquations::add_release(const ShakenScene& scene, const OrbitImpact& impact, std::size_t phase,
+                                 std::size_t row, Linearised& out) const {
+  const Parameters<First> p = parameters_of<First>(scene, axes_);
+  const auto [f, lead] = p.force();
+  const First force = f * sin(First(impact.phase, by_begin) + lead) + p.load - p.k * p.position(impact.side);
+  out.residual[row] = force.value;
+  out.slope(row, phase) = force.slope[by_begin];
+  for (std::size_t k = 0; k < axes_.size(); ++k)
+    out.slope(row, 2 * shape_.size() + k) = force.slope[by_first_axis + k] * axes_[k].unit;
+}
+
+void OrbitEquations::add_multiplier(const ShakenScene& scene, const Orbit& all, const Condition& condition,
+                                    std::size_t row, Linearised& out) const {
   const Orbit orbit = condition.without ? all.without(*condition.without) : all;
   const std::size_t count = orbit.size(), parameters = 2 * all.size();
   const auto unknown_of = [&](std::size_t impact) {
     return 2 * (impact + (condition.without && *condition.without <= impact));
   };
   std::vector<Link<First>> links;
-  Parameters<First> p = parameters_of<First>(scene, axes_);
-  with_arcs(scene.oscillator, [&]<Effects E>() {
-    const Parameters<Second> twice = parameters_of<Second>(scene, axes_);
+  const auto add_links = [&]<Effects E>() {
+    const Flights<Second, E> flights(parameters_of<Second>(scene, axes_));
     for (std::size_t i = 0; i < count; ++i) {
-      const FlightEnd<Second> end = fly<E>(twice, flight_of<Second>(orbit, i));
+      const FlightEnd<Second> end = flights.fly(flight_of<Second>(orbit, i));
       links.push_back(link_of(end.beyond.slope, end.velocity.slope, last_is_mirrored(orbit, i)));
     }
-  });
+  };
+  with_arcs(scene, add_links, varies(axes_, Parameter::stiffness));
   // g = c (1 + D) - sigma tr(K_n ... K_1), c the product of the links' denominators
   const auto plain = [](const Link<First>& link) {
     Square<double> k;
@@ -269,7 +259,7 @@ void OrbitEquations::add_multiplier(const Scene& scene, const Orbit& all, const 
     return k;
   };
   const double sigma = condition.multiplier;
-  const First determinant = determinant_of(p, orbit);
+  const First determinant = determinant_of(parameters_of<First>(scene, axes_), orbit);
   std::vector<Square<double>> before{{{{1, 0}, {0, 1}}}}, after(count + 1, {{{1, 0}, {0, 1}}});
   std::vector<double> c_before{1}, c_after(count + 1, 1.0);
   for (std::size_t i = 0; i < count; ++i) {
@@ -299,15 +289,16 @@ void OrbitEquations::add_multiplier(const Scene& scene, const Orbit& all, const 
     out.slope(row, parameters + k) += axes_[k].unit * c_before[count] * determinant.slope[by_first_axis + k];
 }
 
-ImpactMap impact_map(const Scene& scene, const Orbit& orbit) {
+ImpactMap impact_map(const ShakenScene& scene, const Orbit& orbit) {
   ImpactMap map{.determinant = determinant_of(Parameters<double>(scene), orbit)};
   if (orbit.size() == 0) {  // free motion around the response
-    with_arcs(scene.oscillator, [&]<Effects E>() {
-      const motion::ArcConstants<double, E> constants(scene.oscillator);
+    with_arcs(scene, [&]<Effects E>() {
+      const Flights<double, E> flights{Parameters<double>(scene)};
+      const motion::ArcConstants<double, E>& constants = flights.constants();
       const motion::Propagator<double> free = constants.propagator(orbit.advance() / constants.nu);
       const double sign = orbit.mirrored ? -1 : 1;
       map.numerator[0][0] = sign * free.a, map.numerator[0][1] = sign * free.b;
-      map.numerator[1][0] = -sign * free.b, map.numerator[1][1] = sign * free.c;
+      map.numerator[1][0] = -sign * constants.spring(free.b), map.numerator[1][1] = sign * free.c;
     });
     return map;
   }
@@ -320,7 +311,7 @@ ImpactMap impact_map(const Scene& scene, const Orbit& orbit) {
   return map;
 }
 
-std::vector<std::array<double, 2>> spread(const Scene& scene, const Orbit& orbit, std::array<double, 2> change) {
+std::vector<std::array<double, 2>> spread(const ShakenScene& scene, const Orbit& orbit, std::array<double, 2> change) {
   std::vector<std::array<double, 2>> changes{change};
   for (const Link<double>& link : links_of<Dual<double, 3>>(scene, orbit)) {
     const auto& k = link.numerator;

@@ -13,15 +13,12 @@
 
 namespace clatter::branches {
 
-/// A scene with one of its parameters changed; `xs` and `R` change both stops.
-[[nodiscard]] Scene changed(Scene scene, sweep::Parameter parameter, double value);
-[[nodiscard]] double value_of(const Scene& scene, sweep::Parameter parameter);
-
 /// An equation that singles out a special point on a branch, or a curve of them if two parameters vary.
 struct Condition {
   enum class Kind : std::uint8_t {
     multiplier,  ///< a multiplier of the orbit as it is kept is `multiplier`, +1 or -1
-    graze        ///< impact number `impact` has no speed
+    graze,       ///< impact number `impact` has no speed
+    release      ///< the force on the mass is zero at impact number `impact`, after which it may come to rest if R = 0
   };
   Kind kind = Kind::multiplier;
   int multiplier = 1;
@@ -42,7 +39,7 @@ class OrbitEquations {
     double unit = 1.0;
   };
 
-  OrbitEquations(const Scene& scene, const Orbit& shape, std::vector<Axis> axes, double speed_unit,
+  OrbitEquations(const ShakenScene& scene, const Orbit& shape, std::vector<Axis> axes, double speed_unit,
                  std::vector<Condition> conditions = {});
 
   [[nodiscard]] std::size_t equations() const { return 2 * shape_.size() + conditions_.size(); }
@@ -56,9 +53,9 @@ class OrbitEquations {
   /// Nothing if two impacts have changed places, or the scene has no positive frequency, or stops in the wrong order.
   [[nodiscard]] std::optional<Linearised> at(const Vector& unknowns) const;
 
-  [[nodiscard]] Vector unknowns_of(const Scene& scene, const Orbit& orbit) const;
+  [[nodiscard]] Vector unknowns_of(const ShakenScene& scene, const Orbit& orbit) const;
   [[nodiscard]] Orbit orbit_at(const Vector& unknowns) const;
-  [[nodiscard]] Scene scene_at(const Vector& unknowns) const;
+  [[nodiscard]] ShakenScene scene_at(const Vector& unknowns) const;
 
   [[nodiscard]] const Orbit& shape() const { return shape_; }
   [[nodiscard]] const std::vector<Axis>& axes() const { return axes_; }
@@ -68,11 +65,13 @@ class OrbitEquations {
   [[nodiscard]] std::optional<std::size_t> grazing() const;
 
  private:
+  void add_release(const ShakenScene& scene, const OrbitImpact& impact, std::size_t phase, std::size_t row,
+                   Linearised& out) const;
   void add_graze(const Orbit& orbit, std::size_t impact, std::size_t row, Linearised& out) const;
-  void add_multiplier(const Scene& scene, const Orbit& all, const Condition& condition, std::size_t row,
+  void add_multiplier(const ShakenScene& scene, const Orbit& all, const Condition& condition, std::size_t row,
                       Linearised& out) const;
 
-  Scene scene_;
+  ShakenScene scene_;
   Orbit shape_;
   std::vector<Axis> axes_;
   double speed_unit_;
@@ -92,10 +91,10 @@ struct ImpactMap {
     return denominator * (1 + determinant) - multiplier * (numerator[0][0] + numerator[1][1]);
   }
 };
-[[nodiscard]] ImpactMap impact_map(const Scene& scene, const Orbit& orbit);
+[[nodiscard]] ImpactMap impact_map(const ShakenScene& scene, const Orbit& orbit);
 
 /// [impact i][phase, velocity]: how a small change of the first impact spreads over the others.
-[[nodiscard]] std::vector<std::array<double, 2>> spread(const Scene& scene, const Orbit& orbit,
+[[nodiscard]] std::vector<std::array<double, 2>> spread(const ShakenScene& scene, const Orbit& orbit,
                                                         std::array<double, 2> change);
 
 }  // namespace clatter::branches

@@ -12,37 +12,29 @@ namespace {
 
 /// Calls `function(arc, length)` for each flight of an orbit in turn.
 template <class Function>
-void each_flight(const Scene& scene, const Orbit& orbit, Function&& function) {
-  with_arcs(scene.oscillator, [&]<Effects E>() {
-    const motion::ArcConstants<double, E> constants(scene.oscillator);
-    const Parameters<double> p(scene);
-    if (orbit.size() == 0) {
-      const Response<double> response = steady_response(p.h, p.f, p.nu);
-      const double x = p.load + response.displacement(0.0, 1.0), v = response.velocity(p.nu, 0.0, 1.0);
-      const motion::Arc<double, E> arc(constants, {0.0, x, v, constants.acceleration(x - p.load, v, 0.0), 0.0, 1.0});
-      return function(arc, 0.0, constants.period);
-    }
+void each_flight(const ShakenScene& scene, const Orbit& orbit, Function&& function) {
+  with_arcs(scene, [&]<Effects E>() {
+    const Flights<double, E> flights{Parameters<double>(scene)};
+    if (orbit.size() == 0) return function(flights.response_arc(), 0.0, flights.constants().period);
     for (std::size_t i = 0; i < orbit.size(); ++i) {
       OrbitImpact from = orbit.impact(i);
       const OrbitImpact to = orbit.impact(i + 1);
       if (to.rest > 0) continue;  // the flights that are left of a chatter reach nowhere
       from.phase += from.rest;
-      function(arc_of(constants, p, {from.side, from.phase, from.before, to.side, to.phase}), from.phase,
-               (to.phase - from.phase) / p.nu);
+      function(flights.arc({from.side, from.phase, from.before, to.side, to.phase}), from.phase,
+               (to.phase - from.phase) / flights.constants().nu);
     }
   });
 }
 
 /// The parameters of a scene that changes to another one, linearly, over `distance`.
-Parameters<Along> towards(const Scene& scene, const Scene& other, double distance) {
+Parameters<Along> towards(const ShakenScene& scene, const ShakenScene& other, double distance) {
   Parameters<Along> p(scene);
   const Parameters<double> here(scene), there(other);
-  const auto seed = [distance](Along& number, double from, double to) {
-    number.slope[0] = std::isfinite(from) ? (to - from) / distance : 0.0;
-  };
-  seed(p.h, here.h, there.h), seed(p.f, here.f, there.f), seed(p.nu, here.nu, there.nu);
-  seed(p.load, here.load, there.load), seed(p.lower, here.lower, there.lower), seed(p.upper, here.upper, there.upper);
-  seed(p.R_lower, here.R_lower, there.R_lower), seed(p.R_upper, here.R_upper, there.R_upper);
+  for (std::size_t i = 0; i < p.all.size(); ++i) {
+    const double from = here.*here.all[i], to = there.*there.all[i];
+    (p.*p.all[i]).slope[0] = std::isfinite(from) ? (to - from) / distance : 0.0;
+  }
   return p;
 }
 
@@ -69,29 +61,26 @@ Moving moving(const OrbitEquations& equations, const Vector& point, const Vector
   return m;
 }
 
-Moving moving_from_release(const Scene& scene, const Orbit& orbit, sweep::Parameter parameter) {
+Moving moving_from_release(const ShakenScene& scene, const Orbit& orbit, sweep::Parameter parameter) {
   constexpr std::size_t by_begin = 0, by_before = 1, by_end = 2, by_parameter = 3;
   using Four = Dual<double, 4>;
   constexpr double step = 1e-3;
   Moving m{towards(scene, changed(scene, parameter, value_of(scene, parameter) + step), step), {}, {}};
   Parameters<Four> p(scene);
-  constexpr Along Parameters<Along>::*from[] = {
-      &Parameters<Along>::h,     &Parameters<Along>::f,     &Parameters<Along>::nu,      &Parameters<Along>::load,
-      &Parameters<Along>::lower, &Parameters<Along>::upper, &Parameters<Along>::R_lower, &Parameters<Along>::R_upper};
-  constexpr Four Parameters<Four>::*to[] = {
-      &Parameters<Four>::h,     &Parameters<Four>::f,     &Parameters<Four>::nu,      &Parameters<Four>::load,
-      &Parameters<Four>::lower, &Parameters<Four>::upper, &Parameters<Four>::R_lower, &Parameters<Four>::R_upper};
-  for (std::size_t i = 0; i < std::size(from); ++i) (p.*to[i]).slope[by_parameter] = (m.p.*from[i]).slope[0];
+  for (std::size_t i = 0; i < p.all.size(); ++i) (p.*p.all[i]).slope[by_parameter] = (m.p.*m.p.all[i]).slope[0];
   m.period = Along(orbit.advance()) / m.p.nu;
-  // f sin(phase) + load = x at a release
+  // f sin(phase + lead) + load = k x at a release
+  const LeadingForce<Along> force = m.p.force();
   const auto release = [&](const OrbitImpact& rest) {
     Along phase(rest.phase + rest.rest);
-    const double sine = std::sin(phase.value), cosine = std::cos(phase.value);
+    const double of_force = phase.value + force.lead.value, sine = std::sin(of_force), cosine = std::cos(of_force);
+    const Along needed = m.p.k * m.p.position(rest.side) - m.p.load;
     phase.slope[0] =
-        (m.p.position(rest.side).slope[0] - m.p.load.slope[0] - m.p.f.slope[0] * sine) / (m.p.f.value * cosine);
+        (needed.slope[0] - force.amplitude.slope[0] * sine) / (force.amplitude.value * cosine) - force.lead.slope[0];
     return phase;
   };
-  with_arcs(scene.oscillator, [&]<Effects E>() {
+  const auto add_impacts = [&]<Effects E>() {
+    const Flights<Four, E> flights(p);
     OrbitImpact last = orbit.impacts.back();
     Along begin = release(last), before = 0;
     begin.value -= orbit.advance();
@@ -101,8 +90,9 @@ Moving moving_from_release(const Scene& scene, const Orbit& orbit, sweep::Parame
       if (impact.rest > 0) {
         end = release(impact), speed = 0;
       } else {
-        const FlightEnd<Four> flown = fly<E>(p, {last.side, Four(begin.value, by_begin), Four(before.value, by_before),
-                                                 impact.side, Four(impact.phase, by_end)});
+        const FlightEnd<Four> flown =
+            flights.fly({last.side, Four(begin.value, by_begin), Four(before.value, by_before), impact.side,
+                         Four(impact.phase, by_end)});
         const auto along = [&](const Four& number) {
           return number.slope[by_begin] * begin.slope[0] + number.slope[by_before] * before.slope[0] +
                  number.slope[by_parameter];
@@ -113,11 +103,12 @@ Moving moving_from_release(const Scene& scene, const Orbit& orbit, sweep::Parame
       }
       begin = end, before = speed, last = impact;
     }
-  });
+  };
+  with_arcs(scene, add_impacts, parameter == sweep::Parameter::stiffness);
   return m;
 }
 
-Multipliers multipliers(const Scene& scene, const Orbit& orbit) {
+Multipliers multipliers(const ShakenScene& scene, const Orbit& orbit) {
   if (orbit.rests()) return {{0, 0}, {0, 0}, true};
   const ImpactMap map = impact_map(scene, orbit);
   const double half = map.trace() / 2;
@@ -129,7 +120,7 @@ Multipliers multipliers(const Scene& scene, const Orbit& orbit) {
   return {{first.real(), second.real()}, {first.imag(), second.imag()}, stable};
 }
 
-PhasePoint state_at_phase_zero(const Scene& scene, const Orbit& orbit) {
+PhasePoint state_at_phase_zero(const ShakenScene& scene, const Orbit& orbit) {
   std::optional<PhasePoint> state;
   constexpr double turn = 2 * std::numbers::pi;
   const Orbit whole = orbit.whole();
@@ -147,7 +138,7 @@ PhasePoint state_at_phase_zero(const Scene& scene, const Orbit& orbit) {
   return {Parameters<double>(scene).position(rest->side), 0.0};
 }
 
-observables::Extrema extrema(const Scene& scene, const Orbit& orbit) {
+observables::Extrema extrema(const ShakenScene& scene, const Orbit& orbit) {
   observables::Extrema extrema;
   const Orbit whole = orbit.whole();
   each_flight(scene, whole, [&](const auto& arc, double begin, double length) { extrema.arc(arc, begin, length); });
@@ -165,7 +156,7 @@ double impact_speed(const Orbit& orbit) {
   return fastest;
 }
 
-double impact_power(const Scene& scene, const Orbit& orbit) {
+double impact_power(const ShakenScene& scene, const Orbit& orbit) {
   const Parameters<double> p(scene);
   double all = 0;
   for (std::size_t i = 0; i < orbit.size(); ++i)
@@ -187,14 +178,17 @@ Along impact_power(const Moving& moving) {
 }
 
 Along harmonic(const Moving& moving) {
-  // (1 - nu^2 + 2 i h nu) X = F + (1/T) sum of (v+ - v-) e^{-i phase}, with F = -i f/2; mirror images add the same
+  // (k - nu^2 + 2 i h nu) X = F + (1/T) sum of (v+ - v-) e^{-i phase}, F = -i f e^{i lead}/2; mirror images add the
+  // same
   const Parameters<Along>& p = moving.p;
-  Along re = 0, im = -p.f / 2;
+  const LeadingForce<Along> force = p.force();
+  Along re = force.amplitude * sin(force.lead) / 2, im = -force.amplitude * cos(force.lead) / 2;
   for (const auto& [side, phase, before, rests] : moving.impacts) {
     const Along jump = -(1 + p.restitution(side)) * before / moving.period;
     re += jump * cos(phase), im -= jump * sin(phase);
   }
-  const Along a = (1 - p.nu) * (1 + p.nu), b = 2 * p.h * p.nu;
+  const bool unit_spring = p.k == 1 && p.k.is_constant();
+  const Along a = unit_spring ? (1 - p.nu) * (1 + p.nu) : p.k - p.nu * p.nu, b = 2 * p.h * p.nu;
   return 2 * sqrt(re * re + im * im) / sqrt(a * a + b * b);
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <vector>
 
 #include "branches/equations.hpp"
@@ -15,18 +16,18 @@ struct Multipliers {
   std::array<double, 2> re, im;  ///< the one of larger modulus first
   bool stable;
 };
-[[nodiscard]] Multipliers multipliers(const Scene& scene, const Orbit& orbit);
+[[nodiscard]] Multipliers multipliers(const ShakenScene& scene, const Orbit& orbit);
 
 /// The state when the forcing phase is 0.
-[[nodiscard]] PhasePoint state_at_phase_zero(const Scene& scene, const Orbit& orbit);
+[[nodiscard]] PhasePoint state_at_phase_zero(const ShakenScene& scene, const Orbit& orbit);
 
 /// Least and greatest displacement and velocity.
-[[nodiscard]] observables::Extrema extrema(const Scene& scene, const Orbit& orbit);
+[[nodiscard]] observables::Extrema extrema(const ShakenScene& scene, const Orbit& orbit);
 
 /// Speed of the fastest impact.
 [[nodiscard]] double impact_speed(const Orbit& orbit);
 /// Energy lost in impacts per tau, per unit mass; a chatter that ends in rest loses all that it has.
-[[nodiscard]] double impact_power(const Scene& scene, const Orbit& orbit);
+[[nodiscard]] double impact_power(const ShakenScene& scene, const Orbit& orbit);
 
 /// A scene's parameters and an orbit's impacts with their derivatives along a branch.
 using Along = Dual<double, 1>;
@@ -44,7 +45,13 @@ struct Moving {
 [[nodiscard]] Moving moving(const OrbitEquations& equations, const Vector& point, const Vector& tangent);
 /// Along a parameter, for a motion that rests: its impacts follow from the release. Those of a chatter that ends in
 /// rest don't move.
-[[nodiscard]] Moving moving_from_release(const Scene& scene, const Orbit& orbit, sweep::Parameter parameter);
+[[nodiscard]] Moving moving_from_release(const ShakenScene& scene, const Orbit& orbit, sweep::Parameter parameter);
+
+/// Whether a quantity changes by more than rounding. The impact speed of a bouncing ball doesn't: gravity alone gives
+/// it.
+[[nodiscard]] inline bool changes(const Along& measure) {
+  return std::abs(measure.slope[0]) > 1e-11 * std::abs(measure.value);
+}
 
 /// Quantities that have maxima along a branch: speed of the fastest impact, energy lost in impacts per tau, and
 /// amplitude of the harmonic of x at the forcing frequency (eq. 28; of motion that doesn't rest).

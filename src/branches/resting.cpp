@@ -1,18 +1,20 @@
 #include "branches/resting.hpp"
 
 #include <algorithm>
+#include <boost/math/tools/roots.hpp>
 #include <cmath>
 #include <limits>
 #include <numbers>
 
 #include "attractors/exact_run.hpp"
+#include "sweep/sweep.hpp"
 
 namespace clatter::branches {
 namespace {
 
 constexpr double turn = 2 * std::numbers::pi;
 
-double position_of(const Scene& scene, Side stop) {
+double position_of(const ShakenScene& scene, Side stop) {
   return stop == Side::upper ? scene.stops.upper : scene.stops.lower;
 }
 
@@ -49,39 +51,57 @@ bool is_at_rest(const Orbit& orbit, Side side, double phase) {
 
 }  // namespace
 
-std::optional<double> release_phase(const Scene& scene, Side stop) {
-  const double f = scene.oscillator.forcing;
-  const double sine = (position_of(scene, stop) - scene.oscillator.load) / f;  // f sin(phase) + load = x
+std::optional<double> release_phase(const ShakenScene& scene, Side stop) {
+  const auto [f, lead] = Parameters<double>(scene).force();
+  const double sine = -constant_force(scene.oscillator, position_of(scene, stop)) / f;  // f sin(phase) + load = k x
   if (!(std::abs(sine) < 1)) return std::nullopt;
   const double rising = std::asin(sine), falling = std::numbers::pi - rising;
-  const double phase = sign_of(stop) * f * std::cos(rising) < 0 ? rising : falling;
-  return phase < 0 ? phase + turn : phase;
+  const double phase = (sign_of(stop) * f * std::cos(rising) < 0 ? rising : falling) - lead;
+  return phase < 0 ? phase + turn : phase < turn ? phase : phase - turn;
 }
 
-std::optional<double> release_tangency(const Scene& scene, Side stop, sweep::Parameter parameter) {
-  const double sign = sign_of(stop), load = scene.oscillator.load, f = std::abs(scene.oscillator.forcing);
-  const double x = position_of(scene, stop);  // tangency: x = load - sign |f|
+std::optional<double> release_tangency(const ShakenScene& scene, Side stop, sweep::Parameter parameter, double within) {
+  const double at = value_of(scene, parameter);
+  const auto near = [&](double value) { return std::abs(value - at) <= within ? std::optional(value) : std::nullopt; };
+  const double k = scene.oscillator.stiffness, load = scene.oscillator.load, sign = sign_of(stop);
+  const double f = std::abs(oscillator_in_frame(scene).forcing);
+  const double spring = k * position_of(scene, stop);  // tangency: k x = load - sign |f|
   switch (parameter) {
     case sweep::Parameter::f:
-      return std::copysign(sign * (load - x), scene.oscillator.forcing);
+      if (is_shaken(scene.shaking)) break;
+      return near(std::copysign(sign * (load - spring), scene.oscillator.forcing));
     case sweep::Parameter::load:
-      return x + sign * f;
+      return near(spring + sign * f);
     case sweep::Parameter::xs:
-      return sign * (load - sign * f);
+      return near(sign * (load - sign * f) / k);
     case sweep::Parameter::stop_lower:
-      return stop == Side::lower ? std::optional(load + f) : std::nullopt;
+      return stop == Side::lower ? near((load + f) / k) : std::nullopt;
     case sweep::Parameter::stop_upper:
-      return stop == Side::upper ? std::optional(load - f) : std::nullopt;
+      return stop == Side::upper ? near((load - f) / k) : std::nullopt;
     default:
-      return std::nullopt;
+      break;
   }
+  const auto least_pressure = [&](double value) {
+    const ShakenScene there = changed(scene, parameter, value);
+    return sign * constant_force(there.oscillator, position_of(there, stop)) -
+           std::abs(oscillator_in_frame(there).forcing);
+  };
+  const double low = at - within, high = at + within, first = least_pressure(low), last = least_pressure(high);
+  if (!((first < 0) != (last < 0))) return std::nullopt;
+  std::uintmax_t most = 60;
+  const auto [a, b] = boost::math::tools::toms748_solve(
+      least_pressure, low, high, first, last,
+      [at](double x, double y) { return std::abs(x - y) <= 4e-16 * std::abs(at); }, most);
+  return a + (b - a) / 2;
 }
 
 std::optional<Orbit> resting_orbit(const point::Problem& problem, Side stop, std::int64_t most_periods) {
   const std::optional<double> release = release_phase(problem, stop);
   if (!release) return std::nullopt;
   const double nu = problem.oscillator.frequency;
-  const point::Problem start = attractors::started(problem, {position_of(problem, stop), 0.0}, *release);
+  point::Problem in_frame = problem;
+  sweep::enter_shaken_frame(in_frame);
+  const point::Problem start = attractors::started(in_frame, {position_of(problem, stop), 0.0}, *release);
   for (std::int64_t periods = 1; periods <= most_periods; ++periods) {
     const auto round = attractors::run_round(start, static_cast<std::size_t>(periods));
     if (!round) return std::nullopt;

@@ -72,9 +72,7 @@ void RestingBranch::join(std::size_t branch, const Waiting& cascade) {
 }
 
 std::optional<Orbit> RestingBranch::orbit(double value, Side stop, const Orbit& like) const {
-  point::Problem problem = problem_;
-  static_cast<Scene&>(problem) = scene(value);
-  return resting_orbit(problem, stop, like.half_turns / 2);
+  return resting_orbit(with_scene(problem_, scene(value)), stop, like.half_turns / 2);
 }
 
 BranchPoint RestingBranch::point(double value, const Orbit& orbit) const {
@@ -125,10 +123,9 @@ bool RestingBranch::is_new_contact(const Orbit& one, const Orbit& other) const {
 
 void RestingBranch::end(double last, const Orbit& good, double beyond, const std::optional<Orbit>& other, int heading) {
   BranchPoint at = point(last, good);
-  const std::optional<double> tangency = release_tangency(at.scene, stop_, settings_.along);
   SpecialKind kind = SpecialKind::chatter_limit;
   // nearby, flights are too short to be told from rest
-  if (tangency && std::abs(*tangency - last) <= 1e-9 * (std::abs(last) + width_))
+  if (const auto tangency = release_tangency(at.scene, stop_, settings_.along, 1e-9 * (std::abs(last) + width_)))
     kind = SpecialKind::release_tangency, at.scene = scene(*tangency);
   else if (other && rests_of(*other) == rests_of(good))
     kind = SpecialKind::graze;
@@ -150,11 +147,21 @@ void RestingBranch::go_on_beyond(std::size_t limit, double last, const Orbit& go
                                  const std::optional<Orbit>& other, int heading) {
   if (other && rests_of(*other) > rests_of(good))
     return waiting_.push_back({scene(beyond), *other, {}, limit, generation_, heading});
+  if (Parameters<double>(scene(last)).restitution(stop_) == 0) wait_without_rest(limit, last, good, heading);
   const double value = last + heading * 1e-5 * width_;
   if (value < settings_.range[0] || value > settings_.range[1]) return;
   for (const Side stop : {Side::lower, Side::upper})
     if (const auto resting = orbit(value, stop, good))
       return waiting_.push_back({scene(value), *resting, {}, limit, generation_});
+}
+
+/// Without restitution, a rest that vanishes leaves its landing as an impact; if it was the only one, or so are all of
+/// them, motion without rest begins.
+void RestingBranch::wait_without_rest(std::size_t limit, double last, const Orbit& good, int heading) {
+  Orbit landings = good;
+  std::erase_if(landings.impacts, [](const OrbitImpact& impact) { return impact.rest > 0 && impact.rest < 1e-3; });
+  if (landings.rests()) return;
+  waiting_.push_back({scene(last), landings.half_if_same(1e-6, symmetric_), {}, limit, generation_, heading});
 }
 
 /// Largest speeds and losses between two values of the parameter.
@@ -180,17 +187,30 @@ bool RestingBranch::waits_beyond(const BranchPoint& last, Side stop, std::int64_
   const auto first = std::ranges::find(record_.found().points, record_.branch(), &BranchPoint::branch);
   const double end = value_of(last.scene, settings_.along), distance = end - value_of(first->scene, settings_.along);
   if (last.orbit.size() < 8 || distance == 0 || std::abs(distance) > 1e-5 * width_) return false;
+  const auto resting = resting_ahead(last, stop, distance);
+  if (resting)
+    waiting_.push_back(
+        {scene(resting->first), resting->second, {}, {}, generation, 0, record_.branch(), distance > 0 ? -1 : 1});
+  return resting.has_value();
+}
+
+void RestingBranch::wait_beyond(const BranchPoint& last, Side stop, double ahead, std::size_t special,
+                                std::int64_t generation) {
+  if (const auto resting = resting_ahead(last, stop, ahead))
+    waiting_.push_back({scene(resting->first), resting->second, {}, special, generation, ahead > 0 ? 1 : -1});
+}
+
+std::optional<std::pair<double, Orbit>> RestingBranch::resting_ahead(const BranchPoint& last, Side stop,
+                                                                     double ahead) const {
   const Orbit whole = last.orbit.whole();
-  for (double ahead = distance; std::abs(ahead) < 0.01 * width_; ahead *= 2) {
+  const double end = value_of(last.scene, settings_.along);
+  for (; ahead != 0 && std::abs(ahead) < 0.01 * width_; ahead *= 2) {
     const double value = end + ahead;
-    if (value < settings_.range[0] || value > settings_.range[1]) return false;
-    const auto resting = orbit(value, stop, whole);
-    if (resting && rests_of(*resting) > rests_of(whole)) {
-      waiting_.push_back({scene(value), *resting, {}, {}, generation, 0, record_.branch(), ahead > 0 ? -1 : 1});
-      return true;
-    }
+    if (value < settings_.range[0] || value > settings_.range[1]) return std::nullopt;
+    auto resting = orbit(value, stop, whole);
+    if (resting && rests_of(*resting) > rests_of(whole)) return std::pair(value, std::move(*resting));
   }
-  return false;
+  return std::nullopt;
 }
 
 }  // namespace clatter::branches

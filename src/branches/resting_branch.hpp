@@ -2,6 +2,7 @@
 
 #include <deque>
 #include <optional>
+#include <utility>
 
 #include "branches/record.hpp"
 
@@ -9,12 +10,12 @@ namespace clatter::branches {
 
 /// A branch that waits to be followed.
 struct Waiting {
-  Scene scene;
+  ShakenScene scene;
   Orbit orbit;
   std::optional<Vector> direction{};     ///< along which it begins; nothing: both ways
   std::optional<std::size_t> special{};  ///< that it comes from
   std::int64_t generation = 0;
-  int heading = 0;                       ///< of motion that rests: up or down the parameter; 0: both ways
+  int heading = 0;                       ///< up or down the parameter; 0: both ways
   std::optional<std::size_t> cascade{};  ///< the branch that came near it through ever more grazes
   int cascade_side = 0;                  ///< on which that lies: up or down the parameter
 };
@@ -36,14 +37,22 @@ class RestingBranch {
   /// rest just at its release. Returns whether this is so; the motion that rests, not far beyond, waits then.
   bool waits_beyond(const BranchPoint& last, Side stop, std::int64_t generation);
 
+  /// The motion that rests on a stop beyond the special point in which a branch without that rest ended, some way ahead
+  /// of it or a little further, waits.
+  void wait_beyond(const BranchPoint& last, Side stop, double ahead, std::size_t special, std::int64_t generation);
+
  private:
-  [[nodiscard]] Scene scene(double value) const { return changed(problem_, settings_.along, value); }
+  [[nodiscard]] ShakenScene scene(double value) const { return changed(problem_, settings_.along, value); }
   [[nodiscard]] std::optional<Orbit> orbit(double value, Side stop, const Orbit& like) const;
+  /// The motion with one rest more that begins at least so far ahead of a branch's end, and its parameter.
+  [[nodiscard]] std::optional<std::pair<double, Orbit>> resting_ahead(const BranchPoint& last, Side stop,
+                                                                      double ahead) const;
   [[nodiscard]] BranchPoint point(double value, const Orbit& orbit) const;
   [[nodiscard]] std::pair<double, double> change_between(double good, double bad, const Orbit& orbit) const;
   [[nodiscard]] bool is_new_contact(const Orbit& one, const Orbit& other) const;
   void walk(Orbit orbit, int heading);
   void end(double last, const Orbit& good, double beyond, const std::optional<Orbit>& other, int heading);
+  void wait_without_rest(std::size_t limit, double last, const Orbit& good, int heading);
   void go_on_beyond(std::size_t limit, double last, const Orbit& good, double beyond, const std::optional<Orbit>& other,
                     int heading);
   void join(std::size_t branch, const Waiting& cascade);

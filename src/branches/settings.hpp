@@ -11,8 +11,19 @@
 namespace clatter::branches {
 
 /// The keys of [scene] along which a motion can be followed.
-inline constexpr std::array<std::string_view, 10> parameter_names{
-    "h", "f", "nu", "R", "xs", "stop_lower", "stop_upper", "R_lower", "R_upper", "load"};
+inline constexpr std::array<std::string_view, 13> parameter_names{"h",
+                                                                  "f",
+                                                                  "nu",
+                                                                  "R",
+                                                                  "xs",
+                                                                  "stop_lower",
+                                                                  "stop_upper",
+                                                                  "R_lower",
+                                                                  "R_upper",
+                                                                  "load",
+                                                                  "stiffness",
+                                                                  "stop_amplitude",
+                                                                  "base_amplitude"};
 
 /// The special points that can be followed in two parameters.
 inline constexpr std::array<std::string_view, 4> curve_names{"fold", "flip", "symmetry breaking", "graze"};

@@ -1,6 +1,7 @@
 #include "branches/start.hpp"
 
 #include <cmath>
+#include <numbers>
 #include <string>
 
 #include "attractors/periodic_motion.hpp"
@@ -8,23 +9,33 @@
 #include "branches/resting.hpp"
 #include "model/response.hpp"
 #include "point/point.hpp"
+#include "sweep/sweep.hpp"
 
 namespace clatter::branches {
 namespace {
 
-/// The state at forcing phase 0 that a problem settles on, and its period.
+/// The state at phase 0 that a problem, in its frame, settles on, and its period.
 std::pair<PhasePoint, std::int64_t> settled(point::Problem problem) {
   problem.observe = {};
   problem.observe.attractor = true;
   problem.time.mode = steady::Mode::steady;
   point::ThreadScratch scratch;
   const point::PointResult result = run_point(problem, scratch);
+  if (result.status == steady::Status::escaped)
+    throw StartError(
+        "the mass escapes from the start, as nothing brings it back; begin between stops, or nearer to one");
   if (failed(result.status)) throw StartError("the run to the motion at the start fails");
   if (!(result.attractor_periods > 0))
     throw StartError(
         "the scene settles on no periodic motion within time.max_periods; begin elsewhere in the range, raise "
         "time.max_periods, or set branch.period and, near a periodic motion, x0 and v0");
-  return {{result.attractor_x, result.attractor_v}, static_cast<std::int64_t>(result.attractor_periods)};
+  const auto periods = static_cast<std::int64_t>(result.attractor_periods);
+  const PhasePoint there{result.attractor_x, result.attractor_v};  // at the phase of the start
+  const double phase = problem.start.phase - problem.shaking.lead, turns = phase / (2 * std::numbers::pi);
+  if (std::ceil(turns) == turns) return {there, periods};
+  const auto state = attractors::state_after(attractors::started(problem, there, phase), std::ceil(turns) - turns);
+  if (!state) throw StartError("the run to the motion at the start fails");
+  return {*state, periods};
 }
 
 Orbit resting_start(const point::Problem& problem, Side stop, std::int64_t period) {
@@ -39,7 +50,7 @@ Orbit resting_start(const point::Problem& problem, Side stop, std::int64_t perio
 
 }  // namespace
 
-void require_start_in_range(const Scene& scene, sweep::Parameter parameter, const std::array<double, 2>& range,
+void require_start_in_range(const ShakenScene& scene, sweep::Parameter parameter, const std::array<double, 2>& range,
                             const std::string& key) {
   using enum sweep::Parameter;
   const Stops& stops = scene.stops;
@@ -56,12 +67,23 @@ void require_start_in_range(const Scene& scene, sweep::Parameter parameter, cons
     throw StartError(interval + " reaches the upper stop; end it below stop_upper");
   if (parameter == stop_upper && range[0] <= stops.lower && std::isfinite(range[0]))
     throw StartError(interval + " reaches the lower stop; begin it above stop_lower");
-  if (parameter == h && at == 1)
-    throw StartError("derivatives by h don't exist at h = 1, where the formulas change; begin at another scene.h");
+  const double k = scene.oscillator.stiffness, critical = scene.oscillator.damping * scene.oscillator.damping;
+  if (parameter == h && k == critical)
+    throw StartError(
+        "derivatives by h don't exist at h^2 = stiffness, where the formulas change; begin at another "
+        "scene.h");
+  if (parameter == stiffness && (k == 0 || k == critical))
+    throw StartError(
+        "derivatives by stiffness don't exist at 0 and at h^2, where the formulas change; begin at another "
+        "scene.stiffness");
+  if ((parameter == stop_amplitude && scene.shaking.base != 0) ||
+      (parameter == base_amplitude && scene.shaking.stops != 0))
+    throw StartError("stops and base can't be shaken at once; branch." + key + " = " + name + " needs " +
+                     (parameter == stop_amplitude ? "base_amplitude" : "stop_amplitude") + " = 0");
 }
 
-double speed_scale(const Scene& scene, const Orbit& orbit) {
-  const Oscillator& oscillator = scene.oscillator;
+double speed_scale(const ShakenScene& scene, const Orbit& orbit) {
+  const Oscillator oscillator = oscillator_in_frame(scene);
   const double nu = oscillator.frequency;
   const double response = nu * steady_response(oscillator).amplitude;
   const double free = std::isfinite(response) ? response : std::abs(oscillator.forcing);
@@ -69,12 +91,14 @@ double speed_scale(const Scene& scene, const Orbit& orbit) {
   return speed > 1e-2 * free ? speed : std::max(free, 1e-12);
 }
 
-Orbit start_orbit(const point::Problem& problem, std::int64_t period, bool symmetric) {
+Orbit start_orbit(const point::Problem& given, std::int64_t period, bool symmetric) {
+  point::Problem problem = given;
+  sweep::enter_shaken_frame(problem);
   if (problem.oscillator.forcing == 0) throw StartError("a branch needs a force, whose periods it counts: set scene.f");
   PhasePoint state{problem.start.displacement, problem.start.velocity};
   if (period == 0) {
     std::tie(state, period) = settled(problem);
-  } else if (problem.start.phase != 0) {
+  } else if (given.start.phase != 0) {
     throw StartError("with branch.period, x0 and v0 stand at forcing phase 0: leave out scene.phase");
   }
   // Newton's method on the map of the periods; unless a contact appears or vanishes on the way it gets there
@@ -84,7 +108,9 @@ Orbit start_orbit(const point::Problem& problem, std::int64_t period, bool symme
   if (!round) throw StartError("the run from the start fails");
   Orbit orbit = orbit_of(*round, problem.oscillator.frequency);
   for (const OrbitImpact& impact : orbit.impacts)
-    if (impact.before == 0) return resting_start(problem, impact.side, period);
+    if (impact.before == 0) return resting_start(given, impact.side, period);
+  if (orbit.size() == 0 && problem.oscillator.stiffness == 0)
+    throw StartError("without a spring, motion without impacts has no place of its own; begin where it meets a stop");
   return orbit.half_if_same(1e-6, symmetric);
 }
 

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "branches/orbit.hpp"
-#include "point/problem.hpp"
+#include "branches/shaken_scene.hpp"
 #include "sweep/parameter.hpp"
 
 namespace clatter::branches {
@@ -18,11 +18,11 @@ struct StartError : std::runtime_error {
 
 /// Throws StartError if a scene's parameter can't be followed over a range from its present value on. `key` says which
 /// parameter of [branch] it is: "along" or "across".
-void require_start_in_range(const Scene& scene, sweep::Parameter parameter, const std::array<double, 2>& range,
+void require_start_in_range(const ShakenScene& scene, sweep::Parameter parameter, const std::array<double, 2>& range,
                             const std::string& key);
 
 /// A speed of the order of the motion's: that of its fastest impact, or if that is hardly one, of the response.
-[[nodiscard]] double speed_scale(const Scene& scene, const Orbit& orbit);
+[[nodiscard]] double speed_scale(const ShakenScene& scene, const Orbit& orbit);
 
 /// The periodic motion that a branch begins with: that which the scene settles on, or, for a period > 0 in forcing
 /// periods, that near x0, v0; kept as a half if it is its own mirror image and `symmetric` scenes follow. Motion that

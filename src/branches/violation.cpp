@@ -40,20 +40,19 @@ std::optional<Violation> cut_short(const Scene& scene, const motion::Arc<double,
 
 }  // namespace
 
-std::optional<Violation> violation(const Scene& scene, const Orbit& orbit, std::optional<std::size_t> grazing) {
+std::optional<Violation> violation(const ShakenScene& scene, const Orbit& orbit, std::optional<std::size_t> grazing) {
   for (std::size_t i = 0; i < orbit.size(); ++i)
     if (i != grazing && !(sign_of(orbit.impacts[i].side) * orbit.impacts[i].before > 0))
       return Violation{Violation::Kind::pulls, i, {}};
-  return with_arcs(scene.oscillator, [&]<Effects E>() -> std::optional<Violation> {
-    const motion::ArcConstants<double, E> constants(scene.oscillator);
-    const Parameters<double> p(scene);
+  return with_arcs(scene, [&]<Effects E>() -> std::optional<Violation> {
+    const Flights<double, E> flights{Parameters<double>(scene)};
+    const Parameters<double>& p = flights.parameters();
     if (orbit.size() == 0) {
-      const Response<double> response = steady_response(p.h, p.f, p.nu);
-      const double x = p.load + response.displacement(0.0, 1.0), v = response.velocity(p.nu, 0.0, 1.0);
-      const motion::Arc<double, E> arc(constants, {0.0, x, v, constants.acceleration(x - p.load, v, 0.0), 0.0, 1.0});
+      const motion::Arc<double, E> arc = flights.response_arc();
       for (const Side side : {Side::lower, Side::upper})  // begins beyond the stop
-        if (sign_of(side) * (x - p.position(side)) > 0) {
-          const double sign = sign_of(side), turn = std::atan2(sign * response.in_phase, sign * response.quadrature);
+        if (const double sign = sign_of(side); sign * (arc.start().x - p.position(side)) > 0) {
+          const Response<double> response = flights.response();
+          const double turn = std::atan2(sign * response.in_phase, sign * response.quadrature) - flights.lead();
           return Violation{Violation::Kind::passes_through, 0, {side, turn, 0.0}};
         }
       return cut_short(scene, arc, 0.0, orbit.advance() / p.nu, 0, Side::none);
@@ -62,7 +61,7 @@ std::optional<Violation> violation(const Scene& scene, const Orbit& orbit, std::
       OrbitImpact from = orbit.impact(i);
       const OrbitImpact to = orbit.impact(i + 1);
       if (i == grazing) from.before = 0;
-      const motion::Arc<double, E> arc = arc_of(constants, p, {from.side, from.phase, from.before, to.side, to.phase});
+      const motion::Arc<double, E> arc = flights.arc({from.side, from.phase, from.before, to.side, to.phase});
       if (auto found = cut_short(scene, arc, from.phase, (to.phase - from.phase) / p.nu, i, to.side)) return found;
     }
     return std::nullopt;

@@ -20,7 +20,7 @@ struct Violation {
 
 /// The first violation of an orbit, by the proof of first contact on each of its flights; nothing: it is a motion. The
 /// impact `grazing` may be without speed.
-[[nodiscard]] std::optional<Violation> violation(const Scene& scene, const Orbit& orbit,
+[[nodiscard]] std::optional<Violation> violation(const ShakenScene& scene, const Orbit& orbit,
                                                  std::optional<std::size_t> grazing = {});
 /// Of a point of a branch or a curve.
 [[nodiscard]] inline std::optional<Violation> violation(const OrbitEquations& equations, const Vector& point) {

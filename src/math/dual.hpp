@@ -87,6 +87,25 @@ struct Dual {
     using std::atan;
     return chained(atan(x.value), T(1) / (T(1) + x.value * x.value), x);
   }
+  friend Dual atan2(const Dual& y, const Dual& x) {
+    using std::atan2;
+    const T square = x.value * x.value + y.value * y.value;
+    Dual angle(atan2(y.value, x.value));
+    for (std::size_t i = 0; i < n; ++i) angle.slope[i] = (x.value * y.slope[i] - y.value * x.slope[i]) / square;
+    return angle;
+  }
+  friend Dual hypot(const Dual& x, const Dual& y) {
+    using std::hypot;
+    Dual length(hypot(x.value, y.value));
+    for (std::size_t i = 0; i < n; ++i) length.slope[i] = (x.value * x.slope[i] + y.value * y.slope[i]) / length.value;
+    return length;
+  }
+  friend Dual fma(const Dual& x, const Dual& y, const Dual& z) {
+    using std::fma;
+    Dual sum(fma(x.value, y.value, z.value));
+    for (std::size_t i = 0; i < n; ++i) sum.slope[i] = x.slope[i] * y.value + x.value * y.slope[i] + z.slope[i];
+    return sum;
+  }
   friend Dual abs(const Dual& x) { return x.value < T(0) ? -x : x; }
 
  private:

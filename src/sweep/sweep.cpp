@@ -3,18 +3,13 @@
 #include <algorithm>
 
 namespace clatter::sweep {
-namespace {
 
-/// Puts the force in the moving frame in place of the shaking (eqs. 39 to 41); phases that the user gave are those of
-/// the shaking.
 void enter_shaken_frame(point::Problem& problem) {
   if (!is_shaken(problem.shaking)) return;
   const auto [amplitude, lead] = force_in_frame(problem.oscillator, problem.shaking);
   problem.oscillator.forcing = amplitude, problem.shaking.lead = lead;
   problem.start.phase += lead, problem.observe.section_phase += lead;
 }
-
-}  // namespace
 
 bool is_shaken(const Sweep& sweep) {
   const auto shakes = [](const Axis& axis) {

@@ -69,6 +69,10 @@ void each_coordinate(const Sweep& sweep, std::size_t point, const Take& take) {
 /// Whether stops or base are shaken at any point.
 [[nodiscard]] bool is_shaken(const Sweep& sweep);
 
+/// Puts the force in the moving frame in place of the shaking of a problem as the user gave it (eqs. 39 to 41); phases
+/// that the user gave are those of the shaking.
+void enter_shaken_frame(point::Problem& problem);
+
 /// The problem of a point, 0 <= point < size(sweep), in row-major order of the directions and dimensions, in the units
 /// that it is computed in; of a shaken scene that in the moving frame.
 [[nodiscard]] point::Problem problem_at(const Sweep& sweep, std::size_t point);

@@ -125,7 +125,7 @@ TEST(Curve, of_folds_is_that_of_the_closed_form) {
   for (const BranchPoint& point : found.points) {
     ASSERT_TRUE(point.orbit.mirrored);
     const double nu = point.scene.oscillator.frequency, h = 0.1, R = 0.7, g = point.scene.stops.upper;
-    with_arcs(point.scene.oscillator, [&]<Effects E>() {
+    with_arcs(point.scene, [&]<Effects E>() {
       const motion::ArcConstants<double, E> constants(point.scene.oscillator);
       const auto flow = constants.propagator(M_PI / nu);
       const double d = 1 + flow.a + flow.c + std::exp(-2 * h * M_PI / nu), alpha = (1 + R) * flow.b / d;

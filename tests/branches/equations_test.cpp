@@ -55,7 +55,7 @@ struct ClosedForm {
 };
 std::vector<ClosedForm> closed_forms(const Scene& scene) {
   using N = FiftyDigits;
-  return with_arcs(scene.oscillator, [&]<Effects E>() -> std::vector<ClosedForm> {
+  return with_arcs(scene, [&]<Effects E>() -> std::vector<ClosedForm> {
     const HalfPeriod<E> half(scene);
     const auto& [R, g, c, flow, d, alpha, gamma, square] = half;
     const N amplitude = c.response.amplitude;
@@ -112,7 +112,7 @@ struct Fold {
 };
 std::optional<Fold> fold_of(const Scene& scene) {
   using N = FiftyDigits;
-  return with_arcs(scene.oscillator, [&]<Effects E>() -> std::optional<Fold> {
+  return with_arcs(scene, [&]<Effects E>() -> std::optional<Fold> {
     const HalfPeriod<E> half(scene);
     const auto& [R, g, c, flow, d, alpha, gamma, square] = half;
     const N amplitude = g * abs(gamma) / sqrt(square);
@@ -157,55 +157,6 @@ TEST(OrbitEquations, know_the_multipliers_of_an_unstable_motion) {
   EXPECT_NEAR(equations.orbit_at(*at).impacts[0].before, 0.205083731882872, 1e-14);
   const ImpactMap map = impact_map(scene, equations.orbit_at(*at));
   EXPECT_NEAR(map.trace() / 2 + std::sqrt(map.trace() * map.trace() / 4 - map.determinant), 10.4402938, 5e-8);
-}
-
-/// The end of a flight in 50 digits, at parameters and instants that are a step away along one of them.
-struct Stepped {
-  FiftyDigits begin, before, end, h, f, nu, load, upper, R;
-};
-FlightEnd<FiftyDigits> flown(const Stepped& s) {
-  Scene scene = symmetric_scene(0.1, 1.0, 1.0, 0.7, 1.0);
-  Parameters<FiftyDigits> p(scene);
-  p.h = s.h, p.f = s.f, p.nu = s.nu, p.load = s.load, p.upper = s.upper, p.lower = -s.upper, p.R_lower = s.R;
-  const Flight<FiftyDigits> flight{Side::lower, s.begin, s.before, Side::upper, s.end};
-  if (s.h >= 1) return fly<Effects{Damping::heavy, Forcing::regular}>(p, flight);
-  return fly<Effects{Damping::light, Forcing::regular}>(p, flight);
-}
-
-TEST(Flight, has_the_derivatives_that_differences_in_fifty_digits_have) {
-  using Six = Dual<double, 9>;
-  constexpr FiftyDigits Stepped::*variables[] = {&Stepped::begin, &Stepped::before, &Stepped::end,
-                                                 &Stepped::h,     &Stepped::f,      &Stepped::nu,
-                                                 &Stepped::load,  &Stepped::upper,  &Stepped::R};
-  std::mt19937 random(5);
-  for (int i = 0; i < 100; ++i) {
-    const auto in = [&](double a, double b) { return std::uniform_real_distribution(a, b)(random); };
-    const double nu = in(0.2, 4), h = i % 4 == 0 ? in(1.1, 2) : in(0.01, 0.9);
-    const Stepped here{in(0, 6), in(-2, -0.1), 0, h, in(0.2, 2), nu, in(-0.3, 0.3), in(0.2, 2), in(0, 1)};
-    Stepped at = here;
-    at.end = here.begin + nu * in(0.05, 6);
-    Parameters<Six> p(symmetric_scene(0, 0, 1, 1, 1));
-    const auto variable = [&](std::size_t k) { return Six(static_cast<double>(at.*variables[k]), k); };
-    p.h = variable(3), p.f = variable(4), p.nu = variable(5), p.load = variable(6), p.upper = variable(7);
-    p.lower = -variable(7), p.R_lower = variable(8);
-    const Flight<Six> flight{Side::lower, variable(0), variable(1), Side::upper, variable(2)};
-    const FlightEnd<Six> exact = h >= 1 ? fly<Effects{Damping::heavy, Forcing::regular}>(p, flight)
-                                 : std::hypot(h, nu - 1) < secular_distance
-                                     ? fly<Effects{Damping::light, Forcing::secular}>(p, flight)
-                                     : fly<Effects{Damping::light, Forcing::regular}>(p, flight);
-    for (std::size_t k = 0; k < 9; ++k) {
-      const FiftyDigits step("1e-16");  // error of a central difference: 1e-32 and 1e-34
-      Stepped ahead = at, behind = at;
-      ahead.*variables[k] += step, behind.*variables[k] -= step;
-      const auto a = flown(ahead), b = flown(behind);
-      const double x = static_cast<double>((a.beyond - b.beyond) / (2 * step)),
-                   v = static_cast<double>((a.velocity - b.velocity) / (2 * step));
-      EXPECT_NEAR(exact.beyond.slope[k], x, 2e-12 * (1 + std::abs(x)) / std::min(1.0, std::abs(1 - h)))
-          << i << ' ' << k;
-      EXPECT_NEAR(exact.velocity.slope[k], v, 2e-12 * (1 + std::abs(v)) / std::min(1.0, std::abs(1 - h)))
-          << i << ' ' << k;
-    }
-  }
 }
 
 TEST(OrbitEquations, of_a_multiplier_have_the_derivatives_of_their_differences) {

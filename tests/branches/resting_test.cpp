@@ -7,6 +7,7 @@
 #include "branches/branch.hpp"
 #include "branches/measures.hpp"
 #include "branches/special_values.hpp"
+#include "branches/symmetric_motion.hpp"
 #include "point/point.hpp"
 
 namespace clatter::branches {
@@ -115,6 +116,41 @@ TEST(ChatterLimit, separates_runs_that_rest_from_runs_that_do_not) {
   const double limit = special_values(found, SpecialKind::chatter_limit, Parameter::nu).at(0);
   EXPECT_TRUE(resting_orbit(two_stops(limit * (1 - 1e-13)), Side::upper, 1));
   EXPECT_FALSE(resting_orbit(two_stops(limit * (1 + 1e-13)), Side::upper, 1));
+}
+
+/// Without restitution there is no chatter: the landing itself comes to be at the release. Then half a period's flight
+/// from one stop's release ends on the other, which is one equation for nu.
+TEST(ChatterLimit, without_restitution_joins_landings_that_rest_and_landings_that_do_not) {
+  const auto at = [](double nu) {
+    point::Problem problem = two_stops(nu);
+    problem.stops = {-0.5, 0.5, 0.0, 0.0};
+    return problem;
+  };
+  const BranchSettings settings{.range = {1.0, 3.0}};
+  const Branches down = follow_branches(at(2.0), settings), up = follow_branches(at(1.2), settings);
+  for (const Branches& found : {down, up}) {
+    for (const BranchEnd& end : found.ends) EXPECT_FALSE(end.failed) << end.reason;
+    const std::vector<double> limits = special_values(found, SpecialKind::chatter_limit, Parameter::nu);
+    ASSERT_EQ(limits.size(), 1);
+    const double nu = limits[0], h = 0.1, g = 0.5;
+    const auto flow = free_flow(h, 1.0, std::numbers::pi / nu);
+    const Response<double> response = steady_response(h, 1.0, nu);
+    const double sine = -g, cosine = std::sqrt(1 - g * g);  // released from the lower stop: f sin = -g, rising
+    const double x = response.displacement(sine, cosine), v = response.velocity(nu, sine, cosine);
+    EXPECT_NEAR(-x + flow[0] * (-g - x) + flow[1] * -v, g, 1e-12);
+    const auto limit = std::ranges::find(found.special, SpecialKind::chatter_limit, &SpecialPoint::kind);
+    EXPECT_EQ(limit->branches.size(), 2);
+    EXPECT_EQ(special_values(found, SpecialKind::fold, Parameter::nu).size(), 1);
+    std::size_t resting = 0, landing = 0;
+    for (const BranchPoint& point : found.points) {
+      const double here = point.scene.oscillator.frequency;
+      if (point.orbit.size() == 0) continue;
+      EXPECT_TRUE(point.orbit.rests() ? here <= nu + 1e-9 : here >= nu - 1e-9 || !point.stable) << here;
+      ++(point.orbit.rests() ? resting : landing);
+    }
+    EXPECT_GT(resting, 20);
+    EXPECT_GT(landing, 20);
+  }
 }
 
 TEST(ReleaseTangency, is_where_load_and_force_balance) {

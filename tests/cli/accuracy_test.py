@@ -137,6 +137,14 @@ class Accuracy(AccuracyRuns):
         self.assertRegex(text, found)
         self.assertRegex(text, r"(Impacts are missed or invented by|No method misses)")
 
+    def test_without_a_force_tells_turns_in_the_units_of_the_scene(self):
+        scene = "[scene]\nxs = 0.5\nR = 0.7\nv0 = 2.0\n"
+        short = '[time]\nmode = "transient"\nduration = 10\n'
+        for stiffness, turn in (("", "of 2 pi from"), ("stiffness = 4.0\n", "of 3.14159 from")):
+            self.write("free.toml", scene + stiffness + short)
+            answer = self.clatter("accuracy", "free.toml", "--force", "-q", "--progress", "never").stdout
+            self.assertIn(turn, " ".join(answer.split()))
+
     def test_of_a_sweep_has_its_axes_before_the_rows(self):
         config = self.write("a.toml", SWEEP)
         result = self.accuracy(config, "--json", "-q", "-o", "sweep.h5")

@@ -4,6 +4,7 @@ Environment: CLATTER, the program; CLATTER_SOURCE, the source directory.
 """
 
 import json
+import math
 import subprocess
 import unittest
 
@@ -104,6 +105,29 @@ class Branch(CommandLine):
         with xarray.open_dataset((self.directory / "a.branch.h5")) as data:
             self.assertTrue((data["stable"] == 1).all())
             self.assertTrue((data["symmetric"] == 1).all())
+
+    def test_a_bouncing_ball_has_its_fold_and_its_flip(self):
+        self.clatter("branch", SOURCE / "configs" / "bouncing_ball_branch.toml", "-o", "ball.h5", "-q")
+        with xarray.open_dataset(self.directory / "ball.h5") as data:
+            kinds = [kind if isinstance(kind, str) else kind.decode() for kind in data["special_kind"].values]
+            found = {kind: float(data["special_f"][kinds.index(kind)]) for kind in ("fold", "flip")}
+            self.assertEqual(set(kinds), {"fold", "flip"})  # the impact speed is constant: it has no maxima
+        low = math.pi * 0.2 / 1.8
+        self.assertAlmostEqual(found["fold"], low, 14)
+        self.assertAlmostEqual(found["flip"], math.hypot(low, 2 * 1.64 / 1.8**2), 14)
+
+    def test_stiffness_and_amplitudes_are_parameters_like_others(self):
+        near = SCENE.replace("xs = -3", "xs = 0.5").replace("nu = 1.1", "nu = 2").replace("x0 = 2", "x0 = 0.1")
+        for key, more, bounds in (
+            ("stiffness", "", "[0.5, 1.5]"),
+            ("stop_amplitude", "", "[0, 0.2]"),
+            ("base_amplitude", "stiffness = 0.0\n", "[-0.05, 0.1]"),
+        ):
+            branch = f'[branch]\nalong = "{key}"\nrange = {bounds}\n'
+            result = self.branch(near + more + branch, "-q", "--force")
+            self.assertEqual(result.returncode, 0, result.stderr)
+            with h5py.File(self.directory / "a.branch.h5") as file:
+                self.assertEqual([min(file[key][:]), max(file[key][:])], json.loads(bounds))
 
     def test_mistakes_are_told_with_their_place_and_the_way_out(self):
         for text, words in (
@@ -223,10 +247,11 @@ class Branch(CommandLine):
             "dotted: conservative motion of the mean speed",
         ):
             self.assertIn(part, svg)
-        self.branch(SCENE.replace("xs = -3", "stop_upper = 3") + BRANCH, "-q")
-        result = subprocess.run([*plot, files[1]], capture_output=True, text=True)
-        self.assertEqual(result.returncode, 2)
-        self.assertIn("--backbone is of branches along nu of one machine", result.stderr)
+        for other in (SCENE.replace("xs = -3", "stop_upper = 3"), SCENE + "stiffness = 0.9\n"):
+            self.assertEqual(self.branch(other + BRANCH, "-q", "--force").returncode, 0)
+            result = subprocess.run([*plot, files[1]], capture_output=True, text=True)
+            self.assertEqual(result.returncode, 2)
+            self.assertIn("--backbone is of branches along nu of one machine", result.stderr)
 
     def test_picture_of_curves_has_the_map_of_a_sweep_behind(self):
         self.branch(SCENE + WIDE + 'across = "xs"\nacross_range = [2, 6]\ncurve = "fold"\n', "-q")

@@ -1,0 +1,53 @@
+#include "branches/shaken_scene.hpp"
+
+#include <cmath>
+
+namespace clatter::branches {
+namespace {
+
+using sweep::Parameter;
+
+double& reference_to(ShakenScene& scene, Parameter parameter) {
+  switch (parameter) {
+    case Parameter::h:
+      return scene.oscillator.damping;
+    case Parameter::f:
+      return scene.oscillator.forcing;
+    case Parameter::nu:
+      return scene.oscillator.frequency;
+    case Parameter::load:
+      return scene.oscillator.load;
+    case Parameter::stiffness:
+      return scene.oscillator.stiffness;
+    case Parameter::stop_amplitude:
+      return scene.shaking.stops;
+    case Parameter::base_amplitude:
+      return scene.shaking.base;
+    case Parameter::stop_lower:
+      return scene.stops.lower;
+    case Parameter::R_lower:
+      return scene.stops.restitution_lower;
+    case Parameter::R:
+    case Parameter::R_upper:
+      return scene.stops.restitution_upper;
+    default:
+      return scene.stops.upper;
+  }
+}
+
+}  // namespace
+
+ShakenScene changed(ShakenScene scene, Parameter parameter, double value) {
+  if (parameter == Parameter::xs) value = std::abs(value);
+  reference_to(scene, parameter) = value;
+  if (parameter == Parameter::xs) scene.stops.lower = -value;
+  if (parameter == Parameter::R) scene.stops.restitution_lower = value;
+  return scene;
+}
+
+double value_of(const ShakenScene& scene, Parameter parameter) {
+  ShakenScene copy = scene;
+  return reference_to(copy, parameter);
+}
+
+}  // namespace clatter::branches

@@ -1,0 +1,110 @@
+#include "branches/flight.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <random>
+
+#include "math/dual.hpp"
+#include "math/fifty_digits.hpp"
+
+namespace clatter::branches {
+namespace {
+
+/// A flight and all that it depends on, as variables: its two phases, its velocity, then the parameters.
+constexpr std::size_t of_flight = 3, variables = of_flight + 11;
+
+template <class Number>
+struct Flown {
+  Parameters<Number> p;
+  Flight<Number> flight;
+
+  Number& variable(std::size_t i) {
+    if (i == 0) return flight.begin;
+    if (i == 1) return flight.before;
+    return i == 2 ? flight.end : p.*p.all[i - of_flight];
+  }
+};
+
+template <class Number>
+Flown<Number> flown_of(const ShakenScene& scene, const Flight<double>& flight) {
+  return {Parameters<Number>(scene),
+          {flight.from, Number(flight.begin), Number(flight.before), flight.to, Number(flight.end)}};
+}
+
+constexpr std::size_t index_of(double Parameters<double>::*parameter) {
+  const auto& all = Parameters<double>::all;
+  return of_flight + static_cast<std::size_t>(std::ranges::find(all, parameter) - all.begin());
+}
+
+/// Against central differences in 50 digits, whose error is 1e-32.
+void expect_derivatives(const ShakenScene& scene, const Flight<double>& flight, bool any_stiffness) {
+  using Many = Dual<double, variables>;
+  Flown<Many> many = flown_of<Many>(scene, flight);
+  for (std::size_t i = 0; i < variables; ++i) many.variable(i).slope[i] = 1;
+  const double h = scene.oscillator.damping, k = scene.oscillator.stiffness;
+  with_arcs(
+      scene,
+      [&]<Effects E>() {
+        constexpr Effects without_resonance{
+            .damping = E.damping, .forcing = Forcing::regular, .stiffness = E.stiffness};
+        const FlightEnd<Many> exact = Flights<Many, E>(many.p).fly(many.flight);
+        for (std::size_t i = 0; i < variables; ++i) {
+          if (i == index_of(&Parameters<double>::k) && (!any_stiffness || k == 0)) continue;
+          if (i == index_of(&Parameters<double>::h) && h * h == k) continue;
+          if (i == index_of(&Parameters<double>::stop_amplitude) && scene.shaking.base != 0) continue;
+          if (i == index_of(&Parameters<double>::base_amplitude) && scene.shaking.stops != 0) continue;
+          const auto at = [&](const char* step) {
+            Flown<FiftyDigits> one = flown_of<FiftyDigits>(scene, flight);
+            one.variable(i) += FiftyDigits(step);
+            return Flights<FiftyDigits, without_resonance>(one.p).fly(one.flight);
+          };
+          const auto ahead = at("1e-16"), behind = at("-1e-16");
+          const FiftyDigits width("2e-16");
+          const double x = static_cast<double>(FiftyDigits((ahead.beyond - behind.beyond) / width)),
+                       v = static_cast<double>(FiftyDigits((ahead.velocity - behind.velocity) / width));
+          // formulas of free motion have the root of |h^2 - k| in denominators
+          const double condition = 1 / std::min(1.0, std::abs(h * h - k) == 0 ? 1.0 : std::abs(h * h - k));
+          EXPECT_NEAR(exact.beyond.slope[i], x, 2e-12 * (1 + std::abs(x)) * condition) << i << " k = " << k;
+          EXPECT_NEAR(exact.velocity.slope[i], v, 2e-12 * (1 + std::abs(v)) * condition) << i << " k = " << k;
+        }
+      },
+      any_stiffness);
+}
+
+TEST(Flight, has_the_derivatives_that_differences_in_fifty_digits_have) {
+  std::mt19937 random(5);
+  const auto in = [&](double a, double b) { return std::uniform_real_distribution(a, b)(random); };
+  for (int i = 0; i < 240; ++i) {
+    const double k = i % 4 == 0 ? 1.0 : i % 4 == 1 ? 0.0 : i % 4 == 2 ? in(-2, -0.1) : in(0.1, 4);
+    double h = i % 5 == 0 ? 0.0 : i % 3 == 0 ? in(1.1, 2) : in(0.01, 0.9);
+    if (k > 0 && std::abs(h * h - k) < 0.1) h = std::sqrt(k + 0.2);
+    ShakenScene scene;
+    scene.oscillator = {h, in(-2, 2), in(0.2, 4), in(-0.3, 0.3), k};
+    scene.stops = {-in(0.2, 2), in(0.2, 2), in(0, 1), in(0, 1)};
+    if (i % 3 == 1) scene.shaking.stops = in(-1, 1);
+    if (i % 3 == 2) scene.shaking.base = in(-1, 1);
+    const double begin = in(0, 6), end = begin + scene.oscillator.frequency * in(0.05, 6);
+    const Side to = i % 7 == 0 ? Side::lower : Side::upper;
+    const Flight<double> flight{Side::lower, begin, in(-2, -0.1), to, end};
+    expect_derivatives(scene, flight, k != 1 || i % 8 == 0);
+  }
+}
+
+/// Near resonance the response is formed together with the free motion.
+TEST(Flight, has_the_derivatives_of_differences_near_resonance) {
+  for (const double k : {1.0, 0.3, 4.0}) {
+    ShakenScene scene;
+    scene.oscillator = {0.01, 1.0, std::sqrt(k) * 1.003, 0.1, k};
+    scene.stops = {-1.0, 0.7, 0.8, 0.8};
+    const Flight<double> flight{Side::lower, 0.3, -0.8, Side::upper, 5.0};
+    expect_derivatives(scene, flight, true);
+    scene.oscillator.forcing = 0, scene.shaking.base = 1.0;
+    expect_derivatives(scene, flight, k != 1);
+    scene.shaking = {0.7, 0.0, 0.0};
+    expect_derivatives(scene, flight, true);
+  }
+}
+
+}  // namespace
+}  // namespace clatter::branches
