@@ -4,7 +4,7 @@ import numpy as np
 
 from plot_curves import MARGIN, name_statuses
 from plot_scales import shown_values
-from plot_style import BLUE, CYCLE, GREEN, STOP, VERMILION, label, legend_above, set_axis, symbol
+from plot_style import BLUE, CYCLE, GREEN, STOP, VERMILION, label, legend_above, set_axis, symbol, with_unit
 
 MANY = 2000  # points, from which on they are small
 WORD = "impact word"  # marks the texts that may have to go
@@ -22,8 +22,7 @@ def dots(axes, x, y, color, title=None):
 
 def instants(output):
     """When the states of a section are taken."""
-    is_forced = bool(np.any(output.parameter("f", 0.0)))
-    return "once a forcing period" if is_forced else "on the way up"
+    return "once a forcing period" if output.is_forced() else "on the way up"
 
 
 def section_diagram(members, name, axes):
@@ -35,7 +34,8 @@ def section_diagram(members, name, axes):
         along = np.broadcast_to(member.output.values(axis)[:, None], values.shape)
         dots(axes, along[known], values[known], CYCLE[place % len(CYCLE)], member.title)
     finish(members, axes, axis)
-    axes.set_ylabel(f"{symbol(name.removeprefix('section_'))} {instants(members[0].output)}")
+    words = f"{symbol(name.removeprefix('section_'))} {instants(members[0].output)}"
+    axes.set_ylabel(with_unit(members[0].output, words, name))
 
 
 def impact_diagram(members, axes):

@@ -7,7 +7,7 @@ from matplotlib import ticker
 
 from plot_data import APERIODIC, FIRST_FAILURE
 from plot_scales import is_integer, shown_values
-from plot_style import BLUE, CYCLE, STOP, draw_walls, in_frame, label, legend_above, number, set_axis, symbol
+from plot_style import BLUE, CYCLE, STOP, draw_walls, in_frame, label, legend_above, number, set_axis, symbol, with_unit
 
 MARGIN = 0.012  # of an axis beside its points
 DENSE = 60  # points from which a curve is drawn without markers
@@ -166,13 +166,13 @@ def label_of(output, group):
     """The label of results of an output that share a panel."""
     names, first = {result for result, _, _ in group}, group[0][0]
     if first in ("x_min", "x_max"):
-        return in_frame(output, first, r"displacement $x$")
+        return in_frame(output, first, with_unit(output, r"displacement $x$", first))
     if first in ("v_min", "v_max"):
-        return in_frame(output, first, "velocity $x$\N{PRIME}")
+        return in_frame(output, first, with_unit(output, "velocity $x$\N{PRIME}", first))
     if names == {"v_before", "v_after"}:
-        return "velocity at impact $x$\N{PRIME}"
+        return with_unit(output, "velocity at impact $x$\N{PRIME}", first)
     if names == {"work_in", "loss_damping"}:
-        return "energy in the observed time"
+        return with_unit(output, "energy in the observed time", first)
     title = group[0][2]
     is_part = len(group) == 1 and group[0][1] is not None
     return f"{label(output, first)}\n{title.removeprefix(symbol(first)).strip()}" if is_part else label(output, first)

@@ -54,7 +54,8 @@ class Output:
         except UNREADABLE as error:
             raise damaged(path, error) from None
         self.axes = () if self.is_branch else tuple(name for name in self["status"].dims if name != "row")
-        self.scene = self.config.get("scene", {})
+        self.is_si = "machine" in self.config
+        self.scene = self.config.get("machine" if self.is_si else "scene", {})
         self.sweep = self.config.get("sweep", {})
         if self.is_branch:
             branch = self.config["branch"]
@@ -179,9 +180,10 @@ class Output:
 
     def stops(self):
         """Lower and upper stop at every point; infinite if there is none."""
-        if "xs" in self.scene or self.swept("xs"):
-            gap = np.abs(self.parameter("xs"))
-            return -gap, gap
+        for both in ("xs", "gap"):
+            if both in self.scene or self.swept(both):
+                gap = np.abs(self.parameter(both))
+                return -gap, gap
         return self.parameter("stop_lower", -np.inf), self.parameter("stop_upper", np.inf)
 
     @property
@@ -196,6 +198,16 @@ class Output:
             return lower, upper
         moved = np.abs(self.parameter("stop_amplitude", 0.0)) + np.abs(self.parameter("base_amplitude", 0.0))
         return lower - moved, upper + moved
+
+    def is_forced(self):
+        """Whether a force acts at any point."""
+        return bool(np.any(self.parameter("force" if self.is_si else "f", 0.0)))
+
+    def forcing_period(self, index):
+        """The forcing period of a point."""
+        if self.is_si:
+            return 1 / float(self.parameter("frequency", 1.0)[index])
+        return 2 * np.pi / float(self.parameter("nu", 1.0)[index])
 
     def has_stop(self, side):
         """Whether any point has a stop on this side: -1 lower, 1 upper."""

@@ -63,8 +63,7 @@ def shown_motion(output, index):
 
 def first_shown(output, index):
     """The time from which on motion without a period is drawn."""
-    period = 2 * np.pi / float(output.parameter("nu", 1.0)[index])
-    return output.values("tau")[index][-1] - LAST_PERIODS * period
+    return output.values("tau")[index][-1] - LAST_PERIODS * output.forcing_period(index)
 
 
 def mark_impacts(output, index, draw, color):

@@ -32,6 +32,16 @@ LABELS = {
     "R_lower": ("restitution, lower stop", r"$R_-$"),
     "R_upper": ("restitution, upper stop", r"$R_+$"),
     "load": ("constant load", "load"),
+    "stiffness": ("stiffness", r"$k$"),
+    "mass": ("mass", r"$m$"),
+    "damping": ("damping", r"$c$"),
+    "damping_ratio": ("damping ratio", r"$\zeta$"),
+    "quality": ("quality factor", r"$Q$"),
+    "force": ("force amplitude", r"$F$"),
+    "frequency": ("excitation frequency", r"$f$"),
+    "gap": ("stop", r"$x_s$"),
+    "stop_amplitude": ("amplitude of the stops", r"$b$"),
+    "base_amplitude": ("amplitude of the base", r"$b$"),
     "x0": ("initial displacement", r"$x(0)$"),
     "v0": ("initial velocity", "$x$\N{PRIME}$(0)$"),
     "start_period": ("period", r"$\bar\tau$"),
@@ -67,6 +77,20 @@ LABELS = {
     "loss_impact": ("loss by impacts", ""),
     "impulse": ("impulse", ""),
     "impact_power": ("power lost in impacts", ""),
+}
+
+
+# The units of constants in [machine], as of the variables in the file.
+UNITS = {
+    "mass": "kg",
+    "stiffness": "N m-1",
+    "damping": "N s m-1",
+    "force": "N",
+    "frequency": "Hz",
+    "phase": "rad",
+    "load": "N",
+    "v0": "m s-1",
+    **dict.fromkeys(("gap", "stop_lower", "stop_upper", "stop_amplitude", "base_amplitude", "x0"), "m"),
 }
 
 
@@ -119,14 +143,24 @@ def label(output, name):
     words, sign = LABELS.get(name, ("", ""))
     variable = output.variables.get(name)
     full = f"{words} {sign if sign not in words else ''}".strip() or (variable.long_name if variable else name)
-    unit = variable.units if variable else "1"
-    return in_frame(output, name, f"{full} ({unit})" if unit not in ("1", "") else full)
+    return in_frame(output, name, with_unit(output, full, name))
 
 
 def in_frame(output, name, words):
     """Words for a variable, and its frame if something is shaken."""
     variable = output.variables.get(name)
     return f"{words}, {variable.frame}" if variable and variable.frame else words
+
+
+def with_unit(output, words, name):
+    """Words for a variable followed by its unit, unless it is 1."""
+    unit = output.variables[name].units if name in output else "1"
+    return f"{words} ({typeset_unit(unit)})" if unit not in ("1", "") else words
+
+
+def typeset_unit(unit):
+    """A unit of the file with its powers raised: m s-1 becomes m s⁻¹."""
+    return re.sub(r"(?<=[A-Za-z])(-?\d+)", r"$^{\1}$", unit)
 
 
 def number(value):
@@ -202,16 +236,21 @@ def gathered(notes):
 
 def constants(output, title, others=()):
     """The fixed numbers of the scene that the title doesn't name, e.g. ['h = 0.1', 'f = −1']."""
-    hidden = {"phase": 0.0, "load": 0.0}  # nothing to say at these values
+    nothing = ("phase", "load", "damping", "stop_amplitude", "base_amplitude")
+    hidden = {
+        **dict.fromkeys(nothing, 0.0),
+        "stiffness": 0.0 if output.is_si else 1.0,
+    }  # nothing to say at these values
     named = {key for key in LABELS if re.search(rf"\b{key} = ", title)}
     keys = [key for key in LABELS if key in output.scene and key not in named and not output.swept(key)]
     keys = [key for key in keys if all(other.scene.get(key) == output.scene[key] for other in others)]
-    if float(output.scene.get("f", 0.0)) == 0.0 and not output.swept("f"):
-        keys = [key for key in keys if key not in ("nu", "phase")]  # no force, no frequency
+    forces = ("force" if output.is_si else "f", "stop_amplitude", "base_amplitude")
+    if not any(float(output.scene.get(key, 0.0)) or output.swept(key) for key in forces):
+        keys = [key for key in keys if key not in ("nu", "frequency", "phase")]  # no force, no frequency
     absent = {key for key, side in (("R_lower", -1), ("R_upper", 1)) if not output.has_stop(side)}
     values = {key: float(output.scene[key]) for key in keys if key not in absent}
     return [
-        f"{symbol(key)} = {number(value)}"
+        f"{symbol(key)} = {number(value)}" + (f" {typeset_unit(UNITS[key])}" if output.is_si and key in UNITS else "")
         for key, value in values.items()
         if np.isfinite(value) and not (key in hidden and value == hidden[key])
     ]

@@ -198,7 +198,7 @@ class Explorer {
 
   commandText() {
     const sets = this.data.axes.flatMap((axis, place) =>
-      Object.entries(axis.keys).map(([key, values]) => ` --set scene.${key}=${written(values[this.chosen[place]])}`));
+      Object.entries(axis.keys).map(([key, values]) => ` --set ${this.data.section}.${key}=${written(values[this.chosen[place]])}`));
     for (const [key, column] of Object.entries(this.data.start || {}))
       sets.push(` --set scene.${key}=${written(this.byName[column].values[this.flat()])}`);
     const linked = this.data.linked ? " --set sweep.linked=''" : "";

@@ -60,9 +60,51 @@ std::string saving_text(const plan::Bounds& saving) {
   return "; saves " + (saving.least == saving.most ? most : formatted("%.0f", 100 * saving.least) + " ... " + most);
 }
 
-std::string group_text(const plan::Group& group) {
+/// A key of [scene] and its number.
+using Number = std::pair<std::string_view, double>;
+
+/// A scene in the keys of [scene], in the units that it is computed in; empty if these are the user's.
+std::vector<Number> computed_scene(const point::Problem& problem) {
+  if (problem.units == Units{}) return {};
+  const Oscillator& o = problem.oscillator;
+  const Stops& stops = problem.stops;
+  return {{"h", o.damping},
+          {"f", o.forcing},
+          {"nu", o.frequency},
+          {"phase", problem.start.phase},
+          {"load", o.load},
+          {"stiffness", o.stiffness},
+          {"stop_lower", stops.lower},
+          {"stop_upper", stops.upper},
+          {"R_lower", stops.restitution_lower},
+          {"R_upper", stops.restitution_upper},
+          {"x0", problem.start.displacement},
+          {"v0", problem.start.velocity}};
+}
+
+/// The scene that a point of a group is computed as, unless it is the user's.
+std::string scene_text(const plan::Group& group, const sweep::Sweep& sweep) {
+  const point::Problem problem = problem_at(sweep, group.example);
+  std::vector<std::string> parts;
+  for (const auto& [key, number] : computed_scene(problem))
+    parts.push_back(std::string(key) + " = " + formatted("%.10g", number));
+  if (parts.empty()) return {};
+  const std::string unit = problem.units.is_si ? " s" : "";
+  std::string text;
+  constexpr std::size_t in_line = 6;
+  for (std::size_t begin = 0; begin < parts.size(); begin += in_line)
+    text +=
+        line(begin == 0 ? "  computed as" : "", joined({parts.begin() + static_cast<std::ptrdiff_t>(begin),
+                                                        parts.begin() + static_cast<std::ptrdiff_t>(begin + in_line)}));
+  return text +
+         line("", (problem.units.is_si ? "lengths in m, " : "") + std::string("times in ") +
+                      formatted("%.10g", problem.units.time) + unit + "; point " + std::to_string(group.example));
+}
+
+std::string group_text(const plan::Group& group, const sweep::Sweep& sweep) {
   std::string text = '\n' + line(counted(static_cast<double>(group.points), "point"),
                                  "effects: " + plan::effect_set_name(group.effects));
+  text += scene_text(group, sweep);
   for (const plan::Reason& reason : group.reasons)
     text += line("  " + reason.effect, (reason.required ? "yes  " : "no   ") + reason.why + saving_text(reason.saving));
   return text + line("  work",
@@ -108,9 +150,22 @@ std::string estimate_json(const plan::Bounds& estimate) {
   return out.str();
 }
 
-void put_group(std::ostringstream& out, const plan::Group& group) {
-  out << "\n    {\"points\": " << group.points << ", \"example\": " << group.example
-      << ", \"effect_set\": " << json_text(plan::effect_set_name(group.effects))
+/// The scene that the example of a group is computed as, and its units, or null if these are the user's.
+void put_scene(std::ostringstream& out, const point::Problem& problem) {
+  const std::vector<Number> scene = computed_scene(problem);
+  if (scene.empty()) {
+    out << "null";
+    return;
+  }
+  out << '{';
+  for (const auto& [key, number] : scene) out << json_text(std::string(key)) << ": " << json_number(number) << ", ";
+  out << "\"unit_of_time\": " << json_number(problem.units.time) << '}';
+}
+
+void put_group(std::ostringstream& out, const plan::Group& group, const sweep::Sweep& sweep) {
+  out << "\n    {\"points\": " << group.points << ", \"example\": " << group.example << ", \"computed_as\": ";
+  put_scene(out, problem_at(sweep, group.example));
+  out << ", \"effect_set\": " << json_text(plan::effect_set_name(group.effects))
       << ", \"periods\": " << estimate_json(group.periods) << ", \"seconds\": " << estimate_json(group.seconds)
       << ", \"effects\": ";
   list(out, group.reasons, [&](const plan::Reason& reason) {
@@ -131,7 +186,7 @@ std::string plan_text(const plan::Plan& plan, const sweep::Sweep& sweep, int thr
     text += line("method", method_of(sweep) + ": every effect is simulated; called for are:");
   else if (integration.all_effects)
     text += line("effects", "all are simulated, for all of max_periods (integrator.effects = all); called for are:");
-  for (const plan::Group& group : plan.groups) text += group_text(group);
+  for (const plan::Group& group : plan.groups) text += group_text(group, sweep);
   text += '\n' + line("estimated time", range(seconds_of(plan, threads), "%.2g") + " s on " +
                                             counted(threads, "thread") + ", without the observables");
   const plan::MemoryNeed& need = plan.need;
@@ -163,7 +218,7 @@ std::string plan_json(const plan::Plan& plan, const sweep::Sweep& sweep, int thr
   list(out, plan.observed, [&](const std::string& name) { out << json_text(name); });
   out << ",\n  \"method\": " << json_text(method_of(sweep))
       << ",\n  \"all_effects\": " << (sweep.problem.integration.all_effects ? "true" : "false") << ",\n  \"groups\": ";
-  list(out, plan.groups, [&](const plan::Group& group) { put_group(out, group); });
+  list(out, plan.groups, [&](const plan::Group& group) { put_group(out, group, sweep); });
   out << ",\n  \"threads\": " << threads << ",\n  \"seconds\": " << estimate_json(seconds_of(plan, threads))
       << ",\n  \"output_bytes\": " << json_number(plan.need.output)
       << ",\n  \"memory_bytes\": " << json_number(plan.need.memory)

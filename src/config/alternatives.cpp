@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <limits>
 #include <string>
 
@@ -11,9 +12,42 @@ using enum sweep::Parameter;
 
 /// A stop that is not given does not exist; a scene without any was hardly meant.
 void check_stops_given(const Settings& settings) {
-  if (settings.given(xs) || settings.given(stop_lower) || settings.given(stop_upper)) return;
-  fail(settings.location_of_section("scene"),
-       "'xs' is missing in [scene]; give xs, or stop_lower, stop_upper or both (-inf and inf: no stop)");
+  if (settings.given_symmetric_stops() || settings.given(stop_lower) || settings.given(stop_upper)) return;
+  const std::string section(settings.scene_section), both = settings.is_si() ? "gap" : "xs";
+  fail(settings.location_of_section(section), '\'' + both + "' is missing in [" + section + "]; give " + both +
+                                                  ", or stop_lower, stop_upper or both (-inf and inf: no stop)");
+}
+
+bool is_zero(double value) { return value == 0; }
+
+/// A key of a machine that isn't 0 at some point, or nullptr.
+const Setting* not_zero(const Settings& settings, sweep::Parameter parameter) {
+  const Setting* const given = settings.given(parameter);
+  return given == nullptr || std::ranges::all_of(given->numbers(), is_zero) ? nullptr : given;
+}
+
+/// Whether a machine has no spring at some point.
+bool lacks_spring(const Settings& settings) {
+  const Setting* const given = settings.given(stiffness);
+  return given == nullptr || std::ranges::any_of(given->numbers(), is_zero);
+}
+
+/// A machine needs a mass, a force its frequency, a damping ratio its spring.
+void check_machine(const Settings& settings) {
+  if (!settings.is_si()) return;
+  if (settings.given(mass) == nullptr)
+    fail(settings.location_of_section("machine"),
+         "'mass' is missing in [machine]; give it in kg, or as e.g. \"250 g\"");
+  for (const sweep::Parameter needs_frequency : {force, stop_amplitude, base_amplitude})
+    if (const Setting* const given = not_zero(settings, needs_frequency);
+        given != nullptr && settings.given(frequency) == nullptr)
+      fail(given->key_location,
+           in_quotes(given->key->name) + " without 'frequency'; add it to [machine] in Hz, or as e.g. \"25 Hz\"");
+  for (const sweep::Parameter needs_spring : {damping_ratio, quality})
+    if (const Setting* const given = settings.given(needs_spring); given != nullptr && lacks_spring(settings))
+      fail(given->key_location, in_quotes(given->key->name) +
+                                    " where the stiffness is 0, to which it refers; give 'damping' in N s/m, or a "
+                                    "stiffness everywhere");
 }
 
 /// start_period is the period of free motion without loss between symmetric stops (src/motion/README.md, eq. 36).
@@ -63,6 +97,7 @@ void check_harmonics(const Settings& settings) {
 }  // namespace
 
 void check_alternatives(const Settings& settings) {
+  check_machine(settings);
   check_stops_given(settings);
   check_start_period(settings);
   check_duration(settings);

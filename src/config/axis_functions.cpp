@@ -87,9 +87,10 @@ std::string sobol(const Arguments& arguments, std::vector<double>& values) {
 }
 
 constexpr std::array<std::string_view, 4> names{"linspace", "logspace", "arange", sobol_name};
-constexpr std::array<AxisFunction, 4> functions{
-    AxisFunction{names[0], "linspace(a, b, n)", linspace}, AxisFunction{names[1], "logspace(a, b, n)", logspace},
-    AxisFunction{names[2], "arange(a, b, step)", arange}, AxisFunction{names[3], "sobol(a, b, n)", sobol}};
+constexpr std::array<AxisFunction, 4> functions{AxisFunction{names[0], "linspace(a, b, n)", true, linspace},
+                                                AxisFunction{names[1], "logspace(a, b, n)", true, logspace},
+                                                AxisFunction{names[2], "arange(a, b, step)", false, arange},
+                                                AxisFunction{names[3], "sobol(a, b, n)", true, sobol}};
 
 }  // namespace
 

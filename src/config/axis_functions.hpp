@@ -14,6 +14,7 @@ namespace clatter::config {
 struct AxisFunction {
   std::string_view name;
   std::string_view usage;  ///< "linspace(a, b, n)"
+  bool counts;             ///< the third number is one of values
   /// Fills `values`; returns a fault of the arguments, or nothing.
   std::string (*evaluate)(const std::array<double, 3>& arguments, std::vector<double>& values);
 };

@@ -76,28 +76,31 @@ stepping::Integration integration(const Settings& settings) {
           .all_effects = settings.text("integrator", "effects") == "all"};
 }
 
-/// The scene before any axis is applied; a key without a default keeps the value that Problem has.
-point::Problem scene_of(const Settings& settings) {
-  point::Problem scene;
-  scene.time = time_settings(settings);
-  scene.observe = observe(settings);
-  scene.integration = integration(settings);
-  for (const Key& key : keys()) {
-    const auto parameter = sweep::parameter_of(key.name);
-    if (key.section != "scene" || !parameter || *parameter == sweep::Parameter::start_period) continue;
-    const Setting* const given = settings.find("scene", key.name);
-    if (given != nullptr) sweep::set(scene, *parameter, std::get<double>(given->value));
+/// Gives a sweep the scene or the machine before any axis is applied; a key that isn't given keeps the value that
+/// Problem or Machine has.
+void set_scene(const Settings& settings, sweep::Sweep& sweep) {
+  sweep.problem.time = time_settings(settings);
+  sweep.problem.observe = observe(settings);
+  sweep.problem.integration = integration(settings);
+  if (settings.is_si()) sweep.machine.emplace();
+  for (const Setting& given : settings.values) {
+    if (given.key->section != settings.scene_section) continue;
+    const sweep::Parameter parameter = sweep::parameter_of(given.key->name).value();
+    const double value = std::get<double>(given.value);
+    if (parameter == sweep::Parameter::start_period) {
+      sweep.start_period = value;
+    } else if (!sweep.machine || !sweep::set(*sweep.machine, parameter, value)) {
+      sweep::set(sweep.problem, parameter, value);
+    }
   }
-  return scene;
 }
 
 sweep::Sweep sweep_of(Settings& settings, const AxisGroups& groups) {
-  sweep::Sweep sweep{.problem = scene_of(settings), .follow = followed_dimension(settings, groups)};
+  sweep::Sweep sweep{.follow = followed_dimension(settings, groups)};
+  set_scene(settings, sweep);
   sweep.problem.observe.of_soft_stops =
       is_soft_somewhere(settings, Side::lower) || is_soft_somewhere(settings, Side::upper);
   if (sweep.follow) sweep.direction = direction_of(settings);
-  if (const Setting* const start = settings.find("scene", "start_period"))
-    sweep.start_period = std::get<double>(start->value);
   for (const std::vector<std::size_t>& group : groups) {
     sweep::Dimension& dimension = sweep.dimensions.emplace_back();
     for (const std::size_t axis : group) {
@@ -172,6 +175,10 @@ std::optional<branches::BranchSettings> branch_of(const Settings& settings) {
     return key.section == "branch" && (key.fallback.empty() || setting.value != default_setting(key).value);
   };
   if (along == nullptr && std::ranges::none_of(settings.values, asks_for_branch)) return std::nullopt;
+  if (settings.is_si())
+    fail(settings.location_of_section("branch"),
+         "[branch] beside [machine]; a branch is followed in a scene without units: give [scene] the numbers that "
+         "`clatter plan` prints without [branch]");
   if (along == nullptr)
     fail(settings.location_of_section("branch"), "[branch] without 'along'; add a key of [scene], e.g. along = \"nu\"");
   if (range == nullptr)

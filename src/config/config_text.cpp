@@ -28,16 +28,18 @@ bool default_counts(const Settings& settings, const Key& key) {
                                            {stop_damping, stop_damping_lower, stop_damping_upper}}) {
     const bool each_stop = settings.given(lower) || settings.given(upper);
     if (key.other == sweep::key_of(both)) return each_stop && !is_excluded(settings, key);
-    if (key.section == "scene" && key.name == sweep::key_of(both)) return !each_stop && !is_excluded(settings, key);
+    if (key.name == sweep::key_of(both)) return !each_stop && !is_excluded(settings, key);
   }
-  if (key.other == "xs") return !settings.given(xs);
+  if (key.other == "xs" || key.other == "gap") return !settings.given_symmetric_stops();
   if (key.name == "x0" || key.name == "v0") return !settings.given(start_period);
+  if (key.name == "damping") return !settings.given(damping_ratio) && !settings.given(quality);
   return key.has_default();
 }
 
 /// The lines of one section; axes come first, in their order.
 std::string section_text(const Settings& settings, std::string_view section) {
   if (section == "branch" && settings.find("branch", "along") == nullptr) return {};  // nothing to be followed
+  if (describes_scene(section) && section != settings.scene_section) return {};
   std::string text;
   const auto add = [&](std::string_view name, const std::string& value) {
     text += std::string(name) + " = " + value + '\n';
@@ -91,7 +93,7 @@ std::string config_text(const Settings& settings) {
   std::string text = section_text(settings, "");
   for (const std::string_view section : sections()) {
     const std::string lines = section_text(settings, section);
-    if (section != "branch" || !lines.empty()) text += "\n[" + std::string(section) + "]\n" + lines;
+    if (!lines.empty() || section == settings.scene_section) text += "\n[" + std::string(section) + "]\n" + lines;
   }
   return text;
 }

@@ -40,9 +40,9 @@ bool is_axis(std::string_view text) {
   return calls || text.starts_with('[') || text.find(',') != std::string_view::npos;
 }
 
-/// Says where several values belong: those of a key of [scene] are an axis.
+/// Says where several values belong: those of a key that describes the scene are an axis.
 std::string home_of_axis(const Key& key, const ParsedValue& written) {
-  if (key.section != "scene") return "; one value, since only keys of [scene] can be axes";
+  if (!describes_scene(key.section)) return "; one value, since only keys of [scene] or [machine] can be axes";
   const auto* const text = std::get_if<std::string>(&written.data);
   if (!on_command_line(written.location) || text == nullptr)
     return "; several values are an axis, and its line belongs in [sweep]";
@@ -57,22 +57,33 @@ void check_single(const Key& key, const ParsedValue& written) {
     wrong_kind(key, written, comma_hint(*text, key.kind) + home_of_axis(key, written));
 }
 
-SourceText source_text(const std::string& text, const ParsedValue& written) {
+SourceText source_text(const Key& key, const std::string& text, const ParsedValue& written, bool is_si) {
   SourceText source{text, written.location, written.untyped || written.inset > 0};
   source.location.column += written.inset;
+  const bool has_unit = is_si || key.section == "machine" || key.quantity == Quantity::angle;
+  if (has_unit) source.quantity = key.quantity;
+  if (key.section == "scene" || (!has_unit && key.quantity != Quantity::number))
+    source.way_out = ", or describe the scene in [machine], which has units";
   return source;
 }
 
-/// The number that was written; in TOML a text is one only if it holds pi, since "0.5" in quotes is a slip.
-double number_of(const Key& key, const ParsedValue& written) {
-  if (const auto* const integer = std::get_if<std::int64_t>(&written.data)) return static_cast<double>(*integer);
-  if (const auto* const number = std::get_if<double>(&written.data)) return *number;
+/// The number that was written; in TOML a text is one only if it holds pi or a unit, since "0.5" in quotes is a slip.
+Measure measure_of(const Key& key, const ParsedValue& written, bool is_si) {
+  if (const auto* const integer = std::get_if<std::int64_t>(&written.data)) return {static_cast<double>(*integer)};
+  if (const auto* const number = std::get_if<double>(&written.data)) return {*number};
   const auto* const text = std::get_if<std::string>(&written.data);
   if (text == nullptr) wrong_kind(key, written);
-  if (!written.untyped && text->find("pi") == std::string::npos)
-    wrong_kind(key, written, ", without quotes unless it holds pi");
+  const bool is_expression = written.untyped || text->find("pi") != std::string::npos;
+  constexpr const char* way_out = ", without quotes unless it holds pi or a unit";
+  if (!is_expression && text->find_first_of("0123456789") == std::string::npos) wrong_kind(key, written, way_out);
   if (text->find_first_not_of(" \t") == std::string::npos) wrong_kind(key, written);
-  return parse_number(source_text(*text, written));
+  const Measure measure = parse_measure(source_text(key, *text, written, is_si));
+  if (!is_expression && !measure.has_unit) wrong_kind(key, written, way_out);
+  return measure;
+}
+
+double number_of(const Key& key, const ParsedValue& written, bool is_si = false) {
+  return measure_of(key, written, is_si).value;
 }
 
 void check_range(const Key& key, double value, const SourceLocation& location, const std::string& hint = "") {
@@ -120,12 +131,15 @@ std::string choice_of(const Key& key, const ParsedValue& written) {
   wrong_kind(key, written, near.empty() ? "" : "; did you mean '" + std::string(near) + "'?");
 }
 
-AxisValues list_of(const Key& key, const ParsedList& list) {
+AxisValues list_of(const Key& key, const ParsedList& list, bool is_si = false) {
   AxisValues axis;
+  std::vector<Measure> measures;
   for (const ParsedValue& element : list) {
-    axis.values.push_back(number_of(key, element));
+    measures.push_back(measure_of(key, element, is_si));
+    axis.values.push_back(measures.back().value);
     axis.locations.push_back(element.location);
   }
+  check_units(measures, axis.locations);
   axis.text = toml_list(axis.values);
   return axis;
 }
@@ -134,7 +148,7 @@ Interval interval_of(const Key& key, const ParsedValue& written) {
   const auto* const text = std::get_if<std::string>(&written.data);
   const bool several = std::holds_alternative<ParsedList>(written.data) || (text != nullptr && written.untyped);
   if (!several) wrong_kind(key, written);
-  const std::vector<double> values = text != nullptr ? parse_axis(source_text(*text, written)).values
+  const std::vector<double> values = text != nullptr ? parse_axis(source_text(key, *text, written, false)).values
                                                      : list_of(key, std::get<ParsedList>(written.data)).values;
   if (values.size() != 2 || !(values[0] < values[1]) || !std::isfinite(values[1] - values[0]))
     fail(written.location, std::string(key.name) + " = " + toml_list(values) + expected(key));
@@ -142,18 +156,20 @@ Interval interval_of(const Key& key, const ParsedValue& written) {
 }
 
 AxisValues unchecked_axis(const Key& key, const ParsedValue& written) {
-  if (const auto* const list = std::get_if<ParsedList>(&written.data)) return list_of(key, *list);
-  if (const auto* const text = std::get_if<std::string>(&written.data)) return parse_axis(source_text(*text, written));
-  return list_of(key, {written});
+  const bool is_si = key.section == "machine";
+  if (const auto* const list = std::get_if<ParsedList>(&written.data)) return list_of(key, *list, is_si);
+  if (const auto* const text = std::get_if<std::string>(&written.data))
+    return parse_axis(source_text(key, *text, written, is_si));
+  return list_of(key, {written}, is_si);
 }
 
 }  // namespace
 
-Value convert(const Key& key, const ParsedValue& written) {
+Value convert(const Key& key, const ParsedValue& written, bool is_si) {
   if (key.kind == Kind::number || key.kind == Kind::integer) check_single(key, written);
   switch (key.kind) {
     case Kind::number:
-      return in_range(key, number_of(key, written), written.location);
+      return in_range(key, number_of(key, written, is_si), written.location);
     case Kind::interval:
       return interval_of(key, written);
     case Kind::integer:

@@ -5,7 +5,9 @@
 #include <numbers>
 
 #include "branches/settings.hpp"
+#include "config/machine_keys.hpp"
 #include "config/suggestion.hpp"
+#include "config/unit.hpp"
 #include "config/value_grammar.hpp"
 #include "model/shaking.hpp"
 #include "observables/all.hpp"
@@ -37,7 +39,7 @@ constexpr std::string_view a_force = "f = 1.0\n", stops = "xs = 1.0\n", a_stop_a
                            a_second = "along = \"nu\"\nrange = [0.8, 1.5]\nacross = \"xs\"\n",
                            a_curve = "along = \"nu\"\nrange = [0.8, 1.5]\nacross = \"xs\"\ncurve = \"fold\"\n";
 
-constexpr std::array keys_before_observe{
+constexpr std::array keys_of_scene{
     Key{"", "title", text, "", "My sweep", "what the configuration shows; the output file keeps it"},
     Key{"", "source", text, "", "doi:10.5755/j02.mech.32277",
         "where it comes from, e.g. a DOI; the output file keeps it"},
@@ -45,7 +47,8 @@ constexpr std::array keys_before_observe{
     Key{"scene", "h", number, "0", "0.05", "damping ratio: 2 h is the factor of x'", not_negative},
     Key{"scene", "f", number, "0", "-1", "force amplitude over stiffness; negative: a phase shift of pi", any},
     with(a_force, Key{"scene", "nu", number, "1", "1.2", "excitation frequency over natural frequency", positive}),
-    with(a_force, Key{"scene", "phase", number, "0", "0.5", "phase of the force at tau = 0, rad; pi/2: a cosine", any}),
+    with(a_force, of(Quantity::angle, Key{"scene", "phase", number, "0", "0.5",
+                                          "phase of the force at tau = 0, rad; pi/2: a cosine", any})),
     with(stops, Key{"scene", "R", number, "1", "0.7", "restitution of velocity on both stops", zero_to_one}),
     Key{"scene", "xs", number, "", "-1", "symmetric stops at -|xs| and +|xs|", not_zero},
     or_as("xs",
@@ -94,6 +97,9 @@ constexpr std::array keys_before_observe{
                     "v0, only if h = f = load = 0, R = 1 and xs is given",
                     AllowedRange{.low = 0, .high = 2 * std::numbers::pi, .open = true}}),
 
+};
+
+constexpr std::array keys_before_observe{
     with("xs = [1.0, 2.0]\nR = [0.7, 0.5]\n",
          Key{"sweep", "linked", names, "", "xs, R",
              "axes of equal length that run together instead of crossing, e.g. nu, f; the first names the dimension"}),
@@ -113,8 +119,10 @@ constexpr std::array keys_before_observe{
         AllowedRange{.low = 1, .high = 1e12}},
     Key{"time", "window", integer, "64", "16", "steady: forcing periods observed of a motion that does not repeat",
         AllowedRange{.low = 1, .high = 1e9}},
-    with(is_transient, Key{"time", "duration", number, "0", "63",
-                           "transient: observed time in tau; greater than 0 there", not_negative}),
+    with(is_transient,
+         of(Quantity::time,
+            Key{"time", "duration", number, "0", "63",
+                "transient: observed time in tau, with [machine] in s; greater than 0 there", not_negative})),
     Key{"time", "tolerance", number, "1e-12", "1e-9", "steady: distance of the states at a repeat",
         AllowedRange{.low = 0, .high = 1, .open = true}},
     Key{"time", "max_impacts", integer, "1e8", "1e6",
@@ -176,15 +184,15 @@ constexpr std::array keys_after_observe{
 
 /// The keys of [observe] are those of the observables.
 const std::vector<Key> all_keys = [] {
-  std::vector<Key> keys(keys_before_observe.begin(), keys_before_observe.end());
-  const std::vector<Key> of_observables = observables::All::keys();
-  keys.insert(keys.end(), of_observables.begin(), of_observables.end());
-  keys.insert(keys.end(), keys_after_observe.begin(), keys_after_observe.end());
+  std::vector<Key> keys;
+  const auto add = [&](std::span<const Key> some) { keys.insert(keys.end(), some.begin(), some.end()); };
+  add(keys_of_scene), add(machine_keys()), add(keys_before_observe);
+  add(observables::All::keys()), add(keys_after_observe);
   return keys;
 }();
 
-constexpr std::array<std::string_view, 7> all_sections{"scene",      "sweep",  "time",  "observe",
-                                                       "integrator", "branch", "output"};
+constexpr std::array<std::string_view, 8> all_sections{"scene",   "machine",    "sweep",  "time",
+                                                       "observe", "integrator", "branch", "output"};
 
 /// A bound in the usual notation: 1e9, not 1e+09, and 1e-9, not 1e-09.
 std::string bound_text(double bound) {
@@ -215,9 +223,11 @@ std::span<const Key> keys() { return all_keys; }
 
 std::span<const std::string_view> sections() { return all_sections; }
 
+bool describes_scene(std::string_view section) { return section == "scene" || section == "machine"; }
+
 const Key* find_key(std::string_view section, std::string_view name) {
   for (const Key& key : all_keys) {
-    const bool axis = section == "sweep" && key.section == "scene";
+    const bool axis = section == "sweep" && describes_scene(key.section);
     if (key.name == name && (key.section == section || axis)) return &key;
   }
   return nullptr;
@@ -260,7 +270,8 @@ std::string permitted(const Key& key) {
     case number:
       break;
   }
-  return describe(key.range);
+  const bool has_unit = key.section == "machine" && key.quantity != Quantity::number;
+  return describe(key.range) + (has_unit ? ", in " + std::string(unit_of_numbers(key.quantity)) : "");
 }
 
 }  // namespace clatter::config

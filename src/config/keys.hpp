@@ -15,7 +15,11 @@ namespace clatter::config {
 /// The sections in their order, without the top level.
 [[nodiscard]] std::span<const std::string_view> sections();
 
-/// The key of that name, or nullptr; in [sweep] every scene key is the key of an axis.
+/// Whether it is one of the two sections that describe a scene: [scene] without units, [machine] in SI.
+[[nodiscard]] bool describes_scene(std::string_view section);
+
+/// The key of that name, or nullptr; in [sweep] every key that describes a scene is that of an axis, that of [scene] if
+/// [machine] has one of the same name.
 [[nodiscard]] const Key* find_key(std::string_view section, std::string_view name);
 
 /// The names that a section takes.
@@ -26,7 +30,7 @@ namespace clatter::config {
 
 [[nodiscard]] bool contains(const AllowedRange& range, double value);
 
-/// The values that a key permits, for messages and the help: "> 0", "0 ... 1", "true or false".
+/// The values that a key permits, for messages and the help: "> 0", "0 ... 1", "> 0, in kg", "true or false".
 [[nodiscard]] std::string permitted(const Key& key);
 
 }  // namespace clatter::config

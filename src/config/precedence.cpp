@@ -36,13 +36,16 @@ void exclude(const Settings& settings, sweep::Parameter one, sweep::Parameter ot
 bool from_command_line(const Setting* given) { return given != nullptr && on_command_line(given->key_location); }
 bool from_file(const Setting* given) { return given != nullptr && !on_command_line(given->key_location); }
 
-const Key* key_of_scene(sweep::Parameter parameter) { return find_key("scene", key_of(parameter)); }
+/// The key of a parameter in the section that describes the scene; nullptr if it has none.
+const Key* key_of_scene(const Settings& settings, sweep::Parameter parameter) {
+  return find_key(settings.scene_section, key_of(parameter));
+}
 
-/// Removes the file's setting of a parameter from [scene] or [sweep].
+/// Removes the file's setting of a parameter from the scene's section or [sweep].
 void remove(Settings& settings, sweep::Parameter parameter) {
   for (auto* const list : {&settings.values, &settings.axes})
     std::erase_if(*list, [&](const Setting& setting) {
-      return setting.key == key_of_scene(parameter) && !on_command_line(setting.key_location);
+      return setting.key == key_of_scene(settings, parameter) && !on_command_line(setting.key_location);
     });
 }
 
@@ -51,16 +54,18 @@ void note(Settings& settings, sweep::Parameter parameter, const SourceLocation& 
   settings.replaced.push_back({parameter, by, former, remark});
 }
 
-/// Lets the command line's [scene] or [sweep] setting of a parameter replace that of the other section in the file.
+/// Lets the command line's setting of a parameter, in the scene's section or [sweep], replace that of the other section
+/// in the file.
 void choose_section(Settings& settings, sweep::Parameter parameter) {
-  const Setting* const fixed = settings.find("scene", key_of(parameter));
-  const auto swept = std::ranges::find(settings.axes, key_of_scene(parameter), &Setting::key);
+  const Setting* const fixed = settings.find(settings.scene_section, key_of(parameter));
+  const auto swept = std::ranges::find(settings.axes, key_of_scene(settings, parameter), &Setting::key);
   if (fixed == nullptr || swept == settings.axes.end()) return;
   const SourceLocation in_scene = fixed->key_location, in_sweep = swept->key_location;
   if (contradict(in_scene, in_sweep))
     fail(later(in_scene, in_sweep) ? in_scene : in_sweep,
-         quoted_name(parameter) + " in both [scene] and [sweep]; remove one of them (for a single value: sweep." +
-             std::string(key_of(parameter)) + " = VALUE)");
+         quoted_name(parameter) + " in both [" + std::string(settings.scene_section) +
+             "] and [sweep]; remove one of them (for a single value: sweep." + std::string(key_of(parameter)) +
+             " = VALUE)");
   const bool by_axis = on_command_line(in_sweep);
   note(settings, parameter, by_axis ? in_sweep : in_scene, by_axis ? in_scene : in_sweep);
   remove(settings, parameter);
@@ -98,15 +103,19 @@ double stop_of(sweep::Parameter side, double xs_value) {
 }
 
 constexpr Pair pairs[] = {{xs, stop_lower, stop_upper, stop_of},
+                          {gap, stop_lower, stop_upper, stop_of},
                           {R, R_lower, R_upper, same},
                           {stop_stiffness, stop_stiffness_lower, stop_stiffness_upper, same},
                           {stop_damping, stop_damping_lower, stop_damping_upper, same}};
 
+/// The keys of a machine that give its damping.
+constexpr sweep::Parameter dampings[] = {damping, damping_ratio, quality};
+
 /// Makes a setting of the pair's common key one of the remaining half.
-void halve(Setting& setting, const Pair& pair, sweep::Parameter remaining) {
+void halve(Setting& setting, const Pair& pair, sweep::Parameter remaining, const Key* key_of_remaining) {
   std::vector<double> halves;
   for (const double number : setting.numbers()) halves.push_back(pair.half(remaining, number));
-  setting.key = key_of_scene(remaining);
+  setting.key = key_of_remaining;
   auto* const axis = std::get_if<AxisValues>(&setting.value);
   if (axis == nullptr) {
     setting.value = halves.front();
@@ -119,7 +128,8 @@ void halve(Setting& setting, const Pair& pair, sweep::Parameter remaining) {
 void halve(Settings& settings, const Pair& pair, sweep::Parameter remaining) {
   for (auto* const list : {&settings.values, &settings.axes})
     for (Setting& setting : *list)
-      if (setting.key == key_of_scene(pair.both)) halve(setting, pair, remaining);
+      if (setting.key == key_of_scene(settings, pair.both))
+        halve(setting, pair, remaining, key_of_scene(settings, remaining));
   rename(settings, pair.both, remaining);
 }
 
@@ -154,6 +164,12 @@ void let_command_line_win(Settings& settings) {
   }
   for (const Side side : {Side::lower, Side::upper})
     if (is_soft_somewhere(settings, side)) let_soft_stop_or_restitution_win(settings, side);
+  for (const sweep::Parameter one : dampings)
+    for (const sweep::Parameter other : dampings)
+      if (one < other) exclude(settings, one, other);
+  for (const sweep::Parameter one : dampings)
+    for (const sweep::Parameter other : dampings)
+      if (one != other) replace(settings, one, other);
   for (const sweep::Parameter start : {x0, v0}) exclude(settings, start_period, start);
   for (const sweep::Parameter start : {x0, v0})
     replace(settings, start_period, start), replace(settings, start, start_period);

@@ -10,6 +10,10 @@ namespace {
 constexpr std::string_view values = R"text(Values, in TOML, in INI and after --set:
   0.5   2*pi   -pi/2   a number; pi may stand as a number or factor (in TOML in
                        quotes: "2*pi")
+  3 mm   2*pi rad/s    a number with its unit, for keys of [machine] and, beside
+                       them, duration: products and quotients of m, s, N, g,
+                       Hz, rad with prefixes (n u m c d k M G) and powers, as
+                       N s/m, m s-1; in TOML in quotes: "3 mm"
   linspace(a, b, n)    n values from a to b in equal steps, both included
   logspace(a, b, n)    n values from a to b (not exponents) in equal ratios; a
                        and b of the same sign
@@ -82,7 +86,7 @@ std::string_view value_reference() { return values; }
 std::string section_reference(std::string_view section) {
   std::string text = header(section);
   if (section == "sweep") {
-    text += row("any key of [scene]", axes_help);
+    text += row("any key of [scene]", "or [machine]: " + std::string(axes_help));
   }
   for (const Key& key : keys()) {
     if (key.section == section) text += entry(key);
@@ -113,7 +117,7 @@ std::string key_reference(const Key& key) {
   std::string text = std::string(key.name) + location + "\n  " + wrapped(key.help, 2) + "  " +
                      wrapped(permitted_and_default(key), 2) + "\nExample\n" + indented(key_example(key)) + '\n' +
                      set_command(key.section, key, std::string(key.example));
-  if (key.section == "scene")
+  if (describes_scene(key.section))
     text +=
         "\nAs an axis of a sweep\n" + indented(axis_example(key)) + '\n' + set_command("sweep", key, example_axis(key));
   return text;

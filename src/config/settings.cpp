@@ -43,12 +43,61 @@ void check_brackets(const ParsedEntry& entry) {
                            "], in single brackets");
 }
 
-const Key& known_key(const ParsedEntry& entry) {
-  if (const Key* const key = find_key(entry.section, entry.key)) return *key;
+/// Keys of [scene] and those of [machine] that say the same.
+constexpr std::pair<std::string_view, std::string_view> counterparts[] = {
+    {"h", "damping_ratio"}, {"f", "force"}, {"nu", "frequency"}, {"xs", "gap"}};
+
+/// What says the same in the other one of [scene] and [machine]; empty if nothing does.
+std::string_view counterpart_of(std::string_view name) {
+  for (const auto& [in_scene, in_machine] : counterparts) {
+    if (name == in_scene) return in_machine;
+    if (name == in_machine) return in_scene;
+  }
+  return {};
+}
+
+/// The key in the section that describes the scene, of which an axis is one. Throws ConfigError if it is one of the
+/// other section.
+const Key& key_of_section(const Key& key, const ParsedEntry& entry, std::string_view scene_section) {
+  if (!describes_scene(key.section)) return key;
+  if (const Key* const own = find_key(scene_section, entry.key)) return *own;
+  const std::string other(key.section), own(scene_section), counterpart(counterpart_of(entry.key));
+  fail(entry.location, in_quotes(entry.key) + " is a key of [" + other + "], and [" + own + "] describes this scene; " +
+                           (counterpart.empty() ? "" : "vary " + in_quotes(counterpart) + ", or ") +
+                           "write the scene in [" + other + ']');
+}
+
+const Key& known_key(const ParsedEntry& entry, std::string_view scene_section) {
+  if (const Key* const key = find_key(entry.section, entry.key)) return key_of_section(*key, entry, scene_section);
   const std::vector<std::string_view> names = key_names(entry.section);
+  const std::string counterpart(counterpart_of(entry.key));
+  if (describes_scene(entry.section) && !counterpart.empty())
+    fail(entry.location, "unknown key " + in_quotes(entry.key) + ' ' + shown(entry.section) + "; there it is " +
+                             in_quotes(counterpart));
   std::string way_out = nearest(entry.key, names).empty() ? home_of(entry.key) : "";
   if (way_out.empty()) way_out = suggestion(entry.key, names, "; expected one of ");
   fail(entry.location, "unknown key " + in_quotes(entry.key) + ' ' + shown(entry.section) + way_out);
+}
+
+const ParsedEntry* first_of(const ParsedConfig& parsed, std::string_view section) {
+  const auto found = std::ranges::find(parsed.entries, section, &ParsedEntry::section);
+  return found == parsed.entries.end() ? nullptr : &*found;
+}
+
+/// The section that describes the scene. Throws ConfigError if both have keys.
+std::string_view section_of_scene(const ParsedConfig& parsed) {
+  const ParsedEntry *const scene = first_of(parsed, "scene"), *const machine = first_of(parsed, "machine");
+  if (scene != nullptr && machine != nullptr) {
+    const bool in_order = on_command_line(machine->location) ||
+                          (!on_command_line(scene->location) && scene->location.line < machine->location.line);
+    const ParsedEntry &first = *(in_order ? scene : machine), &second = *(in_order ? machine : scene);
+    fail(second.location, second.section + '.' + second.key + " beside " + first.section + '.' + first.key + ", " +
+                              to_string(first.location) +
+                              "; describe the scene either in [scene], without units, or in [machine], in SI");
+  }
+  const bool has_header = std::ranges::find(parsed.sections, "machine", &ParsedSection::name) != parsed.sections.end();
+  const bool has_other = std::ranges::find(parsed.sections, "scene", &ParsedSection::name) != parsed.sections.end();
+  return machine != nullptr || (scene == nullptr && has_header && !has_other) ? "machine" : "scene";
 }
 
 /// A setting with a value as written in INI.
@@ -88,7 +137,11 @@ const Setting* Settings::given(sweep::Parameter parameter) const {
   for (const Setting& axis : axes) {
     if (axis.key->name == key_of(parameter)) return &axis;
   }
-  return find("scene", key_of(parameter));
+  return find(scene_section, key_of(parameter));
+}
+
+const Setting* Settings::given_symmetric_stops() const {
+  return given(is_si() ? sweep::Parameter::gap : sweep::Parameter::xs);
 }
 
 std::string Settings::text(std::string_view section, std::string_view name) const {
@@ -123,16 +176,18 @@ Setting default_setting(const Key& key) { return setting_of(key, key.fallback); 
 Setting example_setting(const Key& key) { return setting_of(key, key.example); }
 
 Settings check_keys(ParsedConfig parsed) {
-  Settings settings{std::move(parsed.file), std::move(parsed.sections), {}, {}, {}};
+  const std::string_view scene_section = section_of_scene(parsed);
+  Settings settings{std::move(parsed.file), std::move(parsed.sections), {}, {}, {}, scene_section};
   for (const ParsedSection& section : settings.sections) check_section(section.name, section.location);
   for (const ParsedEntry& entry : parsed.entries) {
     check_section(entry.section, entry.location);
     check_brackets(entry);
-    const Key& key = known_key(entry);
-    if (entry.section == "sweep" && key.section == "scene") {
+    const Key& key = known_key(entry, scene_section);
+    if (entry.section == "sweep" && describes_scene(key.section)) {
       settings.axes.push_back({&key, convert_axis(key, entry.value), entry.location, entry.value.location});
     } else {
-      settings.values.push_back({&key, convert(key, entry.value), entry.location, entry.value.location});
+      settings.values.push_back(
+          {&key, convert(key, entry.value, settings.is_si()), entry.location, entry.value.location});
     }
   }
   return settings;

@@ -19,13 +19,13 @@ using Value = std::variant<std::string, double, std::int64_t, bool, Interval, Ax
 
 /// A key that was given: one value, or several as an axis of [sweep], each of the key's kind and within its range.
 struct Setting {
-  const Key* key = nullptr;  ///< of an axis: the key of [scene] that it varies
+  const Key* key = nullptr;  ///< of an axis: the key of [scene] or [machine] that it varies
   Value value;
   SourceLocation key_location;
   SourceLocation location;  ///< of the value, or of all values
 
   [[nodiscard]] bool is_axis() const { return std::holds_alternative<AxisValues>(value); }
-  /// The values of a key of [scene], one unless it is an axis.
+  /// The values of a key of [scene] or [machine], one unless it is an axis.
   [[nodiscard]] std::span<const double> numbers() const;
   /// The location of one of these values: its own as an element of a list, else that of the whole.
   [[nodiscard]] const SourceLocation& location_of(std::size_t index) const;
@@ -48,12 +48,19 @@ struct Settings {
   std::vector<Setting> values;  ///< with one value each, in the order of the text
   std::vector<Setting> axes;    ///< in the order of the text
   std::vector<Replaced> replaced{};
+  std::string_view scene_section = "scene";  ///< that describes the scene: "scene", or "machine"
+
+  /// Whether the scene is a machine, so that all quantities are in SI.
+  [[nodiscard]] bool is_si() const { return scene_section == "machine"; }
 
   /// The setting with one value of a key, or nullptr if it is not given.
   [[nodiscard]] const Setting* find(std::string_view section, std::string_view name) const;
 
-  /// The setting of a parameter in [sweep] or in [scene], or nullptr if it is in neither.
+  /// The setting of a parameter in [sweep] or in the scene's section, or nullptr if it is in neither.
   [[nodiscard]] const Setting* given(sweep::Parameter parameter) const;
+
+  /// The setting that places both stops: xs, of a machine gap.
+  [[nodiscard]] const Setting* given_symmetric_stops() const;
 
   /// The value given for a key of that type, or its default.
   [[nodiscard]] std::string text(std::string_view section, std::string_view name) const;
@@ -75,8 +82,9 @@ struct Settings {
 /// The example of a key, likewise.
 [[nodiscard]] Setting example_setting(const Key& key);
 
-/// Converts a written value to the key's kind and checks its range. Throws ConfigError.
-[[nodiscard]] Value convert(const Key& key, const ParsedValue& written);
+/// Converts a written value to the key's kind and checks its range; with [machine] every quantity is in SI. Throws
+/// ConfigError.
+[[nodiscard]] Value convert(const Key& key, const ParsedValue& written, bool is_si = false);
 [[nodiscard]] AxisValues convert_axis(const Key& key, const ParsedValue& written);
 
 }  // namespace clatter::config

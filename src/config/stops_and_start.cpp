@@ -27,16 +27,17 @@ std::optional<std::size_t> dimension_of(const Settings& settings, const Setting*
 Quantity quantity(const Settings& settings, const AxisGroups& groups, sweep::Parameter parameter) {
   const Setting* const given = settings.given(parameter);
   const std::string name(key_of(parameter));
-  if (given == nullptr) return {name, {settings.number("scene", name)}, nullptr, std::nullopt};
+  if (given == nullptr) return {name, {settings.number(settings.scene_section, name)}, nullptr, std::nullopt};
   const auto numbers = given->numbers();
   return {name, {numbers.begin(), numbers.end()}, given, dimension_of(settings, given, groups)};
 }
 
 /// The lower (-1) or the upper (+1) one of symmetric stops.
 Quantity symmetric_stop(const Settings& settings, const AxisGroups& groups, double side) {
-  Quantity stop = quantity(settings, groups, xs);
+  Quantity stop = quantity(settings, groups, settings.is_si() ? gap : xs);
   for (double& value : stop.values) value = side * std::abs(value);
-  stop.name = side < 0 ? "-|xs|" : "|xs|";
+  const std::string place = settings.is_si() ? "gap" : "|xs|";
+  stop.name = side < 0 ? '-' + place : place;
   return stop;
 }
 
@@ -76,19 +77,22 @@ const SourceLocation* place_of_shaking(const Setting* amplitude) {
 /// Throws ConfigError if neither a spring nor a stop keeps the mass.
 void check_unsprung(const Settings& settings) {
   const Setting* const given = settings.given(stiffness);
-  if (given == nullptr) return;
+  if (given == nullptr && !settings.is_si()) return;
   const auto absent = [&](sweep::Parameter stop) {
     const Setting* const position = settings.given(stop);
     return position == nullptr ||
            std::ranges::any_of(position->numbers(), [](double value) { return std::isinf(value); });
   };
-  if (settings.given(xs) != nullptr || !absent(stop_lower) || !absent(stop_upper)) return;
+  if (settings.given_symmetric_stops() != nullptr || !absent(stop_lower) || !absent(stop_upper)) return;
+  const std::string way_out = " without stops, so nothing bounds the motion; give " +
+                              std::string(settings.is_si() ? "gap" : "xs") +
+                              ", stop_lower or stop_upper, or a stiffness > 0";
+  if (given == nullptr) fail(settings.location_of_section("machine"), "no stiffness" + way_out);
   const auto values = given->numbers();
   const auto found = std::ranges::find_if(values, [](double value) { return value <= 0; });
   if (found == values.end()) return;
   fail(given->location_of(static_cast<std::size_t>(found - values.begin())),
-       "stiffness = " + number_text(*found) +
-           " without stops, so nothing bounds the motion; give xs, stop_lower or stop_upper, or a stiffness > 0");
+       "stiffness = " + number_text(*found) + way_out);
 }
 
 /// Throws ConfigError if both amplitudes, or an amplitude and start_period, are given, or there is no stop to move.
@@ -100,9 +104,10 @@ void check_shaking(const Settings& settings) {
   const SourceLocation* const shaken = moved != nullptr ? moved : carried;
   if (shaken != nullptr && settings.given(start_period) != nullptr)
     fail(*shaken, "an amplitude conflicts with 'start_period', which is that of free motion; give x0 and v0 instead");
-  if (moved != nullptr && settings.given(xs) == nullptr && settings.given(stop_lower) == nullptr &&
+  if (moved != nullptr && settings.given_symmetric_stops() == nullptr && settings.given(stop_lower) == nullptr &&
       settings.given(stop_upper) == nullptr)
-    fail(*moved, "'stop_amplitude' without stops; give xs, stop_lower or stop_upper");
+    fail(*moved, "'stop_amplitude' without stops; give " + std::string(settings.is_si() ? "gap" : "xs") +
+                     ", stop_lower or stop_upper");
 }
 
 }  // namespace
@@ -110,7 +115,7 @@ void check_shaking(const Settings& settings) {
 void check_stops_and_start(const Settings& settings, const AxisGroups& groups) {
   check_unsprung(settings);
   check_shaking(settings);
-  const bool symmetric = settings.given(xs) != nullptr;
+  const bool symmetric = settings.given_symmetric_stops() != nullptr;
   Quantity lower = symmetric ? symmetric_stop(settings, groups, -1) : quantity(settings, groups, stop_lower);
   Quantity upper = symmetric ? symmetric_stop(settings, groups, 1) : quantity(settings, groups, stop_upper);
   const Permitted below = [](double left, double right) { return left < right; };

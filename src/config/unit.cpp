@@ -81,6 +81,29 @@ bool take_factor(std::string_view& text, bool divides, Unit& product) {
 
 void skip_blanks(std::string_view& text) { text.remove_prefix(std::min(text.find_first_not_of(' '), text.size())); }
 
+/// A quantity in words, and the unit of its numbers without one.
+struct Name {
+  Quantity quantity;
+  std::string_view noun, unit;
+};
+
+constexpr std::array quantity_names{Name{Quantity::number, "a number without unit", ""},
+                                    Name{Quantity::angle, "an angle", "rad"},
+                                    Name{Quantity::length, "a length", "m"},
+                                    Name{Quantity::time, "a time", "s"},
+                                    Name{Quantity::frequency, "a frequency", "Hz"},
+                                    Name{Quantity::velocity, "a velocity", "m/s"},
+                                    Name{Quantity::mass, "a mass", "kg"},
+                                    Name{Quantity::force, "a force", "N"},
+                                    Name{Quantity::stiffness, "a stiffness", "N/m"},
+                                    Name{Quantity::damping, "a damping", "N s/m"}};
+
+/// Of the quantities that keys have.
+const Name& name_of(Quantity quantity) {
+  const auto found = std::ranges::find(quantity_names, quantity, &Name::quantity);
+  return found == quantity_names.end() ? quantity_names.front() : *found;
+}
+
 int expected_angle(Quantity quantity) { return quantity == Quantity::angle || quantity == Quantity::frequency ? 1 : 0; }
 
 }  // namespace
@@ -111,21 +134,12 @@ double in_si(double value, const Unit& unit, Quantity quantity) {
   return value * std::pow(2 * std::numbers::pi, turns);
 }
 
+std::string_view unit_of_numbers(Quantity quantity) { return name_of(quantity).unit; }
+
 std::string description_of(Quantity quantity) {
-  constexpr std::array<std::pair<Quantity, std::string_view>, 10> names{
-      {{Quantity::angle, "an angle in rad"},
-       {Quantity::length, "a length in m"},
-       {Quantity::time, "a time in s"},
-       {Quantity::frequency, "a frequency in Hz or rad/s"},
-       {Quantity::velocity, "a velocity in m/s"},
-       {Quantity::mass, "a mass in kg"},
-       {Quantity::force, "a force in N"},
-       {Quantity::stiffness, "a stiffness in N/m"},
-       {Quantity::damping, "a damping in N s/m"},
-       {Quantity::number, "a number without unit"}}};
-  for (const auto& [known, name] : names)
-    if (known == quantity) return std::string(name);
-  return std::string(si_unit(quantity));
+  const auto& [known, noun, unit] = name_of(quantity);
+  const std::string other = quantity == Quantity::frequency ? " or rad/s" : "";
+  return std::string(noun) + (unit.empty() ? "" : " in ") + std::string(unit) + other;
 }
 
 }  // namespace clatter::config

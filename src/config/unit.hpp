@@ -26,7 +26,10 @@ struct Unit {
 /// A value in a unit that fits, in the SI unit of the quantity. A power of ten is one rounding, so 3 mm is 0.003 m.
 [[nodiscard]] double in_si(double value, const Unit& unit, Quantity quantity);
 
-/// A quantity and its unit for messages: "a length in m", "a stiffness in N/m".
+/// The unit of a key's numbers that have none, as it is written in values: "N/m"; empty for numbers.
+[[nodiscard]] std::string_view unit_of_numbers(Quantity quantity);
+
+/// A key's quantity and its unit for messages: "a length in m", "a frequency in Hz or rad/s".
 [[nodiscard]] std::string description_of(Quantity quantity);
 
 }  // namespace clatter::config

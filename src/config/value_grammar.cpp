@@ -4,6 +4,7 @@
 #include <array>
 #include <cctype>
 #include <charconv>
+#include <cmath>
 #include <numbers>
 #include <optional>
 
@@ -11,22 +12,24 @@
 #include "config/comma.hpp"
 #include "config/suggestion.hpp"
 #include "config/text_file.hpp"
+#include "config/unit.hpp"
 #include "storage/utf8.hpp"
 
 namespace clatter::config {
 namespace {
 
 constexpr std::string_view blanks = " \t\r\n";
+constexpr const char* unit_hint = ", by products and quotients of m, s, N, g, Hz, rad with prefixes: mm, N s/m";
 
 /// Reads a value from its first character to its last by recursive descent.
 class Parser {
  public:
   explicit Parser(const SourceText& source) : source_(source) { skip_blanks(); }
 
-  [[nodiscard]] double whole_number() {
-    const double value = product();
+  [[nodiscard]] Measure whole_number() {
+    const Measure measured = measure();
     expect_end();
-    return value;
+    return measured;
   }
 
   [[nodiscard]] AxisValues axis() {
@@ -52,10 +55,14 @@ class Parser {
     return true;
   }
 
-  [[noreturn]] void fail_at(std::size_t offset, const std::string& message) const {
+  [[nodiscard]] SourceLocation location_at(std::size_t offset) const {
     SourceLocation location = source_.location;
     if (source_.columns) location.column += storage::characters(source_.text.substr(0, offset));
-    fail(location, message);
+    return location;
+  }
+
+  [[noreturn]] void fail_at(std::size_t offset, const std::string& message) const {
+    fail(location_at(offset), message);
   }
 
   [[noreturn]] void fail_here(const std::string& message) const { fail_at(at_, message); }
@@ -75,6 +82,30 @@ class Parser {
     const std::string_view name = source_.text.substr(begin, at_ - begin);
     skip_blanks();
     return name;
+  }
+
+  /// A number, and its unit up to the next ',', ')' or ']'.
+  [[nodiscard]] Measure measure() {
+    const double value = product();
+    const std::size_t begin = at_;
+    const std::string_view text = rest().substr(0, rest().find_first_of(",)]"));
+    if (!begins_word(text) || text.starts_with("pi")) return {value, false};
+    const std::optional<Unit> unit = parse_unit(text);
+    if (!unit && source_.quantity == Quantity::number) return {value, false};  // what follows is no unit
+    const std::string expected = "; expected " + description_of(source_.quantity);
+    if (!unit) fail_at(begin, "unknown unit " + in_quotes(text) + expected + unit_hint);
+    if (source_.quantity == Quantity::number)
+      fail_at(begin,
+              "the unit " + in_quotes(text) + " of a number without unit; leave it out" + std::string(source_.way_out));
+    if (!fits(*unit, source_.quantity)) fail_at(begin, "the unit " + in_quotes(text) + " doesn't fit" + expected);
+    at_ += text.size();
+    return {in_si(value, *unit, source_.quantity), true};
+  }
+
+  [[nodiscard]] static bool begins_word(std::string_view text) {
+    constexpr unsigned char ascii = 0x80;
+    const unsigned char first = text.empty() ? ' ' : static_cast<unsigned char>(text.front());
+    return std::isalpha(first) != 0 || first >= ascii;
   }
 
   [[nodiscard]] double product() {
@@ -117,16 +148,40 @@ class Parser {
   [[nodiscard]] AxisValues list() {
     const bool bracket = accept('[');
     AxisValues axis;
+    std::vector<Measure> measures;
     if (bracket && accept(']')) fail_at(0, "an empty axis; give at least one value");
     do {
-      SourceLocation location = source_.location;
-      if (source_.columns) location.column += storage::characters(source_.text.substr(0, at_));
-      axis.locations.push_back(location);
-      axis.values.push_back(product());
+      axis.locations.push_back(location_at(at_));
+      measures.push_back(measure());
+      axis.values.push_back(measures.back().value);
     } while (accept(','));
     if (bracket && !accept(']')) fail_here("expected ',' or ']', " + found());
+    check_units(measures, axis.locations);
     axis.text = toml_list(axis.values);
     return axis;
+  }
+
+  /// The three numbers in brackets; the last one is a count, without unit, or a step.
+  [[nodiscard]] std::array<double, 3> arguments_of(const AxisFunction& function) {
+    std::array<double, 3> arguments{};
+    std::vector<Measure> measures;
+    std::vector<SourceLocation> locations;
+    accept('(');
+    for (std::size_t i = 0; i < arguments.size(); ++i) {
+      if (i > 0 && !accept(',')) fail_here("expected ',' in " + std::string(function.usage) + ", " + found());
+      if (i == 2 && function.counts) {
+        arguments[i] = product();
+        continue;
+      }
+      locations.push_back(location_at(at_));
+      measures.push_back(measure());
+      arguments[i] = measures.back().value;
+    }
+    if (!accept(')'))
+      fail_here("expected ')' after the three arguments of " + std::string(function.usage) + ", " + found() +
+                comma_hint_within(source_.text));
+    check_units(measures, locations);
+    return arguments;
   }
 
   [[nodiscard]] AxisValues call(std::string_view name, std::size_t begin) {
@@ -135,15 +190,7 @@ class Parser {
       fail_at(begin,
               "unknown function " + in_quotes(name) + suggestion(name, axis_function_names(), "; expected one of "));
     }
-    accept('(');
-    std::array<double, 3> arguments{};
-    for (std::size_t i = 0; i < arguments.size(); ++i) {
-      if (i > 0 && !accept(',')) fail_here("expected ',' in " + std::string(function->usage) + ", " + found());
-      arguments[i] = product();
-    }
-    if (!accept(')'))
-      fail_here("expected ')' after the three arguments of " + std::string(function->usage) + ", " + found() +
-                comma_hint_within(source_.text));
+    const std::array<double, 3> arguments = arguments_of(*function);
     AxisValues axis;
     if (const std::string mistake = function->evaluate(arguments, axis.values); !mistake.empty())
       fail_at(begin, mistake);
@@ -159,7 +206,20 @@ class Parser {
 
 }  // namespace
 
-double parse_number(const SourceText& source) { return Parser(source).whole_number(); }
+double parse_number(const SourceText& source) { return parse_measure(source).value; }
+
+Measure parse_measure(const SourceText& source) { return Parser(source).whole_number(); }
+
+void check_units(const std::vector<Measure>& measures, const std::vector<SourceLocation>& locations) {
+  if (std::ranges::none_of(measures, &Measure::has_unit)) return;
+  const auto lacks_unit = [](const Measure& measure) {
+    return !measure.has_unit && measure.value != 0 && !std::isinf(measure.value);
+  };
+  const auto bare = std::ranges::find_if(measures, lacks_unit);
+  if (bare == measures.end()) return;
+  fail(locations[static_cast<std::size_t>(bare - measures.begin())],
+       number_text(bare->value) + " without a unit beside a number with one; give each its unit, or none");
+}
 
 AxisValues parse_axis(const SourceText& source) { return Parser(source).axis(); }
 

@@ -7,14 +7,23 @@
 #include <vector>
 
 #include "config/source_location.hpp"
+#include "model/quantity.hpp"
 
 namespace clatter::config {
 
 /// A text to be read as a number or an axis, with its location.
 struct SourceText {
   std::string_view text;
-  SourceLocation location;  ///< of its first character
-  bool columns = false;     ///< the text is on one line there, so a mistake inside has a column of its own
+  SourceLocation location;               ///< of its first character
+  bool columns = false;                  ///< the text is on one line there, so a mistake inside has a column of its own
+  Quantity quantity = Quantity::number;  ///< that its numbers are; of a number, units are refused
+  std::string_view way_out{};            ///< of a unit there, besides leaving it out: ", or ..."
+};
+
+/// A number in SI, and whether it was written with a unit.
+struct Measure {
+  double value = 0.0;
+  bool has_unit = false;
 };
 
 /// Two numbers, the lower first.
@@ -38,9 +47,15 @@ inline constexpr double max_points = 1e9;
 /// Reads a number, in which `pi` may stand as a number or factor: 0.5, pi, -2*pi/3, inf. Throws ConfigError.
 [[nodiscard]] double parse_number(const SourceText& source);
 
+/// The same with a unit, if there is one: 3 mm, 2*pi rad/s. Throws ConfigError.
+[[nodiscard]] Measure parse_measure(const SourceText& source);
+
 /// Reads linspace(a, b, n), logspace(a, b, n), arange(a, b, step), sobol(a, b, n), or numbers between commas in
-/// optional brackets. Throws ConfigError.
+/// optional brackets; all numbers with units, or none. Throws ConfigError.
 [[nodiscard]] AxisValues parse_axis(const SourceText& source);
+
+/// Throws ConfigError if one of several numbers has no unit and others do; 0 and infinity need none.
+void check_units(const std::vector<Measure>& measures, const std::vector<SourceLocation>& locations);
 
 /// The shortest text that reads back to the same number.
 [[nodiscard]] std::string number_text(double value);

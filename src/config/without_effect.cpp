@@ -34,14 +34,17 @@ bool zero(double value) { return value == 0; }
 bool unshaken(const Settings& settings) {
   return everywhere(settings, stop_amplitude, zero) && everywhere(settings, base_amplitude, zero);
 }
-bool unforced(const Settings& settings) { return everywhere(settings, f, zero) && unshaken(settings); }
+bool unforced(const Settings& settings) {
+  return everywhere(settings, f, zero) && everywhere(settings, force, zero) && unshaken(settings);
+}
 /// Whether nothing is observed that frame decides.
 bool frameless(const Settings& settings) {
   return no_harmonics(settings) && no_section(settings) && !settings.flag("observe", "extrema") &&
          settings.integer("observe", "trajectory") == 0 && !settings.flag("observe", "attractor");
 }
 bool absent(const Settings& settings, sweep::Parameter stop) {
-  return !settings.given(xs) && everywhere(settings, stop, [](double value) { return std::isinf(value); });
+  return !settings.given_symmetric_stops() &&
+         everywhere(settings, stop, [](double value) { return std::isinf(value); });
 }
 bool no_lower(const Settings& settings) { return absent(settings, stop_lower); }
 bool no_upper(const Settings& settings) { return absent(settings, stop_upper); }
@@ -52,7 +55,7 @@ bool no_stops(const Settings& settings) { return no_lower(settings) && no_upper(
 
 /// A transient has no period; at symmetric stops `period` still gives the ratio of velocities.
 bool no_period(const Settings& settings) {
-  if (steady(settings) || settings.given(xs)) return false;
+  if (steady(settings) || settings.given_symmetric_stops()) return false;
   const Setting *const lower = settings.given(stop_lower), *const upper = settings.given(stop_upper);
   if (lower == nullptr || upper == nullptr) return true;
   return !lower->is_axis() && !upper->is_axis() && lower->numbers()[0] != -upper->numbers()[0];
@@ -66,14 +69,15 @@ struct Rule {
 };
 
 constexpr std::string_view in_transient = "in a transient", or_steady = "write mode = \"steady\" in [time]";
-constexpr std::string_view no_force = "without a force", or_force = "give a force f";
+constexpr std::string_view no_force = "without a force", or_force = "give a force";
 constexpr std::string_view or_soft = "give a finite stop_stiffness";
-constexpr std::string_view or_stops = "give xs, stop_lower or stop_upper";
+constexpr std::string_view or_stops = "give stops";
 constexpr std::string_view no_harmonic = "without harmonics", or_harmonics = "write e.g. harmonics = 3";
 constexpr std::string_view only_moreau = "without method = \"moreau\"", or_moreau = "write that in [integrator]";
 
 constexpr Rule rules[] = {
     {"scene", "nu", unforced, no_force, or_force},
+    {"machine", "frequency", unforced, no_force, "give a force, stop_amplitude or base_amplitude"},
     {"scene", "phase", unforced, no_force, or_force},
     {"scene", "R", no_stops, "without stops", or_stops},
     {"scene", "R_lower", no_lower, "without a lower stop", "give stop_lower"},
@@ -118,7 +122,9 @@ bool is_default(const Setting& setting) {
 void look_at(const Settings& settings, const Setting& setting, std::vector<Warning>& warnings) {
   const Key& key = *setting.key;
   for (const Rule& rule : rules) {
-    if (rule.section != key.section || rule.name != key.name || !rule.holds(settings)) continue;
+    const bool is_in_section =
+        rule.section == key.section || (describes_scene(rule.section) && describes_scene(key.section));
+    if (!is_in_section || rule.name != key.name || !rule.holds(settings)) continue;
     warnings.push_back({to_string(setting.key_location), std::string(key.section),
                         '\'' + std::string(key.name) + "' has no effect " + std::string(rule.condition) +
                             "; leave it out, or " + std::string(rule.remedy)});

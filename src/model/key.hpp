@@ -5,6 +5,8 @@
 #include <span>
 #include <string_view>
 
+#include "model/quantity.hpp"
+
 namespace clatter {
 inline namespace model {
 
@@ -33,6 +35,7 @@ struct Key {
   std::span<const std::string_view> choices{};
   std::string_view other{};   ///< the key that gives the value if this one is not in use; the default is its too
   std::string_view beside{};  ///< TOML lines without which it has no effect, with a header if not all of its section
+  Quantity quantity = Quantity::number;  ///< of its value; outside [machine] only beside a [machine]
 
   /// Whether the key has a value if neither it nor an alternative is given.
   [[nodiscard]] constexpr bool has_default() const {
@@ -48,6 +51,12 @@ struct Key {
 
 [[nodiscard]] constexpr Key one_of(std::span<const std::string_view> choices, Key key) {
   key.choices = choices;
+  return key;
+}
+
+/// A key whose value is a quantity, and may have a unit.
+[[nodiscard]] constexpr Key of(Quantity quantity, Key key) {
+  key.quantity = quantity;
   return key;
 }
 

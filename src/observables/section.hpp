@@ -41,8 +41,8 @@ class Section {
                 "states x, x' at one forcing phase in so many successive periods; 0: none",
                 {.low = 0, .high = 1e7}},
             &Settings::section},
-      Field{with(observed,
-                 Key{"observe", "section_phase", Kind::number, "0", "1.5708", "forcing phase of these states, in rad"}),
+      Field{with(observed, of(Quantity::angle, Key{"observe", "section_phase", Kind::number, "0", "1.5708",
+                                                   "forcing phase of these states, in rad"})),
             &Settings::section_phase}};
 
   [[nodiscard]] static bool wanted(const Settings& settings) { return settings.section > 0; }

@@ -82,11 +82,14 @@ Reason resonance_reason(const Oscillator& oscillator) {
 
 /// A spring of another stiffness than 1. Points with k > 0 are computed with k = 1, in another unit of time.
 Reason stiffness_reason(const point::Problem& scene) {
-  const double computed = scene.oscillator.stiffness, k = computed / (scene.units.time * scene.units.time);
-  const std::string is = "k = " + text(k);
+  const Units& units = scene.units;
+  const double computed = scene.oscillator.stiffness, k = computed * factor_of(units, Quantity::stiffness);
+  const std::string is = "k = " + text(k) + (units.is_si ? " N/m" : "");
   if (computed == 0) return {"stiffness", true, "k = 0: no spring"};
-  const std::string rate = text(1 / scene.units.time);
-  const std::string in_units = scene.units.time == 1 ? "" : ": times here are in 1/" + rate + ", velocities in " + rate;
+  const std::string rate = text(1 / units.time);
+  const std::string in_units = units.is_si       ? ": times here are in " + text(units.time) + " s"
+                               : units.time == 1 ? ""
+                                                 : ": times here are in 1/" + rate + ", velocities in " + rate;
   return {"stiffness", computed != 1, is + (computed < 0 ? ", an unstable spring" : "") + in_units};
 }
 
@@ -185,7 +188,7 @@ std::vector<Reason> reasons_of(const point::Problem& scene) {
                               resonance_reason(scene.oscillator),       load_reason(scene.oscillator),
                               stop_reason(scene, needs, false),         stop_reason(scene, needs, true),
                               dissipation_reason(scene, needs.effects), rest_reason(scene, needs)};
-  if (scene.oscillator.stiffness != 1 || scene.units.time != 1) reasons.push_back(stiffness_reason(scene));
+  if (scene.oscillator.stiffness != 1 || scene.units != Units{}) reasons.push_back(stiffness_reason(scene));
   if (has_soft_stop(scene.stops)) reasons.push_back(soft_reason(scene, needs.effects));
   if (is_shaken(scene.shaking)) reasons.push_back(shaking_reason(scene));
   for (Reason& reason : reasons) {

@@ -12,7 +12,7 @@ void to_units(point::Problem& problem, const Units& units) {
   problem.start.velocity *= units.time;
   problem.time.duration /= units.time;
   for (double* const kappa : {&problem.stops.stiffness_lower, &problem.stops.stiffness_upper})
-    *kappa *= units.time * units.time;
+    *kappa *= units.time * units.time / units.mass;
   problem.observe.base_frequency *= units.is_si ? 2 * std::numbers::pi * units.time : units.time;
 }
 
@@ -22,7 +22,7 @@ Units units_of(const Machine& machine) {
   Units units{.time = 1.0, .mass = machine.mass, .is_si = true};
   if (machine.stiffness != 0) {
     units.time = std::sqrt(machine.mass / std::abs(machine.stiffness));
-  } else if (machine.force != 0) {
+  } else if (machine.frequency != 0) {
     units.time = 1 / (2 * std::numbers::pi * machine.frequency);
   }
   return units;
@@ -45,16 +45,18 @@ Oscillator oscillator_of(const Machine& machine, const Units& units) {
   }
   oscillator.forcing = machine.force / force, oscillator.load = machine.load / force;
   oscillator.stiffness = k == 0 ? 0.0 : std::copysign(1.0, k);
-  if (machine.force != 0 && k != 0) oscillator.frequency = 2 * std::numbers::pi * machine.frequency * units.time;
+  if (machine.frequency != 0 && k != 0) oscillator.frequency = 2 * std::numbers::pi * machine.frequency * units.time;
   return oscillator;
 }
 
-void to_computed_units(point::Problem& problem, const std::optional<Machine>& machine) {
-  if (machine) {
-    const Units units = units_of(*machine);
-    problem.oscillator = oscillator_of(*machine, units);
-    return to_units(problem, units);
-  }
+void to_computed_units(point::Problem& problem, Machine machine) {
+  if (machine.force == 0 && !is_shaken(problem.shaking)) machine.frequency = 0;  // of nothing
+  const Units units = units_of(machine);
+  problem.oscillator = oscillator_of(machine, units);
+  to_units(problem, units);
+}
+
+void to_computed_units(point::Problem& problem) {
   const double k = problem.oscillator.stiffness;
   if (k == 0 || std::abs(k) == 1) return;
   const double rate = natural_frequency(problem.oscillator);

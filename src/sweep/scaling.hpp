@@ -1,7 +1,5 @@
 #pragma once
 
-#include <optional>
-
 #include "point/problem.hpp"
 
 namespace clatter::sweep {
@@ -16,7 +14,7 @@ struct Machine {
   double damping = 0.0;                                    ///< c, N s/m; or c/(2 (K m)^(1/2)), or (K m)^(1/2)/c
   DampingGiven damping_given = DampingGiven::coefficient;  ///< which of these
   double force = 0.0;                                      ///< F, N, any finite
-  double frequency = 0.0;                                  ///< Hz, > 0 if there is a force
+  double frequency = 0.0;                                  ///< Hz, > 0 if there is a force, or stops or base shake
   double load = 0.0;                                       ///< L, N, any finite
 };
 
@@ -27,8 +25,12 @@ struct Machine {
 /// The oscillator of a machine in these units: its stiffness is 1, 0 or -1.
 [[nodiscard]] Oscillator oscillator_of(const Machine& machine, const Units& units);
 
+/// Makes the numbers of a problem, which are in SI, those that it is computed with, and its oscillator that of a
+/// machine: its stiffness is 1, 0 or -1.
+void to_computed_units(point::Problem& problem, Machine machine);
+
 /// Makes the numbers of a problem, which are those of the user, the ones that it is computed with: its stiffness is 1,
 /// 0 or -1. With k = 1 they are the same.
-void to_computed_units(point::Problem& problem, const std::optional<Machine>& machine);
+void to_computed_units(point::Problem& problem);
 
 }  // namespace clatter::sweep

@@ -40,8 +40,9 @@ point::Problem problem_at(const Sweep& sweep, std::size_t point) {
     }
   });
   if (start_period) set(problem, Parameter::start_period, *start_period);  // last: it depends on the stops
+  if (machine) to_computed_units(problem, *machine);
   enter_shaken_frame(problem);
-  to_computed_units(problem, machine);
+  if (!machine) to_computed_units(problem);
   return problem;
 }
 

@@ -61,7 +61,7 @@ TEST(Axis, in_the_scene_is_told_where_it_belongs) {
 }
 
 TEST(Axis, of_another_section_is_none) {
-  const std::string words = "one value, since only keys of [scene] can be axes";
+  const std::string words = "one value, since only keys of [scene] or [machine] can be axes";
   expect_all("a.toml", {{"[time]\nwindow = [1, 2]\n", "2:10", words}});
   expect_all("a.ini", {{"[time]\nwindow = 1, 2\n", "2:10", words}, {"[integrator]\nstep = [1]\n", "2:8", words}});
 }

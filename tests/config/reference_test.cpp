@@ -12,7 +12,8 @@ namespace {
 /// The configuration of an example, with stops if it has none, and something observed.
 Config config_of(const std::string& example) {
   std::vector<Override> changes{{"observe.extrema", "true"}};
-  const bool stops = example.find("xs =") != std::string::npos || example.find("stop_") != std::string::npos;
+  const bool stops = example.find("xs =") != std::string::npos || example.find("stop_") != std::string::npos ||
+                     example.find("gap =") != std::string::npos;
   if (!stops) changes.push_back({"scene.xs", "1"});
   return read_as("a.toml", example, changes);
 }
@@ -24,7 +25,7 @@ void expect_effective(const Config& config) {
 TEST(Examples, of_every_key_are_configurations_in_which_it_has_an_effect) {
   for (const Key& key : keys()) {
     expect_effective(config_of(key_example(key)));
-    if (key.section != "scene") continue;
+    if (!describes_scene(key.section)) continue;
     const Config config = config_of(axis_example(key));
     expect_effective(config);
     EXPECT_EQ(size(config.sweep), 11u) << key.name;

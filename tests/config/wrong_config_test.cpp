@@ -14,6 +14,8 @@ std::string config_with(std::string_view section, const std::string& line) {
   const std::string stops = line.starts_with("xs") ? "h = 0.1\n" : "xs = 4.0\n";
   if (section.empty()) return "\n\n\n" + line + "\n[scene]\n" + stops;
   if (section == "scene") return "\n[scene]\n" + stops + line + '\n';
+  if (section == "machine")
+    return "\n[machine]\n" + std::string(line.starts_with("mass") ? "gap = 1\n" : "mass = 1\n") + line + '\n';
   return "[scene]\n" + stops + '[' + std::string(section) + "]\n" + line + '\n';
 }
 

@@ -26,7 +26,7 @@ TEST(Toml, syntax_errors_have_a_place) {
                  {"[scene]\nxs = 1\n[scene.nu]\na = 1\n", "3:1", "nu = a table"},
                  {"[time]\nmax_period = 1\n", "2:1", "did you mean 'max_periods'?"},
                  {"[Scene]\nxs = 1\n", "1:2", "unknown section [Scene]; did you mean [scene]?"},
-                 {"[physics]\n", "1:2", "expected one of scene, sweep, time, observe, integrator, branch, output"},
+                 {"[physics]\n", "1:2", "expected one of scene, machine, sweep, time, observe, integrator"},
                  {"[scene]\nxs = 1\ntitle = \"a\"\n", "3:1", "it belongs before the first section"},
                  {"[scene]\nxs = 1\nnu = \"2 * pie\"\n", "3:13", "expected the end of the value, found 'e'"},
                  {"[scene]\nxs = 1\nx0 = \"ä*pi\"\n", "3:7", "expected a number"},

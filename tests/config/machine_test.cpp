@@ -1,0 +1,153 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <string>
+
+#include "config/settings.hpp"
+#include "config/wrong_table.hpp"
+#include "sweep/sweep.hpp"
+
+namespace clatter::config {
+namespace {
+
+const std::string machine = "[machine]\nmass = 0.5\nstiffness = 12.8e3\ngap = 4e-3\n";  // four lines
+
+TEST(Machine, numbers_are_in_si_and_units_are_converted) {
+  const std::string units =
+      "[machine]\nmass = \"500 g\"\nstiffness = \"12.8 N/mm\"\ndamping = \"16 N s/m\"\nforce = \"-12.8 N\"\n"
+      "frequency = \"2*pi*20 rad/s\"\nphase = \"pi/2 rad\"\nload = \"3 mN\"\nR = 0.7\nstop_lower = \"-3 mm\"\n"
+      "stop_upper = \"4 mm\"\nbase_amplitude = \"50 um\"\nx0 = \"1 mm\"\nv0 = \"-20 mm/s\"\n"
+      "[time]\nmode = \"transient\"\nduration = \"300 ms\"\n";
+  const sweep::Sweep sweep = read_as("a.toml", units).sweep;
+  ASSERT_TRUE(sweep.machine);
+  EXPECT_EQ(sweep.machine->mass, 0.5);
+  EXPECT_EQ(sweep.machine->stiffness, 12800);
+  EXPECT_EQ(sweep.machine->damping, 16);
+  EXPECT_EQ(sweep.machine->force, -12.8);
+  EXPECT_DOUBLE_EQ(sweep.machine->frequency, 20);  // 2 pi in and out
+  EXPECT_EQ(sweep.machine->load, 0.003);
+  EXPECT_EQ(sweep.problem.stops.lower, -0.003);
+  EXPECT_EQ(sweep.problem.stops.upper, 0.004);
+  EXPECT_EQ(sweep.problem.stops.restitution_lower, 0.7);
+  EXPECT_EQ(sweep.problem.shaking.base, 50e-6);
+  EXPECT_EQ(sweep.problem.start.displacement, 0.001);
+  EXPECT_EQ(sweep.problem.start.velocity, -0.02);
+  EXPECT_EQ(sweep.problem.start.phase, std::numbers::pi / 2);
+  EXPECT_EQ(sweep.problem.time.duration, 0.3);
+}
+
+TEST(Machine, damping_is_given_in_one_of_three_ways) {
+  // c = 16 N s/m, c/(2 (K m)^(1/2)) = 0.1 and (K m)^(1/2)/c = 5 are the same
+  for (const std::string given : {"damping = 16.0\n", "damping_ratio = 0.1\n", "quality = 5\n"})
+    EXPECT_NEAR(problem_at(read_as("a.toml", machine + given).sweep, 0).oscillator.damping, 0.1, 1e-16) << given;
+}
+
+TEST(Machine, every_key_is_an_axis) {
+  for (const Key& key : keys()) {
+    if (key.section != "machine") continue;
+    const double value = std::get<double>(example_setting(key).value);
+    const std::string name(key.name), example(key.example);
+    const Config config = read_as("a.toml", "[machine]\n" + std::string(key.beside), {{"sweep." + name, example}});
+    ASSERT_EQ(config.sweep.dimensions.size(), 1u) << name;
+    EXPECT_EQ(key_of(config.sweep.dimensions[0][0].parameter), name);
+    EXPECT_EQ(config.sweep.dimensions[0][0].values, std::vector{value}) << name;
+  }
+}
+
+TEST(Machine, axes_have_units_in_lists_and_functions) {
+  const std::vector<double> expected{0.001, 0.002, 0.003};
+  for (const char* const gap : {"gap = \"linspace(1 mm, 3 mm, 3)\"", "gap = [\"1 mm\", \"2 mm\", \"3 mm\"]",
+                                "gap = \"1 mm, 2 mm, 3 mm\"", "gap = \"arange(1 mm, 4 mm, 1 mm)\""}) {
+    const Config config = read_as("a.toml", "[machine]\nmass = 1\nstiffness = 1\n[sweep]\n" + std::string(gap) + "\n");
+    const std::vector<double>& values = config.sweep.dimensions[0][0].values;
+    ASSERT_EQ(values.size(), 3u) << gap;
+    for (std::size_t i = 0; i < 3; ++i) EXPECT_DOUBLE_EQ(values[i], expected[i]) << gap;  // linspace rounds its steps
+  }
+}
+
+TEST(Machine, follows_and_links_its_axes_and_yields_to_the_command_line) {
+  const Config config = read_as("a.ini",
+                                "[machine]\nmass = 250 g\nstiffness = 1 kN/m ; of steel\ngap = 2 mm\n[sweep]\n"
+                                "frequency = 10 Hz, 2*pi*20 rad/s\nforce = 1 N, 2 kN\nlinked = frequency, force\n"
+                                "follow = force\n",
+                                {{"machine.mass", "300 g"}, {"machine.stop_upper", "5 mm"}, {"machine.quality", "20"}});
+  EXPECT_EQ(config.sweep.machine->mass, 0.3);
+  EXPECT_EQ(config.sweep.problem.stops.lower, -0.002);
+  EXPECT_EQ(config.sweep.problem.stops.upper, 0.005);
+  EXPECT_EQ(config.sweep.follow, 0u);
+  EXPECT_EQ(config.sweep.dimensions[0][1].values, (std::vector{1.0, 2000.0}));
+  EXPECT_EQ(config.sweep.machine->damping_given, sweep::DampingGiven::quality);
+}
+
+TEST(Machine, the_complete_text_is_the_same_machine) {
+  const std::string axes =
+      "damping = 3\n[sweep]\nfrequency = \"linspace(10 Hz, 2*pi*20 rad/s, 7)\"\nforce = [\"1 kN\"]\n";
+  const Config config = read_as("a.toml", machine + axes), again = parse_config(config.text, "again");
+  EXPECT_EQ(again.text, config.text);
+  EXPECT_EQ(again.sweep.dimensions[0][0].values, config.sweep.dimensions[0][0].values);
+  EXPECT_EQ(config.text.find("[scene]"), std::string::npos);
+  EXPECT_EQ(config.text.find("damping_ratio"), std::string::npos);
+}
+
+TEST(Machine, wrong_machines) {
+  const std::vector<Wrong> table{
+      {"[machine]\ngap = 1\n", "1:2", "'mass' is missing in [machine]; give it in kg"},
+      {"[machine]\nmass = 0\ngap = 1\n", "2:8", "mass = 0 is out of range; expected > 0, in kg"},
+      {"[machine]\nmass = -1\ngap = 1\n", "2:8", "mass = -1 is out of range; expected > 0, in kg"},
+      {"[machine]\nmass = 1\n", "1:2", "'gap' is missing in [machine]; give gap, or stop_lower, stop_upper or both"},
+      {"[machine]\nmass = 1\nstop_upper = inf\n", "1:2", "no stiffness without stops, so nothing bounds the motion"},
+      {machine + "damping = 1\nquality = 2\n", "6:1", "'quality' conflicts with 'damping'; remove one of them"},
+      {machine + "damping_ratio = 1\ndamping = 2\n", "6:1", "'damping' conflicts with 'damping_ratio'"},
+      {machine + "quality = 1\n[sweep]\ndamping_ratio = [1]\n", "7:1", "conflicts with 'quality'"},
+      {"[machine]\nmass = 1\ngap = 1\nquality = 2\n", "4:1", "'quality' where the stiffness is 0"},
+      {"[machine]\nmass = 1\ngap = 1\nquality = 2\n[sweep]\nstiffness = [1, 0]\n", "4:1", "give 'damping' in N s/m"},
+      {machine + "force = 1\n", "5:1", "'force' without 'frequency'; add it to [machine] in Hz"},
+      {machine + "base_amplitude = 1e-3\n", "5:1", "'base_amplitude' without 'frequency'"},
+      {machine + "[sweep]\nforce = [0, 1]\n", "6:1", "'force' without 'frequency'"},
+      {machine + "stop_lower = -1\n", "5:1", "'stop_lower' conflicts with 'gap'"},
+      {machine + "x0 = 5e-3\n", "5:6", "x0 = 0.005 and gap = 0.004; expected a start between the stops"},
+      {machine + "nu = 1\n", "5:1", "unknown key 'nu' in [machine]; there it is 'frequency'"},
+      {"[scene]\nxs = 1\nforce = 1\n", "3:1", "unknown key 'force' in [scene]; there it is 'f'"},
+      {"[scene]\nxs = 1\nmass = 1\n", "3:1", "unknown key 'mass' in [scene]; it belongs in [machine]"},
+      {machine + "[sweep]\nnu = [1]\n", "6:1", "'nu' is a key of [scene], and [machine] describes this scene; vary "},
+      {"[scene]\nxs = 1\n[sweep]\nmass = [1]\n", "4:1", "'mass' is a key of [machine], and [scene] describes this"},
+      {"[scene]\nxs = 1\n[machine]\nmass = 1\n", "4:1", "machine.mass beside scene.xs, "},
+      {"[machine]\nmass = 1\n[scene]\nxs = 1\n", "4:1", "describe the scene either in [scene], without units, or in"},
+      {machine + "[branch]\nalong = \"R\"\nrange = [0.1, 0.2]\n", "5:2", "[branch] beside [machine]; a branch is"},
+  };
+  expect_all("a.toml", table);
+  const std::string named = mistake_in("a.toml", "[scene]\nxs = 1\n", {{"machine.mass", "1"}});
+  EXPECT_NE(named.find("--set machine.mass=1: machine.mass beside scene.xs, "), std::string::npos) << named;
+}
+
+TEST(Machine, wrong_units) {
+  const std::vector<Wrong> table{
+      {machine + "damping = \"3 mm\"\n", "5:14", "the unit 'mm' doesn't fit; expected a damping in N s/m"},
+      {machine + "force = \"3 kg\"\n", "5:12", "the unit 'kg' doesn't fit; expected a force in N"},
+      {machine + "frequency = \"3 rad\"\n", "5:16", "the unit 'rad' doesn't fit; expected a frequency in Hz or rad/s"},
+      {machine + "x0 = \"1 inch\"\n", "5:9", "unknown unit 'inch'; expected a length in m, by products and quotients"},
+      {machine + "x0 = \"0.001\"\n", "5:6", "without quotes unless it holds pi or a unit"},
+      {machine + "R = \"0.5 m\"\n", "5:10", "the unit 'm' of a number without unit; leave it out"},
+      {machine + "[sweep]\nx0 = [\"1 mm\", 2]\n", "6:15", "2 without a unit beside a number with one; give each"},
+      {machine + "[sweep]\nx0 = \"linspace(1 mm, 2, 3)\"\n", "6:22", "2 without a unit beside a number with one"},
+      {machine + "[sweep]\nx0 = \"linspace(0, 2 N, 3)\"\n", "6:21", "the unit 'N' doesn't fit; expected a length"},
+      {machine + "[time]\nmode = \"transient\"\nduration = \"3 m\"\n", "7:15", "expected a time in s"},
+      {"[scene]\nxs = \"3 mm\"\n", "2:9", "leave it out, or describe the scene in [machine], which has units"},
+      {"[scene]\nxs = 1\n[time]\nmode = \"transient\"\nduration = \"3 s\"\n", "5:15",
+       "the unit 's' of a number without unit; leave it out, or describe the scene in [machine]"},
+      {"[scene]\nxs = 1\n[sweep]\nnu = [\"1 Hz\"]\n", "4:10", "leave it out, or describe the scene in [machine]"},
+  };
+  expect_all("a.toml", table);
+}
+
+TEST(Machine, a_frequency_of_nothing_is_warned_of) {
+  const Config config = read_as("a.toml", machine + "frequency = 3\n[observe]\nextrema = true\n");
+  ASSERT_EQ(config.warnings.size(), 1u);
+  EXPECT_NE(config.warnings[0].text.find("'frequency' has no effect without a force; leave it out, or give a force"),
+            std::string::npos)
+      << config.warnings[0].text;
+}
+
+}  // namespace
+}  // namespace clatter::config
