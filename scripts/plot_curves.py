@@ -129,7 +129,7 @@ def curves(members, group, axes):
         axes.set_ylim(0.5, (axes.dataLim.y1 if np.isfinite(axes.dataLim.y1) else 1) + 0.5)  # none may have a period
     if first == "impacts_per_period" or all(is_integer(shown_values(output, result)) for result, _, _ in group):
         axes.yaxis.set_major_locator(ticker.MaxNLocator(integer=True))
-    if first == "rest_fraction":
+    if first in ("rest_fraction", "contact_fraction"):
         axes.set_ylim(-0.02, max(1.02 * axes.get_ylim()[1], 0.1))
     if output.follow == name and not several:
         rises = (output.values(name)[-1] > output.values(name)[0]) != output.goes_down

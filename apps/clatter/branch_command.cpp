@@ -83,6 +83,9 @@ const branches::BranchSettings& branch_of(const config::Config& config, const st
         storage::printable(file) +
         ": a branch is followed in the units of [scene]; give the scene that `clatter plan` shows in place of "
         "[machine]");
+  if (has_soft_stop(config.sweep.problem.stops))
+    throw UsageError(storage::printable(file) +
+                     ": a branch is followed between rigid stops; remove stop_stiffness, or sweep with follow instead");
   return *config.branch;
 }
 

@@ -42,6 +42,7 @@ template <class Number>
 [[nodiscard]] LeadingForce<Number> force_in_frame(const Number& h, const Number& f, const Number& nu, const Number& k,
                                                   const Number& stops, const Number& base) {
   using std::atan2, std::fma, std::hypot;
+  if (is_always_zero(stops) && is_always_zero(base)) return {f, Number(0)};
   const Number with_base = fma(Number(base * nu), nu, f);
   if (is_always_zero(stops)) return {with_base, Number(0)};
   const Number in_phase = with_base - stops * fma(Number(-nu), nu, k);

@@ -204,6 +204,10 @@ class Branch(CommandLine):
                 with h5py.File((self.directory / "a.branch.h5")) as file:
                     self.assertEqual(len(file["nu"]), points, text)
 
+    def test_soft_stops_are_refused_with_the_way_out(self):
+        self.write("a.toml", SCENE.replace("R = 0.7", "stop_stiffness = 100.0") + BRANCH)
+        self.assert_refused(2, "between rigid stops; remove stop_stiffness, or sweep with follow", "branch", "a.toml")
+
     def test_other_outputs_are_not_overwritten(self):
         self.write("a.toml", SCENE + "[observe]\nextrema = true\n" + BRANCH)
         self.assertEqual(self.clatter("run", "a.toml", "-o", "a.h5", "-q").returncode, 0)
