@@ -93,7 +93,7 @@ def our_table(rows):
 
 def solved(build):
     """The output of tests/bench/general_solvers, a dictionary for each case and solver."""
-    solvers = program(build, "tests/bench/general_solvers")
+    solvers = program(build, "tests/bench/general_solvers", built_now=True)
     return parsed(subprocess.run([solvers], check=True, capture_output=True, text=True).stdout)
 
 

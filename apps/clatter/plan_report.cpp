@@ -71,18 +71,23 @@ std::vector<Number> computed_scene(const point::Problem& problem) {
   if (problem.units == Units{}) return {};
   const Oscillator& o = problem.oscillator;
   const Stops& stops = problem.stops;
-  return {{"h", o.damping},
-          {"f", o.forcing},
-          {"nu", o.frequency},
-          {"phase", problem.start.phase},
-          {"load", o.load},
-          {"stiffness", o.stiffness},
-          {"stop_lower", stops.lower},
-          {"stop_upper", stops.upper},
-          {"R_lower", stops.restitution_lower},
-          {"R_upper", stops.restitution_upper},
-          {"x0", problem.start.displacement},
-          {"v0", problem.start.velocity}};
+  std::vector<Number> scene{
+      {"h", o.damping}, {"f", o.forcing},           {"nu", o.frequency},         {"phase", problem.start.phase},
+      {"load", o.load}, {"stiffness", o.stiffness}, {"stop_lower", stops.lower}, {"stop_upper", stops.upper}};
+  if (is_soft(stops, Side::lower)) {
+    scene.insert(scene.end(),
+                 {{"stop_stiffness_lower", stops.stiffness_lower}, {"stop_damping_lower", stops.damping_lower}});
+  } else {
+    scene.push_back({"R_lower", stops.restitution_lower});
+  }
+  if (is_soft(stops, Side::upper)) {
+    scene.insert(scene.end(),
+                 {{"stop_stiffness_upper", stops.stiffness_upper}, {"stop_damping_upper", stops.damping_upper}});
+  } else {
+    scene.push_back({"R_upper", stops.restitution_upper});
+  }
+  scene.insert(scene.end(), {{"x0", problem.start.displacement}, {"v0", problem.start.velocity}});
+  return scene;
 }
 
 /// The scene that a point of a group is computed as, unless it is the user's.
