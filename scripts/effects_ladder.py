@@ -17,7 +17,7 @@ HEAD = """\
 
 def measured(build, repetitions, seconds):
     """For each rung, in order: the effect left out, and medians {"own": {"time": ...}, "kept in": ..., "all": ...}"""
-    bench = program(build, "tests/bench/effects_ladder", "it is built if libbenchmark-dev is installed")
+    bench = program(build, "tests/bench/effects_ladder", "it needs libbenchmark-dev", built_now=True)
     # again and again in random order, so that other load on the machine hits all alike
     options = [
         "--benchmark_format=json",

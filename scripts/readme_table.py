@@ -1,6 +1,7 @@
 """Shared by the scripts that make tables of guides: a table stands in a README.md, between two markers."""
 
 import pathlib
+import subprocess
 import sys
 
 SOURCE = pathlib.Path(__file__).resolve().parent.parent
@@ -11,9 +12,11 @@ def add_build(parser):
     parser.add_argument("--build", type=pathlib.Path, default=BUILD, help="build folder (default: build/release)")
 
 
-def program(build, path, reason="scripts/test.sh builds it"):
-    """A program of a build folder; the script ends if it isn't there."""
+def program(build, path, reason="scripts/test.sh builds it", built_now=False):
+    """A program of a build folder, built now if it belongs to no other build; the script ends if it isn't there."""
     found = build / path
+    if built_now:
+        subprocess.run(["cmake", "--build", build, "--target", found.name], stdout=subprocess.DEVNULL)
     if not found.exists():
         sys.exit(f"{pathlib.Path(sys.argv[0]).name}: {found} is missing; {reason}")
     return found

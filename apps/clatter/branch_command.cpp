@@ -70,6 +70,10 @@ void tell_failures(const branches::Branches& found, const branches::BranchSettin
 }
 
 const branches::BranchSettings& branch_of(const config::Config& config, const std::string& file) {
+  if (config.sweep.machine)
+    throw UsageError(storage::printable(file) +
+                     ": [machine]; a branch is followed in a scene without units: give [scene] the numbers that "
+                     "`clatter plan` prints");
   if (!config.branch)
     throw UsageError(storage::printable(file) +
                      ": no branch.along and branch.range, along which to follow; e.g. --set branch.along=nu "

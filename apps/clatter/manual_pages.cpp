@@ -152,8 +152,7 @@ std::string key_item(std::string_view name, std::string_view help, const std::st
 
 std::string section_of_keys(std::string_view name) {
   std::string text = ".SS " + (name.empty() ? "Before the first section" : roff('[' + std::string(name) + ']')) + '\n';
-  if (name == "sweep")
-    text += item("any key of " + bold("[scene]") + " or " + bold("[machine]"), prose(config::axes_help));
+  if (name == "sweep") text += item("any key of " + bold("[scene]"), prose(config::axes_help));
   for (const Key& key : config::keys())
     if (key.section == name) text += key_item(key.name, key.help, config::permitted_and_default(key));
   return text;

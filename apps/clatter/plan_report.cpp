@@ -22,9 +22,11 @@ std::string range(const plan::Bounds& estimate, const char* format) {
   return least == most ? least : least + " ... " + most;
 }
 
-std::string axis_text(const sweep::Axis& axis) {
+std::string axis_text(const sweep::Axis& axis, bool is_si) {
+  const std::string_view unit = unit_of(quantity_of(axis.parameter), is_si);
   return std::string(key_of(axis.parameter)) + " (" + std::to_string(axis.values.size()) + " from " +
-         formatted("%.10g", axis.values.front()) + " to " + formatted("%.10g", axis.values.back()) + ')';
+         formatted("%.10g", axis.values.front()) + " to " + formatted("%.10g", axis.values.back()) +
+         (is_si && unit != "1" ? ' ' + std::string(unit) : "") + ')';
 }
 
 std::string_view way_text(const sweep::Sweep& sweep) {
@@ -36,7 +38,8 @@ std::string axes_text(const sweep::Sweep& sweep) {
   std::string text;
   for (const sweep::Dimension& dimension : sweep.dimensions) {
     text += text.empty() ? "" : " x ";
-    for (std::size_t i = 0; i < dimension.size(); ++i) text += (i > 0 ? " with " : "") + axis_text(dimension[i]);
+    for (std::size_t i = 0; i < dimension.size(); ++i)
+      text += (i > 0 ? " with " : "") + axis_text(dimension[i], sweep.machine.has_value());
   }
   if (sweep.follow)
     text += ", following " + std::string(name_of(sweep.dimensions[*sweep.follow])).append(way_text(sweep));
@@ -68,37 +71,42 @@ std::vector<Number> computed_scene(const point::Problem& problem) {
   if (problem.units == Units{}) return {};
   const Oscillator& o = problem.oscillator;
   const Stops& stops = problem.stops;
-  return {{"h", o.damping},
-          {"f", o.forcing},
-          {"nu", o.frequency},
-          {"phase", problem.start.phase},
-          {"load", o.load},
-          {"stiffness", o.stiffness},
-          {"stop_lower", stops.lower},
-          {"stop_upper", stops.upper},
-          {"R_lower", stops.restitution_lower},
-          {"R_upper", stops.restitution_upper},
-          {"x0", problem.start.displacement},
-          {"v0", problem.start.velocity}};
+  std::vector<Number> scene{
+      {"h", o.damping}, {"f", o.forcing},           {"nu", o.frequency},         {"phase", problem.start.phase},
+      {"load", o.load}, {"stiffness", o.stiffness}, {"stop_lower", stops.lower}, {"stop_upper", stops.upper}};
+  if (is_soft(stops, Side::lower)) {
+    scene.insert(scene.end(),
+                 {{"stop_stiffness_lower", stops.stiffness_lower}, {"stop_damping_lower", stops.damping_lower}});
+  } else {
+    scene.push_back({"R_lower", stops.restitution_lower});
+  }
+  if (is_soft(stops, Side::upper)) {
+    scene.insert(scene.end(),
+                 {{"stop_stiffness_upper", stops.stiffness_upper}, {"stop_damping_upper", stops.damping_upper}});
+  } else {
+    scene.push_back({"R_upper", stops.restitution_upper});
+  }
+  scene.insert(scene.end(), {{"x0", problem.start.displacement}, {"v0", problem.start.velocity}});
+  return scene;
 }
 
 /// The scene that a point of a group is computed as, unless it is the user's.
 std::string scene_text(const plan::Group& group, const sweep::Sweep& sweep) {
   const point::Problem problem = problem_at(sweep, group.example);
-  std::vector<std::string> parts;
-  for (const auto& [key, number] : computed_scene(problem))
-    parts.push_back(std::string(key) + " = " + formatted("%.10g", number));
-  if (parts.empty()) return {};
-  const std::string unit = problem.units.is_si ? " s" : "";
+  const std::vector<Number> scene = computed_scene(problem);
+  if (scene.empty()) return {};
+  constexpr std::size_t in_row = 6;
+  std::vector<std::string> row;
   std::string text;
-  constexpr std::size_t in_line = 6;
-  for (std::size_t begin = 0; begin < parts.size(); begin += in_line)
-    text +=
-        line(begin == 0 ? "  computed as" : "", joined({parts.begin() + static_cast<std::ptrdiff_t>(begin),
-                                                        parts.begin() + static_cast<std::ptrdiff_t>(begin + in_line)}));
-  return text +
-         line("", (problem.units.is_si ? "lengths in m, " : "") + std::string("times in ") +
-                      formatted("%.10g", problem.units.time) + unit + "; point " + std::to_string(group.example));
+  for (const auto& [key, number] : scene) {
+    row.push_back(std::string(key) + " = " + formatted("%.10g", number));
+    if (row.size() < in_row && key != scene.back().first) continue;
+    text += line(text.empty() ? "  computed as" : "", joined(row));
+    row.clear();
+  }
+  const Units& units = problem.units;
+  return text + line("", (units.is_si ? "lengths in m, times in " : "times in ") + formatted("%.10g", units.time) +
+                             (units.is_si ? " s" : "") + "; point " + std::to_string(group.example));
 }
 
 std::string group_text(const plan::Group& group, const sweep::Sweep& sweep) {

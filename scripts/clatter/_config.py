@@ -21,7 +21,11 @@ def toml_of(config):
 
 
 def toml_value(value):
-    return json.dumps(value, ensure_ascii=False) if isinstance(value, str) else plain_value(value)
+    return quoted(value) if isinstance(value, str) else plain_value(value, quoted)
+
+
+def quoted(text):
+    return json.dumps(text, ensure_ascii=False)
 
 
 def set_words(sections):
@@ -38,8 +42,9 @@ def set_words(sections):
     return words
 
 
-def plain_value(value):
-    """A truth value, number or list of numbers, such as an array of numpy, to its last bit."""
+def plain_value(value, of_text=str):
+    """A truth value, number or list of numbers, such as an array of numpy, to its last bit; in lists also texts, such
+    as numbers with units, by `of_text`."""
     if hasattr(value, "tolist"):
         value = value.tolist()
     if isinstance(value, bool):
@@ -49,5 +54,5 @@ def plain_value(value):
     if isinstance(value, numbers.Real):
         return repr(float(value))
     if isinstance(value, (list, tuple, range)):
-        return f"[{', '.join(plain_value(item) for item in value)}]"
+        return f"[{', '.join(of_text(item) if isinstance(item, str) else plain_value(item) for item in value)}]"
     raise TypeError(f"{value!r} is no number, text, truth value or list of numbers")

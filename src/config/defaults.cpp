@@ -51,10 +51,9 @@ std::string default_config(Format format) {
       if (section == "machine") text += std::string(toml ? "#" : ";") + machine_help;
     }
     if (key.name == "linked") {
-      text += toml ? "# one line an axis, any key of [scene]; the first varies slowest\n#nu = \"linspace(0.5, "
-                     "1.5, 501)\"\n"
-                   : "; one line an axis, any key of [scene]; the first varies slowest\n;nu = linspace(0.5, 1.5, "
-                     "501)\n";
+      text +=
+          toml ? "# one line an axis, any key of [scene]; the first varies slowest\n#nu = \"linspace(0.5, 1.5, 501)\"\n"
+               : "; one line an axis, any key of [scene]; the first varies slowest\n;nu = linspace(0.5, 1.5, 501)\n";
     }
     text += commented(key, format);
   }

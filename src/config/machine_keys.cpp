@@ -78,12 +78,12 @@ constexpr std::array keys{
                                    "damping ratio of the upper soft stop, in place of stop_damping", not_negative})),
     with(mass_stops, of(Quantity::force, Key{"machine", "load", numeric, "0", "-2 N", "constant force", any})),
     with(mass_stops_frequency,
-         of(Quantity::length, Key{"machine", "stop_amplitude", numeric, "0", "0.5 mm",
+         of(Quantity::length, Key{"machine", "stop_amplitude", numeric, "0", "1 mm",
                                   "both stops move as that times the sine of the forcing phase; displacements, x0, v0 "
                                   "and impact speeds are relative to them",
                                   any})),
     with(mass_stops_frequency,
-         of(Quantity::length, Key{"machine", "base_amplitude", numeric, "0", "0.5 mm",
+         of(Quantity::length, Key{"machine", "base_amplitude", numeric, "0", "1 mm",
                                   "the base, and with it the stops, moves as that times the sine of the forcing phase; "
                                   "displacements, x0, v0 and impact speeds are relative to it",
                                   any})),

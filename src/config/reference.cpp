@@ -86,7 +86,7 @@ std::string_view value_reference() { return values; }
 std::string section_reference(std::string_view section) {
   std::string text = header(section);
   if (section == "sweep") {
-    text += row("any key of [scene]", "or [machine]: " + std::string(axes_help));
+    text += row("any key of [scene]", axes_help);
   }
   for (const Key& key : keys()) {
     if (key.section == section) text += entry(key);

@@ -14,9 +14,9 @@ namespace clatter::config {
 /// The values that a key permits, and its default: "0 ... 1; default: 1".
 [[nodiscard]] std::string permitted_and_default(const Key& key);
 
-/// The axes of [sweep] in words.
+/// The axes of [sweep] in words, after "any key of [scene]".
 inline constexpr std::string_view axes_help =
-    "an axis, one a line; the first varies slowest; every combination of the axes is a point";
+    "or [machine]: an axis, one a line; the first varies slowest; every combination of the axes is a point";
 
 /// The keys of one section.
 [[nodiscard]] std::string section_reference(std::string_view section);

@@ -73,7 +73,6 @@ class FrameMotion {
 
   [[nodiscard]] double amplitude() const { return std::abs(b_); }
   [[nodiscard]] double frequency() const { return nu_; }
-  [[nodiscard]] double phase() const { return phase_; }  ///< theta at the beginning, rad
   /// Whether a force is left in the moving frame, so that arcs keep its phase.
   [[nodiscard]] bool is_forced() const { return is_forced_; }
 

@@ -72,6 +72,7 @@ class Section {
   Section(const Settings& settings, const ObservedSpan& span)
       : middle_(equilibrium_of(span.scene.oscillator)),
         periodic_(span.periodic),
+        is_absolute_(span.frame.has_value()),
         total_(span.total),
         most_(static_cast<std::size_t>(settings.section)) {
     if (span.scene.oscillator.forcing == 0) return;
@@ -183,12 +184,13 @@ class Section {
   void add(double time, const motion::Motion<double>& m) {
     if (values_.section_x.size() == most_ || (periodic_ && time >= (1 - same_instant) * total_ && begins_here_)) return;
     begins_here_ = begins_here_ || time <= same_instant * total_;
-    values_.section_x.push_back(m.x), values_.section_v.push_back(m.v), times_.push_back(time);
+    values_.section_x.push_back(m.x), values_.section_v.push_back(m.v);
+    if (is_absolute_) times_.push_back(time);
   }
   static constexpr double same_instant = 1e-9;  ///< of the period
 
   double middle_;  ///< the equilibrium
-  bool periodic_;
+  bool periodic_, is_absolute_;
   double total_;
   std::size_t most_;
   double phase_ = 0.0;                ///< of the force

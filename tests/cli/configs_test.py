@@ -12,6 +12,7 @@ import h5py
 import numpy as np
 
 CLATTER = os.environ["CLATTER"]
+SI = ("m", "m s-1", "s", "s-1", "Hz", "J", "W", "N s")  # of the results of a machine, and of its frequency
 CONFIGS = Path(os.environ["CLATTER_SOURCE"]) / "configs"
 ALWAYS = ("status", "impact_total", "simulated_periods")
 OBSERVED = {  # variables of each [observe] key
@@ -70,12 +71,13 @@ class Configs(unittest.TestCase):
 
     def test_every_result_has_a_long_name_and_a_unit(self):
         for config, (_, output) in self.runs.items():
+            units = ("1", "rad", *(SI if "[machine]" in config.read_text(encoding="utf-8") else ()))
             with h5py.File(output) as file:
                 for name, variable in file.items():
                     if str(variable.attrs.get("NAME", b"")).find("netCDF dimension but not") < 0:
                         with self.subTest(f"{config.name}: {name}"):
                             self.assertTrue(variable.attrs["long_name"])
-                            self.assertIn(variable.attrs["units"], ("1", "rad"))
+                            self.assertIn(variable.attrs["units"], units)
 
     def test_no_point_fails(self):
         for config, (_, output) in self.runs.items():

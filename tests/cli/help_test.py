@@ -56,7 +56,7 @@ class Help(CommandLine):
                 self.assertIn(text, self.page("help", name))  # alone it may name a key in two sections
 
     def test_R_is_explained_alone_with_its_section_and_as_an_axis(self):
-        text = self.page("help", "R")
+        text = self.page("help", "scene.R")
         for words in (
             "R in [scene]\n",
             "restitution of velocity on both stops",
@@ -68,8 +68,13 @@ class Help(CommandLine):
             "--set sweep.R='linspace(0.35, 0.7, 11)'\n",
         ):
             self.assertIn(words, text)
-        self.assertEqual(self.page("help", "scene.R"), text)
         self.assertEqual(self.page("help", "sweep.R"), text)
+        self.assertNotIn("[machine]", text)
+
+    def test_R_is_explained_in_both_sections_that_describe_a_scene(self):
+        scene, machine = self.page("help", "scene.R"), self.page("help", "machine.R")
+        self.assertEqual(self.page("help", "R"), f"{scene}\n\n{machine}")
+        self.assertIn("--set machine.R=0.7\n", machine)
 
     def test_a_name_in_two_sections_is_explained_in_both(self):
         text = self.page("help", "tolerance")

@@ -39,6 +39,14 @@ class Module(CommandLine):
         np.testing.assert_array_equal(clatter.run(SWEEP, sweep={"nu": nu}).x_max, data.x_max)
         self.assertEqual(clatter.run(SWEEP, sweep={"nu": "linspace(1, 2, 4)"}, observe={"word": True}).nu.size, 4)
 
+    def test_units_stand_in_texts_and_lists_of_texts(self):
+        machine = {"mass": "250 g", "stiffness": 1000.0, "gap": "2 mm", "force": 3, "R": 0.7}
+        config = {"machine": machine, "sweep": {"frequency": ["10 Hz", "20 Hz"]}, "observe": {"extrema": True}}
+        data = clatter.run(config)
+        np.testing.assert_array_equal(data.frequency, [10, 20])
+        self.assertEqual(data.v_max.attrs["units"], "m s-1")
+        np.testing.assert_array_equal(clatter.run(config, sweep={"frequency": ["10 Hz", "20 Hz"]}).x_max, data.x_max)
+
     def test_output_is_kept_if_it_is_named(self):
         data = clatter.run(SWEEP, output=self.directory / "kept.h5", threads=1)
         with xarray.open_dataset(self.directory / "kept.h5") as kept:

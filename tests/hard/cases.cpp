@@ -4,6 +4,8 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "model/shaking.hpp"
+
 namespace clatter::hard {
 namespace {
 
@@ -13,6 +15,28 @@ point::Problem symmetric(const Oscillator& oscillator, double xs, double R) {
   point::Problem scene;
   scene.oscillator = oscillator;
   scene.stops = {-xs, xs, R, R};
+  return scene;
+}
+
+/// Soft stops of one kind at -xs and xs.
+point::Problem soft(const Oscillator& oscillator, double xs, double kappa, double zeta) {
+  point::Problem scene = symmetric(oscillator, xs, 1.0);
+  scene.stops.stiffness_lower = scene.stops.stiffness_upper = kappa;
+  scene.stops.damping_lower = scene.stops.damping_upper = zeta;
+  return scene;
+}
+
+/// A ball under gravity on a table at x = 0 with the acceleration f sin(theta).
+point::Problem on_table(double f, double R, const Start& start) {
+  point::Problem scene = symmetric({0.0, f, 1.0, -1.0, 0.0}, infinity, R);
+  scene.stops.lower = 0.0, scene.start = start;
+  return scene;
+}
+
+/// The same motion in the frame of shaken stops, which move as b sin(theta).
+point::Problem between_shaken(point::Problem scene, double b) {
+  const auto [amplitude, lead] = force_in_frame(scene.oscillator, {.stops = b});
+  scene.oscillator.forcing = amplitude, scene.start.phase += lead;
   return scene;
 }
 
@@ -142,6 +166,50 @@ std::vector<Case> all_cases() {
 
   add("long", "conservative impacts", free_vibration(), 1e6 * 2 * std::asin(0.5));
   add("long", "1e7 forcing periods", grazing(-1), 1e7 * graze_period);
+
+  const Oscillator unsprung{0.05, 0.5, 1.0, 0.0, 0.0}, unstable{0.1, 1.0, 1.0, 0.0, -1.0};
+  add("no_spring", "dropped, until it rests", on_table(0.0, 0.9, {1.0, 0.0, 0.0}), 40.0);
+  add("no_spring", "rests, and is thrown again", on_table(1.5, 0.3, {0.0, 0.0, 0.0}), 40 * pi_);
+  add("no_spring", "ball between walls", starting(symmetric(unsprung, 0.3, 0.9), {0.0, 1.0, 0.0}), 40 * pi_);
+  add("no_spring", "k = 1e-300", starting(symmetric({0.05, 0.5, 1.0, 0.0, 1e-300}, 0.3, 0.9), {0.0, 1.0, 0.0}),
+      40 * pi_);
+  add("no_spring", "k = -1e-300", starting(symmetric({0.05, 0.5, 1.0, 0.0, -1e-300}, 0.3, 0.9), {0.0, 1.0, 0.0}),
+      40 * pi_);
+  add("no_spring", "h = 1e-300", starting(symmetric({1e-300, 0.5, 1.0, 0.0, 0.0}, 0.3, 0.7), {0.0, 1.0, 0.0}),
+      10 * pi_);
+  add("no_spring", "h = 100", symmetric({100.0, 200.0, 0.5, 0.0, 0.0}, 0.5, 0.6), 16 * pi_);
+
+  add("unstable_spring", "thrown between walls", symmetric(unstable, 0.5, 0.8), 8 * pi_);
+  add("unstable_spring", "at rest at the top, moved by an ulp",
+      starting(symmetric({0.0, 0.0, 1.0, 0.0, -1.0}, 0.5, 0.5), {2.3e-16, 0.0, 0.0}), 60.0);
+  add("unstable_spring", "over the top by 1e-12",
+      starting(symmetric({0.0, 0.0, 1.0, 0.0, -1.0}, 0.5, 0.8), {-0.5 * (1 - 1e-12), 0.5, 0.0}), 60.0);
+  add("unstable_spring", "k = -100, chatter and rest", symmetric({0.1, 10.0, 1.0, 0.0, -100.0}, 0.3, 0.5), 8 * pi_);
+
+  const double contact = pi_ / std::sqrt(1e6 + 1);
+  add("soft_stops", "kappa = 1e12", soft({0.1, 1.0, 1.3, 0.0}, 0.3, 1e12, 0.2), 8 * pi_);
+  add("soft_stops", "kappa = 1e-3", soft({0.1, 1.0, 1.3, 0.0}, 0.3, 1e-3, 0.2), 8 * pi_);
+  add("soft_stops", "zeta = 1", soft({0.1, 1.0, 1.3, 0.0}, 0.3, 1e4, 1.0), 8 * pi_);
+  add("soft_stops", "zeta = 1e3", soft({0.1, 1.0, 1.3, 0.0}, 0.3, 1e4, 1e3), 8 * pi_);
+  add(
+      "soft_stops", "graze by 1e-10",
+      [] {
+        point::Problem scene = grazing(1e-10);
+        scene.stops.stiffness_lower = scene.stops.stiffness_upper = 1e6,
+        scene.stops.damping_lower = scene.stops.damping_upper = 0.3;
+        return scene;
+      }(),
+      4 * graze_period);
+  add("soft_stops", "force in resonance with the contact", soft({0.0, 1.0, 2.0, 0.5}, 0.1, 3.0, 0.0), 8 * pi_);
+  add("soft_stops", "ends in the middle of a contact", starting(soft({}, 0.5, 1e6, 0.0), {0.5, 1.0, 0.0}), contact / 2);
+  add("soft_stops", "pressed for ever, stiff", soft({0.1, 1.0, 0.7, 3.0}, 0.5, 1e6, 0.5), 8 * pi_);
+  add("soft_stops", "k = -3, kappa = 3 + 1e-9", soft({0.2, 0.3, 1.0, 0.0, -3.0}, 0.5, 3 + 1e-9, 0.1), 2 * pi_);
+
+  add("shaken_stops", "chatter and rest", between_shaken(symmetric({0.1, 0.5, 0.5, 0.0}, 0.5, 0.5), 0.8), 16 * pi_);
+  add("shaken_stops", "nothing but the stops moves", between_shaken(symmetric({0.05, 0.0, 2.0, 0.0}, 0.2, 0.8), 0.3),
+      8 * pi_);
+  add("shaken_stops", "at the spring's frequency", between_shaken(symmetric({0.0, 1.0, 1.0, 0.0}, 0.5, 0.8), 1.0),
+      8 * pi_);
 
   add("chaos", "xs = 3, nu = 0.95", symmetric({0.1, -1.0, 0.95, 0.0}, 3.0, 0.7), 100 * 2 * pi_ / 0.95);
   return all;

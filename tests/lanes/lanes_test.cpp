@@ -2,13 +2,10 @@
 
 #include <gtest/gtest.h>
 
-#include <iostream>
 #include <numbers>
 
-#include "lanes/lane_view.hpp"
-#include "support/deviation.hpp"
+#include "lanes/alike.hpp"
 #include "support/scene_range.hpp"
-#include "sweep/two_runs.hpp"
 
 namespace clatter::lanes {
 namespace {
@@ -25,86 +22,6 @@ class InLanes : public testing::TestWithParam<InstructionSet> {
     return run(sweep, {.threads = threads, .arch = GetParam()}).dataset;
   }
 };
-
-/// Totals of a comparison of many points.
-struct Totals {
-  std::size_t points = 0, fit = 0, periodic = 0, sensitive = 0, chaotic = 0, slow = 0;
-  double worst = 0;  ///< largest difference of those that aren't sensitive
-};
-
-std::ostream& operator<<(std::ostream& out, const Totals& t) {
-  return out << t.points << " points, " << t.fit << " fit lanes, " << t.periodic << " periodic; largest difference "
-             << t.worst << " but for " << t.sensitive << " that 1e-15 of the inputs moves by more, and " << t.chaotic
-             << " that it changes visibly; " << t.slow << " took longer to settle";
-}
-
-/// How far a repeat may be from the motion that it stands for: without a spring, a mass that meets no stop any more
-/// drifts to a place that only damping makes final, and either run takes a repeat within its tolerance for that.
-double left_to_drift(const point::Problem& scene, const sweep::RunPoint& run) {
-  const Oscillator& o = scene.oscillator;
-  const bool drifts =
-      o.stiffness == 0 && run.status() == 0 && run.of("impacts_per_period") == std::vector<double>(2, 0);
-  return drifts ? -scene.time.tolerance / std::expm1(-2 * o.damping * period_of(o)) : 0;
-}
-
-/// The difference of a point's two runs, over the allowed one. Values are the same to 1e-13 of the motion's scale. A
-/// motion that multiplies a change of its inputs by 1e-15 multiplies the roundings of either run, too: some ten an
-/// impact, so 16 times the effect of one change is allowed. If that changes counts, or values visibly, nothing is
-/// compared.
-double beyond(const point::Problem& scene, const sweep::RunPoint& lanes, const sweep::RunPoint& scalar,
-              Totals& totals) {
-  const sweep::Apart apart = compare(lanes, scalar);
-  if (apart.by <= 1e-13) {
-    totals.worst = std::max(totals.worst, apart.by);
-    return 0;
-  }
-  const double own = sensitivity(scene, scalar);
-  const bool chaotic = own > 1e-6, settled = scalar.status() != static_cast<int>(steady::Status::aperiodic);
-  const double allowed = (settled ? 16 : 64) * own + left_to_drift(scene, scalar);
-  if (chaotic || apart.by <= allowed) ++(chaotic ? totals.chaotic : totals.sensitive);
-  return chaotic ? 0 : apart.by / allowed;
-}
-
-/// The number of periods that slow motion takes to settle depends on when repeats are looked for; given more of them,
-/// both runs find the same motion.
-double beyond_if_longer(point::Problem scene, InstructionSet arch, Totals& totals) {
-  scene.time.max_periods *= 16;
-  const sweep::Sweep sweep = sweep::sweep_of(scene, {});
-  const sweep::Dataset lanes = run(sweep, {.threads = 1, .arch = arch}).dataset;
-  const sweep::Dataset scalar = run(sweep, {.threads = 1, .arch = InstructionSet::scalar}).dataset;
-  ++totals.slow;
-  return beyond(scene, {lanes, 0}, {scalar, 0}, totals);
-}
-
-Totals expect_alike(const sweep::Sweep& sweep, InstructionSet arch) {
-  const sweep::Dataset lanes = run(sweep, {.threads = 1, .arch = arch}).dataset;
-  const sweep::Dataset scalar = run(sweep, {.threads = 1, .arch = InstructionSet::scalar}).dataset;
-  Totals totals;
-  for (std::size_t i = 0; i < size(sweep); ++i) {
-    const point::Problem scene = problem_at(sweep, i);
-    const sweep::RunPoint tested{lanes, i}, reference{scalar, i};
-    ++totals.points, totals.fit += accepts(scene), totals.periodic += reference.status() == 0;
-    double ratio = beyond(scene, tested, reference, totals);
-    if (tested.status() != reference.status() && ratio > 1) ratio = beyond_if_longer(scene, arch, totals);
-    EXPECT_LE(ratio, 1) << "point " << i << ", " << compare(tested, reference).what << ", status "
-                        << int{tested.status()} << " against " << int{reference.status()} << "\n"
-                        << support::configuration_of(scene, scene.time.duration);
-  }
-  std::cout << totals << '\n';
-  return totals;
-}
-
-/// Every observable of lanes, for a steady motion.
-point::Problem observed(point::Problem scene) {
-  scene.observe = {};
-  scene.observe.extrema = true;
-  scene.observe.harmonics = 5;
-  scene.observe.harmonics_method = observables::HarmonicsMethod::exact;
-  scene.observe.impacts = true;
-  scene.observe.period = true;
-  scene.time.max_periods = 300, scene.time.max_impacts = 1e5;
-  return scene;
-}
 
 sweep::Sweep figure(double xs) {
   sweep::Axis nu{sweep::Parameter::nu, {}};
@@ -142,27 +59,6 @@ TEST_P(InLanes, long_chaotic_transients_end_in_the_same_motion) {
   EXPECT_GT(late, 10u);
 }
 
-/// Forced motion between stops, one stop, under a load or without; a tenth has no damping, a tenth too much for lanes.
-point::Problem random_scene(std::uint64_t index) {
-  support::Random random(4711, index);
-  point::Problem scene;
-  const double kind = random.uniform(0, 1);
-  scene.oscillator = {kind < 0.1   ? 0
-                      : kind < 0.2 ? random.uniform(0.9, 2)
-                                   : random.logarithmic(5e-3, 0.9),
-                      random.sign() * random.logarithmic(0.1, 3), random.logarithmic(0.2, 5),
-                      random.happens(0.5) ? 0 : random.uniform(-1, 1)};
-  const double lower = random.logarithmic(0.05, 4), upper = random.logarithmic(0.05, 4);
-  const double restitution = random.happens(0.1) ? 1 : random.uniform(0.05, 1);
-  scene.stops = {-lower, upper, restitution, random.happens(0.5) ? restitution : random.uniform(0.05, 1)};
-  scene.start = {random.uniform(-lower, upper), random.uniform(-1, 1), random.uniform(0, 2 * pi_)};
-  if (random.happens(0.1))
-    scene.stops.lower = -std::numeric_limits<double>::infinity();
-  else if (random.happens(0.1))
-    scene.stops.upper = std::numeric_limits<double>::infinity();
-  return scene;
-}
-
 template <class Change>
 sweep::Sweep random_sweep(std::uint64_t count, const Change& change) {
   std::vector<point::Problem> scenes;
@@ -179,61 +75,6 @@ TEST_P(InLanes, random_steady_motion_is_that_of_the_scalar_loop) {
   EXPECT_LT(totals.slow, 10u);
 }
 
-/// The same without a spring, or with an unstable one that presses less than the force on the stops: else the mass
-/// would rest on one. The force is large enough for motion from stop to stop.
-point::Problem without_spring(std::uint64_t index, double stiffness) {
-  point::Problem scene = random_scene(index);
-  support::Random random(4712, index);
-  Oscillator& o = scene.oscillator;
-  Stops& stops = scene.stops;
-  o.stiffness = stiffness;
-  o.damping = random.happens(0.1) ? 0 : random.logarithmic(5e-3, 0.5) * (o.stiffness == 0 ? o.frequency : 1);
-  o.load *= random.happens(0.5) ? 0 : 0.3;
-  const bool one_stop = !std::isfinite(stops.lower) || !std::isfinite(stops.upper);
-  if (o.stiffness != 0) {
-    stops.lower = std::max(stops.lower, -4.0), stops.upper = std::min(stops.upper, 4.0);
-    o.forcing = random.sign() * random.uniform(1.1, 3) * (std::max(-stops.lower, stops.upper) + std::abs(o.load));
-  } else if (one_stop && random.happens(0.8)) {
-    o.load = std::isfinite(stops.lower) ? -0.3 : 0.3;
-  }
-  return scene;
-}
-
-template <class Change>
-sweep::Sweep sweep_without_springs(std::uint64_t count, double stiffness, const Change& change) {
-  std::vector<point::Problem> scenes;
-  for (std::uint64_t i = 0; i < count; ++i) scenes.push_back(change(without_spring(i, stiffness)));
-  return sweep::sweep_over(scenes);
-}
-
-TEST_P(InLanes, steady_motion_without_a_spring_is_that_of_the_scalar_loop) {
-  for (const double k : {0.0, -1.0}) {
-    const Totals totals = expect_alike(sweep_without_springs(500, k,
-                                                             [k](const point::Problem& scene) {
-                                                               point::Problem one = observed(scene);
-                                                               if (k == 0) one.observe.harmonics = 0;
-                                                               return one;
-                                                             }),
-                                       GetParam());
-    EXPECT_GT(totals.fit, 400u);
-    EXPECT_GT(totals.periodic, 250u);
-    EXPECT_LT(totals.sensitive, 50u);
-    EXPECT_LT(totals.chaotic, 200u);
-    EXPECT_LT(totals.slow, 10u);
-  }
-}
-
-point::Problem transient(point::Problem scene, double periods) {
-  scene.observe = {};
-  scene.observe.extrema = true;
-  scene.observe.impacts = true;
-  scene.observe.period = true;
-  scene.time.mode = steady::Mode::transient;
-  scene.time.duration = periods * 2 * pi_ / scene.oscillator.frequency;
-  scene.time.max_impacts = 1e5;
-  return scene;
-}
-
 TEST_P(InLanes, a_few_periods_from_any_start_are_those_of_the_scalar_loop) {
   // one duration for all, so that it ends in different parts of their forcing periods
   const Totals totals = expect_alike(random_sweep(1000,
@@ -244,39 +85,6 @@ TEST_P(InLanes, a_few_periods_from_any_start_are_those_of_the_scalar_loop) {
                                                   }),
                                      GetParam());
   EXPECT_LT(totals.sensitive + totals.chaotic, 150u);
-}
-
-TEST_P(InLanes, a_few_periods_without_a_spring_are_those_of_the_scalar_loop) {
-  for (const double k : {0.0, -1.0}) {
-    const Totals totals = expect_alike(sweep_without_springs(500, k,
-                                                             [](const point::Problem& scene) {
-                                                               point::Problem one = transient(scene, 1);
-                                                               one.time.duration = 20;
-                                                               return one;
-                                                             }),
-                                       GetParam());
-    EXPECT_GT(totals.fit, 400u);
-    EXPECT_LT(totals.sensitive + totals.chaotic, 200u);
-  }
-}
-
-TEST_P(InLanes, springs_of_every_kind_can_be_followed_through) {
-  // with k from -0.5 to 0.5 the kind of lanes changes along a branch, and with the branches of R others wait meanwhile
-  sweep::Axis k{sweep::Parameter::stiffness, {}}, R{sweep::Parameter::R, {}};
-  for (int i = -10; i <= 10; ++i) k.values.push_back(i / 20.0);
-  for (int i = 0; i < 40; ++i) R.values.push_back(0.5 + i / 200.0);
-  point::Problem scene = observed(sweep::paper_scene(0.5, 2.0));
-  scene.observe.harmonics = 0;
-  for (const bool follow : {true, false}) {
-    sweep::Sweep sweep = sweep::sweep_of(scene, {R, k});
-    if (follow) sweep.follow = 1;
-    const sweep::RunResult result = run(sweep, {.threads = 1, .arch = GetParam()});
-    sweep::expect_same(result.dataset, lanes(sweep, 3));
-    EXPECT_GT(result.lanes.refined, 1000);
-    const sweep::Dataset scalar = run(sweep, {.threads = 1, .arch = InstructionSet::scalar}).dataset;
-    for (std::size_t i = 0; i < size(sweep); ++i)  // a repeat to 1e-12
-      EXPECT_LE(sweep::compare({result.dataset, i}, {scalar, i}).by, 1e-11) << i << ' ' << follow;
-  }
 }
 
 TEST_P(InLanes, fifty_periods_and_a_part_are_those_of_the_scalar_loop) {

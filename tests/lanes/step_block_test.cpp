@@ -240,6 +240,28 @@ TEST_P(LaneSteps, miss_no_impact_that_taylor_steps_see) {
   expect_no_impact_missed<unsprung>(GetParam());
 }
 
+TEST(LaneBounds, of_free_motion_are_not_lost_beside_a_large_response) {
+  for (const double k : {1.0, 0.0, -1.0}) {
+    double bound[2], bound_v[2];
+    for (const std::size_t i : {0u, 1u}) {
+      const double scale = i == 0 ? 1 : 0x1p70;  // 2^52 would be enough to lose it
+      point::Problem scene = support::scene_of({0.1, scale, 1.5, 0.0}, -100 * scale, 100 * scale, 0.7);
+      scene.oscillator.stiffness = k;
+      BlockState lanes{};
+      LaneView view(lanes, 0, scene);
+      if (k == 1) {
+        view.load(LaneView::Constants<sprung>(scene.oscillator), scene.stops);
+      } else {
+        view.load(LaneView::Constants<unsprung>(scene.oscillator), scene.stops);
+      }
+      bound[i] = lanes.bound.lane[0], bound_v[i] = lanes.bound_v.lane[0];
+    }
+    EXPECT_GT(bound[0], 0x1p-30);
+    EXPECT_NEAR(bound[1], bound[0], 0x1p-50) << k;  // displacements are allowed 2^-49 of the free motion for rounding
+    EXPECT_NEAR(bound_v[1], bound_v[0], 0x1p-50) << k;
+  }
+}
+
 TEST_P(LaneSteps, leave_grazes_to_the_scalar_loop) {
   const double amplitude = 0.777909841584413976;
   for (const double gap : {0.0, 1e-15, -1e-15, -1e-13, 1e-12}) {

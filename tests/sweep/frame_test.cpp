@@ -134,6 +134,20 @@ TEST(AbsoluteFrame, has_sections_at_the_phase_of_the_shaking) {
   }
 }
 
+TEST(AbsoluteFrame, moves_passages_on_which_no_force_acts_by_their_instants) {
+  // f = 0, h = 0, nu = 1: x = 0.8 sin(tau) passes 0 upward at tau = 2 pi n, where the stops are at 0.3 sin(2)
+  point::Problem scene = shaken({}, {.stops = 0.3}, {-2, 2, 1, 1});
+  scene.start = {0.0, 0.8, 2.0};
+  scene.time.mode = steady::Mode::transient, scene.time.duration = 20;
+  scene.observe.section = 9;
+  const point::PointResult result = run(scene, Frame::absolute);
+  ASSERT_EQ(result.section_x.size(), 4U);
+  for (std::size_t i = 0; i < 4; ++i) {
+    EXPECT_NEAR(result.section_x[i], 0.3 * std::sin(2), 1e-14) << i;
+    EXPECT_NEAR(result.section_v[i], 0.8 + 0.3 * std::cos(2), 1e-14) << i;
+  }
+}
+
 TEST(AbsoluteFrame, changes_the_harmonics_by_those_of_the_shaking) {
   for (std::uint64_t index = 0; index < 40; ++index) {
     point::Problem scene = any_shaken(index);

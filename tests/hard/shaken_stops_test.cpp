@@ -1,0 +1,13 @@
+// Stops that move: another force in their frame, with a phase of its own.
+
+#include <gtest/gtest.h>
+
+#include "hard/measure.hpp"
+
+namespace clatter::hard {
+namespace {
+
+TEST(ShakenStops, agrees_with_fifty_digits) { expect_agreement("shaken_stops"); }
+
+}  // namespace
+}  // namespace clatter::hard
