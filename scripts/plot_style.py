@@ -41,7 +41,7 @@ LABELS = {
     "stiffness": ("stiffness", r"$k$"),
     "mass": ("mass", r"$m$"),
     "damping": ("damping", r"$c$"),
-    "damping_ratio": ("damping ratio", r"$\zeta$"),
+    "damping_ratio": ("damping ratio", r"$h$"),
     "quality": ("quality factor", r"$Q$"),
     "force": ("force amplitude", r"$F$"),
     "frequency": ("excitation frequency", r"$f$"),
@@ -91,7 +91,7 @@ LABELS = {
 # The units of constants in [machine], as of the variables in the file.
 UNITS = {
     "mass": "kg",
-    "stiffness": "N m-1",
+    **dict.fromkeys(("stiffness", "stop_stiffness", "stop_stiffness_lower", "stop_stiffness_upper"), "N m-1"),
     "damping": "N s m-1",
     "force": "N",
     "frequency": "Hz",
@@ -244,9 +244,9 @@ def gathered(notes):
 
 def constants(output, title, others=()):
     """The fixed numbers of the scene that the title doesn't name, e.g. ['h = 0.1', 'f = −1']."""
-    nothing = ("phase", "load", "damping", "stop_amplitude", "base_amplitude")
+    nothing = ("phase", "load", "damping", "stop_damping", "stop_damping_lower", "stop_damping_upper")
     hidden = {
-        **dict.fromkeys(nothing, 0.0),
+        **dict.fromkeys((*nothing, "stop_amplitude", "base_amplitude"), 0.0),
         "stiffness": 0.0 if output.is_si else 1.0,
     }  # nothing to say at these values
     named = {key for key in LABELS if re.search(rf"\b{key} = ", title)}
