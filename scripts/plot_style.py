@@ -244,9 +244,10 @@ def gathered(notes):
 
 def constants(output, title, others=()):
     """The fixed numbers of the scene that the title doesn't name, e.g. ['h = 0.1', 'f = −1']."""
-    nothing = ("phase", "load", "damping", "stop_damping", "stop_damping_lower", "stop_damping_upper")
+    nothing = ("phase", "load", "damping", "stop_amplitude", "base_amplitude")
+    stiffnesses = ("stop_stiffness", "stop_stiffness_lower", "stop_stiffness_upper")
     hidden = {
-        **dict.fromkeys((*nothing, "stop_amplitude", "base_amplitude"), 0.0),
+        **dict.fromkeys(nothing, 0.0),
         "stiffness": 0.0 if output.is_si else 1.0,
     }  # nothing to say at these values
     named = {key for key in LABELS if re.search(rf"\b{key} = ", title)}
@@ -255,6 +256,8 @@ def constants(output, title, others=()):
     forces = ("force" if output.is_si else "f", "stop_amplitude", "base_amplitude")
     if not any(float(output.scene.get(key, 0.0)) or output.swept(key) for key in forces):
         keys = [key for key in keys if key not in ("nu", "frequency", "phase")]  # no force, no frequency
+    if not any(output.swept(key) or np.isfinite(float(output.scene.get(key, np.inf))) for key in stiffnesses):
+        keys = [key for key in keys if not key.startswith("stop_damping")]  # of rigid stops
     absent = {key for key, side in (("R_lower", -1), ("R_upper", 1)) if not output.has_stop(side)}
     values = {key: float(output.scene[key]) for key in keys if key not in absent}
     return [

@@ -40,10 +40,14 @@ std::string fallback(const Key& key) {
 
 constexpr std::size_t indent = 21;
 
-/// A name and its explanation in two columns.
+/// A name and its explanation in two columns; a name that is too long for the first one has a line of its own.
 std::string row(std::string_view name, std::string_view help) {
   std::string text = "  " + std::string(name);
-  text.resize(indent, ' ');
+  if (text.size() < indent) {
+    text.resize(indent, ' ');
+  } else {
+    text += '\n' + std::string(indent, ' ');
+  }
   return text + wrapped(help, indent);
 }
 

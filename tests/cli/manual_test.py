@@ -60,7 +60,7 @@ class Manual(CommandLine):
         page = " ".join(self.shown("clatter-config.5").split())
         self.assertIn("[scene]", page)
         reference = self.help("configuration").split("Values, in TOML")[0]
-        entries = re.findall(r"(?m)^  (\w+) +((?:.*\n)(?: {21}.*\n)+)", reference)
+        entries = re.findall(r"(?m)^  (\w+)(?: +|\n {21})((?:.*\n)(?: {21}.*\n)+)", reference)
         self.assertGreater(len(entries), 35)
         for name, text in entries:
             self.assertIn(f"{name} {' '.join(text.split())}", page)

@@ -41,9 +41,9 @@ motion::State<FiftyDigits> end_of(const AnyScene& any, const FiftyDigits& dx, co
 /// The largest difference of the tangent map's entries from those of neighbouring motions, in units of the allowed one.
 template <Effects E>
 double deviation_of_tangent(const AnyScene& any) {
-  const auto& [lower, upper, R_lower, R_upper] = any.scene.stops;
+  const Stops& stops = any.scene.stops;
   const double x = any.scene.start.displacement;
-  const FiftyDigits step(x - lower > upper - x ? "-1e-20" : "1e-20");  // away from the stop it may start on
+  const FiftyDigits step(x - stops.lower > stops.upper - x ? "-1e-20" : "1e-20");  // away from the stop it may start on
   motion::TangentMap<FiftyDigits> tangent(any.scene.stops);
   stepping::NoObserver none;
   const auto end = end_of<E>(any, 0, 0, tangent);

@@ -70,7 +70,7 @@ TEST(Samples, by_steps_from_an_instant_are_as_good_as_evaluated_ones) {
   for (const double h : {0.0, 1e-9, 0.1, 0.9, 1.0, 1.5, 10.0, 1000.0})
     for (const double f : {0.0, -1.3})
       for (const double nu : {1e-3, 0.3, 1.0, 1.04, 2.7, 30.0})
-        with_any_stops({h, f, nu, 0.2}, [&]<Effects effects>() {
+        with_any_stops(Oscillator{h, f, nu, 0.2}, [&]<Effects effects>() {
           const motion::ArcConstants<double, effects.arc()> constants({h, f, nu, 0.2});
           const motion::ArcConstants<FiftyDigits, effects.arc()> exact_flow({h, f, nu, 0.2});
           const auto arc = arc_of(constants, 0.37, -1.1);

@@ -69,24 +69,25 @@ TEST(SoftStops, free_motion_has_the_period_of_eq_56_and_the_depth_of_its_energy)
 
 TEST(SoftStops, forced_motion_is_that_of_a_dense_scan) {
   for (const double zeta : {0.0, 0.3, 2.0}) {
-    Problem scene = between_soft({0.1, -1.0, 1.0, 0.05}, 0.5, 40.0, zeta);
+    Problem scene = between_soft({0.3, -1.0, 1.0, 0.05}, 0.3, 40.0, zeta);
     scene.observe.trajectory = 400001;
     const PointResult found = run(scene);
     ASSERT_EQ(found.status, steady::Status::periodic);
     double highest = -infinity, in_contact = 0, force = 0;
     for (std::size_t i = 0; i + 1 < found.x.size(); ++i) {
       highest = std::max(highest, found.x[i]);
-      const double depth = found.x[i] - 0.5, push = 40 * depth + 2 * zeta * std::sqrt(40) * found.v[i];
+      const double depth = found.x[i] - 0.3, push = 40 * depth + 2 * zeta * std::sqrt(40) * found.v[i];
       if (depth > 0 && push > 0) in_contact += 1, force = std::max(force, push);
     }
-    const double step = 2 * std::numbers::pi / 400000;
+    const double step = found.period / 400000;
     EXPECT_NEAR(found.x_max, highest, 40 * step * step);  // the scan misses a turn by half a step at most
-    EXPECT_NEAR(found.contact_fraction[1], in_contact / 400000, 3.0 / 400000);
+    EXPECT_NEAR(found.contact_fraction[1], in_contact / 400000,
+                12.0 / 400000);  // a sample at each end of some contacts
     const double slope =
         40 * found.v_max + 2 * zeta * std::sqrt(40.0) * 40;  // of the force, where it jumps at the touch
     EXPECT_NEAR(found.contact_force_max[1], force, slope * step);
     EXPECT_LE(force, found.contact_force_max[1] * (1 + 1e-12));
-    EXPECT_EQ(found.impacts_per_period[1], 1);
+    EXPECT_GT(found.impacts_per_period[1], 0);
     EXPECT_LT(found.v_after[1], 0);
   }
 }
@@ -106,11 +107,11 @@ TEST(SoftStops, exact_harmonics_are_those_of_samples) {
 
 TEST(SoftStops, multipliers_are_those_of_differences) {
   for (const double zeta : {0.0, 0.4, 1.5}) {
-    Problem scene = between_soft({0.1, -1.0, 1.0, 0.05}, 0.5, 40.0, zeta);
+    Problem scene = between_soft({0.3, -1.0, 1.0, 0.05}, 0.3, 40.0, zeta);
     scene.observe.stability = true;
     const PointResult found = run(scene);
     ASSERT_EQ(found.status, steady::Status::periodic);
-    const double period = 2 * std::numbers::pi, small = 1e-5;
+    const double period = found.period, small = 1e-5;
     const auto end = [&](double x, double v) {
       Problem moved = scene;
       moved.start = {found.end.displacement + x, found.end.velocity + v, found.end.phase};
@@ -149,7 +150,7 @@ TEST(SoftStops, undamped_motion_that_stays_in_contact_has_the_period_of_both_spr
 }
 
 TEST(SoftStops, a_general_solver_finds_the_same) {
-  Problem scene = between_soft({0.1, -1.0, 1.0, 0.05}, 0.5, 40.0, 0.3);
+  Problem scene = between_soft({0.3, -1.0, 1.0, 0.05}, 0.3, 40.0, 0.3);
   scene.observe.stability = true;
   const PointResult exact = run(scene);
   scene.integration.method = stepping::Method::dopri5, scene.integration.tolerance = 1e-12;

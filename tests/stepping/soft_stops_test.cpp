@@ -128,29 +128,27 @@ TEST(SoftStops, random_motion_agrees_with_a_general_solver) {
 }
 
 /// Checks on samples that every arc is where it belongs: outside the stops, pressed by one, or beyond one that it
-/// outruns.
+/// outruns. Forces are over kappa, so that they are lengths.
 struct ModeCheck {
   const Stops& stops;
-  double worst = 0;
+  double worst = 0;  ///< by which a condition is broken
+  double size = 1;   ///< of the motion
 
   template <class A>
   void arc(const A& arc, double, double length) {
     const auto pressed = arc.constants().stop;
     for (int i = 0; i <= 64; ++i) {
       const motion::Motion<double> m = arc.at(length * i / 64);
+      size = std::max({size, std::abs(m.x), std::abs(m.v)});
       if (pressed.side != Side::none) {
-        const double force = pressed.into(m.offset) + pressed.relaxation() * pressed.into(m.v);
-        const double size =
-            std::abs(m.offset) + pressed.relaxation() * (1 + std::abs(m.v)) + 1e-3 / std::sqrt(pressed.stiffness);
-        worst = std::max(worst, -force / size);
+        worst = std::max(worst, -(pressed.into(m.offset) + pressed.relaxation() * pressed.into(m.v)));
         continue;
       }
       for (const Side side : {Side::lower, Side::upper}) {
         if (!is_soft(stops, side)) continue;
         const auto stop = motion::soft_stop_at<double>(stops, side);
         const double depth = stop.into(m.x - stop.position);
-        const double force = depth + stop.relaxation() * stop.into(m.v);
-        if (depth > 0) worst = std::max(worst, std::min(depth, force / (1 + stop.relaxation() * std::abs(m.v))));
+        if (depth > 0) worst = std::max(worst, std::min(depth, depth + stop.relaxation() * stop.into(m.v)));
       }
     }
   }
@@ -169,7 +167,8 @@ TEST(SoftStops, no_contact_and_no_separation_is_missed) {
       state.x = scene.start.displacement, state.v = scene.start.velocity;
       ASSERT_EQ(run_for(integrator, state, scene.time.duration / integrator.period(), check), Outcome::completed) << i;
     });
-    EXPECT_LT(check.worst, 1e-12) << i;  // rounding of displacements and velocities of size 1
+    // some ulps of displacements and velocities; a relaxation time is up to 60
+    EXPECT_LT(check.worst, 1e-13 * check.size) << i;
   }
 }
 
@@ -192,7 +191,7 @@ TEST(SoftStops, stiffer_ones_tend_to_rigid_ones_as_the_root_of_their_compliance)
 TEST(SoftStops, a_mass_that_a_damper_holds_back_leaves_it_inside_the_stop_and_may_meet_it_again) {
   point::Problem scene = between_soft({0.0, 0.0, 1.0, 0.0}, 1.0, 4.0, 3.0);
   scene.oscillator.load = 3.0, scene.stops.lower = -infinity;  // pulls it back into the stop that it has outrun
-  scene.oscillator.forcing = 6.0, scene.oscillator.frequency = 2.0;
+  scene.oscillator.forcing = 5.0, scene.oscillator.frequency = 20.0;
   const auto run = support::run_scene(scene, 200.0);
   EXPECT_EQ(run.outcome, Outcome::completed);
   EXPECT_TRUE(std::ranges::any_of(run.record.touches, [](const motion::Touch& touch) { return !touch.from_outside; }));
