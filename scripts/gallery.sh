@@ -42,6 +42,12 @@ draw poincare --only section --size 5x4
 draw hysteresis --only v_max --xlim 0.95,1.25 --ylim 2,4.5 --size 5x3.5
 draw family_R --only v_before --size 7x3.4
 draw one_stop --only x_min,x_max --size 5x3.8
+draw drive_si --only impact_power --size 5x3.5 --title "The paper's vibration drive in SI"
+draw drill --only impact_power --size 5x3.8
+draw bouncing_ball --only section_v --size 5x3.5
+draw gear_rattle --only x_min,x_max,impact_power --size 7x3.5
+draw harvester --only impact_power --size 5x3.8
+draw soft_bumper --only contact_force_max --log xy --size 5x3.5
 draw basins --only attractor --size 6x3.8
 draw zones --size 8x4.2
 for frame in relative absolute; do

@@ -41,7 +41,7 @@ LABELS = {
     "stiffness": ("stiffness", r"$k$"),
     "mass": ("mass", r"$m$"),
     "damping": ("damping", r"$c$"),
-    "damping_ratio": ("damping ratio", r"$\zeta$"),
+    "damping_ratio": ("damping ratio", r"$h$"),
     "quality": ("quality factor", r"$Q$"),
     "force": ("force amplitude", r"$F$"),
     "frequency": ("excitation frequency", r"$f$"),
@@ -91,7 +91,7 @@ LABELS = {
 # The units of constants in [machine], as of the variables in the file.
 UNITS = {
     "mass": "kg",
-    "stiffness": "N m-1",
+    **dict.fromkeys(("stiffness", "stop_stiffness", "stop_stiffness_lower", "stop_stiffness_upper"), "N m-1"),
     "damping": "N s m-1",
     "force": "N",
     "frequency": "Hz",
