@@ -2,15 +2,11 @@
 
 #include <gtest/gtest.h>
 
-#include <numbers>
-
 #include "lanes/alike.hpp"
 #include "support/scene_range.hpp"
 
 namespace clatter::lanes {
 namespace {
-
-constexpr double pi_ = std::numbers::pi;
 
 /// Every test, for every instruction set that this machine has.
 class InLanes : public testing::TestWithParam<InstructionSet> {

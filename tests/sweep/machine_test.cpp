@@ -146,7 +146,7 @@ TEST(Machine, follows_an_axis_of_its_mass_with_the_velocity_kept) {
   const Dataset dataset = run(sweep, {}).dataset;
   const std::vector<double>&x = values(dataset, "x"), &v = values(dataset, "v");
   const std::size_t samples = x.size() / 3;
-  for (const std::size_t point : {1, 2}) {
+  for (const std::size_t point : {1U, 2U}) {
     EXPECT_NEAR(x[point * samples], x[point * samples - 1], 1e-15);
     EXPECT_NEAR(v[point * samples], v[point * samples - 1], 1e-14);  // two conversions
   }
