@@ -196,8 +196,8 @@ TEST(MovingFromRelease, has_the_derivatives_of_differences_along_stiffness_and_a
                                           {Parameter::nu, 1.0, {.stops = 0.3}},
                                           {Parameter::h, 0.4, {.stops = 0.3}}}) {
     const point::Problem problem = resting(k, shaking);
-    const auto at = [&](double change) {
-      const ShakenScene scene = changed(problem, along, value_of(problem, along) + change);
+    const auto at = [&, by = along](double change) {
+      const ShakenScene scene = changed(problem, by, value_of(problem, by) + change);
       return std::pair(scene, resting_orbit(with_scene(problem, scene), Side::upper, 1).value());
     };
     const auto [scene, orbit] = at(0.0);
