@@ -65,15 +65,6 @@ TEST(SoftStops, a_damped_contact_has_the_duration_and_the_restitution_of_the_clo
     }
 }
 
-/// Events of one kind after the other, by time.
-std::vector<double> times_of(const support::Recorder& record) {
-  std::vector<double> times;
-  for (const auto& touch : record.touches) times.push_back(touch.time);
-  for (const auto& separation : record.separations) times.push_back(separation.time);
-  for (const auto& impact : record.impacts) times.push_back(impact.time);
-  return times;
-}
-
 /// The derivative of the end of a run by its start, at most: how far an ulp of the start moves it.
 double sensitivity(const point::Problem& scene, double duration) {
   const auto end = [&](double x, double v) {
@@ -106,7 +97,9 @@ TEST(SoftStops, random_motion_agrees_with_fifty_digits) {
     EXPECT_NEAR(run.end.x, static_cast<double>(reference.end.x), allowed) << i;
     EXPECT_NEAR(run.end.v, static_cast<double>(reference.end.v), allowed * std::sqrt(1 + scene.stops.stiffness_lower))
         << i;
-    EXPECT_EQ(times_of(run.record).size(), times_of(reference.record).size()) << i;
+    // not the impacts on rigid stops: 50 digits take many more of a chatter one by one
+    EXPECT_EQ(run.record.touches.size(), reference.record.touches.size()) << i;
+    EXPECT_EQ(run.record.separations.size(), reference.record.separations.size()) << i;
   }
 }
 
