@@ -65,8 +65,8 @@ TEST(SoftStops, a_damped_contact_has_the_duration_and_the_restitution_of_the_clo
     }
 }
 
-/// The derivative of the end of a run by its start, at most: how far an ulp of the start moves it.
-double sensitivity(const point::Problem& scene, double duration) {
+/// The derivative of the end of a run by its start, at most.
+double growth(const point::Problem& scene, double duration) {
   const auto end = [&](double x, double v) {
     point::Problem moved = scene;
     moved.start.displacement += x, moved.start.velocity += v;
@@ -80,6 +80,20 @@ double sensitivity(const point::Problem& scene, double duration) {
       const PhasePoint other = end(x, v);
       most = std::max(most, std::max(std::abs(other.x - there.x), std::abs(other.v - there.v)) / 1e-7);
     }
+  return most;
+}
+
+/// How far an error of a run moves its end: the most that one does that is made at its start, or on its way.
+double sensitivity(const point::Problem& scene, double duration) {
+  constexpr int parts = 8;
+  double most = 1;
+  for (int part = 0; part < parts; ++part) {
+    const double begin = duration * part / parts;
+    const auto run = support::run_scene(scene, begin);
+    point::Problem rest = scene;
+    rest.start = {run.end.x, run.end.v, scene.start.phase + counting_frequency(scene.oscillator) * begin};
+    most = std::max(most, growth(rest, duration - begin));
+  }
   return most;
 }
 
