@@ -69,7 +69,9 @@ TEST(SoftStops, a_damped_contact_has_the_duration_and_the_restitution_of_the_clo
 double growth(const point::Problem& scene, double duration) {
   const auto end = [&](double x, double v) {
     point::Problem moved = scene;
-    moved.start.displacement += x, moved.start.velocity += v;
+    const Stops rigid = rigid_ones(scene.stops);  // beyond which nothing may start
+    moved.start.displacement = std::clamp(moved.start.displacement + x, rigid.lower, rigid.upper);
+    moved.start.velocity += v;
     const auto run = support::run_scene(moved, duration);
     return PhasePoint{run.end.x, run.end.v};
   };
