@@ -16,16 +16,6 @@
 
 namespace clatter::motion {
 
-/// The coefficients that advance every motion of an oscillator by a time s.
-template <class Number>
-struct Step {
-  Propagator<Number> free;
-  Turn<Number> turn{};                            ///< by nu s
-  SineCosine<Number> displacement{}, velocity{};  ///< secular: response from rest to a unit force (eq. 11)
-  Number fast_decay{};                            ///< heavy damping: e^(-fast s)
-  Number pulled{};                                ///< displacement from rest under a unit force that no spring balances
-};
-
 /// The constants of an oscillator that all its arcs share, its free motion and its bounds.
 template <class Number, Effects E>
 class ArcConstants {
@@ -280,8 +270,7 @@ Step<Number> ArcConstants<Number, E>::step(const Number& s) const {
 template <class Number, Effects E>
 void ArcConstants<Number, E>::respond_from_rest(const Number& s, Step<Number>& step) const {
   using std::cos, std::exp, std::sin;
-  const Number& lambda = root;
-  const Number c = cos(nu * s), d = sin(nu * s);
+  const Number lambda = root, c = cos(nu * s), d = sin(nu * s);
   const auto [q_re, q_im] = divided_exponential<Number>(-h * s, -detuning * s);
   const Number near_re = s * (c * q_re - d * q_im), near_im = s * (c * q_im + d * q_re);  // E(mu)
   const Number decay = exp(-h * s), top_re = c - decay * cos(lambda * s), top_im = d + decay * sin(lambda * s);

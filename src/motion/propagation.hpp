@@ -54,6 +54,16 @@ template <class Number>
   return {from.sine + change.sine, from.cosine + change.cosine};
 }
 
+/// The coefficients that advance every motion of an oscillator by a time s.
+template <class Number>
+struct Step {
+  Propagator<Number> free;
+  Turn<Number> turn{};                            ///< by nu s
+  SineCosine<Number> displacement{}, velocity{};  ///< secular: response from rest to a unit force (eq. 11)
+  Number fast_decay{};                            ///< heavy damping: e^(-fast s)
+  Number pulled{};                                ///< displacement from rest under a unit force that no spring balances
+};
+
 /// The propagator of light damping at k = 1 over a time s (eq. 8), from e^(-h s), cos(lambda s), sin(lambda s)/lambda
 /// and h.
 template <class Number>
