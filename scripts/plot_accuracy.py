@@ -8,7 +8,8 @@ from matplotlib import colors, ticker
 
 from plot_data import FIRST_FAILURE
 from plot_labels import BELOW, DIRECTIONS, Labels, place_labels
-from plot_style import BLUE, GREEN, PURPLE, STOP, VERMILION, heading, legend_above, new_figure, number, symbol
+from plot_names import amount, number, symbol
+from plot_style import BLUE, GREEN, PURPLE, STOP, VERMILION, heading, legend_above, new_figure
 
 FLOOR = 1e-17  # smaller errors are drawn here: a logarithmic axis has no place for 0
 MINUS = "\N{MINUS SIGN}"
@@ -99,7 +100,8 @@ def note(output, found):
     if any(part.floored for part in found):
         symbols.append("errors below $10^{-17}$ are drawn there")
     ends = (
-        f"{symbol(axis)} = {number(output.values(axis)[0])} … {number(output.values(axis)[-1])}" for axis in output.axes
+        f"{symbol(axis)} = {number(output.values(axis)[0])} … {amount(output, axis, output.values(axis)[-1])}"
+        for axis in output.axes
     )
     lines = [f"worst error and median cost of {points} points, {', '.join(ends)}"] if points > 1 else []
     return "\n".join([*lines, ";  ".join(symbols)])

@@ -6,7 +6,8 @@ from matplotlib import colors
 from plot_data import FIRST_FAILURE
 from plot_maps import class_map, edges_between, name_colours, name_panel
 from plot_scales import shown_values, tidy_ticks
-from plot_style import CYCLE, GREEN, SKY, label, legend_above, number, symbol
+from plot_names import label, number, symbol
+from plot_style import CYCLE, GREEN, SKY, legend_above
 
 STARTS = ("x0", "v0", "phase", "start_period")
 COLOURS = (  # by number, over and over

@@ -4,7 +4,8 @@ import numpy as np
 
 from plot_curves import MARGIN, name_statuses
 from plot_scales import shown_values
-from plot_style import BLUE, CYCLE, GREEN, STOP, VERMILION, label, legend_above, set_axis, symbol, with_unit
+from plot_names import label, symbol, with_unit
+from plot_style import BLUE, CYCLE, GREEN, STOP, VERMILION, legend_above, set_axis
 
 MANY = 2000  # points, from which on they are small
 WORD = "impact word"  # marks the texts that may have to go

@@ -7,7 +7,8 @@ from matplotlib import colors
 from plot_attractors import ZONES, has_shares, runs
 from plot_choice import ChoiceProblem
 from plot_maps import Grid, edges_between, kind_map, regime_map
-from plot_style import CYCLE, STOP, caption_below, label, legend_above, new_figure
+from plot_names import label
+from plot_style import CYCLE, STOP, caption_below, legend_above, new_figure
 
 PANELS = ("v_max", "impact_speed")  # unless --only names others
 OFFERED = ("x", "v", "x_min", "x_max", "v_min", "v_max", "impact_speed", "impact_power")

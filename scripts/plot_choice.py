@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from plot_data import Output
-from plot_style import number, symbol, words_of
+from plot_names import equation
 
 OBSERVED = {  # the results of each key of [observe]
     "extrema": ("x_min", "x_max", "v_min", "v_max"),
@@ -101,17 +101,9 @@ def parts(output, families):
     for indexes in itertools.product(*(range(len(output.values(axis))) for axis in families)):
         part, names = output, []
         for axis, index in zip(families, indexes):
-            names.append(value_name(axis, output.values(axis)[index]))
+            names.append(equation(output, axis, output.values(axis)[index]))
             part = part.at(axis, index)
         yield ", ".join(names), part
-
-
-def value_name(axis, value):
-    if axis == "direction":
-        return "up" if value > 0 else "down"
-    if not np.isfinite(value):
-        return f"no {words_of(axis)}"
-    return f"{symbol(axis)} = {number(value)}"
 
 
 def require_axis(output, axis, option):
@@ -158,7 +150,7 @@ def differences(outputs):
     """A name for each output: the constants of the scene in which they differ, else the name of its file."""
     keys = [key for key in outputs[0].scene if len({output.scene.get(key) for output in outputs}) > 1]
     names = [
-        ", ".join(value_name(key, output.scene[key]) for key in keys if is_number(output.scene.get(key)))
+        ", ".join(equation(output, key, output.scene[key]) for key in keys if is_number(output.scene.get(key)))
         for output in outputs
     ]
     return names if len(set(names)) == len(names) else [Path(output.path).stem for output in outputs]

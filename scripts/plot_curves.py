@@ -7,7 +7,8 @@ from matplotlib import ticker
 
 from plot_data import APERIODIC, FIRST_FAILURE
 from plot_scales import is_integer, shown_values
-from plot_style import BLUE, CYCLE, STOP, draw_walls, in_frame, label, legend_above, number, set_axis, symbol, with_unit
+from plot_names import amount, in_frame, label, symbol, with_unit
+from plot_style import BLUE, CYCLE, STOP, draw_walls, legend_above, set_axis
 
 MARGIN = 0.012  # of an axis beside its points
 DENSE = 60  # points from which a curve is drawn without markers
@@ -208,7 +209,11 @@ def scalar_parts(output, name):
         text = str(variable.values).replace("inf", "∞")
         return [(variable.long_name, text if len(text) <= LONGEST else f"{text[:LONGEST]}…")] if text else []
     values = zip(component_names(output, variable), np.atleast_1d(shown_values(output, name)))
-    return [(variable.long_name + part, number(value)) for part, value in values if part is not None and value == value]
+    return [
+        (variable.long_name + part, amount(output, name, value))
+        for part, value in values
+        if part is not None and value == value
+    ]
 
 
 def component_names(output, variable):

@@ -5,7 +5,8 @@ from matplotlib import ticker
 
 from plot_curves import draw_branch, draw_stops_along, name_statuses
 from plot_motion import draw_common_walls, impact_log, motion, phase_plane, time_history
-from plot_style import BLUE, CYCLE, GRID, ORANGE, STOP, VERMILION, label, legend_above, new_figure, set_axis
+from plot_names import label
+from plot_style import BLUE, CYCLE, GRID, ORANGE, STOP, VERMILION, legend_above, new_figure, set_axis
 
 SHOWN_TIME = 20.0  # tau to which the paper shows free vibration
 ONE = [((), "")]  # the only point of a sweep without axes, untitled

@@ -20,7 +20,8 @@ from plot_data import FIRST_FAILURE
 from plot_maps import Grid, kind_map, quantity, regime_map, value_map
 from plot_motion import chosen_points, impact_log, phase_plane, time_history
 from plot_scales import constant_value, is_constant, largest, shown_values
-from plot_style import caption_below, label, legend_above, new_figure, number, symbol
+from plot_names import amount, label, number, symbol
+from plot_style import caption_below, legend_above, new_figure
 
 BOOKKEEPING = (
     "status",
@@ -300,7 +301,7 @@ def scale_of(output, name):
 def constant_note(output, name, part, title):
     value = constant_value(component_values(output, name, part), scale_of(output, name))
     words = plain_title(output, name, part, title)
-    return f"{words}{':' if '=' in words else ' ='} {number(value)}"
+    return f"{words}{':' if '=' in words else ' ='} {amount(output, name, value)}"
 
 
 def plain_title(output, name, part, title):

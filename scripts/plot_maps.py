@@ -9,7 +9,8 @@ from matplotlib.image import AxesImage
 
 from plot_data import APERIODIC, FIRST_FAILURE, GRAZING
 from plot_scales import integer_levels, shown_values, tidy_ticks
-from plot_style import BLUE, CYCLE, GREEN, ORANGE, is_geometric, label, number
+from plot_names import label, number
+from plot_style import BLUE, CYCLE, GREEN, ORANGE, is_geometric
 
 PIXELS = 900  # along an axis of an image, if its cells aren't all equal
 MOST_PIXELS = 1200  # along one axis; of more points the nearest to each pixel is shown

@@ -3,7 +3,8 @@
 import numpy as np
 
 from plot_data import APERIODIC
-from plot_style import BLUE, CYCLE, GRID, STOP, VERMILION, draw_walls, label, legend_above, number, symbol
+from plot_names import equation, label
+from plot_style import BLUE, CYCLE, GRID, STOP, VERMILION, draw_walls, legend_above
 
 LAST_PERIODS = 20  # of motion without a period that are drawn
 
@@ -40,9 +41,7 @@ def chosen_points(output, most=5):
     return [
         (
             point,
-            ", ".join(
-                f"{symbol(axis)} = {number(output.values(axis)[place])}" for axis, place in zip(output.axes, point)
-            ),
+            ", ".join(equation(output, axis, output.values(axis)[place]) for axis, place in zip(output.axes, point)),
         )
         for point in points
     ]

@@ -1,10 +1,12 @@
-"""How the pictures look: fonts, colours, symbols, stops, legends."""
+"""How the pictures look: fonts, colours, stops, legends, headings."""
 
 import re
 import textwrap
 
 import matplotlib
 import numpy as np
+
+from plot_names import LABELS, equation, label, symbol
 
 matplotlib.use("Agg")
 from matplotlib import pyplot  # noqa: E402  (the backend comes first)
@@ -18,88 +20,6 @@ WIDTH = 7.0  # inches, two columns of a journal: fonts below are in points at th
 BLUE, VERMILION, GREEN, ORANGE, PURPLE, SKY = "#0072B2", "#D55E00", "#009E73", "#E69F00", "#CC79A7", "#56B4E9"
 STOP, WALL, GRID = "#404040", "#e4e4e4", "#d0d0d0"
 CYCLE = (BLUE, VERMILION, GREEN, PURPLE, ORANGE, SKY)
-
-# Words and symbol of what the paper and the configuration name; anything else is labelled by its long_name.
-LABELS = {
-    "h": ("damping ratio", r"$h$"),
-    "f": ("force amplitude", r"$f$"),
-    "nu": ("excitation frequency", r"$\nu$"),
-    "phase": ("forcing phase", r"$\varphi$"),
-    "R": ("restitution", r"$R$"),
-    "xs": ("stop", r"$x_s$"),
-    "stop_lower": ("lower stop", r"$x_-$"),
-    "stop_upper": ("upper stop", r"$x_+$"),
-    "R_lower": ("restitution, lower stop", r"$R_-$"),
-    "R_upper": ("restitution, upper stop", r"$R_+$"),
-    "stop_stiffness": ("stiffness of the stops", r"$\kappa$"),
-    "stop_stiffness_lower": ("stiffness of the lower stop", r"$\kappa_-$"),
-    "stop_stiffness_upper": ("stiffness of the upper stop", r"$\kappa_+$"),
-    "stop_damping": ("damping of the stops", r"$\zeta$"),
-    "stop_damping_lower": ("damping of the lower stop", r"$\zeta_-$"),
-    "stop_damping_upper": ("damping of the upper stop", r"$\zeta_+$"),
-    "load": ("constant load", "load"),
-    "stiffness": ("stiffness", r"$k$"),
-    "mass": ("mass", r"$m$"),
-    "damping": ("damping", r"$c$"),
-    "damping_ratio": ("damping ratio", r"$h$"),
-    "quality": ("quality factor", r"$Q$"),
-    "force": ("force amplitude", r"$F$"),
-    "frequency": ("excitation frequency", r"$f$"),
-    "gap": ("stop", r"$x_s$"),
-    "stop_amplitude": ("amplitude of the stops", r"$b$"),
-    "base_amplitude": ("amplitude of the base", r"$b$"),
-    "x0": ("initial displacement", r"$x(0)$"),
-    "v0": ("initial velocity", "$x$\N{PRIME}$(0)$"),
-    "start_period": ("period", r"$\bar\tau$"),
-    "tau": ("time", r"$\tau$"),
-    "x": ("displacement", r"$x$"),
-    "v": ("velocity", "$x$\N{PRIME}"),
-    "x_min": ("minimum", r"$x_{\min}$"),
-    "x_max": ("maximum", r"$x_{\max}$"),
-    "v_min": ("minimum", "$x$\N{PRIME}$_{\\min}$"),
-    "v_max": ("maximum", "$x$\N{PRIME}$_{\\max}$"),
-    "v_before": ("velocity before impact", "$x$\N{PRIME}$^{{-}}$"),
-    "v_after": ("velocity after impact", "$x$\N{PRIME}$^{{+}}$"),
-    "period": ("period", r"$\bar\tau$"),
-    "eigenfrequency": ("eigenfrequency", r"$\bar\omega$"),
-    "period_ratio": ("period", r"$\nu\bar\tau/2\pi$"),
-    "velocity_ratio": ("velocity ratio", "$|x$\N{PRIME}$^{{-}}/x_s|$"),
-    "base_frequency": ("base frequency", r"$\Omega$"),
-    "harmonic": ("harmonic", r"$k$"),
-    "x_amplitude": ("amplitude of displacement", r"$a_k$"),
-    "v_amplitude": ("amplitude of velocity", "$a$\N{PRIME}$_k$"),
-    "x_phase": ("phase of displacement", r"$\varphi_k$"),
-    "v_phase": ("phase of velocity", "$\\varphi$\N{PRIME}$_k$"),
-    "multiplier_re": ("multipliers", r"$\mathrm{Re}\,\mu$"),
-    "multiplier_im": ("multipliers", r"$\mathrm{Im}\,\mu$"),
-    "lyapunov": ("Lyapunov exponent", r"$\lambda$"),
-    "impacts_per_period": ("impacts per period", ""),
-    "rest_fraction": ("share of time at rest", ""),
-    "contact_fraction": ("share of time in contact", ""),
-    "contact_force_max": ("greatest force of the stop", ""),
-    "symmetric": ("symmetric motion", ""),
-    "attractor": ("motion", ""),
-    "settling_periods": ("periods until settled", ""),
-    "work_in": ("work of force and load", "work"),
-    "loss_damping": ("loss by damping", "damping"),
-    "loss_impact": ("loss by impacts", ""),
-    "impulse": ("impulse", ""),
-    "impact_power": ("power lost in impacts", ""),
-}
-
-
-# The units of constants in [machine], as of the variables in the file.
-UNITS = {
-    "mass": "kg",
-    **dict.fromkeys(("stiffness", "stop_stiffness", "stop_stiffness_lower", "stop_stiffness_upper"), "N m-1"),
-    "damping": "N s m-1",
-    "force": "N",
-    "frequency": "Hz",
-    "phase": "rad",
-    "load": "N",
-    "v0": "m s-1",
-    **dict.fromkeys(("gap", "stop_lower", "stop_upper", "stop_amplitude", "base_amplitude", "x0"), "m"),
-}
 
 
 def use_style():
@@ -138,44 +58,6 @@ def use_style():
     )
 
 
-def symbol(name):
-    return LABELS.get(name, ("", ""))[1] or name.replace("_", " ")
-
-
-def words_of(name):
-    return LABELS.get(name, ("", ""))[0] or name.replace("_", " ")
-
-
-def label(output, name):
-    """Axis label: words and symbol if the name is known, else long_name; the unit unless it is 1."""
-    words, sign = LABELS.get(name, ("", ""))
-    variable = output.variables.get(name)
-    full = f"{words} {sign if sign not in words else ''}".strip() or (variable.long_name if variable else name)
-    return in_frame(output, name, with_unit(output, full, name))
-
-
-def in_frame(output, name, words):
-    """Words for a variable, and its frame if something is shaken."""
-    variable = output.variables.get(name)
-    return f"{words}, {variable.frame}" if variable and variable.frame else words
-
-
-def with_unit(output, words, name):
-    """Words for a variable followed by its unit, unless it is 1."""
-    unit = output.variables[name].units if name in output else "1"
-    return f"{words} ({typeset_unit(unit)})" if unit not in ("1", "") else words
-
-
-def typeset_unit(unit):
-    """A unit of the file with its powers raised: m s-1 becomes m s⁻¹."""
-    return re.sub(r"(?<=[A-Za-z])(-?\d+)", r"$^{\1}$", unit)
-
-
-def number(value):
-    """A number as text, with a real minus sign, and none for zero."""
-    return re.sub(r"e([-+])0", r"e\1", f"{value + 0.0:.6g}").replace("-", "\N{MINUS SIGN}")
-
-
 def typeset(title):
     """A configuration's title with its keys as symbols: 'xs = -4' becomes x_s = −4."""
     title = plain(title)
@@ -189,10 +71,26 @@ def heading(figure, output, title=None, others=()):
     titles = {other.title for other in others}
     own = output.title if len(titles) < 2 else ""
     shown = constants(output, own, others)
-    many = int(1.2 * figure.get_figwidth())  # entries that fit a line
-    lines = [",   ".join(shown[first : first + many]) for first in range(0, len(shown), many)]
+    lines = constant_lines(figure, shown)
     first = title_lines(figure, f"{name}{own}" if title is None else title, typeset if title is None else plain)
     figure.suptitle("\n".join([*first, *lines]).strip(), fontsize=10.5, linespacing=1.5)
+
+
+def constant_lines(figure, entries):
+    """Entries in lines that fit a figure, a few in each."""
+    most, room, lines = int(1.2 * figure.get_figwidth()), 0.97 * figure.bbox.width, []
+    for entry in entries:
+        longer = [*lines[-1], entry] if lines else []
+        if 0 < len(longer) <= most and heading_width(figure, ",   ".join(longer)) <= room:
+            lines[-1] = longer
+        else:
+            lines.append([entry])
+    return [",   ".join(line) for line in lines]
+
+
+def heading_width(figure, text):
+    """In pixels."""
+    return figure.suptitle(text, fontsize=10.5).get_window_extent().width
 
 
 def plain(text):
@@ -202,7 +100,7 @@ def plain(text):
 
 def title_lines(figure, title, to_text):
     """A title as text, in as many lines as a figure needs; an equation isn't divided."""
-    width = figure.suptitle(to_text(title), fontsize=10.5).get_window_extent().width
+    width = heading_width(figure, to_text(title))
     room = int(0.97 * figure.bbox.width / max(width, 1.0) * len(title))
     joined = re.sub(r" (?== )|(?<= =) ", "\0", title)
     parts = [title] if room >= len(title) else textwrap.wrap(joined, room)
@@ -261,7 +159,7 @@ def constants(output, title, others=()):
     absent = {key for key, side in (("R_lower", -1), ("R_upper", 1)) if not output.has_stop(side)}
     values = {key: float(output.scene[key]) for key in keys if key not in absent}
     return [
-        f"{symbol(key)} = {number(value)}" + (f" {typeset_unit(UNITS[key])}" if output.is_si and key in UNITS else "")
+        equation(output, key, value)
         for key, value in values.items()
         if np.isfinite(value) and not (key in hidden and value == hidden[key])
     ]

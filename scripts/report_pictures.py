@@ -5,6 +5,7 @@ import io
 from matplotlib import pyplot
 
 import plot
+import plot_names
 import plot_style
 from plot_branch import chosen, parameter_of, plane_of
 from plot_choice import members_of
@@ -64,7 +65,7 @@ def sweep_panels(figure, output, shown):
     panels = []
     for axes in figure.axes:
         is_map = len(places) == 2 and any(isinstance(image, AxesImage) for image in axes.images)
-        is_curve = len(places) == 1 and axes.get_xlabel() == plot_style.label(shown, shown.axes[0])
+        is_curve = len(places) == 1 and axes.get_xlabel() == plot_names.label(shown, shown.axes[0])
         if axes.get_label() != "<colorbar>" and (is_map or is_curve):
             panels.append(frame(axes, axes=places))
     return panels

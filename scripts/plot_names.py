@@ -1,0 +1,146 @@
+"""Names of variables and constants in pictures: words, symbols, values with their units."""
+
+import re
+
+import numpy as np
+
+# Words and symbol of what the paper and the configuration name; anything else is labelled by its long_name.
+LABELS = {
+    "h": ("damping ratio", r"$h$"),
+    "f": ("force amplitude", r"$f$"),
+    "nu": ("excitation frequency", r"$\nu$"),
+    "phase": ("forcing phase", r"$\varphi$"),
+    "R": ("restitution", r"$R$"),
+    "xs": ("stop", r"$x_s$"),
+    "stop_lower": ("lower stop", r"$x_-$"),
+    "stop_upper": ("upper stop", r"$x_+$"),
+    "R_lower": ("restitution, lower stop", r"$R_-$"),
+    "R_upper": ("restitution, upper stop", r"$R_+$"),
+    "stop_stiffness": ("stiffness of the stops", r"$\kappa$"),
+    "stop_stiffness_lower": ("stiffness of the lower stop", r"$\kappa_-$"),
+    "stop_stiffness_upper": ("stiffness of the upper stop", r"$\kappa_+$"),
+    "stop_damping": ("damping of the stops", r"$\zeta$"),
+    "stop_damping_lower": ("damping of the lower stop", r"$\zeta_-$"),
+    "stop_damping_upper": ("damping of the upper stop", r"$\zeta_+$"),
+    "load": ("constant load", "load"),
+    "stiffness": ("stiffness", r"$k$"),
+    "mass": ("mass", r"$m$"),
+    "damping": ("damping", r"$c$"),
+    "damping_ratio": ("damping ratio", r"$h$"),
+    "quality": ("quality factor", r"$Q$"),
+    "force": ("force amplitude", r"$F$"),
+    "frequency": ("excitation frequency", r"$f$"),
+    "gap": ("stop", r"$x_s$"),
+    "stop_amplitude": ("amplitude of the stops", r"$b$"),
+    "base_amplitude": ("amplitude of the base", r"$b$"),
+    "x0": ("initial displacement", r"$x(0)$"),
+    "v0": ("initial velocity", "$x$\N{PRIME}$(0)$"),
+    "start_period": ("period", r"$\bar\tau$"),
+    "tau": ("time", r"$\tau$"),
+    "x": ("displacement", r"$x$"),
+    "v": ("velocity", "$x$\N{PRIME}"),
+    "x_min": ("minimum", r"$x_{\min}$"),
+    "x_max": ("maximum", r"$x_{\max}$"),
+    "v_min": ("minimum", "$x$\N{PRIME}$_{\\min}$"),
+    "v_max": ("maximum", "$x$\N{PRIME}$_{\\max}$"),
+    "v_before": ("velocity before impact", "$x$\N{PRIME}$^{{-}}$"),
+    "v_after": ("velocity after impact", "$x$\N{PRIME}$^{{+}}$"),
+    "period": ("period", r"$\bar\tau$"),
+    "eigenfrequency": ("eigenfrequency", r"$\bar\omega$"),
+    "period_ratio": ("period", r"$\nu\bar\tau/2\pi$"),
+    "velocity_ratio": ("velocity ratio", "$|x$\N{PRIME}$^{{-}}/x_s|$"),
+    "base_frequency": ("base frequency", r"$\Omega$"),
+    "harmonic": ("harmonic", r"$k$"),
+    "x_amplitude": ("amplitude of displacement", r"$a_k$"),
+    "v_amplitude": ("amplitude of velocity", "$a$\N{PRIME}$_k$"),
+    "x_phase": ("phase of displacement", r"$\varphi_k$"),
+    "v_phase": ("phase of velocity", "$\\varphi$\N{PRIME}$_k$"),
+    "multiplier_re": ("multipliers", r"$\mathrm{Re}\,\mu$"),
+    "multiplier_im": ("multipliers", r"$\mathrm{Im}\,\mu$"),
+    "lyapunov": ("Lyapunov exponent", r"$\lambda$"),
+    "impacts_per_period": ("impacts per period", ""),
+    "rest_fraction": ("share of time at rest", ""),
+    "contact_fraction": ("share of time in contact", ""),
+    "contact_force_max": ("greatest force of the stop", ""),
+    "symmetric": ("symmetric motion", ""),
+    "attractor": ("motion", ""),
+    "settling_periods": ("periods until settled", ""),
+    "work_in": ("work of force and load", "work"),
+    "loss_damping": ("loss by damping", "damping"),
+    "loss_impact": ("loss by impacts", ""),
+    "impulse": ("impulse", ""),
+    "impact_power": ("power lost in impacts", ""),
+}
+
+
+# The units of constants in [machine], as of the variables in the file.
+UNITS = {
+    "mass": "kg",
+    **dict.fromkeys(("stiffness", "stop_stiffness", "stop_stiffness_lower", "stop_stiffness_upper"), "N m-1"),
+    "damping": "N s m-1",
+    "force": "N",
+    "frequency": "Hz",
+    "phase": "rad",
+    "load": "N",
+    "v0": "m s-1",
+    **dict.fromkeys(("gap", "stop_lower", "stop_upper", "stop_amplitude", "base_amplitude", "x0"), "m"),
+}
+
+
+def symbol(name):
+    return LABELS.get(name, ("", ""))[1] or name.replace("_", " ")
+
+
+def words_of(name):
+    return LABELS.get(name, ("", ""))[0] or name.replace("_", " ")
+
+
+def label(output, name):
+    """Axis label: words and symbol if the name is known, else long_name; the unit unless it is 1."""
+    words, sign = LABELS.get(name, ("", ""))
+    variable = output.variables.get(name)
+    full = f"{words} {sign if sign not in words else ''}".strip() or (variable.long_name if variable else name)
+    return in_frame(output, name, with_unit(output, full, name))
+
+
+def in_frame(output, name, words):
+    """Words for a variable, and its frame if something is shaken."""
+    variable = output.variables.get(name)
+    return f"{words}, {variable.frame}" if variable and variable.frame else words
+
+
+def with_unit(output, words, name):
+    """Words for a variable followed by its unit, unless it is 1."""
+    unit = unit_of(output, name)
+    return f"{words} ({unit})" if unit else words
+
+
+def unit_of(output, name):
+    """The unit of a variable of the file or of a constant of its scene, typeset; "" if it has none."""
+    constant = UNITS.get(name, "1") if output.is_si else "1"
+    unit = output.variables[name].units if name in output else constant
+    return typeset_unit(unit) if unit != "1" else ""
+
+
+def amount(output, name, value):
+    """A value of a variable or constant with its unit, as text."""
+    return f"{number(value)}\N{NO-BREAK SPACE}{unit_of(output, name)}".strip()
+
+
+def equation(output, name, value):
+    """A variable or constant and its value, as text, e.g. ν = 0.5."""
+    if name == "direction":
+        return "up" if value > 0 else "down"
+    if not np.isfinite(value):
+        return f"no {words_of(name)}"
+    return f"{symbol(name)} = {amount(output, name, value)}"
+
+
+def typeset_unit(unit):
+    """A unit of the file with its powers raised: m s-1 becomes m s⁻¹, which no line ends within."""
+    return re.sub(r"(?<=[A-Za-z])(-?\d+)", r"$^{\1}$", unit).replace(" ", "\N{NO-BREAK SPACE}")
+
+
+def number(value):
+    """A number as text, with a real minus sign, and none for zero."""
+    return re.sub(r"e([-+])0", r"e\1", f"{value + 0.0:.6g}").replace("-", "\N{MINUS SIGN}")

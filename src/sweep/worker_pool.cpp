@@ -1,0 +1,210 @@
+#include "sweep/worker_pool.hpp"
+
+#include <algorithm>
+#include <span>
+#include <utility>
+
+#include "lanes/run_in_lanes.hpp"
+#include "lanes/scheduler.hpp"
+#include "sweep/branches.hpp"
+#include "sweep/parallel.hpp"
+
+namespace clatter::sweep {
+namespace {
+
+WorkStats work_of(const point::WorkItem& item, const point::PointResult& result) {
+  WorkStats work{.effects = item.effects,
+                 .points = 1,
+                 .impacts = result.impacts,
+                 .periods = result.periods,
+                 .evaluations = result.evaluations};
+  work.found_by[static_cast<std::size_t>(result.found_by)] = 1;
+  return work;
+}
+
+void add(std::vector<WorkStats>& sum, const WorkStats& part) {
+  auto same = std::ranges::find(sum, part.effects, &WorkStats::effects);
+  if (same == sum.end()) same = sum.insert(sum.end(), WorkStats{.effects = part.effects});
+  same->points += part.points;
+  for (std::size_t i = 0; i < part.found_by.size(); ++i) same->found_by[i] += part.found_by[i];
+  same->impacts += part.impacts, same->periods += part.periods, same->evaluations += part.evaluations;
+}
+
+}  // namespace
+
+WorkerPool::WorkerPool(const Sweep& sweep, const Share& share, const RunOptions& options, int threads,
+                       ResultStore& store, std::vector<std::atomic<BranchState>>& states, std::size_t restored)
+    : sweep_(sweep),
+      share_(share),
+      store_(store),
+      states_(states),
+      progress_(options, static_cast<std::size_t>(threads), share.points(), restored),
+      chunk_(sweep.follow ? 1
+                          : std::clamp<std::size_t>(share_.count() / (64 * static_cast<std::size_t>(threads)), 1, 64)),
+      chunks_((share_.count() + chunk_ - 1) / chunk_),
+      most_branches_((share_.count() + static_cast<std::size_t>(threads) - 1) / static_cast<std::size_t>(threads)),
+      arch_(options.arch),
+      in_lanes_(runs_in_lanes(sweep, options.arch)),
+      mirror_images_(sweep),
+      has_whole_pairs_(mirror_images_.exist() && share.points() == size(sweep)),
+      scratches_(static_cast<std::size_t>(threads)),
+      work_(static_cast<std::size_t>(threads)) {
+  for (std::size_t thread = 0; options.progress && thread < scratches_.size(); ++thread)
+    scratches_[thread].progress = [this, thread](double part) { progress_.add_part(thread, part); };
+  const observables::FourierScratch fourier = observables::Harmonics::scratch_for(sweep.problem.observe);
+  for (point::ThreadScratch& scratch : scratches_) scratch.fourier = fourier.for_another_thread();
+  for (std::size_t point = 0; has_whole_pairs_ && restored > 0 && point < share_.count(); ++point)
+    if (const auto original = mirror_images_.original_of(point))
+      if (states_[point] == BranchState::open && states_[*original] == BranchState::saved) bereft_.push_back(point);
+}
+
+void WorkerPool::run() {
+  on_each_thread(static_cast<int>(scratches_.size()), [this](std::size_t thread) { run_thread(thread); });
+}
+
+std::vector<WorkStats> WorkerPool::work() const {
+  std::vector<WorkStats> sum;
+  for (const std::vector<WorkStats>& of_thread : work_)
+    for (const WorkStats& part : of_thread) add(sum, part);
+  std::ranges::sort(sum, cheaper, &WorkStats::effects);
+  return sum;
+}
+
+void WorkerPool::run_thread(std::size_t thread) noexcept {
+  try {
+    if (in_lanes_) {
+      run_lanes(thread);
+    } else {
+      while (const auto chunk = next_chunk()) run_chunk(*chunk, thread);
+    }
+  } catch (...) {
+    const std::lock_guard lock(mutex_);
+    failure_ = std::current_exception();
+    stopped_ = true;
+  }
+}
+
+std::optional<WorkerPool::Chunk> WorkerPool::next_chunk() {
+  for (;;) {
+    const std::size_t turn = turn_.fetch_add(1);
+    if (stopped_ || turn >= chunks_.turns()) return std::nullopt;
+    const auto number = chunks_.number(turn);
+    if (!number) continue;
+    return Chunk{*number * chunk_, std::min((*number + 1) * chunk_, share_.count())};
+  }
+}
+
+point::WorkItem WorkerPool::item_of(std::size_t branch, std::size_t position, const std::optional<Start>& end,
+                                    const Units& units_of_end) const {
+  const std::size_t point = share_.point(branch, position);
+  point::WorkItem item{branch, position, problem_at(sweep_, mirror_images_.original_of(point).value_or(point)), {}};
+  if (sweep_.follow) start_from(item.problem, end, units_of_end);
+  item.effects = effects_of(item.problem);
+  return item;
+}
+
+void WorkerPool::run_lanes(std::size_t thread) {
+  std::vector<point::WorkItem> ready;  // next points of branches that have been begun
+  std::size_t begun = 0, ended = 0;    // branches
+  const auto take = [&](const point::WorkItem& item, point::PointResult&& result) {
+    if (auto successor = store(item, std::move(result), thread))
+      ready.push_back(std::move(*successor));
+    else
+      ++ended;
+  };
+  Chunk chunk{0, 0};
+  const auto begin_branch = [&]() -> std::optional<point::WorkItem> {
+    if (sweep_.follow && begun - ended >= most_branches_) return std::nullopt;
+    for (;; ++chunk.begin) {
+      if (chunk.begin == chunk.end) {
+        const auto other = next_chunk();
+        if (!other) return std::nullopt;
+        chunk = *other;
+      }
+      if (is_left_out(chunk.begin)) continue;
+      ++begun;
+      return item_of(chunk.begin++);
+    }
+  };
+  const auto next = [&]() -> std::optional<point::WorkItem> {
+    for (;;) {
+      std::optional<point::WorkItem> item;
+      if (ready.empty()) {
+        item = begin_branch();
+      } else {
+        item = std::move(ready.back()), ready.pop_back();
+      }
+      if (!item || lanes::accepts(*item)) return item;
+      run_batch({&*item, 1}, scratches_[thread], take);
+    }
+  };
+  lanes::Scheduler scheduler(arch_, scratches_[thread], next, take);
+  scheduler.run();
+  const std::lock_guard lock(mutex_);
+  lane_work_.proved += scheduler.proved(), lane_work_.refined += scheduler.refined();
+}
+
+std::optional<point::WorkItem> WorkerPool::store(const point::WorkItem& item, point::PointResult&& result,
+                                                 std::size_t thread) {
+  std::optional<Start> end = failed(result.status) ? std::nullopt : std::optional<Start>(result.end);
+  if (end) end->phase -= item.problem.shaking.lead;
+  add(work_[thread], work_of(item, result));
+  if (mirror_images_.exist()) {
+    const std::size_t point = share_.point(item.branch, item.position);
+    if (mirror_images_.original_of(point)) {
+      result = mirrored(result);
+    } else if (has_whole_pairs_) {
+      store_image_of(point, result, item.problem.units, thread);
+    }
+  }
+  store_.store(share_.local_index(item.branch, item.position), std::move(result), item.problem.units);
+  progress_.add_point(thread);
+  if (item.position + 1 < share_.length()) return item_of(item.branch, item.position + 1, end, item.problem.units);
+  states_[item.branch] = BranchState::finished;
+  return std::nullopt;
+}
+
+void WorkerPool::store_image_of(std::size_t point, const point::PointResult& result, const Units& units,
+                                std::size_t thread) {
+  const auto image = mirror_images_.image_of(point);
+  if (!image || is_restored(*image) || is_bereft(*image)) return;
+  store_.store(*image, mirrored(result), units);
+  progress_.add_point(thread);
+  states_[*image] = BranchState::finished;
+}
+
+void WorkerPool::run_branch(std::size_t branch, std::size_t thread) {
+  std::optional<point::WorkItem> item = item_of(branch), successor;
+  for (; item; item = std::move(successor))
+    run_batch({&*item, 1}, scratches_[thread], [&](const point::WorkItem& done, point::PointResult&& result) {
+      successor = store(done, std::move(result), thread);
+    });
+}
+
+void WorkerPool::run_chunk(const Chunk& chunk, std::size_t thread) {
+  if (sweep_.follow) {
+    if (!is_restored(chunk.begin)) run_branch(chunk.begin, thread);
+  } else {
+    run_points(chunk, thread);
+  }
+}
+
+void WorkerPool::run_points(const Chunk& chunk, std::size_t thread) {
+  std::vector<point::WorkItem> items;
+  items.reserve(chunk.end - chunk.begin);
+  for (std::size_t branch = chunk.begin; branch < chunk.end; ++branch)
+    if (!is_left_out(branch)) items.push_back(item_of(branch));
+  const auto set_of = [](const point::WorkItem& item) { return effect_set_of(item.effects); };
+  std::ranges::stable_sort(items, {}, set_of);
+  for (std::span<const point::WorkItem> left(items); !left.empty();) {
+    const auto other =
+        std::ranges::find_if(left, [&](const point::WorkItem& item) { return set_of(item) != set_of(left[0]); });
+    const auto batch = static_cast<std::size_t>(other - left.begin());
+    run_batch(left.first(batch), scratches_[thread], [&](const point::WorkItem& item, point::PointResult&& result) {
+      store(item, std::move(result), thread);
+    });
+    left = left.subspan(batch);
+  }
+}
+
+}  // namespace clatter::sweep
