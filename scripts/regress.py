@@ -21,6 +21,7 @@ SETTLING = (
     "settling_estimate",
 )  # how long it took to get there: work, and no property of the motion
 STARTS = ("motion_points", "motion_share", "motion_share_low", "motion_share_high")  # counts of starts, or their shares
+SMALL = 1e-4  # the least scale of a variable
 FEW = 0.002  # of the starts lie so close to the boundary of a basin that rounding decides which motion they end in
 REFERENCES = ("DIMENSION_LIST", "REFERENCE_LIST")  # attributes that point at other variables
 APERIODIC = 1
@@ -113,6 +114,13 @@ def difference(a, b):
         return numpy.where((a == b) | (numpy.isnan(a) & numpy.isnan(b)), 0, numpy.abs(a - b))
 
 
+def scale(values):
+    """What a tolerance for numbers of the order of 1 is multiplied by: the largest modulus of a variable that is small
+    throughout, as millimetres in m are, but no less than SMALL, below which are rounding errors of zeros."""
+    finite = numpy.abs(values[numpy.isfinite(values)])
+    return min(1.0, max(SMALL, finite.max(initial=0.0)))
+
+
 class Comparison:
     """Of an output with its baseline: the differences, and those that are permitted."""
 
@@ -148,14 +156,16 @@ class Comparison:
         if a.shape != b.shape:
             self.differences.append(f"{name} has {len(b)} rows, not {len(a)}")
             return
-        apart = numpy.where(a == b, 0, math.inf) if now.type == "string" else difference(a, b)
+        is_text = now.type == "string"
+        apart = numpy.where(a == b, 0, math.inf) if is_text else difference(a, b)
+        sized = numpy.ones(1) if is_text else a
         if name.endswith("_phase"):  # that of a zero amplitude is noise, and pi is -pi
             amplitude = new.variables[name.replace("_phase", "_amplitude")].rows[:: old.step]
             error = numpy.abs(amplitude) * numpy.abs(numpy.remainder(apart + math.pi, 2 * math.pi) - math.pi)
-            if ((apart > self.tolerance) & (error <= self.tolerance)).any():
+            if ((apart > self.tolerance) & (error <= self.tolerance * scale(amplitude))).any():
                 self.permitted.append(f"{name} by whole turns or of no amplitude")
-            apart = numpy.where(apart == 0, 0, error)
-        beyond = ~(apart <= self.tolerance)  # a number beside NaN, too
+            apart, sized = numpy.where(apart == 0, 0, error), amplitude
+        beyond = ~(apart <= self.tolerance * scale(sized))  # a number beside NaN, too
         if name in STARTS and beyond.any():
             total = math.prod(new.variables["status"].shape) if name == "motion_points" else 1
             if (apart <= 10 * FEW * total).all():

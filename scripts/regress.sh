@@ -7,7 +7,7 @@ source_dir=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 # shellcheck source=scripts/packages.sh
 source "$source_dir/scripts/packages.sh"
 
-tolerance=1e-9 # absolute: all results are of the order of 1
+tolerance=1e-9 # of results of the order of 1; smaller ones are held to less
 
 usage() {
   cat <<END
@@ -22,8 +22,9 @@ they are left out.
 
 The table on stdout has a line for each output, in columns between blanks: its name, points and variables compared,
 the largest difference, where it is, what h5diff says (same, differs, - for text), the verdict (agrees, differs), and
-the differences in words. A difference is a value off by more than $tolerance, NaN beside a number, and a variable,
-shape, type or attribute that isn't the same. Only these may differ, and the line says "but for" them:
+the differences in words. A difference is a value off by more than $tolerance (times the largest modulus of its
+variable if that is below 1, as in m, but at least 1e-4), NaN beside a number, and a variable, shape, type or attribute
+that isn't the same. Only these may differ, and the line says "but for" them:
   - values at points that are aperiodic in both, since chaos turns any other rounding into another motion, and along
     "follow" those right after them, since it leaves them near another of several motions; their status must agree,
   - all values at starts that end in another motion, if they are at most 0.2 % of the points: boundaries of basins may

@@ -1,7 +1,9 @@
 #include "accuracy/run_record.hpp"
 
 #include <cmath>
+#include <type_traits>
 
+#include "accuracy/reference_effects.hpp"
 #include "math/fifty_digits.hpp"
 #include "motion/tangent_map.hpp"
 #include "stepping/exact.hpp"
@@ -126,11 +128,13 @@ RunRecord run_from(const point::Problem& scene, motion::State<Number> state, con
 template <class Number>
 RunRecord run_in(const point::Problem& scene, double duration, const std::optional<RecordObservables>& observables,
                  const std::function<bool()>& stopped) {
-  return with_any_stops(scene, [&]<Effects effects>() {
+  const auto run = [&]<Effects effects>() {
     const Number period = 2 * pi<Number>() / Number(counting_frequency(scene.oscillator));
     return run_from<Number, effects>(scene, start_of<Number>(scene), Number(Number(duration) / period), duration,
                                      observables, stopped);
-  });
+  };
+  if constexpr (std::is_same_v<Number, FiftyDigits>) return with_every_effect(scene, run);
+  return with_any_stops(scene, run);
 }
 
 /// Moves a state to the fixed point of the map over so many periods; false if that fails.
@@ -188,7 +192,7 @@ std::optional<RunRecord> periodic_reference(const point::Problem& scene, double 
                                             const RecordObservables& observables,
                                             const std::function<bool()>& stopped) {
   if (periods != std::floor(periods)) return std::nullopt;
-  return with_any_stops(scene, [&]<Effects effects>() -> std::optional<RunRecord> {
+  return with_every_effect(scene, [&]<Effects effects>() -> std::optional<RunRecord> {
     motion::State<FiftyDigits> start = start_of<FiftyDigits>(scene);
     if (!to_fixed_point<effects>(scene, start, periods, stopped)) return std::nullopt;
     const double duration = periods * period_of(scene.oscillator);

@@ -8,8 +8,10 @@
 namespace clatter::config {
 namespace {
 
-/// Whether a key chooses an observable; the others of [observe] say how to compute one.
-bool is_observable(const Key& key) { return key.section == "observe" && key.beside.empty(); }
+/// Whether a key chooses an observable, as those do that are off by default; the others say how to compute one.
+bool is_observable(const Key& key) {
+  return key.section == "observe" && (key.fallback == "false" || (key.kind == Kind::integer && key.fallback == "0"));
+}
 
 /// Warns of a run that observes nothing, unless every observable is written as off, as by `clatter defaults`.
 void warn_of_nothing_observed(const Settings& settings, std::vector<Warning>& warnings) {

@@ -187,6 +187,7 @@ esac
             phase = file["v_phase"][7, 1]
         baseline = self.edited(
             fig20=lambda file: put("x_max", 7, file["x_max"][7] + 1e-12)(file),
+            fig21=lambda file: put("x_max", 7, file["x_max"][7] + 5e-10)(file),
             fig22=put("x_max", chaotic, 1.0),
             fig18=put("simulated_periods", (), 1e3),
             fig12=put("v_phase", (7, 1), phase + 2 * numpy.pi),
@@ -214,6 +215,7 @@ esac
             stability=put("status", 7, 1),
             follow_down=lambda file: file["x_max"].attrs.__setitem__("units", "m"),
             fig12=put("v_phase", (7, 1), phase + 1e-6),
+            drive_si=lambda file: put("x_max", 7, file["x_max"][7] + 5e-11)(file),  # of some mm
             regimes=put("impact_word", (50, 40), "LLLUU"),
             transient=lambda file: file["sample"].attrs.__setitem__("more", 1),
             asymmetric=lambda file: file.create_group("more"),
@@ -232,6 +234,7 @@ esac
             stability="status at 1 of 501",
             follow_down="attributes of x_max",
             fig12="v_phase at 1 of 2364",
+            drive_si="x_max at 1 of 501",
             regimes="impact_word at 1 of 8181",
             transient="h5diff finds what isn't seen here",
             asymmetric="'more' is no dataset, which clatter doesn't write",

@@ -122,6 +122,8 @@ TEST(Observing, nothing_is_warned_of_unless_every_observable_is_written_as_off) 
       "trajectory = 0\nsection = 0\nword = false\nperiod = false\nstability = false\n";
   expect_warning(off, "3:2", "nothing is observed");
   expect_none(off + "energy = false\nsettling = false\nattractor = false\n");
+  for (const std::string alone : {"settling = true", "attractor = true", "stability = true", "section = 3"})
+    expect_none(scene + "[observe]\n" + alone + "\n");
 }
 
 TEST(WithoutEffect, a_frame_of_stops_at_rest_is_warned_of) {

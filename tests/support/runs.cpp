@@ -1,19 +1,24 @@
 #include "support/runs.hpp"
 
+#include <type_traits>
+
+#include "accuracy/reference_effects.hpp"
 #include "math/fifty_digits.hpp"
 
 namespace clatter::support {
 
 template <class Number>
 Run<Number> run_scene(const point::Problem& scene, double duration) {
-  return with_any_stops(scene, [&]<Effects effects>() {
+  const auto run_with = [&]<Effects effects>() {
     Run<Number> run;
     stepping::Exact<Number, effects> integrator(scene, limits_of(scene));
     run.end.x = scene.start.displacement, run.end.v = scene.start.velocity;
     run.outcome = run_for(integrator, run.end, Number(Number(duration) / integrator.period()), run.record);
     run.evaluations = integrator.evaluations();
     return run;
-  });
+  };
+  if constexpr (std::is_same_v<Number, FiftyDigits>) return accuracy::with_every_effect(scene, run_with);
+  return with_any_stops(scene, run_with);
 }
 
 template Run<double> run_scene(const point::Problem&, double);
