@@ -117,6 +117,7 @@ class Machine(StoppedRuns):
 
     def test_pictures_have_units(self):
         words = ("sweep.frequency=linspace(20 Hz, 30 Hz, 11)", "observe.extrema=true", "observe.energy=true")
+        words += ("sweep.load=[0 N, 3 N]",)
         self.run_config(self.write("a.toml", DRIVE), "a.h5", *sets(words)).close()
         plot = ["/usr/bin/python3", SOURCE / "scripts" / "plot.py", "a.h5"]
         subprocess.run(plot, cwd=self.directory, check=True, capture_output=True)
@@ -126,6 +127,7 @@ class Machine(StoppedRuns):
             "velocity $x$\N{PRIME} (m s$^{-1}$)",
             "impulse (N s)",
             "excitation frequency $f$ (Hz)",
+            "load = 3 N",
         ):
             self.assertIn(words, texts)
         constants = next(text for text in texts if "$m$ = 0.5 kg" in text)

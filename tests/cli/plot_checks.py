@@ -49,20 +49,35 @@ class Panel:
 
 
 def texts_in(element):
-    return [part.text.strip() for part in element.iter() if callable(part.tag)]
+    """The texts, with plain blanks where a line may not end."""
+    return [part.text.strip().replace("\N{NO-BREAK SPACE}", " ") for part in element.iter() if callable(part.tag)]
 
 
-def overlapping_texts(figure):
-    """Pairs of texts of a figure that lie on each other."""
+def texts_with_boxes(figure):
+    """The texts of a figure that are drawn, each with its place in pixels."""
     from matplotlib.text import Text
 
     figure.draw_without_rendering()
     hidden = {id(text) for axes in figure.axes for text in numbers_beyond(axes)}
     texts = [text for text in figure.findobj(Text) if text.get_visible() and text.get_text().strip()]
-    boxes = [(text.get_text(), text.get_window_extent()) for text in texts if id(text) not in hidden]
+    return [(text.get_text(), text.get_window_extent()) for text in texts if id(text) not in hidden]
+
+
+def texts_beyond(figure):
+    """Texts that a figure cuts off."""
+    room = figure.bbox.padded(1)
+    return [
+        text
+        for text, box in texts_with_boxes(figure)
+        if min(box.x0 - room.x0, room.x1 - box.x1, box.y0 - room.y0, room.y1 - box.y1) < 0
+    ]
+
+
+def overlapping_texts(figure):
+    """Pairs of texts of a figure that lie on each other."""
     return [
         (one, other)
-        for (one, box), (other, second) in combinations(boxes, 2)
+        for (one, box), (other, second) in combinations(texts_with_boxes(figure), 2)
         if min(box.x1, second.x1) - max(box.x0, second.x0) > 1 and min(box.y1, second.y1) - max(box.y0, second.y0) > 1
     ]
 

@@ -4,114 +4,39 @@ Environment: CLATTER, the program; CLATTER_SOURCE, the source directory.
 """
 
 import subprocess
-import tempfile
 import unittest
-from pathlib import Path
-from types import SimpleNamespace
 
 import h5py
 import numpy as np
 from matplotlib.cm import ScalarMappable
 from matplotlib.colors import Normalize
 
-from command_line import CLATTER, SOURCE
-from plot_checks import Svg, overlapping_texts
+from command_line import CLATTER
+from plot_checks import overlapping_texts, texts_beyond
+from plot_pictures import CONFIGURATIONS, NO_CHOICE, PLOT, Pictures, choice
 
 import plot
-import plot_style
 from plot_choice import ChoiceProblem, members_of
-from plot_data import Output
 from plot_scales import integer_levels, is_constant, shown_values
 
-PLOT = ["/usr/bin/python3", SOURCE / "scripts" / "plot.py"]
-FORCED = "[scene]\nf = -1.0\nh = 0.1\n"
-ALONG_NU = '[sweep]\nnu = "linspace(0.84, 1.0, 81)"\n'
-CONFIGURATIONS = {
-    "section": FORCED + "R = 0.7\nxs = -3\n" + ALONG_NU + "[time]\nmax_periods = 300\n"
-    "[observe]\nsection = 40\nword = true\nstability = true\n",
-    "impacts": FORCED + "R = 0.7\nxs = -3\n" + ALONG_NU + "[time]\nmax_periods = 300\n[observe]\nimpact_log = true\n",
-    "chaos": FORCED + "R = 0.7\nxs = -3\nnu = 0.9\n[time]\nmax_periods = 200\n"
-    "[observe]\nsection = 500\ntrajectory = 1601\nimpact_log = true\n",
-    "family": FORCED + "xs = -3\n" + '[sweep]\nR = [0.3, 0.6, 0.9]\nnu = "linspace(1, 1.2, 21)"\n'
-    "[observe]\nextrema = true\nimpacts = true\n",
-    "hysteresis": FORCED + 'R = 0.7\nxs = -4\n[sweep]\nnu = "linspace(0.8, 1.3, 101)"\nfollow = "nu"\n'
-    'direction = "both"\n[observe]\nextrema = true\n',
-    "map": FORCED + 'R = 0.7\n[sweep]\nnu = "linspace(0.3, 1.3, 21)"\nxs = "linspace(0.1, 2, 17)"\n'
-    "[time]\nmax_periods = 200\n"
-    "[observe]\nextrema = true\nimpacts = true\nperiod = true\nword = true\nstability = true\n",
-    "uneven": FORCED + 'R = 0.7\n[sweep]\nnu = [0.3, 0.5, 0.6, 0.65, 0.8, 1.0, 1.4]\nxs = "logspace(0.1, 10, 9)"\n'
-    "[observe]\nextrema = true\n",
-    "cube": FORCED + '[sweep]\nR = [0.3, 0.8]\nnu = "linspace(0.8, 1.2, 9)"\nxs = "linspace(2, 4, 8)"\n'
-    "[observe]\nextrema = true\n",
-    "one_stop": FORCED + 'R = 0.6\n[sweep]\nstop_upper = [0.0, inf]\nnu = "linspace(0.5, 1.5, 21)"\n'
-    "[observe]\nextrema = true\n",
-    "linear": FORCED + 'xs = 20\n[sweep]\nnu = "linspace(0.5, 1.5, 21)"\n[observe]\nextrema = true\nharmonics = 2\n'
-    "impacts = true\n",
-}
-OBSERVED = "[observe]\nextrema = true\nimpacts = true\nharmonics = 4\nharmonics_method = 'exact'\nstability = true\n"
-CONFIGURATIONS |= {
-    "point": FORCED + "nu = 0.8\nstop_lower = -0.5\nR_lower = 0.6\nR_upper = 0.9\n" + OBSERVED + "word = true\n",
-    "linear_point": FORCED + "nu = 0.8\nxs = 20\n" + OBSERVED,
-    "numbers": FORCED + "nu = 0.8\nxs = 0.5\n[observe]\nword = true\n",
-    "chatter": FORCED + "nu = 0.05\nxs = 0.2\nR = 0.7\n[observe]\nword = true\nstability = true\n",
-}
-STARTS = '[sweep]\n{}x0 = "{}(-3, 3, {})"\nv0 = "{}(-6, 6, {})"\n'
-STEADY = FORCED + "R = 0.7\nxs = -3\n"
-CONFIGURATIONS |= {
-    "basins": STEADY
-    + "nu = 1.2\n"
-    + STARTS.format("", "linspace", 24, "linspace", 20)
-    + "[observe]\nattractor = true\nsettling = true\n",
-    "starts": STEADY
-    + "nu = 1.2\n"
-    + STARTS.format('linked = "x0, v0"\n', "sobol", 64, "sobol", 64)
-    + "[observe]\nattractor = true\nsettling = true\n",
-    "zones": STEADY
-    + STARTS.format('nu = "linspace(0.9, 1.5, 25)"\nlinked = "x0, v0"\n', "sobol", 32, "sobol", 32)
-    + "[time]\nmax_periods = 300\n[observe]\nattractor = true\n",
-}
-NO_CHOICE = SimpleNamespace(only=(), along="", over="", at=(), size=None, xlim=None, ylim=None, log="", title=None)
 
-
-def choice(**options):
-    return SimpleNamespace(**{**vars(NO_CHOICE), **options})
-
-
-class Kinds(unittest.TestCase):
-    @classmethod
-    def setUpClass(cls):
-        kept = tempfile.TemporaryDirectory()
-        cls.addClassCleanup(kept.cleanup)
-        cls.folder = Path(kept.name)
-        for name, text in CONFIGURATIONS.items():
-            (cls.folder / f"{name}.toml").write_text(text)
-            command = [CLATTER, "run", cls.folder / f"{name}.toml", "-o", cls.folder / f"{name}.h5", "-q"]
-            subprocess.run(command, check=True, timeout=300)
-        plot_style.use_style()
-
-    def draw(self, *names, arguments=()):
-        """The picture of these files, by the program."""
-        words = [*PLOT, *(self.folder / f"{name}.h5" for name in names), *arguments, "--format", "svg"]
-        result = subprocess.run(words, capture_output=True, text=True, timeout=300)
-        self.assertEqual((result.returncode, result.stderr), (0, ""))
-        (path,) = result.stdout.split()
-        return Svg(path)
-
-    def output(self, name):
-        return Output(self.folder / f"{name}.h5")
-
-    def refuse(self, name, *arguments):
-        words = [*PLOT, self.folder / f"{name}.h5", *arguments, "-o", self.folder / "refused"]
-        result = subprocess.run(words, capture_output=True, text=True, timeout=300)
-        self.assertEqual((result.returncode, result.stdout), (2, ""))
-        self.assertEqual(list((self.folder / "refused").glob("*")), [])
-        return result.stderr.splitlines()[-1]
-
+class Kinds(Pictures):
     def test_no_text_lies_on_another(self):
         for name in CONFIGURATIONS:
             with self.subTest(name):
                 figure = plot.single_figure(self.output(name), NO_CHOICE)
                 self.assertEqual(overlapping_texts(figure), [])
+
+    def test_no_text_goes_beyond_the_picture(self):
+        for name in CONFIGURATIONS:
+            with self.subTest(name):
+                figure = plot.single_figure(self.output(name), NO_CHOICE)
+                self.assertEqual(texts_beyond(figure), [])
+
+    def test_texts_beyond_the_picture_are_found(self):
+        figure = plot.single_figure(self.output("linear"), NO_CHOICE)
+        figure.text(0.98, 0.5, "far to the right")
+        self.assertEqual(texts_beyond(figure), ["far to the right"])
 
     def test_overlapping_texts_are_found(self):
         figure = plot.single_figure(self.output("linear"), NO_CHOICE)
