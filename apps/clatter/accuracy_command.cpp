@@ -40,8 +40,7 @@ PointText text_of(const Arguments& arguments) {
 /// Measures and prints all points, or fewer if it is interrupted.
 std::vector<accuracy::PointAccuracy> measure_points(const sweep::Sweep& sweep, lanes::InstructionSet arch,
                                                     PointText text_of, bool shown) {
-  const std::vector<accuracy::Trial> trials =
-      accuracy::trials_of(sweep.problem.time.mode, arch, sweep.problem.observe.of_soft_stops);
+  const std::vector<accuracy::Trial> trials = accuracy::trials_of(sweep.problem.time.mode, arch);
   Progress progress(shown, "runs");
   accuracy::AccuracyOptions options{.stopped = [] { return Interrupt::signal() != 0; }};
   std::vector<accuracy::PointAccuracy> points;

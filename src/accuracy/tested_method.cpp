@@ -13,13 +13,13 @@ void add_decades(std::vector<Trial>& trials, TestedMethod method, int first, int
 
 }  // namespace
 
-std::vector<Trial> trials_of(steady::Mode mode, lanes::InstructionSet arch, bool soft_stops) {
+std::vector<Trial> trials_of(steady::Mode mode, lanes::InstructionSet arch) {
   constexpr double none = std::numeric_limits<double>::quiet_NaN();
   const bool lanes = arch != lanes::InstructionSet::scalar;
   std::vector<Trial> trials{{TestedMethod::exact, none}};
   if (lanes) trials.push_back({TestedMethod::exact, none, arch});
   add_decades(trials, TestedMethod::dopri5, 3, 13);
-  if (!soft_stops) add_decades(trials, TestedMethod::moreau, 1, 5);  // it is for rigid ones
+  add_decades(trials, TestedMethod::moreau, 1, 5);
   trials.push_back({TestedMethod::harmonics_exact, none});
   for (int power = 4; power <= 20; ++power) trials.push_back({TestedMethod::harmonics_fft, std::ldexp(1.0, power)});
   if (mode == steady::Mode::transient) return trials;

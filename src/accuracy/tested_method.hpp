@@ -36,6 +36,6 @@ struct Trial {
 /// All trials: exact; dopri5 at tolerances 1e-3 ... 1e-13; Moreau's time stepping at steps of 1e-1 ... 1e-5 periods;
 /// harmonics, exact and of 2^4 ... 2^20 samples; in steady mode, the steady search at tolerances 1e-3 ... 1e-14. With
 /// an instruction set other than scalar also exact and the steady search at 1e-12 in its lanes.
-[[nodiscard]] std::vector<Trial> trials_of(steady::Mode mode, lanes::InstructionSet arch, bool soft_stops = false);
+[[nodiscard]] std::vector<Trial> trials_of(steady::Mode mode, lanes::InstructionSet arch);
 
 }  // namespace clatter::accuracy

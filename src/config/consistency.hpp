@@ -43,7 +43,7 @@ void check_stops_and_start(const Settings& settings, const AxisGroups& groups);
 [[nodiscard]] bool is_soft_somewhere(const Settings& settings, Side side);
 [[nodiscard]] bool is_soft_everywhere(const Settings& settings, Side side);
 
-/// Throws ConfigError if soft stops can't hold the mass, or the method is for rigid ones.
+/// Throws ConfigError if soft stops can't hold the mass.
 void check_soft_stops(const Settings& settings);
 
 /// Warns of keys without effect, values twice on an axis, and a run that observes nothing.

@@ -45,10 +45,6 @@ bool is_soft_everywhere(const Settings& settings, Side side) {
 
 void check_soft_stops(const Settings& settings) {
   for (const Side side : {Side::lower, Side::upper}) check_hold(settings, side);
-  const bool soft = is_soft_somewhere(settings, Side::lower) || is_soft_somewhere(settings, Side::upper);
-  if (!soft || settings.text("integrator", "method") != "moreau") return;
-  fail(settings.find("integrator", "method")->location,
-       "method = moreau is for rigid stops; expected exact or dopri5 with a soft stop");
 }
 
 }  // namespace clatter::config

@@ -19,6 +19,9 @@ namespace clatter::stepping {
 /// acts 1 - theta of a step after its beginning, and the impact is reported there. Flights shorter than a step can't be
 /// told from rest: a rebound that the force would end within the step is taken for rest. Steps count from the
 /// stroboscopic section, and the last one before the next section is cut there.
+///
+/// A soft stop is a force, and acts in all of a step or in none: in those in the middle of which the mass, moving on at
+/// its present velocity, would be pushed by it (eq. 50).
 template <Effects E>
 class Moreau : public IntegratorBase<double, E> {
   using Base = IntegratorBase<double, E>;
@@ -34,6 +37,7 @@ class Moreau : public IntegratorBase<double, E> {
   template <class Observer>
   [[nodiscard]] Outcome advance(motion::State<double>& state, double end, std::int64_t origin, Observer& observer) {
     sine_ = this->phase(state).sine;
+    if constexpr (E.soft) begin_beyond(state);
     if (!bounce_off(state, origin, observer)) return Outcome::event_budget;
     while (end - state.phase_turns > 2 * epsilon<double>()) {
       this->report(state);
@@ -49,6 +53,7 @@ class Moreau : public IntegratorBase<double, E> {
   template <class Observer>
   [[nodiscard]] bool bounce_off(motion::State<double>& state, std::int64_t origin, Observer& observer) {
     for (const Side side : {Side::lower, Side::upper}) {
+      if (E.soft && is_soft(this->stops(), side)) continue;
       const auto stop = motion::stop_at<double>(this->stops(), side);
       if (state.x != stop.position || !(stop.into(state.v) > 0)) continue;
       const double before = std::exchange(state.v, stop.law.after(state.v));
@@ -69,39 +74,82 @@ class Moreau : public IntegratorBase<double, E> {
     return next < end - least * step_ ? next : end;
   }
 
-  [[nodiscard]] double force(double x, double v, double sine) const {
-    return this->constants().acceleration(x - this->constants().equilibrium, v, sine);
+  template <class Constants>
+  [[nodiscard]] static double force(const Constants& constants, double x, double v, double sine) {
+    return constants.acceleration(x - constants.equilibrium, v, sine);
   }
 
-  [[nodiscard]] Free free_step(const motion::State<double>& state, double turns) {
+  template <class Constants>
+  [[nodiscard]] Free free_step(const Constants& constants, const motion::State<double>& state, double turns) {
     const double length = (turns - state.phase_turns) * this->period(), part = theta_ * length;
-    const double sine = this->constants().f == 0 ? 0.0 : std::sin(2 * pi<double>() * (this->start_turns() + turns));
-    const double at_begin = force(state.x, state.v, sine_);
-    const double at_end =
-        force(state.x + (length - part) * state.v, 0.0, sine);  // without the term in v there, which is implicit
+    const double sine = constants.f == 0 ? 0.0 : std::sin(2 * pi<double>() * (this->start_turns() + turns));
+    const double at_begin = force(constants, state.x, state.v, sine_);
+    const double at_end = force(constants, state.x + (length - part) * state.v, 0.0,
+                                sine);  // without the term in v there, which is implicit
     this->count_evaluations(1);
     return {length, sine,
             (state.v + (length - part) * at_begin + part * at_end) /
-                (1 + part * (2 * this->constants().h + this->constants().spring(part)))};
+                (1 + part * (2 * constants.h + constants.spring(part)))};
   }
 
-  /// The stop that the mass is beyond in the middle of the step, at its present velocity.
+  /// The rigid stop that the mass is beyond in the middle of the step, at its present velocity.
   [[nodiscard]] Side active(const motion::State<double>& state, double length) const {
     const double x = state.x + length / 2 * state.v;
-    if (x <= this->stops().lower) return Side::lower;
-    return x >= this->stops().upper ? Side::upper : Side::none;
+    if (x <= this->stops().lower && !(E.soft && is_soft(this->stops(), Side::lower))) return Side::lower;
+    return x >= this->stops().upper && !(E.soft && is_soft(this->stops(), Side::upper)) ? Side::upper : Side::none;
+  }
+
+  /// The soft stop beyond whose position the mass is, and whether it pushes, a time later at its present velocity.
+  void look_beyond(motion::State<double>& state, double later) const {
+    state.within = Side::none, state.pressed = false;
+    for (const Side side : {Side::lower, Side::upper}) {
+      if (!is_soft(this->stops(), side)) continue;
+      const auto stop = motion::soft_stop_at<double>(this->stops(), side);
+      const double depth = stop.into(state.x + later * state.v - stop.position);
+      if (depth > 0) state.within = side, state.pressed = stop.force(depth, stop.into(state.v)) > 0;
+    }
+  }
+  /// A start beyond a soft stop's position is no touch.
+  void begin_beyond(motion::State<double>& state) const {
+    if (state.within == Side::none) look_beyond(state, 0.0);
+  }
+
+  /// Finds whether a soft stop acts in the next step, and reports a contact that begins or ends; false if it is one too
+  /// many.
+  template <class Observer>
+  [[nodiscard]] bool meet(motion::State<double>& state, double length, std::int64_t origin, Observer& observer) {
+    const Side was_within = state.within;
+    const bool was_pressed = state.pressed;
+    look_beyond(state, length / 2);
+    const bool goes_on = was_pressed && state.pressed && was_within == state.within;
+    if (was_pressed && !goes_on) this->show_separation(state, was_within, origin, observer);
+    if (!state.pressed || goes_on) return true;
+    this->show_touch(state, was_within != state.within, origin, observer);
+    return this->count_impact();
   }
 
   /// A step to the phase `turns`; false if it takes one impact too many.
   template <class Observer>
   [[nodiscard]] bool step(motion::State<double>& state, double turns, std::int64_t origin, Observer& observer) {
-    const Free free = free_step(state, turns);
+    if constexpr (E.soft) {
+      if (!meet(state, (turns - state.phase_turns) * this->period(), origin, observer)) return false;
+      if (state.pressed) {
+        this->in_contact(state.within, [&](const auto& constants) {
+          const Free pressed = free_step(constants, state, turns);
+          fly(constants, constants.stop.position, state, pressed, origin, observer);
+          sine_ = pressed.sine;
+        });
+        state.phase_turns = turns;
+        return true;
+      }
+    }
+    const Free free = free_step(this->constants(), state, turns);
     const Side side = active(state, free.length);
     const auto stop = motion::stop_at<double>(this->stops(), side);
     const bool impulse = side != Side::none && stop.into(free.v) > stop.into(stop.law.after(state.v));
     bool affordable = true;
     if (!impulse) {
-      fly(state, free, origin, observer);
+      fly(this->constants(), 0.0, state, free, origin, observer);
     } else if (state.v == 0) {
       rest(state, stop, turns, origin, observer);
     } else {
@@ -112,10 +160,13 @@ class Moreau : public IntegratorBase<double, E> {
     return affordable;
   }
 
-  template <class Observer>
-  void fly(motion::State<double>& state, const Free& free, std::int64_t origin, Observer& observer) const {
+  /// Moves on to the end of a step; arcs are given by distances from an anchor.
+  template <Effects Of, class Observer>
+  void fly(const motion::ArcConstants<double, Of>& constants, double anchor, motion::State<double>& state,
+           const Free& free, std::int64_t origin, Observer& observer) const {
     const double x = state.x + free.length * (theta_ * free.v + (1 - theta_) * state.v);
-    observer.arc(arc(state.phase_turns, free.length, cubic(free.length, {state.x, state.v}, {x, free.v}),
+    observer.arc(arc(constants, anchor, state.phase_turns, free.length,
+                     cubic(free.length, {state.x - anchor, state.v}, {x - anchor, free.v}),
                      cubic(free.length, {state.v, (free.v - state.v) / free.length},
                            {free.v, (free.v - state.v) / free.length})),
                  this->time(state, origin), free.length);
@@ -134,7 +185,7 @@ class Moreau : public IntegratorBase<double, E> {
   void collide(motion::State<double>& state, const motion::Stop<double>& stop, const Free& free, std::int64_t origin,
                Observer& observer) const {
     const double before = stop.into(state.v) > 0 ? state.v : free.v;  // leaving too slowly: pushed back by the force
-    const double pressed = stop.into(force(stop.position, 0.0, free.sine)),
+    const double pressed = stop.into(force(this->constants(), stop.position, 0.0, free.sine)),
                  rebound = -stop.into(stop.law.after(before));
     const double after = 2 * rebound > pressed * free.length && stop.into(state.v) > 0 ? stop.law.after(before) : 0;
     constexpr double least = 1e-6;  // of a step: the impact must not coincide with its beginning
@@ -154,15 +205,17 @@ class Moreau : public IntegratorBase<double, E> {
   template <class Observer>
   void drift(motion::State<double>& state, double length, std::int64_t origin, Observer& observer) const {
     const double x = state.x + length * state.v;
-    observer.arc(arc(state.phase_turns, length, cubic(length, {state.x, state.v}, {x, state.v}),
+    observer.arc(arc(this->constants(), 0.0, state.phase_turns, length, cubic(length, {state.x, state.v}, {x, state.v}),
                      cubic(length, {state.v, 0.0}, {state.v, 0.0})),
                  this->time(state, origin), length);
     state.x = x, state.phase_turns += length / this->period();
   }
 
-  [[nodiscard]] motion::PolynomialArc<E.arc()> arc(double turns, double length, const Bernstein<double>& x,
-                                                   const Bernstein<double>& v) const {
-    return {this->constants(), 0.0, this->start_turns() + turns, length, x, v};
+  template <Effects Of>
+  [[nodiscard]] motion::PolynomialArc<Of> arc(const motion::ArcConstants<double, Of>& constants, double anchor,
+                                              double turns, double length, const Bernstein<double>& offset,
+                                              const Bernstein<double>& v) const {
+    return {constants, anchor, this->start_turns() + turns, length, offset, v};
   }
 
   double step_, theta_;
