@@ -13,7 +13,8 @@ namespace {
 
 using observables::ImpactWord;
 
-[[nodiscard]] bool inside(const Stops& stops, const PhasePoint& state) {
+[[nodiscard]] bool inside(const Stops& all, const PhasePoint& state) {
+  const Stops stops = rigid_ones(all);
   return state.x >= stops.lower && state.x <= stops.upper && std::isfinite(state.v);
 }
 

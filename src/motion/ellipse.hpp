@@ -35,6 +35,8 @@ class Ellipse {
   [[nodiscard]] double determinant() const { return xx_ * vv_ - xv_ * xv_; }  ///< of E
   [[nodiscard]] double x() const { return std::sqrt(xx_); }  ///< the largest change of the displacement
   [[nodiscard]] double v() const { return std::sqrt(vv_); }  ///< and of the velocity
+  /// The largest x + q v of a change.
+  [[nodiscard]] double along(double q) const { return std::sqrt(std::max(0.0, xx_ + q * (2 * xv_ + q * vv_))); }
   /// The larger semi-axis.
   [[nodiscard]] double size() const { return std::sqrt((xx_ + vv_) / 2 + norm((xx_ - vv_) / 2, xv_)); }
 

@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include "motion/contact.hpp"
 #include "motion/contact_force.hpp"
 #include "motion/ellipse.hpp"
+#include "motion/field.hpp"
 
 namespace clatter::motion {
 
@@ -29,17 +29,13 @@ class Neighbourhood {
   template <class A>
   void arc(const A& arc, double begin, double length) {
     if (!holds_) return;
-    const auto& constants = arc.constants();
-    h_ = constants.h, k_ = std::abs(constants.k), shake_ = std::abs(constants.f) * constants.nu;
-    stiffness_ = constants.k, drift_ = std::abs(1 - constants.k) / 2;
+    field_ = Field::of(arc.constants());
     if (!std::exchange(begun_, true)) begin_beside_stop(arc.start());
-    if (drift_ > 0) grow(begin, length);
+    if (field_.drift > 0) grow(begin, length);
     const double from = std::max(0.0, clear_from_ - begin);
     if (approached_ == Side::none && from < length) clear(arc, begin, from, length);
-    const auto p = constants.propagator(length);
-    const Jacobian<double> free{p.a, p.b, -constants.spring(p.b), p.c};
-    first_order_ = first_order_.mapped(free), remainder_ = remainder_.mapped(free);
-    force_ = constants.force(arc.phase_after(length).sine);
+    advance(arc.constants(), length);
+    force_ = arc.constants().force(arc.phase_after(length).sine);
   }
   void rest(const Rest&) { holds_ = false; }  // which impacts of a chatter are taken changes with the start
   void impact(const Impact& impact) {
@@ -53,22 +49,17 @@ class Neighbourhood {
   /// To be added to `first_order`.
   [[nodiscard]] const Ellipse& remainder() const { return remainder_; }
 
- private:
+ protected:
   /// The beginning of a flight from a stop.
   struct Departure {
     double time, speed, acceleration, waited;
   };
-  /// Bounds near an impact, for some time before and after it.
-  struct LocalBounds {
-    double acceleration, jerk;
-    double growth;  ///< of the energy norm, backwards in time
-  };
-  /// Bounds by x''' = f nu cos(theta) - k x' - 2 h x''; infinite if the time is too long for that.
-  [[nodiscard]] LocalBounds bounds_near(double speed, double acceleration, double time) const {
-    const double share = k_ * time * time + 2 * h_ * time;
-    if (!(share <= 0.5)) return {infinity, infinity, infinity};
-    const double most = (acceleration + time * (shake_ + k_ * speed)) / (1 - share);
-    return {most, shake_ + k_ * speed + most * (k_ * time + 2 * h_), std::exp((2 * h_ + drift_) * time)};
+  /// Maps both ellipses by the free motion of an arc.
+  template <class ArcConstants>
+  void advance(const ArcConstants& constants, double length) {
+    const auto p = constants.propagator(length);
+    const Jacobian<double> free{p.a, p.b, -constants.spring(p.b), p.c};
+    first_order_ = first_order_.mapped(free), remainder_ = remainder_.mapped(free);
   }
 
   /// Treats a motion that begins on or just beside a stop as one that leaves it.
@@ -97,11 +88,11 @@ class Neighbourhood {
   /// Takes the differences through an impact; false if they are not transversal there (eq. 29).
   [[nodiscard]] bool rebound(const Impact& impact) {
     const Stop<double> stop = stop_at<double>(stops_, impact.side);
-    const double u = std::abs(impact.before), R = stop.law.R, force = force_ - stiffness_ * impact.position;
-    const double a_before = force - 2 * h_ * impact.before, a_after = force - 2 * h_ * impact.after;
-    const double a = std::max(std::abs(a_before), std::abs(a_after)), c = std::max(1.0, k_) + 2 * h_,
-                 wait = 2 * reach_ / u;
-    const LocalBounds near = bounds_near(u, a, wait);
+    const double u = std::abs(impact.before), R = stop.law.R, force = force_ - field_.k * impact.position;
+    const double a_before = force - 2 * field_.h * impact.before, a_after = force - 2 * field_.h * impact.after;
+    const double a = std::max(std::abs(a_before), std::abs(a_after)),
+                 c = std::max(1.0, std::abs(field_.k)) + 2 * field_.h, wait = 2 * reach_ / u;
+    const LocalBounds near = field_.near(u, a, wait);
     if (!(near.acceleration * wait + near.growth * reach_ <= u / 2 && impact.time - approached_at_ <= wait))
       return false;
 
@@ -121,27 +112,26 @@ class Neighbourhood {
 
   /// Whether the mass leaves the stop, and does not meet the other one, before the flight is examined.
   [[nodiscard]] bool depart(double time, double speed, double acceleration, double waited) {
-    reach_ = bounds_near(speed, acceleration, waited).growth * size();
+    reach_ = field_.near(speed, acceleration, waited).growth * size();
     departure_ = {time, speed, acceleration, waited};
     return leaves();
   }
   [[nodiscard]] bool leaves() {
     const auto& [time, speed, acceleration, waited] = departure_;
     const double wait = std::max(waited, 2 * reach_ / speed);
-    const LocalBounds away = bounds_near(speed, acceleration, wait);
+    const LocalBounds away = field_.near(speed, acceleration, wait);
     approached_ = Side::none, clear_from_ = time + wait;
     return away.acceleration * wait + reach_ <= speed / 2 &&
            (speed + away.acceleration * wait) * wait + reach_ < stops_.upper - stops_.lower;
   }
   /// Lets the bound grow to one that holds to the end of an arc (eq. 48); it has to hold from the departure on.
   void grow(double begin, double length) {
-    reach_ *= std::exp(drift_ * length);
+    reach_ *= std::exp(field_.drift * length);
     if (clear_from_ > begin) holds_ = holds_ && leaves();
   }
 
   [[nodiscard]] double size() const { return first_order_.size() + remainder_.size() + rounding_; }
 
-  static constexpr double infinity = std::numeric_limits<double>::infinity();
   Stops stops_;
   Ellipse first_order_, remainder_{};
   double rounding_;
@@ -150,10 +140,8 @@ class Neighbourhood {
   double clear_from_ = 0.0;       ///< until then a flight is near the stop that it began on
   Side approached_ = Side::none;  ///< the stop that some of the motions may have met already
   double approached_at_ = 0.0;    ///< the time from which they may have
-  double h_ = 0, shake_ = 0;      ///< damping, |f| nu
-  double stiffness_ = 1, k_ = 1;  ///< k and its modulus
-  double drift_ = 0;              ///< bound of the rate at which the norm grows, forwards; backwards 2 h more
-  double force_ = 0;              ///< at the end of the last arc
+  Field field_{};                 ///< of the last arc
+  double force_ = 0;              ///< at its end
   bool begun_ = false;
   bool holds_ = true;
 };

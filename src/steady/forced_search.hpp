@@ -168,7 +168,7 @@ class ForcedSearch {
   /// Once states have begun to contract, follows the next n periods together with their derivative, and looks for the
   /// periodic motion that they contract to.
   [[nodiscard]] std::optional<ObservedTime> attractor(const motion::State<double>& state) {
-    if (E.soft || !pays() || (approach_ && next_ < approach_->periods)) return std::nullopt;
+    if (!pays() || (approach_ && next_ < approach_->periods)) return std::nullopt;
     const std::size_t n = contracting();
     if (n == 0 || !affordable(n)) return std::nullopt;
     near_enough_[n] = repeat_.distance_over(n) / 4;  // for the next attempt

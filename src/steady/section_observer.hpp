@@ -10,14 +10,15 @@ namespace clatter::steady {
 
 /// Summary of one forcing period, from a stroboscopic section to the next.
 struct Passage {
-  std::uint64_t itinerary = 0;  ///< the same for the same stops in the same order, 0 without contact
+  std::uint64_t itinerary = 0;  ///< the same for the same contacts in the same order, 0 without contact
   double log_area = 0.0;        ///< logarithm of the factor by which its stops shrink areas of states; -inf: a rest
 
-  friend bool operator==(const Passage&, const Passage&) = default;
+  /// Whether they have the same contacts; the time in contact with a damped stop may differ, and the area with it.
+  friend bool operator==(const Passage& a, const Passage& b) { return a.itinerary == b.itinerary; }
 };
 
-/// Records, for the search of a periodic motion, which stops are hit and rested on between sections, in their order,
-/// and if asked for the derivative of the motion.
+/// Records, for the search of a periodic motion, which stops are hit, rested on, touched and left between sections, in
+/// their order, and if asked for the derivative of the motion.
 class SectionObserver {
  public:
   explicit SectionObserver(const Stops& stops)
@@ -31,7 +32,10 @@ class SectionObserver {
     if (differentiates_) [[unlikely]]
       tangent_.arc(arc, begin, length);
     if constexpr (A::effects.stiffness)
-      if (arc.constants().stop.side != Side::none) passage_.log_area -= 2 * arc.constants().stop.damping * length;
+      if (const auto& stop = arc.constants().stop; stop.side != Side::none) {
+        if (passage_.itinerary == 0) add(stop.side == Side::upper ? 12 : 11);  // the period begins in contact
+        passage_.log_area -= 2 * stop.damping * length;
+      }
   }
   void rest(const motion::Rest& rest) {
     add(rest.side == Side::upper ? 4 : 3);
@@ -46,9 +50,10 @@ class SectionObserver {
   }
 
   void touch(const motion::Touch& touch) {
-    add(touch.side == Side::upper ? 6 : 5);
+    add((touch.from_outside ? 5 : 7) + (touch.side == Side::upper));
     if (differentiates_) tangent_.touch(touch);
   }
+  void separate(const motion::Separation& separation) { add(separation.side == Side::upper ? 10 : 9); }
 
   void begin_section() { passage_ = {}; }
   /// Begins to compute the derivative anew, from here.

@@ -6,8 +6,9 @@
 #include <cstdint>
 #include <limits>
 #include <optional>
+#include <type_traits>
 
-#include "motion/neighbourhood.hpp"
+#include "motion/soft_neighbourhood.hpp"
 #include "steady/contraction.hpp"
 #include "steady/repeat.hpp"
 #include "steady/section_observer.hpp"
@@ -96,10 +97,19 @@ class StroboscopicMap {
     }
     void rest(const motion::Rest& rest) { one.rest(rest), other.rest(rest); }
     void impact(const motion::Impact& impact) { one.impact(impact), other.impact(impact); }
+    void touch(const motion::Touch& touch) {
+      one.touch(touch);
+      if constexpr (requires { other.touch(touch); }) other.touch(touch);
+    }
+    void separate(const motion::Separation& separation) {
+      one.separate(separation);
+      if constexpr (requires { other.separate(separation); }) other.separate(separation);
+    }
   };
 
   [[nodiscard]] bool inside(const motion::State<double>& state) const {
-    return state.x >= integrator_.stops().lower && state.x <= integrator_.stops().upper && std::isfinite(state.v);
+    const Stops stops = rigid_ones(integrator_.stops());
+    return state.x >= stops.lower && state.x <= stops.upper && std::isfinite(state.v);
   }
 
   [[nodiscard]] static double size_of(const motion::State<double>& state) {
@@ -122,7 +132,8 @@ class StroboscopicMap {
     const ContractionNorm measure(orbit.derivative());
     const double rounding = 64 * epsilon<double>() * size_of(start);
     const double radius = measure.of(between(start, motion)) * (1 + 1e-9) + rounding;
-    motion::Neighbourhood neighbourhood(integrator_.stops(), measure.disc(radius), rounding);
+    std::conditional_t<E.soft, motion::SoftNeighbourhood, motion::Neighbourhood> neighbourhood(
+        integrator_.stops(), measure.disc(radius), rounding);
     std::optional<Orbit> attractor = follow(start, orbit.periods, neighbourhood);
     if (!attractor || !neighbourhood.holds()) return std::nullopt;
     const double left =

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <cmath>
+#include <limits>
+
+#include "math/number.hpp"
+
+namespace clatter::motion {
+
+/// Bounds of all motions near an instant of one of them, for some time before and after it.
+struct LocalBounds {
+  double acceleration, jerk;
+  double growth;  ///< of the energy norm of their differences, backwards in time
+};
+
+/// The oscillator that motions belong to between two events: x'' + 2 h x' + k x = force.
+struct Field {
+  double h = 0, k = 1;
+  double shake = 0;   ///< |f| nu
+  double weight = 1;  ///< Omega: the norm of a difference is that of (Omega x, v)
+  double drift = 0;   ///< bound of the rate at which the norm grows, forwards (eqs. 48, 57); backwards 2 h more
+
+  /// That of some arcs in the norm of (x, v).
+  template <class ArcConstants>
+  [[nodiscard]] static Field of(const ArcConstants& constants) {
+    return {constants.h, constants.k, std::abs(constants.f) * constants.nu, 1, std::abs(1 - constants.k) / 2};
+  }
+
+  /// By x''' = f nu cos(theta) - k x' - 2 h x''; infinite if the time is too long for that.
+  [[nodiscard]] LocalBounds near(double speed, double acceleration, double time) const {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    const double size = std::abs(k), share = size * time * time + 2 * h * time;
+    if (!(share <= 0.5)) return {infinity, infinity, infinity};
+    const double most = (acceleration + time * (shake + size * speed)) / (1 - share);
+    return {most, shake + size * speed + most * (size * time + 2 * h), std::exp((2 * h + drift) * time)};
+  }
+};
+
+}  // namespace clatter::motion

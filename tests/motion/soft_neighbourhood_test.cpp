@@ -1,0 +1,232 @@
+#include "motion/soft_neighbourhood.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <iostream>
+#include <optional>
+#include <vector>
+
+#include "model/response.hpp"
+#include "steady/section_observer.hpp"
+#include "stepping/exact.hpp"
+#include "stepping/run.hpp"
+#include "support/random.hpp"
+#include "support/runs.hpp"
+#include "support/scene_range.hpp"
+
+namespace clatter::motion {
+namespace {
+
+constexpr double ulp = std::numeric_limits<double>::epsilon(), none = std::numeric_limits<double>::infinity();
+
+State<double> at(double x, double v) {
+  State<double> state;
+  state.x = x, state.v = v;
+  return state;
+}
+
+/// A motion over some forcing periods: its contacts in order, its end and its derivative.
+struct Run {
+  std::uint64_t itinerary;
+  State<double> end;
+  Jacobian<double> derivative;
+};
+
+template <class Function>
+auto with_effects_of(const point::Problem& scene, Function&& function) {
+  return rotates(scene.oscillator)
+             ? function.template operator()<effect_sets::with_soft_stops(Damping::light, Forcing::secular)>()
+             : function.template operator()<effect_sets::with_soft_stops(Damping::heavy, Forcing::regular)>();
+}
+
+std::optional<Run> run(const point::Problem& scene, State<double> state, double turns) {
+  return with_effects_of(scene, [&]<Effects effects>() -> std::optional<Run> {
+    stepping::Exact<double, effects> integrator(scene);
+    steady::SectionObserver watch(scene.stops);
+    watch.differentiate();
+    if (run_for(integrator, state, turns, watch) != stepping::Outcome::completed) return std::nullopt;
+    return Run{watch.passage().itinerary, state, watch.derivative()};
+  });
+}
+
+SoftNeighbourhood neighbourhood_of(const point::Problem& scene, State<double> state, double turns,
+                                   const Ellipse& start) {
+  return with_effects_of(scene, [&]<Effects effects>() {
+    stepping::Exact<double, effects> integrator(scene);
+    SoftNeighbourhood neighbourhood(scene.stops, start, 64 * ulp * (std::abs(state.x) + std::abs(state.v)));
+    EXPECT_EQ(run_for(integrator, state, turns, neighbourhood), stepping::Outcome::completed);
+    return neighbourhood;
+  });
+}
+
+/// Number of proofs that were found, and the tightness of their enclosures.
+struct Tally {
+  int proved = 0, refused = 0, touched = 0, renewed = 0, impacts = 0, from_within = 0;
+  double tightest = 0;  ///< the largest remainder beyond the derivative, over its enclosure
+  double large = 0;     ///< the widest neighbourhood proved with contacts
+};
+
+/// A random scene with a soft stop or two, its start and the size of the neighbourhood.
+struct Case {
+  point::Problem scene;
+  State<double> from;
+  double turns, size, skew, wide;
+};
+
+Case any_case(std::uint64_t seed, std::uint64_t i) {
+  support::Random random(seed, i);
+  const double g = random.logarithmic(0.1, 2), nu = random.logarithmic(0.3, 3);
+  const double h = random.happens(0.3) ? 0 : random.happens(0.8) ? random.logarithmic(1e-4, 0.8) : random.uniform(1, 3);
+  Case any;
+  any.scene = support::scene_of({h, 1.0, nu, random.uniform(-0.3, 0.3)}, -g, g * random.uniform(0.5, 2), 0);
+  if (random.happens(0.4)) any.scene.oscillator.stiffness = random.happens(0.5) ? 0 : -random.uniform(0.1, 1);
+  Stops& stops = any.scene.stops;
+  const auto any_stiffness = [&] { return random.happens(0.3) ? random.uniform(1.1, 3) : random.logarithmic(3, 1e5); };
+  const auto any_damping = [&] {
+    return random.happens(0.3) ? 0 : random.happens(0.7) ? random.logarithmic(1e-3, 1) : random.uniform(1, 4);
+  };
+  stops.stiffness_lower = any_stiffness(), stops.damping_lower = any_damping();
+  stops.stiffness_upper = any_stiffness(), stops.damping_upper = any_damping();
+  if (random.happens(0.2)) stops.stiffness_upper = none, stops.restitution_upper = random.uniform(0.2, 1);
+  if (random.happens(0.1) && any.scene.oscillator.stiffness == 1) stops.upper = none;
+  any.from = at(random.uniform(-1.0 * g, 0.4 * g), random.uniform(-2, 2));
+  if (random.happens(0.3)) any.from.x = stops.lower - random.uniform(0, 2 / std::sqrt(stops.stiffness_lower));
+  any.turns = random.uniform(0.3, 3), any.size = random.logarithmic(1e-9, 1e-1);
+  any.skew = random.uniform(-0.9, 0.9), any.wide = random.logarithmic(0.01, 3);
+  return any;
+}
+
+/// A stop that the steady motion of amplitude A of the oscillator alone nearly or just reaches.
+Case grazing_case(std::uint64_t seed, std::uint64_t i) {
+  Case any = any_case(seed, i);
+  support::Random random(seed + 1, i);
+  any.scene.oscillator.damping = random.uniform(0, 0.5), any.scene.oscillator.stiffness = 1;
+  const PhasePoint start = response_at(any.scene.oscillator, 0.0, 1.0);
+  any.from = at(equilibrium_of(any.scene.oscillator) + start.x, start.v);
+  const double amplitude = steady_response(any.scene.oscillator.damping, 1.0, any.scene.oscillator.frequency).amplitude;
+  any.scene.stops.lower =
+      equilibrium_of(any.scene.oscillator) - amplitude * (1 + random.sign() * random.logarithmic(1e-9, 1e-1));
+  any.scene.stops.upper = equilibrium_of(any.scene.oscillator) + amplitude * random.uniform(1.1, 2);
+  return any;
+}
+
+/// Stops of strong dampers, which a force shakes off and presses again.
+Case shaken_case(std::uint64_t seed, std::uint64_t i) {
+  Case any = any_case(seed, i);
+  support::Random random(seed + 1, i);
+  Stops& stops = any.scene.stops;
+  stops.stiffness_lower = random.logarithmic(1.2, 100), stops.stiffness_upper = random.logarithmic(1.2, 100);
+  stops.damping_lower = random.uniform(0.5, 5), stops.damping_upper = random.uniform(0.5, 5);
+  any.scene.oscillator.frequency = random.uniform(1, 8), any.scene.oscillator.forcing = random.uniform(1, 8);
+  any.scene.oscillator.load = -random.uniform(0, 1) * (1 - stops.lower);
+  any.size = random.logarithmic(1e-7, 1e-1);
+  return any;
+}
+
+/// Begins or ends near an event.
+Case close_case(std::uint64_t seed, std::uint64_t i) {
+  Case any = i % 3 == 0 ? shaken_case(seed, i) : any_case(seed, i);
+  support::Random random(seed + 2, i);
+  if (random.happens(0.3)) any.from.x = any.scene.stops.lower + random.sign() * random.logarithmic(1e-9, 1e-1);
+  point::Problem scene = any.scene;
+  scene.start = {any.from.x, any.from.v, 0};
+  const double period = period_of(scene.oscillator);
+  const auto record = support::run_scene(scene, any.turns * period).record;
+  std::vector<double> times;
+  for (const Touch& touch : record.touches) times.push_back(touch.time);
+  for (const Separation& separation : record.separations) times.push_back(separation.time);
+  if (times.empty()) return any;
+  const double time = times[static_cast<std::size_t>(random.uniform(0, static_cast<double>(times.size())))];
+  any.turns = std::max(0.01, (time + random.sign() * random.logarithmic(1e-9, 1e-1)) / period);
+  return any;
+}
+
+/// The largest frequency of motion in contact: an ulp of the displacement at a touch is so many of the velocity.
+double stiffest(const Stops& stops) {
+  double most = 1;
+  for (const double kappa : {stops.stiffness_lower, stops.stiffness_upper})
+    if (std::isfinite(kappa)) most = std::max(most, std::sqrt(1 + kappa));
+  return most;
+}
+
+void check(const Case& any, std::uint64_t i, Tally& tally) {
+  const double size = any.size, skew = any.skew, wide = any.wide;
+  const Ellipse start(size * size * wide, size * size * skew, size * size / wide);
+  const std::optional<Run> seen = run(any.scene, any.from, any.turns);
+  const SoftNeighbourhood proof = neighbourhood_of(any.scene, any.from, any.turns, start);
+  if (!seen || !proof.holds()) {
+    ++tally.refused;
+    return;
+  }
+  ++tally.proved;
+  point::Problem scene = any.scene;
+  scene.start = {any.from.x, any.from.v, 0};
+  if (seen->itinerary != 0) {
+    const auto record = support::run_scene(scene, any.turns * period_of(scene.oscillator)).record;
+    for (const Touch& touch : record.touches) ++(touch.from_outside ? tally.touched : tally.renewed);
+    tally.impacts += static_cast<int>(record.impacts.size());
+    tally.from_within += record.separations.size() > record.touches.size();
+    tally.large = std::max(tally.large, size);
+  }
+  for (int k = 0; k < 24; ++k) {
+    const double angle = 2 * pi<double>() * k / 24, reach = k % 3 == 0 ? 0.5 : 1.0;
+    const double along = reach * std::cos(angle), across = reach * std::sin(angle);
+    // L (cos, sin) with the Cholesky factor L of the ellipse
+    const Perturbation change{std::sqrt(wide) * size * along,
+                              size * (skew / std::sqrt(wide) * along + std::sqrt((1 - skew * skew) / wide) * across)};
+    const std::optional<Run> other = run(any.scene, at(any.from.x + change.x, any.from.v + change.v), any.turns);
+    EXPECT_TRUE(other) << i;
+    if (!other) continue;
+    EXPECT_EQ(other->itinerary, seen->itinerary) << i << " change " << size;
+    const Perturbation linear = seen->derivative * change, real = between(seen->end, other->end);
+    double rounding = 256 * ulp * (1 + std::abs(any.from.v)) * stiffest(any.scene.stops), entries = 2;
+    for (const double entry : seen->derivative) entries += std::abs(entry);
+    rounding *= entries;
+    EXPECT_LE(std::abs(real.x - linear.x), proof.remainder().x() + rounding) << i << " change " << size;
+    EXPECT_LE(std::abs(real.v - linear.v), proof.remainder().v() + rounding) << i << " change " << size;
+    if (!(proof.first_order().size() > 1e-150)) continue;  // its square underflows
+    EXPECT_LE(std::abs(linear.x), proof.first_order().x() * (1 + 1e-9) + rounding) << i;
+    EXPECT_LE(std::abs(linear.v), proof.first_order().v() * (1 + 1e-9) + rounding) << i;
+    if (proof.remainder().v() > 1e3 * rounding)
+      tally.tightest = std::max(tally.tightest, std::abs(real.v - linear.v) / proof.remainder().v());
+  }
+}
+
+void report(const Tally& tally) {
+  std::cout << tally.proved << " proved, " << tally.refused << " refused; " << tally.touched << " touches, "
+            << tally.renewed << " renewed, " << tally.impacts << " impacts, " << tally.from_within
+            << " from within; tightest " << tally.tightest << ", largest " << tally.large << "\n";
+}
+
+template <class Draw>
+Tally enclose(std::uint64_t seed, Draw&& draw) {
+  Tally tally;
+  const auto [from, to] = support::scene_range(1500);
+  for (std::uint64_t i = from; i < to; ++i) check(draw(seed, i), i, tally);
+  report(tally);
+  return tally;
+}
+
+TEST(SoftNeighbourhood, encloses_all_motions_that_begin_in_it) {
+  const Tally tally = enclose(31, any_case);
+  EXPECT_GT(tally.proved, 0);
+}
+
+TEST(SoftNeighbourhood, encloses_motions_near_a_graze) {
+  const Tally tally = enclose(32, grazing_case);
+  EXPECT_GT(tally.proved, 0);
+}
+
+TEST(SoftNeighbourhood, encloses_motions_that_are_pressed_again_within_a_stop) {
+  const Tally tally = enclose(33, shaken_case);
+  EXPECT_GT(tally.proved, 0);
+}
+
+TEST(SoftNeighbourhood, encloses_motions_that_begin_or_end_near_an_event) {
+  const Tally tally = enclose(34, close_case);
+  EXPECT_GT(tally.proved, 0);
+}
+
+}  // namespace
+}  // namespace clatter::motion
