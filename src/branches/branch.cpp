@@ -29,8 +29,10 @@ constexpr std::string_view closed_curve = "closed";
 /// Whether a scene stays symmetric if a parameter changes.
 bool keeps_symmetry(sweep::Parameter parameter) {
   using enum sweep::Parameter;
-  return parameter != load && parameter != stop_lower && parameter != stop_upper && parameter != R_lower &&
-         parameter != R_upper;
+  for (const sweep::Parameter of_one_side : {load, stop_lower, stop_upper, R_lower, R_upper, stop_stiffness_lower,
+                                             stop_stiffness_upper, stop_damping_lower, stop_damping_upper})
+    if (parameter == of_one_side) return false;
+  return true;
 }
 
 /// Everything about following one branch after the other.
@@ -71,6 +73,7 @@ class Follower {
     record_.begin(speed_unit_);
     generation_ = from.generation;
     if (from.orbit.rests()) return resting().follow(from);
+    if (from.opens) return follow_opened(from);
     const OrbitEquations equations = equations_for(from.orbit);
     CurvePoint start{equations.unknowns_of(from.scene, from.orbit), {}, 0.0};
     Vector axis(equations.unknowns(), 0.0);
@@ -102,6 +105,34 @@ class Follower {
     record_.turn_round();
     record_.add(record_.point(equations, start));
     if (!closed && !record_.is_full()) walk(equations, start, {});
+  }
+
+  /// A branch with one contact with a soft stop, or one interruption of a contact, more than its special point: it
+  /// begins where that is short.
+  void follow_opened(const Waiting& from) {
+    const Parameters<double> p(from.scene);
+    const Side side = from.orbit.impacts[*from.opens].side;
+    const double rate = std::max(p.nu, std::sqrt(std::abs(p.k) + p.soft_stop(side).stiffness));
+    for (const double turned_by : {1e-3, 1e-2, 1e-4}) {
+      const double advance = p.nu / rate * turned_by;
+      const Orbit orbit = opened(from.scene, from.orbit, *from.opens, advance);
+      const OrbitEquations there =
+          equations_for(orbit, {{.kind = Condition::Kind::duration, .impact = *from.opens, .duration = advance}});
+      const auto at = solution(there, there.unknowns_of(from.scene, orbit), settings_.tolerance);
+      if (!at || violation(there, *at)) continue;
+      const OrbitEquations equations = equations_for(orbit);
+      Vector longer(equations.unknowns(), 0.0);
+      longer[2 * *from.opens] = -1, longer[2 * ((*from.opens + 1) % orbit.size())] = 1;
+      const auto along = tangent(equations, *at, longer);
+      if (!along) continue;
+      const CurvePoint start{*at, *along, 0.0};
+      record_.meet(*from.special, record_.branch());
+      record_.add(record_.point(equations, start));
+      return walk(equations, start, from.special);
+    }
+    const OrbitEquations equations = equations_for(from.orbit);
+    record_.fail(record_.point(equations, {equations.unknowns_of(from.scene, from.orbit), {}, 0.0}),
+                 "no step leads off its special point");
   }
 
   /// The direction from a special point into a branch that begins there, in which it is motion between the stops.
@@ -255,7 +286,7 @@ class Follower {
   /// What is born at a flip or a loss of symmetry begins along the eigenvector of multiplier -1.
   void wait_for_daughter(const BranchPoint& at, std::size_t special) {
     const Orbit daughter = at.orbit.mirrored ? at.orbit.whole() : at.orbit.repeated(2);
-    const ImpactMap map = impact_map(at.scene, at.orbit);
+    const ImpactMap map = event_map(at.scene, at.orbit);
     const auto& m = map.numerator;
     const double c = map.denominator;
     std::array<double, 2> vector{-m[0][1], m[0][0] + c};  // of (M + 1) v = 0, by the larger row
@@ -275,7 +306,8 @@ class Follower {
   bool ends_in_rest(const OrbitEquations& equations, const Touch& touch, double step) {
     const std::size_t impact = touch.impact - 1;
     const Side side = equations.shape().impacts[impact].side;
-    if (touch.orbit.impacts[touch.impact].side != side) return false;
+    if (touch.orbit.impacts[touch.impact].side != side || equations.shape().impacts[impact].event != Event::impact)
+      return false;
     if (Parameters<double>(equations.scene_at(touch.beyond.at)).restitution(side) != 0) return false;
     const OrbitEquations there = equations_for(equations.shape(), {{Condition::Kind::release, 1, impact}});
     const auto exact = solution(there, touch.beyond.at, settings_.tolerance);
@@ -286,7 +318,7 @@ class Follower {
     record_.end(last, "chatter limit");
     if (!is_new)
       no_longer_waits(waiting_, special, last.orbit);  // this is the branch that waits there
-    else
+    else if (!has_soft_stop(last.scene.stops))
       resting().wait_beyond(last, side, (touch.beyond.at.back() - exact->back()) * width_, special, generation_);
     return true;
   }
@@ -299,26 +331,33 @@ class Follower {
     if (special_between(equations, walk, touch->last_good.arclength - walk.here().arclength, from))
       return record_.end(record_.point(equations, touch->last_good), "born");
     if (touch->appears && equations.shape().size() > 0 && ends_in_rest(equations, *touch, step)) return;
-    const OrbitEquations there = equations_for(touch->orbit, {{Condition::Kind::graze, 1, touch->impact}});
+    const OrbitEquations there = equations_for(touch->orbit, {touch->condition()});
     const Vector guess = there.unknowns_of(equations.scene_at(touch->beyond.at), touch->orbit);
     const auto exact = solution(there, guess, settings_.tolerance);
     BranchPoint last = record_.point(equations, touch->last_good);
     if (!exact || std::abs(exact->back() - guess.back()) > 10 * step)
       return record_.add(last), record_.fail(last, no_graze);
-    const Orbit with = there.orbit_at(*exact), without = with.without(touch->impact);
+    Orbit with = there.orbit_at(*exact);
+    OrbitImpact& grazing = with.impacts[touch->impact];
+    const bool is_soft = grazing.event != Event::impact;
+    if (is_soft && touch->condition().kind == Condition::Kind::graze) grazing.before = 0;
+    const Orbit without = with.without(touch->impact);
     last.scene = there.scene_at(*exact), last.orbit = touch->appears ? without : with;
     record_.add(last);
-    if (resting().waits_beyond(last, with.impacts[touch->impact].side, generation_))
+    if (!has_soft_stop(last.scene.stops) && resting().waits_beyond(last, grazing.side, generation_))
       return record_.end(last, "chatter limit");
     BranchPoint at = last;
     at.orbit = with;
     const auto [special, is_new] = record_.note(SpecialKind::graze, at);
     record_.end(last, "graze");
     if (!is_new) return no_longer_waits(waiting_, special, last.orbit);  // this is the branch that waits there
-    Orbit beyond = touch->appears ? with : without;
-    if (beyond.size() == 0 && at.scene.oscillator.stiffness == 0) return;  // it drifts, or has no place of its own
-    if (beyond.size() == 0) beyond = Orbit{}.half_if_same(0.0, symmetric_);
+    Orbit beyond = touch->turns ? turned(with, touch->impact) : touch->appears ? with : without;
+    if (beyond.size() == 0 && beyond.pressed == Side::none) {
+      if (at.scene.oscillator.stiffness == 0) return;  // it drifts, or has no place of its own
+      beyond = Orbit{}.half_if_same(0.0, symmetric_);
+    }
     waiting_.push_back({at.scene, beyond, {}, special, generation_});
+    if (is_soft && touch->appears) waiting_.back().opens = touch->impact;
   }
 
   point::Problem problem_;

@@ -51,7 +51,7 @@ class Columns {
       stable.push_back(point.stable);
       re.insert(re.end(), point.multiplier_re.begin(), point.multiplier_re.end());
       im.insert(im.end(), point.multiplier_im.begin(), point.multiplier_im.end());
-      const auto displacement = range.displacement(point.scene.stops);
+      const auto displacement = range.displacement(rigid_ones(point.scene.stops));
       low.push_back(displacement.low), high.push_back(displacement.high);
       v_low.push_back(range.velocity().low), v_high.push_back(range.velocity().high);
       speed.push_back(impact_speed(point.orbit)), power.push_back(impact_power(point.scene, point.orbit));

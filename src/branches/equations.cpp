@@ -51,6 +51,18 @@ void vary(Parameters<Number>& p, Parameter parameter, std::size_t variable) {
       return seed(p.R_upper, 1);
     case Parameter::R:
       return seed(p.R_lower, 1), seed(p.R_upper, 1);
+    case Parameter::stop_stiffness_lower:
+      return seed(p.kappa_lower, 1);
+    case Parameter::stop_stiffness_upper:
+      return seed(p.kappa_upper, 1);
+    case Parameter::stop_stiffness:
+      return seed(p.kappa_lower, 1), seed(p.kappa_upper, 1);
+    case Parameter::stop_damping_lower:
+      return seed(p.zeta_lower, 1);
+    case Parameter::stop_damping_upper:
+      return seed(p.zeta_upper, 1);
+    case Parameter::stop_damping:
+      return seed(p.zeta_lower, 1), seed(p.zeta_upper, 1);
     default:
       return seed(p.lower, -1), seed(p.upper, 1);  // xs
   }
@@ -66,10 +78,15 @@ template <class Number>
 Flight<Number> flight_of(const Orbit& orbit, std::size_t i) {
   const OrbitImpact from = orbit.impact(i), to = orbit.impact(i + 1);
   if constexpr (std::is_same_v<Number, Second>)
-    return {from.side, variable(from.phase, by_begin), variable(from.before, by_before), to.side,
-            variable(to.phase, by_end)};
+    return {from.side, variable(from.phase, by_begin), variable(from.before, by_before),
+            to.side,   variable(to.phase, by_end),     from.event,
+            to.event};
+  else if constexpr (std::is_same_v<Number, double>)
+    return {from.side, from.phase, from.before, to.side, to.phase, from.event, to.event};
   else
-    return {from.side, Number(from.phase, by_begin), Number(from.before, by_before), to.side, Number(to.phase, by_end)};
+    return {from.side, Number(from.phase, by_begin), Number(from.before, by_before),
+            to.side,   Number(to.phase, by_end),     from.event,
+            to.event};
 }
 
 template <class Number>
@@ -126,14 +143,70 @@ std::vector<Link<double>> links_of(const ShakenScene& scene, const Orbit& orbit)
   });
 }
 
-/// R^(2n) e^(-2 h T) of the impacts of an orbit as it is kept.
+/// The derivative of a flight's end by the state before the event that it begins with (eqs. 7, 27 and 53), times the
+/// speed before a rigid impact.
+template <class Number, Effects E>
+Link<Number> link_of_states(const Flights<Number, E>& flights, const Flight<Number>& flight, bool mirrored) {
+  const Parameters<Number>& p = flights.parameters();
+  Link<Number> link{{{{Number(1), Number(0)}, {Number(0), Number(1)}}}, Number(1)};
+  if (flight.leaves == Event::impact) {
+    const Number &R = p.restitution(flight.from), &v = flight.before;
+    const Number force = flights.force_at(p.position(flight.from), flight.begin);
+    link.numerator = {{{-R * v, Number(0)}, {R * (force - 2 * p.h * v) + force + 2 * p.h * R * v, -R * v}}};
+    link.denominator = v;
+  } else if (flight.leaves == Event::touch) {
+    link.numerator[1][0] = -2 * p.soft_stop(flight.from).damping;
+  }
+  const Number time = (flight.end - flight.begin) / p.nu;
+  flights.with_constants(presses(flight.leaves) ? flight.from : Side::none, [&](const auto& constants) {
+    const motion::Propagator<Number> free = constants.propagator(time);
+    const Number sign = mirrored ? -1 : 1;
+    const Square<Number> flown{{{sign * free.a, sign * free.b}, {-sign * constants.spring(free.b), sign * free.c}}};
+    link.numerator = product(flown, link.numerator);
+  });
+  return link;
+}
+
+template <class Number>
+std::vector<Link<Number>> links_of_states(const ShakenScene& scene, const Orbit& orbit, const Parameters<Number>& p,
+                                          bool stiffness_varies) {
+  std::vector<Link<Number>> links;
+  with_arcs(
+      scene,
+      [&]<Effects E>() {
+        const Flights<Number, E> flights(p);
+        for (std::size_t i = 0; i < orbit.size(); ++i)
+          links.push_back(link_of_states(flights, flight_of<Number>(orbit, i), last_is_mirrored(orbit, i)));
+      },
+      stiffness_varies);
+  return links;
+}
+
+/// R^(2n) e^(-2 h T) of the impacts of an orbit as it is kept, less by e^(-2 h_s t) in a contact with a soft stop.
 template <class Number>
 Number determinant_of(const Parameters<Number>& p, const Orbit& orbit) {
   using std::exp;
   Number determinant = exp(Number(-2) * p.h * (Number(orbit.advance()) / p.nu));
-  for (const OrbitImpact& impact : orbit.impacts)
-    determinant *= p.restitution(impact.side) * p.restitution(impact.side);
+  const auto press = [&](Side side, double advance) {
+    determinant *= exp(Number(-2) * p.soft_stop(side).damping * (Number(advance) / p.nu));
+  };
+  if (orbit.pressed != Side::none) press(orbit.pressed, orbit.advance());
+  for (std::size_t i = 0; i < orbit.size(); ++i) {
+    const OrbitImpact& impact = orbit.impacts[i];
+    if (impact.event == Event::impact) determinant *= p.restitution(impact.side) * p.restitution(impact.side);
+    if (presses(impact.event)) press(impact.side, orbit.impact(i + 1).phase - impact.phase);
+  }
   return determinant;
+}
+
+ImpactMap map_of(const std::vector<Link<double>>& links, double determinant) {
+  ImpactMap map{.determinant = determinant};
+  Square<double> matrix{{{1, 0}, {0, 1}}};
+  for (const Link<double>& link : links)
+    matrix = product(link.numerator, matrix), map.denominator *= link.denominator;
+  for (std::size_t i = 0; i < 2; ++i)
+    for (std::size_t j = 0; j < 2; ++j) map.numerator[i][j] = matrix[i][j];
+  return map;
 }
 
 }  // namespace
@@ -148,7 +221,7 @@ OrbitEquations::OrbitEquations(const ShakenScene& scene, const Orbit& shape, std
 
 std::optional<std::size_t> OrbitEquations::grazing() const {
   for (const Condition& condition : conditions_)
-    if (condition.kind == Condition::Kind::graze) return condition.impact;
+    if (condition.kind == Condition::Kind::graze || condition.kind == Condition::Kind::force) return condition.impact;
   return std::nullopt;
 }
 
@@ -182,7 +255,8 @@ std::optional<OrbitEquations::Linearised> OrbitEquations::at(const Vector& z) co
   for (const double number : z)
     if (!std::isfinite(number)) return std::nullopt;
   for (std::size_t i = 0; i < orbit.size(); ++i)
-    if (!(orbit.impact(i).phase < orbit.impact(i + 1).phase)) return std::nullopt;
+    if (!flight_of<double>(orbit, i).may_vanish() && !(orbit.impact(i).phase < orbit.impact(i + 1).phase))
+      return std::nullopt;
   Linearised out{Vector(equations(), 0.0), Matrix(equations(), unknowns())};
   const auto add_flights = [&]<Effects E>() {
     const Flights<First, E> flights(parameters_of<First>(scene, axes_));
@@ -210,6 +284,10 @@ std::optional<OrbitEquations::Linearised> OrbitEquations::at(const Vector& z) co
   for (const Condition& condition : conditions_) {
     if (condition.kind == Condition::Kind::graze)
       add_graze(orbit, condition.impact, row, out);
+    else if (condition.kind == Condition::Kind::force)
+      add_force(scene, orbit.impacts[condition.impact], 2 * condition.impact, row, out);
+    else if (condition.kind == Condition::Kind::duration)
+      add_duration(orbit, condition, row, out);
     else if (condition.kind == Condition::Kind::release)
       add_release(scene, orbit.impacts[condition.impact], 2 * condition.impact, row, out);
     else
@@ -222,6 +300,29 @@ std::optional<OrbitEquations::Linearised> OrbitEquations::at(const Vector& z) co
 void OrbitEquations::add_graze(const Orbit& orbit, std::size_t impact, std::size_t row, Linearised& out) const {
   out.residual[row] = orbit.impacts[impact].before;
   out.slope(row, 2 * impact + 1) = speed_unit_;
+}
+
+void OrbitEquations::add_force(const ShakenScene& scene, const OrbitImpact& event, std::size_t unknown,
+                               std::size_t row, Linearised& out) const {
+  const Parameters<First> p = parameters_of<First>(scene, axes_);
+  const First phase(event.phase, by_begin), v(event.before, by_before);
+  const First relaxation = p.soft_stop(event.side).relaxation();
+  const auto [f, lead] = p.force();
+  const First a = f * sin(phase + lead) + p.load - 2 * p.h * v - p.k * (p.position(event.side) - relaxation * v);
+  const First rate = v + relaxation * a;  // of the force over kappa
+  out.residual[row] = rate.value;
+  out.slope(row, unknown) = rate.slope[by_begin];
+  out.slope(row, unknown + 1) = rate.slope[by_before] * speed_unit_;
+  for (std::size_t k = 0; k < axes_.size(); ++k)
+    out.slope(row, 2 * shape_.size() + k) = rate.slope[by_first_axis + k] * axes_[k].unit;
+}
+
+void OrbitEquations::add_duration(const Orbit& orbit, const Condition& condition, std::size_t row,
+                                  Linearised& out) const {
+  const std::size_t i = condition.impact, next = (i + 1) % orbit.size();
+  out.residual[row] = orbit.impact(i + 1).phase - orbit.impact(i).phase - condition.duration;
+  out.slope(row, 2 * i) -= 1;
+  out.slope(row, 2 * next) += 1;
 }
 
 void OrbitEquations::add_release(const ShakenScene& scene, const OrbitImpact& impact, std::size_t phase,
@@ -250,7 +351,12 @@ void OrbitEquations::add_multiplier(const ShakenScene& scene, const Orbit& all, 
       links.push_back(link_of(end.beyond.slope, end.velocity.slope, last_is_mirrored(orbit, i)));
     }
   };
-  with_arcs(scene, add_links, varies(axes_, Parameter::stiffness));
+  const Parameters<First> p = parameters_of<First>(scene, axes_);
+  const bool stiffness_varies = varies(axes_, Parameter::stiffness);
+  if (orbit.meets_soft_stop())
+    links = links_of_states(scene, orbit, p, stiffness_varies);
+  else
+    with_arcs(scene, add_links, stiffness_varies);
   // g = c (1 + D) - sigma tr(K_n ... K_1), c the product of the links' denominators
   const auto plain = [](const Link<First>& link) {
     Square<double> k;
@@ -259,7 +365,7 @@ void OrbitEquations::add_multiplier(const ShakenScene& scene, const Orbit& all, 
     return k;
   };
   const double sigma = condition.multiplier;
-  const First determinant = determinant_of(parameters_of<First>(scene, axes_), orbit);
+  const First determinant = determinant_of(p, orbit);
   std::vector<Square<double>> before{{{{1, 0}, {0, 1}}}}, after(count + 1, {{{1, 0}, {0, 1}}});
   std::vector<double> c_before{1}, c_after(count + 1, 1.0);
   for (std::size_t i = 0; i < count; ++i) {
@@ -287,28 +393,36 @@ void OrbitEquations::add_multiplier(const ShakenScene& scene, const Orbit& all, 
   }
   for (std::size_t k = 0; k < axes_.size(); ++k)
     out.slope(row, parameters + k) += axes_[k].unit * c_before[count] * determinant.slope[by_first_axis + k];
+  for (std::size_t i = 0; i < count; ++i) {  // longer contacts with a soft stop take more
+    if (!presses(orbit.impacts[i].event)) continue;
+    const double longer =
+        -2 * p.soft_stop(orbit.impacts[i].side).damping.value / p.nu.value * c_before[count] * determinant.value;
+    out.slope(row, unknown_of(i)) -= longer;
+    out.slope(row, unknown_of(i + 1 == count ? 0 : i + 1)) += longer;
+  }
 }
 
 ImpactMap impact_map(const ShakenScene& scene, const Orbit& orbit) {
-  ImpactMap map{.determinant = determinant_of(Parameters<double>(scene), orbit)};
+  const Parameters<double> p(scene);
   if (orbit.size() == 0) {  // free motion around the response
+    ImpactMap map{.determinant = determinant_of(p, orbit)};
     with_arcs(scene, [&]<Effects E>() {
-      const Flights<double, E> flights{Parameters<double>(scene)};
-      const motion::ArcConstants<double, E>& constants = flights.constants();
-      const motion::Propagator<double> free = constants.propagator(orbit.advance() / constants.nu);
-      const double sign = orbit.mirrored ? -1 : 1;
-      map.numerator[0][0] = sign * free.a, map.numerator[0][1] = sign * free.b;
-      map.numerator[1][0] = -sign * constants.spring(free.b), map.numerator[1][1] = sign * free.c;
+      const Flights<double, E> flights{p};
+      flights.with_constants(orbit.pressed, [&](const auto& constants) {
+        const motion::Propagator<double> free = constants.propagator(orbit.advance() / constants.nu);
+        const double sign = orbit.mirrored ? -1 : 1;
+        map.numerator[0][0] = sign * free.a, map.numerator[0][1] = sign * free.b;
+        map.numerator[1][0] = -sign * constants.spring(free.b), map.numerator[1][1] = sign * free.c;
+      });
     });
     return map;
   }
-  Square<double> matrix{{{1, 0}, {0, 1}}};
-  for (const Link<double>& link : links_of<Dual<double, 3>>(scene, orbit)) {
-    matrix = product(link.numerator, matrix), map.denominator *= link.denominator;
-  }
-  for (std::size_t i = 0; i < 2; ++i)
-    for (std::size_t j = 0; j < 2; ++j) map.numerator[i][j] = matrix[i][j];
-  return map;
+  if (orbit.meets_soft_stop()) return map_of(links_of_states(scene, orbit, p, false), determinant_of(p, orbit));
+  return event_map(scene, orbit);
+}
+
+ImpactMap event_map(const ShakenScene& scene, const Orbit& orbit) {
+  return map_of(links_of<Dual<double, 3>>(scene, orbit), determinant_of(Parameters<double>(scene), orbit));
 }
 
 std::vector<std::array<double, 2>> spread(const ShakenScene& scene, const Orbit& orbit, std::array<double, 2> change) {

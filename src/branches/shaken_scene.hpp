@@ -15,7 +15,7 @@ struct ShakenScene : Scene {
   ShakenScene(const point::Problem& problem) : Scene(problem), shaking(problem.shaking) {}
 };
 
-/// A scene with one of its parameters changed; `xs` and `R` change both stops.
+/// A scene with one of its parameters changed; `xs`, `R`, `stop_stiffness` and `stop_damping` change both stops.
 [[nodiscard]] ShakenScene changed(ShakenScene scene, sweep::Parameter parameter, double value);
 [[nodiscard]] double value_of(const ShakenScene& scene, sweep::Parameter parameter);
 
