@@ -103,6 +103,11 @@ struct ImpactMap {
 /// In phase and velocity of the first event, at soft stops, too.
 [[nodiscard]] ImpactMap event_map(const ShakenScene& scene, const Orbit& orbit);
 
+/// The unit direction from a flip, or a loss of symmetry, into the motion that is born there, which passes the one
+/// before twice: along the eigenvector of multiplier -1. In the equations' units, with this one of speeds.
+[[nodiscard]] Vector direction_of_daughter(const ShakenScene& scene, const Orbit& orbit, const Orbit& daughter,
+                                           double speed_unit);
+
 /// [impact i][phase, velocity]: how a small change of the first impact spreads over the others.
 [[nodiscard]] std::vector<std::array<double, 2>> spread(const ShakenScene& scene, const Orbit& orbit,
                                                         std::array<double, 2> change);

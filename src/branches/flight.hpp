@@ -101,8 +101,7 @@ struct Flight {
   /// Whether it is a contact with a soft stop, or an interruption of one beyond the stop's position: these become
   /// infinitely short where they vanish.
   [[nodiscard]] bool may_vanish() const {
-    return arrives == Event::separation ? presses(leaves)
-                                        : arrives == Event::renewal && leaves == Event::separation;
+    return arrives == Event::separation ? presses(leaves) : arrives == Event::renewal && leaves == Event::separation;
   }
 };
 
@@ -201,21 +200,36 @@ class Flights {
     return steady_response(p_.h, constants_.f, p_.nu);
   }
 
-  /// A contact with a soft stop, or an interruption of one. Before its beginning it goes on as a polynomial: no motion,
-  /// but Newton's method passes through there.
+  /// A contact with a soft stop, or an interruption of one. A short one is a Taylor polynomial, which keeps the digits
+  /// of the force over the time, and goes on to times before the beginning: no motion, but Newton's method passes
+  /// through there.
   template <class A>
   [[nodiscard]] FlightEnd<Number> fly_beyond(const A& arc, const Flight<Number>& flight, const Number& time) const {
     const Number relaxation = p_.soft_stop(flight.to).relaxation();
     const bool divided = flight.leaves != Event::touch || relaxation == 0;
-    if (time > 0) {
+    const motion::Motion<Number>& m = arc.start();
+    if (time * arc.constants().rate > 1e-2) {
       const motion::Motion<Number> end = arc.at(time);
       const Number force = end.offset + relaxation * end.v;
       return {divided ? Number(force / time) : force, end.v};
     }
-    const motion::Motion<Number>& m = arc.start();
-    const Number jerk = arc.constants().jerk(m), slope = m.v + relaxation * m.a, bend = m.a + relaxation * jerk;
-    const Number rate = slope + bend * time / 2;
-    return {divided ? rate : Number(m.offset + relaxation * m.v + rate * time), m.v + m.a * time + jerk * time * time / 2};
+    constexpr std::size_t terms = 7;  // 1e-2^7 / 7! is rounding
+    const auto& c = arc.constants();
+    std::array<Number, terms + 1> x{Number(0), m.v, m.a};  // its derivatives, by eq. 3
+    Number force = c.f, drive = m.sine, next = m.cosine;
+    for (std::size_t k = 1; k + 2 <= terms; ++k) {
+      force *= c.nu;
+      x[k + 2] = force * next - 2 * c.h * x[k + 1] - c.spring(x[k]);
+      const Number turn = -drive;
+      drive = next, next = turn;
+    }
+    Number mean = 0, mean_a = 0;  // of velocity and acceleration
+    for (std::size_t k = terms; k-- > 1;) {
+      const Number share = time / static_cast<double>(k + 1);
+      mean = x[k] + share * mean, mean_a = x[k + 1] + share * mean_a;
+    }
+    const Number rate = mean + relaxation * mean_a;
+    return {divided ? rate : Number(m.offset + relaxation * m.v + rate * time), m.v + mean_a * time};
   }
 
   [[nodiscard]] motion::Arc<Number, E> arc_from(const Number& x, const Number& v, const Number& phase) const {

@@ -39,12 +39,12 @@ struct OrbitImpact {
 /// so that the loss of its symmetry and its fold are told apart.
 struct Orbit {
   std::vector<OrbitImpact> impacts;
-  int half_turns = 2;     ///< half forcing periods after which the impacts begin again, mirrored if so said
-  bool mirrored = false;  ///< then half_turns is odd
+  int half_turns = 2;         ///< half forcing periods after which the impacts begin again, mirrored if so said
+  bool mirrored = false;      ///< then half_turns is odd
   Side pressed = Side::none;  ///< of motion without events: the soft stop that it is always in contact with
 
   [[nodiscard]] std::size_t size() const { return impacts.size(); }
-  [[nodiscard]] bool rests() const;           ///< on a stop, once in a period or more often
+  [[nodiscard]] bool rests() const;  ///< on a stop, once in a period or more often
   [[nodiscard]] bool meets_soft_stop() const;
   [[nodiscard]] double advance() const;       ///< of the forcing phase, rad
   [[nodiscard]] double period_ratio() const;  ///< period in forcing periods

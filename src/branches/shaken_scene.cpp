@@ -47,6 +47,14 @@ double& reference_to(ShakenScene& scene, Parameter parameter) {
 
 }  // namespace
 
+bool keeps_symmetry(Parameter parameter) {
+  using enum sweep::Parameter;
+  for (const sweep::Parameter of_one_side : {load, stop_lower, stop_upper, R_lower, R_upper, stop_stiffness_lower,
+                                             stop_stiffness_upper, stop_damping_lower, stop_damping_upper})
+    if (parameter == of_one_side) return false;
+  return true;
+}
+
 ShakenScene changed(ShakenScene scene, Parameter parameter, double value) {
   if (parameter == Parameter::xs) value = std::abs(value);
   reference_to(scene, parameter) = value;

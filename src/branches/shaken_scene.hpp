@@ -19,6 +19,9 @@ struct ShakenScene : Scene {
 [[nodiscard]] ShakenScene changed(ShakenScene scene, sweep::Parameter parameter, double value);
 [[nodiscard]] double value_of(const ShakenScene& scene, sweep::Parameter parameter);
 
+/// Whether a scene stays symmetric if a parameter changes.
+[[nodiscard]] bool keeps_symmetry(sweep::Parameter parameter);
+
 /// Its oscillator in the frame of what is shaken, with the force there (eqs. 39 and 40).
 [[nodiscard]] inline Oscillator oscillator_in_frame(const ShakenScene& scene) {
   Oscillator oscillator = scene.oscillator;

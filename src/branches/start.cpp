@@ -55,7 +55,8 @@ Orbit soft_start(const point::Problem& problem, const PhasePoint& state, std::in
   if (!orbit) throw StartError("the run from the start fails");
   if (orbit->rests())
     throw StartError(
-        "the motion at the start rests on the rigid stop; beside a soft stop such motion isn't followed: begin where it "
+        "the motion at the start rests on the rigid stop; beside a soft stop such motion isn't followed: begin where "
+        "it "
         "doesn't rest, or sweep with follow instead");
   if (orbit->size() == 0 && orbit->pressed == Side::none && problem.oscillator.stiffness == 0)
     throw StartError("without a spring, motion without impacts has no place of its own; begin where it meets a stop");
@@ -72,8 +73,9 @@ void require_soft_stop(const Stops& stops, sweep::Parameter parameter, const std
              of_both = parameter == stop_stiffness || parameter == stop_damping;
   if ((of_lower && !lower) || (of_upper && !upper) || (of_both && !lower && !upper))
     throw StartError("branch." + key + " = " + name + " is of a soft stop, and this one is rigid; give scene." +
-                     std::string(of_both ? "stop_stiffness" : of_lower ? "stop_stiffness_lower"
-                                                                       : "stop_stiffness_upper"));
+                     std::string(of_both    ? "stop_stiffness"
+                                 : of_lower ? "stop_stiffness_lower"
+                                            : "stop_stiffness_upper"));
   if ((parameter == R && lower && upper) || (parameter == R_lower && lower) || (parameter == R_upper && upper))
     throw StartError("branch." + key + " = " + name + " has no effect on a soft stop; take stop_damping");
 }
@@ -99,6 +101,8 @@ void require_start_in_range(const ShakenScene& scene, sweep::Parameter parameter
   require_soft_stop(stops, parameter, key);
   const double at = value_of(scene, parameter);
   if (!std::isfinite(at)) throw StartError("there is no stop to move by branch." + key + "; give scene." + name);
+  if (key == "along" && !std::isfinite(range[1] - range[0]))
+    throw StartError(interval + " has no end; give two finite numbers");
   if (!(at >= range[0] && at <= range[1]))
     throw StartError("the start lies outside " + interval + "; give scene." + name + " a value within it");
   if (parameter == stop_lower && range[1] >= stops.upper && std::isfinite(range[1]))

@@ -3,8 +3,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "branches/flight.hpp"
-
 namespace clatter::branches {
 namespace {
 
@@ -27,19 +25,12 @@ void merge(Touch& touch, std::size_t first) {
   touch.impact = second < first ? first - 1 : first;
 }
 
-/// Acceleration at an event, that of the free motion.
-double acceleration(const Parameters<double>& p, const OrbitImpact& event, double offset) {
-  const LeadingForce<double> force = p.force();
-  return force.amplitude * std::sin(event.phase + force.lead) + p.load - 2 * p.h * event.before -
-         p.k * (p.position(event.side) + offset);
-}
-
 }  // namespace
 
-Condition Touch::condition() const {
-  const OrbitImpact& graze = orbit.impacts[impact];
-  const bool within = graze.event != Event::impact && graze.before != 0 && !turns;
-  return {within ? Condition::Kind::force : Condition::Kind::graze, 1, impact};
+Graze Touch::graze() const {
+  const OrbitImpact& event = orbit.impacts[impact];
+  const bool within = event.event != Event::impact && event.before != 0 && !turns;
+  return {orbit, impact, {within ? Condition::Kind::force : Condition::Kind::graze, 1, impact}};
 }
 
 std::optional<Touch> touch_within(const OrbitEquations& equations, const Walk& walk, double step) {
@@ -69,33 +60,6 @@ std::optional<Touch> touch_within(const OrbitEquations& equations, const Walk& w
     merge(touch, found->impact);
   }
   return touch;
-}
-
-Orbit opened(const ShakenScene& scene, const Orbit& orbit, std::size_t graze, double advance) {
-  const Parameters<double> p(scene);
-  const OrbitImpact middle = orbit.impacts[graze];
-  const double relaxation = p.soft_stop(middle.side).relaxation(), time = advance / p.nu;
-  OrbitImpact begin = middle, end = middle;
-  const double a = acceleration(p, middle, -relaxation * middle.before);
-  double before = time / 2;  // from the beginning to the extremum
-  if (middle.event == Event::separation && middle.before == 0) {
-    // v t + a t^2/2 + r (v + a t) = 0, the end of a contact that begins with v: the mass turns after the time -v/a
-    before = time * (time / 2 + relaxation) / (time + relaxation);
-    begin.event = Event::touch;
-  } else {
-    begin.event = middle.event == Event::separation ? Event::renewal : Event::separation;
-  }
-  begin.phase = middle.phase - p.nu * before, begin.before = middle.before - a * before;
-  end.phase = begin.phase + advance, end.before = begin.before + a * time;
-  Orbit out = orbit;
-  out.impacts[graze] = end;
-  return out.with(begin, graze);
-}
-
-Orbit turned(Orbit orbit, std::size_t event) {
-  Event& kind = orbit.impacts[event].event;
-  kind = kind == Event::touch ? Event::renewal : Event::touch;
-  return orbit;
 }
 
 }  // namespace clatter::branches

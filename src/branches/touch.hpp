@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <optional>
 
+#include "branches/graze.hpp"
 #include "branches/violation.hpp"
 #include "branches/walk.hpp"
 
@@ -19,18 +20,10 @@ struct Touch {
   bool appears = false;    ///< beyond the graze there is one impact more; else one less
   bool turns = false;      ///< or none more nor less: a renewal turns into a touch, or the other way round
 
-  /// That it is one.
-  [[nodiscard]] Condition condition() const;
+  [[nodiscard]] Graze graze() const;
 };
 
 /// The graze within a step of a walk; nothing if motion between the stops can be followed as far as that.
 [[nodiscard]] std::optional<Touch> touch_within(const OrbitEquations& equations, const Walk& walk, double step);
-
-/// An orbit with a graze as if a short contact with a soft stop, or a short interruption of one, began and ended there:
-/// its first event has the number of the graze. `advance`: of the forcing phase while it lasts, rad.
-[[nodiscard]] Orbit opened(const ShakenScene& scene, const Orbit& orbit, std::size_t graze, double advance);
-
-/// The same with a renewal as a touch, or a touch as a renewal.
-[[nodiscard]] Orbit turned(Orbit orbit, std::size_t event);
 
 }  // namespace clatter::branches

@@ -29,7 +29,7 @@ double turning_time(const motion::Arc<double, E>& arc, const Margin& margin, dou
 
 /// A flight that is looked at: the event that it begins with, and its end.
 struct Path {
-  std::size_t number;
+  std::size_t number, next;
   double begin;  ///< forcing phase, rad
   double length;
   Side to;  ///< none: it meets no stop
@@ -41,8 +41,8 @@ std::optional<Violation> passes_through(const motion::Arc<double, E>& arc, const
                                         double from, Side side, Event turns) {
   const double turn = turning_time(arc, margin, from);
   const double v = turns == Event::impact ? 0.0 : arc.at(turn).v;
-  return Violation{Violation::Kind::passes_through, path.number,
-                   {side, path.begin + arc.constants().nu * turn, v, 0.0, turns}};
+  return Violation{
+      Violation::Kind::passes_through, path.number, {side, path.begin + arc.constants().nu * turn, v, 0.0, turns}};
 }
 
 /// A soft contact is found as early as its displacement's rounding over its speed.
@@ -98,9 +98,13 @@ std::optional<Violation> free_within(const Parameters<double>& p, const motion::
     if (!(rest.length > 0)) return std::nullopt;
     return cut_short(p, motion::Arc(arc.constants(), leaving, stop.position), rest);
   }
-  if (renews && crossing.resolved && (crossing.margin == 2 || (crossing.margin == 1 &&
-      is_at_end(crossing.elapsed, path.length, m.offset, pull.slope(m), nu))))
+  if (renews && crossing.resolved &&
+      (crossing.margin == 2 ||
+       (crossing.margin == 1 && is_at_end(crossing.elapsed, path.length, m.offset, pull.slope(m), nu))))
     return std::nullopt;
+  // where the mass just comes back to that position first, a renewal turns into a touch of the stop from outside
+  const bool is_late = (path.length - crossing.elapsed) * arc.constants().rate < 1e-2;
+  if (presses(path.arrives) && path.to == stop.side && is_late) return Violation{Violation::Kind::pulls, path.next, {}};
   return passes_through(arc, path, pull, crossing.elapsed, stop.side, Event::separation);
 }
 
@@ -116,7 +120,7 @@ std::optional<Violation> response_violation(const Flights<double, E>& flights, c
   const Parameters<double>& p = flights.parameters();
   return flights.with_response(
       orbit.pressed, [&](const auto& arc, const Response<double>& response) -> std::optional<Violation> {
-        const Path path{0, 0.0, orbit.advance() / p.nu, Side::none};
+        const Path path{0, 0, 0.0, orbit.advance() / p.nu, Side::none};
         if (orbit.pressed != Side::none) return separates(p.soft_stop(orbit.pressed), arc, path);
         for (const Side side : {Side::lower, Side::upper})  // begins beyond the stop
           if (const double sign = sign_of(side); sign * (arc.start().x - p.position(side)) > 0) {
@@ -149,7 +153,8 @@ std::optional<Violation> violation(const ShakenScene& scene, const Orbit& orbit,
       const bool without_speed = flight.leaves == Event::impact || std::abs(flight.before) <= 1e-9;
       const bool leaves_graze = i == grazing && !presses(flight.leaves) && without_speed;
       if (leaves_graze) flight.before = 0;
-      const Path path{i, flight.begin, (flight.end - flight.begin) / p.nu, flight.to, flight.arrives};
+      const Path path{i,         (i + 1) % orbit.size(), flight.begin, (flight.end - flight.begin) / p.nu,
+                      flight.to, flight.arrives};
       auto found = flights.with_arc(flight, [&](const auto& arc) {
         if (flight.leaves == Event::impact || leaves_graze) return cut_short(p, arc, path);
         const motion::SoftStop<double> stop = p.soft_stop(flight.from);
