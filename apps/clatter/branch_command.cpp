@@ -82,14 +82,6 @@ const branches::BranchSettings& branch_of(const config::Config& config, const st
     throw UsageError(storage::printable(file) + ": [sweep] has the axis " +
                      std::string(sweep::key_of(config.sweep.dimensions[0][0].parameter)) +
                      ", and a branch is followed at one value of it; give that in [scene]");
-  if (config.sweep.machine)
-    throw UsageError(
-        storage::printable(file) +
-        ": a branch is followed in the units of [scene]; give the scene that `clatter plan` shows in place of "
-        "[machine]");
-  if (has_soft_stop(config.sweep.problem.stops))
-    throw UsageError(storage::printable(file) +
-                     ": a branch is followed between rigid stops; remove stop_stiffness, or sweep with follow instead");
   return *config.branch;
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <deque>
+#include <functional>
 
 #include "branches/measures.hpp"
 #include "branches/resting_branch.hpp"
@@ -12,26 +13,7 @@
 namespace clatter::branches {
 namespace {
 
-constexpr std::array<std::string_view, 11> special_names{"fold",
-                                                         "flip",
-                                                         "symmetry breaking",
-                                                         "graze",
-                                                         "chatter limit",
-                                                         "release tangency",
-                                                         "maximum impact_speed",
-                                                         "maximum impact_power",
-                                                         "maximum harmonic",
-                                                         "resonant graze",
-                                                         "cusp"};
-
-constexpr std::string_view closed_curve = "closed";
-
-/// Whether a scene stays symmetric if a parameter changes.
-bool keeps_symmetry(sweep::Parameter parameter) {
-  using enum sweep::Parameter;
-  return parameter != load && parameter != stop_lower && parameter != stop_upper && parameter != R_lower &&
-         parameter != R_upper;
-}
+constexpr std::string_view closed_curve = "closed", no_step_off = "no step leads off its special point";
 
 /// Everything about following one branch after the other.
 class Follower {
@@ -61,23 +43,24 @@ class Follower {
   [[nodiscard]] OrbitEquations equations_for(const Orbit& orbit, std::vector<Condition> conditions = {}) const {
     return {problem_, orbit, {{settings_.along, width_}}, speed_unit_, std::move(conditions)};
   }
+  [[nodiscard]] Equations any_equations() const { return std::bind_front(&Follower::equations_for, this); }
   [[nodiscard]] RestingBranch resting() { return {problem_, settings_, symmetric_, speed_unit_, record_, waiting_}; }
   [[nodiscard]] double parameter(const ShakenScene& scene) const { return value_of(scene, settings_.along); }
   [[nodiscard]] bool in_range(double value) const { return value >= settings_.range[0] && value <= settings_.range[1]; }
-  [[nodiscard]] WalkLimits limits() const { return {settings_.tolerance, settings_.largest_step}; }
 
   void follow(const Waiting& from) {
     speed_unit_ = speed_scale(from.scene, from.orbit);
     record_.begin(speed_unit_);
     generation_ = from.generation;
     if (from.orbit.rests()) return resting().follow(from);
+    if (from.opens) return follow_opened(from);
     const OrbitEquations equations = equations_for(from.orbit);
     CurvePoint start{equations.unknowns_of(from.scene, from.orbit), {}, 0.0};
     Vector axis(equations.unknowns(), 0.0);
     axis.back() = 1;
     if (from.special) {
       const auto first = first_step(equations, start, from);
-      if (!first) return record_.fail(record_.point(equations, start), "no step leads off its special point");
+      if (!first) return record_.fail(record_.point(equations, start), no_step_off);
       record_.meet(*from.special, record_.branch());
       start.tangent = *first;
       record_.add(record_.point(equations, start));
@@ -104,6 +87,21 @@ class Follower {
     if (!closed && !record_.is_full()) walk(equations, start, {});
   }
 
+  /// A branch with one contact with a soft stop, or one interruption of a contact, more than its special point.
+  void follow_opened(const Waiting& from) {
+    const auto begun = opened(any_equations(), from.scene, from.orbit, *from.opens, settings_.tolerance);
+    if (!begun) {
+      const OrbitEquations equations = equations_for(from.orbit);
+      return record_.fail(record_.point(equations, {equations.unknowns_of(from.scene, from.orbit), {}, 0.0}),
+                          no_step_off);
+    }
+    const OrbitEquations equations = equations_for(begun->orbit);
+    const CurvePoint start{begun->at, begun->tangent, 0.0};
+    record_.meet(*from.special, record_.branch());
+    record_.add(record_.point(equations, start));
+    walk(equations, start, from.special);
+  }
+
   /// The direction from a special point into a branch that begins there, in which it is motion between the stops.
   [[nodiscard]] std::optional<Vector> first_step(const OrbitEquations& equations, const CurvePoint& start,
                                                  const Waiting& from) const {
@@ -118,16 +116,11 @@ class Follower {
       tried = {*along};
       if (from.heading == 0) tried.push_back(sum(*along, -2.0, *along));
     }
-    for (const double s : {1e-5, 1e-4, 1e-3, 1e-2})
-      for (const Vector& tangent_there : tried) {
-        const auto at = corrected(equations, sum(start.at, s, tangent_there), tangent_there, settings_.tolerance);
-        if (at && !violation(equations, *at)) return tangent_there;
-      }
-    return std::nullopt;
+    return direction_into_motion(equations, start.at, tried, settings_.tolerance);
   }
 
   void walk(const OrbitEquations& equations, const CurvePoint& start, std::optional<std::size_t> from) {
-    Walk walk(equations, start, limits());
+    Walk walk(equations, start, {settings_.tolerance, settings_.largest_step});
     BranchPoint last = record_.point(equations, start);
     if (leaves_range(start)) return record_.end(last, "range");
     for (;;) {
@@ -210,8 +203,9 @@ class Follower {
             of, [at](const CurvePoint& p) { return at(p).slope[0]; }, true);
       };
       look_for_maximum(SpecialKind::impact_speed, impact_speed);
-      if (problem_.observe.energy) look_for_maximum(SpecialKind::impact_power, impact_power);
-      if (problem_.observe.harmonics > 0) look_for_maximum(SpecialKind::harmonic, harmonic);
+      const bool soft = equations.shape().meets_soft_stop();  // whose loss and force last for a time
+      if (problem_.observe.energy && !soft) look_for_maximum(SpecialKind::impact_power, impact_power);
+      if (problem_.observe.harmonics > 0 && !soft) look_for_maximum(SpecialKind::harmonic, harmonic);
     }
     std::ranges::sort(found, {}, [](const Found& f) { return f.point.arclength; });
     for (Found& f : found) {
@@ -255,18 +249,7 @@ class Follower {
   /// What is born at a flip or a loss of symmetry begins along the eigenvector of multiplier -1.
   void wait_for_daughter(const BranchPoint& at, std::size_t special) {
     const Orbit daughter = at.orbit.mirrored ? at.orbit.whole() : at.orbit.repeated(2);
-    const ImpactMap map = impact_map(at.scene, at.orbit);
-    const auto& m = map.numerator;
-    const double c = map.denominator;
-    std::array<double, 2> vector{-m[0][1], m[0][0] + c};  // of (M + 1) v = 0, by the larger row
-    if (std::hypot(m[1][0], m[1][1] + c) > std::hypot(m[0][1], m[0][0] + c)) vector = {m[1][1] + c, -m[1][0]};
-    const auto changes = spread(at.scene, daughter, vector);
-    const double unit = speed_scale(at.scene, daughter);
-    Vector direction;
-    for (const auto& [phase, before] : changes) direction.push_back(phase), direction.push_back(before / unit);
-    direction.push_back(0.0);
-    const double length = std::sqrt(product(direction, direction));
-    for (double& x : direction) x /= length;
+    const Vector direction = direction_of_daughter(at.scene, at.orbit, daughter, speed_scale(at.scene, daughter));
     waiting_.push_back({at.scene, daughter, direction, special, generation_ + 1});
   }
 
@@ -275,7 +258,8 @@ class Follower {
   bool ends_in_rest(const OrbitEquations& equations, const Touch& touch, double step) {
     const std::size_t impact = touch.impact - 1;
     const Side side = equations.shape().impacts[impact].side;
-    if (touch.orbit.impacts[touch.impact].side != side) return false;
+    if (touch.orbit.impacts[touch.impact].side != side || equations.shape().impacts[impact].event != Event::impact)
+      return false;
     if (Parameters<double>(equations.scene_at(touch.beyond.at)).restitution(side) != 0) return false;
     const OrbitEquations there = equations_for(equations.shape(), {{Condition::Kind::release, 1, impact}});
     const auto exact = solution(there, touch.beyond.at, settings_.tolerance);
@@ -286,7 +270,7 @@ class Follower {
     record_.end(last, "chatter limit");
     if (!is_new)
       no_longer_waits(waiting_, special, last.orbit);  // this is the branch that waits there
-    else
+    else if (!has_soft_stop(last.scene.stops))
       resting().wait_beyond(last, side, (touch.beyond.at.back() - exact->back()) * width_, special, generation_);
     return true;
   }
@@ -299,26 +283,52 @@ class Follower {
     if (special_between(equations, walk, touch->last_good.arclength - walk.here().arclength, from))
       return record_.end(record_.point(equations, touch->last_good), "born");
     if (touch->appears && equations.shape().size() > 0 && ends_in_rest(equations, *touch, step)) return;
-    const OrbitEquations there = equations_for(touch->orbit, {{Condition::Kind::graze, 1, touch->impact}});
-    const Vector guess = there.unknowns_of(equations.scene_at(touch->beyond.at), touch->orbit);
-    const auto exact = solution(there, guess, settings_.tolerance);
+    const auto exact = exact_graze(any_equations(), equations.scene_at(touch->beyond.at), touch->graze(),
+                                   1e-3 * speed_unit_, symmetric_, 10 * step, settings_.tolerance);
+    if (exact && exact->joins) return end_on(*exact);
     BranchPoint last = record_.point(equations, touch->last_good);
-    if (!exact || std::abs(exact->back() - guess.back()) > 10 * step)
-      return record_.add(last), record_.fail(last, no_graze);
-    const Orbit with = there.orbit_at(*exact), without = with.without(touch->impact);
-    last.scene = there.scene_at(*exact), last.orbit = touch->appears ? without : with;
+    if (!exact) return record_.add(last), record_.fail(last, no_graze);
+    const Orbit with = exact->orbit, without = with.without(touch->impact);
+    last.scene = exact->scene, last.orbit = touch->appears ? without : with;
     record_.add(last);
-    if (resting().waits_beyond(last, with.impacts[touch->impact].side, generation_))
+    if (!has_soft_stop(last.scene.stops) && resting().waits_beyond(last, with.impacts[touch->impact].side, generation_))
       return record_.end(last, "chatter limit");
     BranchPoint at = last;
     at.orbit = with;
     const auto [special, is_new] = record_.note(SpecialKind::graze, at);
     record_.end(last, "graze");
     if (!is_new) return no_longer_waits(waiting_, special, last.orbit);  // this is the branch that waits there
-    Orbit beyond = touch->appears ? with : without;
-    if (beyond.size() == 0 && at.scene.oscillator.stiffness == 0) return;  // it drifts, or has no place of its own
-    if (beyond.size() == 0) beyond = Orbit{}.half_if_same(0.0, symmetric_);
-    waiting_.push_back({at.scene, beyond, {}, special, generation_});
+    if (touch->turns)
+      waiting_.push_back({at.scene, turned(with, touch->impact), {}, special, generation_});
+    else if (touch->appears)
+      wait_with(at.scene, with, touch->impact, special);
+    else
+      wait_without(at.scene, without, special);
+  }
+
+  /// The branch ends on a motion that repeats sooner, or is symmetric, as that grazes soft stops, whose dampers change
+  /// its multipliers at once.
+  void end_on(const ExactGraze& exact) {
+    const OrbitEquations equations = equations_for(exact.orbit, {{Condition::Kind::graze, 1, exact.impact}});
+    const BranchPoint at = record_.point(equations, {equations.unknowns_of(exact.scene, exact.orbit), {}, 0.0});
+    record_.add(at);
+    const auto [special, is_new] = record_.note(SpecialKind::graze, at);
+    record_.end(at, "graze");
+    if (!is_new) return;
+    wait_with(at.scene, at.orbit, exact.impact, special);
+    wait_without(at.scene, at.orbit.without(exact.impact), special);
+  }
+
+  void wait_with(const ShakenScene& scene, const Orbit& orbit, std::size_t graze, std::size_t special) {
+    waiting_.push_back({scene, orbit, {}, special, generation_});
+    if (orbit.impacts[graze].event != Event::impact) waiting_.back().opens = graze;
+  }
+  void wait_without(const ShakenScene& scene, Orbit orbit, std::size_t special) {
+    if (orbit.size() == 0 && orbit.pressed == Side::none) {
+      if (scene.oscillator.stiffness == 0) return;  // it drifts, or has no place of its own
+      orbit = Orbit{}.half_if_same(0.0, symmetric_);
+    }
+    waiting_.push_back({scene, orbit, {}, special, generation_});
   }
 
   point::Problem problem_;
@@ -332,8 +342,6 @@ class Follower {
 };
 
 }  // namespace
-
-std::string_view name_of(SpecialKind kind) { return special_names[static_cast<std::size_t>(kind)]; }
 
 Branches follow_branches(const point::Problem& problem, const BranchSettings& settings) {
   return Follower(problem, settings).run();

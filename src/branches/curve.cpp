@@ -41,6 +41,10 @@ class CurveFollower {
     };
     if (shakes(settings_.along) && shakes(*settings_.across))
       throw StartError("stops and base can't be shaken at once; expected another branch.across");
+    if (has_soft_stop(problem_.stops))
+      throw StartError(
+          "curves in two parameters are those between rigid stops; remove branch.across to follow "
+          "branches between soft ones");
     require_start_in_range(problem_, *settings_.across, settings_.across_range, "across");
     Branches along = follow_branches(problem_, settings_);
     std::erase_if(along.ends, [](const BranchEnd& end) { return !end.failed; });

@@ -18,12 +18,15 @@ struct Condition {
   enum class Kind : std::uint8_t {
     multiplier,  ///< a multiplier of the orbit as it is kept is `multiplier`, +1 or -1
     graze,       ///< impact number `impact` has no speed
+    force,       ///< a soft stop's force, zero at event number `impact`, doesn't change there
+    duration,    ///< the flight from event number `impact` on lasts `duration`
     release      ///< the force on the mass is zero at impact number `impact`, after which it may come to rest if R = 0
   };
   Kind kind = Kind::multiplier;
   int multiplier = 1;
   std::size_t impact = 0;
   std::optional<std::size_t> without{};  ///< the multiplier is that of the orbit without this impact, which grazes
+  double duration = 0.0;                 ///< of the forcing phase, rad
 };
 
 /// The equations of periodic motion with given impacts (multiple shooting over arcs): every flight ends on the stop of
@@ -61,13 +64,16 @@ class OrbitEquations {
   [[nodiscard]] const std::vector<Axis>& axes() const { return axes_; }
   [[nodiscard]] double speed_unit() const { return speed_unit_; }
   [[nodiscard]] const std::vector<Condition>& conditions() const { return conditions_; }
-  /// The impact that grazes by a condition, if there is one.
+  /// The impact, or the event on a soft stop, that grazes by a condition, if there is one.
   [[nodiscard]] std::optional<std::size_t> grazing() const;
 
  private:
   void add_release(const ShakenScene& scene, const OrbitImpact& impact, std::size_t phase, std::size_t row,
                    Linearised& out) const;
   void add_graze(const Orbit& orbit, std::size_t impact, std::size_t row, Linearised& out) const;
+  void add_force(const ShakenScene& scene, const OrbitImpact& event, std::size_t unknown, std::size_t row,
+                 Linearised& out) const;
+  void add_duration(const Orbit& orbit, const Condition& condition, std::size_t row, Linearised& out) const;
   void add_multiplier(const ShakenScene& scene, const Orbit& all, const Condition& condition, std::size_t row,
                       Linearised& out) const;
 
@@ -79,7 +85,9 @@ class OrbitEquations {
 };
 
 /// The derivative of the map of one impact to the same impact a period, or half a period, later (impact phase and
-/// velocity): an impact that grazes has an infinite one, so its denominators are kept apart.
+/// velocity): an impact that grazes has an infinite one, so its denominators are kept apart. Of motion that meets soft
+/// stops it is that of the map of states just before the first event (displacement and velocity), which is finite in
+/// a graze of a soft stop: it has denominators at rigid stops alone.
 struct ImpactMap {
   double denominator = 1.0;                           ///< product of velocity over nu at all impacts
   double numerator[2][2] = {{1.0, 0.0}, {0.0, 1.0}};  ///< [phase, velocity][phase, velocity]
@@ -92,6 +100,13 @@ struct ImpactMap {
   }
 };
 [[nodiscard]] ImpactMap impact_map(const ShakenScene& scene, const Orbit& orbit);
+/// In phase and velocity of the first event, at soft stops, too.
+[[nodiscard]] ImpactMap event_map(const ShakenScene& scene, const Orbit& orbit);
+
+/// The unit direction from a flip, or a loss of symmetry, into the motion that is born there, which passes the one
+/// before twice: along the eigenvector of multiplier -1. In the equations' units, with this one of speeds.
+[[nodiscard]] Vector direction_of_daughter(const ShakenScene& scene, const Orbit& orbit, const Orbit& daughter,
+                                           double speed_unit);
 
 /// [impact i][phase, velocity]: how a small change of the first impact spreads over the others.
 [[nodiscard]] std::vector<std::array<double, 2>> spread(const ShakenScene& scene, const Orbit& orbit,

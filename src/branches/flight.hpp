@@ -3,8 +3,10 @@
 #include <array>
 #include <cmath>
 
+#include "branches/orbit.hpp"
 #include "branches/shaken_scene.hpp"
 #include "motion/arc.hpp"
+#include "stepping/soft_contact.hpp"
 
 namespace clatter::branches {
 
@@ -12,9 +14,10 @@ namespace clatter::branches {
 template <class Number>
 struct Parameters {
   Number h, f, nu, load, lower, upper, R_lower, R_upper, k, stop_amplitude, base_amplitude;
+  Number kappa_lower, kappa_upper, zeta_lower, zeta_upper;  ///< of soft stops
 
   /// Each of them.
-  static constexpr std::array<Number Parameters::*, 11> all{&Parameters::h,
+  static constexpr std::array<Number Parameters::*, 15> all{&Parameters::h,
                                                             &Parameters::f,
                                                             &Parameters::nu,
                                                             &Parameters::load,
@@ -24,7 +27,11 @@ struct Parameters {
                                                             &Parameters::R_upper,
                                                             &Parameters::k,
                                                             &Parameters::stop_amplitude,
-                                                            &Parameters::base_amplitude};
+                                                            &Parameters::base_amplitude,
+                                                            &Parameters::kappa_lower,
+                                                            &Parameters::kappa_upper,
+                                                            &Parameters::zeta_lower,
+                                                            &Parameters::zeta_upper};
 
   Parameters() = default;
   explicit Parameters(const ShakenScene& scene)
@@ -38,10 +45,24 @@ struct Parameters {
         R_upper(scene.stops.restitution_upper),
         k(scene.oscillator.stiffness),
         stop_amplitude(scene.shaking.stops),
-        base_amplitude(scene.shaking.base) {}
+        base_amplitude(scene.shaking.base),
+        kappa_lower(scene.stops.stiffness_lower),
+        kappa_upper(scene.stops.stiffness_upper),
+        zeta_lower(scene.stops.damping_lower),
+        zeta_upper(scene.stops.damping_upper) {}
 
   [[nodiscard]] const Number& position(Side stop) const { return stop == Side::upper ? upper : lower; }
   [[nodiscard]] const Number& restitution(Side stop) const { return stop == Side::upper ? R_upper : R_lower; }
+  [[nodiscard]] bool is_soft(Side stop) const {
+    return std::isfinite(static_cast<double>(position(stop))) &&
+           std::isfinite(static_cast<double>(stop == Side::upper ? kappa_upper : kappa_lower));
+  }
+  [[nodiscard]] motion::SoftStop<Number> soft_stop(Side stop) const {
+    using std::sqrt;
+    const bool is_upper = stop == Side::upper;
+    const Number& stiffness = is_upper ? kappa_upper : kappa_lower;
+    return {stop, position(stop), stiffness, (is_upper ? zeta_upper : zeta_lower) * sqrt(stiffness)};
+  }
   /// In the frame of what is shaken.
   [[nodiscard]] LeadingForce<Number> force() const {
     return force_in_frame(h, f, nu, k, stop_amplitude, base_amplitude);
@@ -68,19 +89,29 @@ decltype(auto) with_arcs(const ShakenScene& scene, Function&& function, bool sti
 }
 
 /// A flight begins just after the impact of velocity `before` on stop `from` at phase `begin`, in rad, and is looked at
-/// when the phase is `end`.
+/// when the phase is `end`. At a soft stop it begins or ends with another event.
 template <class Number>
 struct Flight {
   Side from;
   Number begin, before;
   Side to;
   Number end;
+  Event leaves = Event::impact, arrives = Event::impact;
+
+  /// Whether it is a contact with a soft stop, or an interruption of one beyond the stop's position: these become
+  /// infinitely short where they vanish.
+  [[nodiscard]] bool may_vanish() const {
+    return arrives == Event::separation ? presses(leaves) : arrives == Event::renewal && leaves == Event::separation;
+  }
 };
 
 /// The end of a flight, beside the stop `to`.
 template <class Number>
 struct FlightEnd {
-  Number beyond;    ///< x less the position of the stop: 0 if the flight ends on it
+  /// x less the position of the stop: 0 if the flight ends on it. At separations and renewals the force of the stop
+  /// over its stiffness; that over the duration if it is zero at the beginning, too, so that a flight without duration
+  /// is no solution.
+  Number beyond;
   Number velocity;  ///< before the impact
 };
 
@@ -95,29 +126,61 @@ class Flights {
   [[nodiscard]] const motion::ArcConstants<Number, E>& constants() const { return constants_; }
   [[nodiscard]] const Parameters<Number>& parameters() const { return p_; }
 
-  /// The arc that begins with a flight.
-  [[nodiscard]] motion::Arc<Number, E> arc(const Flight<Number>& flight) const {
-    return arc_from(p_.position(flight.from), Number(-p_.restitution(flight.from) * flight.before), flight.begin);
+  /// Calls `function(arc)` with the arc that begins with a flight.
+  template <class Function>
+  decltype(auto) with_arc(const Flight<Number>& flight, Function&& function) const {
+    if (flight.leaves == Event::impact)
+      return function(
+          arc_from(p_.position(flight.from), Number(-p_.restitution(flight.from) * flight.before), flight.begin));
+    const motion::SoftStop<Number> stop = p_.soft_stop(flight.from);
+    const Number offset = flight.leaves == Event::touch ? Number(0) : Number(-stop.relaxation() * flight.before);
+    return with_constants(presses(flight.leaves) ? flight.from : Side::none, [&](const auto& constants) {
+      return function(arc_beside(constants, stop.position, offset, flight.before, flight.begin));
+    });
+  }
+  /// Calls `function(constants)` with those of free motion, or of motion in contact with a soft stop.
+  template <class Function>
+  decltype(auto) with_constants(Side pressed, Function&& function) const {
+    return pressed == Side::none ? function(constants_) : soft_.with_constants(pressed, function);
   }
 
   /// Flies through stops, if it meets any.
   [[nodiscard]] FlightEnd<Number> fly(const Flight<Number>& flight) const {
-    const motion::Motion<Number> end = arc(flight).at(Number((flight.end - flight.begin) / p_.nu));
-    return {flight.from == flight.to ? end.offset : Number(end.x - p_.position(flight.to)), end.v};
+    const Number time = (flight.end - flight.begin) / p_.nu;
+    return with_arc(flight, [&](const auto& arc) -> FlightEnd<Number> {
+      if (flight.may_vanish()) return fly_beyond(arc, flight, time);
+      const motion::Motion<Number> end = arc.at(time);
+      Number beyond = flight.from == flight.to ? end.offset : Number(end.x - p_.position(flight.to));
+      if (flight.arrives == Event::separation || flight.arrives == Event::renewal)
+        beyond += p_.soft_stop(flight.to).relaxation() * end.v;
+      return {beyond, end.v};
+    });
   }
 
-  /// Motion without impacts: the response to the force, and its arc from phase 0 on. Phases of the response are those
-  /// of the force.
-  [[nodiscard]] Response<Number> response() const {
-    if constexpr (E.stiffness) return response_to(Number(p_.k - p_.nu * p_.nu), p_.h, constants_.f, p_.nu);
-    return steady_response(p_.h, constants_.f, p_.nu);
-  }
-  [[nodiscard]] motion::Arc<Number, E> response_arc() const {
+  /// Calls `function(arc, response)` with motion without events: the response to the force, free or in contact with a
+  /// soft stop, and its arc from phase 0 on. Phases of the response are those of the force.
+  template <class Function>
+  decltype(auto) with_response(Side pressed, Function&& function) const {
     using std::cos, std::sin;
-    const Response<Number> of_force = response();
     const Number sine = sin(lead_), cosine = cos(lead_);
-    return arc_from(Number(constants_.equilibrium + of_force.displacement(sine, cosine)),
-                    of_force.velocity(p_.nu, sine, cosine), Number(0));
+    if (pressed == Side::none) {
+      const Response<Number> of_force = free_response();
+      return function(arc_from(Number(constants_.equilibrium + of_force.displacement(sine, cosine)),
+                               of_force.velocity(p_.nu, sine, cosine), Number(0)),
+                      of_force);
+    }
+    return soft_.with_constants(pressed, [&](const auto& c) {
+      const Response<Number> of_force = response_to(Number(c.k - p_.nu * p_.nu), c.h, c.f, p_.nu);
+      return function(arc_beside(c, c.origin, Number(c.balance + of_force.displacement(sine, cosine)),
+                                 of_force.velocity(p_.nu, sine, cosine), Number(0)),
+                      of_force);
+    });
+  }
+
+  /// Force on a mass that stands still at x.
+  [[nodiscard]] Number force_at(const Number& x, const Number& phase) const {
+    using std::sin;
+    return constants_.force(sin(phase + lead_)) - constants_.spring(x);
   }
 
   /// Phase of the force less that of the shaking, rad.
@@ -127,7 +190,47 @@ class Flights {
   Flights(const Parameters<Number>& parameters, const LeadingForce<Number>& force)
       : p_(parameters),
         lead_(force.lead),
-        constants_(motion::ArcConstants<Number, E>::of(p_.h, force.amplitude, p_.nu, p_.load, p_.k)) {}
+        constants_(motion::ArcConstants<Number, E>::of(p_.h, force.amplitude, p_.nu, p_.load, p_.k)) {
+    for (const Side side : {Side::lower, Side::upper})
+      if (p_.is_soft(side)) soft_.add(constants_, p_.soft_stop(side));
+  }
+
+  [[nodiscard]] Response<Number> free_response() const {
+    if constexpr (E.stiffness) return response_to(Number(p_.k - p_.nu * p_.nu), p_.h, constants_.f, p_.nu);
+    return steady_response(p_.h, constants_.f, p_.nu);
+  }
+
+  /// A contact with a soft stop, or an interruption of one. A short one is a Taylor polynomial, which keeps the digits
+  /// of the force over the time, and goes on to times before the beginning: no motion, but Newton's method passes
+  /// through there.
+  template <class A>
+  [[nodiscard]] FlightEnd<Number> fly_beyond(const A& arc, const Flight<Number>& flight, const Number& time) const {
+    const Number relaxation = p_.soft_stop(flight.to).relaxation();
+    const bool divided = flight.leaves != Event::touch || relaxation == 0;
+    const motion::Motion<Number>& m = arc.start();
+    if (time * arc.constants().rate > 1e-2) {
+      const motion::Motion<Number> end = arc.at(time);
+      const Number force = end.offset + relaxation * end.v;
+      return {divided ? Number(force / time) : force, end.v};
+    }
+    constexpr std::size_t terms = 7;  // 1e-2^7 / 7! is rounding
+    const auto& c = arc.constants();
+    std::array<Number, terms + 1> x{Number(0), m.v, m.a};  // its derivatives, by eq. 3
+    Number force = c.f, drive = m.sine, next = m.cosine;
+    for (std::size_t k = 1; k + 2 <= terms; ++k) {
+      force *= c.nu;
+      x[k + 2] = force * next - 2 * c.h * x[k + 1] - c.spring(x[k]);
+      const Number turn = -drive;
+      drive = next, next = turn;
+    }
+    Number mean = 0, mean_a = 0;  // of velocity and acceleration
+    for (std::size_t k = terms; k-- > 1;) {
+      const Number share = time / static_cast<double>(k + 1);
+      mean = x[k] + share * mean, mean_a = x[k + 1] + share * mean_a;
+    }
+    const Number rate = mean + relaxation * mean_a;
+    return {divided ? rate : Number(m.offset + relaxation * m.v + rate * time), m.v + mean_a * time};
+  }
 
   [[nodiscard]] motion::Arc<Number, E> arc_from(const Number& x, const Number& v, const Number& phase) const {
     using std::cos, std::sin;
@@ -135,10 +238,21 @@ class Flights {
     return {constants_,
             {Number(0), x, v, constants_.acceleration(Number(x - constants_.equilibrium), v, sine), sine, cosine}};
   }
+  /// An arc that begins a little way off a soft stop.
+  template <Effects of>
+  [[nodiscard]] motion::Arc<Number, of> arc_beside(const motion::ArcConstants<Number, of>& constants,
+                                                   const Number& stop, const Number& offset, const Number& v,
+                                                   const Number& phase) const {
+    using std::cos, std::sin;
+    const Number of_force = phase + lead_, sine = sin(of_force), cosine = cos(of_force), x = stop + offset;
+    const Number a = constants.acceleration(constants.from_equilibrium(x, stop, offset), v, sine);
+    return {constants, {offset, x, v, a, sine, cosine}, stop};
+  }
 
   Parameters<Number> p_;
   Number lead_;
   motion::ArcConstants<Number, E> constants_;
+  stepping::SoftContact<Number> soft_;
 };
 
 }  // namespace clatter::branches

@@ -15,14 +15,18 @@ template <class Function>
 void each_flight(const ShakenScene& scene, const Orbit& orbit, Function&& function) {
   with_arcs(scene, [&]<Effects E>() {
     const Flights<double, E> flights{Parameters<double>(scene)};
-    if (orbit.size() == 0) return function(flights.response_arc(), 0.0, flights.constants().period);
+    if (orbit.size() == 0)
+      return flights.with_response(
+          orbit.pressed, [&](const auto& arc, const auto&) { function(arc, 0.0, flights.constants().period); });
     for (std::size_t i = 0; i < orbit.size(); ++i) {
       OrbitImpact from = orbit.impact(i);
       const OrbitImpact to = orbit.impact(i + 1);
       if (to.rest > 0) continue;  // the flights that are left of a chatter reach nowhere
       from.phase += from.rest;
-      function(flights.arc({from.side, from.phase, from.before, to.side, to.phase}), from.phase,
-               (to.phase - from.phase) / flights.constants().nu);
+      const Flight<double> flight{from.side, from.phase, from.before, to.side, to.phase, from.event, to.event};
+      flights.with_arc(flight, [&](const auto& arc) {
+        function(arc, from.phase, (to.phase - from.phase) / flights.constants().nu);
+      });
     }
   });
 }
@@ -55,7 +59,7 @@ Moving moving(const OrbitEquations& equations, const Vector& point, const Vector
   for (std::size_t i = 0; i < orbit.size(); ++i) {
     Along phase(orbit.impacts[i].phase), before(orbit.impacts[i].before);
     phase.slope[0] = tangent[2 * i], before.slope[0] = tangent[2 * i + 1] * equations.speed_unit();
-    m.impacts.push_back({orbit.impacts[i].side, phase, before, false});
+    m.impacts.push_back({orbit.impacts[i].side, phase, before, false, orbit.impacts[i].event});
   }
   m.period = Along(orbit.advance()) / m.p.nu;
   return m;
@@ -144,6 +148,7 @@ observables::Extrema extrema(const ShakenScene& scene, const Orbit& orbit) {
   each_flight(scene, whole, [&](const auto& arc, double begin, double length) { extrema.arc(arc, begin, length); });
   const Parameters<double> p(scene);
   for (const OrbitImpact& impact : whole.impacts) {
+    if (impact.event != Event::impact) continue;  // the arcs have all
     const double x = p.position(impact.side);
     extrema.include({x, x}, {impact.before, impact.before});
   }
@@ -152,7 +157,8 @@ observables::Extrema extrema(const ShakenScene& scene, const Orbit& orbit) {
 
 double impact_speed(const Orbit& orbit) {
   double fastest = 0;
-  for (const OrbitImpact& impact : orbit.impacts) fastest = std::max(fastest, std::abs(impact.before));
+  for (const OrbitImpact& impact : orbit.impacts)
+    if (impact.is_letter()) fastest = std::max(fastest, std::abs(impact.before));
   return fastest;
 }
 
@@ -160,19 +166,21 @@ double impact_power(const ShakenScene& scene, const Orbit& orbit) {
   const Parameters<double> p(scene);
   double all = 0;
   for (std::size_t i = 0; i < orbit.size(); ++i)
-    all += lost(p.restitution(orbit.impacts[i].side), orbit.impacts[i].before, next_is_rest(orbit, i));
+    if (orbit.impacts[i].event == Event::impact)
+      all += lost(p.restitution(orbit.impacts[i].side), orbit.impacts[i].before, next_is_rest(orbit, i));
   return all * p.nu / orbit.advance();
 }
 
 Along impact_speed(const Moving& moving) {
   Along fastest = 0;
-  for (const auto& [side, phase, before, rests] : moving.impacts) fastest = std::max(fastest, abs(before));
+  for (const auto& [side, phase, before, rests, event] : moving.impacts)
+    if (event == Event::impact || event == Event::touch) fastest = std::max(fastest, abs(before));
   return fastest;
 }
 
 Along impact_power(const Moving& moving) {
   Along all = 0;
-  for (const auto& [side, phase, before, rests] : moving.impacts)
+  for (const auto& [side, phase, before, rests, event] : moving.impacts)
     all += lost(moving.p.restitution(side), before, rests);
   return all / moving.period;
 }
@@ -183,7 +191,7 @@ Along harmonic(const Moving& moving) {
   const Parameters<Along>& p = moving.p;
   const LeadingForce<Along> force = p.force();
   Along re = force.amplitude * sin(force.lead) / 2, im = -force.amplitude * cos(force.lead) / 2;
-  for (const auto& [side, phase, before, rests] : moving.impacts) {
+  for (const auto& [side, phase, before, rests, event] : moving.impacts) {
     const Along jump = -(1 + p.restitution(side)) * before / moving.period;
     re += jump * cos(phase), im -= jump * sin(phase);
   }

@@ -12,7 +12,7 @@ using observables::ImpactWord;
 Side mirror_image(Side side) { return static_cast<Side>(-sign_of(side)); }
 
 OrbitImpact mirrored(OrbitImpact impact) {
-  return {mirror_image(impact.side), impact.phase, -impact.before, impact.rest};
+  return {mirror_image(impact.side), impact.phase, -impact.before, impact.rest, impact.event};
 }
 
 OrbitImpact later(OrbitImpact impact, double advance) {
@@ -23,6 +23,7 @@ OrbitImpact later(OrbitImpact impact, double advance) {
 std::vector<ImpactWord::Contact> contacts_of(const Orbit& orbit) {
   std::vector<ImpactWord::Contact> contacts;
   for (const OrbitImpact& impact : orbit.whole().impacts) {
+    if (!impact.is_letter()) continue;
     const bool grazes = impact.before == 0 && impact.rest == 0;  // an impact, too: without speed it would be a rest
     contacts.push_back({impact.phase, grazes ? 1.0 : impact.before, impact.side});
   }
@@ -44,6 +45,11 @@ OrbitImpact Orbit::impact(std::size_t i) const {
   return later(mirrored ? branches::mirrored(impacts[i - size()]) : impacts[i - size()], advance());
 }
 
+bool Orbit::meets_soft_stop() const {
+  return pressed != Side::none ||
+         std::ranges::any_of(impacts, [](const OrbitImpact& impact) { return impact.event != Event::impact; });
+}
+
 Orbit Orbit::whole() const {
   if (!mirrored) return *this;
   Orbit orbit{impacts, 2 * half_turns, false};
@@ -61,9 +67,10 @@ Orbit Orbit::repeated(int times) const {
 
 Orbit Orbit::half_if_same(double tolerance, bool symmetric_scene) const {
   const auto same = [&](const OrbitImpact& a, const OrbitImpact& b) {
-    return a.side == b.side && std::abs(a.phase - b.phase) <= tolerance &&
+    return a.side == b.side && a.event == b.event && std::abs(a.phase - b.phase) <= tolerance &&
            std::abs(a.before - b.before) <= tolerance * std::max(std::abs(a.before), std::abs(b.before));
   };
+  if (pressed != Side::none) return {{}, 2, false, pressed};
   if (size() == 0) return symmetric_scene ? Orbit{{}, 1, true} : Orbit{{}, 2, false};
   if (mirrored || size() % 2 != 0) return *this;
   const auto middle = impacts.begin() + static_cast<std::ptrdiff_t>(size() / 2);
@@ -81,7 +88,8 @@ Orbit Orbit::with(const OrbitImpact& impact, std::size_t after) const {
 }
 
 Orbit Orbit::without(std::size_t i) const {
-  if (size() == 1) return {{}, mirrored ? 1 : 2, mirrored};
+  if (size() == 1)
+    return {{}, mirrored ? 1 : 2, mirrored, impacts[0].event == Event::renewal ? impacts[0].side : Side::none};
   Orbit orbit = *this;
   orbit.impacts.erase(orbit.impacts.begin() + static_cast<std::ptrdiff_t>(i));
   return orbit;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -9,23 +10,42 @@
 
 namespace clatter::branches {
 
-/// One impact of a periodic motion, or the instant at which it comes to rest on a stop.
+/// How the motion changes at an instant that it is known by.
+enum class Event : std::uint8_t {
+  impact,      ///< on a rigid stop
+  touch,       ///< of a soft stop at its position, where contact begins
+  separation,  ///< from a soft stop, whose force falls to zero
+  renewal      ///< of the contact with a soft stop, whose force rises from zero, beyond its position
+};
+
+/// Whether the mass is in contact with a soft stop after an event.
+[[nodiscard]] constexpr bool presses(Event event) { return event == Event::touch || event == Event::renewal; }
+
+/// One impact of a periodic motion, or another event on a stop, or the instant at which it comes to rest there.
 struct OrbitImpact {
   Side side = Side::none;
   double phase = 0.0;   ///< forcing phase, rad, growing from impact to impact
-  double before = 0.0;  ///< velocity before the impact
+  double before = 0.0;  ///< velocity before the impact; at a soft stop it goes on
   double rest = 0.0;    ///< forcing phase, rad, for which the mass rests from then on
+  Event event = Event::impact;
+
+  /// Whether it is a letter of the impact word: an impact, a touch, or a graze of a soft stop.
+  [[nodiscard]] bool is_letter() const {
+    return event == Event::impact || event == Event::touch || (event == Event::separation && before == 0);
+  }
 };
 
 /// A periodic motion by its impacts. A motion that is its own mirror image half a period later is kept as that half,
 /// so that the loss of its symmetry and its fold are told apart.
 struct Orbit {
   std::vector<OrbitImpact> impacts;
-  int half_turns = 2;     ///< half forcing periods after which the impacts begin again, mirrored if so said
-  bool mirrored = false;  ///< then half_turns is odd
+  int half_turns = 2;         ///< half forcing periods after which the impacts begin again, mirrored if so said
+  bool mirrored = false;      ///< then half_turns is odd
+  Side pressed = Side::none;  ///< of motion without events: the soft stop that it is always in contact with
 
   [[nodiscard]] std::size_t size() const { return impacts.size(); }
-  [[nodiscard]] bool rests() const;           ///< on a stop, once in a period or more often
+  [[nodiscard]] bool rests() const;  ///< on a stop, once in a period or more often
+  [[nodiscard]] bool meets_soft_stop() const;
   [[nodiscard]] double advance() const;       ///< of the forcing phase, rad
   [[nodiscard]] double period_ratio() const;  ///< period in forcing periods
   /// Impact i = 0 ... size: the last one is the first, half a period or a period later.

@@ -6,6 +6,23 @@
 #include "branches/measures.hpp"
 
 namespace clatter::branches {
+namespace {
+
+constexpr std::array<std::string_view, 11> special_names{"fold",
+                                                         "flip",
+                                                         "symmetry breaking",
+                                                         "graze",
+                                                         "chatter limit",
+                                                         "release tangency",
+                                                         "maximum impact_speed",
+                                                         "maximum impact_power",
+                                                         "maximum harmonic",
+                                                         "resonant graze",
+                                                         "cusp"};
+
+}  // namespace
+
+std::string_view name_of(SpecialKind kind) { return special_names[static_cast<std::size_t>(kind)]; }
 
 void Record::begin(double speed_unit) {
   branch_ = found_.ends.empty() ? 0 : found_.ends.back().branch + 1;

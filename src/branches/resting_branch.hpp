@@ -18,6 +18,7 @@ struct Waiting {
   int heading = 0;                       ///< up or down the parameter; 0: both ways
   std::optional<std::size_t> cascade{};  ///< the branch that came near it through ever more grazes
   int cascade_side = 0;                  ///< on which that lies: up or down the parameter
+  std::optional<std::size_t> opens{};    ///< the event with which a contact with a soft stop begins or is interrupted
 };
 
 /// A branch that came to its end in a special point needn't begin there any more.

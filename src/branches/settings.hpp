@@ -11,7 +11,7 @@
 namespace clatter::branches {
 
 /// The keys of [scene] along which a motion can be followed.
-inline constexpr std::array<std::string_view, 13> parameter_names{"h",
+inline constexpr std::array<std::string_view, 19> parameter_names{"h",
                                                                   "f",
                                                                   "nu",
                                                                   "R",
@@ -23,7 +23,13 @@ inline constexpr std::array<std::string_view, 13> parameter_names{"h",
                                                                   "load",
                                                                   "stiffness",
                                                                   "stop_amplitude",
-                                                                  "base_amplitude"};
+                                                                  "base_amplitude",
+                                                                  "stop_stiffness",
+                                                                  "stop_stiffness_lower",
+                                                                  "stop_stiffness_upper",
+                                                                  "stop_damping",
+                                                                  "stop_damping_lower",
+                                                                  "stop_damping_upper"};
 
 /// The special points that can be followed in two parameters.
 inline constexpr std::array<std::string_view, 4> curve_names{"fold", "flip", "symmetry breaking", "graze"};

@@ -27,6 +27,16 @@ double& reference_to(ShakenScene& scene, Parameter parameter) {
       return scene.stops.lower;
     case Parameter::R_lower:
       return scene.stops.restitution_lower;
+    case Parameter::stop_stiffness_lower:
+      return scene.stops.stiffness_lower;
+    case Parameter::stop_stiffness:
+    case Parameter::stop_stiffness_upper:
+      return scene.stops.stiffness_upper;
+    case Parameter::stop_damping_lower:
+      return scene.stops.damping_lower;
+    case Parameter::stop_damping:
+    case Parameter::stop_damping_upper:
+      return scene.stops.damping_upper;
     case Parameter::R:
     case Parameter::R_upper:
       return scene.stops.restitution_upper;
@@ -37,11 +47,21 @@ double& reference_to(ShakenScene& scene, Parameter parameter) {
 
 }  // namespace
 
+bool keeps_symmetry(Parameter parameter) {
+  using enum sweep::Parameter;
+  for (const sweep::Parameter of_one_side : {load, stop_lower, stop_upper, R_lower, R_upper, stop_stiffness_lower,
+                                             stop_stiffness_upper, stop_damping_lower, stop_damping_upper})
+    if (parameter == of_one_side) return false;
+  return true;
+}
+
 ShakenScene changed(ShakenScene scene, Parameter parameter, double value) {
   if (parameter == Parameter::xs) value = std::abs(value);
   reference_to(scene, parameter) = value;
   if (parameter == Parameter::xs) scene.stops.lower = -value;
   if (parameter == Parameter::R) scene.stops.restitution_lower = value;
+  if (parameter == Parameter::stop_stiffness) scene.stops.stiffness_lower = value;
+  if (parameter == Parameter::stop_damping) scene.stops.damping_lower = value;
   return scene;
 }
 

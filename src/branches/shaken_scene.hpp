@@ -15,9 +15,12 @@ struct ShakenScene : Scene {
   ShakenScene(const point::Problem& problem) : Scene(problem), shaking(problem.shaking) {}
 };
 
-/// A scene with one of its parameters changed; `xs` and `R` change both stops.
+/// A scene with one of its parameters changed; `xs`, `R`, `stop_stiffness` and `stop_damping` change both stops.
 [[nodiscard]] ShakenScene changed(ShakenScene scene, sweep::Parameter parameter, double value);
 [[nodiscard]] double value_of(const ShakenScene& scene, sweep::Parameter parameter);
+
+/// Whether a scene stays symmetric if a parameter changes.
+[[nodiscard]] bool keeps_symmetry(sweep::Parameter parameter);
 
 /// Its oscillator in the frame of what is shaken, with the force there (eqs. 39 and 40).
 [[nodiscard]] inline Oscillator oscillator_in_frame(const ShakenScene& scene) {

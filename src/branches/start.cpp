@@ -5,6 +5,7 @@
 #include <string>
 
 #include "attractors/periodic_motion.hpp"
+#include "branches/event_run.hpp"
 #include "branches/measures.hpp"
 #include "branches/resting.hpp"
 #include "model/response.hpp"
@@ -48,6 +49,37 @@ Orbit resting_start(const point::Problem& problem, Side stop, std::int64_t perio
       "set branch.period to several times as much");
 }
 
+/// Between soft stops, of which one may be rigid.
+Orbit soft_start(const point::Problem& problem, const PhasePoint& state, std::int64_t period, bool symmetric) {
+  const auto orbit = event_run(attractors::started(problem, state, 0.0), static_cast<std::size_t>(period));
+  if (!orbit) throw StartError("the run from the start fails");
+  if (orbit->rests())
+    throw StartError(
+        "the motion at the start rests on the rigid stop; beside a soft stop such motion isn't followed: begin where "
+        "it "
+        "doesn't rest, or sweep with follow instead");
+  if (orbit->size() == 0 && orbit->pressed == Side::none && problem.oscillator.stiffness == 0)
+    throw StartError("without a spring, motion without impacts has no place of its own; begin where it meets a stop");
+  return orbit->half_if_same(1e-6, symmetric);
+}
+
+/// Throws StartError if a parameter of soft stops is to be followed and there is none, or a restitution of one.
+void require_soft_stop(const Stops& stops, sweep::Parameter parameter, const std::string& key) {
+  using enum sweep::Parameter;
+  const std::string name(sweep::key_of(parameter));
+  const bool lower = is_soft(stops, Side::lower), upper = is_soft(stops, Side::upper);
+  const bool of_lower = parameter == stop_stiffness_lower || parameter == stop_damping_lower,
+             of_upper = parameter == stop_stiffness_upper || parameter == stop_damping_upper,
+             of_both = parameter == stop_stiffness || parameter == stop_damping;
+  if ((of_lower && !lower) || (of_upper && !upper) || (of_both && !lower && !upper))
+    throw StartError("branch." + key + " = " + name + " is of a soft stop, and this one is rigid; give scene." +
+                     std::string(of_both    ? "stop_stiffness"
+                                 : of_lower ? "stop_stiffness_lower"
+                                            : "stop_stiffness_upper"));
+  if ((parameter == R && lower && upper) || (parameter == R_lower && lower) || (parameter == R_upper && upper))
+    throw StartError("branch." + key + " = " + name + " has no effect on a soft stop; take stop_damping");
+}
+
 }  // namespace
 
 void require_start_in_range(const ShakenScene& scene, sweep::Parameter parameter, const std::array<double, 2>& range,
@@ -59,8 +91,18 @@ void require_start_in_range(const ShakenScene& scene, sweep::Parameter parameter
     throw StartError("branch." + key + " = xs moves both stops, which aren't symmetric; take stop_lower or stop_upper");
   if (parameter == R && stops.restitution_lower != stops.restitution_upper)
     throw StartError("branch." + key + " = R changes both stops, whose R differ; take R_lower or R_upper");
+  if (parameter == stop_stiffness && stops.stiffness_lower != stops.stiffness_upper)
+    throw StartError("branch." + key +
+                     " = stop_stiffness changes both stops, which differ; take stop_stiffness_lower or "
+                     "stop_stiffness_upper");
+  if (parameter == stop_damping && stops.damping_lower != stops.damping_upper)
+    throw StartError("branch." + key +
+                     " = stop_damping changes both stops, which differ; take stop_damping_lower or stop_damping_upper");
+  require_soft_stop(stops, parameter, key);
   const double at = value_of(scene, parameter);
   if (!std::isfinite(at)) throw StartError("there is no stop to move by branch." + key + "; give scene." + name);
+  if (key == "along" && !std::isfinite(range[1] - range[0]))
+    throw StartError(interval + " has no end; give two finite numbers");
   if (!(at >= range[0] && at <= range[1]))
     throw StartError("the start lies outside " + interval + "; give scene." + name + " a value within it");
   if (parameter == stop_lower && range[1] >= stops.upper && std::isfinite(range[1]))
@@ -101,6 +143,7 @@ Orbit start_orbit(const point::Problem& given, std::int64_t period, bool symmetr
   } else if (given.start.phase != 0) {
     throw StartError("with branch.period, x0 and v0 stand at forcing phase 0: leave out scene.phase");
   }
+  if (has_soft_stop(problem.stops)) return soft_start(problem, state, period, symmetric);
   // Newton's method on the map of the periods; unless a contact appears or vanishes on the way it gets there
   const auto motion = attractors::periodic_motion(problem, state, static_cast<std::size_t>(period));
   if (!motion) throw StartError("the run from the start fails");

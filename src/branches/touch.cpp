@@ -13,7 +13,25 @@ Orbit near_phase_zero(Orbit orbit) {
   return orbit;
 }
 
+/// The graze that two events of an orbit become, of which number `first` is the earlier one.
+void merge(Touch& touch, std::size_t first) {
+  const OrbitImpact one = touch.orbit.impact(first), other = touch.orbit.impact(first + 1);
+  OrbitImpact& graze = touch.orbit.impacts[first];
+  graze.phase = (one.phase + other.phase) / 2;
+  graze.before = one.event == Event::touch ? 0.0 : (one.before + other.before) / 2;
+  graze.event = other.event;  // after which the arc is that before the first
+  const std::size_t second = (first + 1) % touch.orbit.size();
+  touch.orbit.impacts.erase(touch.orbit.impacts.begin() + static_cast<std::ptrdiff_t>(second));
+  touch.impact = second < first ? first - 1 : first;
+}
+
 }  // namespace
+
+Graze Touch::graze() const {
+  const OrbitImpact& event = orbit.impacts[impact];
+  const bool within = event.event != Event::impact && event.before != 0 && !turns;
+  return {orbit, impact, {within ? Condition::Kind::force : Condition::Kind::graze, 1, impact}};
+}
 
 std::optional<Touch> touch_within(const OrbitEquations& equations, const Walk& walk, double step) {
   double good = 0.0, bad = step;
@@ -32,11 +50,14 @@ std::optional<Touch> touch_within(const OrbitEquations& equations, const Walk& w
   touch.orbit = equations.orbit_at(touch.beyond.at);
   touch.impact = found->impact;
   touch.appears = found->kind == Violation::Kind::passes_through;
+  touch.turns = found->kind == Violation::Kind::pulls && presses(touch.orbit.impacts[touch.impact].event);
   if (touch.appears) {
     const bool first = touch.orbit.size() == 0;
     touch.impact = first ? 0 : found->impact + 1;
     touch.orbit = touch.orbit.with(found->turning, touch.impact);
     if (first && touch.orbit.mirrored) touch.orbit = near_phase_zero(touch.orbit);
+  } else if (found->kind == Violation::Kind::ends_early) {
+    merge(touch, found->impact);
   }
   return touch;
 }

@@ -3,18 +3,24 @@
 #include <cstddef>
 #include <optional>
 
+#include "branches/graze.hpp"
 #include "branches/violation.hpp"
 #include "branches/walk.hpp"
 
 namespace clatter::branches {
 
-/// The motion with a graze that ends a branch, or a curve: near it, to be made exact by equations.
+/// The motion with a graze that ends a branch, or a curve: near it, to be made exact by equations. At a soft stop a
+/// contact, or an interruption of one, appears or vanishes: beginning and end of it are one event in the graze, which
+/// changes nothing. Or the mass, in contact again beyond the stop's position, just comes back to that first.
 struct Touch {
   CurvePoint last_good;    ///< before the graze, of which the proof of first contact holds
   CurvePoint beyond;       ///< the same motion a little beyond the graze
   Orbit orbit;             ///< with the impact that grazes
   std::size_t impact = 0;  ///< its number
   bool appears = false;    ///< beyond the graze there is one impact more; else one less
+  bool turns = false;      ///< or none more nor less: a renewal turns into a touch, or the other way round
+
+  [[nodiscard]] Graze graze() const;
 };
 
 /// The graze within a step of a walk; nothing if motion between the stops can be followed as far as that.

@@ -4,65 +4,164 @@
 
 #include "branches/flight.hpp"
 #include "motion/contact.hpp"
+#include "motion/crossing.hpp"
 
 namespace clatter::branches {
 namespace {
 
-/// The instant after a contact at which the motion through the stop turns back.
+using Margin = motion::Margin<double>;
+
+/// The instant from `s` on at which a margin that has fallen below zero is least.
 template <Effects E>
-double turning_time(const motion::Arc<double, E>& arc, const motion::Contact<double>& contact) {
-  double s = contact.elapsed;
+double turning_time(const motion::Arc<double, E>& arc, const Margin& margin, double s) {
   for (int iteration = 0; iteration < 60; ++iteration) {
     const motion::Motion<double> m = arc.at(s);
-    // towards the stop as long as it moves there; a step no longer than a small part of a cycle
-    const double most = 0.1 / arc.constants().rate, closing = sign_of(contact.side) * m.v;
-    const double curvature = sign_of(contact.side) * m.a;
-    const double step = curvature < 0 ? std::clamp(-closing / curvature, -most, most) : closing > 0 ? most : -most;
+    // on as long as it falls; a step no longer than a small part of a cycle
+    const double most = 0.1 / arc.constants().rate, falls = -margin.slope(m);
+    double curvature = -margin.place * m.a;
+    if (margin.speed != 0) curvature -= margin.speed * arc.constants().jerk(m);
+    const double step = curvature < 0 ? std::clamp(-falls / curvature, -most, most) : falls > 0 ? most : -most;
     s += step;
     if (std::abs(step) <= 1e-13 * (1 + s)) break;
   }
   return s;
 }
 
+/// A flight that is looked at: the event that it begins with, and its end.
+struct Path {
+  std::size_t number, next;
+  double begin;  ///< forcing phase, rad
+  double length;
+  Side to;  ///< none: it meets no stop
+  Event arrives = Event::impact;
+};
+
 template <Effects E>
-std::optional<Violation> cut_short(const Scene& scene, const motion::Arc<double, E>& arc, double begin, double length,
-                                   std::size_t impact, Side expected) {
-  const double nu = arc.constants().nu;
-  const motion::Contact<double> contact = motion::next_contact(arc, scene.stops, length);
+std::optional<Violation> passes_through(const motion::Arc<double, E>& arc, const Path& path, const Margin& margin,
+                                        double from, Side side, Event turns) {
+  const double turn = turning_time(arc, margin, from);
+  const double v = turns == Event::impact ? 0.0 : arc.at(turn).v;
+  return Violation{
+      Violation::Kind::passes_through, path.number, {side, path.begin + arc.constants().nu * turn, v, 0.0, turns}};
+}
+
+/// A soft contact is found as early as its displacement's rounding over its speed.
+bool is_at_end(double elapsed, double length, double x, double speed, double nu) {
+  const double late = (1e-11 + 1e-12 * (1 + std::abs(x)) / std::max(std::abs(speed), 1e-12)) / nu;
+  return length - elapsed <= late + 1e-9 * length;
+}
+
+template <Effects E>
+std::optional<Violation> cut_short(const Parameters<double>& p, const motion::Arc<double, E>& arc, const Path& path) {
+  const Stops stops{.lower = p.lower, .upper = p.upper};
+  const motion::Contact<double> contact = motion::next_contact(arc, stops, path.length);
   if (contact.side == Side::none) return std::nullopt;
   const motion::Motion<double> m = contact.motion;
-  // a soft contact is found as early as its displacement's rounding over its speed
-  const double late = (1e-11 + 1e-12 * (1 + std::abs(m.x)) / std::max(std::abs(m.v), 1e-12)) / nu;
-  if (contact.side == expected && length - contact.elapsed <= late + 1e-9 * length) return std::nullopt;
-  const double turn = turning_time(arc, contact);
-  return Violation{Violation::Kind::passes_through, impact, {contact.side, begin + nu * turn, 0.0}};
+  if (contact.side == path.to && is_at_end(contact.elapsed, path.length, m.x, m.v, arc.constants().nu))
+    return std::nullopt;
+  const Event turns = p.is_soft(contact.side) ? Event::separation : Event::impact;
+  const Margin gap{-static_cast<double>(sign_of(contact.side)), 0.0};
+  std::optional<Violation> found = passes_through(arc, path, gap, contact.elapsed, contact.side, turns);
+  found->turning.before = 0.0;
+  return found;
+}
+
+/// The force of the soft stop that a mass is in contact with stays positive up to the end of the contact.
+template <Effects E>
+std::optional<Violation> separates(const motion::SoftStop<double>& stop, const motion::Arc<double, E>& arc,
+                                   const Path& path) {
+  const double into = stop.into(1.0);
+  const Margin force{into, into * stop.relaxation()};
+  const auto crossing = motion::first_crossing(arc, std::array{force}, path.length);
+  if (crossing.resolved && crossing.margin != 0) return std::nullopt;
+  const motion::Motion<double>& m = crossing.motion;
+  if (path.arrives != Event::impact && crossing.resolved &&
+      is_at_end(crossing.elapsed, path.length, m.offset, force.slope(m), arc.constants().nu))
+    return std::nullopt;
+  return passes_through(arc, path, force, crossing.elapsed, stop.side, Event::renewal);
+}
+
+/// After a separation beyond the position of a soft stop the mass comes back to that position, or to the stop.
+template <Effects E>
+std::optional<Violation> free_within(const Parameters<double>& p, const motion::SoftStop<double>& stop,
+                                     const motion::Arc<double, E>& arc, const Path& path) {
+  const double into = stop.into(1.0), nu = arc.constants().nu;
+  const Margin depth{into, 0.0}, pull{-into, -into * stop.relaxation()};
+  const auto crossing = motion::first_crossing(arc, std::array{depth, pull}, path.length);
+  const motion::Motion<double>& m = crossing.motion;
+  const bool renews = path.arrives == Event::renewal;
+  if (crossing.resolved && crossing.margin == 0 && !renews) {
+    Path rest = path;
+    rest.begin += nu * crossing.elapsed, rest.length -= crossing.elapsed;
+    motion::Motion<double> leaving = m;
+    leaving.offset = 0, leaving.x = stop.position;
+    if (!(rest.length > 0)) return std::nullopt;
+    return cut_short(p, motion::Arc(arc.constants(), leaving, stop.position), rest);
+  }
+  if (renews && crossing.resolved &&
+      (crossing.margin == 2 ||
+       (crossing.margin == 1 && is_at_end(crossing.elapsed, path.length, m.offset, pull.slope(m), nu))))
+    return std::nullopt;
+  // where the mass just comes back to that position first, a renewal turns into a touch of the stop from outside
+  const bool is_late = (path.length - crossing.elapsed) * arc.constants().rate < 1e-2;
+  if (presses(path.arrives) && path.to == stop.side && is_late) return Violation{Violation::Kind::pulls, path.next, {}};
+  return passes_through(arc, path, pull, crossing.elapsed, stop.side, Event::separation);
+}
+
+/// Whether the velocity of an event has the right sign.
+bool points_right(const OrbitImpact& impact) {
+  const double into = sign_of(impact.side) * impact.before;
+  return impact.event == Event::impact || impact.event == Event::touch ? into > 0 : into < 0;
+}
+
+/// Motion without events.
+template <Effects E>
+std::optional<Violation> response_violation(const Flights<double, E>& flights, const Orbit& orbit) {
+  const Parameters<double>& p = flights.parameters();
+  return flights.with_response(
+      orbit.pressed, [&](const auto& arc, const Response<double>& response) -> std::optional<Violation> {
+        const Path path{0, 0, 0.0, orbit.advance() / p.nu, Side::none};
+        if (orbit.pressed != Side::none) return separates(p.soft_stop(orbit.pressed), arc, path);
+        for (const Side side : {Side::lower, Side::upper})  // begins beyond the stop
+          if (const double sign = sign_of(side); sign * (arc.start().x - p.position(side)) > 0) {
+            const double turn = std::atan2(sign * response.in_phase, sign * response.quadrature) - flights.lead();
+            const Event turns = p.is_soft(side) ? Event::separation : Event::impact;
+            return Violation{Violation::Kind::passes_through, 0, {side, turn, 0.0, 0.0, turns}};
+          }
+        return cut_short(p, arc, path);
+      });
 }
 
 }  // namespace
 
 std::optional<Violation> violation(const ShakenScene& scene, const Orbit& orbit, std::optional<std::size_t> grazing) {
+  const auto flight_after = [&orbit](std::size_t i) {
+    const OrbitImpact from = orbit.impact(i), to = orbit.impact(i + 1);
+    return Flight<double>{from.side, from.phase, from.before, to.side, to.phase, from.event, to.event};
+  };
   for (std::size_t i = 0; i < orbit.size(); ++i)
-    if (i != grazing && !(sign_of(orbit.impacts[i].side) * orbit.impacts[i].before > 0))
-      return Violation{Violation::Kind::pulls, i, {}};
+    if (const Flight<double> flight = flight_after(i); flight.may_vanish() && !(flight.begin < flight.end))
+      return Violation{Violation::Kind::ends_early, i, {}};
+  for (std::size_t i = 0; i < orbit.size(); ++i)
+    if (i != grazing && !points_right(orbit.impacts[i])) return Violation{Violation::Kind::pulls, i, {}};
   return with_arcs(scene, [&]<Effects E>() -> std::optional<Violation> {
     const Flights<double, E> flights{Parameters<double>(scene)};
     const Parameters<double>& p = flights.parameters();
-    if (orbit.size() == 0) {
-      const motion::Arc<double, E> arc = flights.response_arc();
-      for (const Side side : {Side::lower, Side::upper})  // begins beyond the stop
-        if (const double sign = sign_of(side); sign * (arc.start().x - p.position(side)) > 0) {
-          const Response<double> response = flights.response();
-          const double turn = std::atan2(sign * response.in_phase, sign * response.quadrature) - flights.lead();
-          return Violation{Violation::Kind::passes_through, 0, {side, turn, 0.0}};
-        }
-      return cut_short(scene, arc, 0.0, orbit.advance() / p.nu, 0, Side::none);
-    }
+    if (orbit.size() == 0) return response_violation(flights, orbit);
     for (std::size_t i = 0; i < orbit.size(); ++i) {
-      OrbitImpact from = orbit.impact(i);
-      const OrbitImpact to = orbit.impact(i + 1);
-      if (i == grazing) from.before = 0;
-      const motion::Arc<double, E> arc = flights.arc({from.side, from.phase, from.before, to.side, to.phase});
-      if (auto found = cut_short(scene, arc, from.phase, (to.phase - from.phase) / p.nu, i, to.side)) return found;
+      Flight<double> flight = flight_after(i);
+      const bool without_speed = flight.leaves == Event::impact || std::abs(flight.before) <= 1e-9;
+      const bool leaves_graze = i == grazing && !presses(flight.leaves) && without_speed;
+      if (leaves_graze) flight.before = 0;
+      const Path path{i,         (i + 1) % orbit.size(), flight.begin, (flight.end - flight.begin) / p.nu,
+                      flight.to, flight.arrives};
+      auto found = flights.with_arc(flight, [&](const auto& arc) {
+        if (flight.leaves == Event::impact || leaves_graze) return cut_short(p, arc, path);
+        const motion::SoftStop<double> stop = p.soft_stop(flight.from);
+        if (presses(flight.leaves)) return separates(stop, arc, path);
+        return stop.damping == 0 ? cut_short(p, arc, path) : free_within(p, stop, arc, path);
+      });
+      if (found) return found;
     }
     return std::nullopt;
   });

@@ -10,16 +10,18 @@ namespace clatter::branches {
 /// Why a solution of the equations is no motion between stops.
 struct Violation {
   enum class Kind : std::uint8_t {
-    passes_through,  ///< a flight meets a stop before its end
-    pulls            ///< an impact's velocity points away from its stop
+    passes_through,  ///< a flight meets a stop before its end; or a soft stop's force rises or falls to zero before it
+    pulls,           ///< an impact's velocity points away from its stop; an event within a soft stop lies outside
+    ends_early       ///< a contact with a soft stop, or its interruption, ends before it begins
   };
   Kind kind = Kind::passes_through;
   std::size_t impact = 0;  ///< that the flight began with; or that pulls
-  OrbitImpact turning{};   ///< passes_through: the turning point beyond the stop, as an impact without speed
+  OrbitImpact turning{};   ///< passes_through: the turning point beyond the stop, as an impact without speed; or the
+                           ///< extremum of the soft stop's force, as an event that changes nothing
 };
 
-/// The first violation of an orbit, by the proof of first contact on each of its flights; nothing: it is a motion. The
-/// impact `grazing` may be without speed.
+/// The first violation of an orbit, by the proof of first contact on each of its flights, and by that of the first sign
+/// change of a soft stop's force; nothing: it is a motion. The event `grazing` may be without speed.
 [[nodiscard]] std::optional<Violation> violation(const ShakenScene& scene, const Orbit& orbit,
                                                  std::optional<std::size_t> grazing = {});
 /// Of a point of a branch or a curve.

@@ -130,12 +130,14 @@ void check_followed(const Settings& settings, const std::string& name, std::stri
                                   "; remove it from [sweep], and give the value to begin at in [scene]");
 }
 
-/// Whether two keys of [scene] are one, or stand for a stop or restitution that both change.
+/// Whether two keys of [scene] are one, or stand for a number of a stop that both change.
 bool change_the_same(sweep::Parameter one, sweep::Parameter other) {
   using enum sweep::Parameter;
   const auto parts = [](sweep::Parameter parameter) {
     if (parameter == xs) return std::vector{stop_lower, stop_upper};
     if (parameter == R) return std::vector{R_lower, R_upper};
+    if (parameter == stop_stiffness) return std::vector{stop_stiffness_lower, stop_stiffness_upper};
+    if (parameter == stop_damping) return std::vector{stop_damping_lower, stop_damping_upper};
     return std::vector{parameter};
   };
   const std::vector<sweep::Parameter> first = parts(one), second = parts(other);

@@ -23,6 +23,9 @@ struct Dual {
   /// A variable: its derivative by itself is 1.
   Dual(const T& at, std::size_t variable) : value(at) { slope[variable] = T(1); }
 
+  /// Without its derivatives.
+  explicit operator double() const { return static_cast<double>(value); }
+
   [[nodiscard]] bool is_constant() const {
     for (const T& by : slope) {
       if (by != T(0)) return false;

@@ -14,10 +14,15 @@ namespace clatter::stepping {
 template <class Number>
 class SoftContact {
  public:
+  SoftContact() = default;
   template <Effects E>
   SoftContact(const motion::ArcConstants<Number, E>& free, const Stops& stops) {
     for (const Side side : {Side::lower, Side::upper})
-      if (is_soft(stops, side)) of_stop_[index_of(side)].emplace(constants_for(free, stops, side));
+      if (is_soft(stops, side)) add(free, motion::soft_stop_at<Number>(stops, side));
+  }
+  template <Effects E>
+  void add(const motion::ArcConstants<Number, E>& free, const motion::SoftStop<Number>& stop) {
+    of_stop_[index_of(stop.side)].emplace(constants_for(free, stop));
   }
 
   /// Calls `function(constants)` with those of motion in contact with the soft stop on a side.
@@ -33,8 +38,8 @@ class SoftContact {
                            Of<Damping::heavy, Forcing::regular>>;
 
   template <Effects E>
-  [[nodiscard]] static Any constants_for(const motion::ArcConstants<Number, E>& free, const Stops& stops, Side side) {
-    const auto stop = motion::soft_stop_at<Number>(stops, side);
+  [[nodiscard]] static Any constants_for(const motion::ArcConstants<Number, E>& free,
+                                         const motion::SoftStop<Number>& stop) {
     const Oscillator pressed{.damping = static_cast<double>(free.h + stop.damping),
                              .forcing = static_cast<double>(free.f),
                              .frequency = static_cast<double>(free.nu),

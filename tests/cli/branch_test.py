@@ -204,9 +204,25 @@ class Branch(CommandLine):
                 with h5py.File((self.directory / "a.branch.h5")) as file:
                     self.assertEqual(len(file["nu"]), points, text)
 
-    def test_soft_stops_are_refused_with_the_way_out(self):
-        self.write("a.toml", SCENE.replace("R = 0.7", "stop_stiffness = 100.0") + BRANCH)
-        self.assert_refused(2, "between rigid stops; remove stop_stiffness, or sweep with follow", "branch", "a.toml")
+    def test_a_branch_meets_soft_stops(self):
+        soft = SCENE.replace("R = 0.7", "stop_stiffness = 100.0\nstop_damping = 0.1")
+        result = self.branch(soft + BRANCH, "--json")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        special = [json.loads(line) for line in result.stdout.splitlines()]
+        self.assertIn("fold", [point["kind"] for point in special])
+        with h5py.File(self.directory / "a.branch.h5") as file:
+            self.assertGreater(np.max(file["x_max"]), 3.0)  # beyond the stop
+            self.assertTrue(np.any(np.isnan(file["impact_power"])))
+
+    def test_what_soft_stops_do_not_have_is_refused_with_the_way_out(self):
+        soft = SCENE.replace("R = 0.7", "stop_stiffness = 100.0")
+        for scene, branch, message in (
+            (soft, BRANCH + 'across = "xs"\ncurve = "fold"\n', "remove branch.across"),
+            (soft, '[branch]\nalong = "R"\nrange = [0.5, 1]\n', "R has no effect on a soft stop; take stop_damping"),
+            (SCENE, '[branch]\nalong = "stop_stiffness"\nrange = [5, 90]\n', "give scene.stop_stiffness"),
+        ):
+            self.write("a.toml", scene + branch)
+            self.assert_refused(1, message, "branch", "a.toml")
 
     def test_other_outputs_are_not_overwritten(self):
         self.write("a.toml", SCENE + "[observe]\nextrema = true\n" + BRANCH)

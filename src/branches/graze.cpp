@@ -1,0 +1,128 @@
+#include "branches/graze.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "branches/flight.hpp"
+#include "branches/newton.hpp"
+#include "branches/violation.hpp"
+
+namespace clatter::branches {
+namespace {
+
+/// Acceleration at an event, that of the free motion.
+double acceleration(const Parameters<double>& p, const OrbitImpact& event, double offset) {
+  const LeadingForce<double> force = p.force();
+  return force.amplitude * std::sin(event.phase + force.lead) + p.load - 2 * p.h * event.before -
+         p.k * (p.position(event.side) + offset);
+}
+
+std::optional<ExactGraze> solved(const Equations& equations, const ShakenScene& near, const Graze& graze, double within,
+                                 double tolerance) {
+  const OrbitEquations there = equations(graze.orbit, {graze.condition});
+  const Vector guess = there.unknowns_of(near, graze.orbit);
+  const auto exact = solution(there, guess, tolerance);
+  if (!exact || std::abs(exact->back() - guess.back()) > within) return std::nullopt;
+  ExactGraze at{there.scene_at(*exact), there.orbit_at(*exact), graze.impact};
+  OrbitImpact& impact = at.orbit.impacts[graze.impact];
+  if (impact.event != Event::impact && graze.condition.kind == Condition::Kind::graze) impact.before = 0;
+  return at;
+}
+
+/// Several grazes of soft stops at once as the one of a motion that repeats sooner, or is symmetric.
+Graze once_of(Graze graze, double slow, bool symmetric_scene) {
+  if (graze.condition.kind != Condition::Kind::graze || graze.orbit.impacts[graze.impact].event != Event::separation)
+    return graze;
+  for (std::size_t i = graze.orbit.size(); i-- > 0;) {
+    const std::size_t next = (i + 1) % graze.orbit.size();
+    if (i == graze.impact || graze.orbit.impacts[i].event != Event::touch || next == graze.impact) continue;
+    if (std::abs(graze.orbit.impacts[i].before) > slow) continue;
+    for (const std::size_t each : {std::max(i, next), std::min(i, next)}) {
+      graze.orbit.impacts.erase(graze.orbit.impacts.begin() + static_cast<std::ptrdiff_t>(each));
+      graze.impact -= each < graze.impact;
+    }
+  }
+  graze.orbit.impacts[graze.impact].before = 0;
+  graze.orbit = graze.orbit.once_with_graze(graze.impact, symmetric_scene);
+  const auto at = std::ranges::find_if(graze.orbit.impacts, [](const OrbitImpact& impact) {
+    return impact.event == Event::separation && impact.before == 0;
+  });
+  graze.impact = static_cast<std::size_t>(at - graze.orbit.impacts.begin());
+  graze.condition.impact = graze.impact;
+  return graze;
+}
+
+/// An orbit with a graze as if a contact or an interruption that lasts for `advance` of the phase began and ended
+/// there.
+Orbit with_short(const ShakenScene& scene, const Orbit& orbit, std::size_t graze, double advance) {
+  const Parameters<double> p(scene);
+  const OrbitImpact middle = orbit.impacts[graze];
+  const double relaxation = p.soft_stop(middle.side).relaxation(), time = advance / p.nu;
+  OrbitImpact begin = middle, end = middle;
+  const double a = acceleration(p, middle, -relaxation * middle.before);
+  double before = time / 2;  // from the beginning to the extremum
+  if (middle.event == Event::separation && middle.before == 0) {
+    // v t + a t^2/2 + r (v + a t) = 0, the end of a contact that begins with v: the mass turns after the time -v/a
+    before = time * (time / 2 + relaxation) / (time + relaxation);
+    begin.event = Event::touch;
+  } else {
+    begin.event = middle.event == Event::separation ? Event::renewal : Event::separation;
+  }
+  begin.phase = middle.phase - p.nu * before, begin.before = middle.before - a * before;
+  end.phase = begin.phase + advance, end.before = begin.before + a * time;
+  Orbit out = orbit;
+  out.impacts[graze] = end;
+  return out.with(begin, graze);
+}
+
+}  // namespace
+
+std::optional<ExactGraze> exact_graze(const Equations& equations, const ShakenScene& near, Graze graze, double slow,
+                                      bool symmetric_scene, double within, double tolerance) {
+  const auto exact = solved(equations, near, graze, within, tolerance);
+  if (exact) graze.orbit = exact->orbit;
+  if (!graze.orbit.meets_soft_stop()) return exact;
+  const Graze once = once_of(graze, slow, symmetric_scene);
+  if (exact && once.orbit.size() == graze.orbit.size()) return exact;
+  auto joined = solved(equations, near, once, within, tolerance);
+  if (!joined) return exact;
+  joined->joins = true;
+  return joined;
+}
+
+std::optional<Vector> direction_into_motion(const OrbitEquations& equations, const Vector& from,
+                                            const std::vector<Vector>& directions, double tolerance) {
+  for (const double s : {1e-5, 1e-4, 1e-3, 1e-2})
+    for (const Vector& direction : directions) {
+      const auto at = corrected(equations, sum(from, s, direction), direction, tolerance);
+      if (at && !violation(equations, *at)) return direction;
+    }
+  return std::nullopt;
+}
+
+std::optional<Opened> opened(const Equations& equations, const ShakenScene& scene, const Orbit& orbit,
+                             std::size_t graze, double tolerance) {
+  const Parameters<double> p(scene);
+  const double rate = std::max(p.nu, std::sqrt(std::abs(p.k) + p.soft_stop(orbit.impacts[graze].side).stiffness));
+  for (const double turned_by : {1e-3, 1e-2, 1e-4}) {
+    const double advance = p.nu / rate * turned_by;
+    const Orbit guess = with_short(scene, orbit, graze, advance);
+    const OrbitEquations lasting =
+        equations(guess, {{.kind = Condition::Kind::duration, .impact = graze, .duration = advance}});
+    const auto at = solution(lasting, lasting.unknowns_of(scene, guess), tolerance);
+    if (!at || violation(lasting, *at)) continue;
+    const OrbitEquations there = equations(guess, {});
+    Vector longer(there.unknowns(), 0.0);
+    longer[2 * graze] = -1, longer[2 * ((graze + 1) % guess.size())] = 1;
+    if (auto along = tangent(there, *at, longer)) return Opened{guess, *at, *std::move(along)};
+  }
+  return std::nullopt;
+}
+
+Orbit turned(Orbit orbit, std::size_t event) {
+  Event& kind = orbit.impacts[event].event;
+  kind = kind == Event::touch ? Event::renewal : Event::touch;
+  return orbit;
+}
+
+}  // namespace clatter::branches

@@ -1,0 +1,191 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <type_traits>
+#include <vector>
+
+#include "branches/equations.hpp"
+#include "math/dual.hpp"
+
+/// How small changes spread from event to event of a motion; for the equations and the maps.
+namespace clatter::branches::detail {
+
+using sweep::Parameter;
+
+/// Derivatives by phase and velocity at the beginning of a flight, by the phase at its end, and by two parameters.
+constexpr std::size_t by_begin = 0, by_before = 1, by_end = 2, by_first_axis = 3, most_variables = 5;
+using First = Dual<double, most_variables>;
+using Second = Dual<First, 3>;  // of the first three, each with its derivatives by all of them
+
+/// Makes a parameter a variable.
+template <class Number>
+void vary(Parameters<Number>& p, Parameter parameter, std::size_t variable) {
+  const auto seed = [variable](Number& number, double slope) {
+    if constexpr (std::is_same_v<Number, Second>)
+      number.value.slope[variable] = slope;
+    else
+      number.slope[variable] = slope;
+  };
+  switch (parameter) {
+    case Parameter::h:
+      return seed(p.h, 1);
+    case Parameter::f:
+      return seed(p.f, 1);
+    case Parameter::nu:
+      return seed(p.nu, 1);
+    case Parameter::load:
+      return seed(p.load, 1);
+    case Parameter::stiffness:
+      return seed(p.k, 1);
+    case Parameter::stop_amplitude:
+      return seed(p.stop_amplitude, 1);
+    case Parameter::base_amplitude:
+      return seed(p.base_amplitude, 1);
+    case Parameter::stop_lower:
+      return seed(p.lower, 1);
+    case Parameter::stop_upper:
+      return seed(p.upper, 1);
+    case Parameter::R_lower:
+      return seed(p.R_lower, 1);
+    case Parameter::R_upper:
+      return seed(p.R_upper, 1);
+    case Parameter::R:
+      return seed(p.R_lower, 1), seed(p.R_upper, 1);
+    case Parameter::stop_stiffness_lower:
+      return seed(p.kappa_lower, 1);
+    case Parameter::stop_stiffness_upper:
+      return seed(p.kappa_upper, 1);
+    case Parameter::stop_stiffness:
+      return seed(p.kappa_lower, 1), seed(p.kappa_upper, 1);
+    case Parameter::stop_damping_lower:
+      return seed(p.zeta_lower, 1);
+    case Parameter::stop_damping_upper:
+      return seed(p.zeta_upper, 1);
+    case Parameter::stop_damping:
+      return seed(p.zeta_lower, 1), seed(p.zeta_upper, 1);
+    default:
+      return seed(p.lower, -1), seed(p.upper, 1);  // xs
+  }
+}
+
+/// The variable that a flight's first three derivatives belong to.
+inline Second variable(double value, std::size_t index) {
+  Second number(First(value, index), index);
+  return number;
+}
+
+template <class Number>
+Flight<Number> flight_of(const Orbit& orbit, std::size_t i) {
+  const OrbitImpact from = orbit.impact(i), to = orbit.impact(i + 1);
+  if constexpr (std::is_same_v<Number, Second>)
+    return {from.side, variable(from.phase, by_begin), variable(from.before, by_before),
+            to.side,   variable(to.phase, by_end),     from.event,
+            to.event};
+  else if constexpr (std::is_same_v<Number, double>)
+    return {from.side, from.phase, from.before, to.side, to.phase, from.event, to.event};
+  else
+    return {from.side, Number(from.phase, by_begin), Number(from.before, by_before),
+            to.side,   Number(to.phase, by_end),     from.event,
+            to.event};
+}
+
+template <class Number>
+Parameters<Number> parameters_of(const ShakenScene& scene, const std::vector<OrbitEquations::Axis>& axes) {
+  Parameters<Number> p(scene);
+  for (std::size_t k = 0; k < axes.size(); ++k) vary(p, axes[k].parameter, by_first_axis + k);
+  return p;
+}
+
+/// Whether a parameter is one of those that vary.
+inline bool varies(const std::vector<OrbitEquations::Axis>& axes, Parameter parameter) {
+  return std::ranges::find(axes, parameter, &OrbitEquations::Axis::parameter) != axes.end();
+}
+
+template <class Number>
+using Square = std::array<std::array<Number, 2>, 2>;
+
+template <class A, class B>
+auto product(const Square<A>& a, const Square<B>& b) {
+  Square<decltype(a[0][0] * b[0][0])> c;
+  for (std::size_t i = 0; i < 2; ++i)
+    for (std::size_t j = 0; j < 2; ++j) c[i][j] = a[i][0] * b[0][j] + a[i][1] * b[1][j];
+  return c;
+}
+
+/// One flight's derivative of the next impact by the last, times the denominator.
+template <class Number>
+struct Link {
+  Square<Number> numerator;
+  Number denominator;
+};
+
+/// From derivatives of gap and velocity by the beginning's phase and velocity and by the end's phase. The mirrored
+/// orbit's last flight ends in the mirror image of its first impact.
+template <class Number>
+Link<Number> link_of(const std::array<Number, 3>& x, const std::array<Number, 3>& v, bool mirrored) {
+  Link<Number> link{{{{-x[0], -x[1]}, {x[2] * v[0] - v[2] * x[0], x[2] * v[1] - v[2] * x[1]}}}, x[2]};
+  if (mirrored) link.numerator[1] = {-link.numerator[1][0], -link.numerator[1][1]};
+  return link;
+}
+
+inline bool last_is_mirrored(const Orbit& orbit, std::size_t i) { return orbit.mirrored && i + 1 == orbit.size(); }
+
+/// The derivative of a flight's end by the state before the event that it begins with (eqs. 7, 27 and 53), times the
+/// speed before a rigid impact.
+template <class Number, Effects E>
+Link<Number> link_of_states(const Flights<Number, E>& flights, const Flight<Number>& flight, bool mirrored) {
+  const Parameters<Number>& p = flights.parameters();
+  Link<Number> link{{{{Number(1), Number(0)}, {Number(0), Number(1)}}}, Number(1)};
+  if (flight.leaves == Event::impact) {
+    const Number &R = p.restitution(flight.from), &v = flight.before;
+    const Number force = flights.force_at(p.position(flight.from), flight.begin);
+    link.numerator = {{{-R * v, Number(0)}, {R * (force - 2 * p.h * v) + force + 2 * p.h * R * v, -R * v}}};
+    link.denominator = v;
+  } else if (flight.leaves == Event::touch) {
+    link.numerator[1][0] = -2 * p.soft_stop(flight.from).damping;
+  }
+  const Number time = (flight.end - flight.begin) / p.nu;
+  flights.with_constants(presses(flight.leaves) ? flight.from : Side::none, [&](const auto& constants) {
+    const motion::Propagator<Number> free = constants.propagator(time);
+    const Number sign = mirrored ? -1 : 1;
+    const Square<Number> flown{{{sign * free.a, sign * free.b}, {-sign * constants.spring(free.b), sign * free.c}}};
+    link.numerator = product(flown, link.numerator);
+  });
+  return link;
+}
+
+template <class Number>
+std::vector<Link<Number>> links_of_states(const ShakenScene& scene, const Orbit& orbit, const Parameters<Number>& p,
+                                          bool stiffness_varies) {
+  std::vector<Link<Number>> links;
+  with_arcs(
+      scene,
+      [&]<Effects E>() {
+        const Flights<Number, E> flights(p);
+        for (std::size_t i = 0; i < orbit.size(); ++i)
+          links.push_back(link_of_states(flights, flight_of<Number>(orbit, i), last_is_mirrored(orbit, i)));
+      },
+      stiffness_varies);
+  return links;
+}
+
+/// R^(2n) e^(-2 h T) of the impacts of an orbit as it is kept, less by e^(-2 h_s t) in a contact with a soft stop.
+template <class Number>
+Number determinant_of(const Parameters<Number>& p, const Orbit& orbit) {
+  using std::exp;
+  Number determinant = exp(Number(-2) * p.h * (Number(orbit.advance()) / p.nu));
+  const auto press = [&](Side side, double advance) {
+    determinant *= exp(Number(-2) * p.soft_stop(side).damping * (Number(advance) / p.nu));
+  };
+  if (orbit.pressed != Side::none) press(orbit.pressed, orbit.advance());
+  for (std::size_t i = 0; i < orbit.size(); ++i) {
+    const OrbitImpact& impact = orbit.impacts[i];
+    if (impact.event == Event::impact) determinant *= p.restitution(impact.side) * p.restitution(impact.side);
+    if (presses(impact.event)) press(impact.side, orbit.impact(i + 1).phase - impact.phase);
+  }
+  return determinant;
+}
+
+}  // namespace clatter::branches::detail
