@@ -88,7 +88,7 @@ class SoftNeighbourhood : public Neighbourhood {
       mode_ = mode;  // all begin in contact if the depth is clear of 0, too
       holds_ = mode == outrun || stop_.into(arc.start().x - stop_.position) > bound_ / field_.weight;
     }
-    holds_ = holds_ && mode_ == mode;
+    holds_ = holds_ && mode_ == mode && bound_ / field_.weight < stops_.upper - stops_.lower;  // none meets the other
     const double from = std::max(0.0, clear_from_ - begin);
     if (holds_ && approached_ == Side::none && from < length) keep_margin(arc, begin, from, length);
     last_ = arc.at(length);

@@ -165,6 +165,34 @@ TEST(SoftStops, a_general_solver_finds_the_same) {
   EXPECT_NEAR(solved.multiplier_re[0], exact.multiplier_re[0], 1e-6);
 }
 
+TEST(SoftStops, motion_that_newtons_method_finds_is_that_of_a_long_run) {
+  int newton = 0, compared = 0;
+  for (std::uint64_t i = 0; i < 400; ++i) {
+    Problem scene = support::soft_scene(i);
+    if (scene.oscillator.forcing == 0) continue;
+    scene.time = {.max_periods = 1500};
+    scene.observe.extrema = scene.observe.period = scene.observe.stability = true;
+    const PointResult found = run(scene);
+    if (found.found_by != steady::FoundBy::newton) continue;
+    ++newton;
+    EXPECT_LT(std::hypot(found.multiplier_re[0], found.multiplier_im[0]), 1) << i;
+    scene.integration.all_effects = true;
+    const PointResult all = run(scene);
+    if (all.status != steady::Status::periodic) continue;  // it settles more slowly than it ran
+    ++compared;
+    EXPECT_EQ(found.period_ratio, all.period_ratio) << i;
+    // either is known to the tolerance of its states over what a period leaves of a change
+    const double left = 1 - std::exp(found.lyapunov * found.period), size = std::max(found.v_max, -found.v_min);
+    const double allowed = 4e-12 / std::max(1e-6, std::min(1.0, left)) * std::max(size, std::abs(found.x_max));
+    EXPECT_NEAR(found.x_min, all.x_min, allowed) << i;
+    EXPECT_NEAR(found.x_max, all.x_max, allowed) << i;
+    EXPECT_NEAR(found.v_min, all.v_min, allowed) << i;
+    EXPECT_NEAR(found.v_max, all.v_max, allowed) << i;
+  }
+  EXPECT_GT(newton, 30);
+  EXPECT_GT(compared, newton / 2);
+}
+
 TEST(SoftStops, out_of_reach_cost_nothing) {
   Problem scene = between_soft({0.1, -1.0, 1.5, 0.0}, 3.0, 40.0, 0.3), without = scene;
   without.stops = Stops{};
