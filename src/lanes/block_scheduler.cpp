@@ -189,5 +189,6 @@ void BlockScheduler<E>::leave(Block<Task>& block, std::size_t lane) {
 
 template class BlockScheduler<sprung>;
 template class BlockScheduler<unsprung>;
+template class BlockScheduler<cushioned>;
 
 }  // namespace clatter::lanes

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 
@@ -34,7 +35,8 @@ struct BlockState {
   LaneArray bound_v, bound_forced_v;           ///< the same for the enclosure of the velocity
   LaneArray rounding;                          ///< of displacements: the part that doesn't depend on the free motion
   // of the stops
-  LaneArray lower, upper, restitution_lower, restitution_upper;
+  LaneArray lower, upper;  ///< between which the motion is free of contact
+  LaneArray stop_lower, stop_upper, restitution_lower, restitution_upper;
   // of the sections
   LaneArray period, start_sine, start_cosine;
   // present state
@@ -78,6 +80,53 @@ struct BlockState {
     LaneArray reach_x, reach_v;    ///< over a step x and v stay below reach_x |x| + reach_v |v| + reach_of_pull
     LaneArray reach_of_pull;
   } unsprung;
+  /// Of lanes with soft stops, which take the mass from one oscillator to another. The constants of the present one
+  /// stand in the rows above; displacements count from its equilibrium, and lower and upper bound y + relaxation v.
+  struct Cushioned {
+    static constexpr std::size_t rows = 25;
+    LaneArray phase;                ///< 0 between the stops; -1, 1: in contact with the lower, the upper one; -2, 2:
+                                    ///< beyond its position without contact
+    LaneArray k, natural, free_kb;  ///< stiffness, its root, and k times the propagator's b over a step
+    LaneArray relaxation;           ///< of the stop in contact, 2 h_s/kappa; else 0
+    LaneArray rounding_of_free;     ///< rounding of y + relaxation v, per size of the free motion
+    LaneArray shift;                ///< its equilibrium less that of motion between the stops
+    LaneArray shrinks;              ///< 2 h_s in contact, else 0: the rate at which the stop shrinks areas of states
+    LaneArray of_phase[3][rows];    ///< [between the stops, in contact with the lower, the upper one]
+    LaneArray soft[2];              ///< [stop]: 1 if it is soft
+    LaneArray relaxation_of[2];     ///< [stop]
+    LaneArray log_area;             ///< logarithm of the factor by which soft stops have shrunk areas
+    LaneArray section_log_area;     ///< the same up to the section that was passed
+  } cushioned;
 };
+
+/// The rows that depend on the phase of a motion between soft stops.
+[[nodiscard]] inline std::array<LaneArray*, BlockState::Cushioned::rows> rows_of_phase(BlockState& b) {
+  BlockState::Cushioned& c = b.cushioned;
+  return {&b.h,
+          &b.twice_h,
+          &b.root,
+          &b.inverse_root,
+          &b.in_phase,
+          &b.quadrature,
+          &b.step,
+          &b.inverse_step,
+          &b.free_a,
+          &b.free_b,
+          &b.free_c,
+          &b.turn_sine,
+          &b.turn_cosine_minus_one,
+          &b.bound,
+          &b.bound_forced,
+          &b.rounding,
+          &b.lower,
+          &b.upper,
+          &c.k,
+          &c.natural,
+          &c.free_kb,
+          &c.relaxation,
+          &c.rounding_of_free,
+          &c.shift,
+          &c.shrinks};
+}
 
 }  // namespace clatter::lanes

@@ -56,6 +56,15 @@ template <class V>
   return {angle * polynomial(sine_terms, square), square * polynomial(cosine_terms, square)};
 }
 
+/// A turn by an angle of at most 2^-8.
+template <class V>
+[[nodiscard]] motion::Turn<V> tiny_turn(const V& angle) {
+  static constexpr std::array sine_terms{1.0, -1.0 / 6, 1.0 / 120};
+  static constexpr std::array cosine_terms{-1.0 / 2, 1.0 / 24};
+  const V square = angle * angle;
+  return {angle * polynomial(sine_terms, square), square * polynomial(cosine_terms, square)};
+}
+
 /// (z - 1 + e^-z)/z^2 for 0 <= z <= 2 (eq. 45), to 2 ulps of 1.
 template <class V>
 [[nodiscard, gnu::always_inline]] inline V short_second_divided_decay(const V& z) {

@@ -7,18 +7,11 @@
 #include <utility>
 
 #include "lanes/step_functions.hpp"
-#include "math/bernstein.hpp"
 
 namespace clatter::lanes {
 namespace {
 
 static_assert(observables::Harmonics::most_in_lanes == BlockState::most_harmonics);
-
-/// Length of a step times max(1, nu): shorter steps are more to prove, longer ones are free of contact less often.
-constexpr double usual_step = 1.8;
-
-/// Bound of the rounding of displacements, relative to the sizes of their summands.
-constexpr double rounding = 0x1p-49;
 
 /// Begins counts and sums anew; no flight is a reference yet.
 void begin_sums(BlockState& block, std::size_t lane) {
@@ -43,6 +36,21 @@ bool holds(const Scene& scene) {
   return k == 0 && ((above && load < 0) || (below && load > 0));
 }
 
+/// Whether lanes take contact with a stop, if it is soft: beside a spring, a decaying rotation away from resonance.
+bool yields(const Scene& scene, Side side) {
+  if (!is_soft(scene.stops, side)) return true;
+  const auto stop = motion::soft_stop_at<double>(scene.stops, side);
+  const Oscillator& o = scene.oscillator;
+  const Oscillator contact{.damping = o.damping + stop.damping,
+                           .forcing = o.forcing,
+                           .frequency = o.frequency,
+                           .stiffness = o.stiffness + stop.stiffness};
+  const bool turns = contact.damping * contact.damping <= 0.81 * contact.stiffness;
+  const bool leaves = stop.damping == 0 || stop.damping >= 1e-4 * std::sqrt(stop.stiffness);
+  return o.stiffness == 1 && stop.stiffness >= 1.0 / 16 && stop.stiffness <= 1e8 && turns && leaves &&
+         forcing_of(contact) == Forcing::regular;
+}
+
 }  // namespace
 
 bool accepts(const Scene& scene) {
@@ -52,8 +60,9 @@ bool accepts(const Scene& scene) {
                      forcing_of(o) == Forcing::regular;
   const double amplitude = steady_response(o).amplitude, room = stops.upper - stops.lower;
   const bool bounces = std::min(stops.restitution_lower, stops.restitution_upper) >= 1.0 / 16;
-  return moves && !has_soft_stop(stops) && o.frequency >= 1e-3 && o.frequency <= 1e3 && bounces && amplitude > 1e-100 &&
-         amplitude < 1e100 && room > amplitude / 64 && std::min(std::abs(stops.lower), std::abs(stops.upper)) < 1e100;
+  return moves && yields(scene, Side::lower) && yields(scene, Side::upper) && o.frequency >= 1e-3 &&
+         o.frequency <= 1e3 && bounces && amplitude > 1e-100 && amplitude < 1e100 && room > amplitude / 64 &&
+         std::min(std::abs(stops.lower), std::abs(stops.upper)) < 1e100;
 }
 
 template <>
@@ -61,6 +70,13 @@ StepFunctions step_functions_of<sprung>(InstructionSet arch) {
   if (arch == InstructionSet::avx512) return {step_avx512, step_observed_avx512};
   if (arch == InstructionSet::avx2) return {step_avx2, step_observed_avx2};
   return {step_sse2, step_observed_sse2};
+}
+
+template <>
+StepFunctions step_functions_of<cushioned>(InstructionSet arch) {
+  if (arch == InstructionSet::avx512) return {step_cushioned_avx512, nullptr};
+  if (arch == InstructionSet::avx2) return {step_cushioned_avx2, nullptr};
+  return {step_cushioned_sse2, nullptr};
 }
 
 template <>
@@ -81,88 +97,25 @@ void clear_lane(BlockState& block, std::size_t lane) {
   begin_sums(block, lane);
 }
 
-/// Sets the error bounds of the lane's enclosures. Without a spring displacement and velocity have bounds of their own.
-template <Effects arcs>
-void LaneView::set_bounds(const motion::ArcConstants<double, arcs>& constants, const Stops& stops, double step) {
-  const auto error_of = [&](double free_x, double free_v, int derivative) {
-    motion::Motion<double> m{};
-    m.free_x = free_x, m.free_v = free_v;
-    if constexpr (arcs.damping == Damping::heavy) m.fast_x = constants.fast_mode(free_x, free_v);
-    return hermite_error(constants.sixth_bound(m, step, derivative));
-  };
-  const double size = std::max(1.0, constants.response.amplitude / 1024);  // that isn't lost beside the forced part
-  const auto error_of_size = [&](int derivative) {
-    if constexpr (!arcs.stiffness) return error_of(size, 0, derivative);
-    const double of_x = error_of(size / at(block_->unsprung.reach_x), 0, derivative);
-    return std::max(of_x, error_of(0, size / at(block_->unsprung.reach_v), derivative));
-  };
-  const auto set = [&](LaneArray& bound, LaneArray& forced, int derivative) {
-    at(forced) = error_of(0, 0, derivative), at(bound) = (error_of_size(derivative) - at(forced)) / size;
-  };
-  set(block_->bound, block_->bound_forced, 0), set(block_->bound_v, block_->bound_forced_v, 1);
-  at(block_->forced_size) = 2 * constants.response.amplitude * (1 + constants.nu);
-  double scale = constants.response.amplitude * (1 + constants.nu * constants.nu * step * step);
-  for (const double stop : {stops.lower, stops.upper})
-    if (std::isfinite(stop)) scale += std::abs(stop) + std::abs(constants.equilibrium);
-  if constexpr (arcs.stiffness) scale += std::abs(constants.unbalanced) * step * step;
-  at(block_->rounding) = rounding * scale;
-}
-
-/// Loads all that lanes without a spring have besides (eqs. 43, 45 and 47).
-template <Effects arcs>
-void LaneView::load_unsprung(const motion::ArcConstants<double, arcs>& constants, double step) {
-  BlockState::Unsprung& rows = block_->unsprung;
-  const motion::Step<double> of_step = constants.step(step);
-  const double k = constants.k, pull = constants.unbalanced, growth = std::exp(-constants.slow * step);
-  at(rows.k) = k, at(rows.pull) = pull, at(rows.root_square) = -constants.root * constants.root;
-  at(rows.free_kb) = k * of_step.free.b;
-  at(rows.pulled_x) = pull * of_step.pulled, at(rows.pulled_v) = pull * of_step.free.b;
-  at(rows.reach_x) = growth * std::max(1.0, -k * step), at(rows.reach_v) = growth * std::max(1.0, step);
-  at(rows.reach_of_pull) = std::abs(pull) * std::max(step, step * step / 2);
-}
-
-template <Effects arcs>
-void LaneView::load(const motion::ArcConstants<double, arcs>& constants, const Stops& stops) {
-  const double step = usual_step / (arcs.stiffness ? constants.rate : std::max(1.0, constants.nu));
-  const motion::Step<double> of_step = constants.step(step);
-  BlockState& block = *block_;
-  at(block.h) = constants.h, at(block.twice_h) = 2 * constants.h, at(block.f) = constants.f;
-  at(block.nu) = constants.nu, at(block.root) = constants.root, at(block.inverse_root) = 1 / constants.root;
-  at(block.in_phase) = constants.response.in_phase, at(block.quadrature) = constants.response.quadrature;
-  at(block.amplitude) = constants.response.amplitude;
-  at(block.step) = step, at(block.inverse_step) = 1 / step;
-  at(block.free_a) = of_step.free.a, at(block.free_b) = of_step.free.b, at(block.free_c) = of_step.free.c;
-  at(block.turn_sine) = of_step.turn.sine, at(block.turn_cosine_minus_one) = of_step.turn.cosine_minus_one;
-  at(block.lower) = stops.lower - constants.equilibrium, at(block.upper) = stops.upper - constants.equilibrium;
-  at(block.restitution_lower) = stops.restitution_lower, at(block.restitution_upper) = stops.restitution_upper;
-  if constexpr (arcs.stiffness) load_unsprung(constants, step);
-  set_bounds(constants, stops, step);
-  at(block.period) = constants.period;
-  at(block.start_sine) = std::sin(scene_->start.phase), at(block.start_cosine) = std::cos(scene_->start.phase);
-  at(block.impacts) = 0, at(block.itinerary) = 0;
-  at(block.to_next) = constants.period;
-  set_state({scene_->start.displacement, scene_->start.velocity, 0}, 0);
-}
-
-template void LaneView::load(const Constants<sprung>&, const Stops&);
-template void LaneView::load(const Constants<unsprung>&, const Stops&);
-
 double LaneView::acceleration(double y, double v, double sine) const {
   const Oscillator& o = scene_->oscillator;
+  if (is_cushioned())
+    return Constants<cushioned>::Equation{at(block_->twice_h), o.forcing, o.frequency, at(block_->cushioned.k)}
+        .acceleration(y, v, sine);
   const double twice_h = 2 * o.damping, pull = o.stiffness == 0 ? o.load : 0.0;
   if (o.stiffness == 1) return Constants<sprung>::Equation{twice_h, o.forcing, o.frequency}.acceleration(y, v, sine);
   return Constants<unsprung>::Equation{twice_h, o.forcing, o.frequency, o.stiffness, pull}.acceleration(y, v, sine);
 }
 
 double LaneView::x_of(double y) const {
-  if (y == at(block_->lower)) return scene_->stops.lower;
-  if (y == at(block_->upper)) return scene_->stops.upper;
+  if (y == at(block_->stop_lower)) return scene_->stops.lower;
+  if (y == at(block_->stop_upper)) return scene_->stops.upper;
   return equilibrium_of(scene_->oscillator) + y;
 }
 
 double LaneView::y_of(double x) const {
-  if (x == scene_->stops.lower) return at(block_->lower);
-  if (x == scene_->stops.upper) return at(block_->upper);
+  if (x == scene_->stops.lower) return at(block_->stop_lower);
+  if (x == scene_->stops.upper) return at(block_->stop_upper);
   return x - equilibrium_of(scene_->oscillator);
 }
 
@@ -172,17 +125,48 @@ double LaneView::sections_between() const {
 
 LaneState LaneView::state() const {
   const double periods_left = at(block_->time_to_section) / at(block_->period);
-  return {x_of(at(block_->y)), at(block_->v), 1 + sections_between() - periods_left};
+  LaneState state{x_of(at(block_->y)), at(block_->v), 1 + sections_between() - periods_left};
+  const double phase = is_cushioned() ? at(block_->cushioned.phase) : 0.0;
+  if (phase == 0) return state;
+  state.within = phase > 0 ? Side::upper : Side::lower, state.pressed = std::abs(phase) == 1;
+  state.offset = at(block_->y) - (phase > 0 ? at(block_->lower) : at(block_->upper));
+  state.x = (phase > 0 ? scene_->stops.upper : scene_->stops.lower) + state.offset;
+  return state;
+}
+
+/// Puts the lane into the phase of a state, and returns its displacement from that phase's equilibrium.
+double LaneView::enter_phase(const LaneState& state) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  BlockState::Cushioned& rows = block_->cushioned;
+  LaneState s = state;
+  for (const Side side : {Side::lower, Side::upper}) {
+    if (s.within != Side::none || !(at(rows.soft[index_of(side)]) > 0)) continue;
+    const auto stop = motion::soft_stop_at<double>(scene_->stops, side);
+    const double depth = stop.into(s.x - stop.position);
+    if (!(depth > 0)) continue;
+    s.within = side, s.offset = s.x - stop.position, s.pressed = stop.force(depth, stop.into(s.v)) > 0;
+  }
+  const auto present = rows_of_phase(*block_);
+  const std::size_t phase = s.within != Side::none && s.pressed ? 1 + index_of(s.within) : 0;
+  for (std::size_t i = 0; i < present.size(); ++i) at(*present[i]) = at(rows.of_phase[phase][i]);
+  at(rows.phase) = sign_of(s.within) * (s.pressed ? 1 : 2);
+  if (s.within == Side::none) return y_of(s.x);
+  const bool upper = s.within == Side::upper;
+  if (!s.pressed) {
+    at(block_->lower) = upper ? at(block_->stop_upper) : -infinity;
+    at(block_->upper) = upper ? infinity : at(block_->stop_lower);
+  }
+  return (upper ? at(block_->lower) : at(block_->upper)) + s.offset;
 }
 
 void LaneView::set_state(const LaneState& state, double sections_between) {
   const double turn = 2 * pi<double>() * state.phase_turns, phase = scene_->start.phase + turn;
   const double sine = state.phase_turns == 0 ? at(block_->start_sine) : std::sin(phase);
   const double cosine = state.phase_turns == 0 ? at(block_->start_cosine) : std::cos(phase);
-  const Response<double> forced{at(block_->in_phase), at(block_->quadrature)};
-  const double y = y_of(state.x), nu = at(block_->nu);
+  const double y = is_cushioned() ? enter_phase(state) : y_of(state.x), nu = at(block_->nu);
   at(block_->sine) = sine, at(block_->cosine) = cosine;
   at(block_->y) = y, at(block_->v) = state.v;
+  const Response<double> forced{at(block_->in_phase), at(block_->quadrature)};
   at(block_->free_x) = y - forced.displacement(sine, cosine);
   at(block_->free_v) = state.v - forced.velocity(nu, sine, cosine);
   at(block_->a) = acceleration(y, state.v, sine);
@@ -193,7 +177,7 @@ void LaneView::set_state(const LaneState& state, double sections_between) {
 
 LaneSection LaneView::section() const {
   return {x_of(at(block_->section_y)), at(block_->section_v), at(block_->section_impacts),
-          std::bit_cast<std::uint64_t>(at(block_->section_itinerary))};
+          std::bit_cast<std::uint64_t>(at(block_->section_itinerary)), at(block_->cushioned.section_log_area)};
 }
 
 PhaseState LaneView::section_from_load() const {
@@ -206,6 +190,7 @@ double LaneView::pass_section(double x, double v) {
   set_section(x - equilibrium_of(scene_->oscillator), v);
   at(block_->section_itinerary) = std::exchange(at(block_->itinerary), 0.0);
   at(block_->section_impacts) = at(block_->impacts);
+  at(block_->cushioned.section_log_area) = std::exchange(at(block_->cushioned.log_area), 0.0);
   block_->arrived |= LaneMask{1} << lane_;
   return std::round(std::exchange(at(block_->to_next), at(block_->period)) / at(block_->period)) - 1;
 }

@@ -18,9 +18,13 @@
 
 namespace clatter::lanes {
 
-/// The displacement and velocity of a lane at a forcing phase, in turns since the last stroboscopic section.
+/// The displacement and velocity of a lane at a forcing phase, in turns since the last stroboscopic section, and its
+/// place at a soft stop (`motion::State`).
 struct LaneState {
   double x, v, phase_turns;
+  Side within = Side::none;
+  bool pressed = false;
+  double offset = 0.0;
 };
 
 /// A stroboscopic section that a lane has passed.
@@ -28,6 +32,7 @@ struct LaneSection {
   double x, v;
   double impacts;           ///< met by the lane up to here
   std::uint64_t itinerary;  ///< the same for the same stops in the same order since the last section, 0 for none
+  double log_area;          ///< logarithm of the factor by which soft stops have shrunk areas of states since then
 };
 
 /// What the observers of the scalar loop have seen of a lane's motion.
@@ -39,13 +44,13 @@ struct Observed {
 };
 
 /// Whether a scene can run in a lane: forced motion between stops, lightly damped, away from resonance, with lengths
-/// and frequencies that leave an enclosure room; without a spring it must be bounded.
+/// and frequencies that leave an enclosure room; without a spring it must be bounded. Soft stops stand beside a spring.
 [[nodiscard]] bool accepts(const Scene& scene);
 
 /// Advances every lane: to its next contact, past the next section, or by a few steps, whichever comes first.
 using StepFunction = void (*)(BlockState&);
 
-/// The step functions of one instruction set, plain and with observers.
+/// The step functions of one instruction set, plain and, but for soft stops, with observers.
 struct StepFunctions {
   StepFunction plain, observed;
 };
@@ -95,8 +100,9 @@ class LaneView {
   /// Says, at a report, whether the next one ends the observation, and whether the lane has to stop short of it or may
   /// overshoot, and how many periods after it the one after that is due.
   void expect_section(bool ends, bool stop_short, std::int64_t periods_after);
-  /// Notes a stop that the scalar loop has met.
+  /// Notes a stop that the scalar loop has met, and the areas that a soft one has shrunk there.
   void add_to_itinerary(Side side);
+  void add_to_log_area(double part) { at(block_->cushioned.log_area) += part; }
   /// Adds what the scalar loop has observed.
   void include(const Observed& observed);
   [[nodiscard]] std::size_t highest_harmonic() const { return block_->harmonics; }  ///< that is summed
@@ -112,13 +118,19 @@ class LaneView {
 
  private:
   [[nodiscard]] double& at(LaneArray& row) const { return row.lane[lane_]; }
+  [[nodiscard]] bool is_cushioned() const { return at(block_->cushioned.k) > 0; }  ///< among soft stops
   [[nodiscard]] double x_of(double y) const;
   [[nodiscard]] double y_of(double x) const;
   [[nodiscard]] double acceleration(double y, double v, double sine) const;
   template <Effects arcs>
+  void load_arc(const motion::ArcConstants<double, arcs>& constants, const Stops& stops);
+  template <Effects arcs>
   void load_unsprung(const motion::ArcConstants<double, arcs>& constants, double step);
+  void load_phases(const Constants<cushioned>& between, const Stops& stops);
+  void load_phase(std::size_t phase, const Constants<cushioned>& constants, const Stops& bounds);
   template <Effects arcs>
   void set_bounds(const motion::ArcConstants<double, arcs>& constants, const Stops& stops, double step);
+  [[nodiscard]] double enter_phase(const LaneState& state);
 
   BlockState* block_;
   std::size_t lane_;

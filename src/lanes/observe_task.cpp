@@ -17,6 +17,7 @@ steady::ObservedTime failure(stepping::Outcome outcome, double simulated) {
 
 template <Effects E>
 bool lanes_can_observe(const SettledPoint<E>& settled) {
+  if (E.soft) return false;
   const point::Problem& problem = settled.item.problem;
   const steady::ObservedTime& observed = settled.observed;
   const observables::ObservedSpan span{.scene = problem,
@@ -191,9 +192,12 @@ point::PointResult ObserveTask<E>::result(const LaneView& lane, point::ThreadScr
 
 template bool lanes_can_observe(const SettledPoint<sprung>&);
 template bool lanes_can_observe(const SettledPoint<unsprung>&);
+template bool lanes_can_observe(const SettledPoint<cushioned>&);
 template point::PointResult observe_in_scalar_loop(const SettledPoint<sprung>&, point::ThreadScratch&);
 template point::PointResult observe_in_scalar_loop(const SettledPoint<unsprung>&, point::ThreadScratch&);
+template point::PointResult observe_in_scalar_loop(const SettledPoint<cushioned>&, point::ThreadScratch&);
 template class ObserveTask<sprung>;
 template class ObserveTask<unsprung>;
+template class ObserveTask<cushioned>;
 
 }  // namespace clatter::lanes

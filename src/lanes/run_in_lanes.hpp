@@ -10,7 +10,8 @@ namespace clatter::lanes {
 
 inline constexpr std::size_t lanes_per_block = LaneArray::width;  ///< points that run side by side in lanes
 
-/// Whether a point of the exact method can run in lanes: it meets stops, or is a transient, and its scene is accepted.
+/// Whether a point of the exact method can run in lanes: it meets stops, or is a transient without soft ones, and its
+/// scene is accepted.
 [[nodiscard]] bool accepts(const point::WorkItem& item);
 
 /// Runs an accepted point `times` times, at least once, side by side in the lanes of an instruction set that isn't

@@ -16,7 +16,10 @@ class LaneObserver {
   template <class A>
   void arc(const A& arc, double begin, double length) {
     if (observed_) observed_->extrema.arc(arc, begin, length);
+    if constexpr (A::effects.stiffness)
+      if (arc.constants().stop.side != Side::none) lane_.add_to_log_area(-2 * arc.constants().stop.damping * length);
   }
+  void touch(const motion::Touch& touch) { lane_.add_to_itinerary(touch.side); }
   void rest(const motion::Rest&) { rested_ = true; }
   void impact(const motion::Impact& impact) {
     lane_.add_to_itinerary(impact.side);
@@ -47,6 +50,9 @@ stepping::Outcome ScalarFallback<E>::advance(LaneView& lane) {
   if (now.x == loop_.stops().lower) state.from_stop = Side::lower;
   if (now.x == loop_.stops().upper) state.from_stop = Side::upper;
   if (lane.mark() == mark_) state = end_;  // a lane can't hold a release or a short offset
+  if constexpr (E.soft)
+    if (now.within != Side::none)
+      state.within = state.from_stop = now.within, state.pressed = now.pressed, state.offset = now.offset;
   double end = std::min(1.0, state.phase_turns + lane.turns_of_two_steps());
   LaneObserver observer(lane, observes_, loop_.constants().nu);
   stepping::Outcome outcome = loop_.advance(state, end, 0, observer);
@@ -60,12 +66,13 @@ stepping::Outcome ScalarFallback<E>::advance(LaneView& lane) {
     between = between == 0 ? lane.pass_section(state.x, state.v) : between - 1;
     state.phase_turns = 0;
   }
-  lane.set_state({state.x, state.v, state.phase_turns}, between);
+  lane.set_state({state.x, state.v, state.phase_turns, state.within, state.pressed, state.offset}, between);
   end_ = state, mark_ = lane.mark();
   return outcome;
 }
 
 template class ScalarFallback<sprung>;
 template class ScalarFallback<unsprung>;
+template class ScalarFallback<cushioned>;
 
 }  // namespace clatter::lanes

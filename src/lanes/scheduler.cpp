@@ -1,5 +1,6 @@
 #include "lanes/scheduler.hpp"
 
+#include <algorithm>
 #include <utility>
 
 namespace clatter::lanes {
@@ -14,16 +15,23 @@ Scheduler::Scheduler(InstructionSet arch, point::ThreadScratch& scratch, WorkQue
 
 void Scheduler::run() {
   for (;;) {
-    if (waiting_[false].empty() && waiting_[true].empty()) {
+    std::size_t kind = kinds;
+    while (kind > 0 && waiting_[kind - 1].empty()) --kind;
+    if (kind == 0) {
       auto item = next_();
       if (!item) return;
-      const bool stiffness = item->effects.stiffness;
-      waiting_[stiffness].push_back(std::move(*item));
+      kind = 1 + kind_of(item->effects);
+      waiting_[kind - 1].push_back(std::move(*item));
     }
-    if (waiting_[true].empty()) {
-      run_with<sprung>();
-    } else {
-      run_with<unsprung>();
+    switch (kind - 1) {
+      case kind_of(sprung):
+        run_with<sprung>();
+        break;
+      case kind_of(unsprung):
+        run_with<unsprung>();
+        break;
+      default:
+        run_with<cushioned>();
     }
   }
 }
@@ -31,22 +39,23 @@ void Scheduler::run() {
 template <Effects E>
 void Scheduler::run_with() {
   BlockScheduler<E> blocks(
-      arch_, scratch_, [this] { return next_with(E.stiffness); }, take_);
+      arch_, scratch_, [this] { return next_of(kind_of(E)); }, take_);
   blocks.run();
   proved_ += blocks.proved(), refined_ += blocks.refined();
 }
 
-std::optional<point::WorkItem> Scheduler::next_with(bool stiffness) {
-  std::vector<point::WorkItem>&ready = waiting_[stiffness], &others = waiting_[!stiffness];
+std::optional<point::WorkItem> Scheduler::next_of(std::size_t kind) {
+  std::vector<point::WorkItem>& ready = waiting_[kind];
   if (!ready.empty()) {
     std::optional<point::WorkItem> item = std::move(ready.back());
     ready.pop_back();
     return item;
   }
-  while (others.size() < most_waiting) {
+  const auto full = [](const std::vector<point::WorkItem>& items) { return items.size() >= most_waiting; };
+  while (std::ranges::none_of(waiting_, full)) {
     std::optional<point::WorkItem> item = next_();
-    if (!item || item->effects.stiffness == stiffness) return item;
-    others.push_back(std::move(*item));
+    if (!item || kind_of(item->effects) == kind) return item;
+    waiting_[kind_of(item->effects)].push_back(std::move(*item));
   }
   return std::nullopt;
 }

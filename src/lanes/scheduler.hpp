@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <optional>
 #include <vector>
 
@@ -23,14 +25,14 @@ class Scheduler {
  private:
   template <Effects E>
   void run_with();
-  /// The next point with or without a spring.
-  [[nodiscard]] std::optional<point::WorkItem> next_with(bool stiffness);
+  /// The next point that needs lanes of a kind.
+  [[nodiscard]] std::optional<point::WorkItem> next_of(std::size_t kind);
 
   InstructionSet arch_;
   point::ThreadScratch& scratch_;
   WorkQueue next_;
   ResultSink take_;
-  std::vector<point::WorkItem> waiting_[2];  ///< [whether the stiffness is an effect]
+  std::array<std::vector<point::WorkItem>, kinds> waiting_;  ///< [kind of lanes]
   double proved_ = 0.0, refined_ = 0.0;
 };
 

@@ -10,7 +10,8 @@ template <Effects E>
 SettleTask<E>::SettleTask(const point::WorkItem& item)
     : item_(item),
       fallback_({item_.problem, stops_in_reach(item_.problem.stops, item_.effects), limits_of(item_.problem)}, false),
-      log_area_(2 * std::log(std::max(loop().stops().restitution_lower, loop().stops().restitution_upper))) {}
+      log_area_(E.soft ? 0.0
+                       : 2 * std::log(std::max(loop().stops().restitution_lower, loop().stops().restitution_upper))) {}
 
 template <Effects E>
 std::optional<SettledPoint<E>> SettleTask<E>::begin(LaneView& lane) {
@@ -34,7 +35,9 @@ std::optional<SettledPoint<E>> SettleTask<E>::pass_section(LaneView& lane) {
   sections_ += to_report_;
   if (impacts > item_.problem.time.max_impacts)
     return settled(search_->failure(stepping::Outcome::event_budget, {}), section.impacts);
-  search_->pass_periods({section.itinerary, log_area_ * (impacts - section_impacts_)}, to_report_);
+  double log_area = log_area_ * (impacts - section_impacts_);
+  if constexpr (E.soft) log_area = section.log_area;
+  search_->pass_periods({section.itinerary, log_area}, to_report_);
   section_impacts_ = impacts;
   motion::State<double> state;
   state.x = section.x, state.v = section.v, state.periods = sections_;
@@ -69,5 +72,6 @@ double SettleTask<E>::share(const LaneView& lane) const {
 
 template class SettleTask<sprung>;
 template class SettleTask<unsprung>;
+template class SettleTask<cushioned>;
 
 }  // namespace clatter::lanes

@@ -42,7 +42,9 @@ class SettleTask {
 
   point::WorkItem item_;
   ScalarFallback<E> fallback_;
-  double log_area_;  ///< logarithm of the factor by which an impact shrinks areas, at the stop that shrinks them less
+  /// Logarithm of the factor by which an impact shrinks areas, at the stop that shrinks them less; 0 with soft stops,
+  /// whose part lanes tell.
+  double log_area_;
   std::optional<steady::ForcedSearch<E>> search_{};  ///< none for a transient
   std::int64_t sections_ = 0;
   std::int64_t to_report_ = 1, after_report_ = 1;  ///< forcing periods to the next report, and to the one after it

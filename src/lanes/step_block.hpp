@@ -3,14 +3,16 @@
 #include <array>
 #include <limits>
 
+#include "lanes/lane_effects.hpp"
 #include "lanes/lane_observers.hpp"
+#include "lanes/lane_phases.hpp"
 #include "model/restitution.hpp"
 
 namespace clatter::lanes {
 
 /// Advances the lanes of a vector: each to its next contact, past its next stroboscopic section, or by a few steps.
 /// Everything here is a template on the vector's type V, so that no code of one instruction set is ever merged with
-/// that of another. E: the effects of the lanes' arcs.
+/// that of another. E: the effects of the lanes' steps.
 ///
 /// The motion of a lane depends on that lane alone. How far it advances in a call depends on its neighbours, since
 /// lanes at a contact wait until half of the vector has come to one, and then pass it together.
@@ -24,6 +26,7 @@ class StepBlock {
         first_(first),
         oscillators_(lanes, first),
         observers_(oscillators_),
+        phases_(oscillators_),
         here_{{row(lanes.free_x), row(lanes.free_v)},
               {row(lanes.sine), row(lanes.cosine)},
               row(lanes.y),
@@ -31,6 +34,7 @@ class StepBlock {
               row(lanes.a)},
         left_(row(lanes.time_to_section)),
         itinerary_(row(lanes.itinerary)),
+        log_area_(E.soft ? row(lanes.cushioned.log_area) : V(0.0)),
         from_free_(here_.free),
         from_phase_(here_.phase),
         time_(0.0),
@@ -40,6 +44,7 @@ class StepBlock {
         to_scalar_(none_),
         unproved_(none_),
         ending_(none_),
+        reported_(none_),
         stops_short_(row(lanes.stop_short) > V(0.0)) {}
 
   [[gnu::always_inline]] inline void run() {
@@ -52,7 +57,7 @@ class StepBlock {
       if (any(unproved_)) contact();
       if (contacts >= lanes_.most_contacts || any(arrived_ | to_scalar_)) break;
     }
-    if (any(arrived_)) sections();
+    if (any(arrived_)) sections(E.soft ? arrived_ - reported_ : arrived_);
     store();
   }
 
@@ -73,13 +78,14 @@ class StepBlock {
     for (int steps = 1;; ++steps) {
       lanes_.proved += static_cast<double>(V::size);
       LaneMotion<V> next = oscillators_.step(here_);
-      path_ = hermite(ends_of(here_, next, length));
+      path_ = hermite(oscillators_.ends(here_, next, length));
       bound_ = oscillators_.uncertainty(here_.free);
       Interval<V> range = enclosure(path_, bound_.error);
-      range.include(next.y);
+      range.include(path_[6]);
       below_upper_ = range.high <= row(lanes_.upper) - bound_.rounding;
       above_lower_ = range.low >= row(lanes_.lower) + bound_.rounding;
-      const Mask inside = below_upper_ & above_lower_;
+      Mask inside = below_upper_ & above_lower_;
+      if constexpr (E.soft) inside = inside - phases_.outrunning();  // whose flight has more to be proved
       unproved_ = unproved_ | (stepping - inside);
       const Mask passes = left_ <= length;
       stepping = (stepping & inside) - (passes & arrived_);  // a second section waits for the next call
@@ -96,13 +102,18 @@ class StepBlock {
       if (some_arrive) pass_sections(arrives, next.phase);
       here_ = select(stepping, next, here_);
       left_ = select(stepping, left_ - length, left_);
+      if constexpr (E.soft) shrink(stepping, length);
       if (observes && some_arrive) stepping = stepping - (arrived_ & (row(lanes_.ends_here) > V(0.0)));
       if (steps == most_steps || 2 * count(stepping) <= static_cast<int>(V::size)) return;
     }
   }
 
-  /// Lanes whose next step may meet the upper stop first.
-  Mask nearer_upper() const { return (above_lower_ | (here_.v > V(0.0))) - below_upper_; }
+  /// Lanes whose next step may come to the upper bound first.
+  Mask nearer_upper() const {
+    const Mask upper = (above_lower_ | (here_.v > V(0.0))) - below_upper_;
+    if constexpr (E.soft) return phases_.nearer_upper(upper);
+    return upper;
+  }
 
   /// The end of a flight from here: the contact, or an instant short of one.
   struct ContactGuess {
@@ -124,7 +135,7 @@ class StepBlock {
     if (any(unproved_ - g.crosses)) {
       const V place = quintic.least(gap);
       // a lane has to advance: only one that moves to the stop can turn back at once
-      const V soonest = select(sign * here_.v > zero, V(0x1p-40), V(0x1p-4));
+      const V soonest = select(sign * oscillators_.watched(here_).rate > zero, V(0x1p-40), V(0x1p-4));
       const V turning = select((place > soonest) & (place < one), place, V(0.5));
       const V least = quintic.at(turning).value;
       const V uncertain = error * middle_function(turning);
@@ -152,14 +163,14 @@ class StepBlock {
     for (int pass = 0;; ++pass) {
       LaneMotion<V> at = oscillators_.after(here_, g.time);
       const auto d = oscillators_.derivatives(at);
-      const motion::TimeOver<V> to_stop(stop - at.y, at.v, at.a, d);
+      const motion::TimeOver<V> to_stop = oscillators_.time_to(stop, at, d);
       const V more = select(g.crosses, to_stop.time, zero);
       const Mask far = g.good - ((abs(more) <= length * V(longest_shift)) & ((!g.crosses) | to_stop.converged()));
       if (pass == 2 || !any(far)) {
         g.good = g.good - far;
         g.time = g.time + more;
-        at.y = select(g.crosses, stop, at.y);
         at.v = motion::velocity_after(more, at.v, at.a, d);
+        at.y = select(g.crosses, oscillators_.displacement_at(stop, at.v), at.y);
         at.phase = motion::turned(at.phase, tiny_turn(row(lanes_.nu) * more));
         at.a = oscillators_.acceleration(at.y, at.v, at.phase);
         return at;
@@ -168,16 +179,8 @@ class StepBlock {
     }
   }
 
-  /// A turn by an angle of at most 2 longest_shift.
-  static motion::Turn<V> tiny_turn(const V& angle) {
-    static constexpr std::array sine_terms{1.0, -1.0 / 6, 1.0 / 120};
-    static constexpr std::array cosine_terms{-1.0 / 2, 1.0 / 24};
-    const V square = angle * angle;
-    return {angle * polynomial(sine_terms, square), square * polynomial(cosine_terms, square)};
-  }
-
   /// Takes the unproved lanes to their contact, or short of it, proves the flight up to there, and reverses the
-  /// velocity in a contact (eq. 4).
+  /// velocity in a contact (eq. 4), or goes over to contact with a soft stop or to the motion after it.
   [[gnu::always_inline]] inline void contact() {
     lanes_.refined += static_cast<double>(V::size);
     const V zero(0.0), one(1.0), length = row(lanes_.step);
@@ -186,19 +189,24 @@ class StepBlock {
     ContactGuess g = guess_contact(bound_.error, sign, stop, length);
     if constexpr (observes) end_flights(g);
     LaneMotion<V> at = refine_contact(stop, length, g);
-    const V part = g.time * row(lanes_.inverse_step), error = bound_.error * sixth_power(part);
-    const Bernstein<V> path = hermite(ends_of(here_, at, g.time));
+    const V change = sixth_power(g.time * row(lanes_.inverse_step)), error = bound_.error * change;
+    const Bernstein<V> path = hermite(oscillators_.ends(here_, at, g.time));
     Interval<V> range = enclosure(path, error);
-    const V low = select(g.crosses, range.low, lesser(at.y, range.low));
-    const V high = select(g.crosses, range.high, greater(at.y, range.high));
+    const V low = select(g.crosses, range.low, lesser(path[6], range.low));
+    const V high = select(g.crosses, range.high, greater(path[6], range.high));
     g.good = g.good & (g.time > zero) & (g.time < length) & (low >= row(lanes_.lower) + bound_.rounding) &
              (high <= row(lanes_.upper) - bound_.rounding);
+    if constexpr (E.soft) g.good = g.good & phases_.keeps_ahead(here_, at, g.time, bound_, change);
     const Restitution<V> law{select(upper, row(lanes_.restitution_upper), row(lanes_.restitution_lower))};
-    const V before = at.v, jump = select(g.crosses, law.jump(before), zero);
-    const V after = select(g.crosses, law.after(before), before);
+    Mask reverses = g.crosses;
+    if constexpr (E.soft) reverses = reverses - phases_.change_at(upper);
+    const V before = at.v, jump = select(reverses, law.jump(before), zero);
+    const V after = select(reverses, law.after(before), before);
     const V a = neg_mul_add(row(lanes_.twice_h), jump, at.a);
-    const Mask bounces = (sign * before > abs(at.a * length) * V(grazing)) &
-                         (law.after(-sign * before) > sign * a * length * V(shortest_flight));
+    V away = law.after(-sign * before), back = sign * a;  // speed and acceleration after the contact
+    if constexpr (E.soft) away = select(reverses, away, sign * before), back = select(reverses, back, -back);
+    const Mask bounces =
+        (sign * before > abs(at.a * length) * V(grazing)) & (away > back * length * V(shortest_flight));
     const Mask passes = left_ <= g.time, waits = unproved_ & passes & arrived_;
     g.good = (g.good & ((!g.crosses) | bounces)) - waits;
     range.include(at.y);
@@ -211,11 +219,17 @@ class StepBlock {
       observers_.impact(met, met - over, upper, at, before, jump);
     }
     if (any(g.good & passes)) pass_sections(g.good & passes, at.phase);
+    Mask hits = met;
+    if constexpr (E.soft) {
+      shrink(g.good, g.time);
+      hits = met & (reverses | phases_.between_stops());
+      if (any(met - reverses)) change_phase(met - reverses, upper, at);
+    }
     at.free = oscillators_.free_part(at.y, at.v, at.phase);
     here_ = select(g.good, at, here_);
     left_ = select(g.good, left_ - g.time, left_);
-    itinerary_ = select(met, mul_add(itinerary_, V(3.0), select(upper, V(2.0), one)), itinerary_);
-    oscillators_.put(lanes_.impacts, row(lanes_.impacts) + select(met, one, zero));
+    itinerary_ = select(hits, mul_add(itinerary_, V(3.0), select(upper, V(2.0), one)), itinerary_);
+    oscillators_.put(lanes_.impacts, row(lanes_.impacts) + select(hits, one, zero));
     to_scalar_ = to_scalar_ | (unproved_ - (g.good | waits));
   }
 
@@ -230,23 +244,43 @@ class StepBlock {
     const V excess = select(arrives, row(lanes_.excess), V(0.0));
     phase = {neg_mul_add(excess, phase.sine, phase.sine), neg_mul_add(excess, phase.cosine, phase.cosine)};
     itinerary_ = select(arrives, V(0.0), itinerary_);
+    if constexpr (E.soft) {
+      put_of(arrives, lanes_.cushioned.section_log_area, log_area_);
+      log_area_ = select(arrives, V(0.0), log_area_);
+    }
     arrived_ = arrived_ | arrives;
   }
 
-  /// Reports displacement and velocity at the sections that were passed, and finds the errors of the clock and of the
-  /// length of sine and cosine. The phase says when a section was passed.
-  void sections() {
+  /// Takes lanes to their next phase, once the sections that they have passed in the present one are reported.
+  void change_phase(const Mask& changing, const Mask& upper, LaneMotion<V>& at) {
+    const Mask unreported = changing & (arrived_ - reported_);
+    if (any(unreported)) sections(unreported);
+    reported_ = reported_ | unreported;
+    phases_.change(changing, upper, at);
+  }
+  /// Counts the areas that soft stops shrink in a flight.
+  void shrink(const Mask& flies, const V& time) {
+    log_area_ = select(flies, neg_mul_add(row(lanes_.cushioned.shrinks), time, log_area_), log_area_);
+  }
+
+  void put_of(const Mask& m, LaneArray& r, const V& y) const { oscillators_.put(r, select(m, y, row(r))); }
+
+  /// Reports displacement and velocity at the sections that some lanes have passed, and finds the errors of the clock
+  /// and of the length of sine and cosine. The phase says when a section was passed.
+  void sections(const Mask& of) {
     const V sine = row(lanes_.start_sine), cosine = row(lanes_.start_cosine);
     const SineCosine<V> phase = oscillators_.phase_after(from_phase_, time_);
     const V late = mul_sub(phase.sine, cosine, phase.cosine * sine) / row(lanes_.nu);
     const motion::FreeMotion<V> free = oscillators_.free_after(from_free_, time_ - late);
-    oscillators_.put(lanes_.section_y, free.x + oscillators_.response().displacement(sine, cosine));
-    oscillators_.put(lanes_.section_v, free.v + oscillators_.response().velocity(row(lanes_.nu), sine, cosine));
+    V y = free.x + oscillators_.response().displacement(sine, cosine);
+    V v = free.v + oscillators_.response().velocity(row(lanes_.nu), sine, cosine);
+    if constexpr (E.soft)
+      y = select(of, y + row(lanes_.cushioned.shift), row(lanes_.section_y)), v = select(of, v, row(lanes_.section_v));
+    oscillators_.put(lanes_.section_y, y), oscillators_.put(lanes_.section_v, v);
     // half of an error, since the correction comes a section later
     const V half_excess = mul_add(phase.sine, phase.sine, mul_sub(phase.cosine, phase.cosine, V(1.0))) * V(0.25);
     const V to_next = neg_mul_add(V(0.5), late, row(lanes_.period));
-    oscillators_.put(lanes_.to_next, select(arrived_, to_next, row(lanes_.to_next)));
-    oscillators_.put(lanes_.excess, select(arrived_, half_excess, row(lanes_.excess)));
+    put_of(of, lanes_.to_next, to_next), put_of(of, lanes_.excess, half_excess);
   }
 
   void store() const {
@@ -254,6 +288,7 @@ class StepBlock {
     oscillators_.put(lanes_.sine, here_.phase.sine), oscillators_.put(lanes_.cosine, here_.phase.cosine);
     oscillators_.put(lanes_.y, here_.y), oscillators_.put(lanes_.v, here_.v), oscillators_.put(lanes_.a, here_.a);
     oscillators_.put(lanes_.time_to_section, left_), oscillators_.put(lanes_.itinerary, itinerary_);
+    if constexpr (E.soft) oscillators_.put(lanes_.cushioned.log_area, log_area_);
     lanes_.arrived |= bits(arrived_) << first_, lanes_.to_scalar |= bits(to_scalar_) << first_;
   }
 
@@ -261,10 +296,11 @@ class StepBlock {
   std::size_t first_;
   LaneOscillators<V, E> oscillators_;
   LaneObservers<V, E> observers_;
+  LanePhases<V, E> phases_;
   LaneMotion<V> here_;
-  Bernstein<V> path_;  ///< the displacement in the step from here
+  Bernstein<V> path_;  ///< the quantity that the bounds hold, in the step from here
   ErrorBound<V> bound_;
-  V left_, itinerary_;
+  V left_, itinerary_, log_area_;
   motion::FreeMotion<V> from_free_;  ///< beginning of the flight across a section
   SineCosine<V> from_phase_;
   V time_;       ///< from there to the section
@@ -273,6 +309,7 @@ class StepBlock {
   Mask below_upper_, above_lower_;
   Mask unproved_;     ///< lanes to be taken to a contact, or short of one
   Mask ending_;       ///< lanes whose observed time ends before
+  Mask reported_;     ///< lanes whose section is reported already
   Mask stops_short_;  ///< lanes whose next section ends the observed time, and may not be overshot
 };
 
@@ -296,7 +333,7 @@ void step_all(BlockState& lanes) {
   using V = Pair<A>;
   const FlushToZero<A> flush;
   for (std::size_t first = 0; first < LaneArray::width; first += V::size)
-    StepBlock<V, E.arc(), observes>(lanes, first).run();
+    StepBlock<V, step_effects(E), observes>(lanes, first).run();
 }
 
 }  // namespace clatter::lanes

@@ -19,4 +19,8 @@ void step_unsprung_observed_avx2(BlockState& lanes);
 void step_unsprung_avx512(BlockState& lanes);
 void step_unsprung_observed_avx512(BlockState& lanes);
 
+void step_cushioned_sse2(BlockState& lanes);
+void step_cushioned_avx2(BlockState& lanes);
+void step_cushioned_avx512(BlockState& lanes);
+
 }  // namespace clatter::lanes

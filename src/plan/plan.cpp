@@ -26,13 +26,17 @@ double seconds_of_work(point::Problem scene, const Effects& effects) {
 }
 
 /// The same in lanes, measured on motion with an impact or two in a forcing period: chaotic with a spring, from wall to
-/// wall without one, which takes lanes of their own.
-double seconds_of_lane_work(const point::Problem& example, lanes::InstructionSet arch) {
+/// wall without one, which takes lanes of their own, as soft stops do.
+double seconds_of_lane_work(const point::Problem& example, const Effects& effects, lanes::InstructionSet arch) {
   constexpr double nu = 0.827759, gap = 2.19231, periods = 200;
   point::Problem scene;
   scene.oscillator = {.damping = 0.1, .forcing = -1.0, .frequency = nu};
   scene.stops = {-gap, gap, 0.7, 0.7};
   if (!(example.oscillator.stiffness > 0)) scene.oscillator.stiffness = 0, scene.stops = {-1, 1, 0.7, 0.7};
+  if (effects.soft) {
+    scene.stops.stiffness_lower = scene.stops.stiffness_upper = 100;
+    scene.stops.damping_lower = scene.stops.damping_upper = 0.1;
+  }
   scene.time = {.mode = example.time.mode, .max_periods = static_cast<std::int64_t>(periods), .window = 1};
   scene.time.duration = periods * period_of(scene.oscillator);
   const point::WorkItem item{0, 0, scene, effects_of(scene)};
@@ -52,7 +56,7 @@ double seconds_of_lane_work(const point::Problem& example, lanes::InstructionSet
 Bounds seconds_of(const Collected& group, const point::Problem& example, lanes::InstructionSet arch) {
   Bounds seconds;
   if (group.work.most > 0) seconds += group.work * seconds_of_work(example, group.effects);
-  if (group.lane_work.most > 0) seconds += group.lane_work * seconds_of_lane_work(example, arch);
+  if (group.lane_work.most > 0) seconds += group.lane_work * seconds_of_lane_work(example, group.effects, arch);
   return seconds;
 }
 

@@ -20,18 +20,27 @@ inline Sweep sweep_over(const std::vector<point::Problem>& scenes) {
     for (const point::Problem& scene : scenes) one.values.push_back(value(scene));
     return one;
   };
-  const Dimension dimension{axis(Parameter::nu, [](const point::Problem& s) { return s.oscillator.frequency; }),
-                            axis(Parameter::h, [](const point::Problem& s) { return s.oscillator.damping; }),
-                            axis(Parameter::f, [](const point::Problem& s) { return s.oscillator.forcing; }),
-                            axis(Parameter::load, [](const point::Problem& s) { return s.oscillator.load; }),
-                            axis(Parameter::stiffness, [](const point::Problem& s) { return s.oscillator.stiffness; }),
-                            axis(Parameter::stop_lower, [](const point::Problem& s) { return s.stops.lower; }),
-                            axis(Parameter::stop_upper, [](const point::Problem& s) { return s.stops.upper; }),
-                            axis(Parameter::R_lower, [](const point::Problem& s) { return s.stops.restitution_lower; }),
-                            axis(Parameter::R_upper, [](const point::Problem& s) { return s.stops.restitution_upper; }),
-                            axis(Parameter::x0, [](const point::Problem& s) { return s.start.displacement; }),
-                            axis(Parameter::v0, [](const point::Problem& s) { return s.start.velocity; }),
-                            axis(Parameter::phase, [](const point::Problem& s) { return s.start.phase; })};
+  Dimension dimension{axis(Parameter::nu, [](const point::Problem& s) { return s.oscillator.frequency; }),
+                      axis(Parameter::h, [](const point::Problem& s) { return s.oscillator.damping; }),
+                      axis(Parameter::f, [](const point::Problem& s) { return s.oscillator.forcing; }),
+                      axis(Parameter::load, [](const point::Problem& s) { return s.oscillator.load; }),
+                      axis(Parameter::stiffness, [](const point::Problem& s) { return s.oscillator.stiffness; }),
+                      axis(Parameter::stop_lower, [](const point::Problem& s) { return s.stops.lower; }),
+                      axis(Parameter::stop_upper, [](const point::Problem& s) { return s.stops.upper; }),
+                      axis(Parameter::R_lower, [](const point::Problem& s) { return s.stops.restitution_lower; }),
+                      axis(Parameter::R_upper, [](const point::Problem& s) { return s.stops.restitution_upper; }),
+                      axis(Parameter::x0, [](const point::Problem& s) { return s.start.displacement; }),
+                      axis(Parameter::v0, [](const point::Problem& s) { return s.start.velocity; }),
+                      axis(Parameter::phase, [](const point::Problem& s) { return s.start.phase; })};
+  if (std::ranges::any_of(scenes, [](const point::Problem& s) { return has_soft_stop(s.stops); })) {
+    const auto add = [&](Parameter parameter, double Stops::*value) {
+      dimension.push_back(axis(parameter, [value](const point::Problem& s) { return s.stops.*value; }));
+    };
+    add(Parameter::stop_stiffness_lower, &Stops::stiffness_lower);
+    add(Parameter::stop_stiffness_upper, &Stops::stiffness_upper);
+    add(Parameter::stop_damping_lower, &Stops::damping_lower);
+    add(Parameter::stop_damping_upper, &Stops::damping_upper);
+  }
   return {.problem = scenes.front(), .dimensions = {dimension}, .follow = {}};
 }
 
@@ -125,7 +134,11 @@ inline point::Problem moved(point::Problem scene, std::uint64_t index) {
   for (double* R : {&stops.restitution_lower, &stops.restitution_upper}) *R = std::min(*R, 1.0);
   const bool on_lower = start.displacement == stops.lower, on_upper = start.displacement == stops.upper;
   for (double* value : {&stops.lower, &stops.upper, &start.displacement}) *value *= 1 + random.sign() * 1e-15;
-  start.displacement = std::clamp(start.displacement, stops.lower, stops.upper);
+  if (has_soft_stop(stops))
+    for (double* value : {&stops.stiffness_lower, &stops.stiffness_upper, &stops.damping_lower, &stops.damping_upper})
+      *value *= 1 + random.sign() * 1e-15;
+  const Stops rigid = rigid_ones(stops);
+  start.displacement = std::clamp(start.displacement, rigid.lower, rigid.upper);
   if (on_lower) start.displacement = stops.lower;
   if (on_upper) start.displacement = stops.upper;
   return scene;
