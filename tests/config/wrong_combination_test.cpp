@@ -43,7 +43,6 @@ TEST(Together, a_soft_stop_has_no_restitution_and_holds_the_mass) {
       {"[scene]\nxs = 1\nstiffness = -3\nstop_stiffness = 3\n", "4:18", "expected more than 3"},
       {"[scene]\nxs = 1\nstop_stiffness_lower = 2\n[sweep]\nstiffness = [1, -2.5]\n", "3:24", "expected more than 2.5"},
       {"[scene]\nxs = 1\nstop_stiffness = 3\nstart_period = 3\n", "3:18", "conflicts with 'start_period'"},
-      {"[scene]\nxs = 1\nstop_stiffness = 3\n[integrator]\nmethod = \"moreau\"\n", "5:10", "expected exact or dopri5"},
   };
   expect_all("a.toml", table);
 }
