@@ -7,9 +7,7 @@
 #include <optional>
 #include <vector>
 
-#include "steady/section_observer.hpp"
-#include "stepping/exact.hpp"
-#include "stepping/run.hpp"
+#include "motion/watched_run.hpp"
 #include "support/random.hpp"
 #include "support/runs.hpp"
 
@@ -17,28 +15,6 @@ namespace clatter::motion {
 namespace {
 
 constexpr double ulp = std::numeric_limits<double>::epsilon();
-
-State<double> at(double x, double v) {
-  State<double> state;
-  state.x = x, state.v = v;
-  return state;
-}
-
-/// A motion over some forcing periods: its stops in order, its end and its derivative.
-struct Run {
-  std::uint64_t itinerary;
-  State<double> end;
-  Jacobian<double> derivative;
-};
-
-template <Effects effects>
-std::optional<Run> run(const point::Problem& scene, State<double> state, double turns) {
-  stepping::Exact<double, effects> integrator(scene);
-  steady::SectionObserver watch(scene.stops);
-  watch.differentiate();
-  if (run_for(integrator, state, turns, watch) != stepping::Outcome::completed) return std::nullopt;
-  return Run{watch.passage().itinerary, state, watch.derivative()};
-}
 
 template <Effects effects>
 Neighbourhood neighbourhood_of(const point::Problem& scene, State<double> state, double turns, const Ellipse& start) {

@@ -8,9 +8,7 @@
 #include <vector>
 
 #include "model/response.hpp"
-#include "steady/section_observer.hpp"
-#include "stepping/exact.hpp"
-#include "stepping/run.hpp"
+#include "motion/watched_run.hpp"
 #include "support/random.hpp"
 #include "support/runs.hpp"
 #include "support/scene_range.hpp"
@@ -20,19 +18,6 @@ namespace {
 
 constexpr double ulp = std::numeric_limits<double>::epsilon(), none = std::numeric_limits<double>::infinity();
 
-State<double> at(double x, double v) {
-  State<double> state;
-  state.x = x, state.v = v;
-  return state;
-}
-
-/// A motion over some forcing periods: its contacts in order, its end and its derivative.
-struct Run {
-  std::uint64_t itinerary;
-  State<double> end;
-  Jacobian<double> derivative;
-};
-
 template <class Function>
 auto with_effects_of(const point::Problem& scene, Function&& function) {
   return rotates(scene.oscillator)
@@ -41,13 +26,7 @@ auto with_effects_of(const point::Problem& scene, Function&& function) {
 }
 
 std::optional<Run> run(const point::Problem& scene, State<double> state, double turns) {
-  return with_effects_of(scene, [&]<Effects effects>() -> std::optional<Run> {
-    stepping::Exact<double, effects> integrator(scene);
-    steady::SectionObserver watch(scene.stops);
-    watch.differentiate();
-    if (run_for(integrator, state, turns, watch) != stepping::Outcome::completed) return std::nullopt;
-    return Run{watch.passage().itinerary, state, watch.derivative()};
-  });
+  return with_effects_of(scene, [&]<Effects effects>() { return run<effects>(scene, state, turns); });
 }
 
 SoftNeighbourhood neighbourhood_of(const point::Problem& scene, State<double> state, double turns,
@@ -208,24 +187,38 @@ Tally enclose(std::uint64_t seed, Draw&& draw) {
   return tally;
 }
 
+/// A proof that refuses nearly all is of no use, one that refuses nothing is none, and its bounds have to be tight.
+void expect_useful(const Tally& tally, double least_proved, double least_refused) {
+  const double all = tally.proved + tally.refused;
+  EXPECT_GT(tally.proved, least_proved * all);
+  EXPECT_GT(tally.refused, least_refused * all);
+  EXPECT_GT(tally.tightest, 0.3);
+}
+
 TEST(SoftNeighbourhood, encloses_all_motions_that_begin_in_it) {
   const Tally tally = enclose(31, any_case);
-  EXPECT_GT(tally.proved, 0);
+  expect_useful(tally, 0.4, 0.2);
+  EXPECT_GT(tally.touched, tally.proved);
+  EXPECT_GT(tally.impacts, tally.proved / 10);  // on rigid stops beside soft ones
+  EXPECT_GT(tally.from_within, tally.proved / 20);
 }
 
 TEST(SoftNeighbourhood, encloses_motions_near_a_graze) {
   const Tally tally = enclose(32, grazing_case);
-  EXPECT_GT(tally.proved, 0);
+  expect_useful(tally, 0.3, 0.3);
+  EXPECT_GT(tally.touched, tally.proved / 4);
 }
 
 TEST(SoftNeighbourhood, encloses_motions_that_are_pressed_again_within_a_stop) {
   const Tally tally = enclose(33, shaken_case);
-  EXPECT_GT(tally.proved, 0);
+  expect_useful(tally, 0.4, 0.2);
+  EXPECT_GT(tally.renewed, tally.proved / 50);
 }
 
 TEST(SoftNeighbourhood, encloses_motions_that_begin_or_end_near_an_event) {
   const Tally tally = enclose(34, close_case);
-  EXPECT_GT(tally.proved, 0);
+  expect_useful(tally, 0.2, 0.4);
+  EXPECT_GT(tally.touched, tally.proved / 2);
 }
 
 }  // namespace
