@@ -184,7 +184,8 @@ def legend_above(axes, columns=4, **options):
 
 
 def draw_walls(axes, lower, upper, vertical=False, named="stops"):
-    """Stops as lines with the wall behind them shaded; the view reaches a little into the walls."""
+    """Stops as lines with the wall behind them shaded; the view reaches a little into the walls, and as far as motion
+    does into those that are soft."""
     line, span = (axes.axvline, axes.axvspan) if vertical else (axes.axhline, axes.axhspan)
     view, set_view = (axes.get_xlim, axes.set_xlim) if vertical else (axes.get_ylim, axes.set_ylim)
     stops = [stop for stop in (lower, upper) if np.isfinite(stop)]
@@ -192,8 +193,8 @@ def draw_walls(axes, lower, upper, vertical=False, named="stops"):
         return
     low, high = min(*view(), *stops), max(*view(), *stops)
     margin = 0.08 * (high - low)
-    low = lower - margin if np.isfinite(lower) else low
-    high = upper + margin if np.isfinite(upper) else high
+    low = min(low, lower - margin) if np.isfinite(lower) else low
+    high = max(high, upper + margin) if np.isfinite(upper) else high
     for place, stop in enumerate(stops):
         line(stop, color=STOP, lw=1.0, zorder=1.5, label=named if named and place == 0 else None)
         span(stop, low if stop == lower else high, color=WALL, lw=0, zorder=0)

@@ -233,6 +233,13 @@ class Kinds(Pictures):
         self.assertIn("no upper stop", texts)
         self.assertNotIn("inf", texts)
 
+    def test_motion_within_a_soft_stop_is_in_view(self):
+        output = self.output("soft")
+        axes = plot.single_figure(output, NO_CHOICE).axes[0]
+        self.assertGreater(output.values("x_max").max(), 1.2)
+        self.assertGreater(axes.get_ylim()[1], output.values("x_max").max())
+        self.assertLess(axes.get_ylim()[0], output.values("x_min").min())
+
     def test_a_point_has_a_table_of_what_there_is(self):
         texts = self.draw("point").texts()
         for text in ("velocity before the first impact, lower stop", str(self.output("point").values("impact_word"))):

@@ -37,6 +37,7 @@ CONFIGURATIONS = {
     "[observe]\nextrema = true\n",
     "one_stop": FORCED + 'R = 0.6\n[sweep]\nstop_upper = [0.0, inf]\nnu = "linspace(0.5, 1.5, 21)"\n'
     "[observe]\nextrema = true\n",
+    "soft": FORCED + 'xs = 1\nstop_stiffness = 20\n[sweep]\nnu = "linspace(0.5, 1.5, 21)"\n[observe]\nextrema = true\n',
     "linear": FORCED + 'xs = 20\n[sweep]\nnu = "linspace(0.5, 1.5, 21)"\n[observe]\nextrema = true\nharmonics = 2\n'
     "impacts = true\n",
 }
