@@ -16,22 +16,27 @@
 namespace clatter::app {
 namespace {
 
+using branches::Followed;
 using branches::SpecialPoint;
 
+double user_value(const branches::ShakenScene& scene, const Followed& followed) {
+  return followed.to_user(branches::value_of(scene, followed.parameter));
+}
+
 /// {"kind": "fold", "nu": 1.42, ..., "multipliers": [[1, 0], [0.1, 0]]}: one line; real and imaginary parts.
-std::string special_json(const SpecialPoint& special, const std::vector<sweep::Parameter>& parameters) {
+std::string special_json(const SpecialPoint& special, const std::vector<Followed>& parameters, const Units& units) {
   const branches::BranchPoint& at = special.at;
   const PhasePoint state = branches::state_at_phase_zero(at.scene, at.orbit);
   const auto pair = [](double re, double im) { return '[' + json_number(re) + ", " + json_number(im) + ']'; };
   std::string numbers;
   for (const std::size_t branch : special.branches) numbers += (numbers.empty() ? "" : ", ") + std::to_string(branch);
   std::string values;
-  for (const sweep::Parameter parameter : parameters)
-    values += ", " + json_text(std::string(sweep::key_of(parameter))) + ": " +
-              json_number(branches::value_of(at.scene, parameter));
+  const double velocity = factor_of(units, Quantity::velocity);
+  for (const Followed& followed : parameters)
+    values += ", " + json_text(std::string(followed.name())) + ": " + json_number(user_value(at.scene, followed));
   return "{\"kind\": " + json_text(std::string(name_of(special.kind))) + values +
-         ", \"impact_speed\": " + json_number(branches::impact_speed(special.at.orbit)) +
-         ", \"x\": " + json_number(state.x) + ", \"v\": " + json_number(state.v) +
+         ", \"impact_speed\": " + json_number(velocity * branches::impact_speed(special.at.orbit)) +
+         ", \"x\": " + json_number(state.x) + ", \"v\": " + json_number(velocity * state.v) +
          ", \"period_ratio\": " + json_number(at.orbit.period_ratio()) + ", \"word\": " + json_text(at.orbit.word()) +
          ", \"stable\": " + (at.stable ? "true" : "false") + ", \"multipliers\": [" +
          pair(at.multiplier_re[0], at.multiplier_im[0]) + ", " + pair(at.multiplier_re[1], at.multiplier_im[1]) +
@@ -39,23 +44,23 @@ std::string special_json(const SpecialPoint& special, const std::vector<sweep::P
 }
 
 /// "fold                  nu = 1.42486182628998  speed 1.72122564705845  LU  branch 0"
-std::string special_text(const SpecialPoint& special, const std::vector<sweep::Parameter>& parameters) {
+std::string special_text(const SpecialPoint& special, const std::vector<Followed>& parameters, const Units& units) {
   std::string text(name_of(special.kind));
   const std::string word = special.at.orbit.word();
   text.resize(22, ' ');
-  for (const sweep::Parameter parameter : parameters)
-    text += std::string(sweep::key_of(parameter)) + " = " +
-            formatted("%-18.15g", branches::value_of(special.at.scene, parameter)) + ' ';
-  text += "speed " + formatted("%-18.15g", branches::impact_speed(special.at.orbit)) + ' ' +
-          (word.empty() ? "no impacts" : word) + (parameters.size() > 1 ? "  curve" : "  branch");
+  for (const Followed& followed : parameters)
+    text += std::string(followed.name()) + " = " + formatted("%-18.15g", user_value(special.at.scene, followed)) + ' ';
+  const double speed = factor_of(units, Quantity::velocity) * branches::impact_speed(special.at.orbit);
+  text += "speed " + formatted("%-18.15g", speed) + ' ' + (word.empty() ? "no impacts" : word) +
+          (parameters.size() > 1 ? "  curve" : "  branch");
   if (special.branches.size() > 1) text += parameters.size() > 1 ? "s" : "es";
   for (const std::size_t branch : special.branches) text += ' ' + std::to_string(branch);
   return text + '\n';
 }
 
 /// "nu = 0.91"
-std::string place_of(const Scene& scene, sweep::Parameter parameter) {
-  return std::string(sweep::key_of(parameter)) + " = " + formatted("%.9g", branches::value_of(scene, parameter));
+std::string place_of(const branches::ShakenScene& scene, const Followed& followed) {
+  return std::string(followed.name()) + " = " + formatted("%.9g", user_value(scene, followed));
 }
 
 /// "mine.toml: branch 2 stops at nu = 0.91: branch.max_points is spent"
@@ -70,10 +75,6 @@ void tell_failures(const branches::Branches& found, const branches::BranchSettin
 }
 
 const branches::BranchSettings& branch_of(const config::Config& config, const std::string& file) {
-  if (config.sweep.machine)
-    throw UsageError(storage::printable(file) +
-                     ": [machine]; a branch is followed in a scene without units: give [scene] the numbers that "
-                     "`clatter plan` prints");
   if (!config.branch)
     throw UsageError(storage::printable(file) +
                      ": no branch.along and branch.range, along which to follow; e.g. --set branch.along=nu "
@@ -81,7 +82,8 @@ const branches::BranchSettings& branch_of(const config::Config& config, const st
   if (!config.sweep.dimensions.empty())
     throw UsageError(storage::printable(file) + ": [sweep] has the axis " +
                      std::string(sweep::key_of(config.sweep.dimensions[0][0].parameter)) +
-                     ", and a branch is followed at one value of it; give that in [scene]");
+                     ", and a branch is followed at one value of it; give that in [" +
+                     std::string(config.branch->along.section) + ']');
   return *config.branch;
 }
 
@@ -93,20 +95,20 @@ int run_branch(const Arguments& arguments) {
   const branches::BranchSettings& settings = branch_of(config, file);
   const results::OutputPlace place(output, {.command = "branch", .title = config.title}, arguments.has("force"));
   storage::require_idle(output);
+  const point::Problem start = branches::start_problem(config.sweep);
   branches::Branches found;
   try {
-    found = settings.across ? branches::follow_curves(config.sweep.problem, settings)
-                            : branches::follow_branches(config.sweep.problem, settings);
+    found = settings.across ? branches::follow_curves(start, settings) : branches::follow_branches(start, settings);
   } catch (const branches::StartError& error) {
     std::cerr << storage::printable(file) << ": " << error.what() << '\n';
     return points_failed;
   }
-  std::vector<sweep::Parameter> parameters{settings.along};
+  std::vector<Followed> parameters{settings.along};
   if (settings.across) parameters.push_back(*settings.across);
   for (const SpecialPoint& special : found.special)
-    std::cout << (arguments.has("json") ? special_json : special_text)(special, parameters);
+    std::cout << (arguments.has("json") ? special_json : special_text)(special, parameters, start.units);
   std::cout << std::flush;
-  place.write_atomically(results::file_image(branch_dataset(found, settings), config).bytes);
+  place.write_atomically(results::file_image(branch_dataset(found, settings, start.units), config).bytes);
   tell_failures(found, settings, file);
   if (!arguments.has("quiet"))
     std::cerr << counted(static_cast<double>(found.points.size()), "point") << ", "

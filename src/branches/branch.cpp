@@ -22,9 +22,9 @@ class Follower {
       : problem_(problem),
         settings_(settings),
         width_(settings.range[1] - settings.range[0]),
-        symmetric_(is_symmetric(problem) && keeps_symmetry(settings.along) &&
-                   (!settings.across || keeps_symmetry(*settings.across))),
-        record_({{settings.along, width_}}, settings.max_points) {}
+        symmetric_(is_symmetric(problem) && keeps_symmetry(settings.along.parameter) &&
+                   (!settings.across || keeps_symmetry(settings.across->parameter))),
+        record_({{settings.along.parameter, width_}}, settings.max_points) {}
 
   Branches run() {
     require_start_in_range(problem_, settings_.along, settings_.range, "along");
@@ -41,11 +41,11 @@ class Follower {
 
  private:
   [[nodiscard]] OrbitEquations equations_for(const Orbit& orbit, std::vector<Condition> conditions = {}) const {
-    return {problem_, orbit, {{settings_.along, width_}}, speed_unit_, std::move(conditions)};
+    return {problem_, orbit, {{settings_.along.parameter, width_}}, speed_unit_, std::move(conditions)};
   }
   [[nodiscard]] Equations any_equations() const { return std::bind_front(&Follower::equations_for, this); }
   [[nodiscard]] RestingBranch resting() { return {problem_, settings_, symmetric_, speed_unit_, record_, waiting_}; }
-  [[nodiscard]] double parameter(const ShakenScene& scene) const { return value_of(scene, settings_.along); }
+  [[nodiscard]] double parameter(const ShakenScene& scene) const { return value_of(scene, settings_.along.parameter); }
   [[nodiscard]] bool in_range(double value) const { return value >= settings_.range[0] && value <= settings_.range[1]; }
 
   void follow(const Waiting& from) {

@@ -20,8 +20,8 @@ std::vector<std::int32_t> numbers_of(const std::vector<std::size_t>& branches, s
 /// Variables over one dimension, column by column.
 class Columns {
  public:
-  Columns(sweep::Dataset& dataset, std::string dimension, std::size_t length, std::string prefix)
-      : dataset_(dataset), dimension_(std::move(dimension)), prefix_(std::move(prefix)) {
+  Columns(sweep::Dataset& dataset, const Units& units, std::string dimension, std::size_t length, std::string prefix)
+      : dataset_(dataset), units_(units), dimension_(std::move(dimension)), prefix_(std::move(prefix)) {
     dataset_.dimensions.push_back({dimension_, length});
   }
 
@@ -42,8 +42,9 @@ class Columns {
     for (const BranchPoint& point : points) {
       const PhasePoint state = state_at_phase_zero(point.scene, point.orbit);
       const observables::Extrema range = extrema(point.scene, point.orbit);
-      value.push_back(value_of(point.scene, settings.along));
-      if (settings.across) second.push_back(value_of(point.scene, *settings.across));
+      value.push_back(settings.along.to_user(value_of(point.scene, settings.along.parameter)));
+      if (settings.across)
+        second.push_back(settings.across->to_user(value_of(point.scene, settings.across->parameter)));
       x.push_back(state.x), v.push_back(state.v);
       period.push_back(point.orbit.period_ratio()), word.push_back(point.orbit.word());
       regime.push_back(point.orbit.regime());
@@ -57,11 +58,10 @@ class Columns {
       speed.push_back(impact_speed(point.orbit)),
           power.push_back(point.orbit.meets_soft_stop() ? no_value : impact_power(point.scene, point.orbit));
     }
-    add(std::string(sweep::key_of(settings.along)), std::move(value), "parameter along which the motion is followed");
-    if (settings.across)
-      add(std::string(sweep::key_of(*settings.across)), std::move(second), "second parameter of the curve");
-    add("x", std::move(x), "displacement at forcing phase 0");
-    add("v", std::move(v), "velocity at forcing phase 0");
+    add_parameter(settings.along, std::move(value), "parameter along which the motion is followed");
+    if (settings.across) add_parameter(*settings.across, std::move(second), "second parameter of the curve");
+    add("x", Quantity::length, std::move(x), "displacement at forcing phase 0");
+    add("v", Quantity::velocity, std::move(v), "velocity at forcing phase 0");
     add("period_ratio", std::move(period), "period of the motion over the forcing period");
     add("word", std::move(word), "impacts of one period in order, L and U");
     add("regime", std::move(regime), "impacts on one stop over forcing periods");
@@ -69,14 +69,32 @@ class Columns {
     add("stable", std::move(stable), "1: all multipliers lie within the unit circle");
     add("multiplier_re", std::move(re), "real parts of the multipliers of one period", {"multiplier"});
     add("multiplier_im", std::move(im), "imaginary parts of the multipliers of one period", {"multiplier"});
-    add("x_min", std::move(low), "minimum displacement"), add("x_max", std::move(high), "maximum displacement");
-    add("v_min", std::move(v_low), "minimum velocity"), add("v_max", std::move(v_high), "maximum velocity");
-    add("impact_speed", std::move(speed), "speed of the fastest impact");
-    add("impact_power", std::move(power), "energy lost in impacts per tau, per unit mass; NaN: it meets a soft stop");
+    add("x_min", Quantity::length, std::move(low), "minimum displacement");
+    add("x_max", Quantity::length, std::move(high), "maximum displacement");
+    add("v_min", Quantity::velocity, std::move(v_low), "minimum velocity");
+    add("v_max", Quantity::velocity, std::move(v_high), "maximum velocity");
+    add("impact_speed", Quantity::velocity, std::move(speed), "speed of the fastest impact");
+    add("impact_power", Quantity::power, std::move(power),
+        units_.is_si ? "energy lost in impacts per second; NaN: it meets a soft stop"
+                     : "energy lost in impacts per tau, per unit mass; NaN: it meets a soft stop");
   }
 
  private:
+  /// Numbers of the computed scene.
+  void add(const std::string& name, Quantity quantity, std::vector<double> values, const std::string& long_name) {
+    if (const double factor = factor_of(units_, quantity); factor != 1)
+      for (double& value : values) value *= factor;
+    add(name, std::move(values), long_name);
+    dataset_.variables.back().units = unit_of(quantity, units_.is_si);
+  }
+  /// Numbers of the user.
+  void add_parameter(const Followed& followed, std::vector<double> values, const std::string& long_name) {
+    add(std::string(followed.name()), std::move(values), long_name);
+    dataset_.variables.back().units = unit_of(sweep::quantity_of(followed.given), units_.is_si);
+  }
+
   sweep::Dataset& dataset_;
+  const Units& units_;
   std::string dimension_, prefix_;
 };
 
@@ -86,7 +104,7 @@ std::vector<std::string> names_of_texts() {
   return {"word", "regime", "special_kind", "special_word", "special_regime"};
 }
 
-sweep::Dataset branch_dataset(const Branches& branches, const BranchSettings& settings) {
+sweep::Dataset branch_dataset(const Branches& branches, const BranchSettings& settings, const Units& units) {
   sweep::Dataset dataset;
   std::vector<std::int32_t> branch;
   std::vector<double> arclength;
@@ -94,7 +112,7 @@ sweep::Dataset branch_dataset(const Branches& branches, const BranchSettings& se
     branch.push_back(static_cast<std::int32_t>(point.branch));
     arclength.push_back(point.arclength);
   }
-  Columns points(dataset, "point", branches.points.size(), "");
+  Columns points(dataset, units, "point", branches.points.size(), "");
   dataset.dimensions.push_back({"multiplier", 2});
   points.add("branch", std::move(branch), settings.across ? "number of the curve" : "number of the branch");
   points.add("arclength", std::move(arclength), "along the branch or curve, over the width of its range");
@@ -110,7 +128,7 @@ sweep::Dataset branch_dataset(const Branches& branches, const BranchSettings& se
     const std::vector<std::int32_t> numbers = numbers_of(special.branches, most);
     meeting.insert(meeting.end(), numbers.begin(), numbers.end());
   }
-  Columns specials(dataset, "special", at.size(), "special_");
+  Columns specials(dataset, units, "special", at.size(), "special_");
   dataset.dimensions.push_back({"meeting", most});
   specials.add("kind", std::move(kind), "kind of the special point");
   specials.add("branch", std::move(meeting), "numbers of the branches, or the curves, that meet there; -1: no more",

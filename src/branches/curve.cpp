@@ -31,7 +31,7 @@ class CurveFollower {
       : problem_(problem),
         settings_(settings),
         ranges_{settings.range, settings.across_range},
-        axes_{{settings.along, width_of(along_axis)}, {*settings.across, width_of(across_axis)}},
+        axes_{{settings.along.parameter, width_of(along_axis)}, {settings.across->parameter, width_of(across_axis)}},
         record_(axes_, settings.max_points) {}
 
   Branches run() {
@@ -39,7 +39,7 @@ class CurveFollower {
     const auto shakes = [](sweep::Parameter parameter) {
       return parameter == stop_amplitude || parameter == base_amplitude;
     };
-    if (shakes(settings_.along) && shakes(*settings_.across))
+    if (shakes(settings_.along.parameter) && shakes(settings_.across->parameter))
       throw StartError("stops and base can't be shaken at once; expected another branch.across");
     if (has_soft_stop(problem_.stops))
       throw StartError(
@@ -69,13 +69,16 @@ class CurveFollower {
  private:
   double width_of(std::size_t axis) const {
     const double width = ranges_[axis][1] - ranges_[axis][0];
-    return std::isfinite(width) ? width : std::max(0.1, std::abs(value_of(problem_, *settings_.across)));
+    if (std::isfinite(width)) return width;
+    const double value = std::abs(value_of(problem_, settings_.across->parameter));
+    return problem_.units.is_si && value > 0 ? value : std::max(0.1, value);
   }
   /// What to do if the branches that could be followed have no point to begin with.
   [[nodiscard]] std::string way_out(const Branches& along) const {
     if (along.ends.empty()) return "; widen branch.range, raise branch.switch, or begin on another motion";
-    return " up to its end at " + std::string(sweep::key_of(settings_.along)) + " = " +
-           std::to_string(value_of(along.ends.front().scene, settings_.along)) + ": " + along.ends.front().reason;
+    return " up to its end at " + std::string(settings_.along.name()) + " = " +
+           std::to_string(settings_.along.to_user(value_of(along.ends.front().scene, settings_.along.parameter))) +
+           ": " + along.ends.front().reason;
   }
   [[nodiscard]] OrbitEquations equations_for(const Orbit& orbit, std::vector<Condition> conditions) const {
     return {problem_, orbit, axes_, speed_unit_, std::move(conditions)};
@@ -210,7 +213,7 @@ class CurveFollower {
 
   /// The special point of a branch along the first parameter, at the scene's value of the second, within a step.
   void note_start_between(const OrbitEquations& equations, const Walk& walk, double step) {
-    const double across = value_of(problem_, *settings_.across);
+    const double across = value_of(problem_, settings_.across->parameter);
     const auto zero = walk.zero([&](const CurvePoint& p) { return parameter(p.at, across_axis) - across; }, step);
     if (zero) record_.note(kind_, record_.point(equations, *zero));
   }

@@ -77,7 +77,7 @@ std::optional<OrbitEquations::Linearised> OrbitEquations::at(const Vector& z) co
       out.slope(row + 1, next + 1) -= sign * speed_unit_;
     }
   };
-  with_arcs(scene, add_flights, varies(axes_, Parameter::stiffness));
+  with_arcs(scene, add_flights, any_varies_stiffness(axes_));
   std::size_t row = 2 * orbit.size();
   for (const Condition& condition : conditions_) {
     if (condition.kind == Condition::Kind::graze)
@@ -150,7 +150,7 @@ void OrbitEquations::add_multiplier(const ShakenScene& scene, const Orbit& all, 
     }
   };
   const Parameters<First> p = parameters_of<First>(scene, axes_);
-  const bool stiffness_varies = varies(axes_, Parameter::stiffness);
+  const bool stiffness_varies = any_varies_stiffness(axes_);
   if (orbit.meets_soft_stop())
     links = links_of_states(scene, orbit, p, stiffness_varies);
   else

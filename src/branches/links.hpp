@@ -19,9 +19,9 @@ constexpr std::size_t by_begin = 0, by_before = 1, by_end = 2, by_first_axis = 3
 using First = Dual<double, most_variables>;
 using Second = Dual<First, 3>;  // of the first three, each with its derivatives by all of them
 
-/// Makes a parameter a variable.
+/// Makes a parameter of a scene a variable.
 template <class Number>
-void vary(Parameters<Number>& p, Parameter parameter, std::size_t variable) {
+void vary(Parameters<Number>& p, const ShakenScene& scene, Parameter parameter, std::size_t variable) {
   const auto seed = [variable](Number& number, double slope) {
     if constexpr (std::is_same_v<Number, Second>)
       number.value.slope[variable] = slope;
@@ -29,6 +29,11 @@ void vary(Parameters<Number>& p, Parameter parameter, std::size_t variable) {
       number.slope[variable] = slope;
   };
   switch (parameter) {
+    case Parameter::mass:
+      for (Number* const per_mass : {&p.h, &p.f, &p.load, &p.k, &p.kappa_lower, &p.kappa_upper})
+        if (const double number = static_cast<double>(*per_mass); std::isfinite(number))
+          seed(*per_mass, number / scene.inverse_mass);
+      return;
     case Parameter::h:
       return seed(p.h, 1);
     case Parameter::f:
@@ -94,13 +99,12 @@ Flight<Number> flight_of(const Orbit& orbit, std::size_t i) {
 template <class Number>
 Parameters<Number> parameters_of(const ShakenScene& scene, const std::vector<OrbitEquations::Axis>& axes) {
   Parameters<Number> p(scene);
-  for (std::size_t k = 0; k < axes.size(); ++k) vary(p, axes[k].parameter, by_first_axis + k);
+  for (std::size_t k = 0; k < axes.size(); ++k) vary(p, scene, axes[k].parameter, by_first_axis + k);
   return p;
 }
 
-/// Whether a parameter is one of those that vary.
-inline bool varies(const std::vector<OrbitEquations::Axis>& axes, Parameter parameter) {
-  return std::ranges::find(axes, parameter, &OrbitEquations::Axis::parameter) != axes.end();
+inline bool any_varies_stiffness(const std::vector<OrbitEquations::Axis>& axes) {
+  return std::ranges::any_of(axes, [](const OrbitEquations::Axis& axis) { return varies_stiffness(axis.parameter); });
 }
 
 template <class Number>

@@ -108,7 +108,7 @@ Moving moving_from_release(const ShakenScene& scene, const Orbit& orbit, sweep::
       begin = end, before = speed, last = impact;
     }
   };
-  with_arcs(scene, add_impacts, parameter == sweep::Parameter::stiffness);
+  with_arcs(scene, add_impacts, varies_stiffness(parameter));
   return m;
 }
 

@@ -43,7 +43,7 @@ class RestingBranch {
   void wait_beyond(const BranchPoint& last, Side stop, double ahead, std::size_t special, std::int64_t generation);
 
  private:
-  [[nodiscard]] ShakenScene scene(double value) const { return changed(problem_, settings_.along, value); }
+  [[nodiscard]] ShakenScene scene(double value) const { return changed(problem_, settings_.along.parameter, value); }
   [[nodiscard]] std::optional<Orbit> orbit(double value, Side stop, const Orbit& like) const;
   /// The motion with one rest more that begins at least so far ahead of a branch's end, and its parameter.
   [[nodiscard]] std::optional<std::pair<double, Orbit>> resting_ahead(const BranchPoint& last, Side stop,

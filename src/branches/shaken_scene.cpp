@@ -19,6 +19,8 @@ double& reference_to(ShakenScene& scene, Parameter parameter) {
       return scene.oscillator.load;
     case Parameter::stiffness:
       return scene.oscillator.stiffness;
+    case Parameter::mass:
+      return scene.inverse_mass;
     case Parameter::stop_amplitude:
       return scene.shaking.stops;
     case Parameter::base_amplitude:
@@ -57,6 +59,11 @@ bool keeps_symmetry(Parameter parameter) {
 
 ShakenScene changed(ShakenScene scene, Parameter parameter, double value) {
   if (parameter == Parameter::xs) value = std::abs(value);
+  if (parameter == Parameter::mass)
+    for (double* const per_mass :
+         {&scene.oscillator.damping, &scene.oscillator.forcing, &scene.oscillator.load, &scene.oscillator.stiffness,
+          &scene.stops.stiffness_lower, &scene.stops.stiffness_upper})
+      *per_mass *= value / scene.inverse_mass;
   reference_to(scene, parameter) = value;
   if (parameter == Parameter::xs) scene.stops.lower = -value;
   if (parameter == Parameter::R) scene.stops.restitution_lower = value;

@@ -9,18 +9,25 @@ namespace clatter::branches {
 /// phase; without any that is the phase of the force.
 struct ShakenScene : Scene {
   Shaking shaking{};
+  double inverse_mass = 1.0;  ///< over that at the start; forces, dampers and springs are per unit mass
 
   ShakenScene() = default;
   ShakenScene(const Scene& scene) : Scene(scene) {}
   ShakenScene(const point::Problem& problem) : Scene(problem), shaking(problem.shaking) {}
 };
 
-/// A scene with one of its parameters changed; `xs`, `R`, `stop_stiffness` and `stop_damping` change both stops.
+/// A scene with one of its parameters changed; `mass` is its inverse, over that at the start; `xs`, `R`,
+/// `stop_stiffness` and `stop_damping` change both stops.
 [[nodiscard]] ShakenScene changed(ShakenScene scene, sweep::Parameter parameter, double value);
 [[nodiscard]] double value_of(const ShakenScene& scene, sweep::Parameter parameter);
 
 /// Whether a scene stays symmetric if a parameter changes.
 [[nodiscard]] bool keeps_symmetry(sweep::Parameter parameter);
+
+/// Whether the stiffness of the spring, per unit mass, changes with a parameter.
+[[nodiscard]] constexpr bool varies_stiffness(sweep::Parameter parameter) {
+  return parameter == sweep::Parameter::stiffness || parameter == sweep::Parameter::mass;
+}
 
 /// Its oscillator in the frame of what is shaken, with the force there (eqs. 39 and 40).
 [[nodiscard]] inline Oscillator oscillator_in_frame(const ShakenScene& scene) {

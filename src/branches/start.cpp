@@ -64,63 +64,74 @@ Orbit soft_start(const point::Problem& problem, const PhasePoint& state, std::in
 }
 
 /// Throws StartError if a parameter of soft stops is to be followed and there is none, or a restitution of one.
-void require_soft_stop(const Stops& stops, sweep::Parameter parameter, const std::string& key) {
+void require_soft_stop(const Stops& stops, const Followed& followed, const std::string& asked) {
   using enum sweep::Parameter;
-  const std::string name(sweep::key_of(parameter));
+  const sweep::Parameter parameter = followed.parameter;
   const bool lower = is_soft(stops, Side::lower), upper = is_soft(stops, Side::upper);
   const bool of_lower = parameter == stop_stiffness_lower || parameter == stop_damping_lower,
              of_upper = parameter == stop_stiffness_upper || parameter == stop_damping_upper,
              of_both = parameter == stop_stiffness || parameter == stop_damping;
   if ((of_lower && !lower) || (of_upper && !upper) || (of_both && !lower && !upper))
-    throw StartError("branch." + key + " = " + name + " is of a soft stop, and this one is rigid; give scene." +
+    throw StartError(asked + " is of a soft stop, and this one is rigid; give " + std::string(followed.section) + '.' +
                      std::string(of_both    ? "stop_stiffness"
                                  : of_lower ? "stop_stiffness_lower"
                                             : "stop_stiffness_upper"));
   if ((parameter == R && lower && upper) || (parameter == R_lower && lower) || (parameter == R_upper && upper))
-    throw StartError("branch." + key + " = " + name + " has no effect on a soft stop; take stop_damping");
+    throw StartError(asked + " has no effect on a soft stop; take stop_damping");
+}
+
+/// Throws StartError if a parameter changes both stops, which differ.
+void require_equal_stops(const Stops& stops, const Followed& followed, const std::string& asked) {
+  using enum sweep::Parameter;
+  const sweep::Parameter parameter = followed.parameter;
+  if (parameter == xs && stops.lower != -stops.upper)
+    throw StartError(asked + " moves both stops, which aren't symmetric; take stop_lower or stop_upper");
+  const bool differ = (parameter == R && stops.restitution_lower != stops.restitution_upper) ||
+                      (parameter == stop_stiffness && stops.stiffness_lower != stops.stiffness_upper) ||
+                      (parameter == stop_damping && stops.damping_lower != stops.damping_upper);
+  const std::string name(followed.name());
+  if (differ)
+    throw StartError(asked + " changes both stops, which differ; take " + name + "_lower or " + name + "_upper");
+}
+
+/// Throws StartError at a start at which derivatives by a parameter don't exist, as the formulas change there.
+void require_derivatives(const Oscillator& oscillator, const Followed& followed) {
+  using enum sweep::Parameter;
+  const double k = oscillator.stiffness, critical = oscillator.damping * oscillator.damping;
+  const std::string by = "derivatives by " + std::string(followed.name()) + " don't exist ",
+                    begin = ", where the formulas change; begin at another " + followed.key();
+  const bool is_stiffness = followed.parameter == stiffness;
+  const std::string at_critical = followed.section == "machine" ? "at critical damping" : "at h^2 = stiffness";
+  if (is_stiffness && (k == 0 || k == critical)) throw StartError(by + "at 0 and " + at_critical + begin);
+  if ((followed.parameter == h || followed.parameter == mass) && k == critical)
+    throw StartError(by + at_critical + begin);
 }
 
 }  // namespace
 
-void require_start_in_range(const ShakenScene& scene, sweep::Parameter parameter, const std::array<double, 2>& range,
+void require_start_in_range(const ShakenScene& scene, const Followed& followed, const std::array<double, 2>& range,
                             const std::string& key) {
   using enum sweep::Parameter;
+  const sweep::Parameter parameter = followed.parameter;
   const Stops& stops = scene.stops;
-  const std::string name(sweep::key_of(parameter)), interval = key == "along" ? "branch.range" : "branch.across_range";
-  if (parameter == xs && stops.lower != -stops.upper)
-    throw StartError("branch." + key + " = xs moves both stops, which aren't symmetric; take stop_lower or stop_upper");
-  if (parameter == R && stops.restitution_lower != stops.restitution_upper)
-    throw StartError("branch." + key + " = R changes both stops, whose R differ; take R_lower or R_upper");
-  if (parameter == stop_stiffness && stops.stiffness_lower != stops.stiffness_upper)
-    throw StartError("branch." + key +
-                     " = stop_stiffness changes both stops, which differ; take stop_stiffness_lower or "
-                     "stop_stiffness_upper");
-  if (parameter == stop_damping && stops.damping_lower != stops.damping_upper)
-    throw StartError("branch." + key +
-                     " = stop_damping changes both stops, which differ; take stop_damping_lower or stop_damping_upper");
-  require_soft_stop(stops, parameter, key);
-  const double at = value_of(scene, parameter);
-  if (!std::isfinite(at)) throw StartError("there is no stop to move by branch." + key + "; give scene." + name);
-  if (key == "along" && !std::isfinite(range[1] - range[0]))
-    throw StartError(interval + " has no end; give two finite numbers");
-  if (!(at >= range[0] && at <= range[1]))
-    throw StartError("the start lies outside " + interval + "; give scene." + name + " a value within it");
+  const std::string asked = "branch." + key + " = " + std::string(followed.name()),
+                    interval = key == "along" ? "branch.range" : "branch.across_range";
+  require_equal_stops(stops, followed, asked);
+  require_soft_stop(stops, followed, asked);
+  const double at = value_of(scene, parameter), width = range[1] - range[0];
+  if (!std::isfinite(at)) throw StartError("there is no stop to move by branch." + key + "; give " + followed.key());
+  if (key == "along" && !std::isfinite(width)) throw StartError(interval + " has no end; give two finite numbers");
+  const double rounding = followed.section == "machine" && std::isfinite(width) ? 1e-14 * width : 0.0;  // of the units
+  if (!(at >= range[0] - rounding && at <= range[1] + rounding))
+    throw StartError("the start lies outside " + interval + "; give " + followed.key() + " a value within it");
   if (parameter == stop_lower && range[1] >= stops.upper && std::isfinite(range[1]))
     throw StartError(interval + " reaches the upper stop; end it below stop_upper");
   if (parameter == stop_upper && range[0] <= stops.lower && std::isfinite(range[0]))
     throw StartError(interval + " reaches the lower stop; begin it above stop_lower");
-  const double k = scene.oscillator.stiffness, critical = scene.oscillator.damping * scene.oscillator.damping;
-  if (parameter == h && k == critical)
-    throw StartError(
-        "derivatives by h don't exist at h^2 = stiffness, where the formulas change; begin at another "
-        "scene.h");
-  if (parameter == stiffness && (k == 0 || k == critical))
-    throw StartError(
-        "derivatives by stiffness don't exist at 0 and at h^2, where the formulas change; begin at another "
-        "scene.stiffness");
+  require_derivatives(scene.oscillator, followed);
   if ((parameter == stop_amplitude && scene.shaking.base != 0) ||
       (parameter == base_amplitude && scene.shaking.stops != 0))
-    throw StartError("stops and base can't be shaken at once; branch." + key + " = " + name + " needs " +
+    throw StartError("stops and base can't be shaken at once; " + asked + " needs " +
                      (parameter == stop_amplitude ? "base_amplitude" : "stop_amplitude") + " = 0");
 }
 
@@ -136,12 +147,16 @@ double speed_scale(const ShakenScene& scene, const Orbit& orbit) {
 Orbit start_orbit(const point::Problem& given, std::int64_t period, bool symmetric) {
   point::Problem problem = given;
   sweep::enter_shaken_frame(problem);
-  if (problem.oscillator.forcing == 0) throw StartError("a branch needs a force, whose periods it counts: set scene.f");
+  const bool is_si = given.units.is_si;
+  if (problem.oscillator.forcing == 0)
+    throw StartError(std::string("a branch needs a force, whose periods it counts: set ") +
+                     (is_si ? "machine.force" : "scene.f"));
   PhasePoint state{problem.start.displacement, problem.start.velocity};
   if (period == 0) {
     std::tie(state, period) = settled(problem);
   } else if (given.start.phase != 0) {
-    throw StartError("with branch.period, x0 and v0 stand at forcing phase 0: leave out scene.phase");
+    throw StartError("with branch.period, x0 and v0 stand at forcing phase 0: leave out " +
+                     std::string(is_si ? "machine.phase" : "scene.phase"));
   }
   if (has_soft_stop(problem.stops)) return soft_start(problem, state, period, symmetric);
   // Newton's method on the map of the periods; unless a contact appears or vanishes on the way it gets there

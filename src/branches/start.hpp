@@ -5,9 +5,9 @@
 #include <stdexcept>
 #include <string>
 
+#include "branches/followed.hpp"
 #include "branches/orbit.hpp"
 #include "branches/shaken_scene.hpp"
-#include "sweep/parameter.hpp"
 
 namespace clatter::branches {
 
@@ -18,7 +18,7 @@ struct StartError : std::runtime_error {
 
 /// Throws StartError if a scene's parameter can't be followed over a range from its present value on. `key` says which
 /// parameter of [branch] it is: "along" or "across".
-void require_start_in_range(const ShakenScene& scene, sweep::Parameter parameter, const std::array<double, 2>& range,
+void require_start_in_range(const ShakenScene& scene, const Followed& followed, const std::array<double, 2>& range,
                             const std::string& key);
 
 /// A speed of the order of the motion's: that of its fastest impact, or if that is hardly one, of the response.

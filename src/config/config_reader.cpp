@@ -3,6 +3,7 @@
 #include <type_traits>
 #include <utility>
 
+#include "config/branch_settings.hpp"
 #include "config/config.hpp"
 #include "config/config_text.hpp"
 #include "config/consistency.hpp"
@@ -112,93 +113,6 @@ sweep::Sweep sweep_of(Settings& settings, const AxisGroups& groups) {
   return sweep;
 }
 
-/// Throws ConfigError if a value of an interval isn't permitted for the key of [scene] that it is about, or [sweep] has
-/// an axis of that key, too.
-void check_followed(const Settings& settings, const std::string& name, std::string_view chosen_by,
-                    const Setting* interval) {
-  const Key& key = *find_key("scene", name);
-  if (interval != nullptr)
-    for (const double end : std::get<Interval>(interval->value))
-      if (!contains(key.range, end))
-        fail(interval->location, std::string(interval->key->name) + " has " + name + " = " + number_text(end) +
-                                     "; expected " + permitted(key));
-  if (name == "xs" && interval != nullptr && std::get<Interval>(interval->value)[0] < 0)
-    fail(interval->location, "xs stands for |xs|; expected two numbers above 0");
-  for (const Setting& axis : settings.axes)
-    if (axis.key->name == name)
-      fail(axis.key_location, "'" + name + "' in both [sweep] and [branch] " + std::string(chosen_by) +
-                                  "; remove it from [sweep], and give the value to begin at in [scene]");
-}
-
-/// Whether two keys of [scene] are one, or stand for a number of a stop that both change.
-bool change_the_same(sweep::Parameter one, sweep::Parameter other) {
-  using enum sweep::Parameter;
-  const auto parts = [](sweep::Parameter parameter) {
-    if (parameter == xs) return std::vector{stop_lower, stop_upper};
-    if (parameter == R) return std::vector{R_lower, R_upper};
-    if (parameter == stop_stiffness) return std::vector{stop_stiffness_lower, stop_stiffness_upper};
-    if (parameter == stop_damping) return std::vector{stop_damping_lower, stop_damping_upper};
-    return std::vector{parameter};
-  };
-  const std::vector<sweep::Parameter> first = parts(one), second = parts(other);
-  return std::ranges::find_first_of(first, second) != first.end();
-}
-
-/// The second parameter of [branch], if there is one, and the special points that are followed across it. Throws
-/// ConfigError as `branch_of` does.
-void add_second_parameter(const Settings& settings, branches::BranchSettings& branch) {
-  const Setting *const across = settings.find("branch", "across"), *const curve = settings.find("branch", "curve"),
-                       *const range = settings.find("branch", "across_range");
-  if (across == nullptr && curve != nullptr)
-    fail(curve->key_location, "'curve' without 'across'; add the second parameter, e.g. across = \"xs\"");
-  if (across == nullptr && range != nullptr)
-    fail(range->key_location, "'across_range' without 'across'; add the second parameter, e.g. across = \"xs\"");
-  if (across == nullptr) return;
-  if (curve == nullptr)
-    fail(across->key_location,
-         "'across' without 'curve'; add the special points that are followed, e.g. curve = \"fold\"");
-  const std::string name = settings.text("branch", "across");
-  branch.across = sweep::parameter_of(name).value(), branch.curve = settings.text("branch", "curve");
-  if (change_the_same(*branch.across, branch.along))
-    fail(across->location, "'" + name + "' and '" + std::string(sweep::key_of(branch.along)) +
-                               "' change the same quantity; expected another key of [scene]");
-  check_followed(settings, name, "across", range);
-  const AllowedRange& permitted_values = find_key("scene", name)->range;
-  branch.across_range = {permitted_values.not_zero ? 0.0 : permitted_values.low, permitted_values.high};
-  if (range != nullptr) branch.across_range = settings.interval("branch", "across_range");
-}
-
-/// [branch]. Throws ConfigError if a key is missing, or a value of a range isn't permitted, or [sweep] has an axis of
-/// the same key.
-std::optional<branches::BranchSettings> branch_of(const Settings& settings) {
-  const Setting *const along = settings.find("branch", "along"), *const range = settings.find("branch", "range");
-  const auto asks_for_branch = [](const Setting& setting) {
-    const Key& key = *setting.key;
-    return key.section == "branch" && (key.fallback.empty() || setting.value != default_setting(key).value);
-  };
-  if (along == nullptr && std::ranges::none_of(settings.values, asks_for_branch)) return std::nullopt;
-  if (settings.is_si())
-    fail(settings.location_of_section("branch"),
-         "[branch] beside [machine]; a branch is followed in a scene without units: give [scene] the numbers that "
-         "`clatter plan` prints without [branch]");
-  if (along == nullptr)
-    fail(settings.location_of_section("branch"), "[branch] without 'along'; add a key of [scene], e.g. along = \"nu\"");
-  if (range == nullptr)
-    fail(settings.location_of_section("branch"),
-         "[branch] without 'range'; add the values to stop at, e.g. range = [0.8, 1.5]");
-  const std::string name = settings.text("branch", "along");
-  branches::BranchSettings branch{.along = sweep::parameter_of(name).value(),
-                                  .range = settings.interval("branch", "range"),
-                                  .period = settings.integer("branch", "period"),
-                                  .tolerance = settings.number("branch", "tolerance"),
-                                  .largest_step = settings.number("branch", "largest_step"),
-                                  .max_points = settings.integer("branch", "max_points"),
-                                  .generations = settings.integer("branch", "switch")};
-  check_followed(settings, name, "along", range);
-  add_second_parameter(settings, branch);
-  return branch;
-}
-
 /// Refuses a configuration whose complete text would be too long to be read again, at the longest of its values.
 [[noreturn]] void refuse_long(const Settings& settings) {
   std::size_t longest = 0;
@@ -224,19 +138,15 @@ Config config_of(ParsedConfig parsed) {
   const AxisGroups groups = group_axes(settings);
   check_stops_and_start(settings, groups);
   check_soft_stops(settings);
-  Config config{settings.text("", "title"),
-                settings.text("", "source"),
-                {},
-                branch_of(settings),
-                0,
-                config_text(settings),
-                {},
-                {}};
+  Config config;
+  config.title = settings.text("", "title"), config.source = settings.text("", "source");
+  config.text = config_text(settings);
+  if (config.text.size() > max_config_bytes) refuse_long(settings);
   for (const Replaced& replaced : settings.replaced) config.notes.push_back(to_string(replaced));
   config.warnings = warnings_of(settings, groups);
-  if (config.text.size() > max_config_bytes) refuse_long(settings);
   config.compression = static_cast<int>(settings.integer("output", "compression"));
-  config.sweep = sweep_of(settings, groups);
+  config.sweep = sweep_of(settings, groups);  // takes the values of the axes
+  config.branch = branch_settings_of(settings, branches::start_problem(config.sweep));
   return config;
 }
 

@@ -144,12 +144,12 @@ AxisValues list_of(const Key& key, const ParsedList& list, bool is_si = false) {
   return axis;
 }
 
-Interval interval_of(const Key& key, const ParsedValue& written) {
+Interval interval_of(const Key& key, const ParsedValue& written, bool is_si) {
   const auto* const text = std::get_if<std::string>(&written.data);
   const bool several = std::holds_alternative<ParsedList>(written.data) || (text != nullptr && written.untyped);
   if (!several) wrong_kind(key, written);
-  const std::vector<double> values = text != nullptr ? parse_axis(source_text(key, *text, written, false)).values
-                                                     : list_of(key, std::get<ParsedList>(written.data)).values;
+  const std::vector<double> values = text != nullptr ? parse_axis(source_text(key, *text, written, is_si)).values
+                                                     : list_of(key, std::get<ParsedList>(written.data), is_si).values;
   if (values.size() != 2 || !(values[0] < values[1]) || !std::isfinite(values[1] - values[0]))
     fail(written.location, std::string(key.name) + " = " + toml_list(values) + expected(key));
   return {values[0], values[1]};
@@ -171,7 +171,7 @@ Value convert(const Key& key, const ParsedValue& written, bool is_si) {
     case Kind::number:
       return in_range(key, number_of(key, written, is_si), written.location);
     case Kind::interval:
-      return interval_of(key, written);
+      return interval_of(key, written, is_si);
     case Kind::integer:
       return integer_of(key, written);
     case Kind::flag:

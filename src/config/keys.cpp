@@ -152,14 +152,14 @@ constexpr std::array keys_after_observe{
                         "required: simulate what a scene calls for; all: to compare with, simulate every effect, run "
                         "max_periods, and look for the repeat only then"}),
 
-    with(a_range,
-         one_of(branches::parameter_names, Key{"branch", "along", choice, "", "nu",
-                                               "key of [scene] along which `clatter branch` follows a motion"})),
+    with(a_range, one_of(branches::parameter_names,
+                         Key{"branch", "along", choice, "", "nu",
+                             "key of [scene] or [machine] along which `clatter branch` follows a motion"})),
     with("along = \"nu\"\n", Key{"branch", "range", interval, "", "0.8, 1.5", "of that key; there the branch ends"}),
-    with(a_kind,
-         one_of(branches::parameter_names, Key{"branch", "across", choice, "", "xs",
-                                               "second key of [scene]: special points are followed in the plane of "
-                                               "both"})),
+    with(a_kind, one_of(branches::parameter_names,
+                        Key{"branch", "across", choice, "", "xs",
+                            "second key of [scene] or [machine]: special points are followed in the plane of "
+                            "both"})),
     with(a_curve, Key{"branch", "across_range", interval, "", "0.5, 4",
                       "of that second key; without it, all that is permitted"}),
     with(a_second, one_of(branches::curve_names, Key{"branch", "curve", choice, "", "fold",

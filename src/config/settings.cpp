@@ -9,6 +9,10 @@
 namespace clatter::config {
 namespace {
 
+/// Keys of [scene] and those of [machine] that say the same.
+constexpr std::pair<std::string_view, std::string_view> counterparts[] = {
+    {"h", "damping_ratio"}, {"f", "force"}, {"nu", "frequency"}, {"xs", "gap"}};
+
 void check_section(const std::string& name, const SourceLocation& location) {
   const auto known = sections();
   if (name.empty() || std::find(known.begin(), known.end(), name) != known.end()) return;
@@ -41,19 +45,6 @@ void check_brackets(const ParsedEntry& entry) {
   if (std::find(known.begin(), known.end(), entry.key) == known.end()) return;
   fail(entry.location, "[[" + entry.key + "]] begins a list of tables, a section is one table; write [" + entry.key +
                            "], in single brackets");
-}
-
-/// Keys of [scene] and those of [machine] that say the same.
-constexpr std::pair<std::string_view, std::string_view> counterparts[] = {
-    {"h", "damping_ratio"}, {"f", "force"}, {"nu", "frequency"}, {"xs", "gap"}};
-
-/// What says the same in the other one of [scene] and [machine]; empty if nothing does.
-std::string_view counterpart_of(std::string_view name) {
-  for (const auto& [in_scene, in_machine] : counterparts) {
-    if (name == in_scene) return in_machine;
-    if (name == in_machine) return in_scene;
-  }
-  return {};
 }
 
 /// The key in the section that describes the scene, of which an axis is one. Throws ConfigError if it is one of the
@@ -98,6 +89,31 @@ std::string_view section_of_scene(const ParsedConfig& parsed) {
   const bool has_header = std::ranges::find(parsed.sections, "machine", &ParsedSection::name) != parsed.sections.end();
   const bool has_other = std::ranges::find(parsed.sections, "scene", &ParsedSection::name) != parsed.sections.end();
   return machine != nullptr || (scene == nullptr && has_header && !has_other) ? "machine" : "scene";
+}
+
+/// The key that `along` or `across` of [branch] names; nullptr if that isn't given, or names none at all. Throws
+/// ConfigError if it is one of the section that doesn't describe the scene.
+const Key* followed_key(const ParsedConfig& parsed, std::string_view chosen_by, std::string_view scene_section) {
+  for (const ParsedEntry& entry : parsed.entries) {
+    const auto* const name = std::get_if<std::string>(&entry.value.data);
+    if (entry.section != "branch" || entry.key != chosen_by || name == nullptr) continue;
+    if (const Key* const key = find_key(scene_section, *name)) return key;
+    const std::string_view counterpart = counterpart_of(*name);
+    const bool is_of_other = find_key("scene", *name) != nullptr || find_key("machine", *name) != nullptr;
+    if (is_of_other)
+      fail(entry.value.location, in_quotes(*name) + " is no key of [" + std::string(scene_section) +
+                                     "], which describes this scene; " +
+                                     (counterpart.empty() ? "expected one that is" : "take " + in_quotes(counterpart)));
+  }
+  return nullptr;
+}
+
+/// A key of [branch] that holds values of another key has its quantity, so that they may have its units.
+Key with_quantity(Key key, const Key* along, const Key* across) {
+  if (key.section != "branch") return key;
+  const Key* const followed = key.name == "range" ? along : key.name == "across_range" ? across : nullptr;
+  if (followed != nullptr) key.quantity = followed->quantity;
+  return key;
 }
 
 /// A setting with a value as written in INI.
@@ -175,10 +191,20 @@ Setting default_setting(const Key& key) { return setting_of(key, key.fallback); 
 
 Setting example_setting(const Key& key) { return setting_of(key, key.example); }
 
+std::string_view counterpart_of(std::string_view name) {
+  for (const auto& [in_scene, in_machine] : counterparts) {
+    if (name == in_scene) return in_machine;
+    if (name == in_machine) return in_scene;
+  }
+  return {};
+}
+
 Settings check_keys(ParsedConfig parsed) {
   const std::string_view scene_section = section_of_scene(parsed);
   Settings settings{std::move(parsed.file), std::move(parsed.sections), {}, {}, {}, scene_section};
   for (const ParsedSection& section : settings.sections) check_section(section.name, section.location);
+  const Key *const along = followed_key(parsed, "along", scene_section), *const across = followed_key(parsed, "across",
+                                                                                                      scene_section);
   for (const ParsedEntry& entry : parsed.entries) {
     check_section(entry.section, entry.location);
     check_brackets(entry);
@@ -186,8 +212,8 @@ Settings check_keys(ParsedConfig parsed) {
     if (entry.section == "sweep" && describes_scene(key.section)) {
       settings.axes.push_back({&key, convert_axis(key, entry.value), entry.location, entry.value.location});
     } else {
-      settings.values.push_back(
-          {&key, convert(key, entry.value, settings.is_si()), entry.location, entry.value.location});
+      settings.values.push_back({&key, convert(with_quantity(key, along, across), entry.value, settings.is_si()),
+                                 entry.location, entry.value.location});
     }
   }
   return settings;

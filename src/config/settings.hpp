@@ -76,6 +76,9 @@ struct Settings {
 /// Checks every entry against the key table. Throws ConfigError at the first unknown key or wrong value.
 [[nodiscard]] Settings check_keys(ParsedConfig parsed);
 
+/// What says the same as a key in the other one of [scene] and [machine]; empty if nothing does.
+[[nodiscard]] std::string_view counterpart_of(std::string_view name);
+
 /// The default of a key that has one, converted as a given value would be.
 [[nodiscard]] Setting default_setting(const Key& key);
 

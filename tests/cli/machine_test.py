@@ -21,6 +21,7 @@ force = "-12.8 N"
 R = 0.7
 gap = "4 mm"
 """
+DRIVE_ALONG = DRIVE.replace('"4 mm"', '"3 mm"\nfrequency = "176 rad/s"\nx0 = "2 mm"\nv0 = 0.48')
 P = 160.0  # rad/s, of the spring: (12.8 kN/m / 500 g)^(1/2)
 M = 0.5  # kg
 
@@ -104,16 +105,74 @@ class Machine(StoppedRuns):
         self.run_config("b.toml", "b.h5")
         self.assertEqual((self.directory / "a.h5").read_bytes(), (self.directory / "b.h5").read_bytes())
 
-    def test_accuracy_is_measured_and_branches_are_refused(self):
+    def test_accuracy_is_measured(self):
         config = self.write("a.toml", DRIVE + 'frequency = "25 Hz"\n[time]\nwindow = 4\n')
         measured = self.clatter("accuracy", config, "-q")
         self.assertEqual((measured.returncode, measured.stderr), (0, ""))
         self.assertIn("exact in ", measured.stdout)
-        way = ("--set", "branch.along=nu", "--set", "branch.range=0.8, 1.2")
-        self.assert_refused(
-            2, "[branch] beside [machine]; a branch is followed in a scene without units", "branch", config, *way
-        )
-        self.assert_refused(2, "give [scene] the numbers that `clatter plan` prints", "branch", config)
+
+    def branch(self, config, *changes):
+        result = self.clatter("branch", config, "-o", "b.h5", "--force", "--quiet", "--json", *sets(changes))
+        self.assertEqual((result.returncode, result.stderr), (0, ""), changes)
+        data = xarray.load_dataset(self.directory / "b.h5", engine="h5netcdf")
+        return data, [json.loads(line) for line in result.stdout.splitlines()]
+
+    def test_branches_of_a_machine_are_those_of_the_scene_that_is_scaled_by_hand(self):
+        # without doubled periods, of whose two phases either may be followed
+        scene, _ = self.branch(SOURCE / "configs" / "branch.toml", "branch.switch=1")
+        way = ("branch.along=frequency", "branch.range=136 rad/s, 240 rad/s", "branch.switch=1")
+        drive, special = self.branch(self.write("a.toml", DRIVE_ALONG), *way, "observe.energy=true")
+        speed, power = 1e3 / P, 1e6 / (M * P**3)
+        scales = {"frequency": 2 * np.pi / P, "x": 1e3, "x_min": 1e3, "x_max": 1e3, "impact_power": power}
+        scales |= dict.fromkeys(("v", "v_min", "v_max", "impact_speed"), speed)
+        self.assertGreater(scene.sizes["special"], 5)
+        for name in scene.drop_vars("special_stable").variables:  # multipliers of special points lie on the unit circle
+            own = name.replace("nu", "frequency") if name.removeprefix("special_") == "nu" else name
+            values, expected = drive[own].values, scene[name].values
+            if "multiplier" in name:  # infinite in a graze
+                values, expected = values / (1 + np.abs(values)), expected / (1 + np.abs(expected))
+            if expected.dtype.kind == "f":
+                # both solve the same equations to the settings' tolerance of 1e-12, in other units
+                np.testing.assert_allclose(
+                    values * scales.get(own.removeprefix("special_"), 1), expected, rtol=1e-11, atol=1e-11, err_msg=name
+                )
+            else:
+                np.testing.assert_array_equal(values, expected, err_msg=name)
+        units = {"frequency": "Hz", "x": "m", "v_max": "m s-1", "impact_power": "W", "arclength": "1", "word": "1"}
+        self.assertEqual({name: drive[name].attrs["units"] for name in units}, units)
+        self.assertNotIn("unit mass", drive.impact_power.attrs["long_name"])
+        np.testing.assert_array_equal([point["frequency"] for point in special], drive.special_frequency)
+        np.testing.assert_array_equal([point["impact_speed"] for point in special], drive.special_impact_speed)
+
+    def test_motion_along_each_key_repeats_in_the_simulator(self):
+        config = self.write("a.toml", DRIVE_ALONG)
+        self.write("run.toml", DRIVE_ALONG.replace("x0", "#").replace("v0", "#"))
+        ranges = {"mass": "0.3, 0.9", "stiffness": "6 kN/m, 20 kN/m", "damping": "10, 30", "force": "-20 N, -5 N"}
+        ranges |= {"gap": "2 mm, 3.4 mm", "load": "0, 2 N", "R": "0.05, 1", "damping_ratio": "0.05, 0.2"}
+        ranges |= {"quality": "2, 10", "base_amplitude": "0, 0.1 mm"}
+        for key, values in ranges.items():
+            ratio = {"damping_ratio": "0.1", "quality": "5"}.get(key)
+            scene = () if ratio is None else (f"machine.{key}={ratio}",)
+            along, _ = self.branch(config, f"branch.along={key}", f"branch.range={values}", *scene)
+            inner = np.diff(along.branch, prepend=-1) + np.diff(along.branch, append=-1) == 0  # ends may be grazes
+            stable = along.isel(point=np.flatnonzero((along.stable.values == 1) & inner)[::7])
+            self.assertGreater(len(np.unique(stable[key])), 2, key)
+            axes = [f"sweep.{name}={', '.join(map(repr, stable[name].values))}" for name in (key, "x", "v")]
+            axes = [axis.replace("sweep.x=", "sweep.x0=").replace("sweep.v=", "sweep.v0=") for axis in axes]
+            period = 2 * np.pi / 176
+            time = ("time.mode=transient", f"time.duration={2.5 * period!r}", "observe.section=3")
+            run = self.run_config("run.toml", "r.h5", *sets((*axes, f"sweep.linked={key}, x0, v0", *time)))
+            # Newton's method has a tolerance of 1e-12, and stable motion keeps errors within a few times theirs
+            repeated = np.repeat(stable.x.values[:, None], 3, axis=1)
+            np.testing.assert_allclose(run.section_x.values, repeated, rtol=1e-10, atol=0, err_msg=key)
+
+    def test_curves_of_a_machine(self):
+        way = ("branch.along=frequency", "branch.range=136 rad/s, 240 rad/s", "branch.curve=fold", "branch.across=mass")
+        curve, _ = self.branch(self.write("a.toml", DRIVE_ALONG), *way, "branch.across_range=300 g, 0.7 kg")
+        self.assertEqual(curve.mass.attrs["units"], "kg")
+        # at the ends of the range of either
+        np.testing.assert_allclose([curve.mass[0], curve.frequency[-1]], [0.7, 240 / (2 * np.pi)], rtol=1e-12)
+        np.testing.assert_allclose(curve.multiplier_re.max("multiplier"), 1, atol=1e-6)
 
     def test_pictures_have_units(self):
         words = ("sweep.frequency=linspace(20 Hz, 30 Hz, 11)", "observe.extrema=true", "observe.energy=true")

@@ -114,7 +114,19 @@ TEST(Machine, wrong_machines) {
       {"[scene]\nxs = 1\n[sweep]\nmass = [1]\n", "4:1", "'mass' is a key of [machine], and [scene] describes this"},
       {"[scene]\nxs = 1\n[machine]\nmass = 1\n", "4:1", "machine.mass beside scene.xs, "},
       {"[machine]\nmass = 1\n[scene]\nxs = 1\n", "4:1", "describe the scene either in [scene], without units, or in"},
-      {machine + "[branch]\nalong = \"R\"\nrange = [0.1, 0.2]\n", "5:2", "[branch] beside [machine]; a branch is"},
+      {machine + "[branch]\nrange = [0.1, 0.2]\n", "5:2", "without 'along'; add a key of [machine], e.g. along = \"fre"},
+      {machine + "[branch]\nalong = \"frequency\"\n", "5:2", "without 'range'; add the values to stop at, e.g. range"},
+      {machine + "[branch]\nalong = \"nu\"\nrange = [0.1, 0.2]\n", "6:9",
+       "'nu' is no key of [machine], which describes this scene; take 'frequency'"},
+      {"[scene]\nxs = 1\n[branch]\nrange = [\"1 Hz\", \"2 Hz\"]\nalong = \"frequency\"\n", "5:9",
+       "'frequency' is no key of [scene], which describes this scene; take 'nu'"},
+      {machine + "quality = 5\n[branch]\nalong = \"mass\"\nrange = [1, 2]\n", "5:1",
+       "a branch along 'mass' beside 'quality', which changes with it; give 'damping', in N s/m, in its place"},
+      {machine + "damping_ratio = 1\n[branch]\nalong = \"gap\"\nrange = [1, 2]\nacross = \"stiffness\"\ncurve = \"fold\"",
+       "5:1", "a branch along 'stiffness' beside 'damping_ratio'"},
+      {machine + "[branch]\nalong = \"quality\"\nrange = [1, 2]\nacross = \"damping\"\ncurve = \"fold\"", "8:10",
+       "'damping' and 'quality' change the same quantity; expected another key of [machine]"},
+      {machine + "[branch]\nalong = \"mass\"\nrange = [0, 2]\n", "7:9", "range has mass = 0; expected > 0, in kg"},
   };
   expect_all("a.toml", table);
   const std::string named = mistake_in("a.toml", "[scene]\nxs = 1\n", {{"machine.mass", "1"}});
@@ -136,6 +148,9 @@ TEST(Machine, wrong_units) {
       {"[scene]\nxs = \"3 mm\"\n", "2:9", "leave it out, or describe the scene in [machine], which has units"},
       {"[scene]\nxs = 1\n[time]\nmode = \"transient\"\nduration = \"3 s\"\n", "5:15",
        "the unit 's' of a number without unit; leave it out, or describe the scene in [machine]"},
+      {machine + "[branch]\nalong = \"gap\"\nrange = [\"1 mm\", \"2 Hz\"]\n", "7:21", "doesn't fit; expected a length in m"},
+      {machine + "[branch]\nalong = \"R\"\nrange = [\"1 mm\", 2]\n", "7:13", "the unit 'mm' of a number without unit"},
+      {"[scene]\nxs = 1\n[branch]\nalong = \"nu\"\nrange = [\"1 Hz\", \"2 Hz\"]\n", "5:13", "of a number without unit"},
       {"[scene]\nxs = 1\n[sweep]\nnu = [\"1 Hz\"]\n", "4:10", "leave it out, or describe the scene in [machine]"},
   };
   expect_all("a.toml", table);
