@@ -69,6 +69,8 @@ done
 mv "$work"/regimes+*.svg "$out/curves.svg"
 "$clatter" branch "$source_dir/configs/branch.toml" -o "$work/branch.h5" -q > /dev/null
 "$source_dir/scripts/plot.py" "$work/branch.h5" --only impact_speed --size 7x4 --format svg -o "$out"
+"$clatter" branch "$source_dir/configs/soft_branch.toml" -o "$work/soft_branch.h5" -q > /dev/null
+"$source_dir/scripts/plot.py" "$work/soft_branch.h5" --only v_max --size 7x4 --format svg -o "$out"
 optimal() { # name, then settings of the start
   "$clatter" branch "$source_dir/configs/optimal.toml" -o "$work/$1.h5" -q "${@:2}" > /dev/null
 }
