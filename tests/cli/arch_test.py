@@ -72,11 +72,18 @@ class Arch(CommandLine):
         self.assertEqual(self.run_with(variable="")["x_max"].tobytes(), x_max.tobytes())
 
     def test_every_set_gives_the_same_motion(self):
-        default = self.run_with(text=EVERYTHING)
+        self.compare_sets(EVERYTHING)
+
+    def test_every_set_gives_the_same_motion_between_soft_stops(self):
+        soft = EVERYTHING.replace("xs = -3.5", "xs = -3.5\nstop_stiffness = 50.0\nstop_damping = 0.1")
+        self.compare_sets("".join(line for line in soft.splitlines(True) if not line.startswith("R = ")))
+
+    def compare_sets(self, text):
+        default = self.run_with(text=text)
         periodic = default["status"] == 0
         self.assertGreater(periodic.sum(), 30)
         for name in filter(runs_here, NAMES):
-            other = self.run_with("--arch", name, text=EVERYTHING)
+            other = self.run_with("--arch", name, text=text)
             numpy.testing.assert_array_equal(other["status"], default["status"])
             for counted in ("impacts_per_period", "period_ratio"):
                 numpy.testing.assert_array_equal(
@@ -96,27 +103,29 @@ class Objects(unittest.TestCase):
     """The linker keeps one of equal functions: one that AVX code leaves behind could be what every machine runs."""
 
     def symbols(self, name):
+        """Of each object with step functions: springs, motion without one, soft stops."""
         nm = shutil.which("nm")
         if nm is None:
             self.skipTest("there is no nm here (of binutils) to look at object files with")
-        objects = list(
-            (pathlib.Path(CLATTER).parents[2] / "src" / "lanes").glob(f"CMakeFiles/*_{name}.dir/step_block.cpp.o")
-        )
-        self.assertEqual(len(objects), 1, f"step functions for {name}")
-        text = subprocess.run([nm, "--defined-only", objects[0]], capture_output=True, text=True, check=True).stdout
-        return [line.split()[-2:] for line in text.splitlines()]
+        folder = pathlib.Path(CLATTER).parents[2] / "src" / "lanes"
+        objects = list(folder.glob(f"CMakeFiles/*_{name}.dir/step_*block.cpp.o"))
+        self.assertEqual(len(objects), 3, f"step functions for {name}")
+        for path in objects:
+            text = subprocess.run([nm, "--defined-only", path], capture_output=True, text=True, check=True).stdout
+            yield path.name, [line.split()[-2:] for line in text.splitlines()]
 
     def test_step_functions_define_nothing_that_code_of_another_set_could_be_merged_with(self):
+        entries = set()
         for name, tag in (("avx2", r"5xsimd.*4avx2"), ("avx512", r"5xsimd.*avx512")):
-            functions = {symbol for kind, symbol in self.symbols(name) if kind in "TWui"}
-            entries = {
-                symbol
-                for symbol in functions
-                if re.fullmatch(rf"_ZN7clatter5lanes\d+step(_observed)?_{name}ERNS0_10BlockStateE", symbol)
-            }
-            self.assertEqual(len(entries), 2, functions)
-            shared = [symbol for symbol in functions - entries if not re.search(tag, symbol)]
-            self.assertEqual(shared, [], f"{name}: the linker could take these for those of other objects")
+            for path, symbols in self.symbols(name):
+                functions = {symbol for kind, symbol in symbols if kind in "TWui"}
+                entry = rf"_ZN7clatter5lanes\d+step(_\w+)?_{name}ERNS0_10BlockStateE"
+                own = {symbol for symbol in functions if re.fullmatch(entry, symbol)}
+                self.assertTrue(own, functions)
+                entries |= own
+                shared = [symbol for symbol in functions - own if not re.search(tag, symbol)]
+                self.assertEqual(shared, [], f"{name}, {path}: the linker could take these for those of other objects")
+        self.assertEqual(len(entries), 10, entries)  # those of soft stops observe nothing
 
 
 if __name__ == "__main__":

@@ -60,6 +60,15 @@ class Shards(StoppedRuns):
                     self.assertEqual(self.merged(shards), whole, (of, threads, interrupted))
         self.assertGreater(self.stops, 0)
 
+    def test_between_soft_stops_the_bytes_are_the_same_too(self):
+        for follow in ("", "nu"):
+            self.sweep(nu=12, xs=10, follow=follow)
+            text = re.sub(r"(?m)^R = .*$", "stop_stiffness = 60.0\nstop_damping = 0.1", self.config.read_text())
+            self.config.write_text(text)
+            whole = self.undisturbed()
+            shards = [self.shard(k, 3, threads=1 + k, interrupted=k == 1) for k in range(3)]
+            self.assertEqual(self.merged(shards), whole, follow)
+
     def test_shards_take_whole_branches_along_a_followed_axis(self):
         for follow in ("nu", "xs"):
             self.sweep(nu=12, xs=10, follow=follow)
