@@ -139,12 +139,9 @@ double LaneView::enter_phase(const LaneState& state) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   BlockState::Cushioned& rows = block_->cushioned;
   LaneState s = state;
-  for (const Side side : {Side::lower, Side::upper}) {
-    if (s.within != Side::none || !(at(rows.soft[index_of(side)]) > 0)) continue;
-    const auto stop = motion::soft_stop_at<double>(scene_->stops, side);
-    const double depth = stop.into(s.x - stop.position);
-    if (!(depth > 0)) continue;
-    s.within = side, s.offset = s.x - stop.position, s.pressed = stop.force(depth, stop.into(s.v)) > 0;
+  if (s.within == Side::none) {
+    const motion::Within<double> around = motion::soft_stop_around(scene_->stops, s.x, s.v);
+    s.within = around.side, s.offset = around.offset, s.pressed = around.pressed;
   }
   const auto present = rows_of_phase(*block_);
   const std::size_t phase = s.within != Side::none && s.pressed ? 1 + index_of(s.within) : 0;

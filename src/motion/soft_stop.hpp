@@ -32,4 +32,24 @@ template <class Number>
           Number(upper ? stops.damping_upper : stops.damping_lower) * sqrt(stiffness)};
 }
 
+/// The soft stop beyond whose position a mass is; side none: it is between the stops.
+template <class Number>
+struct Within {
+  Side side = Side::none;
+  Number offset{};       ///< of the mass from the stop's position
+  bool pressed = false;  ///< the stop pushes
+};
+
+/// Displacement and velocity decide whether the stop pushes: all that is known of a state that comes from elsewhere.
+template <class Number>
+[[nodiscard]] Within<Number> soft_stop_around(const Stops& stops, const Number& x, const Number& v) {
+  for (const Side side : {Side::lower, Side::upper}) {
+    if (!is_soft(stops, side)) continue;
+    const SoftStop<Number> stop = soft_stop_at<Number>(stops, side);
+    const Number offset = x - stop.position, depth = stop.into(offset);
+    if (depth > 0) return {side, offset, stop.force(depth, stop.into(v)) > 0};
+  }
+  return {};
+}
+
 }  // namespace clatter::motion

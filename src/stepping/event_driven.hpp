@@ -139,19 +139,12 @@ class EventDriven : public IntegratorBase<N, E> {
     state.phase_turns = until;
   }
 
-  /// The soft stop beyond whose position the mass is. A state that comes from elsewhere says no more than displacement
-  /// and velocity: they decide whether the stop pushes.
+  /// The soft stop beyond whose position the mass is.
   [[nodiscard]] Side soft_stop_around(motion::State<Number>& state) const {
     if (state.within != Side::none) return state.within;
-    for (const Side side : {Side::lower, Side::upper}) {
-      if (!is_soft(this->stops(), side)) continue;
-      const auto stop = motion::soft_stop_at<Number>(this->stops(), side);
-      const Number depth = stop.into(state.x - stop.position);
-      if (!(depth > 0)) continue;
-      state.within = state.from_stop = side, state.offset = state.x - stop.position;
-      state.pressed = stop.force(depth, stop.into(state.v)) > 0;
-    }
-    return state.within;
+    const auto [side, offset, pressed] = motion::soft_stop_around(this->stops(), state.x, state.v);
+    if (side != Side::none) state.within = state.from_stop = side, state.offset = offset, state.pressed = pressed;
+    return side;
   }
 
   /// Begins a contact with a soft stop at its position; false if the impact budget is exceeded. A mass that only

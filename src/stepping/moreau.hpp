@@ -101,13 +101,8 @@ class Moreau : public IntegratorBase<double, E> {
 
   /// The soft stop beyond whose position the mass is, and whether it pushes, a time later at its present velocity.
   void look_beyond(motion::State<double>& state, double later) const {
-    state.within = Side::none, state.pressed = false;
-    for (const Side side : {Side::lower, Side::upper}) {
-      if (!is_soft(this->stops(), side)) continue;
-      const auto stop = motion::soft_stop_at<double>(this->stops(), side);
-      const double depth = stop.into(state.x + later * state.v - stop.position);
-      if (depth > 0) state.within = side, state.pressed = stop.force(depth, stop.into(state.v)) > 0;
-    }
+    const auto around = motion::soft_stop_around(this->stops(), state.x + later * state.v, state.v);
+    state.within = around.side, state.pressed = around.pressed;
   }
   /// A start beyond a soft stop's position is no touch.
   void begin_beyond(motion::State<double>& state) const {
