@@ -159,6 +159,7 @@ class ArcConstants {
   [[nodiscard]] Number unsprung_sixth_bound(const Motion<Number>& m, const Number& span, int derivative) const;
   [[nodiscard]] Number short_a_minus_one(const Number& s) const;
   void respond_from_rest(const Number& s, Step<Number>& step) const;
+  void respond_near_critical_damping(Step<Number>& step) const;
 
   Number coarse_root_{}, spare_root_{};   ///< light damping: root is their difference; the first is 1 if h < 1/2
   std::array<Number, 2> free_bound_{};    ///< of |x^(6)| and |x^(7)| over the energy norm
@@ -270,6 +271,8 @@ Step<Number> ArcConstants<Number, E>::step(const Number& s) const {
 template <class Number, Effects E>
 void ArcConstants<Number, E>::respond_from_rest(const Number& s, Step<Number>& step) const {
   using std::cos, std::exp, std::sin;
+  if constexpr (E.stiffness)  // which has one set of effects for all light damping between soft stops
+    if (root < secular_distance * natural) return respond_near_critical_damping(step);
   const Number lambda = root, c = cos(nu * s), d = sin(nu * s);
   const auto [q_re, q_im] = divided_exponential<Number>(-h * s, -detuning * s);
   const Number near_re = s * (c * q_re - d * q_im), near_im = s * (c * q_im + d * q_re);  // E(mu)
@@ -281,6 +284,20 @@ void ArcConstants<Number, E>::respond_from_rest(const Number& s, Step<Number>& s
   const Number w_re = minus_im / (2 * lambda), w_im = -minus_re / (2 * lambda);
   step.displacement = {w_re, w_im};
   step.velocity = {plus_re / 2 - h * w_re, plus_im / 2 - h * w_im};  // [mu E(mu) - mu* E(mu*)]/(2 i lambda)
+}
+
+/// The same by the steady response and the free motion that it leaves, w = (P + iQ)(e^{i nu s} - A - i nu B) with eqs.
+/// 7 and 44: near critical damping eq. 11 is a difference of numbers 1/lambda times larger, and there is no resonance.
+template <class Number, Effects E>
+void ArcConstants<Number, E>::respond_near_critical_damping(Step<Number>& step) const {
+  const Propagator<Number>& free = step.free;
+  const Turn<Number>& turn = step.turn;
+  const Response<Number> unit = response_to(Number(k - nu * nu), h, Number(1), nu);
+  const auto times_unit = [&](const Number& re, const Number& im) -> SineCosine<Number> {
+    return {unit.in_phase * re - unit.quadrature * im, unit.in_phase * im + unit.quadrature * re};
+  };
+  step.displacement = times_unit(turn.cosine_minus_one - free.a_minus_one, turn.sine - nu * free.b);
+  step.velocity = times_unit(k * free.b - nu * turn.sine, nu * (1 + turn.cosine_minus_one - free.c));
 }
 
 /// A(s) - 1 for a time that is short for the oscillator, though perhaps not for a fast force, by the Taylor series: the

@@ -22,6 +22,9 @@ std::vector<Oscillator> oscillators() {
   for (const double k : stiffnesses)
     for (const double h : {0.0, 1e-300, 1e-9, 0.1, 2.0, 3.0, 10.0})
       for (const double nu : {0.3, 2.0, 9.9}) all.push_back({h, -1.3, nu, 0.2, k});
+  for (const double k : {100.0, 4.0, 1e-3})  // a rotation that hardly turns
+    for (const double below_critical : {1e-2, 1e-3, 1e-8, 1e-15})
+      for (const double nu : {0.3, 2.0, 9.9}) all.push_back({std::sqrt(k) * (1 - below_critical), -1.3, nu, 0.2, k});
   return all;
 }
 
