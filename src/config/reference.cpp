@@ -11,9 +11,10 @@ constexpr std::string_view values = R"text(Values, in TOML, in INI and after --s
   0.5   2*pi   -pi/2   a number; pi may stand as a number or factor (in TOML in
                        quotes: "2*pi")
   3 mm   2*pi rad/s    a number with its unit, for keys of [machine] and, beside
-                       them, duration: products and quotients of m, s, N, g,
-                       Hz, rad with prefixes (n u m c d k M G) and powers, as
-                       N s/m, m s-1; in TOML in quotes: "3 mm"
+                       them, duration and the ranges of [branch]: products and
+                       quotients of m, s, N, g, Hz, rad with prefixes (n u m c
+                       d k M G) and powers, as N s/m, m s-1; in TOML in quotes:
+                       "3 mm"
   linspace(a, b, n)    n values from a to b in equal steps, both included
   logspace(a, b, n)    n values from a to b (not exponents) in equal ratios; a
                        and b of the same sign

@@ -4,6 +4,7 @@
 
 #include "lanes/lane_view.hpp"
 #include "math/bernstein.hpp"
+#include "motion/arc_bounds.hpp"
 #include "motion/soft_stop.hpp"
 
 namespace clatter::lanes {
@@ -24,7 +25,7 @@ void LaneView::set_bounds(const motion::ArcConstants<double, arcs>& constants, c
     motion::Motion<double> m{};
     m.free_x = free_x, m.free_v = free_v;
     if constexpr (arcs.damping == Damping::heavy) m.fast_x = constants.fast_mode(free_x, free_v);
-    return hermite_error(constants.sixth_bound(m, step, derivative));
+    return hermite_error(sixth_bound(constants, m, step, derivative));
   };
   const double size = std::max(1.0, constants.response.amplitude / 1024);  // that isn't lost beside the forced part
   const auto error_of_size = [&](int derivative) {

@@ -1,13 +1,13 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "math/number.hpp"
 #include "model/effects.hpp"
 #include "model/oscillator.hpp"
 #include "model/response.hpp"
+#include "motion/derivative_bounds.hpp"
 #include "motion/divided_exponentials.hpp"
 #include "motion/equation_of_motion.hpp"
 #include "motion/propagation.hpp"
@@ -16,7 +16,7 @@
 
 namespace clatter::motion {
 
-/// The constants of an oscillator that all its arcs share, its free motion and its bounds.
+/// The constants of an oscillator that all its arcs share, and its free motion; `arc_bounds.hpp` bounds its arcs.
 template <class Number, Effects E>
 class ArcConstants {
   static_assert(E == E.arc());  // the other effects don't change an arc, so they mustn't compile it again
@@ -104,14 +104,6 @@ class ArcConstants {
   }
   [[nodiscard]] Number jerk(const Motion<Number>& m) const { return equation().jerk(m.v, m.a, m.cosine); }
 
-  /// Bound of span^6 |y^(6)| from `m` on for a time `span`, for y = x (derivative 0) or y = x' (derivative 1), by
-  /// eq. 14; under heavy damping the smaller of that and the bound mode by mode, since the fast mode dies out.
-  [[nodiscard]] Number sixth_bound(const Motion<Number>& m, const Number& span, int derivative) const;
-
-  /// Bound of |x - equilibrium| from `m` on for a time `span` (eq. 16); at resonance the force may raise the energy
-  /// norm by |f| in a unit of time. Without a spring the motion may drift, with an unstable one it departs: eq. 47.
-  [[nodiscard]] Number reach(const Motion<Number>& m, const Number& span) const;
-
   /// Speed at the soft stop in contact of a free undamped motion that is `offset` beyond it with velocity v, by its
   /// energy.
   [[nodiscard]] Number speed_at_stop(const Number& offset, const Number& v) const {
@@ -143,6 +135,8 @@ class ArcConstants {
   Number detuning;             ///< nu - lambda, without cancellation
   Number rate;                 ///< the fastest of the motion's frequencies and decay rates
   Number period;               ///< of the force; without forcing 2 pi
+  DerivativeBounds<Number> derivative_bounds;
+
  private:
   struct Coefficients {};  ///< tells the numbers of eq. 3 from those of an oscillator in braces
   ArcConstants(Coefficients, const Number& damping, const Number& forcing, const Number& frequency,
@@ -155,15 +149,11 @@ class ArcConstants {
     return Number(counting_frequency(oscillator));
   }
   void set_stiffness(const Number& stiffness);
-  void bound_derivatives();
-  [[nodiscard]] Number unsprung_sixth_bound(const Motion<Number>& m, const Number& span, int derivative) const;
   [[nodiscard]] Number short_a_minus_one(const Number& s) const;
   void respond_from_rest(const Number& s, Step<Number>& step) const;
   void respond_near_critical_damping(Step<Number>& step) const;
 
-  Number coarse_root_{}, spare_root_{};   ///< light damping: root is their difference; the first is 1 if h < 1/2
-  std::array<Number, 2> free_bound_{};    ///< of |x^(6)| and |x^(7)| over the energy norm
-  std::array<Number, 2> forced_bound_{};  ///< secular: of the force's part of the same derivatives
+  Number coarse_root_{}, spare_root_{};  ///< light damping: root is their difference; the first is 1 if h < 1/2
 };
 
 template <class Number, Effects E>
@@ -184,7 +174,7 @@ ArcConstants<Number, E>::ArcConstants(Coefficients, const Number& damping, const
   spare_root_ = select<Number>(h < natural / 2, Number(h * h / (natural + root)), Number(0));
   detuning = (nu - natural) + h * h / (natural + root);
   period = 2 * pi<Number>() / nu;
-  bound_derivatives();
+  derivative_bounds = motion::derivative_bounds(equation(), natural);
 }
 
 template <class Number, Effects E>
@@ -201,26 +191,6 @@ void ArcConstants<Number, E>::set_stiffness(const Number& stiffness) {
   slow = sprung ? Number(k / fast) : Number(0);
   if constexpr (E.forcing == Forcing::regular) response = response_to(Number(k - nu * nu), h, f, nu);
   rate = max(nu, max(natural, Number(k > 0 ? 2 * h : fast)));
-}
-
-template <class Number, Effects E>
-void ArcConstants<Number, E>::bound_derivatives() {
-  using std::abs;
-  Number x_part = 1, v_part = 0;  // x^(order) = x_part x + v_part v + f Im(e^{i theta} (re + i im))
-  Number re = 0, im = 0, next_re = 0, next_im = 0;
-  Number power_re = 1, power_im = 0;  // (i nu)^order
-  for (std::size_t order = 0; order < 8; ++order) {
-    Number per_energy = x_part;
-    if constexpr (E.stiffness) per_energy = natural > 0 ? Number(x_part / natural) : Number(0);  // of k > 0 only
-    if (order >= 6) free_bound_[order - 6] = norm(per_energy, v_part), forced_bound_[order - 6] = abs(f) * norm(re, im);
-    const Number x_next = -spring(v_part), v_next = x_part - 2 * h * v_part;
-    x_part = x_next, v_part = v_next;
-    const Number after_re = -2 * h * next_re - spring(re) + power_re,
-                 after_im = -2 * h * next_im - spring(im) + power_im;
-    re = next_re, im = next_im, next_re = after_re, next_im = after_im;
-    const Number turned = -nu * power_im;
-    power_im = nu * power_re, power_re = turned;
-  }
 }
 
 template <class Number, Effects E>
@@ -311,58 +281,6 @@ Number ArcConstants<Number, E>::short_a_minus_one(const Number& s) const {
     sum += next, before = last, last = next;
   }
   return sum;
-}
-
-template <class Number, Effects E>
-Number ArcConstants<Number, E>::sixth_bound(const Motion<Number>& m, const Number& span, int derivative) const {
-  using std::abs;
-  const auto i = static_cast<std::size_t>(derivative);
-  const auto times = [derivative](const Number& y, const Number& z) { return derivative == 0 ? y : Number(y * z); };
-  if constexpr (E.stiffness && E.damping == Damping::heavy)
-    if (!(k > 0)) return unsprung_sixth_bound(m, span, derivative);
-  Number energy_norm = abs(m.free_x) + abs(m.free_v);
-  if constexpr (E.stiffness) energy_norm = natural * abs(m.free_x) + abs(m.free_v);
-  if constexpr (E.forcing == Forcing::secular) energy_norm += abs(f) * span;
-  Number bound = times_sixth_power(Number(free_bound_[i] * energy_norm), span);
-  if constexpr (E.damping == Damping::heavy) {
-    const Number slow_part = times(abs(m.free_x - m.fast_x), slow), fast_part = times(abs(m.fast_x), fast);
-    const Number modal =
-        times_sixth_power(slow_part, Number(slow * span)) + times_sixth_power(fast_part, Number(fast * span));
-    bound = select<Number>(modal < bound, modal, bound);  // root = 0: modal is infinite or NaN, so not taken
-  }
-  if constexpr (E.forcing == Forcing::regular)
-    bound += times_sixth_power(times(response.amplitude, nu), Number(nu * span));
-  if constexpr (E.forcing == Forcing::secular) bound += times_sixth_power(forced_bound_[i], span);
-  return bound;
-}
-
-template <class Number, Effects E>
-Number ArcConstants<Number, E>::reach(const Motion<Number>& m, const Number& span) const {
-  using std::abs, std::exp;
-  Number bound = response.amplitude + norm(m.free_x, m.free_v);
-  if constexpr (E.forcing == Forcing::secular) bound += abs(f) * span;
-  if constexpr (E.stiffness) {
-    Number free = k > 0 ? norm(m.free_x, Number(m.free_v / natural))
-                        : Number((abs(m.free_x) + abs(m.free_v) * span) * exp(-slow * span));
-    if constexpr (E.forcing == Forcing::secular) free += abs(f) * span / natural;
-    bound = response.amplitude + free + abs(unbalanced) * span * span / 2;
-  }
-  return bound * (1 + 16 * epsilon<Number>());
-}
-
-/// With k <= 0 by modes (eq. 46): a slow one that grows or stays, and a fast one that decays.
-template <class Number, Effects E>
-Number ArcConstants<Number, E>::unsprung_sixth_bound(const Motion<Number>& m, const Number& span,
-                                                     int derivative) const {
-  using std::abs, std::exp;
-  const auto times = [derivative](const Number& y, const Number& z) { return derivative == 0 ? y : Number(y * z); };
-  const Number creep = -slow, growth = exp(creep * span);
-  Number bound = times_sixth_power(times(response.amplitude, nu), Number(nu * span));
-  if (root > 0)
-    bound += times_sixth_power(times(abs(m.free_x - m.fast_x) * growth, creep), Number(creep * span)) +
-             times_sixth_power(times(abs(m.fast_x), fast), Number(fast * span));
-  const Number decay = 2 * h * span, square = decay * decay;  // of the pull of the load, which has k = 0
-  return bound + times(abs(unbalanced), 2 * h) * span * span * square * square;
 }
 
 }  // namespace clatter::motion

@@ -7,6 +7,7 @@
 #include "math/bernstein.hpp"
 #include "model/stops.hpp"
 #include "motion/arc.hpp"
+#include "motion/arc_bounds.hpp"
 
 namespace clatter::motion {
 
@@ -88,8 +89,8 @@ class ContactSearch {
   [[nodiscard]] static Number closing(Side side, const Number& y) { return side == Side::upper ? y : Number(-y); }
 
   [[nodiscard]] bool out_of_reach() const {
-    const Number reach = arc_.constants().reach(here_, horizon_ - elapsed_), middle = arc_.constants().equilibrium;
-    return lower_ < middle - reach && middle + reach < upper_;
+    const Number far = reach(arc_.constants(), here_, horizon_ - elapsed_), middle = arc_.constants().equilibrium;
+    return lower_ < middle - far && middle + far < upper_;
   }
 
   /// The width that an enclosure has to resolve.
@@ -99,7 +100,7 @@ class ContactSearch {
   }
   [[nodiscard]] Number usual_length() const { return usual_step(arc_.constants().natural, arc_.constants().nu); }
   [[nodiscard]] Number error_of(const Number& step) const {
-    return hermite_error(arc_.constants().sixth_bound(here_, step, 0));
+    return hermite_error(sixth_bound(arc_.constants(), here_, step, 0));
   }
 
   /// The longest step with an enclosure no wider than a twentieth of the gap; 0 if lengths are so small that their

@@ -9,6 +9,7 @@
 
 #include "math/bernstein.hpp"
 #include "motion/arc.hpp"
+#include "motion/arc_bounds.hpp"
 #include "motion/contact.hpp"
 
 namespace clatter::motion {
@@ -90,7 +91,7 @@ class CrossingSearch {
   [[nodiscard]] bool stays_clear() const {
     const auto& c = arc_.constants();
     if (!(c.k > 0)) return false;
-    const Number far = c.reach(here_, horizon_ - elapsed_);
+    const Number far = reach(c, here_, horizon_ - elapsed_);
     const Number fast = c.nu * c.response.amplitude + c.natural * (far - c.response.amplitude);
     using std::abs;
     for (const Margin<Number>& margin : margins_) {
@@ -110,7 +111,7 @@ class CrossingSearch {
   [[nodiscard]] Number error_of(const Margin<Number>& margin, const Number& step) const {
     using std::abs;
     const auto bound = [&](const Number& factor, int derivative) {
-      return factor == 0 ? Number(0) : Number(abs(factor) * arc_.constants().sixth_bound(here_, step, derivative));
+      return factor == 0 ? Number(0) : Number(abs(factor) * sixth_bound(arc_.constants(), here_, step, derivative));
     };
     return hermite_error(Number(bound(margin.place, 0) + bound(margin.speed, 1)));
   }

@@ -6,6 +6,7 @@
 #include "model/shaking.hpp"
 #include "model/stops.hpp"
 #include "motion/arc.hpp"
+#include "motion/arc_bounds.hpp"
 
 namespace clatter::observables {
 
@@ -26,7 +27,7 @@ class AbsoluteArc {
   [[nodiscard]] motion::Motion<double> start() const { return seen(arc_.start(), 0.0); }
   [[nodiscard]] motion::Motion<double> at(double s) const { return seen(arc_.at(s), s); }
 
-  /// As those of an arc: `jerk`, `sixth_bound` and `rate`.
+  /// As those of an arc: `jerk`, `rate` and `sixth_bound`.
   [[nodiscard]] const AbsoluteArc& constants() const { return *this; }
   [[nodiscard]] double jerk(const motion::Motion<double>& m) const {
     const SineCosine<double> theta = theta_of(m);
@@ -35,9 +36,10 @@ class AbsoluteArc {
     return arc_.constants().jerk(relative) + frame_.jerk(theta);
   }
   /// The relative motion's bound and that of the frame's sine; the free part of a motion is the same in both frames.
-  [[nodiscard]] double sixth_bound(const motion::Motion<double>& m, double span, int derivative) const {
-    return arc_.constants().sixth_bound(m, span, derivative) +
-           motion::times_sixth_power(size(derivative), frame_.frequency() * span);
+  [[nodiscard]] friend double sixth_bound(const AbsoluteArc& arc, const motion::Motion<double>& m, double span,
+                                          int derivative) {
+    return motion::sixth_bound(arc.arc_.constants(), m, span, derivative) +
+           motion::times_sixth_power(arc.size(derivative), arc.frame_.frequency() * span);
   }
   /// Of the frame's displacement (order 0) or velocity (order 1): what the sum of the two motions may cancel.
   [[nodiscard]] double size(int order) const {

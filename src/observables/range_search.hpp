@@ -7,6 +7,7 @@
 
 #include "math/bernstein.hpp"
 #include "motion/arc.hpp"
+#include "motion/arc_bounds.hpp"
 
 namespace clatter::observables {
 
@@ -38,8 +39,8 @@ struct DisplacementOnArc {
     return {m.x, m.v, m.a};
   }
   template <class A>
-  [[nodiscard]] double sixth_bound(const A& arc, const motion::Motion<double>& m, double step) const {
-    return arc.constants().sixth_bound(m, step, 0);
+  [[nodiscard]] double bound_along(const A& arc, const motion::Motion<double>& m, double step) const {
+    return sixth_bound(arc.constants(), m, step, 0);
   }
   /// Of a part that the rest may cancel, so that its rounding stays.
   template <class A>
@@ -55,8 +56,8 @@ struct VelocityOnArc {
     return {m.v, m.a, arc.constants().jerk(m)};
   }
   template <class A>
-  [[nodiscard]] double sixth_bound(const A& arc, const motion::Motion<double>& m, double step) const {
-    return arc.constants().sixth_bound(m, step, 1);
+  [[nodiscard]] double bound_along(const A& arc, const motion::Motion<double>& m, double step) const {
+    return sixth_bound(arc.constants(), m, step, 1);
   }
   /// Of a part that the rest may cancel, so that its rounding stays.
   template <class A>
@@ -75,10 +76,10 @@ struct StopForceOnArc {
             stop.force(stop.into(m.a), stop.into(arc.constants().jerk(m)))};
   }
   template <class A>
-  [[nodiscard]] double sixth_bound(const A& arc, const motion::Motion<double>& m, double step) const {
+  [[nodiscard]] double bound_along(const A& arc, const motion::Motion<double>& m, double step) const {
     const auto& stop = arc.constants().stop;
     const auto weighed = [&](double factor, int derivative) {
-      return factor == 0 ? 0.0 : factor * arc.constants().sixth_bound(m, step, derivative);
+      return factor == 0 ? 0.0 : factor * sixth_bound(arc.constants(), m, step, derivative);
     };
     return weighed(stop.stiffness, 0) + weighed(2 * stop.damping, 1);
   }
@@ -118,7 +119,7 @@ class RangeSearch {
   void exceed(const Quantity& quantity, const Range& range, const Place& from, const Place& to) {
     const double step = to.s - from.s;
     const auto left = quantity.jet(arc_, from.motion), right = quantity.jet(arc_, to.motion);
-    const double error = hermite_error(quantity.sixth_bound(arc_, from.motion, step));
+    const double error = hermite_error(quantity.bound_along(arc_, from.motion, step));
     const Bernstein<double> c =
         hermite(HermiteData<double>::over(step, {0.0, left[1], left[2], right[0] - left[0], right[1], right[2]}));
     const Interval<double> inner = enclosure(c, error);  // the ends are included already

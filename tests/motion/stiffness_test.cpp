@@ -8,6 +8,7 @@
 #include "math/bernstein.hpp"
 #include "math/fifty_digits.hpp"
 #include "motion/arc.hpp"
+#include "motion/arc_bounds.hpp"
 #include "motion/scenes.hpp"
 #include "support/motion.hpp"
 #include "support/random.hpp"
@@ -86,7 +87,7 @@ TEST(Stiffness, the_enclosure_of_a_step_holds_the_motion) {
           constants, {N(0), x, v, constants.acceleration(N(x - constants.equilibrium), v, N(0)), N(0), N(1)});
       const N step(random.logarithmic(0.05, 2) / std::max(1.0, std::sqrt(std::abs(k))));
       const auto end = arc.at(step);
-      const N bound = hermite_error(constants.sixth_bound(arc.start(), step, 0));
+      const N bound = hermite_error(sixth_bound(constants, arc.start(), step, 0));
       const auto c =
           hermite(HermiteData<N>::over(step, {N(0), arc.start().v, arc.start().a, end.offset, end.v, end.a}));
       for (int part = 1; part < 8; ++part) {
@@ -108,7 +109,7 @@ TEST(Stiffness, reach_is_never_exceeded) {
       const double x = random.uniform(-1, 1), v = random.uniform(-1, 1), span = random.logarithmic(0.1, 8);
       const Arc<double, effects.arc()> arc(constants,
                                            {0, x, v, constants.acceleration(x - constants.equilibrium, v, 0.0), 0, 1});
-      const double reach = constants.reach(arc.start(), span);
+      const double reach = reach(constants, arc.start(), span);
       for (int part = 0; part <= 16; ++part)
         EXPECT_LE(std::abs(arc.at(span * part / 16).x - constants.equilibrium), reach) << text(o) << " " << span;
     });

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "math/fifty_digits.hpp"
+#include "motion/arc_bounds.hpp"
 #include "observables/fourier_transform.hpp"
 #include "observables/runs.hpp"
 #include "support/random.hpp"
@@ -82,7 +83,7 @@ TEST(Samples, by_steps_from_an_instant_are_as_good_as_evaluated_ones) {
             const motion::Motion<FiftyDigits> expected = exact.at(s);
             // natural scale: the response and the free motion; the argument of a sine rounds to its ulps; evaluated
             // samples take 0.19 of (8 + argument), these 0.16
-            const double scale = 0.2 + constants.reach(arc.start(), s);
+            const double scale = 0.2 + reach(constants, arc.start(), s);
             const double allowed = 0.25 * std::numeric_limits<double>::epsilon() * (8 + s * constants.rate) * scale;
             EXPECT_NEAR(samples.displacement()[i], static_cast<double>(expected.x), allowed)
                 << "h = " << h << ", f = " << f << ", nu = " << nu << ", s = " << s;

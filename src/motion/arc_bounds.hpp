@@ -1,0 +1,77 @@
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+
+#include "motion/arc_constants.hpp"
+
+namespace clatter::motion {
+
+namespace detail {
+
+/// `y`, or its derivative of a motion at the rate `z`.
+template <class Number>
+[[nodiscard]] Number derived(const Number& y, const Number& z, int derivative) {
+  return derivative == 0 ? y : Number(y * z);
+}
+
+/// With k <= 0 by modes (eq. 46): a slow one that grows or stays, and a fast one that decays.
+template <class Number, Effects E>
+[[nodiscard]] Number unsprung_sixth_bound(const ArcConstants<Number, E>& c, const Motion<Number>& m, const Number& span,
+                                          int derivative) {
+  using std::abs, std::exp;
+  const Number creep = -c.slow, growth = exp(creep * span);
+  Number bound = times_sixth_power(derived(c.response.amplitude, c.nu, derivative), Number(c.nu * span));
+  if (c.root > 0)
+    bound +=
+        times_sixth_power(derived(Number(abs(m.free_x - m.fast_x) * growth), creep, derivative), Number(creep * span)) +
+        times_sixth_power(derived(Number(abs(m.fast_x)), c.fast, derivative), Number(c.fast * span));
+  const Number decay = 2 * c.h * span, square = decay * decay;  // of the pull of the load, which has k = 0
+  return bound + derived(Number(abs(c.unbalanced)), Number(2 * c.h), derivative) * span * span * square * square;
+}
+
+}  // namespace detail
+
+/// Bound of span^6 |y^(6)| from `m` on for a time `span`, for y = x (derivative 0) or y = x' (derivative 1), by eq. 14;
+/// under heavy damping the smaller of that and the bound mode by mode, since the fast mode dies out.
+template <class Number, Effects E>
+[[nodiscard]] Number sixth_bound(const ArcConstants<Number, E>& c, const Motion<Number>& m, const Number& span,
+                                 int derivative) {
+  using std::abs, detail::derived;
+  const auto i = static_cast<std::size_t>(derivative);
+  if constexpr (E.stiffness && E.damping == Damping::heavy)
+    if (!(c.k > 0)) return detail::unsprung_sixth_bound(c, m, span, derivative);
+  Number energy_norm = abs(m.free_x) + abs(m.free_v);
+  if constexpr (E.stiffness) energy_norm = c.natural * abs(m.free_x) + abs(m.free_v);
+  if constexpr (E.forcing == Forcing::secular) energy_norm += abs(c.f) * span;
+  Number bound = times_sixth_power(Number(c.derivative_bounds.free[i] * energy_norm), span);
+  if constexpr (E.damping == Damping::heavy) {
+    const Number slow_part = derived(Number(abs(m.free_x - m.fast_x)), c.slow, derivative),
+                 fast_part = derived(Number(abs(m.fast_x)), c.fast, derivative);
+    const Number modal =
+        times_sixth_power(slow_part, Number(c.slow * span)) + times_sixth_power(fast_part, Number(c.fast * span));
+    bound = select<Number>(modal < bound, modal, bound);  // root = 0: modal is infinite or NaN, so not taken
+  }
+  if constexpr (E.forcing == Forcing::regular)
+    bound += times_sixth_power(derived(c.response.amplitude, c.nu, derivative), Number(c.nu * span));
+  if constexpr (E.forcing == Forcing::secular) bound += times_sixth_power(c.derivative_bounds.forced[i], span);
+  return bound;
+}
+
+/// Bound of |x - equilibrium| from `m` on for a time `span` (eq. 16); at resonance the force may raise the energy norm
+/// by |f| in a unit of time. Without a spring the motion may drift, with an unstable one it departs: eq. 47.
+template <class Number, Effects E>
+[[nodiscard]] Number reach(const ArcConstants<Number, E>& c, const Motion<Number>& m, const Number& span) {
+  using std::abs, std::exp;
+  Number bound = c.response.amplitude + norm(m.free_x, m.free_v);
+  if constexpr (E.forcing == Forcing::secular) bound += abs(c.f) * span;
+  if constexpr (E.stiffness) {
+    Number free = c.k > 0 ? norm(m.free_x, Number(m.free_v / c.natural))
+                          : Number((abs(m.free_x) + abs(m.free_v) * span) * exp(-c.slow * span));
+    if constexpr (E.forcing == Forcing::secular) free += abs(c.f) * span / c.natural;
+    bound = c.response.amplitude + free + abs(c.unbalanced) * span * span / 2;
+  }
+  return bound * (1 + 16 * epsilon<Number>());
+}
+
+}  // namespace clatter::motion
