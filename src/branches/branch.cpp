@@ -195,6 +195,8 @@ class Follower {
             return impact_map(equations.scene_at(p.at), equations.orbit_at(p.at)).distance_to(-1);
           },
           false);
+    }
+    if (has_impacts || equations.shape().pressed != Side::none) {
       const auto look_for_maximum = [&](SpecialKind of, Along (*measure)(const Moving&)) {
         const auto at = [&, measure](const CurvePoint& p) { return measure(moving(equations, p.at, p.tangent)); };
         const Along here = at(walk.here()), next = at(*there);
@@ -203,9 +205,8 @@ class Follower {
             of, [at](const CurvePoint& p) { return at(p).slope[0]; }, true);
       };
       look_for_maximum(SpecialKind::impact_speed, impact_speed);
-      const bool soft = equations.shape().meets_soft_stop();  // whose loss and force last for a time
-      if (problem_.observe.energy && !soft) look_for_maximum(SpecialKind::impact_power, impact_power);
-      if (problem_.observe.harmonics > 0 && !soft) look_for_maximum(SpecialKind::harmonic, harmonic);
+      if (problem_.observe.energy) look_for_maximum(SpecialKind::impact_power, impact_power);
+      if (problem_.observe.harmonics > 0) look_for_maximum(SpecialKind::harmonic, harmonic);
     }
     std::ranges::sort(found, {}, [](const Found& f) { return f.point.arclength; });
     for (Found& f : found) {

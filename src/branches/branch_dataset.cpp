@@ -54,8 +54,7 @@ class Columns {
       const auto displacement = range.displacement(rigid_ones(point.scene.stops));
       low.push_back(displacement.low), high.push_back(displacement.high);
       v_low.push_back(range.velocity().low), v_high.push_back(range.velocity().high);
-      speed.push_back(impact_speed(point.orbit)),
-          power.push_back(point.orbit.meets_soft_stop() ? no_value : impact_power(point.scene, point.orbit));
+      speed.push_back(impact_speed(point.orbit)), power.push_back(impact_power(point.scene, point.orbit));
     }
     add(std::string(sweep::key_of(settings.along)), std::move(value), "parameter along which the motion is followed");
     if (settings.across)
@@ -72,7 +71,7 @@ class Columns {
     add("x_min", std::move(low), "minimum displacement"), add("x_max", std::move(high), "maximum displacement");
     add("v_min", std::move(v_low), "minimum velocity"), add("v_max", std::move(v_high), "maximum velocity");
     add("impact_speed", std::move(speed), "speed of the fastest impact");
-    add("impact_power", std::move(power), "energy lost in impacts per tau, per unit mass; NaN: it meets a soft stop");
+    add("impact_power", std::move(power), "energy lost in impacts per tau, per unit mass");
   }
 
  private:

@@ -23,6 +23,8 @@ std::optional<std::size_t> OrbitEquations::grazing() const {
   return std::nullopt;
 }
 
+bool OrbitEquations::varies(Parameter parameter) const { return detail::varies(axes_, parameter); }
+
 Vector OrbitEquations::unknowns_of(const ShakenScene& scene, const Orbit& orbit) const {
   Vector z(unknowns());
   for (std::size_t i = 0; i < orbit.size(); ++i)
@@ -77,7 +79,7 @@ std::optional<OrbitEquations::Linearised> OrbitEquations::at(const Vector& z) co
       out.slope(row + 1, next + 1) -= sign * speed_unit_;
     }
   };
-  with_arcs(scene, add_flights, varies(axes_, Parameter::stiffness));
+  with_arcs(scene, add_flights, varies(Parameter::stiffness));
   std::size_t row = 2 * orbit.size();
   for (const Condition& condition : conditions_) {
     if (condition.kind == Condition::Kind::graze)
@@ -150,7 +152,7 @@ void OrbitEquations::add_multiplier(const ShakenScene& scene, const Orbit& all, 
     }
   };
   const Parameters<First> p = parameters_of<First>(scene, axes_);
-  const bool stiffness_varies = varies(axes_, Parameter::stiffness);
+  const bool stiffness_varies = varies(Parameter::stiffness);
   if (orbit.meets_soft_stop())
     links = links_of_states(scene, orbit, p, stiffness_varies);
   else

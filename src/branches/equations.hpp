@@ -62,6 +62,7 @@ class OrbitEquations {
 
   [[nodiscard]] const Orbit& shape() const { return shape_; }
   [[nodiscard]] const std::vector<Axis>& axes() const { return axes_; }
+  [[nodiscard]] bool varies(sweep::Parameter parameter) const;
   [[nodiscard]] double speed_unit() const { return speed_unit_; }
   [[nodiscard]] const std::vector<Condition>& conditions() const { return conditions_; }
   /// The impact, or the event on a soft stop, that grazes by a condition, if there is one.
