@@ -296,7 +296,7 @@ class Follower {
       return record_.end(last, "chatter limit");
     BranchPoint at = last;
     at.orbit = with;
-    const auto [special, is_new] = record_.note(SpecialKind::graze, at);
+    const auto [special, is_new] = record_.note(SpecialKind::graze, at, touch->graze().condition);
     record_.end(last, "graze");
     if (!is_new) return no_longer_waits(waiting_, special, last.orbit);  // this is the branch that waits there
     if (touch->turns)
@@ -310,10 +310,11 @@ class Follower {
   /// The branch ends on a motion that repeats sooner, or is symmetric, as that grazes soft stops, whose dampers change
   /// its multipliers at once.
   void end_on(const ExactGraze& exact) {
-    const OrbitEquations equations = equations_for(exact.orbit, {{Condition::Kind::graze, 1, exact.impact}});
+    const Condition condition{Condition::Kind::graze, 1, exact.impact};
+    const OrbitEquations equations = equations_for(exact.orbit, {condition});
     const BranchPoint at = record_.point(equations, {equations.unknowns_of(exact.scene, exact.orbit), {}, 0.0});
     record_.add(at);
-    const auto [special, is_new] = record_.note(SpecialKind::graze, at);
+    const auto [special, is_new] = record_.note(SpecialKind::graze, at, condition);
     record_.end(at, "graze");
     if (!is_new) return;
     wait_with(at.scene, at.orbit, exact.impact, special);

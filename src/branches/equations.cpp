@@ -1,5 +1,6 @@
 #include "branches/equations.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -21,6 +22,10 @@ std::optional<std::size_t> OrbitEquations::grazing() const {
   for (const Condition& condition : conditions_)
     if (condition.kind == Condition::Kind::graze || condition.kind == Condition::Kind::force) return condition.impact;
   return std::nullopt;
+}
+
+bool OrbitEquations::grazes_outside() const {
+  return std::ranges::find(conditions_, Condition::Kind::graze, &Condition::kind) != conditions_.end();
 }
 
 bool OrbitEquations::varies(Parameter parameter) const { return detail::varies(axes_, parameter); }

@@ -67,6 +67,8 @@ class OrbitEquations {
   [[nodiscard]] const std::vector<Condition>& conditions() const { return conditions_; }
   /// The impact, or the event on a soft stop, that grazes by a condition, if there is one.
   [[nodiscard]] std::optional<std::size_t> grazing() const;
+  /// Whether that is the touch of a stop without speed.
+  [[nodiscard]] bool grazes_outside() const;
 
  private:
   void add_release(const ShakenScene& scene, const OrbitImpact& impact, std::size_t phase, std::size_t row,

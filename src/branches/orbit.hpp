@@ -46,6 +46,8 @@ struct Orbit {
   [[nodiscard]] std::size_t size() const { return impacts.size(); }
   [[nodiscard]] bool rests() const;  ///< on a stop, once in a period or more often
   [[nodiscard]] bool meets_soft_stop() const;
+  /// Whether the motion is the same without the event i, which grazes.
+  [[nodiscard]] bool changes_nothing(std::size_t i) const;
   [[nodiscard]] double advance() const;       ///< of the forcing phase, rad
   [[nodiscard]] double period_ratio() const;  ///< period in forcing periods
   /// Impact i = 0 ... size: the last one is the first, half a period or a period later.

@@ -33,7 +33,10 @@ void Record::begin(double speed_unit) {
 BranchPoint Record::point(const OrbitEquations& equations, const CurvePoint& at) const {
   BranchPoint out{branch_, at.arclength, equations.scene_at(at.at), equations.orbit_at(at.at), false, {}, {}};
   const auto grazing = equations.grazing();  // the multipliers are those without the impact that has no speed
-  const Multipliers of = multipliers(out.scene, grazing ? out.orbit.without(*grazing) : out.orbit);
+  const bool is_nothing = grazing && out.orbit.changes_nothing(*grazing);
+  if (is_nothing && out.orbit.impacts[*grazing].event == Event::separation && equations.grazes_outside())
+    out.orbit.impacts[*grazing].before = 0;
+  const Multipliers of = multipliers(out.scene, is_nothing ? out.orbit.without(*grazing) : out.orbit);
   out.stable = of.stable, out.multiplier_re = of.re, out.multiplier_im = of.im;
   return out;
 }
@@ -50,11 +53,11 @@ std::size_t Record::number_of(SpecialKind kind, const BranchPoint& at) const {
   return static_cast<std::size_t>(known - found_.special.begin());
 }
 
-Record::Noted Record::note(SpecialKind kind, BranchPoint at) {
+Record::Noted Record::note(SpecialKind kind, BranchPoint at, const Condition& condition) {
   const std::size_t number = number_of(kind, at);
   const bool is_new = number == specials();
   at.branch = branch_;
-  if (is_new) found_.special.push_back({kind, std::move(at), {}});
+  if (is_new) found_.special.push_back({kind, std::move(at), {}, condition});
   meet(number, branch_);
   return {number, is_new};
 }

@@ -32,7 +32,7 @@ class Record {
     std::size_t number;
     bool is_new;
   };
-  Noted note(SpecialKind kind, BranchPoint at);
+  Noted note(SpecialKind kind, BranchPoint at, const Condition& condition = {});
   [[nodiscard]] bool knows(SpecialKind kind, const BranchPoint& at) const { return number_of(kind, at) < specials(); }
   /// A branch belongs to a special point, too.
   void meet(std::size_t special, std::size_t branch);

@@ -1,5 +1,6 @@
 #include "branches/violation.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "branches/flight.hpp"
@@ -34,6 +35,7 @@ struct Path {
   double length;
   Side to;  ///< none: it meets no stop
   Event arrives = Event::impact;
+  bool ends_in_graze = false;
 };
 
 template <Effects E>
@@ -98,7 +100,7 @@ std::optional<Violation> free_within(const Parameters<double>& p, const motion::
     if (!(rest.length > 0)) return std::nullopt;
     return cut_short(p, motion::Arc(arc.constants(), leaving, stop.position), rest);
   }
-  if (renews && crossing.resolved &&
+  if ((renews || path.ends_in_graze) && crossing.resolved &&
       (crossing.margin == 2 ||
        (crossing.margin == 1 && is_at_end(crossing.elapsed, path.length, m.offset, pull.slope(m), nu))))
     return std::nullopt;
@@ -135,6 +137,8 @@ std::optional<Violation> response_violation(const Flights<double, E>& flights, c
 }  // namespace
 
 std::optional<Violation> violation(const ShakenScene& scene, const Orbit& orbit, std::optional<std::size_t> grazing) {
+  // next to its double zero in a graze, the sign of a soft stop's force is that of rounding
+  constexpr double clear_of_rounding = 1e-6;
   const auto flight_after = [&orbit](std::size_t i) {
     const OrbitImpact from = orbit.impact(i), to = orbit.impact(i + 1);
     return Flight<double>{from.side, from.phase, from.before, to.side, to.phase, from.event, to.event};
@@ -153,15 +157,21 @@ std::optional<Violation> violation(const ShakenScene& scene, const Orbit& orbit,
       const bool without_speed = flight.leaves == Event::impact || std::abs(flight.before) <= 1e-9;
       const bool leaves_graze = i == grazing && !presses(flight.leaves) && without_speed;
       if (leaves_graze) flight.before = 0;
-      const Path path{i,         (i + 1) % orbit.size(), flight.begin, (flight.end - flight.begin) / p.nu,
-                      flight.to, flight.arrives};
+      Path path{i, (i + 1) % orbit.size(), flight.begin, (flight.end - flight.begin) / p.nu, flight.to, flight.arrives};
+      path.ends_in_graze = path.next == grazing && flight.arrives == Event::separation && !presses(flight.leaves);
       auto found = flights.with_arc(flight, [&](const auto& arc) {
         if (flight.leaves == Event::impact || leaves_graze) return cut_short(p, arc, path);
         const motion::SoftStop<double> stop = p.soft_stop(flight.from);
-        if (presses(flight.leaves)) return separates(stop, arc, path);
-        return stop.damping == 0 ? cut_short(p, arc, path) : free_within(p, stop, arc, path);
+        const auto flown = [&](const auto& from) {
+          if (presses(flight.leaves)) return separates(stop, from, path);
+          return stop.damping == 0 ? cut_short(p, from, path) : free_within(p, stop, from, path);
+        };
+        if (i != grazing) return flown(arc);
+        const double clear = std::min(clear_of_rounding / arc.constants().rate, path.length);
+        path.begin += p.nu * clear, path.length -= clear;
+        return flown(motion::Arc(arc.constants(), arc.at(clear), stop.position));
       });
-      if (found) return found;
+      if (found && !(found->kind == Violation::Kind::pulls && found->impact == grazing)) return found;
     }
     return std::nullopt;
   });
