@@ -271,7 +271,7 @@ class Follower {
     record_.end(last, "chatter limit");
     if (!is_new)
       no_longer_waits(waiting_, special, last.orbit);  // this is the branch that waits there
-    else if (!has_soft_stop(last.scene.stops))
+    else
       resting().wait_beyond(last, side, (touch.beyond.at.back() - exact->back()) * width_, special, generation_);
     return true;
   }
@@ -292,7 +292,7 @@ class Follower {
     const Orbit with = exact->orbit, without = with.without(touch->impact);
     last.scene = exact->scene, last.orbit = touch->appears ? without : with;
     record_.add(last);
-    if (!has_soft_stop(last.scene.stops) && resting().waits_beyond(last, with.impacts[touch->impact].side, generation_))
+    if (resting().waits_beyond(last, with.impacts[touch->impact].side, generation_))
       return record_.end(last, "chatter limit");
     BranchPoint at = last;
     at.orbit = with;

@@ -117,14 +117,14 @@ Moving moving_from_release(const ShakenScene& scene, const Orbit& orbit, sweep::
       } else {
         const FlightEnd<Four> flown =
             flights.fly({last.side, Four(begin.value, by_begin), Four(before.value, by_before), impact.side,
-                         Four(impact.phase, by_end)});
+                         Four(impact.phase, by_end), last.event, impact.event});
         const auto along = [&](const Four& number) {
           return number.slope[by_begin] * begin.slope[0] + number.slope[by_before] * before.slope[0] +
                  number.slope[by_parameter];
         };
         end.slope[0] = -along(flown.beyond) / flown.beyond.slope[by_end];
         speed.slope[0] = along(flown.velocity) + flown.velocity.slope[by_end] * end.slope[0];
-        m.impacts.push_back({impact.side, end, speed, next_is_rest(orbit, i)});
+        m.impacts.push_back({impact.side, end, speed, next_is_rest(orbit, i), impact.event});
       }
       begin = end, before = speed, last = impact;
     }

@@ -29,10 +29,10 @@ struct OrbitImpact {
   double rest = 0.0;    ///< forcing phase, rad, for which the mass rests from then on
   Event event = Event::impact;
 
+  /// Whether it is a contact from outside: an impact, or a touch.
+  [[nodiscard]] bool is_contact() const { return event == Event::impact || event == Event::touch; }
   /// Whether it is a letter of the impact word: an impact, a touch, or a graze of a soft stop.
-  [[nodiscard]] bool is_letter() const {
-    return event == Event::impact || event == Event::touch || (event == Event::separation && before == 0);
-  }
+  [[nodiscard]] bool is_letter() const { return is_contact() || (event == Event::separation && before == 0); }
 };
 
 /// A periodic motion by its impacts. A motion that is its own mirror image half a period later is kept as that half,
