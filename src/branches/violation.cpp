@@ -116,6 +116,24 @@ bool points_right(const OrbitImpact& impact) {
   return impact.event == Event::impact || impact.event == Event::touch ? into > 0 : into < 0;
 }
 
+Flight<double> flight_after(const Orbit& orbit, std::size_t i) {
+  const OrbitImpact from = orbit.impact(i), to = orbit.impact(i + 1);
+  return {from.side, from.phase, from.before, to.side, to.phase, from.event, to.event};
+}
+
+/// Where two events of a soft stop are about to vanish, the proof may find a third one beside them: it is theirs.
+Violation told_apart(const Orbit& orbit, const Violation& found) {
+  constexpr double about = 1e-6;  // rad: the force turns at about its square
+  if (found.kind != Violation::Kind::passes_through || found.turning.event == Event::impact) return found;
+  for (std::size_t i = 0; i < orbit.size(); ++i) {
+    const Flight<double> flight = flight_after(orbit, i);
+    const double distance = std::remainder(found.turning.phase - flight.begin, orbit.advance());
+    if (flight.may_vanish() && flight.end - flight.begin < about && std::abs(distance) < 2 * about)
+      return {Violation::Kind::ends_early, i, {}};
+  }
+  return found;
+}
+
 /// Motion without events.
 template <Effects E>
 std::optional<Violation> response_violation(const Flights<double, E>& flights, const Orbit& orbit) {
@@ -139,12 +157,8 @@ std::optional<Violation> response_violation(const Flights<double, E>& flights, c
 std::optional<Violation> violation(const ShakenScene& scene, const Orbit& orbit, std::optional<std::size_t> grazing) {
   // next to its double zero in a graze, the sign of a soft stop's force is that of rounding
   constexpr double clear_of_rounding = 1e-6;
-  const auto flight_after = [&orbit](std::size_t i) {
-    const OrbitImpact from = orbit.impact(i), to = orbit.impact(i + 1);
-    return Flight<double>{from.side, from.phase, from.before, to.side, to.phase, from.event, to.event};
-  };
   for (std::size_t i = 0; i < orbit.size(); ++i)
-    if (const Flight<double> flight = flight_after(i); flight.may_vanish() && !(flight.begin < flight.end))
+    if (const Flight<double> flight = flight_after(orbit, i); flight.may_vanish() && !(flight.begin < flight.end))
       return Violation{Violation::Kind::ends_early, i, {}};
   for (std::size_t i = 0; i < orbit.size(); ++i)
     if (i != grazing && !points_right(orbit.impacts[i])) return Violation{Violation::Kind::pulls, i, {}};
@@ -153,7 +167,7 @@ std::optional<Violation> violation(const ShakenScene& scene, const Orbit& orbit,
     const Parameters<double>& p = flights.parameters();
     if (orbit.size() == 0) return response_violation(flights, orbit);
     for (std::size_t i = 0; i < orbit.size(); ++i) {
-      Flight<double> flight = flight_after(i);
+      Flight<double> flight = flight_after(orbit, i);
       const bool without_speed = flight.leaves == Event::impact || std::abs(flight.before) <= 1e-9;
       const bool leaves_graze = i == grazing && !presses(flight.leaves) && without_speed;
       if (leaves_graze) flight.before = 0;
@@ -171,7 +185,8 @@ std::optional<Violation> violation(const ShakenScene& scene, const Orbit& orbit,
         path.begin += p.nu * clear, path.length -= clear;
         return flown(motion::Arc(arc.constants(), arc.at(clear), stop.position));
       });
-      if (found && !(found->kind == Violation::Kind::pulls && found->impact == grazing)) return found;
+      if (found && !(found->kind == Violation::Kind::pulls && found->impact == grazing))
+        return told_apart(orbit, *found);
     }
     return std::nullopt;
   });
