@@ -32,7 +32,8 @@ class Follower {
     while (!waiting_.empty() && !record_.is_full()) {
       const Waiting next = waiting_.front();
       waiting_.pop_front();
-      if (!begins_in_graze(next)) follow(next);
+      const bool is_born_soft = next.direction && next.orbit.meets_soft_stop();
+      if (!is_born_soft || !record_.grazes_at(*next.special)) follow(next);
     }
     if (!waiting_.empty() && record_.found().ends.back().reason != max_points_spent)
       record_.fail(record_.found().points.back(), max_points_spent);
@@ -47,18 +48,6 @@ class Follower {
   [[nodiscard]] RestingBranch resting() { return {problem_, settings_, symmetric_, speed_unit_, record_, waiting_}; }
   [[nodiscard]] double parameter(const ShakenScene& scene) const { return value_of(scene, settings_.along); }
   [[nodiscard]] bool in_range(double value) const { return value >= settings_.range[0] && value <= settings_.range[1]; }
-
-  /// Whether motion beside soft stops is born where the one before grazes, but for rounding: near a rigid stop its
-  /// multiplier may be -1 so near a graze that nothing tells both apart.
-  [[nodiscard]] bool begins_in_graze(const Waiting& waiting) const {
-    if (!waiting.direction || !waiting.special || !waiting.orbit.meets_soft_stop()) return false;
-    const std::vector<SpecialPoint>& special = record_.found().special;
-    return std::ranges::any_of(special, [&](const SpecialPoint& other) {
-      return other.kind == SpecialKind::graze &&
-             std::ranges::count(other.branches, special[*waiting.special].branches.front()) > 0 &&
-             std::abs(parameter(other.at.scene) - parameter(waiting.scene)) <= 1e-12 * width_;
-    });
-  }
 
   void follow(const Waiting& from) {
     speed_unit_ = speed_scale(from.scene, from.orbit);
@@ -211,8 +200,7 @@ class Follower {
     if (has_impacts || equations.shape().pressed != Side::none) {
       const auto look_for_maximum = [&](SpecialKind of, Along (*measure)(const Moving&)) {
         const auto at = [&, measure](const CurvePoint& p) { return measure(moving(equations, p.at, p.tangent)); };
-        const Along here = at(walk.here()), next = at(*there);
-        if (!changes(here) && !changes(next)) return;
+        if (!changes(at(walk.here())) && !changes(at(*there))) return;
         look(
             of, [at](const CurvePoint& p) { return at(p).slope[0]; }, true);
       };

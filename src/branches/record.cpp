@@ -62,6 +62,15 @@ Record::Noted Record::note(SpecialKind kind, BranchPoint at, const Condition& co
   return {number, is_new};
 }
 
+bool Record::grazes_at(std::size_t special) const {
+  const SpecialPoint& at = found_.special[special];
+  const auto& [parameter, unit] = axes_[0];
+  return std::ranges::any_of(found_.special, [&](const SpecialPoint& other) {
+    return other.kind == SpecialKind::graze && std::ranges::count(other.branches, at.branches.front()) > 0 &&
+           std::abs(value_of(other.at.scene, parameter) - value_of(at.at.scene, parameter)) <= 1e-12 * unit;
+  });
+}
+
 void Record::meet(std::size_t special, std::size_t branch) {
   std::vector<std::size_t>& meeting = found_.special[special].branches;
   if (std::ranges::find(meeting, branch) == meeting.end()) meeting.push_back(branch);
