@@ -32,7 +32,7 @@ std::optional<std::size_t> shortest_contact(const Orbit& orbit) {
   for (std::size_t i = 0; i < orbit.size(); ++i) {
     const OrbitImpact from = orbit.impact(i), to = orbit.impact(i + 1);
     const bool contact = to.event == Event::separation && presses(from.event),
-               interruption = to.event == Event::renewal && from.event == Event::separation;
+               interruption = presses(to.event) && from.event == Event::separation && from.side == to.side;
     if ((contact || interruption) && to.phase - from.phase < least) least = to.phase - from.phase, found = i;
   }
   return found;

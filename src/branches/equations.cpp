@@ -59,8 +59,9 @@ std::optional<OrbitEquations::Linearised> OrbitEquations::at(const Vector& z) co
   if (!(scene.oscillator.frequency > 0) || !(scene.stops.lower < scene.stops.upper)) return std::nullopt;
   for (const double number : z)
     if (!std::isfinite(number)) return std::nullopt;
+  const Parameters<double> p(scene);
   for (std::size_t i = 0; i < orbit.size(); ++i)
-    if (!flight_of<double>(orbit, i).may_vanish() && !(orbit.impact(i).phase < orbit.impact(i + 1).phase))
+    if (!flight_of<double>(orbit, i).may_vanish(p) && !(orbit.impact(i).phase < orbit.impact(i + 1).phase))
       return std::nullopt;
   Linearised out{Vector(equations(), 0.0), Matrix(equations(), unknowns())};
   const auto add_flights = [&]<Effects E>() {

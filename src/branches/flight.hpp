@@ -98,10 +98,13 @@ struct Flight {
   Number end;
   Event leaves = Event::impact, arrives = Event::impact;
 
-  /// Whether it is a contact with a soft stop, or an interruption of one beyond the stop's position: these become
-  /// infinitely short where they vanish.
-  [[nodiscard]] bool may_vanish() const {
-    return arrives == Event::separation ? presses(leaves) : arrives == Event::renewal && leaves == Event::separation;
+  /// Whether it is a contact with a soft stop, or an interruption of one: these become infinitely short where they
+  /// vanish. An interruption lies beyond the stop's position, but without a damper, on the other side of it.
+  template <class AnyNumber>
+  [[nodiscard]] bool may_vanish(const Parameters<AnyNumber>& p) const {
+    if (arrives == Event::separation) return presses(leaves);
+    if (leaves != Event::separation) return false;
+    return arrives == Event::renewal || (arrives == Event::touch && from == to && p.soft_stop(to).damping == 0);
   }
 };
 
@@ -148,7 +151,7 @@ class Flights {
   [[nodiscard]] FlightEnd<Number> fly(const Flight<Number>& flight) const {
     const Number time = (flight.end - flight.begin) / p_.nu;
     return with_arc(flight, [&](const auto& arc) -> FlightEnd<Number> {
-      if (flight.may_vanish()) return fly_beyond(arc, flight, time);
+      if (flight.may_vanish(p_)) return fly_beyond(arc, flight, time);
       const motion::Motion<Number> end = arc.at(time);
       Number beyond = flight.from == flight.to ? end.offset : Number(end.x - p_.position(flight.to));
       if (flight.arrives == Event::separation || flight.arrives == Event::renewal)

@@ -67,6 +67,7 @@ Orbit with_short(const ShakenScene& scene, const Orbit& orbit, std::size_t graze
     begin.event = Event::touch;
   } else {
     begin.event = middle.event == Event::separation ? Event::renewal : Event::separation;
+    if (relaxation == 0 && presses(middle.event)) end.event = Event::touch;
   }
   begin.phase = middle.phase - p.nu * before, begin.before = middle.before - a * before;
   end.phase = begin.phase + advance, end.before = begin.before + a * time;

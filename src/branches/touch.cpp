@@ -20,7 +20,7 @@ Orbit with_graze(Orbit orbit, std::size_t first) {
   OrbitImpact& graze = orbit.impacts[first];
   graze.phase = (one.phase + other.phase) / 2;
   graze.before = one.event == Event::touch ? 0.0 : (one.before + other.before) / 2;
-  graze.event = other.event;  // after which the arc is that before the first
+  graze.event = presses(other.event) ? Event::renewal : other.event;  // after which the arc is that before the first
   const std::size_t second = (first + 1) % orbit.size();
   orbit.impacts.erase(orbit.impacts.begin() + static_cast<std::ptrdiff_t>(second));
   return orbit;

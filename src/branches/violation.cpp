@@ -122,13 +122,18 @@ Flight<double> flight_after(const Orbit& orbit, std::size_t i) {
 }
 
 /// Where two events of a soft stop are about to vanish, the proof may find a third one beside them: it is theirs.
-Violation told_apart(const Orbit& orbit, const Violation& found) {
+Violation told_apart(const Parameters<double>& p, const Orbit& orbit, const Violation& found) {
   constexpr double about = 1e-6;  // rad: the force turns at about its square
-  if (found.kind != Violation::Kind::passes_through || found.turning.event == Event::impact) return found;
+  if (found.kind == Violation::Kind::pulls) {
+    const Flight<double> flight = flight_after(orbit, found.impact);
+    if (!flight.may_vanish(p) || flight.end - flight.begin >= about) return found;
+    return {Violation::Kind::ends_early, found.impact, {}};
+  }
+  if (found.turning.event == Event::impact) return found;
   for (std::size_t i = 0; i < orbit.size(); ++i) {
     const Flight<double> flight = flight_after(orbit, i);
     const double distance = std::remainder(found.turning.phase - flight.begin, orbit.advance());
-    if (flight.may_vanish() && flight.end - flight.begin < about && std::abs(distance) < 2 * about)
+    if (flight.may_vanish(p) && flight.end - flight.begin < about && std::abs(distance) < 2 * about)
       return {Violation::Kind::ends_early, i, {}};
   }
   return found;
@@ -157,8 +162,10 @@ std::optional<Violation> response_violation(const Flights<double, E>& flights, c
 std::optional<Violation> violation(const ShakenScene& scene, const Orbit& orbit, std::optional<std::size_t> grazing) {
   // next to its double zero in a graze, the sign of a soft stop's force is that of rounding
   constexpr double clear_of_rounding = 1e-6;
+  const Parameters<double> of_scene(scene);
   for (std::size_t i = 0; i < orbit.size(); ++i)
-    if (const Flight<double> flight = flight_after(orbit, i); flight.may_vanish() && !(flight.begin < flight.end))
+    if (const Flight<double> flight = flight_after(orbit, i);
+        flight.may_vanish(of_scene) && !(flight.begin < flight.end))
       return Violation{Violation::Kind::ends_early, i, {}};
   for (std::size_t i = 0; i < orbit.size(); ++i)
     if (i != grazing && !points_right(orbit.impacts[i])) return Violation{Violation::Kind::pulls, i, {}};
@@ -186,7 +193,7 @@ std::optional<Violation> violation(const ShakenScene& scene, const Orbit& orbit,
         return flown(motion::Arc(arc.constants(), arc.at(clear), stop.position));
       });
       if (found && !(found->kind == Violation::Kind::pulls && found->impact == grazing))
-        return told_apart(orbit, *found);
+        return told_apart(p, orbit, *found);
     }
     return std::nullopt;
   });
