@@ -32,7 +32,8 @@ class Follower {
     while (!waiting_.empty() && !record_.is_full()) {
       const Waiting next = waiting_.front();
       waiting_.pop_front();
-      follow(next);
+      const bool is_born_soft = next.direction && next.orbit.meets_soft_stop();
+      if (!is_born_soft || !record_.grazes_at(*next.special)) follow(next);
     }
     if (!waiting_.empty() && record_.found().ends.back().reason != max_points_spent)
       record_.fail(record_.found().points.back(), max_points_spent);
@@ -195,17 +196,17 @@ class Follower {
             return impact_map(equations.scene_at(p.at), equations.orbit_at(p.at)).distance_to(-1);
           },
           false);
+    }
+    if (has_impacts || equations.shape().pressed != Side::none) {
       const auto look_for_maximum = [&](SpecialKind of, Along (*measure)(const Moving&)) {
         const auto at = [&, measure](const CurvePoint& p) { return measure(moving(equations, p.at, p.tangent)); };
-        const Along here = at(walk.here()), next = at(*there);
-        if (!changes(here) && !changes(next)) return;
+        if (!changes(at(walk.here())) && !changes(at(*there))) return;
         look(
             of, [at](const CurvePoint& p) { return at(p).slope[0]; }, true);
       };
       look_for_maximum(SpecialKind::impact_speed, impact_speed);
-      const bool soft = equations.shape().meets_soft_stop();  // whose loss and force last for a time
-      if (problem_.observe.energy && !soft) look_for_maximum(SpecialKind::impact_power, impact_power);
-      if (problem_.observe.harmonics > 0 && !soft) look_for_maximum(SpecialKind::harmonic, harmonic);
+      if (problem_.observe.energy) look_for_maximum(SpecialKind::impact_power, impact_power);
+      if (problem_.observe.harmonics > 0) look_for_maximum(SpecialKind::harmonic, harmonic);
     }
     std::ranges::sort(found, {}, [](const Found& f) { return f.point.arclength; });
     for (Found& f : found) {
@@ -229,6 +230,8 @@ class Follower {
     const auto [special, is_new] = record_.note(kind, record_.point(there, {*exact, {}, point.arclength}));
     if (generation_ < settings_.generations && is_new)
       waiting_.push_back({there.scene_at(*exact), there.orbit_at(*exact), {}, special, generation_ + 1});
+    // what waits there to be born is this branch, or has the same numbers
+    std::erase_if(waiting_, [&](const Waiting& one) { return one.special == special && one.direction; });
     return true;
   }
 
@@ -270,7 +273,7 @@ class Follower {
     record_.end(last, "chatter limit");
     if (!is_new)
       no_longer_waits(waiting_, special, last.orbit);  // this is the branch that waits there
-    else if (!has_soft_stop(last.scene.stops))
+    else
       resting().wait_beyond(last, side, (touch.beyond.at.back() - exact->back()) * width_, special, generation_);
     return true;
   }
@@ -291,11 +294,11 @@ class Follower {
     const Orbit with = exact->orbit, without = with.without(touch->impact);
     last.scene = exact->scene, last.orbit = touch->appears ? without : with;
     record_.add(last);
-    if (!has_soft_stop(last.scene.stops) && resting().waits_beyond(last, with.impacts[touch->impact].side, generation_))
+    if (resting().waits_beyond(last, with.impacts[touch->impact].side, generation_))
       return record_.end(last, "chatter limit");
     BranchPoint at = last;
     at.orbit = with;
-    const auto [special, is_new] = record_.note(SpecialKind::graze, at);
+    const auto [special, is_new] = record_.note(SpecialKind::graze, at, touch->graze().condition);
     record_.end(last, "graze");
     if (!is_new) return no_longer_waits(waiting_, special, last.orbit);  // this is the branch that waits there
     if (touch->turns)
@@ -309,10 +312,11 @@ class Follower {
   /// The branch ends on a motion that repeats sooner, or is symmetric, as that grazes soft stops, whose dampers change
   /// its multipliers at once.
   void end_on(const ExactGraze& exact) {
-    const OrbitEquations equations = equations_for(exact.orbit, {{Condition::Kind::graze, 1, exact.impact}});
+    const Condition condition{Condition::Kind::graze, 1, exact.impact};
+    const OrbitEquations equations = equations_for(exact.orbit, {condition});
     const BranchPoint at = record_.point(equations, {equations.unknowns_of(exact.scene, exact.orbit), {}, 0.0});
     record_.add(at);
-    const auto [special, is_new] = record_.note(SpecialKind::graze, at);
+    const auto [special, is_new] = record_.note(SpecialKind::graze, at, condition);
     record_.end(at, "graze");
     if (!is_new) return;
     wait_with(at.scene, at.orbit, exact.impact, special);

@@ -48,6 +48,7 @@ struct SpecialPoint {
   SpecialKind kind = SpecialKind::fold;
   BranchPoint at;
   std::vector<std::size_t> branches;  ///< that meet there
+  Condition condition{};              ///< of a graze
 };
 
 /// How the end of a branch, or of a curve, came about.

@@ -55,8 +55,7 @@ class Columns {
       const auto displacement = range.displacement(rigid_ones(point.scene.stops));
       low.push_back(displacement.low), high.push_back(displacement.high);
       v_low.push_back(range.velocity().low), v_high.push_back(range.velocity().high);
-      speed.push_back(impact_speed(point.orbit)),
-          power.push_back(point.orbit.meets_soft_stop() ? no_value : impact_power(point.scene, point.orbit));
+      speed.push_back(impact_speed(point.orbit)), power.push_back(impact_power(point.scene, point.orbit));
     }
     add_parameter(settings.along, std::move(value), "parameter along which the motion is followed");
     if (settings.across) add_parameter(*settings.across, std::move(second), "second parameter of the curve");
@@ -75,8 +74,7 @@ class Columns {
     add("v_max", Quantity::velocity, std::move(v_high), "maximum velocity");
     add("impact_speed", Quantity::velocity, std::move(speed), "speed of the fastest impact");
     add("impact_power", Quantity::power, std::move(power),
-        units_.is_si ? "energy lost in impacts per second; NaN: it meets a soft stop"
-                     : "energy lost in impacts per tau, per unit mass; NaN: it meets a soft stop");
+        units_.is_si ? "energy lost in impacts per second" : "energy lost in impacts per tau, per unit mass");
   }
 
  private:

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <tuple>
 #include <utility>
 
@@ -14,15 +15,40 @@ namespace {
 
 constexpr std::size_t along_axis = 0, across_axis = 1;
 
+/// Of those on rigid stops.
 std::size_t slowest_impact(const Orbit& orbit) {
-  const auto slow =
-      std::ranges::min_element(orbit.impacts, {}, [](const OrbitImpact& impact) { return std::abs(impact.before); });
+  const auto slow = std::ranges::min_element(orbit.impacts, {}, [](const OrbitImpact& impact) {
+    return impact.event == Event::impact ? std::abs(impact.before) : std::numeric_limits<double>::infinity();
+  });
   return static_cast<std::size_t>(slow - orbit.impacts.begin());
 }
 
-Condition condition_of(SpecialKind kind, const Orbit& orbit) {
-  if (kind == SpecialKind::graze) return {Condition::Kind::graze, 1, slowest_impact(orbit)};
-  return {Condition::Kind::multiplier, kind == SpecialKind::fold ? 1 : -1};
+/// The event with which the shortest contact with a soft stop, or interruption of one, begins; nothing if none is
+/// short.
+std::optional<std::size_t> shortest_contact(const Orbit& orbit) {
+  constexpr double is_short = 1e-2;  // rad
+  std::optional<std::size_t> found;
+  double least = is_short;
+  for (std::size_t i = 0; i < orbit.size(); ++i) {
+    const OrbitImpact from = orbit.impact(i), to = orbit.impact(i + 1);
+    const bool contact = to.event == Event::separation && presses(from.event),
+               interruption = presses(to.event) && from.event == Event::separation && from.side == to.side;
+    if ((contact || interruption) && to.phase - from.phase < least) least = to.phase - from.phase, found = i;
+  }
+  return found;
+}
+
+/// A graze, of motion over many periods in one of them, as that of the motion that repeats sooner.
+void make_once(SpecialPoint& graze) {
+  Orbit& orbit = graze.at.orbit;
+  if (orbit.impacts[graze.condition.impact].event != Event::impact) return;  // is so already
+  orbit = orbit.once_with_graze(slowest_impact(orbit), is_symmetric(graze.at.scene));
+  graze.condition = {Condition::Kind::graze, 1, slowest_impact(orbit)};
+}
+
+Condition condition_of(const SpecialPoint& special) {
+  if (special.kind == SpecialKind::graze) return special.condition;
+  return {Condition::Kind::multiplier, special.kind == SpecialKind::fold ? 1 : -1};
 }
 
 class CurveFollower {
@@ -41,10 +67,6 @@ class CurveFollower {
     };
     if (shakes(settings_.along.parameter) && shakes(settings_.across->parameter))
       throw StartError("stops and base can't be shaken at once; expected another branch.across");
-    if (has_soft_stop(problem_.stops))
-      throw StartError(
-          "curves in two parameters are those between rigid stops; remove branch.across to follow "
-          "branches between soft ones");
     require_start_in_range(problem_, *settings_.across, settings_.across_range, "across");
     Branches along = follow_branches(problem_, settings_);
     std::erase_if(along.ends, [](const BranchEnd& end) { return !end.failed; });
@@ -56,9 +78,7 @@ class CurveFollower {
                        " on the branch is of motion that rests, whose special points begin no curves; begin on another "
                        "motion");
     for (SpecialPoint& start : along.special) {
-      Orbit& orbit = start.at.orbit;
-      if (start.kind == SpecialKind::graze)
-        orbit = orbit.once_with_graze(slowest_impact(orbit), is_symmetric(start.at.scene));
+      if (start.kind == SpecialKind::graze) make_once(start);
       if (!record_.knows(start.kind, start.at) && !record_.is_full()) follow(start);
     }
     Branches found = record_.take();
@@ -90,7 +110,7 @@ class CurveFollower {
   void follow(const SpecialPoint& from) {
     kind_ = from.kind, speed_unit_ = speed_scale(from.at.scene, from.at.orbit);
     record_.begin(speed_unit_);
-    const OrbitEquations equations = equations_for(from.at.orbit, {condition_of(from.kind, from.at.orbit)});
+    const OrbitEquations equations = equations_for(from.at.orbit, {condition_of(from)});
     Vector across(equations.unknowns(), 0.0);
     across.back() = 1;
     CurvePoint start{equations.unknowns_of(from.at.scene, from.at.orbit), {}, 0.0};
@@ -117,7 +137,7 @@ class CurveFollower {
     for (;;) {
       if (record_.is_full()) return record_.fail(last, max_points_spent), false;
       const auto next = walk.next();
-      if (!next) return record_.fail(last, no_step), false;
+      if (!next) return end_near_graze(equations, walk.here(), no_step), false;
       const double step = next->arclength - walk.here().arclength;
       for (const std::size_t axis : {along_axis, across_axis})
         for (const double bound : ranges_[axis])
@@ -160,33 +180,61 @@ class CurveFollower {
     record_.add(last), record_.end(last, "range");
   }
 
-  /// The curve ends where a turning point touches a stop, too, or its own slowest impact vanishes: a resonant graze,
-  /// in which curves of multipliers +1 and -1 meet that of the graze.
+  /// The curve ends where a turning point touches a stop, too, or its own slowest impact vanishes: on a rigid stop a
+  /// resonant graze, in which curves of multipliers +1 and -1 meet that of the graze.
   void end_in_graze(const OrbitEquations& equations, const Walk& walk, double step) {
     const auto touch = touch_within(equations, walk, step);
     if (!touch) return record_.fail(record_.point(equations, walk.here()), no_step);
     special_between(equations, walk, touch->last_good.arclength - walk.here().arclength);
+    if (touch->vanishes && ends_without_contact(equations, touch->last_good, touch->beyond.at, *touch->vanishes))
+      return;
     Condition condition = equations.conditions().front();
     const bool of_multiplier = condition.kind == Condition::Kind::multiplier;
     if (touch->appears && of_multiplier) condition.without = touch->impact;
     if (touch->appears && !of_multiplier && touch->impact <= condition.impact) ++condition.impact;
     BranchPoint last = record_.point(equations, touch->last_good);
     const ShakenScene near = equations.scene_at(touch->beyond.at);
-    SpecialKind kind = of_multiplier && !touch->appears ? SpecialKind::resonant_graze : SpecialKind::graze;
-    auto exact = solved({condition, {Condition::Kind::graze, 1, touch->impact}}, near, touch->orbit);
+    const bool on_soft_stop = touch->orbit.impacts[touch->impact].event != Event::impact;
+    SpecialKind kind =
+        of_multiplier && !touch->appears && !on_soft_stop ? SpecialKind::resonant_graze : SpecialKind::graze;
+    auto exact = solved({condition, touch->graze().condition}, near, touch->orbit);
     for (const bool symmetric : {is_symmetric(near), false}) {
-      if (exact) break;
+      if (exact || on_soft_stop) break;
       // several speeds vanish at once and leave motion that repeats sooner: its resonance tells where
       const Orbit last_left = with_one_slow_impact(touch->orbit);
       const Orbit once = last_left.once_with_graze(slowest_impact(last_left), symmetric);
       exact = solved({{Condition::Kind::graze, 1, slowest_impact(once)}, {Condition::Kind::multiplier, 1}}, near, once);
       kind = SpecialKind::resonant_graze;
     }
-    if (!exact) return record_.add(last), record_.fail(last, no_graze);
+    if (!exact) return end_near_graze(equations, touch->last_good, no_graze);
     std::tie(last.scene, last.orbit) = *exact;
     record_.note(kind, last);
     if (touch->appears && kind == SpecialKind::graze) last.orbit = last.orbit.without(touch->impact);
     record_.add(last), record_.end(last, std::string(name_of(kind)));
+  }
+
+  /// Whether the curve ends because a contact with a soft stop, or an interruption of one, vanishes there.
+  bool ends_without_contact(const OrbitEquations& equations, const CurvePoint& last_good, const Vector& near,
+                            std::size_t contact) {
+    const auto exact = solved({equations.conditions().front(), {Condition::Kind::duration, 1, contact}},
+                              equations.scene_at(near), equations.orbit_at(near));
+    if (!exact) return false;
+    BranchPoint last = record_.point(equations, last_good);
+    last.scene = exact->first, last.orbit = with_graze(exact->second, contact);
+    record_.note(SpecialKind::graze, last);
+    record_.add(last), record_.end(last, "graze");
+    return true;
+  }
+
+  /// If several contacts vanish at once, as motion repeats sooner there, the equations lose their digits near the end,
+  /// and the proof finds another turning point first: the shortest contact tells it. Else it is a failure. On a curve
+  /// of grazes the equations of both have no single solution.
+  void end_near_graze(const OrbitEquations& equations, const CurvePoint& last_good, std::string_view failure) {
+    const auto contact = shortest_contact(equations.orbit_at(last_good.at));
+    if (contact && !equations.grazing() && ends_without_contact(equations, last_good, last_good.at, *contact)) return;
+    const BranchPoint last = record_.point(equations, last_good);
+    if (failure == no_graze) record_.add(last);
+    record_.fail(last, failure);
   }
 
   /// The solution of an orbit's equations with two conditions near a guess; nothing if there is none near.
@@ -237,6 +285,7 @@ class CurveFollower {
         record_.note(SpecialKind::cusp, record_.point(equations, *turned));
       return;
     }
+    if (equations.shape().impacts[*equations.grazing()].event != Event::impact) return;  // no square root there
     for (const int periods : {1, 2, 3, 4}) {
       if (periods > 1 && equations.shape().mirrored) break;
       const auto resonant = zero_of([&](const CurvePoint& p) { return resonance(equations, p.at, periods); });

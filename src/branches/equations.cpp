@@ -1,5 +1,6 @@
 #include "branches/equations.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -21,6 +22,14 @@ std::optional<std::size_t> OrbitEquations::grazing() const {
   for (const Condition& condition : conditions_)
     if (condition.kind == Condition::Kind::graze || condition.kind == Condition::Kind::force) return condition.impact;
   return std::nullopt;
+}
+
+bool OrbitEquations::grazes_outside() const {
+  return std::ranges::find(conditions_, Condition::Kind::graze, &Condition::kind) != conditions_.end();
+}
+
+bool OrbitEquations::stiffness_varies() const {
+  return std::ranges::any_of(axes_, [](const Axis& axis) { return varies_stiffness(axis.parameter); });
 }
 
 Vector OrbitEquations::unknowns_of(const ShakenScene& scene, const Orbit& orbit) const {
@@ -52,8 +61,9 @@ std::optional<OrbitEquations::Linearised> OrbitEquations::at(const Vector& z) co
   if (!(scene.oscillator.frequency > 0) || !(scene.stops.lower < scene.stops.upper)) return std::nullopt;
   for (const double number : z)
     if (!std::isfinite(number)) return std::nullopt;
+  const Parameters<double> p(scene);
   for (std::size_t i = 0; i < orbit.size(); ++i)
-    if (!flight_of<double>(orbit, i).may_vanish() && !(orbit.impact(i).phase < orbit.impact(i + 1).phase))
+    if (!flight_of<double>(orbit, i).may_vanish(p) && !(orbit.impact(i).phase < orbit.impact(i + 1).phase))
       return std::nullopt;
   Linearised out{Vector(equations(), 0.0), Matrix(equations(), unknowns())};
   const auto add_flights = [&]<Effects E>() {
@@ -77,7 +87,7 @@ std::optional<OrbitEquations::Linearised> OrbitEquations::at(const Vector& z) co
       out.slope(row + 1, next + 1) -= sign * speed_unit_;
     }
   };
-  with_arcs(scene, add_flights, any_varies_stiffness(axes_));
+  with_arcs(scene, add_flights, stiffness_varies());
   std::size_t row = 2 * orbit.size();
   for (const Condition& condition : conditions_) {
     if (condition.kind == Condition::Kind::graze)
@@ -150,11 +160,10 @@ void OrbitEquations::add_multiplier(const ShakenScene& scene, const Orbit& all, 
     }
   };
   const Parameters<First> p = parameters_of<First>(scene, axes_);
-  const bool stiffness_varies = any_varies_stiffness(axes_);
   if (orbit.meets_soft_stop())
-    links = links_of_states(scene, orbit, p, stiffness_varies);
+    links = links_of_states(scene, orbit, p, stiffness_varies());
   else
-    with_arcs(scene, add_links, stiffness_varies);
+    with_arcs(scene, add_links, stiffness_varies());
   // g = c (1 + D) - sigma tr(K_n ... K_1), c the product of the links' denominators
   const auto plain = [](const Link<First>& link) {
     Square<double> k;

@@ -62,10 +62,14 @@ class OrbitEquations {
 
   [[nodiscard]] const Orbit& shape() const { return shape_; }
   [[nodiscard]] const std::vector<Axis>& axes() const { return axes_; }
+  /// Whether the stiffness of the spring, per unit mass, is one of what varies, or changes with it.
+  [[nodiscard]] bool stiffness_varies() const;
   [[nodiscard]] double speed_unit() const { return speed_unit_; }
   [[nodiscard]] const std::vector<Condition>& conditions() const { return conditions_; }
   /// The impact, or the event on a soft stop, that grazes by a condition, if there is one.
   [[nodiscard]] std::optional<std::size_t> grazing() const;
+  /// Whether that is the touch of a stop without speed.
+  [[nodiscard]] bool grazes_outside() const;
 
  private:
   void add_release(const ShakenScene& scene, const OrbitImpact& impact, std::size_t phase, std::size_t row,

@@ -15,9 +15,10 @@ template <class Number>
 struct Parameters {
   Number h, f, nu, load, lower, upper, R_lower, R_upper, k, stop_amplitude, base_amplitude;
   Number kappa_lower, kappa_upper, zeta_lower, zeta_upper;  ///< of soft stops
+  Number inverse_mass;                                      ///< over that at the start
 
   /// Each of them.
-  static constexpr std::array<Number Parameters::*, 15> all{&Parameters::h,
+  static constexpr std::array<Number Parameters::*, 16> all{&Parameters::h,
                                                             &Parameters::f,
                                                             &Parameters::nu,
                                                             &Parameters::load,
@@ -31,7 +32,8 @@ struct Parameters {
                                                             &Parameters::kappa_lower,
                                                             &Parameters::kappa_upper,
                                                             &Parameters::zeta_lower,
-                                                            &Parameters::zeta_upper};
+                                                            &Parameters::zeta_upper,
+                                                            &Parameters::inverse_mass};
 
   Parameters() = default;
   explicit Parameters(const ShakenScene& scene)
@@ -49,7 +51,8 @@ struct Parameters {
         kappa_lower(scene.stops.stiffness_lower),
         kappa_upper(scene.stops.stiffness_upper),
         zeta_lower(scene.stops.damping_lower),
-        zeta_upper(scene.stops.damping_upper) {}
+        zeta_upper(scene.stops.damping_upper),
+        inverse_mass(scene.inverse_mass) {}
 
   [[nodiscard]] const Number& position(Side stop) const { return stop == Side::upper ? upper : lower; }
   [[nodiscard]] const Number& restitution(Side stop) const { return stop == Side::upper ? R_upper : R_lower; }
@@ -98,10 +101,13 @@ struct Flight {
   Number end;
   Event leaves = Event::impact, arrives = Event::impact;
 
-  /// Whether it is a contact with a soft stop, or an interruption of one beyond the stop's position: these become
-  /// infinitely short where they vanish.
-  [[nodiscard]] bool may_vanish() const {
-    return arrives == Event::separation ? presses(leaves) : arrives == Event::renewal && leaves == Event::separation;
+  /// Whether it is a contact with a soft stop, or an interruption of one: these become infinitely short where they
+  /// vanish. An interruption lies beyond the stop's position, but without a damper, on the other side of it.
+  template <class AnyNumber>
+  [[nodiscard]] bool may_vanish(const Parameters<AnyNumber>& p) const {
+    if (arrives == Event::separation) return presses(leaves);
+    if (leaves != Event::separation) return false;
+    return arrives == Event::renewal || (arrives == Event::touch && from == to && p.soft_stop(to).damping == 0);
   }
 };
 
@@ -148,7 +154,7 @@ class Flights {
   [[nodiscard]] FlightEnd<Number> fly(const Flight<Number>& flight) const {
     const Number time = (flight.end - flight.begin) / p_.nu;
     return with_arc(flight, [&](const auto& arc) -> FlightEnd<Number> {
-      if (flight.may_vanish()) return fly_beyond(arc, flight, time);
+      if (flight.may_vanish(p_)) return fly_beyond(arc, flight, time);
       const motion::Motion<Number> end = arc.at(time);
       Number beyond = flight.from == flight.to ? end.offset : Number(end.x - p_.position(flight.to));
       if (flight.arrives == Event::separation || flight.arrives == Event::renewal)

@@ -67,12 +67,42 @@ Orbit with_short(const ShakenScene& scene, const Orbit& orbit, std::size_t graze
     begin.event = Event::touch;
   } else {
     begin.event = middle.event == Event::separation ? Event::renewal : Event::separation;
+    if (relaxation == 0 && presses(middle.event)) end.event = Event::touch;
   }
   begin.phase = middle.phase - p.nu * before, begin.before = middle.before - a * before;
   end.phase = begin.phase + advance, end.before = begin.before + a * time;
   Orbit out = orbit;
   out.impacts[graze] = end;
   return out.with(begin, graze);
+}
+
+/// Motion between the stops with a contact, or an interruption, that begins with event `first`.
+struct Lasting {
+  Orbit orbit;
+  Vector at;
+  std::size_t first;
+};
+/// That which lasts for `advance` of the phase, in place of a graze. Motion that is symmetric about another place than
+/// x = 0 has two contacts at once.
+std::optional<Lasting> with_lasting(const Equations& equations, const ShakenScene& scene, const Orbit& orbit,
+                                    std::size_t graze, double advance, double tolerance) {
+  Lasting lasting{with_short(scene, orbit, graze, advance), {}, graze};
+  for (int contacts = 1; contacts <= 2; ++contacts) {
+    const OrbitEquations there =
+        equations(lasting.orbit, {{.kind = Condition::Kind::duration, .impact = lasting.first, .duration = advance}});
+    auto at = solution(there, there.unknowns_of(scene, lasting.orbit), tolerance);
+    if (!at) return std::nullopt;
+    const auto violated = violation(there, *at);
+    lasting.at = *std::move(at);
+    if (!violated) return lasting;
+    if (violated->kind != Violation::Kind::passes_through || violated->turning.event == Event::impact)
+      return std::nullopt;
+    const std::size_t second = violated->impact + 1;
+    const Orbit both = there.orbit_at(lasting.at).with(violated->turning, second);
+    lasting.orbit = with_short(scene, both, second, advance);
+    if (second <= lasting.first) lasting.first += 2;
+  }
+  return std::nullopt;
 }
 
 }  // namespace
@@ -105,16 +135,12 @@ std::optional<Opened> opened(const Equations& equations, const ShakenScene& scen
   const Parameters<double> p(scene);
   const double rate = std::max(p.nu, std::sqrt(std::abs(p.k) + p.soft_stop(orbit.impacts[graze].side).stiffness));
   for (const double turned_by : {1e-3, 1e-2, 1e-4}) {
-    const double advance = p.nu / rate * turned_by;
-    const Orbit guess = with_short(scene, orbit, graze, advance);
-    const OrbitEquations lasting =
-        equations(guess, {{.kind = Condition::Kind::duration, .impact = graze, .duration = advance}});
-    const auto at = solution(lasting, lasting.unknowns_of(scene, guess), tolerance);
-    if (!at || violation(lasting, *at)) continue;
-    const OrbitEquations there = equations(guess, {});
+    const auto lasting = with_lasting(equations, scene, orbit, graze, p.nu / rate * turned_by, tolerance);
+    if (!lasting) continue;
+    const OrbitEquations there = equations(lasting->orbit, {});
     Vector longer(there.unknowns(), 0.0);
-    longer[2 * graze] = -1, longer[2 * ((graze + 1) % guess.size())] = 1;
-    if (auto along = tangent(there, *at, longer)) return Opened{guess, *at, *std::move(along)};
+    longer[2 * lasting->first] = -1, longer[2 * ((lasting->first + 1) % lasting->orbit.size())] = 1;
+    if (auto along = tangent(there, lasting->at, longer)) return Opened{lasting->orbit, lasting->at, *std::move(along)};
   }
   return std::nullopt;
 }

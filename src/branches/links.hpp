@@ -33,7 +33,7 @@ void vary(Parameters<Number>& p, const ShakenScene& scene, Parameter parameter, 
       for (Number* const per_mass : {&p.h, &p.f, &p.load, &p.k, &p.kappa_lower, &p.kappa_upper})
         if (const double number = static_cast<double>(*per_mass); std::isfinite(number))
           seed(*per_mass, number / scene.inverse_mass);
-      return;
+      return seed(p.inverse_mass, 1);
     case Parameter::h:
       return seed(p.h, 1);
     case Parameter::f:
@@ -101,10 +101,6 @@ Parameters<Number> parameters_of(const ShakenScene& scene, const std::vector<Orb
   Parameters<Number> p(scene);
   for (std::size_t k = 0; k < axes.size(); ++k) vary(p, scene, axes[k].parameter, by_first_axis + k);
   return p;
-}
-
-inline bool any_varies_stiffness(const std::vector<OrbitEquations::Axis>& axes) {
-  return std::ranges::any_of(axes, [](const OrbitEquations::Axis& axis) { return varies_stiffness(axis.parameter); });
 }
 
 template <class Number>

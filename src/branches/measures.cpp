@@ -5,6 +5,7 @@
 #include <complex>
 #include <numbers>
 
+#include "branches/soft_contacts.hpp"
 #include "math/dual.hpp"
 
 namespace clatter::branches {
@@ -50,18 +51,37 @@ Number lost(const Number& R, const Number& before, bool rests) {
 
 bool next_is_rest(const Orbit& orbit, std::size_t i) { return i + 1 < orbit.size() && orbit.impacts[i + 1].rest > 0; }
 
+/// A motion at some parameters, which don't change if p doesn't, without its impacts.
+Moving motion_at(const ShakenScene& scene, const Orbit& orbit, const Parameters<Along>& p) {
+  return {.scene = scene,
+          .p = p,
+          .impacts = {},
+          .period = Along(orbit.advance()) / p.nu,
+          .pressed = orbit.pressed,
+          .soft = orbit.meets_soft_stop()};
+}
+
+/// Of a motion that meets soft stops, per unit mass and repetition.
+double loss_on_soft_stops(const ShakenScene& scene, const Orbit& orbit) {
+  Moving m = motion_at(scene, orbit, Parameters<Along>(scene));
+  for (const OrbitImpact& event : orbit.impacts)
+    m.impacts.push_back({event.side, event.phase, event.before, false, event.event});
+  return soft_contacts(m).loss.value;
+}
+
 }  // namespace
 
 Moving moving(const OrbitEquations& equations, const Vector& point, const Vector& tangent) {
   const Orbit orbit = equations.orbit_at(point);
   constexpr double step = 1e-3;  // the parameters are linear in the point
-  Moving m{towards(equations.scene_at(point), equations.scene_at(sum(point, step, tangent)), step), {}, {}};
+  const ShakenScene scene = equations.scene_at(point);
+  Moving m = motion_at(scene, orbit, towards(scene, equations.scene_at(sum(point, step, tangent)), step));
+  m.stiffness_varies = equations.stiffness_varies();
   for (std::size_t i = 0; i < orbit.size(); ++i) {
     Along phase(orbit.impacts[i].phase), before(orbit.impacts[i].before);
     phase.slope[0] = tangent[2 * i], before.slope[0] = tangent[2 * i + 1] * equations.speed_unit();
     m.impacts.push_back({orbit.impacts[i].side, phase, before, false, orbit.impacts[i].event});
   }
-  m.period = Along(orbit.advance()) / m.p.nu;
   return m;
 }
 
@@ -69,10 +89,11 @@ Moving moving_from_release(const ShakenScene& scene, const Orbit& orbit, sweep::
   constexpr std::size_t by_begin = 0, by_before = 1, by_end = 2, by_parameter = 3;
   using Four = Dual<double, 4>;
   constexpr double step = 1e-3;
-  Moving m{towards(scene, changed(scene, parameter, value_of(scene, parameter) + step), step), {}, {}};
+  Moving m =
+      motion_at(scene, orbit, towards(scene, changed(scene, parameter, value_of(scene, parameter) + step), step));
+  m.stiffness_varies = varies_stiffness(parameter);
   Parameters<Four> p(scene);
   for (std::size_t i = 0; i < p.all.size(); ++i) (p.*p.all[i]).slope[by_parameter] = (m.p.*m.p.all[i]).slope[0];
-  m.period = Along(orbit.advance()) / m.p.nu;
   // f sin(phase + lead) + load = k x at a release
   const LeadingForce<Along> force = m.p.force();
   const auto release = [&](const OrbitImpact& rest) {
@@ -96,19 +117,19 @@ Moving moving_from_release(const ShakenScene& scene, const Orbit& orbit, sweep::
       } else {
         const FlightEnd<Four> flown =
             flights.fly({last.side, Four(begin.value, by_begin), Four(before.value, by_before), impact.side,
-                         Four(impact.phase, by_end)});
+                         Four(impact.phase, by_end), last.event, impact.event});
         const auto along = [&](const Four& number) {
           return number.slope[by_begin] * begin.slope[0] + number.slope[by_before] * before.slope[0] +
                  number.slope[by_parameter];
         };
         end.slope[0] = -along(flown.beyond) / flown.beyond.slope[by_end];
         speed.slope[0] = along(flown.velocity) + flown.velocity.slope[by_end] * end.slope[0];
-        m.impacts.push_back({impact.side, end, speed, next_is_rest(orbit, i)});
+        m.impacts.push_back({impact.side, end, speed, next_is_rest(orbit, i), impact.event});
       }
       begin = end, before = speed, last = impact;
     }
   };
-  with_arcs(scene, add_impacts, varies_stiffness(parameter));
+  with_arcs(scene, add_impacts, m.stiffness_varies);
   return m;
 }
 
@@ -168,7 +189,8 @@ double impact_power(const ShakenScene& scene, const Orbit& orbit) {
   for (std::size_t i = 0; i < orbit.size(); ++i)
     if (orbit.impacts[i].event == Event::impact)
       all += lost(p.restitution(orbit.impacts[i].side), orbit.impacts[i].before, next_is_rest(orbit, i));
-  return all * p.nu / orbit.advance();
+  if (orbit.meets_soft_stop()) all += loss_on_soft_stops(scene, orbit);
+  return all * p.nu / orbit.advance() / p.inverse_mass;
 }
 
 Along impact_speed(const Moving& moving) {
@@ -181,19 +203,25 @@ Along impact_speed(const Moving& moving) {
 Along impact_power(const Moving& moving) {
   Along all = 0;
   for (const auto& [side, phase, before, rests, event] : moving.impacts)
-    all += lost(moving.p.restitution(side), before, rests);
-  return all / moving.period;
+    if (event == Event::impact) all += lost(moving.p.restitution(side), before, rests);
+  if (moving.soft) all += soft_contacts(moving).loss;
+  return all / moving.period / moving.p.inverse_mass;
 }
 
 Along harmonic(const Moving& moving) {
-  // (k - nu^2 + 2 i h nu) X = F + (1/T) sum of (v+ - v-) e^{-i phase}, F = -i f e^{i lead}/2; mirror images add the
-  // same
+  // (k - nu^2 + 2 i h nu) X = F + (1/T) sum of (v+ - v-) e^{-i phase}, F = -i f e^{i lead}/2, and the force of soft
+  // stops likewise; mirror images add the same
   const Parameters<Along>& p = moving.p;
   const LeadingForce<Along> force = p.force();
   Along re = force.amplitude * sin(force.lead) / 2, im = -force.amplitude * cos(force.lead) / 2;
   for (const auto& [side, phase, before, rests, event] : moving.impacts) {
+    if (event != Event::impact) continue;
     const Along jump = -(1 + p.restitution(side)) * before / moving.period;
     re += jump * cos(phase), im -= jump * sin(phase);
+  }
+  if (moving.soft) {
+    const SoftContacts contacts = soft_contacts(moving);
+    re += contacts.re / moving.period, im += contacts.im / moving.period;
   }
   const bool unit_spring = p.k == 1 && p.k.is_constant();
   const Along a = unit_spring ? (1 - p.nu) * (1 + p.nu) : p.k - p.nu * p.nu, b = 2 * p.h * p.nu;

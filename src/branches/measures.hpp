@@ -26,12 +26,14 @@ struct Multipliers {
 
 /// Speed of the fastest impact.
 [[nodiscard]] double impact_speed(const Orbit& orbit);
-/// Energy lost in impacts per tau, per unit mass; a chatter that ends in rest loses all that it has.
+/// Energy lost on the stops per tau, of the mass over that at the start: in impacts (eq. 33), in contacts with soft
+/// stops (eq. 54); a chatter that ends in rest loses all that it has.
 [[nodiscard]] double impact_power(const ShakenScene& scene, const Orbit& orbit);
 
 /// A scene's parameters and an orbit's impacts with their derivatives along a branch.
 using Along = Dual<double, 1>;
 struct Moving {
+  ShakenScene scene;
   Parameters<Along> p;
   struct Impact {
     Side side;
@@ -40,7 +42,10 @@ struct Moving {
     Event event = Event::impact;
   };
   std::vector<Impact> impacts;
-  Along period;  ///< of the impacts as they are kept, in tau
+  Along period;               ///< of the impacts as they are kept, in tau
+  Side pressed = Side::none;  ///< of motion without events: the soft stop that it is always in contact with
+  bool soft = false;          ///< whether it meets soft stops
+  bool stiffness_varies = false;
 };
 /// Along a tangent of equations.
 [[nodiscard]] Moving moving(const OrbitEquations& equations, const Vector& point, const Vector& tangent);

@@ -50,6 +50,11 @@ bool Orbit::meets_soft_stop() const {
          std::ranges::any_of(impacts, [](const OrbitImpact& impact) { return impact.event != Event::impact; });
 }
 
+bool Orbit::changes_nothing(std::size_t i) const {
+  const Event event = impacts[i].event, before = impacts[(i + size() - 1) % size()].event;
+  return event == Event::impact || presses(event) == presses(before);
+}
+
 Orbit Orbit::whole() const {
   if (!mirrored) return *this;
   Orbit orbit{impacts, 2 * half_turns, false};

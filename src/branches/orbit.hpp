@@ -29,10 +29,10 @@ struct OrbitImpact {
   double rest = 0.0;    ///< forcing phase, rad, for which the mass rests from then on
   Event event = Event::impact;
 
+  /// Whether it is a contact from outside: an impact, or a touch.
+  [[nodiscard]] bool is_contact() const { return event == Event::impact || event == Event::touch; }
   /// Whether it is a letter of the impact word: an impact, a touch, or a graze of a soft stop.
-  [[nodiscard]] bool is_letter() const {
-    return event == Event::impact || event == Event::touch || (event == Event::separation && before == 0);
-  }
+  [[nodiscard]] bool is_letter() const { return is_contact() || (event == Event::separation && before == 0); }
 };
 
 /// A periodic motion by its impacts. A motion that is its own mirror image half a period later is kept as that half,
@@ -46,6 +46,8 @@ struct Orbit {
   [[nodiscard]] std::size_t size() const { return impacts.size(); }
   [[nodiscard]] bool rests() const;  ///< on a stop, once in a period or more often
   [[nodiscard]] bool meets_soft_stop() const;
+  /// Whether the motion is the same without the event i, which grazes.
+  [[nodiscard]] bool changes_nothing(std::size_t i) const;
   [[nodiscard]] double advance() const;       ///< of the forcing phase, rad
   [[nodiscard]] double period_ratio() const;  ///< period in forcing periods
   /// Impact i = 0 ... size: the last one is the first, half a period or a period later.

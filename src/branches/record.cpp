@@ -33,7 +33,10 @@ void Record::begin(double speed_unit) {
 BranchPoint Record::point(const OrbitEquations& equations, const CurvePoint& at) const {
   BranchPoint out{branch_, at.arclength, equations.scene_at(at.at), equations.orbit_at(at.at), false, {}, {}};
   const auto grazing = equations.grazing();  // the multipliers are those without the impact that has no speed
-  const Multipliers of = multipliers(out.scene, grazing ? out.orbit.without(*grazing) : out.orbit);
+  const bool is_nothing = grazing && out.orbit.changes_nothing(*grazing);
+  if (is_nothing && out.orbit.impacts[*grazing].event == Event::separation && equations.grazes_outside())
+    out.orbit.impacts[*grazing].before = 0;
+  const Multipliers of = multipliers(out.scene, is_nothing ? out.orbit.without(*grazing) : out.orbit);
   out.stable = of.stable, out.multiplier_re = of.re, out.multiplier_im = of.im;
   return out;
 }
@@ -50,13 +53,23 @@ std::size_t Record::number_of(SpecialKind kind, const BranchPoint& at) const {
   return static_cast<std::size_t>(known - found_.special.begin());
 }
 
-Record::Noted Record::note(SpecialKind kind, BranchPoint at) {
+Record::Noted Record::note(SpecialKind kind, BranchPoint at, const Condition& condition) {
   const std::size_t number = number_of(kind, at);
   const bool is_new = number == specials();
   at.branch = branch_;
-  if (is_new) found_.special.push_back({kind, std::move(at), {}});
+  if (is_new) found_.special.push_back({kind, std::move(at), {}, condition});
   meet(number, branch_);
   return {number, is_new};
+}
+
+bool Record::grazes_at(std::size_t special) const {
+  const SpecialPoint& at = found_.special[special];
+  const sweep::Parameter parameter = axes_[0].parameter;
+  const double near = 1e-12 * axes_[0].unit;
+  return std::ranges::any_of(found_.special, [&](const SpecialPoint& other) {
+    return other.kind == SpecialKind::graze && std::ranges::count(other.branches, at.branches.front()) > 0 &&
+           std::abs(value_of(other.at.scene, parameter) - value_of(at.at.scene, parameter)) <= near;
+  });
 }
 
 void Record::meet(std::size_t special, std::size_t branch) {

@@ -32,8 +32,11 @@ class Record {
     std::size_t number;
     bool is_new;
   };
-  Noted note(SpecialKind kind, BranchPoint at);
+  Noted note(SpecialKind kind, BranchPoint at, const Condition& condition = {});
   [[nodiscard]] bool knows(SpecialKind kind, const BranchPoint& at) const { return number_of(kind, at) < specials(); }
+  /// Whether a special point can't be told from a graze of its branch: near a rigid stop a multiplier may be -1 within
+  /// rounding of it.
+  [[nodiscard]] bool grazes_at(std::size_t special) const;
   /// A branch belongs to a special point, too.
   void meet(std::size_t special, std::size_t branch);
 

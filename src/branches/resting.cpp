@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "attractors/exact_run.hpp"
+#include "branches/event_run.hpp"
 #include "sweep/sweep.hpp"
 
 namespace clatter::branches {
@@ -36,10 +37,22 @@ void each_letter(const Orbit& orbit, Function&& function) {
   for (std::size_t i = 0; i < orbit.size(); ++i) {
     if (orbit.impacts[i].rest == 0) continue;
     const std::size_t chatter = std::max(next, begin_of_chatter(orbit, i));
-    for (; next < chatter; ++next) function(orbit.impacts[next]);
+    for (; next < chatter; ++next)
+      if (orbit.impacts[next].event != Event::separation) function(orbit.impacts[next]);
     function(orbit.impacts[i]);
     next = i + 1;
   }
+}
+
+/// The events of a run over whole forcing periods; nothing if it fails.
+std::optional<std::vector<OrbitImpact>> events_of(const point::Problem& start, std::int64_t periods) {
+  const auto count = static_cast<std::size_t>(periods);
+  if (has_soft_stop(start.stops)) {
+    auto run = event_run(start, count);
+    return run ? std::optional(std::move(run->impacts)) : std::nullopt;
+  }
+  const auto round = attractors::run_round(start, count);
+  return round ? std::optional(orbit_of(*round, start.oscillator.frequency).impacts) : std::nullopt;
 }
 
 /// Whether a motion has come to rest on a stop and isn't released by then.
@@ -97,24 +110,24 @@ std::optional<double> release_tangency(const ShakenScene& scene, Side stop, swee
 
 std::optional<Orbit> resting_orbit(const point::Problem& problem, Side stop, std::int64_t most_periods) {
   const std::optional<double> release = release_phase(problem, stop);
-  if (!release) return std::nullopt;
-  const double nu = problem.oscillator.frequency;
+  if (!release || is_soft(problem.stops, stop)) return std::nullopt;
   point::Problem in_frame = problem;
   sweep::enter_shaken_frame(in_frame);
   const point::Problem start = attractors::started(in_frame, {position_of(problem, stop), 0.0}, *release);
   for (std::int64_t periods = 1; periods <= most_periods; ++periods) {
-    const auto round = attractors::run_round(start, static_cast<std::size_t>(periods));
-    if (!round) return std::nullopt;
+    const auto events = events_of(start, periods);
+    if (!events) return std::nullopt;
     Orbit orbit{{}, static_cast<int>(2 * periods), false};
-    for (const auto& [time, before, side] : round->contacts) {
-      OrbitImpact impact{side, *release + nu * time, before};
-      if (before == 0 && is_at_rest(orbit, side, impact.phase)) continue;  // a chatter's end, then the rest
-      if (before == 0) {
-        const std::optional<double> next = release_phase(problem, side);
+    for (OrbitImpact impact : *events) {
+      impact.phase += *release, impact.rest = 0;
+      const bool is_rest = impact.before == 0 && impact.event == Event::impact;
+      if (is_rest && is_at_rest(orbit, impact.side, impact.phase)) continue;  // a chatter's end, then the rest
+      if (is_rest) {
+        const std::optional<double> next = release_phase(problem, impact.side);
         if (!next) return std::nullopt;
         impact.rest = std::max(*next + turn * std::ceil((impact.phase - *next) / turn) - impact.phase, 0.0);
       }
-      if (before != 0 || impact.rest > 1e-12) orbit.impacts.push_back(impact);
+      if (!is_rest || impact.rest > 1e-12) orbit.impacts.push_back(impact);
     }
     if (orbit.size() == 0) continue;
     OrbitImpact& last = orbit.impacts.back();
@@ -140,7 +153,8 @@ Orbit half_of_resting(const Orbit& orbit, bool symmetric_scene) {
 std::string letters_of(const Orbit& orbit) {
   std::string letters;
   each_letter(orbit, [&](const OrbitImpact& impact) {
-    letters += impact.side == Side::upper ? 'U' : 'L';
+    const bool renews = impact.event == Event::renewal;
+    letters += impact.side == Side::upper ? (renews ? 'u' : 'U') : (renews ? 'l' : 'L');
     if (impact.rest > 0) letters += '*';
   });
   return letters;
@@ -149,7 +163,7 @@ std::string letters_of(const Orbit& orbit) {
 double slowest_letter(const Orbit& orbit) {
   double slowest = std::numeric_limits<double>::infinity();
   each_letter(orbit, [&](const OrbitImpact& impact) {
-    if (impact.rest == 0) slowest = std::min(slowest, std::abs(impact.before));
+    if (impact.rest == 0 && impact.is_contact()) slowest = std::min(slowest, std::abs(impact.before));
   });
   return slowest;
 }

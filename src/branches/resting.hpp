@@ -28,7 +28,7 @@ namespace clatter::branches {
 [[nodiscard]] Orbit half_of_resting(const Orbit& orbit, bool symmetric_scene);
 
 /// The impacts of a resting motion as letters, each chatter that ends in a rest as one: the impacts on the same stop
-/// before it that get slower and slower.
+/// before it that get slower and slower. A contact with a soft stop is one, too, and each renewal of it is another.
 [[nodiscard]] std::string letters_of(const Orbit& orbit);
 
 /// The speed of the slowest impact that is no part of such a chatter; infinite without one.

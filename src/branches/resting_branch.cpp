@@ -15,6 +15,10 @@ std::ptrdiff_t rests_of(const Orbit& orbit) {
   return std::ranges::count_if(orbit.impacts, [](const OrbitImpact& impact) { return impact.rest > 0; });
 }
 
+std::ptrdiff_t renewals_of(const Orbit& orbit) {
+  return std::ranges::count(orbit.impacts, Event::renewal, &OrbitImpact::event);
+}
+
 double shortest_rest(const Orbit& orbit) {
   double shortest = std::numeric_limits<double>::infinity();
   for (const OrbitImpact& impact : orbit.impacts)
@@ -116,9 +120,11 @@ std::pair<double, double> RestingBranch::change_between(double good, double bad,
   }
 }
 
-/// Whether of two neighbouring motions one has a rest, or an impact without speed, that the other hasn't.
+/// Whether of two neighbouring motions one has a rest, or an impact without speed, or an interrupted contact, that the
+/// other hasn't.
 bool RestingBranch::is_new_contact(const Orbit& one, const Orbit& other) const {
-  return rests_of(one) != rests_of(other) || std::min(slowest_letter(one), slowest_letter(other)) < 1e-4 * speed_unit_;
+  return rests_of(one) != rests_of(other) || renewals_of(one) != renewals_of(other) ||
+         std::min(slowest_letter(one), slowest_letter(other)) < 1e-4 * speed_unit_;
 }
 
 void RestingBranch::end(double last, const Orbit& good, double beyond, const std::optional<Orbit>& other, int heading) {

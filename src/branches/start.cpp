@@ -49,15 +49,13 @@ Orbit resting_start(const point::Problem& problem, Side stop, std::int64_t perio
       "set branch.period to several times as much");
 }
 
-/// Between soft stops, of which one may be rigid.
-Orbit soft_start(const point::Problem& problem, const PhasePoint& state, std::int64_t period, bool symmetric) {
+/// Between soft stops, of which one may be rigid. `problem` is in the frame of what is shaken, and `given` is not.
+Orbit soft_start(const point::Problem& given, const point::Problem& problem, const PhasePoint& state,
+                 std::int64_t period, bool symmetric) {
   const auto orbit = event_run(attractors::started(problem, state, 0.0), static_cast<std::size_t>(period));
   if (!orbit) throw StartError("the run from the start fails");
-  if (orbit->rests())
-    throw StartError(
-        "the motion at the start rests on the rigid stop; beside a soft stop such motion isn't followed: begin where "
-        "it "
-        "doesn't rest, or sweep with follow instead");
+  for (const OrbitImpact& event : orbit->impacts)
+    if (event.event == Event::impact && event.before == 0) return resting_start(given, event.side, period);
   if (orbit->size() == 0 && orbit->pressed == Side::none && problem.oscillator.stiffness == 0)
     throw StartError("without a spring, motion without impacts has no place of its own; begin where it meets a stop");
   return orbit->half_if_same(1e-6, symmetric);
@@ -158,7 +156,7 @@ Orbit start_orbit(const point::Problem& given, std::int64_t period, bool symmetr
     throw StartError("with branch.period, x0 and v0 stand at forcing phase 0: leave out " +
                      std::string(is_si ? "machine.phase" : "scene.phase"));
   }
-  if (has_soft_stop(problem.stops)) return soft_start(problem, state, period, symmetric);
+  if (has_soft_stop(problem.stops)) return soft_start(given, problem, state, period, symmetric);
   // Newton's method on the map of the periods; unless a contact appears or vanishes on the way it gets there
   const auto motion = attractors::periodic_motion(problem, state, static_cast<std::size_t>(period));
   if (!motion) throw StartError("the run from the start fails");

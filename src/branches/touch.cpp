@@ -13,19 +13,18 @@ Orbit near_phase_zero(Orbit orbit) {
   return orbit;
 }
 
-/// The graze that two events of an orbit become, of which number `first` is the earlier one.
-void merge(Touch& touch, std::size_t first) {
-  const OrbitImpact one = touch.orbit.impact(first), other = touch.orbit.impact(first + 1);
-  OrbitImpact& graze = touch.orbit.impacts[first];
+}  // namespace
+
+Orbit with_graze(Orbit orbit, std::size_t first) {
+  const OrbitImpact one = orbit.impact(first), other = orbit.impact(first + 1);
+  OrbitImpact& graze = orbit.impacts[first];
   graze.phase = (one.phase + other.phase) / 2;
   graze.before = one.event == Event::touch ? 0.0 : (one.before + other.before) / 2;
-  graze.event = other.event;  // after which the arc is that before the first
-  const std::size_t second = (first + 1) % touch.orbit.size();
-  touch.orbit.impacts.erase(touch.orbit.impacts.begin() + static_cast<std::ptrdiff_t>(second));
-  touch.impact = second < first ? first - 1 : first;
+  graze.event = presses(other.event) ? Event::renewal : other.event;  // after which the arc is that before the first
+  const std::size_t second = (first + 1) % orbit.size();
+  orbit.impacts.erase(orbit.impacts.begin() + static_cast<std::ptrdiff_t>(second));
+  return orbit;
 }
-
-}  // namespace
 
 Graze Touch::graze() const {
   const OrbitImpact& event = orbit.impacts[impact];
@@ -57,7 +56,9 @@ std::optional<Touch> touch_within(const OrbitEquations& equations, const Walk& w
     touch.orbit = touch.orbit.with(found->turning, touch.impact);
     if (first && touch.orbit.mirrored) touch.orbit = near_phase_zero(touch.orbit);
   } else if (found->kind == Violation::Kind::ends_early) {
-    merge(touch, found->impact);
+    const std::size_t first = found->impact;
+    touch.orbit = with_graze(touch.orbit, first), touch.vanishes = first;
+    touch.impact = first + 1 < equations.shape().size() ? first : first - 1;
   }
   return touch;
 }

@@ -13,15 +13,19 @@ namespace clatter::branches {
 /// contact, or an interruption of one, appears or vanishes: beginning and end of it are one event in the graze, which
 /// changes nothing. Or the mass, in contact again beyond the stop's position, just comes back to that first.
 struct Touch {
-  CurvePoint last_good;    ///< before the graze, of which the proof of first contact holds
-  CurvePoint beyond;       ///< the same motion a little beyond the graze
-  Orbit orbit;             ///< with the impact that grazes
-  std::size_t impact = 0;  ///< its number
-  bool appears = false;    ///< beyond the graze there is one impact more; else one less
-  bool turns = false;      ///< or none more nor less: a renewal turns into a touch, or the other way round
+  CurvePoint last_good;                   ///< before the graze, of which the proof of first contact holds
+  CurvePoint beyond;                      ///< the same motion a little beyond the graze
+  Orbit orbit;                            ///< with the impact that grazes
+  std::size_t impact = 0;                 ///< its number
+  bool appears = false;                   ///< beyond the graze there is one impact more; else one less
+  std::optional<std::size_t> vanishes{};  ///< the event of the walked motion that the contact that vanishes begins with
+  bool turns = false;  ///< or none more nor less: a renewal turns into a touch, or the other way round
 
   [[nodiscard]] Graze graze() const;
 };
+
+/// A motion with a graze in place of the contact, or of the interruption of one, that begins with event `first`.
+[[nodiscard]] Orbit with_graze(Orbit orbit, std::size_t first);
 
 /// The graze within a step of a walk; nothing if motion between the stops can be followed as far as that.
 [[nodiscard]] std::optional<Touch> touch_within(const OrbitEquations& equations, const Walk& walk, double step);

@@ -1,5 +1,6 @@
 #include "branches/violation.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "branches/flight.hpp"
@@ -34,6 +35,7 @@ struct Path {
   double length;
   Side to;  ///< none: it meets no stop
   Event arrives = Event::impact;
+  bool ends_in_graze = false;
 };
 
 template <Effects E>
@@ -98,7 +100,7 @@ std::optional<Violation> free_within(const Parameters<double>& p, const motion::
     if (!(rest.length > 0)) return std::nullopt;
     return cut_short(p, motion::Arc(arc.constants(), leaving, stop.position), rest);
   }
-  if (renews && crossing.resolved &&
+  if ((renews || path.ends_in_graze) && crossing.resolved &&
       (crossing.margin == 2 ||
        (crossing.margin == 1 && is_at_end(crossing.elapsed, path.length, m.offset, pull.slope(m), nu))))
     return std::nullopt;
@@ -112,6 +114,29 @@ std::optional<Violation> free_within(const Parameters<double>& p, const motion::
 bool points_right(const OrbitImpact& impact) {
   const double into = sign_of(impact.side) * impact.before;
   return impact.event == Event::impact || impact.event == Event::touch ? into > 0 : into < 0;
+}
+
+Flight<double> flight_after(const Orbit& orbit, std::size_t i) {
+  const OrbitImpact from = orbit.impact(i), to = orbit.impact(i + 1);
+  return {from.side, from.phase, from.before, to.side, to.phase, from.event, to.event};
+}
+
+/// Where two events of a soft stop are about to vanish, the proof may find a third one beside them: it is theirs.
+Violation told_apart(const Parameters<double>& p, const Orbit& orbit, const Violation& found) {
+  constexpr double about = 1e-6;  // rad: the force turns at about its square
+  if (found.kind == Violation::Kind::pulls) {
+    const Flight<double> flight = flight_after(orbit, found.impact);
+    if (!flight.may_vanish(p) || flight.end - flight.begin >= about) return found;
+    return {Violation::Kind::ends_early, found.impact, {}};
+  }
+  if (found.turning.event == Event::impact) return found;
+  for (std::size_t i = 0; i < orbit.size(); ++i) {
+    const Flight<double> flight = flight_after(orbit, i);
+    const double distance = std::remainder(found.turning.phase - flight.begin, orbit.advance());
+    if (flight.may_vanish(p) && flight.end - flight.begin < about && std::abs(distance) < 2 * about)
+      return {Violation::Kind::ends_early, i, {}};
+  }
+  return found;
 }
 
 /// Motion without events.
@@ -135,12 +160,12 @@ std::optional<Violation> response_violation(const Flights<double, E>& flights, c
 }  // namespace
 
 std::optional<Violation> violation(const ShakenScene& scene, const Orbit& orbit, std::optional<std::size_t> grazing) {
-  const auto flight_after = [&orbit](std::size_t i) {
-    const OrbitImpact from = orbit.impact(i), to = orbit.impact(i + 1);
-    return Flight<double>{from.side, from.phase, from.before, to.side, to.phase, from.event, to.event};
-  };
+  // next to its double zero in a graze, the sign of a soft stop's force is that of rounding
+  constexpr double clear_of_rounding = 1e-6;
+  const Parameters<double> of_scene(scene);
   for (std::size_t i = 0; i < orbit.size(); ++i)
-    if (const Flight<double> flight = flight_after(i); flight.may_vanish() && !(flight.begin < flight.end))
+    if (const Flight<double> flight = flight_after(orbit, i);
+        flight.may_vanish(of_scene) && !(flight.begin < flight.end))
       return Violation{Violation::Kind::ends_early, i, {}};
   for (std::size_t i = 0; i < orbit.size(); ++i)
     if (i != grazing && !points_right(orbit.impacts[i])) return Violation{Violation::Kind::pulls, i, {}};
@@ -149,19 +174,26 @@ std::optional<Violation> violation(const ShakenScene& scene, const Orbit& orbit,
     const Parameters<double>& p = flights.parameters();
     if (orbit.size() == 0) return response_violation(flights, orbit);
     for (std::size_t i = 0; i < orbit.size(); ++i) {
-      Flight<double> flight = flight_after(i);
+      Flight<double> flight = flight_after(orbit, i);
       const bool without_speed = flight.leaves == Event::impact || std::abs(flight.before) <= 1e-9;
       const bool leaves_graze = i == grazing && !presses(flight.leaves) && without_speed;
       if (leaves_graze) flight.before = 0;
-      const Path path{i,         (i + 1) % orbit.size(), flight.begin, (flight.end - flight.begin) / p.nu,
-                      flight.to, flight.arrives};
+      Path path{i, (i + 1) % orbit.size(), flight.begin, (flight.end - flight.begin) / p.nu, flight.to, flight.arrives};
+      path.ends_in_graze = path.next == grazing && flight.arrives == Event::separation && !presses(flight.leaves);
       auto found = flights.with_arc(flight, [&](const auto& arc) {
         if (flight.leaves == Event::impact || leaves_graze) return cut_short(p, arc, path);
         const motion::SoftStop<double> stop = p.soft_stop(flight.from);
-        if (presses(flight.leaves)) return separates(stop, arc, path);
-        return stop.damping == 0 ? cut_short(p, arc, path) : free_within(p, stop, arc, path);
+        const auto flown = [&](const auto& from) {
+          if (presses(flight.leaves)) return separates(stop, from, path);
+          return stop.damping == 0 ? cut_short(p, from, path) : free_within(p, stop, from, path);
+        };
+        if (i != grazing) return flown(arc);
+        const double clear = std::min(clear_of_rounding / arc.constants().rate, path.length);
+        path.begin += p.nu * clear, path.length -= clear;
+        return flown(motion::Arc(arc.constants(), arc.at(clear), stop.position));
       });
-      if (found) return found;
+      if (found && !(found->kind == Violation::Kind::pulls && found->impact == grazing))
+        return told_apart(p, orbit, *found);
     }
     return std::nullopt;
   });

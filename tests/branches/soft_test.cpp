@@ -83,7 +83,7 @@ std::optional<Branches> branches_of(const point::Problem& problem, bool along_fo
 /// orbits with it: its map over one period has the state as a fixed point, and the multipliers as eigenvalues. The ends
 /// of branches are left out, since there a run may take a graze or not.
 TEST(SoftBranch, of_random_scenes_has_only_fixed_points_of_the_integrator) {
-  std::size_t scenes = 0, points = 0, renewals = 0;
+  std::size_t scenes = 0, points = 0, renewals = 0, ends = 0, failed = 0;
   for (std::uint64_t index = 0; index < 120; ++index) {
     point::Problem problem = support::soft_scene(index);
     if (problem.oscillator.forcing == 0) continue;
@@ -91,7 +91,9 @@ TEST(SoftBranch, of_random_scenes_has_only_fixed_points_of_the_integrator) {
     problem.time.max_periods = 2000;
     const std::optional<Branches> found = branches_of(problem, index % 3 == 0);
     if (!found) continue;
-    ++scenes;
+    ++scenes, ends += found->ends.size();
+    failed += static_cast<std::size_t>(std::ranges::count_if(
+        found->ends, [](const BranchEnd& end) { return end.failed && end.reason != max_points_spent; }));
     for (std::size_t i = 1; i + 1 < found->points.size(); ++i) {
       const BranchPoint& point = found->points[i];
       if (found->points[i - 1].branch != point.branch || found->points[i + 1].branch != point.branch) continue;
@@ -115,6 +117,8 @@ TEST(SoftBranch, of_random_scenes_has_only_fixed_points_of_the_integrator) {
     }
   }
   EXPECT_GT(scenes, 80);
+  EXPECT_GT(ends, 300);
+  EXPECT_LE(failed, ends / 100);
   EXPECT_GT(points, 10000);
   EXPECT_GT(renewals, 100);
 }
@@ -205,6 +209,29 @@ TEST(SoftBranch, has_its_folds_along_the_numbers_of_the_stops) {
                 1e-11)
         << sweep::key_of(along);
   }
+}
+
+/// A mass on a spring bumper without a damper, pressed by a load: it leaves the bumper once the amplitude of the
+/// pressed response exceeds its mean depth, load over the stiffness of both springs.
+TEST(SoftBranch, begins_to_hop_where_the_pressed_response_leaves_the_bumper) {
+  point::Problem problem;
+  problem.oscillator = {0.1, 0.2, 0.5, 5.0};
+  problem.stops.upper = 0.5;
+  problem.stops.stiffness_upper = 10.0;
+  problem.start = {1.0, 0.0, 0.0};
+  const Branches found = follow_branches(problem, {.along = Parameter::f, .range = {0.1, 8.0}});
+  EXPECT_TRUE(std::ranges::none_of(found.ends, &BranchEnd::failed));
+  const double k = 11.0, depth = (5.0 + 10.0 * 0.5) / k - 0.5;
+  const double limit = depth * std::hypot(k - 0.25, 2 * 0.1 * 0.5);
+  const std::vector<double> grazes = special_values(found, SpecialKind::graze, Parameter::f);
+  ASSERT_FALSE(grazes.empty());
+  EXPECT_NEAR(grazes.front(), limit, 1e-12 * limit);
+  const auto hops = [](const BranchPoint& point) { return point.orbit.size() > 0; };
+  for (const BranchPoint& point : found.points) {
+    const double f = point.scene.oscillator.forcing;
+    EXPECT_TRUE(hops(point) == (f > limit) || std::abs(f - limit) < 1e-3) << f;
+  }
+  EXPECT_TRUE(std::ranges::any_of(found.points, hops));
 }
 
 }  // namespace

@@ -212,12 +212,22 @@ class Branch(CommandLine):
         self.assertIn("fold", [point["kind"] for point in special])
         with h5py.File(self.directory / "a.branch.h5") as file:
             self.assertGreater(np.max(file["x_max"]), 3.0)  # beyond the stop
-            self.assertTrue(np.any(np.isnan(file["impact_power"])))
+            self.assertTrue(np.all(file["impact_power"][...] >= 0))
+            self.assertGreater(np.max(file["impact_power"]), 0)
+
+    def test_curves_of_motion_that_meets_soft_stops_run_over_their_numbers(self):
+        soft = SCENE.replace("R = 0.7", "stop_stiffness = 100.0\nstop_damping = 0.1")
+        across = 'across = "stop_stiffness"\nacross_range = [50, 200]\ncurve = "fold"\n'
+        result = self.branch(soft + BRANCH + across, "--json")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        special = [json.loads(line) for line in result.stdout.splitlines()]
+        self.assertIn(100.0, [point["stop_stiffness"] for point in special if point["kind"] == "fold"])
+        with h5py.File(self.directory / "a.branch.h5") as file:
+            self.assertEqual({50.0, 200.0} - set(file["stop_stiffness"][...]), set())
 
     def test_what_soft_stops_do_not_have_is_refused_with_the_way_out(self):
         soft = SCENE.replace("R = 0.7", "stop_stiffness = 100.0")
         for scene, branch, message in (
-            (soft, BRANCH + 'across = "xs"\ncurve = "fold"\n', "remove branch.across"),
             (soft, '[branch]\nalong = "R"\nrange = [0.5, 1]\n', "R has no effect on a soft stop; take stop_damping"),
             (SCENE, '[branch]\nalong = "stop_stiffness"\nrange = [5, 90]\n', "give scene.stop_stiffness"),
         ):

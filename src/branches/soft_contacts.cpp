@@ -1,0 +1,66 @@
+#include "branches/soft_contacts.hpp"
+
+#include <cmath>
+
+#include "branches/flight.hpp"
+#include "observables/quadrature.hpp"
+
+namespace clatter::branches {
+namespace {
+
+/// Adds a contact, by panels in which nothing turns by more than a few radians.
+template <class A>
+void add_contact(const A& arc, const motion::SoftStop<Along>& stop, const Along& begin, const Along& length,
+                 SoftContacts& sum) {
+  const auto& constants = arc.constants();
+  const double turns = static_cast<double>(length * constants.rate);
+  SoftContacts part;
+  observables::over_panels<20>(1.0, static_cast<std::size_t>(std::ceil(turns / 2)), [&](double share, double weight) {
+    const Along time = share * length, phase = begin + constants.nu * time;
+    const motion::Motion<Along> m = arc.at(time);
+    const Along force = weight * stop.force(m.offset, m.v);
+    part.loss += weight * m.v * m.v, part.re -= force * cos(phase), part.im += force * sin(phase);
+  });
+  sum.loss += 2 * stop.damping * length * part.loss;
+  sum.re += length * part.re, sum.im += length * part.im;
+}
+
+/// Energy of the spring of a soft stop at which the force is zero: the depth is relaxation times velocity.
+Along stored(const motion::SoftStop<Along>& stop, const Along& velocity) {
+  const Along depth = stop.relaxation() * velocity;
+  return stop.stiffness * depth * depth / 2;
+}
+
+template <Effects E>
+SoftContacts contacts_of(const Moving& moving) {
+  const Flights<Along, E> flights(moving.p);
+  SoftContacts sum;
+  const std::size_t count = moving.impacts.size();
+  if (moving.pressed != Side::none)
+    flights.with_response(moving.pressed, [&](const auto& arc, const auto&) {
+      add_contact(arc, moving.p.soft_stop(moving.pressed), Along(0), moving.period, sum);
+    });
+  for (std::size_t i = 0; i < count; ++i) {
+    const Moving::Impact &from = moving.impacts[i], &to = moving.impacts[(i + 1) % count];
+    if (!presses(from.event)) continue;
+    const motion::SoftStop<Along> stop = moving.p.soft_stop(from.side);
+    const Along end = i + 1 < count ? to.phase : to.phase + moving.period * moving.p.nu;
+    const Flight<Along> flight{from.side, from.phase, from.before, to.side, end, from.event, to.event};
+    flights.with_arc(
+        flight, [&](const auto& arc) { add_contact(arc, stop, from.phase, (end - from.phase) / moving.p.nu, sum); });
+    // a stop that the mass outruns relaxes as far as it is touched again
+    if (to.event == Event::separation) sum.loss += stored(stop, to.before);
+    if (from.event == Event::renewal && !presses(moving.impacts[(i + count - 1) % count].event))
+      sum.loss -= stored(stop, from.before);
+  }
+  return sum;
+}
+
+}  // namespace
+
+SoftContacts soft_contacts(const Moving& moving) {
+  return with_arcs(
+      moving.scene, [&]<Effects E>() { return contacts_of<E>(moving); }, moving.stiffness_varies);
+}
+
+}  // namespace clatter::branches
