@@ -24,7 +24,7 @@ filter="" count="" tests=hard_tests
 case "${1-}" in
   random) filter='*RandomScenes*' count=10000 ;;
   arcs) filter='Arcs.agree*' count=10000000 ;;
-  properties) filter='Properties.*' count=1000000 ;;
+  properties) filter='*Properties.*' count=1000000 ;;
   shortcuts) filter='Attractors.no_shortcut*' count=10000 ;;
   attractors) filter='BruteForce.*' count=1000 tests=attractors_tests ;;
   soft) filter='SoftStops.random*:SoftStops.no_contact*' count=100000 tests=stepping_tests ;;
