@@ -24,7 +24,7 @@ class SoftRescan : public Rescan {
     const Side pushing = arc.constants().stop.side;
     if (pushing != pushing_ && !(is_fresh_ || m.v == 0)) broken = infinity;  // reported by neither touch nor separation
     pushing_ = pushing, is_fresh_ = false;
-    const Side around = pushing != Side::none ? pushing : around_of(m.x);
+    const Side around = pushing != Side::none ? pushing : around_of(arc.anchor(), m.offset);
     is_within_ = around != Side::none;
     if (!is_within_) return Rescan::arc(arc, begin, length);
     check_start(m, begin);
@@ -54,9 +54,11 @@ class SoftRescan : public Rescan {
  private:
   static constexpr double most_radians = 40;  ///< of the fastest motion, in what is scanned at each end of an arc
 
-  [[nodiscard]] Side around_of(double x) const {
+  /// The soft stop beyond which a mass is, perhaps by less than an ulp of its displacement.
+  [[nodiscard]] Side around_of(double anchor, double offset) const {
     for (const Side side : {Side::lower, Side::upper})
-      if (is_soft(stops_, side) && sign_of(side) * (x - (side == Side::upper ? stops_.upper : stops_.lower)) > 0)
+      if (is_soft(stops_, side) &&
+          sign_of(side) * ((anchor - (side == Side::upper ? stops_.upper : stops_.lower)) + offset) > 0)
         return side;
     return Side::none;
   }
