@@ -151,7 +151,7 @@ class ArcConstants {
   void set_stiffness(const Number& stiffness);
   [[nodiscard]] Number short_a_minus_one(const Number& s) const;
   void respond_from_rest(const Number& s, Step<Number>& step) const;
-  void respond_near_critical_damping(Step<Number>& step) const;
+  void respond_away_from_resonance(Step<Number>& step) const;
 
   Number coarse_root_{}, spare_root_{};  ///< light damping: root is their difference; the first is 1 if h < 1/2
 };
@@ -241,8 +241,10 @@ Step<Number> ArcConstants<Number, E>::step(const Number& s) const {
 template <class Number, Effects E>
 void ArcConstants<Number, E>::respond_from_rest(const Number& s, Step<Number>& step) const {
   using std::cos, std::exp, std::sin;
-  if constexpr (E.stiffness)  // which has one set of effects for all light damping between soft stops
-    if (root < secular_distance * natural) return respond_near_critical_damping(step);
+  if constexpr (E.stiffness) {  // between soft stops one set of effects serves all light damping, resonance or not
+    const Number least = secular_distance * natural;
+    if (!(h * h + detuning * detuning < least * least)) return respond_away_from_resonance(step);
+  }
   const Number lambda = root, c = cos(nu * s), d = sin(nu * s);
   const auto [q_re, q_im] = divided_exponential<Number>(-h * s, -detuning * s);
   const Number near_re = s * (c * q_re - d * q_im), near_im = s * (c * q_im + d * q_re);  // E(mu)
@@ -257,9 +259,9 @@ void ArcConstants<Number, E>::respond_from_rest(const Number& s, Step<Number>& s
 }
 
 /// The same by the steady response and the free motion that it leaves, w = (P + iQ)(e^{i nu s} - A - i nu B) with eqs.
-/// 7 and 44: near critical damping eq. 11 is a difference of numbers 1/lambda times larger, and there is no resonance.
+/// 7 and 44: eq. 11 is a difference of numbers 1/lambda times larger, which is much near critical damping.
 template <class Number, Effects E>
-void ArcConstants<Number, E>::respond_near_critical_damping(Step<Number>& step) const {
+void ArcConstants<Number, E>::respond_away_from_resonance(Step<Number>& step) const {
   const Propagator<Number>& free = step.free;
   const Turn<Number>& turn = step.turn;
   const Response<Number> unit = response_to(Number(k - nu * nu), h, Number(1), nu);

@@ -90,6 +90,8 @@ struct Watcher {
   void arc(const A&, double, double) {}
   void rest(const motion::Rest&) {}
   void impact(const motion::Impact&) {}
+  void touch(const motion::Touch&) {}
+  void separate(const motion::Separation&) {}
   void section(const motion::State<double>&) {}  ///< the end of a section, and of the run
 };
 
@@ -115,7 +117,7 @@ template <class Integrator, class W>
 /// Runs a scene, reporting to an observer.
 template <class W>
 [[nodiscard]] stepping::Outcome watch(const AnyScene& any, W& watcher) {
-  return with_any_stops(any.scene.oscillator, [&]<Effects effects>() {
+  return with_any_stops(any.scene, [&]<Effects effects>() {
     stepping::Exact<double, effects> integrator(any.scene, limits_of(any.scene));
     motion::State<double> state = start_of(any.scene);
     return watch(integrator, state, any.duration, watcher);

@@ -5,15 +5,16 @@
 
 #include "hard/any_scene.hpp"
 #include "hard/tally.hpp"
+#include "model/response.hpp"
 
 namespace clatter::hard {
 
-/// The distance by which arcs go beyond the stops, in ulps of the natural scale of a displacement: the sizes of its
-/// terms (load, stop, forced response, free motion), and the way of response and mass in an ulp of the time. A flight
-/// that a section cuts keeps the scale that it had before.
+/// The distance by which arcs go beyond the rigid stops, in ulps of the natural scale of a displacement: the sizes of
+/// its terms (load, stop, forced response, free motion), and the way of response and mass in an ulp of the time. A
+/// flight that a section cuts keeps the scale that it had before.
 class BeyondStops : public Watcher {
  public:
-  explicit BeyondStops(const point::Problem& scene) : oscillator_(scene.oscillator), stops_(scene.stops) {}
+  explicit BeyondStops(const point::Problem& scene) : oscillator_(scene.oscillator), stops_(rigid_ones(scene.stops)) {}
 
   template <class A>
   void arc(const A& arc, double, double length) {
@@ -33,8 +34,9 @@ class BeyondStops : public Watcher {
   void look(const A& arc, double s) {
     const auto m = arc.at(s);
     const auto& start = arc.start();
-    const double amplitude = arc.constants().response.amplitude, f = std::abs(oscillator_.forcing);
-    const double response = (amplitude > 0 ? amplitude : f * s) * (1 + oscillator_.frequency * s);  // f s: resonance
+    const bool secular = forcing_of(oscillator_) == Forcing::secular;  // then it grows with the time
+    const double amplitude = secular ? std::abs(oscillator_.forcing) * s : steady_response(oscillator_).amplitude;
+    const double response = amplitude * (1 + oscillator_.frequency * s);
     scale_ = std::max(flight_, std::abs(pulled(s)) + std::abs(arc.anchor()) + response + std::abs(start.free_x) +
                                    std::abs(start.free_v) + std::abs(m.v) * s);
     const double beyond = std::max(stops_.lower - m.x, m.x - stops_.upper);
@@ -51,10 +53,10 @@ class BeyondStops : public Watcher {
   double scale_ = 0, flight_ = 0, ulps_ = 0;
 };
 
-/// Whether every reported displacement of a motion is between the stops, and every impact and rest on one.
+/// Whether every reported displacement of a motion is between the rigid stops, and every impact and rest on one.
 class ToldPlaces : public Watcher {
  public:
-  explicit ToldPlaces(const Stops& stops) : stops_(stops) {}
+  explicit ToldPlaces(const Stops& stops) : stops_(rigid_ones(stops)) {}
 
   void rest(const motion::Rest& rest) {
     right_ = right_ && rest.position == (rest.side == Side::upper ? stops_.upper : stops_.lower);

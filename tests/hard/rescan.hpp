@@ -24,8 +24,7 @@ class Rescan : public Watcher {
   template <class A>
   void arc(const A& arc, double begin, double length) {
     const auto& m = arc.start();
-    if (flying_ || m.x != x_ || m.v != v_) broken = infinity;  // it begins in the last state
-    check_phase(m, begin);
+    check_start(m, begin);
     anchor_ = arc.anchor();
     flight_ = TaylorScan(oscillator_, anchor_).fly({m.offset, m.v, m.sine, m.cosine}, length);
     allow(m, length, arc.constants().rate);
@@ -37,10 +36,7 @@ class Rescan : public Watcher {
     const bool upper = impact.side == Side::upper, moving_in = upper ? impact.before > 0 : impact.before < 0;
     const double R = upper ? stops_.restitution_upper : stops_.restitution_lower;
     if (impact.after != (moving_in ? -R * impact.before : impact.before)) broken = infinity;
-    raise(position, ratio(std::abs(rise_of(impact.position) - flight_.end.offset), near_));
-    // if the displacement is known to d, v^2 is known to 2 a d
-    const double soft = acceleration_ * near_ / std::max(std::abs(impact.before), std::sqrt(acceleration_ * near_));
-    raise(speed, ratio(std::abs(impact.before - flight_.end.v), fast_ + soft));
+    check_arrival(impact.position, impact.before);
     x_ = impact.position, v_ = impact.after, rebound_ = impact.after;
     flying_ = false;
   }
@@ -66,7 +62,7 @@ class Rescan : public Watcher {
   double pressed = 0;   ///< force that pulls a resting mass off its stop
   double broken = 0;    ///< an arc that doesn't begin in the state or phase in which the last one ended; eq. 4 violated
 
- private:
+ protected:
   using Real = TaylorScan::Real;
   static constexpr double ulps = 16;  ///< of sums of some ten terms, each with a rounding or two of its own
   static constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -100,6 +96,23 @@ class Rescan : public Watcher {
     // without a spring a damped velocity fades below all normal numbers
     fast_ = unit * (std::abs(m.v) + acceleration_ * part + terms * std::max(natural, nu)) +
             std::numeric_limits<double>::min();
+  }
+
+  /// Checks that an arc begins in the last state.
+  template <class M>
+  void check_start(const M& m, double begin) {
+    if (flying_ || m.x != x_ || m.v != v_) broken = infinity;
+    check_phase(m, begin);
+  }
+
+  /// Checks that a flight ends at a stop with a velocity.
+  void check_arrival(double x, double v) {
+    raise(position, ratio(std::abs(rise_of(x) - flight_.end.offset), near_));
+    raise(speed, ratio(std::abs(v - flight_.end.v), fast_ + speed_rounding(v)));
+  }
+  /// If the displacement is known to d, v^2 is known to 2 a d.
+  [[nodiscard]] double speed_rounding(double v) const {
+    return acceleration_ * near_ / std::max(std::abs(v), std::sqrt(acceleration_ * near_));
   }
 
   [[nodiscard]] Real angle(double time) const { return phase_ + static_cast<Real>(oscillator_.frequency) * time; }

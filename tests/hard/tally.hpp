@@ -13,19 +13,35 @@
 
 namespace clatter::hard {
 
-/// The scenes of a test: 10^4, or those named by CLATTER_SCENES.
-[[nodiscard]] inline support::SceneRange tested_scenes() { return support::scene_range(10000); }
+/// Random scenes of one kind, and how many of them a test draws, unless CLATTER_SCENES names some.
+struct Kind {
+  const char* name;
+  AnyScene (*draw)(std::uint64_t index);
+  std::uint64_t scenes;
+};
+inline constexpr Kind between_rigid_stops{"rigid", any_scene, 10000};
+
+inline void PrintTo(const Kind& kind, std::ostream* out) { *out << kind.name; }  // for GoogleTest
+
+[[nodiscard]] inline support::SceneRange tested_scenes(const Kind& kind = between_rigid_stops) {
+  return support::scene_range(kind.scenes);
+}
 
 template <class Check>
+void in_every_scene(const Kind& kind, Check&& check) {
+  const auto [from, to] = tested_scenes(kind);
+  for (std::uint64_t index = from; index < to; ++index) check(kind.draw(index));
+}
+template <class Check>
 void in_every_scene(Check&& check) {
-  const auto [from, to] = tested_scenes();
-  for (std::uint64_t index = from; index < to; ++index) check(any_scene(index));
+  in_every_scene(between_rigid_stops, std::forward<Check>(check));
 }
 
 /// The tally of one property: the number of scenes that broke it, and the scene with the largest deviation.
 class Tally {
  public:
-  explicit Tally(std::string property) : property_(std::move(property)) {}
+  explicit Tally(std::string property, const Kind& kind = between_rigid_stops)
+      : property_(std::move(property)), scenes_(tested_scenes(kind)) {}
 
   /// Takes the deviation of a scene, in units of the allowed one: beyond 1 the scene has failed.
   void take(const AnyScene& any, double deviation) {
@@ -38,7 +54,7 @@ class Tally {
 
   /// Fails if scenes have failed, or if fewer than this share of them had anything to check.
   void conclude(double share) const {
-    const auto [from, to] = tested_scenes();
+    const auto [from, to] = scenes_;
     EXPECT_EQ(failed_, 0u) << property_;
     if (to - from >= enough) {
       EXPECT_GE(static_cast<double>(checked_), share * static_cast<double>(to - from)) << property_;
@@ -53,6 +69,7 @@ class Tally {
   static constexpr std::uint64_t shown = 3;
 
   std::string property_;
+  support::SceneRange scenes_;
   std::uint64_t checked_ = 0, failed_ = 0, worst_index_ = 0;
   double worst_ = 0.0;
 };

@@ -23,19 +23,32 @@ class TaylorScan {
   /// The end of a flight, and its extreme offsets.
   struct Flight {
     PhaseState end;
-    Real lowest, highest;  ///< of the offset
+    Real lowest, highest;  ///< of the offset, or of the offset plus a time times the velocity
   };
 
-  TaylorScan(const Oscillator& oscillator, double anchor)
-      : h_(oscillator.damping),
-        f_(oscillator.forcing),
-        nu_(oscillator.frequency),
-        k_(oscillator.stiffness),
-        pull_(static_cast<Real>(oscillator.load) - k_ * anchor),
+  TaylorScan(const Oscillator& oscillator, double anchor) : TaylorScan(oscillator, anchor, 0, 0) {}
+
+  /// Of motion in contact with a soft stop of stiffness kappa and damping ratio zeta, anchored on it (eq. 51).
+  TaylorScan(const Oscillator& oscillator, double anchor, double kappa, double zeta)
+      : TaylorScan(oscillator.damping + zeta * std::sqrt(static_cast<Real>(kappa)), oscillator.forcing,
+                   oscillator.frequency, static_cast<Real>(oscillator.stiffness) + kappa,
+                   static_cast<Real>(oscillator.load) - static_cast<Real>(oscillator.stiffness) * anchor) {}
+
+  /// From h, f, nu, k and the constant force at the anchor.
+  TaylorScan(Real h, Real f, Real nu, Real k, Real pull)
+      : h_(h),
+        f_(f),
+        nu_(nu),
+        k_(k),
+        pull_(pull),
         rate_(std::max({std::sqrt(std::abs(k_)), 2 * h_, f_ == 0 ? Real(0) : nu_, Real(0.01)})) {}
 
-  [[nodiscard]] Flight fly(const PhaseState& start, double length) const {
-    Flight flight{start, start.offset, start.offset};
+  /// The fastest that the motion changes.
+  [[nodiscard]] Real rate() const { return rate_; }
+
+  /// The extremes are those of the offset plus a time q times the velocity.
+  [[nodiscard]] Flight fly(const PhaseState& start, double length, Real q = 0) const {
+    Flight flight{start, start.offset + q * start.v, start.offset + q * start.v};
     const auto steps = static_cast<long>(std::ceil(length * rate_));  // 1/24! is far below rounding
     if (steps == 0) return flight;
     const Real step = static_cast<Real>(length) / static_cast<Real>(steps);
@@ -43,7 +56,9 @@ class TaylorScan {
     const Real sine = std::sin(nu_ * step), cosine = std::cos(nu_ * step);
     for (long i = 0; i < steps; ++i) {
       const PhaseState& m = flight.end;
-      const Jet last = look(series(m, step), looks, flight);
+      const Series c = series(m, step);
+      look(q == 0 ? c : with_velocity(c, q / step), looks, flight);
+      const Jet last = jet(c, 1);
       flight.end = {last[0], last[1] / step, m.sine * cosine + m.cosine * sine, m.cosine * cosine - m.sine * sine};
     }
     return flight;
@@ -71,6 +86,12 @@ class TaylorScan {
       const Real after = -drive;
       drive = next, next = after;
     }
+    return c;
+  }
+
+  /// The series of the offset plus q times its derivative.
+  [[nodiscard]] static Series with_velocity(Series c, Real q) {
+    for (std::size_t k = 0; k < order; ++k) c[k] += q * static_cast<Real>(k + 1) * c[k + 1];
     return c;
   }
 
@@ -102,7 +123,7 @@ class TaylorScan {
 
   /// Examines points of a step, its turning points, and pairs of turning points between two of these points: in between
   /// the extremum of the velocity has the other sign.
-  static Jet look(const Series& c, int looks, Flight& flight) {
+  static void look(const Series& c, int looks, Flight& flight) {
     Jet left = jet(c, 0);
     for (int i = 1; i <= looks; ++i) {
       const Real from = static_cast<Real>(i - 1) / static_cast<Real>(looks),
@@ -120,7 +141,6 @@ class TaylorScan {
       }
       left = right;
     }
-    return left;
   }
 
   Real h_, f_, nu_, k_;

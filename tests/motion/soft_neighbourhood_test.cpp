@@ -7,6 +7,7 @@
 #include <optional>
 #include <vector>
 
+#include "math/fifty_digits.hpp"
 #include "model/response.hpp"
 #include "motion/watched_run.hpp"
 #include "support/random.hpp"
@@ -121,12 +122,20 @@ Case close_case(std::uint64_t seed, std::uint64_t i) {
   return any;
 }
 
-/// The largest frequency of motion in contact: an ulp of the displacement at a touch is so many of the velocity.
+/// The largest frequency of motion in contact: an ulp of the clock is so many of the velocity, by the acceleration
+/// there.
 double stiffest(const Stops& stops) {
   double most = 1;
   for (const double kappa : {stops.stiffness_lower, stops.stiffness_upper})
     if (std::isfinite(kappa)) most = std::max(most, std::sqrt(1 + kappa));
   return most;
+}
+
+/// A change in a direction, a part of the way to the edge of the ellipse: by its Cholesky factor.
+Perturbation change_of(const Case& any, double angle, double part) {
+  const double along = part * std::cos(angle), across = part * std::sin(angle), root = std::sqrt(any.wide);
+  return {root * any.size * along,
+          any.size * (any.skew / root * along + std::sqrt((1 - any.skew * any.skew) / any.wide) * across)};
 }
 
 void check(const Case& any, std::uint64_t i, Tally& tally) {
@@ -149,11 +158,7 @@ void check(const Case& any, std::uint64_t i, Tally& tally) {
     tally.large = std::max(tally.large, size);
   }
   for (int k = 0; k < 24; ++k) {
-    const double angle = 2 * pi<double>() * k / 24, reach = k % 3 == 0 ? 0.5 : 1.0;
-    const double along = reach * std::cos(angle), across = reach * std::sin(angle);
-    // L (cos, sin) with the Cholesky factor L of the ellipse
-    const Perturbation change{std::sqrt(wide) * size * along,
-                              size * (skew / std::sqrt(wide) * along + std::sqrt((1 - skew * skew) / wide) * across)};
+    const Perturbation change = change_of(any, 2 * pi<double>() * k / 24, k % 3 == 0 ? 0.5 : 1.0);
     const std::optional<Run> other = run(any.scene, at(any.from.x + change.x, any.from.v + change.v), any.turns);
     EXPECT_TRUE(other) << i;
     if (!other) continue;
@@ -219,6 +224,83 @@ TEST(SoftNeighbourhood, encloses_motions_that_begin_or_end_near_an_event) {
   const Tally tally = enclose(34, close_case);
   expect_useful(tally, 0.2, 0.4);
   EXPECT_GT(tally.touched, tally.proved / 2);
+}
+
+/// A displacement and a velocity in 50 digits.
+struct Exactly {
+  FiftyDigits x, v;
+};
+
+/// The ends of motions that begin a little beside that of a case.
+class Ends {
+ public:
+  explicit Ends(const Case& any) : any_(any) {}
+
+  /// Of a run that is longer by a part of a forcing period.
+  [[nodiscard]] Exactly operator()(const FiftyDigits& dx, const FiftyDigits& dv, const FiftyDigits& longer = 0) const {
+    const auto run =
+        support::run_from<FiftyDigits>(any_.scene, any_.from.x + dx, any_.from.v + dv, any_.turns + longer);
+    EXPECT_EQ(run.outcome, stepping::Outcome::completed);
+    return {run.end.x, run.end.v};
+  }
+  /// The derivative along a change, by central differences: their error is of the order of the step, 1e-25, if a damper
+  /// begins to push, and rounding adds as much.
+  [[nodiscard]] Exactly along(const Perturbation& change) const {
+    const FiftyDigits step("1e-25");
+    const Exactly after = (*this)(step * change.x, step * change.v),
+                  before = (*this)(-step * change.x, -step * change.v);
+    return {(after.x - before.x) / (2 * step), (after.v - before.v) / (2 * step)};
+  }
+
+ private:
+  const Case& any_;
+};
+
+/// Checks the enclosure of the second order without any allowance for rounding; false if nothing is proved.
+bool check_exactly(const Case& any, std::uint64_t i) {
+  const double size = any.size, skew = any.skew, wide = any.wide;
+  const SoftNeighbourhood proof = neighbourhood_of(any.scene, any.from, any.turns,
+                                                   Ellipse(size * size * wide, size * size * skew, size * size / wide));
+  if (!proof.holds()) return false;
+  const Ends ends(any);
+  const Exactly end = ends(0, 0);
+  for (int k = 0; k < 6; ++k) {
+    const Perturbation change = change_of(any, k * pi<double>() / 3, 1.0);
+    const Exactly other = ends(change.x, change.v), linear = ends.along(change);
+    const FiftyDigits x = abs(other.x - end.x - linear.x), v = abs(other.v - end.v - linear.v);
+    EXPECT_LE(x, proof.remainder().x() * (1 + 1e-9) + 1e-21) << i << " change " << size;
+    EXPECT_LE(v, proof.remainder().v() * (1 + 1e-9) + 1e-21) << i << " change " << size;
+  }
+  return true;
+}
+
+TEST(SoftNeighbourhood, its_bounds_hold_in_fifty_digits_without_an_allowance_for_rounding) {
+  const auto [from, to] = support::scene_range(60);
+  std::uint64_t proved = 0;
+  for (std::uint64_t i = from; i < to; ++i)
+    proved += check_exactly(i % 3 == 0 ? any_case(35, i) : i % 3 == 1 ? shaken_case(35, i) : close_case(35, i), i);
+  EXPECT_GT(proved, (to - from) / 3);
+}
+
+/// Those of 200 000 scenes with the largest differences beyond the bounds: their runs end in contact.
+TEST(SoftNeighbourhood, rounding_at_the_end_of_a_contact_is_that_of_the_clock) {
+  for (const std::uint64_t i : {1911, 8330, 133603}) {
+    const Case any = any_case(31, i);
+    EXPECT_TRUE(check_exactly(any, i)) << i;
+    const auto seen = run(any.scene, any.from, any.turns);
+    ASSERT_TRUE(seen);
+    const Ends ends(any);
+    const FiftyDigits step("1e-25");
+    const double period = period_of(any.scene.oscillator), unit = ulp * (1 + std::abs(any.from.v));
+    const Exactly end = ends(0, 0), later = ends(0, 0, step), earlier = ends(0, 0, -step);
+    const auto acceleration = static_cast<double>((later.v - earlier.v) / (2 * step) / period);
+    const auto off_x = static_cast<double>(seen->end.x - end.x), off_v = static_cast<double>(seen->end.v - end.v);
+    // an error of the clock moves the end along the motion: by v in displacement, by the acceleration in velocity
+    const double clock = off_v / acceleration;
+    EXPECT_GT(std::abs(off_v), 16 * unit) << i;
+    EXPECT_LT(std::abs(clock), 4 * ulp * period) << i;
+    EXPECT_NEAR(off_x, seen->end.v * clock, 4 * unit) << i;
+  }
 }
 
 }  // namespace

@@ -93,9 +93,18 @@ std::string configuration_of(const point::Problem& s, double duration) {
       << "\nnu = " << s.oscillator.frequency << "\nload = " << s.oscillator.load
       << "\nstiffness = " << s.oscillator.stiffness << "\nphase = " << s.start.phase
       << "\nx0 = " << s.start.displacement << "\nv0 = " << s.start.velocity << "\nstop_lower = " << s.stops.lower
-      << "\nstop_upper = " << s.stops.upper << "\nR_lower = " << s.stops.restitution_lower
-      << "\nR_upper = " << s.stops.restitution_upper << "\n[time]\nmode = \"transient\"\nduration = " << duration
-      << "\nmax_impacts = " << s.time.max_impacts << "\n[observe]\nimpact_log = true\n";
+      << "\nstop_upper = " << s.stops.upper;
+  for (const bool upper : {false, true}) {
+    const char* const which = upper ? "upper" : "lower";
+    const Stops& stops = s.stops;
+    if (is_soft(stops, upper ? Side::upper : Side::lower))
+      out << "\nstop_stiffness_" << which << " = " << (upper ? stops.stiffness_upper : stops.stiffness_lower)
+          << "\nstop_damping_" << which << " = " << (upper ? stops.damping_upper : stops.damping_lower);
+    else
+      out << "\nR_" << which << " = " << (upper ? stops.restitution_upper : stops.restitution_lower);
+  }
+  out << "\n[time]\nmode = \"transient\"\nduration = " << duration << "\nmax_impacts = " << s.time.max_impacts
+      << "\n[observe]\nimpact_log = true\n";
   return out.str();
 }
 

@@ -39,6 +39,10 @@ struct Run {
   double evaluations = 0.0;
 };
 
+/// From a displacement and a velocity for a time in forcing periods. Number: double or FiftyDigits.
+template <class Number>
+[[nodiscard]] Run<Number> run_from(const point::Problem& scene, const Number& x, const Number& v, const Number& turns);
+
 /// Number: double or FiftyDigits.
 template <class Number = double>
 [[nodiscard]] Run<Number> run_scene(const point::Problem& scene, double duration);
