@@ -116,6 +116,17 @@ class Branch(CommandLine):
         self.assertAlmostEqual(found["fold"], low, 14)
         self.assertAlmostEqual(found["flip"], math.hypot(low, 2 * 1.64 / 1.8**2), 14)
 
+    def test_between_soft_stops_the_resonance_bends_over_and_no_branch_is_followed_twice(self):
+        result = self.clatter("branch", SOURCE / "configs" / "soft_branch.toml", "--json", "-q")
+        self.assertEqual((result.returncode, result.stderr), (0, ""))
+        special = [json.loads(line) for line in result.stdout.splitlines()]
+        folds = [point["nu"] for point in special if point["kind"] == "fold" and point["word"] == "LU"]
+        self.assertTrue(2.9 < max(folds) < 3 and 1.7 < min(folds) < 1.75, folds)
+        # asymmetric motion leads from one loss of symmetry to another, where the same branch would begin again
+        breaking = [point for point in special if point["kind"] == "symmetry breaking" and point["word"] == "LLUU"]
+        self.assertEqual([len(point["branches"]) for point in breaking], [2, 2])
+        self.assertEqual(breaking[0]["branches"], breaking[1]["branches"])
+
     def test_stiffness_and_amplitudes_are_parameters_like_others(self):
         near = SCENE.replace("xs = -3", "xs = 0.5").replace("nu = 1.1", "nu = 2").replace("x0 = 2", "x0 = 0.1")
         for key, more, bounds in (

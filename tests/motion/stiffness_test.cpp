@@ -109,9 +109,9 @@ TEST(Stiffness, reach_is_never_exceeded) {
       const double x = random.uniform(-1, 1), v = random.uniform(-1, 1), span = random.logarithmic(0.1, 8);
       const Arc<double, effects.arc()> arc(constants,
                                            {0, x, v, constants.acceleration(x - constants.equilibrium, v, 0.0), 0, 1});
-      const double reach = reach(constants, arc.start(), span);
+      const double far = reach(constants, arc.start(), span);
       for (int part = 0; part <= 16; ++part)
-        EXPECT_LE(std::abs(arc.at(span * part / 16).x - constants.equilibrium), reach) << text(o) << " " << span;
+        EXPECT_LE(std::abs(arc.at(span * part / 16).x - constants.equilibrium), far) << text(o) << " " << span;
     });
   }
 }
