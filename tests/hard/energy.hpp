@@ -28,7 +28,7 @@ class EnergyBooks : public Watcher {
     const auto& stop = arc.constants().stop;
     const double f = oscillator_.forcing, h = oscillator_.damping + (stop.side == Side::none ? 0.0 : stop.damping);
     if (stop.side == Side::none) relax(arc.start().x, arc.at(length).x);
-    longest_ = std::max(longest_, length * arc.constants().rate);
+    if (stop.side != Side::none) longest_ = std::max(longest_, length * arc.constants().rate);
     if (!in_reach()) return;
     double size = 0;
     const auto power = [&](const auto& m, double) {
@@ -59,7 +59,7 @@ class EnergyBooks : public Watcher {
     meet(state.x, state.v);
   }
 
-  /// Whether the arcs are short enough to be integrated: a stiff stop that is pressed for long moves too often.
+  /// Whether all contacts are short enough to be integrated: a stiff stop that is pressed for long moves too often.
   [[nodiscard]] bool in_reach() const { return longest_ < 2e3; }
   /// The largest error of the balance over a period, and that over the whole run, relative to the largest energy plus
   /// all work and losses.
@@ -114,7 +114,7 @@ class EnergyBooks : public Watcher {
 
   Oscillator oscillator_;
   Stops stops_;
-  double longest_ = 0;     ///< arc, in radians of its fastest motion
+  double longest_ = 0;     ///< contact with a soft stop, in radians of its fastest motion
   double begin_, before_;  ///< energy at the start and at the last section
   double rebound_ = 0;
   double doubt_ = 0, all_doubt_ = 0;  ///< rounding of the energy in soft stops
