@@ -227,11 +227,11 @@ class Follower {
     const auto exact = solution(there, there.unknowns_of(equations.scene_at(point.at), half), settings_.tolerance);
     if (!exact || std::abs(exact->back() - point.at.back()) > 1e-6) return false;
     const SpecialKind kind = half.mirrored ? SpecialKind::symmetry_breaking : SpecialKind::flip;
-    const auto [special, is_new] = record_.note(kind, record_.point(there, {*exact, {}, point.arclength}));
-    if (generation_ < settings_.generations && is_new)
-      waiting_.push_back({there.scene_at(*exact), there.orbit_at(*exact), {}, special, generation_ + 1});
+    const Record::Noted noted = record_.note(kind, record_.point(there, {*exact, {}, point.arclength}));
+    if (generation_ < settings_.generations && noted.is_new)
+      waiting_.push_back({there.scene_at(*exact), there.orbit_at(*exact), {}, noted.number, generation_ + 1});
     // what waits there to be born is this branch, or has the same numbers
-    std::erase_if(waiting_, [&](const Waiting& one) { return one.special == special && one.direction; });
+    std::erase_if(waiting_, [&](const Waiting& one) { return one.special == noted.number && one.direction; });
     return true;
   }
 

@@ -284,7 +284,7 @@ TEST(SoftNeighbourhood, its_bounds_hold_in_fifty_digits_without_an_allowance_for
 
 /// Those of 200 000 scenes with the largest differences beyond the bounds: their runs end in contact.
 TEST(SoftNeighbourhood, rounding_at_the_end_of_a_contact_is_that_of_the_clock) {
-  for (const std::uint64_t i : {1911, 8330, 133603}) {
+  for (const std::uint64_t i : {1911u, 8330u, 133603u}) {
     const Case any = any_case(31, i);
     EXPECT_TRUE(check_exactly(any, i)) << i;
     const auto seen = run(any.scene, any.from, any.turns);
