@@ -36,8 +36,11 @@ Parameter followed_key(const Settings& settings, const Setting& chosen, const Se
     fail(interval->location, "xs stands for |xs|; expected two numbers above 0");
   for (const Setting& axis : settings.axes)
     if (axis.key->name == name)
-      fail(axis.key_location, "'" + name + "' in both [sweep] and [branch] " + std::string(chosen.key->name) +
-                                  "; remove it from [sweep], and give the value to begin at in [" + section + ']');
+      fail(axis.key_location, in_quotes(name)
+                                  .append(" in both [sweep] and [branch] ")
+                                  .append(chosen.key->name)
+                                  .append("; remove it from [sweep], and give the value to begin at in [")
+                                  .append(section + ']'));
   check_damping(settings, chosen);
   return sweep::parameter_of(name).value();
 }

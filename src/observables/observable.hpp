@@ -9,6 +9,7 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -107,8 +108,8 @@ template <class Values, class Get>
 
 /// A column whose long name is another one in the results of a machine.
 template <class Values>
-[[nodiscard]] Column<Values> in_si(std::string long_name, Column<Values> column) {
-  column.name_in_si = std::move(long_name);
+[[nodiscard]] Column<Values> in_si(std::string_view long_name, Column<Values> column) {
+  column.name_in_si = long_name;
   return column;
 }
 

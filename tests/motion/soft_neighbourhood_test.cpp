@@ -267,7 +267,8 @@ bool check_exactly(const Case& any, std::uint64_t i) {
   for (int k = 0; k < 6; ++k) {
     const Perturbation change = change_of(any, k * pi<double>() / 3, 1.0);
     const Exactly other = ends(change.x, change.v), linear = ends.along(change);
-    const FiftyDigits x = abs(other.x - end.x - linear.x), v = abs(other.v - end.v - linear.v);
+    const auto x = static_cast<double>(abs(other.x - end.x - linear.x)),
+               v = static_cast<double>(abs(other.v - end.v - linear.v));
     EXPECT_LE(x, proof.remainder().x() * (1 + 1e-9) + 1e-21) << i << " change " << size;
     EXPECT_LE(v, proof.remainder().v() * (1 + 1e-9) + 1e-21) << i << " change " << size;
   }
