@@ -7,6 +7,7 @@
 #include <limits>
 #include <string>
 
+#include "branches/bumpers.hpp"
 #include "branches/curve.hpp"
 #include "branches/flight.hpp"
 #include "branches/special_values.hpp"
@@ -16,17 +17,6 @@ namespace clatter::branches {
 namespace {
 
 using sweep::Parameter;
-
-/// The paper's scene with bumpers in place of rigid stops.
-point::Problem bumpers(double kappa, double zeta) {
-  point::Problem problem;
-  problem.oscillator = {0.1, -1.0, 1.1, 0.0};
-  problem.stops = {-3.0, 3.0};
-  problem.stops.stiffness_lower = problem.stops.stiffness_upper = kappa;
-  problem.stops.damping_lower = problem.stops.damping_upper = zeta;
-  problem.start = {2.0, 3.0, 0.0};
-  return problem;
-}
 
 struct Curve {
   std::string_view name;

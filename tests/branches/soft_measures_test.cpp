@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "branches/branch.hpp"
+#include "branches/bumpers.hpp"
 #include "branches/measures.hpp"
 #include "branches/newton.hpp"
 #include "point/point.hpp"
@@ -130,17 +131,6 @@ TEST(SoftMeasures, have_the_derivatives_of_their_differences_along_a_branch) {
     }
   }
   EXPECT_GT(compared, 150);
-}
-
-/// The paper's scene with bumpers in place of rigid stops.
-point::Problem bumpers(double kappa, double zeta) {
-  point::Problem problem;
-  problem.oscillator = {0.1, -1.0, 1.1, 0.0};
-  problem.stops = {-3.0, 3.0};
-  problem.stops.stiffness_lower = problem.stops.stiffness_upper = kappa;
-  problem.stops.damping_lower = problem.stops.damping_upper = zeta;
-  problem.start = {2.0, 3.0, 0.0};
-  return problem;
 }
 
 const SpecialPoint* of_kind(const Branches& found, SpecialKind kind) {

@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "branches/branch.hpp"
+#include "branches/bumpers.hpp"
 #include "branches/event_run.hpp"
 #include "branches/measures.hpp"
 #include "branches/special_values.hpp"
@@ -121,17 +122,6 @@ TEST(SoftBranch, of_random_scenes_has_only_fixed_points_of_the_integrator) {
   EXPECT_LE(failed, ends / 100);
   EXPECT_GT(points, 10000);
   EXPECT_GT(renewals, 100);
-}
-
-/// The paper's scene with bumpers in place of rigid stops.
-point::Problem bumpers(double kappa, double zeta) {
-  point::Problem problem;
-  problem.oscillator = {0.1, -1.0, 1.1, 0.0};
-  problem.stops = {-3.0, 3.0};
-  problem.stops.stiffness_lower = problem.stops.stiffness_upper = kappa;
-  problem.stops.damping_lower = problem.stops.damping_upper = zeta;
-  problem.start = {2.0, 3.0, 0.0};
-  return problem;
 }
 
 double fold_of(const point::Problem& problem) {
