@@ -5,8 +5,8 @@
 #include <deque>
 #include <functional>
 
-#include "branches/measures.hpp"
 #include "branches/resting_branch.hpp"
+#include "branches/special_points.hpp"
 #include "branches/start.hpp"
 #include "branches/touch.hpp"
 
@@ -172,44 +172,7 @@ class Follower {
   /// Special points within a step. Returns true if the branch is born in one of them, which ends it.
   bool special_between(const OrbitEquations& equations, const Walk& walk, double step,
                        const std::optional<std::size_t>& from) {
-    struct Found {
-      SpecialKind kind;
-      CurvePoint point;
-    };
-    std::vector<Found> found;
-    const auto there = walk.after(step);
-    if (!there) return false;
-    const auto look = [&](SpecialKind kind, const TestFunction& test, bool only_down) {
-      const double a = test(walk.here()), b = test(*there);
-      if ((a < 0) == (b < 0) || (only_down && a < 0)) return;
-      if (const auto zero = walk.zero(test, step)) found.push_back({kind, *zero});
-    };
-    if (!from)
-      look(
-          SpecialKind::fold, [](const CurvePoint& p) { return p.tangent.back(); }, false);
-    const bool has_impacts = equations.shape().size() > 0;
-    if (has_impacts) {
-      const SpecialKind kind = equations.shape().mirrored ? SpecialKind::symmetry_breaking : SpecialKind::flip;
-      look(
-          kind,
-          [&](const CurvePoint& p) {
-            return impact_map(equations.scene_at(p.at), equations.orbit_at(p.at)).distance_to(-1);
-          },
-          false);
-    }
-    if (has_impacts || equations.shape().pressed != Side::none) {
-      const auto look_for_maximum = [&](SpecialKind of, Along (*measure)(const Moving&)) {
-        const auto at = [&, measure](const CurvePoint& p) { return measure(moving(equations, p.at, p.tangent)); };
-        if (!changes(at(walk.here())) && !changes(at(*there))) return;
-        look(
-            of, [at](const CurvePoint& p) { return at(p).slope[0]; }, true);
-      };
-      look_for_maximum(SpecialKind::impact_speed, impact_speed);
-      if (problem_.observe.energy) look_for_maximum(SpecialKind::impact_power, impact_power);
-      if (problem_.observe.harmonics > 0) look_for_maximum(SpecialKind::harmonic, harmonic);
-    }
-    std::ranges::sort(found, {}, [](const Found& f) { return f.point.arclength; });
-    for (Found& f : found) {
+    for (const FoundPoint& f : special_points_within(equations, walk, step, !from, problem_.observe)) {
       if (f.kind == SpecialKind::fold) {
         const Orbit orbit = equations.orbit_at(f.point.at);
         const Orbit half = orbit.half_if_same(1e-3, symmetric_);

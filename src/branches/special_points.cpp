@@ -1,0 +1,47 @@
+#include "branches/special_points.hpp"
+
+#include <algorithm>
+
+#include "branches/measures.hpp"
+
+namespace clatter::branches {
+
+std::vector<FoundPoint> special_points_within(const OrbitEquations& equations, const Walk& walk, double step,
+                                              bool with_folds, const observables::Observe& observe) {
+  std::vector<FoundPoint> found;
+  const auto there = walk.after(step);
+  if (!there) return found;
+  const auto look = [&](SpecialKind kind, const TestFunction& test, bool only_down) {
+    const double a = test(walk.here()), b = test(*there);
+    if ((a < 0) == (b < 0) || (only_down && a < 0)) return;
+    if (const auto zero = walk.zero(test, step)) found.push_back({kind, *zero});
+  };
+  if (with_folds)
+    look(
+        SpecialKind::fold, [](const CurvePoint& p) { return p.tangent.back(); }, false);
+  const bool has_impacts = equations.shape().size() > 0;
+  if (has_impacts) {
+    const SpecialKind kind = equations.shape().mirrored ? SpecialKind::symmetry_breaking : SpecialKind::flip;
+    look(
+        kind,
+        [&](const CurvePoint& p) {
+          return impact_map(equations.scene_at(p.at), equations.orbit_at(p.at)).distance_to(-1);
+        },
+        false);
+  }
+  if (has_impacts || equations.shape().pressed != Side::none) {
+    const auto look_for_maximum = [&](SpecialKind of, Along (*measure)(const Moving&)) {
+      const auto at = [&, measure](const CurvePoint& p) { return measure(moving(equations, p.at, p.tangent)); };
+      if (!changes(at(walk.here())) && !changes(at(*there))) return;
+      look(
+          of, [at](const CurvePoint& p) { return at(p).slope[0]; }, true);
+    };
+    look_for_maximum(SpecialKind::impact_speed, impact_speed);
+    if (observe.energy) look_for_maximum(SpecialKind::impact_power, impact_power);
+    if (observe.harmonics > 0) look_for_maximum(SpecialKind::harmonic, harmonic);
+  }
+  std::ranges::sort(found, {}, [](const FoundPoint& f) { return f.point.arclength; });
+  return found;
+}
+
+}  // namespace clatter::branches

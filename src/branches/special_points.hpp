@@ -1,0 +1,23 @@
+#pragma once
+
+#include <vector>
+
+#include "branches/branch.hpp"
+#include "branches/walk.hpp"
+#include "observables/all.hpp"
+
+namespace clatter::branches {
+
+/// A point of a branch with one parameter that a sign has singled out.
+struct FoundPoint {
+  SpecialKind kind;
+  CurvePoint point;
+};
+
+/// The special points within a step of a walk, in the order of the branch: folds unless the walk begins in a special
+/// point, flips or losses of symmetry, and maxima of the measures that are observed.
+[[nodiscard]] std::vector<FoundPoint> special_points_within(const OrbitEquations& equations, const Walk& walk,
+                                                            double step, bool with_folds,
+                                                            const observables::Observe& observe);
+
+}  // namespace clatter::branches
