@@ -15,13 +15,16 @@ $(help_lines "and for the benchmarks (${BENCH_PACKAGES[*]}),")
   2. builds clatter and its benchmarks in build/release,
   3. runs them, some ten minutes long, and leaves their results as JSON in build/release/bench,
   4. prints tables of them, medians of several repetitions, and the targets. It asserts nothing.
+--build measures in place of all that what it costs to build: processor and wall time, by folder and for the longest
+files, of the program and of the tests, each from nothing in a folder of its own, on idle cores as scripts/reproduce.sh
+and scripts/test.sh do it. --build COMMIT builds that commit's sources too, before these, and prints both.
 --quick takes one repetition and smaller sweeps, to see that all works. --arch NAME makes the whole processes
 use that instruction set; the other benchmarks use each in turn.
 END
 }
 
 usage() {
-  echo "usage: scripts/bench.sh [--quick] [--arch NAME]"
+  echo "usage: scripts/bench.sh [--quick] [--arch NAME] | --build [COMMIT]"
   echo
   steps
 }
@@ -31,6 +34,7 @@ solver_repetitions=3
 growth_filter=all
 solver_filter=all
 processes=()
+build=()
 while (($# > 0)); do
   case "$1" in
     --quick)
@@ -49,6 +53,10 @@ while (($# > 0)); do
       processes+=(--arch "$2")
       shift 2
       ;;
+    --build)
+      build=(scripts/bench_build.py ${2+"$2"})
+      shift $#
+      ;;
     -h | --help) usage; exit 0 ;;
     *) echo "bench.sh: unknown argument '$1'; try --help" >&2; exit 2 ;;
   esac
@@ -58,6 +66,9 @@ steps
 install_missing "${BUILD_PACKAGES[@]}" "${BENCH_PACKAGES[@]}"
 
 cd "$source_dir"
+if ((${#build[@]} > 0)); then
+  exec /usr/bin/python3 -B "${build[@]}"
+fi
 cmake --preset release
 cmake --build --preset release --target benchmarks
 

@@ -32,9 +32,9 @@ std::string right(std::string text, std::size_t width) {
   text.insert(0, width > text.size() ? width - text.size() : 0, ' ');
   return text;
 }
-std::string left(std::string text) {
-  text.resize(17, ' ');
-  return text;
+std::string left(std::string_view text) {
+  constexpr std::size_t width = 17;
+  return std::string(text) + std::string(width - std::min(width, text.size()), ' ');
 }
 
 std::string header() {
@@ -61,7 +61,7 @@ std::string remark(const accuracy::WorkPrecision& row, const accuracy::PointAccu
 
 std::string row_text(const accuracy::WorkPrecision& row, const accuracy::PointAccuracy& of_point) {
   std::size_t column = 0;
-  std::string text = left(std::string(accuracy::method_names[static_cast<std::size_t>(row.trial.method)]));
+  std::string text = left(accuracy::method_names[static_cast<std::size_t>(row.trial.method)]);
   const auto put = [&](const char* format, double value) {
     text += right(std::isnan(value) ? "-" : formatted(format, value), titles[column++].width);
   };

@@ -38,10 +38,10 @@ double harmonics_error(const Complexes& harmonics, const Complexes& reference, d
   return scale > 0 ? error / scale : error;
 }
 
-double size_of(const observables::Extrema::Range& range) { return std::max(std::abs(range.low), std::abs(range.high)); }
+double size_of(const observables::Range& range) { return std::max(std::abs(range.low), std::abs(range.high)); }
 
 /// Error of the ends of a range, over its larger end.
-double range_error(double low, double high, const observables::Extrema::Range& reference) {
+double range_error(double low, double high, const observables::Range& reference) {
   const double size = size_of(reference);
   const double error = std::max(std::abs(low - reference.low), std::abs(high - reference.high));
   return size > 0 ? error / size : error;

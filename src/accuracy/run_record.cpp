@@ -1,140 +1,22 @@
 #include "accuracy/run_record.hpp"
 
 #include <cmath>
-#include <type_traits>
 
+#include "accuracy/observed_run.hpp"
 #include "accuracy/reference_effects.hpp"
-#include "math/fifty_digits.hpp"
-#include "motion/tangent_map.hpp"
-#include "stepping/exact.hpp"
-#include "stepping/run.hpp"
+#include "point/exact_motion.hpp"
 
 namespace clatter::accuracy {
 namespace {
 
-/// A motion at an instant, rounded to double.
-motion::Motion<double> rounded(const motion::Motion<FiftyDigits>& m) {
-  const auto d = [](const FiftyDigits& y) { return static_cast<double>(y); };
-  return {d(m.offset), d(m.x), d(m.v), d(m.a), d(m.sine), d(m.cosine)};
-}
-const motion::Motion<double>& rounded(const motion::Motion<double>& m) { return m; }
+using namespace clatter::accuracy::detail;
 
-/// Records the events of a run and, if asked for, its observables and its derivative.
-template <class Number, Effects E>
-class RunObserver {
- public:
-  RunObserver(const point::Problem& scene, const std::optional<RecordObservables>& observables)
-      : stops_(scene.stops), constants_(scene.oscillator), tangent_(scene.stops) {
-    if (observables) harmonics_.emplace(observables->harmonics, observables->base_frequency);
-  }
-
-  template <Effects Of>
-  void arc(const motion::Arc<Number, Of>& arc, double begin, double length) {
-    if (differentiates_) tangent_.arc(arc, begin, length);
-    if (!harmonics_) return;
-    if constexpr (E.soft) {
-      const Side side = arc.constants().stop.side;
-      if (side != Side::none) {
-        const auto stop = motion::soft_stop_at<double>(stops_, side);
-        return see(arc, motion::ArcConstants<double, Of>::in_contact(constants_, stop), begin, length);
-      }
-    }
-    if constexpr (Of == E.arc()) see(arc, constants_, begin, length);
-  }
-  void rest(const motion::Rest& rest) {
-    events.push_back(event_of(rest));
-    if (differentiates_) tangent_.rest(rest);
-    if (harmonics_) extrema_.rest(rest), harmonics_->rest(rest);
-  }
-  void impact(const motion::Impact& impact) {
-    events.push_back(event_of(impact));
-    if (differentiates_) tangent_.impact(impact);
-    if (harmonics_) extrema_.impact(impact);
-  }
-
-  /// A contact with a soft stop is an event like an impact.
-  void touch(const motion::Touch& touch) {
-    events.push_back({Event::Kind::impact, touch.side, touch.time, std::abs(touch.velocity), 0.0});
-    if (differentiates_) tangent_.touch(touch);
-  }
-
-  void differentiate() { differentiates_ = true; }
-  [[nodiscard]] motion::Jacobian<Number> derivative() const { return tangent_.map(); }
-
-  void finish(RunRecord& record) {
-    record.events = std::move(events);
-    if (!harmonics_) return;
-    harmonics_->finish(record.x, record.duration);
-    record.harmonics = harmonics_->displacement(), record.v_harmonics = harmonics_->velocity();
-    record.x_range = extrema_.displacement(rigid_ones(stops_)), record.v_range = extrema_.velocity();
-  }
-
-  std::vector<Event> events{};
-
- private:
-  /// Shows an arc in double to the observables.
-  template <Effects Of>
-  void see(const motion::Arc<Number, Of>& arc, const motion::ArcConstants<double, Of>& constants, double begin,
-           double length) {
-    const motion::Arc<double, Of> in_double(constants, rounded(arc.start()), static_cast<double>(arc.anchor()));
-    extrema_.arc(in_double, begin, length);
-    harmonics_->arc(in_double, begin, length);
-  }
-
-  Stops stops_;
-  motion::ArcConstants<double, E.arc()> constants_;
-  motion::TangentMap<Number> tangent_;
-  bool differentiates_ = false;
-  observables::Extrema extrema_;
-  std::optional<observables::ExactHarmonics> harmonics_;
-};
-
-template <class Number>
-motion::State<Number> start_of(const point::Problem& scene) {
-  motion::State<Number> state;
-  state.x = scene.start.displacement, state.v = scene.start.velocity;
-  return state;
-}
-
-/// Runs for a time given in forcing periods, unless it is stopped.
-template <stepping::Integrator I, class Observer>
-stepping::Outcome run_unless(const std::function<bool()>& stopped, I& integrator,
-                             motion::State<typename I::Number>& state, const typename I::Number& turns,
-                             Observer& observer) {
-  using Number = typename I::Number;
-  const auto sections = static_cast<std::int64_t>(turns);
-  for (std::int64_t section = 0; section < sections; ++section) {
-    if (stopped && stopped()) return stepping::Outcome::unresolved;
-    const stepping::Outcome outcome = advance_to_section(integrator, state, 0, observer);
-    if (outcome != stepping::Outcome::completed) return outcome;
-  }
-  return integrator.advance(state, Number(turns - Number(sections)), 0, observer);
-}
-
-template <class Number, Effects E>
-RunRecord run_from(const point::Problem& scene, motion::State<Number> state, const Number& turns, double duration,
-                   const std::optional<RecordObservables>& observables, const std::function<bool()>& stopped) {
-  RunRecord record;
-  record.duration = duration;
-  stepping::Exact<Number, E> integrator(scene, limits_of(scene));
-  RunObserver<Number, E> observer(scene, observables);
-  record.outcome = run_unless(stopped, integrator, state, turns, observer);
-  record.x = static_cast<double>(state.x), record.v = static_cast<double>(state.v);
-  record.impacts = integrator.impacts(), record.evaluations = integrator.evaluations();
-  observer.finish(record);
-  return record;
-}
-
-template <class Number>
-RunRecord run_in(const point::Problem& scene, double duration, const std::optional<RecordObservables>& observables,
-                 const std::function<bool()>& stopped) {
-  const auto run = [&]<Effects effects>() {
-    const Number period = 2 * pi<Number>() / Number(counting_frequency(scene.oscillator));
-    return run_from<Number, effects>(scene, start_of<Number>(scene), Number(Number(duration) / period), duration,
-                                     observables, stopped);
-  };
-  if constexpr (std::is_same_v<Number, FiftyDigits>) return with_every_effect(scene, run);
-  return with_any_stops(scene, run);
+Event event_of(const point::MotionEvent& event) {
+  using Kind = point::MotionEvent::Kind;
+  const Event::Kind kind = event.kind == Kind::rest      ? Event::Kind::rest
+                           : event.kind == Kind::chatter ? Event::Kind::chatter
+                                                         : Event::Kind::impact;
+  return {kind, event.side, event.time, std::abs(event.velocity), event.length};
 }
 
 /// Moves a state to the fixed point of the map over so many periods; false if that fails.
@@ -180,12 +62,25 @@ std::vector<Event> with_rests_joined(const std::vector<Event>& events) {
   return joined;
 }
 
-RunRecord record_of(const point::Problem& scene, double duration, const std::optional<RecordObservables>& observables) {
-  return run_in<double>(scene, duration, observables, {});
+RunRecord record_of(const point::Problem& scene, double duration) {
+  const auto motion = point::ExactMotion::of(scene);
+  point::MotionRecorder recorder(motion->stops());
+  recorder.keep_events();
+  motion::State<double> state = motion->start();
+  RunRecord record;
+  record.duration = duration;
+  record.outcome = motion->run_for(state, duration / motion->period(), recorder);
+  record.x = state.x, record.v = state.v;
+  record.impacts = motion->impacts(), record.evaluations = motion->evaluations();
+  for (const point::MotionEvent& event : recorder.events)  // a contact with a soft stop is one event, like an impact
+    if (event.kind != point::MotionEvent::Kind::separation && event.kind != point::MotionEvent::Kind::renewal)
+      record.events.push_back(event_of(event));
+  return record;
 }
 RunRecord reference_of(const point::Problem& scene, double duration,
                        const std::optional<RecordObservables>& observables, const std::function<bool()>& stopped) {
-  return run_in<FiftyDigits>(scene, duration, observables, stopped);
+  return with_every_effect(
+      scene, [&]<Effects effects>() { return run_over<FiftyDigits, effects>(scene, duration, observables, stopped); });
 }
 
 std::optional<RunRecord> periodic_reference(const point::Problem& scene, double periods,

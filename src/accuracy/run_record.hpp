@@ -7,10 +7,10 @@
 #include <optional>
 #include <vector>
 
-#include "observables/extrema.hpp"
-#include "observables/harmonics.hpp"
+#include "motion/state.hpp"
+#include "observables/range.hpp"
 #include "point/problem.hpp"
-#include "stepping/integrator.hpp"
+#include "stepping/integration.hpp"
 
 namespace clatter::accuracy {
 
@@ -39,10 +39,10 @@ struct RunRecord {
   stepping::Outcome outcome = stepping::Outcome::unresolved;
   std::vector<Event> events{};
   double duration = 0.0;
-  double x = 0.0, v = 0.0;                           ///< at the end
-  double impacts = 0.0;                              ///< number of impacts
-  double evaluations = 0.0;                          ///< of arcs
-  observables::Extrema::Range x_range{}, v_range{};  ///< if observables are asked for
+  double x = 0.0, v = 0.0;                  ///< at the end
+  double impacts = 0.0;                     ///< number of impacts
+  double evaluations = 0.0;                 ///< of arcs
+  observables::Range x_range{}, v_range{};  ///< if observables are asked for
   std::vector<std::complex<double>> harmonics{},
       v_harmonics{};  ///< of x and x', shape [harmonic], as Spectrum takes them
 };
@@ -53,9 +53,8 @@ struct RecordObservables {
   double base_frequency = 1.0;
 };
 
-/// The run of a scene from its start for a time in tau, in double.
-[[nodiscard]] RunRecord record_of(const point::Problem& scene, double duration,
-                                  const std::optional<RecordObservables>& observables = std::nullopt);
+/// The run of a scene from its start for a time in tau, in double, without observables.
+[[nodiscard]] RunRecord record_of(const point::Problem& scene, double duration);
 
 /// The same source run in 50 digits: the reference. It completes a chatter only long after a double would have done so.
 /// Observables are taken from its arcs, each rounded to double at its start: an error of a few roundings, which doesn't

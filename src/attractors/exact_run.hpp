@@ -7,7 +7,7 @@
 #include "model/displacement_bound.hpp"
 #include "observables/impact_word.hpp"
 #include "point/problem.hpp"
-#include "steady/stroboscopic_map.hpp"
+#include "steady/orbit.hpp"
 
 namespace clatter::attractors {
 

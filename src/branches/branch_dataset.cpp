@@ -41,7 +41,8 @@ class Columns {
     std::vector<double> low, high, v_low, v_high, speed, power;
     for (const BranchPoint& point : points) {
       const PhasePoint state = state_at_phase_zero(point.scene, point.orbit);
-      const observables::Extrema range = extrema(point.scene, point.orbit);
+      const observables::Extrema::Values range = extrema(point.scene, point.orbit);
+      const Stops rigid = rigid_ones(point.scene.stops);
       value.push_back(settings.along.to_user(value_of(point.scene, settings.along.parameter)));
       if (settings.across)
         second.push_back(settings.across->to_user(value_of(point.scene, settings.across->parameter)));
@@ -52,9 +53,8 @@ class Columns {
       stable.push_back(point.stable);
       re.insert(re.end(), point.multiplier_re.begin(), point.multiplier_re.end());
       im.insert(im.end(), point.multiplier_im.begin(), point.multiplier_im.end());
-      const auto displacement = range.displacement(rigid_ones(point.scene.stops));
-      low.push_back(displacement.low), high.push_back(displacement.high);
-      v_low.push_back(range.velocity().low), v_high.push_back(range.velocity().high);
+      low.push_back(std::max(range.x_min, rigid.lower)), high.push_back(std::min(range.x_max, rigid.upper));
+      v_low.push_back(range.v_min), v_high.push_back(range.v_max);
       speed.push_back(impact_speed(point.orbit)), power.push_back(impact_power(point.scene, point.orbit));
     }
     add_parameter(settings.along, std::move(value), "parameter along which the motion is followed");

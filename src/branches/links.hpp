@@ -130,6 +130,16 @@ Link<Number> link_of(const std::array<Number, 3>& x, const std::array<Number, 3>
   return link;
 }
 
+/// The map of an orbit as it is kept, from its links.
+inline ImpactMap map_of(const std::vector<Link<double>>& links, double determinant) {
+  ImpactMap map{.determinant = determinant};
+  Square<double> matrix{{{1, 0}, {0, 1}}};
+  for (const Link<double>& link : links) matrix = product(link.numerator, matrix), map.denominator *= link.denominator;
+  for (std::size_t i = 0; i < 2; ++i)
+    for (std::size_t j = 0; j < 2; ++j) map.numerator[i][j] = matrix[i][j];
+  return map;
+}
+
 inline bool last_is_mirrored(const Orbit& orbit, std::size_t i) { return orbit.mirrored && i + 1 == orbit.size(); }
 
 /// The derivative of a flight's end by the state before the event that it begins with (eqs. 7, 27 and 53), times the

@@ -45,6 +45,7 @@ struct Orbit {
 
   [[nodiscard]] std::size_t size() const { return impacts.size(); }
   [[nodiscard]] bool rests() const;  ///< on a stop, once in a period or more often
+  [[nodiscard]] bool next_is_rest(std::size_t i) const { return i + 1 < size() && impacts[i + 1].rest > 0; }
   [[nodiscard]] bool meets_soft_stop() const;
   /// Whether the motion is the same without the event i, which grazes.
   [[nodiscard]] bool changes_nothing(std::size_t i) const;

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "branches/measures.hpp"
+#include "branches/moving.hpp"
 #include "branches/resting.hpp"
 
 namespace clatter::branches {

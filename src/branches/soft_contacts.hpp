@@ -1,6 +1,6 @@
 #pragma once
 
-#include "branches/measures.hpp"
+#include "branches/moving.hpp"
 
 namespace clatter::branches {
 

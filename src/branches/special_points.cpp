@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "branches/measures.hpp"
+#include "branches/moving.hpp"
 
 namespace clatter::branches {
 

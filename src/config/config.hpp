@@ -1,12 +1,12 @@
 #pragma once
 
 #include <optional>
-#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "branches/settings.hpp"
+#include "config/config_error.hpp"
 #include "sweep/sweep.hpp"
 
 namespace clatter::config {
@@ -30,12 +30,6 @@ struct Config {
   std::string text;  ///< complete with defaults, as TOML that runs again (root attribute `config`)
   std::vector<Warning> warnings;
   std::vector<std::string> notes;  ///< settings of the file that the command line replaced by other keys
-};
-
-/// A mistake in a configuration: `what()` is one line, "file:line:column: what is wrong; the way out".
-class ConfigError : public std::runtime_error {
- public:
-  using std::runtime_error::runtime_error;
 };
 
 /// A --set KEY=VALUE of the command line, e.g. {"sweep.nu", "linspace(0.5, 1.5, 51)"}.

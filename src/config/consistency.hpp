@@ -7,8 +7,11 @@
 #include <vector>
 
 #include "config/settings.hpp"
+#include "model/stops.hpp"
 
 namespace clatter::config {
+
+struct Warning;
 
 /// The names between the commas of `linked` or `follow`.
 [[nodiscard]] std::vector<std::string> split_names(std::string_view text);

@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "config/config.hpp"
 #include "config/parsed_config.hpp"
 #include "config/text_file.hpp"
 #include "storage/utf8.hpp"

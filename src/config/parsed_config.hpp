@@ -10,6 +10,7 @@
 
 namespace clatter::config {
 
+struct Override;
 struct ParsedValue;
 using ParsedList = std::vector<ParsedValue>;
 

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "config/config.hpp"
+#include "config/config_error.hpp"
 #include "storage/utf8.hpp"
 
 namespace clatter::config {

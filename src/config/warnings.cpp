@@ -3,6 +3,7 @@
 #include <optional>
 #include <string>
 
+#include "config/config.hpp"
 #include "config/consistency.hpp"
 
 namespace clatter::config {

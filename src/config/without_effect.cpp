@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "config/config.hpp"
 #include "config/consistency.hpp"
 
 namespace clatter::config {

@@ -6,6 +6,7 @@
 #include <limits>
 #include <utility>
 
+#include "lanes/observed.hpp"
 #include "lanes/step_functions.hpp"
 
 namespace clatter::lanes {
@@ -234,9 +235,9 @@ bool LaneView::extrema_hold(double transient) const {
   return at(block_->y_low) <= -y && at(block_->y_high) >= y && at(block_->v_low) <= -v && at(block_->v_high) >= v;
 }
 
-observables::Extrema::Range LaneView::x_range() const { return {x_of(at(block_->y_low)), x_of(at(block_->y_high))}; }
+observables::Range LaneView::x_range() const { return {x_of(at(block_->y_low)), x_of(at(block_->y_high))}; }
 
-observables::Extrema::Range LaneView::v_range() const { return {at(block_->v_low), at(block_->v_high)}; }
+observables::Range LaneView::v_range() const { return {at(block_->v_low), at(block_->v_high)}; }
 
 std::array<observables::Impacts::OfStop, 2> LaneView::stops() const {
   std::array<observables::Impacts::OfStop, 2> stops;

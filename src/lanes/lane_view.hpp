@@ -14,7 +14,7 @@
 #include "motion/arc_constants.hpp"
 #include "motion/state.hpp"
 #include "observables/all.hpp"
-#include "observables/velocity_jumps.hpp"
+#include "observables/range.hpp"
 
 namespace clatter::lanes {
 
@@ -35,13 +35,7 @@ struct LaneSection {
   double log_area;          ///< logarithm of the factor by which soft stops have shrunk areas of states since then
 };
 
-/// What the observers of the scalar loop have seen of a lane's motion.
-struct Observed {
-  observables::Extrema extrema{};
-  observables::Impacts impacts{};
-  std::optional<motion::Impact> first{};  ///< impact
-  observables::VelocityJumps jumps;
-};
+struct Observed;
 
 /// Whether a scene can run in a lane: forced motion between stops, lightly damped, away from resonance, with lengths
 /// and frequencies that leave an enclosure room; without a spring it must be bounded. Soft stops stand beside a spring.
@@ -110,8 +104,8 @@ class LaneView {
   /// Whether the extrema seen so far hold all motion that is the response plus a transient up to this size.
   [[nodiscard]] bool extrema_hold(double transient) const;
   /// The ranges of displacement and velocity seen so far.
-  [[nodiscard]] observables::Extrema::Range x_range() const;
-  [[nodiscard]] observables::Extrema::Range v_range() const;
+  [[nodiscard]] observables::Range x_range() const;
+  [[nodiscard]] observables::Range v_range() const;
   [[nodiscard]] std::array<observables::Impacts::OfStop, 2> stops() const;  ///< [stop]
   [[nodiscard]] double first_speed() const;  ///< of the first impact on either stop; NaN without one
   [[nodiscard]] std::vector<std::complex<double>> velocity_jumps() const;  ///< [harmonic], eq. 38

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "point/exact_points.hpp"
 #include "point/point_run.hpp"
 
 namespace clatter::lanes {
@@ -33,7 +34,7 @@ template <Effects E>
 point::PointResult observe_in_scalar_loop(const SettledPoint<E>& settled, point::ThreadScratch& scratch) {
   const point::Problem& problem = settled.item.problem;
   const auto observe = [&](const steady::ObservedTime& observed) {
-    return point::Point(problem, scratch, settled.loop).observe(observed);
+    return point::ExactPoints<E>::observe(problem, scratch, settled.loop, observed);
   };
   point::PointResult result = observe(settled.observed);
   result.impacts += settled.impacts;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <optional>
 
+#include "lanes/observed.hpp"
+
 namespace clatter::lanes {
 namespace {
 

@@ -157,13 +157,7 @@ inline constexpr double secular_distance = 1.0 / 16.0;
   return h == 0.0 ? Damping::none : h < 1.0 ? Damping::light : h == 1.0 ? Damping::critical : Damping::heavy;
 }
 
-[[nodiscard]] inline Forcing forcing_of(const Oscillator& oscillator) {
-  if (oscillator.forcing == 0.0) return Forcing::none;
-  if (oscillator.stiffness != 1.0)
-    return rotates(oscillator) ? forcing_of(with_unit_spring(oscillator)) : Forcing::regular;
-  const bool secular = std::hypot(oscillator.damping, oscillator.frequency - 1.0) < secular_distance;
-  return secular ? Forcing::secular : Forcing::regular;
-}
+[[nodiscard]] Forcing forcing_of(const Oscillator& oscillator);
 
 [[nodiscard]] constexpr bool every_scene_has_a_set() {
   for (const double h : {0.0, secular_distance / 2, secular_distance, 1.0, 2.0})
@@ -201,24 +195,10 @@ decltype(auto) with_effects(const Effects& effects, Function&& function) {
   return effect_sets::with_soft_stops(rotates(scene.oscillator) ? Damping::light : Damping::heavy, Forcing::regular);
 }
 
-/// Calls `function.operator()<effects>()` for the effects that general methods simulate for an oscillator.
-template <class Function>
-decltype(auto) with_general_effects(const Oscillator& oscillator, Function&& function) {
-  const Effects effects = general_effects(oscillator);
-  if (effects.stiffness) {
-    if (effects.damping == Damping::light)
-      return function.template operator()<effect_sets::of_any_stiffness(Damping::light, Forcing::regular)>();
-    return function.template operator()<effect_sets::of_any_stiffness(Damping::heavy, Forcing::regular)>();
-  }
-  if (effects.damping == Damping::none) return function.template operator()<general_effects({.damping = 0.0})>();
-  if (effects.damping == Damping::light) return function.template operator()<general_effects({.damping = 0.5})>();
-  return function.template operator()<general_effects({.damping = 1.0})>();
-}
-
-/// The same for a scene, which may have soft stops.
+/// Calls `function.operator()<set>()` for one of the two sets that general methods are compiled with. Each contains all
+/// effects of its scenes: beside their evaluations of the equation no effect costs anything worth leaving it out.
 template <class Function>
 decltype(auto) with_general_effects(const Scene& scene, Function&& function) {
-  if (!has_soft_stop(scene.stops)) return with_general_effects(scene.oscillator, static_cast<Function&&>(function));
   if (rotates(scene.oscillator))
     return function.template operator()<effect_sets::with_soft_stops(Damping::light, Forcing::regular)>();
   return function.template operator()<effect_sets::with_soft_stops(Damping::heavy, Forcing::regular)>();

@@ -3,24 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "motion/tangent_map.hpp"
+#include "math/number.hpp"
+#include "motion/perturbation.hpp"
 
 namespace clatter::motion {
-
-/// A small change of a state.
-struct Perturbation {
-  double x = 0.0, v = 0.0;
-
-  [[nodiscard]] double size() const { return std::max(std::abs(x), std::abs(v)); }
-};
-
-[[nodiscard]] inline Perturbation between(const State<double>& from, const State<double>& to) {
-  return {to.x - from.x, to.v - from.v};
-}
-
-[[nodiscard]] inline Perturbation operator*(const Jacobian<double>& map, const Perturbation& c) {
-  return {map[0] * c.x + map[1] * c.v, map[2] * c.x + map[3] * c.v};
-}
 
 /// A set of changes around 0: {e : e' E^-1 e <= 1}, given by the symmetric matrix E.
 class Ellipse {

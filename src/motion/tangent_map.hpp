@@ -1,17 +1,13 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "motion/arc.hpp"
 #include "motion/contact_force.hpp"
+#include "motion/perturbation.hpp"
 
 namespace clatter::motion {
-
-/// A linear map of small changes (dx, dv), by rows.
-template <class Number>
-using Jacobian = std::array<Number, 4>;
 
 /// The derivative of a motion with respect to its start: free motion over the arcs (eq. 7), the saltation matrix at
 /// each impact (eq. 27; Nordmark 1991), 0 after a rest. Kept as a rotation times a triangle, so that the determinant

@@ -1,8 +1,13 @@
 #include "observables/harmonics.hpp"
 
+#include <cmath>
+#include <complex>
 #include <memory>
 #include <numeric>
+#include <span>
 #include <utility>
+
+#include "observables/harmonics_observer.hpp"
 
 namespace clatter::observables {
 namespace {
@@ -70,7 +75,7 @@ bool Harmonics::in_lanes(const Settings& settings, const ObservedSpan& span) {
   return true;
 }
 
-Harmonics::Values Harmonics::finish(const ObservedSpan& span, double x, double v) {
+Harmonics::Values Harmonics::Observer::finish(const ObservedSpan& span, double x, double v) {
   if (exact_) {
     exact_->finish(x, span.total);
     if (span.frame) exact_->add(*span.frame, span.total);

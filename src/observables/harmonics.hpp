@@ -1,20 +1,15 @@
 #pragma once
 
 #include <array>
-#include <complex>
 #include <cstddef>
 #include <cstdint>
-#include <optional>
-#include <span>
 #include <string>
 #include <string_view>
 #include <tuple>
 #include <vector>
 
-#include "observables/exact_harmonics.hpp"
 #include "observables/fourier_transform.hpp"
 #include "observables/observable.hpp"
-#include "observables/samples.hpp"
 #include "observables/spectrum.hpp"
 
 namespace clatter::observables {
@@ -23,8 +18,7 @@ enum class HarmonicsMethod : std::uint8_t { fft, exact };
 
 /// Amplitude and phase of the constant part and the harmonics of displacement and velocity, from samples or from the
 /// arcs themselves.
-class Harmonics {
- public:
+struct Harmonics {
   struct Settings {
     std::int64_t harmonics = 0;  ///< highest harmonic K, 0: none observed
     HarmonicsMethod harmonics_method = HarmonicsMethod::fft;
@@ -69,6 +63,10 @@ class Harmonics {
                                    : " from the arcs");
   }
   [[nodiscard]] static std::vector<Column<Values>> columns(const Settings& settings);
+  /// Of the harmonics, the constant part among them.
+  [[nodiscard]] static std::size_t count_of(const Settings& settings) {
+    return static_cast<std::size_t>(settings.harmonics) + 1;
+  }
 
   /// Samples of x and v, and the transform's rows of them.
   [[nodiscard]] static double values_held(const Settings& settings) {
@@ -83,54 +81,7 @@ class Harmonics {
   /// given.
   [[nodiscard]] static bool in_lanes(const Settings& settings, const ObservedSpan& span);
 
-  Harmonics(const Settings& settings, const ObservedSpan& span) : highest_(count_of(settings) - 1) {
-    if (from_samples(settings)) {
-      const auto count = static_cast<std::size_t>(settings.harmonics_samples);
-      samples_.emplace(count, span.total / static_cast<double>(count), AtImpact::mean, span.scene.stops);
-    } else {
-      exact_.emplace(highest_, span.base_frequency);
-    }
-  }
-
-  template <class A>
-  void arc(const A& arc, double begin, double length) {
-    by([&](auto& observer) { observer.arc(arc, begin, length); });
-  }
-  void rest(const motion::Rest& rest) {
-    by([&](auto& observer) { observer.rest(rest); });
-  }
-  void impact(const motion::Impact& impact) {
-    by([&](auto& observer) { observer.impact(impact); });
-  }
-  /// Exact harmonics know the response; samples have to be taken from its course.
-  bool response(const ObservedSpan& span, double x) {
-    if (exact_) exact_->response(span.scene.oscillator, span.scene.start.phase, x, span.total);
-    return exact_.has_value();
-  }
-  /// Of the exact method: takes over all flights at once, as `ExactHarmonics::flights`.
-  void flights(const ObservedSpan& span, const PhasePoint& first, const PhasePoint& last,
-               std::span<const std::complex<double>> jumps) {
-    exact_->flights(span.scene.oscillator, span.scene.start.phase, first, last, span.total, jumps);
-  }
-
-  [[nodiscard]] Values finish(const ObservedSpan& span, double x, double v);
-  [[nodiscard]] double evaluations() const {  ///< of arcs
-    return exact_ ? exact_->evaluations() : samples_->evaluations();
-  }
-
- private:
-  [[nodiscard]] static std::size_t count_of(const Settings& settings) {
-    return static_cast<std::size_t>(settings.harmonics) + 1;
-  }
-  template <class Function>
-  void by(Function&& function) {
-    if (exact_) return function(*exact_);
-    function(*samples_);
-  }
-
-  std::size_t highest_;
-  std::optional<ExactHarmonics> exact_;  ///< one of the two
-  std::optional<Samples> samples_;
+  class Observer;  ///< in harmonics_observer.hpp
 };
 
 }  // namespace clatter::observables

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <string_view>
 
+#include "observables/impact_word_observer.hpp"
+
 namespace clatter::observables {
 namespace {
 
@@ -87,7 +89,7 @@ std::string ImpactWord::regime_of(const std::vector<Contact>& contacts, double p
 /// The whole motion follows from the state after one impact: it is its own mirror image if the mirror image of that
 /// impact comes half a period later. The force has turned into its mirror image by then if the period is an odd number
 /// of its own.
-bool ImpactWord::is_mirrored(const ObservedSpan& span, double x, double v) const {
+bool ImpactWord::Observer::is_mirrored(const ObservedSpan& span, double x, double v) const {
   if (is_response_) return true;
   if (span.scene.oscillator.forcing != 0 && std::llround(span.turns) % 2 == 0) return false;
   const auto slower = [](const Contact& a, const Contact& b) { return std::abs(a.before) < std::abs(b.before); };
@@ -103,7 +105,7 @@ bool ImpactWord::is_mirrored(const ObservedSpan& span, double x, double v) const
   });
 }
 
-ImpactWord::Values ImpactWord::finish(const ObservedSpan& span, double x, double v) const {
+ImpactWord::Values ImpactWord::Observer::finish(const ObservedSpan& span, double x, double v) const {
   Values values;
   if (!span.periodic) return values;
   values.impact_word = word_of(contacts_);

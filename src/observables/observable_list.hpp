@@ -2,29 +2,23 @@
 
 #include <algorithm>
 #include <concepts>
-#include <optional>
 #include <string>
 #include <tuple>
+#include <utility>
 #include <vector>
 
-#include "motion/state.hpp"
 #include "observables/observable.hpp"
 
 namespace clatter::observables {
 
-/// All that there is about an observable: its settings and their keys, its values and the columns that they fill, and
-/// an observer, which begins with the observed time, sees arcs, rests and impacts, and gives its values at the end.
+/// All that is known of an observable but for its observer: its settings and their keys, its values and the columns
+/// that they fill.
 template <class O>
-concept Observable = requires(const typename O::Settings& settings, O& observer, const ObservedSpan& span,
-                              const motion::Rest& rest, const motion::Impact& impact) {
+concept Observable = requires(const typename O::Settings& settings) {
   O::fields;
   { O::wanted(settings) } -> std::same_as<bool>;
   { O::description(settings) } -> std::same_as<std::string>;
   { O::columns(settings) } -> std::same_as<std::vector<Column<typename O::Values>>>;
-  O(settings, span);
-  observer.rest(rest);
-  observer.impact(impact);
-  { observer.finish(span, 0.0, 0.0) } -> std::same_as<typename O::Values>;
 };
 
 namespace detail {
@@ -113,115 +107,6 @@ struct ObservableList {
   [[nodiscard]] static bool in_lanes(const Settings& settings, const ObservedSpan& span) {
     return ((!Os::wanted(settings) || detail::lanes_observe<Os>(settings, span)) && ...);
   }
-};
-
-/// The observers of a list that are asked for. Each is called once an arc, and costs nothing if it is absent.
-template <class List>
-class Observers;
-
-template <class... Os>
-class Observers<ObservableList<Os...>> {
- public:
-  using List = ObservableList<Os...>;
-
-  Observers(const typename List::Settings& settings, const ObservedSpan& span) {
-    each([&]<class O>(Slot<O>& slot) {
-      if (O::wanted(settings)) slot.observer.emplace(settings, span);
-    });
-  }
-
-  /// The observer of an observable; empty if it isn't asked for.
-  template <class O>
-  [[nodiscard]] std::optional<O>& of() {
-    return std::get<Slot<O>>(slots_).observer;
-  }
-
-  /// Takes the observed time of the steady response to the force, whole periods that no stop interrupts, from
-  /// displacement x on, by its amplitude and phase; for observers that can't, it still has to be run.
-  void response(const ObservedSpan& span, double x) {
-    is_response_ = true;
-    each([&]<class O>(Slot<O>& slot) {
-      if constexpr (requires { slot.observer->response(span, x); })
-        slot.is_known = slot.observer && slot.observer->response(span, x);
-    });
-  }
-  /// Whether anything still has to see the flights.
-  [[nodiscard]] bool need_flights() const {
-    return !is_response_ || ((std::get<Slot<Os>>(slots_).observer && !std::get<Slot<Os>>(slots_).is_known) || ...);
-  }
-
-  template <class A>
-  void arc(const A& arc, double begin, double length) {
-    present([&](auto& observer) { observer.arc(arc, begin, length); });
-  }
-  void rest(const motion::Rest& rest) {
-    present([&](auto& observer) { observer.rest(rest); });
-  }
-  /// An impact at the very beginning belongs to the time before, and is shown to those alone that ask for it.
-  void impact(const motion::Impact& impact) {
-    present([&](auto& observer) {
-      if (impact.time > 0.0) {
-        observer.impact(impact);
-      } else if constexpr (requires { observer.impact_at_start(impact); }) {
-        observer.impact_at_start(impact);
-      }
-    });
-  }
-
-  /// The beginning of a contact with a soft stop, and its end, for those that ask for them; one at the very beginning
-  /// belongs to the time before, like an impact.
-  void touch(const motion::Touch& touch) {
-    if (!(touch.time > 0.0)) return;
-    present([&](auto& observer) {
-      if constexpr (requires { observer.touch(touch); }) observer.touch(touch);
-    });
-  }
-  void separate(const motion::Separation& separation) {
-    if (!(separation.time > 0.0)) return;
-    present([&](auto& observer) {
-      if constexpr (requires { observer.separate(separation); }) observer.separate(separation);
-    });
-  }
-
-  /// Ends the observed time in a state, and fills in the values of every observer.
-  void finish(const ObservedSpan& span, double x, double v, typename List::Values& values) {
-    each([&]<class O>(Slot<O>& slot) {
-      if (slot.observer) static_cast<typename O::Values&>(values) = slot.observer->finish(span, x, v);
-    });
-  }
-
-  /// Of arcs, by all observers together.
-  [[nodiscard]] double evaluations() const {
-    const auto of = [](const auto& slot) {
-      if constexpr (requires { slot.observer->evaluations(); })
-        return slot.observer ? slot.observer->evaluations() : 0.0;
-      return 0.0;
-    };
-    return (of(std::get<Slot<Os>>(slots_)) + ...);
-  }
-
- private:
-  template <class O>
-  struct Slot {
-    std::optional<O> observer;
-    bool is_known = false;  ///< without the flights
-
-    Slot() {}  // not defaulted: the tuple would first clear the kilobytes that an absent observer could take
-  };
-
-  template <class Function>
-  void each(Function&& function) {
-    (function.template operator()<Os>(std::get<Slot<Os>>(slots_)), ...);
-  }
-  template <class Function>
-  void present(Function&& function) {
-    each([&]<class O>(Slot<O>& slot) {
-      if (slot.observer && !slot.is_known) function(*slot.observer);
-    });
-  }
-
-  std::tuple<Slot<Os>...> slots_;
-  bool is_response_ = false;
 };
 
 }  // namespace clatter::observables

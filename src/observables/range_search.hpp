@@ -8,15 +8,9 @@
 #include "math/bernstein.hpp"
 #include "motion/arc.hpp"
 #include "motion/arc_bounds.hpp"
+#include "observables/range.hpp"
 
 namespace clatter::observables {
-
-struct Range {
-  double low = std::numeric_limits<double>::infinity();
-  double high = -std::numeric_limits<double>::infinity();
-
-  void include(double y) { low = std::min(low, y), high = std::max(high, y); }
-};
 
 /// Includes a polynomial over a step, which lies within the range of its coefficients; halved at most so many times.
 inline void include_polynomial(Range& range, Bernstein<double> y, double offset = 0.0, int halvings = 52) {

@@ -5,15 +5,13 @@
 #include <tuple>
 #include <vector>
 
-#include "motion/state.hpp"
 #include "observables/observable.hpp"
 
 namespace clatter::observables {
 
 /// After how many forcing periods the motion has settled. The time before the observed one tells: the point runs it
 /// again once the motion is known, and the observer itself sees nothing.
-class Settling {
- public:
+struct Settling {
   static constexpr double settled = 1e-3;  ///< distance from the steady motion, over the larger of its |x| and |v|
 
   struct Settings {
@@ -30,20 +28,10 @@ class Settling {
 
   [[nodiscard]] static bool wanted(const Settings& settings) { return settings.settling; }
   [[nodiscard]] static std::string description(const Settings&) { return "settling time"; }
-  [[nodiscard]] static std::vector<Column<Values>> columns(const Settings&) {
-    return {scalar("settling_periods", "forcing periods after which the motion stays within 1e-3 of the steady one",
-                   &Values::settling_periods)};
-  }
+  [[nodiscard]] static std::vector<Column<Values>> columns(const Settings&);
   [[nodiscard]] static bool in_lanes(const Settings&, const ObservedSpan&) { return true; }
 
-  Settling(const Settings&, const ObservedSpan&) {}
-
-  template <class A>
-  void arc(const A&, double, double) {}
-  void rest(const motion::Rest&) {}
-  void impact(const motion::Impact&) {}
-  bool response(const ObservedSpan&, double) { return true; }
-  [[nodiscard]] Values finish(const ObservedSpan&, double, double) const { return {}; }
+  class Observer;  ///< in settling_observer.hpp
 };
 
 }  // namespace clatter::observables

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <fstream>
+#include <iterator>
 #include <optional>
 #include <sstream>
 #include <string_view>
@@ -138,9 +139,10 @@ std::vector<MemoryLimit> address_limits(double addresses, double data, const Pro
 
 MemoryLimit memory_limit(int threads) {
   std::vector<MemoryLimit> limits = group_limits();
-  limits.push_back({machine_limit(), "this machine has"});
-  for (MemoryLimit& limit : address_limits(resource_limit(RLIMIT_AS), resource_limit(RLIMIT_DATA), size_now(), threads))
-    limits.push_back(std::move(limit));
+  const MemoryLimit machine{machine_limit(), "this machine has"};
+  limits.push_back(machine);
+  std::ranges::move(address_limits(resource_limit(RLIMIT_AS), resource_limit(RLIMIT_DATA), size_now(), threads),
+                    std::back_inserter(limits));
   return *std::ranges::min_element(limits, {}, &MemoryLimit::bytes);
 }
 

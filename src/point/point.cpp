@@ -1,13 +1,10 @@
 #include "point/point.hpp"
 
-#include <algorithm>
 #include <chrono>
-#include <limits>
 #include <utility>
 
+#include "point/exact_points.hpp"
 #include "point/general_points.hpp"
-#include "point/point_run.hpp"
-#include "stepping/exact.hpp"
 
 namespace clatter::point {
 
@@ -26,13 +23,7 @@ void run_batch(std::span<const WorkItem> items, ThreadScratch& scratch,
   } else if (method == stepping::Method::moreau) {
     for (const WorkItem& item : items) take(item, run_by_moreau(item.problem, scratch));
   } else {
-    with_effects(items.front().effects, [&]<Effects E>() {
-      for (const WorkItem& item : items) {
-        const stepping::Exact<double, E> integrator(item.problem, stops_in_reach(item.problem.stops, item.effects),
-                                                    limits_of(item.problem));
-        take(item, Point(item.problem, scratch, integrator).run());
-      }
-    });
+    with_effects(items.front().effects, [&]<Effects E>() { ExactPoints<E>::run(items, scratch, take); });
   }
 }
 
@@ -57,29 +48,7 @@ double seconds_per_period(Problem problem, ThreadScratch& scratch) {
 }
 
 double seconds_per_evaluation(const Effects& effects) {
-  return with_effects(effects, []<Effects E>() {
-    Problem problem;
-    problem.oscillator.damping = E.damping == Damping::none ? 0.0 : E.damping == Damping::light ? 0.04 : 2.0;
-    problem.oscillator.forcing = E.forcing == Forcing::none ? 0.0 : 1.0;
-    problem.oscillator.frequency = E.forcing == Forcing::secular ? 1.03 : 1.3;
-    if (E.stiffness) problem.oscillator.stiffness = E.damping == Damping::light ? 1.1 : 0.0;
-    problem.start.velocity = 1.0;
-    if (E.stops()) problem.stops = {-0.5, 0.5, 0.7, 0.7};
-    if (E.soft) problem.stops.stiffness_lower = problem.stops.stiffness_upper = 100.0;
-    using Clock = std::chrono::steady_clock;
-    double least = std::numeric_limits<double>::infinity();
-    for (int repetition = 0; repetition < 3; ++repetition) {
-      stepping::Exact<double, E> integrator(problem);
-      motion::State<double> state;
-      state.v = problem.start.velocity;
-      stepping::NoObserver nobody;
-      const auto begin = Clock::now();
-      (void)run_for(integrator, state, 50.0, nobody);
-      const double seconds = std::chrono::duration<double>(Clock::now() - begin).count();
-      least = std::min(least, seconds / std::max(1.0, integrator.evaluations()));
-    }
-    return least;
-  });
+  return with_effects(effects, []<Effects E>() { return ExactPoints<E>::seconds_per_evaluation(); });
 }
 
 }  // namespace clatter::point

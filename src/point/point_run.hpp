@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "observables/observable_list.hpp"
+#include "observables/all_observers.hpp"
 #include "point/point.hpp"
 #include "steady/find_steady.hpp"
 #include "steady/settling_periods.hpp"
@@ -12,6 +12,12 @@
 namespace clatter::point {
 
 using Observers = observables::Observers<observables::All>;
+
+[[nodiscard]] inline motion::State<double> start_of(const Scene& scene) {
+  motion::State<double> state;
+  state.x = scene.start.displacement, state.v = scene.start.velocity;
+  return state;
+}
 
 /// One point on its way to a result: its motion is found, then observed.
 template <stepping::Integrator I>
@@ -78,19 +84,16 @@ class Point {
   }
 
  private:
-  [[nodiscard]] motion::State<double> start() const {
-    motion::State<double> state;
-    state.x = problem_.start.displacement, state.v = problem_.start.velocity;
-    return state;
-  }
+  [[nodiscard]] motion::State<double> start() const { return start_of(problem_); }
 
   /// Follows motion without a period beyond the observed time, as long as its section goes on.
   stepping::Outcome complete_section(Observers& observers, motion::State<double> state) {
-    auto& section = observers.template of<observables::Section>();
+    const auto& section = observers.template of<observables::Section>();
     stepping::Outcome outcome = stepping::Outcome::completed;
+    observers.template go_on_with<observables::Section>();
     while (section && !section->is_complete() && observed_.status == steady::Status::aperiodic &&
            outcome == stepping::Outcome::completed) {
-      outcome = advance_to_section(integrator_, state, observed_.from.periods, *section);
+      outcome = advance_to_section(integrator_, state, observed_.from.periods, observers);
       ++periods_beyond_;
     }
     return outcome;

@@ -15,7 +15,7 @@ template <stepping::Integrator I>
 [[nodiscard]] ObservedTime find_repetition(I& integrator, motion::State<double> state, const Scene& scene,
                                            const TimeSettings& time, std::int64_t from) {
   constexpr auto longest = static_cast<std::int64_t>(RepeatFinder::longest);
-  SectionObserver watch(integrator.stops());
+  PassageObserver watch(integrator.stops());
   RepeatFinder repeat(time.tolerance);
   std::array<motion::State<double>, RepeatFinder::longest> recent;
   for (std::int64_t section = 0;; ++section) {

@@ -249,7 +249,7 @@ class ForcedSearch {
   std::array<Passage, kept> passages_{};  ///< [section modulo kept]: the period from it; before the start no contact
   std::size_t next_ = 0;                  ///< index of the approach's next section
   std::optional<Orbit> approach_;         ///< the periods that the last attempt followed
-  SectionObserver watch_;
+  PassageObserver watch_;
   StroboscopicMap<E> map_;
   /// [section modulo its size]; not in lanes, nor if the first section tells all.
   std::optional<std::array<motion::State<double>, RepeatFinder::longest>> recent_{};

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "steady/observed_time.hpp"
+#include "steady/passage_observer.hpp"
 #include "steady/time_settings.hpp"
 #include "stepping/run.hpp"
 
@@ -21,7 +22,7 @@ template <stepping::Integrator I>
   constexpr double never = std::numeric_limits<double>::quiet_NaN();
   if (!(found.status == Status::periodic || found.status == Status::grazing) || !std::isfinite(found.settling))
     return never;
-  stepping::NoObserver nobody;
+  PassageObserver nobody(integrator.stops());  // the search has compiled runs under its eyes
   const auto advance = [&](motion::State<double>& state) {
     return advance_to_section(integrator, state, state.periods, nobody) == stepping::Outcome::completed;
   };

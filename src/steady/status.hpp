@@ -5,7 +5,7 @@
 #include <string_view>
 #include <utility>
 
-#include "stepping/integrator.hpp"
+#include "stepping/integration.hpp"
 
 namespace clatter::steady {
 

@@ -10,26 +10,12 @@
 
 #include "motion/soft_neighbourhood.hpp"
 #include "steady/contraction.hpp"
-#include "steady/repeat.hpp"
-#include "steady/section_observer.hpp"
+#include "steady/orbit.hpp"
+#include "steady/passage_observer.hpp"
 #include "stepping/exact.hpp"
 #include "stepping/run.hpp"
 
 namespace clatter::steady {
-
-/// A motion over n forcing periods: its states at the stroboscopic sections and its derivative; periodic if its gap
-/// is 0.
-struct Orbit {
-  std::size_t periods = 0;
-  std::array<motion::State<double>, RepeatFinder::longest + 1> states{};  ///< the last as computed from the first
-  std::array<motion::Jacobian<double>, RepeatFinder::longest + 1> derivatives{};  ///< of each state by the first
-  std::array<Passage, RepeatFinder::longest> passages{};  ///< from each state but the last to the next
-
-  double settling = 0.0;  ///< forcing periods until an approaching motion is within the tolerance of it
-
-  [[nodiscard]] motion::Perturbation gap() const { return between(states[0], states[periods]); }
-  [[nodiscard]] const motion::Jacobian<double>& derivative() const { return derivatives[periods]; }
-};
 
 /// The map of states over n forcing periods, its derivative, and Newton's method for its fixed points.
 template <Effects E>
@@ -45,23 +31,12 @@ class StroboscopicMap {
 
   /// The motion over n periods from a state, reporting also to another observer; nothing if it fails.
   template <class Observer>
-  [[nodiscard]] std::optional<Orbit> follow(motion::State<double> state, std::size_t periods, Observer&& also) {
-    Orbit orbit{.periods = periods};
-    orbit.states[0] = state, orbit.derivatives[0] = {1, 0, 0, 1};
-    watch_.differentiate();
+  [[nodiscard]] std::optional<Orbit> follow(const motion::State<double>& from, std::size_t periods, Observer& also) {
     Pair<Observer> observers{watch_, also};
-    for (std::size_t i = 1; i <= periods; ++i) {
-      ++simulated_;
-      watch_.begin_section();
-      if (advance_to_section(integrator_, state, orbit.states[0].periods, observers) != stepping::Outcome::completed)
-        return std::nullopt;
-      orbit.states[i] = state, orbit.derivatives[i] = watch_.derivative();
-      orbit.passages[i - 1] = watch_.passage();
-    }
-    return orbit;
+    return follow_under(observers, from, periods);
   }
-  [[nodiscard]] std::optional<Orbit> follow(const motion::State<double>& state, std::size_t periods) {
-    return follow(state, periods, stepping::NoObserver{});
+  [[nodiscard]] std::optional<Orbit> follow(const motion::State<double>& from, std::size_t periods) {
+    return follow_under(watch_, from, periods);
   }
 
   /// The periodic motion that `approach`, one round of a motion, settles to. Newton's method finds it from the start of
@@ -85,10 +60,20 @@ class StroboscopicMap {
   }
 
  private:
+  /// Follows a motion under the eyes of `watch_`, or of a pair of it and another one.
+  template <class Observer>
+  [[nodiscard]] std::optional<Orbit> follow_under(Observer& observer, const motion::State<double>& from,
+                                                  std::size_t periods) {
+    return orbit_from(from, periods, watch_, [&](motion::State<double>& state) {
+      ++simulated_;
+      return advance_to_section(integrator_, state, from.periods, observer);
+    });
+  }
+
   /// Two observers of one motion.
   template <class Observer>
   struct Pair {
-    SectionObserver& one;
+    PassageObserver& one;
     Observer& other;
 
     template <class A>
@@ -146,7 +131,7 @@ class StroboscopicMap {
   }
 
   stepping::Exact<double, E>& integrator_;
-  SectionObserver watch_;
+  PassageObserver watch_;
   double tolerance_;
   std::size_t simulated_ = 0;
 };

@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "model/oscillator.hpp"
-#include "stepping/integrator.hpp"
+#include "stepping/integration.hpp"
 
 namespace clatter::steady {
 

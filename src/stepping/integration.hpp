@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <string_view>
 
 namespace clatter::stepping {
@@ -10,6 +11,15 @@ enum class Method : std::uint8_t { exact, dopri5, moreau };
 
 /// Names in the order of Method.
 inline constexpr std::array<std::string_view, 3> method_names{"exact", "dopri5", "moreau"};
+
+/// How a run ended: completed, or the reason why it stopped early.
+enum class Outcome : std::uint8_t { completed, event_budget, not_finite, unresolved };
+
+/// The limits of a run.
+struct Limits {
+  double impacts = 1e8;                                      ///< a run with more fails (event_budget)
+  double periods = std::numeric_limits<double>::infinity();  ///< forcing periods, for the report of progress
+};
 
 /// The method that computes arcs, impacts and rests, and its settings.
 struct Integration {

@@ -12,12 +12,10 @@
 
 #include "model/scene.hpp"
 #include "motion/contact_force.hpp"
+#include "stepping/integration.hpp"
 #include "stepping/soft_contact.hpp"
 
 namespace clatter::stepping {
-
-/// How a run ended: completed, or the reason why it stopped early.
-enum class Outcome : std::uint8_t { completed, event_budget, not_finite, unresolved };
 
 /// An observer that records nothing.
 struct NoObserver {
@@ -25,12 +23,6 @@ struct NoObserver {
   void arc(const A&, double, double) {}
   void rest(const motion::Rest&) {}
   void impact(const motion::Impact&) {}
-};
-
-/// The limits of a run.
-struct Limits {
-  double impacts = 1e8;                                      ///< a run with more fails (event_budget)
-  double periods = std::numeric_limits<double>::infinity();  ///< forcing periods, for the report of progress
 };
 
 /// The parts common to all integrators: the scene's constants and clock, the work spent so far, and its limits.

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <cstddef>
 
+#include "sweep/sweep.hpp"
+
 namespace clatter::sweep {
 namespace {
 

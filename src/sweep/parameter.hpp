@@ -3,8 +3,7 @@
 #include <optional>
 #include <string_view>
 
-#include "point/problem.hpp"
-#include "sweep/scaling.hpp"
+#include "model/quantity.hpp"
 
 namespace clatter::sweep {
 
@@ -47,14 +46,6 @@ enum class Parameter {
 
 /// The parameter of a key; empty if no parameter has that name.
 [[nodiscard]] std::optional<Parameter> parameter_of(std::string_view key);
-
-/// Sets a parameter of the scene. `xs` and `gap` set both stops to -|xs| and +|xs|, `R` both restitutions,
-/// `stop_stiffness` and `stop_damping` those of both stops; `start_period` sets x0 and v0 from the lower stop, v0 =
-/// |xs| cot(start_period / 4) (eq. 36), so it is set after the stops.
-void set(point::Problem& scene, Parameter parameter, double value);
-
-/// Sets a parameter of a machine; returns false if it isn't one of mass, spring, damper and force.
-[[nodiscard]] bool set(Machine& machine, Parameter parameter, double value);
 
 /// The quantity that a parameter of [machine] is.
 [[nodiscard]] Quantity quantity_of(Parameter parameter);

@@ -13,6 +13,14 @@
 
 namespace clatter::sweep {
 
+/// Sets a parameter of the scene. `xs` and `gap` set both stops to -|xs| and +|xs|, `R` both restitutions,
+/// `stop_stiffness` and `stop_damping` those of both stops; `start_period` sets x0 and v0 from the lower stop, v0 =
+/// |xs| cot(start_period / 4) (eq. 36), so it is set after the stops.
+void set(point::Problem& scene, Parameter parameter, double value);
+
+/// Sets a parameter of a machine; returns false if it isn't one of mass, spring, damper and force.
+[[nodiscard]] bool set(Machine& machine, Parameter parameter, double value);
+
 /// One swept parameter and its values.
 struct Axis {
   Parameter parameter = Parameter::nu;

@@ -6,6 +6,7 @@
 
 #include "branches/branch_dataset.hpp"
 #include "branches/measures.hpp"
+#include "branches/moving.hpp"
 #include "branches/newton.hpp"
 #include "branches/special_values.hpp"
 #include "point/point.hpp"
@@ -71,9 +72,9 @@ TEST(Branch, has_only_motion_between_the_stops) {
   for (const BranchPoint& point : found.points) {
     if (std::ranges::any_of(point.orbit.impacts, [](const OrbitImpact& i) { return std::abs(i.before) < 1e-6; }))
       continue;
-    const observables::Extrema range = extrema(point.scene, point.orbit);
-    EXPECT_LE(range.displacement({}).high, 0.5 * (1 + 1e-9)) << point.arclength;
-    EXPECT_GE(range.displacement({}).low, -0.5 * (1 + 1e-9)) << point.arclength;
+    const observables::Extrema::Values range = extrema(point.scene, point.orbit);
+    EXPECT_LE(range.x_max, 0.5 * (1 + 1e-9)) << point.arclength;
+    EXPECT_GE(range.x_min, -0.5 * (1 + 1e-9)) << point.arclength;
   }
 }
 
@@ -167,9 +168,9 @@ TEST(Branch, measures_are_the_observables_of_a_run) {
   const Vector z = equations.unknowns_of(problem, orbit), still(z.size(), 0.0);
   EXPECT_NEAR(impact_power(moving(equations, z, still)).value, run.impact_power, 1e-12);
   EXPECT_NEAR(harmonic(moving(equations, z, still)).value, run.x_spectrum.amplitude[1], 1e-12);
-  const observables::Extrema range = extrema(problem, orbit);
-  EXPECT_NEAR(range.displacement(problem.stops).high, run.x_max, 1e-12);
-  EXPECT_NEAR(range.velocity().high, run.v_max, 1e-11);
+  const observables::Extrema::Values range = extrema(problem, orbit);
+  EXPECT_NEAR(range.x_max, run.x_max, 1e-12);
+  EXPECT_NEAR(range.v_max, run.v_max, 1e-11);
 }
 
 /// A load, or one stop that moves, takes the symmetry away: no half of a motion stands for the other then.

@@ -6,6 +6,7 @@
 
 #include "branches/branch.hpp"
 #include "branches/measures.hpp"
+#include "branches/moving.hpp"
 #include "branches/special_values.hpp"
 #include "branches/symmetric_motion.hpp"
 #include "point/point.hpp"
@@ -44,9 +45,9 @@ TEST(RestingOrbit, is_the_motion_of_a_run) {
     ASSERT_TRUE(orbit);
     EXPECT_EQ(orbit->word(), run.impact_word);
     EXPECT_NEAR(impact_power(problem, *orbit), run.impact_power, 1e-12);
-    const observables::Extrema range = extrema(problem, *orbit);
-    EXPECT_NEAR(range.velocity().high, run.v_max, 1e-12);
-    EXPECT_NEAR(range.displacement(problem.stops).low, run.x_min, 1e-15);
+    const observables::Extrema::Values range = extrema(problem, *orbit);
+    EXPECT_NEAR(range.v_max, run.v_max, 1e-12);
+    EXPECT_NEAR(range.x_min, run.x_min, 1e-15);
     const PhasePoint state = state_at_phase_zero(problem, *orbit);
     EXPECT_NEAR(state.x, run.attractor_x, 1e-12);
     EXPECT_NEAR(state.v, run.attractor_v, 1e-12);

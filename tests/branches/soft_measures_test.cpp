@@ -9,6 +9,7 @@
 #include "branches/branch.hpp"
 #include "branches/bumpers.hpp"
 #include "branches/measures.hpp"
+#include "branches/moving.hpp"
 #include "branches/newton.hpp"
 #include "point/point.hpp"
 #include "support/soft_scene.hpp"

@@ -9,6 +9,7 @@
 #include "attractors/exact_run.hpp"
 #include "branches/branch.hpp"
 #include "branches/measures.hpp"
+#include "branches/moving.hpp"
 #include "branches/resting.hpp"
 #include "branches/special_values.hpp"
 #include "support/soft_scene.hpp"

@@ -43,6 +43,54 @@ KNOWN_TO = {  # library header: the only rooms that see it
     r"boost/random": {"config"},
     r"xsimd": {"lanes"},
 }
+HEAVY = {  # what takes seconds to compile: the only files that it reaches through headers, too
+    r"boost/multiprecision": {"src/accuracy/run_record.cpp"},
+    r"boost/numeric/odeint": {"src/point/dormand_prince_points.cpp"},
+    r"boost/math": {
+        "src/branches/resting.cpp",
+        "src/branches/resting_branch.cpp",
+        "src/branches/walk.cpp",
+        "src/observables/bracketed_root.cpp",
+        "src/observables/quadrature.cpp",
+        "src/sweep/attractor_table.cpp",
+    },
+    r"boost/random": {"src/config/axis_functions.cpp"},
+    r"boost/program_options": {"src/config/ini_reader.cpp", "apps/clatter/command_line.cpp"},
+    r"toml": {"src/config/toml_reader.cpp"},
+    r"fftw3": {"src/observables/fourier_transform.cpp"},
+    r"xsimd": {
+        "src/lanes/step_block.cpp",
+        "src/lanes/step_cushioned_block.cpp",
+        "src/lanes/step_unsprung_block.cpp",
+    },
+    r"stepping/exact\.hpp": {
+        "src/accuracy/run_record.cpp",
+        "src/lanes/block_scheduler.cpp",
+        "src/lanes/observe_task.cpp",
+        "src/lanes/run_in_lanes.cpp",
+        "src/lanes/scalar_fallback.cpp",
+        "src/lanes/scheduler.cpp",
+        "src/lanes/settle_task.cpp",
+        "src/point/dormand_prince_points.cpp",
+        "src/point/exact_motion.cpp",
+        "src/point/exact_points_any_stiffness.cpp",
+        "src/point/exact_points_forced.cpp",
+        "src/point/exact_points_free.cpp",
+        "src/point/exact_points_soft_stops.cpp",
+        "src/point/moreau_points.cpp",
+        "src/point/point.cpp",
+        "src/sweep/worker_pool.cpp",
+    },
+    r"observables/all_observers\.hpp": {
+        "src/lanes/observe_task.cpp",
+        "src/point/dormand_prince_points.cpp",
+        "src/point/exact_points_any_stiffness.cpp",
+        "src/point/exact_points_forced.cpp",
+        "src/point/exact_points_free.cpp",
+        "src/point/exact_points_soft_stops.cpp",
+        "src/point/moreau_points.cpp",
+    },
+}
 WORDS_OF_ALL = {"math", "model"}  # their namespaces are inline: every room says Scene, Effects, pi without their name
 
 
@@ -61,15 +109,42 @@ def sources(root):
         yield path, "apps" if parts[0] == "apps" else parts[1]
 
 
+def includes(path):
+    """The includes of a file: number of the line, opening quote or bracket, and what is included."""
+    for number, line in enumerate(path.read_text(encoding="utf-8").splitlines(), 1):
+        if include := re.match(r'\s*#\s*include\s*(["<])([^">]+)', line):
+            yield number, include
+
+
+def reached(root):
+    """For each .cpp file below `root`, by its path from there, all that it includes, through headers too."""
+    direct = {path: {include[2] for _, include in includes(path)} for path, _ in sources(root)}
+
+    def add(path, found):
+        for name in direct.get(path, set()) - found:
+            found.add(name)
+            for folder in (root / "src", path.parent):
+                add(folder / name, found)
+        return found
+
+    return {str(path.relative_to(root)): add(path, set()) for path in direct if path.suffix == ".cpp"}
+
+
+def heavy_files(root):
+    """For each pattern of `HEAVY`, the files that reach what it matches."""
+    of_file = reached(root)
+    return {
+        heavy: {file for file, names in of_file.items() if any(re.match(heavy, name) for name in names)}
+        for heavy in HEAVY
+    }
+
+
 def wrong_includes(root):
     """Every include against the arrows below `root`, as 'file:line: include'."""
     wrong = []
     for path, room in sources(root):
         permitted = below(room) | {room}
-        for number, line in enumerate(path.read_text(encoding="utf-8").splitlines(), 1):
-            include = re.match(r'\s*#\s*include\s*(["<])([^">]+)', line)
-            if not include:
-                continue
+        for number, include in includes(path):
             target = include[2].split("/")[0]
             against = include[1] == '"' and target in NEXT and target not in permitted
             foreign = any(re.match(library, include[2]) and room not in seen for library, seen in KNOWN_TO.items())
@@ -109,6 +184,11 @@ class Arrows(unittest.TestCase):
     def test_no_include_points_against_the_arrows(self):
         self.assertEqual(wrong_includes(SOURCE), [])
 
+    def test_heavy_headers_stay_in_the_files_that_need_them(self):
+        """What a header includes, a hundred files compile."""
+        for heavy, files in heavy_files(SOURCE).items():
+            self.assertEqual(files, HEAVY[heavy], heavy)
+
     def test_every_room_has_its_own_namespace(self):
         self.assertEqual(wrong_namespaces(SOURCE), [])
 
@@ -127,6 +207,9 @@ class Arrows(unittest.TestCase):
                 "src/observables/b.hpp": '#include "stepping/exact.hpp"\nnamespace clatter {\n',
                 "src/model/d.hpp": "namespace clatter {\ninline namespace model {\nnamespace clatter::math {\n",
                 "src/model/e.cpp": "namespace clatter {\ninline namespace model {\n",
+                "src/model/roots.hpp": "#include <boost/math/tools/roots.hpp>\n",
+                "src/plan/f.cpp": '#include "f.hpp"\n',
+                "src/plan/f.hpp": '#include "model/roots.hpp"\n',
                 "src/sweep/c.cpp": "#include <hdf5.h>\n#include <omp.h>\nusing namespace lanes;\nx.lane[0] = 1;\n",
             }.items():
                 (root / name).parent.mkdir(parents=True, exist_ok=True)
@@ -134,6 +217,7 @@ class Arrows(unittest.TestCase):
             self.assertEqual(
                 wrong_includes(root),
                 [
+                    "src/model/roots.hpp:1: boost/math/tools/roots.hpp",
                     "src/motion/a.hpp:2: sweep/run.hpp",
                     "src/observables/b.hpp:1: stepping/exact.hpp",
                     "src/sweep/c.cpp:1: hdf5.h",
@@ -148,6 +232,7 @@ class Arrows(unittest.TestCase):
                 ],
             )
             self.assertEqual(touched_lanes(root), ["src/sweep/c.cpp:4"])
+            self.assertEqual(heavy_files(root)["boost/math"], {"src/plan/f.cpp"})
 
 
 if __name__ == "__main__":

@@ -1,5 +1,6 @@
 """Building depends on more than the sources: the folder that they are in, and the origin of the commit."""
 
+import json
 import os
 import re
 import shutil
@@ -31,6 +32,12 @@ def libraries(build):
     return statement[1].split()
 
 
+def shared_symbols(objects):
+    """The functions of the project in an object file that other files may have, too: templates and inline ones."""
+    table = run("nm", "--defined-only", "--demangle", objects)
+    return set(re.findall(r"^\S+ [WV] (.*clatter::.*)$", table, re.MULTILINE))
+
+
 class Build(unittest.TestCase):
     def setUp(self):
         folder = tempfile.TemporaryDirectory()
@@ -56,6 +63,25 @@ class Build(unittest.TestCase):
         version = (build / "src" / "results" / "version.cpp").read_text()
         self.assertRegex(version, r'git_commit\(\) { return "(unknown|[0-9a-f]{40})"; }')
         self.assertEqual(libraries(build), libraries(CLATTER.parents[2]))
+
+    def test_code_compiled_for_size_of_build_shares_no_template_with_other_code(self):
+        """Of two copies of a template the linker keeps one, perhaps the one with fewer optimisations."""
+        build = CLATTER.parents[2]
+        less, others = set(), {}
+        for entry in json.loads((build / "compile_commands.json").read_text(encoding="utf-8")):
+            path = Path(entry["file"])
+            if path.is_relative_to(SOURCE / "src") and "/lanes/" not in entry["file"]:
+                words = entry["command"].split()
+                kept = [word for word in words if re.fullmatch(r"-O\d", word)]
+                symbols = shared_symbols(build / words[words.index("-o") + 1])
+                if kept[-1:] == ["-O1"]:
+                    less |= symbols
+                elif path.parent.name != "branches":
+                    others[path.name] = symbols
+        if "CMAKE_BUILD_TYPE:STRING=Release" in (build / "CMakeCache.txt").read_text(encoding="utf-8"):
+            self.assertTrue(less)  # else all is compiled alike
+        self.assertGreater(len(others), 50)
+        self.assertEqual({name: less & symbols for name, symbols in others.items() if less & symbols}, {})
 
     @unittest.skipUnless(shutil.which("git"), "there is no git here")
     def test_the_commit_is_that_of_git_or_of_the_archive(self):

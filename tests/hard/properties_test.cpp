@@ -14,7 +14,7 @@
 #include "hard/soft_rescan.hpp"
 #include "hard/tally.hpp"
 #include "motion/tangent_map.hpp"
-#include "observables/extrema.hpp"
+#include "observables/extrema_observer.hpp"
 #include "observables/samples.hpp"
 
 namespace clatter::hard {
@@ -96,7 +96,7 @@ struct Told : ToldPlaces {
     extrema.impact(impact), samples.impact(impact), ToldPlaces::impact(impact);
   }
 
-  observables::Extrema extrema;
+  observables::Extrema::Observer extrema;
   observables::Samples samples;
 };
 

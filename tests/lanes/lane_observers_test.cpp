@@ -8,8 +8,8 @@
 #include <optional>
 
 #include "lanes/lane_run.hpp"
-#include "observables/extrema.hpp"
-#include "observables/impacts.hpp"
+#include "observables/extrema_observer.hpp"
+#include "observables/impacts_observer.hpp"
 #include "support/deviation.hpp"
 #include "support/random.hpp"
 
@@ -28,14 +28,14 @@ point::Problem watched_scene(std::uint64_t index) {
 
 /// Extrema and impacts up to a number of forcing periods.
 struct Seen {
-  observables::Extrema::Range x, v;
+  observables::Range x, v;
   std::array<observables::Impacts::OfStop, 2> stops;
 };
 
 /// Two observers of one run.
 struct Both {
-  observables::Extrema extrema;
-  observables::Impacts impacts;
+  observables::Extrema::Observer extrema;
+  observables::Impacts::Observer impacts;
 
   template <class A>
   void arc(const A& arc, double begin, double length) {

@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "point/problem.hpp"
-#include "steady/section_observer.hpp"
+#include "steady/passage_observer.hpp"
 #include "stepping/exact.hpp"
 #include "stepping/run.hpp"
 
@@ -26,7 +26,7 @@ struct Run {
 template <Effects effects>
 std::optional<Run> run(const point::Problem& scene, State<double> state, double turns) {
   stepping::Exact<double, effects> integrator(scene);
-  steady::SectionObserver watch(scene.stops);
+  steady::PassageObserver watch(scene.stops);
   watch.differentiate();
   if (run_for(integrator, state, turns, watch) != stepping::Outcome::completed) return std::nullopt;
   return Run{watch.passage().itinerary, state, watch.derivative()};

@@ -1,4 +1,4 @@
-#include "observables/extrema.hpp"
+#include "observables/extrema_observer.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@ namespace {
 
 TEST(Extrema, without_impact_they_are_the_amplitude_of_the_forced_response) {
   for (double nu : {0.2, 0.98, 1.0, 1.4, 7.0}) {  // check 3: |x| -> |f|/sqrt(D)
-    Extrema extrema;
+    Extrema::Observer extrema;
     observe(paper_scene(20.0, 0.7, nu), [&](double, auto run) { run(extrema); });
     const double D = std::pow(1 - nu * nu, 2) + std::pow(0.2 * nu, 2), amplitude = 1 / std::sqrt(D);
     const auto x = extrema.displacement({-20, 20, 1, 1}), v = extrema.velocity();
@@ -22,7 +22,7 @@ TEST(Extrema, without_impact_they_are_the_amplitude_of_the_forced_response) {
 
 /// Extrema of what is sampled densely.
 struct Scan {
-  Extrema::Range x{}, v{};
+  Range x{}, v{};
   int hits = 0;
 
   template <class A>
@@ -45,7 +45,7 @@ TEST(Extrema, are_never_passed_by_a_dense_scan_and_never_far_from_it) {
       scene.stops.upper = std::numeric_limits<double>::infinity();
       scene.time.mode = steady::Mode::transient;
       scene.time.duration = 60.0;
-      Extrema extrema;
+      Extrema::Observer extrema;
       Scan scan;
       observe(scene, [&](double, auto run) { run(extrema, scan); });
       const auto x = extrema.displacement(scene.stops), v = extrema.velocity();
@@ -71,7 +71,7 @@ TEST(Extrema, of_a_long_arc_are_found_among_thousands_of_its_oscillations) {
   scene.start.velocity = 0.5;
   scene.time.mode = steady::Mode::transient;
   scene.time.duration = 2 * 3.141592653589793 / 1e-4;
-  Extrema extrema;
+  Extrema::Observer extrema;
   observe(scene, [&](double, auto run) { run(extrema); });
   const double f = 1 / (1 - 1e-8), free = 0.5 - f * 1e-4;  // x = f sin(nu tau) + free sin(tau)
   // within half a turn of the force's peak the two are in step: sin falls short of 1 there by (pi nu)^2/2 at the most
@@ -85,7 +85,7 @@ TEST(Extrema, of_heavily_damped_and_slow_motion_are_exact) {
   point::Problem scene;
   scene.oscillator = {1e3, 1.0, 1e-3, 0.1};
   scene.time.tolerance = 1e-13;
-  Extrema extrema;
+  Extrema::Observer extrema;
   observe(scene, [&](double, auto run) { run(extrema); });
   const double D = std::pow(1 - 1e-6, 2) + std::pow(2 * 1e3 * 1e-3, 2);
   EXPECT_NEAR(extrema.displacement(scene.stops).low, 0.1 - 1 / std::sqrt(D), 1e-12);

@@ -80,11 +80,12 @@ TEST(Word, has_one_sign_for_impacts_that_end_in_rest_wherever_the_period_begins)
 }
 
 TEST(Word, of_many_impacts_is_cut_but_their_number_is_not) {
-  const std::string all = std::string(70, 'L') + 'U';
-  EXPECT_EQ(word(all), std::string(64, 'L') + "…");
+  const auto then = [](std::string word, std::string_view end) { return word.append(end); };
+  const std::string all = then(std::string(70, 'L'), "U"), longest = then(std::string(63, 'L'), "U");
+  EXPECT_EQ(word(all), then(std::string(64, 'L'), "…"));
   EXPECT_EQ(regime(all, 3), "70/3");
-  EXPECT_EQ(word(std::string(63, 'L') + 'U'), std::string(63, 'L') + 'U');
-  EXPECT_EQ(word("LLl" + std::string(63, 'U')), "L*" + std::string(62, 'U') + "…");
+  EXPECT_EQ(word(longest), longest);
+  EXPECT_EQ(word(then("LLl", std::string(63, 'U'))), then(then("L*", std::string(62, 'U')), "…"));
 }
 
 TEST(Word, of_simulated_motion_is_that_of_its_impacts) {

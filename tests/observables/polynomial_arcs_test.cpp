@@ -8,11 +8,11 @@
 #include <numbers>
 #include <optional>
 
-#include "observables/extrema.hpp"
-#include "observables/harmonics.hpp"
+#include "observables/exact_harmonics.hpp"
+#include "observables/extrema_observer.hpp"
 #include "observables/runs.hpp"
 #include "observables/samples.hpp"
-#include "observables/stability.hpp"
+#include "observables/stability_observer.hpp"
 #include "stepping/dormand_prince.hpp"
 #include "support/random.hpp"
 
@@ -55,7 +55,7 @@ TEST(PolynomialArcs, extrema_inside_a_step_are_found_to_rounding) {
     const auto offset = by_powers({top - bend * u * u, 2 * bend * u, -bend}),
                velocity = by_powers({bend * u * u - top, -2 * bend * u, bend});
     const motion::PolynomialArc<effects> arc(constants, anchor, 0.0, length, offset, velocity);
-    Extrema extrema;
+    Extrema::Observer extrema;
     extrema.arc(arc, 0.0, length);
     // a coefficient's rounding, and what is left undecided
     const double allowed = 8 * ulp * (std::abs(top) + std::abs(anchor) + bend);
@@ -70,7 +70,7 @@ TEST(PolynomialArcs, extrema_after_the_end_of_a_cut_step_do_not_count) {
   // rise 1 - (u - 3/4)^2, cut at 1/2 and at 7/8
   const auto offset = by_powers({7.0 / 16, 1.5, -1});
   const motion::PolynomialArc<effects> arc(constants, 0.0, 0.0, 2.0, offset, by_powers({0, 1}));
-  Extrema before, behind;
+  Extrema::Observer before, behind;
   before.arc(arc, 0.0, 1.0);
   behind.arc(arc, 0.0, 1.75);
   EXPECT_NEAR(before.displacement(no_stops).high, 15.0 / 16, 4 * ulp);
@@ -84,9 +84,9 @@ TEST(PolynomialArcs, extrema_of_any_polynomial_are_never_passed_and_always_reach
     support::Random random(42, i);
     const motion::PolynomialArc<effects> arc(constants, 0.0, 0.0, 1.0, any_polynomial(random), any_polynomial(random));
     const double length = random.uniform(0.1, 1);
-    Extrema extrema;
+    Extrema::Observer extrema;
     extrema.arc(arc, 0.0, length);
-    Extrema::Range x, v;
+    Range x, v;
     constexpr int count = 2000;
     for (int k = 0; k <= count; ++k) x.include(arc.at(length * k / count).x), v.include(arc.at(length * k / count).v);
     const double missed = 30.0 * 4 / (8.0 * count * count);  // |y''| <= 6*5 times a second difference, of up to 4
@@ -183,7 +183,7 @@ TEST(PolynomialArcs, multipliers_are_those_of_the_closed_form) {
   for (const double tolerance : {1e-6, 1e-9, 1e-12}) {
     const point::Problem scene = with_tolerance(paper_scene(0.5, 0.7, 1.0), tolerance);
     stepping::DormandPrince<general_effects({.damping = 0.1})> integrator(scene, scene.integration, limits_of(scene));
-    Stability stability(scene.stops, 64 * epsilon<double>());
+    Stability::Observer stability(scene.stops, 64 * epsilon<double>());
     observe_by(integrator, scene, [&](double total, auto run) {
       run(stability);
       stability.finish_period(total, false);
@@ -199,7 +199,7 @@ TEST(PolynomialArcs, multipliers_are_those_of_the_closed_form) {
 TEST(PolynomialArcs, extrema_and_harmonics_come_as_near_to_the_exact_ones_as_the_motion) {
   const point::Problem scene = paper_scene(0.6, 0.8, 1.3);
   std::optional<ExactHarmonics> expected;
-  Extrema exact;
+  Extrema::Observer exact;
   observe(scene, [&](double total, auto run) {
     expected.emplace(5, 1.3);
     expected->finish(run(*expected, exact).x, total);
@@ -208,7 +208,7 @@ TEST(PolynomialArcs, extrema_and_harmonics_come_as_near_to_the_exact_ones_as_the
     stepping::DormandPrince<general_effects({.damping = 0.1})> integrator(scene,
                                                                           with_tolerance(scene, tolerance).integration);
     std::optional<ExactHarmonics> harmonics;
-    Extrema extrema;
+    Extrema::Observer extrema;
     observe_by(integrator, scene, [&](double total, auto run) {
       harmonics.emplace(5, 1.3);
       harmonics->finish(run(*harmonics, extrema).x, total);

@@ -1,4 +1,4 @@
-#include "observables/stability.hpp"
+#include "observables/stability_observer.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "math/fifty_digits.hpp"
-#include "observables/impacts.hpp"
+#include "observables/impacts_observer.hpp"
 #include "observables/runs.hpp"
 
 namespace clatter::observables {
@@ -17,13 +17,13 @@ constexpr double infinity = std::numeric_limits<double>::infinity(), ulp = std::
 
 /// The stability of a scene's periodic motion, and what it rests on.
 struct Judged {
-  Stability stability;
-  Impacts impacts{};
+  Stability::Observer stability;
+  Impacts::Observer impacts{};
   double total = 0.0;
 };
 
 Judged judged(const point::Problem& scene, bool autonomous = false) {
-  Judged result{Stability(scene.stops, 64 * ulp)};
+  Judged result{Stability::Observer(scene.stops, 64 * ulp)};
   result.total = observe(scene, [&](double total, auto&& run) {
     run(result.stability, result.impacts);
     result.stability.finish_period(total, autonomous);
@@ -166,7 +166,7 @@ TEST(Stability, of_chaos_is_the_growth_of_the_distance_of_neighbouring_runs) {
   motion::State<double> start = chaos.after({}, 300, nobody);
   start.periods = 0;
   for (const int periods : {1, 10, 40}) {
-    Stability stability(paper_scene(3.0, 0.7, 0.95).stops, 64 * ulp);
+    Stability::Observer stability(paper_scene(3.0, 0.7, 0.95).stops, 64 * ulp);
     (void)chaos.after(start, periods, stability);
     stability.finish_window(chaos.length(periods));
     Chaos<FiftyDigits> exact;
@@ -192,11 +192,11 @@ TEST(Stability, of_chaos_is_positive_and_overflows_in_no_number_of_periods) {
   stepping::NoObserver nobody;
   motion::State<double> state = chaos.after({}, 300, nobody);
   std::vector<double> exponents;
-  Stability whole(paper_scene(3.0, 0.7, 0.95).stops, 64 * ulp);
+  Stability::Observer whole(paper_scene(3.0, 0.7, 0.95).stops, 64 * ulp);
   constexpr int pieces = 10, periods = 1000;
   for (int i = 0; i < pieces; ++i) {
-    Stability piece(paper_scene(3.0, 0.7, 0.95).stops, 64 * ulp);
-    Both<Stability, Stability> both{{whole, piece}};
+    Stability::Observer piece(paper_scene(3.0, 0.7, 0.95).stops, 64 * ulp);
+    Both<Stability::Observer, Stability::Observer> both{{whole, piece}};
     state = chaos.after(state, periods, both);
     piece.finish_window(chaos.length(periods));
     exponents.push_back(piece.lyapunov());
@@ -217,7 +217,7 @@ TEST(Stability, of_chaos_is_positive_and_overflows_in_no_number_of_periods) {
 TEST(Stability, of_a_fading_motion_underflows_in_no_number_of_periods) {
   stepping::Exact<double, effect_sets::free_of_stops(Damping::light, Forcing::regular)> integrator(
       linear_scene(0.1, 0.8));
-  Stability stability({}, 64 * ulp);
+  Stability::Observer stability({}, 64 * ulp);
   motion::State<double> state;
   constexpr int periods = 20000;  // e^{-15708}
   ASSERT_EQ(run_for(integrator, state, double(periods), stability), stepping::Outcome::completed);

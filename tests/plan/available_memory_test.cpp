@@ -59,7 +59,9 @@ TEST_F(Groups, of_version_2_limit_by_memory_max) {
 }
 
 TEST_F(Groups, of_both_versions_count_together) {
-  mounts(std::string(version_1) + "41 31 0:38 / /sys/fs/cgroup/unified rw - cgroup2 cgroup2 rw\n");
+  std::string both = version_1;
+  both += "41 31 0:38 / /sys/fs/cgroup/unified rw - cgroup2 cgroup2 rw\n";
+  mounts(both);
   groups("4:memory:/one\n0::/two\n");
   put("sys/fs/cgroup/memory/one/memory.limit_in_bytes", "7000");
   EXPECT_EQ(least(), 7000);

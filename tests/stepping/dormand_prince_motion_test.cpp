@@ -23,7 +23,7 @@ point::Problem with_tolerance(point::Problem scene, double tolerance) {
 }
 
 steady::ObservedTime settled(const point::Problem& scene) {
-  return with_general_effects(scene.oscillator, [&]<Effects effects>() {
+  return with_general_effects(scene, [&]<Effects effects>() {
     DormandPrince<effects> integrator(scene, scene.integration, limits_of(scene));
     motion::State<double> state;
     state.x = scene.start.displacement, state.v = scene.start.velocity;
@@ -94,7 +94,7 @@ TEST(DormandPrinceMotion, at_resonance_grows_as_its_closed_form) {
 TEST(DormandPrinceMotion, between_sections_depends_on_the_state_alone) {
   // a new integrator continues from a section as the one that reached it, to the last bit, though not within a period
   for (const auto& [kind, of_kind] : every_kind())
-    with_general_effects(of_kind.oscillator, [&, name = kind, scene = of_kind]<Effects effects>() {
+    with_general_effects(of_kind, [&, name = kind, scene = of_kind]<Effects effects>() {
       DormandPrince<effects> first(scene, with_tolerance(scene, 1e-6).integration);
       motion::State<double> state;
       state.x = scene.start.displacement, state.v = scene.start.velocity;
@@ -185,7 +185,7 @@ TEST(DormandPrinceMotion, unforced_and_damped_comes_to_stand_still) {
 TEST(DormandPrinceMotion, a_step_that_ends_an_ulp_beyond_a_stop_ends_on_it) {
   // beside the stop by the rounding of position and anchor; a pressed inelastic mass rests there, and time advances
   point::Problem scene = support::scene_of({0.1, 0.0, 1.0, 2.0}, -1.0, 1.0, 0.0);
-  with_general_effects(scene.oscillator, [&]<Effects effects>() {
+  with_general_effects(scene, [&]<Effects effects>() {
     DormandPrince<effects> integrator(scene, scene.integration, limits_of(scene));
     motion::State<double> state;
     state.x = std::nextafter(1.0, 2.0), state.v = 0.5;
@@ -228,7 +228,7 @@ TEST(DormandPrinceMotion, that_overflows_is_an_outcome_and_not_a_motion) {
 TEST(DormandPrinceMotion, too_short_steps_to_advance_time_are_unresolved) {
   const point::Problem scene =
       support::scene_of({1e18, 1.0, 0.8, 0.0}, -0.5, 0.5, 0.7);  // stable only in steps below 1e-18
-  with_general_effects(scene.oscillator, [&]<Effects effects>() {
+  with_general_effects(scene, [&]<Effects effects>() {
     DormandPrince<effects> integrator(scene, scene.integration, limits_of(scene));
     motion::State<double> state;
     state.phase_turns = 0.5, state.v = 0.1;

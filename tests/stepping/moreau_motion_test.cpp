@@ -160,7 +160,7 @@ TEST(MoreauMotion, work_is_a_step_however_many_impacts_it_meets) {
 }
 
 steady::ObservedTime settled(const point::Problem& scene) {
-  return with_general_effects(scene.oscillator, [&]<Effects effects>() {
+  return with_general_effects(scene, [&]<Effects effects>() {
     Moreau<effects> integrator(scene, scene.integration, limits_of(scene));
     motion::State<double> state;
     state.x = scene.start.displacement, state.v = scene.start.velocity;
@@ -187,7 +187,7 @@ TEST(MoreauMotion, between_sections_depends_on_the_state_alone) {
   strong.start.phase = 1.0;
   for (const point::Problem& scene : {chattering, strong})
     for (const double step : {0.013, 1e-3})
-      with_general_effects(scene.oscillator, [&]<Effects effects>() {
+      with_general_effects(scene, [&]<Effects effects>() {
         Moreau<effects> first(scene, with_step(scene, step).integration);
         motion::State<double> state;
         for (int period = 0; period < 20; ++period) {

@@ -14,7 +14,7 @@ namespace clatter::support {
 /// observer; returns the final state and the work.
 template <template <Effects> class Method, class Observer>
 accuracy::RunRecord run_by(const point::Problem& scene, double duration, Observer& observer) {
-  return with_general_effects(static_cast<const Scene&>(scene), [&]<Effects effects>() {
+  return with_general_effects(scene, [&]<Effects effects>() {
     Method<effects> integrator(scene, scene.integration, limits_of(scene));
     motion::State<double> state;
     state.x = scene.start.displacement, state.v = scene.start.velocity;

@@ -1,40 +1,65 @@
 #include "support/runs.hpp"
 
-#include <type_traits>
-
 #include "accuracy/reference_effects.hpp"
 #include "math/fifty_digits.hpp"
+#include "point/exact_motion.hpp"
 
 namespace clatter::support {
 
 namespace {
 
-/// Runs for as many forcing periods as `turns_of` gives for one of them.
-template <class Number, class TurnsOf>
-Run<Number> run(const point::Problem& scene, const Number& x, const Number& v, TurnsOf&& turns_of) {
-  const auto run_with = [&]<Effects effects>() {
-    Run<Number> run;
-    stepping::Exact<Number, effects> integrator(scene, limits_of(scene));
+void record_events(const std::vector<point::MotionEvent>& events, const Stops& stops, Recorder& record) {
+  using Kind = point::MotionEvent::Kind;
+  for (const point::MotionEvent& event : events) {
+    const double position = event.side == Side::upper ? stops.upper : stops.lower;
+    if (event.kind == Kind::impact)
+      record.impact({event.time, event.side, event.velocity, event.after, position});
+    else if (event.kind == Kind::separation)
+      record.separate({event.time, event.side, event.velocity});
+    else if (event.kind == Kind::touch || event.kind == Kind::renewal)
+      record.touch({event.time, event.side, event.velocity, position, event.kind == Kind::touch});
+    else
+      record.rest({event.time, event.length, event.side, position, event.kind == Kind::rest});
+  }
+}
+
+/// The integrator that the program is compiled with, in double, for a time that `turns_of` gives from the length of a
+/// forcing period.
+template <class TurnsOf>
+Run<double> run_in(const point::Problem& scene, double x, double v, TurnsOf&& turns_of) {
+  const auto motion = point::ExactMotion::of(scene);
+  point::MotionRecorder recorder(motion->stops());
+  recorder.keep_events();
+  Run<double> run;
+  run.end.x = x, run.end.v = v;
+  run.outcome = motion->run_for(run.end, turns_of(motion->period()), recorder);
+  run.evaluations = motion->evaluations();
+  record_events(recorder.events, scene.stops, run.record);
+  return run;
+}
+template <class TurnsOf>
+Run<FiftyDigits> run_in(const point::Problem& scene, const FiftyDigits& x, const FiftyDigits& v, TurnsOf&& turns_of) {
+  return accuracy::with_every_effect(scene, [&]<Effects effects>() {
+    Run<FiftyDigits> run;
+    stepping::Exact<FiftyDigits, effects> integrator(scene, limits_of(scene));
     run.end.x = x, run.end.v = v;
     run.outcome = run_for(integrator, run.end, turns_of(integrator.period()), run.record);
     run.evaluations = integrator.evaluations();
     return run;
-  };
-  if constexpr (std::is_same_v<Number, FiftyDigits>) return accuracy::with_every_effect(scene, run_with);
-  return with_any_stops(scene, run_with);
+  });
 }
 
 }  // namespace
 
 template <class Number>
 Run<Number> run_scene(const point::Problem& scene, double duration) {
-  return run<Number>(scene, Number(scene.start.displacement), Number(scene.start.velocity),
-                     [&](const Number& period) { return Number(Number(duration) / period); });
+  return run_in(scene, Number(scene.start.displacement), Number(scene.start.velocity),
+                [&](const Number& period) { return Number(Number(duration) / period); });
 }
 
 template <class Number>
 Run<Number> run_from(const point::Problem& scene, const Number& x, const Number& v, const Number& turns) {
-  return run<Number>(scene, x, v, [&](const Number&) { return turns; });
+  return run_in(scene, x, v, [&](const Number&) { return turns; });
 }
 
 template Run<double> run_scene(const point::Problem&, double);
@@ -43,23 +68,22 @@ template Run<double> run_from(const point::Problem&, const double&, const double
 template Run<FiftyDigits> run_from(const point::Problem&, const FiftyDigits&, const FiftyDigits&, const FiftyDigits&);
 
 Steady steady_of(const point::Problem& scene) {
-  return with_any_stops(scene, [&]<Effects effects>() {
-    stepping::Exact<double, effects> integrator(scene, limits_of(scene));
-    motion::State<double> state;
-    state.x = scene.start.displacement, state.v = scene.start.velocity;
-    const steady::ObservedTime observed = find_steady(integrator, state, scene, scene.time, scene.integration);
-    Steady steady{.status = observed.status,
-                  .length = observed.turns * integrator.period(),
-                  .turns = observed.turns,
-                  .settled = observed.simulated,
-                  .found_by = observed.found_by,
-                  .from = observed.from};
-    state = observed.from;
-    if (!failed(observed.status) &&
-        run_for(integrator, state, observed.turns, steady.record) != stepping::Outcome::completed)
-      steady.status = steady::Status::unresolved;
-    return steady;
-  });
+  const auto motion = point::ExactMotion::of(scene);
+  const steady::ObservedTime observed = motion->find_steady();
+  Steady steady{.status = observed.status,
+                .length = observed.turns * motion->period(),
+                .turns = observed.turns,
+                .settled = observed.simulated,
+                .found_by = observed.found_by,
+                .from = observed.from};
+  if (failed(observed.status)) return steady;
+  point::MotionRecorder recorder(motion->stops());
+  recorder.keep_events();
+  motion::State<double> state = observed.from;
+  if (motion->run_for(state, observed.turns, recorder) != stepping::Outcome::completed)
+    steady.status = steady::Status::unresolved;
+  record_events(recorder.events, scene.stops, steady.record);
+  return steady;
 }
 
 }  // namespace clatter::support

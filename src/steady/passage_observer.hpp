@@ -3,25 +3,19 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <optional>
 
 #include "motion/tangent_map.hpp"
+#include "steady/orbit.hpp"
+#include "stepping/integration.hpp"
 
 namespace clatter::steady {
 
-/// Summary of one forcing period, from a stroboscopic section to the next.
-struct Passage {
-  std::uint64_t itinerary = 0;  ///< the same for the same contacts in the same order, 0 without contact
-  double log_area = 0.0;        ///< logarithm of the factor by which its stops shrink areas of states; -inf: a rest
-
-  /// Whether they have the same contacts; the time in contact with a damped stop may differ, and the area with it.
-  friend bool operator==(const Passage& a, const Passage& b) { return a.itinerary == b.itinerary; }
-};
-
 /// Records, for the search of a periodic motion, which stops are hit, rested on, touched and left between sections, in
 /// their order, and if asked for the derivative of the motion.
-class SectionObserver {
+class PassageObserver {
  public:
-  explicit SectionObserver(const Stops& stops)
+  explicit PassageObserver(const Stops& stops)
       : stops_(stops),
         log_lower_(2 * std::log(stops.restitution_lower)),
         log_upper_(2 * std::log(stops.restitution_upper)),
@@ -71,5 +65,22 @@ class SectionObserver {
   Passage passage_;
   bool differentiates_ = false;
 };
+
+/// The motion over n periods from a state; nothing if it fails. `advance(state)` runs it to the next section and shows
+/// it to `watch`.
+template <class Advance>
+[[nodiscard]] std::optional<Orbit> orbit_from(motion::State<double> state, std::size_t periods, PassageObserver& watch,
+                                              Advance&& advance) {
+  Orbit orbit{.periods = periods};
+  orbit.states[0] = state, orbit.derivatives[0] = {1, 0, 0, 1};
+  watch.differentiate();
+  for (std::size_t i = 1; i <= periods; ++i) {
+    watch.begin_section();
+    if (advance(state) != stepping::Outcome::completed) return std::nullopt;
+    orbit.states[i] = state, orbit.derivatives[i] = watch.derivative();
+    orbit.passages[i - 1] = watch.passage();
+  }
+  return orbit;
+}
 
 }  // namespace clatter::steady

@@ -1,0 +1,61 @@
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include "branches/equations.hpp"
+#include "branches/links.hpp"
+
+namespace clatter::branches {
+
+using namespace clatter::branches::detail;
+
+namespace {
+
+/// A number with its derivatives by phase and velocity at the beginning of a flight and by the phase at its end.
+using Three = Dual<double, 3>;
+
+std::vector<Link<double>> links_of(const ShakenScene& scene, const Orbit& orbit) {
+  return with_arcs(scene, [&]<Effects E>() {
+    const Flights<Three, E> flights{Parameters<Three>(scene)};
+    std::vector<Link<double>> links;
+    for (std::size_t i = 0; i < orbit.size(); ++i) {
+      const FlightEnd<Three> end = flights.fly(flight_of<Three>(orbit, i));
+      links.push_back(link_of(end.beyond.slope, end.velocity.slope, last_is_mirrored(orbit, i)));
+    }
+    return links;
+  });
+}
+
+}  // namespace
+
+ImpactMap event_map(const ShakenScene& scene, const Orbit& orbit) {
+  return map_of(links_of(scene, orbit), determinant_of(Parameters<double>(scene), orbit));
+}
+
+Vector direction_of_daughter(const ShakenScene& scene, const Orbit& orbit, const Orbit& daughter, double speed_unit) {
+  const ImpactMap map = event_map(scene, orbit);
+  const auto& m = map.numerator;
+  const double c = map.denominator;
+  std::array<double, 2> vector{-m[0][1], m[0][0] + c};  // of (M + 1) v = 0, by the larger row
+  if (std::hypot(m[1][0], m[1][1] + c) > std::hypot(m[0][1], m[0][0] + c)) vector = {m[1][1] + c, -m[1][0]};
+  Vector direction;
+  for (const auto& [phase, before] : spread(scene, daughter, vector))
+    direction.push_back(phase), direction.push_back(before / speed_unit);
+  direction.push_back(0.0);
+  const double length = std::sqrt(product(direction, direction));
+  for (double& x : direction) x /= length;
+  return direction;
+}
+
+std::vector<std::array<double, 2>> spread(const ShakenScene& scene, const Orbit& orbit, std::array<double, 2> change) {
+  std::vector<std::array<double, 2>> changes{change};
+  for (const Link<double>& link : links_of(scene, orbit)) {
+    const auto& k = link.numerator;
+    const auto& [a, b] = changes.back();
+    changes.push_back({(k[0][0] * a + k[0][1] * b) / link.denominator, (k[1][0] * a + k[1][1] * b) / link.denominator});
+  }
+  changes.pop_back();
+  return changes;
+}
+
+}  // namespace clatter::branches

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <cmath>
+#include <vector>
+
+#include "branches/equations.hpp"
+#include "math/dual.hpp"
+
+namespace clatter::branches {
+
+/// A scene's parameters and an orbit's impacts with their derivatives along a branch.
+using Along = Dual<double, 1>;
+struct Moving {
+  ShakenScene scene;
+  Parameters<Along> p;
+  struct Impact {
+    Side side;
+    Along phase, before;
+    bool rests;  ///< the next contact is a rest: this impact and those that follow lose all
+    Event event = Event::impact;
+  };
+  std::vector<Impact> impacts;
+  Along period;               ///< of the impacts as they are kept, in tau
+  Side pressed = Side::none;  ///< of motion without events: the soft stop that it is always in contact with
+  bool soft = false;          ///< whether it meets soft stops
+  bool stiffness_varies = false;
+};
+/// Along a tangent of equations.
+[[nodiscard]] Moving moving(const OrbitEquations& equations, const Vector& point, const Vector& tangent);
+/// Along a parameter, for a motion that rests: its impacts follow from the release. Those of a chatter that ends in
+/// rest don't move.
+[[nodiscard]] Moving moving_from_release(const ShakenScene& scene, const Orbit& orbit, sweep::Parameter parameter);
+
+/// Whether a quantity changes by more than rounding. The impact speed of a bouncing ball doesn't: gravity alone gives
+/// it.
+[[nodiscard]] inline bool changes(const Along& measure) {
+  return std::abs(measure.slope[0]) > 1e-11 * std::abs(measure.value);
+}
+
+/// Quantities that have maxima along a branch: speed of the fastest impact, energy lost in impacts per tau, and
+/// amplitude of the harmonic of x at the forcing frequency (eq. 28; of motion that doesn't rest).
+[[nodiscard]] Along impact_speed(const Moving& moving);
+[[nodiscard]] Along impact_power(const Moving& moving);
+[[nodiscard]] Along harmonic(const Moving& moving);
+
+/// Energy lost in an impact, per unit mass.
+template <class Number>
+[[nodiscard]] Number lost(const Number& R, const Number& before, bool rests) {
+  return rests ? Number(before * before / 2) : Number((1 - R) * (1 + R) * before * before / 2);
+}
+/// The same on soft stops, in one repetition of a motion.
+[[nodiscard]] double loss_on_soft_stops(const ShakenScene& scene, const Orbit& orbit);
+
+}  // namespace clatter::branches

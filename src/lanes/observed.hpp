@@ -1,0 +1,20 @@
+#pragma once
+
+#include <optional>
+
+#include "motion/state.hpp"
+#include "observables/extrema_observer.hpp"
+#include "observables/impacts_observer.hpp"
+#include "observables/velocity_jumps.hpp"
+
+namespace clatter::lanes {
+
+/// What the observers of the scalar loop have seen of a lane's motion.
+struct Observed {
+  observables::Extrema::Observer extrema{};
+  observables::Impacts::Observer impacts{};
+  std::optional<motion::Impact> first{};  ///< impact
+  observables::VelocityJumps jumps;
+};
+
+}  // namespace clatter::lanes

@@ -1,0 +1,16 @@
+#pragma once
+
+#include "observables/all.hpp"
+#include "observables/attractor_observer.hpp"
+#include "observables/energy_observer.hpp"
+#include "observables/extrema_observer.hpp"
+#include "observables/harmonics_observer.hpp"
+#include "observables/impact_log_observer.hpp"
+#include "observables/impact_word_observer.hpp"
+#include "observables/impacts_observer.hpp"
+#include "observables/observers.hpp"
+#include "observables/period_observer.hpp"
+#include "observables/section_observer.hpp"
+#include "observables/settling_observer.hpp"
+#include "observables/stability_observer.hpp"
+#include "observables/trajectory_observer.hpp"

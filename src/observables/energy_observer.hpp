@@ -1,0 +1,131 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+
+#include "motion/soft_stop.hpp"
+#include "motion/state.hpp"
+#include "observables/energy.hpp"
+#include "observables/quadrature.hpp"
+
+namespace clatter::observables {
+
+class Energy::Observer {
+ public:
+  Observer(const Settings&, const ObservedSpan& span)
+      : oscillator_(span.scene.oscillator), stops_(span.scene.stops), phase_(span.scene.start.phase) {}
+
+  template <class A>
+  void arc(const A& arc, double, double length) {
+    const motion::Motion<double>& first = arc.start();
+    begin(first.x, first.v);
+    if (!(length > 0)) return;
+    rebound_ = 0;
+    integrate(arc, length);
+  }
+  void rest(const motion::Rest& rest) {
+    begin(rest.position, 0.0);
+    const std::size_t stop = index_of(rest.side);
+    // a chatter that is completed takes the energy of its last rebound, and gives the momentum of it back to the mass
+    impulse_[stop] += pressing(rest) - std::abs(rebound_);
+    loss_impact_[stop] += rebound_ * rebound_ / 2;
+    rebound_ = 0;
+  }
+  void impact(const motion::Impact& impact) {
+    begin(impact.position, impact.before);
+    const std::size_t stop = index_of(impact.side);
+    loss_impact_[stop] += (impact.before - impact.after) * (impact.before + impact.after) / 2;
+    impulse_[stop] += std::abs(impact.after - impact.before);
+    rebound_ = impact.after;
+  }
+
+  [[nodiscard]] Values finish(const ObservedSpan& span, double x, double v) {
+    begin(x, v);
+    Values values{.work_in = force_work_ + oscillator_.load * (x - x_begin_), .loss_damping = loss_damping_};
+    values.loss_impact = loss_impact_, values.impulse = impulse_;
+    const double lost = loss_impact_[0] + loss_impact_[1];
+    const double k = oscillator_.stiffness, stored = stored_at(x) - stored_at(x_begin_),
+                 growth = ((v - v_begin_) * (v + v_begin_) + k * (x - x_begin_) * (x + x_begin_)) / 2 + stored;
+    values.energy_residual = values.work_in - loss_damping_ - lost - growth;
+    values.impact_power = lost / span.total;
+    return values;
+  }
+  [[nodiscard]] double evaluations() const { return evaluations_; }  ///< of arcs
+
+ private:
+  /// The state in which the observed time begins: the first that is seen.
+  void begin(double x, double v) {
+    if (!has_begun_) x_begin_ = x, v_begin_ = v, has_begun_ = true;
+  }
+
+  /// Over an arc, by panels in which neither v^2 nor v sin(theta) turns by more than a few radians.
+  template <class A>
+  void integrate(const A& arc, double length) {
+    const auto& constants = arc.constants();
+    const auto panels = static_cast<std::size_t>(std::ceil(length * constants.rate / 2));
+    double work = 0, squares = 0, impulse = 0;
+    const auto* stop = soft_stop_of(arc);
+    over_panels<20>(length, panels, [&](double s, double weight) {
+      const motion::Motion<double> m = arc.at(s);
+      work += weight * m.v * m.sine, squares += weight * m.v * m.v;
+      if (stop != nullptr) impulse += weight * stop->force(stop->into(m.offset), stop->into(m.v));
+    });
+    force_work_ += constants.f * work;
+    if (stop != nullptr) {
+      loss_damping_ += 2 * oscillator_.damping * squares;
+      loss_impact_[index_of(stop->side)] += 2 * stop->damping * squares;
+      impulse_[index_of(stop->side)] += impulse;
+    } else {
+      loss_damping_ += 2 * constants.h * squares;
+      if (is_soft_) lose_stored(arc.start().x, arc.at(length).x);
+    }
+    evaluations_ += 20 * static_cast<double>(panels);
+  }
+
+  /// The soft stop that an arc is in contact with, or nullptr.
+  template <class A>
+  [[nodiscard]] static const motion::SoftStop<double>* soft_stop_of(const A& arc) {
+    if constexpr (A::effects.stiffness)
+      if (arc.constants().stop.side != Side::none) return &arc.constants().stop;
+    return nullptr;
+  }
+  /// Energy of the spring of a soft stop at a displacement beyond it.
+  [[nodiscard]] double stored_at(double x, Side side) const {
+    if (!is_soft(stops_, side)) return 0.0;
+    const auto stop = motion::soft_stop_at<double>(stops_, side);
+    const double depth = std::max(0.0, stop.into(x - stop.position));
+    return stop.stiffness * depth * depth / 2;
+  }
+  [[nodiscard]] double stored_at(double x) const { return stored_at(x, Side::lower) + stored_at(x, Side::upper); }
+  /// A stop that the mass outruns loses the energy of its spring as it relaxes.
+  void lose_stored(double from, double to) {
+    for (const Side side : {Side::lower, Side::upper})
+      loss_impact_[index_of(side)] += stored_at(from, side) - stored_at(to, side);
+  }
+
+  /// Integral of the force that presses the mass into a stop, eq. 22, over a rest.
+  [[nodiscard]] double pressing(const motion::Rest& rest) const {
+    const Oscillator& o = oscillator_;
+    double sum = constant_force(o, rest.position) * rest.length;
+    if (o.forcing != 0) {
+      const double half = o.frequency * rest.length / 2;
+      sum += 2 * o.forcing / o.frequency * std::sin(phase_ + o.frequency * rest.time + half) * std::sin(half);
+    }
+    return sign_of(rest.side) * sum;
+  }
+
+  Oscillator oscillator_;
+  Stops stops_;
+  bool is_soft_ = has_soft_stop(stops_);
+  double phase_;  ///< of the force at the beginning, a section
+  bool has_begun_ = false;
+  double x_begin_ = 0, v_begin_ = 0;
+  double rebound_ = 0;  ///< velocity after an impact that no flight has followed yet
+  double force_work_ = 0, loss_damping_ = 0;
+  std::array<double, 2> loss_impact_{}, impulse_{};  ///< [stop]
+  double evaluations_ = 0;
+};
+
+}  // namespace clatter::observables

@@ -1,0 +1,156 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "math/bernstein.hpp"
+#include "model/response.hpp"
+#include "model/stops.hpp"
+#include "motion/polynomial_arc.hpp"
+#include "observables/absolute_arc.hpp"
+#include "observables/extrema.hpp"
+#include "observables/range_search.hpp"
+
+namespace clatter::observables {
+
+class Extrema::Observer {
+ public:
+  Observer() = default;
+  Observer(const Settings&, const ObservedSpan& span) : absolute_(span.frame ? &span : nullptr) {}
+
+  template <Effects E>
+  void arc(const motion::Arc<double, E>& arc, double begin, double length) {
+    if (!(length > 0)) return;
+    if (absolute_ == nullptr) return look_at(arc, length);
+    look_at(AbsoluteArc(arc, *absolute_->frame, absolute_->scene.stops, begin), length);
+  }
+  template <motion::Polynomial A>
+  void arc(const A& arc, double begin, double length) {
+    if (!(length > 0)) return;
+    ++evaluations_;
+    const double part = arc.length() > 0 ? length / arc.length() : 0.0;
+    Bernstein<double> offset = arc.offset(), velocity = arc.velocity();
+    offset = split_off(offset, part), velocity = split_off(velocity, part);
+    if (absolute_ != nullptr) return include_absolute(arc, begin, length, offset, velocity);
+    include_polynomial(x_, offset, arc.anchor());
+    include_polynomial(v_, velocity);
+  }
+  /// Adds ranges that were found elsewhere.
+  void include(const Range& x, const Range& v) {
+    x_.include(x.low), x_.include(x.high), v_.include(v.low), v_.include(v.high);
+  }
+  /// The ranges of the steady response to the force.
+  bool response(const ObservedSpan& span, double) {
+    const Oscillator& o = span.scene.oscillator;
+    const double amplitude =
+                     span.frame ? absolute_amplitude(*span.frame, steady_response(o)) : steady_response(o).amplitude,
+                 v = o.frequency * amplitude, middle = equilibrium_of(o);
+    include({middle - amplitude, middle + amplitude}, {-v, v});
+    return true;
+  }
+  void rest(const motion::Rest& rest) {
+    if (absolute_ != nullptr) return include_absolute(rest);
+    x_.include(rest.position), v_.include(0.0);
+  }
+  /// In the absolute frame the ends of the arcs before and after have it all.
+  void impact(const motion::Impact& impact) {
+    if (absolute_ != nullptr) return;
+    x_.include(impact.position), v_.include(impact.before), v_.include(impact.after);
+  }
+
+  /// Cut at the stops, which the end of an arc meets only to rounding, or by time stepping to the length of a step.
+  [[nodiscard]] Range displacement(const Stops& stops) const {
+    const double moved = absolute_ != nullptr ? absolute_->frame->amplitude() : 0.0;
+    return {std::max(x_.low, stops.lower - moved), std::min(x_.high, stops.upper + moved)};
+  }
+  [[nodiscard]] const Range& velocity() const { return v_; }
+  [[nodiscard]] Values finish(const ObservedSpan& span, double x, double v) {
+    if (absolute_ != nullptr) include_end(x, v);
+    const Range range = displacement(rigid_ones(span.scene.stops));
+    return {range.low, range.high, v_.low, v_.high};
+  }
+  [[nodiscard]] double evaluations() const { return evaluations_; }  ///< of arcs
+
+ private:
+  template <class A>
+  void look_at(const A& arc, double length) {
+    const auto see = [this](const motion::Motion<double>& m) { x_.include(m.x), v_.include(m.v); };
+    RangeSearch search(arc, length, see);
+    search.exceed(DisplacementOnArc{}, x_);
+    search.exceed(VelocityOnArc{}, v_);
+    evaluations_ += search.evaluations();
+  }
+
+  /// A relative state in the absolute frame.
+  void include_absolute(double x, double v, const SineCosine<double>& theta) {
+    x_.include(x + absolute_->frame->displacement(theta)), v_.include(v + absolute_->frame->velocity(theta));
+  }
+  /// At rest the mass moves with the stop: it turns back where that does. The ends of a rest belong to the arcs beside
+  /// it, too, but for the beginning and the end of the observed time.
+  void include_absolute(const motion::Rest& rest) {
+    const FrameMotion& frame = *absolute_->frame;
+    if (!(rest.time > 0.0)) include_absolute(rest.position, 0.0, frame.at(0.0));
+    for (int quarter = 0; quarter < 4; ++quarter)
+      if (frame.passes(quarter, rest.time, rest.length))
+        include_absolute(rest.position, 0.0, sine_cosine_of_turns(quarter / 4.0));
+  }
+  /// The end of the observed time, by its part of a forcing period, as a long time costs its phase digits. A mass that
+  /// nothing moves in the moving frame moves with it for ever, not only for the period that is observed.
+  void include_end(double x, double v) {
+    const FrameMotion& frame = *absolute_->frame;
+    const double part = absolute_->turns - std::floor(absolute_->turns);
+    include_absolute(x, v,
+                     frame.at(frame.is_forced() ? part * 2 * pi<double>() / frame.frequency() : absolute_->total));
+    if (!absolute_->stands_still) return;
+    for (int quarter = 0; quarter < 4; ++quarter) include_absolute(x, v, sine_cosine_of_turns(quarter / 4.0));
+  }
+  /// Polynomials, by pieces of a sixty-fourth of a radian, over which the frame is one, too, to rounding.
+  template <motion::Polynomial A>
+  void include_absolute(const A& arc, double begin, double length, Bernstein<double> offset,
+                        Bernstein<double> velocity) {
+    const FrameMotion& frame = *absolute_->frame;
+    const auto theta = [&](double s) {
+      if (!frame.is_forced()) return frame.at(begin + s);
+      const auto [sine, cosine] = arc.phase_after(s);
+      return frame.by_force(sine, cosine);
+    };
+    const double pieces = std::max(1.0, std::ceil(64 * frame.frequency() * length)), step = length / pieces;
+    SineCosine<double> left = theta(0.0);
+    for (double piece = 0; piece < pieces; ++piece) {
+      const SineCosine<double> right = theta((piece + 1) * step);
+      const double part = 1 / (pieces - piece);
+      include_polynomial(x_, sum(split_off(offset, part), frame_over<0>(step, left, right)), arc.anchor());
+      include_polynomial(v_, sum(split_off(velocity, part), frame_over<1>(step, left, right)));
+      left = right;
+    }
+  }
+  /// Displacement (order 0) or velocity (order 1) of the frame over a step.
+  template <int order>
+  [[nodiscard]] Bernstein<double> frame_over(double step, const SineCosine<double>& left,
+                                             const SineCosine<double>& right) const {
+    const auto y = [&](int derivative, const SineCosine<double>& theta) {
+      const FrameMotion& frame = *absolute_->frame;
+      const std::array values{frame.displacement(theta), frame.velocity(theta), frame.acceleration(theta),
+                              frame.jerk(theta)};
+      return values[static_cast<std::size_t>(order + derivative)];
+    };
+    return hermite(
+        HermiteData<double>::over(step, {y(0, left), y(1, left), y(2, left), y(0, right), y(1, right), y(2, right)}));
+  }
+  [[nodiscard]] static Bernstein<double> sum(Bernstein<double> a, const Bernstein<double>& b) {
+    for (std::size_t i = 0; i < a.size(); ++i) a[i] += b[i];
+    return a;
+  }
+  [[nodiscard]] static double absolute_amplitude(const FrameMotion& frame, const Response<double>& relative) {
+    const double at_zero = relative.displacement(0.0, 1.0) + frame.displacement(frame.by_force(0.0, 1.0));
+    const double at_quarter = relative.displacement(1.0, 0.0) + frame.displacement(frame.by_force(1.0, 0.0));
+    return norm(at_zero, at_quarter);
+  }
+
+  const ObservedSpan* absolute_ = nullptr;  ///< if the absolute motion is observed
+  Range x_, v_;
+  double evaluations_ = 0.0;
+};
+
+}  // namespace clatter::observables

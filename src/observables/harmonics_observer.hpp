@@ -1,0 +1,63 @@
+#pragma once
+
+#include <complex>
+#include <cstddef>
+#include <optional>
+#include <span>
+
+#include "observables/exact_harmonics.hpp"
+#include "observables/harmonics.hpp"
+#include "observables/samples.hpp"
+
+namespace clatter::observables {
+
+class Harmonics::Observer {
+ public:
+  Observer(const Settings& settings, const ObservedSpan& span) : highest_(count_of(settings) - 1) {
+    if (from_samples(settings)) {
+      const auto count = static_cast<std::size_t>(settings.harmonics_samples);
+      samples_.emplace(count, span.total / static_cast<double>(count), AtImpact::mean, span.scene.stops);
+    } else {
+      exact_.emplace(highest_, span.base_frequency);
+    }
+  }
+
+  template <class A>
+  void arc(const A& arc, double begin, double length) {
+    by([&](auto& observer) { observer.arc(arc, begin, length); });
+  }
+  void rest(const motion::Rest& rest) {
+    by([&](auto& observer) { observer.rest(rest); });
+  }
+  void impact(const motion::Impact& impact) {
+    by([&](auto& observer) { observer.impact(impact); });
+  }
+  /// Exact harmonics know the response; samples have to be taken from its course.
+  bool response(const ObservedSpan& span, double x) {
+    if (exact_) exact_->response(span.scene.oscillator, span.scene.start.phase, x, span.total);
+    return exact_.has_value();
+  }
+  /// Of the exact method: takes over all flights at once, as `ExactHarmonics::flights`.
+  void flights(const ObservedSpan& span, const PhasePoint& first, const PhasePoint& last,
+               std::span<const std::complex<double>> jumps) {
+    exact_->flights(span.scene.oscillator, span.scene.start.phase, first, last, span.total, jumps);
+  }
+
+  [[nodiscard]] Values finish(const ObservedSpan& span, double x, double v);
+  [[nodiscard]] double evaluations() const {  ///< of arcs
+    return exact_ ? exact_->evaluations() : samples_->evaluations();
+  }
+
+ private:
+  template <class Function>
+  void by(Function&& function) {
+    if (exact_) return function(*exact_);
+    function(*samples_);
+  }
+
+  std::size_t highest_;
+  std::optional<ExactHarmonics> exact_;  ///< one of the two
+  std::optional<Samples> samples_;
+};
+
+}  // namespace clatter::observables

@@ -1,0 +1,94 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+
+#include "motion/polynomial_arc.hpp"
+#include "motion/state.hpp"
+#include "observables/impacts.hpp"
+#include "observables/range_search.hpp"
+
+namespace clatter::observables {
+
+class Impacts::Observer {
+ public:
+  Observer() = default;
+  Observer(const Settings&, const ObservedSpan&) {}
+
+  template <class A>
+  void arc(const A& arc, double, double length) {
+    if constexpr (A::effects.stiffness)
+      if (arc.constants().stop.side != Side::none && length > 0) contact(arc, length);
+  }
+  void rest(const motion::Rest& rest) {
+    if (rest.held) stops_[index_of(rest.side)].rest_time += rest.length;
+  }
+  void impact(const motion::Impact& impact) {
+    OfStop& stop = stops_[index_of(impact.side)];
+    if (stop.count == 0.0) stop.before = impact.before, stop.after = impact.after;
+    stop.count += 1.0;
+  }
+  /// A contact with a soft stop counts like an impact if the mass comes from outside; its velocities are those at the
+  /// touch and where the stop's force has fallen to 0.
+  void touch(const motion::Touch& touch) {
+    if (!touch.from_outside) return;
+    OfStop& stop = stops_[index_of(touch.side)];
+    if (stop.count == 0.0) stop.before = touch.velocity;
+    stop.count += 1.0;
+  }
+  void separate(const motion::Separation& separation) {
+    OfStop& stop = stops_[index_of(separation.side)];
+    if (std::isnan(stop.after) && stop.count > 0.0) stop.after = separation.velocity;
+    if (std::isnan(stop.left_first)) stop.left_first = separation.velocity;
+  }
+  /// Takes over what was counted elsewhere, in motion that never rests.
+  void include(const std::array<OfStop, 2>& stops) { stops_ = stops; }
+  /// The response meets no stop.
+  bool response(const ObservedSpan&, double) { return true; }
+
+  [[nodiscard]] const std::array<OfStop, 2>& stops() const { return stops_; }
+
+  [[nodiscard]] Values finish(const ObservedSpan& span, double, double) const {
+    const double periods = span.counts_as_one_period() ? 1.0 : span.turns;
+    Values values;
+    for (std::size_t i = 0; i < stops_.size(); ++i) {
+      values.impacts_per_period[i] = stops_[i].count / periods;
+      values.v_before[i] = stops_[i].before, values.v_after[i] = stops_[i].after;
+      if (span.periodic && std::isnan(values.v_after[i])) values.v_after[i] = stops_[i].left_first;
+      values.rest_fraction[i] = std::min(1.0, stops_[i].rest_time / span.total);
+      values.contact_fraction[i] = std::min(1.0, (stops_[i].rest_time + stops_[i].contact_time) / span.total);
+      if (is_soft(span.scene.stops, i == 0 ? Side::lower : Side::upper))
+        values.contact_force_max[i] = std::max(0.0, stops_[i].force.high);
+    }
+    return values;
+  }
+
+ private:
+  template <Effects E>
+  void contact(const motion::Arc<double, E>& arc, double length) {
+    const motion::SoftStop<double>& of_arc = arc.constants().stop;
+    OfStop& stop = stops_[index_of(of_arc.side)];
+    stop.contact_time += length;
+    const auto see = [&](const motion::Motion<double>& m) {
+      stop.force.include(of_arc.force(of_arc.into(m.offset), of_arc.into(m.v)));
+    };
+    RangeSearch(arc, length, see).exceed(StopForceOnArc{}, stop.force);
+  }
+  template <motion::Polynomial A>
+  void contact(const A& arc, double length) {
+    const motion::SoftStop<double>& of_arc = arc.constants().stop;
+    OfStop& stop = stops_[index_of(of_arc.side)];
+    stop.contact_time += length;
+    if (!(arc.length() > 0)) return;
+    Bernstein<double> force;
+    for (std::size_t i = 0; i < force.size(); ++i)
+      force[i] = of_arc.force(of_arc.into(arc.offset()[i]), of_arc.into(arc.velocity()[i]));
+    include_polynomial(stop.force, split_off(force, length / arc.length()));
+  }
+
+  std::array<OfStop, 2> stops_{};
+};
+
+}  // namespace clatter::observables

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <cmath>
+
+#include "math/number.hpp"
+#include "motion/state.hpp"
+#include "observables/period.hpp"
+
+namespace clatter::observables {
+
+class Period::Observer {
+ public:
+  Observer(const Settings&, const ObservedSpan&) {}
+
+  template <class A>
+  void arc(const A&, double, double length) {
+    moves_ = moves_ || length > 0;
+  }
+  void rest(const motion::Rest&) {}
+  void impact(const motion::Impact& impact) {
+    if (!(first_speed_ >= 0.0)) first_speed_ = std::abs(impact.before);
+  }
+  void touch(const motion::Touch& touch) {
+    if (!(first_speed_ >= 0.0)) first_speed_ = std::abs(touch.velocity);
+  }
+  /// Takes over the speed before the first impact, NaN if there is none, of motion that isn't at rest throughout.
+  void include(double first_speed) { first_speed_ = first_speed, moves_ = true; }
+  bool response(const ObservedSpan&, double) { return include(no_value), true; }
+
+  [[nodiscard]] Values finish(const ObservedSpan& span, double, double) const {
+    Values values;
+    const Stops& stops = span.scene.stops;
+    if (stops.lower == -stops.upper) values.velocity_ratio = first_speed_ / stops.upper;
+    if (!span.periodic && !span.transient) values.period_ratio = 0.0;
+    if (!span.periodic || span.stands_still || !moves_) return values;
+    values.period = span.total;
+    const bool forced = span.scene.oscillator.forcing != 0;
+    if (forced) values.period_ratio = span.turns;
+    if (!forced) values.eigenfrequency = 2 * pi<double>() / span.total;
+    return values;
+  }
+
+ private:
+  bool moves_ = false;  ///< the mass isn't at rest throughout
+  double first_speed_ = no_value;
+};
+
+}  // namespace clatter::observables

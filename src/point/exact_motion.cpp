@@ -1,0 +1,14 @@
+#include "point/exact_motion.hpp"
+
+#include "model/required_effects.hpp"
+#include "point/exact_points.hpp"
+
+namespace clatter::point {
+
+std::unique_ptr<ExactMotion> ExactMotion::of(const Problem& problem) {
+  const Effects effects = required_effects(problem);
+  return with_effects(
+      effects, [&]<Effects E>() { return ExactPoints<E>::motion(problem, stops_in_reach(problem.stops, effects)); });
+}
+
+}  // namespace clatter::point
