@@ -64,7 +64,7 @@ class Build(unittest.TestCase):
         self.assertRegex(version, r'git_commit\(\) { return "(unknown|[0-9a-f]{40})"; }')
         self.assertEqual(libraries(build), libraries(CLATTER.parents[2]))
 
-    def test_code_compiled_for_size_of_build_shares_no_template_with_other_code(self):
+    def test_code_with_fewer_optimisations_shares_no_template_with_other_code(self):
         """Of two copies of a template the linker keeps one, perhaps the one with fewer optimisations."""
         build = CLATTER.parents[2]
         less, others = set(), {}
