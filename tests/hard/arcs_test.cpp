@@ -74,7 +74,7 @@ std::ostream& operator<<(std::ostream& out, const ArcScene& scene) {
 }
 
 TEST(Arcs, agree_with_fifty_digits_on_random_scenes) {
-  const support::SceneRange range = support::scene_range(100'000);
+  const support::SceneRange range = support::scene_range(50'000);
   double worst = 0;
   std::uint64_t worst_index = range.from;
   for (std::uint64_t index = range.from; index < range.to; ++index) {

@@ -39,7 +39,7 @@ point::Problem random_scene(std::uint64_t index) {
 class RandomScenes : public testing::TestWithParam<std::uint64_t> {};
 
 TEST_P(RandomScenes, agree_with_fifty_digits_in_every_impact_and_rest) {
-  const support::SceneRange range = support::scene_range(1000);
+  const support::SceneRange range = support::scene_range(600);
   std::size_t scenes = 0, impacts = 0, chatters = 0, rests = 0;
   double worst = 0, worst_ratio = 0;
   std::uint64_t worst_index = 0;
