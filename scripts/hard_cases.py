@@ -52,6 +52,16 @@ def measured(build):
         return parsed(lines.read_text())
 
 
+def written(path):
+    """What tests that have run have written for CLATTER_HARD_CASES: of each case the last report. It is taken away, so
+    that the next run of the tests begins anew."""
+    if not path.exists():
+        sys.exit(f"hard_cases.py: {path} is missing; the tests of the hard cases write it: ctest -R hard")
+    cases = {(case["row"], case["what"]): case for case in parsed(path.read_text())}
+    path.unlink()
+    return list(cases.values())
+
+
 def parsed(text):
     return [json.loads(line.replace(": inf", ": Infinity").replace(": nan", ": NaN")) for line in text.splitlines()]
 
@@ -169,8 +179,14 @@ def main():
         "--check", action="store_true", help="write nothing; fail if the guide's numbers are no longer true"
     )
     parser.add_argument("--cases", action="store_true", help="print every case instead")
+    parser.add_argument(
+        "--written",
+        type=pathlib.Path,
+        metavar="FILE",
+        help="take, and remove, what tests have written to the FILE that CLATTER_HARD_CASES named; run none",
+    )
     arguments = parser.parse_args()
-    cases = measured(arguments.build)
+    cases = written(arguments.written) if arguments.written else measured(arguments.build)
     if arguments.cases:
         for case in cases:
             print(

@@ -133,8 +133,8 @@ class Accuracy(AccuracyRuns):
         for line in levels[:5]:
             times = [float(ratio) for ratio in re.findall(r" [num]?s +([\d.]+)", line)]
             self.assertEqual(min(times), 1)
-        found = r"exact in lanes \(\w+\): \de-1\d at \d+ ns a period; Dormand-Prince takes \d+ times as long for 1e-06"
-        self.assertRegex(text, found)
+        self.assertRegex(text, r"exact in lanes \(\w+\): \de-1\d at [\d.]+ [num]?s a period; ")
+        self.assertRegex(text, r"a period; Dormand-Prince takes [\d.]+ times as long for 1e-06")
         self.assertRegex(text, r"(Impacts are missed or invented by|No method misses)")
 
     def test_without_a_force_tells_turns_in_the_units_of_the_scene(self):

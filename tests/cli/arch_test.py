@@ -3,14 +3,13 @@
 import os
 import pathlib
 import re
-import shutil
 import subprocess
 import unittest
 
 import h5py
 import numpy
 
-from command_line import CLATTER, SMALL, CommandLine, runs_here
+from command_line import CLATTER, SMALL, CommandLine, require_program, runs_here
 
 NAMES = ("scalar", "sse2", "avx2", "avx512")
 EVERYTHING = (
@@ -104,14 +103,12 @@ class Objects(unittest.TestCase):
 
     def symbols(self, name):
         """Of each object with step functions: springs, motion without one, soft stops."""
-        nm = shutil.which("nm")
-        if nm is None:
-            self.skipTest("there is no nm here (of binutils) to look at object files with")
+        require_program("nm", "binutils")
         folder = pathlib.Path(CLATTER).parents[2] / "src" / "lanes"
         objects = list(folder.glob(f"CMakeFiles/*_{name}.dir/step_*block.cpp.o"))
         self.assertEqual(len(objects), 3, f"step functions for {name}")
         for path in objects:
-            text = subprocess.run([nm, "--defined-only", path], capture_output=True, text=True, check=True).stdout
+            text = subprocess.run(["nm", "--defined-only", path], capture_output=True, text=True, check=True).stdout
             yield path.name, [line.split()[-2:] for line in text.splitlines()]
 
     def test_step_functions_define_nothing_that_code_of_another_set_could_be_merged_with(self):

@@ -187,7 +187,7 @@ class Arrows(unittest.TestCase):
     def test_heavy_headers_stay_in_the_files_that_need_them(self):
         """What a header includes, a hundred files compile."""
         for heavy, files in heavy_files(SOURCE).items():
-            self.assertEqual(files, HEAVY[heavy], heavy)
+            self.assertEqual(files, {file for file in HEAVY[heavy] if (SOURCE / file).exists()}, heavy)
 
     def test_every_room_has_its_own_namespace(self):
         self.assertEqual(wrong_namespaces(SOURCE), [])

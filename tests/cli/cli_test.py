@@ -7,7 +7,7 @@ import unittest
 
 import h5py
 import numpy
-from command_line import CLATTER, SMALL, CommandLine
+from command_line import CLATTER, LONGEST, SMALL, CommandLine
 
 
 class WrongCommandLines(CommandLine):
@@ -165,7 +165,9 @@ class Files(CommandLine):
 
     def test_full_standard_output_is_an_error(self):
         with open("/dev/full", "w") as full:
-            result = subprocess.run([CLATTER, "defaults"], stdout=full, stderr=subprocess.PIPE, text=True, timeout=60)
+            result = subprocess.run(
+                [CLATTER, "defaults"], stdout=full, stderr=subprocess.PIPE, text=True, timeout=LONGEST
+            )
         self.assertEqual(result.returncode, 74)
         self.assertIn("standard output", result.stderr)
 

@@ -1,5 +1,6 @@
 """Completions, typed in bash, zsh and fish: commands, options, words, files by their endings, keys after --set."""
 
+import codecs
 import fcntl
 import os
 import pty
@@ -13,10 +14,7 @@ import time
 import unittest
 from pathlib import Path
 
-from command_line import CLATTER
-
-LONGEST = 120  # seconds until a shell that doesn't answer counts as hung
-
+from command_line import CLATTER, LONGEST, open_terminal, require_program
 
 PROMPT = "ready> "
 
@@ -25,11 +23,15 @@ class Terminal:
     """A shell in a terminal, in which keys are typed, each line when the shell has shown its prompt."""
 
     def __init__(self, words, folder):
-        self.process, self.terminal = pty.fork()
+        require_program(words[0], words[0])
+        self.process, self.terminal = open_terminal(pty.fork)
         if self.process == 0:
-            os.chdir(folder)
-            os.environ.update(TERM="xterm", PS1=PROMPT, HOME=str(folder), LC_ALL="C.UTF-8")
-            os.execvp(words[0], words)
+            try:
+                os.chdir(folder)
+                os.environ.update(TERM="xterm", PS1=PROMPT, HOME=str(folder), LC_ALL="C.UTF-8")
+                os.execvp(words[0], words)
+            finally:
+                os._exit(127)  # or there would be two of this test
         fcntl.ioctl(self.terminal, termios.TIOCSWINSZ, struct.pack("HHHH", 300, 200, 0, 0))
         self.commands = 0
         self.read_until(PROMPT)
@@ -40,11 +42,15 @@ class Terminal:
 
     def read_until(self, mark):
         text, end = "", time.monotonic() + LONGEST
+        decoder = codecs.getincrementaldecoder("utf-8")("replace")  # a read may end within a character
         while not re.search(mark, text, re.DOTALL):
             ready, _, _ = select.select([self.terminal], [], [], max(0.0, end - time.monotonic()))
             if not ready:
-                raise TimeoutError(f"no {mark!r} in {text!r}")
-            text += os.read(self.terminal, 65536).decode()
+                raise TimeoutError(f"no {mark!r} within {LONGEST} s in {text!r}")
+            try:
+                text += decoder.decode(os.read(self.terminal, 65536))
+            except OSError as error:
+                raise AssertionError(f"the shell ended; it said {text!r}") from error
         return re.sub(r"\x1b(\[[\d;?]*[A-Za-z]|[()=>].?)|\x07|\r", "", text)
 
     def run(self, command):
@@ -148,6 +154,7 @@ class Zsh(Typed, unittest.TestCase):
 class Fish(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
+        require_program("fish", "fish")
         kept = tempfile.TemporaryDirectory()
         cls.addClassCleanup(kept.cleanup)
         cls.folder = Path(kept.name)

@@ -10,6 +10,7 @@ import h5py
 import numpy
 import xarray
 
+from command_line import LONGEST
 from runs import CLATTER, FORCED, RunTest, quoted, toml
 
 
@@ -67,7 +68,7 @@ class Copies(RunTest):
 
         def contents(path):
             command = ["ncdump", "-p", "9,17", "-n", "any", path]
-            return subprocess.run(command, capture_output=True, text=True, check=True, timeout=60).stdout
+            return subprocess.run(command, capture_output=True, text=True, check=True, timeout=LONGEST).stdout
 
         for path in self.outputs_to_copy():
             original = contents(path)
@@ -75,9 +76,9 @@ class Copies(RunTest):
                 with self.subTest(file=path.name, command=command):
                     copy = self.scratch / "copy.h5"
                     copy.unlink(missing_ok=True)
-                    subprocess.run([*command.split(), path, copy], capture_output=True, check=True, timeout=60)
+                    subprocess.run([*command.split(), path, copy], capture_output=True, check=True, timeout=LONGEST)
                     self.assertEqual(contents(copy), original)
-                    subprocess.run([CLATTER, "info", copy], capture_output=True, check=True, timeout=60)
+                    subprocess.run([CLATTER, "info", copy], capture_output=True, check=True, timeout=LONGEST)
 
     def test_xarray_makes_classic_netcdf_of_outputs(self):
         """The guide's way: nccopy can't, since classic files have no texts of variable length. They have one dimension
@@ -87,7 +88,9 @@ class Copies(RunTest):
                 continue
             copy = self.scratch / "classic.nc"
             xarray.load_dataset(path).to_netcdf(copy, format="NETCDF3_64BIT")
-            kind = subprocess.run(["ncdump", "-k", copy], capture_output=True, text=True, check=True, timeout=60).stdout
+            kind = subprocess.run(
+                ["ncdump", "-k", copy], capture_output=True, text=True, check=True, timeout=LONGEST
+            ).stdout
             self.assertEqual(kind, "64-bit offset\n")
             with self.subTest(path.name), xarray.open_dataset(path) as one, xarray.open_dataset(copy) as other:
                 self.assertEqual(one.attrs, other.attrs)

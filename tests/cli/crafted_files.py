@@ -21,6 +21,15 @@ def can_trace():
     return shutil.which("strace") is not None and subprocess.run(command, capture_output=True).returncode == 0
 
 
+def require_trace():
+    """Fails, and says what to do, where strace can't be used."""
+    if not can_trace():
+        raise AssertionError(
+            "this test needs strace and the permission to trace, which aren't here: apt-get install strace, and in a "
+            "container --cap-add SYS_PTRACE"
+        )
+
+
 def make_surroundings(folder):
     """Files that no reader may open, or wait for."""
     (folder / "secret").write_text(SECRET * 9)

@@ -3,7 +3,9 @@
 Environment: CLATTER, the program; CLATTER_SOURCE, the source directory.
 """
 
+import os
 import re
+import signal
 import subprocess
 import tempfile
 import unittest
@@ -11,8 +13,42 @@ from pathlib import Path
 
 from command_line import SOURCE
 from plot_checks import Svg
+from script_runs import run_script
 
 GALLERY = SOURCE / "scripts" / "gallery.sh"
+
+# In place of plot.py beside gallery.sh: has the test run it, in one interpreter for all pictures.
+ASKS = """#!/bin/bash
+cd "$(dirname "$0")"
+printf '%s\\0' "$OLDPWD" "$@" > request
+{ read -r code; cat >&2; } < answer
+exit "$code"
+"""
+
+
+def make_gallery(folder):
+    """Runs gallery.sh in a tree of its own and draws what it asks for."""
+    with tempfile.TemporaryDirectory() as name:
+        scripts = Path(name) / "scripts"
+        scripts.mkdir()
+        (scripts / "gallery.sh").symlink_to(GALLERY)
+        (scripts.parent / "configs").symlink_to(SOURCE / "configs")
+        (scripts / "plot.py").write_text(ASKS)
+        (scripts / "plot.py").chmod(0o755)
+        for pipe in ("request", "answer"):
+            os.mkfifo(scripts / pipe)
+        command = ["bash", "-c", 'scripts/gallery.sh "$0"; code=$?; : > scripts/request; exit $code', folder]
+        pipes = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE, "text": True}
+        process = subprocess.Popen(command, cwd=scripts.parent, start_new_session=True, **pipes)
+        try:
+            while words := (scripts / "request").read_text().split("\0")[:-1]:  # an empty request is the last
+                result = run_script("plot.py", *words[1:], cwd=words[0])
+                (scripts / "answer").write_text(f"{result.returncode}\n{result.stderr}")
+            out, err = process.communicate()
+        except BaseException:
+            os.killpg(process.pid, signal.SIGKILL)  # it waits for answers
+            raise
+    return subprocess.CompletedProcess(command, process.returncode, out, err)
 
 
 class Gallery(unittest.TestCase):
@@ -21,7 +57,7 @@ class Gallery(unittest.TestCase):
         kept = tempfile.TemporaryDirectory()
         cls.addClassCleanup(kept.cleanup)
         cls.folder = Path(kept.name)
-        cls.result = subprocess.run([GALLERY, cls.folder], capture_output=True, text=True, timeout=300)
+        cls.result = make_gallery(cls.folder)
 
     def test_it_makes_all_pictures_of_the_guides_and_no_other(self):
         self.assertEqual((self.result.returncode, self.result.stderr), (0, ""))

@@ -7,6 +7,7 @@ import shlex
 import subprocess
 import sys
 
+from command_line import runs_here
 from guides import guides
 
 # These install packages, build, measure or run for minutes: of them the words are checked, not run.
@@ -25,7 +26,16 @@ SLOW_SCRIPTS = (
     "scripts/check_packages.sh",
 )
 SLOW_PROGRAMS = ("apt", "apt-get", "cpack", "cmake", "ctest", "build/release/tests/")
-SHORTER = ((r"^(clatter accuracy \S+)", r"\1 -q --set time.window=1"),)
+# The same commands with less to compute: regress_test compares all that is committed, gallery_test draws all starts.
+SHORTER = [
+    (r"^(clatter accuracy \S+)", r"\1 -q --set time.window=1"),
+    (r"^(clatter run configs/optimal_zones\.toml -o shares\.h5)", r"\1 --set 'sweep.nu=linspace(1, 13, 13)'"),
+    (r"^(clatter run configs/map_nu_xs\.toml)( --set scene\.)", r"\1 --set 'sweep.nu=linspace(0.5, 1.5, 5)'\2"),
+    (r"^scripts/regress\.sh tests/regression", "figures/scripts/regress.sh figures/tests/regression"),
+    (r"^scripts/regress\.sh ", "figures/scripts/regress.sh "),
+]
+if not runs_here("avx512"):
+    SHORTER.append(("--arch avx512", "--arch sse2"))
 
 # The files that a guide takes to be there.
 SMALL_MAP = (
@@ -82,8 +92,21 @@ class Workplace:
         """Makes what guides suppose to be there."""
         (self.folder / "map.toml").write_text(SMALL_MAP)
         (self.folder / "out").mkdir()
+        self.make_figures()
         for output, config in OUTPUTS.items():
             self.run("clatter", "run", "-q", f"configs/{config}.toml", "-o", output)
+
+    def make_figures(self):
+        """The scripts again, beside the figures alone of all configurations and of what is committed for them."""
+        figures = self.folder / "figures"
+        for folder, names in (("configs", "fig*.toml"), ("tests/regression", "fig*.txt")):
+            (figures / folder).mkdir(parents=True)
+            for path in (self.root / folder).glob(names):
+                (figures / folder / path.name).symlink_to(path.resolve())
+        (figures / "scripts").symlink_to((self.root / "scripts").resolve())
+        sums = (self.root / "tests/regression/SHA256SUMS").read_text().splitlines(True)
+        kept = [line for line in sums if line.split()[1].startswith("fig")]
+        (figures / "tests/regression/SHA256SUMS").write_text("".join(kept))
 
     def run(self, *words, text=None):
         return subprocess.run(

@@ -12,8 +12,9 @@ from pathlib import Path
 
 import h5py
 
-from command_line import CLATTER, SMALL, SOURCE
-from crafted_files import CHANGES, SECRET, can_trace, claim, hide_variables, impact_words, make_surroundings
+from command_line import CLATTER, LONGEST, SMALL, SOURCE
+from crafted_files import CHANGES, SECRET, claim, hide_variables, impact_words, make_surroundings, require_trace
+from script_runs import run_script
 
 PYTHON = "/usr/bin/python3"
 ELSEWHERE, LINK = "'x_max' has its values in other files", "'x_max' is a link to another place"
@@ -51,10 +52,36 @@ REASONS = {  # what is said of each
 CASES = {
     **CHANGES,
     "schema": lambda file, folder: file.attrs.__setitem__("clatter_schema", "\x1b[2J"),
-    "claimed": lambda file, folder: claim("status", (4 << 30,), file),
+    "claimed": lambda file, folder: claim("status", (1 << 28,), file),
     "hidden": CHANGES["external_link"],
     "long_words": impact_words(dtype=h5py.string_dtype(), data=["L" * 256] * 5),
 }
+# Programs that look at one file after the other: as plot.py reads it, and as regress.sh tabulates it.
+TRACED = """
+import os, pathlib, sys
+scripts, marks, *paths = sys.argv[1:]
+sys.path.insert(0, scripts)
+def each():
+    for path in map(pathlib.Path, paths):
+        try:
+            os.open(f"{marks}/{path.stem}", os.O_RDONLY)
+        except FileNotFoundError:
+            yield path
+"""
+READS = """
+import plot_data
+for path in each():
+    try:
+        plot_data.Output(path)
+    except plot_data.FileProblem:
+        pass
+"""
+TABULATES = """
+import regress
+for path in each():
+    sys.argv[1:] = ["table", str(path.parent), str(path.parent), "1e-9", path.stem]
+    regress.main()
+"""
 
 
 class ForeignFiles(unittest.TestCase):
@@ -65,33 +92,31 @@ class ForeignFiles(unittest.TestCase):
         cls.folder = Path(kept.name)
         (cls.folder / "small.toml").write_text(SMALL)
         output = cls.folder / "sound.h5"
-        subprocess.run([CLATTER, "run", cls.folder / "small.toml", "-q", "-o", output], check=True, timeout=60)
+        subprocess.run([CLATTER, "run", cls.folder / "small.toml", "-q", "-o", output], check=True, timeout=LONGEST)
         make_surroundings(cls.folder)
+        cls.crafted = cls.folder / "crafted"
+        cls.crafted.mkdir()
         for name, change in CASES.items():
-            path = cls.folder / name / "fig22.h5"
-            path.parent.mkdir()
+            path = cls.crafted / f"{name}.h5"
             shutil.copy(output, path)
             with h5py.File(path, "r+") as file:
                 change(file, cls.folder)
             if name == "hidden":
                 hide_variables(path)
-        torn = cls.folder / "zeros" / "fig22.h5"
-        torn.parent.mkdir()
         content = output.read_bytes()
         texts = content.index(b"GCOL") + 64  # after the header and the first text, a block that a disk lost
-        torn.write_bytes(content[:texts] + bytes(128) + content[texts + 128 :])
-        (cls.folder / "fifo").mkdir()
-        os.mkfifo(cls.folder / "fifo" / "fig22.h5")
+        (cls.crafted / "zeros.h5").write_bytes(content[:texts] + bytes(128) + content[texts + 128 :])
+        os.mkfifo(cls.crafted / "fifo.h5")
         cls.program = cls.folder / "clatter"  # has the same output ready for every configuration
         cls.program.write_text(f'#!/bin/sh\ncp "{output}" "$4"\n')
         cls.program.chmod(cls.program.stat().st_mode | stat.S_IXUSR)
 
     def expected(self):
-        yield from ((self.folder / name / "fig22.h5", words) for name, words in REASONS.items())
-        yield self.folder / "zeros" / "fig22.h5", "damaged (a heap of texts at byte "
-        yield self.folder / "fifo" / "fig22.h5", "not a regular file"
+        yield from ((self.crafted / f"{name}.h5", words) for name, words in REASONS.items())
+        yield self.crafted / "zeros.h5", "damaged (a heap of texts at byte "
+        yield self.crafted / "fifo.h5", "not a regular file"
 
-    def run_within_a_minute(self, *words):
+    def run_to_its_end(self, *words):
         """Ends all that it has started when it waits: else they would wait for ever."""
         program = subprocess.Popen(
             words,
@@ -102,7 +127,7 @@ class ForeignFiles(unittest.TestCase):
             env={**os.environ, "CLATTER": str(self.program)},
         )
         try:
-            out, err = program.communicate(timeout=60)
+            out, err = program.communicate(timeout=LONGEST)
         except subprocess.TimeoutExpired:
             os.killpg(program.pid, signal.SIGKILL)
             program.communicate()
@@ -110,30 +135,32 @@ class ForeignFiles(unittest.TestCase):
         return subprocess.CompletedProcess(words, program.returncode, out, err)
 
     def test_the_secret_would_be_read(self):
-        with h5py.File(self.folder / "external" / "fig22.h5") as file:
+        with h5py.File(self.crafted / "external.h5") as file:
             self.assertEqual(file["x_max"][()].tobytes().decode(), SECRET[:33] + SECRET[: 8 * 5 - 33])
 
     def test_plot_refuses_them_in_one_line(self):
+        before = sorted(self.crafted.iterdir())
         for path, words in self.expected():
-            with self.subTest(path.parent.name):
-                result = self.run_within_a_minute(PYTHON, SOURCE / "scripts" / "plot.py", path)
+            with self.subTest(path.stem):
+                result = run_script("plot.py", path, timeout=LONGEST)
                 self.assertEqual((result.returncode, result.stdout), (74, ""), result.stderr)
                 self.assertTrue(result.stderr.startswith(f"plot.py: {path}: "), result.stderr)
                 self.assertIn(words, result.stderr)
                 self.assertRegex(result.stderr, "; (run its configuration again, or get the file anew|give a .*)\n$")
                 self.assertEqual(result.stderr.count("\n"), 1)
-                self.assertEqual([other.name for other in path.parent.iterdir()], ["fig22.h5"])
+                self.assertEqual(sorted(self.crafted.iterdir()), before)
 
     def test_regress_finds_them_in_the_baseline(self):
+        result = self.run_to_its_end(SOURCE / "scripts" / "regress.sh", self.crafted)
+        self.assertEqual(result.returncode, 1, result.stderr)
+        self.assertNotIn(SECRET[:20], result.stdout + result.stderr)
+        rows = {line.split()[0]: line for line in result.stdout.splitlines()}
         for path, words in self.expected():
-            with self.subTest(path.parent.name):
-                result = self.run_within_a_minute(SOURCE / "scripts" / "regress.sh", path.parent)
-                self.assertEqual(result.returncode, 1, result.stderr)
-                (row,) = (line for line in result.stdout.splitlines() if line.startswith("fig22 "))
+            with self.subTest(path.stem):
+                row = rows[path.stem]
                 self.assertEqual(row.split()[1:7], ["-", "-", "-", "-", "-", "differs"])
                 self.assertIn(f"can't be read: {path}: ", row)
                 self.assertIn(words, row)
-                self.assertNotIn(SECRET[:20], result.stdout + result.stderr)
 
     def test_regress_waits_for_no_text(self):
         for name in ("fig22.txt", "SHA256SUMS"):
@@ -141,26 +168,35 @@ class ForeignFiles(unittest.TestCase):
             baseline.mkdir()
             (baseline / "fig21.txt").write_text("")
             os.mkfifo(baseline / name)
-            result = self.run_within_a_minute(SOURCE / "scripts" / "regress.sh", baseline)
+            result = self.run_to_its_end(SOURCE / "scripts" / "regress.sh", baseline)
             self.assertEqual((result.returncode, result.stdout), (2, ""))
             self.assertIn(f"{baseline / name} isn't a regular file", result.stderr)
 
-    @unittest.skipUnless(can_trace(), "strace can't be used here")
     def test_nothing_but_the_file_is_opened(self):
-        trace = self.folder / "trace"
-        tracing = ("strace", "-f", "-qq", "-o", trace, "-e", "trace=open,openat,openat2,execve", PYTHON)
-        scripts = SOURCE / "scripts"
-        program = f"import sys; sys.path.insert(0, '{scripts}'); import plot_data; plot_data.Output(sys.argv[1])"
-        for path, _ in self.expected():
-            table = (scripts / "regress.py", "table", path.parent, path.parent, "1e-9", "fig22")
-            for words in (("-c", program, path), table):
-                with self.subTest(path.parent.name, words=words):
-                    self.run_within_a_minute(*tracing, *words)
-                    calls = [line for line in trace.read_text().splitlines() if "execve" not in line]
-                    self.assertTrue(calls)
-                    inside = {line.split('"')[1] for line in calls if f'"{self.folder}' in line}
-                    self.assertEqual(inside, set() if path.parent.name == "fifo" else {str(path)})
-                    self.assertNotIn("h5diff", trace.read_text())
+        require_trace()
+        paths = [path for path, _ in self.expected()]
+        for words in (READS, TABULATES):
+            calls = self.traced(words, paths)
+            self.assertNotIn("h5diff", "".join(line for lines in calls.values() for line in lines))
+            for path in paths:
+                with self.subTest(path.stem, words=words):
+                    inside = {line.split('"')[1] for line in calls[path.stem] if f'"{self.folder}' in line}
+                    self.assertEqual(inside, set() if path.stem == "fifo" else {str(path)})
+
+    def traced(self, program, paths):
+        """The calls that open or start something, by the stem of the file that a Python program is at. It tries to
+        open a mark before each file, so that one process does for all."""
+        trace, marks = self.folder / "trace", self.folder / "marks"
+        tracing = ("strace", "-f", "-qq", "-o", trace, "-e", "trace=open,openat,openat2,execve")
+        self.run_to_its_end(*tracing, PYTHON, "-c", TRACED + program, SOURCE / "scripts", marks, *paths)
+        calls = {}
+        for line in trace.read_text().splitlines():
+            if f'"{marks}/' in line:
+                lines = calls.setdefault(line.split(f'"{marks}/')[1].split('"')[0], [])
+            elif calls:
+                lines.append(line)
+        self.assertEqual(list(calls), [path.stem for path in paths])
+        return calls
 
 
 if __name__ == "__main__":

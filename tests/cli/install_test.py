@@ -7,7 +7,7 @@ import tempfile
 import unittest
 from pathlib import Path
 
-from command_line import CLATTER, SMALL, SOURCE
+from command_line import CLATTER, LONGEST, SMALL, SOURCE
 
 BUILD = Path(CLATTER).parents[2]
 
@@ -42,7 +42,7 @@ class Install(unittest.TestCase):
         cls.folder = Path(kept.name).resolve()
         installed, cls.prefix = cls.folder / "here", cls.folder / "moved to there"
         done = subprocess.run(
-            ["cmake", "--install", BUILD, "--prefix", installed], capture_output=True, text=True, timeout=300
+            ["cmake", "--install", BUILD, "--prefix", installed], capture_output=True, text=True, timeout=LONGEST
         )
         assert done.returncode == 0, done.stderr
         manifest = done.stdout.splitlines()
@@ -57,7 +57,7 @@ class Install(unittest.TestCase):
             cwd=folder,
             capture_output=True,
             text=True,
-            timeout=300,
+            timeout=LONGEST,
             env={**os.environ, "PATH": f"{self.prefix / 'bin'}:{os.environ['PATH']}"},
         )
 

@@ -4,10 +4,13 @@ import os
 import pathlib
 import resource
 import subprocess
+import tempfile
 import unittest
 
-from command_line import CLATTER, SANITIZED, SMALL, CommandLine
+from command_line import CLATTER, LONGEST, SANITIZED, SMALL, CommandLine
 
+# The environment stands on the stack: the user's may be longer than a small one.
+SHORT = {name: os.environ[name] for name in ("PATH", "LD_LIBRARY_PATH") if name in os.environ}
 NOTHING_OBSERVED = """[scene]
 f = -1.0
 h = 0.1
@@ -37,9 +40,9 @@ class Limits(CommandLine):
             [CLATTER, *words],
             cwd=self.directory,
             text=True,
-            timeout=300,
+            timeout=LONGEST,
             preexec_fn=lower,
-            env={**os.environ, **(environment or {})},
+            env=SHORT if environment is SHORT else {**os.environ, **(environment or {})},
             **more,
         )
 
@@ -83,7 +86,7 @@ class Stacks(Limits):
     def test_of_the_main_thread(self):
         for kibibytes in (48, 64, 256):  # with much less, the kernel or the loader may end the process first
             for command in (["run", self.config], ["plan", self.config], ["accuracy", self.config], ["info", "a.h5"]):
-                result = self.within(resource.RLIMIT_STACK, kibibytes * 1024, *command)
+                result = self.within(resource.RLIMIT_STACK, kibibytes * 1024, *command, environment=SHORT)
                 self.assert_said(result, rf"ulimit -s permits {kibibytes} KiB, 512 KiB are needed; raise it")
         self.assertEqual(self.files(), ["a.toml"])
 
@@ -204,7 +207,7 @@ class Memory(Limits):
             cwd=self.directory,
             capture_output=True,
             text=True,
-            timeout=300,
+            timeout=LONGEST,
         )
         self.assert_said(
             result, r"not enough memory: 4000000 points take \S+ MiB, its control group '\S+' permits 64 MiB;"
@@ -212,20 +215,23 @@ class Memory(Limits):
 
     def small_group(self, size):
         """A control group of this much memory, of whichever version is here."""
+        reasons = []
         for line in pathlib.Path("/proc/self/mountinfo").read_text().splitlines():
             place, kind = line.split()[4], line.split(" - ")[1].split()
             file = {"cgroup": "memory.limit_in_bytes", "cgroup2": "memory.max"}.get(kind[0])
             if file is None or (kind[0] == "cgroup" and "memory" not in kind[2].split(",")):
                 continue
-            group = pathlib.Path(place) / f"clatter-test-{os.getpid()}"
             try:
-                group.mkdir()
+                group = pathlib.Path(tempfile.mkdtemp(prefix="clatter-test-", dir=place))
                 self.addCleanup(group.rmdir)
                 (group / file).write_text(str(size))
                 return group
-            except OSError:
-                continue
-        self.skipTest("no control group can be made here")
+            except OSError as error:
+                reasons.append(str(error))
+        return self.skipTest(
+            "no control group with a limit of memory can be made here; as root, with /sys/fs/cgroup writable and its "
+            f"memory controller on, it can ({'; '.join(reasons) or 'none is mounted'})"
+        )
 
     def test_memory_that_runs_out_all_the_same_names_the_journal(self):
         """A log that no estimate sees: of a hundred points, one that isn't looked at for it has all the impacts."""

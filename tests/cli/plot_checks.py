@@ -63,21 +63,21 @@ def texts_with_boxes(figure):
     return [(text.get_text(), text.get_window_extent()) for text in texts if id(text) not in hidden]
 
 
-def texts_beyond(figure):
-    """Texts that a figure cuts off."""
+def texts_beyond(figure, texts=None):
+    """Texts that a figure cuts off; they are measured unless they are given."""
     room = figure.bbox.padded(1)
     return [
         text
-        for text, box in texts_with_boxes(figure)
+        for text, box in texts or texts_with_boxes(figure)
         if min(box.x0 - room.x0, room.x1 - box.x1, box.y0 - room.y0, room.y1 - box.y1) < 0
     ]
 
 
-def overlapping_texts(figure):
-    """Pairs of texts of a figure that lie on each other."""
+def overlapping_texts(figure, texts=None):
+    """Pairs of texts of a figure that lie on each other; they are measured unless they are given."""
     return [
         (one, other)
-        for (one, box), (other, second) in combinations(texts_with_boxes(figure), 2)
+        for (one, box), (other, second) in combinations(texts or texts_with_boxes(figure), 2)
         if min(box.x1, second.x1) - max(box.x0, second.x0) > 1 and min(box.y1, second.y1) - max(box.y0, second.y0) > 1
     ]
 

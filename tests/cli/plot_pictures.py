@@ -9,13 +9,14 @@ import unittest
 from pathlib import Path
 from types import SimpleNamespace
 
-from command_line import CLATTER, SOURCE
+from command_line import CLATTER
 from plot_checks import Svg
+from script_runs import run_script
 
+import plot
 import plot_style
 from plot_data import Output
 
-PLOT = ["/usr/bin/python3", SOURCE / "scripts" / "plot.py"]
 FORCED = "[scene]\nf = -1.0\nh = 0.1\n"
 ALONG_NU = '[sweep]\nnu = "linspace(0.84, 1.0, 81)"\n'
 CONFIGURATIONS = {
@@ -88,21 +89,30 @@ class Pictures(unittest.TestCase):
             command = [CLATTER, "run", cls.folder / f"{name}.toml", "-o", cls.folder / f"{name}.h5", "-q"]
             subprocess.run(command, check=True, timeout=300)
         plot_style.use_style()
+        cls.drawn, cls.figures = {}, {}
 
     def draw(self, *names, arguments=()):
-        """The picture of these files, by the program."""
-        words = [*PLOT, *(self.folder / f"{name}.h5" for name in names), *arguments, "--format", "svg"]
-        result = subprocess.run(words, capture_output=True, text=True, timeout=300)
-        self.assertEqual((result.returncode, result.stderr), (0, ""))
-        (path,) = result.stdout.split()
-        return Svg(path)
+        """The picture of these files, by the program; the same picture is drawn once for all tests."""
+        key = (names, tuple(arguments))
+        if key not in self.drawn:
+            files = (self.folder / f"{name}.h5" for name in names)
+            result = run_script("plot.py", *files, *arguments, "--format", "svg")
+            self.assertEqual((result.returncode, result.stderr), (0, ""))
+            (path,) = result.stdout.split()
+            self.drawn[key] = Svg(path)
+        return self.drawn[key]
+
+    def figure(self, name):
+        """The picture of a file without any choice, drawn once for all tests, which leave it as it is."""
+        if name not in self.figures:
+            self.figures[name] = plot.single_figure(self.output(name), NO_CHOICE)
+        return self.figures[name]
 
     def output(self, name):
         return Output(self.folder / f"{name}.h5")
 
     def refuse(self, name, *arguments):
-        words = [*PLOT, self.folder / f"{name}.h5", *arguments, "-o", self.folder / "refused"]
-        result = subprocess.run(words, capture_output=True, text=True, timeout=300)
+        result = run_script("plot.py", self.folder / f"{name}.h5", *arguments, "-o", self.folder / "refused")
         self.assertEqual((result.returncode, result.stdout), (2, ""))
         self.assertEqual(list((self.folder / "refused").glob("*")), [])
         return result.stderr.splitlines()[-1]

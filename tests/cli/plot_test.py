@@ -9,10 +9,11 @@ from pathlib import Path
 
 import h5py
 from matplotlib import image
+from command_line import LONGEST
+from script_runs import run_script, start_script
 
 CLATTER = os.environ["CLATTER"]
 SOURCE = Path(os.environ["CLATTER_SOURCE"])
-PLOT = ["/usr/bin/python3", SOURCE / "scripts" / "plot.py"]
 WARNINGS = ("-W", "default::UserWarning", "-W", "default::RuntimeWarning")  # else plot.py is silent about them
 
 # name: (configuration, --set ..., exit code of the run): one of each kind of picture, with few points
@@ -58,8 +59,12 @@ KINDS = {
 }
 
 
-def plot(*arguments, warnings=()):
-    return subprocess.run([PLOT[0], *warnings, *PLOT[1:], *arguments], capture_output=True, text=True)
+def plot(*arguments):
+    return run_script("plot.py", *arguments)
+
+
+def start_plot(*arguments, warnings=()):
+    return start_script("plot.py", *arguments, options=warnings)
 
 
 class Pictures(unittest.TestCase):
@@ -73,7 +78,7 @@ class Pictures(unittest.TestCase):
             result = subprocess.run([*command, "--progress", "never"], capture_output=True, text=True)
             assert result.returncode == code, (name, result.returncode, result.stderr)
         cls.files = [cls.folder / f"{name}.h5" for name in KINDS]
-        cls.result = plot(*cls.files, warnings=WARNINGS)
+        cls.result = start_plot(*cls.files, warnings=WARNINGS)
 
     @classmethod
     def tearDownClass(cls):
@@ -98,8 +103,8 @@ class Pictures(unittest.TestCase):
         command = [CLATTER, "run", SOURCE / "configs" / "fig18.toml", "-o", self.folder / "unseen.h5"]
         command += ["--set", "title=\N{SNOWMAN}\u632f"]
         subprocess.run(command, check=True, capture_output=True)
-        self.assertIn("missing from current font", plot(self.folder / "unseen.h5", warnings=WARNINGS).stderr)
-        self.assertEqual(plot(self.folder / "unseen.h5").stderr, "")
+        self.assertIn("missing from current font", start_plot(self.folder / "unseen.h5", warnings=WARNINGS).stderr)
+        self.assertEqual(start_plot(self.folder / "unseen.h5").stderr, "")
 
     def test_a_second_run_gives_the_same_bytes(self):
         names = ("free", "extrema", "followed")
@@ -117,18 +122,19 @@ class Pictures(unittest.TestCase):
         for command in (["nccopy", "-k", "nc4"], ["h5repack", "-m", "1", "-f", "GZIP=6"]):
             folder = self.folder / command[0]
             folder.mkdir()
-            for name in ("free", "map"):
-                copy = folder / f"{name}.h5"
-                subprocess.run([*command, self.folder / f"{name}.h5", copy], check=True, timeout=60)
-                result = plot(copy, "--format", "svg")
-                self.assertEqual(result.returncode, 0, result.stderr)
+            copies = [folder / f"{name}.h5" for name in ("free", "map")]
+            for copy in copies:
+                subprocess.run([*command, self.folder / copy.name, copy], check=True, timeout=LONGEST)
+            result = plot(*copies, "--format", "svg")
+            self.assertEqual(result.returncode, 0, result.stderr)
+            for copy in copies:
                 self.assertEqual(
-                    copy.with_suffix(".svg").read_bytes(), (self.folder / f"{name}.svg").read_bytes(), command
+                    copy.with_suffix(".svg").read_bytes(), (self.folder / f"{copy.stem}.svg").read_bytes(), command
                 )
 
     def test_pdf_only(self):
-        for turn in ("one", "two"):
-            result = plot(self.folder / "ratio.h5", "-o", self.folder / turn, "--format", "pdf")
+        for turn, run in (("one", plot), ("two", start_plot)):
+            result = run(self.folder / "ratio.h5", "-o", self.folder / turn, "--format", "pdf")
             self.assertEqual(result.returncode, 0, result.stderr)
             self.assertEqual([file.name for file in (self.folder / turn).iterdir()], ["ratio.pdf"])
         self.assertEqual(*((self.folder / turn / "ratio.pdf").read_bytes() for turn in ("one", "two")))

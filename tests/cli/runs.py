@@ -6,7 +6,7 @@ import tempfile
 import unittest
 from pathlib import Path
 
-CLATTER = os.environ["CLATTER"]
+from command_line import CLATTER, LONGEST
 
 FORCED = {"f": -1.0, "h": 0.1, "R": 0.7, "xs": -0.5}
 
@@ -43,7 +43,7 @@ class RunTest(unittest.TestCase):
             capture_output=True,
             text=True,
             check=False,
-            timeout=300,
+            timeout=LONGEST,
             env={**os.environ, **(environment or {})},
         )
         self.assertEqual(done.returncode, 0, done.stderr)

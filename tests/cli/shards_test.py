@@ -9,7 +9,7 @@ import subprocess
 import sys
 import unittest
 
-from command_line import CLATTER, SANITIZED, SMALL, SOURCE
+from command_line import CLATTER, LONGEST, SANITIZED, SMALL, SOURCE
 from stopped_runs import StoppedRuns
 
 
@@ -29,7 +29,7 @@ class Shards(StoppedRuns):
 
     def merge(self, shards, *words):
         return subprocess.run(
-            [CLATTER, "merge", "-o", self.output, *shards, *words], capture_output=True, text=True, timeout=300
+            [CLATTER, "merge", "-o", self.output, *shards, *words], capture_output=True, text=True, timeout=LONGEST
         )
 
     def merged(self, shards):

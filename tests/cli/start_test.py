@@ -5,10 +5,15 @@ import re
 import subprocess
 import unittest
 
-from command_line import CLATTER, SMALL, CommandLine
+from command_line import CLATTER, LONGEST, SMALL, CommandLine, require_program
 
 
 class Start(CommandLine):
+    def setUp(self):
+        super().setUp()
+        require_program("readelf", "binutils")
+        require_program("ldd", "libc-bin")
+
     def dynamic(self, entry):
         """The values in brackets of the program's dynamic entries of this name."""
         text = subprocess.run(
@@ -32,7 +37,12 @@ class Start(CommandLine):
             self.write(name, "not a library")
         environment = {key: value for key, value in os.environ.items() if key != "LD_LIBRARY_PATH"}
         done = subprocess.run(
-            [CLATTER, "run", config], cwd=self.directory, env=environment, capture_output=True, text=True
+            [CLATTER, "run", config],
+            cwd=self.directory,
+            env=environment,
+            capture_output=True,
+            text=True,
+            timeout=LONGEST,
         )
         self.assertEqual(done.returncode, 0, done.stderr)
 

@@ -1,5 +1,6 @@
 """Shared by the tests of stopped, divided and failing runs: a sweep of every kind of motion, and its bytes."""
 
+import os
 import random
 import signal
 import struct
@@ -7,7 +8,7 @@ import subprocess
 import time
 import zlib
 
-from command_line import CLATTER, CommandLine, handled_signals
+from command_line import CLATTER, LONGEST, STOPS, CommandLine, full_pipe, handled_signals, heed_signals
 
 # Periodic and aperiodic motion, with and without impacts; ragged results too. Fractions of a second to seconds.
 SWEEP = """[scene]
@@ -56,6 +57,11 @@ def holds_points(journal):
     )
 
 
+def processor_time(process):
+    """Seconds of all threads of a process that isn't waited for yet, by its clock as clock_getcpuclockid(3) has it."""
+    return time.clock_gettime(~process.pid << 3 | 2)
+
+
 class StoppedRuns(CommandLine):
     def setUp(self):
         super().setUp()
@@ -82,7 +88,7 @@ class StoppedRuns(CommandLine):
         ]
 
     def run_command(self, *words, **more):
-        return subprocess.run(self.command(*words, **more), capture_output=True, text=True, timeout=300)
+        return subprocess.run(self.command(*words, **more), capture_output=True, text=True, timeout=LONGEST)
 
     def undisturbed(self):
         """The bytes of a run that nothing stops."""
@@ -93,30 +99,63 @@ class StoppedRuns(CommandLine):
         whole.unlink()
         return content
 
-    def wait_until_it_listens(self, process):
-        """Waits until a run handles signals, from when on it stops in an orderly way, or until it has ended."""
-        while not handled_signals(process) and process.poll() is None:
-            time.sleep(0.001)
+    def begin(self, *words, stderr=subprocess.PIPE, prepare=None, **more):
+        """A run that heeds signals; `prepare` is called just before it becomes the program."""
 
-    def stopped(self, seconds, number, *words, popen=None, **more):
-        """The exit code and what was said by a run that gets a signal after so long, SIGKILL at any moment, others
-        once it listens."""
-        process = subprocess.Popen(self.command(*words, **more), stderr=subprocess.PIPE, text=True, **(popen or {}))
+        def prepare_all():
+            heed_signals()
+            if prepare is not None:
+                prepare()
+
+        process = subprocess.Popen(self.command(*words, **more), stderr=stderr, text=True, preexec_fn=prepare_all)
+        self.addCleanup(process.wait)
+        self.addCleanup(process.kill)
+        return process
+
+    def begin_held(self):
+        """A run that listens to signals but can't end, since it waits for room in a full pipe to show its progress.
+        Returns it and an end of the pipe, after whose closing it goes on."""
+        reader, writer = full_pipe()
+        process = self.begin("--progress", "always", stderr=writer)
+        os.close(writer)
+        self.wait_until_it_listens(process)
+        self.assertIsNone(process.poll(), "it ended though nobody reads its messages")
+        return process, reader
+
+    def wait_until_it_listens(self, process):
+        """Waits until a run handles all signals, from when on it stops in an orderly way, or until it has ended."""
+        self.wait_until(
+            lambda: handled_signals(process) == STOPS or process.poll() is not None, "a run handles signals or ends"
+        )
+
+    def killed_after(self, seconds, **more):
+        """The exit code and what was said by a run that is killed after so long, at whatever moment that is."""
+        process = self.begin(**more)
         try:
             process.wait(seconds)
         except subprocess.TimeoutExpired:
-            if number != signal.SIGKILL:
-                self.wait_until_it_listens(process)
-            process.send_signal(number)
-        said = process.communicate(timeout=300)[1]
+            process.kill()
+        said = process.communicate(timeout=LONGEST)[1]
         return process.returncode, said
 
-    def stopped_with_points(self, number, popen=None):
+    def stopped(self, seconds, number, *words, **more):
+        """The exit code and what was said by a run that gets a signal when it listens and has taken so much processor
+        time, which tells on a busy machine, too, how far it is."""
+        process = self.begin(*words, **more)
+        self.wait_until_it_listens(process)
+        self.wait_until(
+            lambda: process.poll() is not None or processor_time(process) >= seconds, f"a run works for {seconds} s"
+        )
+        process.send_signal(number)
+        said = process.communicate(timeout=LONGEST)[1]
+        return process.returncode, said
+
+    def stopped_with_points(self, number, **more):
         """What was said by a run that a signal stopped after some points and before the last: later if none was
         finished, sooner if all were."""
         seconds = 0.05
         for _ in range(100):
-            code, said = self.stopped(seconds, number, popen=popen)
+            code, said = self.stopped(seconds, number, **more)
             if code == 0:
                 self.output.unlink()
                 seconds /= 2
@@ -138,7 +177,16 @@ class StoppedRuns(CommandLine):
                 return stops
             self.assertEqual(result.returncode, 124, result.stderr)
             stops += "goes on" in result.stderr
-        self.fail("it doesn't get on")
+        return self.fail("it doesn't get on")
+
+    def in_several_steps(self, *words, **more):
+        """The same, again until it was stopped with something finished: a busy machine may give a run no time until it
+        is over, and then all of it at once."""
+        for _ in range(100):
+            if self.in_steps(*words, **more) > 0:
+                return
+            (more.get("output") or self.output).unlink()
+        self.fail("it is never stopped between two points")
 
     def complete(self, *words, **more):
         """The bytes and what was said by a run that ends what others began; nothing else is left."""
@@ -156,9 +204,7 @@ class StoppedRuns(CommandLine):
         while done < kills:
             saved = b""
             for attempt in range(1, 200):
-                code, said = self.stopped(
-                    moments.uniform(0, 0.2 * attempt), signal.SIGKILL, threads=moments.choice((1, 2, 3))
-                )
+                code, said = self.killed_after(moments.uniform(0, 0.2 * attempt), threads=moments.choice((1, 2, 3)))
                 resumed += "goes on from" in said
                 if code == 0:
                     break

@@ -4,7 +4,7 @@ import os
 import subprocess
 import unittest
 
-from command_line import CLATTER, SMALL, CommandLine
+from command_line import CLATTER, LONGEST, SMALL, CommandLine
 
 SMALL_INI = SMALL.replace('nu = "linspace(0.5, 1.5, 5)"', "nu = linspace(0.5, 1.5, 5)  ; an axis")
 
@@ -12,7 +12,7 @@ SMALL_INI = SMALL.replace('nu = "linspace(0.5, 1.5, 5)"', "nu = linspace(0.5, 1.
 class StandardInput(CommandLine):
     def piped(self, text, *words):
         return subprocess.run(
-            [CLATTER, *words], cwd=self.directory, input=text.encode(), capture_output=True, timeout=300
+            [CLATTER, *words], cwd=self.directory, input=text.encode(), capture_output=True, timeout=LONGEST
         )
 
     def assert_piped_refused(self, code, words, text, *command):
