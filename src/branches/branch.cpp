@@ -295,7 +295,8 @@ class Follower {
       if (scene.oscillator.stiffness == 0) return;  // it drifts, or has no place of its own
       orbit = Orbit{}.half_if_same(0.0, symmetric_);
     }
-    waiting_.push_back({scene, orbit, {}, special, generation_});
+    // without it the motion may repeat sooner, or be symmetric
+    waiting_.push_back({scene, orbit.half_if_same(1e-6, symmetric_), {}, special, generation_});
   }
 
   point::Problem problem_;

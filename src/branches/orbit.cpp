@@ -88,6 +88,7 @@ Orbit Orbit::half_if_same(double tolerance, bool symmetric_scene) const {
 
 Orbit Orbit::with(const OrbitImpact& impact, std::size_t after) const {
   Orbit orbit = *this;
+  orbit.pressed = Side::none;  // from now on the events tell when it is
   orbit.impacts.insert(orbit.impacts.begin() + static_cast<std::ptrdiff_t>(after), impact);
   return orbit;
 }

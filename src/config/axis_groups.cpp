@@ -140,4 +140,11 @@ std::optional<std::size_t> followed_dimension(const Settings& settings, const Ax
   return static_cast<std::size_t>(followed - groups.begin());
 }
 
+std::optional<std::size_t> dimension_of(const Settings& settings, const Setting* given, const AxisGroups& groups) {
+  for (std::size_t dimension = 0; dimension < groups.size(); ++dimension)
+    for (const std::size_t axis : groups[dimension])
+      if (&settings.axes[axis] == given) return dimension;
+  return std::nullopt;
+}
+
 }  // namespace clatter::config

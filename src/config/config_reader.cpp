@@ -137,7 +137,7 @@ Config config_of(ParsedConfig parsed) {
   spread_sobol(settings);
   const AxisGroups groups = group_axes(settings);
   check_stops_and_start(settings, groups);
-  check_soft_stops(settings);
+  check_soft_stops(settings, groups);
   Config config;
   config.title = settings.text("", "title"), config.source = settings.text("", "source");
   config.text = config_text(settings);

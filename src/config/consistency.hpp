@@ -46,8 +46,12 @@ void check_stops_and_start(const Settings& settings, const AxisGroups& groups);
 [[nodiscard]] bool is_soft_somewhere(const Settings& settings, Side side);
 [[nodiscard]] bool is_soft_everywhere(const Settings& settings, Side side);
 
-/// Throws ConfigError if soft stops can't hold the mass.
-void check_soft_stops(const Settings& settings);
+/// The dimension of a sweep along which a setting varies; nothing if it has one value.
+[[nodiscard]] std::optional<std::size_t> dimension_of(const Settings& settings, const Setting* given,
+                                                      const AxisGroups& groups);
+
+/// Throws ConfigError if soft stops can't hold the mass at some point of the sweep.
+void check_soft_stops(const Settings& settings, const AxisGroups& groups);
 
 /// Warns of keys without effect, values twice on an axis, and a run that observes nothing.
 [[nodiscard]] std::vector<Warning> warnings_of(const Settings& settings, const AxisGroups& groups);

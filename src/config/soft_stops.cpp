@@ -19,16 +19,23 @@ const Setting* stiffness_of(const Settings& settings, Side side) {
 bool is_finite(double value) { return std::isfinite(value); }
 
 /// Throws ConfigError if the spring pushes a mass away more strongly than a soft stop holds it.
-void check_hold(const Settings& settings, Side side) {
+void check_hold(const Settings& settings, Side side, const AxisGroups& groups) {
   const Setting *const spring = settings.given(stiffness), *const stop = stiffness_of(settings, side);
   if (spring == nullptr || stop == nullptr) return;
-  const double push = -*std::ranges::min_element(spring->numbers());
-  const auto kappas = stop->numbers();
-  const auto weakest = std::ranges::min_element(kappas);
-  if (*weakest > push) return;
-  fail(stop->location_of(static_cast<std::size_t>(weakest - kappas.begin())),
-       std::string(stop->key->name) + " = " + number_text(*weakest) + " holds no mass that stiffness = " +
-           number_text(-push) + " pushes away; expected more than " + number_text(push));
+  const auto kappas = stop->numbers(), springs = spring->numbers();
+  const auto check = [&](std::size_t i, double k) {
+    if (kappas[i] > -k) return;
+    fail(stop->location_of(i), std::string(stop->key->name) + " = " + number_text(kappas[i]) +
+                                   " holds no mass that stiffness = " + number_text(k) +
+                                   " pushes away; expected more than " + number_text(-k));
+  };
+  const auto along = dimension_of(settings, spring, groups);
+  if (along && along == dimension_of(settings, stop, groups)) {  // they vary together
+    for (std::size_t i = 0; i < kappas.size(); ++i) check(i, springs[i]);
+  } else {
+    const auto weakest = std::ranges::min_element(kappas) - kappas.begin();
+    check(static_cast<std::size_t>(weakest), *std::ranges::min_element(springs));
+  }
 }
 
 }  // namespace
@@ -43,8 +50,8 @@ bool is_soft_everywhere(const Settings& settings, Side side) {
   return given != nullptr && std::ranges::all_of(given->numbers(), is_finite);
 }
 
-void check_soft_stops(const Settings& settings) {
-  for (const Side side : {Side::lower, Side::upper}) check_hold(settings, side);
+void check_soft_stops(const Settings& settings, const AxisGroups& groups) {
+  for (const Side side : {Side::lower, Side::upper}) check_hold(settings, side, groups);
 }
 
 }  // namespace clatter::config

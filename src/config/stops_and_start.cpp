@@ -17,13 +17,6 @@ struct Quantity {
   std::optional<std::size_t> dimension;  ///< along which it varies
 };
 
-std::optional<std::size_t> dimension_of(const Settings& settings, const Setting* given, const AxisGroups& groups) {
-  for (std::size_t dimension = 0; dimension < groups.size(); ++dimension)
-    for (const std::size_t axis : groups[dimension])
-      if (&settings.axes[axis] == given) return dimension;
-  return std::nullopt;
-}
-
 Quantity quantity(const Settings& settings, const AxisGroups& groups, sweep::Parameter parameter) {
   const Setting* const given = settings.given(parameter);
   const std::string name(key_of(parameter));

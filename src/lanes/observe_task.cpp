@@ -121,9 +121,11 @@ SettledPoint<E> ObserveTask<E>::failed(stepping::Outcome outcome, const LaneView
 template <Effects E>
 bool ObserveTask<E>::pass_section(LaneView& lane) {
   if (has_spent_budget(lane.section().impacts)) return true;
+  // a whole number of periods that rounding has made longer begins with a piece whose end is its beginning
+  const bool begins = sections_ == 0 && first_turns_ > 0.5;
   sections_ += std::exchange(to_report_, after_report_);
   const bool at_end = static_cast<double>(sections_) == sections_in_all_;
-  if (wants_section()) add_to_section(lane.section().x, lane.section().v);
+  if (wants_section() && !begins) add_to_section(lane.section().x, lane.section().v);
   const bool over = at_end || may_end_early(lane);
   if (!at_end && over) coast(lane);
   if (!over) expect_section(lane);

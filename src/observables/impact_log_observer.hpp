@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <utility>
 #include <vector>
 
@@ -22,13 +23,14 @@ class ImpactLog::Observer {
   void impact_at_start(const motion::Impact& at_start) {
     if (full_) impact(at_start);
   }
-  /// A contact with a soft stop is logged with the velocities at its beginning and its end, NaN if that isn't observed.
+  /// A contact with a soft stop is logged with the velocities at its beginning and where the stop's force first falls to
+  /// 0, NaN if that isn't observed: beyond the stop's position the contact may be renewed after that.
   void touch(const motion::Touch& touch) {
     if (!touch.from_outside) return;
     values_.log.push_back({touch.time, touch.side, touch.velocity, no_value, touch.position});
   }
   void separate(const motion::Separation& separation) {
-    if (!values_.log.empty() && values_.log.back().side == separation.side)
+    if (!values_.log.empty() && values_.log.back().side == separation.side && std::isnan(values_.log.back().after))
       values_.log.back().after = separation.velocity;
   }
   /// The response meets no stop.

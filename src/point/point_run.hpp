@@ -74,7 +74,8 @@ class Point {
     observers.finish(span_, state.x, state.v, result_);
     if (problem_.observe.settling && problem_.oscillator.forcing != 0)
       result_.settling_periods =
-          settling_periods(integrator_, start(), observed_, problem_.time, observables::Settling::settled);
+          settling_periods(integrator_, start(), observed_, problem_.time, observables::Settling::settled,
+                           factor_of(problem_.units, Quantity::velocity));
     steady::ObservedTime complete = observed_;
     const auto& stability = observers.template of<observables::Stability>();
     if (stability && span_.periodic && problem_.oscillator.forcing != 0 && stability->grazes())

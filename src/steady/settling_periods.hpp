@@ -15,10 +15,11 @@ namespace clatter::steady {
 
 /// Forcing periods after which forced motion from `start` stays within `distance` of the periodic one that it was found
 /// to end in: from that stroboscopic section on, no state is further from that of the periodic motion at the same
-/// section, relative to the larger of its |x| and |v|. NaN if it has none, or isn't that close after max_periods.
+/// section, relative to the larger of its |x| and |v|, velocities being counted in units of `velocity`. NaN if it has
+/// none, or isn't that close after max_periods.
 template <stepping::Integrator I>
 [[nodiscard]] double settling_periods(I integrator, motion::State<double> start, const ObservedTime& found,
-                                      const TimeSettings& time, double distance) {
+                                      const TimeSettings& time, double distance, double velocity) {
   constexpr double never = std::numeric_limits<double>::quiet_NaN();
   if (!(found.status == Status::periodic || found.status == Status::grazing) || !std::isfinite(found.settling))
     return never;
@@ -36,8 +37,8 @@ template <stepping::Integrator I>
   const auto is_near = [&](const motion::State<double>& state) {
     const std::int64_t ahead = (state.periods - found.from.periods) % period;
     const motion::State<double>& steady = cycle[static_cast<std::size_t>(ahead < 0 ? ahead + period : ahead)];
-    const double limit = distance * std::max(std::abs(steady.x), std::abs(steady.v));
-    return std::abs(state.x - steady.x) <= limit && std::abs(state.v - steady.v) <= limit;
+    const double limit = distance * std::max(std::abs(steady.x), velocity * std::abs(steady.v));
+    return std::abs(state.x - steady.x) <= limit && velocity * std::abs(state.v - steady.v) <= limit;
   };
   const auto last =
       static_cast<std::int64_t>(std::min(std::ceil(found.settling), static_cast<double>(time.max_periods)));

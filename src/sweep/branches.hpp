@@ -42,13 +42,14 @@ struct Branches {
 };
 
 /// Starts a point of a branch from the end of the one before, whose phase is that of the shaking, or from the scene's
-/// own start if that one failed. A displacement beyond narrower stops is moved onto the stop, the velocity kept, though
-/// the units of time may differ.
+/// own start if that one failed. A displacement beyond narrower rigid stops is moved onto the stop, the velocity kept,
+/// though the units of time may differ.
 inline void start_from(point::Problem& problem, const std::optional<Start>& end, const Units& units_of_end) {
   if (end) problem.start = *end;
   if (end && problem.shaking.lead != 0) problem.start.phase += problem.shaking.lead;
   if (end && units_of_end.time != problem.units.time) problem.start.velocity *= problem.units.time / units_of_end.time;
-  problem.start.displacement = std::clamp(problem.start.displacement, problem.stops.lower, problem.stops.upper);
+  const Stops rigid = rigid_ones(problem.stops);
+  problem.start.displacement = std::clamp(problem.start.displacement, rigid.lower, rigid.upper);
 }
 
 }  // namespace clatter::sweep

@@ -10,6 +10,7 @@
 #include "branches/newton.hpp"
 #include "branches/special_values.hpp"
 #include "point/point.hpp"
+#include "support/random.hpp"
 
 namespace clatter::branches {
 namespace {
@@ -54,6 +55,45 @@ TEST(Branch, of_one_impact_on_each_stop_has_the_special_points_of_the_closed_for
       EXPECT_EQ(impact_map(at.scene, at.orbit).trace() > 0, kind == SpecialKind::fold);  // of half a period: +1, -1
     }
   }
+}
+
+/// Where an impact is dropped in a graze, what is left may repeat sooner. By runs of the simulator, which doesn't know
+/// of branches, from the states of those motions that a run holds on to.
+TEST(Branch, of_random_scenes_has_the_shortest_period_everywhere) {
+  std::size_t compared = 0;
+  for (std::uint64_t index = 0; index < 80; ++index) {
+    support::Random random(60, index);
+    point::Problem problem =
+        problem_of(random.logarithmic(5e-3, 0.1), random.uniform(0.5, 2.5), random.uniform(0.7, 4), {});
+    problem.stops.upper = random.uniform(0.1, 1), problem.stops.restitution_upper = random.uniform(0.5, 0.95);
+    problem.start.displacement = -0.2;
+    const double nu = problem.oscillator.frequency;
+    Branches found;
+    try {
+      found = follow_branches(problem, {.range = {0.6 * nu, 1.7 * nu}, .max_points = 500, .generations = 1});
+    } catch (const StartError&) {
+      continue;
+    }
+    for (std::size_t i = 1; i < found.points.size(); i += 7) {
+      const BranchPoint& point = found.points[i];
+      const double turns = point.orbit.period_ratio(),
+                   largest = std::hypot(point.multiplier_re[0], point.multiplier_im[0]);
+      const bool is_birth = std::abs(point.multiplier_re[0] - 1) < 1e-4;  // there it is the motion that it is born from
+      if (is_birth || point.orbit.rests() || turns != std::floor(turns) || turns < 2 || largest > 1e3) continue;
+      const PhasePoint from = state_at_phase_zero(point.scene, point.orbit);
+      const double size = std::max(std::abs(from.x), std::abs(from.v));
+      for (double part = 1; part < turns; ++part) {
+        if (std::fmod(turns, part) != 0) continue;
+        const auto later =
+            attractors::state_after(attractors::started(with_scene(problem, point.scene), from, 0.0), part);
+        ASSERT_TRUE(later);
+        EXPECT_GT(std::max(std::abs(later->x - from.x), std::abs(later->v - from.v)), 1e-7 * size)
+            << index << ' ' << i << ": " << part << " of " << turns;
+        ++compared;
+      }
+    }
+  }
+  EXPECT_GT(compared, 200);
 }
 
 TEST(Branch, turns_in_its_fold_and_loses_stability_there) {

@@ -12,6 +12,7 @@
 #include "branches/moving.hpp"
 #include "branches/newton.hpp"
 #include "point/point.hpp"
+#include "support/random.hpp"
 #include "support/soft_scene.hpp"
 #include "sweep/sweep.hpp"
 
@@ -30,6 +31,7 @@ point::PointResult observed(const point::Problem& given, const BranchPoint& poin
   problem.time.duration = point.orbit.period_ratio() * 2 * std::numbers::pi / problem.oscillator.frequency;
   problem.observe = {};
   problem.observe.energy = true, problem.observe.harmonics = 1;
+  problem.observe.impacts = problem.observe.of_soft_stops = true;
   problem.observe.harmonics_method = observables::HarmonicsMethod::exact;
   problem.observe.base_frequency = problem.oscillator.frequency;
   point::ThreadScratch scratch;
@@ -84,6 +86,52 @@ TEST(SoftMeasures, are_those_of_a_run_of_the_simulator) {
   EXPECT_GT(points, 300);
   EXPECT_GT(lost, 200);
   EXPECT_GT(contacts, 200);
+}
+
+/// A mass that its load presses on a damped stop, and that a growing force shakes off it.
+point::Problem pressed_scene(std::uint64_t index) {
+  support::Random random(41, index);
+  point::Problem problem;
+  problem.oscillator = {random.logarithmic(0.01, 0.3), 0.02, random.uniform(0.5, 3), -random.uniform(0.2, 1)};
+  problem.stops.lower = random.uniform(-0.1, 0.1);
+  problem.stops.stiffness_lower = random.logarithmic(10, 1000);
+  problem.stops.damping_lower = random.logarithmic(0.01, 0.8);
+  problem.start.displacement = problem.stops.lower;
+  return problem;
+}
+
+/// Along the force, from motion that is always pressed: the loss is that of a run, and the product of the multipliers
+/// what the damper of the mass takes of an area of states, and that of the stop while a run is in contact.
+TEST(SoftMeasures, of_motion_shaken_off_a_stop_are_those_of_runs) {
+  std::size_t pressed = 0, shaken_off = 0;
+  for (std::uint64_t index = 0; index < 40; ++index) {
+    const point::Problem problem = pressed_scene(index);
+    Branches found;
+    try {
+      found = follow_branches(problem, {.along = Parameter::f, .range = {0.01, 3.0}, .max_points = 150});
+    } catch (const StartError&) {
+      continue;
+    }
+    for (std::size_t i = 1; i < found.points.size(); i += 4) {
+      const BranchPoint& point = found.points[i];
+      const auto slow = [](const OrbitImpact& impact) { return std::abs(impact.before) < 1e-4; };
+      if (largest_multiplier(point) > 1e2 || std::ranges::any_of(point.orbit.impacts, slow)) continue;
+      const point::PointResult run = observed(problem, point);
+      EXPECT_NEAR(impact_power(point.scene, point.orbit), run.impact_power, 1e-9 * (1 + run.impact_power))
+          << index << ' ' << i;
+      const double period = point.orbit.period_ratio() * 2 * std::numbers::pi / problem.oscillator.frequency;
+      const Stops& stops = problem.stops;
+      const double damper = stops.damping_lower * std::sqrt(stops.stiffness_lower);
+      const double area = std::exp(-2 * period * (problem.oscillator.damping + damper * run.contact_fraction[0]));
+      const double product =
+          point.multiplier_re[0] * point.multiplier_re[1] - point.multiplier_im[0] * point.multiplier_im[1];
+      // Newton's 1e-12 over the least speed, 1e-4, is the error of the time in contact, and it stands in the exponent
+      EXPECT_NEAR(product, area, 1e-8 * area * (1 - std::log(area))) << index << ' ' << i;
+      (point.orbit.size() == 0 ? pressed : shaken_off) += 1;
+    }
+  }
+  EXPECT_GT(pressed, 50);
+  EXPECT_GT(shaken_off, 300);
 }
 
 /// The derivative of a measure along a branch, and its difference quotient; fourth order in the distance.

@@ -43,8 +43,17 @@ TEST(Together, a_soft_stop_has_no_restitution_and_holds_the_mass) {
       {"[scene]\nxs = 1\nstiffness = -3\nstop_stiffness = 3\n", "4:18", "expected more than 3"},
       {"[scene]\nxs = 1\nstop_stiffness_lower = 2\n[sweep]\nstiffness = [1, -2.5]\n", "3:24", "expected more than 2.5"},
       {"[scene]\nxs = 1\nstop_stiffness = 3\nstart_period = 3\n", "3:18", "conflicts with 'start_period'"},
+      {"[scene]\nxs = 1\n[sweep]\nstiffness = [-5, 1]\nstop_stiffness = [100, 0.5]\n", "5:24", "expected more than 5"},
+      {"[scene]\nxs = 1\n[sweep]\nstiffness = [1, -5]\nstop_stiffness = [9, 4]\nlinked = \"stiffness, "
+       "stop_stiffness\"\n",
+       "5:22", "stop_stiffness = 4 holds no mass that stiffness = -5 pushes away"},
   };
   expect_all("a.toml", table);
+}
+
+TEST(Together, values_that_run_together_are_compared_one_by_one) {
+  const std::string axes = "[scene]\nxs = 1\n[sweep]\nstiffness = [-5, 1]\nstop_stiffness = [100, 0.5]\n";
+  EXPECT_EQ(size(read_as("a.toml", axes + "linked = \"stiffness, stop_stiffness\"\n").sweep), 2U);
 }
 
 TEST(Together, one_thing_is_shaken) {

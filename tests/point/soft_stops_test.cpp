@@ -47,6 +47,33 @@ TEST(SoftStops, energy_closes_over_any_time) {
   }
 }
 
+/// A contact may be renewed beyond the stop's position; its impact ends where the stop's force first falls to 0.
+TEST(SoftStops, the_log_has_the_separation_that_follows_each_touch) {
+  std::size_t renewed = 0;
+  for (std::uint64_t i = 0; i < 300; ++i) {
+    Problem scene = support::soft_scene(i);
+    if (is_soft(scene.stops, Side::lower) != is_soft(scene.stops, Side::upper)) continue;
+    scene.observe.impact_log = true;
+    const PointResult found = run(scene);
+    const support::Recorder seen = support::run_scene(scene, scene.time.duration).record;
+    std::vector<double> after;
+    for (std::size_t k = 0; k < seen.touches.size(); ++k) {
+      const motion::Touch& touch = seen.touches[k];
+      renewed += !touch.from_outside;
+      if (!touch.from_outside || !(touch.time > 0)) continue;
+      const auto next = std::ranges::find_if(seen.separations, [&](const motion::Separation& separation) {
+        return separation.side == touch.side && separation.time >= touch.time;
+      });
+      after.push_back(next == seen.separations.end() ? std::numeric_limits<double>::quiet_NaN() : next->velocity);
+    }
+    ASSERT_EQ(found.log.size(), after.size()) << i;
+    for (std::size_t k = 0; k < after.size(); ++k)
+      EXPECT_TRUE(found.log[k].after == after[k] || (std::isnan(found.log[k].after) && std::isnan(after[k])))
+          << i << ' ' << k << ": " << found.log[k].after << ' ' << after[k];
+  }
+  EXPECT_GT(renewed, 20);
+}
+
 TEST(SoftStops, free_motion_has_the_period_of_eq_56_and_the_depth_of_its_energy) {
   for (const double kappa : {3.0, 1e5})
     for (const double V : {1.5, 4.0}) {

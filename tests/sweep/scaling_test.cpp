@@ -10,6 +10,7 @@
 #include <variant>
 #include <vector>
 
+#include "support/random.hpp"
 #include "sweep/branches.hpp"
 #include "sweep/run.hpp"
 
@@ -74,6 +75,37 @@ TEST(Scaling, slower_time_gives_the_same_motion) {
   expect("x_max", 1), expect("v_max", rate), expect("period", 1 / rate), expect("period_ratio", 1);
   expect("lyapunov", rate), expect("multiplier_re", 1), expect("work_in", rate * rate);
   expect("impulse", rate), expect("impact_power", rate * rate * rate), expect("settling_estimate", 1);
+}
+
+/// By its definition in the units of the scene, from the states once a forcing period that two runs write.
+TEST(Scaling, settling_is_counted_in_the_units_of_the_scene) {
+  std::size_t compared = 0;
+  for (std::uint64_t index = 0; index < 200; ++index) {
+    support::Random random(5, index);
+    point::Problem scene;
+    scene.oscillator = {random.uniform(0.02, 0.3), random.uniform(1, 9), random.uniform(1, 4), 0.0,
+                        random.logarithmic(0.05, 20)};
+    scene.stops = {-1, 1, random.uniform(0.2, 0.7), random.uniform(0.2, 0.7)};
+    scene.start = {random.uniform(-1, 1), random.uniform(-2, 2), 0.0};
+    scene.observe.settling = scene.observe.period = true, scene.observe.section = 400;
+    const Dataset steady = run({.problem = scene}, {}).dataset;
+    const double told = values(steady, "settling_periods")[0];
+    if (values(steady, "period_ratio")[0] != 1 || !(told > 0 && told < 390)) continue;
+    scene.observe.settling = scene.observe.period = false;
+    scene.time.mode = steady::Mode::transient;
+    scene.time.duration = 400 * period_of(scene.oscillator);
+    const Dataset transient = run({.problem = scene}, {}).dataset;
+    const double x = values(steady, "section_x")[0], v = values(steady, "section_v")[0];
+    std::size_t settled = 0;
+    for (std::size_t k = 0; k < 400; ++k) {
+      const double off =
+          std::max(std::abs(values(transient, "section_x")[k] - x), std::abs(values(transient, "section_v")[k] - v));
+      if (off > 1e-3 * std::max(std::abs(x), std::abs(v))) settled = k + 1;
+    }
+    EXPECT_EQ(static_cast<double>(settled), told) << index;
+    ++compared;
+  }
+  EXPECT_GT(compared, 50);
 }
 
 TEST(Scaling, follow_keeps_the_velocity_when_the_stiffness_changes) {
