@@ -23,8 +23,8 @@ class ImpactLog::Observer {
   void impact_at_start(const motion::Impact& at_start) {
     if (full_) impact(at_start);
   }
-  /// A contact with a soft stop is logged with the velocities at its beginning and where the stop's force first falls to
-  /// 0, NaN if that isn't observed: beyond the stop's position the contact may be renewed after that.
+  /// A contact with a soft stop is logged with the velocities at its beginning and where the stop's force first falls
+  /// to 0, NaN if that isn't observed: beyond the stop's position the contact may be renewed after that.
   void touch(const motion::Touch& touch) {
     if (!touch.from_outside) return;
     values_.log.push_back({touch.time, touch.side, touch.velocity, no_value, touch.position});
