@@ -15,9 +15,9 @@ $(help_lines "and for the benchmarks (${BENCH_PACKAGES[*]}),")
   2. builds clatter and its benchmarks in build/release,
   3. runs them, some ten minutes long, and leaves their results as JSON in build/release/bench,
   4. prints tables of them, medians of several repetitions, and the targets. It asserts nothing.
---build measures in place of all that what it costs to build: processor and wall time, by folder and for the longest
-files, of the program and of the tests, each from nothing in a folder of its own, on idle cores as scripts/reproduce.sh
-and scripts/test.sh do it. --build COMMIT builds that commit's sources too, before these, and prints both.
+--build measures, instead of all that, what it costs to build the program and then its tests: processor and wall time,
+by folder and for the longest files, each from nothing, which takes some ten minutes. With COMMIT that commit's sources
+are measured first. Nothing else should run meanwhile.
 --quick takes one repetition and smaller sweeps, to see that all works. --arch NAME makes the whole processes
 use that instruction set; the other benchmarks use each in turn.
 END
@@ -54,21 +54,25 @@ while (($# > 0)); do
       shift 2
       ;;
     --build)
-      build=(scripts/bench_build.py ${2+"$2"})
-      shift $#
+      build=(scripts/bench_build.py)
+      shift
+      if (($# > 0)) && [[ $1 != -* ]]; then
+        build+=("$1")
+        shift
+      fi
       ;;
     -h | --help) usage; exit 0 ;;
     *) echo "bench.sh: unknown argument '$1'; try --help" >&2; exit 2 ;;
   esac
 done
 
-steps
-install_missing "${BUILD_PACKAGES[@]}" "${BENCH_PACKAGES[@]}"
-
 cd "$source_dir"
 if ((${#build[@]} > 0)); then
+  install_missing "${BUILD_PACKAGES[@]}" python3
   exec /usr/bin/python3 -B "${build[@]}"
 fi
+steps
+install_missing "${BUILD_PACKAGES[@]}" "${BENCH_PACKAGES[@]}"
 cmake --preset release
 cmake --build --preset release --target benchmarks
 

@@ -88,13 +88,17 @@ def main():
     PLACE.mkdir(parents=True, exist_ok=True)
     results = []
     if sys.argv[1:]:
+        commit = subprocess.run(
+            ["git", "rev-parse", "-q", "--verify", sys.argv[1] + "^{commit}"], cwd=SOURCE, stdout=subprocess.DEVNULL
+        )
+        if commit.returncode != 0:
+            sys.exit(f"bench_build.py: git knows no commit '{sys.argv[1]}'; git log lists them")
         other = PLACE / "sources"
         shutil.rmtree(other, ignore_errors=True)
         other.mkdir()
         archive = subprocess.Popen(["git", "archive", sys.argv[1]], stdout=subprocess.PIPE, cwd=SOURCE)
         checked("tar", "-x", "-C", other, stdin=archive.stdout)
-        if archive.wait() != 0:
-            sys.exit(f"bench_build.py: git knows no commit '{sys.argv[1]}'")
+        archive.wait()
         results.append((sys.argv[1], build(other, "other")))
     results.append(("these sources", build(SOURCE, "these")))
     for name, found in results:

@@ -53,12 +53,13 @@ def measured(build):
 
 
 def written(path):
-    """What tests that have run have written for CLATTER_HARD_CASES: of each case the last report. It is taken away, so
-    that the next run of the tests begins anew."""
+    """The reports that tests have written for CLATTER_HARD_CASES, the last of each case. The file is removed, so that
+    the next run of the tests begins anew."""
     if not path.exists():
         sys.exit(f"hard_cases.py: {path} is missing; the tests of the hard cases write it: ctest -R hard")
-    cases = {(case["row"], case["what"]): case for case in parsed(path.read_text())}
+    text = path.read_text()
     path.unlink()
+    cases = {(case["row"], case["what"]): case for case in parsed(text)}
     return list(cases.values())
 
 

@@ -37,6 +37,10 @@ case "${1-}" in
   -h | --help) usage; exit 0 ;;
   *) echo "long_checks.sh: unknown name '${1-}'; try --help" >&2; exit 2 ;;
 esac
+if [[ $1 == starts ]] && (($# > 1)); then
+  echo "long_checks.sh: starts takes no COUNT" >&2
+  exit 2
+fi
 count=${2-$count}
 [[ $count =~ ^[1-9][0-9]*$ ]] || { echo "long_checks.sh: COUNT is a whole number above 0, not '$count'" >&2; exit 2; }
 

@@ -15,7 +15,7 @@ $(help_lines "for the pictures (${PLOT_PACKAGES[*]}),")
 $(help_lines "for reading the outputs with other programs (${TEST_PACKAGES[*]}),")
 $(help_lines "and for scripts/check.sh, which is tested too (${CHECK_PACKAGES[*]}),")
   2. builds clatter and its tests in build/release,
-  3. runs all tests through ctest.
+  3. runs all tests through ctest; one needs a small disk: root, or unshare -rm scripts/test.sh once all is installed.
 END
 }
 

@@ -72,9 +72,8 @@ RunRecord record_of(const point::Problem& scene, double duration) {
   record.outcome = motion->run_for(state, duration / motion->period(), recorder);
   record.x = state.x, record.v = state.v;
   record.impacts = motion->impacts(), record.evaluations = motion->evaluations();
-  for (const point::MotionEvent& event : recorder.events)  // a contact with a soft stop is one event, like an impact
-    if (event.kind != point::MotionEvent::Kind::separation && event.kind != point::MotionEvent::Kind::renewal)
-      record.events.push_back(event_of(event));
+  for (const point::MotionEvent& event : recorder.events)  // each contact with a soft stop is an event, like an impact
+    if (event.kind != point::MotionEvent::Kind::separation) record.events.push_back(event_of(event));
   return record;
 }
 RunRecord reference_of(const point::Problem& scene, double duration,

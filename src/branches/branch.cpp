@@ -293,7 +293,7 @@ class Follower {
   void wait_without(const ShakenScene& scene, Orbit orbit, std::size_t special) {
     if (orbit.size() == 0 && orbit.pressed == Side::none) {
       if (scene.oscillator.stiffness == 0) return;  // it drifts, or has no place of its own
-      orbit = Orbit{}.half_if_same(0.0, symmetric_);
+      orbit = Orbit{};
     }
     // without it the motion may repeat sooner, or be symmetric
     waiting_.push_back({scene, orbit.half_if_same(1e-6, symmetric_), {}, special, generation_});

@@ -115,7 +115,7 @@ void check_stops_and_start(const Settings& settings, const AxisGroups& groups) {
   const Permitted not_above = [](double left, double right) { return left <= right; };
   if (!symmetric) compare(lower, upper, below, "stop_lower < stop_upper");
   if (settings.given(start_period)) return;  // it starts on the lower stop
-  // along `follow` only the first point starts from [scene]; a later one that lies beyond a stop is moved onto it
+  // along `follow` only the first point starts from [scene]; a later one beyond a rigid stop is moved onto it
   const auto followed = followed_dimension(settings, groups);
   const auto at_start = [&](Quantity quantity) {
     if (followed && quantity.dimension == followed) quantity.values.resize(1);

@@ -12,7 +12,7 @@
 
 namespace clatter::point {
 
-/// What happens to a motion at an instant.
+/// An event of a motion.
 struct MotionEvent {
   enum class Kind : std::uint8_t {
     impact,      ///< on a rigid stop
@@ -78,7 +78,8 @@ class ExactMotion {
 
   [[nodiscard]] virtual motion::State<double> start() const = 0;
   [[nodiscard]] virtual const Stops& stops() const = 0;  ///< those in reach
-  [[nodiscard]] virtual double period() const = 0;       ///< of the force, tau; without forcing 2 pi
+  [[nodiscard]] virtual double period()
+      const = 0;  ///< of the force, tau; without one that of the spring, 2 pi without either
   [[nodiscard]] virtual double impacts() const = 0;      ///< simulated so far
   [[nodiscard]] virtual double evaluations() const = 0;  ///< of arcs, so far
 

@@ -10,8 +10,8 @@
 
 namespace clatter::point {
 
-/// The exact method, compiled for a set of effects. Files named exact_points_* hold these functions for a group of sets
-/// each: together they take longest to compile of all that the program has.
+/// The exact method, compiled for a set of effects. That takes a good part of the whole build, so each file named
+/// exact_points_* compiles a few sets.
 template <Effects E>
 class ExactPoints {
  public:

@@ -1,3 +1,5 @@
+// Scenes without stops, and scenes without a force.
+
 #include "point/exact_points_run.hpp"
 
 namespace clatter::point {

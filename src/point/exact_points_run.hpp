@@ -78,9 +78,9 @@ double ExactPoints<E>::seconds_per_evaluation() {
     stepping::Exact<double, E> integrator(problem);
     motion::State<double> state;
     state.v = problem.start.velocity;
-    steady::PassageObserver nobody(problem.stops);
+    steady::PassageObserver watch(problem.stops);
     const auto begin = Clock::now();
-    (void)run_for(integrator, state, 50.0, nobody);
+    (void)run_for(integrator, state, 50.0, watch);
     const double seconds = std::chrono::duration<double>(Clock::now() - begin).count();
     least = std::min(least, seconds / std::max(1.0, integrator.evaluations()));
   }

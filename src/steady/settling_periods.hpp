@@ -23,9 +23,9 @@ template <stepping::Integrator I>
   constexpr double never = std::numeric_limits<double>::quiet_NaN();
   if (!(found.status == Status::periodic || found.status == Status::grazing) || !std::isfinite(found.settling))
     return never;
-  PassageObserver nobody(integrator.stops());  // the search has compiled runs under its eyes
+  PassageObserver watch(integrator.stops());  // as in the search: another observer would compile the integrator anew
   const auto advance = [&](motion::State<double>& state) {
-    return advance_to_section(integrator, state, state.periods, nobody) == stepping::Outcome::completed;
+    return advance_to_section(integrator, state, state.periods, watch) == stepping::Outcome::completed;
   };
   std::vector<motion::State<double>> cycle{found.from};
   while (static_cast<double>(cycle.size()) < found.turns) {

@@ -60,7 +60,7 @@ class StroboscopicMap {
   }
 
  private:
-  /// Follows a motion under the eyes of `watch_`, or of a pair of it and another one.
+  /// Follows a motion that is reported to `watch_`, or to it and another observer.
   template <class Observer>
   [[nodiscard]] std::optional<Orbit> follow_under(Observer& observer, const motion::State<double>& from,
                                                   std::size_t periods) {

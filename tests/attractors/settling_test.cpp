@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "model/displacement_bound.hpp"
 #include "point/point.hpp"
 
 namespace clatter::attractors {

@@ -185,7 +185,7 @@ class Arrows(unittest.TestCase):
         self.assertEqual(wrong_includes(SOURCE), [])
 
     def test_heavy_headers_stay_in_the_files_that_need_them(self):
-        """What a header includes, a hundred files compile."""
+        """A hundred files compile all that a header includes."""
         for heavy, files in heavy_files(SOURCE).items():
             self.assertEqual(files, {file for file in HEAVY[heavy] if (SOURCE / file).exists()}, heavy)
 

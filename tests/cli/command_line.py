@@ -131,7 +131,7 @@ class CommandLine(unittest.TestCase):
         """Waits for a condition, however long a busy machine takes."""
         deadline = time.monotonic() + LONGEST
         while not holds():
-            self.assertLess(time.monotonic(), deadline, f"in {LONGEST} s it never came that {what}")
+            self.assertLess(time.monotonic(), deadline, f"not within {LONGEST} s: {what}")
             time.sleep(0.005)
 
     def assert_refused(self, code, words, *command):

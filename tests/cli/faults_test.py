@@ -34,12 +34,9 @@ class Faults(StoppedRuns):
         if journal is not None:
             self.journal.write_bytes(journal)
 
-    def stop_on_its_way(self):
-        """Leaves the journal of a run that was stopped; returns the words that did it."""
-        return self.stopped_with()
-
-    def stopped_with(self, *more):
-        """The words that stop a run on its way, tried with times that grow: how fast it is, nobody knows."""
+    def stop_on_its_way(self, *more):
+        """Leaves the journal of a run that was stopped; returns the words that did it. Times that grow are tried, since
+        nobody knows how fast the run is."""
         for attempt in range(1000):
             words = (*more, "--max-time", f"{0.005 * 1.2 ** (attempt % 40):.4g}")
             if self.run_command(*words, threads=1).returncode == 124 and self.journal.exists():
@@ -232,7 +229,7 @@ class Faults(StoppedRuns):
         self.assertEqual(self.run_command(*larger).returncode, 0)
         whole = self.output.read_bytes()
         self.begin_anew()
-        self.stopped_with(*larger)
+        self.stop_on_its_way(*larger)
         with self.small_disk(len(whole) * 5 // 4 // 1024) as disk:
             shutil.copy(self.journal, disk / "a.h5.journal")
             result = self.run_command(*larger, "--resume", output=disk / "a.h5")

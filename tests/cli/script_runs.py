@@ -2,7 +2,7 @@
 
 To import matplotlib and h5py takes half a second of processor time, and tests run the scripts hundreds of times. A fork
 has its own arguments, environment, directory, outputs and exit code, as a new process has, and runs the same file as
-__main__. That the scripts start as commands is seen wherever guides, gallery and other tests call them.
+__main__; only the settings of matplotlib are the test's. Guides, and `start_script`, start the scripts as commands.
 """
 
 import os
@@ -24,7 +24,7 @@ import report_page  # noqa: E402, F401
 
 
 def run_script(name, *words, cwd=None, environment=None, timeout=LONGEST):
-    """What subprocess.run gives of a script in a process of its own, with its output as text."""
+    """Runs a script in a fork; returns the same as subprocess.run, with its output as text."""
     command = [str(SCRIPTS / name), *map(str, words)]
     sys.stdout.flush()
     sys.stderr.flush()

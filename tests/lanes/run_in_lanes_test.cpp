@@ -41,6 +41,29 @@ TEST(LanePoints, are_those_of_a_sweep_however_many_run) {
   }
 }
 
+/// Rounding may make a time of whole periods longer or shorter than they are by an ulp or more.
+TEST(LanePoints, of_a_transient_have_each_state_of_the_section_once) {
+  for (const double nu : {1.0, 0.7, 3.6144460222366099})
+    for (const double off : {-3e-13, -1e-15, 0.0, 1e-15, 3e-13}) {
+      point::Problem scene = observed_scene();
+      scene.oscillator.frequency = nu;
+      scene.time.mode = steady::Mode::transient;
+      scene.time.duration = 40 * period_of(scene.oscillator) * (1 + off);
+      scene.observe = {};
+      scene.observe.section = 40;
+      point::ThreadScratch scratch;
+      const point::PointResult lanes = run_in_lanes(item_of(scene), 1, InstructionSet::sse2, scratch);
+      const point::PointResult scalar = run_point(scene, scratch);
+      EXPECT_TRUE(lanes.in_lanes);
+      ASSERT_EQ(lanes.section_x.size(), 40U);
+      ASSERT_EQ(scalar.section_x.size(), 40U);
+      for (std::size_t i = 0; i < 40; ++i) {
+        EXPECT_NEAR(lanes.section_x[i], scalar.section_x[i], 1e-10) << nu << ' ' << off << ' ' << i;
+        EXPECT_NEAR(lanes.section_v[i], scalar.section_v[i], 1e-10) << nu << ' ' << off << ' ' << i;
+      }
+    }
+}
+
 TEST(LanePoints, of_a_transient_have_harmonics_of_the_force_over_whole_periods_alone) {
   struct Given {
     double periods, base;  // 0: that of the transient

@@ -7,6 +7,7 @@
 #include <limits>
 #include <numbers>
 
+#include "model/response.hpp"
 #include "point/point.hpp"
 #include "support/random.hpp"
 

@@ -6,6 +6,7 @@
 #include <limits>
 #include <numbers>
 
+#include "model/displacement_bound.hpp"
 #include "point/point.hpp"
 
 namespace clatter::observables {

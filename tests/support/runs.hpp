@@ -30,7 +30,8 @@ struct Recorder {
   return scene;
 }
 
-/// A run from the start of the scene for a time in tau.
+/// A run from the start of the scene for a time in tau: in double with the effects that the program chooses for it, in
+/// 50 digits with all.
 template <class Number = double>
 struct Run {
   Recorder record{};
