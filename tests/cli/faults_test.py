@@ -35,8 +35,7 @@ class Faults(StoppedRuns):
             self.journal.write_bytes(journal)
 
     def stop_on_its_way(self, *more):
-        """Leaves the journal of a run that was stopped; returns the words that did it. Times that grow are tried, since
-        nobody knows how fast the run is."""
+        """Leaves the journal of a run that was stopped; returns the words that did it. How fast it is, nobody knows."""
         for attempt in range(1000):
             words = (*more, "--max-time", f"{0.005 * 1.2 ** (attempt % 40):.4g}")
             if self.run_command(*words, threads=1).returncode == 124 and self.journal.exists():
