@@ -186,8 +186,9 @@ class Arrows(unittest.TestCase):
 
     def test_heavy_headers_stay_in_the_files_that_need_them(self):
         """A hundred files compile all that a header includes."""
+        is_whole = (SOURCE / "src/README.md").exists()  # else a tree that a test of this gate has made
         for heavy, files in heavy_files(SOURCE).items():
-            self.assertEqual(files, {file for file in HEAVY[heavy] if (SOURCE / file).exists()}, heavy)
+            self.assertEqual(files, HEAVY[heavy] if is_whole else set(), heavy)
 
     def test_every_room_has_its_own_namespace(self):
         self.assertEqual(wrong_namespaces(SOURCE), [])
