@@ -121,6 +121,8 @@ Agreement agreement_of(const RunRecord& in_double, const RunRecord& in_fifty_dig
   for (const Event& event : events) {
     if (event.kind == Event::Kind::chatter)
       while (j < exact.size() && exact[j].kind == Event::Kind::impact) ++j;
+    if (event.kind == Event::Kind::chatter && j == exact.size() && event.end() >= end)
+      return agreement;  // the run ends within it
     const double other = j < exact.size() ? exact[j].time : in_double.duration;
     const bool chatter = event.kind == Event::Kind::chatter;  // begins later in 50 digits, and ends at the same time
     const double off =

@@ -54,7 +54,9 @@ Event event_of(const motion::Rest& rest) {
 std::vector<Event> with_rests_joined(const std::vector<Event>& events) {
   std::vector<Event> joined;
   for (const Event& event : events) {
-    if (event.kind == Event::Kind::rest && !joined.empty() && joined.back().kind == Event::Kind::rest)
+    const bool goes_on = event.kind != Event::Kind::impact && !joined.empty() && joined.back().kind == event.kind &&
+                         joined.back().side == event.side;
+    if (goes_on)
       joined.back().length = event.end() - joined.back().time;
     else
       joined.push_back(event);

@@ -31,7 +31,7 @@ struct Event {
 [[nodiscard]] Event event_of(const motion::Impact& impact);
 [[nodiscard]] Event event_of(const motion::Rest& rest);
 
-/// Joins the two parts into which a stroboscopic section cuts a rest: then there is one rest for each time on a stop.
+/// Joins the parts into which stroboscopic sections cut a rest or a chatter: then there is one for each time on a stop.
 [[nodiscard]] std::vector<Event> with_rests_joined(const std::vector<Event>& events);
 
 /// A run of a scene, rounded to doubles from its number type.

@@ -93,9 +93,12 @@ PeriodicMotion standstill(const point::Problem& problem, double x) {
 }
 
 std::optional<PhasePoint> mirrored(const point::Problem& problem, const PhasePoint& state) {
-  if (problem.oscillator.forcing == 0) return PhasePoint{-state.x, -state.v};
+  const std::optional<double> centre = mirror_centre(problem);
+  if (!centre) return std::nullopt;
+  const auto image = [&](const PhasePoint& of) { return PhasePoint{2 * *centre - of.x, -of.v}; };
+  if (problem.oscillator.forcing == 0) return image(state);
   const std::optional<PhasePoint> later = state_after(started(problem, state, 0.0), 0.5);
-  return later ? std::optional(PhasePoint{-later->x, -later->v}) : std::nullopt;
+  return later ? std::optional(image(*later)) : std::nullopt;
 }
 
 }  // namespace clatter::attractors

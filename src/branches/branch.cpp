@@ -22,8 +22,8 @@ class Follower {
       : problem_(problem),
         settings_(settings),
         width_(settings.range[1] - settings.range[0]),
-        symmetric_(is_symmetric(problem) && keeps_symmetry(settings.along.parameter) &&
-                   (!settings.across || keeps_symmetry(settings.across->parameter))),
+        symmetric_(is_symmetric(problem) && keeps_symmetry(problem, settings.along.parameter) &&
+                   (!settings.across || keeps_symmetry(problem, settings.across->parameter))),
         record_({{settings.along.parameter, width_}}, settings.max_points) {}
 
   Branches run() {

@@ -49,8 +49,9 @@ double& reference_to(ShakenScene& scene, Parameter parameter) {
 
 }  // namespace
 
-bool keeps_symmetry(Parameter parameter) {
+bool keeps_symmetry(const Scene& scene, Parameter parameter) {
   using enum sweep::Parameter;
+  if (parameter == stiffness && mirror_centre(scene) != 0.0) return false;  // the equilibrium stays at 0 alone
   for (const sweep::Parameter of_one_side : {load, stop_lower, stop_upper, R_lower, R_upper, stop_stiffness_lower,
                                              stop_stiffness_upper, stop_damping_lower, stop_damping_upper})
     if (parameter == of_one_side) return false;

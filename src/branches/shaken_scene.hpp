@@ -21,8 +21,8 @@ struct ShakenScene : Scene {
 [[nodiscard]] ShakenScene changed(ShakenScene scene, sweep::Parameter parameter, double value);
 [[nodiscard]] double value_of(const ShakenScene& scene, sweep::Parameter parameter);
 
-/// Whether a scene stays symmetric if a parameter changes.
-[[nodiscard]] bool keeps_symmetry(sweep::Parameter parameter);
+/// Whether a symmetric scene stays so if a parameter changes.
+[[nodiscard]] bool keeps_symmetry(const Scene& scene, sweep::Parameter parameter);
 
 /// Whether the stiffness of the spring, per unit mass, changes with a parameter.
 [[nodiscard]] constexpr bool varies_stiffness(sweep::Parameter parameter) {

@@ -171,8 +171,16 @@ bool response_meets(const Oscillator& oscillator, const Stops& stops) {
   return !(response.amplitude < gap_of(oscillator, stops));
 }
 
+bool grows_at_resonance(const Scene& scene) {
+  const auto& [o, stops, start] = scene;
+  const double natural = natural_frequency(o);
+  return o.stiffness > 0 && o.damping == 0 && o.forcing != 0 && std::isinf(stops.lower) && std::isinf(stops.upper) &&
+         std::abs(o.frequency - natural) <= 4 * std::numeric_limits<double>::epsilon() * natural;
+}
+
 bool escapes(const Scene& scene, double x, double v, const SineCosine<double>& phase) {
   const auto& [o, stops, start] = scene;
+  if (grows_at_resonance(scene)) return true;
   if (!(o.stiffness <= 0) || (std::isfinite(stops.lower) && std::isfinite(stops.upper))) return false;
   const PhasePoint free = transient_of(o, {x - equilibrium_of(o), v, phase.sine, phase.cosine});
   const double h = o.damping, size = steady_response(o).amplitude;

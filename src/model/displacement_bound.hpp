@@ -50,8 +50,12 @@ struct PhasePoint {
 /// Whether the steady forced response alone meets a stop.
 [[nodiscard]] bool response_meets(const Oscillator& oscillator, const Stops& stops);
 
-/// Whether motion from displacement x and velocity v at a forcing phase is proved to depart for ever in a direction in
-/// which there is no stop, and never to meet the other one (eq. 49). Only for k <= 0; false if a spring holds the mass.
+/// Whether undamped motion without stops is at resonance to rounding: then it grows for ever.
+[[nodiscard]] bool grows_at_resonance(const Scene& scene);
+
+/// Whether motion from displacement x and velocity v at a forcing phase is proved to leave every bound: at resonance,
+/// or without a spring that holds the mass (k <= 0) in a direction in which there is no stop, and never to meet the
+/// other one (eq. 49).
 [[nodiscard]] bool escapes(const Scene& scene, double x, double v, const SineCosine<double>& phase);
 
 /// Whether no stop can be met from an instant on, for all time.

@@ -1,6 +1,9 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
+#include <optional>
 
 #include "model/oscillator.hpp"
 #include "model/stops.hpp"
@@ -22,14 +25,24 @@ struct Scene {
   Start start;
 };
 
-/// Whether the mirror image of each motion, half a forcing period later, is a motion too.
-[[nodiscard]] inline bool is_symmetric(const Scene& scene) {
+/// The place about which the mirror image of each motion, half a forcing period later, is a motion too: the equilibrium
+/// of the spring or, without spring and load, the middle between the stops. Nothing if stops or load aren't the same on
+/// both sides of it, to rounding.
+[[nodiscard]] inline std::optional<double> mirror_centre(const Scene& scene) {
   const Stops& stops = scene.stops;
-  const bool bounded = std::isfinite(stops.upper);
+  const Oscillator& o = scene.oscillator;
+  const bool bounded = std::isfinite(stops.lower) && std::isfinite(stops.upper);
+  if (!bounded && (std::isfinite(stops.lower) || std::isfinite(stops.upper))) return std::nullopt;
   const bool alike = stops.restitution_lower == stops.restitution_upper &&
                      stops.stiffness_lower == stops.stiffness_upper && stops.damping_lower == stops.damping_upper;
-  return stops.lower == -stops.upper && (!bounded || alike) && scene.oscillator.load == 0;
+  if ((bounded && !alike) || (o.stiffness == 0 && o.load != 0)) return std::nullopt;
+  const double middle = bounded ? (stops.lower + stops.upper) / 2 : equilibrium_of(o);
+  if (o.stiffness == 0) return middle;
+  constexpr double rounding = 4 * std::numeric_limits<double>::epsilon();
+  const double size = bounded ? std::max(std::abs(stops.lower), std::abs(stops.upper)) : 0;
+  return std::abs(middle - equilibrium_of(o)) <= rounding * size ? std::optional(middle) : std::nullopt;
 }
+[[nodiscard]] inline bool is_symmetric(const Scene& scene) { return mirror_centre(scene).has_value(); }
 
 }  // namespace model
 }  // namespace clatter

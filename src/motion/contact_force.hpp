@@ -1,6 +1,5 @@
 #pragma once
 
-#include <algorithm>
 #include <cmath>
 #include <optional>
 
@@ -67,39 +66,6 @@ template <class Number, Effects E>
   const Number sine = needed / size, cosine = stop.into(-along);
   const Number turns = (f > 0 ? atan2(sine, cosine) : atan2(Number(-sine), Number(-cosine))) / (2 * pi<Number>());
   return turns < 0 ? Number(turns + 1) : turns;
-}
-
-/// Duration of the infinite sequence of impacts that a rebound begins, and a bound of its error (eqs. 24 and 25).
-template <class Number>
-struct ChatterSum {
-  Number time, bound;
-};
-
-/// Sums the flights of a chatter with pressing acceleration a > 0 at the rebound (Budd & Dux 1994; Nordmark &
-/// Piiroinen 2009, carried one order further): S = T - (h + j/a) T^2/3 (eqs. 23 and 24), the error bounded by
-/// (r^2 + c) T^3 (eq. 25), which leaves room for all later terms while r T is small.
-template <class Number, Effects E>
-[[nodiscard]] ChatterSum<Number> chatter_sum(const ArcConstants<Number, E>& constants, const Stop<Number>& stop,
-                                             const ContactForce<Number>& press, const Number& rebound) {
-  using std::abs;
-  const Number &a = press.force, &h = constants.h;
-  const Number slope = press.rate / a, bend = abs(constants.f) / a * constants.nu * constants.nu;
-  const Number time = 2 * (rebound / a) / (1 - stop.law.R), rates = constants.natural + 2 * h + abs(slope);
-  return {time - (h + slope) * time * time / 3, (rates * rates + bend) * time * time * time};
-}
-
-/// The time to the end of an infinite sequence of impacts, once the bound of the sum's error (eq. 25) is below the
-/// rounding of the sum, or of a time on the scale of the fastest motion.
-template <class Number, Effects E>
-[[nodiscard]] std::optional<Number> chatter_time(const ArcConstants<Number, E>& constants, const Stop<Number>& stop,
-                                                 const ContactForce<Number>& press, const Number& rebound) {
-  using std::max;
-  if (!(press.force > 0)) return std::nullopt;
-  if (2 * rebound <= press.force * epsilon<Number>() * constants.period) return Number(0);  // too short to advance time
-  if (!(stop.law.R < 1)) return std::nullopt;
-  const ChatterSum<Number> sum = chatter_sum(constants, stop, press, rebound);
-  const Number rounding = epsilon<Number>() * max(sum.time, Number(1 / constants.rate));
-  return sum.bound <= rounding ? std::optional<Number>(sum.time) : std::nullopt;
 }
 
 }  // namespace clatter::motion

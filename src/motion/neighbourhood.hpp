@@ -50,9 +50,10 @@ class Neighbourhood {
   [[nodiscard]] const Ellipse& remainder() const { return remainder_; }
 
  protected:
-  /// The beginning of a flight from a stop.
+  /// The beginning of a flight from a stop: its speed, the acceleration away from it if all motions have had their
+  /// impact there, else 0, and the bound of accelerations; those impacts are over within `waited`.
   struct Departure {
-    double time, speed, acceleration, waited;
+    double time, speed, pull, acceleration, waited;
   };
   /// Maps both ellipses by the free motion of an arc.
   template <class ArcConstants>
@@ -67,7 +68,7 @@ class Neighbourhood {
     for (const Side side : {Side::lower, Side::upper}) {
       const Stop<double> stop = stop_at<double>(stops_, side);
       if (!(std::abs(start.x - stop.position) <= reach_ && stop.into(start.v) < 0)) continue;
-      holds_ = depart(0, std::abs(start.v), std::abs(start.a), 0);
+      holds_ = depart({0, std::abs(start.v), 0, std::abs(start.a), 0});
       return;
     }
   }
@@ -107,22 +108,29 @@ class Neighbourhood {
     first_order_ = first_order_.mapped(saltation), remainder_ = remainder_.mapped(saltation);
     const double rest = norm(rest_x, rest_v);
     remainder_.add(Ellipse::disc(rest + c * near.growth * s * (first_order_.size() + remainder_.size() + rest)));
-    return depart(impact.time, R * u, a, wait);
+    return depart({impact.time, R * u, -stop.into(a_after), a, wait});
   }
 
   /// Whether the mass leaves the stop, and does not meet the other one, before the flight is examined.
-  [[nodiscard]] bool depart(double time, double speed, double acceleration, double waited) {
-    reach_ = field_.near(speed, acceleration, waited).growth * size();
-    departure_ = {time, speed, acceleration, waited};
+  [[nodiscard]] bool depart(const Departure& departure) {
+    reach_ = field_.near(departure.speed, departure.acceleration, departure.waited).growth * size();
+    departure_ = departure;
     return leaves();
   }
   [[nodiscard]] bool leaves() {
-    const auto& [time, speed, acceleration, waited] = departure_;
-    const double wait = std::max(waited, 2 * reach_ / speed);
+    const auto& [time, speed, pull, acceleration, waited] = departure_;
+    return leaves_after(std::max(waited, 2 * reach_ / speed), false) ||
+           (pull > 0 && leaves_after(std::max(waited, 2 * std::sqrt(reach_ / pull)), true));
+  }
+  /// After this wait all motions are more than their differences away from the stop: either all keep half of their
+  /// speed, or all are pulled away, with at least half of the acceleration.
+  [[nodiscard]] bool leaves_after(double wait, bool by_pull) {
+    const auto& [time, speed, pull, acceleration, waited] = departure_;
     const LocalBounds away = field_.near(speed, acceleration, wait);
     approached_ = Side::none, clear_from_ = time + wait;
-    return away.acceleration * wait + reach_ <= speed / 2 &&
-           (speed + away.acceleration * wait) * wait + reach_ < stops_.upper - stops_.lower;
+    const bool goes = by_pull ? away.jerk * wait + (std::abs(field_.k) + 2 * field_.h) * reach_ <= pull / 2
+                              : away.acceleration * wait + reach_ <= speed / 2;
+    return goes && (speed + away.acceleration * wait) * wait + reach_ < stops_.upper - stops_.lower;
   }
   /// Lets the bound grow to one that holds to the end of an arc (eq. 48); it has to hold from the departure on.
   void grow(double begin, double length) {

@@ -188,7 +188,7 @@ class SoftNeighbourhood : public Neighbourhood {
     const Motion<double>& start = arc.start();
     field_ = Field::of(arc.constants()), leaving_ = true;
     holds_ = mode_ == outrun && approached_ == Side::none &&
-             depart(begin, std::abs(start.v), std::abs(start.a), std::max(0.0, clear_from_ - begin));
+             depart({begin, std::abs(start.v), 0, std::abs(start.a), std::max(0.0, clear_from_ - begin)});
   }
   /// Whether none of the motions that have just left the stop is pushed by it: the damper would have to pull, or the
   /// time after the separation isn't over.

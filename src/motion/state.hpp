@@ -20,6 +20,7 @@ struct State {
   Number offset{};              ///< x minus the position of that stop: keeps the digits of a flight that a section cuts
   Side within = Side::none;     ///< the soft stop beyond whose position the mass is; then also `from_stop`
   bool pressed = false;         ///< that stop pushes the mass; false: the mass outruns it
+  bool chatters = false;        ///< flies in a chatter that is summed, so its impacts aren't told
 };
 
 /// Motion at one instant of an arc.
@@ -66,8 +67,9 @@ struct Rest {
   double length;  ///< in tau
   Side side;
   double position;  ///< of the stop
-  bool held;  ///< at rest; false: the summed end of a chatter, or a force within rounding of 0: too short to change
-              ///< a result
+  bool held;        ///< at rest; false: the summed end of a chatter, or a part of it if a section cuts it, or a force
+                    ///< within rounding of 0: too low to be told from rest
+  double v_begin = 0.0, v_end = 0.0;  ///< velocities at its ends; not 0 within a chatter
 };
 
 }  // namespace clatter::motion

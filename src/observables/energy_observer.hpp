@@ -19,26 +19,23 @@ class Energy::Observer {
 
   template <class A>
   void arc(const A& arc, double, double length) {
+    if (!(length > 0)) return;
     const motion::Motion<double>& first = arc.start();
     begin(first.x, first.v);
-    if (!(length > 0)) return;
-    rebound_ = 0;
     integrate(arc, length);
   }
   void rest(const motion::Rest& rest) {
-    begin(rest.position, 0.0);
+    begin(rest.position, rest.v_begin);
     const std::size_t stop = index_of(rest.side);
-    // a chatter that is completed takes the energy of its last rebound, and gives the momentum of it back to the mass
-    impulse_[stop] += pressing(rest) - std::abs(rebound_);
-    loss_impact_[stop] += rebound_ * rebound_ / 2;
-    rebound_ = 0;
+    // a chatter takes the energy of its rebounds, and gives their momentum back to the mass
+    impulse_[stop] += pressing(rest) - sign_of(rest.side) * (rest.v_end - rest.v_begin);
+    loss_impact_[stop] += (rest.v_begin - rest.v_end) * (rest.v_begin + rest.v_end) / 2;
   }
   void impact(const motion::Impact& impact) {
     begin(impact.position, impact.before);
     const std::size_t stop = index_of(impact.side);
     loss_impact_[stop] += (impact.before - impact.after) * (impact.before + impact.after) / 2;
     impulse_[stop] += std::abs(impact.after - impact.before);
-    rebound_ = impact.after;
   }
 
   [[nodiscard]] Values finish(const ObservedSpan& span, double x, double v) {
@@ -122,7 +119,6 @@ class Energy::Observer {
   double phase_;  ///< of the force at the beginning, a section
   bool has_begun_ = false;
   double x_begin_ = 0, v_begin_ = 0;
-  double rebound_ = 0;  ///< velocity after an impact that no flight has followed yet
   double force_work_ = 0, loss_damping_ = 0;
   std::array<double, 2> loss_impact_{}, impulse_{};  ///< [stop]
   double evaluations_ = 0;

@@ -95,8 +95,10 @@ bool ImpactWord::Observer::is_mirrored(const ObservedSpan& span, double x, doubl
   const auto slower = [](const Contact& a, const Contact& b) { return std::abs(a.before) < std::abs(b.before); };
   const auto fastest = std::ranges::max_element(contacts_, slower);
   if (fastest == contacts_.end() || fastest->before == 0) {
+    const double centre = mirror_centre(span.scene).value_or(0.0);
     const PhasePoint later = halfway_.value_or(PhasePoint{x, v});  // it stands still
-    return std::abs(x + later.x) + std::abs(v + later.v) <= same * (std::abs(x) + std::abs(v));
+    return std::abs((x - centre) + (later.x - centre)) + std::abs(v + later.v) <=
+           same * (std::abs(x - centre) + std::abs(v));
   }
   return std::ranges::any_of(contacts_, [&](const Contact& other) {
     const double late = std::remainder(other.time - fastest->time - span.total / 2, span.total);

@@ -58,7 +58,7 @@ class Samples {
     }
   }
   void rest(const motion::Rest& rest) {
-    while (is_due_before(rest.time + rest.length)) add(rest.position, 0.0);
+    while (is_due_before(rest.time + rest.length)) add(rest.position, due() > rest.time ? 0.0 : rest.v_begin);
   }
   void impact(const motion::Impact& impact) {
     last_ = impact;

@@ -61,8 +61,8 @@ class Stability::Observer {
     exponent_ = (std::log(std::abs(first_)) + tangent_.exponent() * std::numbers::ln2) / total;
     for (Complex* const multiplier : {&first_, &second_})
       *multiplier = {
-          motion::TangentMap<double>::scaled(multiplier->real(), tangent_.exponent()),
-          motion::TangentMap<double>::scaled(multiplier->imag(), tangent_.exponent()) + 0.0};  // no negative zero
+          motion::TangentMap<double>::scaled(multiplier->real(), tangent_.exponent()) + 0.0,  // no negative zero
+          motion::TangentMap<double>::scaled(multiplier->imag(), tangent_.exponent()) + 0.0};
   }
 
   /// Ends the observed time of motion without a period: the exponent along it.

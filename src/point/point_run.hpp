@@ -60,18 +60,17 @@ class Point {
 
   /// The result, once the observers have seen the motion up to `state`.
   PointResult end(Observers& observers, const motion::State<double>& state, stepping::Outcome outcome) {
-    const auto sections = static_cast<double>(state.periods - observed_.from.periods);
     result_.observed_turns = observed_.turns;
     result_.evaluations = observers.evaluations();
-    if (outcome != stepping::Outcome::completed) {
-      steady::ObservedTime broken = observed_;
-      broken.status = steady::status_of(outcome), broken.simulated += sections + state.phase_turns;
-      return result_of(broken);
-    }
+    if (outcome != stepping::Outcome::completed) return broken(state, steady::status_of(outcome));
     result_.end = {state.x, state.v, problem_.start.phase};
     if (state.phase_turns > 0)
       result_.end.phase = std::fmod(problem_.start.phase + 2 * pi<double>() * state.phase_turns, 2 * pi<double>());
     observers.finish(span_, state.x, state.v, result_);
+    if (observers.template of<observables::Energy>() && !std::isfinite(result_.energy_residual)) {
+      result_ = {};  // of its values those that are finite would look right
+      return broken(state, steady::Status::not_finite);
+    }
     if (problem_.observe.settling && problem_.oscillator.forcing != 0)
       result_.settling_periods =
           settling_periods(integrator_, start(), observed_, problem_.time, observables::Settling::settled,
@@ -125,6 +124,14 @@ class Point {
       if (std::isfinite(stop)) size = std::max(size, std::abs(stop));
     const double tolerance = observed_.found_by == steady::FoundBy::repetition ? problem_.time.tolerance : 0.0;
     return (64 * epsilon<double>() + tolerance) * size;
+  }
+
+  /// The result if the run, or an observable, fails at a state.
+  PointResult broken(const motion::State<double>& state, steady::Status status) {
+    steady::ObservedTime observed = observed_;
+    observed.status = status;
+    observed.simulated += static_cast<double>(state.periods - observed_.from.periods) + state.phase_turns;
+    return result_of(observed);
   }
 
   PointResult result_of(const steady::ObservedTime& observed) {

@@ -55,7 +55,7 @@ class ForcedSearch {
   /// The steady state, if it is known at the next section; nothing: the motion has to go on.
   [[nodiscard]] std::optional<ObservedTime> at_section(const motion::State<double>& state) {
     if (const auto found = closed_form(state)) return found;
-    if constexpr (E.stiffness)
+    if constexpr (E.stiffness || E.forcing == Forcing::secular)
       if (escapes(scene_, state.x, state.v, integrator_.phase(motion::State<double>{})))
         return escape(state, simulated());
     if (!in_lanes_) keep(state);

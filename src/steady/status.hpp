@@ -18,7 +18,7 @@ enum class Status : std::uint8_t {
   event_budget = 16,
   not_finite = 17,
   unresolved = 18,
-  escaped = 19  ///< no stop and no spring brings the mass back
+  escaped = 19  ///< no stop and no spring brings the mass back, or an undamped resonance grows for ever
 };
 
 /// Every status and its name.

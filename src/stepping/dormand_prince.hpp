@@ -36,7 +36,7 @@ class DormandPrince : public EventDriven<DormandPrince<E>, double, E> {
   using DenseArc = motion::PolynomialArc<E.arc()>;
 
   explicit DormandPrince(const Scene& scene, const Integration& integration = {}, const Limits& limits = {})
-      : Base(scene, scene.stops, limits),
+      : Base(scene, scene.stops, limits, {low_rebound(integration), low_rebound(integration)}),
         tolerance_(integration.tolerance),
         stepper_(boost::numeric::odeint::make_dense_output(tolerance_ * size_of(scene), tolerance_, Pair())) {}
 
@@ -98,6 +98,11 @@ class DormandPrince : public EventDriven<DormandPrince<E>, double, E> {
   static constexpr Place nowhere{nan, nan, nan};  // equal to no Place
   using Pair = boost::numeric::odeint::runge_kutta_dopri5<Values>;
   using Stepper = typename boost::numeric::odeint::result_of::make_dense_output<Pair>::type;
+
+  /// Rebounds within the tolerance can't be told from rest.
+  [[nodiscard]] static double low_rebound(const Integration& integration) {
+    return std::max(integration.tolerance, motion::low_rebound<double>(0.0));
+  }
 
   /// The scale of the absolute tolerance: half the distance between the stops, or the size of motion that start and
   /// forces suggest, if that is less.

@@ -4,7 +4,9 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <optional>
 
+#include "motion/chatter.hpp"
 #include "motion/contact.hpp"
 #include "motion/crossing.hpp"
 #include "stepping/integrator.hpp"
@@ -36,7 +38,13 @@ class EventDriven : public IntegratorBase<N, E> {
 
  public:
   using Number = N;
-  using Base::Base;
+
+  /// Looks for contacts with the stops in reach only. Chatter is summed once its rebounds are lower than `low` times
+  /// the displacements of the scene.
+  EventDriven(const Scene& scene, const Stops& in_reach, const Limits& limits, const std::array<Number, 2>& low)
+      : Base(scene, in_reach, limits),
+        low_{low[0] * motion::displacements_beside(scene, Side::lower),
+             low[1] * motion::displacements_beside(scene, Side::upper)} {}
 
   /// Runs from `state` to the phase `end`, in turns 0 ... 1 since the last section (the stroboscopic section of
   /// `motion::State`), and reports every arc, rest and impact with its time since the section `origin`.
@@ -51,6 +59,11 @@ class EventDriven : public IntegratorBase<N, E> {
           if (outcome != Outcome::completed) return outcome;
           continue;
         }
+      }
+      if (E.rest && state.chatters) {
+        const Outcome outcome = fly_on_in_chatter(state, end, origin, observer);
+        if (outcome != Outcome::completed) return outcome;
+        continue;
       }
       if (const auto stop = this->holding_stop(state)) {
         rest(state, *stop, end, origin, observer);
@@ -105,18 +118,58 @@ class EventDriven : public IntegratorBase<N, E> {
   void rebound(motion::State<Number>& state, const motion::Stop<Number>& stop, const Number& end, std::int64_t origin,
                Observer& observer) {
     const Number before = state.v;
-    state.from_stop = stop.side, state.offset = 0;
-    if (stop.into(before) > 0) state.v = stop.law.after(before);
-    if (state.v == 0) state.v = 0;  // no negative zero
+    reverse(state, stop);
     if (before != 0) this->show_impact(state, stop, before, origin, observer);
     if (!E.rest || state.v == 0) return;
-    const auto left = chatter_time(this->constants(), stop, contact_force(this->constants(), stop, this->phase(state)),
-                                   Number(-stop.into(state.v)));
-    if (!left || state.phase_turns + *left / this->period() > end)
-      return;  // a run that ends in a chatter ends in a flight
-    this->show_rest(state, stop, Number(*left / this->period()), false, origin, observer);
-    pass(state, *left);
-    state.v = 0;
+    const auto left = chatter_time(state, stop);
+    if (!left) return;
+    state.chatters = true;
+    if (state.phase_turns + *left / this->period() > end) return;  // it flies on, or its state at the end isn't known
+    this->show_chatter(state, stop, Number(*left / this->period()), Number(0), origin, observer);
+    complete(state, *left);
+  }
+  void reverse(motion::State<Number>& state, const motion::Stop<Number>& stop) const {
+    state.from_stop = stop.side, state.offset = 0;
+    if (stop.into(state.v) > 0) state.v = stop.law.after(state.v);
+    if (state.v == 0) state.v = 0;  // no negative zero
+  }
+  [[nodiscard]] std::optional<Number> chatter_time(const motion::State<Number>& state,
+                                                   const motion::Stop<Number>& stop) const {
+    return motion::chatter_time(this->constants(), stop, contact_force(this->constants(), stop, this->phase(state)),
+                                Number(-stop.into(state.v)), low_[index_of(stop.side)]);
+  }
+  void complete(motion::State<Number>& state, const Number& left) const {
+    pass(state, left);
+    state.v = 0, state.chatters = false;
+  }
+
+  /// Flies through a chatter that is summed but goes on beyond `end`, until it is complete or up to `end`: a section
+  /// neither begins a sum nor shows impacts of it.
+  template <class Observer>
+  [[nodiscard]] Outcome fly_on_in_chatter(motion::State<Number>& state, const Number& end, std::int64_t origin,
+                                          Observer& observer) {
+    const auto stop = motion::stop_at<Number>(this->stops(), state.from_stop);
+    const motion::State<Number> begin = state;
+    while (state.chatters && end - state.phase_turns > 2 * epsilon<Number>()) {
+      if (state.offset == 0) {
+        const auto left = chatter_time(state, stop);
+        if (left && state.phase_turns + *left / this->period() <= end) {
+          complete(state, *left);
+          break;
+        }
+      }
+      const Number horizon = (end - state.phase_turns) * this->period();
+      const motion::Contact<Number> contact =
+          static_cast<Method&>(*this).fly(state, motion(state), anchor(state), horizon).contact;
+      if (!contact.resolved) return this->finite(contact.motion.x) ? Outcome::unresolved : Outcome::not_finite;
+      pass(state, contact.elapsed);
+      state.x = contact.motion.x, state.v = contact.motion.v, state.offset = contact.motion.offset;
+      if (contact.side == Side::none && contact.elapsed == horizon) state.phase_turns = end;
+      if (contact.side != Side::none) reverse(state, stop);
+      if (state.v == 0) state.chatters = false;
+    }
+    this->show_chatter(begin, stop, Number(state.phase_turns - begin.phase_turns), state.v, origin, observer);
+    return Outcome::completed;
   }
 
   /// Holds the mass until its release or until `end`, whichever is first.
@@ -240,6 +293,8 @@ class EventDriven : public IntegratorBase<N, E> {
     this->show_rest(state, stop, turns, false, origin, observer);
     state.phase_turns += turns, state.released = false;
   }
+
+  std::array<Number, 2> low_;  ///< [stop]: rebounds of chatter that is summed aren't higher
 };
 
 }  // namespace clatter::stepping

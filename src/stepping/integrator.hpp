@@ -126,6 +126,13 @@ class IntegratorBase {
     observer.rest(motion::Rest{time(state, origin), static_cast<double>(turns * constants_.period), stop.side,
                                static_cast<double>(stop.position), held});
   }
+  template <class Observer>
+  void show_chatter(const motion::State<Number>& begin, const motion::Stop<Number>& stop, const Number& turns,
+                    const Number& v_end, std::int64_t origin, Observer& observer) const {
+    observer.rest(motion::Rest{time(begin, origin), static_cast<double>(turns * constants_.period), stop.side,
+                               static_cast<double>(stop.position), false, static_cast<double>(begin.v),
+                               static_cast<double>(v_end)});
+  }
 
  private:
   static constexpr double between_reports = 1 << 18;  ///< evaluations: about a tenth of a second

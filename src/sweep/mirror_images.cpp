@@ -61,7 +61,7 @@ std::vector<std::size_t> images_in(const Dimension& dimension, bool forced) {
   return images;
 }
 
-/// Whether the scene is symmetric at every point.
+/// Whether the scene is symmetric about 0 at every point.
 bool is_always_symmetric(const Sweep& sweep) {
   const bool varies = std::ranges::any_of(sweep.dimensions, [](const Dimension& dimension) {
     return std::ranges::any_of(dimension, [](const Axis& axis) {
@@ -72,7 +72,7 @@ bool is_always_symmetric(const Sweep& sweep) {
              axis.parameter == stop_damping_upper;
     });
   });
-  return !varies && is_symmetric(problem_at(sweep, 0));
+  return !varies && mirror_centre(problem_at(sweep, 0)) == 0.0;
 }
 
 bool is_swept(const Sweep& sweep, Parameter parameter) {

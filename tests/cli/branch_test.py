@@ -46,6 +46,27 @@ class Branch(CommandLine):
         self.assertAlmostEqual(graze["nu"], 1.11687761860245, 13)
         self.assertEqual((graze["impact_speed"], graze["branches"], graze["period_ratio"]), (0.0, [0, 1], 1))
 
+    def test_a_scene_is_symmetric_about_any_place(self):
+        """Without a spring about the middle between the stops; with one, about the equilibrium under the load."""
+        free = "[scene]\nh = 0.15\nf = 1.0\nnu = 0.63\nR = 0.6\nstiffness = {k}\nload = {load}\n"
+        place = "stop_lower = {low}\nstop_upper = {high}\nx0 = {x0}\nv0 = 0.75\n"
+        along = '[branch]\nalong = "nu"\nrange = [0.3, 1.2]\n'
+
+        def special(k, middle):
+            scene = (free + place).format(k=k, load=k * middle, low=middle - 0.85, high=middle + 0.85, x0=middle + 0.1)
+            return [json.loads(line) for line in self.branch(scene + along, "--json", "-q").stdout.splitlines()]
+
+        for k in (0.0, 0.25):
+            centred, moved = special(k, 0.0), special(k, 0.25)
+            self.assertEqual([point["kind"] for point in moved], [point["kind"] for point in centred])
+            self.assertIn("symmetry breaking", [point["kind"] for point in centred])
+            for one, other in zip(moved, centred):
+                self.assertAlmostEqual(one["nu"], other["nu"], 9)
+        # where a program of ball arithmetic finds them
+        breaking = [point["nu"] for point in special(0.0, 0.25) if point["kind"] == "symmetry breaking"]
+        for nu in (0.60994, 1.09648):
+            self.assertLess(min(abs(found - nu) for found in breaking), 1e-5)
+
     def test_ini_and_set_say_the_same_as_toml(self):
         plain = self.branch(SCENE + BRANCH, "-q").stdout
         ini = (SCENE + BRANCH).replace('"', "").replace("[0.85, 1.5]", "0.85, 1.5")

@@ -15,7 +15,7 @@ TEST(ChatterCutByEnd, ends_in_flight_however_near_the_end_of_the_chatter_is) {
   for (const char* what : {"in its first flight", "1e-3 before its end", "1e-9 before its end"}) {
     const Case& one = case_of("chatter_cut_by_end", what);
     const accuracy::RunRecord record = accuracy::record_of(one.scene, one.duration);
-    for (const accuracy::Event& event : record.events) EXPECT_EQ(event.kind, accuracy::Event::Kind::impact) << what;
+    for (const accuracy::Event& event : record.events) EXPECT_NE(event.kind, accuracy::Event::Kind::rest) << what;
     EXPECT_NE(record.v, 0.0) << what;
     EXPECT_LE(record.x, one.scene.stops.upper) << what;
   }

@@ -32,9 +32,16 @@ struct Tally {
   void take(double share) { tightest = std::max(tightest, share); }
 };
 
+double any_restitution(support::Random& random) { return random.uniform(0.2, 1); }
+/// So little that the force alone takes the mass away from the stop.
+double hardly_any_restitution(support::Random& random) {
+  return random.happens(0.5) ? 0 : random.logarithmic(1e-12, 1e-3);
+}
+
 /// Random motions between stops, and around each of them motions that begin on an ellipse.
 template <Effects effects>
-Tally enclose(std::uint64_t seed, double least_h, double most_h) {
+Tally enclose(std::uint64_t seed, double least_h, double most_h,
+              double (*restitution)(support::Random&) = any_restitution) {
   Tally tally;
   for (std::uint64_t i = 0; i < 600; ++i) {
     support::Random random(seed, i);
@@ -42,7 +49,7 @@ Tally enclose(std::uint64_t seed, double least_h, double most_h) {
                  h = random.logarithmic(least_h, most_h);
     point::Problem scene =
         support::scene_of({h, 1.0, nu, random.uniform(-0.2, 0.2)}, -g, g * random.uniform(0.5, 2), 0);
-    scene.stops.restitution_lower = random.uniform(0.2, 1), scene.stops.restitution_upper = random.uniform(0.2, 1);
+    scene.stops.restitution_lower = restitution(random), scene.stops.restitution_upper = restitution(random);
     const State<double> from = at(random.uniform(-0.9 * g, 0.4 * g), random.uniform(-2, 2));
     const double turns = random.uniform(0.5, 3), size = random.logarithmic(1e-9, 1e-1);
     const double skew = random.uniform(-0.9, 0.9), wide = random.logarithmic(0.3, 3);
@@ -90,6 +97,12 @@ TEST(Neighbourhood, encloses_all_motions_that_begin_in_it) {
   expect_proofs(enclose<effect_sets::complete(Damping::light, Forcing::regular)>(21, 1e-4, 0.8));
   expect_proofs(enclose<effect_sets::complete(Damping::light, Forcing::secular)>(22, 1e-4, 0.06));
   expect_proofs(enclose<effect_sets::complete(Damping::heavy, Forcing::regular)>(23, 1, 4));
+}
+
+TEST(Neighbourhood, encloses_motions_that_the_force_takes_away_from_an_inelastic_stop) {
+  const Tally tally =
+      enclose<effect_sets::complete(Damping::light, Forcing::regular)>(24, 1e-4, 0.8, hardly_any_restitution);
+  EXPECT_GT(tally.with_impacts, 50);
 }
 
 TEST(Neighbourhood, a_flight_that_comes_near_a_stop_without_touching_it_is_proved_up_to_its_gap) {

@@ -85,5 +85,21 @@ TEST(GrazingOrbit, an_impact_that_is_slow_for_rounding_has_a_derivative_all_the_
   EXPECT_EQ(run_point(scene, scratch).status, steady::Status::periodic);
 }
 
+TEST(GrazingOrbit, is_none_that_the_force_takes_away_from_an_inelastic_stop) {
+  // impacts of speed 0.81, after which hardly any speed is left, but the force pulls away from the stop
+  for (const double R : {0.0, 1e-15, 1e-12, 1e-9, 1e-6}) {
+    Problem scene;
+    scene.oscillator = {0.05, 1.0, 2.4, 0.0};
+    scene.stops = {0, std::numeric_limits<double>::infinity(), R, R};
+    scene.observe = {};
+    scene.observe.stability = scene.observe.impacts = true;
+    ThreadScratch scratch;
+    const PointResult result = run_point(scene, scratch);
+    EXPECT_EQ(result.status, steady::Status::periodic) << R;
+    EXPECT_NEAR(result.multiplier_re[0], -0.25923932, 5e-9 + 2 * R) << R;
+    EXPECT_NEAR(result.multiplier_re[1], 0, 1e-15 + R) << R;
+  }
+}
+
 }  // namespace
 }  // namespace clatter::point

@@ -158,6 +158,24 @@ TEST(Escape, is_reported_if_nothing_brings_the_mass_back) {
   // a mass that is balanced exactly stays there, one beside the balance is caught between two stops
   EXPECT_EQ(status({0.1, 0.0, 1.0, 0.0, -1.0}, -1, none, 0.0, 0.0), steady::Status::periodic);
   EXPECT_EQ(status({0.1, 0.0, 1.0, 0.0, -1.0}, -1, 1, 1e-9, 0.0), steady::Status::periodic);
+  // an undamped resonance grows for ever, unless a stop or a damper takes energy
+  EXPECT_EQ(status({0.0, 0.1, 1.0, 0.3, 1.0}, -none, none, 0.0, 0.0), steady::Status::escaped);
+  EXPECT_EQ(status({0.0, 0.1, std::sqrt(2.0), 0.0, 2.0}, -none, none, 1.0, 0.0), steady::Status::escaped);
+  EXPECT_EQ(status({0.0, 0.1, std::sqrt(2.0), 0.0, 2.0}, -1, 1, 0.0, 0.0), steady::Status::periodic);
+  EXPECT_EQ(status({0.1, 0.1, 1.0, 0.0, 1.0}, -none, none, 0.0, 0.0), steady::Status::periodic);
+}
+
+TEST(Overflow, of_an_energy_fails_a_point_as_one_of_the_motion_does) {
+  // down the far side of an unstable spring: the velocity reaches 2e246, its square is beyond the range of double
+  Problem scene = support::scene_of({0, 12, 12, 0, -8}, -std::numeric_limits<double>::infinity(), -1.8, 0.5);
+  scene.start = {-3.8, 0, 0};
+  scene.time.mode = steady::Mode::transient, scene.time.duration = 200;
+  scene.observe.extrema = true;
+  EXPECT_EQ(run(scene).status, steady::Status::transient);
+  scene.observe.energy = true;
+  EXPECT_EQ(run(scene).status, steady::Status::not_finite);
+  scene.time.duration = 20;
+  EXPECT_EQ(run(scene).status, steady::Status::transient);
 }
 
 }  // namespace

@@ -37,7 +37,8 @@ Deviation deviation(const accuracy::RunRecord& record, const accuracy::RunRecord
   for (const accuracy::Event& event : events) {
     if (event.kind == accuracy::Event::Kind::chatter)  // the reference takes more impacts
       while (j < expected.size() && expected[j].kind == accuracy::Event::Kind::impact) ++j;
-    if (j == expected.size() && event.time >= (1 - at_the_end) * reference.duration) continue;
+    const double latest = event.kind == accuracy::Event::Kind::chatter ? event.end() : event.time;
+    if (j == expected.size() && latest >= (1 - at_the_end) * reference.duration) continue;  // or the run ends within it
     if (j == expected.size() || expected[j].kind != event.kind || expected[j].side != event.side) {
       result.difference = text(event) + " against " + (j == expected.size() ? "nothing" : text(expected[j]));
       return result;

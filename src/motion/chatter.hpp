@@ -1,0 +1,72 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "model/scene.hpp"
+#include "motion/contact_force.hpp"
+
+namespace clatter::motion {
+
+/// Duration of the infinite sequence of impacts that a rebound begins, and a bound of its error (eqs. 24 and 25).
+template <class Number>
+struct ChatterSum {
+  Number time, bound;
+};
+
+/// Sums the flights of a chatter with pressing acceleration a > 0 at the rebound (Budd & Dux 1994; Nordmark &
+/// Piiroinen 2009, carried one order further): S = T - (h + j/a) T^2/3 (eqs. 23 and 24), the error bounded by
+/// (r^2 + c) T^3 (eq. 25), which leaves room for all later terms while r T is small.
+template <class Number, Effects E>
+[[nodiscard]] ChatterSum<Number> chatter_sum(const ArcConstants<Number, E>& constants, const Stop<Number>& stop,
+                                             const ContactForce<Number>& press, const Number& rebound) {
+  using std::abs;
+  const Number &a = press.force, &h = constants.h;
+  const Number slope = press.rate / a, bend = abs(constants.f) / a * constants.nu * constants.nu;
+  const Number time = 2 * (rebound / a) / (1 - stop.law.R), rates = constants.natural + 2 * h + abs(slope);
+  return {time - (h + slope) * time * time / 3, (rates * rates + bend) * time * time * time};
+}
+
+/// The displacements that motion beside a stop has, by which the rebounds of its chatter count as high: those that the
+/// force makes, |f| / max(|k|, 2 h nu, nu^2); without a force those of the start, |x0 - x_stop| and the height to which
+/// its speed carries the mass. Never more than the distance between the stops. It is the same wherever stop and mass
+/// are, and for all starts of a forced scene, whose steady motion must not depend on them.
+[[nodiscard]] inline double displacements_beside(const Scene& scene, Side side) {
+  const Oscillator& o = scene.oscillator;
+  const double gap = scene.stops.upper - scene.stops.lower, k = std::abs(o.stiffness);
+  if (o.forcing != 0)
+    return std::min(gap, std::abs(o.forcing) / std::max({k, 2 * o.damping * o.frequency, o.frequency * o.frequency}));
+  const double stop = side == Side::upper ? scene.stops.upper : scene.stops.lower;
+  const double away = std::abs(scene.start.displacement - stop), speed = std::abs(scene.start.velocity);
+  if (speed == 0) return std::min(gap, away);
+  return std::min(gap, away + std::min({speed * (speed / (2 * std::abs(constant_force(o, stop)))), speed / std::sqrt(k),
+                                        speed / (2 * o.damping)}));
+}
+
+/// The share of those displacements below which a rebound is too low to be observed. In 50 digits, the reference for
+/// double, it lies below all that a double can tell; beyond R = 0.99 higher, or there would be millions of impacts.
+template <class Number>
+[[nodiscard]] Number low_rebound(double R) {
+  if constexpr (std::numeric_limits<Number>::digits10 <= std::numeric_limits<double>::digits10) return Number(1e-12);
+  return Number(R > 0.99 ? 1e-30 : 1e-40);
+}
+
+/// The time to the end of an infinite sequence of impacts, if nothing that is observed can tell the sum from its
+/// impacts: the rebound is not higher than `low`, and the bound of the sum's error (eq. 25) is below the rounding of
+/// the sum, or of a time on the scale of the fastest motion.
+template <class Number, Effects E>
+[[nodiscard]] std::optional<Number> chatter_time(const ArcConstants<Number, E>& constants, const Stop<Number>& stop,
+                                                 const ContactForce<Number>& press, const Number& rebound,
+                                                 const Number& low) {
+  using std::max;
+  if (!(press.force > 0)) return std::nullopt;
+  if (2 * rebound <= press.force * epsilon<Number>() * constants.period) return Number(0);  // too short to advance time
+  if (!(stop.law.R < 1) || rebound * (rebound / press.force) > 2 * low) return std::nullopt;
+  const ChatterSum<Number> sum = chatter_sum(constants, stop, press, rebound);
+  const Number rounding = epsilon<Number>() * max(sum.time, Number(1 / constants.rate));
+  return sum.bound <= rounding ? std::optional<Number>(sum.time) : std::nullopt;
+}
+
+}  // namespace clatter::motion

@@ -1,0 +1,418 @@
+"""Random scenes of all effects together, run by the program, and relations between the runs that hold in mechanics.
+
+Nothing is shared with the program but its files: its own integrals decide whether one impact of a log follows from the
+one before, and everything else is a relation between runs of one motion written in two ways: mirrored, scaled, shifted,
+in other units of time, cut in two, alone instead of in a sweep, on another instruction set.
+
+usage: combinations.py [SCENES [SEED]]     (environment: CLATTER, the program)
+"""
+
+import math
+import os
+import random
+import subprocess
+import sys
+import tempfile
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import h5py
+import numpy as np
+
+INF = math.inf
+DURATION = 24.0
+OBSERVED = "[observe]\nextrema = true\nimpacts = true\nimpact_log = true\nenergy = true\ntrajectory = 3\n"
+
+
+@dataclass
+class Scene:
+    """A scene in units of its own; stops at infinity aren't there, those of infinite stiffness are rigid."""
+
+    h: float = 0.0
+    f: float = 0.0
+    nu: float = 1.0
+    phase: float = 0.0
+    load: float = 0.0
+    stiffness: float = 1.0
+    stop_lower: float = -INF
+    stop_upper: float = INF
+    R_lower: float = 1.0
+    R_upper: float = 1.0
+    x0: float = 0.0
+    v0: float = 0.0
+    stop_amplitude: float = 0.0
+    base_amplitude: float = 0.0
+    stop_stiffness_lower: float = INF
+    stop_stiffness_upper: float = INF
+    stop_damping_lower: float = 0.0
+    stop_damping_upper: float = 0.0
+
+    def changed(self, **values):
+        return Scene(**{**self.__dict__, **values})
+
+    def mirrored(self):
+        def swapped(name):
+            return getattr(self, name + "_upper"), getattr(self, name + "_lower")
+
+        changes = {name: 0.0 - getattr(self, name) for name in ("f", "load", "x0", "v0")}
+        changes |= {name: -getattr(self, name) for name in ("stop_amplitude", "base_amplitude")}
+        changes["stop_lower"], changes["stop_upper"] = -self.stop_upper, -self.stop_lower
+        for name in ("R", "stop_stiffness", "stop_damping"):
+            changes[name + "_lower"], changes[name + "_upper"] = swapped(name)
+        return self.changed(**changes)
+
+    def scaled(self, size):
+        names = ("f", "load", "x0", "v0", "stop_lower", "stop_upper", "stop_amplitude", "base_amplitude")
+        return self.changed(**{name: size * getattr(self, name) for name in names})
+
+    def shifted(self, place):
+        moved = {name: getattr(self, name) + place for name in ("x0", "stop_lower", "stop_upper")}
+        return self.changed(load=self.load + self.stiffness * place, **moved)
+
+    def in_time(self, faster):
+        """The same motion in units of time that are shorter by so much."""
+        changes = {name: getattr(self, name) / faster for name in ("h", "nu", "v0")}
+        squares = ("f", "load", "stiffness", "stop_stiffness_lower", "stop_stiffness_upper")
+        return self.changed(**changes, **{name: getattr(self, name) / faster**2 for name in squares})
+
+    def is_unforced(self):
+        return self.f == 0 and self.stop_amplitude == 0 and self.base_amplitude == 0
+
+
+def logarithmic(draw, low, high):
+    return math.exp(draw.uniform(math.log(low), math.log(high)))
+
+
+def drawn(draw):
+    """A scene of any effects, also at their ends."""
+
+    def stop():
+        if draw.random() < 0.4:
+            return 1.0, logarithmic(draw, 1, 1e5), draw.choice([0.0, logarithmic(draw, 1e-3, 1.5)])
+        R = draw.choice([draw.uniform(0.1, 0.95), draw.uniform(0.3, 0.9), 0.0, 1.0, 1 - logarithmic(draw, 0.01, 0.1)])
+        return R, INF, 0.0
+
+    scene = Scene()
+    weak = draw.random() < 0.2  # nearly nothing but the load
+    scene.stiffness = draw.choice([1.0, 1.0, logarithmic(draw, 0.1, 10), -logarithmic(draw, 0.01, 0.3), 0.0])
+    scene.h = draw.choice([0.0, logarithmic(draw, 1e-3, 0.5), logarithmic(draw, 1e-3, 0.5), draw.uniform(0.5, 2)])
+    scene.f = draw.choice([-1, 1]) * draw.choice([1.0, logarithmic(draw, 0.03, 3)])
+    scene.nu = logarithmic(draw, 0.3, 3)
+    scene.phase = draw.choice([0.0, draw.uniform(-math.pi, math.pi)])
+    scene.load = draw.choice([0.0, draw.uniform(-0.5, 0.5), draw.uniform(-2, 2)])
+    if weak:
+        small = [0.0, 1e-12, 1e-8, 1e-5, 1e-3]
+        scene.stiffness, scene.h, scene.f = draw.choice(small), draw.choice(small), draw.choice(small)
+        scene.load = draw.choice([-1, 1]) * draw.uniform(0.3, 3)
+    gap = logarithmic(draw, 0.2, 3)
+    middle = draw.choice([0.0, draw.uniform(-0.5, 0.5)])
+    scene.R_lower, scene.stop_stiffness_lower, scene.stop_damping_lower = stop()
+    scene.R_upper, scene.stop_stiffness_upper, scene.stop_damping_upper = stop()
+    scene.stop_lower, scene.stop_upper = middle - gap / 2, middle + gap / 2
+    only = draw.choice(["both", "both", "lower", "upper"])
+    if weak:
+        only = "lower" if scene.load < 0 else "upper"
+    if only == "upper":
+        scene.stop_lower, scene.R_lower = -INF, 1.0
+        scene.stop_stiffness_lower, scene.stop_damping_lower = INF, 0.0
+    if only == "lower":
+        scene.stop_upper, scene.R_upper = INF, 1.0
+        scene.stop_stiffness_upper, scene.stop_damping_upper = INF, 0.0
+    low, high = max(scene.stop_lower, middle - 2), min(scene.stop_upper, middle + 2)
+    scene.x0 = draw.choice([draw.uniform(low, high)] * 4 + [low, high])
+    if math.isfinite(scene.stop_stiffness_lower) and draw.random() < 0.2:
+        scene.x0 = low - draw.uniform(0, 0.2)
+    scene.v0 = draw.choice([0.0, draw.uniform(-2, 2), draw.uniform(-2, 2)])
+    if not weak and draw.random() < 0.15 and scene.stiffness != 0:
+        scene.base_amplitude = draw.uniform(0.1, 0.5)
+        scene.f = draw.choice([0.0, scene.f])
+    elif not weak and draw.random() < 0.15:
+        scene.stop_amplitude = draw.uniform(0.05, 0.3)
+    return scene
+
+
+@dataclass
+class Runs:
+    """What the program answers to a list of scenes: arrays [scene], logs of impacts one after the other."""
+
+    values: dict = field(default_factory=dict)
+    logs: list = field(default_factory=list)
+
+    def __getitem__(self, name):
+        return self.values[name]
+
+
+class Program:
+    def __init__(self, program, folder):
+        self.program, self.folder, self.count = program, Path(folder), 0
+
+    def run(self, scenes, time, observe, *words):
+        """A sweep for each kind of scene, since a key of one kind of stop is refused beside the other kind."""
+        kinds = {}
+        for i, scene in enumerate(scenes):
+            kinds.setdefault(tuple(keys_of(scene)), []).append(i)
+        runs = Runs(logs=[None] * len(scenes))
+        for keys, points in kinds.items():
+            self.sweep(keys, [scenes[i] for i in points], points, runs, time, observe, *words)
+        return runs
+
+    def sweep(self, keys, scenes, points, runs, time, observe, *words):
+        self.count += 1
+        name = self.folder / f"{self.count}.toml"
+        lists = "".join(f"{key} = {numbers([getattr(s, key) for s in scenes])}\n" for key in keys)
+        linked = f'linked = "{", ".join(keys)}"\n'
+        name.write_text(f"[sweep]\n{lists}{linked}[time]\n{time}\n{observe}", encoding="utf-8")
+        output = name.with_suffix(".h5")
+        command = [self.program, "run", name, "-o", output, "-q", "--set", "time.max_impacts=20000", *words]
+        result = subprocess.run(command, capture_output=True, text=True, check=False)
+        if not output.exists():
+            raise RuntimeError(f"{result.returncode}: {result.stderr}")
+        with h5py.File(output) as data:
+            for key, values in data.items():
+                if isinstance(values, h5py.Dataset) and values.shape and not key.startswith("impact_"):
+                    if values.shape[0] == len(scenes) and (values.ndim > 1 or key not in ("sample", "stop")):
+                        kept = runs.values.setdefault(key, np.full((len(runs.logs), *values.shape[1:]), math.nan))
+                        kept[points] = values[()]
+            columns = [data["impact_" + column][()] for column in ("tau", "stop", "v_before", "v_after")]
+            ends = np.cumsum(data["impact_count"][()])
+            for point, log in zip(points, np.split(np.column_stack(columns), ends[:-1])):
+                runs.logs[point] = log
+        output.unlink()
+
+
+def keys_of(scene):
+    """The keys that a scene's kind of stops and shaking has."""
+    keys = "h f nu phase load stiffness x0 v0".split()
+    for side in ("_lower", "_upper"):
+        if math.isfinite(getattr(scene, "stop" + side)):
+            is_soft = math.isfinite(getattr(scene, "stop_stiffness" + side))
+            keys += ["stop" + side] + (["stop_stiffness" + side, "stop_damping" + side] if is_soft else ["R" + side])
+    return keys + [key for key in ("stop_amplitude", "base_amplitude") if getattr(scene, key) != 0]
+
+
+def numbers(values):
+    return "[" + ", ".join(repr(float(x)) for x in values) + "]"
+
+
+def sizes(runs, kind):
+    """The size of displacements or velocities of each motion."""
+    return np.maximum(np.abs(runs[kind + "_min"]), np.abs(runs[kind + "_max"]))
+
+
+class Campaign:
+    """Compares runs of one motion written in two ways."""
+
+    def __init__(self, program, count, seed, stream=None):
+        self.stream = stream
+        with tempfile.TemporaryDirectory() as folder:
+            self.program = Program(program, folder)
+            draw = random.Random(seed)
+            self.scenes = [drawn(draw) for _ in range(count)]
+            self.failures = []
+            self.transients()
+
+    def fail(self, relation, i, text):
+        self.failures.append((relation, i, text, self.scenes[i]))
+
+    def transients(self):
+        scenes = self.scenes
+        time = f'mode = "transient"\nduration = {DURATION}\n'
+
+        def run(scenes, *words, time=time):
+            return self.program.run(scenes, time, OBSERVED, *words)
+
+        base = self.base = run(scenes)
+        # How much a motion magnifies a change decides how far two runs of it may be apart.
+        size = sizes(base, "x") + np.array([abs(s.x0) for s in scenes])
+        nudge = 1e-11
+        aside = run([s.changed(v0=s.v0 + nudge * (1 if s.v0 >= 0 else -1) * max(1, abs(s.v0))) for s in scenes])
+        aside2 = run([s.changed(nu=s.nu * (1 + nudge)) for s in scenes])
+        self.steady_count = np.ones(len(scenes), bool)
+        grown = np.zeros(len(scenes))
+        for other in (aside, aside2):
+            self.steady_count &= self.counts(other) == self.counts(base)
+            for name in ("x", "v"):
+                grown = np.maximum(grown, np.nanmax(np.abs(other[name] - base[name]), axis=1) / nudge)
+                for end in ("_min", "_max"):
+                    grown = np.maximum(grown, np.abs(other[name + end] - base[name + end]) / nudge)
+        self.allowed = 1e-14 * (1e2 * grown + 30 * size + 30 * sizes(base, "v"))
+        self.decided = (base["status"] == 2) & np.isfinite(grown) & (self.allowed < 1e-6 * (1 + size))
+        self.say(f"{self.decided.sum()} of {len(scenes)} decided")
+
+        def compare(relation, other, **how):
+            self.compare(relation, base, other, **how)
+
+        compare("scalar", run(scenes, "--arch", "scalar"))
+        compare("effects", run(scenes, "--set", "integrator.effects=all"))
+        compare("mirror", run([s.mirrored() for s in scenes]), mirror=True)
+        compare("scale 4", run([s.scaled(4.0) for s in scenes]), size=4.0)
+        compare("scale 3", run([s.scaled(3.0) for s in scenes]), size=3.0)
+        compare("time", run([s.in_time(3.0) for s in scenes], time=time.replace(str(DURATION), str(3 * DURATION))),
+                speed=3.0)
+        still = [s if s.base_amplitude or s.stop_amplitude else s.shifted(0.75) for s in scenes]
+        places = np.array([0.0 if s.base_amplitude or s.stop_amplitude else 0.75 for s in scenes])
+        compare("shift", run(still), shift=places)
+        self.split(run, base, time)
+        self.alone(run, base)
+        self.logs(base)
+        self.energy(base)
+
+    def say(self, text):
+        if self.stream:
+            print(text, file=self.stream, flush=True)
+
+    @staticmethod
+    def counts(runs):
+        return np.array([len(log) for log in runs.logs])
+
+    def compare(self, relation, base, other, mirror=False, size=1.0, speed=1.0, shift=0.0):
+        sign = -1.0 if mirror else 1.0
+        places = np.broadcast_to(np.asarray(shift), (len(self.scenes),))
+        low, high = ("max", "min") if mirror else ("min", "max")
+
+        def check(name, mine, its, scale=1.0):
+            off, allowed = np.abs(mine - its), scale * self.allowed
+            while off.ndim > 1:
+                off = off.max(axis=-1)
+            for i in np.flatnonzero(self.decided & ~(off <= allowed)):
+                self.fail(relation, i, f"{name} {mine[i]} for {its[i]}, allowed {allowed[i]:.2g}")
+
+        for i in np.flatnonzero(self.decided & (other["status"] != base["status"])):
+            self.fail(relation, i, f"status {other['status'][i]} for {base['status'][i]}")
+        check("x_min", sign * other["x_" + low] / size - places, base["x_min"])
+        check("x_max", sign * other["x_" + high] / size - places, base["x_max"])
+        check("v_min", sign * other["v_" + low] * speed / size, base["v_min"])
+        check("v_max", sign * other["v_" + high] * speed / size, base["v_max"])
+        check("x", sign * other["x"] / size - places[:, None], base["x"])
+        check("v", sign * other["v"] * speed / size, base["v"])
+        scale = 1 + sizes(base, "v") * (1 + self.counts(base))
+        for name in ("work_in", "loss_damping", "loss_impact"):
+            if relation == "shift" and name == "work_in":
+                continue  # the spring's place counts as load
+            its = other[name] * speed**2 / size**2
+            if its.ndim == 2 and mirror:
+                its = its[:, ::-1]
+            check(name, its, base[name], 10 * scale + 100 * np.abs(base[name]).reshape(len(self.scenes), -1).max(axis=1))
+        for i in np.flatnonzero(self.decided & self.steady_count & (self.counts(other) != self.counts(base))):
+            self.fail(relation, i, f"{self.counts(other)[i]} impacts for {self.counts(base)[i]}")
+
+    def split(self, run, base, time):
+        """A run cut in two has the states, impacts and extrema of the whole."""
+        halves = time.replace(str(DURATION), str(DURATION / 2))
+        first = run(self.scenes, time=halves)
+        theirs = [s.changed(x0=first["x"][i, -1], v0=first["v"][i, -1],
+                            phase=math.remainder(s.phase + s.nu * DURATION / 2, 2 * math.pi))
+                  for i, s in enumerate(self.scenes)]
+        usable = [i for i, s in enumerate(self.scenes)
+                  if self.decided[i] and not s.base_amplitude and not s.stop_amplitude]
+        if not usable:
+            return
+        second = run([theirs[i] for i in usable], time=halves)
+        for j, i in enumerate(usable):
+            allowed = 1e2 * self.allowed[i]
+            for name in ("x", "v"):
+                if not abs(second[name][j, -1] - base[name][i, -1]) <= allowed:
+                    self.fail("split", i, f"{name} {second[name][j, -1]} for {base[name][i, -1]}, allowed {allowed:.2g}")
+                for end, of in (("_min", min), ("_max", max)):
+                    both = of(first[name + end][i], second[name + end][j])
+                    if not abs(both - base[name + end][i]) <= allowed:
+                        self.fail("split", i, f"{name + end} {both} for {base[name + end][i]}, allowed {allowed:.2g}")
+            forced = not self.scenes[i].is_unforced()  # else the height at which a chatter is summed is of the start
+            both = len(first.logs[i]) + len(second.logs[j])
+            in_contact = is_beyond_soft(theirs[i]) or first["rest_fraction"][i].sum() > 0
+            if forced and self.steady_count[i] and not in_contact and both != len(base.logs[i]):
+                self.fail("split", i, f"{both} impacts for {len(base.logs[i])}")
+
+    def alone(self, run, base):
+        """A point alone has the bytes of the point in a sweep."""
+        for i in range(0, len(self.scenes), max(1, len(self.scenes) // 20)):
+            one = run([self.scenes[i]])
+            for name in ("x_min", "x_max", "v_min", "v_max", "work_in", "x", "v"):
+                if not np.array_equal(one[name][0], base[name][i], equal_nan=True):
+                    self.fail("alone", i, f"{name} {one[name][0]} for {base[name][i]}")
+            if not np.array_equal(one.logs[0], base.logs[i], equal_nan=True):
+                self.fail("alone", i, "another log")
+
+    def energy(self, base):
+        """Finite motion has finite energies, and they balance."""
+        for i in np.flatnonzero(base["status"] == 2):
+            residual = base["energy_residual"][i]
+            size = max(abs(base["work_in"][i]), base["loss_damping"][i], base["loss_impact"][i].max(),
+                       sizes(base, "v")[i] ** 2, sizes(base, "x")[i] ** 2)
+            if not abs(residual) <= 1e-10 * size + 1e-12:
+                self.fail("energy", i, f"residual {residual} of {size}")
+
+    def logs(self, base):
+        """Each impact of rigid stops at rest follows from the one before, by closed forms of our own."""
+        for i in np.flatnonzero(base["status"] == 2):
+            s, log = self.scenes[i], base.logs[i]
+            soft = math.isfinite(s.stop_stiffness_lower) or math.isfinite(s.stop_stiffness_upper)
+            if soft or s.stop_amplitude or s.base_amplitude or len(log) == 0:
+                continue
+            tau, x, v = 0.0, s.x0, s.v0
+            if x == s.stop_lower:
+                v = max(v, -s.R_lower * v)  # the impact at the beginning isn't logged
+            if x == s.stop_upper:
+                v = min(v, -s.R_upper * v)
+            for time, side, before, after in log[:40]:
+                stop, R = (s.stop_upper, s.R_upper) if side > 0 else (s.stop_lower, s.R_lower)
+                held = v == 0 and x in (s.stop_lower, s.stop_upper)  # it may have rested in between
+                there = flown(s, tau, x, v, time - tau)
+                off = abs(there[0] - stop) + abs(there[1] - before)
+                if not held and not off <= 1e-9 * (1 + abs(stop) + abs(before)):
+                    self.fail("log", i, f"impact at {time}: {there} for {stop}, {before}")
+                    break
+                if not abs(after + R * before) <= 1e-15 * abs(before):
+                    self.fail("log", i, f"impact at {time}: {after} after {before}")
+                    break
+                # a slow rebound may be the one after which a chatter is summed
+                if abs(after) < 1e-5:
+                    break
+                tau, x, v = time, stop, after
+
+
+def is_beyond_soft(s):
+    return x_beyond(s.x0, s.stop_lower, s.stop_stiffness_lower, -1) or x_beyond(
+        s.x0, s.stop_upper, s.stop_stiffness_upper, 1)
+
+
+def x_beyond(x, stop, stiffness, sign):
+    return math.isfinite(stiffness) and sign * (x - stop) >= 0
+
+
+def flown(s, tau, x, v, time):
+    """Displacement and velocity after a free flight, by its Taylor series in steps."""
+    rate = max(1.0, math.sqrt(abs(s.stiffness)), 2 * s.h, s.nu)
+    steps = max(1, math.ceil(4 * rate * time))
+    step = time / steps
+    for n in range(steps):
+        theta = s.nu * (tau + n * step) + s.phase
+        terms = [x, v]
+        force = s.f
+        for k in range(24):
+            forced = force * (math.sin(theta), math.cos(theta), -math.sin(theta), -math.cos(theta))[k % 4]
+            constant = s.load if k == 0 else 0.0
+            # terms[k] is the k-th derivative
+            terms.append(constant + forced - 2 * s.h * terms[k + 1] - s.stiffness * terms[k])
+            force *= s.nu
+        x = sum(term * step**k / math.factorial(k) for k, term in enumerate(terms))
+        v = sum(term * step ** (k - 1) / math.factorial(k - 1) for k, term in enumerate(terms) if k)
+    return x, v
+
+
+def main():
+    count = int(sys.argv[1]) if len(sys.argv) > 1 else 200
+    seed = int(sys.argv[2]) if len(sys.argv) > 2 else 1
+    campaign = Campaign(os.environ["CLATTER"], count, seed, sys.stdout)
+    kinds = {}
+    for relation, i, text, scene in campaign.failures:
+        kinds.setdefault(relation, []).append((i, text, scene))
+    for relation, found in kinds.items():
+        print(f"{relation}: {len({i for i, _, _ in found})} scenes")
+        for i, text, scene in found[:4]:
+            print(f"  {i}: {text}\n    {scene}")
+    sys.exit(bool(campaign.failures))
+
+
+if __name__ == "__main__":
+    main()
