@@ -17,6 +17,8 @@ tests/stepping or tests/cli; build first (scripts/test.sh). NAME is one of
   drift        the speed of contact over COUNT conservative impacts            (default 100000000; about 1 us each)
   kills        COUNT runs killed, each sweep again and again until it is done  (default 1000; about 0.5 s each)
   disks        a sweep on disks that are full at COUNT sizes                   (default 100; about 1 s each)
+  combinations COUNT random scenes of all effects together, each written in several ways, by the program
+               (default 3000; about 0.1 s each)
   starts       tests/regression on every instruction set with all starts of basins and zones, of which
                ctest runs all on the widest set only (no COUNT; about 2 minutes)
 END
@@ -33,6 +35,7 @@ case "${1-}" in
   drift) filter='Long.conservative*' count=100000000 ;;
   kills) filter=resume_test.Resume.test_killed_at_random_moments_it_loses_nothing_that_was_saved count=1000 ;;
   disks) filter=faults_test.Faults.test_a_disk_that_is_full_at_any_size_loses_nothing count=100 ;;
+  combinations) filter=combinations_test.Combinations.test_two_ways_to_write_a_scene_give_one_motion count=3000 ;;
   starts) filter=regress_test.Regress.test_the_committed_baseline_holds_on_every_instruction_set count=1 ;;
   -h | --help) usage; exit 0 ;;
   *) echo "long_checks.sh: unknown name '${1-}'; try --help" >&2; exit 2 ;;
@@ -45,8 +48,9 @@ count=${2-$count}
 [[ $count =~ ^[1-9][0-9]*$ ]] || { echo "long_checks.sh: COUNT is a whole number above 0, not '$count'" >&2; exit 2; }
 
 top=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
-if [[ $1 == kills || $1 == disks || $1 == starts ]]; then
+if [[ $filter == *_test.* ]]; then
   export CLATTER=$top/build/release/apps/clatter/clatter CLATTER_KILLS=$count CLATTER_DISKS=$count
+  export CLATTER_COMBINATIONS=$count
   export PYTHONDONTWRITEBYTECODE=1
   [[ $1 != starts ]] || export CLATTER_ALL_STARTS=1
   [[ -x $CLATTER ]] || { echo "long_checks.sh: $CLATTER is missing; scripts/test.sh builds it" >&2; exit 2; }

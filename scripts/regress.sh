@@ -17,8 +17,8 @@ Runs configurations of configs/ and compares their outputs with those in BASELIN
   h5    whole outputs, NAME.h5, such as those of scripts/reproduce.sh; compared by h5diff, and then value by value
   text  some points of each output, NAME.txt, small enough to commit, with SHA256SUMS
 Every figure of the paper must have its baseline; other configurations are compared if they have one. Those of
-"clatter accuracy" hold times, and optimal_zones has motions that one start in thousands finds, or not, by rounding:
-they are left out.
+"clatter accuracy" hold times, optimal_zones has motions that one start in thousands finds, or not, by rounding, and
+hysteresis is follow_up and follow_down in one: they are left out.
 
 The table on stdout has a line for each output, in columns between blanks: its name, points and variables compared,
 the largest difference, where it is, what h5diff says (same, differs, - for text), the verdict (agrees, differs), and
@@ -90,7 +90,7 @@ command -v h5diff >/dev/null || ((${#binaries[@]} == 0)) || install_missing hdf5
 names=()
 if [[ -n $write ]]; then
   for config in "$source_dir"/configs/*.toml; do
-    [[ $config == */accuracy_*.toml || $config == */optimal_zones.toml ]] || names+=("$config")
+    [[ $config == */accuracy_*.toml || $config == */optimal_zones.toml || $config == */hysteresis.toml ]] || names+=("$config")
   done
   names=("${names[@]##*/}")
   names=("${names[@]%.toml}")

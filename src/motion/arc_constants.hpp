@@ -241,10 +241,8 @@ Step<Number> ArcConstants<Number, E>::step(const Number& s) const {
 template <class Number, Effects E>
 void ArcConstants<Number, E>::respond_from_rest(const Number& s, Step<Number>& step) const {
   using std::cos, std::exp, std::sin;
-  if constexpr (E.stiffness) {  // between soft stops one set of effects serves all light damping, resonance or not
-    const Number least = secular_distance * natural;
-    if (!(h * h + detuning * detuning < least * least)) return respond_away_from_resonance(step);
-  }
+  const Number least = secular_distance * natural;  // sets of all effects serve scenes away from resonance, too
+  if (!(h * h + detuning * detuning < least * least)) return respond_away_from_resonance(step);
   const Number lambda = root, c = cos(nu * s), d = sin(nu * s);
   const auto [q_re, q_im] = divided_exponential<Number>(-h * s, -detuning * s);
   const Number near_re = s * (c * q_re - d * q_im), near_im = s * (c * q_im + d * q_re);  // E(mu)

@@ -7,6 +7,7 @@ in other units of time, cut in two, alone instead of in a sweep, on another inst
 usage: combinations.py [SCENES [SEED]]     (environment: CLATTER, the program)
 """
 
+import itertools
 import math
 import os
 import random
@@ -22,6 +23,7 @@ import numpy as np
 INF = math.inf
 DURATION = 24.0
 OBSERVED = "[observe]\nextrema = true\nimpacts = true\nimpact_log = true\nenergy = true\ntrajectory = 3\n"
+STEADY = OBSERVED.replace("3", "2") + "period = true\nword = true\nstability = true\n"
 
 
 @dataclass
@@ -131,6 +133,22 @@ def drawn(draw):
     return scene
 
 
+def random_scenes(count, seed):
+    draw = random.Random(seed)
+    return [drawn(draw) for _ in range(count)]
+
+
+def weak_scenes():
+    """A mass that a load presses on a stop, all else from nothing to as strong as the load; one stop and two."""
+    strengths = (0.0, 1e-12, 1e-8, 1e-4, 1e-2, 1.0)
+    scenes = []
+    for i, (k, h, f) in enumerate(itertools.product(strengths, repeat=3)):
+        scene = Scene(stiffness=k, h=h, f=f, nu=(0.7, 1.0, 1.9)[i % 3], load=-1.5, stop_lower=0.0, x0=0.3, v0=-1.0)
+        scene.R_lower = scene.R_upper = (0.3, 0.5, 0.7)[i // 3 % 3]
+        scenes += [scene, scene.changed(stop_upper=(0.4, 0.31)[i % 2])]
+    return [s if math.isfinite(s.stop_upper) else s.changed(R_upper=1.0) for s in scenes]
+
+
 @dataclass
 class Runs:
     """What the program answers to a list of scenes: arrays [scene], logs of impacts one after the other."""
@@ -171,7 +189,9 @@ class Program:
             for key, values in data.items():
                 if isinstance(values, h5py.Dataset) and values.shape and not key.startswith("impact_"):
                     if values.shape[0] == len(scenes) and (values.ndim > 1 or key not in ("sample", "stop")):
-                        kept = runs.values.setdefault(key, np.full((len(runs.logs), *values.shape[1:]), math.nan))
+                        is_text = values.dtype.kind not in "fiub"
+                        empty = np.full((len(runs.logs), *values.shape[1:]), None if is_text else math.nan)
+                        kept = runs.values.setdefault(key, empty)
                         kept[points] = values[()]
             columns = [data["impact_" + column][()] for column in ("tau", "stop", "v_before", "v_after")]
             ends = np.cumsum(data["impact_count"][()])
@@ -202,14 +222,12 @@ def sizes(runs, kind):
 class Campaign:
     """Compares runs of one motion written in two ways."""
 
-    def __init__(self, program, count, seed, stream=None):
-        self.stream = stream
+    def __init__(self, program, scenes, stream=None):
+        self.scenes, self.stream, self.failures = scenes, stream, []
         with tempfile.TemporaryDirectory() as folder:
             self.program = Program(program, folder)
-            draw = random.Random(seed)
-            self.scenes = [drawn(draw) for _ in range(count)]
-            self.failures = []
             self.transients()
+            self.steady_motions()
 
     def fail(self, relation, i, text):
         self.failures.append((relation, i, text, self.scenes[i]))
@@ -232,7 +250,7 @@ class Campaign:
         for other in (aside, aside2):
             self.steady_count &= self.counts(other) == self.counts(base)
             for name in ("x", "v"):
-                grown = np.maximum(grown, np.nanmax(np.abs(other[name] - base[name]), axis=1) / nudge)
+                grown = np.maximum(grown, np.abs(other[name] - base[name]).max(axis=1) / nudge)
                 for end in ("_min", "_max"):
                     grown = np.maximum(grown, np.abs(other[name + end] - base[name + end]) / nudge)
         self.allowed = 1e-14 * (1e2 * grown + 30 * size + 30 * sizes(base, "v"))
@@ -247,8 +265,11 @@ class Campaign:
         compare("mirror", run([s.mirrored() for s in scenes]), mirror=True)
         compare("scale 4", run([s.scaled(4.0) for s in scenes]), size=4.0)
         compare("scale 3", run([s.scaled(3.0) for s in scenes]), size=3.0)
-        compare("time", run([s.in_time(3.0) for s in scenes], time=time.replace(str(DURATION), str(3 * DURATION))),
-                speed=3.0)
+        compare(
+            "time",
+            run([s.in_time(3.0) for s in scenes], time=time.replace(str(DURATION), str(3 * DURATION))),
+            speed=3.0,
+        )
         still = [s if s.base_amplitude or s.stop_amplitude else s.shifted(0.75) for s in scenes]
         places = np.array([0.0 if s.base_amplitude or s.stop_amplitude else 0.75 for s in scenes])
         compare("shift", run(still), shift=places)
@@ -292,7 +313,9 @@ class Campaign:
             its = other[name] * speed**2 / size**2
             if its.ndim == 2 and mirror:
                 its = its[:, ::-1]
-            check(name, its, base[name], 10 * scale + 100 * np.abs(base[name]).reshape(len(self.scenes), -1).max(axis=1))
+            check(
+                name, its, base[name], 10 * scale + 100 * np.abs(base[name]).reshape(len(self.scenes), -1).max(axis=1)
+            )
         for i in np.flatnonzero(self.decided & self.steady_count & (self.counts(other) != self.counts(base))):
             self.fail(relation, i, f"{self.counts(other)[i]} impacts for {self.counts(base)[i]}")
 
@@ -300,11 +323,17 @@ class Campaign:
         """A run cut in two has the states, impacts and extrema of the whole."""
         halves = time.replace(str(DURATION), str(DURATION / 2))
         first = run(self.scenes, time=halves)
-        theirs = [s.changed(x0=first["x"][i, -1], v0=first["v"][i, -1],
-                            phase=math.remainder(s.phase + s.nu * DURATION / 2, 2 * math.pi))
-                  for i, s in enumerate(self.scenes)]
-        usable = [i for i, s in enumerate(self.scenes)
-                  if self.decided[i] and not s.base_amplitude and not s.stop_amplitude]
+        theirs = [
+            s.changed(
+                x0=first["x"][i, -1],
+                v0=first["v"][i, -1],
+                phase=math.remainder(s.phase + s.nu * DURATION / 2, 2 * math.pi),
+            )
+            for i, s in enumerate(self.scenes)
+        ]
+        usable = [
+            i for i, s in enumerate(self.scenes) if self.decided[i] and not s.base_amplitude and not s.stop_amplitude
+        ]
         if not usable:
             return
         second = run([theirs[i] for i in usable], time=halves)
@@ -312,7 +341,9 @@ class Campaign:
             allowed = 1e2 * self.allowed[i]
             for name in ("x", "v"):
                 if not abs(second[name][j, -1] - base[name][i, -1]) <= allowed:
-                    self.fail("split", i, f"{name} {second[name][j, -1]} for {base[name][i, -1]}, allowed {allowed:.2g}")
+                    self.fail(
+                        "split", i, f"{name} {second[name][j, -1]} for {base[name][i, -1]}, allowed {allowed:.2g}"
+                    )
                 for end, of in (("_min", min), ("_max", max)):
                     both = of(first[name + end][i], second[name + end][j])
                     if not abs(both - base[name + end][i]) <= allowed:
@@ -333,12 +364,127 @@ class Campaign:
             if not np.array_equal(one.logs[0], base.logs[i], equal_nan=True):
                 self.fail("alone", i, "another log")
 
+    def steady_motions(self):
+        """Each periodic motion comes back to its state, by the impacts and with the derivative that are told of it."""
+        settle = 'mode = "steady"\nmax_periods = 600\n'
+        runs = self.program.run(self.scenes, settle, STEADY)
+        periodic = [
+            i
+            for i in range(len(self.scenes))
+            if runs["status"][i] in (0, 3)
+            and not self.scenes[i].is_unforced()
+            and not self.scenes[i].base_amplitude
+            and not self.scenes[i].stop_amplitude
+        ]
+        self.say(f"{len(periodic)} periodic")
+        starts, periods = [], []
+        for i in periodic:
+            starts.append(self.scenes[i].changed(x0=runs["x"][i, 0], v0=runs["v"][i, 0]))
+            periods.append(runs["period"][i])
+        for j, i in enumerate(periodic):
+            s, log, period = self.scenes[i], runs.logs[i], periods[j]
+            turns = period * s.nu / (2 * math.pi)
+            if math.isnan(period) and runs["v_min"][i] == runs["v_max"][i] == 0:
+                continue  # it stands still
+            n = round(turns) if math.isfinite(turns) else 0
+            if not (n >= 1 and abs(turns - n) < 1e-9 * n):
+                self.fail("period", i, f"{turns} forcing periods, status {runs['status'][i]}")
+                continue
+            rests = runs["rest_fraction"][i].sum() > 0
+            soft = math.isfinite(s.stop_stiffness_lower) or math.isfinite(s.stop_stiffness_upper)
+            self.minimal(i, log, n, period)
+            if not rests and not soft:
+                self.closes(i, s, log, period)
+            if runs["status"][i] == 3:
+                self.grazes(i, s, log, runs)
+                continue
+            if not rests and not soft:
+                of = {-1: s.R_lower, 1: s.R_upper}
+                expected = math.exp(-2 * s.h * period) * math.prod(of[side] ** 2 for side in log[:, 1])
+                product = complex_of(runs, i, 0) * complex_of(runs, i, 1)
+                if not abs(product - expected) <= 1e-9 * expected + 1e-14:
+                    self.fail("multipliers", i, f"product {product} for {expected}")
+            self.returns(i, starts[j], period, runs, n)
+
+    def minimal(self, i, log, n, period):
+        """No part of the period repeats the motion already."""
+        for m in range(1, n):
+            if n % m or len(log) == 0 or len(log) * m % n:
+                continue
+            shift = len(log) * m // n
+            later = np.roll(log, -shift, axis=0)
+            off = np.abs((later[:, 0] - log[:, 0] - m * period / n + period / 2) % period - period / 2)
+            if shift and np.all(off < 1e-7 * period) and np.all(np.abs(later[:, 1:3] - log[:, 1:3]) < 1e-7):
+                self.fail("period", i, f"{n} forcing periods, but the motion repeats after {m}")
+                return
+
+    def closes(self, i, s, log, period):
+        for row, (time, side, _, after) in enumerate(log):
+            then = log[(row + 1) % len(log)]
+            time_then = then[0] + (period if row + 1 == len(log) else 0)
+            stop, next_stop = ((s.stop_upper if b > 0 else s.stop_lower) for b in (side, then[1]))
+            there = flown(s, time, stop, after, time_then - time)
+            off = abs(there[0] - next_stop) + abs(there[1] - then[2])
+            if not off <= 1e-8 * (1 + abs(next_stop) + abs(then[2])):
+                self.fail("log", i, f"row {row + 1} of {len(log)}: {there} for {next_stop}, {then[2]}")
+                return
+
+    def grazes(self, i, s, log, runs):
+        slowest = np.abs(log[:, 2]).min() if len(log) else math.inf
+        sides = set(log[:, 1]) if len(log) else set()
+        gaps = [
+            abs(stop - runs["x" + end][i])
+            for stop, end, side in ((s.stop_lower, "_min", -1), (s.stop_upper, "_max", 1))
+            if math.isfinite(stop) and side not in sides
+        ]
+        if slowest > 1e-3 and not any(gap < 1e-6 for gap in gaps) and len(log) < 3:
+            self.fail("grazing", i, f"the slowest impact has the speed {slowest}")
+
+    def returns(self, i, start, period, runs, n):
+        """The state comes back after a period, and its neighbours as the multipliers say."""
+        step = 1e-6
+        nearby = [
+            start,
+            start.changed(x0=start.x0 + step),
+            start.changed(v0=start.v0 + step),
+            start.changed(x0=start.x0 - step),
+            start.changed(v0=start.v0 - step),
+        ]
+        inside = all(s.stop_lower < s.x0 < s.stop_upper or is_beyond_soft(s) for s in nearby)
+        time = f'mode = "transient"\nduration = {float(period)!r}\n'
+        runs_of = self.program.run(nearby if inside else [start], time, OBSERVED)
+        ends = np.column_stack([runs_of["x"][:, -1], runs_of["v"][:, -1]])
+        begin = np.array([start.x0, start.v0])
+        multipliers = [complex_of(runs, i, 0), complex_of(runs, i, 1)]
+        size = 1 + np.abs(begin).max()
+        rests = runs["rest_fraction"][i].sum() > 0
+        derivative = np.column_stack([(ends[1] - ends[3]), (ends[2] - ends[4])]) / (2 * step) if inside else None
+        growth = 1 + (np.abs(derivative).max() if inside and not rests else 1e3)
+        # a repeat is found to 1e-12 of the state
+        if not np.abs(ends[0] - begin).max() <= 1e-10 * size * growth:
+            self.fail("return", i, f"{begin} comes to {ends[0]}")
+        if not inside or rests or not np.isfinite(multipliers).all():
+            return
+        same = all(len(log) == len(runs_of.logs[0]) for log in runs_of.logs)
+        forward = np.column_stack([(ends[1] - ends[0]), (ends[2] - ends[0])]) / step
+        curved = np.abs(forward - derivative).max()
+        if not same or curved > 1e-3 * (1 + np.abs(derivative).max()):
+            return
+        trace, expected = np.trace(derivative), sum(multipliers)
+        if not abs(trace - expected) <= 1e-2 * curved + 1e-6 * growth:
+            self.fail("derivative", i, f"trace {trace}, multipliers {multipliers}")
+
     def energy(self, base):
         """Finite motion has finite energies, and they balance."""
         for i in np.flatnonzero(base["status"] == 2):
             residual = base["energy_residual"][i]
-            size = max(abs(base["work_in"][i]), base["loss_damping"][i], base["loss_impact"][i].max(),
-                       sizes(base, "v")[i] ** 2, sizes(base, "x")[i] ** 2)
+            size = max(
+                abs(base["work_in"][i]),
+                base["loss_damping"][i],
+                base["loss_impact"][i].max(),
+                sizes(base, "v")[i] ** 2,
+                sizes(base, "x")[i] ** 2,
+            )
             if not abs(residual) <= 1e-10 * size + 1e-12:
                 self.fail("energy", i, f"residual {residual} of {size}")
 
@@ -369,11 +515,24 @@ class Campaign:
                 if abs(after) < 1e-5:
                     break
                 tau, x, v = time, stop, after
+            else:
+                # after the last impact the mass flies to the end of the run, unless it rebounds too low to be told
+                low = after**2 / 2 < 1e-10 * (abs(s.f) + abs(s.load) + abs(s.stiffness * stop)) if len(log) else True
+                if not low and len(log) <= 40:
+                    there = flown(s, tau, x, v, DURATION - tau)
+                    off = abs(there[0] - base["x"][i, -1]) + abs(there[1] - base["v"][i, -1])
+                    if not off <= 1e-8 * (1 + abs(there[0]) + abs(there[1])):
+                        self.fail("log", i, f"{there} at the end for {base['x'][i, -1]}, {base['v'][i, -1]}")
+
+
+def complex_of(runs, i, which):
+    return complex(runs["multiplier_re"][i, which], runs["multiplier_im"][i, which])
 
 
 def is_beyond_soft(s):
     return x_beyond(s.x0, s.stop_lower, s.stop_stiffness_lower, -1) or x_beyond(
-        s.x0, s.stop_upper, s.stop_stiffness_upper, 1)
+        s.x0, s.stop_upper, s.stop_stiffness_upper, 1
+    )
 
 
 def x_beyond(x, stop, stiffness, sign):
@@ -400,18 +559,26 @@ def flown(s, tau, x, v, time):
     return x, v
 
 
+def report(failures):
+    kinds, lines = {}, []
+    for relation, i, text, scene in failures:
+        kinds.setdefault(relation, []).append((i, text, scene))
+    for relation, found in kinds.items():
+        lines.append(f"{relation}: {len({i for i, _, _ in found})} scenes")
+        lines += [f"  {i}: {text}\n    {scene}" for i, text, scene in found[:4]]
+    return "\n".join(lines)
+
+
 def main():
     count = int(sys.argv[1]) if len(sys.argv) > 1 else 200
     seed = int(sys.argv[2]) if len(sys.argv) > 2 else 1
-    campaign = Campaign(os.environ["CLATTER"], count, seed, sys.stdout)
-    kinds = {}
-    for relation, i, text, scene in campaign.failures:
-        kinds.setdefault(relation, []).append((i, text, scene))
-    for relation, found in kinds.items():
-        print(f"{relation}: {len({i for i, _, _ in found})} scenes")
-        for i, text, scene in found[:4]:
-            print(f"  {i}: {text}\n    {scene}")
-    sys.exit(bool(campaign.failures))
+    failed = False
+    for first in range(0, count, 250):
+        scenes = random_scenes(min(250, count - first), seed + first // 250)
+        campaign = Campaign(os.environ["CLATTER"], scenes, sys.stdout)
+        print(report(campaign.failures), flush=True)
+        failed = failed or bool(campaign.failures)
+    sys.exit(failed)
 
 
 if __name__ == "__main__":

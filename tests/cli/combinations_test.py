@@ -1,0 +1,34 @@
+"""Random scenes of all effects together: runs of one motion that is written in two ways agree (combinations.py).
+
+Environment: CLATTER, the program; CLATTER_COMBINATIONS, COUNT or COUNT:SEED of the random scenes.
+"""
+
+import os
+import unittest
+
+from combinations import Campaign, random_scenes, report, weak_scenes
+
+CLATTER = os.environ["CLATTER"]
+AT_ONCE = 250
+
+
+class Combinations(unittest.TestCase):
+    maxDiff = None
+
+    def check(self, scenes):
+        campaign = Campaign(CLATTER, scenes)
+        self.assertEqual(report(campaign.failures), "")
+        self.assertGreater(campaign.decided.sum(), 0.9 * len(scenes))
+
+    def test_two_ways_to_write_a_scene_give_one_motion(self):
+        count, _, seed = os.environ.get("CLATTER_COMBINATIONS", "150").partition(":")
+        for first in range(0, int(count), AT_ONCE):
+            self.check(random_scenes(min(AT_ONCE, int(count) - first), int(seed or 4116) + first // AT_ONCE))
+
+    def test_every_impact_of_a_weak_scene_is_told(self):
+        """Once spring, damper and force were next to nothing, chatter was summed from its first rebound on."""
+        self.check(weak_scenes())
+
+
+if __name__ == "__main__":
+    unittest.main()
