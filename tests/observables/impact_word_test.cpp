@@ -170,7 +170,7 @@ TEST(Symmetry, of_the_steady_response_is_known_without_flights) {
   const point::PointResult r = result_of(scene_of(o, {-infinity, infinity, 1, 1}));
   EXPECT_EQ(r.regime, "0/1");
   EXPECT_EQ(r.symmetric, 1.0);
-  EXPECT_TRUE(std::isnan(result_of(scene_of({0.1, 1.0, 0.7, 0.2}, {-infinity, infinity, 1, 1})).symmetric));
+  EXPECT_EQ(result_of(scene_of({0.1, 1.0, 0.7, 0.2}, {-infinity, infinity, 1, 1})).symmetric, 1.0);  // about 0.2
   EXPECT_TRUE(std::isnan(result_of(scene_of(o, {-0.5, infinity, 0.7, 1})).symmetric));
   EXPECT_TRUE(std::isnan(result_of(scene_of(o, {-0.5, 0.5, 0.7, 0.8})).symmetric));
 }
@@ -182,6 +182,27 @@ TEST(Symmetry, of_free_vibration_and_of_a_mass_at_rest) {
   EXPECT_EQ(free.symmetric, 1.0);
   EXPECT_EQ(result_of(scene_of({}, {-2, 2, 1, 1}, {0.3, 1.0, 0.0})).symmetric, 1.0);
   EXPECT_EQ(result_of(scene_of({0.1, 0.0, 1.0, 0.0}, {-2, 2, 1, 1}, {0.3, 1.0, 0.0})).symmetric, 1.0);
+}
+
+TEST(Symmetry, is_about_the_equilibrium_or_without_a_spring_about_the_middle) {
+  // the same motion wherever stops, start and equilibrium are moved to, but for rounding
+  const auto symmetric = [](double k, double load, double middle, double gap_ratio = 1) {
+    const double gap = 0.6;
+    return result_of(scene_of({0.1, 1.0, 0.8, load, k}, {middle - gap, middle + gap_ratio * gap, 0.6, 0.6},
+                              {middle + 0.1, 0.3, 0.0}))
+        .symmetric;
+  };
+  for (const double k : {0.0, 1.0, 0.3, -0.2}) {
+    const double centred = symmetric(k, 0, 0);
+    EXPECT_FALSE(std::isnan(centred)) << k;
+    for (const double place : {0.1, -0.7, 3.3}) {
+      EXPECT_EQ(symmetric(k, k * place, place), centred) << k << ' ' << place;
+      EXPECT_TRUE(std::isnan(symmetric(k, k * place + 0.05, place))) << k << ' ' << place;
+      if (k != 0) {
+        EXPECT_TRUE(std::isnan(symmetric(k, k * place, place, 1.01))) << k << ' ' << place;
+      }
+    }
+  }
 }
 
 TEST(Word, of_motion_without_a_period_is_empty) {
