@@ -172,15 +172,18 @@ class Follower {
   /// Special points within a step. Returns true if the branch is born in one of them, which ends it.
   bool special_between(const OrbitEquations& equations, const Walk& walk, double step,
                        const std::optional<std::size_t>& from) {
-    for (const FoundPoint& f : special_points_within(equations, walk, step, !from, problem_.observe)) {
-      if (f.kind == SpecialKind::fold) {
-        const Orbit orbit = equations.orbit_at(f.point.at);
-        const Orbit half = orbit.half_if_same(1e-3, symmetric_);
-        if (half.size() < orbit.size() && note_birth(equations, f.point, half)) return true;
-      }
-      note(equations, f.kind, f.point);
-    }
-    return false;
+    const std::vector<FoundPoint> found =
+        special_points_within(equations, walk, step, from.has_value(), problem_.observe);
+    const auto birth = std::ranges::find_if(found, [&](const FoundPoint& f) {
+      if (f.kind != SpecialKind::fold || from) return false;
+      const Orbit orbit = equations.orbit_at(f.point.at), half = orbit.half_if_same(1e-3, symmetric_);
+      return half.size() < orbit.size() && note_birth(equations, f.point, half);
+    });
+    // in its birth a branch turns round, so all its measures do
+    const double end = birth != found.end() ? birth->point.arclength - 1e-2 * step : walk.here().arclength + step;
+    for (const FoundPoint& f : found)
+      if (f.point.arclength <= end) note(equations, f.kind, f.point);
+    return birth != found.end();
   }
 
   /// A branch of half the symmetry, or twice the period, of another one ends on it. Returns false if there is no such

@@ -8,18 +8,20 @@
 namespace clatter::branches {
 
 std::vector<FoundPoint> special_points_within(const OrbitEquations& equations, const Walk& walk, double step,
-                                              bool with_folds, const observables::Observe& observe) {
+                                              bool is_first, const observables::Observe& observe) {
   std::vector<FoundPoint> found;
   const auto there = walk.after(step);
   if (!there) return found;
-  const auto look = [&](SpecialKind kind, const TestFunction& test, bool only_down) {
-    const double a = test(walk.here()), b = test(*there);
+  const auto look = [&](SpecialKind kind, const TestFunction& test, bool only_down, double from = 0.0) {
+    const auto begin = walk.after(from);
+    if (!begin) return;
+    const double a = test(*begin), b = test(*there);
     if ((a < 0) == (b < 0) || (only_down && a < 0)) return;
-    if (const auto zero = walk.zero(test, step)) found.push_back({kind, *zero});
+    if (const auto zero = walk.zero(test, step, from)) found.push_back({kind, *zero});
   };
-  if (with_folds)
-    look(
-        SpecialKind::fold, [](const CurvePoint& p) { return p.tangent.back(); }, false);
+  // a branch begins across the parameter if it is born in a flip or a loss of symmetry: that is no fold of it
+  look(
+      SpecialKind::fold, [](const CurvePoint& p) { return p.tangent.back(); }, false, is_first ? step / 8 : 0.0);
   const bool has_impacts = equations.shape().size() > 0;
   if (has_impacts) {
     const SpecialKind kind = equations.shape().mirrored ? SpecialKind::symmetry_breaking : SpecialKind::flip;

@@ -14,10 +14,10 @@ struct FoundPoint {
   CurvePoint point;
 };
 
-/// The special points within a step of a walk, in the order of the branch: folds unless the walk begins in a special
-/// point, flips or losses of symmetry, and maxima of the measures that are observed.
+/// The special points within a step of a walk, in the order of the branch: folds, flips or losses of symmetry, and
+/// maxima of the measures that are observed. `is_first`: it is the first step from a special point.
 [[nodiscard]] std::vector<FoundPoint> special_points_within(const OrbitEquations& equations, const Walk& walk,
-                                                            double step, bool with_folds,
+                                                            double step, bool is_first,
                                                             const observables::Observe& observe);
 
 }  // namespace clatter::branches

@@ -37,7 +37,7 @@ bool Walk::passes(const CurvePoint& other, const CurvePoint& next) const {
   return product(aside, aside) <= 0.04 * ahead * ahead + 1e-16;
 }
 
-std::optional<CurvePoint> Walk::zero(const TestFunction& test, double s) const {
+std::optional<CurvePoint> Walk::zero(const TestFunction& test, double to, double from) const {
   std::optional<CurvePoint> best;
   bool followed = true;
   const auto value = [&](double part) {
@@ -46,13 +46,40 @@ std::optional<CurvePoint> Walk::zero(const TestFunction& test, double s) const {
     best = point;
     return test(*point);
   };
-  const double low = value(0.0), high = value(s);
+  const double low = value(from), high = value(to);
   if (!followed || !((low < 0) != (high < 0))) return std::nullopt;
   std::uintmax_t most = 60;
   const auto [a, b] = boost::math::tools::toms748_solve(
-      value, 0.0, s, low, high, [s](double x, double y) { return std::abs(x - y) <= 4e-16 * s; }, most);
+      value, from, to, low, high, [to](double x, double y) { return std::abs(x - y) <= 4e-16 * to; }, most);
   static_cast<void>(value(a + (b - a) / 2));
-  return followed ? best : std::nullopt;
+  return followed ? best : zero_between_reached(test, to, from);
+}
+
+/// Bisects towards the change of sign, as long as one of three instants between the ends can be reached.
+std::optional<CurvePoint> Walk::zero_between_reached(const TestFunction& test, double to, double from) const {
+  std::optional<CurvePoint> low = after(from), high = after(to);
+  double at_low = test(*low), at_high = test(*high);
+  for (bool narrower = true; narrower;) {
+    narrower = false;
+    const double width = to - from;
+    for (const double part : {0.5, 0.25, 0.75}) {
+      const double middle = from + part * width;
+      const auto point = width > 1e-12 * to ? after(middle) : std::nullopt;
+      if (!point) continue;
+      const double there = test(*point);
+      if ((there < 0) == (at_low < 0))
+        low = point, at_low = there, from = middle;
+      else
+        high = point, at_high = there, to = middle;
+      narrower = true;
+      break;
+    }
+  }
+  const double share = at_low / (at_low - at_high);
+  CurvePoint zero = *low;
+  zero.at = sum(low->at, share, sum(high->at, -1.0, low->at));
+  zero.arclength += share * (high->arclength - low->arclength);
+  return zero;
 }
 
 }  // namespace clatter::branches

@@ -44,11 +44,15 @@ class Walk {
   /// The point of the curve a distance s <= that of `next` after the present one, along its tangent.
   [[nodiscard]] std::optional<CurvePoint> after(double s) const;
 
-  /// The zero of a test function between the present point and one a distance `s` on, by a bracketing method of high
-  /// order (Alefeld, Potra and Shi 1995); nothing if its sign doesn't change, or it can't be followed.
-  [[nodiscard]] std::optional<CurvePoint> zero(const TestFunction& test, double s) const;
+  /// The zero of a test function between two points at distances `from` and `to` from the present one, by a bracketing
+  /// method of high order (Alefeld, Potra and Shi 1995). If the curve can't be followed to it, the point of the
+  /// narrowest bracket between points that can be reached, at which the test changes sign linearly. Nothing if its sign
+  /// doesn't change.
+  [[nodiscard]] std::optional<CurvePoint> zero(const TestFunction& test, double to, double from = 0.0) const;
 
  private:
+  [[nodiscard]] std::optional<CurvePoint> zero_between_reached(const TestFunction& test, double to, double from) const;
+
   const OrbitEquations& equations_;
   CurvePoint here_;
   WalkLimits limits_;

@@ -67,6 +67,32 @@ class Branch(CommandLine):
         for nu in (0.60994, 1.09648):
             self.assertLess(min(abs(found - nu) for found in breaking), 1e-5)
 
+    def test_a_birth_that_newtons_method_cannot_reach_is_told(self):
+        """The doubled branch ran through its birth, and came back along itself."""
+        scene = (
+            "[scene]\nh = 0.012422456791107025\nf = 3.4407047434145754\nnu = 1.6049849352607084\n"
+            "load = 0.10520776169880675\nstiffness = 0.0\nstop_lower = -0.7378796478300281\n"
+            "stop_upper = 1.1962377546723115\nR_upper = 0.5032224512422416\nstop_stiffness_lower = 44.57910896155104\n"
+            "x0 = 0.7051670808842366\nv0 = 2.602532375847595\n[observe]\nenergy = true\n"
+        )
+        along = '[branch]\nalong = "stop_upper"\nrange = [0.5981188773361558, 2.392475509344623]\n'
+        special = [json.loads(line) for line in self.branch(scene + along, "--json", "-q").stdout.splitlines()]
+        flip = next(point for point in special if point["kind"] == "flip" and point["word"] == "LUU")
+        self.assertAlmostEqual(flip["stop_upper"], 1.22701534, 8)
+        self.assertEqual([point["kind"] for point in special].count("graze"), 1)
+
+    def test_a_fold_in_the_first_step_of_a_branch_is_told(self):
+        scene = (
+            "[scene]\nh = 0.07348171131018699\nf = 0.7744553861214791\nnu = 0.5428592602346645\n"
+            "stop_lower = -0.3850112765699967\nstop_upper = 0.24644200708264635\n"
+            "stop_stiffness = 302.41480489265393\nstop_damping = 0.11322410680103415\n"
+            "base_amplitude = -0.05515689488862529\nx0 = -0.05352519760842442\nv0 = -0.04996595917614489\n"
+        )
+        along = '[branch]\nalong = "stop_damping"\nrange = [0.03396723204031024, 0.33967232040310247]\nswitch = 1\n'
+        special = [json.loads(line) for line in self.branch(scene + along, "--json", "-q").stdout.splitlines()]
+        folds = [point["stop_damping"] for point in special if point["kind"] == "fold"]
+        self.assertLess(min(abs(fold - 0.206102720677506) for fold in folds), 1e-9)
+
     def test_ini_and_set_say_the_same_as_toml(self):
         plain = self.branch(SCENE + BRANCH, "-q").stdout
         ini = (SCENE + BRANCH).replace('"', "").replace("[0.85, 1.5]", "0.85, 1.5")
