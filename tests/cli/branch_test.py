@@ -23,6 +23,9 @@ class Branch(CommandLine):
         self.write("a.toml", text)
         return self.clatter("branch", "a.toml", *words)
 
+    def special_points(self, text):
+        return [json.loads(line) for line in self.branch(text, "--json", "-q").stdout.splitlines()]
+
     def test_file_has_points_and_special_points_that_tools_read(self):
         result = self.branch(SCENE + BRANCH)
         self.assertEqual(result.returncode, 0, result.stderr)
@@ -54,7 +57,7 @@ class Branch(CommandLine):
 
         def special(k, middle):
             scene = (free + place).format(k=k, load=k * middle, low=middle - 0.85, high=middle + 0.85, x0=middle + 0.1)
-            return [json.loads(line) for line in self.branch(scene + along, "--json", "-q").stdout.splitlines()]
+            return self.special_points(scene + along)
 
         for k in (0.0, 0.25):
             centred, moved = special(k, 0.0), special(k, 0.25)
@@ -76,7 +79,7 @@ class Branch(CommandLine):
             "x0 = 0.7051670808842366\nv0 = 2.602532375847595\n[observe]\nenergy = true\n"
         )
         along = '[branch]\nalong = "stop_upper"\nrange = [0.5981188773361558, 2.392475509344623]\n'
-        special = [json.loads(line) for line in self.branch(scene + along, "--json", "-q").stdout.splitlines()]
+        special = self.special_points(scene + along)
         flip = next(point for point in special if point["kind"] == "flip" and point["word"] == "LUU")
         self.assertAlmostEqual(flip["stop_upper"], 1.22701534, 8)
         self.assertEqual([point["kind"] for point in special].count("graze"), 1)
@@ -89,7 +92,7 @@ class Branch(CommandLine):
             "base_amplitude = -0.05515689488862529\nx0 = -0.05352519760842442\nv0 = -0.04996595917614489\n"
         )
         along = '[branch]\nalong = "stop_damping"\nrange = [0.03396723204031024, 0.33967232040310247]\nswitch = 1\n'
-        special = [json.loads(line) for line in self.branch(scene + along, "--json", "-q").stdout.splitlines()]
+        special = self.special_points(scene + along)
         folds = [point["stop_damping"] for point in special if point["kind"] == "fold"]
         self.assertLess(min(abs(fold - 0.206102720677506) for fold in folds), 1e-9)
 

@@ -6,7 +6,9 @@ Environment: CLATTER, the program; CLATTER_COMBINATIONS, COUNT or COUNT:SEED of 
 import os
 import unittest
 
-from combinations import Campaign, random_scenes, report, weak_scenes
+from combinations import Campaign, report
+from followed_branches import BranchCampaign
+from random_scenes import followed_scenes, random_scenes, weak_scenes
 
 CLATTER = os.environ["CLATTER"]
 AT_ONCE = 250
@@ -28,6 +30,11 @@ class Combinations(unittest.TestCase):
     def test_every_impact_of_a_weak_scene_is_told(self):
         """Once spring, damper and force were next to nothing, chatter was summed from its first rebound on."""
         self.check(weak_scenes())
+
+    def test_points_of_branches_are_motions_and_no_special_point_is_missing(self):
+        campaign = BranchCampaign(CLATTER, followed_scenes(40, 4116))
+        self.assertEqual(report(campaign.failures), "")
+        self.assertGreater(campaign.points, 200)
 
 
 if __name__ == "__main__":

@@ -1,0 +1,129 @@
+"""Branches of random scenes, and runs of their points.
+
+usage: followed_branches.py [SCENES [SEED]]     (environment: CLATTER, the program)
+"""
+
+import math
+import os
+import sys
+import tempfile
+
+import numpy as np
+from combinations import report
+from random_scenes import followed_scenes, is_beyond_soft
+from scene_runs import OBSERVED, Program
+
+
+class BranchCampaign:
+    """Follows branches of random scenes along nu, and runs their points again."""
+
+    def __init__(self, program, scenes, stream=None):
+        self.scenes, self.stream, self.failures, self.points = scenes, stream, [], 0
+        self.ended = {}
+        with tempfile.TemporaryDirectory() as folder:
+            self.program = Program(program, folder)
+            for i, scene in enumerate(scenes):
+                self.follow(i, scene)
+
+    def fail(self, relation, i, text):
+        self.failures.append((relation, i, text, self.scenes[i]))
+
+    def follow(self, i, scene):
+        found = self.program.branch(scene, [0.7 * scene.nu, 1.4 * scene.nu])
+        if found is None:
+            return  # the scene settles on nothing that can be followed
+        names = [text.decode() for text in found["special_kind"]]
+        for number in range(int(found["branch"].max(initial=-1)) + 1):
+            on = found["branch"] == number
+            special = [
+                (names[k], found["special_nu"][k]) for k, of in enumerate(found["special_branch"]) if number in of
+            ]
+            self.turns(i, number, found["nu"][on], special)
+            self.crosses(i, number, found["nu"][on], found["multiplier_re"][on], found["multiplier_im"][on], special)
+        self.twice(i, found)
+        self.run_again(i, scene, found)
+
+    def turns(self, i, number, nu, special):
+        """Where the parameter turns round there is a fold, or the branch is born."""
+        steps = np.diff(nu)
+        for k in np.flatnonzero(steps[:-1] * steps[1:] < 0):
+            near = 2 * (abs(steps[k]) + abs(steps[k + 1]))
+            kinds = ("fold", "flip", "symmetry breaking", "graze", "chatter limit")
+            if not any(kind in kinds and abs(at - nu[k + 1]) <= near for kind, at in special):
+                self.fail("turns", i, f"branch {number} at nu = {nu[k + 1]}: {special}")
+
+    def crosses(self, i, number, nu, real, imaginary, special):
+        """Where a multiplier passes -1 there is a flip or a loss of symmetry."""
+        plain = np.all(imaginary == 0, axis=1) & np.all(np.isfinite(real), axis=1)
+        least = real.min(axis=1)
+        for k in range(len(nu) - 1):
+            if not (plain[k] and plain[k + 1]) or (least[k] < -1) == (least[k + 1] < -1):
+                continue
+            if max(abs(least[k]), abs(least[k + 1])) > 1.5:
+                continue  # a graze in between
+            low, high = sorted((nu[k], nu[k + 1]))
+            if not any(
+                kind in ("flip", "symmetry breaking", "graze", "chatter limit") and low - 1e-6 <= at <= high + 1e-6
+                for kind, at in special
+            ):
+                self.fail("crosses", i, f"branch {number} at nu = {low} ... {high}: {special}")
+
+    def twice(self, i, found):
+        """No motion is on two branches, but where they meet."""
+        state = np.column_stack([found["nu"], found["x"], found["v"], found["period_ratio"]])
+        middle = found["nu"] * 0
+        for number in range(int(found["branch"].max(initial=-1)) + 1):
+            on = np.flatnonzero(found["branch"] == number)
+            middle[on[len(on) // 2]] = 1
+        for k in np.flatnonzero(middle):
+            others = found["branch"] != found["branch"][k]
+            if others.any() and (found["branch"] == found["branch"][k]).sum() > 10:
+                off = np.abs(state[others] - state[k]).max(axis=1).min()
+                if off < 1e-9:
+                    self.fail("twice", i, f"a point of branch {found['branch'][k]} at nu = {found['nu'][k]}")
+
+    def run_again(self, i, scene, found):
+        """Points of branches are motions: they come back after their period, in units of time in which that is 2 pi."""
+        for ratio in np.unique(found["period_ratio"]):
+            if ratio != round(ratio):
+                continue
+            of = np.flatnonzero((found["period_ratio"] == ratio) & np.isfinite(found["x"]))
+            of = of[:: max(1, len(of) // 20)]
+            scenes = [
+                scene.changed(nu=found["nu"][k], x0=found["x"][k], v0=found["v"][k], phase=0.0).in_time(found["nu"][k])
+                for k in of
+            ]
+            inside = [k for k, s in enumerate(scenes) if s.stop_lower < s.x0 < s.stop_upper or is_beyond_soft(s)]
+            if not inside:
+                continue
+            time = f'mode = "transient"\nduration = {2 * math.pi * ratio!r}\n'
+            runs = self.program.run([scenes[k] for k in inside], time, OBSERVED)
+            for row, k in enumerate(inside):
+                s, point = scenes[k], of[k]
+                growth = 1 + np.abs(found["multiplier_re"][point]).max() + np.abs(found["multiplier_im"][point]).max()
+                if not growth < 1e3:
+                    continue
+                self.points += 1
+                off = max(abs(runs["x"][row, -1] - s.x0), abs(runs["v"][row, -1] - s.v0))
+                extrema = max(abs(runs["x_" + end][row] - found["x_" + end][point]) for end in ("min", "max"))
+                allowed = 1e-7 * growth * (1 + abs(s.x0) + abs(s.v0))
+                if not (off <= allowed and extrema <= allowed):
+                    self.fail(
+                        "run",
+                        i,
+                        f"branch {found['branch'][point]} at nu = {found['nu'][point]}: off by {off}, "
+                        f"extrema by {extrema}",
+                    )
+
+
+def main():
+    count = int(sys.argv[1]) if len(sys.argv) > 1 else 60
+    seed = int(sys.argv[2]) if len(sys.argv) > 2 else 1
+    campaign = BranchCampaign(os.environ["CLATTER"], followed_scenes(count, seed))
+    print(f"{campaign.points} points run again")
+    print(report(campaign.failures))
+    sys.exit(bool(campaign.failures))
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,172 @@
+"""Random scenes of all effects together, the same motion written in other ways, and free flights by Taylor series."""
+
+import itertools
+import math
+import random
+from dataclasses import dataclass
+
+INF = math.inf
+
+
+@dataclass
+class Scene:
+    """A scene in units of its own; stops at infinity aren't there, those of infinite stiffness are rigid."""
+
+    h: float = 0.0
+    f: float = 0.0
+    nu: float = 1.0
+    phase: float = 0.0
+    load: float = 0.0
+    stiffness: float = 1.0
+    stop_lower: float = -INF
+    stop_upper: float = INF
+    R_lower: float = 1.0
+    R_upper: float = 1.0
+    x0: float = 0.0
+    v0: float = 0.0
+    stop_amplitude: float = 0.0
+    base_amplitude: float = 0.0
+    stop_stiffness_lower: float = INF
+    stop_stiffness_upper: float = INF
+    stop_damping_lower: float = 0.0
+    stop_damping_upper: float = 0.0
+
+    def changed(self, **values):
+        return Scene(**{**self.__dict__, **values})
+
+    def mirrored(self):
+        def swapped(name):
+            return getattr(self, name + "_upper"), getattr(self, name + "_lower")
+
+        changes = {name: 0.0 - getattr(self, name) for name in ("f", "load", "x0", "v0")}
+        changes |= {name: -getattr(self, name) for name in ("stop_amplitude", "base_amplitude")}
+        changes["stop_lower"], changes["stop_upper"] = -self.stop_upper, -self.stop_lower
+        for name in ("R", "stop_stiffness", "stop_damping"):
+            changes[name + "_lower"], changes[name + "_upper"] = swapped(name)
+        return self.changed(**changes)
+
+    def scaled(self, size):
+        names = ("f", "load", "x0", "v0", "stop_lower", "stop_upper", "stop_amplitude", "base_amplitude")
+        return self.changed(**{name: size * getattr(self, name) for name in names})
+
+    def shifted(self, place):
+        moved = {name: getattr(self, name) + place for name in ("x0", "stop_lower", "stop_upper")}
+        return self.changed(load=self.load + self.stiffness * place, **moved)
+
+    def in_time(self, faster):
+        """The same motion in units of time that are shorter by so much."""
+        changes = {name: getattr(self, name) / faster for name in ("h", "nu", "v0")}
+        squares = ("f", "load", "stiffness", "stop_stiffness_lower", "stop_stiffness_upper")
+        return self.changed(**changes, **{name: getattr(self, name) / faster**2 for name in squares})
+
+    def is_unforced(self):
+        return self.f == 0 and self.stop_amplitude == 0 and self.base_amplitude == 0
+
+
+def logarithmic(draw, low, high):
+    return math.exp(draw.uniform(math.log(low), math.log(high)))
+
+
+def drawn(draw):
+    """A scene of any effects, also at their ends."""
+
+    def stop():
+        if draw.random() < 0.4:
+            return 1.0, logarithmic(draw, 1, 1e5), draw.choice([0.0, logarithmic(draw, 1e-3, 1.5)])
+        R = draw.choice([draw.uniform(0.1, 0.95), draw.uniform(0.3, 0.9), 0.0, 1.0, 1 - logarithmic(draw, 0.01, 0.1)])
+        return R, INF, 0.0
+
+    scene = Scene()
+    weak = draw.random() < 0.2  # nearly nothing but the load
+    scene.stiffness = draw.choice([1.0, 1.0, logarithmic(draw, 0.1, 10), -logarithmic(draw, 0.01, 0.3), 0.0])
+    scene.h = draw.choice([0.0, logarithmic(draw, 1e-3, 0.5), logarithmic(draw, 1e-3, 0.5), draw.uniform(0.5, 2)])
+    scene.f = draw.choice([-1, 1]) * draw.choice([1.0, logarithmic(draw, 0.03, 3)])
+    scene.nu = logarithmic(draw, 0.3, 3)
+    scene.phase = draw.choice([0.0, draw.uniform(-math.pi, math.pi)])
+    scene.load = draw.choice([0.0, draw.uniform(-0.5, 0.5), draw.uniform(-2, 2)])
+    if weak:
+        small = [0.0, 1e-12, 1e-8, 1e-5, 1e-3]
+        scene.stiffness, scene.h, scene.f = draw.choice(small), draw.choice(small), draw.choice(small)
+        scene.load = draw.choice([-1, 1]) * draw.uniform(0.3, 3)
+    gap = logarithmic(draw, 0.2, 3)
+    middle = draw.choice([0.0, draw.uniform(-0.5, 0.5)])
+    scene.R_lower, scene.stop_stiffness_lower, scene.stop_damping_lower = stop()
+    scene.R_upper, scene.stop_stiffness_upper, scene.stop_damping_upper = stop()
+    scene.stop_lower, scene.stop_upper = middle - gap / 2, middle + gap / 2
+    only = draw.choice(["both", "both", "lower", "upper"])
+    if weak:
+        only = "lower" if scene.load < 0 else "upper"
+    if only == "upper":
+        scene.stop_lower, scene.R_lower = -INF, 1.0
+        scene.stop_stiffness_lower, scene.stop_damping_lower = INF, 0.0
+    if only == "lower":
+        scene.stop_upper, scene.R_upper = INF, 1.0
+        scene.stop_stiffness_upper, scene.stop_damping_upper = INF, 0.0
+    low, high = max(scene.stop_lower, middle - 2), min(scene.stop_upper, middle + 2)
+    scene.x0 = draw.choice([draw.uniform(low, high)] * 4 + [low, high])
+    if math.isfinite(scene.stop_stiffness_lower) and draw.random() < 0.2:
+        scene.x0 = low - draw.uniform(0, 0.2)
+    scene.v0 = draw.choice([0.0, draw.uniform(-2, 2), draw.uniform(-2, 2)])
+    if not weak and draw.random() < 0.15 and scene.stiffness != 0:
+        scene.base_amplitude = draw.uniform(0.1, 0.5)
+        scene.f = draw.choice([0.0, scene.f])
+    elif not weak and draw.random() < 0.15:
+        scene.stop_amplitude = draw.uniform(0.05, 0.3)
+    return scene
+
+
+def random_scenes(count, seed):
+    draw = random.Random(seed)
+    return [drawn(draw) for _ in range(count)]
+
+
+def followed_scenes(count, seed):
+    """Forced ones, at rest in the ground's frame."""
+    draw = random.Random(seed)
+    scenes = []
+    while len(scenes) < count:
+        scene = drawn(draw)
+        if abs(scene.f) > 1e-2 and not scene.base_amplitude and not scene.stop_amplitude and scene.h > 1e-3:
+            scenes.append(scene)
+    return scenes
+
+
+def weak_scenes():
+    """A mass that a load presses on a stop, all else from nothing to as strong as the load; one stop and two."""
+    strengths = (0.0, 1e-12, 1e-8, 1e-4, 1e-2, 1.0)
+    scenes = []
+    for i, (k, h, f) in enumerate(itertools.product(strengths, repeat=3)):
+        scene = Scene(stiffness=k, h=h, f=f, nu=(0.7, 1.0, 1.9)[i % 3], load=-1.5, stop_lower=0.0, x0=0.3, v0=-1.0)
+        scene.R_lower = scene.R_upper = (0.3, 0.5, 0.7)[i // 3 % 3]
+        scenes += [scene, scene.changed(stop_upper=(0.4, 0.31)[i % 2])]
+    return [s if math.isfinite(s.stop_upper) else s.changed(R_upper=1.0) for s in scenes]
+
+
+def is_beyond_soft(s):
+    return x_beyond(s.x0, s.stop_lower, s.stop_stiffness_lower, -1) or x_beyond(
+        s.x0, s.stop_upper, s.stop_stiffness_upper, 1
+    )
+
+
+def x_beyond(x, stop, stiffness, sign):
+    return math.isfinite(stiffness) and sign * (x - stop) >= 0
+
+
+def flown(s, tau, x, v, time):
+    """Displacement and velocity after a free flight, by its Taylor series in steps."""
+    rate = max(1.0, math.sqrt(abs(s.stiffness)), 2 * s.h, s.nu)
+    steps = max(1, math.ceil(4 * rate * time))
+    step = time / steps
+    for n in range(steps):
+        theta = s.nu * (tau + n * step) + s.phase
+        terms = [x, v]
+        force = s.f
+        for k in range(24):
+            forced = force * (math.sin(theta), math.cos(theta), -math.sin(theta), -math.cos(theta))[k % 4]
+            constant = s.load if k == 0 else 0.0
+            # terms[k] is the k-th derivative
+            terms.append(constant + forced - 2 * s.h * terms[k + 1] - s.stiffness * terms[k])
+            force *= s.nu
+        x = sum(term * step**k / math.factorial(k) for k, term in enumerate(terms))
+        v = sum(term * step ** (k - 1) / math.factorial(k - 1) for k, term in enumerate(terms) if k)
+    return x, v
