@@ -44,7 +44,8 @@ class EventDriven : public IntegratorBase<N, E> {
   EventDriven(const Scene& scene, const Stops& in_reach, const Limits& limits, const std::array<Number, 2>& low)
       : Base(scene, in_reach, limits),
         low_{low[0] * motion::displacements_beside(scene, Side::lower),
-             low[1] * motion::displacements_beside(scene, Side::upper)} {}
+             low[1] * motion::displacements_beside(scene, Side::upper)},
+        soft_stops_(has_soft_stop(scene.stops)) {}
 
   /// Runs from `state` to the phase `end`, in turns 0 ... 1 since the last section (the stroboscopic section of
   /// `motion::State`), and reports every arc, rest and impact with its time since the section `origin`.
@@ -54,7 +55,7 @@ class EventDriven : public IntegratorBase<N, E> {
     while (end - state.phase_turns > 2 * epsilon<Number>()) {  // fly, find the contact, rebound: the whole algorithm
       this->report(state);
       if constexpr (E.soft) {
-        if (const Side side = soft_stop_around(state); side != Side::none) {
+        if (soft_stops_ && soft_stop_around(state) != Side::none) {
           const Outcome outcome = run_within(state, end, origin, observer);
           if (outcome != Outcome::completed) return outcome;
           continue;
@@ -295,6 +296,7 @@ class EventDriven : public IntegratorBase<N, E> {
   }
 
   std::array<Number, 2> low_;  ///< [stop]: rebounds of chatter that is summed aren't higher
+  bool soft_stops_;            ///< asked at each arc: general methods have one set of effects for soft and rigid stops
 };
 
 }  // namespace clatter::stepping
