@@ -17,8 +17,10 @@ tests/stepping or tests/cli; build first (scripts/test.sh). NAME is one of
   drift        the speed of contact over COUNT conservative impacts            (default 100000000; about 1 us each)
   kills        COUNT runs killed, each sweep again and again until it is done  (default 1000; about 0.5 s each)
   disks        a sweep on disks that are full at COUNT sizes                   (default 100; about 1 s each)
-  combinations COUNT random scenes of all effects together, each written in several ways, by the program
-               (default 3000; about 0.1 s each)
+  combinations COUNT random scenes of all effects together, each written in several ways, by the program,
+               and branches, followed sweeps and starts of a tenth of them (default 3000; about 0.2 s each)
+  releases     the periods and impacts of COUNT scenes that rest now and then, in 60 digits
+               (default 300; about 0.5 s each)
   starts       tests/regression on every instruction set with all starts of basins and zones, of which
                ctest runs all on the widest set only (no COUNT; about 2 minutes)
 END
@@ -35,7 +37,8 @@ case "${1-}" in
   drift) filter='Long.conservative*' count=100000000 ;;
   kills) filter=resume_test.Resume.test_killed_at_random_moments_it_loses_nothing_that_was_saved count=1000 ;;
   disks) filter=faults_test.Faults.test_a_disk_that_is_full_at_any_size_loses_nothing count=100 ;;
-  combinations) filter=combinations_test.Combinations.test_two_ways_to_write_a_scene_give_one_motion count=3000 ;;
+  combinations) filter=combinations_test.Combinations count=3000 ;;
+  releases) filter=releases_test.Releases.test_random_rests_are_told_as_60_digits_tell_them count=300 ;;
   starts) filter=regress_test.Regress.test_the_committed_baseline_holds_on_every_instruction_set count=1 ;;
   -h | --help) usage; exit 0 ;;
   *) echo "long_checks.sh: unknown name '${1-}'; try --help" >&2; exit 2 ;;
@@ -50,7 +53,7 @@ count=${2-$count}
 top=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 if [[ $filter == *_test.* ]]; then
   export CLATTER=$top/build/release/apps/clatter/clatter CLATTER_KILLS=$count CLATTER_DISKS=$count
-  export CLATTER_COMBINATIONS=$count
+  export CLATTER_COMBINATIONS=$count CLATTER_RELEASES=$count
   export PYTHONDONTWRITEBYTECODE=1
   [[ $1 != starts ]] || export CLATTER_ALL_STARTS=1
   [[ -x $CLATTER ]] || { echo "long_checks.sh: $CLATTER is missing; scripts/test.sh builds it" >&2; exit 2; }

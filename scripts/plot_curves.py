@@ -5,7 +5,7 @@ from itertools import product
 import numpy as np
 from matplotlib import ticker
 
-from plot_data import APERIODIC, FIRST_FAILURE
+from plot_data import FIRST_FAILURE, lacks_period
 from plot_scales import is_integer, shown_values
 from plot_names import amount, in_frame, label, symbol, with_unit
 from plot_style import BLUE, CYCLE, STOP, draw_walls, legend_above, set_axis
@@ -18,7 +18,7 @@ MANY = 2000  # markers from which on they are an image in vector formats
 
 def draw_branch(axes, output, name, values, color, title, loose_color=None, **style):
     """One result along the only axis: a line through the points that repeat, hollow markers for those that don't."""
-    along, loose = output.values(name), output.values("status") == APERIODIC
+    along, loose = output.values(name), lacks_period(output.values("status"))
     along, values, loose = split_at_jumps(along, values, loose)
     steady = np.where(loose, np.nan, values)
     marker = "." if len(along) < DENSE else None
@@ -68,10 +68,12 @@ def lonely(values):
 
 
 def name_statuses(axes, output, name, color=STOP, shown=True):
-    """Legend entries for aperiodic points, and failed points marked at the foot of the panel."""
+    """Legend entries for points without a known period, and failed points marked at the foot of the panel."""
     along, status = output.values(name), output.values("status")
-    if (status == APERIODIC).any() and shown:
-        axes.plot([], [], ls="none", marker="o", ms=3.8, mfc="white", mec=color, mew=0.9, label="aperiodic")
+    loose = status[lacks_period(status)]
+    if loose.size and shown:
+        kinds = " or ".join(output.meanings.get(int(kind), "aperiodic") for kind in np.unique(loose))
+        axes.plot([], [], ls="none", marker="o", ms=3.8, mfc="white", mec=color, mew=0.9, label=kinds)
     failed = status >= FIRST_FAILURE
     if failed.any():
         kinds = ", ".join(output.meanings.get(int(kind), "failed") for kind in np.unique(status[failed]))
@@ -108,7 +110,7 @@ def curves(members, group, axes):
     for place, (member, (result, part, title)) in enumerate(product(members, group)):
         values, status = shown_values(member.output, result), member.output.values("status")
         values = values if part is None else values[:, part]
-        shown = shown or bool(np.isfinite(values[status == APERIODIC]).any())
+        shown = shown or bool(np.isfinite(values[lacks_period(status)]).any())
         member_title = member.title if (result, part, title) == group[0] else None
         draw_branch(
             axes,

@@ -13,6 +13,7 @@ from plain_hdf5 import FileProblem, UNREADABLE, damaged, open_output, printable,
 
 PAPER = "10.5755/j02.mech.32277"
 APERIODIC = 1  # status of motion without a period
+UNDECIDED = 4  # status of motion whose period rounding would decide
 GRAZING = 3  # status of periodic motion without multipliers, since it just touches a stop
 FIRST_FAILURE = 16  # status values from here on are failures
 
@@ -239,6 +240,11 @@ def read_variable(item):
         text(item.attrs.get("units", "1")),
         text(item.attrs.get("frame", "")),
     )
+
+
+def lacks_period(status):
+    """Whether the motion of each point has no period that is known."""
+    return np.isin(status, (APERIODIC, UNDECIDED))
 
 
 def flag_meanings(item):

@@ -7,7 +7,7 @@ import numpy as np
 from matplotlib import cm, colormaps, colors
 from matplotlib.image import AxesImage
 
-from plot_data import APERIODIC, FIRST_FAILURE, GRAZING
+from plot_data import APERIODIC, FIRST_FAILURE, GRAZING, UNDECIDED, lacks_period
 from plot_scales import integer_levels, shown_values, tidy_ticks
 from plot_names import label, number
 from plot_style import BLUE, CYCLE, GREEN, ORANGE, is_geometric
@@ -214,7 +214,7 @@ def clip_notes(shown, levels):
 def white_notes(shown, status):
     """Why cells are white."""
     empty = np.isnan(shown.values) & (status < FIRST_FAILURE)
-    loose, grazing = empty & (status == APERIODIC), empty & (status == GRAZING)
+    loose, grazing = empty & lacks_period(status), empty & (status == GRAZING)
     rest = empty & ~loose & ~grazing & shown.at_rest
     other = empty & ~loose & ~grazing & ~rest
     reasons = ["no period"] * bool(loose.any() and MISSING.get(shown.name) != "no impact")
@@ -224,8 +224,8 @@ def white_notes(shown, status):
 
 
 def mark_points(axes, grid, status):
-    """Hatches aperiodic points and blackens failed ones; returns the notes that explain this."""
-    loose, failed = status == APERIODIC, status >= FIRST_FAILURE
+    """Hatches points without a known period and blackens failed ones; returns the notes that explain this."""
+    loose, failed = lacks_period(status), status >= FIRST_FAILURE
     if loose.any():
         grid.hatch(axes, loose)
     if failed.any():
@@ -265,6 +265,7 @@ def kind_map(figure, axes, grid, status, ratio):
         ("period 2", BLUE, ratio == 2),
         ("period 3, …", GREEN, ratio > 2),
         ("no period", ORANGE, status == APERIODIC),
+        ("undecided", "#f5cf8e", status == UNDECIDED),
         ("failed", "black", status >= FIRST_FAILURE),
     ]
     return class_map(figure, axes, grid, "kind of motion", kinds)
@@ -283,6 +284,7 @@ def regime_map(figure, axes, grid, status, regimes):
     kinds += [
         ("others", "#7f7f7f", (regimes != "") & ~np.isin(place, frequent)),
         ("no period", NO_PERIOD, status == APERIODIC),
+        ("undecided", "#efe3c0", status == UNDECIDED),
         ("failed", "black", status >= FIRST_FAILURE),
     ]
     return class_map(figure, axes, grid, "regime, impacts on a stop / forcing periods", kinds)

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from plot_data import APERIODIC
+from plot_data import lacks_period
 from plot_names import equation, label
 from plot_style import BLUE, CYCLE, GRID, STOP, VERMILION, draw_walls, legend_above
 
@@ -48,7 +48,7 @@ def chosen_points(output, most=5):
 
 
 def is_aperiodic(output, index):
-    return int(output.values("status")[index]) == APERIODIC
+    return bool(lacks_period(output.values("status")[index]))
 
 
 def shown_motion(output, index):

@@ -24,7 +24,7 @@ STARTS = ("motion_points", "motion_share", "motion_share_low", "motion_share_hig
 SMALL = 1e-4  # the least scale of a variable
 FEW = 0.002  # of the starts lie so close to the boundary of a basin that rounding decides which motion they end in
 REFERENCES = ("DIMENSION_LIST", "REFERENCE_LIST")  # attributes that point at other variables
-APERIODIC = 1
+APERIODIC, UNDECIDED = 1, 4
 
 
 class Variable(typing.NamedTuple):
@@ -130,7 +130,7 @@ class Comparison:
         self.tolerance = tolerance
         step = base.variables["status"].step
         # if the baseline's isn't aperiodic there, status itself differs
-        self.chaotic = new.variables["status"].rows[::step, 0] == APERIODIC
+        self.chaotic = numpy.isin(new.variables["status"].rows[::step, 0], (APERIODIC, UNDECIDED))
         self.points = len(self.chaotic)
         self.found = []  # of each variable: its name, where values differ, by how much, and the variable
         left_out = SETTLING if base.is_text else ()

@@ -53,7 +53,7 @@ bool left_out(const accuracy::WorkPrecision& row, const accuracy::PointAccuracy&
 /// Why a row can't be compared; empty if it can.
 std::string remark(const accuracy::WorkPrecision& row, const accuracy::PointAccuracy& of_point) {
   const bool steady = row.trial.method >= accuracy::TestedMethod::steady;
-  if (failed(row.status) || (steady && row.status == steady::Status::aperiodic)) return "  " + status_name(row.status);
+  if (failed(row.status) || (steady && lacks_period(row.status))) return "  " + status_name(row.status);
   return steady && of_point.steady_periods > 0 && row.observed_periods != of_point.steady_periods
              ? "  period " + formatted("%.6g", row.observed_periods)
              : "";

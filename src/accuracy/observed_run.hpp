@@ -9,64 +9,45 @@
 #include <vector>
 
 #include "accuracy/run_record.hpp"
-#include "math/fifty_digits.hpp"
-#include "motion/tangent_map.hpp"
 #include "observables/exact_harmonics.hpp"
 #include "observables/extrema_observer.hpp"
+#include "point/rounded.hpp"
 #include "stepping/exact.hpp"
 #include "stepping/run.hpp"
 
 /// Runs of a number type with the observables of a record. Each use compiles the integrator anew.
 namespace clatter::accuracy::detail {
 
-/// A motion at an instant, rounded to double.
-inline motion::Motion<double> rounded(const motion::Motion<FiftyDigits>& m) {
-  const auto d = [](const FiftyDigits& y) { return static_cast<double>(y); };
-  return {d(m.offset), d(m.x), d(m.v), d(m.a), d(m.sine), d(m.cosine)};
-}
-inline const motion::Motion<double>& rounded(const motion::Motion<double>& m) { return m; }
-
-/// Records the events of a run and, if asked for, its observables and its derivative.
+/// Records the events of a run and, if asked for, its observables.
 template <class Number, Effects E>
 class RunObserver {
  public:
   RunObserver(const point::Problem& scene, const std::optional<RecordObservables>& observables)
-      : stops_(scene.stops), constants_(scene.oscillator), tangent_(scene.stops) {
+      : stops_(scene.stops), in_double_(scene) {
     if (observables) harmonics_.emplace(observables->harmonics, observables->base_frequency);
   }
 
   template <Effects Of>
   void arc(const motion::Arc<Number, Of>& arc, double begin, double length) {
-    if (differentiates_) tangent_.arc(arc, begin, length);
     if (!harmonics_) return;
-    if constexpr (E.soft) {
-      const Side side = arc.constants().stop.side;
-      if (side != Side::none) {
-        const auto stop = motion::soft_stop_at<double>(stops_, side);
-        return see(arc, motion::ArcConstants<double, Of>::in_contact(constants_, stop), begin, length);
-      }
-    }
-    if constexpr (Of == E.arc()) see(arc, constants_, begin, length);
+    in_double_.show(arc, [&](const auto& rounded) {
+      extrema_.arc(rounded, begin, length);
+      harmonics_->arc(rounded, begin, length);
+    });
   }
   void rest(const motion::Rest& rest) {
     events.push_back(event_of(rest));
-    if (differentiates_) tangent_.rest(rest);
     if (harmonics_) extrema_.rest(rest), harmonics_->rest(rest);
   }
   void impact(const motion::Impact& impact) {
     events.push_back(event_of(impact));
-    if (differentiates_) tangent_.impact(impact);
     if (harmonics_) extrema_.impact(impact);
   }
 
   /// A contact with a soft stop is an event like an impact.
   void touch(const motion::Touch& touch) {
     events.push_back({Event::Kind::impact, touch.side, touch.time, std::abs(touch.velocity), 0.0});
-    if (differentiates_) tangent_.touch(touch);
   }
-
-  void differentiate() { differentiates_ = true; }
-  [[nodiscard]] motion::Jacobian<Number> derivative() const { return tangent_.map(); }
 
   void finish(RunRecord& record) {
     record.events = std::move(events);
@@ -79,19 +60,8 @@ class RunObserver {
   std::vector<Event> events{};
 
  private:
-  /// Shows an arc in double to the observables.
-  template <Effects Of>
-  void see(const motion::Arc<Number, Of>& arc, const motion::ArcConstants<double, Of>& constants, double begin,
-           double length) {
-    const motion::Arc<double, Of> in_double(constants, rounded(arc.start()), static_cast<double>(arc.anchor()));
-    extrema_.arc(in_double, begin, length);
-    harmonics_->arc(in_double, begin, length);
-  }
-
   Stops stops_;
-  motion::ArcConstants<double, E.arc()> constants_;
-  motion::TangentMap<Number> tangent_;
-  bool differentiates_ = false;
+  point::InDouble<E> in_double_;
   observables::Extrema::Observer extrema_;
   std::optional<observables::ExactHarmonics> harmonics_;
 };

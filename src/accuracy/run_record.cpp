@@ -3,8 +3,9 @@
 #include <cmath>
 
 #include "accuracy/observed_run.hpp"
-#include "accuracy/reference_effects.hpp"
+#include "point/every_effect.hpp"
 #include "point/exact_motion.hpp"
+#include "point/fixed_point.hpp"
 
 namespace clatter::accuracy {
 namespace {
@@ -17,29 +18,6 @@ Event event_of(const point::MotionEvent& event) {
                            : event.kind == Kind::chatter ? Event::Kind::chatter
                                                          : Event::Kind::impact;
   return {kind, event.side, event.time, std::abs(event.velocity), event.length};
-}
-
-/// Moves a state to the fixed point of the map over so many periods; false if that fails.
-template <Effects E>
-bool to_fixed_point(const point::Problem& scene, motion::State<FiftyDigits>& start, double periods,
-                    const std::function<bool()>& stopped) {
-  constexpr int most_iterations = 12;
-  for (int iteration = 0; iteration < most_iterations; ++iteration) {
-    stepping::Exact<FiftyDigits, E> integrator(scene, limits_of(scene));
-    RunObserver<FiftyDigits, E> observer(scene, std::nullopt);
-    observer.differentiate();
-    motion::State<FiftyDigits> end = start;
-    if (run_unless(stopped, integrator, end, FiftyDigits(periods), observer) != stepping::Outcome::completed)
-      return false;
-    const FiftyDigits dx = end.x - start.x, dv = end.v - start.v;
-    if (abs(dx) + abs(dv) <= FiftyDigits(1e-30) * (abs(end.x) + abs(end.v))) return true;
-    const motion::Jacobian<FiftyDigits> D = observer.derivative();
-    const FiftyDigits determinant = (1 - D[0]) * (1 - D[3]) - D[1] * D[2];
-    start.x += ((1 - D[3]) * dx + D[1] * dv) / determinant;
-    start.v += (D[2] * dx + (1 - D[0]) * dv) / determinant;
-    start.from_stop = start.within = Side::none, start.released = start.pressed = false;
-  }
-  return false;
 }
 
 }  // namespace
@@ -80,7 +58,7 @@ RunRecord record_of(const point::Problem& scene, double duration) {
 }
 RunRecord reference_of(const point::Problem& scene, double duration,
                        const std::optional<RecordObservables>& observables, const std::function<bool()>& stopped) {
-  return with_every_effect(
+  return point::with_every_effect(
       scene, [&]<Effects effects>() { return run_over<FiftyDigits, effects>(scene, duration, observables, stopped); });
 }
 
@@ -88,11 +66,11 @@ std::optional<RunRecord> periodic_reference(const point::Problem& scene, double 
                                             const RecordObservables& observables,
                                             const std::function<bool()>& stopped) {
   if (periods != std::floor(periods)) return std::nullopt;
-  return with_every_effect(scene, [&]<Effects effects>() -> std::optional<RunRecord> {
-    motion::State<FiftyDigits> start = start_of<FiftyDigits>(scene);
-    if (!to_fixed_point<effects>(scene, start, periods, stopped)) return std::nullopt;
-    const double duration = periods * period_of(scene.oscillator);
-    return run_from<FiftyDigits, effects>(scene, start, FiftyDigits(periods), duration, observables, stopped);
+  const auto exact = point::fixed_point(scene, start_of<double>(scene), static_cast<std::int64_t>(periods), stopped);
+  if (!exact) return std::nullopt;
+  const double duration = periods * period_of(scene.oscillator);
+  return point::with_every_effect(scene, [&]<Effects effects>() {
+    return run_from<FiftyDigits, effects>(scene, exact->start, FiftyDigits(periods), duration, observables, stopped);
   });
 }
 

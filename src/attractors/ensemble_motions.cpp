@@ -21,9 +21,10 @@ double turns_to_phase_zero(const point::Problem& problem) {
 /// Whether a point can have ended so: what was read from a file may be anything.
 bool is_possible(const point::Problem& problem, const Ending& ending) {
   const auto [x, v] = ending.state;
+  const Stops stops = rigid_ones(problem.stops);  // a soft one may be passed
   return ending.periods >= 0 && ending.periods <= static_cast<double>(steady::RepeatFinder::longest) &&
-         ending.periods == std::floor(ending.periods) && std::isfinite(v) && std::isfinite(x) &&
-         x >= problem.stops.lower && x <= problem.stops.upper;
+         ending.periods == std::floor(ending.periods) && std::isfinite(v) && std::isfinite(x) && x >= stops.lower &&
+         x <= stops.upper;
 }
 
 }  // namespace
@@ -96,7 +97,8 @@ std::optional<std::size_t> EnsembleMotions::aperiodic_of(const point::Problem& p
     const auto sections = run_sections(started(problem, last, 0.0), VisitedCells::at_once);
     if (!sections) return std::nullopt;
     last = sections->states.back(), log_area += sections->log_area;
-    if (sections->repeats_after > 0) return periodic_of(problem, last, sections->repeats_after);
+    if (sections->repeats_after > 0)
+      if (const auto periodic = periodic_of(problem, last, sections->repeats_after)) return periodic;
     if (const auto known = visiting(sections->states)) return known;
     states.insert(states.end(), sections->states.begin(), sections->states.end());
   }

@@ -36,14 +36,18 @@ point::Problem started(point::Problem problem, const PhasePoint& state, double p
   return problem;
 }
 
-std::optional<Round> run_round(const point::Problem& problem, std::size_t periods) {
+std::optional<Round> run_round(const point::Problem& problem, std::size_t periods,
+                               std::span<const motion::State<double>> sections) {
   const auto motion = point::ExactMotion::of(problem);
   point::MotionRecorder recorder(motion->stops());
   recorder.keep_events();
-  const auto orbit = steady::orbit_from(motion->start(), periods, recorder.watch, [&](motion::State<double>& state) {
+  auto orbit = steady::orbit_from(motion->start(), periods, recorder.watch, [&](motion::State<double>& state) {
+    const std::int64_t period = state.periods;
+    if (!sections.empty()) state = sections[static_cast<std::size_t>(period)], state.periods = period;
     return motion->advance_to_section(state, 0, recorder);
   });
   if (!orbit) return std::nullopt;
+  std::ranges::copy(sections, orbit->states.begin());
   Round round{*orbit, {}};
   add_contacts(recorder.events, static_cast<double>(periods) * motion->period(), round);
   return round;

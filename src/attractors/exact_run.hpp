@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "model/displacement_bound.hpp"
@@ -23,8 +24,9 @@ struct Round {
 };
 
 /// Runs a problem exactly from its start over whole forcing periods, at most RepeatFinder::longest; nothing if it
-/// fails.
-[[nodiscard]] std::optional<Round> run_round(const point::Problem& problem, std::size_t periods);
+/// fails. If the states at the sections are given, each period is run from its own.
+[[nodiscard]] std::optional<Round> run_round(const point::Problem& problem, std::size_t periods,
+                                             std::span<const motion::State<double>> sections = {});
 
 /// The state so many forcing periods after the start; nothing if the run fails.
 [[nodiscard]] std::optional<PhasePoint> state_after(const point::Problem& problem, double turns);

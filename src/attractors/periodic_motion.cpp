@@ -5,7 +5,9 @@
 #include <span>
 
 #include "math/number.hpp"
+#include "point/decided.hpp"
 #include "steady/contraction.hpp"
+#include "steady/doubt.hpp"
 #include "steady/repeat.hpp"
 
 namespace clatter::attractors {
@@ -45,6 +47,32 @@ Round polished(const point::Problem& problem, Round round) {
   return round;
 }
 
+/// What is told of a motion by one round of it.
+PeriodicMotion described(const point::Problem& problem, const Round& round) {
+  PeriodicMotion motion{.size = size_of(round)};
+  const std::size_t periods = round.orbit.periods;
+  double log_area = -2 * problem.oscillator.damping * period_of(problem.oscillator) * static_cast<double>(periods);
+  for (std::size_t i = 0; i < periods; ++i) {
+    const motion::State<double>& state = round.orbit.states[i];
+    motion.cycle.push_back(after_impact(problem.stops, {state.x, state.v}, motion.size));
+    log_area += round.orbit.passages[i].log_area;
+  }
+  motion.contracts = log_area < -1e-12;
+  motion.word = ImpactWord::word_of(round.contacts);
+  motion.regime = ImpactWord::regime_of(round.contacts, static_cast<double>(periods));
+  motion.middle_of_flight = round.middle_of_flight;
+  return motion;
+}
+
+/// A motion that is near a round, decided beyond rounding.
+steady::ObservedTime decided(const point::Problem& problem, const steady::Orbit& orbit) {
+  steady::Rests rests;
+  for (std::size_t i = 0; i < orbit.periods; ++i) rests.pass(orbit.passages[i], static_cast<std::int64_t>(i));
+  const auto section = static_cast<std::int64_t>(orbit.periods);
+  const point::Problem from_here = started(problem, {orbit.states[0].x, orbit.states[0].v}, 0.0);
+  return point::Decisions{}.decided(from_here, steady::repeated(orbit.states[0], orbit.periods, 0.0, section, rests));
+}
+
 }  // namespace
 
 bool PeriodicMotion::passes(const PhasePoint& state) const {
@@ -62,27 +90,24 @@ PhasePoint after_impact(const Stops& stops, PhasePoint state, double size) {
 std::optional<PeriodicMotion> periodic_motion(const point::Problem& problem, PhasePoint state, std::size_t periods) {
   const std::optional<Round> first = run_round(started(problem, state, 0.0), periods);
   if (!first) return std::nullopt;
+  const steady::ObservedTime exact = decided(problem, first->orbit);
+  if (exact.status != steady::Status::periodic) return std::nullopt;
+  if (!exact.sections.empty()) {
+    const auto round =
+        run_round(started(problem, {exact.from.x, exact.from.v}, 0.0), exact.sections.size(), exact.sections);
+    return round ? std::optional(described(problem, *round)) : std::nullopt;
+  }
   Round round = polished(problem, *first);
-  PeriodicMotion motion{.size = size_of(round)};
   const auto states = std::span(round.orbit.states);
-  const std::size_t shortest = steady::least_divisor(periods, [&](std::size_t m) {
-    return motion::Perturbation(between(states[0], states[m])).size() <= same_motion * motion.size;
-  });
+  const double same = same_motion * size_of(round);
+  const std::size_t shortest = steady::least_divisor(
+      periods, [&](std::size_t m) { return motion::Perturbation(between(states[0], states[m])).size() <= same; });
   if (shortest < periods) {  // contacts, word and flight of the shorter period
     const auto again = run_round(started(problem, {states[0].x, states[0].v}, 0.0), shortest);
     if (!again) return std::nullopt;
     round = *again;
   }
-  double log_area = -2 * problem.oscillator.damping * period_of(problem.oscillator) * static_cast<double>(shortest);
-  for (std::size_t i = 0; i < shortest; ++i) {
-    motion.cycle.push_back(after_impact(problem.stops, {states[i].x, states[i].v}, motion.size));
-    log_area += round.orbit.passages[i].log_area;
-  }
-  motion.contracts = log_area < -1e-12;
-  motion.word = ImpactWord::word_of(round.contacts);
-  motion.regime = ImpactWord::regime_of(round.contacts, static_cast<double>(shortest));
-  motion.middle_of_flight = round.middle_of_flight;
-  return motion;
+  return described(problem, round);
 }
 
 PeriodicMotion standstill(const point::Problem& problem, double x) {

@@ -56,18 +56,19 @@ void BlockScheduler<E>::settle_next(std::size_t lane) {
     if (exhausted_) return;
     auto task = std::make_unique<SettleTask<E>>(*item);
     LaneView view = task->view(settling_.lanes, lane);
-    const auto settled = task->begin(view);
+    auto settled = task->begin(view);
     if (!settled) {
       settling_.tasks[lane] = std::move(task), ++settling_.taken;
       return;
     }
-    finish(*settled);
+    finish(std::move(*settled));
   }
 }
 
 /// Observes a point in a free lane or queues it for one, if lanes can do so; else in the scalar loop.
 template <Effects E>
-void BlockScheduler<E>::finish(const SettledPoint<E>& settled) {
+void BlockScheduler<E>::finish(SettledPoint<E> settled) {
+  settled.observed = scratch_.decisions.decided(settled.item.problem, std::move(settled.observed));
   if (!lanes_can_observe(settled)) return put(settled.item, observe_in_scalar_loop(settled, scratch_));
   waiting_.push_back(std::make_unique<ObserveTask<E>>(settled));
   for (std::size_t lane = 0; lane < LaneArray::width && !waiting_.empty(); ++lane)
@@ -110,10 +111,10 @@ void BlockScheduler<E>::handle_sections(Block<Task>& block) {
 template <Effects E>
 void BlockScheduler<E>::handle_section(Block<SettleTask<E>>& block, std::size_t lane) {
   LaneView view = block.view(lane);
-  const auto settled = block.tasks[lane]->pass_section(view);
+  auto settled = block.tasks[lane]->pass_section(view);
   if (!settled) return;
   leave(block, lane);
-  finish(*settled);
+  finish(std::move(*settled));
 }
 
 template <Effects E>

@@ -43,7 +43,7 @@ class BlockScheduler {
   void fill();
   void settle_next(std::size_t lane);
   void observe_next(std::size_t lane);
-  void finish(const SettledPoint<E>& settled);
+  void finish(SettledPoint<E> settled);
   void put(const point::WorkItem& item, point::PointResult&& result);
 
   template <class Task>

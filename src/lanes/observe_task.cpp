@@ -26,8 +26,8 @@ bool lanes_can_observe(const SettledPoint<E>& settled) {
                                        .periodic = observed.status == steady::Status::periodic,
                                        .transient = observed.status == steady::Status::transient,
                                        .frame = observed_frame(problem)};
-  return !failed(observed.status) && observed.found_by != steady::FoundBy::closed_form && observed.turns >= 1 &&
-         observables::All::in_lanes(problem.observe, span);
+  return !failed(observed.status) && observed.sections.empty() && observed.found_by != steady::FoundBy::closed_form &&
+         observed.turns >= 1 && observables::All::in_lanes(problem.observe, span);
 }
 
 template <Effects E>

@@ -22,7 +22,10 @@ class LaneObserver {
       if (arc.constants().stop.side != Side::none) lane_.add_to_log_area(-2 * arc.constants().stop.damping * length);
   }
   void touch(const motion::Touch& touch) { lane_.add_to_itinerary(touch.side); }
-  void rest(const motion::Rest&) { rested_ = true; }
+  void rest(const motion::Rest& rest) {
+    rested_ = true;
+    if (rest.held) held_by_ = rest.side;
+  }
   void impact(const motion::Impact& impact) {
     lane_.add_to_itinerary(impact.side);
     if (!observed_) return;
@@ -35,10 +38,12 @@ class LaneObserver {
     if (observed_) lane_.include(*observed_);
   }
   [[nodiscard]] bool rested() const { return rested_; }
+  [[nodiscard]] Side held_by() const { return held_by_; }  ///< the stop of the last rest
 
  private:
   LaneView& lane_;
   bool rested_ = false;
+  Side held_by_ = Side::none;
   std::optional<Observed> observed_;
 };
 
@@ -63,6 +68,7 @@ stepping::Outcome ScalarFallback<E>::advance(LaneView& lane) {
     outcome = loop_.advance(state, end = 1.0, 0, observer);
   observer.finish();
   ++calls_, rested_ = rested_ || observer.rested();
+  if (observer.held_by() != Side::none) held_by_ = observer.held_by();
   double between = lane.sections_between();
   if (end == 1.0) {
     between = between == 0 ? lane.pass_section(state.x, state.v) : between - 1;

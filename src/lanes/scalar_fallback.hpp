@@ -2,6 +2,7 @@
 
 #include <array>
 #include <limits>
+#include <utility>
 
 #include "lanes/lane_view.hpp"
 #include "stepping/exact.hpp"
@@ -26,6 +27,8 @@ class ScalarFallback {
   [[nodiscard]] const ScalarLoop<E>& loop() const { return loop_; }
   [[nodiscard]] std::int64_t calls() const { return calls_; }
   [[nodiscard]] bool rested() const { return rested_; }  ///< the mass has been at rest
+  /// The stop that has held the mass since this was asked last.
+  [[nodiscard]] Side take_holding_stop() { return std::exchange(held_by_, Side::none); }
 
  private:
   static constexpr double nan = std::numeric_limits<double>::quiet_NaN();
@@ -36,6 +39,7 @@ class ScalarFallback {
   std::array<double, 3> mark_{nan, nan, nan};  ///< the lane's mark then
   std::int64_t calls_ = 0;
   bool rested_ = false;
+  Side held_by_ = Side::none;
 };
 
 }  // namespace clatter::lanes

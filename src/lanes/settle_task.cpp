@@ -37,7 +37,7 @@ std::optional<SettledPoint<E>> SettleTask<E>::pass_section(LaneView& lane) {
     return settled(search_->failure(stepping::Outcome::event_budget, {}), section.impacts);
   double log_area = log_area_ * (impacts - section_impacts_);
   if constexpr (E.soft) log_area = section.log_area;
-  search_->pass_periods({section.itinerary, log_area}, to_report_);
+  search_->pass_periods({section.itinerary, log_area, fallback_.take_holding_stop()}, to_report_);
   section_impacts_ = impacts;
   motion::State<double> state;
   state.x = section.x, state.v = section.v, state.periods = sections_;

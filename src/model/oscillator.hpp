@@ -14,6 +14,8 @@ struct Oscillator {
   double frequency = 1.0;  ///< nu, excitation over natural frequency, > 0
   double load = 0.0;       ///< constant force over stiffness, any finite
   double stiffness = 1.0;  ///< k, any finite: 0 without a spring, negative for one that pushes away
+
+  friend constexpr bool operator==(const Oscillator&, const Oscillator&) = default;
 };
 
 /// The natural frequency of the spring, |k|^(1/2); of an unstable one (k < 0) the rate at which motion departs.

@@ -27,6 +27,8 @@ struct Stops {
   double stiffness_upper = std::numeric_limits<double>::infinity();  ///< kappa of the upper stop, > 0; inf: rigid
   double damping_lower = 0.0;  ///< zeta, damping ratio of the lower stop, >= 0; only of a soft one
   double damping_upper = 0.0;  ///< zeta, damping ratio of the upper stop, >= 0; only of a soft one
+
+  friend constexpr bool operator==(const Stops&, const Stops&) = default;
 };
 
 /// Whether there is a soft stop on a side.

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -53,20 +54,36 @@ template <class Number>
   return Number(R > 0.99 ? 1e-30 : 1e-40);
 }
 
+/// Which chatter is summed: that of rebounds which are lower than a share of the displacements of the scene, if the sum
+/// has an accuracy.
+template <class Number>
+struct ChatterRule {
+  std::array<Number, 2> low;  ///< [stop]: the share
+  Number accuracy = epsilon<Number>();
+
+  [[nodiscard]] static ChatterRule of(const Stops& stops) {
+    return {{low_rebound<Number>(stops.restitution_lower), low_rebound<Number>(stops.restitution_upper)}};
+  }
+  /// As double sums it, for more digits: enough if the mass is then held, since a rest doesn't depend on its beginning.
+  [[nodiscard]] static ChatterRule as_in_double() {
+    return {{low_rebound<double>(0), low_rebound<double>(0)}, epsilon<double>()};
+  }
+};
+
 /// The time to the end of an infinite sequence of impacts, if nothing that is observed can tell the sum from its
-/// impacts: the rebound is not higher than `low`, and the bound of the sum's error (eq. 25) is below the rounding of
-/// the sum, or of a time on the scale of the fastest motion.
+/// impacts: the rebound is not higher than `low`, and the bound of the sum's error (eq. 25) is below an accuracy, that
+/// of a number unless it is given, of the sum, or of a time on the scale of the fastest motion.
 template <class Number, Effects E>
 [[nodiscard]] std::optional<Number> chatter_time(const ArcConstants<Number, E>& constants, const Stop<Number>& stop,
                                                  const ContactForce<Number>& press, const Number& rebound,
-                                                 const Number& low) {
+                                                 const Number& low, const Number& accuracy = epsilon<Number>()) {
   using std::max;
   if (!(press.force > 0)) return std::nullopt;
   if (2 * rebound <= press.force * epsilon<Number>() * constants.period) return Number(0);  // too short to advance time
   if (!(stop.law.R < 1) || rebound * (rebound / press.force) > 2 * low) return std::nullopt;
   const ChatterSum<Number> sum = chatter_sum(constants, stop, press, rebound);
-  const Number rounding = epsilon<Number>() * max(sum.time, Number(1 / constants.rate));
-  return sum.bound <= rounding ? std::optional<Number>(sum.time) : std::nullopt;
+  return sum.bound <= accuracy * max(sum.time, Number(1 / constants.rate)) ? std::optional<Number>(sum.time)
+                                                                           : std::nullopt;
 }
 
 }  // namespace clatter::motion

@@ -41,6 +41,9 @@ class TangentMap {
     multiply({{Number(1), Number(0), slower, Number(1)}, Number(1)});
   }
 
+  /// Makes the map that of the motion from here on.
+  void begin_anew() { cosine_ = 1, sine_ = 0, top_ = 1, shear_ = 0, bottom_ = 1, exponent_ = 0; }
+
   [[nodiscard]] Jacobian<Number> map() const {
     Jacobian<Number> map = mantissa();
     for (Number& entry : map) entry = scaled(entry, exponent_);

@@ -19,7 +19,7 @@ class Attractor::Observer {
 
   /// The end of a period is its beginning. Unforced motion that goes on loses nothing, and is no attractor.
   [[nodiscard]] Values finish(const ObservedSpan& span, double x, double v) const {
-    if (span.transient) return {};
+    if (span.transient || span.undecided) return {};
     if (span.scene.oscillator.forcing == 0) return span.stands_still ? Values{x, 0.0, 1.0} : Values{};
     return {x, v, span.periodic ? std::round(span.turns) : 0.0};
   }

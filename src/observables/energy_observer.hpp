@@ -40,12 +40,13 @@ class Energy::Observer {
 
   [[nodiscard]] Values finish(const ObservedSpan& span, double x, double v) {
     begin(x, v);
-    Values values{.work_in = force_work_ + oscillator_.load * (x - x_begin_), .loss_damping = loss_damping_};
+    const double load_work = oscillator_.load * (x - x_begin_);  // of a period only that of rounding
+    Values values{.work_in = force_work_ + (span.periodic ? 0.0 : load_work), .loss_damping = loss_damping_};
     values.loss_impact = loss_impact_, values.impulse = impulse_;
     const double lost = loss_impact_[0] + loss_impact_[1];
     const double k = oscillator_.stiffness, stored = stored_at(x) - stored_at(x_begin_),
                  growth = ((v - v_begin_) * (v + v_begin_) + k * (x - x_begin_) * (x + x_begin_)) / 2 + stored;
-    values.energy_residual = values.work_in - loss_damping_ - lost - growth;
+    values.energy_residual = force_work_ + load_work - loss_damping_ - lost - growth;
     values.impact_power = lost / span.total;
     return values;
   }

@@ -137,6 +137,7 @@ struct ObservedSpan {
   double uncertainty = 0.0;     ///< of displacements and velocities: rounding, and after a repeat its tolerance
   bool periodic = false;        ///< it is a period of the motion
   bool transient = false;       ///< it begins at the start of the scene
+  bool undecided = false;       ///< whether the motion has a period isn't known
   bool stands_still = false;    ///< nothing moves any more
   const FourierScratch* fourier = nullptr;  ///< for harmonics from samples
   std::optional<FrameMotion> frame{};       ///< if absolute motion is asked for, and something is shaken

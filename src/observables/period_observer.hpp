@@ -31,7 +31,7 @@ class Period::Observer {
     Values values;
     const Stops& stops = span.scene.stops;
     if (stops.lower == -stops.upper) values.velocity_ratio = first_speed_ / stops.upper;
-    if (!span.periodic && !span.transient) values.period_ratio = 0.0;
+    if (!span.periodic && !span.transient && !span.undecided) values.period_ratio = 0.0;
     if (!span.periodic || span.stands_still || !moves_) return values;
     values.period = span.total;
     const bool forced = span.scene.oscillator.forcing != 0;

@@ -43,7 +43,7 @@ double impacts_of_steady_motion(point::Problem scene, const Trial& trial) {
   point::ThreadScratch scratch;
   const point::PointResult result = run_point(scene, scratch);
   const auto impacts = static_cast<double>(result.log.size());
-  return result.status == steady::Status::aperiodic ? impacts * window / static_cast<double>(time.window) : impacts;
+  return lacks_period(result.status) ? impacts * window / static_cast<double>(time.window) : impacts;
 }
 
 }  // namespace

@@ -8,6 +8,8 @@
 
 namespace clatter::point {
 
+ThreadScratch::~ThreadScratch() = default;
+
 Effects effects_of(const Problem& problem) {
   const Scene& scene = problem;
   if (problem.integration.method != stepping::Method::exact) return general_effects(scene);

@@ -6,6 +6,7 @@
 #include "model/required_effects.hpp"
 #include "motion/state.hpp"
 #include "observables/all.hpp"
+#include "point/decided.hpp"
 #include "point/problem.hpp"
 #include "steady/observed_time.hpp"
 
@@ -30,8 +31,11 @@ struct PointResult : observables::All::Values {
 /// Memory that the points of one thread share.
 struct ThreadScratch {
   observables::FourierScratch fourier{};
+  Decisions decisions{};  ///< of doubtful motions
   /// Called now and then with the finished shares of the points at work, added up.
   std::function<void(double share)> progress{};
+
+  ~ThreadScratch();
 };
 
 /// The effects that a point is run with: those that its scene requires; all of them on request, or for a general

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <utility>
+#include <vector>
 
 #include "observables/all_observers.hpp"
 #include "point/point.hpp"
@@ -24,12 +26,17 @@ template <stepping::Integrator I>
 class Point {
  public:
   Point(const Problem& problem, ThreadScratch& scratch, const I& integrator)
-      : problem_(problem), integrator_(integrator), span_{.scene = problem, .fourier = &scratch.fourier} {
+      : problem_(problem),
+        integrator_(integrator),
+        decisions_(scratch.decisions),
+        span_{.scene = problem, .fourier = &scratch.fourier} {
     integrator_.report_to(&scratch.progress);
   }
 
   PointResult run() {
-    return observe(find_steady(integrator_, start(), problem_, problem_.time, problem_.integration));
+    const steady::ObservedTime found = find_steady(integrator_, start(), problem_, problem_.time, problem_.integration);
+    if constexpr (I::in_closed_form) return observe(decisions_.decided(problem_, found));
+    return observe(found);
   }
 
   /// The result of a motion whose observed time is known.
@@ -37,12 +44,13 @@ class Point {
     if (failed(observed.status)) return result_of(observed);
     Observers observers = begin(observed);
     motion::State<double> state = observed.from;
-    const bool steady = observed.found_by == steady::FoundBy::closed_form && problem_.oscillator.forcing != 0 &&
-                        problem_.observe.base_frequency == 0;
+    const bool steady = observed.found_by == steady::FoundBy::closed_form && observed.from.within == Side::none &&
+                        problem_.oscillator.forcing != 0 && problem_.observe.base_frequency == 0;
     if (steady) observers.response(span_, state.x);
     stepping::Outcome outcome = stepping::Outcome::completed;
     if (observers.need_flights()) {
-      outcome = run_for(integrator_, state, observed.turns, observers);
+      outcome = observed.sections.empty() ? run_for(integrator_, state, observed.turns, observers)
+                                          : run_by_sections(state, observed.sections, observers);
     } else {
       state.periods += static_cast<std::int64_t>(observed.turns);
     }
@@ -86,12 +94,35 @@ class Point {
  private:
   [[nodiscard]] motion::State<double> start() const { return start_of(problem_); }
 
+  /// Runs each forcing period of a periodic motion from its own state.
+  stepping::Outcome run_by_sections(motion::State<double>& state, const std::vector<motion::State<double>>& sections,
+                                    Observers& observers) {
+    const std::int64_t origin = state.periods;
+    for (const motion::State<double>& section : sections) {
+      if (!take(section, state)) return stepping::Outcome::unresolved;
+      const stepping::Outcome outcome = advance_to_section(integrator_, state, origin, observers);
+      if (outcome != stepping::Outcome::completed) return outcome;
+    }
+    return take(sections.front(), state) ? stepping::Outcome::completed : stepping::Outcome::unresolved;
+  }
+  /// Replaces a state by the same one known better, unless double has already completed a chatter that goes on in more
+  /// digits; false if they aren't the same.
+  [[nodiscard]] static bool take(const motion::State<double>& section, motion::State<double>& state) {
+    constexpr double same = 1e-6;
+    const double size = std::max(std::abs(section.x), std::abs(section.v));
+    if (!(between(state, section).size() <= same * size)) return false;
+    if (state.chatters || state.v == 0) return true;
+    const std::int64_t periods = state.periods;
+    state = section, state.periods = periods;
+    return true;
+  }
+
   /// Follows motion without a period beyond the observed time, as long as its section goes on.
   stepping::Outcome complete_section(Observers& observers, motion::State<double> state) {
     const auto& section = observers.template of<observables::Section>();
     stepping::Outcome outcome = stepping::Outcome::completed;
     observers.template go_on_with<observables::Section>();
-    while (section && !section->is_complete() && observed_.status == steady::Status::aperiodic &&
+    while (section && !section->is_complete() && lacks_period(observed_.status) &&
            outcome == stepping::Outcome::completed) {
       outcome = advance_to_section(integrator_, state, observed_.from.periods, observers);
       ++periods_beyond_;
@@ -103,6 +134,7 @@ class Point {
     const bool forced = problem_.oscillator.forcing != 0;
     span_.total = observed_.turns * integrator_.period(), span_.turns = observed_.turns;
     span_.periodic = observed_.status == steady::Status::periodic;
+    span_.undecided = observed_.status == steady::Status::undecided;
     span_.transient = observed_.status == steady::Status::transient;
     span_.stands_still = observed_.found_by == steady::FoundBy::standstill;
     span_.uncertainty = uncertainty();
@@ -144,6 +176,7 @@ class Point {
 
   const Problem& problem_;
   I integrator_;
+  Decisions& decisions_;
   steady::ObservedTime observed_{};
   observables::ObservedSpan span_;
   PointResult result_{};

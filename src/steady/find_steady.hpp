@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "steady/doubt.hpp"
 #include "steady/forced_search.hpp"
 #include "steady/free_search.hpp"
 #include "stepping/integration.hpp"
@@ -17,6 +18,7 @@ template <stepping::Integrator I>
   constexpr auto longest = static_cast<std::int64_t>(RepeatFinder::longest);
   PassageObserver watch(integrator.stops());
   RepeatFinder repeat(time.tolerance);
+  Rests rests;
   std::array<motion::State<double>, RepeatFinder::longest> recent;
   for (std::int64_t section = 0;; ++section) {
     const auto settled = static_cast<double>(section);
@@ -26,17 +28,15 @@ template <stepping::Integrator I>
       if (const std::size_t n = repeat.add(state.x, state.v, log_area)) {
         const auto chosen =
             section - static_cast<std::int64_t>(repeat.first_of_last(n, BeginsBefore(integrator.constants().f)));
-        return {Status::periodic,       recent[static_cast<std::size_t>(chosen % longest)],
-                static_cast<double>(n), settled,
-                FoundBy::repetition,    settled};
+        return repeated(recent[static_cast<std::size_t>(chosen % longest)], n, settled, section, rests);
       }
     }
     if (escapes(scene, state.x, state.v, integrator.phase(motion::State<double>{}))) return escape(state, settled);
-    if (section == time.max_periods)
-      return {Status::aperiodic, state, static_cast<double>(time.window), settled, FoundBy::nothing};
+    if (section == time.max_periods) return aperiodic(state, settled, time, rests);
     watch.begin_section();
     const stepping::Outcome outcome = advance_to_section(integrator, state, state.periods, watch);
     if (outcome != stepping::Outcome::completed) return {status_of(outcome), state, 0.0, settled, FoundBy::nothing};
+    rests.pass(watch.passage(), section);
   }
 }
 

@@ -10,6 +10,9 @@
 #include <span>
 
 #include "model/displacement_bound.hpp"
+#include "model/response.hpp"
+#include "motion/soft_stop.hpp"
+#include "steady/doubt.hpp"
 #include "steady/observed_time.hpp"
 #include "steady/stroboscopic_map.hpp"
 #include "steady/time_settings.hpp"
@@ -55,18 +58,24 @@ class ForcedSearch {
   /// The steady state, if it is known at the next section; nothing: the motion has to go on.
   [[nodiscard]] std::optional<ObservedTime> at_section(const motion::State<double>& state) {
     if (const auto found = closed_form(state)) return found;
+    if constexpr (E.soft)
+      if (const auto found = pressed(state)) return found;
     if constexpr (E.stiffness || E.forcing == Forcing::secular)
       if (escapes(scene_, state.x, state.v, integrator_.phase(motion::State<double>{})))
         return escape(state, simulated());
     if (!in_lanes_) keep(state);
-    if (const std::size_t n = repeats(state)) return repetition(n);
-    if (section_ == time_.max_periods)
-      return ObservedTime{Status::aperiodic, state, static_cast<double>(time_.window), simulated(), FoundBy::nothing};
+    const bool stays = stays_in_contact(state), last = section_ == time_.max_periods;
+    const std::size_t n = repeats(state);
+    if (n > 0 && !stays) return repetition(n);
+    if (n > 0) in_contact_for_ = n;
+    if (last && stays && in_contact_for_ > 0) return repetition(in_contact_for_);
+    if (last) return aperiodic(state, simulated(), time_, rests_);
+    if (stays) return std::nullopt;
     return attractor(state);
   }
   /// Lanes: records the forcing periods that lead to the next section that is looked at.
   void pass_periods(const Passage& passage, std::int64_t periods) {
-    passages_[index(0)] = passage, section_ += periods;
+    keep(passage), section_ += periods;
     if ((periods > 1) != samples_) samples_ = periods > 1, closing_in_ = 0, repeat_.restart();
   }
   /// Lanes: forcing periods from a section ahead to the next one to look at. Motion that hasn't settled for long is
@@ -100,14 +109,14 @@ class ForcedSearch {
   /// Runs to the next section, or takes its state from a failed attempt that has already computed it.
   [[nodiscard]] stepping::Outcome advance(motion::State<double>& state) {
     if (approach_ && next_ < approach_->periods) {
-      passages_[index(0)] = approach_->passages[next_];
+      keep(approach_->passages[next_]);
       state = approach_->states[++next_];
       ++taken_;
       return stepping::Outcome::completed;
     }
     watch_.begin_section();
     const stepping::Outcome outcome = advance_to_section(integrator_, state, state.periods, watch_);
-    passages_[index(0)] = watch_.passage();
+    keep(watch_.passage());
     return outcome;
   }
 
@@ -131,9 +140,12 @@ class ForcedSearch {
   }
 
   [[nodiscard]] ObservedTime repetition(std::size_t n) const {
-    return {Status::periodic,       recent(repeat_.first_of_last(n, begins_before_)),
-            static_cast<double>(n), simulated(),
-            FoundBy::repetition,    settled()};
+    return repeated(recent(repeat_.first_of_last(n, begins_before_)), n, simulated(), section_, rests_);
+  }
+  /// Keeps the summary of the forcing period from this section on.
+  void keep(const Passage& passage) {
+    passages_[index(0)] = passage;
+    rests_.pass(passage, section_);
   }
   void keep(const motion::State<double>& state) {
     if (!recent_) recent_.emplace();
@@ -162,6 +174,46 @@ class ForcedSearch {
     if (!(periods < longest_settling)) return std::nullopt;
     motion::State<double> steady = state;
     steady.x = x, steady.v = response.v, steady.from_stop = Side::none;
+    return ObservedTime{Status::periodic, steady, 1.0, simulated(), FoundBy::closed_form, settled() + periods};
+  }
+
+  /// The soft stop that a state is in contact with.
+  [[nodiscard]] motion::Within<double> contact_of(const motion::State<double>& state) const {
+    if (in_lanes_) return motion::soft_stop_around(integrator_.stops(), state.x, state.v);
+    return {state.within, state.offset, state.pressed};
+  }
+  /// Whether the last forcing period was spent in one contact. Its motion may be small beside the displacement that
+  /// repeats are told by, so it isn't told by them.
+  [[nodiscard]] bool stays_in_contact(const motion::State<double>& state) const {
+    if (!E.soft || section_ == 0) return false;
+    const motion::Within<double> within = contact_of(state);
+    const std::uint64_t itinerary = in_lanes_ ? 0 : PassageObserver::itinerary_in_contact(within.side);
+    return within.side != Side::none && within.pressed && passages_[index(1)].itinerary == itinerary;
+  }
+
+  /// The steady motion in contact with a soft stop, if the stop pushes for ever: if its force on the balanced mass is
+  /// larger than the forces that response and transient can take from it. The transient's energy norm never grows.
+  [[nodiscard]] std::optional<ObservedTime> pressed(const motion::State<double>& state) const {
+    const motion::Within<double> within = contact_of(state);
+    if (within.side == Side::none || !within.pressed) return std::nullopt;
+    const auto stop = motion::soft_stop_at<double>(integrator_.stops(), within.side);
+    Oscillator in_contact = scene_.oscillator;
+    in_contact.damping += stop.damping, in_contact.stiffness += stop.stiffness;
+    if (!(in_contact.damping > 0 && in_contact.stiffness > 0)) return std::nullopt;
+    const double balance = constant_force(scene_.oscillator, stop.position) / in_contact.stiffness;  // from the stop
+    const auto [sine, cosine] = integrator_.phase(motion::State<double>{});
+    const PhasePoint response = response_at(in_contact, sine, cosine),
+                     left = transient_of(in_contact, {within.offset - balance, state.v, sine, cosine});
+    const double nu = in_contact.frequency, natural = natural_frequency(in_contact);
+    const double taken = steady_response(in_contact).amplitude * std::hypot(stop.stiffness, 2 * stop.damping * nu) +
+                         std::hypot(natural * left.x, left.v) * std::hypot(stop.stiffness / natural, 2 * stop.damping);
+    if (!(taken < stop.stiffness * stop.into(balance) * (1 - 64 * epsilon<double>()))) return std::nullopt;
+    motion::State<double> steady = state;
+    steady.from_stop = steady.within = within.side, steady.pressed = true;
+    steady.offset = balance + response.x, steady.x = stop.position + steady.offset, steady.v = response.v;
+    const double most = time_.tolerance * std::max(std::abs(steady.x), std::abs(steady.v));
+    const double periods = fading_time(in_contact, left, most) / integrator_.period();
+    if (!(periods < longest_settling)) return std::nullopt;
     return ObservedTime{Status::periodic, steady, 1.0, simulated(), FoundBy::closed_form, settled() + periods};
   }
 
@@ -227,8 +279,10 @@ class ForcedSearch {
                                                 [this](const motion::State<double>& a, const motion::State<double>& b) {
                                                   return begins_before_(a.x, a.v, b.x, b.v);
                                                 });
-    const double settling = settled() + orbit.settling;
-    return {Status::periodic, *first, static_cast<double>(n), simulated(), FoundBy::newton, settling};
+    ObservedTime found{Status::periodic, *first, static_cast<double>(n), simulated(), FoundBy::newton};
+    found.settling = settled() + orbit.settling;
+    found.doubtful = n >= long_period || stretches(orbit);
+    return found;
   }
 
   stepping::Exact<double, E>& integrator_;
@@ -240,7 +294,9 @@ class ForcedSearch {
   bool samples_ = false;         ///< lanes: sections have been left out before this one
   std::int64_t look_until_ = 0;  ///< lanes: the section up to which none is left out
   std::int64_t section_ = 0;
-  std::int64_t taken_ = 0;       ///< sections that were taken from approaches
+  std::int64_t taken_ = 0;          ///< sections that were taken from approaches
+  std::size_t in_contact_for_ = 0;  ///< forcing periods after which motion in one contact has repeated
+  Rests rests_{};
   std::size_t closing_in_ = 0;   ///< lanes: forcing periods after which the motion repeats; 0: not known yet
   double closest_ = 0.0;         ///< the least distance so far of states so many sections apart
   std::int64_t closest_at_ = 0;  ///< the section at which it was

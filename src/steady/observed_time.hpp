@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <limits>
+#include <vector>
 
 #include "motion/state.hpp"
 #include "steady/status.hpp"
@@ -34,6 +35,12 @@ struct ObservedTime {
   /// Forcing periods until the motion from the start is within the tolerance of its steady state, by the rate at which
   /// it contracts; may exceed max_periods. NaN if there is no steady state.
   double settling = std::numeric_limits<double>::quiet_NaN();
+  /// Rounding may have decided this: motion of a long period, that stretches changes much, or that rests.
+  bool doubtful = false;
+  Side rested_on = Side::none;  ///< the stop that last held a mass whose motion doesn't repeat
+  /// If not empty, the states at the sections of a periodic motion, known better than by running on from the first:
+  /// each forcing period is observed from its own.
+  std::vector<motion::State<double>> sections{};
 };
 
 /// The end of a search for motion that is proved to escape from a state, after so many simulated periods.

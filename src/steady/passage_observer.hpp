@@ -27,12 +27,13 @@ class PassageObserver {
       tangent_.arc(arc, begin, length);
     if constexpr (A::effects.stiffness)
       if (const auto& stop = arc.constants().stop; stop.side != Side::none) {
-        if (passage_.itinerary == 0) add(stop.side == Side::upper ? 12 : 11);  // the period begins in contact
+        if (passage_.itinerary == 0) passage_.itinerary = itinerary_in_contact(stop.side);
         passage_.log_area -= 2 * stop.damping * length;
       }
   }
   void rest(const motion::Rest& rest) {
     add(rest.side == Side::upper ? 4 : 3);
+    if (rest.held) passage_.rested_on = rest.side;
     passage_.log_area = -std::numeric_limits<double>::infinity();
     if (differentiates_) tangent_.rest(rest);
   }
@@ -49,6 +50,11 @@ class PassageObserver {
   }
   void separate(const motion::Separation& separation) { add(separation.side == Side::upper ? 10 : 9); }
 
+  /// That of a period which begins in contact with a soft stop, as long as that goes on.
+  [[nodiscard]] static constexpr std::uint64_t itinerary_in_contact(Side side) {
+    return with(0, side == Side::upper ? 12 : 11);
+  }
+
   void begin_section() { passage_ = {}; }
   /// Begins to compute the derivative anew, from here.
   void differentiate() { differentiates_ = true, tangent_ = motion::TangentMap<double>(stops_); }
@@ -57,7 +63,10 @@ class PassageObserver {
   [[nodiscard]] motion::Jacobian<double> derivative() const { return tangent_.map(); }
 
  private:
-  void add(std::uint64_t event) { passage_.itinerary = (passage_.itinerary + event) * 0x9e3779b97f4a7c15u; }
+  [[nodiscard]] static constexpr std::uint64_t with(std::uint64_t itinerary, std::uint64_t event) {
+    return (itinerary + event) * 0x9e3779b97f4a7c15u;
+  }
+  void add(std::uint64_t event) { passage_.itinerary = with(passage_.itinerary, event); }
 
   Stops stops_;
   double log_lower_, log_upper_;  ///< logarithm of R^2, the factor by which an impact shrinks areas

@@ -27,7 +27,8 @@ template <stepping::Integrator I>
   const auto advance = [&](motion::State<double>& state) {
     return advance_to_section(integrator, state, state.periods, watch) == stepping::Outcome::completed;
   };
-  std::vector<motion::State<double>> cycle{found.from};
+  std::vector<motion::State<double>> cycle = found.sections;
+  if (cycle.empty()) cycle.push_back(found.from);
   while (static_cast<double>(cycle.size()) < found.turns) {
     motion::State<double> next = cycle.back();
     if (!advance(next)) return never;

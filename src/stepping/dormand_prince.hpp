@@ -36,7 +36,7 @@ class DormandPrince : public EventDriven<DormandPrince<E>, double, E> {
   using DenseArc = motion::PolynomialArc<E.arc()>;
 
   explicit DormandPrince(const Scene& scene, const Integration& integration = {}, const Limits& limits = {})
-      : Base(scene, scene.stops, limits, {low_rebound(integration), low_rebound(integration)}),
+      : Base(scene, scene.stops, limits, {{low_rebound(integration), low_rebound(integration)}}),
         tolerance_(integration.tolerance),
         stepper_(boost::numeric::odeint::make_dense_output(tolerance_ * size_of(scene), tolerance_, Pair())) {}
 

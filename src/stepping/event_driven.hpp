@@ -39,12 +39,12 @@ class EventDriven : public IntegratorBase<N, E> {
  public:
   using Number = N;
 
-  /// Looks for contacts with the stops in reach only. Chatter is summed once its rebounds are lower than `low` times
-  /// the displacements of the scene.
-  EventDriven(const Scene& scene, const Stops& in_reach, const Limits& limits, const std::array<Number, 2>& low)
+  /// Looks for contacts with the stops in reach only.
+  EventDriven(const Scene& scene, const Stops& in_reach, const Limits& limits, const motion::ChatterRule<Number>& rule)
       : Base(scene, in_reach, limits),
-        low_{low[0] * motion::displacements_beside(scene, Side::lower),
-             low[1] * motion::displacements_beside(scene, Side::upper)},
+        low_{rule.low[0] * motion::displacements_beside(scene, Side::lower),
+             rule.low[1] * motion::displacements_beside(scene, Side::upper)},
+        chatter_accuracy_(rule.accuracy),
         soft_stops_(has_soft_stop(scene.stops)) {}
 
   /// Runs from `state` to the phase `end`, in turns 0 ... 1 since the last section (the stroboscopic section of
@@ -98,6 +98,16 @@ class EventDriven : public IntegratorBase<N, E> {
     return this->outcome_of(state);
   }
 
+  /// The state in which a stop releases a mass from rest, in the first forcing period; nothing if it never does.
+  [[nodiscard]] std::optional<motion::State<Number>> released_from(Side side) const {
+    const auto stop = motion::stop_at<Number>(this->stops(), side);
+    const auto turns = release_turns(stop);
+    if (!turns) return std::nullopt;
+    motion::State<Number> state;
+    state.x = stop.position, state.from_stop = side, state.released = true, state.phase_turns = *turns;
+    return state;
+  }
+
  private:
   [[nodiscard]] motion::Motion<Number> motion(const motion::State<Number>& state) const {
     const auto [sine, cosine] = this->phase(state);
@@ -137,7 +147,7 @@ class EventDriven : public IntegratorBase<N, E> {
   [[nodiscard]] std::optional<Number> chatter_time(const motion::State<Number>& state,
                                                    const motion::Stop<Number>& stop) const {
     return motion::chatter_time(this->constants(), stop, contact_force(this->constants(), stop, this->phase(state)),
-                                Number(-stop.into(state.v)), low_[index_of(stop.side)]);
+                                Number(-stop.into(state.v)), low_[index_of(stop.side)], chatter_accuracy_);
   }
   void complete(motion::State<Number>& state, const Number& left) const {
     pass(state, left);
@@ -173,21 +183,27 @@ class EventDriven : public IntegratorBase<N, E> {
     return Outcome::completed;
   }
 
+  /// The phase at which a stop releases a mass, in turns since the section, 0 ... 1: the same number after every rest.
+  [[nodiscard]] std::optional<Number> release_turns(const motion::Stop<Number>& stop) const {
+    using std::floor;
+    const auto phase_of_release = release_phase(this->constants(), stop);
+    if (!phase_of_release) return std::nullopt;
+    Number release = *phase_of_release - this->start_turns();
+    release -= floor(release);
+    return release == 1 ? Number(0) : release;  // rounded up
+  }
+
   /// Holds the mass until its release or until `end`, whichever is first.
   template <class Observer>
   void rest(motion::State<Number>& state, const motion::Stop<Number>& stop, const Number& end, std::int64_t origin,
             Observer& observer) {
-    using std::floor;
     Number until = end;
     state.from_stop = stop.side, state.offset = 0;
-    if (const auto phase_of_release = release_phase(this->constants(), stop)) {
-      Number release = *phase_of_release - this->start_turns();  // the same number after every rest
-      release -= floor(release);
-      if (release == 1) release = 0;  // rounded up
-      const Number ahead = release - state.phase_turns + (release < state.phase_turns ? 1 : 0);
+    if (auto release = release_turns(stop)) {
+      const Number ahead = *release - state.phase_turns + (*release < state.phase_turns ? 1 : 0);
       if (ahead > 1 - 16 * epsilon<Number>())
         release = state.phase_turns;  // it is now, to rounding, not a whole turn ahead
-      if (release >= state.phase_turns && release <= end) until = release, state.released = true;
+      if (*release >= state.phase_turns && *release <= end) until = *release, state.released = true;
     }
     this->show_rest(state, stop, Number(until - state.phase_turns), true, origin, observer);
     state.phase_turns = until;
@@ -296,6 +312,7 @@ class EventDriven : public IntegratorBase<N, E> {
   }
 
   std::array<Number, 2> low_;  ///< [stop]: rebounds of chatter that is summed aren't higher
+  Number chatter_accuracy_;    ///< of a sum
   bool soft_stops_;            ///< asked at each arc: general methods have one set of effects for soft and rigid stops
 };
 

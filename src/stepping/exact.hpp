@@ -16,9 +16,10 @@ class Exact : public EventDriven<Exact<N, E>, N, E> {
 
   /// Looks for contacts with the stops in reach only.
   Exact(const Scene& scene, const Stops& in_reach, const Limits& limits = {})
-      : EventDriven<Exact, N, E>(scene, in_reach, limits,
-                                 {motion::low_rebound<Number>(scene.stops.restitution_lower),
-                                  motion::low_rebound<Number>(scene.stops.restitution_upper)}) {}
+      : Exact(scene, in_reach, limits, motion::ChatterRule<Number>::of(scene.stops)) {}
+
+  Exact(const Scene& scene, const Stops& in_reach, const Limits& limits, const motion::ChatterRule<Number>& rule)
+      : EventDriven<Exact, N, E>(scene, in_reach, limits, rule) {}
 
   /// The arc that begins with `start`, and its first contact, or its end at the horizon.
   [[nodiscard]] Flight<motion::Arc<Number, E.arc()>> fly(const motion::State<Number>&,

@@ -44,7 +44,11 @@ KNOWN_TO = {  # library header: the only rooms that see it
     r"xsimd": {"lanes"},
 }
 HEAVY = {  # what takes seconds to compile: the only files that it reaches through headers, too
-    r"boost/multiprecision": {"src/accuracy/run_record.cpp"},
+    r"boost/multiprecision": {
+        "src/accuracy/run_record.cpp",
+        "src/point/decided.cpp",
+        "src/point/fifty_digit_motions.cpp",
+    },
     r"boost/numeric/odeint": {"src/point/dormand_prince_points.cpp"},
     r"boost/math": {
         "src/branches/resting.cpp",
@@ -71,12 +75,14 @@ HEAVY = {  # what takes seconds to compile: the only files that it reaches throu
         "src/lanes/scalar_fallback.cpp",
         "src/lanes/scheduler.cpp",
         "src/lanes/settle_task.cpp",
+        "src/point/decided.cpp",
         "src/point/dormand_prince_points.cpp",
         "src/point/exact_motion.cpp",
         "src/point/exact_points_any_stiffness.cpp",
         "src/point/exact_points_forced.cpp",
         "src/point/exact_points_free.cpp",
         "src/point/exact_points_soft_stops.cpp",
+        "src/point/fifty_digit_motions.cpp",
         "src/point/moreau_points.cpp",
         "src/point/point.cpp",
         "src/sweep/worker_pool.cpp",

@@ -14,7 +14,7 @@ import tempfile
 
 import numpy as np
 from random_scenes import flown, is_beyond_soft, random_scenes
-from scene_runs import OBSERVED, STEADY, Program, complex_of, sizes
+from scene_runs import OBSERVED, STEADY, Program, complex_of, machine_keys, sizes
 
 DURATION = 24.0
 
@@ -36,8 +36,8 @@ class Campaign:
         scenes = self.scenes
         time = f'mode = "transient"\nduration = {DURATION}\n'
 
-        def run(scenes, *words, time=time):
-            return self.program.run(scenes, time, OBSERVED, *words)
+        def run(scenes, *words, time=time, **how):
+            return self.program.run(scenes, time, OBSERVED, *words, **how)
 
         base = self.base = run(scenes)
         # How much a motion magnifies a change decides how far two runs of it may be apart.
@@ -70,6 +70,10 @@ class Campaign:
             run([s.in_time(3.0) for s in scenes], time=time.replace(str(DURATION), str(3 * DURATION))),
             speed=3.0,
         )
+        millimetres = [s.scaled(0.002).in_time(1 / 160) for s in scenes]
+        in_si = {"section": "[machine]\nmass = 0.37\n", "keys_of": machine_keys(0.37)}
+        theirs = run(millimetres, time=time.replace(str(DURATION), str(DURATION / 160)), **in_si)
+        compare("machine", theirs, size=0.002, speed=1 / 160, mass=0.37)
         still = [s if s.base_amplitude or s.stop_amplitude else s.shifted(0.75) for s in scenes]
         places = np.array([0.0 if s.base_amplitude or s.stop_amplitude else 0.75 for s in scenes])
         compare("shift", run(still), shift=places)
@@ -86,7 +90,7 @@ class Campaign:
     def counts(runs):
         return np.array([len(log) for log in runs.logs])
 
-    def compare(self, relation, base, other, mirror=False, size=1.0, speed=1.0, shift=0.0):
+    def compare(self, relation, base, other, mirror=False, size=1.0, speed=1.0, shift=0.0, mass=1.0):
         sign = -1.0 if mirror else 1.0
         places = np.broadcast_to(np.asarray(shift), (len(self.scenes),))
         low, high = ("max", "min") if mirror else ("min", "max")
@@ -110,7 +114,7 @@ class Campaign:
         for name in ("work_in", "loss_damping", "loss_impact"):
             if relation == "shift" and name == "work_in":
                 continue  # the spring's place counts as load
-            its = other[name] * speed**2 / size**2
+            its = other[name] * speed**2 / size**2 / mass
             if its.ndim == 2 and mirror:
                 its = its[:, ::-1]
             check(

@@ -1,6 +1,7 @@
 """Random scenes of all effects together: runs of one motion that is written in two ways agree (combinations.py).
 
-Environment: CLATTER, the program; CLATTER_COMBINATIONS, COUNT or COUNT:SEED of the random scenes.
+Environment: CLATTER, the program; CLATTER_COMBINATIONS, COUNT or COUNT:SEED of the random scenes, of which a tenth, but
+at least some, go through branches and through followed sweeps and starts.
 """
 
 import os
@@ -9,9 +10,12 @@ import unittest
 from combinations import Campaign, report
 from followed_branches import BranchCampaign
 from random_scenes import followed_scenes, random_scenes, weak_scenes
+from sweep_relations import SweepCampaign
 
 CLATTER = os.environ["CLATTER"]
 AT_ONCE = 250
+COUNT, _, SEED = os.environ.get("CLATTER_COMBINATIONS", "150").partition(":")
+COUNT, SEED = int(COUNT), int(SEED or 4116)
 
 
 class Combinations(unittest.TestCase):
@@ -23,18 +27,23 @@ class Combinations(unittest.TestCase):
         self.assertGreater(campaign.decided.sum(), 0.9 * len(scenes))
 
     def test_two_ways_to_write_a_scene_give_one_motion(self):
-        count, _, seed = os.environ.get("CLATTER_COMBINATIONS", "150").partition(":")
-        for first in range(0, int(count), AT_ONCE):
-            self.check(random_scenes(min(AT_ONCE, int(count) - first), int(seed or 4116) + first // AT_ONCE))
+        for first in range(0, COUNT, AT_ONCE):
+            self.check(random_scenes(min(AT_ONCE, COUNT - first), SEED + first // AT_ONCE))
 
     def test_every_impact_of_a_weak_scene_is_told(self):
         """Once spring, damper and force were next to nothing, chatter was summed from its first rebound on."""
         self.check(weak_scenes())
 
     def test_points_of_branches_are_motions_and_no_special_point_is_missing(self):
-        campaign = BranchCampaign(CLATTER, followed_scenes(40, 4116))
+        campaign = BranchCampaign(CLATTER, followed_scenes(max(40, COUNT // 10), SEED))
         self.assertEqual(report(campaign.failures), "")
         self.assertGreater(campaign.points, 200)
+
+    def test_points_of_a_sweep_know_where_the_others_end(self):
+        """Followed points begin there, and starts are numbered by it."""
+        campaign = SweepCampaign(CLATTER, followed_scenes(max(40, COUNT // 10), SEED + 1))
+        self.assertEqual(report(campaign.failures), "")
+        self.assertGreater(campaign.points, 400)
 
 
 if __name__ == "__main__":

@@ -28,6 +28,7 @@ FLAGS = {
     1: "aperiodic",
     2: "transient",
     3: "grazing",
+    4: "undecided",
     16: "event_budget",
     17: "not_finite",
     18: "unresolved",

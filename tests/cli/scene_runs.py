@@ -12,6 +12,36 @@ OBSERVED = "[observe]\nextrema = true\nimpacts = true\nimpact_log = true\nenergy
 STEADY = OBSERVED.replace("3", "2") + "period = true\nword = true\nstability = true\n"
 
 
+def keys_of(scene):
+    """The values of the keys that a scene's kind of stops and shaking has."""
+    keys = "h f nu phase load stiffness x0 v0".split()
+    for side in ("_lower", "_upper"):
+        if math.isfinite(getattr(scene, "stop" + side)):
+            is_soft = math.isfinite(getattr(scene, "stop_stiffness" + side))
+            keys += ["stop" + side] + (["stop_stiffness" + side, "stop_damping" + side] if is_soft else ["R" + side])
+    keys += [key for key in ("stop_amplitude", "base_amplitude") if getattr(scene, key) != 0]
+    return {key: getattr(scene, key) for key in keys}
+
+
+def machine_keys(mass):
+    """A function that gives the values of [machine], in SI, of a scene whose numbers are metres and seconds."""
+
+    def keys_of_machine(scene):
+        values = keys_of(scene)
+        values["damping"] = 2 * mass * values.pop("h")
+        for key, of_scene in (("force", "f"), ("stiffness", "stiffness"), ("load", "load")):
+            values[key] = mass * values.pop(of_scene)
+        for key in ("stop_stiffness_lower", "stop_stiffness_upper"):
+            if key in values:
+                values[key] *= mass
+        values["frequency"] = values.pop("nu") / (2 * math.pi)
+        if scene.is_unforced():
+            del values["frequency"], values["phase"], values["force"]
+        return values
+
+    return keys_of_machine
+
+
 @dataclass
 class Runs:
     """What the program answers to a list of scenes: arrays [scene], logs of impacts one after the other."""
@@ -27,21 +57,32 @@ class Program:
     def __init__(self, program, folder):
         self.program, self.folder, self.count = program, Path(folder), 0
 
-    def run(self, scenes, time, observe, *words):
-        """A sweep for each kind of scene, since a key of one kind of stop is refused beside the other kind."""
+    def run(self, scenes, time, observe, *words, section="[scene]\n", keys_of=keys_of):
+        """A sweep for each kind of scene, since a key of one kind of stop is refused beside the other kind.
+
+        `section` is that of the scene, and keys_of(scene) the values of the keys that are its axes.
+        """
         kinds = {}
         for i, scene in enumerate(scenes):
             kinds.setdefault(tuple(keys_of(scene)), []).append(i)
         runs = Runs(logs=[None] * len(scenes))
         for keys, points in kinds.items():
-            self.sweep(keys, [scenes[i] for i in points], points, runs, time, observe, *words)
+            lists = "".join(f"{key} = {numbers([keys_of(scenes[i])[key] for i in points])}\n" for key in keys)
+            lists = f"{section}[sweep]\n{lists}linked = \"{', '.join(keys)}\"\n"
+            self.sweep(lists, points, runs, time, observe, *words)
+        return runs
+
+    def points(self, sweep, count, time, observe):
+        """The results of a sweep of one dimension and so many points."""
+        runs = Runs(logs=[None] * count)
+        self.sweep(sweep, range(count), runs, time, observe)
         return runs
 
     def branch(self, scene, limits):
         """The arrays of a branch along nu; None if the scene settles on nothing that can be followed."""
         self.count += 1
         name = self.folder / f"{self.count}.toml"
-        values = "".join(f"{key} = {getattr(scene, key)!r}\n" for key in keys_of(scene))
+        values = "".join(f"{key} = {value!r}\n" for key, value in keys_of(scene).items())
         branch = f'[branch]\nalong = "nu"\nrange = [{limits[0]!r}, {limits[1]!r}]\nmax_points = 400\n'
         observe = "[observe]\nextrema = true\nstability = true\n"
         name.write_text(
@@ -64,12 +105,11 @@ class Program:
         output.unlink()
         return found
 
-    def sweep(self, keys, scenes, points, runs, time, observe, *words):
+    def sweep(self, sweep, points, runs, time, observe, *words):
+        """The results of the only dimension of a sweep, put into `runs` at these points of it."""
         self.count += 1
         name = self.folder / f"{self.count}.toml"
-        lists = "".join(f"{key} = {numbers([getattr(s, key) for s in scenes])}\n" for key in keys)
-        linked = f'linked = "{", ".join(keys)}"\n'
-        name.write_text(f"[sweep]\n{lists}{linked}[time]\n{time}\n{observe}", encoding="utf-8")
+        name.write_text(f"{sweep}[time]\n{time}\n{observe}", encoding="utf-8")
         output = name.with_suffix(".h5")
         command = [self.program, "run", name, "-o", output, "-q", "--set", "time.max_impacts=20000", *words]
         result = subprocess.run(command, capture_output=True, text=True, check=False)
@@ -78,26 +118,16 @@ class Program:
         with h5py.File(output) as data:
             for key, values in data.items():
                 if isinstance(values, h5py.Dataset) and values.shape and not key.startswith("impact_"):
-                    if values.shape[0] == len(scenes) and (values.ndim > 1 or key not in ("sample", "stop")):
+                    if values.shape[0] == len(points) and (values.ndim > 1 or key not in ("sample", "stop")):
                         is_text = values.dtype.kind not in "fiub"
                         empty = np.full((len(runs.logs), *values.shape[1:]), None if is_text else math.nan)
                         kept = runs.values.setdefault(key, empty)
-                        kept[points] = values[()]
+                        kept[list(points)] = values[()]
             columns = [data["impact_" + column][()] for column in ("tau", "stop", "v_before", "v_after")]
             ends = np.cumsum(data["impact_count"][()])
             for point, log in zip(points, np.split(np.column_stack(columns), ends[:-1])):
                 runs.logs[point] = log
         output.unlink()
-
-
-def keys_of(scene):
-    """The keys that a scene's kind of stops and shaking has."""
-    keys = "h f nu phase load stiffness x0 v0".split()
-    for side in ("_lower", "_upper"):
-        if math.isfinite(getattr(scene, "stop" + side)):
-            is_soft = math.isfinite(getattr(scene, "stop_stiffness" + side))
-            keys += ["stop" + side] + (["stop_stiffness" + side, "stop_damping" + side] if is_soft else ["R" + side])
-    return keys + [key for key in ("stop_amplitude", "base_amplitude") if getattr(scene, key) != 0]
 
 
 def numbers(values):

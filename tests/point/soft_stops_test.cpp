@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "point/point.hpp"
+#include "support/random.hpp"
 #include "support/runs.hpp"
 #include "support/soft_scene.hpp"
 
@@ -165,6 +166,37 @@ TEST(SoftStops, a_load_presses_the_mass_to_rest_in_the_stop) {
       EXPECT_NEAR(found.x_max, (2.0 + 9.0) / 10.0, 1e-11);  // of the settling's tolerance
       EXPECT_NEAR(found.contact_fraction[1], 1, 1e-15);
     }
+}
+
+/// A mass that a stop always pushes is a linear oscillator, with the spring and the damper of both.
+TEST(SoftStops, motion_that_is_always_pressed_is_the_response_of_spring_and_stop) {
+  for (std::uint64_t i = 0; i < 200; ++i) {
+    support::Random random(4112, i);
+    const double kappa = random.logarithmic(1, 1e8), zeta = random.logarithmic(1e-3, 2), h = random.uniform(0, 0.5);
+    const double f = random.uniform(0.2, 1.2), nu = random.uniform(0.3, 2.8), side = random.sign();
+    const double damping = h + zeta * std::sqrt(kappa), dynamic = 1 + kappa - nu * nu, friction = 2 * damping * nu;
+    const double squares = dynamic * dynamic + friction * friction, amplitude = f / std::sqrt(squares);
+    // a load that presses 1.1 times as much as the force takes away
+    const double balance = 1.1 * amplitude * std::hypot(1.0, 2 * zeta * nu / std::sqrt(kappa));
+    Problem scene = support::scene_of({h, f, nu, side * (0.7 + (1 + kappa) * balance)}, -0.7, 0.7, 1.0);
+    scene.stops.stiffness_lower = scene.stops.stiffness_upper = kappa;
+    scene.stops.damping_lower = scene.stops.damping_upper = zeta;
+    // near the steady motion, as there may be others
+    const double away = random.uniform(0.98, 1.02);
+    scene.start = {side * (0.7 + balance) - away * f * friction / squares, away * nu * f * dynamic / squares, 0.0};
+    scene.time.max_periods = 100'000;
+    scene.observe.extrema = scene.observe.energy = true;
+    const PointResult found = run(scene);
+    ASSERT_EQ(found.status, steady::Status::periodic) << i;
+    EXPECT_EQ(found.observed_turns, 1) << i;
+    // rounding of the displacement rings at the natural frequency of mass and stop
+    const double ringing = 8 * epsilon<double>() * std::sqrt(1 + kappa) / nu, rounding = 1e-13 + ringing;
+    EXPECT_NEAR(found.v_max, nu * amplitude, rounding * nu * amplitude) << i << ' ' << kappa;
+    EXPECT_NEAR(found.v_min, -nu * amplitude, rounding * nu * amplitude) << i << ' ' << kappa;
+    const double work = std::numbers::pi * f * f * friction / squares;
+    EXPECT_NEAR(found.work_in, work, 10 * rounding * std::numbers::pi * f * amplitude) << i << ' ' << kappa;
+    EXPECT_NEAR(found.x_max - found.x_min, 2 * amplitude, 1e-12 * amplitude + 4e-16) << i << ' ' << kappa;
+  }
 }
 
 TEST(SoftStops, undamped_motion_that_stays_in_contact_has_the_period_of_both_springs) {

@@ -1,7 +1,7 @@
 #include "support/runs.hpp"
 
-#include "accuracy/reference_effects.hpp"
 #include "math/fifty_digits.hpp"
+#include "point/every_effect.hpp"
 #include "point/exact_motion.hpp"
 
 namespace clatter::support {
@@ -39,7 +39,7 @@ Run<double> run_in(const point::Problem& scene, double x, double v, TurnsOf&& tu
 }
 template <class TurnsOf>
 Run<FiftyDigits> run_in(const point::Problem& scene, const FiftyDigits& x, const FiftyDigits& v, TurnsOf&& turns_of) {
-  return accuracy::with_every_effect(scene, [&]<Effects effects>() {
+  return point::with_every_effect(scene, [&]<Effects effects>() {
     Run<FiftyDigits> run;
     stepping::Exact<FiftyDigits, effects> integrator(scene, limits_of(scene));
     run.end.x = x, run.end.v = v;

@@ -2,7 +2,7 @@
 
 #include "model/effects.hpp"
 
-namespace clatter::accuracy {
+namespace clatter::point {
 
 /// Calls `function.operator()<set>()` for a set that contains every effect of a scene: one of two. A run in 50 digits
 /// wins nothing worth having by leaving effects out, and every further set would take seconds to compile.
@@ -13,4 +13,4 @@ decltype(auto) with_every_effect(const Scene& scene, Function&& function) {
   return function.template operator()<effect_sets::with_soft_stops(Damping::heavy, Forcing::regular)>();
 }
 
-}  // namespace clatter::accuracy
+}  // namespace clatter::point

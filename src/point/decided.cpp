@@ -1,0 +1,146 @@
+#include "point/decided.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "point/error_watch.hpp"
+#include "point/every_effect.hpp"
+#include "point/exact_motion.hpp"
+#include "point/fixed_point.hpp"
+#include "steady/repeat.hpp"
+#include "stepping/exact.hpp"
+#include "stepping/run.hpp"
+
+namespace clatter::point {
+namespace {
+
+using steady::ObservedTime;
+using steady::Status;
+
+constexpr double trusted_in_double = 1e-11;  // an error relative to the motion's size
+constexpr double same_motion = 1e-6;         // a distance of states relative to it
+
+double distance(const motion::State<double>& a, const motion::State<double>& b) { return between(a, b).size(); }
+double size_of(const motion::State<double>& state) { return std::max(std::abs(state.x), std::abs(state.v)); }
+
+/// The section of a motion that is nearest to a state; the end if none is near it.
+auto passing(std::vector<motion::State<double>>& sections, const motion::State<double>& state) {
+  const auto nearest =
+      std::ranges::min_element(sections, {}, [&](const auto& section) { return distance(section, state); });
+  const bool near = nearest != sections.end() && distance(*nearest, state) <= same_motion * size_of(state);
+  return near ? nearest : sections.end();
+}
+
+/// The time to observe of a motion without a period that could be told.
+ObservedTime over_window(Status status, const Problem& problem, ObservedTime found) {
+  found.status = status, found.turns = static_cast<double>(problem.time.window);
+  found.found_by = steady::FoundBy::nothing, found.settling = std::numeric_limits<double>::quiet_NaN();
+  return found;
+}
+
+/// The time to observe of a periodic motion with these states at its sections. `found.settling` holds on if the motion
+/// that was found passes one of them, so that it is known which section of the run is which of the motion.
+ObservedTime observed(const Problem& problem, ObservedTime found, std::vector<motion::State<double>> sections) {
+  auto same = passing(sections, found.from);
+  if (same == sections.end() || found.status != Status::periodic)
+    found.settling = std::numeric_limits<double>::quiet_NaN(), same = sections.begin();
+  const auto place = same - sections.begin();
+  for (std::size_t i = 0; i < sections.size(); ++i)
+    sections[i].periods = found.from.periods + static_cast<std::int64_t>(i) - place;
+  const steady::BeginsBefore before(problem.oscillator.forcing);
+  std::ranges::rotate(sections, std::ranges::min_element(sections, [&](const auto& a, const auto& b) {
+                        return before(a.x, a.v, b.x, b.v);
+                      }));
+  found.status = Status::periodic, found.turns = static_cast<double>(sections.size());
+  if (found.found_by == steady::FoundBy::nothing) found.found_by = steady::FoundBy::repetition;
+  found.from = sections.front(), found.sections = std::move(sections);
+  return found;
+}
+
+/// Whether double tells the events of a periodic motion. It is run for two of its periods, or for one and up to a rest,
+/// so that no stretch is cut; `side` becomes the stop that releases it.
+bool holds_in_double(const Problem& problem, const ObservedTime& found, Side& side) {
+  return with_every_effect(problem, [&]<Effects E>() {
+    stepping::Exact<double, E> integrator(problem, limits_of(problem));
+    ErrorWatch<double, E> watch(problem);
+    motion::State<double> state = found.from;
+    for (double period = 0; period < 2 * found.turns; ++period) {
+      if (advance_to_section(integrator, state, state.periods, watch) != stepping::Outcome::completed) return false;
+      const auto [lower, upper] = watch.take_releases();
+      if (lower || upper) side = upper ? Side::upper : Side::lower;
+      if ((lower || upper) && period >= found.turns) break;
+    }
+    return watch.error() <= trusted_in_double;
+  });
+}
+
+}  // namespace
+
+Decisions::Decisions() = default;
+Decisions::~Decisions() = default;
+
+ObservedTime Decisions::decided(const Problem& problem, ObservedTime found) {
+  if (!found.doubtful) return found;
+  Side side = found.rested_on;
+  if (found.status == Status::periodic && holds_in_double(problem, found, side)) return found;
+  if (side != Side::none) return decided_by_release(problem, std::move(found), side);
+  for (const Side stop : {Side::lower, Side::upper}) {  // it may rest after double has lost it
+    RestingMotion motion = resting(problem, stop);
+    if (motion.kind == RestingMotion::Kind::periodic && passing(motion.sections, found.from) != motion.sections.end())
+      return observed(problem, std::move(found), std::move(motion.sections));
+  }
+  return decided_by_fixed_point(problem, std::move(found));
+}
+
+ObservedTime Decisions::decided_by_release(const Problem& problem, ObservedTime found, Side side) {
+  using Kind = RestingMotion::Kind;
+  const RestingMotion& motion = resting(problem, side);
+  found.simulated += motion.simulated;
+  if (motion.kind == Kind::periodic) return observed(problem, std::move(found), motion.sections);
+  const bool aperiodic = motion.kind == Kind::longer || (motion.kind == Kind::departs && lacks_period(found.status));
+  if (aperiodic) return over_window(Status::aperiodic, problem, std::move(found));
+  if (motion.kind != Kind::departs) return over_window(Status::undecided, problem, std::move(found));
+  // if motion without a rest attracts it, that is told
+  Problem later = problem;
+  later.start.displacement = motion.sections.back().x, later.start.velocity = motion.sections.back().v;
+  ObservedTime next = ExactMotion::of(later)->find_steady();
+  next.simulated += found.simulated;
+  next.settling = std::numeric_limits<double>::quiet_NaN();
+  return next.doubtful ? over_window(Status::undecided, problem, std::move(next)) : next;
+}
+
+ObservedTime Decisions::decided_by_fixed_point(const Problem& problem, ObservedTime found) {
+  std::vector<Sections>& known = of(problem).orbits;
+  found.simulated += found.turns;
+  auto same = std::ranges::find_if(known, [&](Sections& orbit) {
+    return static_cast<double>(orbit.size()) == found.turns && passing(orbit, found.from) != orbit.end();
+  });
+  if (same == known.end()) {
+    auto exact = fixed_point(problem, found.from, static_cast<std::int64_t>(found.turns));
+    if (!exact || passing(exact->sections, found.from) == exact->sections.end())
+      return over_window(Status::undecided, problem, std::move(found));
+    same = known.insert(known.end(), std::move(exact->sections));
+  }
+  return observed(problem, std::move(found), *same);
+}
+
+Decisions::OfScene& Decisions::of(const Problem& problem) {
+  const auto same = std::ranges::find_if(scenes_, [&](const OfScene& scene) {
+    return scene.oscillator == problem.oscillator && scene.stops == problem.stops &&
+           scene.phase == problem.start.phase && scene.most_impacts == problem.time.max_impacts;
+  });
+  if (same != scenes_.end()) return *same;
+  if (scenes_.size() == most_scenes) scenes_.pop_back();
+  return scenes_.emplace_front(
+      OfScene{problem.oscillator, problem.stops, problem.start.phase, problem.time.max_impacts});
+}
+
+const RestingMotion& Decisions::resting(const Problem& problem, Side side) {
+  auto& known = of(problem).resting[index_of(side)];
+  if (!known) known = resting_motion(problem, side);
+  return *known;
+}
+
+}  // namespace clatter::point

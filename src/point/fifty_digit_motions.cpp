@@ -1,0 +1,127 @@
+// Both in one file: most of its templates are compiled for both.
+
+#include "point/fixed_point.hpp"
+#include "point/resting_motion.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+
+#include "motion/tangent_map.hpp"
+#include "point/error_watch.hpp"
+#include "point/every_effect.hpp"
+#include "steady/repeat.hpp"
+#include "stepping/exact.hpp"
+#include "stepping/run.hpp"
+
+namespace clatter::point {
+namespace {
+
+constexpr double trusted = 1e-14;     // errors relative to the motion's size
+constexpr double most_impacts = 1e5;  // each takes up to a millisecond
+constexpr auto longest = static_cast<std::int64_t>(steady::RepeatFinder::longest);
+
+stepping::Limits limits_in_fifty_digits(const Problem& problem) {
+  stepping::Limits limits = limits_of(problem);
+  limits.impacts = std::min(limits.impacts, most_impacts);
+  return limits;
+}
+
+template <Effects E>
+RestingMotion run_from_release(const Problem& problem, Side side) {
+  using Kind = RestingMotion::Kind;
+  stepping::Exact<FiftyDigits, E> integrator(problem, problem.stops, limits_in_fifty_digits(problem),
+                                             motion::ChatterRule<FiftyDigits>::as_in_double());
+  auto state = integrator.released_from(side);
+  if (!state) return {};
+  RestingMotion motion{.kind = Kind::undecided};
+  ErrorWatch<FiftyDigits, E> watch(problem);
+  std::array<std::optional<std::int64_t>, 2> released_at;  // [stop]: the forcing period of its first release
+  released_at[index_of(side)] = 0;
+  std::int64_t latest = 0;  // forcing period of the latest release
+  bool returns = false;     // after too many periods
+  for (std::int64_t period = 0; period <= 2 * longest && period - latest <= longest; ++period) {
+    ++motion.simulated;
+    const stepping::Outcome outcome = advance_to_section(integrator, *state, 0, watch);
+    if (outcome != stepping::Outcome::completed || !(watch.error() <= trusted)) return motion;
+    const std::array<bool, 2> releases = watch.take_releases();
+    for (std::size_t stop = 0; stop < 2; ++stop) {
+      if (!releases[stop]) continue;
+      auto& first = released_at[stop];
+      if (first && period - *first <= longest) {
+        motion.sections.erase(motion.sections.begin(), motion.sections.begin() + *first);
+        motion.kind = Kind::periodic;
+        return motion;
+      }
+      returns = returns || first;
+      if (!first) first = period;
+      latest = period;
+    }
+    motion.sections.push_back(rounded(*state));
+  }
+  motion.kind = returns ? Kind::longer : Kind::departs;
+  return motion;
+}
+
+/// Computes the derivative of a motion.
+class Derivative {
+ public:
+  explicit Derivative(const Stops& stops) : tangent_(stops) {}
+
+  template <class A>
+  void arc(const A& arc, double begin, double length) {
+    tangent_.arc(arc, begin, length);
+  }
+  void rest(const motion::Rest& rest) { tangent_.rest(rest); }
+  void impact(const motion::Impact& impact) { tangent_.impact(impact); }
+  void touch(const motion::Touch& touch) { tangent_.touch(touch); }
+
+  [[nodiscard]] motion::Jacobian<FiftyDigits> map() const { return tangent_.map(); }
+
+ private:
+  motion::TangentMap<FiftyDigits> tangent_;
+};
+
+template <Effects E>
+std::optional<FixedPoint> find_fixed_point(const Problem& problem, const motion::State<double>& near,
+                                           std::int64_t periods, const std::function<bool()>& stopped) {
+  constexpr int most_iterations = 12;
+  FixedPoint found;
+  found.start.x = near.x, found.start.v = near.v;
+  for (int iteration = 0; iteration < most_iterations; ++iteration) {
+    stepping::Exact<FiftyDigits, E> integrator(problem, limits_of(problem));
+    Derivative derivative(problem.stops);
+    motion::State<FiftyDigits> state = found.start;
+    found.sections.clear();
+    for (std::int64_t section = 0; section < periods; ++section) {
+      if (stopped && stopped()) return std::nullopt;
+      found.sections.push_back(rounded(state));
+      if (advance_to_section(integrator, state, 0, derivative) != stepping::Outcome::completed) return std::nullopt;
+    }
+    const FiftyDigits dx = state.x - found.start.x, dv = state.v - found.start.v;
+    if (abs(dx) + abs(dv) <= FiftyDigits(1e-30) * (abs(state.x) + abs(state.v))) return found;
+    const motion::Jacobian<FiftyDigits> D = derivative.map();
+    const FiftyDigits determinant = (1 - D[0]) * (1 - D[3]) - D[1] * D[2];
+    found.start.x += ((1 - D[3]) * dx + D[1] * dv) / determinant;
+    found.start.v += (D[2] * dx + (1 - D[0]) * dv) / determinant;
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::optional<FixedPoint> fixed_point(const Problem& problem, const motion::State<double>& near, std::int64_t periods,
+                                      const std::function<bool()>& stopped) {
+  return with_every_effect(problem, [&]<Effects E>() { return find_fixed_point<E>(problem, near, periods, stopped); });
+}
+
+RestingMotion resting_motion(const Problem& problem, Side side) {
+  const Stops& stops = problem.stops;
+  const double position = side == Side::upper ? stops.upper : stops.lower,
+               R = side == Side::upper ? stops.restitution_upper : stops.restitution_lower;
+  if (!std::isfinite(position) || is_soft(stops, side) || R == 1) return {};  // nothing comes to rest there
+  return with_every_effect(problem, [&]<Effects E>() { return run_from_release<E>(problem, side); });
+}
+
+}  // namespace clatter::point

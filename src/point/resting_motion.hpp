@@ -1,0 +1,30 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "motion/state.hpp"
+#include "point/problem.hpp"
+
+namespace clatter::point {
+
+/// The motion that a stop's release from rest leads to. A release is always in the same state, so this depends on the
+/// scene alone.
+struct RestingMotion {
+  enum class Kind : std::uint8_t {
+    none,       ///< the stop never releases a mass
+    periodic,   ///< it rests again and again; `sections` are one period
+    longer,     ///< it returns to rest only after more than RepeatFinder::longest forcing periods
+    departs,    ///< it doesn't rest any more, at least for so long; `sections` ends with its state then
+    undecided,  ///< 50 digits don't tell
+  };
+  Kind kind = Kind::none;
+  std::vector<motion::State<double>> sections{};  ///< states at the stroboscopic sections, rounded
+  double simulated = 0.0;                         ///< forcing periods, in 50 digits
+};
+
+/// Runs a problem from the release by a stop to the next one, in 50 digits, until the same stop releases the mass
+/// again.
+[[nodiscard]] RestingMotion resting_motion(const Problem& problem, Side side);
+
+}  // namespace clatter::point
