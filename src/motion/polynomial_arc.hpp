@@ -28,12 +28,14 @@ class PolynomialArc {
 
   /// Motion a time s after the start, 0 <= s <= length, with the acceleration of eq. 3.
   [[nodiscard]] Motion<double> at(double s) const {
-    const double u = length_ > 0 ? s / length_ : 0.0;
-    const double offset = value_at(offset_, u), v = value_at(velocity_, u), x = anchor_ + offset;
+    const double u = share(s), offset = value_at(offset_, u), v = value_at(velocity_, u), x = anchor_ + offset;
     const auto [sine, cosine] = phase_after(s);
     return {offset, x,     v, constants_->acceleration(constants_->from_equilibrium(x, anchor_, offset), v, sine),
             sine,   cosine};
   }
+
+  /// Displacement alone.
+  [[nodiscard]] double displacement(double s) const { return anchor_ + value_at(offset_, share(s)); }
 
   /// The forcing phase a time s after the start.
   [[nodiscard]] SineCosine<double> phase_after(double s) const {
@@ -41,6 +43,8 @@ class PolynomialArc {
   }
 
  private:
+  [[nodiscard]] double share(double s) const { return length_ > 0 ? s / length_ : 0.0; }
+
   const ArcConstants<double, E>* constants_;
   double anchor_, turns_, length_;
   Bernstein<double> offset_, velocity_;

@@ -139,14 +139,22 @@ class ExactHarmonics {
     return sum;
   }
 
+  template <class A>
+  [[nodiscard]] static double displacement_of(const A& arc, double s) {
+    if constexpr (motion::Polynomial<A>)
+      return arc.displacement(s);  // no phase, no acceleration
+    else
+      return arc.at(s).x;
+  }
   /// Integral of x e^{-i w tau} over an arc by panels in which nothing turns by more than a few radians.
   template <unsigned points, class A>
   [[nodiscard]] Complex quadrature(const A& arc, double w, double begin, double length) {
     const auto panels = static_cast<std::size_t>(std::ceil(length * (arc.constants().rate + w) / 4));
     Complex sum = 0;
     evaluations_ += static_cast<double>(panels) * points;
-    over_panels<points>(length, panels,
-                        [&](double s, double weight) { sum += weight * arc.at(s).x * turn(w * (begin + s)); });
+    over_panels<points>(length, panels, [&](double s, double weight) {
+      sum += weight * displacement_of(arc, s) * turn(w * (begin + s));
+    });
     return sum;
   }
 

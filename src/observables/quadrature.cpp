@@ -15,16 +15,7 @@ std::array<GaussPair, points / 2> tabulated() {
 
 }  // namespace
 
-template <>
-const std::array<GaussPair, 5>& gauss_pairs<10>() {
-  static const std::array pairs = tabulated<10>();
-  return pairs;
-}
-
-template <>
-const std::array<GaussPair, 10>& gauss_pairs<20>() {
-  static const std::array pairs = tabulated<20>();
-  return pairs;
-}
+const std::array<GaussPair, 5> gauss_of_ten = tabulated<10>();
+const std::array<GaussPair, 10> gauss_of_twenty = tabulated<20>();
 
 }  // namespace clatter::observables

@@ -40,7 +40,7 @@ class RoundingGrowth {
   }
 
   /// The largest error up to now, relative to the size of the motion.
-  [[nodiscard]] double largest() const { return largest_ / size_; }
+  [[nodiscard]] double largest() const { return largest_ > 0 ? largest_ / size_ : 0.0; }
 
  private:
   /// A flight ends at a position, with an error of time that is larger the slower it arrives.
