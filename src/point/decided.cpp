@@ -50,9 +50,9 @@ ObservedTime observed(const Problem& problem, ObservedTime found, std::vector<mo
   for (std::size_t i = 0; i < sections.size(); ++i)
     sections[i].periods = found.from.periods + static_cast<std::int64_t>(i) - place;
   const steady::BeginsBefore before(problem.oscillator.forcing);
-  std::ranges::rotate(sections, std::ranges::min_element(sections, [&](const auto& a, const auto& b) {
-                        return before(a.x, a.v, b.x, b.v);
-                      }));
+  const auto first =
+      std::ranges::min_element(sections, [&](const auto& a, const auto& b) { return before(a.x, a.v, b.x, b.v); });
+  std::rotate(sections.begin(), first, sections.end());
   found.status = Status::periodic, found.turns = static_cast<double>(sections.size());
   if (found.found_by == steady::FoundBy::nothing) found.found_by = steady::FoundBy::repetition;
   found.from = sections.front(), found.sections = std::move(sections);

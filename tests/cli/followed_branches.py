@@ -97,10 +97,14 @@ class BranchCampaign:
             if not inside:
                 continue
             time = f'mode = "transient"\nduration = {2 * math.pi * ratio!r}\n'
-            runs = self.program.run([scenes[k] for k in inside], time, OBSERVED)
+            nudge = 1e-11  # multipliers don't tell how far changes are stretched between two rests
+            nudged = [scenes[k].changed(v0=scenes[k].v0 + nudge * (1 if scenes[k].v0 >= 0 else -1)) for k in inside]
+            runs, aside = (self.program.run(starts, time, OBSERVED) for starts in ([scenes[k] for k in inside], nudged))
             for row, k in enumerate(inside):
                 s, point = scenes[k], of[k]
                 growth = 1 + np.abs(found["multiplier_re"][point]).max() + np.abs(found["multiplier_im"][point]).max()
+                stretched = max(abs(runs[name][row, -1] - aside[name][row, -1]) for name in ("x", "v")) / nudge
+                growth = max(growth, stretched)
                 if not growth < 1e3:
                     continue
                 self.points += 1
