@@ -72,8 +72,9 @@ def name_statuses(axes, output, name, color=STOP, shown=True):
     along, status = output.values(name), output.values("status")
     loose = status[lacks_period(status)]
     if loose.size and shown:
-        kinds = " or ".join(output.meanings.get(int(kind), "aperiodic") for kind in np.unique(loose))
-        axes.plot([], [], ls="none", marker="o", ms=3.8, mfc="white", mec=color, mew=0.9, label=kinds)
+        kinds = np.unique(loose)  # one name for both: with two the legend is wider than the panel
+        title = output.meanings.get(int(kinds[0]), "aperiodic") if kinds.size == 1 else "no known period"
+        axes.plot([], [], ls="none", marker="o", ms=3.8, mfc="white", mec=color, mew=0.9, label=title)
     failed = status >= FIRST_FAILURE
     if failed.any():
         kinds = ", ".join(output.meanings.get(int(kind), "failed") for kind in np.unique(status[failed]))
