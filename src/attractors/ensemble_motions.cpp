@@ -93,12 +93,15 @@ std::optional<std::size_t> EnsembleMotions::aperiodic_of(const point::Problem& p
   std::vector<PhasePoint> states;
   double log_area = 0.0;
   PhasePoint last = state;
+  bool may_repeat = true;
   while (states.size() < (has_known ? longest_look_ : VisitedCells::long_look)) {
     const auto sections = run_sections(started(problem, last, 0.0), VisitedCells::at_once);
     if (!sections) return std::nullopt;
     last = sections->states.back(), log_area += sections->log_area;
-    if (sections->repeats_after > 0)
+    if (may_repeat && sections->repeats_after > 0) {
       if (const auto periodic = periodic_of(problem, last, sections->repeats_after)) return periodic;
+      may_repeat = false;  // by rounding alone, and so it would again
+    }
     if (const auto known = visiting(sections->states)) return known;
     states.insert(states.end(), sections->states.begin(), sections->states.end());
   }
