@@ -227,8 +227,9 @@ class Follower {
   bool ends_in_rest(const OrbitEquations& equations, const Touch& touch, double step) {
     const std::size_t impact = touch.impact - 1;
     const Side side = equations.shape().impacts[impact].side;
-    if (touch.orbit.impacts[touch.impact].side != side || equations.shape().impacts[impact].event != Event::impact)
-      return false;
+    const OrbitImpact &turn = touch.orbit.impacts[touch.impact], &begins = touch.orbit.impacts[impact];
+    const bool at_once = turn.side == side && turn.phase - begins.phase < 1e-2;
+    if (!at_once || begins.event != Event::impact) return false;
     if (Parameters<double>(equations.scene_at(touch.beyond.at)).restitution(side) != 0) return false;
     const OrbitEquations there = equations_for(equations.shape(), {{Condition::Kind::release, 1, impact}});
     const auto exact = solution(there, touch.beyond.at, settings_.tolerance);
@@ -254,7 +255,7 @@ class Follower {
     if (touch->appears && equations.shape().size() > 0 && ends_in_rest(equations, *touch, step)) return;
     const auto exact = exact_graze(any_equations(), equations.scene_at(touch->beyond.at), touch->graze(),
                                    1e-3 * speed_unit_, symmetric_, 10 * step, settings_.tolerance);
-    if (exact && exact->joins) return end_on(*exact);
+    if (exact && exact->joins) return end_on(*exact, equations.shape());
     BranchPoint last = record_.point(equations, touch->last_good);
     if (!exact) return record_.add(last), record_.fail(last, no_graze);
     const Orbit with = exact->orbit, without = with.without(touch->impact);
@@ -276,8 +277,9 @@ class Follower {
   }
 
   /// The branch ends on a motion that repeats sooner, or is symmetric, as that grazes soft stops, whose dampers change
-  /// its multipliers at once.
-  void end_on(const ExactGraze& exact) {
+  /// its multipliers at once. A free motion that is symmetric, between stops that aren't alike, touches both at once,
+  /// too: then the motion with these contacts is the branch that ends.
+  void end_on(const ExactGraze& exact, const Orbit& ends) {
     const Condition condition{Condition::Kind::graze, 1, exact.impact};
     const OrbitEquations equations = equations_for(exact.orbit, {condition});
     const BranchPoint at = record_.point(equations, {equations.unknowns_of(exact.scene, exact.orbit), {}, 0.0});
@@ -285,7 +287,7 @@ class Follower {
     const auto [special, is_new] = record_.note(SpecialKind::graze, at, condition);
     record_.end(at, "graze");
     if (!is_new) return;
-    wait_with(at.scene, at.orbit, exact.impact, special);
+    if (exact.orbit.half_turns != ends.half_turns) wait_with(at.scene, at.orbit, exact.impact, special);
     wait_without(at.scene, at.orbit.without(exact.impact), special);
   }
 

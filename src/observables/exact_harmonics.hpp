@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <complex>
 #include <cstddef>
@@ -30,10 +31,11 @@ class ExactHarmonics {
   template <motion::Polynomial A>
   void arc(const A& arc, double begin, double length) {
     if (!(begin > 0.0)) first_x_ = arc.start().x;
+    const double rate = arc.constants().rate;
+    if (length * (rate + base_ * static_cast<double>(x_.size() - 1)) < 1) return short_arc(arc, begin, length);
     for (std::size_t k = 0; k < x_.size(); ++k) {
       const double w = base_ * static_cast<double>(k);
-      x_[k] += length * (arc.constants().rate + w) < 1 ? quadrature<10>(arc, w, begin, length)
-                                                       : quadrature<20>(arc, w, begin, length);
+      x_[k] += length * (rate + w) < 1 ? quadrature<10>(arc, w, begin, length) : quadrature<20>(arc, w, begin, length);
     }
   }
   template <Effects E>
@@ -145,6 +147,22 @@ class ExactHarmonics {
       return arc.displacement(s);  // no phase, no acceleration
     else
       return arc.at(s).x;
+  }
+  /// Adds an arc in which no harmonic turns by more than a radian: all of them at the same ten points.
+  template <motion::Polynomial A>
+  void short_arc(const A& arc, double begin, double length) {
+    std::array<double, 10> times, weighted;
+    std::size_t points = 0;
+    over_panels<10>(length, 1, [&](double s, double weight) {
+      times[points] = begin + s, weighted[points++] = weight * arc.displacement(s);
+    });
+    evaluations_ += static_cast<double>(points);
+    for (std::size_t k = 0; k < x_.size(); ++k) {
+      const double w = base_ * static_cast<double>(k);
+      Complex sum = 0;
+      for (std::size_t i = 0; i < points; ++i) sum += weighted[i] * turn(w * times[i]);
+      x_[k] += sum;
+    }
   }
   /// Integral of x e^{-i w tau} over an arc by panels in which nothing turns by more than a few radians.
   template <unsigned points, class A>

@@ -130,5 +130,32 @@ TEST(SoftResting, is_no_failure_without_a_spring_between_stops_about_another_mid
   EXPECT_GT(special_values(found, SpecialKind::graze, Parameter::nu).size(), 3);
 }
 
+/// Without restitution a flight that turns into its stop as it begins is a landing that rests. A flight that only
+/// touches the stop later is a graze, and comes before that: no branch passes it.
+TEST(SoftResting, is_not_reached_through_a_graze) {
+  point::Problem problem;
+  problem.oscillator = {0.0055, 0.177, 0.531, 0.0};
+  problem.oscillator.stiffness = 0.279;
+  problem.stops = {-0.588, 0.588, 0.0, 1.0};
+  problem.stops.stiffness_upper = 4735;
+  problem.start = {0.504, 0.0, 0.0};
+  const Branches found = follow_branches(problem, {.range = {0.372, 0.744}, .max_points = 1000});
+  std::vector<std::size_t> passing;  // branches of one landing a period, at a frequency that they have in common
+  for (std::size_t i = 0; i + 1 < found.points.size(); ++i) {
+    const BranchPoint &one = found.points[i], &other = found.points[i + 1];
+    const double from = one.scene.oscillator.frequency - 0.6, to = other.scene.oscillator.frequency - 0.6;
+    if (one.branch == other.branch && (from < 0) != (to < 0) && one.orbit.word() == "LU") passing.push_back(one.branch);
+  }
+  EXPECT_EQ(passing.size(), 1);
+  for (const BranchPoint& point : found.points) {
+    const PhasePoint from = state_at_phase_zero(point.scene, point.orbit);
+    const auto there = attractors::started(with_scene(problem, point.scene), from, 0.0);
+    const auto to = attractors::state_after(there, point.orbit.period_ratio());
+    ASSERT_TRUE(to);
+    // the map has a root at a graze
+    EXPECT_LT(std::hypot(to->x - from.x, to->v - from.v), 1e-5) << point.scene.oscillator.frequency;
+  }
+}
+
 }  // namespace
 }  // namespace clatter::branches

@@ -224,5 +224,26 @@ TEST(SoftBranch, begins_to_hop_where_the_pressed_response_leaves_the_bumper) {
   EXPECT_TRUE(std::ranges::any_of(found.points, hops));
 }
 
+/// The free motion is symmetric, so it touches two stops equally far away at once, though they aren't alike. Motion
+/// with contacts on both ends there; beyond it there is free motion, and no second branch of contacts.
+TEST(SoftBranch, with_two_contacts_may_end_on_free_motion) {
+  point::Problem problem;
+  problem.oscillator = {0.67, 1.0, 2.9, 0.0};
+  problem.oscillator.stiffness = 0.9;
+  problem.stops.lower = -0.227, problem.stops.upper = 0.227;
+  problem.stops.stiffness_lower = 266, problem.stops.stiffness_upper = 483;
+  problem.start = {-0.18, 0.616, 0.0};
+  const Branches found = follow_branches(problem, {.range = {2.0, 4.0}, .max_points = 1000});
+  const std::vector<double> grazes = special_values(found, SpecialKind::graze, Parameter::nu);
+  ASSERT_EQ(grazes.size(), 1);
+  const double nu = grazes.front();
+  EXPECT_NEAR(std::hypot(0.9 - nu * nu, 2 * 0.67 * nu), 1.0 / 0.227, 1e-11);
+  ASSERT_EQ(found.points.back().branch, 1);
+  for (const BranchPoint& point : found.points) {
+    const bool in_graze = std::abs(point.scene.oscillator.frequency - nu) < 1e-9;
+    EXPECT_TRUE(in_graze || point.orbit.word() == (point.branch == 0 ? "LU" : ""));
+  }
+}
+
 }  // namespace
 }  // namespace clatter::branches

@@ -282,7 +282,7 @@ class Campaign:
         if not same or curved > 1e-3 * (1 + np.abs(derivative).max()):
             return
         trace, expected = np.trace(derivative), sum(multipliers)
-        if not abs(trace - expected) <= 1e-2 * curved + 1e-6 * growth:
+        if not abs(trace - expected) <= 1e-2 * curved + 1e-6 * growth + 1e-15 * stretched / step:
             self.fail("derivative", i, f"trace {trace}, multipliers {multipliers}")
 
     def energy(self, base):

@@ -69,18 +69,31 @@ class BranchCampaign:
                 self.fail("crosses", i, f"branch {number} at nu = {low} ... {high}: {special}")
 
     def twice(self, i, found):
-        """No motion is on two branches, but where they meet."""
-        state = np.column_stack([found["nu"], found["x"], found["v"], found["period_ratio"]])
-        middle = found["nu"] * 0
+        """No motion is on two branches, but where they meet: a branch doesn't pass through the middle of another."""
         for number in range(int(found["branch"].max(initial=-1)) + 1):
             on = np.flatnonzero(found["branch"] == number)
-            middle[on[len(on) // 2]] = 1
-        for k in np.flatnonzero(middle):
-            others = found["branch"] != found["branch"][k]
-            if others.any() and (found["branch"] == found["branch"][k]).sum() > 10:
-                off = np.abs(state[others] - state[k]).max(axis=1).min()
-                if off < 1e-9:
-                    self.fail("twice", i, f"a point of branch {found['branch'][k]} at nu = {found['nu'][k]}")
+            if len(on) <= 10:
+                continue
+            middle = on[len(on) // 2]
+            for other in range(number):
+                passes = np.flatnonzero((found["branch"] == other) & (found["word"] == found["word"][middle]))
+                if self.goes_through(found, passes, middle):
+                    self.fail("twice", i, f"a point of branches {number} and {other} at nu = {found['nu'][middle]}")
+
+    @staticmethod
+    def goes_through(found, points, at):
+        """Whether the curve through points, a cubic of nu between two of them, goes through another point."""
+        nu, there = found["nu"][points], found["nu"][at]
+        for k in np.flatnonzero((nu[1:-2] - there) * (nu[2:-1] - there) <= 0):
+            four = nu[k : k + 4]
+            if not (np.all(np.diff(four) > 0) or np.all(np.diff(four) < 0)):
+                continue
+            weights = [np.prod([(there - b) / (a - b) for b in four if b != a]) for a in four]
+            curved = max(abs(found[name][points[k : k + 4]] @ [-1, 3, -3, 1]) for name in ("x", "v"))
+            off = max(abs(found[name][points[k : k + 4]] @ weights - found[name][at]) for name in ("x", "v"))
+            if curved < 1e-4 and off < 1e-2 * curved + 1e-9:
+                return True
+        return False
 
     def run_again(self, i, scene, found):
         """Points of branches are motions: they come back after their period, in units of time in which that is 2 pi."""
