@@ -1,11 +1,16 @@
 #!/usr/bin/python3
 """Draws outputs of clatter by what they hold; --help says more."""
 
+import io
 import logging
 import sys
 import warnings
 from pathlib import Path
 
+import plot_files
+
+if __name__ == "__main__":
+    plot_files.begin()  # before what takes long to import
 if not sys.warnoptions:  # warnings of numpy and matplotlib are for those who work on this program
     warnings.simplefilter("ignore")
     logging.getLogger("matplotlib").setLevel(logging.ERROR)
@@ -20,6 +25,7 @@ try:
     from plot_data import FileProblem, Output
     from plot_figures import paper_figure
     from plot_generic import generic_figure
+    from plot_log import add_notes, log_notes
     from plot_options import command_line
     from plot_scales import tidy_ticks
 except ImportError as error:
@@ -94,10 +100,13 @@ def figure_of(members, options):
 
 def finished(figure, options):
     """Sets what the options say of every panel, and the layout once for all formats."""
+    notes = []
     for axes in figure.axes:
         if axes.get_label() != "<colorbar>":
+            notes += log_notes(axes, options)
             plot_style.set_view(axes, options)
             tidy_ticks(axes)
+    add_notes(figure, notes)
     if options.size:
         figure.set_size_inches(options.size)
     plot_style.lay_out(figure)
@@ -106,19 +115,16 @@ def finished(figure, options):
 
 
 def save(figure, folder, stem, formats):
-    """Writes a picture in each format and returns their names."""
-    names = []
+    """Writes a picture in each format and tells their names."""
     for kind in dict.fromkeys(formats):
-        name = folder / f"{stem}.{kind}"
+        name, drawn, dpi = folder / f"{stem}.{kind}", io.BytesIO(), plot_style.resolution(figure, RASTER[kind])
+        figure.savefig(drawn, format=kind, metadata=DATELESS[kind], dpi=dpi, **ENCODING.get(kind, {}))
         try:
-            figure.savefig(
-                name, metadata=DATELESS[kind], dpi=plot_style.resolution(figure, RASTER[kind]), **ENCODING.get(kind, {})
-            )
+            plot_files.write_whole(name, drawn.getbuffer())
         except OSError as error:
             raise FileProblem(f"{name}: cannot be written ({error.strerror}); name another folder with -o") from None
-        names.append(str(name))
+        plot_files.tell("plot.py", name)
     pyplot.close(figure)
-    return names
 
 
 def main():
@@ -130,7 +136,7 @@ def main():
         places = iter(options.files)
         for stem, figure in pictures(options):
             folder = Path(options.output) if options.output else Path(next(places)).parent
-            print("\n".join(save(figure, folder, stem, options.format)))
+            save(figure, folder, stem, options.format)
     except ChoiceProblem as problem:
         print(f"plot.py: {problem}", file=sys.stderr)
         return BAD_COMMAND
@@ -148,4 +154,4 @@ def make_folder(folder):
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(plot_files.run("plot.py", main))

@@ -1,6 +1,7 @@
 """The command line of plot.py."""
 
 import argparse
+import os
 import re
 import sys
 from itertools import takewhile
@@ -47,17 +48,25 @@ def options_parser():
 def command_line():
     """The options and files; ends the program on a mistake, with one line that names it."""
     parser = options_parser()
-    options = parser.parse_intermixed_args(joined())
+    words, files = parted(sys.argv[1:])
+    options = parser.parse_intermixed_args(joined(words))
     end_formats(parser, options)
+    options.files += files
     if not options.files:
         parser.error("no FILE.h5")
     return options
 
 
-def joined():
+def parted(words):
+    """The arguments before "--", and the files after it: argparse takes those that begin with a minus for options."""
+    place = words.index("--") if "--" in words else len(words)
+    return words[:place], words[place + 1 :]
+
+
+def joined(arguments):
     """The arguments, with limits that begin with a minus sign joined to their option: argparse takes them for one."""
     words = []
-    for word in sys.argv[1:]:
+    for word in arguments:
         if words and words[-1] in ("--xlim", "--ylim") and re.match(r"-[\d.]", word):
             words[-1] += f"={word}"
         else:
@@ -109,6 +118,6 @@ def end_formats(parser, options):
     options.format = list(takewhile(FORMATS.__contains__, words))
     rest = words[len(options.format) :]
     for word in rest:
-        if not options.format or not Path(word).suffix and not Path(word).exists():
+        if not options.format or not Path(word).suffix and not os.path.exists(word):
             parser.error(f"argument --format: '{word}' is none of {', '.join(FORMATS)}")
     options.files += rest

@@ -7,6 +7,7 @@ import matplotlib
 import numpy as np
 
 from plot_names import LABELS, equation, label, symbol
+from plot_text import plain
 
 matplotlib.use("Agg")
 from matplotlib import pyplot  # noqa: E402  (the backend comes first)
@@ -91,11 +92,6 @@ def constant_lines(figure, entries):
 def heading_width(figure, text):
     """In pixels."""
     return figure.suptitle(text, fontsize=10.5).get_window_extent().width
-
-
-def plain(text):
-    """A text without mathematics."""
-    return text.replace("$", r"\$")
 
 
 def title_lines(figure, title, to_text):

@@ -4,10 +4,13 @@
 import logging
 import os
 import sys
-import tempfile
 import warnings
 from pathlib import Path
 
+import plot_files
+
+if __name__ == "__main__":
+    plot_files.begin()  # before what takes long to import
 if not sys.warnoptions:  # warnings of numpy and matplotlib are for those who work on this program
     warnings.simplefilter("ignore")
     logging.getLogger("matplotlib").setLevel(logging.ERROR)
@@ -28,7 +31,7 @@ def check_place(path):
     """An older report may be replaced, any other file not."""
     if not path.parent.is_dir():
         raise FileProblem(f"{path}: there is no folder {path.parent}; make it, or name another file with -o")
-    if not path.exists():
+    if not os.path.exists(path):
         return
     try:
         with open(path, "rb") as file:
@@ -42,15 +45,7 @@ def check_place(path):
 def write(path, text):
     """The whole page or none."""
     try:
-        number, name = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name}.")
-        try:
-            with open(number, "w", encoding="utf-8") as file:
-                file.write(text)
-            os.chmod(name, 0o644)
-            os.replace(name, path)
-        except OSError:
-            os.unlink(name)
-            raise
+        plot_files.write_whole(path, text.encode(errors="backslashreplace"))
     except OSError as error:
         raise FileProblem(f"{path}: cannot be written ({error.strerror}); name another file with -o") from None
 
@@ -69,9 +64,9 @@ def main():
     except FileProblem as problem:
         print(f"clatter-report: {problem}", file=sys.stderr)
         return BAD_FILE
-    print(path)
+    plot_files.tell("clatter-report", path)
     return 0
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(plot_files.run("clatter-report", main))

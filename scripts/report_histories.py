@@ -3,7 +3,6 @@
 import os
 import shutil
 import subprocess
-import tempfile
 from pathlib import Path
 
 import h5py
@@ -11,6 +10,7 @@ import numpy as np
 
 from plain_hdf5 import text
 from plot_data import Output
+from plot_files import run_child, temporary_folder
 from plot_motion import motion
 from report_points import packed, shared_out, spread
 
@@ -65,12 +65,12 @@ def record(output, index, rows):
 
 def computed(output, kept):
     """The output of a run at these points that keeps the motion and nothing else."""
-    with tempfile.TemporaryDirectory(prefix="clatter-report-") as folder:
-        config, file = Path(folder) / "configuration.toml", Path(folder) / "motion.h5"
+    with temporary_folder("clatter-report-") as folder:
+        config, file = folder / "configuration.toml", folder / "motion.h5"
         config.write_text(config_text(output), encoding="utf-8")
         words = [program(), "run", str(config), "-o", str(file), "--quiet", *settings(output, kept)]
         try:
-            done = subprocess.run(words, capture_output=True, text=True, stdin=subprocess.DEVNULL, timeout=SECONDS)
+            done = run_child(words, SECONDS, stdin=subprocess.DEVNULL)
         except subprocess.TimeoutExpired:
             raise NoHistories(f"The motion wasn't computed: that took over {SECONDS} s.") from None
         except OSError as error:

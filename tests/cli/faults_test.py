@@ -12,6 +12,7 @@ import subprocess
 import unittest
 
 from command_line import CLATTER, LONGEST, SANITIZED
+from small_disk import small_disk
 from stopped_runs import StoppedRuns
 
 SHIM = os.environ.get("CLATTER_FAULTS")
@@ -182,24 +183,8 @@ class Faults(StoppedRuns):
                 self.assert_completes(context)
         self.assertGreater(refused, sizes)
 
-    @contextlib.contextmanager
     def small_disk(self, kibibytes):
-        place = self.directory.with_suffix(".disk")
-        place.mkdir()
-        self.addCleanup(shutil.rmtree, place, ignore_errors=True)
-        mount = subprocess.run(
-            ["mount", "-t", "tmpfs", "-o", f"size={kibibytes}k", "clatter-test", place], capture_output=True, text=True
-        )
-        if mount.returncode != 0:
-            self.fail(
-                f"this test needs a small disk, and mount -t tmpfs is refused ({mount.stderr.strip()}): run it as "
-                "root, in a container with --cap-add SYS_ADMIN, or under unshare -rm"
-            )
-        try:
-            yield place
-        finally:
-            subprocess.run(["umount", place], check=True)
-            place.rmdir()
+        return small_disk(self.directory.with_suffix(".disk"), kibibytes)
 
     def test_a_small_disk_that_is_really_full_loses_nothing(self):
         needed = len(self.whole) // 1024
