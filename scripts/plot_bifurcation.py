@@ -4,7 +4,9 @@ import numpy as np
 
 from plot_curves import MARGIN, name_statuses
 from plot_scales import shown_values
-from plot_names import label, symbol, with_unit
+from plot_names import in_frame, label, symbol, with_unit
+from plot_empty import say_empty
+from plot_text import plain
 from plot_style import BLUE, CYCLE, GREEN, STOP, VERMILION, legend_above, set_axis
 
 MANY = 2000  # points, from which on they are small
@@ -85,7 +87,7 @@ def mark_words(axes, output, axis):
         axes.text(
             (along[start] + along[end]) / 2,
             0.96,
-            words[start],
+            plain(words[start]),
             fontsize=7,
             va="top",
             ha="center",

@@ -9,6 +9,7 @@ import numpy as np
 
 from plot_data import Output
 from plot_names import equation
+from plot_text import plain
 
 OBSERVED = {  # the results of each key of [observe]
     "extrema": ("x_min", "x_max", "v_min", "v_max"),
@@ -153,7 +154,7 @@ def differences(outputs):
         ", ".join(equation(output, key, output.scene[key]) for key in keys if is_number(output.scene.get(key)))
         for output in outputs
     ]
-    return names if len(set(names)) == len(names) else [Path(output.path).stem for output in outputs]
+    return names if len(set(names)) == len(names) else [plain(Path(output.path).stem) for output in outputs]
 
 
 def is_number(value):

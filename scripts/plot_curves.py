@@ -8,6 +8,7 @@ from matplotlib import ticker
 from plot_data import FIRST_FAILURE, lacks_period
 from plot_scales import is_integer, shown_values
 from plot_names import amount, in_frame, label, symbol, with_unit
+from plot_text import plain
 from plot_style import BLUE, CYCLE, STOP, draw_walls, legend_above, set_axis
 
 MARGIN = 0.012  # of an axis beside its points
@@ -73,24 +74,22 @@ def name_statuses(axes, output, name, color=STOP, shown=True):
     loose = status[lacks_period(status)]
     if loose.size and shown:
         kinds = np.unique(loose)  # one name for both: with two the legend is wider than the panel
-        title = output.meanings.get(int(kinds[0]), "aperiodic") if kinds.size == 1 else "no known period"
+        title = plain(output.meanings.get(int(kinds[0]), "aperiodic")) if kinds.size == 1 else "no known period"
         axes.plot([], [], ls="none", marker="o", ms=3.8, mfc="white", mec=color, mew=0.9, label=title)
     failed = status >= FIRST_FAILURE
     if failed.any():
-        kinds = ", ".join(output.meanings.get(int(kind), "failed") for kind in np.unique(status[failed]))
-        axes.plot(
-            along[failed],
-            np.full(failed.sum(), 0.03),
-            transform=axes.get_xaxis_transform(),
-            ls="none",
-            marker="x",
-            ms=5,
-            mew=1.1,
-            color="#c00000",
-            clip_on=False,
-            zorder=4,
-            label=f"failed: {kinds}",
-        )
+        kinds = ", ".join(plain(output.meanings.get(int(kind), "failed")) for kind in np.unique(status[failed]))
+        mark_foot(axes, along[failed], f"failed: {kinds}", marker="x", ms=5, mew=1.1, color="#c00000")
+    escaped = status == ESCAPED
+    if escaped.any():
+        mark_foot(axes, along[escaped], "escaped", marker="^", ms=4, mew=0.9, mfc="none", color=color)
+
+
+def mark_foot(axes, along, title, **style):
+    """Markers at the foot of a panel, for points without results."""
+    foot = np.full(len(along), 0.03)
+    style = {"transform": axes.get_xaxis_transform(), "ls": "none", "clip_on": False, "zorder": 4, **style}
+    axes.plot(along, foot, label=title, **style)
 
 
 def draw_stops_along(axes, output, name):
@@ -210,10 +209,10 @@ def scalar_parts(output, name):
         return []
     if variable.values.dtype.kind == "U":
         text = str(variable.values).replace("inf", "∞")
-        return [(variable.long_name, text if len(text) <= LONGEST else f"{text[:LONGEST]}…")] if text else []
+        return [(plain(variable.long_name), plain(text if len(text) <= LONGEST else f"{text[:LONGEST]}…"))] if text else []
     values = zip(component_names(output, variable), np.atleast_1d(shown_values(output, name)))
     return [
-        (variable.long_name + part, amount(output, name, value))
+        (plain(variable.long_name) + part, amount(output, name, value))
         for part, value in values
         if part is not None and value == value
     ]

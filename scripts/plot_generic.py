@@ -21,7 +21,8 @@ from plot_maps import Grid, kind_map, quantity, regime_map, value_map
 from plot_motion import chosen_points, impact_log, phase_plane, time_history
 from plot_scales import constant_value, is_constant, largest, shown_values
 from plot_names import amount, label, number, symbol
-from plot_style import caption_below, legend_above, new_figure
+from plot_text import plain
+from plot_style import caption_below, legend_above, new_figure, set_axis
 
 BOOKKEEPING = (
     "status",
@@ -306,7 +307,7 @@ def constant_note(output, name, part, title):
 
 def plain_title(output, name, part, title):
     """A result in words, and which component of it."""
-    words = output[name].long_name
+    words = plain(output[name].long_name)
     return words if part is None else f"{words}, {title.removeprefix(symbol(name)).strip()}"
 
 

@@ -11,6 +11,7 @@ from plot_data import APERIODIC, FIRST_FAILURE, GRAZING, UNDECIDED, lacks_period
 from plot_scales import integer_levels, shown_values, tidy_ticks
 from plot_names import label, number
 from plot_style import BLUE, CYCLE, GREEN, ORANGE, is_geometric
+from plot_text import plain
 
 PIXELS = 900  # along an axis of an image, if its cells aren't all equal
 MOST_PIXELS = 1200  # along one axis; of more points the nearest to each pixel is shown
@@ -297,4 +298,4 @@ def regime_order(name):
 
 
 def regime_name(name):
-    return name.replace("inf", "∞")
+    return plain(name).replace("inf", "∞")

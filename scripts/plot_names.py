@@ -4,6 +4,8 @@ import re
 
 import numpy as np
 
+from plot_text import plain
+
 # Words and symbol of what the paper and the configuration name; anything else is labelled by its long_name.
 LABELS = {
     "h": ("damping ratio", r"$h$"),
@@ -97,9 +99,11 @@ def words_of(name):
 
 def label(output, name):
     """Axis label: words and symbol if the name is known, else long_name; the unit unless it is 1."""
-    words, sign = LABELS.get(name, ("", ""))
-    variable = output.variables.get(name)
-    full = f"{words} {sign if sign not in words else ''}".strip() or (variable.long_name if variable else name)
+    words, sign = names_of(output, name)
+    variable = variable_of(output, name)
+    if name == "impacts_per_period" and output.is_transient:
+        words = ""
+    full = f"{words} {sign if sign not in words else ''}".strip() or plain(variable.long_name if variable else name)
     return in_frame(output, name, with_unit(output, full, name))
 
 
@@ -138,7 +142,7 @@ def equation(output, name, value):
 
 def typeset_unit(unit):
     """A unit of the file with its powers raised: m s-1 becomes m s⁻¹, which no line ends within."""
-    return re.sub(r"(?<=[A-Za-z])(-?\d+)", r"$^{\1}$", unit).replace(" ", "\N{NO-BREAK SPACE}")
+    return re.sub(r"(?<=[A-Za-z])(-?\d+)", r"$^{\1}$", plain(unit)).replace(" ", "\N{NO-BREAK SPACE}")
 
 
 def number(value):
