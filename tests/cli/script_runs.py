@@ -44,7 +44,7 @@ def run_script(name, *words, cwd=None, environment=None, timeout=LONGEST):
         texts = []
         for file in (out, err):
             file.seek(0)
-            texts.append(file.read().decode().replace("\r\n", "\n"))
+            texts.append(os.fsdecode(file.read()).replace("\r\n", "\n"))
     return subprocess.CompletedProcess(command, code, *texts)
 
 
