@@ -16,7 +16,7 @@ from unittest import mock
 
 import h5py
 
-from command_line import CLATTER, LONGEST, SMALL, CommandLine, heed_signals
+from command_line import LONGEST, SMALL, CommandLine, heed_signals
 from plot_checks import Svg
 from script_runs import SCRIPTS, run_script, start_script
 from small_disk import small_disk
@@ -243,7 +243,12 @@ class Texts(Made):
             file[name].attrs[key] = text
 
     def test_units_and_names_of_a_file_are_drawn_as_they_are(self):
-        for name, key in (("x_max", "units"), ("period_ratio", "long_name"), ("nu", "units"), ("status", "flag_meanings")):
+        for name, key in (
+            ("x_max", "units"),
+            ("period_ratio", "long_name"),
+            ("nu", "units"),
+            ("status", "flag_meanings"),
+        ):
             for text in self.ODD:
                 with self.subTest(name=name, key=key, text=text):
                     self.change(name, key, text)
