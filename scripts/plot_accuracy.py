@@ -8,7 +8,7 @@ from matplotlib import colors, ticker
 
 from plot_data import FIRST_FAILURE
 from plot_labels import BELOW, DIRECTIONS, Labels, place_labels
-from plot_names import amount, number, symbol
+from plot_names import amount, symbol, unit_of
 from plot_style import BLUE, GREEN, PURPLE, STOP, VERMILION, heading, legend_above, new_figure
 
 FLOOR = 1e-17  # smaller errors are drawn here: a logarithmic axis has no place for 0
@@ -42,7 +42,7 @@ class Curve:
     error: np.ndarray  # worst over the points, at least FLOOR
     floored: bool  # whether an error is drawn at FLOOR
     wrong: np.ndarray  # impacts missed or doubled at some point
-    failed: np.ndarray  # no result at some point
+    failed: np.ndarray  # no result at some point, failed or escaped
 
     def __len__(self):
         return len(self.error)
@@ -99,12 +99,16 @@ def note(output, found):
         symbols.append("bars: interquartile range")
     if any(part.floored for part in found):
         symbols.append("errors below $10^{-17}$ are drawn there")
-    ends = (
-        f"{symbol(axis)} = {number(output.values(axis)[0])} … {amount(output, axis, output.values(axis)[-1])}"
-        for axis in output.axes
-    )
+    ends = (f"{symbol(axis, output)} = {span(output, axis)}" for axis in output.axes)
     lines = [f"worst error and median cost of {points} points, {', '.join(ends)}"] if points > 1 else []
     return "\n".join([*lines, ";  ".join(symbols)])
+
+
+def span(output, axis):
+    """The least and the greatest value of an axis, with their unit."""
+    low, high = (amount(output, axis, end) for end in (output.values(axis).min(), output.values(axis).max()))
+    unit = unit_of(output, axis)
+    return f"{low.removesuffix(unit).strip()} … {high}"
 
 
 def curve(output, method, errors, cost, look=None, in_lanes=False):

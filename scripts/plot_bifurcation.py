@@ -35,10 +35,14 @@ def section_diagram(members, name, axes):
         values = shown_values(member.output, name)
         known = np.isfinite(values)
         along = np.broadcast_to(member.output.values(axis)[:, None], values.shape)
-        dots(axes, along[known], values[known], CYCLE[place % len(CYCLE)], member.title)
+        if known.any():
+            dots(axes, along[known], values[known], CYCLE[place % len(CYCLE)], member.title)
     finish(members, axes, axis)
-    words = f"{symbol(name.removeprefix('section_'))} {instants(members[0].output)}"
-    axes.set_ylabel(with_unit(members[0].output, words, name))
+    if not axes.get_lines():
+        say_empty(axes, "no states of a section")
+    output = members[0].output
+    words = f"{symbol(name.removeprefix('section_'))} {instants(output)}"
+    axes.set_ylabel(in_frame(output, name, with_unit(output, words, name)))
 
 
 def impact_diagram(members, axes):
@@ -55,6 +59,8 @@ def impact_diagram(members, axes):
             if hit.any():
                 dots(axes, along[hit], before[hit], color, title)
     finish(members, axes, axis)
+    if not any(member.output.values("impact_count").any() for member in members):
+        say_empty(axes, "no impacts")
     axes.set_ylabel(label(members[0].output, "v_before"))
 
 
@@ -142,6 +148,8 @@ def poincare(output, axes):
     """The section of one scene: x' against x once a forcing period."""
     x, v = (shown_values(output, f"section_{name}") for name in "xv")
     dots(axes, x, v, BLUE)
+    if not np.isfinite(x).any():
+        say_empty(axes, "no states of a section")
     axes.margins(x=0.05, y=0.05)
     axes.set_xlabel(f"{label(output, 'x')} {instants(output)}")
     axes.set_ylabel(label(output, "v"))

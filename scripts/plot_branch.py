@@ -1,14 +1,18 @@
 """Pictures of branches of periodic motion, stable and unstable, with their special points, and of curves of these
 points in the plane of two parameters."""
 
+from pathlib import Path
+
 import numpy as np
 from matplotlib import colors
 
 from plot_attractors import ZONES, has_shares, runs
-from plot_choice import ChoiceProblem
+from plot_branch_names import REST, colours_and_names
+from plot_choice import OBSERVED, ChoiceProblem
 from plot_maps import Grid, edges_between, kind_map, regime_map
 from plot_names import label
-from plot_style import CYCLE, STOP, caption_below, legend_above, new_figure
+from plot_style import STOP, caption_below, legend_above, new_figure
+from plot_text import plain
 
 PANELS = ("v_max", "impact_speed")  # unless --only names others
 OFFERED = ("x", "v", "x_min", "x_max", "v_min", "v_max", "impact_speed", "impact_power")
@@ -44,16 +48,19 @@ def branch_figure(outputs, options):
     parameter = parameters.pop()
     names = chosen(options.only)
     notes = ["solid: stable", "dashed: unstable"]
+    colours, legend = colours_and_names(branches, parameter, names)
     figure = new_figure(1.2 + 2.6 * len(names))
     panels = figure.subplots(len(names), sharex=True, squeeze=False)[:, 0]
     for axes, name in zip(panels, names):
         for output in outputs:
             if not output.is_branch:
-                sweep_behind(axes, output, parameter, name)
+                notes += sweep_behind(axes, output, parameter, name)
         if options.backbone and name == "impact_speed":
             notes += draw_backbones(axes, branches, parameter)
+        for colour, title in legend:
+            axes.plot([], [], color=colour, label=title)
         for place, output in enumerate(branches):
-            draw_branches(axes, output, parameter, name, place if len(branches) > 1 else None)
+            draw_branches(axes, output, parameter, name, colours, place)
         for output in branches:
             draw_specials(axes, output, parameter, name)
         axes.set_ylabel(label(branches[0], name))
@@ -142,22 +149,18 @@ def chosen(only):
     return tuple(only)
 
 
-def draw_branches(axes, output, parameter, name, place):
-    """Each branch in its colour, or all of a file in one if there are several; solid where it is stable."""
+def draw_branches(axes, output, parameter, name, colours, place):
+    """Each branch in its colour, those without one in grey behind the others; solid where it is stable."""
     number, stable = output.values("branch"), output.values("stable") == 1
-    x, y, words, regimes = (output.values(key) for key in (parameter, name, "word", "regime"))
+    x, y = (output.values(key) for key in (parameter, name))
     for branch in np.unique(number):
-        own = np.flatnonzero(number == branch)
-        middle = own[len(own) // 2]
-        colour = CYCLE[(branch if place is None else place) % len(CYCLE)]
-        if place is None:
-            axes.plot([], [], color=colour, label=f"{words[middle] or 'no impacts'}, branch {branch}")
-        elif branch == 0:
-            axes.plot([], [], color=colour, label=f"{regimes[middle]}, {words[middle] or 'no impacts'}")
+        own, colour = np.flatnonzero(number == branch), colours.get((place, branch), REST)
         for begin, end in stretches(stable[own]):
             part = own[begin : min(end + 1, len(own))]
             style = "-" if stable[part[0]] else (0, (4, 2))
-            axes.plot(x[part], y[part], ls=style, color=colour, zorder=2, gid=f"branch {branch}")
+            axes.plot(
+                x[part], y[part], ls=style, color=colour, zorder=1.9 if colour == REST else 2, gid=f"branch {branch}"
+            )
 
 
 def draw_backbones(axes, branches, parameter):
@@ -201,7 +204,7 @@ def draw_specials(axes, output, parameter, name, skip=""):
         own = np.array([other == kind for other in kinds])
         marker, filled = MARKS.get(kind, (".", True))
         look = {"ms": 5.5, "color": STOP, "mfc": STOP if filled else "white", "zorder": 4}
-        axes.plot(x[own], y[own], marker, label=kind.replace("_", " "), **look)
+        axes.plot(x[own], y[own], marker, label=plain(kind).replace("_", " "), **look)
 
 
 def sweep_behind(axes, output, parameter, name):
@@ -221,18 +224,21 @@ def zones_behind(axes, output, parameter):
         for part, (begin, end) in enumerate(runs(cells)):
             title = f"{name} zone" if part == 0 else None
             axes.axvspan(edges[begin], edges[end], color=colour, lw=0, zorder=0, label=title, gid=f"{name} zone")
+    return []
 
 
 def points_behind(axes, output, parameter, name):
-    """The results of a sweep over the parameter, if it has the quantity."""
+    """The results of a sweep over the parameter, of two stops the larger; returns the note that it has none."""
     if output.axes != (parameter,):
         raise ChoiceProblem(
             f"a sweep behind branches runs over {parameter} alone; '{output.title}' runs over {', '.join(output.axes)}"
         )
-    if name == "impact_speed" and "v_before" in output:
-        values = np.nanmax(np.abs(output.values("v_before")).reshape(len(output.values(parameter)), -1), axis=1)
-    elif name in output:
-        values = output.values(name)
-    else:
-        return
-    axes.plot(output.values(parameter), values, ".", ms=6, mew=0, color=BEHIND, label="sweep", zorder=1)
+    if name not in output:
+        key = next((key for key, names in OBSERVED.items() if name in names), "")
+        way = f", which a run with observe.{key} = true writes" if key else ""
+        return [f"no points of the sweep: {plain(Path(output.path).name)} has no {name}{way}"]
+    values = output.values(name)
+    if values.ndim > 1:  # of each stop
+        values = np.fmax.reduce(values, axis=-1)
+    axes.plot(output.values(parameter), values, ".", ms=6, mew=0, color=BEHIND, label="sweep", zorder=1, gid="sweep")
+    return []

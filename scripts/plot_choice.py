@@ -14,7 +14,10 @@ from plot_text import plain
 OBSERVED = {  # the results of each key of [observe]
     "extrema": ("x_min", "x_max", "v_min", "v_max"),
     "harmonics": ("x_amplitude", "x_phase", "v_amplitude", "v_phase", "base_frequency"),
-    "impacts": ("impacts_per_period", "v_before", "v_after", "rest_fraction", "contact_fraction", "contact_force_max"),
+    "impacts": (
+        *("impacts_per_period", "v_before", "v_after", "impact_speed"),
+        *("rest_fraction", "contact_fraction", "contact_force_max"),
+    ),
     "impact_log": ("impact_count",),
     "trajectory": ("tau", "x", "v"),
     "section": ("section_x", "section_v"),

@@ -1,34 +1,44 @@
 """Panels of results over the only axis, with the status of the points, and those of a single point."""
 
+import re
 from itertools import product
 
 import numpy as np
 from matplotlib import ticker
 
-from plot_data import FIRST_FAILURE, lacks_period
-from plot_scales import is_integer, shown_values
-from plot_names import amount, in_frame, label, symbol, with_unit
+from plot_data import ESCAPED, has_failed, lacks_period
+from plot_scales import COUNTS, is_integer, shown_values
+from plot_names import amount, in_frame, label, result_in_words, symbol, with_unit
 from plot_text import plain
 from plot_style import BLUE, CYCLE, STOP, draw_walls, legend_above, set_axis
 
 MARGIN = 0.012  # of an axis beside its points
 DENSE = 60  # points from which a curve is drawn without markers
 LONGEST = 24  # letters of a text in a table
+LONGEST_LABEL = 30  # letters of a label beside a panel
 MANY = 2000  # markers from which on they are an image in vector formats
+SHARED = {  # the label of results in one panel; alone each has its own
+    frozenset({"x_min", "x_max"}): r"displacement $x$",
+    frozenset({"v_min", "v_max"}): "velocity $x$\N{PRIME}",
+    frozenset({"v_before", "v_after"}): "velocity at impact $x$\N{PRIME}",
+    frozenset({"work_in", "loss_damping"}): "energy in the observed time",
+}
 
 
-def draw_branch(axes, output, name, values, color, title, loose_color=None, **style):
-    """One result along the only axis: a line through the points that repeat, hollow markers for those that don't."""
+def draw_branch(axes, output, name, values, color, title, loose_color=None, is_count=False, **style):
+    """One result along the only axis: a line through the points that repeat, hollow markers for those that don't. The
+    line of a count ends where it changes."""
     along, loose = output.values(name), lacks_period(output.values("status"))
-    along, values, loose = split_at_jumps(along, values, loose)
+    along, values, loose = split_at_jumps(along, values, loose, is_count)
     steady = np.where(loose, np.nan, values)
     marker = "." if len(along) < DENSE else None
     style = {"lw": 1.2, "marker": marker, **style}
     axes.plot(along, steady, label=title, color=color, rasterized=bool(style["marker"]) and len(along) > MANY, **style)
-    alone = lonely(steady)
+    alone, hidden = lonely(steady), f"_{title}" if title else None  # an entry that no legend shows
     axes.plot(
         along[alone],
         steady[alone],
+        label=hidden,
         ls="none",
         marker=".",
         ms=style.get("ms", 3.2),
@@ -38,6 +48,7 @@ def draw_branch(axes, output, name, values, color, title, loose_color=None, **st
     axes.plot(
         along[loose],
         values[loose],
+        label=hidden,
         ls="none",
         marker="o",
         ms=3.2,
@@ -49,9 +60,13 @@ def draw_branch(axes, output, name, values, color, title, loose_color=None, **st
     )
 
 
-def split_at_jumps(along, values, loose):
-    """Puts a gap where the result jumps from one branch of the motion to another: no motion lies between."""
+def split_at_jumps(along, values, loose, is_count=False):
+    """Puts a gap where the result jumps from one branch of the motion to another, or a count changes: no motion lies
+    between."""
     step = np.diff(values)
+    if is_count:
+        jumps = np.flatnonzero(np.isfinite(step) & (step != 0)) + 1
+        return np.insert(along, jumps, along[jumps]), np.insert(values, jumps, np.nan), np.insert(loose, jumps, False)
     if len(values) < DENSE or not np.isfinite(step).any():
         return along, values, loose
     after, before = np.append(step[1:], 0.0), np.insert(step[:-1], 0, 0.0)
@@ -76,7 +91,7 @@ def name_statuses(axes, output, name, color=STOP, shown=True):
         kinds = np.unique(loose)  # one name for both: with two the legend is wider than the panel
         title = plain(output.meanings.get(int(kinds[0]), "aperiodic")) if kinds.size == 1 else "no known period"
         axes.plot([], [], ls="none", marker="o", ms=3.8, mfc="white", mec=color, mew=0.9, label=title)
-    failed = status >= FIRST_FAILURE
+    failed = has_failed(status)
     if failed.any():
         kinds = ", ".join(plain(output.meanings.get(int(kind), "failed")) for kind in np.unique(status[failed]))
         mark_foot(axes, along[failed], f"failed: {kinds}", marker="x", ms=5, mew=1.1, color="#c00000")
@@ -119,6 +134,7 @@ def curves(members, group, axes):
             values,
             CYCLE[(place // len(group) if several else place) % len(CYCLE)],
             member_title if several else title if len(group) > 1 else None,
+            is_count=result in COUNTS,
             **line_style(members, len(group), result, part, place),
         )
     set_axis(axes, output, name, MARGIN)
@@ -132,6 +148,9 @@ def curves(members, group, axes):
         axes.set_ylim(0.5, (axes.dataLim.y1 if np.isfinite(axes.dataLim.y1) else 1) + 0.5)  # none may have a period
     if first == "impacts_per_period" or all(is_integer(shown_values(output, result)) for result, _, _ in group):
         axes.yaxis.set_major_locator(ticker.MaxNLocator(integer=True))
+    if first == "symmetric":
+        axes.set_yticks([0, 1], labels=["no", "yes"])
+        axes.set_ylim(-0.15, 1.15)
     if first in ("rest_fraction", "contact_fraction"):
         axes.set_ylim(-0.02, max(1.02 * axes.get_ylim()[1], 0.1))
     if output.follow == name and not several:
@@ -162,23 +181,23 @@ def common_label(members, group):
     output, first = members[0].output, group[0][0]
     frames = {member.output[first].frame for member in members}
     words = label_of(output, group)
-    return words if len(frames) == 1 else words.replace(f", {output[first].frame}", "")
+    return words if len(frames) == 1 else re.sub(rf"[,\n] ?{output[first].frame}", "", words)
 
 
 def label_of(output, group):
     """The label of results of an output that share a panel."""
-    names, first = {result for result, _, _ in group}, group[0][0]
-    if first in ("x_min", "x_max"):
-        return in_frame(output, first, with_unit(output, r"displacement $x$", first))
-    if first in ("v_min", "v_max"):
-        return in_frame(output, first, with_unit(output, "velocity $x$\N{PRIME}", first))
-    if names == {"v_before", "v_after"}:
-        return with_unit(output, "velocity at impact $x$\N{PRIME}", first)
-    if names == {"work_in", "loss_damping"}:
-        return with_unit(output, "energy in the observed time", first)
+    names, first = list(dict.fromkeys(result for result, _, _ in group)), group[0][0]
+    shared = next((words for words in SHARED if len(names) > 1 and set(names) <= words), None)
+    if shared:
+        words = with_unit(output, SHARED[shared], *names)
+        return in_frame(output, first, words) if first[:2] in ("x_", "v_") and "impact" not in words else words
     title = group[0][2]
     is_part = len(group) == 1 and group[0][1] is not None
-    return f"{label(output, first)}\n{title.removeprefix(symbol(first)).strip()}" if is_part else label(output, first)
+    words, frame = label(output, first), f", {output[first].frame}"
+    part = title.removeprefix(symbol(first)).strip() if is_part else ""
+    if frame == ", " or not words.endswith(frame) or not part and len(words) <= LONGEST_LABEL:
+        return f"{words}\n{part}".strip()
+    return f"{words.removesuffix(frame)}\n{frame[2:]}{', ' * is_part}{part}"  # no longer than the panel is high
 
 
 def spectrum(output, name, axes):
@@ -209,10 +228,12 @@ def scalar_parts(output, name):
         return []
     if variable.values.dtype.kind == "U":
         text = str(variable.values).replace("inf", "∞")
-        return [(plain(variable.long_name), plain(text if len(text) <= LONGEST else f"{text[:LONGEST]}…"))] if text else []
+        return (
+            [(plain(variable.long_name), plain(text if len(text) <= LONGEST else f"{text[:LONGEST]}…"))] if text else []
+        )
     values = zip(component_names(output, variable), np.atleast_1d(shown_values(output, name)))
     return [
-        (plain(variable.long_name) + part, amount(output, name, value))
+        (result_in_words(output, name) + part, amount(output, name, value))
         for part, value in values
         if part is not None and value == value
     ]

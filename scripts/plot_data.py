@@ -15,7 +15,10 @@ PAPER = "10.5755/j02.mech.32277"
 APERIODIC = 1  # status of motion without a period
 UNDECIDED = 4  # status of motion whose period rounding would decide
 GRAZING = 3  # status of periodic motion without multipliers, since it just touches a stop
-FIRST_FAILURE = 16  # status values from here on are failures
+FIRST_FAILURE = 16  # status values from here on have no results
+ESCAPED = 19  # of them, the one that is no failure: nothing brings the mass back
+SOFT_STOPS = ("stop_stiffness_lower", "stop_stiffness_upper")
+SHAKEN = ("stop_amplitude", "base_amplitude")
 
 
 @dataclass
@@ -56,7 +59,7 @@ class Output:
             raise damaged(path, error) from None
         self.axes = () if self.is_branch else tuple(name for name in self["status"].dims if name != "row")
         self.is_si = "machine" in self.config
-        self.scene = self.config.get("machine" if self.is_si else "scene", {})
+        self.scene, self.units = numbers_of(self.config.get("machine" if self.is_si else "scene", {}))
         self.sweep = self.config.get("sweep", {})
         if self.is_branch:
             branch = self.config["branch"]
@@ -64,6 +67,9 @@ class Output:
                 branch[key]: branch.get(f"{key}_range", branch["range"]) for key in ("along", "across") if key in branch
             }
         self.held = {}  # axes at one value each
+        for name, words in self.names_of_results().items():
+            if name in self and not (self.is_branch or self.is_accuracy):
+                self.variables[name] = dataclasses.replace(self[name], long_name=words)
 
     def read(self, path):
         with open_output(path) as file:
@@ -140,6 +146,7 @@ class Output:
         linked = [name for name in self.sweep if name in self and self[name].dims == (axis,)]
         constants = {name: self.values(name)[index].item() for name in (axis, *linked)}
         part.scene = {**self.scene, **constants}
+        part.units = {**self.units, **{name: self[name].units for name in constants}}
         part.sweep = {key: value for key, value in self.sweep.items() if key not in constants}
         part.axes = tuple(name for name in self.axes if name != axis)
         part.variables = {
@@ -160,6 +167,19 @@ class Output:
         if "impact_count" in self:
             points = np.arange(self.values("status").size).reshape(self.shape)
             part.keep_impacts(self, points.transpose([self.axes.index(axis) for axis in axes]))
+        return part
+
+    def in_increasing_order(self):
+        """This output with the values of its only axis sorted, unless they are a path that the sweep followed."""
+        if len(self.axes) != 1 or self.follow or (np.diff(self.values(self.axes[0])) >= 0).all():
+            return self
+        axis, part = self.axes[0], copy.copy(self)
+        order = np.argsort(self.values(axis), kind="stable")
+        part.variables = {name: variable.at(axis, order) for name, variable in self.variables.items()}
+        for name, variable in part.variables.items():
+            part.variables[name] = dataclasses.replace(variable, dims=self[name].dims)
+        if "impact_count" in self:
+            part.keep_impacts(self, order)
         return part
 
     def keep_impacts(self, whole, points):
@@ -197,15 +217,41 @@ class Output:
         lower, upper = self.stops()
         if not self.is_absolute:
             return lower, upper
-        moved = np.abs(self.parameter("stop_amplitude", 0.0)) + np.abs(self.parameter("base_amplitude", 0.0))
+        moved = sum(np.abs(self.parameter(key, 0.0)) for key in SHAKEN)
         return lower - moved, upper + moved
 
+    def soft_stops(self):
+        """Whether the lower and the upper stop are soft, at every point."""
+        both = self.parameter("stop_stiffness", np.inf)
+        own = (self.parameter(key) for key in SOFT_STOPS)
+        return tuple(np.isfinite(np.where(np.isnan(stiffness), both, stiffness)) for stiffness in own)
+
     def is_forced(self):
-        """Whether a force acts at any point."""
-        return bool(np.any(self.parameter("force" if self.is_si else "f", 0.0)))
+        """Whether a force, or stops or a base that are shaken, drive the mass at any point."""
+        return any(np.any(self.parameter(key, 0.0)) for key in ("force" if self.is_si else "f", *SHAKEN))
+
+    @property
+    def is_transient(self):
+        """Whether the motion was observed from its start."""
+        return self.config.get("time", {}).get("mode") == "transient"
+
+    def names_of_results(self):
+        """The long names of results that depend on the scene: what counts forcing periods where there are none, in
+        transients and free motion, and what names a key."""
+        names = {"velocity_ratio": "|velocity before impact / gap|"} if self.is_si else {}
+        if self.is_transient:
+            names["impacts_per_period"] = "impacts in the observed time"
+        elif not self.is_forced():
+            names["impacts_per_period"] = "impacts per period of the motion"
+        if not self.is_forced():
+            names["simulated_periods"] = "turns of 2 pi simulated"
+            names["settling_estimate"] = "turns of 2 pi until within the tolerance of the steady motion"
+        return names
 
     def forcing_period(self, index):
-        """The forcing period of a point."""
+        """The forcing period of a point; without a force what stands for it, a share of the observed time."""
+        if not self.is_forced():
+            return self.values("tau")[index][-1] / self.config.get("time", {}).get("window", 64)
         if self.is_si:
             return 1 / float(self.parameter("frequency", 1.0)[index])
         return 2 * np.pi / float(self.parameter("nu", 1.0)[index])
@@ -242,9 +288,24 @@ def read_variable(item):
     )
 
 
+def numbers_of(scene):
+    """The constants of a scene as numbers, and the units of those that are written with one."""
+    numbers, units = dict(scene), {}
+    for key, value in scene.items():
+        written = re.fullmatch(r"\s*(\S+)\s+(.+)", value) if isinstance(value, str) else None
+        if written:
+            numbers[key], units[key] = float(written[1]), re.sub(r"\s*/\s*(\w+)", r" \1-1", written[2])
+    return numbers, units
+
+
 def lacks_period(status):
     """Whether the motion of each point has no period that is known."""
     return np.isin(status, (APERIODIC, UNDECIDED))
+
+
+def has_failed(status):
+    """Whether each point failed, so that nothing is known of its motion."""
+    return (np.asarray(status) >= FIRST_FAILURE) & (np.asarray(status) != ESCAPED)
 
 
 def flag_meanings(item):

@@ -3,7 +3,7 @@
 import numpy as np
 from matplotlib import ticker
 
-from plot_curves import draw_branch, draw_stops_along, name_statuses
+from plot_curves import draw_branch, draw_stops_along, label_of, name_statuses
 from plot_motion import draw_common_walls, impact_log, motion, phase_plane, time_history
 from plot_names import label
 from plot_style import BLUE, CYCLE, GRID, ORANGE, STOP, VERMILION, legend_above, new_figure, set_axis
@@ -157,7 +157,7 @@ def extrema(output):
     draw_stops_along(axes, output, "nu")
     name_statuses(axes, output, "nu", ORANGE)
     axes.xaxis.set_major_locator(ticker.MultipleLocator(0.1))
-    axes.set_ylabel(r"displacement $x$")
+    axes.set_ylabel(label_of(output, [("x_min", None, ""), ("x_max", None, "")]))
     legend_above(axes)
     return figure
 
@@ -177,4 +177,6 @@ PAPER_FIGURES = {
 def paper_figure(output):
     """The function that draws this output as the paper does, or None if the file has other contents."""
     draw, needed, axes = PAPER_FIGURES.get(output.figure, (None, (), ()))
-    return draw if draw and output.axes == axes and all(name in output for name in needed) else None
+    if not draw or output.axes != axes or any(name not in output for name in needed):
+        return None
+    return lambda output: draw(output.in_increasing_order())

@@ -1,5 +1,6 @@
 """Any other output: one panel for each thing that the file contains."""
 
+from dataclasses import replace
 from math import ceil
 
 import numpy as np
@@ -17,10 +18,11 @@ from plot_attractors import (
 from plot_bifurcation import impact_diagram, poincare, section_diagram
 from plot_curves import curves, scalar_parts, scalars, spectrum
 from plot_data import FIRST_FAILURE
+from plot_empty import empty_panel, empty_results, why_empty
 from plot_maps import Grid, kind_map, quantity, regime_map, value_map
 from plot_motion import chosen_points, impact_log, phase_plane, time_history
 from plot_scales import constant_value, is_constant, largest, shown_values
-from plot_names import amount, label, number, symbol
+from plot_names import YES_OR_NO, amount, label, number, result_in_words, symbol
 from plot_text import plain
 from plot_style import caption_below, legend_above, new_figure, set_axis
 
@@ -57,6 +59,7 @@ ORDER = (
     "impacts_per_period",
     "v_before",
     "v_after",
+    "impact_speed",
     "rest_fraction",
     "settling_periods",
     "x_amplitude",
@@ -85,12 +88,16 @@ def generic_figure(members, only, options):
     panels = motion_panels(output, drawn) if len(members) == 1 else []
     if len(output.axes) == 0:
         panels += point_panels(output, drawn)
-        table = table_of(output, drawn, may_be_empty=bool(panels))
+        table = table_of(output, only, drawn, may_be_empty=bool(panels))
     elif len(output.axes) == 1:
-        panels += curve_panels(members, drawn, caption)
+        panels += curve_panels(members, drawn, caption) + empty_panel(output, only, set_axis)
+        panels = panels or [lambda figure, axes: curves(members, [("impact_total", None, "")], axes)]
     else:
         grid = Grid(output, output.axes, (options.xlim, options.ylim), options.log)
         panels += map_panels(output, grid, drawn, caption)
+        panels += empty_panel(output, only, lambda axes, *_: grid.set_axes(axes))
+        simulated = quantity(output, "impact_total", None, "impacts simulated")
+        panels = panels or [value_panel(grid, simulated, output.values("status"))]
     columns = max(1, min(len(panels), 2 + (len(panels) > 8) + (len(panels) > 16)))
     heights = [(3.2, 2.5, 2.5, 2.1)[columns - 1]] * ceil(len(panels) / columns) + [LINE * len(table)] * bool(table)
     width = 4.6 if columns == 1 and not table and not has_shares(output) else min(max(3.5 * columns, 7.0), 10.5)
@@ -151,10 +158,12 @@ def point_panels(output, drawn):
     return panels
 
 
-def table_of(output, drawn, may_be_empty):
-    """(words, number or text) of each result of a single point that is one; of its bookkeeping if there is none."""
+def table_of(output, only, drawn, may_be_empty):
+    """(words, number or text) of each result of a single point that is one, and why another has none if it is asked
+    for; of its bookkeeping if there is none."""
     names = [name for name in in_order(filter(drawn, output.results())) if name not in BOOKKEEPING]
     rows = [row for name in names for row in scalar_parts(output, name)]
+    rows += [(plain(output[name].long_name), why_empty(output, name)) for name in empty_results(output, only)]
     return rows or [row for name in BOOKKEEPING[:3] for row in scalar_parts(output, name) if not may_be_empty]
 
 
@@ -165,7 +174,7 @@ def start_panels(output, drawn, caption):
         panels.append(lambda figure, axes: basin_points(axes, output))
     for name, part, title in (part for group in result_groups(output, drawn) for part in components(output, group)):
         if part is None and is_constant(shown_values(output, name), scale_of(output, name)):
-            caption.append(constant_note(output, name, part, title))
+            caption.append(constant_note([output], name, part, title))
         elif part is None:
             panels.append(lambda figure, axes, name=name: value_points(figure, axes, output, name))
     return panels
@@ -176,13 +185,15 @@ def curve_panels(members, drawn, caption):
     output, panels = members[0].output, []
     if len(members) == 1 and start_plane(output) and (shown := start_panels(output, drawn, caption)):
         return shown
+    members = [replace(member, output=member.output.in_increasing_order()) for member in members]
+    output = members[0].output
     for name in ("section_x", "section_v"):
         if name in output and drawn(name):
             panels.append(lambda figure, axes, name=name: section_diagram(members, name, axes))
     for group in result_groups(output, drawn):
         parts = [part for part in components(output, group) if all(part[0] in member.output for member in members)]
         if all(is_one_value(members, part) for part in parts):
-            caption += [constant_note(output, *part) for part in parts]
+            caption += [constant_note([member.output for member in members], *part) for part in parts]
             continue
         together = len(members) == 1 or group in TOGETHER[:2]
         varying = [part for part in parts if not is_one_value(members, part)]
@@ -193,7 +204,7 @@ def curve_panels(members, drawn, caption):
         panels.append(lambda figure, axes: impact_diagram(members, axes))
     if "attractor" in output and drawn("attractor") and len(members) == 1 and has_shares(output):
         panels.insert(0, lambda figure, axes: share_panel(figure, axes, output))
-    return panels or [lambda figure, axes: curves(members, [("impact_total", None, "")], axes)]
+    return panels
 
 
 def is_one_value(members, part):
@@ -258,6 +269,8 @@ def map_panels(output, grid, drawn, caption):
         return panels  # no map can show what depends on both
     if "regime" in output and drawn(*TEXTS):
         panels.append(lambda figure, axes: regime_map(figure, axes, grid, status, output.values("regime")))
+        if "symmetric" in output and (output.values("symmetric") == 0).any():
+            caption.append("a motion and its mirror image have one regime")
     if "period_ratio" in output and drawn("period_ratio"):
         ratio = output.values("period_ratio")
         panels.append(lambda figure, axes: kind_map(figure, axes, grid, status, ratio))
@@ -267,11 +280,9 @@ def map_panels(output, grid, drawn, caption):
         if name in ("period_ratio", "period") and "period_ratio" in output or part is not None and part >= MAP_LIMIT:
             continue
         if is_constant(values[status < FIRST_FAILURE], scale_of(output, name)):
-            caption.append(constant_note(output, name, part, title))
+            caption.append(constant_note([output], name, part, title))
         elif np.isfinite(values[status < FIRST_FAILURE]).any():
             panels.append(value_panel(grid, quantity(output, name, part, map_title(output, name, part, title)), status))
-    if not panels:
-        panels.append(value_panel(grid, quantity(output, "impact_total", None, "impacts simulated"), status))
     return panels
 
 
@@ -299,15 +310,19 @@ def scale_of(output, name):
     return max(largest(shown_values(output, member)) for member in group if member in output)
 
 
-def constant_note(output, name, part, title):
-    value = constant_value(component_values(output, name, part), scale_of(output, name))
+def constant_note(outputs, name, part, title):
+    """A result that is the same wherever it has a value, and at how many points it has one if not at all."""
+    output, values = outputs[0], np.concatenate([component_values(other, name, part).ravel() for other in outputs])
+    value, known = constant_value(values, scale_of(output, name)), np.isfinite(values).sum()
     words = plain_title(output, name, part, title)
-    return f"{words}{':' if '=' in words else ' ='} {amount(output, name, value)}"
+    where = f" at {known} of {values.size} points" if known < values.size else ""
+    sign = ":" if "=" in words or name in YES_OR_NO else " ="
+    return f"{words}{sign} {amount(output, name, value)}{where}"
 
 
 def plain_title(output, name, part, title):
     """A result in words, and which component of it."""
-    words = plain(output[name].long_name)
+    words = result_in_words(output, name)
     return words if part is None else f"{words}, {title.removeprefix(symbol(name)).strip()}"
 
 

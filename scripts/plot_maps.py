@@ -7,22 +7,25 @@ import numpy as np
 from matplotlib import cm, colormaps, colors
 from matplotlib.image import AxesImage
 
-from plot_data import APERIODIC, FIRST_FAILURE, GRAZING, UNDECIDED, lacks_period
+from plot_choice import ChoiceProblem
+from plot_data import APERIODIC, ESCAPED, FIRST_FAILURE, GRAZING, UNDECIDED, has_failed, lacks_period
 from plot_scales import integer_levels, shown_values, tidy_ticks
 from plot_names import label, number
-from plot_style import BLUE, CYCLE, GREEN, ORANGE, is_geometric
 from plot_text import plain
+from plot_style import BLUE, CYCLE, GREEN, ORANGE, is_geometric
 
 PIXELS = 900  # along an axis of an image, if its cells aren't all equal
 MOST_PIXELS = 1200  # along one axis; of more points the nearest to each pixel is shown
 STRIPE, STROKE, INK = 4.3, 0.7, 170  # points from one stroke of a hatch to the next, their width; opacity of 255
 NO_PERIOD = "#cfcfcf"
+OLIVE = "#6b6b1f"  # escaped: no colour of a scale
 REGIME_COLOURS = ("#e8f1f8", *CYCLE, "#8c510a", "#80cdc1", "#543005")
 
 # Why a result has no value at a point whose motion is periodic.
 MISSING = {
     "v_before": "no impact",
     "v_after": "no impact",
+    "impact_speed": "no impact",
     "velocity_ratio": "no impact",
     "x_phase": "amplitude is negligible",
     "v_phase": "amplitude is negligible",
@@ -58,6 +61,13 @@ class Grid:
 
     def __init__(self, output, names, limits=(None, None), log=""):
         self.output, self.names = output, names
+        for axis in log:
+            if (low := output.values(names["xy".index(axis)]).min()) <= 0:
+                name = names["xy".index(axis)]
+                raise ChoiceProblem(
+                    f"--log {log}: {name} begins at {low:g}, and a logarithmic scale has no place for 0 and below; "
+                    f"leave '{axis}' out"
+                )
         self.sides = [
             Side(values, view, axis in log or is_geometric(values))
             for values, view, axis in zip((output.values(name) for name in names), limits, "xy")
@@ -94,10 +104,10 @@ class Grid:
         self.draw(axes, one_colour(covered, INK), Hatch)
 
 
-def one_colour(covered, opacity):
-    """Black pixels of this opacity, 0 to 255, where they are covered."""
+def one_colour(covered, opacity, colour="black"):
+    """Pixels of this colour and opacity, 0 to 255, where they are covered."""
     pixels = np.zeros((*covered.shape, 4), np.uint8)
-    pixels[covered, 3] = opacity
+    pixels[covered] = (*np.round(255 * np.array(colors.to_rgb(colour))), opacity)
     return pixels
 
 
@@ -159,7 +169,8 @@ def value_map(figure, axes, grid, shown, status):
     notes = mark_points(axes, grid, status)
     grid.set_axes(axes)
     bar = figure.colorbar(shade, ax=axes, pad=0.02, **bar_style(levels))
-    name_panel(axes, shown.title, name_levels(bar, levels, shown.name) if levels else tidy_ticks(bar.ax)["y"])
+    words = name_levels(bar, levels, shown.name) if levels else tidy_ticks(bar.ax, shown.title)["y"]
+    name_panel(axes, shown.title, words)
     return notes + clip_notes(shown, levels) + white_notes(shown, status)
 
 
@@ -225,14 +236,20 @@ def white_notes(shown, status):
 
 
 def mark_points(axes, grid, status):
-    """Hatches points without a known period and blackens failed ones; returns the notes that explain this."""
-    loose, failed = lacks_period(status), status >= FIRST_FAILURE
+    """Hatches points without a known period, and has a colour for those that failed and those that escaped; returns the
+    notes that explain this."""
+    loose, notes = lacks_period(status), []
     if loose.any():
         grid.hatch(axes, loose)
-    if failed.any():
-        cells = np.ma.filled(grid.image(failed), False)
-        grid.draw(axes, one_colour(cells, 255))
-    return ["hatched: no period"] * bool(loose.any()) + ["black: failed"] * bool(failed.any())
+        notes.append("hatched: no period")
+    for words, colour, cells in (
+        ("black: failed", "black", has_failed(status)),
+        ("olive: escaped", OLIVE, status == ESCAPED),
+    ):
+        if cells.any():
+            grid.draw(axes, one_colour(np.ma.filled(grid.image(cells), False), 255, colour))
+            notes.append(words)
+    return notes
 
 
 def class_map(figure, axes, grid, title, kinds):
@@ -267,7 +284,8 @@ def kind_map(figure, axes, grid, status, ratio):
         ("period 3, …", GREEN, ratio > 2),
         ("no period", ORANGE, status == APERIODIC),
         ("undecided", "#f5cf8e", status == UNDECIDED),
-        ("failed", "black", status >= FIRST_FAILURE),
+        ("failed", "black", has_failed(status)),
+        ("escaped", OLIVE, status == ESCAPED),
     ]
     return class_map(figure, axes, grid, "kind of motion", kinds)
 
@@ -286,7 +304,8 @@ def regime_map(figure, axes, grid, status, regimes):
         ("others", "#7f7f7f", (regimes != "") & ~np.isin(place, frequent)),
         ("no period", NO_PERIOD, status == APERIODIC),
         ("undecided", "#efe3c0", status == UNDECIDED),
-        ("failed", "black", status >= FIRST_FAILURE),
+        ("failed", "black", has_failed(status)),
+        ("escaped", OLIVE, status == ESCAPED),
     ]
     return class_map(figure, axes, grid, "regime, impacts on a stop / forcing periods", kinds)
 

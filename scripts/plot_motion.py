@@ -4,24 +4,27 @@ import numpy as np
 
 from plot_data import lacks_period
 from plot_names import equation, label
+from plot_empty import say_empty
 from plot_style import BLUE, CYCLE, GRID, STOP, VERMILION, draw_walls, legend_above
 
 LAST_PERIODS = 20  # of motion without a period that are drawn
 
 
 def motion(output, index):
-    """Time, displacement, velocity of one point, with both sides of every logged impact put in."""
+    """Time, displacement, velocity of one point, with both sides of every logged impact put in. A touch of a soft stop
+    has one: its velocity goes on, and v_after is that of the separation, later."""
     tau, x, v = (output.values(name)[index] for name in ("tau", "x", "v"))
     if "impact_count" not in output or output.is_absolute:  # impacts are relative
         return tau, x, v
     times, sides, before, after = output.impacts(index)
-    lower, upper = (stop[index] for stop in output.stops())
-    place = np.repeat(np.searchsorted(tau, times, side="left"), 2)
-    contact = np.where(np.repeat(sides, 2) < 0, lower, upper)
+    position = np.where(sides < 0, *(stop[index] for stop in output.stops()))
+    rows = np.where(np.where(sides < 0, *(soft[index] for soft in output.soft_stops())), 1, 2)
+    place = np.repeat(np.searchsorted(tau, times, side="left"), rows)
+    both = np.stack([before, after], axis=1)
     return (
-        np.insert(tau, place, np.repeat(times, 2)),
-        np.insert(x, place, contact),
-        np.insert(v, place, np.ravel([before, after], order="F")),
+        np.insert(tau, place, np.repeat(times, rows)),
+        np.insert(x, place, np.repeat(position, rows)),
+        np.insert(v, place, both[np.arange(2) < rows[:, None]]),
     )
 
 
@@ -128,6 +131,8 @@ def impact_log(output, index, axes, period=None):
         sides, before = (repeated(times, part, period, end)[1] for part in (sides, before))
         times = repeated(times, times, period, end)[0]
     axes.axhline(0.0, color=STOP, lw=0.7)
+    if not times.size:
+        say_empty(axes, "no impacts")
     for side, marker, color, title in ((-1, "v", BLUE, "lower stop"), (1, "^", VERMILION, "upper stop")):
         hit = sides == side
         if hit.any():

@@ -75,6 +75,27 @@ LABELS = {
 }
 
 
+# The same where a scene is given in [machine]: its own keys, but for the letters of its equation m x'' + c x' + k x.
+SI_LABELS = {
+    **{
+        key: ("", key)
+        for key in (
+            *("damping_ratio", "gap", "stop_lower", "stop_upper", "R_lower", "R_upper", "stop_amplitude"),
+            *("stop_stiffness", "stop_stiffness_lower", "stop_stiffness_upper", "base_amplitude"),
+            *("stop_damping", "stop_damping_lower", "stop_damping_upper"),
+        )
+    },
+    "quality": ("quality factor", "quality"),
+    "frequency": ("excitation frequency", "frequency"),
+    "phase": ("forcing phase", "phase"),
+    "tau": ("time", "$t$"),
+    "period": ("period", "$T$"),
+    "period_ratio": ("period in forcing periods", ""),
+    "eigenfrequency": ("eigenfrequency", ""),
+    "base_frequency": ("base frequency", ""),
+    "velocity_ratio": ("velocity ratio", "$|x$\N{PRIME}$^{{-}}|$ / gap"),
+}
+
 # The units of constants in [machine], as of the variables in the file.
 UNITS = {
     "mass": "kg",
@@ -87,10 +108,21 @@ UNITS = {
     "v0": "m s-1",
     **dict.fromkeys(("gap", "stop_lower", "stop_upper", "stop_amplitude", "base_amplitude", "x0"), "m"),
 }
+SHORT = 0.1  # m: lengths that are all below it are written in mm
+YES_OR_NO = ("symmetric",)  # what 1 and 0 stand for
+PLACES = ("x", "x_min", "x_max")  # drawn between the stops
+RECORDED = {"tau": "impact_tau", "v_before": "impact_v_before", "x": "section_x", "v": "section_v"}  # the same, too
 
 
-def symbol(name):
-    return LABELS.get(name, ("", ""))[1] or name.replace("_", " ")
+def names_of(output, name):
+    """Words and symbol of a variable of an output, or of a constant of its scene; empty if it has none."""
+    return (SI_LABELS if output.is_si and name in SI_LABELS else LABELS).get(name, ("", ""))
+
+
+def symbol(name, output=None):
+    """The symbol of a variable or constant, of an output as it names it; its name in the file if it has none."""
+    _, sign = names_of(output, name) if output else LABELS.get(name, ("", ""))
+    return sign or name.replace("_", " ")
 
 
 def words_of(name):
@@ -107,28 +139,68 @@ def label(output, name):
     return in_frame(output, name, with_unit(output, full, name))
 
 
+def variable_of(output, name):
+    """The variable of an output that holds a quantity, by its own name or as it was recorded; None if there is none."""
+    return output.variables.get(name) or output.variables.get(RECORDED.get(name, ""))
+
+
 def in_frame(output, name, words):
     """Words for a variable, and its frame if something is shaken."""
-    variable = output.variables.get(name)
+    variable = variable_of(output, name)
     return f"{words}, {variable.frame}" if variable and variable.frame else words
 
 
-def with_unit(output, words, name):
-    """Words for a variable followed by its unit, unless it is 1."""
-    unit = unit_of(output, name)
+def with_unit(output, words, *names):
+    """Words for variables that share an axis, followed by their unit, unless it is 1."""
+    unit = unit_of(output, *names)
     return f"{words} ({unit})" if unit else words
 
 
-def unit_of(output, name):
-    """The unit of a variable of the file or of a constant of its scene, typeset; "" if it has none."""
-    constant = UNITS.get(name, "1") if output.is_si else "1"
-    unit = output.variables[name].units if name in output else constant
+def unit_of(output, *names, value=None):
+    """The unit of variables of the file, or of a constant of its scene that has this value, typeset; "" if they have
+    none."""
+    unit = si_unit(output, names[0])
+    if unit == "m" and output.is_si and are_short(output, names, value):
+        unit = "mm"
     return typeset_unit(unit) if unit != "1" else ""
+
+
+def si_unit(output, name):
+    """The unit that a file has for a variable, or for a constant of its scene."""
+    variable = variable_of(output, name)
+    if variable:
+        return variable.units
+    return output.units.get(name, UNITS.get(name, "1") if output.is_si else "1")
+
+
+def are_short(output, names, value):
+    """Whether all lengths that share an axis, and the stops among them, read better in mm."""
+    found = [variable_of(output, name) for name in names]
+    known = [variable.values for variable in found if variable]
+    known = known or [output.parameter(names[0]) if value is None else value]
+    if any(name in PLACES for name in names):
+        known += output.reach()
+    sizes = np.abs(np.concatenate([np.ravel(values).astype(float) for values in known]))
+    sizes = sizes[np.isfinite(sizes)]
+    return 0.0 < sizes.max(initial=0.0) < SHORT
+
+
+def scale_in(words):
+    """By how much the numbers of an axis are multiplied where they are written: data stay in m where words say mm."""
+    return 1e3 if "(mm)" in words else 1.0
+
+
+def result_in_words(output, name):
+    """A result as a sentence has it, in words alone."""
+    return words_of(name) if name in YES_OR_NO else plain(output[name].long_name)
 
 
 def amount(output, name, value):
     """A value of a variable or constant with its unit, as text."""
-    return f"{number(value)}\N{NO-BREAK SPACE}{unit_of(output, name)}".strip()
+    if name in YES_OR_NO:
+        return "yes" if value else "no"
+    unit = unit_of(output, name, value=value)
+    return f"{number(value * (1e3 if unit == 'mm' else 1.0))}\N{NO-BREAK SPACE}{unit}".strip()
 
 
 def equation(output, name, value):
@@ -137,7 +209,7 @@ def equation(output, name, value):
         return "up" if value > 0 else "down"
     if not np.isfinite(value):
         return f"no {words_of(name)}"
-    return f"{symbol(name)} = {amount(output, name, value)}"
+    return f"{symbol(name, output)} = {amount(output, name, value)}"
 
 
 def typeset_unit(unit):

@@ -5,6 +5,8 @@ from dataclasses import dataclass
 import numpy as np
 from matplotlib import rcParams, ticker
 
+from plot_names import scale_in
+
 SAME = 1e-9  # of its scale: what differs by less is one value
 NEGLIGIBLE = 1e-12  # of the largest: the phase of such an amplitude is noise
 MOST_LEVELS = 12  # integers that have a colour each
@@ -98,22 +100,28 @@ def integer_levels(values, name=""):
     return Levels(first, last, not is_integer(shown), beyond)
 
 
-def tidy_ticks(axes):
-    """Numbers beside ticks that have at most six digits and don't meet. What they have in common, a factor or most of
-    their digits, is added to the label of the axis, unless that is empty. To be called when the limits are set; returns
-    what they have in common on each axis that it changed, "x" or "y", as text."""
+def tidy_ticks(axes, title=""):
+    """Numbers beside ticks that have at most six digits and don't meet, in the unit that the label of the axis, or the
+    title, names. What they have in common, a factor or most of their digits, is added to the label, unless that is
+    empty. To be called when the limits are set; returns what they have in common on each axis that it changed, "x" or
+    "y", as text."""
     words = {}
     for name, axis in (("x", axes.xaxis), ("y", axes.yaxis)):
         low, high = sorted(getattr(axes, f"get_{name}lim")())
         own = (ticker.ScalarFormatter, ticker.LogFormatter)  # of matplotlib: no names of classes, no numbers left out
-        if not isinstance(axis.get_major_formatter(), own) or axis.get_scale() == "log" and high > 100 * low:
+        scale = scale_in(axis.get_label_text() or title)
+        if not isinstance(axis.get_major_formatter(), own):
             continue
-        common = common_part(low, high)
+        if axis.get_scale() == "log" and high > 100 * low:
+            axis.set_major_formatter(Decades(scale))
+            continue
+        common = common_part(low * scale, high * scale)
+        common.scale = scale
         axis.set_major_formatter(common)
         axis.set_minor_formatter(ticker.NullFormatter())
         if axis.get_scale() == "log" and high > 5 * low and not common.words:
             axis.set_major_locator(ticker.LogLocator(subs=(1, 2, 5)))
-            axis.set_major_formatter(ticker.StrMethodFormatter("{x:g}"))
+            axis.set_major_formatter(ticker.FuncFormatter(lambda value, _, scale=scale: f"{value * scale:g}"))
         elif isinstance(axis.get_major_locator(), (ticker.MaxNLocator, ticker.LogLocator)):
             axis.set_major_locator(RoomyLocator(common, name == "x", wants_integers(axis)))
         words[name] = common.words
@@ -167,22 +175,35 @@ def power_of(value):
 
 @dataclass(eq=False)
 class Common(ticker.Formatter):
-    """Writes numbers less an offset and over a power of ten, which the words tell."""
+    """Writes numbers less an offset and over a power of ten, which the words tell; of data in another unit, times the
+    scale."""
 
     offset: float
     power: int
     words: str
+    scale: float = 1.0
 
     def __call__(self, value, place=None):
         return self.format_ticks([value])[0]
 
     def format_ticks(self, values):
         """As many decimals as all numbers together need."""
-        rest = (np.asarray(values, float) - self.offset) / 10.0**self.power
+        rest = (np.asarray(values, float) * self.scale - self.offset) / 10.0**self.power
         error = 1e-3 * (np.diff(rest).min() if len(rest) > 1 else largest(rest))
         rounded = (np.round(rest, decimals) + 0.0 for decimals in range(DIGITS))  # no negative zero
         decimals = next((i for i, close in enumerate(rounded) if np.all(np.abs(close - rest) <= error)), DIGITS)
         return [f"{value + 0.0:.{decimals}f}".replace("-", MINUS) for value in np.round(rest, decimals)]
+
+
+class Decades(ticker.LogFormatterSciNotation):
+    """Writes the powers of ten of a long logarithmic axis, of data in another unit times the scale."""
+
+    def __init__(self, scale):
+        super().__init__()
+        self.scale = scale
+
+    def __call__(self, value, place=None):
+        return super().__call__(value * self.scale, place)
 
 
 class RoomyLocator(ticker.MaxNLocator):
