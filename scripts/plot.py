@@ -16,6 +16,7 @@ if not sys.warnoptions:  # warnings of numpy and matplotlib are for those who wo
     logging.getLogger("matplotlib").setLevel(logging.ERROR)
 
 try:
+    import plot_legends
     import plot_style
     from matplotlib import pyplot
     from plot_accuracy import accuracy_figure
@@ -25,7 +26,7 @@ try:
     from plot_data import FileProblem, Output
     from plot_figures import paper_figure
     from plot_generic import generic_figure
-    from plot_log import add_notes, log_notes
+    from plot_log import names_left_out, note_left_out
     from plot_options import command_line
     from plot_scales import tidy_ticks
 except ImportError as error:
@@ -100,16 +101,16 @@ def figure_of(members, options):
 
 def finished(figure, options):
     """Sets what the options say of every panel, and the layout once for all formats."""
-    notes = []
+    left_out = []
     for axes in figure.axes:
-        if axes.get_label() != "<colorbar>":
-            notes += log_notes(axes, options)
+        if axes.get_label() != "<colorbar>" and axes.axison:  # a table has no scales
+            left_out += names_left_out(axes, options)
             plot_style.set_view(axes, options)
             tidy_ticks(axes)
-    add_notes(figure, notes)
+    note_left_out(figure, left_out)
     if options.size:
         figure.set_size_inches(options.size)
-    plot_style.lay_out(figure)
+    plot_legends.lay_out(figure, is_fixed=bool(options.size))
     keep_words_with_room(figure)
     return figure
 
@@ -129,7 +130,7 @@ def save(figure, folder, stem, formats):
 
 def main():
     options = command_line()
-    plot_style.use_style()
+    plot_style.use_style(options.size)
     try:
         if options.output:
             make_folder(options.output)

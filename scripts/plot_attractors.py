@@ -3,19 +3,15 @@
 import numpy as np
 from matplotlib import colors
 
-from plot_data import FIRST_FAILURE
-from plot_maps import class_map, edges_between, name_colours, name_panel
+from plot_data import ESCAPED, FIRST_FAILURE, has_failed
+from plot_maps import OLIVE, class_map, edges_between, name_colours, name_panel
 from plot_scales import shown_values, tidy_ticks
 from plot_names import label, number, symbol
-from plot_style import CYCLE, GREEN, SKY, legend_above
+from plot_style import GREEN, SKY, colour_of, legend_above
+from plot_text import plain, short_word
 
 STARTS = ("x0", "v0", "phase", "start_period")
-COLOURS = (  # by number, over and over
-    *CYCLE,
-    *("#8c510a", "#80cdc1", "#762a83", "#b2df8a", "#003c30", "#fdbf6f", "#a50026", "#c7c7f0", "#666666"),
-    *("#f4a582", "#4d9221", "#2166ac", "#fee391", "#7a0177", "#41b6c4", "#bc80bd", "#543005", "#d9ef8b"),
-)
-OTHERS, UNDECIDED = "#bfbfbf", "#ffffff"
+OTHERS = "#bfbfbf"
 MOST = 16  # motions with an entry of their own in a legend
 LEAST = 0.005  # share of the starts at its largest below which a motion is one of the others
 ZONES = (("soft", GREEN), ("hard", "#b2182b"), ("quiet", SKY))  # strips above shares
@@ -26,20 +22,22 @@ def is_start(axis):
     return axis in STARTS or axis == "direction"
 
 
-def colour_of(motion):
-    return COLOURS[motion % len(COLOURS)]
-
-
 def name_of(output, motion):
-    """A motion in words, e.g. "1/1 symmetric, LU"."""
+    """A motion in words, e.g. "1/1 symmetric, LU"; of two mirror images that these don't tell apart the second says
+    so."""
+    name, twin = words_of(output, motion), int(output.values("motion_mirror")[motion])
+    return f"{name}, mirrored" if 0 <= twin < motion and words_of(output, twin) == name else name
+
+
+def words_of(output, motion):
+    """The regime, symmetry and word of a motion."""
     word, regime = output.values("motion_word")[motion], output.values("motion_regime")[motion]
     if output.values("motion_period_ratio")[motion] == 0:
         return "no period" + ", symmetric" * bool(output.values("motion_symmetric")[motion] == 1)
     if not word:
         return "no impacts"
     symmetry = " symmetric" if output.values("motion_symmetric")[motion] == 1 else ""
-    short = word if len(word) <= 12 else word[:11] + "…"
-    return f"{regime}{symmetry}, {short}".replace("inf", "∞").replace("*", "∗")
+    return f"{plain(regime)}{symmetry}, {short_word(word)}".replace("inf", "∞").replace("*", "∗")
 
 
 def frequent(shares, most=MOST):
@@ -67,7 +65,8 @@ def basin_kinds(output):
     if more:
         kinds.append(("others", OTHERS, (numbers >= 0) & ~np.isin(numbers, chosen)))
     kinds.append(("undecided", "#e0e0e0", (numbers < 0) & (status < FIRST_FAILURE)))
-    kinds.append(("failed", "black", status >= FIRST_FAILURE))
+    kinds.append(("failed", "black", has_failed(status)))
+    kinds.append(("escaped", OLIVE, status == ESCAPED))
     return kinds
 
 
@@ -138,7 +137,8 @@ def value_points(figure, axes, output, name):
     points = axes.scatter(output.values(first)[known], output.values(second)[known], s=6, lw=0, c=values[known])
     axes.set_xlabel(label(output, first))
     axes.set_ylabel(label(output, second))
-    name_panel(axes, label(output, name), tidy_ticks(figure.colorbar(points, ax=axes, pad=0.02).ax)["y"])
+    title = label(output, name)
+    name_panel(axes, title, tidy_ticks(figure.colorbar(points, ax=axes, pad=0.02).ax, title)["y"])
 
 
 def has_linked_starts(output):
@@ -163,7 +163,7 @@ def share_panel(figure, axes, output):
     places, shares = places[order], shares[order]
     edges = edges_between(places)
     chosen, more = frequent(shares.max(axis=0))
-    names = apart([name_of(output, motion) for motion in chosen], shares[:, chosen], places, symbol(parameter))
+    names = apart([name_of(output, motion) for motion in chosen], shares[:, chosen], places, symbol(parameter, output))
     parts = [(name, colour_of(motion), shares[:, motion]) for name, motion in zip(names, chosen)]
     if more:
         parts.append(("others", OTHERS, np.delete(shares, chosen, axis=1).sum(axis=1)))
@@ -174,7 +174,7 @@ def share_panel(figure, axes, output):
             low, high = below[part], below[part] + share[part]
             axes.stairs(high, edges[begin : end + 1], baseline=low, fill=True, color=colour, lw=0.0)
         below = below + share
-    rest = [] if (below > 1 - 1e-9).all() else ["white: undecided or failed"]
+    rest = [] if (below > 1 - 1e-9).all() else ["white: undecided, escaped or failed"]
     zone_strips(axes, edges, shares, [motion for motion in range(shares.shape[1]) if is_quiet(output, motion)])
     axes.set_xlim(edges[0], edges[-1])
     axes.set_ylim(0.0, 1.0 + 3 * GAP + 2 * STRIP)

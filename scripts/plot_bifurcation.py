@@ -6,11 +6,13 @@ from plot_curves import MARGIN, name_statuses
 from plot_scales import shown_values
 from plot_names import in_frame, label, symbol, with_unit
 from plot_empty import say_empty
-from plot_text import plain
-from plot_style import BLUE, CYCLE, GREEN, STOP, VERMILION, legend_above, set_axis
+from plot_text import short_word
+from plot_style import BLUE, CYCLE, GREEN, STOP, VERMILION, colour_of, legend_above, set_axis
 
 MANY = 2000  # points, from which on they are small
 WORD = "impact word"  # marks the texts that may have to go
+CHANGE = "other word"  # marks the lines between neighbours
+ROOM = 1.5  # points, beside a word
 CRITICAL = 0.97  # modulus from which on a multiplier tells which bifurcation is near
 
 
@@ -36,7 +38,7 @@ def section_diagram(members, name, axes):
         known = np.isfinite(values)
         along = np.broadcast_to(member.output.values(axis)[:, None], values.shape)
         if known.any():
-            dots(axes, along[known], values[known], CYCLE[place % len(CYCLE)], member.title)
+            dots(axes, along[known], values[known], colour_of(place), member.title)
     finish(members, axes, axis)
     if not axes.get_lines():
         say_empty(axes, "no states of a section")
@@ -55,7 +57,7 @@ def impact_diagram(members, axes):
         for side, color, title in ((-1, BLUE, "lower stop"), (1, VERMILION, "upper stop")):
             hit = sides == side
             if several:
-                color, title = CYCLE[place % len(CYCLE)], member.title if side < 0 else None
+                color, title = colour_of(place), member.title if side < 0 else None
             if hit.any():
                 dots(axes, along[hit], before[hit], color, title)
     finish(members, axes, axis)
@@ -84,7 +86,8 @@ def mark_words(axes, output, axis):
     words, along = words[order], along[order]
     starts = np.flatnonzero(np.append(True, words[1:] != words[:-1]))
     for start in starts[1:]:
-        axes.axvline((along[start - 1] + along[start]) / 2, color=STOP, lw=0.5, ls=(0, (1, 2)), zorder=0.5)
+        place = (along[start - 1] + along[start]) / 2
+        axes.axvline(place, color=STOP, lw=0.5, ls=(0, (1, 2)), zorder=0.5, gid=CHANGE)
     ends = np.append(starts[1:], len(words)) - 1
     runs = [(start, end) for start, end in zip(starts, ends) if words[start]]
     low, high = axes.get_ylim()
@@ -93,7 +96,7 @@ def mark_words(axes, output, axis):
         axes.text(
             (along[start] + along[end]) / 2,
             0.96,
-            plain(words[start]),
+            short_word(words[start]),
             fontsize=7,
             va="top",
             ha="center",
@@ -104,15 +107,23 @@ def mark_words(axes, output, axis):
 
 
 def keep_words_with_room(figure):
-    """Removes the words that lie on another one or beyond their panel; everything else must be in the figure."""
-    kept = {}
+    """Removes the words that lie on another one, on the end of their run or beyond their panel; everything else must
+    be in the figure."""
+    kept, ends = {}, {axes: changes_in(axes) for axes in figure.axes}
     for text in figure.findobj(lambda artist: artist.get_gid() == WORD):
-        box, boxes = text.get_window_extent().padded(2.0), kept.setdefault(text.axes, [])
-        inside = text.axes.bbox.x0 < box.x0 and box.x1 < text.axes.bbox.x1
-        if inside and not any(box.overlaps(other) for other in boxes):
+        box = text.get_window_extent().padded(ROOM * figure.dpi / 72.0)
+        boxes, frame = kept.setdefault(text.axes, []), text.axes.bbox
+        is_cut = np.any((box.x0 < ends[text.axes]) & (ends[text.axes] < box.x1))
+        if frame.x0 < box.x0 and box.x1 < frame.x1 and not is_cut and not any(box.overlaps(other) for other in boxes):
             boxes.append(box)
         else:
             text.remove()
+
+
+def changes_in(axes):
+    """The places of the lines between different words, in pixels."""
+    places = [line.get_xdata()[0] for line in axes.get_lines() if line.get_gid() == CHANGE]
+    return axes.transData.transform([(place, 0.0) for place in places])[:, 0] if places else np.empty(0)
 
 
 def mark_multipliers(axes, output, axis):

@@ -10,7 +10,7 @@ from plot_data import ESCAPED, has_failed, lacks_period
 from plot_scales import COUNTS, is_integer, shown_values
 from plot_names import amount, in_frame, label, result_in_words, symbol, with_unit
 from plot_text import plain
-from plot_style import BLUE, CYCLE, STOP, draw_walls, legend_above, set_axis
+from plot_style import BLUE, STOP, colour_of, draw_walls, legend_above, set_axis
 
 MARGIN = 0.012  # of an axis beside its points
 DENSE = 60  # points from which a curve is drawn without markers
@@ -132,7 +132,7 @@ def curves(members, group, axes):
             member.output,
             name,
             values,
-            CYCLE[(place // len(group) if several else place) % len(CYCLE)],
+            colour_of(place // len(group) if several else place),
             member_title if several else title if len(group) > 1 else None,
             is_count=result in COUNTS,
             **line_style(members, len(group), result, part, place),

@@ -16,15 +16,28 @@ DPI = 200  # of PNG; texts are measured for it, once
 LARGE = 115.0  # square inches, of a picture that has fewer dots an inch
 NOTE = 0.19  # inches, of a line of a caption
 WIDTH = 7.0  # inches, two columns of a journal: fonts below are in points at this size
+WIDEST = 10.5  # inches, of any picture
+LONGEST_LABEL = 1.15  # of the height of a panel, for the name of its ordinate
 
 # Colours that stay apart for colour-blind readers and in grey (Okabe and Ito).
 BLUE, VERMILION, GREEN, ORANGE, PURPLE, SKY = "#0072B2", "#D55E00", "#009E73", "#E69F00", "#CC79A7", "#56B4E9"
 STOP, WALL, GRID = "#404040", "#e4e4e4", "#d0d0d0"
 CYCLE = (BLUE, VERMILION, GREEN, PURPLE, ORANGE, SKY)
+COLOURS = (  # of more than six
+    *CYCLE,
+    *("#8c510a", "#80cdc1", "#762a83", "#b2df8a", "#003c30", "#fdbf6f", "#a50026", "#c7c7f0", "#666666"),
+    *("#f4a582", "#4d9221", "#2166ac", "#fee391", "#7a0177", "#41b6c4", "#bc80bd", "#543005", "#d9ef8b"),
+)
 
 
-def use_style():
-    """The same look on every machine, whatever its matplotlibrc says; the same bytes on every run."""
+def colour_of(number):
+    """The colour of a curve, a branch or a motion by its number; they come again after 24."""
+    return COLOURS[number % len(COLOURS)]
+
+
+def use_style(size=None):
+    """The same look on every machine, whatever its matplotlibrc says; the same bytes on every run. Texts are divided
+    into lines for this size, in inches, if it is given."""
     matplotlib.rcdefaults()
     matplotlib.rcParams.update(
         {
@@ -53,6 +66,7 @@ def use_style():
             "axes.xmargin": 0.0,
             "hatch.linewidth": 0.5,
             "figure.dpi": DPI,
+            "figure.figsize": size or (WIDEST, WIDEST),
             "svg.hashsalt": "clatter",
             "figure.max_open_warning": 0,
         }
@@ -224,7 +238,36 @@ def lay_out(figure):
     for axes in figure.axes:
         axes.set_title(axes.get_title(), fontsize=axes.title.get_fontsize())
     figure.get_layout_engine().execute(figure)
+    if any([divide_label(axes) for axes in figure.axes]):
+        figure.get_layout_engine().execute(figure)
     figure.set_layout_engine(None)  # else every format is drawn twice, first to lay it out
+
+
+def divide_label(axes):
+    """Divides the name of an ordinate into lines if it is longer than its panel has room for; returns whether it is."""
+    name, room = axes.yaxis.label, LONGEST_LABEL * axes.bbox.height
+    length, text = name.get_window_extent().height, name.get_text()
+    if length <= room or not text:
+        return False
+    name.set_text("\n".join(lines_of(text, room / length * max(map(letters, text.split("\n"))))))
+    return name.get_text() != text
+
+
+def letters(text):
+    """About how many letters wide a text is, without the signs that typeset it."""
+    return len(re.sub(r"[$^_{}]|\\[a-z]+", "", text))
+
+
+def lines_of(text, room):
+    """A text in lines of about so many letters, none of which ends within mathematics."""
+    lines = []
+    for word in re.split(r"[ \n]", text):
+        is_open = bool(lines) and lines[-1].count("$") % 2 == 1
+        if lines and (is_open or letters(f"{lines[-1]} {word}") <= room):
+            lines[-1] += f" {word}"
+        else:
+            lines.append(word)
+    return lines
 
 
 def resolution(figure, dpi):
@@ -233,4 +276,5 @@ def resolution(figure, dpi):
 
 
 def new_figure(height, width=WIDTH):
-    return pyplot.figure(figsize=(width, height), layout="constrained")
+    widest, _ = matplotlib.rcParams["figure.figsize"]
+    return pyplot.figure(figsize=(min(width, widest), height), layout="constrained")

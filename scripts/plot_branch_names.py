@@ -1,0 +1,71 @@
+"""Which branches of a picture have a colour and a name of their own: the first and the longest."""
+
+import numpy as np
+
+from plot_choice import differences
+from plot_style import colour_of
+from plot_text import plain, short_word
+
+NAMED = 10  # branches, or files if there are several
+REST = "#a0a0a0"  # colour of all others
+
+
+def colours_and_names(branches, parameter, names):
+    """The colour of each branch that is named, by the place of its file and its number, and the entries of the legend:
+    (colour, name). `names` are those of the quantities that the panels show."""
+    units = [[(place, number) for number in numbers_in(output)] for place, output in enumerate(branches)]
+    titles = titles_of_files(branches) if len(units) > 1 else [title_of(branches[0], number) for _, number in units[0]]
+    units = units if len(units) > 1 else [[branch] for branch in units[0]]
+    extents = {key: extent(branches, key) for key in (parameter, *names)}
+    lengths = [sum(drawn_length(branches[place], number, extents) for place, number in unit) for unit in units]
+    longest = sorted(range(1, len(units)), key=lambda unit: -lengths[unit])
+    named = sorted([0, *longest[: NAMED - 1]])
+    colours = {branch: colour_of(rank) for rank, unit in enumerate(named) for branch in units[unit]}
+    legend = [(colour_of(rank), titles[unit]) for rank, unit in enumerate(named)]
+    rest = len(units) - len(named)
+    if rest:
+        one, many = ("branch", "branches") if len(branches) == 1 else ("file", "files")
+        legend.append((REST, f"{rest} other {one if rest == 1 else many}"))
+    return colours, legend
+
+
+def numbers_in(output):
+    return np.unique(output.values("branch"))
+
+
+def title_of(output, number):
+    return f"{word_of(output, number)}, branch {number}"
+
+
+def titles_of_files(branches):
+    """The regime and word that each file begins with, and how it differs from the others if these are the same."""
+    titles = []
+    for output in branches:
+        regime = output.values("regime")[middle(output, numbers_in(output)[0])]
+        titles.append(f"{plain(regime)}, {word_of(output, numbers_in(output)[0])}")
+    if len(set(titles)) < len(titles):
+        titles = [f"{name}: {title}" for name, title in zip(differences(branches), titles)]
+    return titles
+
+
+def word_of(output, number):
+    return short_word(output.values("word")[middle(output, number)]) or "no impacts"
+
+
+def middle(output, number):
+    """The point in the middle of a branch."""
+    own = np.flatnonzero(output.values("branch") == number)
+    return own[len(own) // 2]
+
+
+def extent(branches, key):
+    values = np.concatenate([output.values(key) for output in branches])
+    values = values[np.isfinite(values)]
+    return np.ptp(values) if values.size and np.ptp(values) > 0 else 1.0
+
+
+def drawn_length(output, number, extents):
+    """How long a branch is in the panels, in parts of their sides."""
+    own = output.values("branch") == number
+    steps = [np.nan_to_num(np.diff(output.values(key)[own]) / length) for key, length in extents.items()]
+    return np.linalg.norm(steps, axis=0).sum()
