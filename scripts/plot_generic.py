@@ -269,8 +269,6 @@ def map_panels(output, grid, drawn, caption):
         return panels  # no map can show what depends on both
     if "regime" in output and drawn(*TEXTS):
         panels.append(lambda figure, axes: regime_map(figure, axes, grid, status, output.values("regime")))
-        if "symmetric" in output and (output.values("symmetric") == 0).any():
-            caption.append("a motion and its mirror image have one regime")
     if "period_ratio" in output and drawn("period_ratio"):
         ratio = output.values("period_ratio")
         panels.append(lambda figure, axes: kind_map(figure, axes, grid, status, ratio))

@@ -307,7 +307,9 @@ def regime_map(figure, axes, grid, status, regimes):
         ("failed", "black", has_failed(status)),
         ("escaped", OLIVE, status == ESCAPED),
     ]
-    return class_map(figure, axes, grid, "regime, impacts on a stop / forcing periods", kinds)
+    notes = class_map(figure, axes, grid, "regime, impacts on a stop / forcing periods", kinds)
+    has_twins = "symmetric" in grid.output and (grid.output.values("symmetric") == 0).any()
+    return ["a motion and its mirror image have one regime"] * bool(has_twins) + notes
 
 
 def regime_order(name):
