@@ -46,6 +46,12 @@ class Member:
 
 def members_of(output, along="", over="", at=()):
     """The outputs that share the picture of one file, at most one of them if they have two axes."""
+    members = chosen_members(output, along, over, at)
+    return [Member(member.title, member.output.without_infinite_values()) for member in members]
+
+
+def chosen_members(output, along, over, at):
+    """The same with all the values of their axes, infinite ones, too."""
     for axis, value in at:
         output = output.at(require_axis(output, axis, "--at"), index_at(output, axis, value))
     for axis, option in ((along, "--along"), (over, "--over")):

@@ -18,6 +18,7 @@ GRAZING = 3  # status of periodic motion without multipliers, since it just touc
 FIRST_FAILURE = 16  # status values from here on have no results
 ESCAPED = 19  # of them, the one that is no failure: nothing brings the mass back
 SOFT_STOPS = ("stop_stiffness_lower", "stop_stiffness_upper")
+SI_WORDS = {"tau": "t", "xs": "gap"}  # of long names, in [machine]
 SHAKEN = ("stop_amplitude", "base_amplitude")
 
 
@@ -67,8 +68,9 @@ class Output:
                 branch[key]: branch.get(f"{key}_range", branch["range"]) for key in ("along", "across") if key in branch
             }
         self.held = {}  # axes at one value each
+        self.left_out = set()  # axes without their infinite values
         for name, words in self.names_of_results().items():
-            if name in self and not (self.is_branch or self.is_accuracy):
+            if name in self:
                 self.variables[name] = dataclasses.replace(self[name], long_name=words)
 
     def read(self, path):
@@ -173,13 +175,30 @@ class Output:
         """This output with the values of its only axis sorted, unless they are a path that the sweep followed."""
         if len(self.axes) != 1 or self.follow or (np.diff(self.values(self.axes[0])) >= 0).all():
             return self
-        axis, part = self.axes[0], copy.copy(self)
-        order = np.argsort(self.values(axis), kind="stable")
-        part.variables = {name: variable.at(axis, order) for name, variable in self.variables.items()}
-        for name, variable in part.variables.items():
-            part.variables[name] = dataclasses.replace(variable, dims=self[name].dims)
+        return self.picked(self.axes[0], np.argsort(self.values(self.axes[0]), kind="stable"))
+
+    def without_infinite_values(self):
+        """This output without its points at infinite values of an axis, for which a picture over it has no place."""
+        part = self
+        for axis in self.axes:
+            finite = np.isfinite(self.values(axis))
+            if not finite.any():
+                part = part.at(axis, 0)
+            elif not finite.all():
+                part = part.picked(axis, np.flatnonzero(finite))
+                part.left_out = {*part.left_out, axis}
+        return part
+
+    def picked(self, axis, indexes):
+        """This output at these values of an axis, in this order."""
+        part = copy.copy(self)
+        part.variables = {
+            name: dataclasses.replace(variable.at(axis, indexes), dims=variable.dims)
+            for name, variable in self.variables.items()
+        }
         if "impact_count" in self:
-            part.keep_impacts(self, order)
+            points = np.arange(self.values("status").size).reshape(self.shape)
+            part.keep_impacts(self, points.take(indexes, self.axes.index(axis)))
         return part
 
     def keep_impacts(self, whole, points):
@@ -237,8 +256,13 @@ class Output:
 
     def names_of_results(self):
         """The long names of results that depend on the scene: what counts forcing periods where there are none, in
-        transients and free motion, and what names a key."""
-        names = {"velocity_ratio": "|velocity before impact / gap|"} if self.is_si else {}
+        transients and free motion, and in SI what names time or gap."""
+        long_names = {name: variable.long_name for name, variable in self.variables.items()}
+        for word, own in SI_WORDS.items() if self.is_si else ():
+            long_names = {name: re.sub(rf"\b{word}\b", own, text) for name, text in long_names.items()}
+        names = {name: text for name, text in long_names.items() if text != self[name].long_name}
+        if self.is_branch or self.is_accuracy:
+            return names
         if self.is_transient:
             names["impacts_per_period"] = "impacts in the observed time"
         elif not self.is_forced():

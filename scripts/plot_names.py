@@ -136,7 +136,7 @@ def label(output, name):
     if name == "impacts_per_period" and output.is_transient:
         words = ""
     full = f"{words} {sign if sign not in words else ''}".strip() or plain(variable.long_name if variable else name)
-    return in_frame(output, name, with_unit(output, full, name))
+    return in_frame(output, name, with_unit(output, full, name)) + " (∞ left out)" * (name in output.left_out)
 
 
 def variable_of(output, name):
