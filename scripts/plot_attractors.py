@@ -7,7 +7,7 @@ from plot_data import ESCAPED, FIRST_FAILURE, has_failed
 from plot_maps import OLIVE, class_map, edges_between, name_colours, name_panel
 from plot_scales import shown_values, tidy_ticks
 from plot_names import label, number, symbol
-from plot_style import GREEN, SKY, colour_of, legend_above
+from plot_style import COLOURS, GREEN, SKY, colour_of, legend_above
 from plot_text import plain, short_word
 
 STARTS = ("x0", "v0", "phase", "start_period")
@@ -52,15 +52,30 @@ def percent(share):
     return "< 1 %" if 0 < share < 0.005 else f"{100 * share:.0f} %"
 
 
+def distinct_colours(motions):
+    """The colour of each of a few motions: its own, or a free one if that is taken by another of them."""
+    colours = {}
+    for motion in motions:
+        taken = colours.values()
+        own = colour_of(motion)
+        colours[motion] = own if own not in taken else next(colour for colour in COLOURS if colour not in taken)
+    return colours
+
+
+def shares_of(output):
+    """The share of the points of an output that end in each motion."""
+    numbers = output.values("attractor")
+    counts = np.bincount(numbers[numbers >= 0], minlength=len(output.values("motion")))
+    return counts / max(1, numbers.size)
+
+
 def basin_kinds(output):
     """(name, colour, points) of each motion that points of an output end in."""
-    numbers, status = output.values("attractor"), output.values("status")
-    counts = np.bincount(numbers[numbers >= 0], minlength=len(output.values("motion")))
-    shares = counts / max(1, numbers.size)
+    numbers, status, shares = output.values("attractor"), output.values("status"), shares_of(output)
     chosen, more = frequent(shares)
     kinds = [
-        (f"{name_of(output, motion)}, {percent(shares[motion])}", colour_of(motion), numbers == motion)
-        for motion in chosen
+        (f"{name_of(output, motion)}, {percent(shares[motion])}", colour, numbers == motion)
+        for motion, colour in distinct_colours(chosen).items()
     ]
     if more:
         kinds.append(("others", OTHERS, (numbers >= 0) & ~np.isin(numbers, chosen)))
@@ -80,14 +95,16 @@ def attractor_map(figure, axes, grid, output):
 
 def section_points(axes, output):
     """States of the motions on the plane of the starts."""
-    drawn = False
+    drawn, colours = False, distinct_colours(frequent(shares_of(output))[0])
     for motion in np.unique(output.values("attractor")):
         x, v = section_of(output, motion)
         if x.size == 0:
             continue
         drawn = True
         place = (x, v) if output.axes[0] == "x0" else (v, x)
-        axes.plot(*place, "o", ms=5.5, mfc=colour_of(motion), mec="white", mew=1.2, zorder=4, gid=f"motion {motion}")
+        axes.plot(
+            *place, "o", ms=5.5, mfc=colours.get(motion, OTHERS), mec="white", mew=1.2, zorder=4, gid=f"motion {motion}"
+        )
     return ["points: states of the motions at the forcing phase of the start"] * drawn
 
 
@@ -164,7 +181,8 @@ def share_panel(figure, axes, output):
     edges = edges_between(places)
     chosen, more = frequent(shares.max(axis=0))
     names = apart([name_of(output, motion) for motion in chosen], shares[:, chosen], places, symbol(parameter, output))
-    parts = [(name, colour_of(motion), shares[:, motion]) for name, motion in zip(names, chosen)]
+    colours = distinct_colours(chosen)
+    parts = [(name, colours[motion], shares[:, motion]) for name, motion in zip(names, chosen)]
     if more:
         parts.append(("others", OTHERS, np.delete(shares, chosen, axis=1).sum(axis=1)))
     below = np.zeros(len(places))

@@ -11,7 +11,7 @@ from plot_style import BLUE, CYCLE, GREEN, STOP, VERMILION, colour_of, legend_ab
 
 MANY = 2000  # points, from which on they are small
 WORD = "impact word"  # marks the texts that may have to go
-CHANGE = "other word"  # marks the lines between neighbours
+CHANGE = "_nolegend_: another word"  # marks the lines between neighbours, in no legend
 ROOM = 1.5  # points, beside a word
 CRITICAL = 0.97  # modulus from which on a multiplier tells which bifurcation is near
 
@@ -87,7 +87,7 @@ def mark_words(axes, output, axis):
     starts = np.flatnonzero(np.append(True, words[1:] != words[:-1]))
     for start in starts[1:]:
         place = (along[start - 1] + along[start]) / 2
-        axes.axvline(place, color=STOP, lw=0.5, ls=(0, (1, 2)), zorder=0.5, gid=CHANGE)
+        axes.axvline(place, color=STOP, lw=0.5, ls=(0, (1, 2)), zorder=0.5, label=CHANGE)
     ends = np.append(starts[1:], len(words)) - 1
     runs = [(start, end) for start, end in zip(starts, ends) if words[start]]
     low, high = axes.get_ylim()
@@ -122,7 +122,7 @@ def keep_words_with_room(figure):
 
 def changes_in(axes):
     """The places of the lines between different words, in pixels."""
-    places = [line.get_xdata()[0] for line in axes.get_lines() if line.get_gid() == CHANGE]
+    places = [line.get_xdata()[0] for line in axes.get_lines() if line.get_label() == CHANGE]
     return axes.transData.transform([(place, 0.0) for place in places])[:, 0] if places else np.empty(0)
 
 

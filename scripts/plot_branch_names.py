@@ -17,7 +17,15 @@ def colours_and_names(branches, parameter, names):
     titles = titles_of_files(branches) if len(units) > 1 else [title_of(branches[0], number) for _, number in units[0]]
     units = units if len(units) > 1 else [[branch] for branch in units[0]]
     extents = {key: extent(branches, key) for key in (parameter, *names)}
-    lengths = [sum(drawn_length(branches[place], number, extents) for place, number in unit) for unit in units]
+
+    def length(unit):
+        return sum(
+            drawn_length(branches[place], number, {key: extents[key] for key in (parameter, name)})
+            for place, number in unit
+            for name in names
+        )
+
+    lengths = list(map(length, units))
     longest = sorted(range(1, len(units)), key=lambda unit: -lengths[unit])
     named = sorted([0, *longest[: NAMED - 1]])
     colours = {branch: colour_of(rank) for rank, unit in enumerate(named) for branch in units[unit]}
@@ -65,7 +73,7 @@ def extent(branches, key):
 
 
 def drawn_length(output, number, extents):
-    """How long a branch is in the panels, in parts of their sides."""
+    """How long a branch is in a panel of these quantities, in parts of its sides."""
     own = output.values("branch") == number
     steps = [np.nan_to_num(np.diff(output.values(key)[own]) / length) for key, length in extents.items()]
     return np.linalg.norm(steps, axis=0).sum()

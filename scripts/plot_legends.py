@@ -3,7 +3,7 @@
 import plot_style
 
 SIDES, BAR = 0.75, 1.0  # inches, of a panel's column: what the numbers and names beside it take, and a colour bar
-HIGHEST = 0.25  # of the height of a panel's row, for a legend above it
+HIGHEST, OWN = 0.25, 0.4  # of the height of a panel's row, for a legend above it; for one that no other panel shares
 LARGEST = 0.3  # of the height of a picture of a given size, for the legend below; its letters become smaller
 SIZES = (9.5, 8.0, 7.0)  # points
 WIDEST = 0.98  # of the width of a picture
@@ -30,7 +30,8 @@ def move_down(figure):
     """Removes the legends without room above their panels, and those that name nothing else, and returns their
     entries: (name, line or marker) of each."""
     panels = [axes for axes in figure.axes if axes.get_legend()]
-    crowded = [axes for axes in panels if not fit_above(axes)]
+    most = HIGHEST if all(max(map(entries, panels), key=len).keys() >= entries(axes).keys() for axes in panels) else OWN
+    crowded = [axes for axes in panels if not fit_above(axes, most)]
     names = {name for axes in crowded for name in entries(axes)}
     moved, found = [axes for axes in panels if names.issuperset(entries(axes))], {}
     for axes in moved if crowded else []:
@@ -50,12 +51,13 @@ def look(handle):
     return tuple(getattr(handle, f"get_{part}", str)() for part in ("color", "linestyle", "marker", "facecolor"))
 
 
-def fit_above(axes):
-    """Gives a legend as many columns as its panel has room for, and returns whether it isn't too high then."""
+def fit_above(axes, share):
+    """Gives a legend as many columns as its panel has room for, and returns whether it isn't higher than this share of
+    the panel's row then."""
     figure, grid = axes.figure, axes.get_subplotspec().get_gridspec()
     bars = any(other.get_label() == "<colorbar>" for other in figure.axes)
     room = figure.get_figwidth() / grid.ncols - SIDES - (BAR if bars else 0.0)
-    most = HIGHEST * figure.get_figheight() / grid.nrows
+    most = share * figure.get_figheight() / grid.nrows
     while True:
         legend = axes.get_legend()
         columns = min(legend._ncols, len(legend.get_texts()))
