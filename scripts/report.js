@@ -13,6 +13,9 @@ const doubles = async (text) => new Float64Array(await bytesOf(text));
 // A number with the digits that read back to it, as a command takes it.
 const written = (value) => (value === Infinity ? "inf" : value === -Infinity ? "-inf" : String(value));
 
+// A number of the page's JSON, which has infinite ones as texts.
+const fromJson = (value) => (value === "inf" ? Infinity : value === "-inf" ? -Infinity : value);
+
 const element = (name, properties = {}, ...children) => {
   const made = Object.assign(document.createElement(name), properties);
   made.append(...children);
@@ -44,10 +47,8 @@ class Explorer {
   async begin() {
     const { data } = this;
     if (!data.columns) return this.section.querySelector(".explorer").classList.add("still");
-    for (const axis of data.axes) {
-      axis.values = await doubles(axis.values);
-      for (const key of Object.keys(axis.keys)) axis.keys[key] = await doubles(axis.keys[key]);
-    }
+    for (const axis of data.axes) axis.values = await doubles(axis.values);
+    for (const part of data.command) if (part.values) part.values = await doubles(part.values);
     for (const column of data.columns) column.values = await doubles(column.values);
     this.byName = Object.fromEntries(data.columns.map((column) => [column.name, column]));
     if (data.shape.some((length) => length > 1)) {
@@ -197,12 +198,8 @@ class Explorer {
   }
 
   commandText() {
-    const sets = this.data.axes.flatMap((axis, place) =>
-      Object.entries(axis.keys).map(([key, values]) => ` --set ${this.data.section}.${key}=${written(values[this.chosen[place]])}`));
-    for (const [key, column] of Object.entries(this.data.start || {}))
-      sets.push(` --set scene.${key}=${written(this.byName[column].values[this.flat()])}`);
-    const linked = this.data.linked ? " --set sweep.linked=''" : "";
-    return `clatter run ${this.data.config}${sets.join("")}${linked} -o point.h5`;
+    const place = (part) => (part.axis === undefined ? this.flat() : this.chosen[part.axis]);
+    return this.data.command.map((part) => (part.values ? written(part.values[place(part)]) : part)).join("");
   }
 
   command() {
@@ -225,7 +222,7 @@ class Explorer {
     });
     const flat = places.reduce((sum, place, axis) => sum * histories.indexes[axis].length + place, 0);
     const record = histories.records[flat];
-    const nearest = places.map((place, axis) => histories.axes[axis][place]);
+    const nearest = places.map((place, axis) => fromJson(histories.axes[axis][place]));
     const isOwn = nearest.every((value, axis) => value === axes[axis].values[this.chosen[axis]]);
     const name = axes.map((axis, place) => `${axis.name} = ${written(nearest[place])}`).join(", ");
     const heading = isOwn ? "Motion" : `Motion of the nearest point that has one: ${name}`;

@@ -12,6 +12,7 @@ from plain_hdf5 import text
 from plot_data import Output
 from plot_files import run_child, temporary_folder
 from plot_motion import motion
+from report_commands import followed_axis, keys_along
 from report_points import packed, shared_out, spread
 
 MOST = 200  # points whose motion is in a page
@@ -34,7 +35,7 @@ def histories(output, may_run):
     if any(name not in output for name in ("tau", "x", "v")):
         if not may_run:
             raise NoHistories("The file has no motion, and none was computed (--no-histories).")
-        if output.follow:
+        if followed_axis(output):
             raise NoHistories(
                 "Each point of this sweep started from the end of the one before, so its motion can't be computed "
                 "alone; observe.trajectory stores it."
@@ -44,9 +45,15 @@ def histories(output, may_run):
     points = [tuple(indexes[i] for indexes, i in zip(places, place)) for place in np.ndindex(shape)]
     return {
         "indexes": [list(map(int, indexes)) for indexes in kept],
-        "axes": [list(map(float, output.values(axis)[indexes])) for axis, indexes in zip(output.axes, kept)],
+        "axes": [list(map(in_json, output.values(axis)[indexes])) for axis, indexes in zip(output.axes, kept)],
         "records": [record(part, point, max(500, ROWS // len(points))) for point in points],
     }
+
+
+def in_json(value):
+    """A number as JSON has it; it knows no infinite ones, which are texts here, as a command takes them."""
+    value = float(value)
+    return value if np.isfinite(value) else str(value)
 
 
 def record(output, index, rows):
@@ -92,9 +99,8 @@ def settings(output, kept):
     changes = {f"observe.{key}": "false" for key, value in output.config.get("observe", {}).items() if value is True}
     changes.update({"observe.trajectory": SAMPLES, "observe.impact_log": "true", "time.window": PERIODS})
     for axis, indexes in zip(output.axes, kept):
-        for key in output.sweep:
-            if key in output and output[key].dims == (axis,):
-                changes[f"sweep.{key}"] = "[" + ", ".join(repr(float(v)) for v in output.values(key)[indexes]) + "]"
+        for key in keys_along(output, axis):
+            changes[f"sweep.{key}"] = "[" + ", ".join(repr(float(v)) for v in output.values(key)[indexes]) + "]"
     return [word for key, value in changes.items() for word in ("--set", f"{key}={value}")]
 
 

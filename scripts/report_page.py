@@ -3,6 +3,7 @@
 import base64
 import hashlib
 import json
+import os
 import re
 import subprocess
 from html import escape
@@ -12,6 +13,7 @@ from urllib.parse import quote
 import h5py
 
 from plain_hdf5 import UNREADABLE, damaged, printable, text
+from report_commands import command, command_notes
 from report_histories import NoHistories, config_text, histories, program
 from report_pictures import picture
 from report_points import Points
@@ -26,11 +28,11 @@ ORIGIN = ("clatter_version", "git_commit", "compiler", "source", "config_sha256"
 def page(outputs, title, may_run):
     """The page as text; the same for the same files."""
     script, style = (Path(HERE / f"report.{kind}").read_text(encoding="utf-8") for kind in ("js", "css"))
-    title = title or outputs[0].title or Path(outputs[0].path).stem
+    title = title or outputs[0].title or Path(shown_name(outputs[0].path)).stem
     many = len(outputs) > 1
     sections = [section(place, output, may_run, many) for place, output in enumerate(outputs)]
     policy = f"default-src 'none'; img-src data:; style-src {hashed(style)}; script-src {hashed(script)}"
-    links = "".join(f'<a href="#file-{i}">{escape(Path(o.path).name)}</a>' for i, o in enumerate(outputs))
+    links = "".join(f'<a href="#file-{i}">{escape(Path(shown_name(o.path)).name)}</a>' for i, o in enumerate(outputs))
     return (
         f"<!doctype html>\n{MARK}\n<html lang=en>\n<head>\n<meta charset=utf-8>\n"
         f'<meta http-equiv=Content-Security-Policy content="{policy}">\n'
@@ -51,9 +53,9 @@ def section(place, output, may_run, has_title):
     """All of one file."""
     points = Points(output) if not output.is_accuracy else None
     svg, panels = picture(output)
-    name = Path(output.path).stem
+    name = Path(shown_name(output.path)).stem
     toml = config_of(output)
-    data = {"panels": panels, "config": f"{name}.toml", **(points.packed() if points else {"shape": [0]})}
+    data = {"panels": panels, **(points.packed() if points else {"shape": [0]})}
     notes = []
     try:
         data["histories"] = histories(output, may_run)
@@ -64,18 +66,9 @@ def section(place, output, may_run, has_title):
             f"The page has the numbers of {' × '.join(map(str, points.shape))} points, evenly spread over the "
             f"{' × '.join(map(str, points.whole))} of the file; a click shows the nearest of them."
         )
-    if output.follow:
-        notes.append(
-            "Each point started from the end of the one before. The command of a point starts it from x0 and v0 of the "
-            "configuration, so it may find another motion."
-        )
-    data["linked"] = bool(output.sweep.get("linked"))
-    if output.is_branch:
-        data["start"] = {**{key: key for key in output.sweep}, "x0": "x", "v0": "v"}
-        notes.append(
-            "The command of a point starts from its state. Motion that is unstable there leaves it, so the run ends in "
-            "another."
-        )
+    if points:
+        data["command"] = command(output, points)
+        notes += command_notes(output, f"{name}.toml")
     explorer = f"""<div class=explorer>
 <figure class=picture tabindex=0>
 <div class=frame><img alt="Picture of {escape(name)}" src="data:image/svg+xml;base64,{encoded(svg)}"></div>
@@ -85,7 +78,7 @@ def section(place, output, may_run, has_title):
 </div>"""
     return (
         f'<section class=file id="file-{place}">\n{f"<h2>{escape(output.title or name)}</h2>" if has_title else ""}\n'
-        f"<p class=path>{escape(str(Path(output.path).name))}</p>\n{explorer}\n"
+        f"<p class=path>{escape(Path(shown_name(output.path)).name)}</p>\n{explorer}\n"
         + "".join(f"<p class=note>{escape(note)}</p>" for note in notes)
         + tables(output, points)
         + how_it_was_made(output, name, toml, may_run)
@@ -97,9 +90,14 @@ def encoded(content):
     return base64.b64encode(content.encode()).decode()
 
 
+def shown_name(path):
+    """A file's name as text that has an encoding, whatever its bytes are."""
+    return os.fsencode(path).decode(errors="replace")
+
+
 def safe_json(data):
-    """JSON that ends no element of the page."""
-    return json.dumps(data, separators=(",", ":")).replace("<", "\\u003c")
+    """JSON that ends no element of the page; it has no word for numbers that are not finite."""
+    return json.dumps(data, separators=(",", ":"), allow_nan=False).replace("<", "\\u003c")
 
 
 def config_of(output):

@@ -60,15 +60,24 @@ def branch_panels(figure, output):
 
 
 def sweep_panels(figure, output, shown):
-    """Panels whose places stand for points: maps of the two axes that are shown, or curves over one."""
+    """Panels whose places stand for points: maps of the two axes that are shown, curves or areas over one of them."""
     places = [output.axes.index(axis) for axis in shown.axes]
     panels = []
     for axes in figure.axes:
-        is_map = len(places) == 2 and any(isinstance(image, AxesImage) for image in axes.images)
-        is_curve = len(places) == 1 and axes.get_xlabel() == plot_names.label(shown, shown.axes[0])
-        if axes.get_label() != "<colorbar>" and (is_map or is_curve):
+        if axes.get_label() == "<colorbar>":
+            continue
+        if len(places) == 2 and any(isinstance(image, AxesImage) for image in axes.images):
             panels.append(frame(axes, axes=places))
+        else:
+            across = [place for place, axis in zip(places, shown.axes) if lies_across(axes, shown, axis)]
+            panels += [frame(axes, axes=[place]) for place in across]
     return panels
+
+
+def lies_across(axes, shown, axis):
+    """Whether a panel has an axis of the sweep as its abscissa; its label may go on, with what its ticks share."""
+    label, text = plot_names.label(shown, axis), axes.get_xlabel()
+    return text.startswith(label) and text[len(label) :][:1] in ("", " ", ",")
 
 
 def frame(panel, **under):

@@ -57,7 +57,6 @@ class Points:
         return {
             "shape": self.shape,
             "whole": [list(map(int, kept)) for kept in self.kept],  # their indexes in the file
-            "section": "machine" if self.output.is_si else "scene",  # of the keys that a command sets
             "axes": [] if self.output.is_branch else [self.axis(place) for place in range(len(self.axes))],
             "columns": [self.column(*column) for column in self.columns],
         }
@@ -65,12 +64,10 @@ class Points:
     def axis(self, place):
         name, kept = self.axes[place], self.kept[place]
         unit = self.output[name].units
-        keys = [key for key in self.output.sweep if key in self.output and self.output[key].dims == (name,)]
         return {
             "name": name,
             "title": self.output[name].long_name + (f" ({unit})" if unit != "1" else ""),
             "values": packed(self.output.values(name)[kept]),
-            "keys": {key: packed(self.output.values(key)[kept]) for key in keys if key != "direction"},
         }
 
     def column(self, name, variable, part):

@@ -70,12 +70,23 @@ def plain(value):
 
 
 def motions(output):
+    """Each motion with its share of the starts; if parameters vary, the largest, where that is, and at how many."""
+    shares = output.values("motion_share")
+    parameters = output["motion_share"].dims[:-1]
     rows = []
-    for motion in np.argsort(-output.values("motion_share"), kind="stable"):
-        names = ("motion_share", "motion_share_low", "motion_share_high", "motion_period_ratio", "motion_x", "motion_v")
-        rows.append([motion, name_of(output, motion), *(output.values(name)[motion] for name in names)])
-    heads = ["number", "motion", "share", "at least", "at most", "periods of the force", "x", "x′"]
-    return table("Motions", heads, rows, "The bounds of a share hold with 95 % confidence; x and x′ are its section.")
+    for motion in np.argsort(-shares.reshape(-1, shares.shape[-1]).max(axis=0), kind="stable"):
+        index = np.unravel_index(np.argmax(shares[..., motion]), shares.shape[:-1])
+        row = [motion, name_of(output, motion)]
+        row += [output.values(f"motion_share{end}")[(*index, motion)] for end in ("", "_low", "_high")]
+        if parameters:
+            row += [", ".join(place_of(output, axis, i) for axis, i in zip(parameters, index))]
+            row += [np.count_nonzero(shares[..., motion])]
+        rows.append([*row, *(output.values(f"motion_{name}")[motion] for name in ("period_ratio", "x", "v"))])
+    where = ["at", f"found at, of {shares[..., 0].size}"] if parameters else []
+    share = "largest share" if parameters else "share"
+    heads = ["number", "motion", share, "at least", "at most", *where, "periods of the force", "x", "x′"]
+    note = "The bounds of a share hold with 95 % confidence; x and x′ are the motion's state at forcing phase 0"
+    return table("Motions", heads, rows, note + (", at the first parameters that have it." if parameters else "."))
 
 
 def extremes(output, points):

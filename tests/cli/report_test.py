@@ -2,7 +2,6 @@
 
 import base64
 import html
-import json
 import re
 import unittest
 import zlib
@@ -10,36 +9,12 @@ import zlib
 import h5py
 import numpy as np
 
-from command_line import CLATTER, SMALL, SOURCE, CommandLine
-from script_runs import run_script, start_script
+from command_line import SMALL, SOURCE
+from report_runs import ReportRuns, data_of, doubles
+from script_runs import start_script
 
 
-def doubles(text):
-    return np.frombuffer(zlib.decompress(base64.b64decode(text)), "<f8")
-
-
-class Report(CommandLine):
-    def report(self, *words, environment=None, run=run_script):
-        return run(
-            "report.py",
-            *words,
-            cwd=self.directory,
-            environment={"PATH": "/usr/bin:/bin", "CLATTER": CLATTER, **(environment or {})},
-        )
-
-    def page(self, *words, name="report.html", **how):
-        done = self.report(*words, "-o", name, **how)
-        self.assertEqual((done.returncode, done.stdout, done.stderr), (0, f"{name}\n", ""))
-        return (self.directory / name).read_text(encoding="utf-8")
-
-    def data(self, page):
-        return json.loads(re.search(r"<script type=application/json>(.*?)</script>", page, re.DOTALL)[1])
-
-    def run_config(self, config, file, *sets, command="run"):
-        words = [word for change in sets for word in ("--set", change)]
-        done = self.clatter(command, str(config), "-o", file, "-q", *words)
-        self.assertEqual((done.returncode, done.stderr), (0, ""))
-
+class Report(ReportRuns):
     def small(self, *sets):
         (self.directory / "a.toml").write_text(SMALL, encoding="utf-8")
         self.run_config("a.toml", "a.h5", *sets)
@@ -48,7 +23,7 @@ class Report(CommandLine):
         self.run_config(
             SOURCE / "configs/map_nu_xs.toml", "m.h5", "sweep.nu=linspace(0.8, 1.2, 21)", "observe.word=true"
         )
-        data = self.data(self.page("m.h5"))
+        data = data_of(self.page("m.h5"))
         self.assertEqual(data["shape"], [21, 60])
         with h5py.File(self.directory / "m.h5") as file:
             for axis in data["axes"]:
@@ -69,32 +44,15 @@ class Report(CommandLine):
 
     def test_a_click_in_a_panel_of_a_map_names_a_point_of_both_axes(self):
         self.run_config(SOURCE / "configs/map_nu_xs.toml", "m.h5", "sweep.nu=linspace(0.8, 1.2, 9)")
-        for panel in self.data(self.page("m.h5", "--no-histories"))["panels"]:
+        for panel in data_of(self.page("m.h5", "--no-histories"))["panels"]:
             self.assertEqual(panel["axes"], [0, 1])
             left, top, right, bottom = panel["box"]
             self.assertTrue(0 <= left < right <= 1 and 0 <= top < bottom <= 1, panel)
             self.assertTrue(panel["limits"][0] < 0.8 < 1.2 < panel["limits"][1], panel)
 
-    def test_the_keys_of_a_point_run_it_alone_with_the_same_bits(self):
-        self.small('sweep.linked="nu, f"', "sweep.f=linspace(-1, -2, 5)")
-        page = self.page("a.h5")
-        data = self.data(page)
-        toml = html.unescape(re.search(r"<pre>(title.*?)</pre>", page, re.DOTALL)[1])
-        (self.directory / data["config"]).write_text(toml, encoding="utf-8")
-        keys = {key: doubles(values) for axis in data["axes"] for key, values in axis["keys"].items()}
-        self.assertEqual(set(keys), {"nu", "f"})
-        self.assertTrue(data["linked"])
-        columns = {column["name"]: doubles(column["values"]) for column in data["columns"]}
-        for place in (0, 3):
-            sets = [f"scene.{key}={values[place]!r}" for key, values in keys.items()]
-            self.run_config(data["config"], f"p{place}.h5", *sets, "sweep.linked=")
-            with h5py.File(self.directory / f"p{place}.h5") as file:
-                for name in ("x_min", "x_max", "period"):
-                    self.assertEqual(file[name][()], columns[name][place])
-
     def test_motion_is_computed_at_points_of_the_sweep(self):
         self.small()
-        data = self.data(self.page("a.h5"))
+        data = data_of(self.page("a.h5"))
         columns = {column["name"]: doubles(column["values"]) for column in data["columns"]}
         histories = data["histories"]
         self.assertEqual(histories["indexes"], [[0, 1, 2, 3, 4]])
@@ -108,7 +66,7 @@ class Report(CommandLine):
     def test_without_the_program_the_page_says_that_motion_is_missing(self):
         self.small()
         page = self.page("a.h5", environment={"CLATTER": str(self.directory / "none")})
-        self.assertNotIn("histories", self.data(page))
+        self.assertNotIn("histories", data_of(page))
         self.assertIn("The motion wasn&#x27;t computed", page)
         self.assertIn("--no-histories", self.page("a.h5", "--no-histories"))
 
@@ -119,7 +77,7 @@ class Report(CommandLine):
         )
         page = self.page("m.h5")
         self.assertLess(len(page), 5_000_000)
-        data = self.data(page)
+        data = data_of(page)
         self.assertGreater(min(data["shape"]), 100)
         self.assertLessEqual(max(data["shape"]), 200)
         rows, columns = data["shape"]
@@ -136,7 +94,7 @@ class Report(CommandLine):
         with h5py.File(self.directory / "b.h5") as file:
             for kind, nu in zip(file["special_kind"].asstr()[:], file["special_nu"][:]):
                 self.assertIn(f"<tr><td>{kind}</td><td class=number>{float(nu)!r}</td>", page)
-            self.assertEqual(self.data(page)["shape"], [len(file["nu"])])
+            self.assertEqual(data_of(page)["shape"], [len(file["nu"])])
         starts = ("sweep.x0=linspace(-3, 3, 11)", "sweep.v0=linspace(-6, 6, 11)")
         self.run_config(SOURCE / "configs/basins.toml", "s.h5", *starts)
         self.assertIn("<h3>Motions</h3>", self.page("s.h5"))
