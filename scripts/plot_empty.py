@@ -10,8 +10,10 @@ from plot_scales import shown_values
 EMPTY = "empty"  # marks the text of a panel without anything
 
 
-def say_empty(axes, words):
-    """A text in the middle of a panel that has nothing else."""
+def say_empty(axes, words, is_map=False):
+    """A text in the middle of a panel that has nothing else, so that its ordinate has no numbers but in a map."""
+    if not is_map:
+        axes.set_yticks([])
     axes.text(0.5, 0.5, words, transform=axes.transAxes, ha="center", va="center", gid=EMPTY)
 
 
@@ -35,11 +37,10 @@ def empty_panel(output, only, set_axes):
     """One panel for the results that are asked for and that no point has, with the reason in it."""
 
     def draw(figure, axes):
+        is_map = len(output.axes) > 1
         set_axes(axes, output, output.axes[0])
-        if len(output.axes) == 1:
-            axes.set_yticks([])
-        axes.set_ylabel(label(output, names[0]))
-        say_empty(axes, why_empty(output, names[0]))
+        (axes.set_title if is_map else axes.set_ylabel)(label(output, names[0]))
+        say_empty(axes, why_empty(output, names[0]), is_map)
 
     names = empty_results(output, only)
     return [draw] if names else []

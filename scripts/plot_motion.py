@@ -130,8 +130,9 @@ def impact_log(output, index, axes, period=None):
         end = 2 * period
         sides, before = (repeated(times, part, period, end)[1] for part in (sides, before))
         times = repeated(times, times, period, end)[0]
-    axes.axhline(0.0, color=STOP, lw=0.7)
-    if not times.size:
+    if times.size:
+        axes.axhline(0.0, color=STOP, lw=0.7)
+    else:
         say_empty(axes, "no impacts")
     for side, marker, color, title in ((-1, "v", BLUE, "lower stop"), (1, "^", VERMILION, "upper stop")):
         hit = sides == side

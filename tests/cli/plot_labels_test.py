@@ -1,0 +1,111 @@
+"""A label says whose key, which unit and which extreme it means, a logarithmic scale what it leaves out, and a panel
+why it is empty.
+
+Environment: CLATTER, the program; CLATTER_SOURCE, the source directory.
+"""
+
+import unittest
+
+import numpy as np
+
+from scene_pictures import ScenePictures
+from script_runs import run_script
+
+
+class Labels(ScenePictures):
+    def test_one_extreme_is_named_as_such(self):
+        for name, words in (("v_max", "maximum"), ("v_min", "minimum"), ("x_max", "maximum"), ("x_min", "minimum")):
+            axes = self.figure("path", only=(name,)).axes[0]
+            self.assertTrue(axes.get_ylabel().startswith(words), axes.get_ylabel())
+        self.assertEqual(self.figure("path", only=("x_min", "x_max")).axes[0].get_ylabel(), "displacement $x$")
+        self.assertTrue(
+            self.figure("speeds", only=("v_before",)).axes[0].get_ylabel().startswith("velocity before impact")
+        )
+
+    def test_a_logarithmic_scale_names_what_it_leaves_out(self):
+        figure = self.figure("path", only=("x_min", "x_max", "v_max"), log="y")
+        legend = [text.get_text() for text in figure.axes[0].get_legend().get_texts()]
+        self.assertIn(r"$x_{\max}$", legend)
+        self.assertNotIn(r"$x_{\min}$", legend)
+        self.assertTrue(self.caption(figure).endswith(r"at 0 and below, so not on a logarithmic axis: $x_{\min}$"))
+        self.assertGreater(figure.axes[0].get_ylim()[0], 0)
+        figure = self.figure("path", only=("x_min",), log="y")
+        self.assertEqual(empty_texts(figure), ["nothing above 0"])
+        self.assertNotIn("logarithmic", self.caption(self.figure("path", only=("x_max",), log="y")))
+
+    def test_a_map_on_logarithmic_axes_refuses_values_at_0_and_below(self):
+        result = run_script("plot.py", self.folder / "twins.h5", "--log", "x", "-o", self.folder / "drawn")
+        self.assertEqual((result.returncode, result.stdout), (2, ""))
+        self.assertRegex(result.stderr, r"^plot.py: --log x: x0 begins at -1.4, .*; leave 'x' out\n$")
+
+    def test_every_panel_of_a_machine_has_its_unit(self):
+        without = ("harmonic", "impacts per", "share of time", "period in forcing")
+        for name in ("machine", "machine_point", "machine_log", "large"):
+            for axes in self.figure(name).axes:
+                for words in (axes.get_xlabel(), axes.get_ylabel()):
+                    if axes.axison and words and not words.startswith(without):
+                        self.assertRegex(words, r"\((mm|m|s|Hz|J|W|N|N\Ws|m\Ws\$\^{-1}\$|s\$\^{-1}\$|rad)\)", name)
+        log = self.figure("machine_log").axes
+        self.assertEqual(log[0].get_xlabel(), "displacement $x$ (mm) once a forcing period")
+        self.assertEqual(log[1].get_xlabel(), "time $t$ (s)")
+        self.assertIn("(m\N{NO-BREAK SPACE}s$^{-1}$)", log[1].get_ylabel())
+
+    def test_short_lengths_are_in_millimetres(self):
+        history = self.figure("machine_point").axes[0]
+        self.assertEqual(history.get_ylabel(), "displacement $x$ (mm)")
+        self.assertEqual(numbers_beside(history), [-2.0, -1.0, 0.0, 1.0, 2.0])
+        self.assertLess(np.abs(history.lines[0].get_ydata()).max(), 0.0021)  # the data are those of the file
+        figure = self.figure("machine_map")
+        self.assertEqual(figure.axes[0].get_ylabel(), "gap (mm)")
+        self.assertLessEqual({1.0, 2.0, 3.0, 4.0}, set(numbers_beside(figure.axes[0])))
+        titles = [axes.get_title().split("\n")[0] for axes in figure.axes]
+        bar = figure.axes[titles.index(r"maximum $x_{\max}$ (mm)") + 1]
+        self.assertEqual(max(numbers_beside(bar)), 4.0)
+        self.assertIn("gap = 2\N{NO-BREAK SPACE}mm", self.figure("machine")._suptitle.get_text())
+        large = self.figure("large").axes[0]
+        self.assertEqual(large.get_ylabel(), "displacement $x$ (m)")
+        self.assertEqual(max(numbers_beside(large)), 2.0)
+
+    def test_a_machine_is_labelled_by_its_own_keys(self):
+        figure = self.figure("dampers")
+        self.assertEqual(figure.axes[0].get_xlabel(), "damping_ratio")
+        for name in ("machine", "machine_point", "dampers", "machine_map"):
+            figure = self.figure(name)
+            texts = [axes.get_xlabel() + axes.get_ylabel() + axes.get_title() for axes in figure.axes]
+            texts += [figure._suptitle.get_text(), self.caption(figure)]
+            for words in ("$h$", r"\tau", "x_s", r"\nu", "xs", "tau"):
+                self.assertNotIn(words, " ".join(texts), name)
+        self.assertIn("damping_ratio = 0.1", self.figure("machine")._suptitle.get_text())
+        heading = self.figure("damped_stops")._suptitle.get_text()
+        self.assertIn("stop_damping = 20\N{NO-BREAK SPACE}N\N{NO-BREAK SPACE}s\N{NO-BREAK SPACE}m$^{-1}$", heading)
+
+    def test_an_empty_panel_says_that_there_are_no_impacts(self):
+        for name, options in (
+            ("far", {"only": ("impact_log", "impact_count")}),
+            ("far", {"only": ("v_before",)}),
+            ("far", {"only": ("impact_speed",)}),
+            ("far_map", {"only": ("v_before",)}),
+            ("far_point", {}),
+        ):
+            with self.subTest(name, **options):
+                self.assertEqual(empty_texts(self.figure(name, **options)), ["no impacts"])
+        self.assertEqual(empty_texts(self.figure("speeds")), [])
+        texts = self.draw("far_point", arguments=["--only", "v_before"]).texts()
+        self.assertIn("no impacts", texts)
+
+
+def empty_texts(figure):
+    """What the panels without anything say."""
+    return [text.get_text() for axes in figure.axes for text in axes.texts if text.get_gid() == "empty"]
+
+
+def numbers_beside(axes):
+    """The numbers beside the ordinate within its limits."""
+    low, high = axes.get_ylim()
+    pairs = zip(axes.get_yticks(), axes.get_yticklabels())
+    texts = [text.get_text() for place, text in pairs if low - 1e-12 <= place <= high + 1e-12]
+    return [float(text.replace("\N{MINUS SIGN}", "-")) for text in texts]
+
+
+if __name__ == "__main__":
+    unittest.main()
