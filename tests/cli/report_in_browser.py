@@ -1,48 +1,57 @@
-"""Opens reports in headless Chromium: no error, no network, numbers of the file at a click, steps by keys, print.
+"""Opens reports in headless Chromium: no error, no network, numbers of the file at a click, commands that give them
+again, steps by keys, print.
 
 usage: report_in_browser.py FOLDER    leaves screenshots and a PDF there; scripts/check.sh report runs it
 """
 
 import base64
-import csv
 import json
 import os
-import shlex
 import subprocess
 import sys
 from pathlib import Path
-from urllib.parse import unquote
 
+import h5py
+import numpy as np
 from selenium import webdriver
 from selenium.webdriver.common.actions.action_builder import ActionBuilder
 from selenium.webdriver.common.by import By
 from selenium.webdriver.common.keys import Keys
 
+from report_runs import ReportRuns, branch_point, is_branch, results_at, shipped
+
 CLATTER = os.environ["CLATTER"]
 SOURCE = Path(os.environ["CLATTER_SOURCE"])
+CONFIGS = SOURCE / "configs"
 REPORT = ["/usr/bin/python3", SOURCE / "scripts" / "report.py"]
 SWITCHES = "headless no-sandbox disable-gpu disable-quic no-first-run disable-background-networking disable-sync"
 
-RESULTS = ("x_min", "x_max", "period", "settling_periods", "lyapunov", "v_before[1]", "impact_total")
+FIRST, SECOND = (0.31, 0.62), (0.77, 0.2)  # places of clicks, as shares of a panel
+DRIVE = (
+    "drive_si",
+    ("branch.along=frequency", "branch.range=22 Hz, 28 Hz", "machine.frequency=25 Hz", "machine.phase=1"),
+)
+SOFT = ("soft_bumper", ("sweep.stop_stiffness=1e2, 1e4, 1e6, inf",))
 
-# name: command and words that make its file
-PAGES = {
-    "map": ("run", "map_nu_xs", "--set", "observe.word=true"),
-    "curves": ("run", "fig22"),
-    "diagram": ("run", "bifurcation"),
-    "basins": ("run", "basins", "--set", "sweep.x0=linspace(-3, 3, 101)", "--set", "sweep.v0=linspace(-6, 6, 101)"),
-    "branch": ("branch", "branch"),
-    "motion": ("run", "transient"),
-    "hysteresis": ("run", "hysteresis"),
-}
+
+def pages():
+    """Name, command, configuration and settings of each page: all that are shipped, and some of other kinds."""
+    for config, command, sets in shipped():
+        if config.suffix == ".toml":
+            yield config.stem, command, config, sets
+    yield "map", "run", CONFIGS / "map_nu_xs.toml", ("observe.word=true",)
+    yield "machine_branch", "branch", CONFIGS / f"{DRIVE[0]}.toml", DRIVE[1]
+    yield "infinite", "run", CONFIGS / f"{SOFT[0]}.toml", SOFT[1]
 
 
 def make(folder):
-    for name, (command, config, *words) in PAGES.items():
+    for name, command, config, sets in pages():
         file = folder / f"{name}.h5"
-        config = SOURCE / "configs" / f"{config}.toml"
-        subprocess.run([CLATTER, command, config, "-q", "-o", file, *words], check=True, stdout=subprocess.DEVNULL)
-        subprocess.run([*REPORT, file, "-o", folder / f"{name}.html"], check=True, stdout=subprocess.DEVNULL)
+        words = [word for change in sets for word in ("--set", change)]
+        quiet = {"check": True, "stdout": subprocess.DEVNULL, "cwd": folder}
+        subprocess.run([CLATTER, command, config, "-q", "--force", "-o", file.name, *words], **quiet)
+        subprocess.run([*REPORT, file.name, "-o", f"{name}.html"], **quiet)
+        yield name
 
 
 def browser():
@@ -79,13 +88,16 @@ def check_quiet(driver, name):
 def numbers(driver):
     """Name and text of each number that the page shows."""
     rows = driver.find_elements(By.CSS_SELECTOR, ".numbers tr")
-    return {row.get_attribute("data-name"): row.text.rsplit(" ", 1)[-1] for row in rows}
+    return {row.get_attribute("data-name"): row.find_element(By.CSS_SELECTOR, ".number").text for row in rows}
 
 
-def click(driver, across, up):
-    """Clicks the first panel at these shares of its width and height."""
-    data = json.loads(driver.find_element(By.CSS_SELECTOR, "section script").get_attribute("textContent"))
-    left, top, right, bottom = data["panels"][0]["box"]
+def data_in(driver):
+    return json.loads(driver.find_element(By.CSS_SELECTOR, "section script").get_attribute("textContent"))
+
+
+def click(driver, box, across, up):
+    """Clicks a panel at these shares of its width and height."""
+    left, top, right, bottom = box
     image = driver.find_element(By.CSS_SELECTOR, ".picture img")
     x, y = left + across * (right - left), bottom - up * (bottom - top)
     place = driver.execute_script(
@@ -102,64 +114,63 @@ def click(driver, across, up):
     driver.execute_async_script("setTimeout(arguments[0], 50)")
 
 
-def exported(path, place):
-    """The row of `clatter export` at these values of the axes."""
-    words = [word for name, value in place.items() for word in ("--where", f"{name}={value}")]
-    text = subprocess.run([CLATTER, "export", path, *words], check=True, capture_output=True, text=True).stdout
-    return next(csv.DictReader(line for line in text.splitlines() if not line.startswith("#")))
+def check_point(driver, folder, name):
+    """The numbers of the page are those of the file at the place that it names, and its command gives them again."""
+    file, data = folder / f"{name}.h5", data_in(driver)
+    index = tuple(kept[i] for kept, i in zip(data["whole"], driver.execute_script("return explorers[0].chosen")))
+    labels = [label.text for label in driver.find_elements(By.CSS_SELECTOR, ".steps .value")]
+    shown, compared = numbers(driver), 0
+    there = branch_point(file, index[0])[0] if is_branch(file) else results_at(file, index)
+    with h5py.File(file) as opened:
+        for axis, place, label in zip(data["axes"], index, labels):
+            require(float(label) == opened[axis["name"]][place], f"{name}: {axis['name']} is {label} at {place}")
+    for result, value in there.items():
+        if result in shown and np.ndim(value) == 0 and result != "status":
+            same = shown[result] == (value or "–") if isinstance(value, str) else number(shown[result]) == float(value)
+            same = same or not isinstance(value, str) and np.isnan(value) and shown[result] == "–"
+            require(same, f"{name} at {index}: {result} is {shown[result]}, in the file {value}")
+            compared += 1
+    require(compared > 1, f"{name}: only {compared} numbers to compare in {shown}")
+    runs = ReportRuns()
+    runs.directory = folder
+    runs.assert_repeats(driver.find_element(By.CSS_SELECTOR, ".command code").text, file.name, index)
+    return index
 
 
-def check_numbers(driver, folder, name):
-    """Those of the page are those of the file at the place that the page names."""
-    labels = driver.find_elements(By.CSS_SELECTOR, ".steps .value")
-    data = json.loads(driver.find_element(By.CSS_SELECTOR, "section script").get_attribute("textContent"))
-    place = {axis["name"]: label.text for axis, label in zip(data["axes"], labels)}
-    row, shown, compared = exported(folder / f"{name}.h5", place), numbers(driver), 0
-    for column, text in shown.items():
-        if column not in row or column == "status":
-            continue
-        there = row[column]
-        same = text == "–" if there in ("nan", "") else text == there or float(text) == float(there)
-        require(same, f"{name} at {place}: {column} is {text}, in the file {there}")
-        compared += 1
-    require(compared > 2, f"{name}: only {compared} numbers to compare in {shown}")
-    return place
+def check_place(driver, folder, name, panel):
+    """The point that is shown lies as near to the click as any, to a pixel or two, along every axis of the panel."""
+    chosen, whole = driver.execute_script("return explorers[0].chosen"), data_in(driver)["whole"]
+    for side, place in enumerate(panel.get("axes", ())):
+        axis, to_scale = data_in(driver)["axes"][place]["name"], np.log if panel["log"][side] else np.asarray
+        low, high = to_scale(panel["limits"][2 * side : 2 * side + 2])
+        with h5py.File(folder / f"{name}.h5") as file:
+            away = np.abs((to_scale(file[axis][:][whole[place]]) - low) / (high - low) - FIRST[side])
+        require(away[chosen[place]] <= away.min() + 0.01, f"{name}: the click shows {axis} number {chosen[place]}")
 
 
-def check_command(driver, folder, name):
-    """The command of the point that is shown, with the configuration that the page offers, gives its numbers again."""
-    link = driver.find_element(By.CSS_SELECTOR, "details a[download]")
-    (folder / link.get_attribute("download")).write_text(unquote(link.get_attribute("href").split(",", 1)[1]))
-    command = driver.find_element(By.CSS_SELECTOR, ".command code").text
-    words = [CLATTER, *shlex.split(command)[1:], "--force", "-q"]
-    subprocess.run(words, cwd=folder, check=True, stdout=subprocess.DEVNULL)
-    row, shown = exported(folder / "point.h5", {}), numbers(driver)
-    same = [column for column in RESULTS if column in shown and column in row]
-    require(same, f"{name}: no number to compare in {row}")
-    for column in same:
-        require(shown[column].replace("–", "nan") == row[column], f"{name}: {command} gives {column} = {row[column]}")
+def number(text):
+    return float("nan" if text == "–" else text)
 
 
 def check_page(driver, folder, name):
+    """A click on every panel that stands for points shows one of them, another click another."""
     open_page(driver, folder / f"{name}.html")
     driver.save_screenshot(str(folder / f"{name}.png"))
-    if name in ("map", "curves", "diagram", "basins", "hysteresis"):
-        click(driver, 0.31, 0.62)
-        first = check_numbers(driver, folder, name)
-        click(driver, 0.77, 0.2)
-        second = check_numbers(driver, folder, name)
+    check_point(driver, folder, name)
+    panels, shape = data_in(driver)["panels"], data_in(driver)["shape"]
+    require(bool(panels) == (len(shape) > 0), f"{name}: {len(panels)} panels show {shape} points")
+    for panel in panels:
+        click(driver, panel["box"], *FIRST)
+        check_place(driver, folder, name, panel)
+    if panels:
+        first = check_point(driver, folder, name)
+        click(driver, panels[0]["box"], *SECOND)
+        second = check_point(driver, folder, name)
         require(first != second, f"{name}: another click shows the same point, {first}")
-        driver.find_element(By.CSS_SELECTOR, ".picture").send_keys(Keys.ARROW_RIGHT)
-        third = check_numbers(driver, folder, name)
+        driver.find_element(By.CSS_SELECTOR, ".picture").send_keys(Keys.ARROW_LEFT)
+        third = check_point(driver, folder, name)
         require(third != second, f"{name}: the arrow key moves to no other point than {second}")
         driver.save_screenshot(str(folder / f"{name}_point.png"))
-        if name != "hysteresis":  # its points started where the ones before ended
-            check_command(driver, folder, name)
-    if name == "branch":
-        before = numbers(driver)
-        click(driver, 0.5, 0.5)
-        require(numbers(driver) != before, "branch: a click shows no other point")
-        driver.save_screenshot(str(folder / "branch_point.png"))
     check_quiet(driver, name)
 
 
@@ -188,15 +199,15 @@ def check_looks(driver, folder):
 def main():
     folder = Path(sys.argv[1]).resolve()
     folder.mkdir(parents=True, exist_ok=True)
-    make(folder)
     driver = browser()
     try:
-        for name in PAGES:
+        names = list(make(folder))
+        for name in names:
             check_page(driver, folder, name)
         check_looks(driver, folder)
     finally:
         driver.quit()
-    print(f"{len(PAGES)} pages: no error, no request, the numbers of the files; pictures of them are in {folder}")
+    print(f"{len(names)} pages: no error, no request, the numbers of the files; pictures of them are in {folder}")
 
 
 if __name__ == "__main__":

@@ -52,15 +52,18 @@ class ReportRuns(CommandLine):
             place = tuple(int(part) for part in np.unravel_index(flat, data["shape"])) if data["shape"] else ()
             command = command_at(data, place)
             with self.subTest(command):
-                text = in_shell(command, self.directory)
-                index = tuple(kept[i] for kept, i in zip(data["whole"], place))
-                if data["axes"] == [] and data["shape"]:
-                    self.assert_branch_point(file, index[0])
-                elif "export" in command:
-                    self.assert_row(file, index, printed(text))
-                else:
-                    self.assert_point(file, index)
+                self.assert_repeats(command, file, tuple(kept[i] for kept, i in zip(data["whole"], place)))
         return data
+
+    def assert_repeats(self, command, file, index):
+        """The command gives the numbers of the point at these indexes of the file."""
+        text = in_shell(command, self.directory)
+        if is_branch(self.directory / file):
+            self.assert_branch_point(file, index[0])
+        elif "export" in command:
+            self.assert_row(file, index, printed(text))
+        else:
+            self.assert_point(file, index)
 
     def alone(self, file):
         """The results of the file that the command of a point has written."""
@@ -79,16 +82,11 @@ class ReportRuns(CommandLine):
         self.assertGreater(len(there), 4)
         for name, value in there.items():
             if name == "status":
-                self.assertEqual(row[name], self.meanings(file)[int(value)])
+                self.assertEqual(row[name], meanings(self.directory / file)[int(value)])
             elif isinstance(value, str):
                 self.assertEqual(row[name], value)
             else:
                 np.testing.assert_array_equal(float(row[name]), float(value), name)
-
-    def meanings(self, file):
-        with h5py.File(self.directory / file) as opened:
-            status = opened["status"].attrs
-            return dict(zip(map(int, status["flag_values"]), status["flag_meanings"].split()))
 
     def assert_branch_point(self, file, place):
         """A run of one period from the state of a branch has its numbers to 1e-9 of the motion. At the ends of branches
@@ -168,6 +166,18 @@ def results_at(path, index):
             if dims[len(axes) :] == ["stop"]:
                 found.update({f"{name}[{stop}]": value for stop, value in zip(file["stop"][:], found.pop(name))})
     return {name: value for name, value in found.items() if name not in OF_WHOLE_SWEEPS}
+
+
+def meanings(path):
+    """The name of each status."""
+    with h5py.File(path) as file:
+        status = file["status"].attrs
+        return dict(zip(map(int, status["flag_values"]), status["flag_meanings"].split()))
+
+
+def is_branch(path):
+    with h5py.File(path) as file:
+        return "arclength" in file
 
 
 def printed(text):
