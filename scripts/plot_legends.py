@@ -29,7 +29,7 @@ def lay_out(figure, is_fixed):
 def move_down(figure):
     """Removes the legends without room above their panels, and those that name nothing else, and returns their
     entries: (name, line or marker) of each."""
-    panels = [axes for axes in figure.axes if axes.get_legend()]
+    panels = [axes for axes in figure.axes if axes.get_legend() and entries(axes)]  # else it names what another shows
     most = HIGHEST if all(max(map(entries, panels), key=len).keys() >= entries(axes).keys() for axes in panels) else OWN
     crowded = [axes for axes in panels if not fit_above(axes, most)]
     names = {name for axes in crowded for name in entries(axes)}
@@ -48,7 +48,7 @@ def entries(axes):
 
 def look(handle):
     """What tells an entry from another of its name."""
-    return tuple(getattr(handle, f"get_{part}", str)() for part in ("color", "linestyle", "marker", "facecolor"))
+    return tuple(str(getattr(handle, f"get_{part}", str)()) for part in ("color", "linestyle", "marker", "facecolor"))
 
 
 def fit_above(axes, share):
@@ -58,15 +58,12 @@ def fit_above(axes, share):
     bars = any(other.get_label() == "<colorbar>" for other in figure.axes)
     room = figure.get_figwidth() / grid.ncols - SIDES - (BAR if bars else 0.0)
     most = share * figure.get_figheight() / grid.nrows
-    while True:
-        legend = axes.get_legend()
-        columns = min(legend._ncols, len(legend.get_texts()))
-        width, height = (side / figure.dpi for side in legend.get_window_extent().size)
+    for columns in range(min(axes.get_legend()._ncols, len(entries(axes))), 0, -1):
+        plot_style.legend_above(axes, columns=columns, markerscale=axes.get_legend().markerscale)
+        width, height = (side / figure.dpi for side in axes.get_legend().get_window_extent().size)
         if height > most or width <= room:
             return height <= most
-        if columns == 1:
-            return False
-        plot_style.legend_above(axes, columns=columns - 1, markerscale=legend.markerscale)
+    return False
 
 
 def legend_below(figure, named, is_fixed):
