@@ -46,8 +46,9 @@ packages, runs each gate, names those that fail, and exits with 1 if any does:
                 and pipes (build/tsan)
   packages      only by name: tarball and Debian package are right
                 (scripts/check_packages.sh --help says more)
-  report        only by name: pages of scripts/report.py in headless Chromium;
-                leaves pictures of them in build/report
+  report        only by name: pages of scripts/report.py in headless Chromium,
+                of every configuration: clicks on each panel, and the commands
+                that they show; leaves pictures of them in build/report
 END
 }
 

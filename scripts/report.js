@@ -209,7 +209,8 @@ class Explorer {
       await navigator.clipboard.writeText(line);
       copy.textContent = "Copied";
     });
-    return element("div", { className: "command" }, element("code", { textContent: line }), copy);
+    const words = line.split(" ").flatMap((word, place) => [place ? " " : "", element("span", { textContent: word })]);
+    return element("div", { className: "command" }, element("code", {}, ...words), copy); // no line ends at a hyphen
   }
 
   // The motion of the point, or of the nearest that has one.

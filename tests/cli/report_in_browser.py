@@ -41,6 +41,7 @@ def pages():
             yield config.stem, command, config, sets
     yield "map", "run", CONFIGS / "map_nu_xs.toml", ("observe.word=true",)
     yield "machine_branch", "branch", CONFIGS / f"{DRIVE[0]}.toml", DRIVE[1]
+    yield "it's $(touch  made)", "run", CONFIGS / "hysteresis.toml", ()
     yield "infinite", "run", CONFIGS / f"{SOFT[0]}.toml", SOFT[1]
 
 
@@ -133,7 +134,9 @@ def check_point(driver, folder, name):
     require(compared > 1, f"{name}: only {compared} numbers to compare in {shown}")
     runs = ReportRuns()
     runs.directory = folder
-    runs.assert_repeats(driver.find_element(By.CSS_SELECTOR, ".command code").text, file.name, index)
+    runs.assert_repeats(
+        driver.find_element(By.CSS_SELECTOR, ".command code").get_attribute("textContent"), file.name, index
+    )
     return index
 
 
