@@ -7,6 +7,7 @@ HIGHEST, OWN = 0.25, 0.4  # of the height of a panel's row, for a legend above i
 LARGEST = 0.3  # of the height of a picture of a given size, for the legend below; its letters become smaller
 SIZES = (9.5, 8.0, 7.0)  # points
 WIDEST = 0.98  # of the width of a picture
+LETTERS = 11  # of a name, in an inch
 PAD = 0.08  # inches, below and above the legend below
 
 
@@ -69,7 +70,8 @@ def fit_above(axes, share):
 def legend_below(figure, named, is_fixed):
     """A legend of the whole figure in as many columns as have room, in smaller letters if it would take too much of a
     given height; None if it names nothing."""
-    legend = None
+    legend, room = None, int(LETTERS * figure.get_figwidth())
+    named = [(in_room(name, room), handle) for name, handle in named]
     for size in SIZES if named else ():
         for columns in range(min(len(named), 8), 0, -1):
             if legend:
@@ -81,6 +83,12 @@ def legend_below(figure, named, is_fixed):
         if not is_fixed or height <= LARGEST * figure.get_figheight():
             break
     return legend
+
+
+def in_room(name, room):
+    """A name in lines of so many letters at most; a longer word without mathematics is cut."""
+    lines = plot_style.lines_of(name, room)
+    return "\n".join(line if "$" in line or len(line) <= room else line[: room - 1] + "…" for line in lines)
 
 
 def column_legend(figure, named, columns, size):

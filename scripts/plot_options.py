@@ -25,7 +25,12 @@ def options_parser():
     """All that --help and the man page tell."""
     parser = argparse.ArgumentParser(usage=USAGE, description=DESCRIPTION, allow_abbrev=False, epilog=EPILOG)
     add = parser.add_argument
-    add("files", nargs="*", metavar="FILE.h5", help="output of 'clatter run', 'clatter accuracy' or 'clatter branch'")
+    add(
+        "files",
+        nargs="*",
+        metavar="FILE.h5",
+        help="output of 'clatter run', 'clatter accuracy' or 'clatter branch'; after --, also names that begin with -",
+    )
     add("-o", "--output", metavar="DIR", help="folder for the pictures; default: beside each file")
     add("--format", nargs="+", default=["svg", "png"], metavar="svg|png|pdf", help="default: svg png")
     add("--only", type=names, default=(), metavar="NAME,...", help="panels of these results, or of keys of [observe]")
@@ -49,6 +54,9 @@ def command_line():
     """The options and files; ends the program on a mistake, with one line that names it."""
     parser = options_parser()
     words, files = parted(sys.argv[1:])
+    for word in words:
+        if word.startswith("-") and word.endswith(".h5") and os.path.exists(word):
+            parser.error(f"'{word}' begins like an option; write -- before it, or ./{word}")
     options = parser.parse_intermixed_args(joined(words))
     end_formats(parser, options)
     options.files += files

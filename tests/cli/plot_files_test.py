@@ -202,6 +202,9 @@ class Names(Made):
         self.assertEqual(self.run_here("plot.py", "--format", "svg", "--", "-x.h5").stdout, "-x.svg\n")
         self.assertEqual(self.run_here("report.py", "--no-histories", "-o", "x.html", "--", "-x.h5").returncode, 0)
         self.assertEqual(self.files(), ["-x.h5", "-x.svg", "x.html"])
+        result = self.run_here("plot.py", "-x.h5")
+        self.assertEqual(result.returncode, 2)
+        self.assertIn("'-x.h5' begins like an option; write -- before it, or ./-x.h5", result.stderr)
 
     def test_names_that_are_not_utf_8_are_printed_as_they_are(self):
         for byte in (b"1\xff", b"2\xff"):

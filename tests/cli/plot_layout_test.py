@@ -234,6 +234,16 @@ class Families(Layout):
             colours = [line.get_color() for line in figure.axes[0].get_lines() if line.get_label() in entries[:12]]
             self.assertEqual(len(set(colours)), 12)
 
+    def test_names_longer_than_the_picture_are_cut(self):
+        names = [f"{place}{'x' * 200}" for place in "ab"]
+        for name in names:
+            (self.folder / f"{name}.h5").symlink_to(self.folder / "words.h5")
+        for size in (None, (5.0, 3.5)):
+            figure = self.figure(*names, only=("section_x",), size=size)
+            self.assert_clear(figure, 0.3)
+            (legend,) = figure.legends
+            self.assertEqual([text.get_text()[0] for text in legend.get_texts()], ["a", "b"])
+
     def test_words_stand_between_the_lines_of_their_changes(self):
         for size in (None, (7.0, 4.0), (4.0, 3.0)):
             figure = self.figure("words", only=("section_x",), size=size)
