@@ -96,7 +96,7 @@ def rows_of(output, points):
 
 
 def branch_settings(output, points):
-    """One period of the motion from its state at forcing phase 0, in the frame that branches have: stable or not."""
+    """One period of the motion, stable or not, from its state at forcing phase 0."""
     section, kept = section_of(output), points.kept[0]
     keys = {**{key: key for key in output.sweep}, "x0": "x", "v0": "v"}
     parts = []
@@ -104,8 +104,9 @@ def branch_settings(output, points):
         parts += [f" --set {section}.{key}=", numbers(output.values(name)[kept])]
     parts += [f" --set {section}.phase=0 --set time.mode=transient --set time.duration="]
     parts += [numbers(output.values("period_ratio")[kept] * forcing_periods(output)[kept])]
-    if output.config["observe"].get("frame", "relative") != "relative":
-        parts.append(" --set observe.frame=relative")
+    for group, key, value in (("observe", "frame", "relative"), ("integrator", "method", "exact")):  # as branches are
+        if output.config.get(group, {}).get(key, value) != value:
+            parts.append(f" --set {group}.{key}={value}")
     return [*parts, " --set observe.extrema=true --set observe.impacts=true"]
 
 
