@@ -18,13 +18,14 @@ $(help_lines "and for the benchmarks (${BENCH_PACKAGES[*]}),")
 --build measures, instead of all that, what it costs to build the program and then its tests: processor and wall time,
 by folder and for the longest files, each from nothing, which takes some ten minutes. With COMMIT that commit's sources
 are measured first. Nothing else should run meanwhile.
+--plan compares, instead of all that, the times that the command plan foretells with those of the runs of ten sweeps.
 --quick takes one repetition and smaller sweeps, to see that all works. --arch NAME makes the whole processes
 use that instruction set; the other benchmarks use each in turn.
 END
 }
 
 usage() {
-  echo "usage: scripts/bench.sh [--quick] [--arch NAME] | --build [COMMIT]"
+  echo "usage: scripts/bench.sh [--quick] [--arch NAME] | --build [COMMIT] | --plan"
   echo
   steps
 }
@@ -35,6 +36,7 @@ growth_filter=all
 solver_filter=all
 processes=()
 build=()
+plan=
 while (($# > 0)); do
   case "$1" in
     --quick)
@@ -61,6 +63,7 @@ while (($# > 0)); do
         shift
       fi
       ;;
+    --plan) plan=yes; shift ;;
     -h | --help) usage; exit 0 ;;
     *) echo "bench.sh: unknown argument '$1'; try --help" >&2; exit 2 ;;
   esac
@@ -70,6 +73,12 @@ cd "$source_dir"
 if ((${#build[@]} > 0)); then
   install_missing "${BUILD_PACKAGES[@]}" python3
   exec /usr/bin/python3 -B "${build[@]}"
+fi
+if [[ -n $plan ]]; then
+  install_missing "${BUILD_PACKAGES[@]}" python3
+  cmake --preset release
+  cmake --build --preset release --target clatter
+  exec /usr/bin/python3 -B scripts/bench_plan.py
 fi
 steps
 install_missing "${BUILD_PACKAGES[@]}" "${BENCH_PACKAGES[@]}"

@@ -56,28 +56,32 @@ std::string time_text(double ns) {
   return ns < 999.5e6 ? formatted("%.3g ms", ns / 1e6) : formatted("%.3g s", ns / 1e9);
 }
 
-/// A ratio in at most two digits, or whole: 1, 1.3, 28, 68531.
-std::string times_text(double ratio) { return formatted(ratio < 9.95 ? "%.2g" : "%.0f", ratio); }
+/// A ratio in two digits, whole from 10 on, and from a million on as 1.4e+06: 1, 1.3, 28, 68531.
+std::string times_text(double ratio) { return formatted(ratio < 9.95 || ratio >= 999999.5 ? "%.2g" : "%.0f", ratio); }
 
 std::string right(std::string text, std::size_t width) {
   text.insert(0, width > text.size() ? width - text.size() : 0, ' ');
   return text;
 }
 
-std::size_t width_of(const Family& family) { return family.column.empty() ? 14 : 21; }
+constexpr std::size_t setting_width = 7, time_width = 9, times_width = 8;
+std::size_t width_of(const Family& family) {
+  return (family.column.empty() ? 0 : setting_width) + time_width + times_width;
+}
 
 std::string cells(const WorkPrecision* row, const Family& family, double least) {
   if (row == nullptr) return right("-", width_of(family));
-  const std::string setting = family.column.empty() ? "" : right(formatted("%.0e", row->trial.setting), 7);
-  return setting + right(time_text(row->ns_per_period), 8) + right(times_text(row->ns_per_period / least), 6);
+  const std::string setting = family.column.empty() ? "" : right(formatted("%.0e", row->trial.setting), setting_width);
+  return setting + right(time_text(row->ns_per_period), time_width) +
+         right(times_text(row->ns_per_period / least), times_width);
 }
 
 std::string table(Rows rows) {
   std::string top = right("", 6), bottom = right("error", 6);
   for (const Family& family : families) {
     top += right(std::string(family.title), width_of(family));
-    bottom += family.column.empty() ? "" : right(std::string(family.column), 7);
-    bottom += right("time", 8) + right("times", 6);
+    bottom += family.column.empty() ? "" : right(std::string(family.column), setting_width);
+    bottom += right("time", time_width) + right("times", times_width);
   }
   std::string text = top + '\n' + bottom + '\n';
   for (const double level : levels) {

@@ -8,7 +8,6 @@
 #include "accuracy_report.hpp"
 #include "commands.hpp"
 #include "common_options.hpp"
-#include "progress.hpp"
 #include "results/dataset_file.hpp"
 #include "results/output_place.hpp"
 #include "signals.hpp"
@@ -39,7 +38,7 @@ PointText text_of(const Arguments& arguments) {
 
 /// Measures and prints all points, or fewer if it is interrupted.
 std::vector<accuracy::PointAccuracy> measure_points(const sweep::Sweep& sweep, lanes::InstructionSet arch,
-                                                    PointText text_of, bool shown) {
+                                                    PointText text_of, ProgressKind shown) {
   const std::vector<accuracy::Trial> trials = accuracy::trials_of(sweep.problem.time.mode, arch);
   Progress progress(shown, "runs");
   accuracy::AccuracyOptions options{.stopped = [] { return Interrupt::signal() != 0; }};
@@ -74,7 +73,7 @@ bool any_failed(const std::vector<accuracy::PointAccuracy>& points) {
 int run_accuracy(const Arguments& arguments) {
   const lanes::InstructionSet arch = arch_of(arguments);
   const PointText text_of_point = text_of(arguments);
-  const bool shown = progress_wanted(arguments);
+  const ProgressKind shown = progress_kind(arguments);
   const std::string output = output_of(arguments, ".accuracy.h5");
   const config::Config config = config_of(arguments);
   check_not_config(arguments.operands[0], output);

@@ -105,10 +105,11 @@ int run_branch(const Arguments& arguments) {
   }
   std::vector<Followed> parameters{settings.along};
   if (settings.across) parameters.push_back(*settings.across);
+  // before anything is printed, as a reader such as head may close the pipe
+  place.write_atomically(results::file_image(branch_dataset(found, settings, start.units), config).bytes);
   for (const SpecialPoint& special : found.special)
     std::cout << (arguments.has("json") ? special_json : special_text)(special, parameters, start.units);
   std::cout << std::flush;
-  place.write_atomically(results::file_image(branch_dataset(found, settings, start.units), config).bytes);
   tell_failures(found, settings, file);
   if (!arguments.has("quiet"))
     std::cerr << counted(static_cast<double>(found.points.size()), "point") << ", "

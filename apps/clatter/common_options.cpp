@@ -7,7 +7,6 @@
 #include <filesystem>
 
 #include "config/suggestion.hpp"
-#include "progress.hpp"
 
 namespace clatter::app {
 
@@ -62,10 +61,11 @@ lanes::InstructionSet arch_of(const Arguments& arguments) {
   return *arch;
 }
 
-bool progress_wanted(const Arguments& arguments) {
+ProgressKind progress_kind(const Arguments& arguments) {
   const std::string when = arguments.value("progress").value_or("auto");
-  if (when == "always" || when == "never") return when == "always";
-  if (when == "auto") return stderr_is_terminal() && !arguments.has("quiet");
+  if (when == "always" || when == "never") return when == "always" ? ProgressKind::bar : ProgressKind::none;
+  if (when == "auto" && arguments.has("quiet")) return ProgressKind::none;
+  if (when == "auto") return stderr_is_terminal() ? ProgressKind::bar : ProgressKind::lines;
   throw UsageError("--progress " + config::in_quotes(when) + "; expected one of " + config::joined(progress_choices));
 }
 

@@ -6,6 +6,7 @@
 #include "command_line.hpp"
 #include "config/config.hpp"
 #include "lanes/instruction_set.hpp"
+#include "progress.hpp"
 #include "sweep/share.hpp"
 
 namespace clatter::app {
@@ -42,10 +43,12 @@ inline const Option output_option{"output", 'o', "FILE.h5",
 inline const Option force_option{"force", 0, "", "replace whatever file has the output's name"};
 inline constexpr std::string_view progress_choices[] = {"auto", "always", "never"};
 inline const Option progress_option{
-    "progress", 0, "WHEN", "show progress: auto (on a terminal), always or never", false, progress_choices};
+    "progress", 0,
+    "WHEN",     "show progress: auto (a bar on a terminal, elsewhere a line a minute), always (the bar) or never",
+    false,      progress_choices};
 
-/// Whether to show progress. Throws UsageError.
-[[nodiscard]] bool progress_wanted(const Arguments& arguments);
+/// How to show progress. Throws UsageError.
+[[nodiscard]] ProgressKind progress_kind(const Arguments& arguments);
 
 /// The file that -o names, else the configuration's name with this ending. Throws UsageError if there is neither.
 [[nodiscard]] std::string output_of(const Arguments& arguments, const std::string& ending);

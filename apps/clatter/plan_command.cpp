@@ -5,6 +5,7 @@
 #include "memory_check.hpp"
 #include "plan_report.hpp"
 #include "sweep/run.hpp"
+#include "trial_run.hpp"
 #include "warnings.hpp"
 
 namespace clatter::app {
@@ -16,12 +17,14 @@ int print_plan(const Arguments& arguments) {
   const std::optional<sweep::Shard> shard = shard_of(arguments);
   const config::Config config = config_of(arguments);
   const plan::MemoryNeed need = check_memory(config, shard, threads);
-  plan::Plan plan = plan::plan_of(config.sweep, {.threads = threads, .arch = arch}, need, shard);
+  const sweep::RunOptions options{.threads = threads, .arch = arch};
+  plan::Plan plan = plan::plan_of(config.sweep, options, need, shard);
+  const std::optional<double> seconds = foretold_seconds(config, options, shard);
   if (arguments.has("json")) {
     join_warnings(plan, config);
-    std::cout << plan_json(plan, config.sweep, threads);
+    std::cout << plan_json(plan, config.sweep, threads, seconds);
   } else {
-    std::cout << plan_text(plan, config.sweep, threads) << std::flush;
+    std::cout << plan_text(plan, config.sweep, threads, seconds) << std::flush;
     say_notes(config), warn(config), warn(plan);
   }
   return done;
@@ -37,7 +40,7 @@ constexpr std::string_view examples =
 Command plan_command() {
   return {.name = "plan",
           .usage = "plan CONFIG [OPTION]...",
-          .summary = "print what a configuration will simulate, why, and at what cost; run nothing",
+          .summary = "print what a configuration will simulate, why, and at what cost; write nothing",
           .examples = examples,
           .operands = {"CONFIG"},
           .required_operands = 1,

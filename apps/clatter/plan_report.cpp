@@ -23,7 +23,7 @@ std::string range(const plan::Bounds& estimate, const char* format) {
 }
 
 std::string axis_text(const sweep::Axis& axis, bool is_si) {
-  const std::string_view unit = unit_of(quantity_of(axis.parameter), is_si);
+  const std::string_view unit = unit_of(axis.quantity, is_si);
   return std::string(key_of(axis.parameter)) + " (" + std::to_string(axis.values.size()) + " from " +
          formatted("%.10g", axis.values.front()) + " to " + formatted("%.10g", axis.values.back()) +
          (is_si && unit != "1" ? ' ' + std::string(unit) : "") + ')';
@@ -186,7 +186,7 @@ void put_group(std::ostringstream& out, const plan::Group& group, const sweep::S
 
 }  // namespace
 
-std::string plan_text(const plan::Plan& plan, const sweep::Sweep& sweep, int threads) {
+std::string plan_text(const plan::Plan& plan, const sweep::Sweep& sweep, int threads, std::optional<double> seconds) {
   std::string text =
       line("axes", axes_text(sweep)) + points_text(plan, sweep) + line("observed", joined(plan.observed));
   const stepping::Integration& integration = sweep.problem.integration;
@@ -195,8 +195,10 @@ std::string plan_text(const plan::Plan& plan, const sweep::Sweep& sweep, int thr
   else if (integration.all_effects)
     text += line("effects", "all are simulated, for all of max_periods (integrator.effects = all); called for are:");
   for (const plan::Group& group : plan.groups) text += group_text(group, sweep);
-  text += '\n' + line("estimated time", range(seconds_of(plan, threads), "%.2g") + " s on " +
-                                            counted(threads, "thread") + ", without the observables");
+  const std::string on = " s on " + counted(threads, "thread");
+  text += '\n' +
+          line("estimated time", seconds ? formatted("%.2g", *seconds) + on + ", observables and writing included"
+                                         : range(seconds_of(plan, threads), "%.2g") + on + ", without the observables");
   const plan::MemoryNeed& need = plan.need;
   text += line("output", bytes_text(need.output) + " before compression" +
                              (need.log > 0 ? ", the impact log by an estimate" : ""));
@@ -206,7 +208,7 @@ std::string plan_text(const plan::Plan& plan, const sweep::Sweep& sweep, int thr
   return text;
 }
 
-std::string plan_json(const plan::Plan& plan, const sweep::Sweep& sweep, int threads) {
+std::string plan_json(const plan::Plan& plan, const sweep::Sweep& sweep, int threads, std::optional<double> seconds) {
   std::ostringstream out;
   out << "{\n  \"schema\": \"clatter-plan/1\",\n  \"shard\": "
       << (plan.shard ? json_text(text_of(*plan.shard)) : "null") << ",\n  \"points\": " << plan.points
@@ -228,6 +230,7 @@ std::string plan_json(const plan::Plan& plan, const sweep::Sweep& sweep, int thr
       << ",\n  \"all_effects\": " << (sweep.problem.integration.all_effects ? "true" : "false") << ",\n  \"groups\": ";
   list(out, plan.groups, [&](const plan::Group& group) { put_group(out, group, sweep); });
   out << ",\n  \"threads\": " << threads << ",\n  \"seconds\": " << estimate_json(seconds_of(plan, threads))
+      << ",\n  \"foretold_seconds\": " << (seconds ? json_number(*seconds) : "null")
       << ",\n  \"output_bytes\": " << json_number(plan.need.output)
       << ",\n  \"memory_bytes\": " << json_number(plan.need.memory)
       << ",\n  \"estimated_log_bytes\": " << json_number(plan.need.log)

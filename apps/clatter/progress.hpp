@@ -2,19 +2,26 @@
 
 #include <chrono>
 #include <condition_variable>
+#include <cstddef>
+#include <cstdint>
 #include <mutex>
 #include <optional>
+#include <string>
 #include <thread>
 
 #include "sweep/time_left.hpp"
 
 namespace clatter::app {
 
-/// A progress bar on stderr: points (or other units) per second and the time left; it erases itself at the end.
+/// Progress as a bar that fits the terminal, or, elsewhere, as lines of work that takes long.
+enum class ProgressKind : std::uint8_t { none, bar, lines };
+
+/// Shows on stderr how many points (or other units) are finished, and the time left. A bar erases itself at the end; a
+/// line is printed once it is known that the rest takes ten seconds or more, and each minute from then on.
 class Progress {
  public:
   /// `before` units are finished at the beginning and don't count for the speed.
-  explicit Progress(bool shown, const char* counted = "points", double before = 0);
+  explicit Progress(ProgressKind kind, const char* counted = "points", double before = 0);
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
   ~Progress();
@@ -26,11 +33,13 @@ class Progress {
 
  private:
   void tick();
-  void draw() const;
+  void draw();
+  void print_line();
+  [[nodiscard]] std::string bar(std::size_t columns) const;
   [[nodiscard]] double now() const;
   [[nodiscard]] std::optional<double> seconds_left() const;
 
-  bool shown_;
+  ProgressKind kind_;
   const char* counted_;
   double before_;
   bool color_;
@@ -40,7 +49,8 @@ class Progress {
   double finished_, total_ = 0;
   sweep::TimeLeft pace_;
   bool is_told_ = false;
-  std::optional<double> told_end_{};  ///< the end by the caller's estimate
+  std::optional<double> told_end_{};   ///< the end by the caller's estimate
+  std::optional<double> next_line_{};  ///< the earliest time of the next line; nothing before the first
   bool over_ = false;
   std::condition_variable wake_;
   std::thread ticker_;

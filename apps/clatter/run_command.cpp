@@ -45,7 +45,7 @@ RunRequest request_of(const Arguments& arguments) {
   request.end = end_of(arguments);
   request.arch = arch_of(arguments);
   request.threads = sweep::threads_used({.threads = threads_of(arguments)});
-  request.shows_progress = progress_wanted(arguments);
+  request.progress = progress_kind(arguments);
   request.begin = begin_of(arguments);
   request.shard = shard_of(arguments);
   request.output = output_of(arguments, request.shard);

@@ -51,10 +51,9 @@ std::string work_text(const std::vector<sweep::WorkStats>& work) {
 
 }  // namespace
 
-std::string summary_line(const sweep::RunResult& result, const sweep::Sweep& sweep,
-                         const std::optional<sweep::Shard>& shard, const std::string& output) {
-  return counted(static_cast<double>(result.points), "point") + ", " + failures_text(result.dataset, sweep, shard) +
-         ", " + formatted("%.3g", result.seconds) + " s, " + storage::printable(output);
+std::string summary_of_points(const sweep::RunResult& result, const sweep::Sweep& sweep,
+                              const std::optional<sweep::Shard>& shard) {
+  return counted(static_cast<double>(result.points), "point") + ", " + failures_text(result.dataset, sweep, shard);
 }
 
 std::string details(const sweep::RunResult& result, const std::string& command, const std::string& began) {

@@ -7,9 +7,9 @@
 
 namespace clatter::app {
 
-/// The summary of a run in one line: points, failures, seconds, file.
-[[nodiscard]] std::string summary_line(const sweep::RunResult& result, const sweep::Sweep& sweep,
-                                       const std::optional<sweep::Shard>& shard, const std::string& output);
+/// "501 points, 0 failed"
+[[nodiscard]] std::string summary_of_points(const sweep::RunResult& result, const sweep::Sweep& sweep,
+                                            const std::optional<sweep::Shard>& shard);
 
 /// The lines that -v adds: work, threads, host, command line and times; none of them goes into the file.
 [[nodiscard]] std::string details(const sweep::RunResult& result, const std::string& command_line,

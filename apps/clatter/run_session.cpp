@@ -1,19 +1,21 @@
 #include "run_session.hpp"
 
+#include <chrono>
 #include <cstdint>
 #include <iostream>
 #include <new>
 #include <utility>
 
 #include "commands.hpp"
+#include "format.hpp"
 #include "memory_check.hpp"
 #include "plan_report.hpp"
-#include "progress.hpp"
 #include "results/dataset_file.hpp"
 #include "results/version.hpp"
 #include "run_report.hpp"
 #include "storage/utf8.hpp"
 #include "sweep/rounding_fingerprint.hpp"
+#include "trial_run.hpp"
 #include "warnings.hpp"
 
 namespace clatter::app {
@@ -33,9 +35,9 @@ storage::JournalKey journal_key(const config::Config& config, const RunRequest& 
 }
 
 void say_plan(const config::Config& config, const RunRequest& request, const plan::MemoryNeed& need) {
-  const plan::Plan plan =
-      plan::plan_of(config.sweep, {.threads = request.threads, .arch = request.arch}, need, request.shard);
-  std::cerr << plan_text(plan, config.sweep, request.threads);
+  const sweep::RunOptions options{.threads = request.threads, .arch = request.arch};
+  const plan::Plan plan = plan::plan_of(config.sweep, options, need, request.shard);
+  std::cerr << plan_text(plan, config.sweep, request.threads, foretold_seconds(config, options, request.shard));
   say_notes(config), warn(plan);
 }
 
@@ -101,8 +103,8 @@ void RunSession::run_points() {
 }
 
 void RunSession::run_with_progress(sweep::RunOptions options) {
-  Progress progress(request_.shows_progress, "points", static_cast<double>(sweep_->restored_points()));
-  if (request_.shows_progress)
+  Progress progress(request_.progress, "points", static_cast<double>(sweep_->restored_points()));
+  if (request_.progress != ProgressKind::none)
     options.progress = [&](double finished, std::size_t total) { progress.show(finished, static_cast<double>(total)); };
   sweep_->run(options);
 }
@@ -114,14 +116,17 @@ void RunSession::save() {
 
 void RunSession::write() {
   result_ = sweep_->result();
-  summary_ = summary_line(result_, config_.sweep, request_.shard, request_.output);
+  summary_ = summary_of_points(result_, config_.sweep, request_.shard);
   const auto image = request_.shard ? results::image_with_checksum : results::file_image;
   place_.write_atomically(image(std::move(result_.dataset), config_).bytes,
                           [this](std::uint64_t bytes) { journal_->give_back(bytes); });
 }
 
 void RunSession::report() const {
-  if (!request_.quiet) std::cerr << summary_ << '\n';
+  const std::chrono::duration<double> passed = Checkpointer::Clock::now() - request_.started;
+  if (!request_.quiet)
+    std::cerr << summary_ << ", " << formatted("%.3g", passed.count()) << " s, " << storage::printable(request_.output)
+              << '\n';
   if (request_.verbose) std::cerr << details(result_, command_line(), request_.began);
 }
 

@@ -9,6 +9,7 @@
 #include "config/config.hpp"
 #include "lanes/instruction_set.hpp"
 #include "plan/memory_need.hpp"
+#include "progress.hpp"
 #include "results/output_place.hpp"
 #include "storage/error.hpp"
 #include "storage/journal.hpp"
@@ -19,11 +20,12 @@ namespace clatter::app {
 
 /// The choices of the command line for a run, besides its configuration.
 struct RunRequest {
-  std::string began;                                   ///< UTC
+  std::string began;  ///< UTC
+  Checkpointer::Clock::time_point started = Checkpointer::Clock::now();
   std::optional<Checkpointer::Clock::time_point> end;  ///< of --max-time
   lanes::InstructionSet arch = lanes::InstructionSet::scalar;
   int threads = 1;
-  bool shows_progress = false;
+  ProgressKind progress = ProgressKind::none;
   storage::Journal::Begin begin = storage::Journal::Begin::resume_if_any;
   std::optional<sweep::Shard> shard;
   std::string output;

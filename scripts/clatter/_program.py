@@ -72,6 +72,11 @@ def plan(config, **sections):
 
 
 def _dataset(command, words, config, output, sections):
+    if output is not None and not isinstance(output, (str, os.PathLike)):
+        raise TypeError(
+            f"output = {output!r}: expected the path of a file to keep, or None; keys of the section [output] belong "
+            "in the configuration"
+        )
     with _Workplace(config) as place:
         file = Path(output) if output is not None else place.folder / "out.h5"
         place.call(command, [*words, "-o", str(file), *set_words(sections)], file)
@@ -85,12 +90,15 @@ class _Workplace:
         self.keep = tempfile.TemporaryDirectory(prefix="clatter-")
         self.folder = Path(self.keep.name)
         self.keys = []
-        if isinstance(config, dict):
+        self.is_dictionary = isinstance(config, dict)
+        if self.is_dictionary:
             self.config = self.folder / "configuration.toml"
             text, self.keys = toml_of(config)
             self.config.write_text(text, encoding="utf-8")
-        else:
+        elif isinstance(config, (str, os.PathLike)):
             self.config = Path(config)
+        else:
+            raise TypeError(f"{config!r}: expected the path of a configuration, or a dictionary of its sections")
 
     def __enter__(self):
         return self
@@ -114,7 +122,7 @@ class _Workplace:
 
     def without_place(self, text):
         """Messages name the key of a dictionary, whose file is gone by the time that they are read."""
-        if not self.keys:
+        if not self.is_dictionary:
             return text
 
         def key_of(match):
@@ -132,7 +140,7 @@ class _Workplace:
         if place is None:
             return ConfigError(message, exit_code)
         line, column = int(place[2]), int(place[3])
-        if self.keys:
+        if self.is_dictionary:
             return ConfigError(message, exit_code, key=self.keys[line - 1] if line <= len(self.keys) else None)
         return ConfigError(message, exit_code, file=place[1], line=line, column=column)
 

@@ -12,14 +12,23 @@ namespace {
 using sweep::Parameter;
 using enum sweep::Parameter;
 
-/// Refuses a followed mass or spring beside a damping ratio, which would change with it, so that it isn't linear.
+/// Refuses a followed mass or spring beside a damping ratio, or that of a stop beside a damping in N s/m, which would
+/// change with it, so that it isn't linear.
 void check_damping(const Settings& settings, const Setting& chosen) {
   const std::string& name = std::get<std::string>(chosen.value);
-  if (!settings.is_si() || (name != key_of(mass) && name != key_of(stiffness))) return;
-  for (const Parameter given : {damping_ratio, quality})
-    if (const Setting* const ratio = settings.given(given))
-      fail(ratio->key_location, "a branch along '" + name + "' beside '" + std::string(key_of(given)) +
-                                    "', which changes with it; give 'damping', in N s/m, in its place");
+  if (!settings.is_si()) return;
+  const auto refuse = [&](const Setting& given, const std::string& in_its_place) {
+    fail(given.key_location, "a branch along '" + name + "' beside '" + std::string(given.key->name) +
+                                 "', which changes with it; give " + in_its_place);
+  };
+  if (name == key_of(mass) || name == key_of(stiffness))
+    for (const Parameter given : {damping_ratio, quality})
+      if (const Setting* const ratio = settings.given(given)) refuse(*ratio, "'damping', in N s/m, in its place");
+  if (name == key_of(mass) || name.starts_with(key_of(stop_stiffness)))
+    for (const Parameter given : {stop_damping, stop_damping_lower, stop_damping_upper})
+      if (const Setting* const damping = settings.given(given);
+          damping != nullptr && damping->quantity != Quantity::number)
+        refuse(*damping, "it as a damping ratio, without unit");
 }
 
 /// The parameter that `along` or `across` names. Throws ConfigError if a value of its interval isn't permitted for it,
@@ -32,6 +41,10 @@ Parameter followed_key(const Settings& settings, const Setting& chosen, const Se
       if (!contains(key.range, end))
         fail(interval->location, std::string(interval->key->name) + " has " + name + " = " + number_text(end) +
                                      "; expected " + permitted(key));
+  if (interval != nullptr && interval->quantity != key.quantity)
+    fail(interval->location, std::string(interval->key->name) + " of " + name +
+                                 ", which is followed as a damping ratio; give it without unit, as damping over "
+                                 "2 (stop_stiffness mass)^(1/2)");
   if (name == "xs" && interval != nullptr && std::get<Interval>(interval->value)[0] < 0)
     fail(interval->location, "xs stands for |xs|; expected two numbers above 0");
   for (const Setting& axis : settings.axes)

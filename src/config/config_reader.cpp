@@ -77,6 +77,19 @@ stepping::Integration integration(const Settings& settings) {
           .all_effects = settings.text("integrator", "effects") == "all"};
 }
 
+/// Whether the damping of a stop is given in N s/m, in place of a ratio.
+bool is_stop_damping_in_si(const Setting& given) {
+  return given.key->with_unit == Quantity::damping && given.quantity == Quantity::damping;
+}
+
+/// Notes which stops' damping is.
+void note_stop_damping(const Setting& given, sweep::Machine& machine) {
+  if (!is_stop_damping_in_si(given)) return;
+  const sweep::Parameter parameter = sweep::parameter_of(given.key->name).value();
+  machine.stop_damping_in_si[0] |= parameter != sweep::Parameter::stop_damping_upper;
+  machine.stop_damping_in_si[1] |= parameter != sweep::Parameter::stop_damping_lower;
+}
+
 /// Gives a sweep the scene or the machine before any axis is applied; a key that isn't given keeps the value that
 /// Problem or Machine has.
 void set_scene(const Settings& settings, sweep::Sweep& sweep) {
@@ -88,6 +101,7 @@ void set_scene(const Settings& settings, sweep::Sweep& sweep) {
     if (given.key->section != settings.scene_section) continue;
     const sweep::Parameter parameter = sweep::parameter_of(given.key->name).value();
     const double value = std::get<double>(given.value);
+    if (sweep.machine) note_stop_damping(given, *sweep.machine);
     if (parameter == sweep::Parameter::start_period) {
       sweep.start_period = value;
     } else if (!sweep.machine || !sweep::set(*sweep.machine, parameter, value)) {
@@ -106,8 +120,10 @@ sweep::Sweep sweep_of(Settings& settings, const AxisGroups& groups) {
     sweep::Dimension& dimension = sweep.dimensions.emplace_back();
     for (const std::size_t axis : group) {
       Setting& setting = settings.axes[axis];
+      if (sweep.machine) note_stop_damping(setting, *sweep.machine);
       dimension.push_back(
           {sweep::parameter_of(setting.key->name).value(), std::move(std::get<AxisValues>(setting.value).values)});
+      if (is_stop_damping_in_si(setting)) dimension.back().quantity = setting.quantity;
     }
   }
   return sweep;

@@ -5,6 +5,7 @@
 #include <type_traits>
 
 #include "config/consistency.hpp"
+#include "config/unit.hpp"
 
 namespace clatter::config {
 namespace {
@@ -61,10 +62,12 @@ std::string section_text(const Settings& settings, std::string_view section) {
 }  // namespace
 
 std::string toml_value(const Setting& setting) {
-  const auto text = [](const auto& value) -> std::string {
+  const bool has_other = setting.quantity != Quantity::number && setting.quantity != setting.key->quantity;
+  const auto text = [&](const auto& value) -> std::string {
     using Type = std::decay_t<decltype(value)>;
     if constexpr (std::is_same_v<Type, std::string>) return toml_text(value);
-    if constexpr (std::is_same_v<Type, double>) return toml_number(value);
+    if constexpr (std::is_same_v<Type, double>)
+      return has_other ? toml_measure(value, unit_of_numbers(setting.quantity)) : toml_number(value);
     if constexpr (std::is_same_v<Type, std::int64_t>) return std::to_string(value);
     if constexpr (std::is_same_v<Type, bool>) return value ? "true" : "false";
     if constexpr (std::is_same_v<Type, Interval>) return toml_list({value.begin(), value.end()});

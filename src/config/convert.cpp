@@ -6,6 +6,7 @@
 #include "config/comma.hpp"
 #include "config/settings.hpp"
 #include "config/suggestion.hpp"
+#include "config/unit.hpp"
 
 namespace clatter::config {
 namespace {
@@ -60,10 +61,15 @@ void check_single(const Key& key, const ParsedValue& written) {
 SourceText source_text(const Key& key, const std::string& text, const ParsedValue& written, bool is_si) {
   SourceText source{text, written.location, written.untyped || written.inset > 0};
   source.location.column += written.inset;
-  const bool has_unit = is_si || key.section == "machine" || key.quantity == Quantity::angle;
-  if (has_unit) source.quantity = key.quantity;
-  if (key.section == "scene" || (!has_unit && key.quantity != Quantity::number))
-    source.way_out = ", or describe the scene in [machine], which has units";
+  const bool takes_unit = is_si || key.section == "machine" || key.quantity == Quantity::angle;
+  if (takes_unit) source.quantity = quantity_of(key, written);
+  if (source.quantity != key.quantity) source.unit = unit_of_numbers(source.quantity);
+  if (key.section == "scene" || (!takes_unit && key.quantity != Quantity::number))
+    source.way_out = ", or the scene in [machine], which has units";
+  else if (key.name == "damping_ratio" || key.name == "quality")
+    source.way_out = ", or 'damping' in N s/m";
+  else if (key.with_unit != Quantity::number)
+    source.way_out = ", or a damping ratio without unit";
   return source;
 }
 
@@ -140,7 +146,8 @@ AxisValues list_of(const Key& key, const ParsedList& list, bool is_si = false) {
     axis.locations.push_back(element.location);
   }
   check_units(measures, axis.locations);
-  axis.text = toml_list(axis.values);
+  const Quantity quantity = quantity_of(key, {list, {}, false, 0});
+  axis.text = toml_list(axis.values, quantity == key.quantity ? "" : unit_of_numbers(quantity));
   return axis;
 }
 
@@ -164,6 +171,17 @@ AxisValues unchecked_axis(const Key& key, const ParsedValue& written) {
 }
 
 }  // namespace
+
+Quantity quantity_of(const Key& key, const ParsedValue& written) {
+  if (key.with_unit == Quantity::number) return key.quantity;
+  const auto is_measure = [](const ParsedValue& value) {
+    const auto* const text = std::get_if<std::string>(&value.data);
+    return text != nullptr && has_unit(*text);
+  };
+  const auto* const list = std::get_if<ParsedList>(&written.data);
+  const bool has = list != nullptr ? std::ranges::any_of(*list, is_measure) : is_measure(written);
+  return has ? key.with_unit : key.quantity;
+}
 
 Value convert(const Key& key, const ParsedValue& written, bool is_si) {
   if (key.kind == Kind::number || key.kind == Kind::integer) check_single(key, written);

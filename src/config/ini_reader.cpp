@@ -2,6 +2,8 @@
 #include <boost/program_options.hpp>
 #include <sstream>
 #include <stdexcept>
+#include <string>
+#include <unordered_map>
 #include <utility>
 
 #include "config/keys.hpp"
@@ -75,12 +77,11 @@ class IniScanner {
       fail(location(trimmed(rest)), "text after the section's ']'; begin a new line");
     const Part name = trimmed({content.line, content.begin + 1, close});
     if (name.text().empty()) fail(location(content), "a section without a name; write e.g. [scene]");
-    for (const ParsedSection& section : parsed_.sections) {
-      if (section.name != name.text()) continue;
-      fail(location(name),
-           "section [" + section.name + "] again; it began at line " + std::to_string(section.location.line));
-    }
-    parsed_.sections.push_back({std::string(name.text()), location(name)});
+    const std::string section(name.text());
+    if (const auto [first, is_new] = line_of_section_.try_emplace(section, line_); !is_new)
+      fail(location(name), "section [" + section + "] again; it began at line " + std::to_string(first->second));
+    parsed_.sections.push_back({section, location(name)});
+    line_of_key_.clear();
     plain_ += '[' + plain(name) + "]\n";
   }
 
@@ -117,18 +118,19 @@ class IniScanner {
 
   void add_entry(const Part& key, const Part& value) {
     const std::string section = parsed_.sections.empty() ? "" : parsed_.sections.back().name;
-    for (const ParsedEntry& entry : parsed_.entries) {
-      if (entry.section != section || entry.key != key.text()) continue;
-      fail(location(key), "key '" + entry.key + "' again; it was given at line " + std::to_string(entry.location.line));
-    }
+    const std::string name(key.text());
+    if (const auto [first, is_new] = line_of_key_.try_emplace(name, line_); !is_new)
+      fail(location(key), "key '" + name + "' again; it was given at line " + std::to_string(first->second));
     ParsedValue parsed_value{{}, location(value), true, value.text().find_first_of("\"'") == 0 ? 1 : 0};
-    parsed_.entries.push_back({section, std::string(key.text()), location(key), std::move(parsed_value)});
+    parsed_.entries.push_back({section, name, location(key), std::move(parsed_value)});
     plain_ += plain(key) + '=' + plain(value) + '\n';
   }
 
   ParsedConfig parsed_;
   std::string plain_;
   int line_ = 0;
+  std::unordered_map<std::string, int> line_of_section_;
+  std::unordered_map<std::string, int> line_of_key_;  ///< of the present section
 };
 
 /// The value as written, from Boost's reading of it.

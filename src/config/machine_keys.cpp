@@ -22,6 +22,9 @@ constexpr std::string_view some_mass = "mass = 0.25\n", stops = "gap = 3e-3\n",
                            mass_stops_force = "mass = 0.25\ngap = 3e-3\nforce = 40.0\n",
                            forced = "mass = 0.25\ngap = 3e-3\nforce = 40.0\nfrequency = 25.0\n";
 
+/// A damping ratio, or with a unit a damping.
+constexpr Key stop_damper(Key key) { return or_with_unit(Quantity::damping, key); }
+
 constexpr std::array keys{
     with(stops, of(Quantity::mass, Key{"machine", "mass", numeric, "", "250 g", "the mass that moves", positive})),
     with(mass_stops, of(Quantity::stiffness, Key{"machine", "stiffness", numeric, "0", "800 N/m",
@@ -68,14 +71,16 @@ constexpr std::array keys{
          or_as("stop_stiffness",
                of(Quantity::stiffness, Key{"machine", "stop_stiffness_upper", numeric, "inf", "90 N/m",
                                            "of the upper stop, in place of stop_stiffness", positive_or_infinite}))),
-    with(soft, Key{"machine", "stop_damping", numeric, "0", "0.1",
-                   "damping ratio of both soft stops: damping over 2 (stop_stiffness mass)^(1/2)", not_negative}),
+    with(soft, stop_damper(Key{"machine", "stop_damping", numeric, "0", "0.1",
+                               "damping ratio of both soft stops, damping over 2 (stop_stiffness mass)^(1/2); with a "
+                               "unit, as 40 N s/m, the damping",
+                               not_negative})),
     with(soft,
-         or_as("stop_damping", Key{"machine", "stop_damping_lower", numeric, "0", "0.1",
-                                   "damping ratio of the lower soft stop, in place of stop_damping", not_negative})),
+         or_as("stop_damping", stop_damper(Key{"machine", "stop_damping_lower", numeric, "0", "0.1",
+                                               "of the lower soft stop, in place of stop_damping", not_negative}))),
     with(soft,
-         or_as("stop_damping", Key{"machine", "stop_damping_upper", numeric, "0", "0.1",
-                                   "damping ratio of the upper soft stop, in place of stop_damping", not_negative})),
+         or_as("stop_damping", stop_damper(Key{"machine", "stop_damping_upper", numeric, "0", "0.1",
+                                               "of the upper soft stop, in place of stop_damping", not_negative}))),
     with(mass_stops, of(Quantity::force, Key{"machine", "load", numeric, "0", "-2 N", "constant force", any})),
     with(mass_stops_frequency,
          of(Quantity::length, Key{"machine", "stop_amplitude", numeric, "0", "1 mm",

@@ -112,7 +112,7 @@ const Key* followed_key(const ParsedConfig& parsed, std::string_view chosen_by, 
 Key with_quantity(Key key, const Key* along, const Key* across) {
   if (key.section != "branch") return key;
   const Key* const followed = key.name == "range" ? along : key.name == "across_range" ? across : nullptr;
-  if (followed != nullptr) key.quantity = followed->quantity;
+  if (followed != nullptr) key.quantity = followed->quantity, key.with_unit = followed->with_unit;
   return key;
 }
 
@@ -210,10 +210,12 @@ Settings check_keys(ParsedConfig parsed) {
     check_brackets(entry);
     const Key& key = known_key(entry, scene_section);
     if (entry.section == "sweep" && describes_scene(key.section)) {
-      settings.axes.push_back({&key, convert_axis(key, entry.value), entry.location, entry.value.location});
+      settings.axes.push_back(
+          {&key, convert_axis(key, entry.value), entry.location, entry.value.location, quantity_of(key, entry.value)});
     } else {
-      settings.values.push_back({&key, convert(with_quantity(key, along, across), entry.value, settings.is_si()),
-                                 entry.location, entry.value.location});
+      const Key read_as = with_quantity(key, along, across);
+      settings.values.push_back({&key, convert(read_as, entry.value, settings.is_si()), entry.location,
+                                 entry.value.location, quantity_of(read_as, entry.value)});
     }
   }
   return settings;

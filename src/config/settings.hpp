@@ -22,7 +22,8 @@ struct Setting {
   const Key* key = nullptr;  ///< of an axis: the key of [scene] or [machine] that it varies
   Value value;
   SourceLocation key_location;
-  SourceLocation location;  ///< of the value, or of all values
+  SourceLocation location;               ///< of the value, or of all values
+  Quantity quantity = Quantity::number;  ///< of the values of a key that has one, as they were written
 
   [[nodiscard]] bool is_axis() const { return std::holds_alternative<AxisValues>(value); }
   /// The values of a key of [scene] or [machine], one unless it is an axis.
@@ -78,6 +79,9 @@ struct Settings {
 
 /// What says the same as a key in the other one of [scene] and [machine]; empty if nothing does.
 [[nodiscard]] std::string_view counterpart_of(std::string_view name);
+
+/// The quantity of a value as it was written: that which the key has with a unit if there is one.
+[[nodiscard]] Quantity quantity_of(const Key& key, const ParsedValue& written);
 
 /// The default of a key that has one, converted as a given value would be.
 [[nodiscard]] Setting default_setting(const Key& key);

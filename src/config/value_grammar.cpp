@@ -94,10 +94,8 @@ class Parser {
     if (!unit && source_.quantity == Quantity::number) return {value, false};  // what follows is no unit
     const std::string expected = "; expected " + description_of(source_.quantity);
     if (!unit) fail_at(begin, "unknown unit " + in_quotes(text) + expected + unit_hint);
-    if (source_.quantity == Quantity::number)
-      fail_at(begin,
-              "the unit " + in_quotes(text) + " of a number without unit; leave it out" + std::string(source_.way_out));
-    if (!fits(*unit, source_.quantity)) fail_at(begin, "the unit " + in_quotes(text) + " doesn't fit" + expected);
+    if (!fits(*unit, source_.quantity))
+      fail_at(begin, "the unit " + in_quotes(text) + " doesn't fit" + expected + std::string(source_.way_out));
     at_ += text.size();
     return {in_si(value, *unit, source_.quantity), true};
   }
@@ -157,7 +155,7 @@ class Parser {
     } while (accept(','));
     if (bracket && !accept(']')) fail_here("expected ',' or ']', " + found());
     check_units(measures, axis.locations);
-    axis.text = toml_list(axis.values);
+    axis.text = toml_list(axis.values, source_.unit);
     return axis;
   }
 
@@ -195,8 +193,9 @@ class Parser {
     if (const std::string mistake = function->evaluate(arguments, axis.values); !mistake.empty())
       fail_at(begin, mistake);
     if (name == sobol_name) axis.sobol = {arguments[0], arguments[1]};
-    axis.text = '"' + std::string(name) + '(' + number_text(arguments[0]) + ", " + number_text(arguments[1]) + ", " +
-                number_text(arguments[2]) + ")\"";
+    const std::string unit = source_.unit.empty() ? "" : ' ' + std::string(source_.unit);
+    axis.text = '"' + std::string(name) + '(' + number_text(arguments[0]) + unit + ", " + number_text(arguments[1]) +
+                unit + ", " + number_text(arguments[2]) + (function->counts ? "" : unit) + ")\"";
     return axis;
   }
 
@@ -235,10 +234,34 @@ std::string toml_number(double value) {
   return text;
 }
 
-std::string toml_list(const std::vector<double>& values) {
+std::string toml_measure(double value, std::string_view unit) {
+  return '"' + number_text(value) + ' ' + std::string(unit) + '"';
+}
+
+std::string toml_list(const std::vector<double>& values, std::string_view unit) {
   std::string text;
-  for (const double value : values) text += (text.empty() ? "[" : ", ") + toml_number(value);
+  for (const double value : values)
+    text += (text.empty() ? "[" : ", ") + (unit.empty() ? toml_number(value) : toml_measure(value, unit));
   return text + ']';
+}
+
+bool has_unit(std::string_view text) {
+  constexpr std::array<std::string_view, 3> numbers{"pi", "inf", "nan"};
+  constexpr std::string_view digits = "0123456789.";
+  const auto functions = axis_function_names();
+  const auto is_in_word = [](unsigned char character) { return std::isalpha(character) != 0 || character >= 0x80; };
+  for (std::size_t begin = 0; begin < text.size();) {
+    std::size_t end = begin;
+    while (end < text.size() && is_in_word(static_cast<unsigned char>(text[end]))) ++end;
+    const std::string_view word = text.substr(begin, end - begin);
+    const bool after_digit = begin > 0 && digits.find(text[begin - 1]) != std::string_view::npos;
+    const bool is_exponent = after_digit && (word == "e" || word == "E");
+    const bool is_known =
+        std::ranges::find(numbers, word) != numbers.end() || std::ranges::find(functions, word) != functions.end();
+    if (!word.empty() && !is_exponent && !is_known) return true;
+    begin = std::max(end, begin + 1);
+  }
+  return false;
 }
 
 }  // namespace clatter::config

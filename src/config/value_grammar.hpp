@@ -17,6 +17,7 @@ struct SourceText {
   SourceLocation location;               ///< of its first character
   bool columns = false;                  ///< the text is on one line there, so a mistake inside has a column of its own
   Quantity quantity = Quantity::number;  ///< that its numbers are; of a number, units are refused
+  std::string_view unit{};               ///< that numbers need in the text of an axis to be read as that quantity
   std::string_view way_out{};            ///< of a unit there, besides leaving it out: ", or ..."
 };
 
@@ -62,8 +63,13 @@ void check_units(const std::vector<Measure>& measures, const std::vector<SourceL
 
 /// The same, as a TOML float: 1.0, not 1.
 [[nodiscard]] std::string toml_number(double value);
+/// The same with a unit, in quotes.
+[[nodiscard]] std::string toml_measure(double value, std::string_view unit);
 
-/// TOML text of a list of numbers.
-[[nodiscard]] std::string toml_list(const std::vector<double>& values);
+/// TOML text of a list of numbers, each with a unit if there is one.
+[[nodiscard]] std::string toml_list(const std::vector<double>& values, std::string_view unit = {});
+
+/// Whether a text has a word that is neither a number, as inf and pi, nor a function: a unit, or a slip.
+[[nodiscard]] bool has_unit(std::string_view text);
 
 }  // namespace clatter::config

@@ -62,6 +62,7 @@ struct BlockState {
   Reference reference_y[2], reference_v[2];  ///< [least, greatest]
   LaneArray forced_size;                     ///< bound of the change of displacement and velocity per unit of phase
   LaneArray count[2], before[2], after[2];   ///< [stop]: impacts, and the velocities of the first one
+  LaneArray fastest[2];                      ///< [stop]: speed of the fastest impact
   LaneArray first_before;                    ///< velocity before the first impact on either stop
   LaneArray jump_real[most_harmonics + 1],
       jump_imaginary[most_harmonics + 1];  ///< [k]: sums of the velocity's jumps times e^{-ik nu tau}

@@ -193,7 +193,7 @@ class LaneObservers {
                                 });
   }
 
-  /// Counts impacts, and notes the first one on each stop.
+  /// Counts impacts, and notes the first and the fastest one on each stop.
   void count(const Mask& counted, const Mask& upper, const V& before, const V& after) const {
     const V zero(0.0);
     const Mask first = counted & (row(lanes_.count[0]) + row(lanes_.count[1]) <= zero);
@@ -204,6 +204,7 @@ class LaneObservers {
       const Mask first_here = here & (so_far <= zero);
       put(lanes_.before[stop], select(first_here, before, row(lanes_.before[stop])));
       put(lanes_.after[stop], select(first_here, after, row(lanes_.after[stop])));
+      put(lanes_.fastest[stop], greater(row(lanes_.fastest[stop]), select(here, abs(before), zero)));
       put(lanes_.count[stop], so_far + select(here, V(1.0), zero));
     }
   }

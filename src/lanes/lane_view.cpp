@@ -18,7 +18,7 @@ static_assert(observables::Harmonics::most_in_lanes == BlockState::most_harmonic
 void begin_sums(BlockState& block, std::size_t lane) {
   for (const std::size_t i : {0u, 1u}) {
     block.reference_y[i].length.lane[lane] = block.reference_v[i].length.lane[lane] = -1;
-    block.count[i].lane[lane] = 0;
+    block.count[i].lane[lane] = block.fastest[i].lane[lane] = 0;
   }
   for (std::size_t k = 0; k <= block.harmonics; ++k)
     block.jump_real[k].lane[lane] = block.jump_imaginary[k].lane[lane] = 0;
@@ -221,7 +221,7 @@ void LaneView::include(const Observed& observed) {
   for (const std::size_t i : {0u, 1u}) {
     const observables::Impacts::OfStop& stop = observed.impacts.stops()[i];
     if (at(block_->count[i]) == 0) at(block_->before[i]) = stop.before, at(block_->after[i]) = stop.after;
-    at(block_->count[i]) += stop.count;
+    at(block_->count[i]) += stop.count, at(block_->fastest[i]) = std::max(at(block_->fastest[i]), stop.fastest);
   }
   for (std::size_t k = 0; k <= block_->harmonics; ++k) {
     at(block_->jump_real[k]) += observed.jumps.sums()[k].real();
@@ -243,7 +243,10 @@ std::array<observables::Impacts::OfStop, 2> LaneView::stops() const {
   std::array<observables::Impacts::OfStop, 2> stops;
   for (std::size_t i = 0; i < stops.size(); ++i) {
     if (at(block_->count[i]) == 0) continue;
-    stops[i] = {at(block_->count[i]), at(block_->before[i]), at(block_->after[i]), 0.0};
+    stops[i] = {.count = at(block_->count[i]),
+                .before = at(block_->before[i]),
+                .after = at(block_->after[i]),
+                .fastest = at(block_->fastest[i])};
   }
   return stops;
 }

@@ -35,7 +35,8 @@ struct Key {
   std::span<const std::string_view> choices{};
   std::string_view other{};   ///< the key that gives the value if this one is not in use; the default is its too
   std::string_view beside{};  ///< TOML lines without which it has no effect, with a header if not all of its section
-  Quantity quantity = Quantity::number;  ///< of its value; outside [machine] only beside a [machine]
+  Quantity quantity = Quantity::number;   ///< of its value; outside [machine] only beside a [machine]
+  Quantity with_unit = Quantity::number;  ///< of its value if it has a unit; number: the same
 
   /// Whether the key has a value if neither it nor an alternative is given.
   [[nodiscard]] constexpr bool has_default() const {
@@ -57,6 +58,12 @@ struct Key {
 /// A key whose value is a quantity, and may have a unit.
 [[nodiscard]] constexpr Key of(Quantity quantity, Key key) {
   key.quantity = quantity;
+  return key;
+}
+
+/// A key whose value is another quantity if it has a unit.
+[[nodiscard]] constexpr Key or_with_unit(Quantity quantity, Key key) {
+  key.with_unit = quantity;
   return key;
 }
 

@@ -62,6 +62,7 @@ class Energy::Observer {
   template <class A>
   void integrate(const A& arc, double length) {
     const auto& constants = arc.constants();
+    if (stands_still(arc, length)) return press(arc, length);
     const auto panels = static_cast<std::size_t>(std::ceil(length * constants.rate / 2));
     double work = 0, squares = 0, impulse = 0;
     const auto* stop = soft_stop_of(arc);
@@ -82,6 +83,20 @@ class Energy::Observer {
     evaluations_ += 20 * static_cast<double>(panels);
   }
 
+  /// Whether a mass at its equilibrium stays there. An arc of it may last for a period of a very weak spring, of which
+  /// that of the stop that it leans on is a tiny part.
+  template <class A>
+  [[nodiscard]] static bool stands_still(const A& arc, double length) {
+    if (arc.constants().f != 0 || arc.start().v != 0) return false;
+    const motion::Motion<double> middle = arc.at(length / 2), last = arc.at(length);
+    return middle.v == 0 && last.v == 0 && middle.x == arc.start().x && last.x == arc.start().x;
+  }
+  template <class A>
+  void press(const A& arc, double length) {
+    const motion::Motion<double>& m = arc.start();
+    if (const auto* const stop = soft_stop_of(arc); stop != nullptr)
+      impulse_[index_of(stop->side)] += length * stop->force(stop->into(m.offset), stop->into(m.v));
+  }
   /// The soft stop that an arc is in contact with, or nullptr.
   template <class A>
   [[nodiscard]] static const motion::SoftStop<double>* soft_stop_of(const A& arc) {

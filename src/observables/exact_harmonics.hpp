@@ -156,7 +156,7 @@ class ExactHarmonics {
     over_panels<10>(length, 1, [&](double s, double weight) {
       times[points] = begin + s, weighted[points++] = weight * arc.displacement(s);
     });
-    evaluations_ += static_cast<double>(points);
+    evaluations_ += static_cast<double>(points * x_.size());  // a term counts as one
     for (std::size_t k = 0; k < x_.size(); ++k) {
       const double w = base_ * static_cast<double>(k);
       Complex sum = 0;

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <string>
 #include <tuple>
 #include <vector>
@@ -20,13 +22,14 @@ struct Impacts {
   struct Values {
     std::array<double, 2> impacts_per_period{no_value, no_value};  ///< [stop]
     std::array<double, 2> v_before{no_value, no_value}, v_after{no_value, no_value};
+    std::array<double, 2> impact_speed{no_value, no_value};
     std::array<double, 2> rest_fraction{no_value, no_value};
     std::array<double, 2> contact_fraction{no_value, no_value}, contact_force_max{no_value, no_value};
   };
-  static constexpr std::tuple fields{
-      Field{Key{"observe", "impacts", Kind::flag, "false", "true",
-                "per stop: impacts per period, velocity before and after the first, share of time at rest"},
-            &Settings::impacts}};
+  static constexpr std::tuple fields{Field{Key{"observe", "impacts", Kind::flag, "false", "true",
+                                               "per stop: impacts per period, velocity before and after the first, "
+                                               "speed of the fastest, share of time at rest"},
+                                           &Settings::impacts}};
 
   [[nodiscard]] static bool wanted(const Settings& settings) { return settings.impacts; }
   [[nodiscard]] static std::string description(const Settings&) { return "impacts"; }
@@ -37,10 +40,17 @@ struct Impacts {
     double count = 0.0;
     double before = no_value;      ///< velocity before the first impact, signed
     double after = no_value;       ///< velocity after it
+    double fastest = 0.0;          ///< speed of the fastest impact
     double left_first = no_value;  ///< velocity at the end of the first contact with a soft stop that ends
     double rest_time = 0.0;        ///< in tau
     double contact_time = 0.0;     ///< with a soft stop, in tau
     Range force{};                 ///< of a soft stop, while in contact
+
+    /// An impact or a touch with a velocity.
+    void meet(double velocity) {
+      if (count == 0.0) before = velocity;
+      count += 1.0, fastest = std::max(fastest, std::abs(velocity));
+    }
   };
 
   class Observer;  ///< in impacts_observer.hpp

@@ -27,16 +27,14 @@ class Impacts::Observer {
   }
   void impact(const motion::Impact& impact) {
     OfStop& stop = stops_[index_of(impact.side)];
-    if (stop.count == 0.0) stop.before = impact.before, stop.after = impact.after;
-    stop.count += 1.0;
+    if (stop.count == 0.0) stop.after = impact.after;
+    stop.meet(impact.before);
   }
   /// A contact with a soft stop counts like an impact if the mass comes from outside; its velocities are those at the
   /// touch and where the stop's force has fallen to 0.
   void touch(const motion::Touch& touch) {
     if (!touch.from_outside) return;
-    OfStop& stop = stops_[index_of(touch.side)];
-    if (stop.count == 0.0) stop.before = touch.velocity;
-    stop.count += 1.0;
+    stops_[index_of(touch.side)].meet(touch.velocity);
   }
   void separate(const motion::Separation& separation) {
     OfStop& stop = stops_[index_of(separation.side)];
@@ -56,6 +54,7 @@ class Impacts::Observer {
     for (std::size_t i = 0; i < stops_.size(); ++i) {
       values.impacts_per_period[i] = stops_[i].count / periods;
       values.v_before[i] = stops_[i].before, values.v_after[i] = stops_[i].after;
+      if (stops_[i].count > 0) values.impact_speed[i] = stops_[i].fastest;
       if (span.periodic && std::isnan(values.v_after[i])) values.v_after[i] = stops_[i].left_first;
       values.rest_fraction[i] = std::min(1.0, stops_[i].rest_time / span.total);
       values.contact_fraction[i] = std::min(1.0, (stops_[i].rest_time + stops_[i].contact_time) / span.total);

@@ -8,6 +8,7 @@
 #include "model/required_effects.hpp"
 #include "model/response.hpp"
 #include "plan/sample.hpp"
+#include "plan/survey.hpp"
 #include "point/point.hpp"
 
 namespace clatter::plan {
@@ -33,11 +34,48 @@ double way_of(const point::Problem& scene) {
   return begun * std::min(time, 1 / o.damping) + forced * time;
 }
 
+/// Impacts on a stop that an acceleration `pull` presses the mass onto: it returns after 2v/pull, and damping
+/// takes 2h v^2/3 of its energy in a unit of time, so that v falls as e^(-2ht/3).
+double bounces_on(const point::Problem& scene, double position, double pull) {
+  if (!(pull >= 0)) return 0;
+  const double time = longest_time(scene), fading = 2 * scene.oscillator.damping / 3;
+  const double height = std::abs(scene.start.displacement - position);
+  const double speed = std::hypot(scene.start.velocity, std::sqrt(2 * pull * height));
+  const double stretched = fading > 0 ? std::expm1(fading * time) / fading : time;
+  const double impacts = pull * stretched / (2 * speed);
+  return std::isnan(impacts) ? scene.time.max_impacts : impacts;  // its start isn't known, or it stays on the stop
+}
+
 std::string number_text(double value) {
   std::array<char, 32> text{};
   std::snprintf(text.data(), text.size(), "%.1g", value);
   return text.data();
 }
+
+/// Steps of a transient that meets a stop, each an evaluation of an arc.
+double steps_of_transient(const point::Problem& scene) {
+  if (scene.time.mode != steady::Mode::transient) return 0;
+  return scene.time.duration / period_of(scene.oscillator) * work_of_period(scene, effects_of(scene));
+}
+
+/// The point that takes most of something.
+struct Costliest {
+  double most = 0;
+  std::size_t point = 0;
+
+  void see(double of_point, std::size_t number) {
+    if (of_point > most) most = of_point, point = number;
+  }
+  /// "point 2 alone may take 1e+08 impacts, some 3e+01 s", if that is long.
+  [[nodiscard]] std::optional<std::string> told(const sweep::Sweep& sweep, double evaluations, const char* unit) const {
+    if (!(most > 1e5)) return std::nullopt;
+    const double each = point::seconds_per_evaluation(effects_of(problem_at(sweep, point)));
+    const double seconds = most * evaluations * each;
+    if (!(seconds > long_time)) return std::nullopt;
+    const std::string which = size(sweep) > 1 ? "point " + std::to_string(point) + " alone" : "the point";
+    return which + " may take " + number_text(most) + ' ' + unit + ", some " + number_text(seconds) + " s";
+  }
+};
 
 }  // namespace
 
@@ -51,32 +89,36 @@ double impacts_without_loss(const point::Problem& scene) {
   const bool lower = needs.effects.lower && !is_soft(stops, Side::lower) && stops.restitution_lower >= 1,
              upper = needs.effects.upper && !is_soft(stops, Side::upper) && stops.restitution_upper >= 1;
   const double push = std::abs(o.forcing);
-  if ((lower && !(push < constant_force(o, stops.lower))) || (upper && !(push < -constant_force(o, stops.upper))))
-    return scene.time.max_impacts;
-  if (!(lower && upper) || std::isnan(scene.start.displacement)) return 0;
-  return std::min(scene.time.max_impacts, way_of(scene) / (stops.upper - stops.lower));
+  double impacts = 0;
+  const auto bounces = [&](double position, double pressing) {
+    const bool at_times = pressing <= 0 && pressing + push >= 0;
+    return bounces_on(scene, position, at_times ? (pressing + push) / 2 : pressing);
+  };
+  if (lower) impacts = bounces(stops.lower, -constant_force(o, stops.lower));
+  if (upper) impacts = std::max(impacts, bounces(stops.upper, constant_force(o, stops.upper)));
+  if (lower && upper && !std::isnan(scene.start.displacement))
+    impacts = std::max(impacts, way_of(scene) / (stops.upper - stops.lower));
+  return std::min(scene.time.max_impacts, impacts);
 }
 
 std::optional<std::string> warning_of_costliest_point(const sweep::Sweep& sweep,
                                                       const std::optional<sweep::Shard>& shard) {
   const sweep::Share share(sweep, shard);
   const Sample sample(share.points(), 10000);
-  double impacts = 0;
-  std::size_t costliest = 0;
+  Costliest bounces, periods;
   for (std::size_t i = 0; i < sample.size(); ++i) {
     const std::size_t number = sample[i].number;
     const std::size_t point = share.point(number / share.length(), number % share.length());
-    if (const double of_point = impacts_without_loss(problem_at(sweep, point)); of_point > impacts)
-      impacts = of_point, costliest = point;
+    const point::Problem scene = problem_at(sweep, point);
+    bounces.see(impacts_without_loss(scene), point), periods.see(steps_of_transient(scene), point);
   }
-  if (!(impacts > 1e5)) return std::nullopt;
   constexpr double evaluations = 2;  // an impact
-  const double seconds =
-      impacts * evaluations * point::seconds_per_evaluation(effects_of(problem_at(sweep, costliest)));
-  if (!(seconds > long_time)) return std::nullopt;
-  const std::string which = size(sweep) > 1 ? "point " + std::to_string(costliest) + " alone" : "the point";
-  return which + " may take " + number_text(impacts) + " impacts, some " + number_text(seconds) +
-         " s: with R = 1 nothing ends its bouncing; lower time.max_impacts, or take R below 1";
+  if (const auto told = bounces.told(sweep, evaluations, "impacts"))
+    return *told + ": with R = 1 nothing ends its bouncing; lower time.max_impacts, or take R below 1";
+  if (const auto told = periods.told(sweep, 1, "steps"))
+    return *told + ", since its time is long beside its periods; lower time.duration, or look for a slip in " +
+           (sweep.machine ? "mass, stiffness or frequency" : "nu or stiffness");
+  return std::nullopt;
 }
 
 }  // namespace clatter::plan

@@ -32,14 +32,20 @@ void check_directory(const fs::path& path) {
   if (::faccessat(AT_FDCWD, directory.c_str(), W_OK | X_OK, AT_EACCESS) != 0) refuse(path, errno);
 }
 
+/// As it was given: /dev/stdout leads to a place that has no name.
+void check_kind(const fs::path& path) {
+  struct stat status {};
+  if (::stat(path.c_str(), &status) != 0) return;
+  if (S_ISDIR(status.st_mode)) refuse(path, "is a directory", "name a file in it");
+  if (!S_ISREG(status.st_mode)) refuse(path, "is not a regular file, and would be replaced", "name a file");
+}
+
 void check_target(const fs::path& path) {
   struct stat status {};
   if (::stat(path.c_str(), &status) != 0) {
     if (errno != ENOENT) refuse(path, errno);
     return;
   }
-  if (S_ISDIR(status.st_mode)) refuse(path, "is a directory", "name a file in it");
-  if (!S_ISREG(status.st_mode)) refuse(path, "is not a regular file, and would be replaced", "name a file");
   if (::faccessat(AT_FDCWD, path.c_str(), W_OK, AT_EACCESS) != 0) {
     refuse(path, "an older file there is write-protected", "chmod u+w it, or name another");
   }
@@ -56,6 +62,7 @@ std::uint64_t room_at(const fs::path& target) {
 
 void check_writable(const std::string& path) {
   if (path.empty()) throw IoError{"the output file has an empty name; name one"};
+  check_kind(path);
   const fs::path target = target_of(path);
   check_target(target);
   check_directory(target);

@@ -9,8 +9,15 @@ namespace {
 constexpr const char* direction = "direction";  ///< the dimension of two directions
 
 /// Of keys that mean another thing in [machine]; nothing for the others.
-const char* name_in_si(Parameter parameter) {
-  switch (parameter) {
+const char* name_in_si(const Axis& axis) {
+  const bool is_damping = axis.quantity == Quantity::damping;
+  switch (axis.parameter) {
+    case Parameter::stop_damping:
+      return is_damping ? "damping coefficient of both stops" : nullptr;
+    case Parameter::stop_damping_lower:
+      return is_damping ? "damping coefficient of the lower stop" : nullptr;
+    case Parameter::stop_damping_upper:
+      return is_damping ? "damping coefficient of the upper stop" : nullptr;
     case Parameter::load:
       return "constant force";
     case Parameter::x0:
@@ -124,8 +131,8 @@ void add_axes(const Sweep& sweep, Dataset& dataset) {
           {std::string(key_of(axis.parameter)),
            {std::string(name_of(dimension))},
            axis.values,
-           is_si && name_in_si(axis.parameter) != nullptr ? name_in_si(axis.parameter) : long_name_of(axis.parameter),
-           std::string(unit_of(quantity_of(axis.parameter), is_si))});
+           is_si && name_in_si(axis) != nullptr ? name_in_si(axis) : long_name_of(axis.parameter),
+           std::string(unit_of(axis.quantity, is_si))});
       name_frame(sweep, frame_of(axis.parameter), dataset.variables.back());
     }
   }

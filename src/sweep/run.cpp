@@ -1,7 +1,6 @@
 #include "sweep/run.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <cstring>
 #include <span>
 #include <vector>
@@ -74,7 +73,6 @@ void SweepRun::save(const std::function<void(std::span<const std::byte> results)
 }
 
 void SweepRun::run(const RunOptions& options) {
-  const auto begin = std::chrono::steady_clock::now();
   const auto threads = static_cast<std::size_t>(threads_used(options));
   result_.threads =
       static_cast<int>(std::clamp<std::size_t>(share_.count(), 1, threads));  // more would have nothing to do
@@ -85,7 +83,6 @@ void SweepRun::run(const RunOptions& options) {
   store_.number_motions(result_.threads);
   result_.work = pool.work();
   result_.arch = options.arch, result_.lanes = pool.lane_work();
-  result_.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
 }
 
 RunResult SweepRun::result() {

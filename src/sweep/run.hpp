@@ -54,7 +54,6 @@ struct RunResult {
   std::size_t points = 0;         ///< points of the sweep, or of the shard
   std::size_t failed_points = 0;  ///< points whose status is a failure
   int threads = 1;                ///< threads that were used
-  double seconds = 0.0;           ///< wall time of the points
   std::vector<WorkStats> work;    ///< the cheapest compiled set first
   lanes::InstructionSet arch = lanes::InstructionSet::scalar;  ///< instruction set that was used
   LaneWork lanes;                                              ///< work in SIMD lanes

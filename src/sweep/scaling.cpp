@@ -54,6 +54,11 @@ void to_computed_units(point::Problem& problem, Machine machine) {
   const Units units = units_of(machine);
   problem.oscillator = oscillator_of(machine, units);
   to_units(problem, units);
+  Stops& stops = problem.stops;
+  const std::array kappa{stops.stiffness_lower, stops.stiffness_upper};
+  const std::array damping{&stops.damping_lower, &stops.damping_upper};
+  for (const std::size_t i : {0u, 1u})  // c = 2 zeta (kappa m)^(1/2); of a rigid stop nothing is left
+    if (machine.stop_damping_in_si[i]) *damping[i] *= units.time / (2 * machine.mass * std::sqrt(kappa[i]));
 }
 
 void to_computed_units(point::Problem& problem) {

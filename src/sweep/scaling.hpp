@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+
 #include "point/problem.hpp"
 
 namespace clatter::sweep {
@@ -16,6 +18,8 @@ struct Machine {
   double force = 0.0;                                      ///< F, N, any finite
   double frequency = 0.0;                                  ///< Hz, > 0 if there is a force, or stops or base shake
   double load = 0.0;                                       ///< L, N, any finite
+  /// Of the lower and the upper soft stop: whether the damping of the problem's stops is in N s/m, in place of a ratio.
+  std::array<bool, 2> stop_damping_in_si{};
 };
 
 /// The units that a machine is computed in: its time is that of the natural frequency (of the force without a spring, a

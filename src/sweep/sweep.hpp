@@ -25,6 +25,7 @@ void set(point::Problem& scene, Parameter parameter, double value);
 struct Axis {
   Parameter parameter = Parameter::nu;
   std::vector<double> values;
+  Quantity quantity = quantity_of(parameter);  ///< that they are in SI
 };
 
 /// Axes of equal length that run together; named by the first.

@@ -88,7 +88,17 @@ class Arch(CommandLine):
                 numpy.testing.assert_array_equal(
                     other[counted][periodic], default[counted][periodic], f"{name}: {counted}"
                 )
-            for measured in ("x_min", "x_max", "v_min", "v_max", "v_before", "v_after", "x_amplitude", "v_amplitude"):
+            for measured in (
+                "x_min",
+                "x_max",
+                "v_min",
+                "v_max",
+                "v_before",
+                "v_after",
+                "impact_speed",
+                "x_amplitude",
+                "v_amplitude",
+            ):
                 numpy.testing.assert_allclose(
                     other[measured][periodic],
                     default[measured][periodic],

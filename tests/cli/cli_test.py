@@ -2,6 +2,7 @@
 
 import json
 import os
+import re
 import subprocess
 import unittest
 
@@ -210,13 +211,15 @@ class Run(CommandLine):
         ):
             self.assertIn(word, details)
 
-    def test_the_bar_appears_on_demand_and_without_a_terminal_only_then(self):
-        config = self.write("a.toml", SMALL)
-        self.assertNotIn("points/s", self.run_ok(config).stderr)
-        self.assertNotIn("points/s", self.run_ok(config, "--progress", "never").stderr)
-        bar = self.clatter("run", config, "--progress", "always", environment={"NO_COLOR": "1"}).stderr
-        self.assertRegex(bar, r"5/5 points .* points/s .* left")
-        self.assertNotIn("\033[3", bar)
+    def test_the_summary_has_the_time_of_the_whole_command(self):
+        """Writing included: on one thread no command takes less time than its processor time."""
+        config = self.write("a.toml", SMALL.replace("1.5, 5)", "1.5, 400000)"))
+        command = [CLATTER, "run", config, "--threads", "1", "--set", "scene.xs=-9", "--progress", "never"]
+        with subprocess.Popen(command, cwd=self.directory, stderr=subprocess.PIPE, text=True) as process:
+            told = process.stderr.read()
+            _, _, used = os.wait4(process.pid, 0)
+        within = float(re.search(r"0 failed, (\S+) s, ", told)[1])
+        self.assertGreater(within, 0.9 * (used.ru_utime + used.ru_stime))
 
     def test_the_same_bytes_for_every_number_of_threads(self):
         config = self.write("a.toml", SMALL)

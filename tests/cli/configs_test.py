@@ -18,7 +18,7 @@ ALWAYS = ("status", "impact_total", "simulated_periods")
 OBSERVED = {  # variables of each [observe] key
     "extrema": ("x_min", "x_max", "v_min", "v_max"),
     "harmonics": ("harmonic", "x_amplitude", "x_phase", "v_amplitude", "v_phase", "base_frequency"),
-    "impacts": ("impacts_per_period", "v_before", "v_after", "rest_fraction"),
+    "impacts": ("impacts_per_period", "v_before", "v_after", "impact_speed", "rest_fraction"),
     "impact_log": ("impact_count", "impact_tau", "impact_stop", "impact_v_before", "impact_v_after"),
     "trajectory": ("tau", "x", "v"),
     "section": ("section_x", "section_v"),

@@ -3,7 +3,6 @@
 Never a false success. scripts/long_checks.sh disks runs the full disks at more sizes.
 """
 
-import contextlib
 import os
 import resource
 import shutil
@@ -242,6 +241,7 @@ class Faults(StoppedRuns):
             (self.directory / "none" / "a.h5", "mkdir -p"),
             (closed, "is a directory"),
             ("/dev/full", "is not a regular file"),
+            ("/dev/stdout", "'/dev/stdout': is not a regular file"),  # a pipe
             ("", "empty name"),
         ):
             command = self.command(output=output)

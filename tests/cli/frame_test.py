@@ -16,7 +16,7 @@ from runs import CLATTER, RunTest, toml
 
 SHAKEN = {"h": 0.1, "R": 0.7, "xs": 0.5, "nu": 1.3, "stop_amplitude": 0.3, "phase": 0.4}
 ASKED = ("x_min", "x_max", "v_min", "v_max", "x_amplitude", "x_phase", "v_amplitude", "v_phase", "x", "v", "section_x")
-RELATIVE = ("v_before", "v_after", "impact_v_before", "work_in", "x0")
+RELATIVE = ("v_before", "v_after", "impact_speed", "impact_v_before", "work_in", "x0")
 IN_BOTH = ("status", "period", "tau", "impacts_per_period", "impulse", "impact_tau", "base_frequency", "multiplier_re")
 
 

@@ -91,6 +91,12 @@ class Module(CommandLine):
         for wrong, error in (({"scene": 1}, TypeError), ({"scene": {"nu": {1, 2}}}, TypeError)):
             with self.assertRaises(error):
                 clatter.run(SWEEP, **wrong)
+        with self.assertRaisesRegex(TypeError, r"output = {'compression': 4}: expected the path of a file to keep"):
+            clatter.run(SWEEP, output={"compression": 4})
+        with self.assertRaisesRegex(TypeError, "5: expected the path of a configuration, or a dictionary"):
+            clatter.run(5)
+        with self.assertRaisesRegex(clatter.ConfigError, r"^'xs' is missing in \[scene\]"):  # and no place of a file
+            clatter.run({})
         with self.assertRaisesRegex(ValueError, "put it into the configuration"):
             clatter.run(SWEEP, sweep={"nu": np.linspace(0.9, 1.1, 10_000)})
 

@@ -129,7 +129,7 @@ class Readers(RunTest):
             **dict.fromkeys(("x_min", "x_max", "v_min", "v_max", "period", "period_ratio"), "float64"),
             **dict.fromkeys(("eigenfrequency", "velocity_ratio", "lyapunov"), "float64"),
         }
-        on_stops = ("impacts_per_period", "v_before", "v_after", "rest_fraction")
+        on_stops = ("impacts_per_period", "v_before", "v_after", "impact_speed", "rest_fraction")
         self.assert_contents(
             path,
             {"nu": 5, "stop": 2, "multiplier": 2},

@@ -11,6 +11,8 @@ import numpy as np
 OBSERVED = "[observe]\nextrema = true\nimpacts = true\nimpact_log = true\nenergy = true\ntrajectory = 3\n"
 STEADY = OBSERVED.replace("3", "2") + "period = true\nword = true\nstability = true\n"
 
+LOGGED = ("impact_count", "impact_tau", "impact_stop", "impact_v_")
+
 
 def keys_of(scene):
     """The values of the keys that a scene's kind of stops and shaking has."""
@@ -117,7 +119,7 @@ class Program:
             raise RuntimeError(f"{result.returncode}: {result.stderr}")
         with h5py.File(output) as data:
             for key, values in data.items():
-                if isinstance(values, h5py.Dataset) and values.shape and not key.startswith("impact_"):
+                if isinstance(values, h5py.Dataset) and values.shape and not key.startswith(LOGGED):
                     if values.shape[0] == len(points) and (values.ndim > 1 or key not in ("sample", "stop")):
                         is_text = values.dtype.kind not in "fiub"
                         empty = np.full((len(runs.logs), *values.shape[1:]), None if is_text else math.nan)
@@ -132,6 +134,12 @@ class Program:
 
 def numbers(values):
     return "[" + ", ".join(repr(float(x)) for x in values) + "]"
+
+
+def fastest(log):
+    """The speed of the fastest impact of a log on either stop, NaN if there is none."""
+    speeds = [np.abs(log[log[:, 1] == side, 2]) for side in (-1, 1)]
+    return np.array([found.max() if len(found) else math.nan for found in speeds])
 
 
 def sizes(runs, kind):

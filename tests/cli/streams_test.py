@@ -4,7 +4,7 @@ import os
 import subprocess
 import unittest
 
-from command_line import CLATTER, LONGEST, SMALL, CommandLine
+from command_line import CLATTER, LONGEST, SANITIZED, SMALL, CommandLine
 
 SMALL_INI = SMALL.replace('nu = "linspace(0.5, 1.5, 5)"', "nu = linspace(0.5, 1.5, 5)  ; an axis")
 
@@ -80,6 +80,24 @@ class Ini(CommandLine):
         self.assert_refused(2, "; read as TOML; for INI give --ini, or a name that ends in .ini", "run", "a.cfg")
         self.assertEqual(self.clatter("run", "a.cfg", "--ini").returncode, 0)
         self.assertIn("a.h5", self.files())
+
+    @unittest.skipIf(SANITIZED, "a sanitizer has comparisons of its own")
+    def test_the_work_of_a_long_file_grows_as_its_length(self):
+        """40 000 keys took nine seconds: each was compared with all before it. Here comparisons are counted."""
+
+        def comparisons(keys, ending):
+            text = "[scene]\n" + "".join(f"k{i:06} = 1\n" for i in range(keys))
+            told = self.directory / "comparisons"
+            shim = {"LD_PRELOAD": os.environ["CLATTER_FAULTS"], "CLATTER_COMPARISONS": str(told)}
+            result = self.clatter("plan", self.write("long" + ending, text), environment=shim)
+            self.assertEqual(result.returncode, 2, result.stderr)
+            self.assertIn(":2:1: unknown key 'k000000' in [scene]", result.stderr)
+            return int(told.read_text())
+
+        for ending in (".ini", ".toml"):
+            few, many = comparisons(2000, ending), comparisons(16000, ending)
+            self.assertGreater(few, 2000)
+            self.assertLess(many, 12 * few)  # n log n is 10.2, n^2 is 64
 
 
 class StandardOutput(CommandLine):

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <string>
@@ -41,6 +42,32 @@ TEST(Machine, damping_is_given_in_one_of_three_ways) {
   // c = 16 N s/m, c/(2 (K m)^(1/2)) = 0.1 and (K m)^(1/2)/c = 5 are the same
   for (const std::string given : {"damping = 16.0\n", "damping_ratio = 0.1\n", "quality = 5\n"})
     EXPECT_NEAR(problem_at(read_as("a.toml", machine + given).sweep, 0).oscillator.damping, 0.1, 1e-16) << given;
+}
+
+/// c = 2 zeta (kappa m)^(1/2), at every point of a sweep of all three, of each stop; the complete text says the same.
+TEST(Machine, a_stop_damping_with_a_unit_is_the_damping_itself) {
+  const std::string soft =
+      "[machine]\nstiffness = 12.8e3\ngap = 4e-3\nstop_damping_lower = \"20 N s/m\"\n"
+      "[sweep]\nmass = [0.5, 2]\nstop_stiffness = [1e4, 9e4, inf]\n"
+      "stop_damping_upper = \"linspace(10 N s/m, 0.03 kN s/m, 3)\"\n";
+  const Config config = read_as("a.toml", soft);
+  EXPECT_NE(config.text.find("stop_damping_upper = \"linspace(10 N s/m, 30 N s/m, 3)\""), std::string::npos);
+  EXPECT_NE(config.text.find("stop_damping_lower = \"20 N s/m\""), std::string::npos);
+  const sweep::Sweep again = parse_config(config.text, "text").sweep;
+  for (std::size_t i = 0; i < 18; ++i) {
+    const Stops stops = problem_at(config.sweep, i).stops, others = problem_at(again, i).stops;
+    const double mass = i < 9 ? 0.5 : 2, kappa = std::array{1e4, 9e4, HUGE_VAL}[i / 3 % 3],
+                 root = std::sqrt(kappa * mass);
+    EXPECT_NEAR(stops.damping_lower, 20 / (2 * root), 1e-15) << i;
+    EXPECT_NEAR(stops.damping_upper, 10.0 * double(1 + i % 3) / (2 * root), 1e-15) << i;
+    EXPECT_EQ(stops.damping_lower, others.damping_lower) << i;
+    EXPECT_EQ(stops.damping_upper, others.damping_upper) << i;
+  }
+  const sweep::Sweep listed =
+      read_as("a.toml", machine + "stop_stiffness = 1e4\n", {{"sweep.stop_damping", "1 N s/m, 2 mN s/mm"}}).sweep;
+  EXPECT_EQ(listed.dimensions[0][0].values, (std::vector<double>{1, 2}));
+  EXPECT_NEAR(problem_at(listed, 1).stops.damping_lower, 1 / std::sqrt(1e4 * 0.5), 1e-16);
+  EXPECT_EQ(problem_at(listed, 1).stops.damping_lower, problem_at(listed, 1).stops.damping_upper);
 }
 
 TEST(Machine, every_key_is_an_axis) {
@@ -128,6 +155,8 @@ TEST(Machine, wrong_machines) {
        "5:1", "a branch along 'stiffness' beside 'damping_ratio'"},
       {machine + "[branch]\nalong = \"quality\"\nrange = [1, 2]\nacross = \"damping\"\ncurve = \"fold\"", "8:10",
        "'damping' and 'quality' change the same quantity; expected another key of [machine]"},
+      {machine + "stop_stiffness = 1e5\nstop_damping = \"9 N s/m\"\n[branch]\nalong = \"mass\"\nrange = [1, 2]\n",
+       "6:1", "a branch along 'mass' beside 'stop_damping', which changes with it; give it as a damping ratio"},
       {machine + "[branch]\nalong = \"mass\"\nrange = [0, 2]\n", "7:9", "range has mass = 0; expected > 0, in kg"},
   };
   expect_all("a.toml", table);
@@ -142,19 +171,30 @@ TEST(Machine, wrong_units) {
       {machine + "frequency = \"3 rad\"\n", "5:16", "the unit 'rad' doesn't fit; expected a frequency in Hz or rad/s"},
       {machine + "x0 = \"1 inch\"\n", "5:9", "unknown unit 'inch'; expected a length in m, by products and quotients"},
       {machine + "x0 = \"0.001\"\n", "5:6", "without quotes unless it holds pi or a unit"},
-      {machine + "R = \"0.5 m\"\n", "5:10", "the unit 'm' of a number without unit; leave it out"},
+      {machine + "damping_ratio = \"3 N s/m\"\n", "5:20", "expected a number without unit, or 'damping' in N s/m"},
+      {machine + "stop_stiffness = 1e5\nstop_damping = \"3 kg\"\n", "6:19",
+       "expected a damping in N s/m, or a damping ratio without unit"},
+      {machine + "stop_stiffness = 1e5\n[sweep]\nstop_damping = [\"3 N s/m\", 0.1]\n", "7:28",
+       "0.1 without a unit beside a number with one; give each"},
+      {machine + "stop_stiffness = 1e5\n[branch]\nalong = \"stop_damping\"\nrange = [0, \"3 N s/m\"]\n", "8:9",
+       "range of stop_damping, which is followed as a damping ratio; give it without unit, as damping over 2 (stop_st"},
+      {"[scene]\nxs = 1\nstop_stiffness = 9\nstop_damping = \"3 N s/m\"\n", "4:19",
+       "expected a number without unit, or the scene in [machine]"},
+      {machine + "R = \"0.5 m\"\n", "5:10", "the unit 'm' doesn't fit; expected a number without unit"},
       {machine + "[sweep]\nx0 = [\"1 mm\", 2]\n", "6:15", "2 without a unit beside a number with one; give each"},
       {machine + "[sweep]\nx0 = \"linspace(1 mm, 2, 3)\"\n", "6:22", "2 without a unit beside a number with one"},
       {machine + "[sweep]\nx0 = \"linspace(0, 2 N, 3)\"\n", "6:21", "the unit 'N' doesn't fit; expected a length"},
       {machine + "[time]\nmode = \"transient\"\nduration = \"3 m\"\n", "7:15", "expected a time in s"},
-      {"[scene]\nxs = \"3 mm\"\n", "2:9", "leave it out, or describe the scene in [machine], which has units"},
+      {"[scene]\nxs = \"3 mm\"\n", "2:9", "a number without unit, or the scene in [machine], which has units"},
       {"[scene]\nxs = 1\n[time]\nmode = \"transient\"\nduration = \"3 s\"\n", "5:15",
-       "the unit 's' of a number without unit; leave it out, or describe the scene in [machine]"},
+       "the unit 's' doesn't fit; expected a number without unit, or the scene in [machine]"},
       {machine + "[branch]\nalong = \"gap\"\nrange = [\"1 mm\", \"2 Hz\"]\n", "7:21",
        "doesn't fit; expected a length in m"},
-      {machine + "[branch]\nalong = \"R\"\nrange = [\"1 mm\", 2]\n", "7:13", "the unit 'mm' of a number without unit"},
-      {"[scene]\nxs = 1\n[branch]\nalong = \"nu\"\nrange = [\"1 Hz\", \"2 Hz\"]\n", "5:13", "of a number without unit"},
-      {"[scene]\nxs = 1\n[sweep]\nnu = [\"1 Hz\"]\n", "4:10", "leave it out, or describe the scene in [machine]"},
+      {machine + "[branch]\nalong = \"R\"\nrange = [\"1 mm\", 2]\n", "7:13",
+       "the unit 'mm' doesn't fit; expected a number without"},
+      {"[scene]\nxs = 1\n[branch]\nalong = \"nu\"\nrange = [\"1 Hz\", \"2 Hz\"]\n", "5:13",
+       "expected a number without unit"},
+      {"[scene]\nxs = 1\n[sweep]\nnu = [\"1 Hz\"]\n", "4:10", "a number without unit, or the scene in [machine]"},
   };
   expect_all("a.toml", table);
 }

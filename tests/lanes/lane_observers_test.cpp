@@ -87,8 +87,9 @@ double difference(const Seen& a, const Seen& b) {
   for (const std::size_t i : {0U, 1U}) {
     if (a.stops[i].count != b.stops[i].count) return std::numeric_limits<double>::infinity();
     if (a.stops[i].count > 0)
-      most = std::max(
-          {most, std::abs(a.stops[i].before - b.stops[i].before), std::abs(a.stops[i].after - b.stops[i].after)});
+      most =
+          std::max({most, std::abs(a.stops[i].before - b.stops[i].before),
+                    std::abs(a.stops[i].after - b.stops[i].after), std::abs(a.stops[i].fastest - b.stops[i].fastest)});
   }
   return most;
 }

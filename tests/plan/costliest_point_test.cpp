@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "plan/plans.hpp"
 #include "sweep/figures.hpp"
 
@@ -15,13 +17,29 @@ point::Problem transient(const Oscillator& oscillator, double R, double v0) {
   scene.oscillator = oscillator;
   scene.stops = {-1, 1, R, R};
   scene.start = {0.5, v0, 0.0};
-  scene.time.mode = steady::Mode::transient, scene.time.duration = 300;
+  scene.time.mode = steady::Mode::transient, scene.time.duration = 1000;
   return scene;
 }
 
 bool warns(const point::Problem& scene) { return warning_of_costliest_point(sweep::sweep_of(scene, {})).has_value(); }
 
-TEST(CostliestPoint, of_a_pressed_mass_without_loss_takes_all_impacts_there_are) {
+/// Without damping it bounces as high as at the start, with it ever lower and more often.
+TEST(CostliestPoint, of_a_pressed_mass_without_loss_takes_the_impacts_that_it_has_time_for) {
+  point::ThreadScratch scratch;
+  for (const double h : {0.0, 0.02, 0.05})
+    for (const double duration : {50.0, 100.0, 200.0}) {
+      point::Problem scene = transient({h, 0.0, 1.0, 2.0}, 1.0, 0.0);
+      scene.time.duration = duration;
+      EXPECT_NEAR(impacts_without_loss(scene) / run_point(scene, scratch).impacts, 1, 0.2) << h << ' ' << duration;
+    }
+  point::Problem ball = transient({0.0, 0.0, 1.0, -9.8}, 1.0, 0.0);
+  ball.oscillator.stiffness = 0, ball.stops = {0.0, HUGE_VAL, 1.0, 1.0}, ball.start.displacement = 50;
+  ball.time.duration = 50;
+  EXPECT_NEAR(impacts_without_loss(ball), 8, 0.5);  // 3.19 s down, 6.39 s from bounce to bounce
+  EXPECT_FALSE(warns(ball));
+}
+
+TEST(CostliestPoint, of_a_pressed_mass_takes_all_impacts_there_are_at_most) {
   const Oscillator pressed{0.05, 0.3, 1.4, 2.0};
   EXPECT_EQ(impacts_without_loss(transient(pressed, 1.0, 0.0)), 1e8);
   EXPECT_TRUE(warns(transient(pressed, 1.0, 0.0)));
@@ -35,7 +53,7 @@ TEST(CostliestPoint, of_a_pressed_mass_without_loss_takes_all_impacts_there_are)
 TEST(CostliestPoint, of_a_fast_one_costs_its_path_in_distances_between_the_stops) {
   const Oscillator free{0.0, 0.0, 1.0, 0.0}, damped{0.1, 0.0, 1.0, 0.0};
   const point::Problem fast = transient(free, 1.0, 1e5);
-  EXPECT_NEAR(impacts_without_loss(fast) / (1e5 * 300 / 2), 1, 1e-6);
+  EXPECT_NEAR(impacts_without_loss(fast) / (1e5 * 1000 / 2), 1, 1e-6);
   point::ThreadScratch scratch;
   point::Problem shorter = fast;
   shorter.time.duration = 3;
@@ -53,6 +71,21 @@ TEST(CostliestPoint, of_a_sweep_is_named_in_its_plan) {
   const Plan plan = plan_of(sweep, 1);
   ASSERT_EQ(plan.warnings.size(), 1u);
   EXPECT_NE(plan.warnings[0].find("point 2 alone may take 1e+08 impacts"), std::string::npos) << plan.warnings[0];
+}
+
+/// A slip in the mass, 1e-308 kg, makes a second of so many periods that no run ends.
+TEST(CostliestPoint, of_a_transient_is_the_one_of_the_most_periods) {
+  sweep::Sweep sweep =
+      sweep::sweep_of(transient({0.1, 0.3, 1.4, 0.0}, 0.7, 0.0), {{sweep::Parameter::mass, {1, 1e-308}}});
+  sweep.machine = sweep::Machine{.stiffness = 800, .force = 40, .frequency = 25};
+  sweep.problem.time.duration = 1;
+  sweep.problem.stops = {-0.01, 0.01, 0.7, 0.7}, sweep.problem.start = {};
+  const auto warning = warning_of_costliest_point(sweep);
+  ASSERT_TRUE(warning);
+  EXPECT_NE(warning->find("point 1 alone may take "), std::string::npos) << *warning;
+  EXPECT_NE(warning->find("look for a slip in mass, stiffness or frequency"), std::string::npos) << *warning;
+  sweep.dimensions[0][0].values = {1, 2};
+  EXPECT_FALSE(warning_of_costliest_point(sweep));
 }
 
 TEST(Progress, moves_within_a_point) {

@@ -91,6 +91,7 @@ std::vector<Number> numbers_of(const PointResult& r) {
     const std::string at = stop == 0 ? " 0" : " 1";
     n.push_back({"impacts_per_period" + at, r.impacts_per_period[stop]});
     n.push_back({"v_before" + at, r.v_before[stop]}), n.push_back({"v_after" + at, r.v_after[stop]});
+    n.push_back({"impact_speed" + at, r.impact_speed[stop]});
     n.push_back({"rest_fraction" + at, r.rest_fraction[stop]});
     n.push_back({"multiplier_re" + at, r.multiplier_re[stop]});
     n.push_back({"multiplier_im" + at, r.multiplier_im[stop]});

@@ -61,6 +61,7 @@ void expect_mirrored(const PointResult& a, const PointResult& b, std::uint64_t s
   expect_equal(a.velocity_ratio, b.velocity_ratio, scene, "velocity_ratio");
   for (const std::size_t stop : {0u, 1u}) {
     expect_equal(a.v_before[stop], -b.v_before[1 - stop], scene, "v_before");
+    expect_equal(a.impact_speed[stop], b.impact_speed[1 - stop], scene, "impact_speed");
     expect_equal(a.v_after[stop], -b.v_after[1 - stop], scene, "v_after");
     expect_equal(a.impacts_per_period[stop], b.impacts_per_period[1 - stop], scene, "impacts_per_period");
     expect_equal(a.rest_fraction[stop], b.rest_fraction[1 - stop], scene, "rest_fraction");

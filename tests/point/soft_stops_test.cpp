@@ -90,9 +90,22 @@ TEST(SoftStops, free_motion_has_the_period_of_eq_56_and_the_depth_of_its_energy)
       EXPECT_NEAR(found.contact_force_max[1], kappa * depth, 1e-11 * kappa * depth);
       EXPECT_NEAR(found.v_before[1], far, 1e-14 * V * V / far);
       EXPECT_NEAR(found.v_after[1], -far, 1e-14 * V * V / far);
+      EXPECT_EQ(found.impact_speed[1], found.v_before[1]);
       const double contact = std::numbers::pi - 2 * std::atan(1 / (stiff * far));
       EXPECT_NEAR(found.contact_fraction[1], contact / stiff / found.period, 1e-12);
     }
+}
+
+/// The stop's force is then the load, for the period of a spring that is a million times weaker than that of the stop.
+TEST(SoftStops, a_mass_that_leans_on_one_has_its_ledger_at_once) {
+  Problem scene = between_soft({1e-5, 0.0, 0.55, 2.25}, 0.25, 28000.0, 1.2);
+  scene.oscillator.stiffness = 1e-12;
+  scene.start.displacement = 0.25;
+  scene.observe.energy = true;
+  const PointResult found = run(scene);
+  EXPECT_EQ(found.work_in, 0);
+  EXPECT_NEAR(found.impulse[1] / (2.25 * period_of(scene.oscillator)), 1, 1e-9);
+  EXPECT_EQ(found.impulse[0], 0);
 }
 
 TEST(SoftStops, forced_motion_is_that_of_a_dense_scan) {

@@ -1,6 +1,6 @@
 // Preloaded into clatter by tests/cli/faults_test.py: makes one call on a file fail. CLATTER_FAULT has the name of the
 // call, its number (0: every second one), and the fault, e.g. "write 3 ENOSPC", "rename 1 kill", "write 0 short". The
-// file that CLATTER_FAULT_DONE names is created when the fault happens.
+// file that CLATTER_FAULT_DONE names is created when the fault happens. Counts comparisons of texts, too.
 #include <dlfcn.h>
 #include <fcntl.h>
 #include <sys/stat.h>
@@ -72,7 +72,32 @@ int fails() {
 
 }  // namespace
 
+/// Comparisons of texts, told at the end in the file that CLATTER_COMPARISONS names.
+struct Comparisons {
+  unsigned long count = 0;
+
+  ~Comparisons() {
+    const char* const name = std::getenv("CLATTER_COMPARISONS");
+    if (name == nullptr) return;
+    static const auto open_file = next<int (*)(const char*, int, ...)>("open");
+    static const auto write_file = next<ssize_t (*)(int, const void*, size_t)>("write");
+    const std::string text = std::to_string(count);
+    const int file = open_file(name, O_CREAT | O_WRONLY | O_TRUNC, 0666);
+    if (write_file(file, text.data(), text.size()) < 0) std::abort();
+  }
+};
+
+Comparisons comparisons;
+
 extern "C" {
+
+int memcmp(const void* one, const void* other, size_t length) noexcept {
+  ++comparisons.count;
+  const auto *a = static_cast<const unsigned char*>(one), *b = static_cast<const unsigned char*>(other);
+  for (std::size_t i = 0; i < length; ++i)
+    if (a[i] != b[i]) return a[i] < b[i] ? -1 : 1;
+  return 0;
+}
 
 ssize_t write(int file, const void* bytes, size_t count) {
   static const auto call = next<ssize_t (*)(int, const void*, size_t)>("write");

@@ -207,8 +207,8 @@ TEST(AbsoluteFrame, changes_nothing_but_displacements_and_velocities_of_the_mass
         sweep.problem.observe.frame = Frame::absolute;
         const Dataset absolute = run(sweep, {.threads = 1, .arch = arch}).dataset;
         for (const std::string name :
-             {"v_before", "v_after", "impacts_per_period", "rest_fraction", "period", "work_in", "energy_residual",
-              "impulse", "multiplier_re", "lyapunov", "impact_v_before", "symmetric"}) {
+             {"v_before", "v_after", "impact_speed", "impacts_per_period", "rest_fraction", "period", "work_in",
+              "energy_residual", "impulse", "multiplier_re", "lyapunov", "impact_v_before", "symmetric"}) {
           const std::vector<double>&a = values(relative, name), &b = values(absolute, name);
           ASSERT_EQ(a.size(), b.size()) << name;
           // lanes observe the relative motion, the scalar loop the absolute one: to rounding the same
@@ -291,8 +291,8 @@ TEST(AbsoluteFrame, is_named_by_the_variables_that_it_decides) {
     for (const char* name : {"x_min", "x_max", "v_min", "v_max", "x_amplitude", "x_phase", "v_amplitude", "v_phase",
                              "x", "v", "section_x", "section_v", "motion_x", "motion_v"})
       EXPECT_EQ(frame_of(dataset, name), asked) << name;
-    for (const char* name : {"x0", "v_before", "v_after", "velocity_ratio", "impact_v_before", "impact_v_after",
-                             "work_in", "loss_damping", "energy_residual"})
+    for (const char* name : {"x0", "v_before", "v_after", "impact_speed", "velocity_ratio", "impact_v_before",
+                             "impact_v_after", "work_in", "loss_damping", "energy_residual"})
       EXPECT_EQ(frame_of(dataset, name), "relative") << name;
     for (const char* name : {"stop_amplitude", "status", "period", "impact_tau", "impulse", "loss_impact", "tau",
                              "impacts_per_period", "base_frequency", "multiplier_re", "settling_periods", "attractor"})

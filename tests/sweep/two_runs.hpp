@@ -114,7 +114,7 @@ inline Apart compare(const RunPoint& a, const RunPoint& b) {
       if (!(std::isnan(x[i]) && std::isnan(y[i]))) apart.raise(std::abs(x[i] - y[i]) / scale, name);
   };
   for (const char* name : {"x_min", "x_max"}) measure(name, size_x);
-  for (const char* name : {"v_min", "v_max", "v_before", "v_after"}) measure(name, size_v);
+  for (const char* name : {"v_min", "v_max", "v_before", "v_after", "impact_speed"}) measure(name, size_v);
   if (b.has("period") && !std::isnan(b.of("period")[0])) measure("period", b.of("period")[0]);
   measure("rest_fraction", 1.0);
   compare_spectra(a, b, "x", size_x, apart), compare_spectra(a, b, "v", size_v, apart);
