@@ -117,9 +117,11 @@ class Output:
 
     @property
     def follow(self):
-        """Axis along which each point started from the end of the one before, or ''."""
-        followed = self.sweep.get("follow", "")
-        return followed if followed in self.axes else ""
+        """Axis along which each point started from the end of the one before, whichever of its linked keys names it, or
+        ''."""
+        names = [] if self.is_branch else [name.strip() for name in self.sweep.get("follow", "").split(",")]
+        axes = [self[name].dims[0] for name in names if name in self and self[name].dims]
+        return next((axis for axis in axes if axis in self.axes), "")
 
     @property
     def goes_down(self):

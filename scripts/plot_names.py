@@ -208,7 +208,8 @@ def equation(output, name, value):
     if name == "direction":
         return "up" if value > 0 else "down"
     if not np.isfinite(value):
-        return f"no {words_of(name)}"
+        words = words_of(name)
+        return words.replace("stiffness of the", "rigid") if name.startswith("stop_stiffness") else f"no {words}"
     return f"{symbol(name, output)} = {amount(output, name, value)}"
 
 

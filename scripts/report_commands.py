@@ -35,7 +35,7 @@ def command_notes(output, config):
         f"The command of a point takes the configuration from {shell_word(output.path)}. Where that file isn't, "
         f"download the configuration below and begin with: clatter run {shell_word(config)}"
     ]
-    if followed_axis(output):
+    if output.follow:
         notes.append(
             "Each point started from the end of the one before, so the command of a point runs its whole line of the "
             "sweep again, and then prints the point."
@@ -61,7 +61,7 @@ def point_file(output):
 
 def sweep_settings(output, points):
     """Each axis at the value of the point, but that along which the sweep is followed: it takes all its points."""
-    section, followed, parts = section_of(output), followed_axis(output), []
+    section, followed, parts = section_of(output), output.follow, []
     for place, axis in enumerate(output.axes):
         if axis in ("direction", followed):
             continue
@@ -73,7 +73,7 @@ def sweep_settings(output, points):
 
 def followed_row(output, points):
     """Words that print the point, since a followed sweep writes the whole line that leads to it."""
-    followed = followed_axis(output)
+    followed = output.follow
     if not followed:
         return []
     failed = bool((output.values("status") >= FIRST_FAILURE).any())
@@ -89,7 +89,7 @@ def followed_row(output, points):
 
 def rows_of(output, points):
     """Which line of the table of its own line of the sweep each point is, after one of names."""
-    line = ("direction", followed_axis(output))
+    line = ("direction", output.follow)
     counts = [len(output.values(axis)) if axis in line else 1 for axis in output.axes]
     rows = np.arange(np.prod(counts)).reshape(counts) + 2
     return np.broadcast_to(rows, output.shape)[np.ix_(*points.kept)]
@@ -120,12 +120,6 @@ def forcing_periods(output):
 
 def section_of(output):
     return "machine" if output.is_si else "scene"
-
-
-def followed_axis(output):
-    """The axis along which each point started from the end of the one before, whichever of its linked keys names it."""
-    keys = [] if output.is_branch else names_in(output.sweep.get("follow", ""))
-    return next((output[key].dims[0] for key in keys if key in output and output[key].dims), "")
 
 
 def names_in(text):

@@ -12,7 +12,7 @@ from plain_hdf5 import text
 from plot_data import Output
 from plot_files import run_child, temporary_folder
 from plot_motion import motion
-from report_commands import followed_axis, keys_along
+from report_commands import keys_along
 from report_points import packed, shared_out, spread
 
 MOST = 200  # points whose motion is in a page
@@ -35,7 +35,7 @@ def histories(output, may_run):
     if any(name not in output for name in ("tau", "x", "v")):
         if not may_run:
             raise NoHistories("The file has no motion, and none was computed (--no-histories).")
-        if followed_axis(output):
+        if output.follow:
             raise NoHistories(
                 "Each point of this sweep started from the end of the one before, so its motion can't be computed "
                 "alone; observe.trajectory stores it."

@@ -39,8 +39,24 @@ std::pair<PhasePoint, std::int64_t> settled(point::Problem problem) {
   return {*state, periods};
 }
 
+/// Whether rounding decides a motion between its rests: a change of the frequency by 1e-11 has other letters, or lands
+/// elsewhere by more than 1e8 times as much.
+bool is_decided_by_rounding(point::Problem problem, const Orbit& orbit, Side stop, std::int64_t period) {
+  constexpr double change = 1e-11, most = 1e8;
+  problem.oscillator.frequency *= 1 + change;
+  const auto other = resting_orbit(problem, stop, period);
+  if (!other || letters_of(*other) != letters_of(orbit)) return true;
+  return !(std::abs(other->impacts.back().phase - orbit.impacts.back().phase) <= most * change);
+}
+
 Orbit resting_start(const point::Problem& problem, Side stop, std::int64_t period) {
-  if (auto orbit = resting_orbit(problem, stop, period)) return std::move(*orbit);
+  if (auto orbit = resting_orbit(problem, stop, period)) {
+    if (is_decided_by_rounding(problem, *orbit, stop, period))
+      throw StartError(
+          "the motion at the start rests, and between its rests stretches small changes so much that rounding decides "
+          "it: a run tells it by 50 digits, and no branch can follow it; begin elsewhere in the range");
+    return std::move(*orbit);
+  }
   if (!release_phase(problem, stop))
     throw StartError("the motion at the start rests on a stop for good; begin where the force takes it off");
   throw StartError(

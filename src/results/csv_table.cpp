@@ -88,7 +88,9 @@ std::vector<bool> indexes_of(const sweep::Variable& axis, double wanted) {
       axis.values);
   const double extent = values.empty() ? 0.0 : std::ranges::max(values) - std::ranges::min(values);
   const double near_enough = same * (std::isfinite(extent) ? std::max(extent, std::abs(wanted)) : std::abs(wanted));
-  const auto is_it = [&](double value) { return value == wanted || std::abs(value - wanted) <= near_enough; };
+  const auto is_it = [&](double value) {
+    return value == wanted || (std::isfinite(wanted) && std::abs(value - wanted) <= near_enough);
+  };
   std::vector<bool> here;
   for (const double value : values) here.push_back(is_it(value));
   if (std::ranges::find(here, true) != here.end()) return here;

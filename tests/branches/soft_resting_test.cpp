@@ -130,6 +130,23 @@ TEST(SoftResting, is_no_failure_without_a_spring_between_stops_about_another_mid
   EXPECT_GT(special_values(found, SpecialKind::graze, Parameter::nu).size(), 3);
 }
 
+/// Over 22 forcing periods of chaos between its rests rounding grows to the motion's own size.
+TEST(SoftResting, that_rounding_decides_is_not_followed) {
+  point::Problem problem;
+  problem.oscillator = {0.016559510350001392, 0.2356115150232016, 0.4010821141105805, 0.0};
+  problem.oscillator.stiffness = 0;
+  problem.stops = {-0.1932332564798549, 0.6099473935822914, 0.75633526501225, 1.0};
+  problem.stops.stiffness_upper = 20856.720790864838, problem.stops.damping_upper = 0.00782584883679119;
+  problem.start = {-0.08456176007176974, 0.0, 0.0};
+  problem.time = {}, problem.time.max_periods = 600;
+  try {
+    (void)follow_branches(problem, {.range = {0.28, 0.56}});
+    ADD_FAILURE() << "it is followed";
+  } catch (const StartError& error) {
+    EXPECT_NE(std::string(error.what()).find("rounding decides it"), std::string::npos) << error.what();
+  }
+}
+
 /// Without restitution a flight that turns into its stop as it begins is a landing that rests. A flight that only
 /// touches the stop later is a graze, and comes before that: no branch passes it.
 TEST(SoftResting, is_not_reached_through_a_graze) {

@@ -99,6 +99,14 @@ class Export(CommandLine):
         one = self.table(path, "--only", "x_max", "--only", "status", "--where", "nu=0.9", "--where", "xs=-0.5")
         self.assertEqual((len(one), one["x_max"][0]), (1, 0.5))
 
+    def test_where_tells_a_rigid_stop_from_soft_ones(self):
+        path = self.run_text(
+            "a", LOGGED.replace("R = 0.7\n", "").replace("nu = [0.9, 1.0]", "stop_stiffness = [9, 80, inf]")
+        )
+        for stiffness, rows in (("inf", [np.inf, np.inf]), ("80", [80.0, 80.0])):
+            table = self.table(path, "--only", "x_max", "--where", f"stop_stiffness={stiffness}")
+            self.assertEqual(table["stop_stiffness"].tolist(), rows)
+
     def test_a_row_for_each_impact(self):
         path = self.run_text("a", LOGGED)
         table = self.table(path, "--impacts")

@@ -11,8 +11,20 @@ import numpy as np
 from scene_pictures import ScenePictures
 from script_runs import run_script
 
+from plot_names import equation
+
 
 class Labels(ScenePictures):
+    def test_stops_of_infinite_stiffness_are_rigid(self):
+        for name, words in (("stop_stiffness", "rigid stops"), ("stop_stiffness_upper", "rigid upper stop")):
+            self.assertEqual(equation(self.output("stiffer"), name, np.inf), words)
+        self.assertEqual(equation(self.output("path"), "stop_upper", np.inf), "no upper stop")
+
+    def test_a_followed_axis_is_told_by_any_of_its_keys(self):
+        linked = "[scene]\nh = 0.1\nxs = 4\n[sweep]\nnu = [0.9, 1.0]\nf = [1, 2]\nlinked = 'nu, f'\nfollow = 'f'\n"
+        self.run_text("linked", linked + "[observe]\nextrema = true\n", "run")
+        self.assertEqual(self.output("linked").follow, "nu")
+
     def test_one_extreme_is_named_as_such(self):
         for name, words in (("v_max", "maximum"), ("v_min", "minimum"), ("x_max", "maximum"), ("x_min", "minimum")):
             axes = self.figure("path", only=(name,)).axes[0]
