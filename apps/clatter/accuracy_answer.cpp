@@ -56,15 +56,17 @@ std::string time_text(double ns) {
   return ns < 999.5e6 ? formatted("%.3g ms", ns / 1e6) : formatted("%.3g s", ns / 1e9);
 }
 
-/// A ratio in two digits, whole from 10 on, and from a million on as 1.4e+06: 1, 1.3, 28, 68531.
-std::string times_text(double ratio) { return formatted(ratio < 9.95 || ratio >= 999999.5 ? "%.2g" : "%.0f", ratio); }
+/// A ratio in at most six characters, so that columns keep apart: 1, 1.3, 28, 68531, 2e+06.
+std::string times_text(double ratio) {
+  return formatted(ratio < 9.95 ? "%.2g" : ratio < 999999.5 ? "%.0f" : "%.0e", ratio);
+}
 
 std::string right(std::string text, std::size_t width) {
   text.insert(0, width > text.size() ? width - text.size() : 0, ' ');
   return text;
 }
 
-constexpr std::size_t setting_width = 7, time_width = 9, times_width = 8;
+constexpr std::size_t setting_width = 7, time_width = 8, times_width = 7;
 std::size_t width_of(const Family& family) {
   return (family.column.empty() ? 0 : setting_width) + time_width + times_width;
 }

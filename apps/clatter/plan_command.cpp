@@ -19,7 +19,7 @@ int print_plan(const Arguments& arguments) {
   const plan::MemoryNeed need = check_memory(config, shard, threads);
   const sweep::RunOptions options{.threads = threads, .arch = arch};
   plan::Plan plan = plan::plan_of(config.sweep, options, need, shard);
-  const std::optional<double> seconds = foretold_seconds(config, options, shard);
+  const std::optional<double> seconds = foretold_seconds(config, options, shard, need);
   if (arguments.has("json")) {
     join_warnings(plan, config);
     std::cout << plan_json(plan, config.sweep, threads, seconds);

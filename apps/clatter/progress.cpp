@@ -18,7 +18,7 @@ namespace clatter::app {
 namespace {
 
 constexpr const char* erase_line = "\r\033[K";
-constexpr double worth_a_line = 10, between_lines = 60;  ///< seconds
+constexpr double worth_a_line = 30, between_lines = 60;  ///< seconds
 
 /// Columns of the terminal that stderr is; 80 if it doesn't tell.
 std::size_t columns_of_stderr() {

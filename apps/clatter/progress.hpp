@@ -17,7 +17,7 @@ namespace clatter::app {
 enum class ProgressKind : std::uint8_t { none, bar, lines };
 
 /// Shows on stderr how many points (or other units) are finished, and the time left. A bar erases itself at the end; a
-/// line is printed once it is known that the rest takes ten seconds or more, and each minute from then on.
+/// line is printed once it is known that the rest takes half a minute or more, and each minute from then on.
 class Progress {
  public:
   /// `before` units are finished at the beginning and don't count for the speed.

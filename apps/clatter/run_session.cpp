@@ -15,7 +15,6 @@
 #include "run_report.hpp"
 #include "storage/utf8.hpp"
 #include "sweep/rounding_fingerprint.hpp"
-#include "trial_run.hpp"
 #include "warnings.hpp"
 
 namespace clatter::app {
@@ -37,7 +36,7 @@ storage::JournalKey journal_key(const config::Config& config, const RunRequest& 
 void say_plan(const config::Config& config, const RunRequest& request, const plan::MemoryNeed& need) {
   const sweep::RunOptions options{.threads = request.threads, .arch = request.arch};
   const plan::Plan plan = plan::plan_of(config.sweep, options, need, request.shard);
-  std::cerr << plan_text(plan, config.sweep, request.threads, foretold_seconds(config, options, request.shard));
+  std::cerr << plan_text(plan, config.sweep, request.threads, {});
   say_notes(config), warn(plan);
 }
 

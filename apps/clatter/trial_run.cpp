@@ -4,7 +4,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstddef>
-#include <cstring>
+#include <numeric>
 #include <span>
 #include <vector>
 
@@ -16,10 +16,12 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr double enough = 0.2;          ///< seconds for the last trial
-constexpr double most = 1;              ///< seconds after which a trial of costly points ends
-constexpr double enough_points = 2000;  ///< of the last trial, unless they are costly
-constexpr double of_a_process = 0.005;  ///< seconds to begin and to end
+constexpr double enough = 0.2;           ///< seconds for the last trial
+constexpr double most = 1;               ///< seconds after which a trial of costly points ends
+constexpr double enough_points = 2000;   ///< of the last trial, unless they are costly
+constexpr double room = 64 << 20;        ///< bytes that a trial may take
+constexpr double of_program = 12 << 20;  ///< bytes that the program takes
+constexpr double of_a_process = 0.005;   ///< seconds to begin and to end
 
 double seconds_since(Clock::time_point begin) { return std::chrono::duration<double>(Clock::now() - begin).count(); }
 
@@ -27,27 +29,36 @@ double seconds_since(Clock::time_point begin) { return std::chrono::duration<dou
 struct TimeIsUp {};
 
 /// So many values of an axis, the middles of equal parts.
-void thin(sweep::Axis& axis, std::size_t kept) {
+sweep::Axis thinned(const sweep::Axis& axis, std::size_t kept) {
   const std::size_t length = axis.values.size();
-  std::vector<double> values;
-  for (std::size_t i = 0; i < kept; ++i) values.push_back(axis.values[(2 * i + 1) * length / (2 * kept)]);
-  axis.values = std::move(values);
+  sweep::Axis some{axis.parameter, {}, axis.quantity};
+  for (std::size_t i = 0; i < kept; ++i) some.values.push_back(axis.values[(2 * i + 1) * length / (2 * kept)]);
+  return some;
 }
 
-/// A sweep over about so many points of another one, the same share of each dimension.
-sweep::Sweep thinned(sweep::Sweep sweep, double points) {
-  double left = points;
-  std::size_t dimensions = sweep.dimensions.size();
-  std::vector<sweep::Dimension*> shortest_first;
-  for (sweep::Dimension& dimension : sweep.dimensions) shortest_first.push_back(&dimension);
-  std::ranges::sort(shortest_first, {}, [](const sweep::Dimension* dimension) { return length(*dimension); });
-  for (sweep::Dimension* const dimension : shortest_first) {
-    const double share = std::ceil(std::pow(left, 1.0 / static_cast<double>(dimensions--)));
-    const auto kept = static_cast<std::size_t>(std::clamp(share, 1.0, static_cast<double>(length(*dimension))));
-    for (sweep::Axis& axis : *dimension) thin(axis, kept);
-    left = std::max(1.0, left / static_cast<double>(kept));
+/// How many values of each dimension make about so many points, the same share of each.
+std::vector<std::size_t> kept_values(const std::vector<sweep::Dimension>& dimensions, double points) {
+  std::vector<std::size_t> shortest_first(dimensions.size()), kept(dimensions.size());
+  std::iota(shortest_first.begin(), shortest_first.end(), std::size_t{0});
+  std::ranges::sort(shortest_first, {}, [&](std::size_t i) { return length(dimensions[i]); });
+  std::size_t others = dimensions.size();
+  for (const std::size_t i : shortest_first) {
+    const double share = std::floor(std::pow(points, 1.0 / static_cast<double>(others--)) + 1e-9);
+    kept[i] = static_cast<std::size_t>(std::clamp(share, 1.0, static_cast<double>(length(dimensions[i]))));
+    points = std::max(1.0, points / static_cast<double>(kept[i]));
   }
-  return sweep;
+  return kept;
+}
+
+/// A sweep over about so many points of another one.
+sweep::Sweep thinned(const sweep::Sweep& sweep, double points) {
+  sweep::Sweep some{sweep.problem, {}, sweep.follow, sweep.direction, sweep.start_period, sweep.machine};
+  const std::vector<std::size_t> kept = kept_values(sweep.dimensions, points);
+  for (std::size_t i = 0; i < kept.size(); ++i) {
+    sweep::Dimension& dimension = some.dimensions.emplace_back();
+    for (const sweep::Axis& axis : sweep.dimensions[i]) dimension.push_back(thinned(axis, kept[i]));
+  }
+  return some;
 }
 
 /// Points of a trial, and the seconds that they took.
@@ -79,18 +90,18 @@ Trial run(const sweep::Sweep& sweep, const config::Config& config, sweep::RunOpt
 }  // namespace
 
 std::optional<double> foretold_seconds(const config::Config& config, const sweep::RunOptions& options,
-                                       const std::optional<sweep::Shard>& shard) {
-  if (plan::warning_of_costliest_point(config.sweep, shard)) return std::nullopt;
-  const double all = static_cast<double>(sweep::Share(config.sweep, shard).points());
+                                       const std::optional<sweep::Shard>& shard, const plan::MemoryNeed& need) {
+  const auto all = static_cast<double>(sweep::Share(config.sweep, shard).points());
+  const double fit = std::floor(room * all / std::max(need.output, need.memory - of_program));
+  if (!(fit >= 1) || plan::warning_of_costliest_point(config.sweep, shard)) return std::nullopt;
   Trial last;
   const auto is_short = [&] {  // of fewer points, one that takes long may be most of the time
     return last.seconds < enough || (last.points < enough_points && last.seconds < most / 2);
   };
-  for (double points = 256; is_short(); points *= std::clamp(most / last.seconds, 2.0, 8.0)) {
-    const bool is_whole = !shard && points >= all;
-    const sweep::Sweep some = is_whole ? config.sweep : thinned(config.sweep, points);
-    last = run(some, config, options);
-    if (last.points >= all || size(some) == size(config.sweep)) break;
+  for (double points = std::min(256.0, fit); is_short(); points *= std::clamp(most / last.seconds, 2.0, 8.0)) {
+    const bool is_last = points >= std::min(all, fit);
+    last = run(thinned(config.sweep, std::min({points, all, fit})), config, options);
+    if (is_last) break;
   }
   if (!(last.points > 0)) return std::nullopt;
   return of_a_process + last.seconds * std::max(1.0, all / last.points);

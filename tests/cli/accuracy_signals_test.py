@@ -88,7 +88,7 @@ class Interrupts(AccuracyRuns):
         config = self.write("a.toml", SWEEP)
         self.accuracy(config, "--set", "time.max_impacts=1", code=1)
         older = (self.directory / "a.accuracy.h5").read_bytes()
-        code, out, err = self.interrupted(signal.SIGTERM, "stdout", b"\n", "--json")
+        code, out, err = self.interrupted(signal.SIGTERM, "stdout", b"\n", "--json", "--progress", "never")
         self.assertEqual(code, 143, err)
         finished = int(
             re.fullmatch(NOTED + rf"stopped after (\d+) of {POINTS} points; a\.accuracy\.h5 is not written\n", err)[1]

@@ -129,7 +129,9 @@ class Accuracy(AccuracyRuns):
         self.assertIn("compared with 50 digits over 3 forcing periods from the start: 6 impacts and 0 rests.", text)
         levels = [line for line in lines if re.match(r" 1e-\d\d ", line)]
         self.assertEqual([line.split()[0] for line in levels], [f"1e-{digits:02}" for digits in range(2, 15, 2)])
-        self.assertEqual({len(line) for line in levels}, {76})
+        self.assertEqual({len(line) for line in levels}, {80})
+        for line in levels:  # no two numbers touch
+            self.assertRegex(line, r"^ 1e-\d\d( +(-|(\d+e-\d\d +)?[\d.]+ [num]?s +[\d.e+]+))+$")
         for line in levels[:5]:
             times = [float(ratio) for ratio in re.findall(r" [num]?s +([\d.]+)", line)]
             self.assertEqual(min(times), 1)
