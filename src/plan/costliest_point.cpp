@@ -46,9 +46,11 @@ double bounces_on(const point::Problem& scene, double position, double pull) {
   return std::isnan(impacts) ? scene.time.max_impacts : impacts;  // its start isn't known, or it stays on the stop
 }
 
+/// One digit of a number above 1: 30, 2000, 1e+08.
 std::string number_text(double value) {
+  const double unit = std::pow(10.0, std::floor(std::log10(value)));
   std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), "%.1g", value);
+  std::snprintf(text.data(), text.size(), "%.6g", std::round(value / unit) * unit);
   return text.data();
 }
 
@@ -66,7 +68,7 @@ struct Costliest {
   void see(double of_point, std::size_t number) {
     if (of_point > most) most = of_point, point = number;
   }
-  /// "point 2 alone may take 1e+08 impacts, some 3e+01 s", if that is long.
+  /// "point 2 alone may take 1e+08 impacts, some 30 s", if that is long.
   [[nodiscard]] std::optional<std::string> told(const sweep::Sweep& sweep, double evaluations, const char* unit) const {
     if (!(most > 1e5)) return std::nullopt;
     const double each = point::seconds_per_evaluation(effects_of(problem_at(sweep, point)));
