@@ -6,18 +6,11 @@ Environment: CLATTER, the program; CLATTER_SOURCE, the source directory.
 import subprocess
 import unittest
 
-from command_line import SOURCE, CommandLine
-
-SCENE = "[scene]\nh = 0.1\nf = -1.0\nR = 0.7\nxs = -3\nnu = 1.1\nx0 = 2\nv0 = 3\n"
-BRANCH = '[branch]\nalong = "nu"\nrange = [0.85, 1.5]\n'
-WIDE = '[branch]\nalong = "nu"\nrange = [0.5, 2]\n'
+from branch_runs import BRANCH, SCENE, WIDE, BranchRuns
+from command_line import SOURCE
 
 
-class BranchPictures(CommandLine):
-    def branch(self, text, *words):
-        self.write("a.toml", text)
-        return self.clatter("branch", "a.toml", *words)
-
+class BranchPictures(BranchRuns):
     def test_picture_has_branches_special_points_and_a_sweep_behind(self):
         self.branch(SCENE + BRANCH, "-q")
         self.write("s.toml", SCENE.replace("nu = 1.1\n", "") + "[sweep]\nnu = [1.1, 1.3]\n[observe]\nextrema = true\n")

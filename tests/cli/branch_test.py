@@ -12,18 +12,11 @@ import unittest
 import h5py
 import numpy as np
 import xarray
-from command_line import CLATTER, SOURCE, CommandLine
-
-SCENE = "[scene]\nh = 0.1\nf = -1.0\nR = 0.7\nxs = -3\nnu = 1.1\nx0 = 2\nv0 = 3\n"
-BRANCH = '[branch]\nalong = "nu"\nrange = [0.85, 1.5]\n'
-WIDE = '[branch]\nalong = "nu"\nrange = [0.5, 2]\n'
+from branch_runs import BRANCH, SCENE, WIDE, BranchRuns
+from command_line import CLATTER, SOURCE
 
 
-class Branch(CommandLine):
-    def branch(self, text, *words):
-        self.write("a.toml", text)
-        return self.clatter("branch", "a.toml", *words)
-
+class Branch(BranchRuns):
     def test_the_file_is_there_even_if_nobody_reads_the_special_points(self):
         self.write("a.toml", SCENE + BRANCH)
         reader, writer = os.pipe()
