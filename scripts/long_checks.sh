@@ -21,6 +21,8 @@ tests/stepping or tests/cli; build first (scripts/test.sh). NAME is one of
                and branches, followed sweeps and starts of a tenth of them (default 3000; about 0.2 s each)
   releases     the periods and impacts of COUNT scenes that rest now and then, in 60 digits
                (default 300; about 0.5 s each)
+  verify       COUNT random scenes certified and proved by clatter-verify, and all points of the shipped
+               configurations (default 10000; about 20 ms each)
   starts       tests/regression on every instruction set with all starts of basins and zones, of which
                ctest runs all on the widest set only (no COUNT; about 2 minutes)
 END
@@ -39,6 +41,7 @@ case "${1-}" in
   disks) filter=faults_test.Faults.test_a_disk_that_is_full_at_any_size_loses_nothing count=100 ;;
   combinations) filter=combinations_test.Combinations count=3000 ;;
   releases) filter=releases_test.Releases.test_random_rests_are_told_as_60_digits_tell_them count=300 ;;
+  verify) filter=verify_test.Verify count=10000 ;;
   starts) filter=regress_test.Regress.test_the_committed_baseline_holds_on_every_instruction_set count=1 ;;
   -h | --help) usage; exit 0 ;;
   *) echo "long_checks.sh: unknown name '${1-}'; try --help" >&2; exit 2 ;;
@@ -53,7 +56,8 @@ count=${2-$count}
 top=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 if [[ $filter == *_test.* ]]; then
   export CLATTER=$top/build/release/apps/clatter/clatter CLATTER_KILLS=$count CLATTER_DISKS=$count
-  export CLATTER_COMBINATIONS=$count CLATTER_RELEASES=$count
+  export CLATTER_COMBINATIONS=$count CLATTER_RELEASES=$count CLATTER_VERIFIED=$count
+  export CLATTER_VERIFY=$top/build/release/apps/verify/clatter-verify CLATTER_SOURCE=$top
   export PYTHONDONTWRITEBYTECODE=1
   [[ $1 != starts ]] || export CLATTER_ALL_STARTS=1
   [[ -x $CLATTER ]] || { echo "long_checks.sh: $CLATTER is missing; scripts/test.sh builds it" >&2; exit 2; }

@@ -52,6 +52,7 @@ struct Command {
 [[nodiscard]] Command branch_command();
 [[nodiscard]] Command merge_command();
 [[nodiscard]] Command export_command();
+[[nodiscard]] Command certify_command();
 [[nodiscard]] Command info_command();
 [[nodiscard]] Command defaults_command();
 [[nodiscard]] Command help_command();

@@ -1,4 +1,3 @@
-#include <filesystem>
 #include <iostream>
 #include <string>
 #include <vector>
@@ -7,12 +6,10 @@
 #include "common_options.hpp"
 #include "config/config.hpp"
 #include "config/suggestion.hpp"
-#include "config/value_grammar.hpp"
 #include "results/csv_table.hpp"
 #include "results/dataset_file.hpp"
 #include "storage/atomic_write.hpp"
-#include "storage/error.hpp"
-#include "storage/utf8.hpp"
+#include "table_options.hpp"
 
 namespace clatter::app {
 namespace {
@@ -32,39 +29,14 @@ std::vector<std::string> listed(const std::vector<std::string>& values) {
   return words;
 }
 
-std::pair<std::string, double> place(const std::string& text) {
-  const std::size_t equals = text.find('=');
-  try {
-    if (equals == std::string::npos || equals == 0) throw UsageError("");
-    const double value = config::parse_number({std::string_view(text).substr(equals + 1), {}});
-    return {text.substr(0, equals), value};
-  } catch (const std::runtime_error&) {
-    throw UsageError("--where " + config::in_quotes(text) + "; expected AXIS=VALUE, e.g. nu=1.0");
-  }
-}
-
 results::TableChoice choice_of(const Arguments& arguments) {
-  results::TableChoice choice{.only = listed(arguments.values("only")), .impacts = arguments.has("impacts")};
-  for (const std::string& text : arguments.values("where")) choice.where.push_back(place(text));
-  return choice;
-}
-
-void check_output(const Arguments& arguments, const std::string& output) {
-  storage::check_writable(output);
-  std::error_code error;
-  if (std::filesystem::equivalent(arguments.operands[0], output, error))
-    throw UsageError("the output " + storage::quoted_name(output) + " is the input; name another file with -o");
-  if (std::filesystem::exists(output, error) && !arguments.has("force"))
-    throw storage::IoError("cannot write " + storage::quoted_name(output) +
-                           ": there is a file; name another with -o, move that one away, or replace it with --force");
+  return {.only = listed(arguments.values("only")), .where = places_of(arguments), .impacts = arguments.has("impacts")};
 }
 
 int export_table(const Arguments& arguments) try {
   const std::string& path = arguments.operands[0];
   const results::TableChoice choice = choice_of(arguments);
-  const std::optional<std::string> output =
-      arguments.value("output").value_or("-") == "-" ? std::nullopt : arguments.value("output");
-  if (output) check_output(arguments, *output);
+  const std::optional<std::string> output = text_output_of(arguments);
   const results::FileSummary summary = results::read_summary(path);
   const results::CsvTable table(summary, path, choice);
   const sweep::Dataset dataset = results::read_variables(path, table.variables());
@@ -97,7 +69,7 @@ Command export_command() {
           .required_operands = 1,
           .options = {{"only", 0, "NAME,...", "columns of these results, or components like v_before[-1]; repeatable",
                        true},
-                      {"where", 0, "AXIS=VALUE", "rows at this value of an axis; repeatable", true},
+                      where_option,
                       {"impacts", 0, "", "a row for each impact of the log; default: for each point"},
                       {"output", 'o', "FILE.csv", "output file; default: standard output"},
                       force_option,

@@ -2,6 +2,9 @@
 include(GNUInstallDirs)
 set(share ${CMAKE_INSTALL_DATADIR}/clatter)
 install(TARGETS clatter RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+if(TARGET clatter-verify)
+  install(TARGETS clatter-verify RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+endif()
 
 file(GLOB configs CONFIGURE_DEPENDS configs/*.toml configs/*.ini)
 install(FILES ${configs} DESTINATION ${share}/configs)

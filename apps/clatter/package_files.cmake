@@ -3,7 +3,7 @@ set(documents ${CPACK_TEMPORARY_INSTALL_DIRECTORY}/usr/share/doc/clatter)
 
 # The licences of libraries whose code gets into the program: they ask to go along with it. Boost's doesn't, nor does
 # that of the compiler's library.
-foreach(library libhdf5 libtomlplusplus libxsimd)
+foreach(library libhdf5 libtomlplusplus libxsimd nlohmann-json3)
   file(READ /usr/share/doc/${library}-dev/copyright licence)
   file(WRITE ${documents}/libraries/${library} "${licence}")
 endforeach()

@@ -40,16 +40,16 @@ class MotionRecorder {
     watch.arc(arc, begin, length);
   }
   void rest(const motion::Rest& rest) {
-    watch.rest(rest);
     add({rest.held ? MotionEvent::Kind::rest : MotionEvent::Kind::chatter, rest.side, rest.time, 0.0, rest.length});
+    watch.rest(rest);
   }
   void impact(const motion::Impact& impact) {
-    watch.impact(impact), add({MotionEvent::Kind::impact, impact.side, impact.time, impact.before, 0.0, impact.after});
+    add({MotionEvent::Kind::impact, impact.side, impact.time, impact.before, 0.0, impact.after}), watch.impact(impact);
   }
   void touch(const motion::Touch& touch) {
-    watch.touch(touch);
     add({touch.from_outside ? MotionEvent::Kind::touch : MotionEvent::Kind::renewal, touch.side, touch.time,
          touch.velocity});
+    watch.touch(touch);
   }
   void separate(const motion::Separation& separation) {
     watch.separate(separation);
@@ -57,16 +57,20 @@ class MotionRecorder {
   }
 
   void keep_events() { keeps_events_ = true; }
+  /// Keeps them with the derivative of the motion from here to each.
+  void keep_derivatives() { keeps_events_ = keeps_derivatives_ = true, watch.differentiate(); }
 
   steady::PassageObserver watch;
-  std::vector<MotionEvent> events{};  ///< in order, if they are kept
+  std::vector<MotionEvent> events{};                    ///< in order, if they are kept
+  std::vector<motion::Jacobian<double>> derivatives{};  ///< before each of them, if they are kept
 
  private:
   void add(const MotionEvent& event) {
     if (keeps_events_) events.push_back(event);
+    if (keeps_derivatives_) derivatives.push_back(watch.derivative());
   }
 
-  bool keeps_events_ = false;
+  bool keeps_events_ = false, keeps_derivatives_ = false;
 };
 
 /// The motion of a problem by the exact method, with the effects that it requires, for those who look at a motion

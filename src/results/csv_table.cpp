@@ -282,22 +282,39 @@ std::vector<std::size_t> CsvTable::rows_of_points(const sweep::Dataset& dataset)
   return rows;
 }
 
+/// Whether `where` chooses each point.
+std::vector<bool> CsvTable::chosen(const sweep::Dataset& dataset) const {
+  const std::vector<std::vector<bool>> is_wanted = wanted(dataset);
+  std::vector<std::size_t> at(rows_.size(), 0);
+  std::vector<bool> chosen(points_of(rows_), true);
+  for (std::size_t point = 0; point < chosen.size(); ++point, advance(at, rows_))
+    for (std::size_t d = 0; d < at.size(); ++d) chosen[point] = chosen[point] && is_wanted[d][at[d]];
+  return chosen;
+}
+
+std::vector<std::size_t> CsvTable::points(const sweep::Dataset& dataset) const {
+  require_complete(columns(dataset), points_of(rows_));
+  const std::vector<bool> is_chosen = chosen(dataset);
+  std::vector<std::size_t> points;
+  for (std::size_t point = 0; point < is_chosen.size(); ++point)
+    if (is_chosen[point]) points.push_back(point);
+  return points;
+}
+
 void CsvTable::write(const sweep::Dataset& dataset, const std::function<void(std::string_view)>& take) const {
   const std::vector<Column> shown = columns(dataset);
   const std::vector<std::size_t> rows = rows_of_points(dataset);
   require_complete(shown, std::accumulate(rows.begin(), rows.end(), std::size_t{0}));
-  const std::vector<std::vector<bool>> is_wanted = wanted(dataset);
+  const std::vector<bool> is_chosen = chosen(dataset);
   Pieces pieces(take);
   pieces.text() = comments(shown);
   for (const Column& column : shown) append_text(pieces.text() += &column == shown.data() ? "" : ",", column.name);
   pieces.end_line();
   std::vector<std::size_t> at(rows_.size(), 0);
   std::size_t row = 0;
-  for (const std::size_t count : rows) {
-    bool is_shown = true;
-    for (std::size_t d = 0; d < at.size(); ++d) is_shown = is_shown && is_wanted[d][at[d]];
-    for (std::size_t i = 0; is_shown && i < count; ++i) append_row(pieces, shown, at, row + i);
-    row += count, advance(at, rows_);
+  for (std::size_t point = 0; point < rows.size(); ++point, advance(at, rows_)) {
+    for (std::size_t i = 0; is_chosen[point] && i < rows[point]; ++i) append_row(pieces, shown, at, row + i);
+    row += rows[point];
   }
   pieces.flush();
 }

@@ -42,6 +42,9 @@ class CsvTable {
   /// value of `where`.
   void write(const sweep::Dataset& dataset, const std::function<void(std::string_view)>& take) const;
 
+  /// The indexes of the points that `where` chooses, the last axis fastest. Throws as `write` does.
+  [[nodiscard]] std::vector<std::size_t> points(const sweep::Dataset& dataset) const;
+
   /// A column: the values of a variable that it has in each row.
   struct Column {
     std::string name;
@@ -62,6 +65,7 @@ class CsvTable {
   [[nodiscard]] std::vector<Column> columns_of(const std::string& name, const sweep::Dataset& dataset) const;
   [[nodiscard]] std::vector<Column> columns(const sweep::Dataset& dataset) const;
   [[nodiscard]] std::string comments(const std::vector<Column>& columns) const;
+  [[nodiscard]] std::vector<bool> chosen(const sweep::Dataset& dataset) const;
   void require_complete(const std::vector<Column>& columns, std::size_t rows) const;
   [[nodiscard]] std::vector<std::size_t> rows_of_points(const sweep::Dataset& dataset) const;
   [[nodiscard]] std::vector<std::vector<bool>> wanted(const sweep::Dataset& dataset) const;

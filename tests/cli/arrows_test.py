@@ -1,6 +1,6 @@
 """Rooms of src include only their right-hand neighbours, and each has its own namespace:
-apps -> { results, accuracy }, results -> { config, plan }, config -> { branches, storage },
-{ accuracy, branches, plan } -> sweep -> { lanes, attractors } -> point -> { steady, observables },
+apps -> { results, accuracy, certificates }, results -> { config, plan }, config -> { branches, storage },
+{ accuracy, branches, certificates, plan } -> sweep -> { lanes, attractors } -> point -> { steady, observables },
 steady -> stepping -> motion, observables -> motion -> model -> math."""
 
 import os
@@ -23,11 +23,13 @@ NEXT = {  # room: its right-hand neighbours; what these may include, it may incl
     "sweep": {"lanes", "attractors"},
     "plan": {"sweep"},
     "accuracy": {"sweep"},
+    "certificates": {"sweep"},
     "storage": set(),
     "branches": {"sweep"},
     "config": {"branches", "storage"},
     "results": {"config", "plan"},
-    "apps": {"results", "accuracy"},
+    "apps": {"results", "accuracy", "certificates"},
+    "verify": set(),  # a program of its own, which shares nothing with what it proves
 }
 KNOWN_TO = {  # library header: the only rooms that see it
     r"fftw3": {"observables"},
@@ -35,13 +37,15 @@ KNOWN_TO = {  # library header: the only rooms that see it
     r"hdf5|H5": {"results"},
     r"toml": {"config"},
     r"zlib": {"storage"},
-    r"boost/program_options": {"config", "apps"},
+    r"boost/program_options": {"config", "apps", "verify"},
+    r"arb\.h|flint/": {"verify"},
     r"boost/multiprecision": {"math"},
     r"boost/math": {"branches", "observables", "sweep"},
     r"boost/numeric/odeint": {"stepping"},
     r"nettle": {"results"},
     r"boost/random": {"config"},
     r"xsimd": {"lanes"},
+    r"nlohmann": {"certificates", "verify"},
 }
 HEAVY = {  # what takes seconds to compile: the only files that it reaches through headers, too
     r"boost/multiprecision": {
@@ -59,9 +63,18 @@ HEAVY = {  # what takes seconds to compile: the only files that it reaches throu
         "src/sweep/attractor_table.cpp",
     },
     r"boost/random": {"src/config/axis_functions.cpp"},
-    r"boost/program_options": {"src/config/ini_reader.cpp", "apps/clatter/command_line.cpp"},
+    r"boost/program_options": {
+        "src/config/ini_reader.cpp",
+        "apps/clatter/command_line.cpp",
+        "apps/verify/main.cpp",
+    },
     r"toml": {"src/config/toml_reader.cpp"},
     r"fftw3": {"src/observables/fourier_transform.cpp"},
+    r"nlohmann": {
+        "src/certificates/certificate_text.cpp",
+        "apps/verify/certificate.cpp",
+        "apps/verify/main.cpp",
+    },
     r"xsimd": {
         "src/lanes/step_block.cpp",
         "src/lanes/step_cushioned_block.cpp",
@@ -112,7 +125,7 @@ def sources(root):
     """Every source file below `root`, with its room."""
     for path in sorted([*root.glob("src/*/*.?pp"), *root.glob("apps/*/*.?pp")]):
         parts = path.relative_to(root).parts
-        yield path, "apps" if parts[0] == "apps" else parts[1]
+        yield path, "apps" if parts[:2] == ("apps", "clatter") else parts[1]
 
 
 def includes(path):

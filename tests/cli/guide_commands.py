@@ -75,6 +75,8 @@ class Workplace:
         for place in (build, programs):
             place.mkdir(parents=True)
             (place / "clatter").symlink_to(clatter)
+        if verify := os.environ.get("CLATTER_VERIFY"):
+            (programs / "clatter-verify").symlink_to(verify)
         for name, text in LAUNCHERS.items():
             (programs / name).write_text(f"#!/usr/bin/env bash\nset -euo pipefail\n{text}")
             (programs / name).chmod(0o755)

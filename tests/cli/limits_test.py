@@ -181,6 +181,9 @@ class Memory(Limits):
             codes.append(result.returncode)
             if result.returncode != 0:
                 self.assert_said(result, "not enough memory: |ulimit -v")
+                if "large.h5.journal" in self.files():  # it ran out after the first save, which a slow machine reaches
+                    self.assertEqual(self.clatter("run", "large.toml", "-o", "large.h5", "--resume").returncode, 0)
+                    (self.directory / "large.h5").unlink()
                 self.assertEqual(self.files(), ["a.toml", "large.toml"])
             (self.directory / "large.h5").unlink(missing_ok=True)
         self.assertEqual(codes, sorted(codes, reverse=True))

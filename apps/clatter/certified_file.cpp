@@ -1,0 +1,120 @@
+#include "certified_file.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <optional>
+#include <variant>
+
+#include "certificates/certificate_text.hpp"
+#include "command_line.hpp"
+#include "config/config.hpp"
+#include "config/config_error.hpp"
+#include "results/csv_table.hpp"
+#include "results/dataset_file.hpp"
+#include "results/origin.hpp"
+#include "storage/input_file.hpp"
+#include "storage/utf8.hpp"
+#include "sweep/branches.hpp"
+
+namespace clatter::app {
+namespace {
+
+/// The values of a variable; null if the file has none of this type.
+template <class T>
+const std::vector<T>* values_of(const sweep::Dataset& results, std::string_view name) {
+  const auto found = std::ranges::find(results.variables, name, &sweep::Variable::name);
+  return found == results.variables.end() ? nullptr : std::get_if<std::vector<T>>(&found->values);
+}
+
+bool has(const results::FileSummary& summary, std::string_view name) {
+  return std::ranges::find(summary.variables, name, &results::FileSummary::Entry::name) != summary.variables.end();
+}
+
+void require_run(const std::string& path) {
+  const auto origin = results::origin_of(path);
+  if (origin && origin->command == "accuracy")
+    storage::refuse_reading(path, "holds what accuracy costs, not points of a sweep",
+                            "name an output of `clatter run`");
+}
+
+sweep::Sweep sweep_of(const results::FileSummary& summary, const std::string& path) try {
+  const auto text = std::ranges::find(summary.attributes, "config", [](const auto& pair) { return pair.first; });
+  if (text == summary.attributes.end())
+    storage::refuse_reading(path, "has no configuration", "name an output of `clatter run`");
+  return config::parse_config(text->second, path).sweep;
+} catch (const config::ConfigError& error) {
+  storage::refuse_reading(path, std::string("has a configuration that doesn't run: ") + error.what(),
+                          "run its configuration again");
+}
+
+void require_exact(const sweep::Sweep& sweep, const std::string& path) {
+  if (sweep.problem.integration.method == stepping::Method::exact) return;
+  throw UsageError(storage::quoted_name(path) +
+                   " isn't of the exact method, whose results alone are certified; run its configuration with --set "
+                   "integrator.method=exact");
+}
+
+}  // namespace
+
+CertifiedFile::CertifiedFile(const std::string& path, const std::vector<std::pair<std::string, double>>& where) {
+  const results::FileSummary summary = results::read_summary(path);
+  require_run(path);
+  results::TableChoice choice{.only = {"status"}, .where = where};
+  if (has(summary, "status") && has(summary, "period_ratio")) choice.only.emplace_back("period_ratio");
+  const results::CsvTable table(summary, path, choice);
+  sweep_ = sweep_of(summary, path);
+  require_exact(sweep_, path);
+  results_ = results::read_variables(path, table.variables());
+  points_ = table.points(results_);
+  const auto* const status = values_of<std::uint8_t>(results_, "status");
+  if (status == nullptr || status->size() != size(sweep_))
+    storage::refuse_reading(path, "is damaged: its points aren't those of its configuration",
+                            "run its configuration again");
+}
+
+/// Whether a point has the status of the file, a graze being told where stability is, and the period.
+bool CertifiedFile::is_reproduced(std::size_t point, const certificates::CertifiedPoint& found) const {
+  const auto without_graze = [](steady::Status status) {
+    return status == steady::Status::grazing ? steady::Status::periodic : status;
+  };
+  const auto told = static_cast<steady::Status>((*values_of<std::uint8_t>(results_, "status"))[point]);
+  if (without_graze(told) != without_graze(found.status)) return false;
+  const auto* const periods = values_of<double>(results_, "period_ratio");
+  return periods == nullptr || !found.certificate || !found.certificate->period || !((*periods)[point] > 0) ||
+         (*periods)[point] == found.periods;
+}
+
+certificates::Tally CertifiedFile::certify(const std::vector<std::size_t>& points,
+                                           const std::function<void(std::string_view line)>& take) const {
+  std::vector<bool> is_chosen(size(sweep_), false);
+  for (const std::size_t point : points) is_chosen[point] = true;
+  certificates::Tally tally;
+  point::ThreadScratch scratch;
+  const sweep::Branches branches(sweep_);
+  for (std::size_t branch = 0; branch < branches.count; ++branch) {
+    std::size_t length = branches.length;  // up to the last point that is chosen
+    while (length > 0 && !is_chosen[branches.point(branch, length - 1)]) --length;
+    std::optional<Start> end;
+    Units units_of_end{};
+    for (std::size_t i = 0; i < length; ++i) {
+      const std::size_t index = branches.point(branch, i);
+      point::Problem problem = problem_at(sweep_, index);
+      if (sweep_.follow) sweep::start_from(problem, end, units_of_end);
+      const certificates::CertifiedPoint found = certificates::certified(problem, scratch);
+      end = failed(found.status) ? std::nullopt : std::optional(found.end);
+      if (end) end->phase -= problem.shaking.lead;
+      units_of_end = problem.units;
+      if (!is_chosen[index]) continue;
+      if (!is_reproduced(index, found)) {
+        tally.add_not_reproduced();
+        continue;
+      }
+      tally.add(found);
+      if (found.certificate) take(certificates::certificate_text(*found.certificate, sweep_, index));
+    }
+  }
+  return tally;
+}
+
+}  // namespace clatter::app

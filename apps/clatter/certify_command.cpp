@@ -1,0 +1,73 @@
+#include <charconv>
+#include <iostream>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "certificates/sample.hpp"
+#include "certified_file.hpp"
+#include "commands.hpp"
+#include "common_options.hpp"
+#include "config/suggestion.hpp"
+#include "results/csv_table.hpp"
+#include "storage/atomic_write.hpp"
+#include "table_options.hpp"
+
+namespace clatter::app {
+namespace {
+
+/// The number of --sample; nothing if it isn't given.
+std::optional<std::size_t> sample_of(const Arguments& arguments) {
+  const std::optional<std::string> word = arguments.value("sample");
+  if (!word) return std::nullopt;
+  std::size_t count = 0;
+  const auto [end, error] = std::from_chars(word->data(), word->data() + word->size(), count);
+  if (error != std::errc{} || end != word->data() + word->size() || count == 0)
+    throw UsageError("--sample " + config::in_quotes(*word) + "; expected a whole number from 1 on");
+  return count;
+}
+
+int certify(const Arguments& arguments) try {
+  const auto places = places_of(arguments);
+  const std::optional<std::size_t> sample = sample_of(arguments);
+  const std::optional<std::string> output = text_output_of(arguments);
+  const CertifiedFile file(arguments.operands[0], places);
+  const std::vector<std::size_t> points = sample ? certificates::spread(file.points(), *sample) : file.points();
+  std::string text;
+  const certificates::Tally tally = file.certify(points, [&](std::string_view line) {
+    if (output)
+      text += line;
+    else
+      std::cout.write(line.data(), static_cast<std::streamsize>(line.size()));
+  });
+  if (output) storage::write_atomically(*output, std::as_bytes(std::span(text)));
+  std::cerr << tally.text() << '\n';
+  return tally.not_reproduced() > 0 ? points_failed : done;
+} catch (const results::ChoiceError& error) {
+  throw UsageError(error.what());
+}
+
+constexpr std::string_view examples =
+    "  clatter certify fig23.h5 -o fig23.jsonl\n"
+    "  clatter certify map.h5 --sample 100 --where nu=1.0 | clatter-verify -\n";
+
+}  // namespace
+
+Command certify_command() {
+  return {.name = "certify",
+          .usage = "certify FILE.h5 [OPTION]...",
+          .summary = "write motions and claims of an output for clatter-verify, which proves them",
+          .examples = examples,
+          .operands = {"FILE.h5"},
+          .required_operands = 1,
+          .options = {{"sample", 0, "N", "only N points, spread evenly; default: all"},
+                      where_option,
+                      {"output", 'o', "FILE.jsonl", "output file; default: standard output"},
+                      force_option,
+                      {"help", 'h', "", "print this help"}},
+          .run = certify};
+}
+
+}  // namespace clatter::app

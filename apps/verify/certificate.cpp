@@ -1,0 +1,268 @@
+#include "certificate.hpp"
+
+#include <charconv>
+#include <cmath>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+namespace verify {
+namespace {
+
+using Json = nlohmann::json;
+
+/// A value of a certificate and its place in it.
+class Field {
+ public:
+  Field(const Json& json, std::string path) : json_(json), path_(std::move(path)) {}
+
+  [[noreturn]] void refuse(const std::string& found, const std::string& way_out) const {
+    throw FormatError(path_ + ": " + found + "; " + way_out);
+  }
+  [[nodiscard]] std::optional<Field> find(const std::string& name) const {
+    require_object();
+    const auto member = json_.find(name);
+    if (member == json_.end()) return std::nullopt;
+    return Field(*member, path_.empty() ? name : path_ + "." + name);
+  }
+  [[nodiscard]] Field get(const std::string& name) const {
+    if (const auto member = find(name)) return *member;
+    Field(json_, path_.empty() ? name : path_ + "." + name).refuse("is missing", "add it");
+  }
+  void require_object() const {
+    if (!json_.is_object()) refuse("is no object", "write {...}");
+  }
+  [[nodiscard]] std::vector<Field> items() const {
+    if (!json_.is_array()) refuse("is no array", "write [...]");
+    std::vector<Field> list;
+    for (std::size_t i = 0; i < json_.size(); ++i) list.emplace_back(json_[i], path_ + "[" + std::to_string(i) + "]");
+    return list;
+  }
+  [[nodiscard]] std::string text() const {
+    if (!json_.is_string()) refuse("is no text", "write it in quotes");
+    return json_.get<std::string>();
+  }
+  [[nodiscard]] bool flag() const {
+    if (!json_.is_boolean()) refuse("is neither true nor false", "write one of them");
+    return json_.get<bool>();
+  }
+  [[nodiscard]] Number number() const {
+    if (json_.is_number()) {
+      const double value = json_.get<double>();
+      if (!std::isfinite(value)) refuse("is beyond double", "write a decimal number in quotes");
+      return Number(value);
+    }
+    if (!json_.is_string()) refuse("is no number", "write a number, or a decimal number in quotes");
+    const std::string text = json_.get<std::string>();
+    Ball ball;
+    if (text.find_first_not_of("0123456789+-.eE") != std::string::npos || text.size() > 400 || !Ball::read(text, ball))
+      refuse("'" + text.substr(0, 40) + "' is no decimal number", "write e.g. \"0.1\"");
+    if (!(abs(ball) < Ball(1e300)) || !(abs(ball) > Ball(1e-300) || ball.is_zero()))
+      refuse("'" + text.substr(0, 40) + "' is beyond 1e-300 to 1e300", "change the units");
+    return Number(text);
+  }
+  [[nodiscard]] Number number_from(double least, double most, bool with_least = true) const {
+    const Number value = number();
+    const Ball ball = value.ball();
+    if (ball < Ball(least) || (!with_least && !(ball > Ball(least))) || ball > Ball(most))
+      refuse("is " + value.text(), std::string("it must be ") + (with_least ? "at least " : "above ") +
+                                       Number(least).text() +
+                                       (std::isfinite(most) ? " and at most " + Number(most).text() : ""));
+    return value;
+  }
+  [[nodiscard]] Claimed claimed() const {
+    const auto pair = items();
+    if (pair.size() != 2) refuse("has " + std::to_string(pair.size()) + " items", "write [value, error]");
+    return {pair[0].number(), pair[1].number_from(0, infinity)};
+  }
+  [[nodiscard]] long count(long most) const {
+    if (!json_.is_number_integer()) refuse("is no whole number", "write 1 or more");
+    const auto value = json_.get<std::int64_t>();
+    if (value < 1 || value > most) refuse("is out of range", "write 1 to " + std::to_string(most));
+    return static_cast<long>(value);
+  }
+  [[nodiscard]] Side side() const {
+    const std::string name = text();
+    if (name != "lower" && name != "upper") refuse("is '" + name + "'", "write lower or upper");
+    return name == "upper" ? Side::upper : Side::lower;
+  }
+  [[nodiscard]] std::string dump() const { return json_.dump(-1, ' ', false, Json::error_handler_t::replace); }
+
+  static constexpr double infinity = std::numeric_limits<double>::infinity();
+
+ private:
+  const Json& json_;
+  std::string path_;
+};
+
+std::optional<Certificate::StopNumbers> stop_of(const Field& scene, const char* name) {
+  const auto field = scene.find(name);
+  if (!field) return std::nullopt;
+  Certificate::StopNumbers stop;
+  stop.position = field->get("position").number();
+  const auto R = field->find("R"), stiffness = field->find("stiffness");
+  if (R.has_value() == stiffness.has_value())
+    field->refuse(R ? "has R and stiffness" : "has neither R nor stiffness", "give one of them");
+  stop.soft = stiffness.has_value();
+  if (R) stop.R = R->number_from(0, 1);
+  if (stiffness) stop.stiffness = stiffness->number_from(0, Field::infinity, false);
+  if (stiffness) stop.damping = field->get("damping").number_from(0, Field::infinity);
+  return stop;
+}
+
+Certificate::SceneNumbers scene_of(const Field& field) {
+  Certificate::SceneNumbers scene{
+      field.get("h").number_from(0, Field::infinity),         field.get("k").number(),    field.get("f").number(),
+      field.get("nu").number_from(0, Field::infinity, false), field.get("load").number(), field.get("phase").number(),
+      {stop_of(field, "lower"), stop_of(field, "upper")}};
+  if (scene.stops[0] && scene.stops[1] && !(scene.stops[0]->position.ball() < scene.stops[1]->position.ball()))
+    field.refuse("has its lower stop above the upper one", "exchange them");
+  return scene;
+}
+
+ClaimedEvent event_of(const Field& field) {
+  ClaimedEvent event;
+  const Field kind = field.get("event");
+  const std::string name = kind.text();
+  bool known = false;
+  for (const Kind one : {Kind::impact, Kind::touch, Kind::separation, Kind::renewal, Kind::chatter, Kind::rest})
+    if (name == name_of(one)) event.kind = one, known = true;
+  if (!known)
+    kind.refuse("is '" + name.substr(0, 40) + "'", "write impact, touch, separation, renewal, chatter or rest");
+  event.side = field.get("stop").side();
+  event.time = field.get("time").claimed();
+  if (event.kind == Kind::chatter || event.kind == Kind::rest)
+    event.until = field.get("until").claimed();
+  else
+    event.v = field.get("v").claimed();
+  return event;
+}
+
+/// Each event must be one of a stop that there is, of its kind.
+void require_stops(const Field& field, const Certificate& certificate) {
+  const auto& events = certificate.events;
+  for (std::size_t i = 0; i < events.size(); ++i) {
+    const auto& stop = certificate.scene.stops[index_of(events[i].side)];
+    const bool of_rigid =
+        events[i].kind == Kind::impact || events[i].kind == Kind::chatter || events[i].kind == Kind::rest;
+    if (!stop || stop->soft == of_rigid)
+      field.items()[i].refuse(std::string("is an event of a ") + (of_rigid ? "rigid" : "soft") + " stop",
+                              "the scene has none there");
+  }
+  if (certificate.released && (!certificate.scene.stops[index_of(*certificate.released)] ||
+                               certificate.scene.stops[index_of(*certificate.released)]->soft))
+    field.refuse("start with a release by a stop", "the scene has no rigid stop there");
+}
+
+void read_periodic(const Field& root, Certificate& certificate) {
+  certificate.periods = root.get("periods").count(1'000'000);
+  if (const auto word = root.find("word")) certificate.word = word->text();
+  if (const auto symmetric = root.find("symmetric")) certificate.symmetric = symmetric->flag();
+  if (certificate.scene.f.ball().is_zero()) root.refuse("periodic motion without a force", "claim a transient");
+  const auto multipliers = root.find("multipliers");
+  if (!multipliers) return;
+  const auto pair = multipliers->items();
+  if (pair.size() != 2) multipliers->refuse("has not two items", "write [[re, im, error], [re, im, error]]");
+  certificate.multipliers.emplace();
+  for (std::size_t i = 0; i < 2; ++i) {
+    const auto parts = pair[i].items();
+    if (parts.size() != 3) pair[i].refuse("has not three items", "write [re, im, error]");
+    (*certificate.multipliers)[i] = {parts[0].number(), parts[1].number(), parts[2].number_from(0, Field::infinity)};
+  }
+}
+
+void read_start(const Field& start, Certificate& certificate) {
+  certificate.start_time = start.get("time").number();
+  if (const auto released = start.find("released")) {
+    certificate.released = released->side();
+    if (certificate.scene.f.ball().is_zero()) released->refuse("needs a force", "give x and v");
+  } else {
+    const auto read = [&](const char* name) {
+      const Field field = start.get(name);
+      return certificate.periodic ? field.claimed() : Claimed{field.number(), Number()};
+    };
+    certificate.start_x = read("x"), certificate.start_v = read("v");
+  }
+}
+
+std::string place_of(const Field& root) {
+  std::string place;
+  if (const auto point = root.find("point")) place = "point " + point->dump();
+  if (const auto at = root.find("at")) place += (place.empty() ? "" : " ") + at->dump();
+  return place;
+}
+
+}  // namespace
+
+Ball Number::ball() const {
+  if (const double* const value = std::get_if<double>(&value_)) return Ball(*value);
+  Ball ball;
+  if (!Ball::read(std::get<std::string>(value_), ball)) throw FormatError("a number that can't be read");
+  return ball;
+}
+
+std::string Number::text() const {
+  if (const auto* const text = std::get_if<std::string>(&value_)) return *text;
+  std::array<char, 32> buffer{};
+  const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), std::get<double>(value_)).ptr;
+  return {buffer.data(), end};
+}
+
+Scene Certificate::scene_in_balls() const {
+  Scene balls{
+      scene.h.ball(), scene.k.ball(), scene.f.ball(), scene.nu.ball(), scene.load.ball(), scene.phase.ball(), {}};
+  for (std::size_t i = 0; i < 2; ++i) {
+    if (!scene.stops[i]) continue;
+    Stop stop{scene.stops[i]->position.ball(), scene.stops[i]->soft, Ball(0), Ball(0), Ball(0)};
+    if (stop.soft)
+      stop.kappa = scene.stops[i]->stiffness.ball(), stop.h_s = scene.stops[i]->damping.ball() * sqrt(stop.kappa);
+    else
+      stop.R = scene.stops[i]->R.ball();
+    balls.stops[i] = stop;
+  }
+  return balls;
+}
+
+Start Certificate::start_in_balls() const {
+  return {start_time.ball(), start_x.value.ball(), start_v.value.ball(), released.has_value(),
+          released.value_or(Side::lower)};
+}
+
+Certificate read_certificate(const std::string& line) {
+  Json json;
+  try {
+    json = Json::parse(line, [](int depth, Json::parse_event_t, const Json&) {
+      if (depth > 8) throw FormatError("nests more than eight objects; write one as the guide shows");
+      return true;
+    });
+  } catch (const Json::exception& error) {
+    throw FormatError(std::string("is no JSON (") + error.what() + "); write one object a line");
+  }
+  const Field root(json, "");
+  if (!json.is_object()) throw FormatError("the line is no JSON object; write {...}");
+  const Field format = root.get("format");
+  if (format.text() != "clatter-certificate-1") format.refuse("is another one", "write \"clatter-certificate-1\"");
+  Certificate certificate;
+  certificate.place = place_of(root);
+  certificate.scene = scene_of(root.get("scene"));
+  const Field claim = root.get("claim");
+  const std::string kind = claim.text();
+  if (kind != "periodic" && kind != "transient") claim.refuse("is '" + kind + "'", "write transient or periodic");
+  certificate.periodic = kind == "periodic";
+  if (certificate.periodic) read_periodic(root, certificate);
+  read_start(root.get("start"), certificate);
+  const Field events = root.get("events");
+  for (const Field& event : events.items()) certificate.events.push_back(event_of(event));
+  require_stops(events, certificate);
+  if (const auto x = root.find("x_min")) certificate.x_min = x->claimed();
+  if (const auto x = root.find("x_max")) certificate.x_max = x->claimed();
+  if (!certificate.periodic) {
+    const Field end = root.get("end");
+    certificate.end = {end.get("time").number(), end.get("x").claimed(), end.get("v").claimed()};
+    if (!(certificate.end->time.ball() > certificate.start_time.ball()))
+      end.refuse("is not after the start", "give a later time");
+  }
+  return certificate;
+}
+
+}  // namespace verify

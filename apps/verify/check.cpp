@@ -1,0 +1,84 @@
+#include "check.hpp"
+
+#include <algorithm>
+
+#include "periodic_claims.hpp"
+
+namespace verify {
+namespace {
+
+void check_response(const Certificate& certificate, const Response& found, Report& report) {
+  if (certificate.periods != 1)
+    report.add(Verdict::refuted, "periods: claimed " + std::to_string(certificate.periods) + ", found 1");
+  report.compare("start, x", found.start.x, certificate.start_x);
+  report.compare("start, v", found.start.y, certificate.start_v);
+  if (certificate.x_min) report.compare("x_min", found.x_min, *certificate.x_min);
+  if (certificate.x_max) report.compare("x_max", found.x_max, *certificate.x_max);
+  check_multipliers(certificate, found.derivative, report);
+  check_word(certificate, {}, report);
+  if (certificate.symmetric == false) report.add(Verdict::refuted, "symmetric: claimed false, found true");
+}
+
+void check_periodic(const Certificate& certificate, Report& report) {
+  const Scene scene = certificate.scene_in_balls();
+  if (const auto response = steady_response(certificate, scene)) return check_response(certificate, *response, report);
+  const Orbit orbit = claimed_orbit(certificate, scene, report);
+  compare_events(certificate, orbit.events, report);
+  if (!certificate.released) {
+    report.compare("start, x", orbit.first.x, certificate.start_x);
+    report.compare("start, v", orbit.first.y, certificate.start_v);
+  }
+  compare_extrema(certificate, orbit.motion, orbit.events, scene, report);
+  check_multipliers(certificate, orbit.derivative, report);
+  check_word(certificate, orbit.events, report);
+  if (!certificate.released) check_smallest_period(certificate, scene, orbit, report);
+  check_symmetry(certificate, scene, orbit, report);
+}
+
+void check_transient(const Certificate& certificate, Report& report) {
+  const Scene scene = certificate.scene_in_balls();
+  Motion motion(scene, certificate.start_in_balls(), {Ball(0), Ball(0)});
+  Course course(certificate, motion, certificate.end->time.ball());
+  try {
+    course.run();
+  } catch (...) {
+    compare_events(certificate, course.events(), report);  // what was found before stands
+    throw;
+  }
+  compare_events(certificate, course.events(), report);
+  compare_extrema(certificate, motion, course.events(), scene, report);
+  const Vector end =
+      motion.is_resting() ? Vector{scene.stop(course.events().back().side).position, Ball(0)} : motion.state();
+  report.compare("end, x", end.x, certificate.end->x);
+  report.compare("end, v", end.y, certificate.end->v);
+}
+
+Finding found_in(const Certificate& certificate, slong precision) {
+  const Precision present(precision);
+  Report report;
+  try {
+    certificate.periodic ? check_periodic(certificate, report) : check_transient(certificate, report);
+  } catch (const Refuted& refuted) {
+    report.add(Verdict::refuted, refuted.what());
+  } catch (const Undecided& undecided) {
+    report.add(Verdict::undecided, undecided.what());
+  }
+  Finding finding = report.finding();
+  finding.bits = precision;
+  return finding;
+}
+
+}  // namespace
+
+Finding check(const Certificate& certificate) {
+  Finding finding;
+  const bool chatters =
+      std::ranges::any_of(certificate.events, [](const ClaimedEvent& event) { return event.kind == Kind::chatter; });
+  for (slong precision = chatters ? 128 : 64; precision <= 1024; precision *= 2) {  // its last flights are minute
+    finding = found_in(certificate, precision);
+    if (finding.verdict != Verdict::undecided) break;
+  }
+  return finding;
+}
+
+}  // namespace verify

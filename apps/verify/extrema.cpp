@@ -1,0 +1,89 @@
+#include "extrema.hpp"
+
+#include <optional>
+#include <queue>
+
+namespace verify {
+namespace {
+
+/// The largest of some numbers, of which those below the largest lower bound don't count.
+class Largest {
+ public:
+  void add(const Ball& y) {
+    if (!best_ || y.lower() > lower_) lower_ = y.lower();
+    best_ = !best_ || y.upper() > best_->upper() ? y : *best_;
+  }
+  [[nodiscard]] bool exceeds(const Ball& y) const { return best_ && y.upper() <= lower_; }
+  [[nodiscard]] Ball value() const { return Ball::hull(lower_, best_->upper()); }
+
+ private:
+  std::optional<Ball> best_;  ///< the one with the largest upper bound
+  Ball lower_;                ///< the largest lower bound
+};
+
+/// Adds the largest value between two instants between which the acceleration is negative: where the flight turns
+/// round, or at one of them.
+void add_turn(const Flow::Flight& flight, const Margin& x, const Ball& from, const Ball& to, Largest& largest) {
+  Ball now = Ball::hull(from, to);
+  for (int iteration = 0; iteration < 64; ++iteration) {
+    const Ball bend = Piece(flight, now.lower(), now.upper()).range(x, 2), middle = now.middle();
+    if (!bend.is_negative()) break;
+    const Flow::Instant there = flight.at(middle);
+    const Ball newton = middle - x.derivative(there.v, there.a) / bend;
+    if (!newton.overlaps(now)) {  // it doesn't turn here
+      for (const Ball& end : {from, to}) largest.add(x.of(flight.at(end).x, Ball(0)));
+      return;
+    }
+    const Ball next = now.within(newton);
+    const bool done = next.radius() > 0.5 * now.radius();
+    now = next;
+    if (done) break;
+  }
+  largest.add(Piece(flight, now.lower(), now.upper()).range(x, 0));
+}
+
+/// Looks into the parts of a stretch, that with the largest upper bound first.
+void search(const Motion::Stretch& stretch, const Margin& x, Largest& largest) {
+  struct Part {
+    Ball from, to, range;
+    int depth;
+    bool operator<(const Part& other) const { return range.upper() < other.range.upper(); }
+  };
+  std::priority_queue<Part> parts;
+  const auto add = [&](const Ball& from, const Ball& to, int depth) {
+    const Ball range = Piece(stretch.flight, from, to).range(x, 0);
+    if (!largest.exceeds(range)) parts.push({from, to, range, depth});
+  };
+  add(Ball(0), stretch.length.upper(), 0);
+  while (!parts.empty()) {
+    const Part part = parts.top();
+    parts.pop();
+    if (largest.exceeds(part.range)) return;
+    const Piece piece(stretch.flight, part.from, part.to);
+    const Ball rate = piece.range(x, 1);
+    if (rate.is_positive() || rate.is_negative()) {
+      const Ball end = rate.is_positive() ? part.to : part.from;  // the end of the stretch is only known as a ball
+      largest.add(x.of(stretch.flight.at(end < stretch.length ? end : stretch.length).x, Ball(0)));
+    } else if (piece.range(x, 2).is_negative()) {
+      add_turn(stretch.flight, x, part.from, part.to, largest);
+    } else if (part.depth > bits) {
+      largest.add(part.range);
+    } else {
+      const Ball middle = ((part.from + part.to) / Ball(2)).middle();
+      add(part.from, middle, part.depth + 1), add(middle, part.to, part.depth + 1);
+    }
+  }
+}
+
+}  // namespace
+
+Ball extremum(std::span<const Motion::Stretch> stretches, int sign) {
+  const Margin x{sign, Ball(0), Ball(0), 0};
+  Largest largest;
+  for (const Motion::Stretch& stretch : stretches)
+    for (const Ball& end : {Ball(0), stretch.length}) largest.add(x.of(stretch.flight.at(end).x, Ball(0)));
+  for (const Motion::Stretch& stretch : stretches) search(stretch, x, largest);
+  return Ball(sign) * largest.value();
+}
+
+}  // namespace verify

@@ -1,0 +1,109 @@
+#include "first_crossing.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace verify {
+
+Piece::Piece(const Flow::Flight& flight, const Ball& from, const Ball& to)
+    : middle_(flight.at(((from + to) / Ball(2)).middle())), all_(flight.at(Ball::hull(from, to))) {
+  step_ = Ball::hull(from, to) - ((from + to) / Ball(2)).middle();
+  const Ball half = abs(step_).upper(), half_of_square = half * half / Ball(2);
+  half_square_ = Ball::hull(Ball(0), half_of_square);
+  sixth_cube_ = Ball::around_zero(half_of_square * half / Ball(3));
+}
+
+Ball Piece::range(const Margin& margin, int order) const {
+  const auto& m = middle_;
+  const Ball third = margin.derivative(all_.j, all_.d4);
+  switch (order) {
+    case 0:
+      return margin.of(m.x, m.v) + step_ * margin.derivative(m.v, m.a) + half_square_ * margin.derivative(m.a, m.j) +
+             sixth_cube_ * third;
+    case 1:
+      return margin.derivative(m.v, m.a) + step_ * margin.derivative(m.a, m.j) + half_square_ * third;
+    case 2:
+      return margin.derivative(m.a, m.j) + step_ * third;
+    default:
+      return third;
+  }
+}
+
+namespace {
+
+/// What a piece of a flight does to a margin that is positive where it begins, or vanishes there.
+enum class Course { clear, crosses, unknown };
+
+Course course_of(const Piece& piece, const Flow::Flight& flight, const Margin& margin, bool begins, const Ball& to) {
+  if (begins && margin.vanishing > 0)
+    return piece.range(margin, margin.vanishing).is_positive() ? Course::clear : Course::unknown;
+  if (piece.range(margin, 0).is_positive()) return Course::clear;
+  const Ball rate = piece.range(margin, 1);
+  if (rate.is_positive()) return Course::clear;
+  if (!rate.is_negative()) return Course::unknown;
+  const Flow::Instant end = flight.at(to);
+  const Ball value = margin.of(end.x, end.v);
+  return value.is_positive() ? Course::clear : value.is_negative() ? Course::crosses : Course::unknown;
+}
+
+/// A step for the first piece: half of a short flight, if the first derivatives tell of one.
+Ball first_step(const Flow& flow, const Flow::Flight& flight, std::span<const Margin> margins) {
+  double step = 0.5 / flow.rate();
+  const Flow::Instant start = flight.at(Ball(0));
+  for (const Margin& margin : margins) {
+    if (margin.vanishing != 1) continue;
+    const double rate = margin.derivative(start.v, start.a).near(), bend = margin.derivative(start.a, start.j).near();
+    if (bend < 0 && rate > 0) step = std::min(step, -0.8 * rate / bend);
+  }
+  return Ball(step);
+}
+
+}  // namespace
+
+std::optional<Crossing> first_crossing(const Flow& flow, const Flow::Flight& flight, std::span<const Margin> margins,
+                                       const Ball& horizon) {
+  if (!horizon.is_finite()) throw Undecided("how long a flight lasts");
+  const Ball end = horizon.upper(), longest(2 / flow.rate());
+  Ball from(0), step = first_step(flow, flight, margins);
+  const double most_pieces = std::min(8.0 * static_cast<double>(bits) + 16 * flow.rate() * end.near(), 1e6);
+  int halvings = 0;
+  for (double pieces = 0; from < end; ++pieces) {
+    if (!(pieces < most_pieces)) throw Undecided("which event comes first, in balls as wide as these");
+    Ball to = (from + step).middle();
+    if (!(to < end)) to = end;
+    const Piece piece(flight, from, to);
+    std::optional<std::size_t> crosses;
+    bool known = true;
+    for (std::size_t i = 0; i < margins.size() && known; ++i) {
+      const Course course = course_of(piece, flight, margins[i], from.is_zero(), to);
+      known = course == Course::clear || (course == Course::crosses && !crosses);
+      if (course == Course::crosses) crosses = i;
+    }
+    if (known && crosses) return Crossing{*crosses, from, to};
+    if (known) {
+      from = to, halvings = 0;
+      step = larger(-larger(-(step + step), -longest), step);
+      continue;
+    }
+    if (++halvings > bits) throw Undecided("which event comes first, or whether a stop is met at all");
+    step = ((to - from) / Ball(2)).middle();
+  }
+  return std::nullopt;
+}
+
+Ball instant_of(const Flow::Flight& flight, const Margin& margin, const Ball& between) {
+  Ball now = between;
+  for (int iteration = 0; iteration < 64; ++iteration) {
+    const Ball rate = Piece(flight, now.lower(), now.upper()).range(margin, 1);
+    if (!rate.is_negative() && !rate.is_positive()) throw Undecided("the time of an event that is nearly a graze");
+    const Ball middle = now.middle();
+    const Flow::Instant there = flight.at(middle);
+    const Ball next = now.within(middle - margin.of(there.x, there.v) / rate);
+    const bool done = next.radius() > 0.5 * now.radius();
+    now = next;
+    if (done) break;
+  }
+  return now;
+}
+
+}  // namespace verify

@@ -1,0 +1,95 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "first_crossing.hpp"
+#include "moving_set.hpp"
+
+namespace verify {
+
+enum class Kind { impact, touch, separation, renewal, chatter, rest, end };
+
+[[nodiscard]] const char* name_of(Kind kind);
+
+/// Something that happens to all motions of a set.
+struct Event {
+  Kind kind = Kind::end;
+  Side side = Side::lower;
+  Ball time, v;  ///< v: before an impact
+  Ball until;    ///< of a chatter or a rest
+};
+
+/// The state that a motion starts from.
+struct Start {
+  Ball time;
+  Ball x, v;
+  bool released = false;  ///< by a stop, at the phase nearest to `time` at which the force that presses falls to 0
+  Side side = Side::lower;
+};
+
+/// The motion of a set of states from event to event, in proved bounds.
+class Motion {
+ public:
+  /// Of all states at most `width` from the start in x and in v.
+  Motion(const Scene& scene, const Start& start, const Vector& width);
+
+  /// The next event before a time, or the end there.
+  Event next(const Ball& end);
+  /// The end of the chatter that the last impact began, told to this accuracy; or, if there is none that ends before a
+  /// time, an event that shows it. Throws Undecided if neither is proved.
+  Event finish_chatter(double accuracy, const Ball& latest);
+  /// The rest that begins now, up to its release or to a time.
+  Event finish_rest(const Ball& end);
+
+  [[nodiscard]] bool is_resting() const { return resting_; }
+  [[nodiscard]] Vector state() const { return set_.hull(); }              ///< x and v at the end
+  [[nodiscard]] Vector centre() const { return set_.image_of_centre(); }  ///< x and v at the end of the middle one
+  [[nodiscard]] Matrix derivative() const { return set_.derivative(); }   ///< of the state at the end by the start
+  [[nodiscard]] Ball start_time() const { return start_time_; }
+  [[nodiscard]] slong turns_of_release() const { return turns_; }  ///< of the last release; equal phases differ by it
+  [[nodiscard]] bool was_exact() const { return was_exact_; }      ///< a rest has wiped out what was before
+
+  /// The oscillator of the present mode, and what its motion must stay clear of until the next event.
+  [[nodiscard]] const Flow& flow() const { return (*flows_)[mode_ == Mode::contact ? 1 + index_of(side_) : 0]; }
+  [[nodiscard]] std::vector<Margin> margins() const;
+
+  /// A stretch of motion without an event, for those who look into it.
+  struct Stretch {
+    Flow::Flight flight;
+    Ball length;
+  };
+  [[nodiscard]] const std::vector<Stretch>& stretches() const { return stretches_; }
+
+ private:
+  enum class Mode { free, contact, beyond };
+  struct State {
+    Ball time, x, v;
+  };
+
+  [[nodiscard]] State state_of(const Vector& coordinates) const;
+  [[nodiscard]] Matrix into_flight(const Flow::Instant& start) const;
+  Event hit_at_start();
+  void move_to_end(const Flow::Flight& all, const Ball& end);
+  Event move_to_event(const Flow::Flight& all, const Margin& margin, const Ball& between, std::size_t index);
+  Event pass(std::size_t margin, const Margin& surface);
+  void begin(Mode mode, Side side, int vanishing) { mode_ = mode, side_ = side, vanishing_ = vanishing; }
+  void start_on_stop(const Start& start);
+  void release(Side side, const Ball& after, bool nearest);
+  [[nodiscard]] Ball chatter_time(Side side, const Ball& time, const Ball& w) const;
+
+  const Scene& scene_;
+  std::shared_ptr<const std::vector<Flow>> flows_;  ///< free, in contact with the lower stop, with the upper one
+  MovingSet set_;  ///< in (x, v) at `time_`, or in (time, v) on the surface of an event
+  bool on_surface_ = false;
+  Ball time_, place_, q_, factor_{1};  ///< surface: x + q v = place; then the velocity is multiplied by the factor
+  Mode mode_ = Mode::free;
+  Side side_ = Side::lower;  ///< of the stop of the mode, or that was left
+  int vanishing_ = 0;        ///< `Margin::vanishing` of the margin that the last event crossed
+  bool resting_ = false, was_exact_ = false, hits_at_start_ = false;
+  Ball rest_begin_, start_time_;
+  slong turns_ = 0;
+  std::vector<Stretch> stretches_;
+};
+
+}  // namespace verify

@@ -1,0 +1,198 @@
+#include "periodic_claims.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+
+namespace verify {
+namespace {
+
+/// The events without the impacts that a chatter begins with, since the claim may list any number of them.
+std::vector<Event> comparable(const std::vector<Event>& events) {
+  std::vector<Event> list;
+  for (const Event& event : events) {
+    if (event.kind == Kind::chatter)
+      while (!list.empty() && list.back().kind == Kind::impact && list.back().side == event.side) list.pop_back();
+    list.push_back(event);
+    if (event.kind == Kind::chatter) list.back().time = event.until;
+  }
+  return list;
+}
+
+/// Whether the events show that a motion doesn't repeat after a share 1/parts of them.
+bool differs_after(const std::vector<Event>& all, std::size_t parts, const Ball& total) {
+  const std::vector<Event> events = comparable(all);
+  if (events.size() % parts != 0) return true;
+  const std::size_t shift = events.size() / parts;
+  const Ball part = total / Ball(static_cast<int>(parts));
+  for (std::size_t i = 0; i < events.size(); ++i) {
+    const std::size_t j = (i + shift) % events.size();
+    if (events[i].kind != events[j].kind || events[i].side != events[j].side) return true;
+    const Ball later = j < i || shift == events.size() ? events[j].time + total : events[j].time;
+    if (!later.overlaps(events[i].time + part) || !events[i].v.overlaps(events[j].v)) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+void check_smallest_period(const Certificate& certificate, const Scene& scene, const Orbit& orbit, Report& report) {
+  for (long parts = 2; parts <= certificate.periods; ++parts) {
+    if (certificate.periods % parts != 0) continue;
+    if (differs_after(orbit.events, static_cast<std::size_t>(parts), length_of(scene, certificate.periods))) continue;
+    Certificate shorter = certificate;  // its events are the first share of them, or the claim fails
+    shorter.periods = certificate.periods / parts;
+    shorter.events.resize(certificate.events.size() / static_cast<std::size_t>(parts));
+    try {
+      const bool is_the_same = orbit.holds(periodic_orbit(shorter, scene, shorter.periods).first);
+      report.add(
+          is_the_same ? Verdict::refuted : Verdict::undecided,
+          "periods: claimed " + std::to_string(certificate.periods) + ", found " + std::to_string(shorter.periods));
+    } catch (const Refuted&) {
+      report.add(Verdict::undecided, "whether a smaller period is one");
+    }
+    return;
+  }
+}
+
+namespace {
+
+bool same_word(const std::string& claimed, const std::string& found) {
+  static const std::string cut = "\u2026";
+  if (claimed.size() >= cut.size() && claimed.ends_with(cut)) {
+    const std::string begin = claimed.substr(0, claimed.size() - cut.size());
+    return begin.size() <= found.size() && (found + found).find(begin) != std::string::npos;
+  }
+  return claimed.size() == found.size() && (found + found).find(claimed) != std::string::npos;
+}
+
+/// The stops of the impacts in order; those that end in rest are one L* or U*.
+std::string word_of(const std::vector<Event>& events) {
+  std::string word;
+  for (const Event& event : events) {
+    const char letter = event.side == Side::upper ? 'U' : 'L';
+    if (event.kind == Kind::impact || event.kind == Kind::touch) word += letter;
+    if (event.kind != Kind::rest) continue;
+    bool any = false;
+    while (!word.empty() && word.back() == letter) word.pop_back(), any = true;
+    if (any) (word += letter) += '*';
+  }
+  return word;
+}
+
+/// The two multipliers: the eigenvalues of the derivative of a period, by (real part, imaginary part).
+std::optional<std::array<Vector, 2>> eigenvalues(const Matrix& m) {
+  const Ball half = (m.a + m.d) / Ball(2), rest = square((m.a - m.d) / Ball(2)) + m.b * m.c;
+  if (rest.is_positive()) return std::array{Vector{half + sqrt(rest), Ball(0)}, Vector{half - sqrt(rest), Ball(0)}};
+  if (rest.is_negative()) return std::array{Vector{half, sqrt(-rest)}, Vector{half, -sqrt(-rest)}};
+  if (rest.is_zero()) return std::array{Vector{half, Ball(0)}, Vector{half, Ball(0)}};
+  return std::nullopt;
+}
+
+}  // namespace
+
+void check_multipliers(const Certificate& certificate, const Matrix& derivative, Report& report) {
+  if (!certificate.multipliers) return;
+  const auto found = eigenvalues(derivative);
+  if (!found) return report.add(Verdict::undecided, "multipliers: whether they are real");
+  const auto& claimed = *certificate.multipliers;
+  const auto distance = [&](std::size_t i, std::size_t j) {
+    return std::hypot(claimed[i][0].ball().near() - (*found)[j].x.near(),
+                      claimed[i][1].ball().near() - (*found)[j].y.near());
+  };
+  const bool crossed = distance(0, 1) + distance(1, 0) < distance(0, 0) + distance(1, 1);
+  for (std::size_t i = 0; i < 2; ++i) {
+    const Vector& one = (*found)[crossed ? 1 - i : i];
+    const std::string name = "multiplier " + std::to_string(i + 1);
+    report.compare(name + ", real part", one.x, {claimed[i][0], claimed[i][2]});
+    report.compare(name + ", imaginary part", one.y, {claimed[i][1], claimed[i][2]});
+  }
+}
+
+namespace {}  // namespace
+
+void check_word(const Certificate& certificate, const std::vector<Event>& events, Report& report) {
+  if (!certificate.word) return;
+  const std::string found = word_of(events);
+  if (!same_word(*certificate.word, found))
+    report.add(Verdict::refuted, "word: claimed '" + *certificate.word + "', found '" + found + "'");
+}
+
+namespace {
+
+// Symmetry: x -> 2c - x half a period later.
+
+/// The centre of a scene that is its own mirror image, exactly.
+std::optional<Ball> mirror_centre(const Scene& scene) {
+  const auto& [lower, upper] = scene.stops;
+  if (lower.has_value() != upper.has_value()) return std::nullopt;
+  if (scene.k.is_zero() && !scene.load.is_zero()) return std::nullopt;
+  const Ball equilibrium = scene.k.is_zero() ? Ball(0) : scene.load / scene.k;
+  if (!lower) return equilibrium;
+  const bool alike = lower->soft == upper->soft && (lower->R - upper->R).is_zero() &&
+                     (lower->kappa - upper->kappa).overlaps(Ball(0)) && (lower->h_s - upper->h_s).overlaps(Ball(0));
+  const Ball middle = (lower->position + upper->position) / Ball(2);
+  const bool centred = scene.k.is_zero() || (scene.k * middle - scene.load).is_zero();
+  return alike && centred ? std::optional(middle) : std::nullopt;
+}
+
+/// Whether the mirror image half a period later has other events.
+bool differs_from_mirror(const Certificate& certificate, const std::vector<Event>& all, const Scene& scene) {
+  const std::vector<Event> events = comparable(all);
+  if (certificate.periods % 2 == 0 || events.size() % 2 != 0) return true;
+  const std::size_t shift = events.size() / 2;
+  const Ball half = length_of(scene, certificate.periods) / Ball(2);
+  for (std::size_t i = 0; i < shift; ++i) {
+    const Event &one = events[i], &other = events[i + shift];
+    if (one.kind != other.kind || one.side == other.side) return true;
+    if (!other.time.overlaps(one.time + half) || !one.v.overlaps(-other.v)) return true;
+    if (one.kind >= Kind::chatter && !other.until.overlaps(one.until + half)) return true;
+  }
+  return false;
+}
+
+/// Proves that half a period takes the motion to its mirror image: this lies in the box in which the periodic motion is
+/// the only one, and the mirror image of a periodic motion is one, too.
+bool returns_mirrored(const Certificate& certificate, const Scene& scene, const Ball& centre, const Orbit& orbit) {
+  Certificate half = certificate;
+  half.events.resize(certificate.events.size() / 2);
+  Start start = certificate.start_in_balls();
+  start.x = orbit.first.x.middle(), start.v = orbit.first.y.middle();
+  Motion motion(scene, start, {abs(orbit.first.x - start.x).upper(), abs(orbit.first.y - start.v).upper()});
+  Course course(half, motion, motion.start_time() + length_of(scene, certificate.periods) / Ball(2));
+  try {
+    course.run();
+  } catch (const Refuted&) {
+    return false;
+  }
+  const Vector image = motion.state();
+  return orbit.holds({Ball(2) * centre - image.x, -image.y});
+}
+
+/// The same of motion that rests: half a period later the other stop releases the mass. Those come once a forcing
+/// period and half of one after those of the first stop, so that overlapping times are equal.
+bool releases_mirrored(const Certificate& certificate, const Scene& scene, const Orbit& orbit) {
+  const Ball half = orbit.motion.start_time() + length_of(scene, certificate.periods) / Ball(2);
+  return certificate.periods % 2 != 0 && std::ranges::any_of(orbit.events, [&](const Event& event) {
+           return event.kind == Kind::rest && event.side == opposite(*certificate.released) &&
+                  event.until.overlaps(half);
+         });
+}
+
+}  // namespace
+
+void check_symmetry(const Certificate& certificate, const Scene& scene, const Orbit& orbit, Report& report) {
+  if (!certificate.symmetric) return;
+  const bool claimed = *certificate.symmetric, differs = differs_from_mirror(certificate, orbit.events, scene);
+  if (differs && claimed) report.add(Verdict::refuted, "symmetric: claimed true, found false");
+  if (differs) return;
+  const auto centre = mirror_centre(scene);
+  if (!centre) return report.add(Verdict::undecided, "symmetric: the scene isn't, to its last digit");
+  const bool found = certificate.released ? releases_mirrored(certificate, scene, orbit)
+                                          : returns_mirrored(certificate, scene, *centre, orbit);
+  if (!found) report.add(Verdict::undecided, "symmetric: neither proved nor refuted");
+  if (!claimed && found) report.add(Verdict::refuted, "symmetric: claimed false, found true");
+}
+
+}  // namespace verify

@@ -1,0 +1,59 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "model/scene.hpp"
+#include "point/exact_motion.hpp"
+
+namespace clatter::certificates {
+
+/// A claimed number: the true one differs from `value` by at most `error`.
+struct Claimed {
+  double value = 0.0, error = 0.0;
+};
+
+/// A claimed event; times are counted as the start's.
+struct ClaimedEvent {
+  point::MotionEvent::Kind kind;
+  Side side;
+  Claimed time;
+  Claimed then;  ///< of a rest or a chatter the time of its end, else the velocity before the event
+};
+
+/// A claimed multiplier.
+struct ClaimedMultiplier {
+  double re = 0.0, im = 0.0, error = 0.0;
+};
+
+/// The claimed state at the end of a transient.
+struct ClaimedEnd {
+  double time = 0.0;  ///< tau, exact
+  Claimed x, v;
+};
+
+/// The claims that only periodic motion has.
+struct ClaimedPeriod {
+  std::size_t periods = 1;                                        ///< forcing periods, > 0
+  std::optional<std::array<ClaimedMultiplier, 2>> multipliers{};  ///< nothing: not claimed
+  std::optional<std::string> word{};                              ///< nothing: too long to be told
+  std::optional<bool> symmetric{};                                ///< nothing: the scene isn't
+};
+
+/// A motion and all that is claimed of it, in computed units and in the frame of what is shaken. Time 0 is where the
+/// phase of the force is that of `scene.start`.
+struct Certificate {
+  Scene scene;                          ///< `start.displacement` and `start.velocity` are those at `time`
+  double time = 0.0;                    ///< of the start, tau
+  double x_error = 0.0, v_error = 0.0;  ///< of the state at the start, of periodic motion
+  Side released = Side::none;           ///< the stop that releases the mass at the start; none: the start is a state
+  std::vector<ClaimedEvent> events{};
+  Claimed x_min{}, x_max{};
+  std::optional<ClaimedPeriod> period{};  ///< of a periodic motion,
+  std::optional<ClaimedEnd> end{};        ///< of a transient
+};
+
+}  // namespace clatter::certificates

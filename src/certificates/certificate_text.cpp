@@ -1,0 +1,127 @@
+#include "certificates/certificate_text.hpp"
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+namespace clatter::certificates {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using Kind = point::MotionEvent::Kind;
+
+const char* name_of(Side side) { return side == Side::upper ? "upper" : "lower"; }
+
+const char* name_of(Kind kind) {
+  switch (kind) {
+    case Kind::impact:
+      return "impact";
+    case Kind::rest:
+      return "rest";
+    case Kind::chatter:
+      return "chatter";
+    case Kind::touch:
+      return "touch";
+    case Kind::renewal:
+      return "renewal";
+    case Kind::separation:
+      return "separation";
+  }
+  return "";
+}
+
+/// JSON has no infinite numbers.
+Json json_of(double value) { return std::isfinite(value) ? Json(value) : Json(value > 0 ? "inf" : "-inf"); }
+Json json_of(const Claimed& claimed) { return Json::array({claimed.value, claimed.error}); }
+
+Json json_of(const Stops& stops, Side side) {
+  const bool upper = side == Side::upper;
+  Json stop{{"position", upper ? stops.upper : stops.lower}};
+  if (is_soft(stops, side)) {
+    stop["stiffness"] = upper ? stops.stiffness_upper : stops.stiffness_lower;
+    stop["damping"] = upper ? stops.damping_upper : stops.damping_lower;
+  } else {
+    stop["R"] = upper ? stops.restitution_upper : stops.restitution_lower;
+  }
+  return stop;
+}
+
+Json json_of(const Scene& scene) {
+  const Oscillator& o = scene.oscillator;
+  Json json{{"h", o.damping},    {"k", o.stiffness}, {"f", o.forcing},
+            {"nu", o.frequency}, {"load", o.load},   {"phase", scene.start.phase}};
+  if (std::isfinite(scene.stops.lower)) json["lower"] = json_of(scene.stops, Side::lower);
+  if (std::isfinite(scene.stops.upper)) json["upper"] = json_of(scene.stops, Side::upper);
+  return json;
+}
+
+Json json_of(const ClaimedEvent& event) {
+  const bool lasts = event.kind == Kind::rest || event.kind == Kind::chatter;
+  return {{"event", name_of(event.kind)},
+          {"stop", name_of(event.side)},
+          {"time", json_of(event.time)},
+          {lasts ? "until" : "v", json_of(event.then)}};
+}
+
+Json start_of(const Certificate& certificate) {
+  const Start& state = certificate.scene.start;
+  Json start{{"time", certificate.time}};
+  if (certificate.released != Side::none)
+    start["released"] = name_of(certificate.released);
+  else if (certificate.period)
+    start["x"] = json_of(Claimed{state.displacement, certificate.x_error}),
+    start["v"] = json_of(Claimed{state.velocity, certificate.v_error});
+  else
+    start["x"] = state.displacement, start["v"] = state.velocity;
+  return start;
+}
+
+/// The values of the axes, in the user's units.
+Json place_of(const sweep::Sweep& sweep, std::size_t point) {
+  Json at = Json::object();
+  each_coordinate(sweep, point, [&](const sweep::Axis& axis, double value) {
+    at[std::string(key_of(axis.parameter))] = json_of(value);
+  });
+  if (sweep.direction == sweep::Direction::both) at["direction"] = point < size_one_way(sweep) ? "up" : "down";
+  return at;
+}
+
+/// The machine of a point, in SI.
+Json machine_of(const sweep::Sweep& sweep, std::size_t point) {
+  sweep::Machine machine = *sweep.machine;
+  each_coordinate(sweep, point,
+                  [&](const sweep::Axis& axis, double value) { (void)set(machine, axis.parameter, value); });
+  const char* const damping = machine.damping_given == sweep::DampingGiven::coefficient ? "damping"
+                              : machine.damping_given == sweep::DampingGiven::ratio     ? "damping_ratio"
+                                                                                        : "quality";
+  return {{"mass", machine.mass},   {"stiffness", machine.stiffness}, {damping, json_of(machine.damping)},
+          {"force", machine.force}, {"frequency", machine.frequency}, {"load", machine.load}};
+}
+
+void add_period(Json& json, const ClaimedPeriod& period) {
+  if (period.word) json["word"] = *period.word;
+  if (period.symmetric) json["symmetric"] = *period.symmetric;
+  if (!period.multipliers) return;
+  for (const ClaimedMultiplier& multiplier : *period.multipliers)
+    json["multipliers"].push_back(Json::array({multiplier.re, multiplier.im, multiplier.error}));
+}
+
+}  // namespace
+
+std::string certificate_text(const Certificate& certificate, const sweep::Sweep& sweep, std::size_t point) {
+  Json json{{"format", "clatter-certificate-1"}, {"point", point}, {"at", place_of(sweep, point)}};
+  if (sweep.machine) json["machine"] = machine_of(sweep, point);
+  json["scene"] = json_of(certificate.scene);
+  json["claim"] = certificate.period ? "periodic" : "transient";
+  if (certificate.period) json["periods"] = certificate.period->periods;
+  json["start"] = start_of(certificate);
+  json["events"] = Json::array();
+  for (const ClaimedEvent& event : certificate.events) json["events"].push_back(json_of(event));
+  json["x_min"] = json_of(certificate.x_min), json["x_max"] = json_of(certificate.x_max);
+  if (certificate.period) add_period(json, *certificate.period);
+  if (certificate.end)
+    json["end"] = {
+        {"time", certificate.end->time}, {"x", json_of(certificate.end->x)}, {"v", json_of(certificate.end->v)}};
+  return json.dump() + '\n';
+}
+
+}  // namespace clatter::certificates

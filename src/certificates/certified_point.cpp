@@ -1,0 +1,130 @@
+#include "certificates/certified_point.hpp"
+
+#include <cmath>
+#include <complex>
+#include <utility>
+
+#include "certificates/error_bounds.hpp"
+#include "certificates/period_start.hpp"
+#include "certificates/recorded_motion.hpp"
+#include "observables/impact_word.hpp"
+
+namespace clatter::certificates {
+namespace {
+
+using point::PointResult;
+using point::Problem;
+using Kind = point::MotionEvent::Kind;
+
+/// The same problem with the observables that are claimed, and no others.
+Problem observed(Problem problem) {
+  problem.observe = {};
+  problem.observe.extrema = true;
+  if (problem.time.mode == steady::Mode::steady) problem.observe.stability = problem.observe.word = true;
+  return problem;
+}
+
+Problem from(Problem problem, double x, double v, double phase) {
+  problem.start = {x, v, phase};
+  return problem;
+}
+
+/// The claims of a motion that begins at a time with the start of its problem, whose phase is then that of time 0.
+Certificate claims_of(const Problem& problem, const RecordedMotion& motion, const ErrorBounds& bounds,
+                      const PointResult& result) {
+  Certificate certificate{.scene = problem};
+  for (const Event& event : motion.events)
+    certificate.events.push_back(
+        bounds.claimed(event, certificate.events.empty() ? nullptr : &certificate.events.back()));
+  certificate.x_min = bounds.claimed_extremum(result.x_min), certificate.x_max = bounds.claimed_extremum(result.x_max);
+  return certificate;
+}
+
+bool is_cut(const RecordedMotion& motion) {
+  return !motion.events.empty() && motion.events.back().kind == Kind::chatter &&
+         motion.events.back().end() >= motion.duration * (1 - 1e-12);
+}
+
+void certify_transient(const Problem& problem, const PointResult& result, CertifiedPoint& point) {
+  auto motion = recorded(problem, problem.time.duration / period_of(problem.oscillator));
+  if (!motion || is_cut(*motion)) {
+    point.without = motion ? Without::cut_chatter : Without::rounding;
+    return;
+  }
+  motion->duration = problem.time.duration;
+  const ErrorBounds bounds(problem, *motion, result, 0.0, false);
+  point.certificate = claims_of(problem, *motion, bounds, result);
+  point.certificate->end = bounds.claimed_end(*motion);
+  point.without = Without::none;
+}
+
+/// The problem of a periodic motion that begins `start.time` after a section.
+std::optional<Problem> begun(const Problem& section, const PeriodStart& start) {
+  const double turns = start.time / period_of(section.oscillator), part = turns - std::floor(turns);
+  const double phase = section.start.phase + 2 * pi<double>() * part;
+  if (start.released != Side::none)
+    return from(section, start.released == Side::upper ? section.stops.upper : section.stops.lower, 0.0, phase);
+  const auto way = recorded(section, turns);
+  return way ? std::optional(from(section, way->end.x, way->end.v, phase)) : std::nullopt;
+}
+
+/// Whether a motion returns to its start.
+bool returns(const Problem& start, const RecordedMotion& motion) {
+  constexpr double same = 1e-7;
+  const double x = start.start.displacement, v = start.start.velocity;
+  return std::abs(motion.end.x - x) + std::abs(motion.end.v - v) <= same * (std::abs(x) + std::abs(v));
+}
+
+ClaimedPeriod claimed_period(const PointResult& result, const ErrorBounds& bounds, bool rests) {
+  ClaimedPeriod period{.periods = static_cast<std::size_t>(std::llround(result.observed_turns))};
+  const auto multiplier = [&](std::size_t i) {
+    return std::complex<double>(result.multiplier_re[i], result.multiplier_im[i]);
+  };
+  period.multipliers = rests ? std::array<ClaimedMultiplier, 2>{} : bounds.claimed({multiplier(0), multiplier(1)});
+  if (result.impact_word.size() <= observables::ImpactWord::longest) period.word = result.impact_word;
+  if (!std::isnan(result.symmetric)) period.symmetric = result.symmetric == 1.0;
+  return period;
+}
+
+void certify_periodic(const Problem& problem, const PointResult& result, CertifiedPoint& point) {
+  point.without = Without::rounding;
+  const double T = period_of(problem.oscillator);
+  const Problem section = from(problem, result.end.displacement, result.end.velocity, result.end.phase);
+  const auto whole = recorded(section, result.observed_turns);
+  if (!whole) return;
+  const PeriodStart start = start_of_period(*whole);
+  const auto at_start = begun(section, start);
+  if (!at_start) return;
+  auto motion = recorded(*at_start, result.observed_turns, start.released);
+  if (!motion || !returns(*at_start, *motion)) return;
+  const double time = std::fmod(start.time, T);
+  const ErrorBounds bounds(*at_start, *motion, result, time, true);
+  if (!bounds.know_the_start()) {
+    point.without = Without::family;
+    return;
+  }
+  point.certificate = claims_of(*at_start, *motion, bounds, result);
+  point.certificate->scene.start.phase = section.start.phase;
+  point.certificate->x_error = point.certificate->v_error = bounds.of_start();
+  point.certificate->time = time, point.certificate->released = start.released;
+  point.certificate->period = claimed_period(result, bounds, start.released != Side::none || start.rests_for_ever);
+  point.without = Without::none;
+}
+
+}  // namespace
+
+CertifiedPoint certified(const Problem& problem, point::ThreadScratch& scratch) {
+  const Problem plain = observed(problem);
+  const PointResult result = point::run_point(plain, scratch);
+  CertifiedPoint point{.status = result.status, .periods = result.observed_turns, .end = result.end};
+  if (result.status == steady::Status::transient) certify_transient(plain, result, point);
+  if (result.status == steady::Status::grazing) point.without = Without::graze;
+  if (result.status != steady::Status::periodic) return point;
+  if (problem.oscillator.forcing == 0)
+    point.without = Without::force;
+  else
+    certify_periodic(plain, result, point);
+  return point;
+}
+
+}  // namespace clatter::certificates

@@ -1,0 +1,138 @@
+#include "certificates/error_bounds.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "motion/soft_stop.hpp"
+
+namespace clatter::certificates {
+namespace {
+
+using Kind = point::MotionEvent::Kind;
+using motion::Jacobian;
+
+constexpr double of_arithmetic = 1e-13;  // of each later one: some dozens of roundings
+constexpr double of_chatter = 1e-9;      // of the time that a chatter takes
+constexpr double of_multiplier = 1e-9;
+
+double norm(const Jacobian<double>& map) {
+  return std::max(std::abs(map[0]) + std::abs(map[1]), std::abs(map[2]) + std::abs(map[3]));
+}
+
+/// The norm of (1 - M)^-1: how far the state that returns moves if the motion is off.
+double norm_of_return(const Jacobian<double>& m) {
+  const Jacobian<double> adjoint{1 - m[3], m[1], m[2], 1 - m[0]};
+  const double determinant = (1 - m[0]) * (1 - m[3]) - m[1] * m[2];
+  return std::max(1.0, norm(adjoint) / std::abs(determinant));
+}
+
+}  // namespace
+
+ErrorBounds::ErrorBounds(const point::Problem& problem, const RecordedMotion& motion, const point::PointResult& result,
+                         double time, bool periodic)
+    : oscillator_(problem.oscillator),
+      stops_(problem.stops),
+      phase_(problem.start.phase),
+      begin_(time),
+      forcing_period_(period_of(problem.oscillator)),
+      size_(std::max({std::abs(result.x_min), std::abs(result.x_max), result.x_max - result.x_min,
+                      std::abs(result.v_min), std::abs(result.v_max)})),
+      of_start_(periodic ? norm_of_return(motion.derivative) : 1.0),
+      stretching_(std::max(1.0, norm(motion.derivative))) {
+  for (const Event& event : motion.events) stretching_ = std::max(stretching_, norm(event.derivative));
+}
+
+ErrorBounds::StateError ErrorBounds::error_after(const Jacobian<double>& derivative, double path) const {
+  const double rounding = of_arithmetic * std::min(size_, path);
+  return {of_start() * (std::abs(derivative[0]) + std::abs(derivative[1])) + rounding,
+          of_start() * (std::abs(derivative[2]) + std::abs(derivative[3])) + rounding};
+}
+double ErrorBounds::time_error(double time) const {
+  return of_arithmetic * (forcing_period_ + std::abs(begin_) + std::abs(time));
+}
+
+/// The displacement at an event: where the force of a soft stop is 0, x - position + q v = 0.
+double ErrorBounds::place_of(const Event& event) const {
+  const double position = event.side == Side::upper ? stops_.upper : stops_.lower;
+  if (event.kind != Kind::separation && event.kind != Kind::renewal) return position;
+  return position - motion::soft_stop_at<double>(stops_, event.side).relaxation() * event.velocity;
+}
+/// The acceleration before an event, at which no soft stop pushes.
+double ErrorBounds::acceleration(const Event& event) const {
+  return oscillator_.forcing * std::sin(oscillator_.frequency * event.time + phase_) +
+         constant_force(oscillator_, place_of(event)) - 2 * oscillator_.damping * event.velocity;
+}
+
+ClaimedEvent ErrorBounds::claimed(const Event& event, const ClaimedEvent* before) const {
+  if (event.lasts()) return claimed_stay(event, before);
+  const bool after_rest = before != nullptr && before->kind == Kind::rest;
+  return claimed_contact(
+      event, before == nullptr ? event.time : begin_ + event.time - (after_rest ? before->then : before->time).value);
+}
+
+/// The instant at which x, or x + q v where the force of a soft stop passes 0, reaches a place.
+ClaimedEvent ErrorBounds::claimed_contact(const Event& event, double since) const {
+  const StateError error = error_after(event.derivative, size_ * since);
+  const double a = acceleration(event);
+  double off = error.x, rate = std::abs(event.velocity);
+  if (event.kind == Kind::separation || event.kind == Kind::renewal) {
+    const double q = motion::soft_stop_at<double>(stops_, event.side).relaxation();
+    off += q * error.v, rate = std::abs(event.velocity + q * a);
+  }
+  const double late = off / rate + time_error(event.time);
+  return {event.kind, event.side, {begin_ + event.time, late}, {event.velocity, error.v + std::abs(a) * late}};
+}
+
+ClaimedEvent ErrorBounds::claimed_stay(const Event& event, const ClaimedEvent* before) const {
+  const bool follows = before != nullptr && before->side == event.side;
+  const bool after_chatter = follows && before->kind == Kind::chatter;
+  const double late = after_chatter                             ? before->then.error
+                      : follows && before->kind == Kind::impact ? before->time.error
+                                                                : time_error(event.time);
+  const double end = event.kind == Kind::rest ? release_error(event) : chatter_error(event, before);
+  return {event.kind, event.side, {begin_ + event.time, late}, {begin_ + event.end(), end}};
+}
+
+/// The flights of a chatter last 2 v/(a (1 - R)) together: its end is off by the error of its first impact and by that
+/// of its speed.
+double ErrorBounds::chatter_error(const Event& event, const ClaimedEvent* before) const {
+  const double R = event.side == Side::upper ? stops_.restitution_upper : stops_.restitution_lower;
+  double error = of_chatter * event.length + time_error(event.end());
+  if (before != nullptr)
+    error += before->time.error + 2 * R * before->then.error / (std::abs(acceleration(event)) * (1 - R));
+  return error;
+}
+
+/// The force that presses the mass falls to 0 the later the slower it changes; where nothing releases the mass, the end
+/// is that of the motion.
+double ErrorBounds::release_error(const Event& event) const {
+  const double theta = oscillator_.frequency * event.end() + phase_, x = place_of(event);
+  const double force = oscillator_.forcing * std::sin(theta) + constant_force(oscillator_, x);
+  const double largest =
+      std::abs(oscillator_.forcing) + std::abs(oscillator_.load) + std::abs(oscillator_.stiffness * x);
+  const double rate = std::abs(oscillator_.forcing * oscillator_.frequency * std::cos(theta));
+  if (!(std::abs(force) <= of_chatter * largest)) return time_error(event.end());
+  return time_error(event.end()) + of_state * largest / rate;
+}
+
+ClaimedEnd ErrorBounds::claimed_end(const RecordedMotion& motion) const {
+  const StateError error = error_after(motion.derivative, size_);
+  return {begin_ + motion.duration, {motion.end.x, error.x}, {motion.end.v, error.v}};
+}
+
+Claimed ErrorBounds::claimed_extremum(double x) const {
+  return {x, (of_state * of_start_ + of_arithmetic) * size_ * stretching_};
+}
+
+/// Two multipliers that are nearly equal move as the root of the change of their sum and product.
+std::array<ClaimedMultiplier, 2> ErrorBounds::claimed(const std::array<std::complex<double>, 2>& multipliers) const {
+  const double largest = std::max({1.0, std::abs(multipliers[0]), std::abs(multipliers[1])});
+  const double off = of_multiplier * largest * of_start_ * stretching_;
+  const double apart = std::abs(multipliers[0] - multipliers[1]);
+  const double error = off + std::min(std::sqrt(off * largest), off * largest / apart);
+  std::array<ClaimedMultiplier, 2> claims;
+  for (std::size_t i = 0; i < 2; ++i) claims[i] = {multipliers[i].real(), multipliers[i].imag(), error};
+  return claims;
+}
+
+}  // namespace clatter::certificates

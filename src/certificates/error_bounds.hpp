@@ -1,0 +1,53 @@
+#pragma once
+
+#include <array>
+#include <complex>
+
+#include "certificates/certificate.hpp"
+#include "certificates/recorded_motion.hpp"
+#include "point/point.hpp"
+
+namespace clatter::certificates {
+
+/// How far the numbers of a motion in double may be off: a small share of its size, as much of it as the motion
+/// stretches. An estimate, not a proof: to prove is up to the verifier.
+class ErrorBounds {
+ public:
+  /// Of a motion from the start of a problem at a time on; `periodic`: its state is one that returns.
+  ErrorBounds(const point::Problem& problem, const RecordedMotion& motion, const point::PointResult& result,
+              double time, bool periodic);
+
+  /// Claims an event of the motion that follows another, null if it is the first.
+  [[nodiscard]] ClaimedEvent claimed(const Event& event, const ClaimedEvent* before) const;
+  /// Whether a periodic motion is alone, so that its start is known.
+  [[nodiscard]] bool know_the_start() const { return of_start_ < 1e10; }
+  /// Of x and of v at the start.
+  [[nodiscard]] double of_start() const { return of_state * size_ * of_start_; }
+  [[nodiscard]] ClaimedEnd claimed_end(const RecordedMotion& motion) const;
+  [[nodiscard]] Claimed claimed_extremum(double x) const;
+  /// Of motion that rests both are 0.
+  [[nodiscard]] std::array<ClaimedMultiplier, 2> claimed(const std::array<std::complex<double>, 2>& multipliers) const;
+
+ private:
+  static constexpr double of_state = 1e-12;  ///< error of the state at the start over the size of the motion
+
+  struct StateError {
+    double x, v;
+  };
+  /// Of a state after a path since the event before, by the derivative of the motion.
+  [[nodiscard]] StateError error_after(const motion::Jacobian<double>& derivative, double path) const;
+  [[nodiscard]] double time_error(double time) const;
+  [[nodiscard]] double place_of(const Event& event) const;
+  [[nodiscard]] double acceleration(const Event& event) const;
+  [[nodiscard]] ClaimedEvent claimed_contact(const Event& event, double since) const;
+  [[nodiscard]] ClaimedEvent claimed_stay(const Event& event, const ClaimedEvent* before) const;
+  [[nodiscard]] double chatter_error(const Event& event, const ClaimedEvent* before) const;
+  [[nodiscard]] double release_error(const Event& event) const;
+
+  Oscillator oscillator_;
+  Stops stops_;
+  double phase_, begin_, forcing_period_;
+  double size_, of_start_, stretching_;  ///< S, error of the start over 1e-12 S, largest norm of the derivative
+};
+
+}  // namespace clatter::certificates

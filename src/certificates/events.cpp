@@ -1,0 +1,39 @@
+#include "certificates/events.hpp"
+
+#include <cmath>
+#include <utility>
+
+namespace clatter::certificates {
+namespace {
+
+using Kind = point::MotionEvent::Kind;
+
+/// Whether an event begins on the same stop where another ends.
+bool continues(const Event& before, const Event& event) {
+  constexpr double same_time = 1e-9;
+  return before.side == event.side && std::abs(event.time - before.end()) <= same_time * (1 + std::abs(event.time));
+}
+
+void add(std::vector<Event>& events, Event event) {
+  const Event* const before = events.empty() ? nullptr : &events.back();
+  const bool goes_on = event.lasts() && before != nullptr && continues(*before, event);
+  if (event.kind == Kind::chatter && !(goes_on && before->kind != Kind::rest)) event.kind = Kind::rest;
+  if (goes_on && before->kind == event.kind)
+    events.back().length = event.end() - before->time;
+  else
+    events.push_back(std::move(event));
+}
+
+}  // namespace
+
+std::vector<Event> joined_events(const point::MotionRecorder& recorder, const Stops& stops) {
+  std::vector<Event> events;
+  for (std::size_t i = 0; i < recorder.events.size(); ++i) {
+    const Event event{recorder.events[i],
+                      i < recorder.derivatives.size() ? recorder.derivatives[i] : motion::Jacobian<double>{1, 0, 0, 1}};
+    if (!(event.lasts() && is_soft(stops, event.side))) add(events, event);
+  }
+  return events;
+}
+
+}  // namespace clatter::certificates

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <vector>
+
+#include "motion/perturbation.hpp"
+#include "point/exact_motion.hpp"
+
+namespace clatter::certificates {
+
+/// An event and the derivative of the motion from its start to the instant before it.
+struct Event : point::MotionEvent {
+  motion::Jacobian<double> derivative{};
+
+  [[nodiscard]] double end() const { return time + length; }
+  [[nodiscard]] bool is_rest() const { return kind == Kind::rest; }
+  /// Whether it is a time on a stop, not an instant.
+  [[nodiscard]] bool lasts() const { return kind == Kind::rest || kind == Kind::chatter; }
+};
+
+/// The events of a record, in which each rest and each chatter is one event, however many sections cut it. A chatter
+/// follows an impact; a time on a stop that follows none, or a rest, is a rest, though its force be within rounding
+/// of 0. On a soft stop this is no event.
+[[nodiscard]] std::vector<Event> joined_events(const point::MotionRecorder& recorder, const Stops& stops);
+
+}  // namespace clatter::certificates

@@ -1,0 +1,18 @@
+#include "certificates/recorded_motion.hpp"
+
+#include "point/exact_motion.hpp"
+
+namespace clatter::certificates {
+
+std::optional<RecordedMotion> recorded(const point::Problem& problem, double turns, Side released) {
+  const auto motion = point::ExactMotion::of(problem);
+  point::MotionRecorder recorder(motion->stops());
+  recorder.keep_derivatives();
+  motion::State<double> state = motion->start();
+  if (released != Side::none) state.released = true, state.from_stop = released;
+  if (motion->run_for(state, turns, recorder) != stepping::Outcome::completed) return std::nullopt;
+  return RecordedMotion{joined_events(recorder, problem.stops), state, recorder.watch.derivative(),
+                        turns * motion->period()};
+}
+
+}  // namespace clatter::certificates

@@ -1,0 +1,54 @@
+"""Random scenes run, certified and verified; the environment's CLATTER and CLATTER_VERIFY are the programs."""
+
+import json
+import os
+import subprocess
+from pathlib import Path
+
+from random_scenes import random_scenes
+from scene_runs import keys_of, numbers
+
+CLATTER, VERIFY = os.environ["CLATTER"], os.environ.get("CLATTER_VERIFY", "")
+
+
+def verified(*files):
+    """What clatter-verify says of files of certificates."""
+    result = subprocess.run([VERIFY, "--json", *files], capture_output=True, text=True, check=False)
+    if result.returncode not in (0, 1, 3):
+        raise RuntimeError(f"{result.returncode}: {result.stderr}")
+    return json.loads(result.stdout)
+
+
+def certified(output, certificates, *words):
+    """Writes the certificates of an output; their number, and what was said."""
+    command = [CLATTER, "certify", output, "-o", certificates, "--force", *words]
+    result = subprocess.run(command, capture_output=True, text=True, check=False)
+    if result.returncode not in (0, 1):
+        raise RuntimeError(f"{result.returncode}: {result.stderr}")
+    return len(Path(certificates).read_text(encoding="utf-8").splitlines()), result.stderr
+
+
+def certified_scenes(folder, scenes, time):
+    """Runs scenes in a sweep for each kind of them, and writes the certificates of all into one file."""
+    folder, kinds = Path(folder), {}
+    for scene in scenes:
+        kinds.setdefault(tuple(keys_of(scene)), []).append(scene)
+    whole = folder / "certificates.jsonl"
+    with open(whole, "w", encoding="utf-8") as file:
+        for count, (keys, alike) in enumerate(kinds.items()):
+            lists = "".join(f"{key} = {numbers([keys_of(scene)[key] for scene in alike])}\n" for key in keys)
+            config, output = folder / f"{count}.toml", folder / f"{count}.h5"
+            linked = f"[sweep]\n{lists}linked = \"{', '.join(keys)}\"\n"
+            config.write_text(f"[scene]\n{linked}[time]\n{time}max_impacts = 20000\n[observe]\nextrema = true\n")
+            subprocess.run([CLATTER, "run", config, "-o", output, "-q"], check=False)
+            certified(output, folder / "kind.jsonl")
+            file.write((folder / "kind.jsonl").read_text(encoding="utf-8"))
+    return whole
+
+
+def random_certificates(folder, count, seed):
+    """Certificates of the steady motions and of transients of random scenes."""
+    for name, time in (("steady", "max_periods = 600\n"), ("transient", 'mode = "transient"\nduration = 30\n')):
+        place = Path(folder) / name
+        place.mkdir()
+        yield certified_scenes(place, random_scenes(count, seed), time)

@@ -1,0 +1,171 @@
+"""Certificates with one wrong claim each, made from right ones; see apps/verify/README.md for their format."""
+
+import copy
+
+BEYOND = 2  # a wrong number is off by so many times its error
+
+
+def off(claimed):
+    value, error = claimed
+    return [value + BEYOND * max(error, 1e-15 * abs(value)), error]
+
+
+def number(certificate, index, name):
+    """Another value of a claimed number of an event."""
+    certificate["events"][index][name] = off(certificate["events"][index][name])
+    return certificate
+
+
+def contacts(certificate):
+    return [i for i, event in enumerate(certificate["events"]) if "v" in event]
+
+
+def rests(certificate):
+    return [i for i, event in enumerate(certificate["events"]) if event["event"] == "rest"]
+
+
+def wrong_speed(certificate):
+    for index in contacts(certificate)[:1]:
+        return number(certificate, index, "v")
+
+
+def wrong_time(certificate):
+    for index in contacts(certificate)[-1:]:
+        return number(certificate, index, "time")
+
+
+def contact_left_out(certificate):
+    for index in contacts(certificate)[:1]:
+        del certificate["events"][index]
+        return certificate
+
+
+def contact_put_in(certificate):
+    for index in contacts(certificate)[:1]:
+        again = copy.deepcopy(certificate["events"][index])
+        again["time"][0] += 1e-3
+        certificate["events"].insert(index + 1, again)
+        return certificate
+
+
+def wrong_stop(certificate):
+    scene = certificate["scene"]
+    if not ("lower" in scene and "upper" in scene) or ("R" in scene["lower"]) != ("R" in scene["upper"]):
+        return None
+    for index in contacts(certificate)[:1]:
+        event = certificate["events"][index]
+        event["stop"] = {"lower": "upper", "upper": "lower"}[event["stop"]]
+        return certificate
+
+
+def twice_the_period(certificate):
+    if certificate["claim"] != "periodic" or "released" in certificate["start"] or rests(certificate):
+        return None
+    period = certificate["periods"] * 2 * 3.141592653589793 / certificate["scene"]["nu"]
+    certificate["periods"] *= 2
+    later = copy.deepcopy(certificate["events"])
+    for event in later:
+        event["time"] = [event["time"][0] + period, 2 * event["time"][1] + 1e-12]
+    certificate["events"] += later
+    for name in ("multipliers", "word", "symmetric"):
+        certificate.pop(name, None)
+    return certificate
+
+
+def wrong_multiplier(certificate):
+    """A stable motion is called unstable."""
+    if certificate["claim"] != "periodic" or "multipliers" not in certificate:
+        return None
+    re, im, error = certificate["multipliers"][0]
+    certificate["multipliers"][0] = [re + 1.5, im, error]
+    return certificate if error < 0.5 else None
+
+
+def rest_that_is_none(certificate):
+    for index, event in enumerate(certificate["events"]):
+        if event["event"] == "impact":
+            until = [event["time"][0] + 1e-3, 1e-9]
+            chatter = {"event": "chatter", "stop": event["stop"], "time": event["time"], "until": until}
+            rest = {**chatter, "event": "rest", "time": until, "until": [until[0] + 0.5, 1e-9]}
+            certificate["events"][index + 1 :] = [chatter, rest]
+            return certificate
+
+
+def rest_left_out(certificate):
+    for index in rests(certificate)[:1]:
+        del certificate["events"][index]
+        return certificate
+
+
+def rest_too_long(certificate):
+    for index in rests(certificate)[:1]:
+        return number(certificate, index, "until")
+
+
+def wrong_maximum(certificate):
+    if "x_max" in certificate:
+        return certificate | {"x_max": off(certificate["x_max"])}
+
+
+def wrong_minimum(certificate):
+    if "x_min" in certificate:
+        return certificate | {"x_min": off(certificate["x_min"])}
+
+
+def wrong_word(certificate):
+    if certificate.get("word"):
+        return certificate | {"word": certificate["word"] + "L"}
+
+
+def wrong_symmetry(certificate):
+    if certificate.get("symmetric") is True and "released" not in certificate["start"]:
+        return certificate | {"symmetric": False}
+
+
+def wrong_start(certificate):
+    start = certificate["start"]
+    if certificate["claim"] == "periodic" and "x" in start and not rests(certificate):
+        start["x"] = off(start["x"])
+        return certificate
+
+
+def wrong_end(certificate):
+    if "end" in certificate:
+        certificate["end"]["x"] = off(certificate["end"]["x"])
+        return certificate
+
+
+def wrong_restitution(certificate):
+    for event in certificate["events"]:
+        stop = certificate["scene"][event["stop"]]
+        if "R" in stop:
+            stop["R"] = stop["R"] * 0.999 + 1e-4
+            return certificate
+
+
+FORGERIES = [
+    wrong_speed,
+    wrong_time,
+    contact_left_out,
+    contact_put_in,
+    wrong_stop,
+    twice_the_period,
+    wrong_multiplier,
+    rest_that_is_none,
+    rest_left_out,
+    rest_too_long,
+    wrong_maximum,
+    wrong_minimum,
+    wrong_word,
+    wrong_symmetry,
+    wrong_start,
+    wrong_end,
+    wrong_restitution,
+]
+
+
+def forged(certificate):
+    """Each forgery that a certificate admits, with its kind."""
+    for forge in FORGERIES:
+        if (forgery := forge(copy.deepcopy(certificate))) is not None:
+            yield forge.__name__, forgery

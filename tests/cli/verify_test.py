@@ -1,0 +1,210 @@
+"""clatter-verify proves what clatter certifies, and refutes what is wrong, though it shares no source with it.
+
+Environment: CLATTER and CLATTER_VERIFY, the programs; CLATTER_SOURCE, the source directory; CLATTER_VERIFIED, the
+number of random scenes, and of them all points of shipped configurations if it is above 1000.
+"""
+
+import collections
+import json
+import os
+import subprocess
+import unittest
+
+from certified_runs import VERIFY, certified, random_certificates, verified
+from command_line import LONGEST, SOURCE, CommandLine
+from forgeries import FORGERIES, forged
+
+SCENES = int(os.environ.get("CLATTER_VERIFIED", "150"))
+IS_LONG = SCENES > 1000
+FIGURES = [f"fig{number}" for number in range(14, 24)]
+
+RESTS = """[scene]
+f = -1.0
+h = 0.1
+R = 0.7
+[sweep]
+nu = "linspace(0.4, 1.2, 9)"
+xs = "linspace(0.05, 0.25, 3)"
+"""
+
+SOFT = """[scene]
+f = -1.0
+h = 0.1
+xs = -0.5
+stop_stiffness = 30
+stop_damping = 0.1
+[sweep]
+nu = "linspace(0.5, 1.5, 21)"
+"""
+
+TRANSIENT = """[scene]
+f = -1.0
+h = 0.1
+R = 0.7
+xs = -0.5
+[sweep]
+nu = "linspace(0.7, 1.3, 4)"
+[time]
+mode = "transient"
+duration = 25
+"""
+
+RIGHT = {
+    "format": "clatter-certificate-1",
+    "point": 3,
+    "scene": {"h": 0.1, "k": 1, "f": 1, "nu": 1.2, "load": 0, "phase": 0, "lower": {"position": -5, "R": 0.7}},
+    "claim": "transient",
+    "start": {"time": 0, "x": 0, "v": 0},
+    "events": [],
+    "end": {"time": "0.1", "x": [0.0002, 1e-3], "v": [0.006, 1e-3]},
+}
+
+
+def without(name):
+    return {key: value for key, value in RIGHT.items() if key != name}
+
+
+def in_scene(**values):
+    return {**RIGHT, "scene": {**RIGHT["scene"], **values}}
+
+
+MALFORMED = [  # a line, and the place and the way out that are told
+    ("{", "is no JSON .*; write one object a line"),
+    ("[1]", "is no JSON object; write"),
+    ("[" * 100000, "nests more than"),
+    (without("format"), "format: is missing; add it"),
+    ({**RIGHT, "format": "other"}, 'format: .*; write "clatter-certificate-1"'),
+    (without("scene"), "scene: is missing; add it"),
+    (in_scene(h=-1), "scene.h: is -1; it must be at least 0"),
+    (in_scene(nu=0), "scene.nu: is 0; it must be above 0"),
+    (in_scene(k="1e"), "scene.k: .* is no decimal number; write e.g."),
+    (in_scene(k="nan"), "scene.k: .* is no decimal number; write e.g."),
+    (in_scene(k=None), "scene.k: is no number; write a number"),
+    (in_scene(lower={"position": 1}), "scene.lower: has neither R nor stiffness; give one"),
+    (in_scene(lower={"position": 1, "R": 2}), "scene.lower.R: is 2; it must be at least 0 and at most 1"),
+    (in_scene(upper={"position": -6, "R": 1}), "scene: has its lower stop above the upper one; exchange"),
+    ({**RIGHT, "claim": "special"}, "claim: is 'special'; write transient or periodic"),
+    ({**RIGHT, "claim": "periodic", "periods": 0}, "periods: is out of range; write 1 to"),
+    ({**RIGHT, "events": [{"event": "hit"}]}, r"events\[0\].event: is 'hit'; write impact"),
+    (
+        {**RIGHT, "events": [{"event": "impact", "stop": "upper", "time": [1, 1], "v": [1, 1]}]},
+        r"events\[0\]: .*rigid stop; the scene has none there",
+    ),
+    ({**RIGHT, "end": {"time": 0, "x": [0, 1], "v": [0, 1]}}, "end: is not after the start; give a later time"),
+    ({**RIGHT, "x_max": [0, -1]}, r"x_max\[1\]: is -1; it must be at least 0"),
+    ({**RIGHT, "x_max": 0}, r"x_max: is no array; write"),
+]
+
+
+@unittest.skipUnless(VERIFY, "Arb wasn't found when the build was configured, so there is no clatter-verify")
+class Verify(CommandLine):
+    def verify(self, *words, text=None):
+        return subprocess.run(
+            [VERIFY, *words],
+            input=text,
+            cwd=self.directory,
+            capture_output=True,
+            text=True,
+            timeout=LONGEST,
+            check=False,
+        )
+
+    def certificates(self, name, config, *words):
+        """The file of the certificates of a configuration, a text or a path."""
+        if isinstance(config, str):
+            config = self.write(f"{name}.toml", config)
+        output, file = self.directory / f"{name}.h5", self.directory / f"{name}.jsonl"
+        result = self.clatter("run", config, "-q", "-o", output)
+        self.assertIn(result.returncode, (0, 1), result.stderr)
+        certified(output, file, *words)
+        return file
+
+    def assert_proved(self, found, at_least, undecided=0):
+        self.assertEqual((found["refuted"], found["malformed"]), (0, 0), found["claims"])
+        self.assertLessEqual(found["undecided"], undecided, found["claims"])
+        self.assertGreaterEqual(found["proved"], at_least)
+
+    def test_every_periodic_point_of_the_figures_is_proved(self):
+        files = [self.certificates(name, SOURCE / f"configs/{name}.toml") for name in FIGURES]
+        self.assert_proved(verified(*files), 1900)
+
+    def test_points_of_every_shipped_configuration_are_proved(self):
+        others = sorted(set(SOURCE.glob("configs/*.toml")) - {SOURCE / f"configs/{name}.toml" for name in FIGURES})
+        sample = () if IS_LONG else ("--sample", "12")
+        files = []
+        for config in others:
+            if config.stem.startswith("accuracy"):
+                continue
+            file = self.certificates(config.stem, config, *sample)
+            if file.stat().st_size > 0:  # else no point of it has a claim: it has no force
+                files.append(file)
+        self.assertGreater(len(files), 20)
+        self.assert_proved(verified(*files), 200)
+
+    def test_random_scenes_are_proved(self):
+        for file in random_certificates(self.directory, SCENES, seed=43):
+            count = len(file.read_text(encoding="utf-8").splitlines())
+            self.assertGreater(count, SCENES // 2)
+            self.assert_proved(verified(file), 0.99 * count, undecided=count // 100)
+
+    def test_every_forgery_is_refuted(self):
+        lines, kinds = [], []
+        for name, config in (("rests", RESTS), ("soft", SOFT), ("transient", TRANSIENT)):
+            file = self.certificates(name, config)
+            self.assert_proved(verified(file), 1)
+            for line in file.read_text(encoding="utf-8").splitlines():
+                for kind, forgery in forged(json.loads(line)):
+                    lines.append(json.dumps(forgery)), kinds.append(kind)
+        (self.directory / "forged.jsonl").write_text("\n".join(lines) + "\n", encoding="utf-8")
+        found = verified(self.directory / "forged.jsonl")
+        verdicts = {claim["line"]: claim["verdict"] for claim in found["claims"]}
+        missed = collections.Counter(
+            kind for number, kind in enumerate(kinds, 1) if verdicts.get(number, "proved") != "refuted"
+        )
+        self.assertEqual(missed, {})
+        self.assertEqual(set(kinds), {forge.__name__ for forge in FORGERIES})
+
+    def test_each_malformed_certificate_is_told_with_its_place_and_the_way_out(self):
+        for certificate, words in MALFORMED:
+            line = certificate if isinstance(certificate, str) else json.dumps(certificate)
+            result = self.verify("-", text=f"\n{line}\n")
+            self.assertEqual(result.returncode, 2, line[:200])
+            self.assertRegex(result.stderr, f"^stdin:2: .*{words}")
+            self.assertEqual(result.stderr.count("\n"), 1)
+
+    def test_exit_codes_and_counts(self):
+        right, wrong = json.dumps(RIGHT), json.dumps({**RIGHT, "end": {**RIGHT["end"], "x": [1, 1e-3]}})
+        near = {"event": "impact", "stop": "lower", "time": [0.0999, 1], "v": [0, 1]}
+        self.assertEqual(self.verify("-", text=right).stdout, "1 proved, 0 refuted, 0 undecided\n")
+        result = self.verify("-", text=f"{right}\n{wrong}\n{right}\n")
+        self.assertEqual(result.returncode, 1)
+        self.assertRegex(
+            result.stdout, r"^stdin:2: point 3: refuted: end, x: claimed 1 to 0.001, found .*\n2 proved, 1 refuted, 0 "
+        )
+        result = self.verify("-", text=json.dumps({**RIGHT, "events": [near]}))
+        self.assertRegex(result.stdout, "refuted: event 1, impact at the lower stop: claimed, found no further event")
+
+    def test_wrong_command_lines_and_files(self):
+        (self.directory / "empty.jsonl").write_text("\n", encoding="utf-8")
+        for words, code, said in (
+            ((), 2, "no file is named; give"),
+            (("--unknown",), 2, "unrecognised option '--unknown'; see clatter-verify --help"),
+            (("missing.jsonl",), 74, "cannot read 'missing.jsonl': No such file"),
+            (("empty.jsonl",), 2, "'empty.jsonl' holds no certificate; make some by clatter certify"),
+            (("empty.jsonl", "--threads", "0"), 2, "--threads must be 1 to 1024"),
+            (("empty.jsonl", "--threads", "x"), 2, "the argument .* is invalid; see clatter-verify --help"),
+        ):
+            result = self.verify(*words)
+            self.assertEqual(result.returncode, code, words)
+            self.assertRegex(result.stderr, f"^clatter-verify: {said}")
+        self.assertEqual(self.verify("--help").returncode, 0)
+        self.assertRegex(self.verify("--version").stdout, r"^clatter-verify \d+\.\d+\.\d+\n$")
+
+    def test_the_same_verdicts_for_any_number_of_threads(self):
+        file = self.certificates("soft", SOFT)
+        texts = {self.verify(file, "--json", "--threads", str(threads)).stdout for threads in (1, 2, 7)}
+        self.assertEqual(len(texts), 1)
+
+
+if __name__ == "__main__":
+    unittest.main()
