@@ -17,7 +17,10 @@ class WrongCommandLines(CommandLine):
         cases = [
             ([], "no command; see `clatter --help`"),
             (["rnu", config], "unknown command 'rnu'; did you mean 'run'?"),
-            (["frobnicate"], "the commands are: run, plan, accuracy, branch, merge, export, certify, info, defaults, help"),
+            (
+                ["frobnicate"],
+                "the commands are: run, plan, accuracy, branch, merge, export, certify, info, defaults, help",
+            ),
             (
                 ["--verbose"],
                 "unknown option '--verbose' before the command; write it behind: clatter COMMAND ... --verbose",
