@@ -158,7 +158,8 @@ class Ball {
 };
 
 inline Ball square(const Ball& a) { return a * a; }
-inline Ball larger(const Ball& a, const Ball& b) { return a.near() >= b.near() ? a : b; }
+/// The one whose middle is smaller.
+inline Ball smaller(const Ball& a, const Ball& b) { return a.near() <= b.near() ? a : b; }
 
 /// Sets the precision of a thread for as long as it lives.
 class Precision {

@@ -213,9 +213,10 @@ Scene Certificate::scene_in_balls() const {
       scene.h.ball(), scene.k.ball(), scene.f.ball(), scene.nu.ball(), scene.load.ball(), scene.phase.ball(), {}};
   for (std::size_t i = 0; i < 2; ++i) {
     if (!scene.stops[i]) continue;
-    Stop stop{scene.stops[i]->position.ball(), scene.stops[i]->soft, Ball(0), Ball(0), Ball(0)};
+    Stop stop{scene.stops[i]->position.ball(), scene.stops[i]->soft, Ball(0), Ball(0), Ball(0), Ball(0)};
     if (stop.soft)
-      stop.kappa = scene.stops[i]->stiffness.ball(), stop.h_s = scene.stops[i]->damping.ball() * sqrt(stop.kappa);
+      stop.kappa = scene.stops[i]->stiffness.ball(), stop.zeta = scene.stops[i]->damping.ball(),
+      stop.h_s = stop.zeta * sqrt(stop.kappa);
     else
       stop.R = scene.stops[i]->R.ball();
     balls.stops[i] = stop;

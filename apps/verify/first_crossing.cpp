@@ -82,7 +82,7 @@ std::optional<Crossing> first_crossing(const Flow& flow, const Flow::Flight& fli
     if (known && crosses) return Crossing{*crosses, from, to};
     if (known) {
       from = to, halvings = 0;
-      step = larger(-larger(-(step + step), -longest), step);
+      step = smaller(step + step, longest);
       continue;
     }
     if (++halvings > bits) throw Undecided("which event comes first, or whether a stop is met at all");

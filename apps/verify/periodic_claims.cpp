@@ -110,8 +110,6 @@ void check_multipliers(const Certificate& certificate, const Matrix& derivative,
   }
 }
 
-namespace {}  // namespace
-
 void check_word(const Certificate& certificate, const std::vector<Event>& events, Report& report) {
   if (!certificate.word) return;
   const std::string found = word_of(events);
@@ -131,7 +129,7 @@ std::optional<Ball> mirror_centre(const Scene& scene) {
   const Ball equilibrium = scene.k.is_zero() ? Ball(0) : scene.load / scene.k;
   if (!lower) return equilibrium;
   const bool alike = lower->soft == upper->soft && (lower->R - upper->R).is_zero() &&
-                     (lower->kappa - upper->kappa).overlaps(Ball(0)) && (lower->h_s - upper->h_s).overlaps(Ball(0));
+                     (lower->kappa - upper->kappa).is_zero() && (lower->zeta - upper->zeta).is_zero();
   const Ball middle = (lower->position + upper->position) / Ball(2);
   const bool centred = scene.k.is_zero() || (scene.k * middle - scene.load).is_zero();
   return alike && centred ? std::optional(middle) : std::nullopt;

@@ -21,6 +21,7 @@ struct Stop {
   bool soft = false;
   Ball R;      ///< restitution of a rigid stop
   Ball kappa;  ///< stiffness of a soft stop
+  Ball zeta;   ///< its damping ratio
   Ball h_s;    ///< its damping, zeta kappa^(1/2)
 
   /// Its force falls to 0 if x + q v is the position.

@@ -164,6 +164,16 @@ class Verify(CommandLine):
         self.assertEqual(missed, {})
         self.assertEqual(set(kinds), {forge.__name__ for forge in FORGERIES})
 
+    def test_a_scene_that_is_symmetric_to_24_digits_only_proves_no_symmetry(self):
+        for line in self.certificates("soft", SOFT).read_text(encoding="utf-8").splitlines():
+            certificate = json.loads(line)
+            if certificate.get("symmetric") and certificate["events"]:
+                break
+        self.assertEqual(self.verify("-", text=json.dumps(certificate)).returncode, 0)
+        certificate["scene"]["upper"]["damping"] = "0.1000000000000000055511152"
+        result = self.verify("-", text=json.dumps(certificate))
+        self.assertRegex(result.stdout, "undecided: symmetric: the scene isn't, to its last digit")
+
     def test_each_malformed_certificate_is_told_with_its_place_and_the_way_out(self):
         for certificate, words in MALFORMED:
             line = certificate if isinstance(certificate, str) else json.dumps(certificate)
