@@ -24,8 +24,8 @@ wrong=$(dpkg --verify clatter)
 [[ -z $wrong ]] || fail "installed files differ from those of the package: $wrong"
 [[ -s /usr/share/doc/clatter/copyright ]] || fail "there is no copyright file"
 clatter --version
-for page in clatter clatter-plot clatter-report; do
-  [[ -s /usr/share/man/man1/$page.1.gz ]] || fail "there is no man page of $page"
+for program in /usr/bin/clatter*; do
+  [[ -s /usr/share/man/man1/${program##*/}.1.gz ]] || fail "there is no man page of $program"
 done
 
 cd "$(mktemp -d)"

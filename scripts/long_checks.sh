@@ -22,7 +22,8 @@ tests/stepping or tests/cli; build first (scripts/test.sh). NAME is one of
   releases     the periods and impacts of COUNT scenes that rest now and then, in 60 digits
                (default 300; about 0.5 s each)
   verify       COUNT random scenes certified and proved by clatter-verify, and all points of the shipped
-               configurations (default 10000; about 20 ms each)
+               configurations and branches (default 10000; about 20 ms each)
+  scenes       all hard scenes proved by clatter-verify and written anew (no COUNT; about 5 minutes)
   starts       tests/regression on every instruction set with all starts of basins and zones, of which
                ctest runs all on the widest set only (no COUNT; about 2 minutes)
 END
@@ -42,12 +43,13 @@ case "${1-}" in
   combinations) filter=combinations_test.Combinations count=3000 ;;
   releases) filter=releases_test.Releases.test_random_rests_are_told_as_60_digits_tell_them count=300 ;;
   verify) filter=verify_test.Verify count=10000 ;;
+  scenes) filter=hard_scenes_test.HardScenes count=1 ;;
   starts) filter=regress_test.Regress.test_the_committed_baseline_holds_on_every_instruction_set count=1 ;;
   -h | --help) usage; exit 0 ;;
   *) echo "long_checks.sh: unknown name '${1-}'; try --help" >&2; exit 2 ;;
 esac
-if [[ $1 == starts ]] && (($# > 1)); then
-  echo "long_checks.sh: starts takes no COUNT" >&2
+if [[ $1 == starts || $1 == scenes ]] && (($# > 1)); then
+  echo "long_checks.sh: $1 takes no COUNT" >&2
   exit 2
 fi
 count=${2-$count}

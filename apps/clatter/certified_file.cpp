@@ -8,11 +8,9 @@
 
 #include "certificates/certificate_text.hpp"
 #include "command_line.hpp"
-#include "config/config.hpp"
-#include "config/config_error.hpp"
+#include "output_config.hpp"
 #include "results/csv_table.hpp"
 #include "results/dataset_file.hpp"
-#include "results/origin.hpp"
 #include "storage/input_file.hpp"
 #include "storage/utf8.hpp"
 #include "sweep/branches.hpp"
@@ -20,32 +18,19 @@
 namespace clatter::app {
 namespace {
 
-/// The values of a variable; null if the file has none of this type.
-template <class T>
-const std::vector<T>* values_of(const sweep::Dataset& results, std::string_view name) {
-  const auto found = std::ranges::find(results.variables, name, &sweep::Variable::name);
-  return found == results.variables.end() ? nullptr : std::get_if<std::vector<T>>(&found->values);
-}
-
 bool has(const results::FileSummary& summary, std::string_view name) {
   return std::ranges::find(summary.variables, name, &results::FileSummary::Entry::name) != summary.variables.end();
 }
 
-void require_run(const std::string& path) {
-  const auto origin = results::origin_of(path);
-  if (origin && origin->command == "accuracy")
-    storage::refuse_reading(path, "holds what accuracy costs, not points of a sweep",
-                            "name an output of `clatter run`");
-}
-
-sweep::Sweep sweep_of(const results::FileSummary& summary, const std::string& path) try {
-  const auto text = std::ranges::find(summary.attributes, "config", [](const auto& pair) { return pair.first; });
-  if (text == summary.attributes.end())
-    storage::refuse_reading(path, "has no configuration", "name an output of `clatter run`");
-  return config::parse_config(text->second, path).sweep;
-} catch (const config::ConfigError& error) {
-  storage::refuse_reading(path, std::string("has a configuration that doesn't run: ") + error.what(),
-                          "run its configuration again");
+/// The values of the axes of a point, in the user's units, and its machine.
+certificates::CertifiedPlace place_of(const sweep::Sweep& sweep, std::size_t point) {
+  certificates::CertifiedPlace place{.number = point, .machine = sweep.machine};
+  each_coordinate(sweep, point, [&](const sweep::Axis& axis, double value) {
+    place.at.emplace_back(key_of(axis.parameter), value);
+    if (place.machine) (void)set(*place.machine, axis.parameter, value);
+  });
+  if (sweep.direction == sweep::Direction::both) place.direction = point < size_one_way(sweep) ? "up" : "down";
+  return place;
 }
 
 void require_exact(const sweep::Sweep& sweep, const std::string& path) {
@@ -59,11 +44,10 @@ void require_exact(const sweep::Sweep& sweep, const std::string& path) {
 
 CertifiedFile::CertifiedFile(const std::string& path, const std::vector<std::pair<std::string, double>>& where) {
   const results::FileSummary summary = results::read_summary(path);
-  require_run(path);
   results::TableChoice choice{.only = {"status"}, .where = where};
   if (has(summary, "status") && has(summary, "period_ratio")) choice.only.emplace_back("period_ratio");
   const results::CsvTable table(summary, path, choice);
-  sweep_ = sweep_of(summary, path);
+  sweep_ = config_of_output(summary, path).sweep;
   require_exact(sweep_, path);
   results_ = results::read_variables(path, table.variables());
   points_ = table.points(results_);
@@ -111,7 +95,7 @@ certificates::Tally CertifiedFile::certify(const std::vector<std::size_t>& point
         continue;
       }
       tally.add(found);
-      if (found.certificate) take(certificates::certificate_text(*found.certificate, sweep_, index));
+      if (found.certificate) take(certificates::certificate_text(*found.certificate, place_of(sweep_, index)));
     }
   }
   return tally;

@@ -1,4 +1,5 @@
 #include <charconv>
+#include <functional>
 #include <iostream>
 #include <optional>
 #include <span>
@@ -7,12 +8,15 @@
 #include <vector>
 
 #include "certificates/sample.hpp"
+#include "certified_branches.hpp"
 #include "certified_file.hpp"
 #include "commands.hpp"
 #include "common_options.hpp"
 #include "config/suggestion.hpp"
 #include "results/csv_table.hpp"
+#include "results/origin.hpp"
 #include "storage/atomic_write.hpp"
+#include "storage/input_file.hpp"
 #include "table_options.hpp"
 
 namespace clatter::app {
@@ -29,19 +33,34 @@ std::optional<std::size_t> sample_of(const Arguments& arguments) {
   return count;
 }
 
+/// Certifies the points of an output of `clatter run` or `clatter branch`.
+certificates::Tally tally_of(const std::string& path, const std::vector<std::pair<std::string, double>>& places,
+                             const std::optional<std::size_t>& sample,
+                             const std::function<void(std::string_view line)>& take) {
+  const auto origin = results::origin_of(path);
+  if (origin && origin->command == "accuracy")
+    storage::refuse_reading(path, "holds what accuracy costs, not motions",
+                            "name an output of `clatter run` or `clatter branch`");
+  if (origin && origin->command == "branch") {
+    if (!places.empty()) throw UsageError("--where chooses points of a sweep, and a branch has no axis; use --sample");
+    return CertifiedBranches(path).certify(sample, take);
+  }
+  const CertifiedFile file(path, places);
+  return file.certify(sample ? certificates::spread(file.points(), *sample) : file.points(), take);
+}
+
 int certify(const Arguments& arguments) try {
   const auto places = places_of(arguments);
   const std::optional<std::size_t> sample = sample_of(arguments);
   const std::optional<std::string> output = text_output_of(arguments);
-  const CertifiedFile file(arguments.operands[0], places);
-  const std::vector<std::size_t> points = sample ? certificates::spread(file.points(), *sample) : file.points();
   std::string text;
-  const certificates::Tally tally = file.certify(points, [&](std::string_view line) {
+  const auto take = [&](std::string_view line) {
     if (output)
       text += line;
     else
       std::cout.write(line.data(), static_cast<std::streamsize>(line.size()));
-  });
+  };
+  const certificates::Tally tally = tally_of(arguments.operands[0], places, sample, take);
   if (output) storage::write_atomically(*output, std::as_bytes(std::span(text)));
   std::cerr << tally.text() << '\n';
   return tally.not_reproduced() > 0 ? points_failed : done;
@@ -51,6 +70,7 @@ int certify(const Arguments& arguments) try {
 
 constexpr std::string_view examples =
     "  clatter certify fig23.h5 -o fig23.jsonl\n"
+    "  clatter certify curve.branch.h5 -o branch.jsonl\n"
     "  clatter certify map.h5 --sample 100 --where nu=1.0 | clatter-verify -\n";
 
 }  // namespace
@@ -62,7 +82,7 @@ Command certify_command() {
           .examples = examples,
           .operands = {"FILE.h5"},
           .required_operands = 1,
-          .options = {{"sample", 0, "N", "only N points, spread evenly; default: all"},
+          .options = {{"sample", 0, "N", "only N points, and as many special points, spread evenly; default: all"},
                       where_option,
                       {"output", 'o', "FILE.jsonl", "output file; default: standard output"},
                       force_option,

@@ -10,6 +10,9 @@ file(GLOB configs CONFIGURE_DEPENDS configs/*.toml configs/*.ini)
 install(FILES ${configs} DESTINATION ${share}/configs)
 
 install(DIRECTORY ${PROJECT_BINARY_DIR}/manual/ DESTINATION ${CMAKE_INSTALL_DATADIR})
+if(TARGET manual_of_verifier)
+  install(DIRECTORY ${PROJECT_BINARY_DIR}/manual_of_verifier/ DESTINATION ${CMAKE_INSTALL_DATADIR})
+endif()
 
 # Scripts for users. The others need the sources, and stay there.
 file(GLOB modules CONFIGURE_DEPENDS scripts/plot*.py scripts/report*.py scripts/plain_hdf5.py scripts/hdf5_heaps.py)

@@ -97,6 +97,7 @@ class Ball {
   [[nodiscard]] bool is_positive() const { return arb_is_positive(x_) != 0; }
   [[nodiscard]] bool is_negative() const { return arb_is_negative(x_) != 0; }
   [[nodiscard]] bool is_zero() const { return arb_is_zero(x_) != 0; }  ///< exactly
+  [[nodiscard]] bool is_constant() const { return true; }              ///< it has no derivative
   [[nodiscard]] bool is_finite() const { return arb_is_finite(x_) != 0; }
   [[nodiscard]] bool overlaps(const Ball& other) const { return arb_overlaps(x_, other.x_) != 0; }
   /// Whether another ball lies inside this one and meets neither of its ends.

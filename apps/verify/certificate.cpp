@@ -11,6 +11,14 @@ namespace {
 
 using Json = nlohmann::json;
 
+/// The beginning of a text of a file, without control characters.
+std::string shown(const std::string& text) {
+  const std::string escaped = Json(text.substr(0, 40)).dump(-1, ' ', true, Json::error_handler_t::replace);
+  std::string quoted(escaped);
+  quoted.front() = quoted.back() = '\'';
+  return quoted;
+}
+
 /// A value of a certificate and its place in it.
 class Field {
  public:
@@ -56,9 +64,9 @@ class Field {
     const std::string text = json_.get<std::string>();
     Ball ball;
     if (text.find_first_not_of("0123456789+-.eE") != std::string::npos || text.size() > 400 || !Ball::read(text, ball))
-      refuse("'" + text.substr(0, 40) + "' is no decimal number", "write e.g. \"0.1\"");
+      refuse(shown(text) + " is no decimal number", "write e.g. \"0.1\"");
     if (!(abs(ball) < Ball(1e300)) || !(abs(ball) > Ball(1e-300) || ball.is_zero()))
-      refuse("'" + text.substr(0, 40) + "' is beyond 1e-300 to 1e300", "change the units");
+      refuse(shown(text) + " is beyond 1e-300 to 1e300", "change the units");
     return Number(text);
   }
   [[nodiscard]] Number number_from(double least, double most, bool with_least = true) const {
@@ -83,7 +91,7 @@ class Field {
   }
   [[nodiscard]] Side side() const {
     const std::string name = text();
-    if (name != "lower" && name != "upper") refuse("is '" + name + "'", "write lower or upper");
+    if (name != "lower" && name != "upper") refuse("is " + shown(name), "write lower or upper");
     return name == "upper" ? Side::upper : Side::lower;
   }
   [[nodiscard]] std::string dump() const { return json_.dump(-1, ' ', false, Json::error_handler_t::replace); }
@@ -125,15 +133,15 @@ ClaimedEvent event_of(const Field& field) {
   const Field kind = field.get("event");
   const std::string name = kind.text();
   bool known = false;
-  for (const Kind one : {Kind::impact, Kind::touch, Kind::separation, Kind::renewal, Kind::chatter, Kind::rest})
+  for (const Kind one :
+       {Kind::impact, Kind::touch, Kind::separation, Kind::renewal, Kind::graze, Kind::chatter, Kind::rest})
     if (name == name_of(one)) event.kind = one, known = true;
-  if (!known)
-    kind.refuse("is '" + name.substr(0, 40) + "'", "write impact, touch, separation, renewal, chatter or rest");
+  if (!known) kind.refuse("is " + shown(name), "write impact, touch, separation, renewal, graze, chatter or rest");
   event.side = field.get("stop").side();
   event.time = field.get("time").claimed();
   if (event.kind == Kind::chatter || event.kind == Kind::rest)
     event.until = field.get("until").claimed();
-  else
+  else if (event.kind != Kind::graze)
     event.v = field.get("v").claimed();
   return event;
 }
@@ -145,6 +153,10 @@ void require_stops(const Field& field, const Certificate& certificate) {
     const auto& stop = certificate.scene.stops[index_of(events[i].side)];
     const bool of_rigid =
         events[i].kind == Kind::impact || events[i].kind == Kind::chatter || events[i].kind == Kind::rest;
+    if (events[i].kind == Kind::graze && !certificate.special)
+      field.items()[i].refuse("is a graze",
+                              "only special points have one; give its time and velocity as an impact or touch");
+    if (stop && events[i].kind == Kind::graze) continue;
     if (!stop || stop->soft == of_rigid)
       field.items()[i].refuse(std::string("is an event of a ") + (of_rigid ? "rigid" : "soft") + " stop",
                               "the scene has none there");
@@ -154,11 +166,21 @@ void require_stops(const Field& field, const Certificate& certificate) {
     field.refuse("start with a release by a stop", "the scene has no rigid stop there");
 }
 
+/// A special point is known by its motion: what else periodic motion may claim is no part of it.
+void require_claims_of_special(const Field& root) {
+  for (const char* const name : {"word", "multipliers", "x_min", "x_max"})
+    if (const auto other = root.find(name)) other->refuse("is no claim of a special point", "leave it out");
+  if (const auto symmetric = root.find("symmetric"); symmetric && !symmetric->flag())
+    symmetric->refuse("is false", "leave it out; true says that half a period is mirrored");
+}
+
 void read_periodic(const Field& root, Certificate& certificate) {
+  if (certificate.special) require_claims_of_special(root);
   certificate.periods = root.get("periods").count(1'000'000);
   if (const auto word = root.find("word")) certificate.word = word->text();
   if (const auto symmetric = root.find("symmetric")) certificate.symmetric = symmetric->flag();
-  if (certificate.scene.f.ball().is_zero()) root.refuse("periodic motion without a force", "claim a transient");
+  if (certificate.scene.f.ball().is_zero())
+    root.get("claim").refuse("periodic motion without a force", "claim a transient");
   const auto multipliers = root.find("multipliers");
   if (!multipliers) return;
   const auto pair = multipliers->items();
@@ -169,6 +191,45 @@ void read_periodic(const Field& root, Certificate& certificate) {
     if (parts.size() != 3) pair[i].refuse("has not three items", "write [re, im, error]");
     (*certificate.multipliers)[i] = {parts[0].number(), parts[1].number(), parts[2].number_from(0, Field::infinity)};
   }
+}
+
+SpecialKind special_kind_of(const Field& field) {
+  const std::string name = field.text();
+  for (int i = 0; i <= static_cast<int>(SpecialKind::impact_power); ++i)
+    if (name == name_of(static_cast<SpecialKind>(i))) return static_cast<SpecialKind>(i);
+  field.refuse("is " + shown(name),
+               "write fold, flip, symmetry breaking, graze, maximum impact_speed or maximum impact_power");
+}
+
+/// How the numbers of a scene change with the parameter; those left out don't.
+Certificate::SceneNumbers slopes_of(const Field& field, const Certificate::SceneNumbers& scene) {
+  bool moves = false;
+  const auto slope = [&](const Field& of, const char* name) {
+    const auto member = of.find(name);
+    const Number number = member ? member->number() : Number();
+    moves = moves || !number.ball().is_zero();
+    return number;
+  };
+  Certificate::SceneNumbers slopes{slope(field, "h"),
+                                   slope(field, "k"),
+                                   slope(field, "f"),
+                                   slope(field, "nu"),
+                                   slope(field, "load"),
+                                   slope(field, "phase"),
+                                   {}};
+  for (const Side side : {Side::lower, Side::upper}) {
+    const auto stop = field.find(name_of(side));
+    if (!stop) continue;
+    if (!scene.stops[index_of(side)]) stop->refuse("is of no stop", "leave it out");
+    slopes.stops[index_of(side)] = {slope(*stop, "position"), false, slope(*stop, "R"), slope(*stop, "stiffness"),
+                                    slope(*stop, "damping")};
+  }
+  if (!moves) field.refuse("leaves the scene as it is", "give the slope of a number that the parameter changes");
+  return slopes;
+}
+
+Certificate::Special special_of(const Field& root, const Certificate::SceneNumbers& scene) {
+  return {special_kind_of(root.get("kind")), root.get("parameter").claimed(), slopes_of(root.get("slopes"), scene)};
 }
 
 void read_start(const Field& start, Certificate& certificate) {
@@ -187,8 +248,14 @@ void read_start(const Field& start, Certificate& certificate) {
 
 std::string place_of(const Field& root) {
   std::string place;
-  if (const auto point = root.find("point")) place = "point " + point->dump();
-  if (const auto at = root.find("at")) place += (place.empty() ? "" : " ") + at->dump();
+  for (const char* const member : {"name", "point", "special", "at"}) {
+    const auto found = root.find(member);
+    if (!found) continue;
+    const std::string text = found->dump();  // without control characters
+    if (!place.empty()) place += ' ';
+    if (*member == 'p' || *member == 's') place.append(member).append(" ");
+    place += *member == 'n' && text.size() > 1 ? text.substr(1, text.size() - 2) : text;
+  }
   return place;
 }
 
@@ -208,20 +275,54 @@ std::string Number::text() const {
   return {buffer.data(), end};
 }
 
-Scene Certificate::scene_in_balls() const {
-  Scene balls{
-      scene.h.ball(), scene.k.ball(), scene.f.ball(), scene.nu.ball(), scene.load.ball(), scene.phase.ball(), {}};
+const char* name_of(SpecialKind kind) {
+  static constexpr const char* names[] = {
+      "fold", "flip", "symmetry breaking", "graze", "maximum impact_speed", "maximum impact_power"};
+  return names[static_cast<std::size_t>(kind)];
+}
+
+namespace {
+
+/// A scene of the numbers that `of(member, stop)` gives; stop -1: a number of the scene itself.
+template <class T, class Of>
+BasicScene<T> scene_made(const Certificate::SceneNumbers& shape, const Of& of) {
+  using In = Certificate::SceneNumbers;
+  using At = Certificate::StopNumbers;
+  const auto of_scene = [&](Number In::*member) { return of([=](const In& in) { return in.*member; }); };
+  BasicScene<T> scene{of_scene(&In::h),
+                      of_scene(&In::k),
+                      of_scene(&In::f),
+                      of_scene(&In::nu),
+                      of_scene(&In::load),
+                      of_scene(&In::phase),
+                      {}};
   for (std::size_t i = 0; i < 2; ++i) {
-    if (!scene.stops[i]) continue;
-    Stop stop{scene.stops[i]->position.ball(), scene.stops[i]->soft, Ball(0), Ball(0), Ball(0), Ball(0)};
+    if (!shape.stops[i]) continue;
+    const auto of_stop = [&](Number At::*member) {
+      return of([=](const In& in) { return in.stops[i] ? *in.stops[i].*member : Number(); });
+    };
+    BasicStop<T> stop{of_stop(&At::position), shape.stops[i]->soft, T(0), T(0), T(0), T(0)};
     if (stop.soft)
-      stop.kappa = scene.stops[i]->stiffness.ball(), stop.zeta = scene.stops[i]->damping.ball(),
-      stop.h_s = stop.zeta * sqrt(stop.kappa);
+      stop.kappa = of_stop(&At::stiffness), stop.zeta = of_stop(&At::damping), stop.h_s = stop.zeta * sqrt(stop.kappa);
     else
-      stop.R = scene.stops[i]->R.ball();
-    balls.stops[i] = stop;
+      stop.R = of_stop(&At::R);
+    scene.stops[i] = stop;
   }
-  return balls;
+  return scene;
+}
+
+}  // namespace
+
+Scene Certificate::scene_in_balls() const {
+  return scene_made<Ball>(scene, [&](const auto& number_in) { return number_in(scene).ball(); });
+}
+
+MovingScene Certificate::moving_scene(const Ball& offset) const {
+  return scene_made<Dual>(scene, [&](const auto& number_in) {
+    const Ball slope = number_in(special->slopes).ball();
+    const Ball here = number_in(scene).ball();
+    return slope.is_zero() ? Dual(here) : Dual(here + slope * offset, slope);
+  });
 }
 
 Start Certificate::start_in_balls() const {
@@ -233,7 +334,7 @@ Certificate read_certificate(const std::string& line) {
   Json json;
   try {
     json = Json::parse(line, [](int depth, Json::parse_event_t, const Json&) {
-      if (depth > 8) throw FormatError("nests more than eight objects; write one as the guide shows");
+      if (depth > 8) throw FormatError("the line nests more than eight objects; write one as the guide shows");
       return true;
     });
   } catch (const Json::exception& error) {
@@ -248,8 +349,10 @@ Certificate read_certificate(const std::string& line) {
   certificate.scene = scene_of(root.get("scene"));
   const Field claim = root.get("claim");
   const std::string kind = claim.text();
-  if (kind != "periodic" && kind != "transient") claim.refuse("is '" + kind + "'", "write transient or periodic");
-  certificate.periodic = kind == "periodic";
+  if (kind != "periodic" && kind != "transient" && kind != "special")
+    claim.refuse("is " + shown(kind), "write transient, periodic or special");
+  certificate.periodic = kind != "transient";
+  if (kind == "special") certificate.special = special_of(root, certificate.scene);
   if (certificate.periodic) read_periodic(root, certificate);
   read_start(root.get("start"), certificate);
   const Field events = root.get("events");

@@ -36,10 +36,13 @@ struct Claimed {
   Number value, error;
 };
 
+enum class SpecialKind { fold, flip, symmetry_breaking, graze, impact_speed, impact_power };
+[[nodiscard]] const char* name_of(SpecialKind kind);
+
 struct ClaimedEvent {
   Kind kind = Kind::impact;
   Side side = Side::lower;
-  Claimed time, v;               ///< v: not of chatter and rest
+  Claimed time, v;               ///< v: not of graze, chatter and rest
   std::optional<Claimed> until;  ///< of chatter and rest
 };
 
@@ -54,14 +57,20 @@ struct Certificate {
     Number h, k, f, nu, load, phase;
     std::array<std::optional<StopNumbers>, 2> stops;
   };
+  /// A special point of a family of scenes.
+  struct Special {
+    SpecialKind kind = SpecialKind::fold;
+    Claimed parameter;
+    SceneNumbers slopes;  ///< of the scene's numbers by the parameter
+  };
   struct End {
     Number time;
     Claimed x, v;
   };
 
-  std::string place;  ///< point and parameters, for messages
+  std::string place;  ///< name, point and parameters, for messages
   SceneNumbers scene;
-  bool periodic = false;
+  bool periodic = false;  ///< special points are of periodic motion, too
   long periods = 0;
   Number start_time;
   Claimed start_x, start_v;  ///< without an error in a transient
@@ -71,9 +80,12 @@ struct Certificate {
   std::optional<End> end;
   std::optional<std::string> word;
   std::optional<bool> symmetric;
+  std::optional<Special> special;
   std::optional<std::array<std::array<Number, 3>, 2>> multipliers;  ///< real part, imaginary part, error
 
   [[nodiscard]] Scene scene_in_balls() const;
+  /// The scene of a special point at some values of the parameter, less the claimed one.
+  [[nodiscard]] MovingScene moving_scene(const Ball& offset) const;
   [[nodiscard]] Start start_in_balls() const;
 };
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "periodic_claims.hpp"
+#include "special_claims.hpp"
 
 namespace verify {
 namespace {
@@ -22,7 +23,7 @@ void check_response(const Certificate& certificate, const Response& found, Repor
 void check_periodic(const Certificate& certificate, Report& report) {
   const Scene scene = certificate.scene_in_balls();
   if (const auto response = steady_response(certificate, scene)) return check_response(certificate, *response, report);
-  const Orbit orbit = claimed_orbit(certificate, scene, report);
+  const Orbit orbit = claimed_orbit(certificate, scene);
   compare_events(certificate, orbit.events, report);
   if (!certificate.released) {
     report.compare("start, x", orbit.first.x, certificate.start_x);
@@ -57,7 +58,12 @@ Finding found_in(const Certificate& certificate, slong precision) {
   const Precision present(precision);
   Report report;
   try {
-    certificate.periodic ? check_periodic(certificate, report) : check_transient(certificate, report);
+    if (certificate.special)
+      check_special(certificate, report);
+    else if (certificate.periodic)
+      check_periodic(certificate, report);
+    else
+      check_transient(certificate, report);
   } catch (const Refuted& refuted) {
     report.add(Verdict::refuted, refuted.what());
   } catch (const Undecided& undecided) {

@@ -1,6 +1,7 @@
 #include "course.hpp"
 
 #include <algorithm>
+#include <limits>
 
 #include "extrema.hpp"
 
@@ -18,15 +19,37 @@ std::string found_text(const Event& event) {
 }
 
 double accuracy_of(const Claimed& claimed) { return claimed.error.ball().near() / 16; }
+/// How near to a stop flights must be to be left out of the extrema.
+double height_of(const Certificate& certificate) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const auto& claim : {certificate.x_min, certificate.x_max})
+    if (claim) least = std::min(least, accuracy_of(*claim));
+  return least;
+}
 Ball latest(const Claimed& claimed) { return claimed.value.ball() + claimed.error.ball(); }
 
 }  // namespace
 
+/// An event that is none by the time it is claimed refutes a claim, also if what comes later can't be told.
 Event Course::found_for(const ClaimedEvent& claim) {
-  if (claim.kind == Kind::chatter) return motion_.finish_chatter(accuracy_of(*claim.until), latest(*claim.until));
+  const std::size_t before = motion_.stretches().size();
+  try {
+    return next_for(claim);
+  } catch (const Undecided&) {
+    if (motion_.stretches().size() != before ||
+        !motion_.is_clear_until(latest(claim.until ? *claim.until : claim.time)))
+      throw;
+    return {Kind::end, claim.side, latest(claim.time), Ball(0), Ball(0)};
+  }
+}
+
+Event Course::next_for(const ClaimedEvent& claim) {
+  if (claim.kind == Kind::chatter)
+    return motion_.finish_chatter(accuracy_of(*claim.until), latest(*claim.until), height_of(certificate_));
+  if (claim.kind == Kind::graze) return motion_.graze(claim.side, claim.time.value.ball(), end_);
   if (claim.kind == Kind::rest) {
     if (!motion_.is_resting()) {  // after an impact of an inelastic stop
-      const Event event = motion_.finish_chatter(accuracy_of(claim.time), latest(claim.time));
+      const Event event = motion_.finish_chatter(accuracy_of(claim.time), latest(claim.time), height_of(certificate_));
       if (event.kind != Kind::chatter) return event;
     }
     return motion_.finish_rest(end_);
@@ -63,7 +86,7 @@ void compare_events(const Certificate& certificate, const std::vector<Event>& ev
     report.compare(name + ", time", events[i].time, claim.time);
     if (claim.until)
       report.compare(name + ", until", events[i].until, *claim.until);
-    else
+    else if (claim.kind != Kind::graze)
       report.compare(name + ", v", events[i].v, claim.v);
   }
 }
@@ -79,7 +102,7 @@ void compare_extrema(const Certificate& certificate, const Motion& motion, const
         (certificate.released == side || std::ranges::any_of(events, [&](auto& e) { return e.side == side; }));
     const bool rests = motion.stretches().empty();
     const Ball found = meets || rests ? scene.stop(rests && !events.empty() ? events.front().side : side).position
-                                      : extremum(motion.stretches(), sign_of(side));
+                                      : extremum(motion.stretches(), motion.other_places(), sign_of(side));
     report.compare(side == Side::upper ? "x_max" : "x_min", found, *claim);
   }
 }

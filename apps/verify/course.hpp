@@ -22,6 +22,7 @@ class Course {
 
  private:
   [[nodiscard]] Event found_for(const ClaimedEvent& claim);
+  [[nodiscard]] Event next_for(const ClaimedEvent& claim);
 
   const Certificate& certificate_;
   Motion& motion_;

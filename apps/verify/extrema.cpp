@@ -24,22 +24,11 @@ class Largest {
 /// Adds the largest value between two instants between which the acceleration is negative: where the flight turns
 /// round, or at one of them.
 void add_turn(const Flow::Flight& flight, const Margin& x, const Ball& from, const Ball& to, Largest& largest) {
-  Ball now = Ball::hull(from, to);
-  for (int iteration = 0; iteration < 64; ++iteration) {
-    const Ball bend = Piece(flight, now.lower(), now.upper()).range(x, 2), middle = now.middle();
-    if (!bend.is_negative()) break;
-    const Flow::Instant there = flight.at(middle);
-    const Ball newton = middle - x.derivative(there.v, there.a) / bend;
-    if (!newton.overlaps(now)) {  // it doesn't turn here
-      for (const Ball& end : {from, to}) largest.add(x.of(flight.at(end).x, Ball(0)));
-      return;
-    }
-    const Ball next = now.within(newton);
-    const bool done = next.radius() > 0.5 * now.radius();
-    now = next;
-    if (done) break;
+  if (const auto turn = turn_of(flight, x, Ball::hull(from, to))) {
+    largest.add(Piece(flight, turn->lower(), turn->upper()).range(x, 0));
+    return;
   }
-  largest.add(Piece(flight, now.lower(), now.upper()).range(x, 0));
+  for (const Ball& end : {from, to}) largest.add(x.of(flight.at(end).x, Ball(0)));
 }
 
 /// Looks into the parts of a stretch, that with the largest upper bound first.
@@ -77,9 +66,10 @@ void search(const Motion::Stretch& stretch, const Margin& x, Largest& largest) {
 
 }  // namespace
 
-Ball extremum(std::span<const Motion::Stretch> stretches, int sign) {
+Ball extremum(std::span<const Motion::Stretch> stretches, std::span<const Ball> places, int sign) {
   const Margin x{sign, Ball(0), Ball(0), 0};
   Largest largest;
+  for (const Ball& place : places) largest.add(x.of(place, Ball(0)));
   for (const Motion::Stretch& stretch : stretches)
     for (const Ball& end : {Ball(0), stretch.length}) largest.add(x.of(stretch.flight.at(end).x, Ball(0)));
   for (const Motion::Stretch& stretch : stretches) search(stretch, x, largest);

@@ -6,7 +6,7 @@
 
 namespace verify {
 
-/// The largest displacement (sign = 1), or the smallest (-1), on some stretches of a motion.
-[[nodiscard]] Ball extremum(std::span<const Motion::Stretch> stretches, int sign);
+/// The largest displacement (sign = 1), or the smallest (-1), on some stretches of a motion and in other places.
+[[nodiscard]] Ball extremum(std::span<const Motion::Stretch> stretches, std::span<const Ball> places, int sign);
 
 }  // namespace verify

@@ -91,6 +91,22 @@ std::optional<Crossing> first_crossing(const Flow& flow, const Flow::Flight& fli
   return std::nullopt;
 }
 
+std::optional<Ball> turn_of(const Flow::Flight& flight, const Margin& margin, const Ball& between) {
+  Ball now = between;
+  for (int iteration = 0; iteration < 64; ++iteration) {
+    const Ball bend = Piece(flight, now.lower(), now.upper()).range(margin, 2), middle = now.middle();
+    if (!bend.is_negative() && !bend.is_positive()) break;
+    const Flow::Instant there = flight.at(middle);
+    const Ball newton = middle - margin.derivative(there.v, there.a) / bend;
+    if (!newton.overlaps(now)) return std::nullopt;
+    const Ball next = now.within(newton);
+    const bool done = next.radius() > 0.5 * now.radius();
+    now = next;
+    if (done) break;
+  }
+  return now;
+}
+
 Ball instant_of(const Flow::Flight& flight, const Margin& margin, const Ball& between) {
   Ball now = between;
   for (int iteration = 0; iteration < 64; ++iteration) {

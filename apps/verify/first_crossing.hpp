@@ -46,6 +46,10 @@ struct Crossing {
 [[nodiscard]] std::optional<Crossing> first_crossing(const Flow& flow, const Flow::Flight& flight,
                                                      std::span<const Margin> margins, const Ball& horizon);
 
+/// The instant between two others at which a margin turns round, whose second derivative has one sign there; nothing if
+/// it doesn't turn.
+[[nodiscard]] std::optional<Ball> turn_of(const Flow::Flight& flight, const Margin& margin, const Ball& between);
+
 /// The instant of a crossing that lies between two instants, by Newton's method in balls.
 [[nodiscard]] Ball instant_of(const Flow::Flight& flight, const Margin& margin, const Ball& between);
 

@@ -7,85 +7,102 @@
 namespace verify {
 
 /// A 2 x 2 matrix, by rows.
-struct Matrix {
-  Ball a, b, c, d;
+template <class Number>
+struct BasicMatrix {
+  Number a, b, c, d;
 
-  friend Matrix operator*(const Matrix& p, const Matrix& q) {
+  friend BasicMatrix operator*(const BasicMatrix& p, const BasicMatrix& q) {
     return {p.a * q.a + p.b * q.c, p.a * q.b + p.b * q.d, p.c * q.a + p.d * q.c, p.c * q.b + p.d * q.d};
   }
-  [[nodiscard]] Ball determinant() const { return a * d - b * c; }
-  [[nodiscard]] Matrix inverse() const {
-    const Ball e = determinant();
+  [[nodiscard]] Number determinant() const { return a * d - b * c; }
+  [[nodiscard]] BasicMatrix inverse() const {
+    const Number e = determinant();
     return {d / e, -b / e, -c / e, a / e};
   }
-  [[nodiscard]] Matrix middle() const { return {a.middle(), b.middle(), c.middle(), d.middle()}; }
+  [[nodiscard]] BasicMatrix middle() const { return {a.middle(), b.middle(), c.middle(), d.middle()}; }
 };
+using Matrix = BasicMatrix<Ball>;
 
-struct Vector {
-  Ball x, y;
+template <class Number>
+struct BasicVector {
+  Number x, y;
 
-  friend Vector operator+(const Vector& p, const Vector& q) { return {p.x + q.x, p.y + q.y}; }
-  friend Vector operator-(const Vector& p, const Vector& q) { return {p.x - q.x, p.y - q.y}; }
-  friend Vector operator-(const Vector& p) { return {-p.x, -p.y}; }
-  friend Vector operator*(const Matrix& m, const Vector& p) { return {m.a * p.x + m.b * p.y, m.c * p.x + m.d * p.y}; }
-  [[nodiscard]] Vector middle() const { return {x.middle(), y.middle()}; }
+  friend BasicVector operator+(const BasicVector& p, const BasicVector& q) { return {p.x + q.x, p.y + q.y}; }
+  friend BasicVector operator-(const BasicVector& p, const BasicVector& q) { return {p.x - q.x, p.y - q.y}; }
+  friend BasicVector operator-(const BasicVector& p) { return {-p.x, -p.y}; }
+  friend BasicVector operator*(const BasicMatrix<Number>& m, const BasicVector& p) {
+    return {m.a * p.x + m.b * p.y, m.c * p.x + m.d * p.y};
+  }
+  [[nodiscard]] BasicVector middle() const { return {x.middle(), y.middle()}; }
 };
+using Vector = BasicVector<Ball>;
 
-/// The linear oscillator of one phase of the motion: free, or in contact with a soft stop (eq. 51).
-class Flow {
+/// The linear oscillator of one phase of the motion: free, or in contact with a soft stop (eq. 51). With duals all that
+/// it gives are derivatives by the parameter, too.
+template <class Number>
+class BasicFlow {
  public:
-  Flow(const Ball& h, const Ball& k, const Ball& load, const Scene& scene);
+  using Scene = BasicScene<Number>;
+  using Vector = BasicVector<Number>;
+  using Matrix = BasicMatrix<Number>;
 
-  [[nodiscard]] static Flow free(const Scene& scene) { return {scene.h, scene.k, scene.load, scene}; }
-  [[nodiscard]] static Flow in_contact(const Scene& scene, const Stop& stop) {
+  BasicFlow(const Number& h, const Number& k, const Number& load, const Scene& scene);
+
+  [[nodiscard]] static BasicFlow free(const Scene& scene) { return {scene.h, scene.k, scene.load, scene}; }
+  [[nodiscard]] static BasicFlow in_contact(const Scene& scene, const BasicStop<Number>& stop) {
     return {scene.h + stop.h_s, scene.k + stop.kappa, scene.load + stop.kappa * stop.position, scene};
   }
 
   /// Displacement and its derivatives at an instant.
   struct Instant {
-    Ball x, v, a, j, d4;  ///< d4: the fourth derivative
+    Number x, v, a, j, d4;  ///< d4: the fourth derivative
   };
   /// The solution through a state, as a function of the time s after it.
   class Flight {
    public:
-    Flight(const Flow& flow, const Ball& time, const Ball& x, const Ball& v);
+    Flight(const BasicFlow& flow, const Number& time, const Number& x, const Number& v);
 
-    [[nodiscard]] Instant at(const Ball& s) const;
+    [[nodiscard]] Instant at(const Number& s) const;
     /// The derivative of (x, v) at s by (x, v) at 0.
-    [[nodiscard]] Matrix derivative(const Ball& s) const;
+    [[nodiscard]] Matrix derivative(const Number& s) const;
 
    private:
     /// The particular solution: x and v at s, from sine and cosine of the phase.
-    [[nodiscard]] Vector particular(const Ball& s, const Ball& sine, const Ball& cosine) const;
+    [[nodiscard]] Vector particular(const Number& s, const Number& sine, const Number& cosine) const;
 
-    const Flow& flow_;
-    Ball theta_;   ///< phase at s = 0
-    Vector free_;  ///< (x, v) less the particular solution at s = 0
+    const BasicFlow& flow_;
+    Number theta_;  ///< phase at s = 0
+    Vector free_;   ///< (x, v) less the particular solution at s = 0
   };
 
   /// The steady response, the only periodic motion without an event if it has one: centre + amplitude sin(theta - lag).
   struct Response {
-    Ball centre, amplitude;
-    Ball in_phase, quadrature;  ///< centre + in_phase sin(theta) + quadrature cos(theta)
+    Number centre, amplitude;
+    Number in_phase, quadrature;  ///< centre + in_phase sin(theta) + quadrature cos(theta)
   };
   /// Nothing if there is none or many.
   [[nodiscard]] std::optional<Response> response() const;
   /// The derivative of (x, v) after a time by (x, v).
-  [[nodiscard]] Matrix propagator(const Ball& s) const;
+  [[nodiscard]] Matrix propagator(const Number& s) const;
 
   /// Greatest rate at which motion changes, for the choice of a step.
   [[nodiscard]] double rate() const { return rate_; }
 
  private:
   /// e^(-h s) cos(lambda s) and e^(-h s) sin(lambda s)/lambda, lambda^2 = k - h^2, also if that is negative or near 0.
-  [[nodiscard]] Vector rotation(const Ball& s) const;
+  [[nodiscard]] Vector rotation(const Number& s) const;
 
-  Ball h_, k_, f_, nu_, load_, phase_;
-  Ball lambda_squared_, lambda_;  ///< k - h^2, and the root of its amount if its sign is known
-  int sign_ = 0;                  ///< of k - h^2; 0: not known, or 0
-  bool resonant_ = false;         ///< h = 0 and k = nu^2: there is no steady response
-  Ball sine_part_, cosine_part_;  ///< P and Q of the steady response (eqs. 6 and 44)
+  Number h_, k_, f_, nu_, load_, phase_;
+  Number lambda_squared_, lambda_;  ///< k - h^2, and the root of its amount if its sign is known
+  int sign_ = 0;                    ///< of k - h^2; 0: not known, or 0
+  bool resonant_ = false;           ///< h = 0 and k = nu^2: there is no steady response
+  Number sine_part_, cosine_part_;  ///< P and Q of the steady response (eqs. 6 and 44)
   double rate_ = 1.0;
 };
+
+extern template class BasicFlow<Ball>;
+extern template class BasicFlow<Dual>;
+
+using Flow = BasicFlow<Ball>;
 
 }  // namespace verify

@@ -24,17 +24,29 @@ namespace options = boost::program_options;
 
 enum ExitCode : int { all_proved = 0, some_refuted = 1, usage_error = 2, some_undecided = 3, io_error = 74 };
 
+/// scripts/manual.py makes the man page of it.
 constexpr const char* usage =
     "clatter-verify FILE.jsonl... [OPTION]...\n\n"
-    "Proves or refutes each motion that a file of certificates claims, in ball arithmetic; - reads standard input.\n\n"
-    "Options:\n"
-    "  --json         print one JSON object\n"
-    "  --threads N    certificates checked at once; default: all cores\n"
-    "  --help, --version\n\n"
-    "Exit code: 0 all are proved, 1 one is refuted, 2 wrong command line or malformed certificate, 3 none is refuted\n"
-    "but one is undecided, 74 a file cannot be read.\n\n"
-    "Example:\n"
-    "  clatter certify fig23.h5 -o fig23.jsonl && clatter-verify fig23.jsonl\n";
+    "prove or refute the motions that certificates claim\n\n"
+    "Each motion is computed anew in ball arithmetic, numbers with proved bounds of their error. What isn't proved is\n"
+    "printed with its place, the claimed number, and bounds of the true one. FILE.jsonl holds a certificate on each\n"
+    "line, as clatter certify writes them; - reads standard input.\n\n"
+    "Options\n"
+    "      --json       print one JSON object instead\n"
+    "      --threads N  certificates checked at once; default: all cores\n"
+    "  -h, --help       print this help\n"
+    "      --version    print the version\n\n"
+    "Exit codes\n"
+    "  0    all are proved\n"
+    "  1    one is refuted\n"
+    "  2    wrong command line, or a malformed certificate\n"
+    "  3    none is refuted, but one is undecided\n"
+    "  70   a bug in clatter-verify\n"
+    "  74   a file cannot be read, or the result cannot be written\n\n"
+    "Examples\n"
+    "  clatter certify fig23.h5 -o fig23.jsonl\n"
+    "  clatter-verify fig23.jsonl\n"
+    "  clatter certify map.h5 --sample 100 | clatter-verify -\n";
 
 /// A line of a file, and what is found of it.
 struct Line {

@@ -1,5 +1,7 @@
 #include "motion.hpp"
 
+#include <utility>
+
 namespace verify {
 
 const char* name_of(Kind kind) {
@@ -12,6 +14,8 @@ const char* name_of(Kind kind) {
       return "separation";
     case Kind::renewal:
       return "renewal";
+    case Kind::graze:
+      return "graze";
     case Kind::chatter:
       return "chatter";
     case Kind::rest:
@@ -23,20 +27,48 @@ const char* name_of(Kind kind) {
 
 namespace {
 
-std::vector<Flow> flows_of(const Scene& scene) {
-  std::vector<Flow> flows{Flow::free(scene)};
+template <class Number>
+std::shared_ptr<const std::vector<BasicFlow<Number>>> flows_of(const BasicScene<Number>& scene) {
+  std::vector<BasicFlow<Number>> flows{BasicFlow<Number>::free(scene)};
   for (const auto& stop : scene.stops)
-    flows.push_back(stop && stop->soft ? Flow::in_contact(scene, *stop) : flows.front());
-  return flows;
+    flows.push_back(stop && stop->soft ? BasicFlow<Number>::in_contact(scene, *stop) : flows.front());
+  return std::make_shared<const std::vector<BasicFlow<Number>>>(std::move(flows));
+}
+
+/// The phase at which the force that presses the mass falls to 0: sin(theta) is what balances it, and decreases for the
+/// force that presses.
+template <class Number>
+Number phase_of_release(const BasicScene<Number>& scene, Side side) {
+  const Number u = (scene.k * scene.stop(side).position - scene.load) / scene.f;
+  if (!(abs(u) < Number(1))) throw Undecided("whether the force ever releases the mass");
+  const bool falls = (scene.f * Number(sign_of(side))).is_positive();
+  return falls ? Number(Ball::pi()) - asin(u) : asin(u);
+}
+template <class Number>
+Number time_of_phase(const BasicScene<Number>& scene, const Number& theta, slong turns) {
+  return (theta + Number(Ball(2.0 * static_cast<double>(turns)) * Ball::pi()) - scene.phase) / scene.nu;
 }
 
 }  // namespace
 
 Motion::Motion(const Scene& scene, const Start& start, const Vector& width)
-    : scene_(scene), flows_(std::make_shared<const std::vector<Flow>>(flows_of(scene))), start_time_(start.time) {
+    : scene_(scene), flows_(flows_of(scene)), start_time_(start.time) {
+  begin_at(start, width);
+}
+
+Motion::Motion(const Scene& scene, const Family& family, const Start& start)
+    : scene_(scene),
+      family_(&family),
+      flows_(flows_of(scene)),
+      moving_flows_(flows_of(family.scene)),
+      start_time_(start.time) {
+  begin_at(start, {Ball(0), Ball(0)});
+}
+
+void Motion::begin_at(const Start& start, const Vector& width) {
   if (start.released) {
     release(start.side, start.time, true);
-    start_time_ = time_;
+    start_time_ = time_.value;
     return;
   }
   set_ = MovingSet({start.x, start.v}, width), time_ = start.time;
@@ -75,8 +107,8 @@ void Motion::start_on_stop(const Start& start) {
 }
 
 Motion::State Motion::state_of(const Vector& y) const {
-  if (!on_surface_) return {time_, y.x, y.y};
-  return {y.x, q_.is_zero() ? place_ : place_ - q_ * y.y, factor_ * y.y};
+  if (!on_surface_) return {time_.value, y.x, y.y};
+  return {y.x, q_.is_zero() ? place_.value : place_.value - q_.value * y.y, factor_.value * y.y};
 }
 
 std::vector<Margin> Motion::margins() const {
@@ -100,7 +132,18 @@ std::vector<Margin> Motion::margins() const {
 /// The derivative of the state in flight, at a fixed time, by the coordinates of the set.
 Matrix Motion::into_flight(const Flow::Instant& start) const {
   if (!on_surface_) return {Ball(1), Ball(0), Ball(0), Ball(1)};
-  return {-start.v, -q_, -start.a, factor_};
+  return {-start.v, -q_.value, -start.a, factor_.value};
+}
+
+Vector Motion::by_parameter_after(const Ball& duration, const Ball& slope) const {
+  if (family_ == nullptr) return {Ball(0), Ball(0)};
+  const Vector hull = set_.hull();
+  const Dual time = on_surface_ ? Dual(hull.x) : time_, v(hull.y);
+  const Dual x = on_surface_ ? place_ - q_ * v : Dual(hull.x);
+  const BasicFlow<Dual>& flow = (*moving_flows_)[number_of_flow()];
+  const auto there =
+      BasicFlow<Dual>::Flight(flow, time, x, on_surface_ ? factor_ * v : v).at({duration, slope - time.slope});
+  return {there.x.slope, there.v.slope};
 }
 
 Event Motion::next(const Ball& end) {
@@ -122,30 +165,78 @@ Event Motion::next(const Ball& end) {
     if (!(instant > horizon)) throw Undecided("whether an event comes before the end");
   }
   stretches_.push_back({all, horizon});
-  move_to_end(all, end);
+  move_to_end(all, end, family_ != nullptr ? family_->end_slope : Ball(0));
   return {Kind::end, side_, end, Ball(0), Ball(0)};
+}
+
+bool Motion::is_clear_until(const Ball& time) const {
+  if (resting_ || hits_at_start_) return false;
+  const State state = state_of(set_.hull());
+  const Ball horizon = time - state.time;
+  if (!horizon.is_positive()) return horizon.is_negative();
+  const Flow::Flight all(flow(), state.time, state.x, state.v);
+  try {
+    return !first_crossing(flow(), all, margins(), horizon);
+  } catch (const Undecided&) {
+    return false;
+  }
+}
+
+Event Motion::graze(Side side, const Ball& about, const Ball& end) {
+  if (resting_ || hits_at_start_ || mode_ == Mode::beyond || (mode_ == Mode::contact && side != side_))
+    throw Undecided("a graze of a stop that the mass isn't before");
+  const State state = state_of(set_.hull());
+  const Flow::Flight all(flow(), state.time, state.x, state.v);
+  const std::vector<Margin> list = margins();
+  const std::size_t own = mode_ == Mode::contact ? 0 : list.size() == 2 ? index_of(side) : 0;
+  const Margin& margin = list[own];
+  Ball half = Ball(0.25 / flow().rate()), from, to, until;
+  const auto turns_within = [&] {
+    from = (about - half - state.time).middle(), until = (about + half).middle(), to = (until - state.time).upper();
+    if (!from.is_positive() || !(until < end)) return false;
+    const Piece piece(all, from, to);
+    for (std::size_t i = 0; i < list.size(); ++i)
+      if (!piece.range(list[i], i == own ? 2 : 0).is_positive()) return false;
+    const Flow::Instant first = all.at(from), last = all.at(to);
+    return margin.derivative(first.v, first.a).is_negative() && margin.derivative(last.v, last.a).is_positive();
+  };
+  for (int halvings = 0; !turns_within(); half = half / Ball(2))
+    if (++halvings > 30) {
+      const Ball until_then = about - state.time;
+      if (until_then.is_positive() && first_crossing(flow(), all, list, until_then)) return next(end);
+      throw Undecided("whether the motion turns at the stop");
+    }
+  if (first_crossing(flow(), all, list, from)) return next(end);
+  const auto turn = turn_of(all, margin, Ball::hull(from, to));
+  if (!turn) throw Undecided("when the motion turns at the stop");
+  Event event{Kind::graze, side, state.time + *turn, Ball(0), Ball(0)};
+  event.gap = Piece(all, turn->lower(), turn->upper()).range(margin, 0);
+  stretches_.push_back({all, until - state.time});
+  move_to_end(all, until, Ball(0));
+  vanishing_ = 0;
+  return event;
 }
 
 /// The impact or touch of a start on a stop that moves into it.
 Event Motion::hit_at_start() {
   hits_at_start_ = false;
   const Stop& stop = scene_.stop(side_);
-  const Ball v = set_.centre().y;
+  const Ball v = set_.centre().y, time = time_.value;
   if (stop.soft) {
     begin(Mode::contact, side_, stop.h_s.is_zero() ? 1 : 0);
-    return {Kind::touch, side_, time_, v, Ball(0)};
+    return {Kind::touch, side_, time, v, Ball(0)};
   }
   set_ = MovingSet({stop.position, -stop.R * v}, {Ball(0), Ball(0)});
   begin(Mode::free, side_, stop.R.is_zero() ? 2 : 1);
-  return {Kind::impact, side_, time_, v, Ball(0)};
+  return {Kind::impact, side_, time, v, Ball(0)};
 }
 
-void Motion::move_to_end(const Flow::Flight& all, const Ball& end) {
+void Motion::move_to_end(const Flow::Flight& all, const Ball& end, const Ball& slope) {
   const State centre = state_of(set_.centre());
   const State hull = state_of(set_.hull());
   const Flow::Instant image = Flow::Flight(flow(), centre.time, centre.x, centre.v).at(end - centre.time);
   const Matrix derivative = all.derivative(end - hull.time) * into_flight(all.at(Ball(0)));
-  set_.move({image.x, image.v}, derivative);
+  set_.move({image.x, image.v}, derivative, by_parameter_after(end - hull.time, slope));
   on_surface_ = false, time_ = end;
   const Vector state = set_.hull();
   if (!state.x.is_finite() || !state.y.is_finite()) throw Undecided("a state whose bounds are lost");
@@ -158,25 +249,37 @@ Event Motion::move_to_event(const Flow::Flight& all, const Margin& margin, const
   const Flow::Instant image = middle.at(middle_instant), there = all.at(instant);
   const Ball rate = there.v + margin.q * there.a;
   const Matrix out{Ball(-1) / rate, -margin.q / rate, -there.a / rate, Ball(1) - there.a * margin.q / rate};
-  set_.move({centre.time + middle_instant, image.v}, out * all.derivative(instant) * into_flight(all.at(Ball(0))));
-  return pass(index, margin);
+  const Side side = mode_ != Mode::free ? side_ : margin.sign < 0 ? Side::upper : Side::lower;
+  Dual place(margin.place), q(margin.q);
+  Vector by_parameter = by_parameter_after(instant, Ball(0));
+  if (family_ != nullptr) {
+    const BasicStop<Dual>& stop = family_->scene.stop(side);
+    place = stop.position;
+    if (!margin.q.is_zero()) q = stop.q();
+    const Ball late = (by_parameter.x + q.value * by_parameter.y + q.slope * there.v - place.slope) / rate;
+    by_parameter = {-late, by_parameter.y - late * there.a};
+  }
+  set_.move({centre.time + middle_instant, image.v}, out * all.derivative(instant) * into_flight(all.at(Ball(0))),
+            by_parameter);
+  place_ = place, q_ = q;
+  return pass(index, side);
 }
 
 /// The event that crossing a margin is, and the mode after it.
-Event Motion::pass(std::size_t index, const Margin& surface) {
-  on_surface_ = true, place_ = surface.place, q_ = surface.q, factor_ = Ball(1);
+Event Motion::pass(std::size_t index, Side side) {
+  on_surface_ = true, factor_ = Dual(1);
   const Vector hull = set_.hull();
   if (!hull.x.is_finite() || !hull.y.is_finite()) throw Undecided("an event whose bounds are lost");
-  Event event{Kind::end, side_, hull.x, hull.y, Ball(0)};
+  Event event{Kind::end, side, hull.x, hull.y, Ball(0)};
+  if (family_ != nullptr) event.slopes = {set_.derivative().c, set_.derivative().d, set_.by_parameter().y};
   if (mode_ == Mode::free) {
-    event.side = surface.sign < 0 ? Side::upper : Side::lower;
     const Stop& stop = scene_.stop(event.side);
     if (stop.soft) {
       event.kind = Kind::touch;
       begin(Mode::contact, event.side, stop.h_s.is_zero() ? 1 : 0);
       return event;
     }
-    event.kind = Kind::impact, factor_ = -stop.R;
+    event.kind = Kind::impact, factor_ = family_ != nullptr ? -family_->scene.stop(side).R : Dual(-stop.R);
     begin(Mode::free, event.side, stop.R.is_zero() ? 2 : 1);
     return event;
   }
@@ -190,27 +293,29 @@ Event Motion::pass(std::size_t index, const Margin& surface) {
   return event;
 }
 
-/// Puts the mass on a stop at the instant at which the force that presses it falls to 0: sin(theta) is what balances
-/// it, and decreases for the force that presses. The first such instant after a time, or the nearest one.
+/// Puts the mass on a stop at the instant at which the force that presses it falls to 0: the first one after a time, or
+/// the nearest one.
 void Motion::release(Side side, const Ball& after, bool nearest) {
-  const Ball u = (scene_.k * scene_.stop(side).position - scene_.load) / scene_.f;
-  if (!(abs(u) < Ball(1))) throw Undecided("whether the force ever releases the mass");
-  const bool falls = (scene_.f * Ball(sign_of(side))).is_positive();
-  const Ball theta = falls ? Ball::pi() - asin(u) : asin(u), turn = Ball(2) * Ball::pi();
-  const Ball turns = (scene_.nu * after + scene_.phase - theta) / turn;
+  const Ball theta = phase_of_release(scene_, side);
+  const Ball turns = (scene_.nu * after + scene_.phase - theta) / (Ball(2) * Ball::pi());
   turns_ = nearest ? (turns + Ball(0.5)).floor() : turns.floor() + 1;
-  time_ = (theta + Ball(static_cast<double>(turns_)) * turn - scene_.phase) / scene_.nu;
-  set_.collapse({scene_.stop(side).position, Ball(0)});
+  time_ = time_of_phase(scene_, theta, turns_);
+  Ball slope(0);
+  if (family_ != nullptr) {
+    const MovingScene& scene = family_->scene;
+    time_ = time_of_phase(scene, phase_of_release(scene, side), turns_), slope = scene.stop(side).position.slope;
+  }
+  set_.collapse({scene_.stop(side).position, Ball(0)}, {slope, Ball(0)});
   on_surface_ = false, was_exact_ = true, resting_ = false;
   begin(Mode::free, side, 3);
 }
 
-/// The time that infinitely many impacts take from a rebound at speed w: with a- <= y'' <= a+ towards the stop a flight
-/// lasts 2w/a+ ... 2w/a-, and returns with w (a-/a+)^(1/2) ... w (a+/a-)^(1/2), so the times are within geometric
-/// series. Throws Undecided if that isn't proved.
-Ball Motion::chatter_time(Side side, const Ball& time, const Ball& w) const {
+/// The infinitely many rebounds from one at speed w on: with a- <= y'' <= a+ towards the stop a flight lasts
+/// 2w/a+ ... 2w/a-, rises to w^2/2a- at most, and returns with w (a-/a+)^(1/2) ... w (a+/a-)^(1/2), so the times are
+/// within geometric series. Throws Undecided if that isn't proved.
+Motion::Rebounds Motion::rebounds(Side side, const Ball& time, const Ball& w) const {
   const Stop& stop = scene_.stop(side);
-  if (w.is_zero()) return Ball(0);
+  if (w.is_zero()) return {Ball(0), Ball(0)};
   const auto press = [&](const Ball& at) {
     return scene_.pressing(side, sin_cos(scene_.nu * at + scene_.phase).first);
   };
@@ -229,24 +334,26 @@ Ball Motion::chatter_time(Side side, const Ball& time, const Ball& w) const {
   if (!(slowest < Ball(1))) throw Undecided("whether a chatter ends");
   const Ball lasts = Ball(2) * w / least / (Ball(1) - slowest);
   if (!(lasts <= longest)) throw Undecided("whether a chatter ends");
-  return Ball::hull(Ball(2) * w / most / (Ball(1) - quickest), lasts);
+  return {Ball::hull(Ball(2) * w / most / (Ball(1) - quickest), lasts), height};
 }
 
-Event Motion::finish_chatter(double accuracy, const Ball& latest) {
+Event Motion::finish_chatter(double accuracy, const Ball& latest, double height) {
   const Side side = side_;
   if (mode_ != Mode::free || vanishing_ == 0) throw Undecided("a chatter begins with an impact");
   const Ball begin_time = state_of(set_.hull()).time;
   for (int impacts = 0; impacts < 4000; ++impacts) {
     const State state = state_of(set_.hull());
-    std::optional<Ball> left;
+    std::optional<Rebounds> left;
     try {
-      left = chatter_time(side, state.time, abs(state.v));
+      left = rebounds(side, state.time, abs(state.v));
     } catch (const Undecided&) {
       if (impacts > 1000) throw;
     }
     if (left) {
-      const Ball until = state.time + *left;
-      if (until.radius() <= accuracy) {
+      const Ball until = state.time + left->time;
+      if (until.radius() <= accuracy && left->height <= Ball(height)) {
+        const Ball place = scene_.stop(side).position;
+        other_places_.push_back(Ball::hull(place, place - Ball(sign_of(side)) * left->height));
         resting_ = true, rest_begin_ = until;
         return {Kind::chatter, side, begin_time, Ball(0), until};
       }
@@ -264,12 +371,13 @@ Event Motion::finish_rest(const Ball& end) {
   const Stop& stop = scene_.stop(side);
   const Ball least = Ball(sign_of(side)) * (scene_.load - scene_.k * stop.position) - abs(scene_.f);
   if (least.is_positive()) {  // for ever
-    set_.collapse({stop.position, Ball(0)}), time_ = end, on_surface_ = false, was_exact_ = true;
+    set_.collapse({stop.position, Ball(0)}, {Ball(0), Ball(0)});
+    time_ = end, on_surface_ = false, was_exact_ = true;
     return event;
   }
   release(side, rest_begin_, false);
-  if (time_ <= end || time_.overlaps(end)) {
-    event.until = time_;
+  if (time_.value <= end || time_.value.overlaps(end)) {
+    event.until = time_.value;
     return event;
   }
   resting_ = true, time_ = end;

@@ -11,7 +11,7 @@ MovingSet::MovingSet(const Vector& centre, const Vector& half_widths)
            Ball::around_zero(half_widths.y) + (centre.y - centre_.y)},
       error_{centre.x - centre_.x, centre.y - centre_.y} {}
 
-void MovingSet::move(const Vector& image_of_centre, const Matrix& derivative) {
+void MovingSet::move(const Vector& image_of_centre, const Matrix& derivative, const Vector& by_parameter) {
   const Matrix image = derivative * frame_;
   // the longer side of the image of the box is the first axis of the new frame; any choice is right, a good one narrow
   double x = image.a.near(), y = image.c.near();
@@ -28,11 +28,13 @@ void MovingSet::move(const Vector& image_of_centre, const Matrix& derivative) {
   const Vector new_error = back * (image_of_centre - centre_);
   box_ = step * box_ + new_error, error_ = step * error_ + new_error;
   derivative_ = step * derivative_;
+  by_parameter_ = step * by_parameter_ + back * by_parameter;
 }
 
-void MovingSet::collapse(const Vector& state) {
+void MovingSet::collapse(const Vector& state, const Vector& by_parameter) {
   *this = MovingSet(state, {Ball(0), Ball(0)});
   derivative_ = {Ball(0), Ball(0), Ball(0), Ball(0)};
+  by_parameter_ = by_parameter;
 }
 
 }  // namespace verify

@@ -35,10 +35,14 @@ struct Response {
 /// The steady response of a claim without events, if it is proved to keep clear of all; else nothing.
 [[nodiscard]] std::optional<Response> steady_response(const Certificate& certificate, const Scene& scene);
 
+/// Throws Refuted if a motion that starts with a release doesn't end with the same one after the claimed periods, or
+/// does so before.
+void require_same_release(const Certificate& certificate, const Course& course, slong periods);
+
 /// The periodic motion near a start, by Newton's step and Krawczyk's operator. Throws Refuted or Undecided.
 [[nodiscard]] Orbit periodic_orbit(const Certificate& certificate, const Scene& scene, long periods);
 
 /// The periodic motion that a certificate claims, resting or not. Throws Refuted or Undecided.
-[[nodiscard]] Orbit claimed_orbit(const Certificate& certificate, const Scene& scene, Report& report);
+[[nodiscard]] Orbit claimed_orbit(const Certificate& certificate, const Scene& scene);
 
 }  // namespace verify

@@ -20,7 +20,8 @@ std::vector<Event> comparable(const std::vector<Event>& events) {
   return list;
 }
 
-/// Whether the events show that a motion doesn't repeat after a share 1/parts of them.
+}  // namespace
+
 bool differs_after(const std::vector<Event>& all, std::size_t parts, const Ball& total) {
   const std::vector<Event> events = comparable(all);
   if (events.size() % parts != 0) return true;
@@ -34,8 +35,6 @@ bool differs_after(const std::vector<Event>& all, std::size_t parts, const Ball&
   }
   return false;
 }
-
-}  // namespace
 
 void check_smallest_period(const Certificate& certificate, const Scene& scene, const Orbit& orbit, Report& report) {
   for (long parts = 2; parts <= certificate.periods; ++parts) {
@@ -120,20 +119,6 @@ void check_word(const Certificate& certificate, const std::vector<Event>& events
 namespace {
 
 // Symmetry: x -> 2c - x half a period later.
-
-/// The centre of a scene that is its own mirror image, exactly.
-std::optional<Ball> mirror_centre(const Scene& scene) {
-  const auto& [lower, upper] = scene.stops;
-  if (lower.has_value() != upper.has_value()) return std::nullopt;
-  if (scene.k.is_zero() && !scene.load.is_zero()) return std::nullopt;
-  const Ball equilibrium = scene.k.is_zero() ? Ball(0) : scene.load / scene.k;
-  if (!lower) return equilibrium;
-  const bool alike = lower->soft == upper->soft && (lower->R - upper->R).is_zero() &&
-                     (lower->kappa - upper->kappa).is_zero() && (lower->zeta - upper->zeta).is_zero();
-  const Ball middle = (lower->position + upper->position) / Ball(2);
-  const bool centred = scene.k.is_zero() || (scene.k * middle - scene.load).is_zero();
-  return alike && centred ? std::optional(middle) : std::nullopt;
-}
 
 /// Whether the mirror image half a period later has other events.
 bool differs_from_mirror(const Certificate& certificate, const std::vector<Event>& all, const Scene& scene) {

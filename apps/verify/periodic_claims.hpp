@@ -4,6 +4,8 @@
 
 namespace verify {
 
+/// Whether the events show that a motion doesn't repeat after a share 1/parts of them.
+[[nodiscard]] bool differs_after(const std::vector<Event>& events, std::size_t parts, const Ball& total);
 void check_smallest_period(const Certificate& certificate, const Scene& scene, const Orbit& orbit, Report& report);
 void check_multipliers(const Certificate& certificate, const Matrix& derivative, Report& report);
 void check_word(const Certificate& certificate, const std::vector<Event>& events, Report& report);

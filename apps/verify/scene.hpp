@@ -3,7 +3,7 @@
 #include <array>
 #include <optional>
 
-#include "ball.hpp"
+#include "dual.hpp"
 
 namespace verify {
 
@@ -16,29 +16,51 @@ enum class Side { lower, upper };
 [[nodiscard]] inline const char* name_of(Side side) { return side == Side::upper ? "upper" : "lower"; }
 
 /// A stop: rigid (eq. 4), or a spring and a damper without mass (eq. 50).
-struct Stop {
-  Ball position;
+template <class Number>
+struct BasicStop {
+  Number position;
   bool soft = false;
-  Ball R;      ///< restitution of a rigid stop
-  Ball kappa;  ///< stiffness of a soft stop
-  Ball zeta;   ///< its damping ratio
-  Ball h_s;    ///< its damping, zeta kappa^(1/2)
+  Number R;      ///< restitution of a rigid stop
+  Number kappa;  ///< stiffness of a soft stop
+  Number zeta;   ///< its damping ratio
+  Number h_s;    ///< its damping, zeta kappa^(1/2)
 
   /// Its force falls to 0 if x + q v is the position.
-  [[nodiscard]] Ball q() const { return soft ? Ball(2) * h_s / kappa : Ball(0); }
+  [[nodiscard]] Number q() const { return soft ? Number(2) * h_s / kappa : Number(0); }
 };
 
 /// x'' + 2h x' + k x = f sin(nu tau + phase) + load between two stops.
-struct Scene {
-  Ball h, k, f, nu, load, phase;
-  std::array<std::optional<Stop>, 2> stops;  ///< [side]
+template <class Number>
+struct BasicScene {
+  Number h, k, f, nu, load, phase;
+  std::array<std::optional<BasicStop<Number>>, 2> stops;  ///< [side]
 
-  [[nodiscard]] const Stop& stop(Side side) const { return *stops[index_of(side)]; }
-  [[nodiscard]] Ball period() const { return Ball(2) * Ball::pi() / nu; }
+  [[nodiscard]] const BasicStop<Number>& stop(Side side) const { return *stops[index_of(side)]; }
+  [[nodiscard]] Number period() const { return Number(2) * Number(Ball::pi()) / nu; }
   /// The force that presses a mass at rest into a stop (eq. 22), at a phase whose sine is given.
-  [[nodiscard]] Ball pressing(Side side, const Ball& sine) const {
-    return Ball(sign_of(side)) * (f * sine + load - k * stop(side).position);
+  [[nodiscard]] Number pressing(Side side, const Number& sine) const {
+    return Number(sign_of(side)) * (f * sine + load - k * stop(side).position);
   }
 };
+
+/// The centre about which a scene is its own mirror image, exactly, and stays so if it changes.
+template <class Number>
+[[nodiscard]] std::optional<Number> mirror_centre(const BasicScene<Number>& scene) {
+  const auto& [lower, upper] = scene.stops;
+  if (lower.has_value() != upper.has_value()) return std::nullopt;
+  if (scene.k.is_zero() && !scene.load.is_zero()) return std::nullopt;
+  if (!lower) return scene.k.is_zero() ? Number(0) : scene.load / scene.k;
+  const bool alike = lower->soft == upper->soft && (lower->R - upper->R).is_zero() &&
+                     (lower->kappa - upper->kappa).is_zero() && (lower->zeta - upper->zeta).is_zero();
+  const Number middle = (lower->position + upper->position) / Number(2);
+  const bool centred = scene.k.is_zero() || (middle.is_zero() && scene.load.is_zero()) ||
+                       (scene.k.is_constant() && (scene.k * middle - scene.load).is_zero());
+  return alike && centred ? std::optional(middle) : std::nullopt;
+}
+
+using Stop = BasicStop<Ball>;
+using Scene = BasicScene<Ball>;
+/// A scene that changes with a parameter: its numbers, and their derivatives.
+using MovingScene = BasicScene<Dual>;
 
 }  // namespace verify

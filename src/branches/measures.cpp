@@ -46,6 +46,17 @@ Multipliers multipliers(const ShakenScene& scene, const Orbit& orbit) {
   return {{first.real(), second.real()}, {first.imag(), second.imag()}, stable};
 }
 
+PhasePoint state_at(const ShakenScene& scene, const Orbit& orbit, std::size_t i, double phase) {
+  PhasePoint state{};
+  std::size_t flight = 0;
+  each_flight(scene, orbit, [&](const auto& arc, double begin, double) {
+    if (flight++ != i) return;
+    const auto m = arc.at((phase - begin) / arc.constants().nu);
+    state = {m.x, m.v};
+  });
+  return state;
+}
+
 PhasePoint state_at_phase_zero(const ShakenScene& scene, const Orbit& orbit) {
   std::optional<PhasePoint> state;
   constexpr double turn = 2 * std::numbers::pi;

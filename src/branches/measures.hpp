@@ -15,6 +15,9 @@ struct Multipliers {
 };
 [[nodiscard]] Multipliers multipliers(const ShakenScene& scene, const Orbit& orbit);
 
+/// The state at a phase after event i of an orbit and before the next, neither of which is a rest; at any phase of
+/// motion without events.
+[[nodiscard]] PhasePoint state_at(const ShakenScene& scene, const Orbit& orbit, std::size_t i, double phase);
 /// The state when the forcing phase is 0.
 [[nodiscard]] PhasePoint state_at_phase_zero(const ShakenScene& scene, const Orbit& orbit);
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "branches/links.hpp"
 #include "branches/soft_contacts.hpp"
 
 namespace clatter::branches {
@@ -31,6 +32,12 @@ Moving motion_at(const ShakenScene& scene, const Orbit& orbit, const Parameters<
 
 }  // namespace
 
+Parameters<Along> varied(const ShakenScene& scene, sweep::Parameter parameter) {
+  Parameters<Along> p(scene);
+  detail::vary(p, scene, parameter, 0);
+  return p;
+}
+
 Moving moving(const OrbitEquations& equations, const Vector& point, const Vector& tangent) {
   const Orbit orbit = equations.orbit_at(point);
   constexpr double step = 1e-3;  // the parameters are linear in the point
@@ -48,9 +55,7 @@ Moving moving(const OrbitEquations& equations, const Vector& point, const Vector
 Moving moving_from_release(const ShakenScene& scene, const Orbit& orbit, sweep::Parameter parameter) {
   constexpr std::size_t by_begin = 0, by_before = 1, by_end = 2, by_parameter = 3;
   using Four = Dual<double, 4>;
-  constexpr double step = 1e-3;
-  Moving m =
-      motion_at(scene, orbit, towards(scene, changed(scene, parameter, value_of(scene, parameter) + step), step));
+  Moving m = motion_at(scene, orbit, varied(scene, parameter));
   m.stiffness_varies = varies_stiffness(parameter);
   Parameters<Four> p(scene);
   for (std::size_t i = 0; i < p.all.size(); ++i) (p.*p.all[i]).slope[by_parameter] = (m.p.*m.p.all[i]).slope[0];

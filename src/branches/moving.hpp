@@ -25,6 +25,8 @@ struct Moving {
   bool soft = false;          ///< whether it meets soft stops
   bool stiffness_varies = false;
 };
+/// The parameters of a scene, of which one changes.
+[[nodiscard]] Parameters<Along> varied(const ShakenScene& scene, sweep::Parameter parameter);
 /// Along a tangent of equations.
 [[nodiscard]] Moving moving(const OrbitEquations& equations, const Vector& point, const Vector& tangent);
 /// Along a parameter, for a motion that rests: its impacts follow from the release. Those of a chatter that ends in

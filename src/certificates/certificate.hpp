@@ -21,7 +21,8 @@ struct ClaimedEvent {
   point::MotionEvent::Kind kind;
   Side side;
   Claimed time;
-  Claimed then;  ///< of a rest or a chatter the time of its end, else the velocity before the event
+  Claimed then;         ///< of a rest or a chatter the time of its end, else the velocity before the event
+  bool grazes = false;  ///< it has no speed, and changes nothing
 };
 
 /// A claimed multiplier.
@@ -43,6 +44,21 @@ struct ClaimedPeriod {
   std::optional<bool> symmetric{};                                ///< nothing: the scene isn't
 };
 
+/// The derivatives of a scene's numbers by a parameter.
+struct SceneSlopes {
+  double h, k, f, nu, load, phase;
+  struct Stop {
+    double position, R, stiffness, damping;
+  } lower, upper;
+};
+
+/// The claims of a special point of a branch.
+struct ClaimedSpecial {
+  std::string kind;
+  Claimed parameter;  ///< of the computed scene
+  SceneSlopes slopes;
+};
+
 /// A motion and all that is claimed of it, in computed units and in the frame of what is shaken. Time 0 is where the
 /// phase of the force is that of `scene.start`.
 struct Certificate {
@@ -52,8 +68,9 @@ struct Certificate {
   Side released = Side::none;           ///< the stop that releases the mass at the start; none: the start is a state
   std::vector<ClaimedEvent> events{};
   Claimed x_min{}, x_max{};
-  std::optional<ClaimedPeriod> period{};  ///< of a periodic motion,
-  std::optional<ClaimedEnd> end{};        ///< of a transient
+  std::optional<ClaimedPeriod> period{};    ///< of a periodic motion,
+  std::optional<ClaimedSpecial> special{};  ///< and of one at a special point of a branch
+  std::optional<ClaimedEnd> end{};          ///< of a transient
 };
 
 }  // namespace clatter::certificates

@@ -55,6 +55,7 @@ Json json_of(const Scene& scene) {
 }
 
 Json json_of(const ClaimedEvent& event) {
+  if (event.grazes) return {{"event", "graze"}, {"stop", name_of(event.side)}, {"time", json_of(event.time)}};
   const bool lasts = event.kind == Kind::rest || event.kind == Kind::chatter;
   return {{"event", name_of(event.kind)},
           {"stop", name_of(event.side)},
@@ -75,26 +76,30 @@ Json start_of(const Certificate& certificate) {
   return start;
 }
 
-/// The values of the axes, in the user's units.
-Json place_of(const sweep::Sweep& sweep, std::size_t point) {
-  Json at = Json::object();
-  each_coordinate(sweep, point, [&](const sweep::Axis& axis, double value) {
-    at[std::string(key_of(axis.parameter))] = json_of(value);
-  });
-  if (sweep.direction == sweep::Direction::both) at["direction"] = point < size_one_way(sweep) ? "up" : "down";
-  return at;
-}
-
 /// The machine of a point, in SI.
-Json machine_of(const sweep::Sweep& sweep, std::size_t point) {
-  sweep::Machine machine = *sweep.machine;
-  each_coordinate(sweep, point,
-                  [&](const sweep::Axis& axis, double value) { (void)set(machine, axis.parameter, value); });
+Json json_of(const sweep::Machine& machine) {
   const char* const damping = machine.damping_given == sweep::DampingGiven::coefficient ? "damping"
                               : machine.damping_given == sweep::DampingGiven::ratio     ? "damping_ratio"
                                                                                         : "quality";
   return {{"mass", machine.mass},   {"stiffness", machine.stiffness}, {damping, json_of(machine.damping)},
           {"force", machine.force}, {"frequency", machine.frequency}, {"load", machine.load}};
+}
+
+Json json_of(const SceneSlopes& slopes) {
+  Json json = Json::object();
+  const auto add = [](Json& to, const char* name, double slope) {
+    if (slope != 0) to[name] = slope;
+  };
+  add(json, "h", slopes.h), add(json, "k", slopes.k), add(json, "f", slopes.f), add(json, "nu", slopes.nu);
+  add(json, "load", slopes.load), add(json, "phase", slopes.phase);
+  for (const Side side : {Side::lower, Side::upper}) {
+    const SceneSlopes::Stop& of = side == Side::upper ? slopes.upper : slopes.lower;
+    Json stop = Json::object();
+    add(stop, "position", of.position), add(stop, "R", of.R);
+    add(stop, "stiffness", of.stiffness), add(stop, "damping", of.damping);
+    if (!stop.empty()) json[name_of(side)] = stop;
+  }
+  return json;
 }
 
 void add_period(Json& json, const ClaimedPeriod& period) {
@@ -107,16 +112,25 @@ void add_period(Json& json, const ClaimedPeriod& period) {
 
 }  // namespace
 
-std::string certificate_text(const Certificate& certificate, const sweep::Sweep& sweep, std::size_t point) {
-  Json json{{"format", "clatter-certificate-1"}, {"point", point}, {"at", place_of(sweep, point)}};
-  if (sweep.machine) json["machine"] = machine_of(sweep, point);
+std::string certificate_text(const Certificate& certificate, const CertifiedPlace& place) {
+  const auto& special = certificate.special;
+  Json json{{"format", "clatter-certificate-1"}, {special ? "special" : "point", place.number}};
+  if (place.branch) json["branch"] = *place.branch;
+  json["at"] = Json::object();
+  for (const auto& [name, value] : place.at) json["at"][name] = json_of(value);
+  if (place.direction) json["at"]["direction"] = *place.direction;
+  if (place.machine) json["machine"] = json_of(*place.machine);
   json["scene"] = json_of(certificate.scene);
-  json["claim"] = certificate.period ? "periodic" : "transient";
+  json["claim"] = special ? "special" : certificate.period ? "periodic" : "transient";
+  if (special) {
+    json["kind"] = special->kind, json["parameter"] = json_of(special->parameter);
+    json["slopes"] = json_of(special->slopes);
+  }
   if (certificate.period) json["periods"] = certificate.period->periods;
   json["start"] = start_of(certificate);
   json["events"] = Json::array();
   for (const ClaimedEvent& event : certificate.events) json["events"].push_back(json_of(event));
-  json["x_min"] = json_of(certificate.x_min), json["x_max"] = json_of(certificate.x_max);
+  if (!special) json["x_min"] = json_of(certificate.x_min), json["x_max"] = json_of(certificate.x_max);
   if (certificate.period) add_period(json, *certificate.period);
   if (certificate.end)
     json["end"] = {

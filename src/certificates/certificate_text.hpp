@@ -1,16 +1,27 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "certificates/certificate.hpp"
-#include "sweep/sweep.hpp"
+#include "sweep/scaling.hpp"
 
 namespace clatter::certificates {
 
-/// A certificate of a point of a sweep as one line of JSON (RFC 8259), its end included. Numbers have the digits that
-/// read back to the same double.
-[[nodiscard]] std::string certificate_text(const Certificate& certificate, const sweep::Sweep& sweep,
-                                           std::size_t point);
+/// What a certificate is of, for people.
+struct CertifiedPlace {
+  std::size_t number = 0;                            ///< of the point, or of the special point
+  std::optional<std::size_t> branch{};               ///< that it is on
+  std::vector<std::pair<std::string, double>> at{};  ///< parameters, in the user's units
+  std::optional<std::string> direction{};            ///< of a sweep both ways: up or down
+  std::optional<sweep::Machine> machine{};           ///< with those parameters
+};
+
+/// A certificate as one line of JSON (RFC 8259), its end included. Numbers have the digits that read back to the same
+/// double.
+[[nodiscard]] std::string certificate_text(const Certificate& certificate, const CertifiedPlace& place);
 
 }  // namespace clatter::certificates

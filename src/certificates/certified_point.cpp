@@ -75,6 +75,19 @@ bool returns(const Problem& start, const RecordedMotion& motion) {
   return std::abs(motion.end.x - x) + std::abs(motion.end.v - v) <= same * (std::abs(x) + std::abs(v));
 }
 
+/// Newton's step to the start that a motion returns to; false if it is none.
+bool step_to_return(Start& start, const RecordedMotion& motion) {
+  const auto& m = motion.derivative;
+  const double x = motion.end.x - start.displacement, v = motion.end.v - start.velocity;
+  const double determinant = (1 - m[0]) * (1 - m[3]) - m[1] * m[2];
+  const double by_x = ((1 - m[3]) * x + m[1] * v) / determinant, by_v = (m[2] * x + (1 - m[0]) * v) / determinant;
+  constexpr double small = 1e-7;  // else rounding makes it
+  const double size = std::abs(start.displacement) + std::abs(start.velocity);
+  if (!(std::abs(by_x) + std::abs(by_v) <= small * size) || (by_x == 0 && by_v == 0)) return false;
+  start.displacement += by_x, start.velocity += by_v;
+  return true;
+}
+
 ClaimedPeriod claimed_period(const PointResult& result, const ErrorBounds& bounds, bool rests) {
   ClaimedPeriod period{.periods = static_cast<std::size_t>(std::llround(result.observed_turns))};
   const auto multiplier = [&](std::size_t i) {
@@ -93,10 +106,13 @@ void certify_periodic(const Problem& problem, const PointResult& result, Certifi
   const auto whole = recorded(section, result.observed_turns);
   if (!whole) return;
   const PeriodStart start = start_of_period(*whole);
-  const auto at_start = begun(section, start);
+  auto at_start = begun(section, start);
   if (!at_start) return;
   auto motion = recorded(*at_start, result.observed_turns, start.released);
   if (!motion || !returns(*at_start, *motion)) return;
+  if (start.released == Side::none && step_to_return(at_start->start, *motion))
+    motion = recorded(*at_start, result.observed_turns);
+  if (!motion) return;
   const double time = std::fmod(start.time, T);
   const ErrorBounds bounds(*at_start, *motion, result, time, true);
   if (!bounds.know_the_start()) {
@@ -113,17 +129,22 @@ void certify_periodic(const Problem& problem, const PointResult& result, Certifi
 
 }  // namespace
 
-CertifiedPoint certified(const Problem& problem, point::ThreadScratch& scratch) {
-  const Problem plain = observed(problem);
-  const PointResult result = point::run_point(plain, scratch);
+CertifiedPoint certified_period(const Problem& problem, const PointResult& result) {
   CertifiedPoint point{.status = result.status, .periods = result.observed_turns, .end = result.end};
-  if (result.status == steady::Status::transient) certify_transient(plain, result, point);
-  if (result.status == steady::Status::grazing) point.without = Without::graze;
-  if (result.status != steady::Status::periodic) return point;
   if (problem.oscillator.forcing == 0)
     point.without = Without::force;
   else
-    certify_periodic(plain, result, point);
+    certify_periodic(problem, result, point);
+  return point;
+}
+
+CertifiedPoint certified(const Problem& problem, point::ThreadScratch& scratch) {
+  const Problem plain = observed(problem);
+  const PointResult result = point::run_point(plain, scratch);
+  if (result.status == steady::Status::periodic) return certified_period(plain, result);
+  CertifiedPoint point{.status = result.status, .periods = result.observed_turns, .end = result.end};
+  if (result.status == steady::Status::transient) certify_transient(plain, result, point);
+  if (result.status == steady::Status::grazing) point.without = Without::graze;
   return point;
 }
 

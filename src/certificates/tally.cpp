@@ -20,6 +20,8 @@ std::string reason_of(const CertifiedPoint& point) {
       return "one of a family";
     case Without::cut_chatter:
       return "cut within a chatter";
+    case Without::no_such_claim:
+      return "special without a claim of its kind";
     case Without::rounding:
       return "lost in rounding";
     default:
@@ -48,7 +50,7 @@ std::string details(const std::map<std::string, std::size_t>& counts) {
 
 void Tally::add(const CertifiedPoint& point) {
   if (point.certificate)
-    ++certificates_[name_of(point.status)];
+    ++certificates_[point.certificate->special ? point.certificate->special->kind : name_of(point.status)];
   else
     ++without_[reason_of(point)];
 }

@@ -1,6 +1,6 @@
 """Rooms of src include only their right-hand neighbours, and each has its own namespace:
 apps -> { results, accuracy, certificates }, results -> { config, plan }, config -> { branches, storage },
-{ accuracy, branches, certificates, plan } -> sweep -> { lanes, attractors } -> point -> { steady, observables },
+certificates -> branches, { accuracy, branches, plan } -> sweep -> { lanes, attractors } -> point -> { steady, observables },
 steady -> stepping -> motion, observables -> motion -> model -> math."""
 
 import os
@@ -23,9 +23,9 @@ NEXT = {  # room: its right-hand neighbours; what these may include, it may incl
     "sweep": {"lanes", "attractors"},
     "plan": {"sweep"},
     "accuracy": {"sweep"},
-    "certificates": {"sweep"},
     "storage": set(),
     "branches": {"sweep"},
+    "certificates": {"branches"},
     "config": {"branches", "storage"},
     "results": {"config", "plan"},
     "apps": {"results", "accuracy", "certificates"},

@@ -152,6 +152,68 @@ class Certify(CommandLine):
         self.assertNotIn("not reproduced", said)
         self.assertEqual({c["at"]["direction"] for c in certificates}, {"up", "down"})
 
+    def branch(self, text):
+        result = self.clatter("branch", self.write("b.toml", text), "-q", "-o", "b.h5", "--force")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        return "b.h5"
+
+    def test_points_and_special_points_of_a_branch(self):
+        certificates, said = self.certify(self.branch((SOURCE / "configs/branch.toml").read_text(encoding="utf-8")))
+        with h5py.File(self.directory / "b.h5") as file:
+            nu, branch, stable = (file[name][()] for name in ("nu", "branch", "stable"))
+            kinds = [kind.decode() for kind in file["special_kind"]]
+            special_nu, word = file["special_nu"][()], [word.decode() for word in file["special_word"]]
+        points = [c for c in certificates if c["claim"] == "periodic"]
+        special = [c for c in certificates if c["claim"] == "special"]
+        self.assertTrue(said.startswith(f"{len(nu) + len(kinds)} points: {len(certificates)} certificates (1 flip, "))
+        self.assertGreater(len(points), 0.98 * len(nu))
+        self.assertIn(0, stable[[c["point"] for c in points]])
+        for certificate in points:
+            self.assertEqual(certificate["branch"], branch[certificate["point"]])
+            self.assertAlmostEqual(certificate["at"]["nu"], nu[certificate["point"]], 12)
+        self.assertEqual([c["kind"] for c in special], kinds)
+        for certificate in special:
+            number = certificate["special"]
+            self.assertAlmostEqual(certificate["parameter"][0], special_nu[number], 12)
+            self.assertLess(certificate["parameter"][1], 1e-11)
+            self.assertEqual(certificate["slopes"], {"nu": 1.0})
+            letters = "".join({"lower": "L", "upper": "U"}[event["stop"]] for event in certificate["events"])
+            self.assertIn(word[number], letters + letters)
+
+    def test_slopes_of_what_is_followed(self):
+        shaken = """[scene]
+h = 0.1
+base_amplitude = 0.7
+xs = 0.9
+R = 0.6
+nu = 0.8
+[branch]
+along = "base_amplitude"
+range = [0.4, 1.4]
+"""
+        certificates, _ = self.certify(self.branch(shaken))
+        for certificate in certificates:
+            if certificate["claim"] == "special":
+                self.assertEqual(set(certificate["slopes"]), {"f"})
+                f, slope = certificate["scene"]["f"], certificate["slopes"]["f"]
+                self.assertAlmostEqual(f, slope * certificate["parameter"][0], 12)  # eq. 40: in proportion
+        machine = MACHINE.replace("[sweep]", "[branch]").replace("frequency = ", "# ")
+        machine = machine.replace("[machine]", '[machine]\nfrequency = "0.25 Hz"\nR = 0.7')
+        machine = machine.replace("[branch]", '[branch]\nalong = "gap"\nrange = ["0.2 m", "0.6 m"]')
+        certificates, _ = self.certify(self.branch(machine))
+        self.assertGreater(len(certificates), 10)
+        for certificate in certificates:
+            self.assertEqual(set(certificate["at"]), {"gap"})
+            if certificate["claim"] == "special":
+                slopes = certificate["slopes"]
+                self.assertEqual((slopes["lower"]["position"], slopes["upper"]["position"]), (-1.0, 1.0))
+
+    def test_a_branch_has_no_axis(self):
+        path = self.branch((SOURCE / "configs/branch.toml").read_text(encoding="utf-8"))
+        self.assert_refused(2, "a branch has no axis; use --sample", "certify", path, "--where", "nu=1")
+        _, said = self.certify(path, "--sample", "3")
+        self.assertTrue(said.startswith("6 points: "), said)
+
     def test_choices(self):
         path = self.run_text("a", SMALL)
         self.assertEqual([c["point"] for c in self.certify(path, "--where", "nu=1.25")[0]], [3])
@@ -203,10 +265,8 @@ class Certify(CommandLine):
         config = self.write("a.toml", SMALL)
         self.clatter("run", config, "--shard", "0/2", "-q")
         self.assert_refused(74, "is shard 0/2 of a sweep; join all with `clatter merge`", "certify", "a.0-of-2.h5")
-        self.clatter("branch", SOURCE / "configs/branch.toml", "-q", "-o", "b.h5")
-        self.assert_refused(74, "holds branches, not points of a sweep", "certify", "b.h5")
         self.clatter("accuracy", SOURCE / "configs/accuracy_smooth.toml", "-q", "-o", "c.h5")
-        self.assert_refused(74, "holds what accuracy costs, not points of a sweep", "certify", "c.h5")
+        self.assert_refused(74, "holds what accuracy costs, not motions", "certify", "c.h5")
 
 
 if __name__ == "__main__":

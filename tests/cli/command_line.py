@@ -61,6 +61,11 @@ def heed_signals():
         signal.signal(number, signal.SIG_DFL)
 
 
+def without_progress(said):
+    """What a command says on stderr without the lines about a run that takes more than half a minute."""
+    return re.sub(r"^\d+ of \d+ (points|runs), about [\d:]+ left\n", "", said, flags=re.MULTILINE)
+
+
 def full_pipe():
     """A pipe that has no room, so that whoever writes into it waits until the first of its ends, the reader, is read
     from or closed."""
@@ -97,7 +102,8 @@ class CommandLine(unittest.TestCase):
         self.directory = pathlib.Path(directory.name)
 
     def clatter(self, *words, environment=None):
-        return subprocess.run(
+        """What the program does and says, but for how far it is: only on a slow machine it tells this."""
+        done = subprocess.run(
             [CLATTER, *words],
             cwd=self.directory,
             capture_output=True,
@@ -105,6 +111,8 @@ class CommandLine(unittest.TestCase):
             timeout=LONGEST,
             env={**os.environ, **(environment or {})},
         )
+        done.stderr = without_progress(done.stderr)
+        return done
 
     def shown(self, *words):
         """The exit code of a command whose standard output is a terminal, and what it shows there."""

@@ -59,7 +59,9 @@ def wrong_stop(certificate):
 
 
 def twice_the_period(certificate):
-    if certificate["claim"] != "periodic" or "released" in certificate["start"] or rests(certificate):
+    if certificate["claim"] == "transient" or "released" in certificate["start"] or rests(certificate):
+        return None
+    if certificate.get("kind") in ("fold", "flip"):  # the motion over two periods has many, or is born there
         return None
     period = certificate["periods"] * 2 * 3.141592653589793 / certificate["scene"]["nu"]
     certificate["periods"] *= 2
@@ -118,13 +120,15 @@ def wrong_word(certificate):
 
 
 def wrong_symmetry(certificate):
+    if certificate["claim"] == "special":  # of the motion of a half, which returns mirrored
+        return None
     if certificate.get("symmetric") is True and "released" not in certificate["start"]:
         return certificate | {"symmetric": False}
 
 
 def wrong_start(certificate):
     start = certificate["start"]
-    if certificate["claim"] == "periodic" and "x" in start and not rests(certificate):
+    if certificate["claim"] != "transient" and "x" in start and not rests(certificate):
         start["x"] = off(start["x"])
         return certificate
 
@@ -136,11 +140,48 @@ def wrong_end(certificate):
 
 
 def wrong_restitution(certificate):
+    if certificate["claim"] == "special":  # it may be that of a stop that is only grazed
+        return None
     for event in certificate["events"]:
         stop = certificate["scene"][event["stop"]]
         if "R" in stop:
             stop["R"] = stop["R"] * 0.999 + 1e-4
             return certificate
+
+
+def wrong_parameter(certificate):
+    """A special point elsewhere on its branch."""
+    if certificate["claim"] == "special":
+        certificate["parameter"] = off(certificate["parameter"])
+        for name, slope in certificate["slopes"].items():  # the scene is that of the claimed parameter
+            at, by = certificate["scene"], BEYOND * certificate["parameter"][1]
+            if isinstance(slope, dict):
+                for part, of_stop in slope.items():
+                    at[name][part] += of_stop * by
+            else:
+                at[name] += slope * by
+        return certificate
+
+
+def wrong_kind(certificate):
+    others = {"fold": "flip", "flip": "fold", "symmetry breaking": "fold", "graze": "fold"}
+    kind = certificate.get("kind")
+    if kind is not None and not (kind == "fold" and certificate.get("symmetric")):
+        certificate["kind"] = others.get(kind, "fold")
+        return certificate
+
+
+def graze_that_is_an_impact(certificate):
+    for event in certificate["events"]:
+        if event["event"] == "graze" and "R" in certificate["scene"][event["stop"]]:
+            event.update(event="impact", v=[{"lower": -1e-3, "upper": 1e-3}[event["stop"]], 1e-9])
+            return certificate
+
+
+def graze_left_out(certificate):
+    if certificate.get("kind") == "graze":
+        certificate["events"] = [event for event in certificate["events"] if event["event"] != "graze"]
+        return certificate
 
 
 FORGERIES = [
@@ -161,6 +202,10 @@ FORGERIES = [
     wrong_start,
     wrong_end,
     wrong_restitution,
+    wrong_parameter,
+    wrong_kind,
+    graze_that_is_an_impact,
+    graze_left_out,
 ]
 
 

@@ -14,7 +14,7 @@ BUILD = Path(CLATTER).parents[2]
 # Scripts are for users, or for those who work on clatter with its sources: a new one is in one of the two.
 FOR_USERS = (
     *("plot*.py", "report*.py", "report.js", "report.css", "plain_hdf5.py", "hdf5_heaps.py", "clatter/*.py"),
-    *("slurm/submit.sh", "slurm/sweep.sbatch"),
+    *("score_solver.py", "slurm/submit.sh", "slurm/sweep.sbatch"),
 )
 FOR_SOURCES = (
     *("README.md", "bench*", "check*.sh", "clang_syntax.py", "Containerfile", "effects_ladder.py", "fuzz.sh"),
@@ -81,6 +81,10 @@ class Install(unittest.TestCase):
         done = self.run_installed("clatter", "plan", self.share / "configs" / "fig22.toml")
         self.assertEqual(done.returncode, 0, done.stderr)
 
+    def test_the_hard_scenes_are_there(self):
+        scenes = self.share / "hard_scenes.jsonl"
+        self.assertEqual(scenes.read_bytes(), (SOURCE / "tests/hard/hard_scenes.jsonl").read_bytes())
+
     def test_every_script_is_installed_or_is_for_those_who_have_the_sources(self):
         users, developers = scripts(FOR_USERS), scripts(FOR_SOURCES)
         self.assertEqual(users & developers, set())
@@ -108,6 +112,10 @@ class Install(unittest.TestCase):
                 self.assertTrue(path.resolve().is_relative_to(self.prefix), path)
         for name in entries:
             self.assertEqual(self.run_installed(name, "--help").returncode, 0, name)
+
+    def test_every_program_has_a_man_page(self):
+        pages = files_below(self.prefix / "share/man/man1")
+        self.assertEqual({f"{name}.1" for name in files_below(self.prefix / "bin")} - pages, set())
 
     def test_the_licence_says_what_the_sources_and_the_binary_are_under(self):
         text = (self.documents / "copyright").read_text(encoding="utf-8")

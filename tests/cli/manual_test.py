@@ -1,10 +1,13 @@
 """Man pages: without complaint from mandoc, with every command, option and key, and an example that runs."""
 
+import os
 import re
 import subprocess
 import unittest
 
 from command_line import SOURCE, CommandLine
+
+VERIFY = os.environ.get("CLATTER_VERIFY", "")
 
 
 class Manual(CommandLine):
@@ -123,6 +126,33 @@ class ManualOfScripts(CommandLine):
             for option, explanation in entries:
                 name = re.findall(r"--[\w-]+", option)[-1]
                 self.assertRegex(shown, rf"(?m)^ .*{name}\b.*\n +{re.escape(explanation)}$")
+
+
+@unittest.skipUnless(VERIFY, "Arb wasn't found when the build was configured, so there is no clatter-verify")
+class ManualOfVerifier(CommandLine):
+    """The page of clatter-verify, made of what its --help prints."""
+
+    def setUp(self):
+        super().setUp()
+        folder = self.directory / "share"
+        subprocess.run(["/usr/bin/python3", "-B", SOURCE / "scripts/manual.py", folder, VERIFY], check=True)
+        self.pages = list((folder / "man/man1").iterdir())
+
+    def test_mandoc_finds_no_fault(self):
+        self.assertEqual([page.name for page in self.pages], ["clatter-verify.1"])
+        lint = subprocess.run(["mandoc", "-Tlint", *self.pages], capture_output=True, text=True)
+        self.assertEqual((lint.returncode, lint.stdout), (0, ""))
+
+    def test_every_word_of_the_help_is_there_in_its_order(self):
+        told = subprocess.run([VERIFY, "--help"], capture_output=True, check=True, text=True).stdout
+        self.assertRegex(told, r"(?m)^Exit codes\n  0    all are proved$")
+        page = subprocess.run(["mandoc", "-Tascii", *self.pages], capture_output=True, check=True, text=True).stdout
+        shown = iter(re.sub(".\b", "", page).split())
+        titles = {"Options": "OPTIONS", "Exit codes": "EXIT STATUS", "Examples": "EXAMPLES"}
+        usage, summary, others = told.split("\n\n", 2)
+        for line in f"{summary}\n{usage}\n{others}".splitlines():
+            for word in titles.get(line, line).split():
+                self.assertIn(word, shown, line)
 
 
 if __name__ == "__main__":

@@ -13,7 +13,7 @@ import zlib
 import h5py
 import numpy as np
 
-from command_line import CLATTER, LONGEST, SOURCE, CommandLine
+from command_line import CLATTER, LONGEST, SOURCE, CommandLine, without_progress
 from script_runs import run_script
 
 COARSER = {  # settings of the shipped configurations that take long
@@ -145,7 +145,7 @@ def in_shell(command, folder):
         ["bash", "-c", command], cwd=folder, env=environment, capture_output=True, text=True, timeout=LONGEST
     )
     summary = re.fullmatch(
-        r"(?:.* warning: .*\n)*\d+ points?, (\d+) failed.*\n", done.stderr
+        r"(?:.* warning: .*\n)*\d+ points?, (\d+) failed.*\n", without_progress(done.stderr)
     )  # with a failed point the code may be 1
     if not summary or done.returncode > min(1, int(summary[1])):
         raise AssertionError(f"{command} ends with {done.returncode}: {done.stderr}")

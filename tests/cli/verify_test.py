@@ -60,6 +60,9 @@ RIGHT = {
 }
 
 
+SPECIAL = {**RIGHT, "claim": "special", "kind": "fold", "parameter": [1.2, 1e-9], "slopes": {"nu": 1}, "periods": 1}
+
+
 def without(name):
     return {key: value for key, value in RIGHT.items() if key != name}
 
@@ -83,7 +86,16 @@ MALFORMED = [  # a line, and the place and the way out that are told
     (in_scene(lower={"position": 1}), "scene.lower: has neither R nor stiffness; give one"),
     (in_scene(lower={"position": 1, "R": 2}), "scene.lower.R: is 2; it must be at least 0 and at most 1"),
     (in_scene(upper={"position": -6, "R": 1}), "scene: has its lower stop above the upper one; exchange"),
-    ({**RIGHT, "claim": "special"}, "claim: is 'special'; write transient or periodic"),
+    ({**RIGHT, "claim": "proof"}, "claim: is 'proof'; write transient, periodic or special"),
+    ({**RIGHT, "claim": "special"}, "kind: is missing; add it"),
+    ({**RIGHT, "claim": "special", "kind": "cusp"}, "kind: is 'cusp'; write fold, flip, "),
+    ({**SPECIAL, "slopes": {"upper": {"position": 1}}}, "slopes.upper: is of no stop; leave it out"),
+    ({**SPECIAL, "symmetric": False}, "symmetric: is false; leave it out"),
+    ({**SPECIAL, "x_max": [1, 1]}, "x_max: is no claim of a special point; leave it out"),
+    (
+        {**RIGHT, "events": [{"event": "graze", "stop": "lower", "time": [1, 1]}]},
+        r"events\[0\]: is a graze; only special",
+    ),
     ({**RIGHT, "claim": "periodic", "periods": 0}, "periods: is out of range; write 1 to"),
     ({**RIGHT, "events": [{"event": "hit"}]}, r"events\[0\].event: is 'hit'; write impact"),
     (
@@ -141,6 +153,19 @@ class Verify(CommandLine):
         self.assertGreater(len(files), 20)
         self.assert_proved(verified(*files), 200)
 
+    def test_branches_are_proved_with_their_special_points(self):
+        """Each unstable point, too; beside grazes of soft stops a few special points stay undecided."""
+        for config in sorted(SOURCE.glob("configs/*.toml")):
+            if "\n[branch]" not in config.read_text(encoding="utf-8"):
+                continue
+            with self.subTest(config.name):
+                result = self.clatter("branch", config, "-q", "-o", "b.h5", "--force")
+                self.assertEqual(result.returncode, 0, result.stderr)
+                file = self.directory / f"{config.stem}.branch.jsonl"
+                certified(self.directory / "b.h5", file, *(() if IS_LONG else ("--sample", "30")))
+                undecided = 12 if config.stem == "soft_branch" else 0
+                self.assert_proved(verified(file), 30, undecided)
+
     def test_random_scenes_are_proved(self):
         for file in random_certificates(self.directory, SCENES, seed=43):
             count = len(file.read_text(encoding="utf-8").splitlines())
@@ -154,6 +179,12 @@ class Verify(CommandLine):
             self.assert_proved(verified(file), 1)
             for line in file.read_text(encoding="utf-8").splitlines():
                 for kind, forgery in forged(json.loads(line)):
+                    lines.append(json.dumps(forgery)), kinds.append(kind)
+        self.clatter("branch", SOURCE / "configs/branch.toml", "-q", "-o", "b.h5")
+        certified(self.directory / "b.h5", self.directory / "b.jsonl", "--sample", "20")
+        for line in (self.directory / "b.jsonl").read_text(encoding="utf-8").splitlines():
+            if (certificate := json.loads(line))["claim"] == "special":
+                for kind, forgery in forged(certificate):
                     lines.append(json.dumps(forgery)), kinds.append(kind)
         (self.directory / "forged.jsonl").write_text("\n".join(lines) + "\n", encoding="utf-8")
         found = verified(self.directory / "forged.jsonl")
@@ -172,7 +203,7 @@ class Verify(CommandLine):
         self.assertEqual(self.verify("-", text=json.dumps(certificate)).returncode, 0)
         certificate["scene"]["upper"]["damping"] = "0.1000000000000000055511152"
         result = self.verify("-", text=json.dumps(certificate))
-        self.assertRegex(result.stdout, "undecided: symmetric: the scene isn't, to its last digit")
+        self.assertRegex(result.stdout, "symmetric: (claimed true, found false|the scene isn't, to its last digit)")
 
     def test_each_malformed_certificate_is_told_with_its_place_and_the_way_out(self):
         for certificate, words in MALFORMED:
