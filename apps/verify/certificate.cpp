@@ -166,6 +166,13 @@ void require_stops(const Field& field, const Certificate& certificate) {
     field.refuse("start with a release by a stop", "the scene has no rigid stop there");
 }
 
+std::string word_of(const Field& field) {
+  const std::string word = field.text();
+  if (word.find_first_not_of("LU*\u2026") != std::string::npos)
+    field.refuse("is " + shown(word), "write L, U, L* and U* in the order of the impacts");
+  return word;
+}
+
 /// A special point is known by its motion: what else periodic motion may claim is no part of it.
 void require_claims_of_special(const Field& root) {
   for (const char* const name : {"word", "multipliers", "x_min", "x_max"})
@@ -177,7 +184,7 @@ void require_claims_of_special(const Field& root) {
 void read_periodic(const Field& root, Certificate& certificate) {
   if (certificate.special) require_claims_of_special(root);
   certificate.periods = root.get("periods").count(1'000'000);
-  if (const auto word = root.find("word")) certificate.word = word->text();
+  if (const auto word = root.find("word")) certificate.word = word_of(*word);
   if (const auto symmetric = root.find("symmetric")) certificate.symmetric = symmetric->flag();
   if (certificate.scene.f.ball().is_zero())
     root.get("claim").refuse("periodic motion without a force", "claim a transient");

@@ -108,16 +108,22 @@ std::optional<Ball> turn_of(const Flow::Flight& flight, const Margin& margin, co
 }
 
 Ball instant_of(const Flow::Flight& flight, const Margin& margin, const Ball& between) {
-  Ball now = between;
+  Ball now = between, guess = between.middle();
+  Flow::Instant there = flight.at(guess);
+  for (int iteration = 0; iteration < 8 && now.radius() > 1e-6; ++iteration) {  // no proof depends on where this leads
+    const Ball step = margin.of(there.x, there.v) / margin.derivative(there.v, there.a), next = (guess - step).middle();
+    if (!next.is_finite() || !next.overlaps(now)) break;
+    guess = next, there = flight.at(guess);
+    if (std::abs(step.near()) < 1e-9) break;
+  }
   for (int iteration = 0; iteration < 64; ++iteration) {
     const Ball rate = Piece(flight, now.lower(), now.upper()).range(margin, 1);
     if (!rate.is_negative() && !rate.is_positive()) throw Undecided("the time of an event that is nearly a graze");
-    const Ball middle = now.middle();
-    const Flow::Instant there = flight.at(middle);
-    const Ball next = now.within(middle - margin.of(there.x, there.v) / rate);
-    const bool done = next.radius() > 0.5 * now.radius();
+    const Ball next = now.within(guess - margin.of(there.x, there.v) / rate);
+    const bool done = next.radius() > 0.5 * now.radius() || rate.radius() < 1e-6 * std::abs(rate.near());
     now = next;
     if (done) break;
+    guess = now.middle(), there = flight.at(guess);
   }
   return now;
 }

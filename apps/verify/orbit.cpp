@@ -27,13 +27,45 @@ Matrix less_identity(const Matrix& m) { return {m.a - Ball(1), m.b, m.c, m.d - B
 
 }  // namespace
 
+namespace {
+
+/// Krawczyk's operator on a box about a start; nothing if it doesn't map the box into itself, and then a wider box.
+std::optional<Orbit> proved_within(const Certificate& certificate, const Scene& scene, const Start& start, long periods,
+                                   Vector& width) {
+  std::vector<Event> events;
+  Motion motion = followed(certificate, scene, {start, width}, periods, events);
+  const Matrix derivative = motion.derivative(), slope = less_identity(derivative);
+  const Matrix inverse = slope.middle().inverse().middle();
+  const Vector from = -(inverse * (motion.centre() - Vector{start.x, start.v}));
+  Matrix rest = inverse * slope;
+  rest = {Ball(1) - rest.a, -rest.b, -rest.c, Ball(1) - rest.d};
+  const Vector box{Ball::around_zero(width.x), Ball::around_zero(width.y)}, image = from + rest * box;
+  if (!image.x.is_finite() || !image.y.is_finite()) throw Undecided("Krawczyk's operator");
+  if (box.x.holds_inside(image.x) && box.y.holds_inside(image.y))
+    return Orbit{std::move(motion),  events, derivative,
+                 {start.x, start.v}, width,  {start.x + image.x, start.v + image.y}};
+  width = {Ball(4) * abs(image.x).upper(), Ball(4) * abs(image.y).upper()};
+  return std::nullopt;
+}
+
+}  // namespace
+
 Orbit periodic_orbit(const Certificate& certificate, const Scene& scene, long periods) {
   Start start = certificate.start_in_balls();
-  std::vector<Event> events;
-  const Vector zero{Ball(0), Ball(0)};
   start.x = start.x.middle(), start.v = start.v.middle();
+  if (bits == 64) {  // a claim is mostly much better than its error
+    const Ball part(0.125);
+    Vector width{(part * certificate.start_x.error.ball()).middle(),
+                 (part * certificate.start_v.error.ball()).middle()};
+    try {
+      if (auto orbit = proved_within(certificate, scene, start, periods, width)) return *std::move(orbit);
+    } catch (const Undecided&) {  // Newton's steps may lead to a smaller box
+    }
+  }
+  const Vector zero{Ball(0), Ball(0)};
   Vector width = zero;
   for (slong precision = bits; precision >= 64; precision /= 2) {  // each step doubles the digits
+    std::vector<Event> events;
     const Motion thin = followed(certificate, scene, {start, zero}, periods, events);
     const Vector gap = thin.state() - Vector{start.x, start.v};
     const Vector step = less_identity(thin.derivative()).middle().inverse().middle() * gap.middle();
@@ -45,21 +77,8 @@ Orbit periodic_orbit(const Certificate& certificate, const Scene& scene, long pe
     };
     width = {wide(step.x, start.x), wide(step.y, start.v)};
   }
-  for (int attempt = 0; attempt < 5; ++attempt) {
-    Motion motion = followed(certificate, scene, {start, width}, periods, events);
-    const Matrix derivative = motion.derivative(), slope = less_identity(derivative);
-    const Matrix inverse = slope.middle().inverse().middle();
-    const Vector from = -(inverse * (motion.centre() - Vector{start.x, start.v}));
-    Matrix rest = inverse * slope;
-    rest = {Ball(1) - rest.a, -rest.b, -rest.c, Ball(1) - rest.d};
-    const Vector box{Ball::around_zero(width.x), Ball::around_zero(width.y)}, image = from + rest * box;
-    if (!image.x.is_finite() || !image.y.is_finite()) throw Undecided("Krawczyk's operator");
-    if (box.x.holds_inside(image.x) && box.y.holds_inside(image.y)) {
-      const Vector first{start.x + image.x, start.v + image.y};
-      return {std::move(motion), events, derivative, {start.x, start.v}, width, first};
-    }
-    width = {Ball(4) * abs(image.x).upper(), Ball(4) * abs(image.y).upper()};
-  }
+  for (int attempt = 0; attempt < 5; ++attempt)
+    if (auto orbit = proved_within(certificate, scene, start, periods, width)) return *std::move(orbit);
   throw Undecided("whether there is a periodic motion: Krawczyk's operator doesn't contract");
 }
 
