@@ -35,6 +35,7 @@ solver_repetitions=3
 growth_filter=all
 solver_filter=all
 processes=()
+proofs=()
 build=()
 plan=
 while (($# > 0)); do
@@ -45,6 +46,7 @@ while (($# > 0)); do
       growth_filter='^(sincos|threads|out of reach|points/10{3,5}$|periods/10{1,3}$)'
       solver_filter='^(sincos|clatter|Odeint|CVODE/1e-0)'
       processes+=(--map 60 --repetitions 1)
+      proofs+=(--repetitions 1)
       shift
       ;;
     --arch)
@@ -84,6 +86,11 @@ steps
 install_missing "${BUILD_PACKAGES[@]}" "${BENCH_PACKAGES[@]}"
 cmake --preset release
 cmake --build --preset release --target benchmarks
+has_verifier=
+if cmake --build --preset release --target help | grep -w clatter-verify >/dev/null; then
+  cmake --build --preset release --target clatter-verify
+  has_verifier=yes
+fi
 
 results=build/release/bench
 mkdir -p "$results"
@@ -104,4 +111,9 @@ measure figures
 measure solvers --benchmark_repetitions="$solver_repetitions" --benchmark_filter="$solver_filter"
 echo "Running whole processes"
 /usr/bin/python3 scripts/bench_processes.py --out "$results/processes.json" "${processes[@]}"
+rm -f "$results/proofs.json"
+if [[ -n $has_verifier ]]; then
+  echo "Running clatter certify and clatter-verify"
+  /usr/bin/python3 scripts/bench_proofs.py --out "$results/proofs.json" "${proofs[@]}"
+fi
 /usr/bin/python3 scripts/bench_table.py "$results"

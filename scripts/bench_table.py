@@ -180,6 +180,27 @@ def show_processes(content, unit):
     )
 
 
+def show_proofs(content):
+    rows = [
+        (
+            one["name"],
+            one["certificates"],
+            one["proved"],
+            *(
+                text
+                for what in ("certify", "verify")
+                for text in (time(one[what]), f"{one['certificates'] / one[what]:,.0f}")
+            ),
+        )
+        for one in content["proofs"]
+    ]
+    show(
+        "Proofs: processor time of clatter certify and of clatter-verify, and certificates a second on one core",
+        ("points of", "certificates", "proved", "certify", "a second", "verify", "a second"),
+        rows,
+    )
+
+
 class Wanted:
     """Lines of measurements and their targets."""
 
@@ -276,6 +297,11 @@ def main():
     show_growth(runs["growth"])
     show_solvers(runs["solvers"])
     show_processes(processes, runs["figures"].unit())
+    proofs = folder / "proofs.json"
+    if proofs.exists():
+        show_proofs(json.loads(proofs.read_text()))
+    else:
+        print("\nNo clatter-verify was built, so no proofs were timed: it needs Arb, libflint-arb-dev.")
     wanted = Wanted()
     wanted_rates(wanted, runs["rates"])
     wanted_ratios(wanted, runs["solvers"])

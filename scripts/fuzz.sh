@@ -20,7 +20,8 @@ Runs libFuzzer on the code that reads files written or damaged by others, on Deb
 $(help_lines "for the build (${BUILD_PACKAGES[*]})")
 $(help_lines "and for libFuzzer (${FUZZ_PACKAGES[*]}),")
   2. builds the fuzzers in build/fuzz with AddressSanitizer and UndefinedBehaviorSanitizer,
-  3. makes the seeds in build/fuzz/corpus from configs/, and small outputs and journals,
+  3. makes the seeds in build/fuzz/corpus from configs/ and tests/fuzz/certificates.jsonl, and small outputs and
+     journals,
   4. runs each fuzzer for SECONDS (60 unless given), as many side by side as there are cores,
   5. prints a table. Exit code 1: there is a finding; it is printed, with the command that repeats it.
 NAME is one of: ${all[*]}; or all, which is the default.
@@ -54,7 +55,7 @@ cmake --build --preset fuzz
 scratch=$(mktemp -d -p "$([[ -w /dev/shm ]] && echo /dev/shm || echo "${TMPDIR:-/tmp}")")
 trap 'rm -rf "$scratch"' EXIT
 rm -rf "$build/corpus"
-TMPDIR=$scratch "$build/tests/fuzz/fuzz_seeds" configs "$build/corpus"
+TMPDIR=$scratch "$build/tests/fuzz/fuzz_seeds" configs tests/fuzz/certificates.jsonl "$build/corpus"
 mkdir -p "$build/findings"
 
 # Sets `options` to those of one fuzzer.
@@ -62,7 +63,7 @@ choose_options() {
   case "$1" in
     toml | ini) options=(-max_len=8192 -dict="$build/corpus/words") ;;
     value) options=(-max_len=256 -dict="$build/corpus/words") ;;
-    journal) options=(-max_len=4096) ;;
+    journal | certificate) options=(-max_len=4096) ;;
     *) options=(-max_len=65536 -mutate_depth=2) ;;  # files, whose own mutations change several places at once
   esac
 }
@@ -86,7 +87,7 @@ for name in "${names[@]}"; do
 done
 
 found=()
-printf '\n%-8s %10s %8s %9s %9s\n' target runs seconds coverage findings
+printf '\n%-11s %10s %8s %9s %9s\n' target runs seconds coverage findings
 for name in "${names[@]}"; do
   findings=0
   wait "${process[$name]}" || { findings=1; found+=("$name"); }
@@ -94,7 +95,7 @@ for name in "${names[@]}"; do
   runs=$(sed -n 's/^stat::number_of_executed_units: *//p' "$log")
   took=$(sed -n 's/^Done .* runs in \([0-9]*\) second.*/\1/p' "$log")
   coverage=$(grep -o 'cov: [0-9]*' "$log" | tail -n 1 | cut -d ' ' -f 2 || true)
-  printf '%-8s %10s %8s %9s %9s\n' "$name" "${runs:--}" "${took:--}" "${coverage:--}" "$findings"
+  printf '%-11s %10s %8s %9s %9s\n' "$name" "${runs:--}" "${took:--}" "${coverage:--}" "$findings"
 done
 
 for name in "${found[@]}"; do

@@ -37,7 +37,7 @@ Event Course::found_for(const ClaimedEvent& claim) {
     return next_for(claim);
   } catch (const Undecided&) {
     if (motion_.stretches().size() != before ||
-        !motion_.is_clear_until(latest(claim.until ? *claim.until : claim.time)))
+        !motion_.is_clear_until(smaller(latest(claim.until ? *claim.until : claim.time), end_)))
       throw;
     return {Kind::end, claim.side, latest(claim.time), Ball(0), Ball(0)};
   }

@@ -39,6 +39,7 @@ void search(const Motion::Stretch& stretch, const Margin& x, Largest& largest) {
     bool operator<(const Part& other) const { return range.upper() < other.range.upper(); }
   };
   std::priority_queue<Part> parts;
+  slong parts_left = 256 + 16 * bits;  // of a wide set of states no part, however short, tells where it turns
   const auto add = [&](const Ball& from, const Ball& to, int depth) {
     const Ball range = Piece(stretch.flight, from, to).range(x, 0);
     if (!largest.exceeds(range)) parts.push({from, to, range, depth});
@@ -48,6 +49,7 @@ void search(const Motion::Stretch& stretch, const Margin& x, Largest& largest) {
     const Part part = parts.top();
     parts.pop();
     if (largest.exceeds(part.range)) return;
+    if (--parts_left < 0) return largest.add(part.range);
     const Piece piece(stretch.flight, part.from, part.to);
     const Ball rate = piece.range(x, 1);
     if (rate.is_positive() || rate.is_negative()) {

@@ -120,7 +120,8 @@ Ball instant_of(const Flow::Flight& flight, const Margin& margin, const Ball& be
     const Ball rate = Piece(flight, now.lower(), now.upper()).range(margin, 1);
     if (!rate.is_negative() && !rate.is_positive()) throw Undecided("the time of an event that is nearly a graze");
     const Ball next = now.within(guess - margin.of(there.x, there.v) / rate);
-    const bool done = next.radius() > 0.5 * now.radius() || rate.radius() < 1e-6 * std::abs(rate.near());
+    const double rounding = std::ldexp(std::abs(next.near()), 4 - static_cast<int>(bits));
+    const bool done = next.radius() > 0.5 * now.radius() || next.radius() <= rounding;
     now = next;
     if (done) break;
     guess = now.middle(), there = flight.at(guess);

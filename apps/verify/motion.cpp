@@ -202,7 +202,7 @@ Event Motion::graze(Side side, const Ball& about, const Ball& end) {
   };
   for (int halvings = 0; !turns_within(); half = half / Ball(2))
     if (++halvings > 30) {
-      const Ball until_then = about - state.time;
+      const Ball until_then = smaller(about, end) - state.time;
       if (until_then.is_positive() && first_crossing(flow(), all, list, until_then)) return next(end);
       throw Undecided("whether the motion turns at the stop");
     }

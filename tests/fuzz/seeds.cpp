@@ -1,4 +1,5 @@
-// Writes the seeds of the fuzzers, a folder for each, and a dictionary of words: fuzz_seeds CONFIGS CORPUS
+// Writes the seeds of the fuzzers, a folder for each, and a dictionary of words:
+// fuzz_seeds CONFIGS CERTIFICATES CORPUS
 #include <array>
 #include <cmath>
 #include <cstdio>
@@ -61,6 +62,14 @@ void write_configurations(const fs::path& configs, const fs::path& corpus) {
   }
   write_seed(corpus / "toml", "defaults", default_config(config::Format::toml));
   write_seed(corpus / "ini", "defaults", default_config(config::Format::ini));
+}
+
+/// Each line of a file of certificates.
+void write_certificates(const fs::path& certificates, const fs::path& corpus) {
+  std::ifstream file{certificates};
+  int number = 0;
+  for (std::string line; std::getline(file, line);) write_seed(corpus / "certificate", std::to_string(++number), line);
+  if (number == 0) throw std::runtime_error("no certificate in " + certificates.string());
 }
 
 /// Words for libFuzzer to insert: all those of configurations.
@@ -128,11 +137,13 @@ void write_files(const fs::path& corpus) {
 
 int main(int argc, char** argv) try {
   using namespace clatter::fuzz;
-  if (argc != 3) throw std::runtime_error("usage: fuzz_seeds CONFIGS CORPUS");
-  write_configurations(argv[1], argv[2]);
-  write_dictionary(argv[2]);
-  write_files(argv[2]);
-  for (const auto& [name, bytes] : journal_seeds()) write_seed(fs::path(argv[2]) / "journal", name, bytes);
+  if (argc != 4) throw std::runtime_error("usage: fuzz_seeds CONFIGS CERTIFICATES CORPUS");
+  const fs::path corpus = argv[3];
+  write_configurations(argv[1], corpus);
+  write_certificates(argv[2], corpus);
+  write_dictionary(corpus);
+  write_files(corpus);
+  for (const auto& [name, bytes] : journal_seeds()) write_seed(corpus / "journal", name, bytes);
   return 0;
 } catch (const std::exception& error) {
   std::fprintf(stderr, "fuzz_seeds: %s\n", error.what());
