@@ -43,12 +43,13 @@ struct BasicScene {
   }
 };
 
-/// The centre about which a scene is its own mirror image, exactly, and stays so if it changes.
+/// The centre about which a scene is its own mirror image, exactly, and stays so if it changes: a linear function of the
+/// parameter, too.
 template <class Number>
 [[nodiscard]] std::optional<Number> mirror_centre(const BasicScene<Number>& scene) {
   const auto& [lower, upper] = scene.stops;
   if (lower.has_value() != upper.has_value()) return std::nullopt;
-  if (scene.k.is_zero() && !scene.load.is_zero()) return std::nullopt;
+  if ((scene.k.is_zero() || !scene.k.is_constant()) && !scene.load.is_zero()) return std::nullopt;
   if (!lower) return scene.k.is_zero() ? Number(0) : scene.load / scene.k;
   const bool alike = lower->soft == upper->soft && (lower->R - upper->R).is_zero() &&
                      (lower->kappa - upper->kappa).is_zero() && (lower->zeta - upper->zeta).is_zero();

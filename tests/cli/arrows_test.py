@@ -1,7 +1,7 @@
 """Rooms of src include only their right-hand neighbours, and each has its own namespace:
 apps -> { results, accuracy, certificates }, results -> { config, plan }, config -> { branches, storage },
-certificates -> branches, { accuracy, branches, plan } -> sweep -> { lanes, attractors } -> point -> { steady, observables },
-steady -> stepping -> motion, observables -> motion -> model -> math."""
+certificates -> branches, { accuracy, branches, plan } -> sweep -> { lanes, attractors } -> point,
+point -> { steady, observables }, steady -> stepping -> motion, observables -> motion -> model -> math."""
 
 import os
 import re
