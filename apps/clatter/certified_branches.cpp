@@ -40,6 +40,12 @@ std::vector<branches::SpecialPoint> specials_of(const branches::Branches& found,
   return specials;
 }
 
+/// Whether a run from the start of an orbit comes back to it, since it doesn't stretch rounding much: if it doesn't,
+/// the orbit is no motion.
+bool must_return(const branches::BranchPoint& point) {
+  return std::hypot(point.multiplier_re[0], point.multiplier_im[0]) < 1e4;
+}
+
 }  // namespace
 
 CertifiedBranches::CertifiedBranches(const std::string& path) {
@@ -110,10 +116,13 @@ certificates::Tally CertifiedBranches::certify(const std::optional<std::size_t>&
     const branches::BranchPoint& point = found_.points[i];
     if (!settings_.across && is_graze(point))
       add({.status = steady::Status::grazing, .without = certificates::Without::graze}, true, i, point);
-    else
-      add(settings_.across ? certificates::certified(curve[i], settings_.along, start_)
-                           : certificates::certified(point, start_),
-          is_reproduced("", i, point), i, point);
+    else if (settings_.across)
+      add(certificates::certified(curve[i], settings_.along, start_), is_reproduced("", i, point), i, point);
+    else {
+      const certificates::CertifiedPoint found = certificates::certified(point, start_);
+      const bool returns = found.without != certificates::Without::rounding || !must_return(point);
+      add(found, returns && is_reproduced("", i, point), i, point);
+    }
   }
   for (const std::size_t i : chosen(found_.special.size(), sample)) {
     const branches::SpecialPoint& special = found_.special[i];

@@ -39,13 +39,15 @@ ErrorBounds::ErrorBounds(const point::Problem& problem, const RecordedMotion& mo
                       std::abs(result.v_min), std::abs(result.v_max)})),
       of_start_(periodic ? norm_of_return(motion.derivative) : 1.0),
       stretching_(std::max(1.0, norm(motion.derivative))) {
-  for (const Event& event : motion.events) stretching_ = std::max(stretching_, norm(event.derivative));
+  for (const Event& event : motion.events)
+    stretching_ = std::max({stretching_, norm(event.derivative), event.rounding[0], event.rounding[1]});
 }
 
-ErrorBounds::StateError ErrorBounds::error_after(const Jacobian<double>& derivative, double path) const {
-  const double rounding = of_arithmetic * std::min(size_, path);
-  return {of_start() * (std::abs(derivative[0]) + std::abs(derivative[1])) + rounding,
-          of_start() * (std::abs(derivative[2]) + std::abs(derivative[3])) + rounding};
+ErrorBounds::StateError ErrorBounds::error_after(const Jacobian<double>& derivative,
+                                                 const std::array<double, 2>& rounding, double path) const {
+  const double last = of_arithmetic * std::min(size_, path), before = of_arithmetic * size_;
+  return {of_start() * (std::abs(derivative[0]) + std::abs(derivative[1])) + last + before * rounding[0],
+          of_start() * (std::abs(derivative[2]) + std::abs(derivative[3])) + last + before * rounding[1]};
 }
 double ErrorBounds::time_error(double time) const {
   return of_arithmetic * (forcing_period_ + std::abs(begin_) + std::abs(time));
@@ -72,7 +74,7 @@ ClaimedEvent ErrorBounds::claimed(const Event& event, const ClaimedEvent* before
 
 /// The instant at which x, or x + q v where the force of a soft stop passes 0, reaches a place.
 ClaimedEvent ErrorBounds::claimed_contact(const Event& event, double since) const {
-  const StateError error = error_after(event.derivative, size_ * since);
+  const StateError error = error_after(event.derivative, event.rounding, size_ * since);
   const double a = acceleration(event);
   double off = error.x, rate = std::abs(event.velocity);
   if (event.kind == Kind::separation || event.kind == Kind::renewal) {
@@ -116,7 +118,7 @@ double ErrorBounds::release_error(const Event& event) const {
 }
 
 ClaimedEnd ErrorBounds::claimed_end(const RecordedMotion& motion) const {
-  const StateError error = error_after(motion.derivative, size_);
+  const StateError error = error_after(motion.derivative, motion.rounding, size_);
   return {begin_ + motion.duration, {motion.end.x, error.x}, {motion.end.v, error.v}};
 }
 

@@ -34,8 +34,9 @@ class ErrorBounds {
   struct StateError {
     double x, v;
   };
-  /// Of a state after a path since the event before, by the derivative of the motion.
-  [[nodiscard]] StateError error_after(const motion::Jacobian<double>& derivative, double path) const;
+  /// Of a state after a path since the event before, by the derivative of the motion and the rounding so far.
+  [[nodiscard]] StateError error_after(const motion::Jacobian<double>& derivative,
+                                       const std::array<double, 2>& rounding, double path) const;
   [[nodiscard]] double time_error(double time) const;
   [[nodiscard]] double place_of(const Event& event) const;
   [[nodiscard]] double acceleration(const Event& event) const;

@@ -1,5 +1,6 @@
 #include "certificates/events.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -26,11 +27,14 @@ void add(std::vector<Event>& events, Event event) {
 
 }  // namespace
 
-std::vector<Event> joined_events(const point::MotionRecorder& recorder, const Stops& stops) {
+std::vector<Event> joined_events(const point::MotionRecorder& recorder, const Stops& stops, Growth& growth) {
   std::vector<Event> events;
+  double since = 0.0;
   for (std::size_t i = 0; i < recorder.events.size(); ++i) {
-    const Event event{recorder.events[i],
-                      i < recorder.derivatives.size() ? recorder.derivatives[i] : motion::Jacobian<double>{1, 0, 0, 1}};
+    if (i < recorder.derivatives.size())
+      growth.pass(recorder.derivatives[i], std::min(1.0, recorder.events[i].time - since));
+    since = recorder.events[i].time + recorder.events[i].length;
+    const Event event{recorder.events[i], growth.derivative(), growth.rounding()};
     if (!(event.lasts() && is_soft(stops, event.side))) add(events, event);
   }
   return events;

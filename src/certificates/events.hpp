@@ -1,8 +1,9 @@
 #pragma once
 
+#include <array>
 #include <vector>
 
-#include "motion/perturbation.hpp"
+#include "certificates/growth.hpp"
 #include "point/exact_motion.hpp"
 
 namespace clatter::certificates {
@@ -10,6 +11,7 @@ namespace clatter::certificates {
 /// An event and the derivative of the motion from its start to the instant before it.
 struct Event : point::MotionEvent {
   motion::Jacobian<double> derivative{};
+  std::array<double, 2> rounding{};  ///< what that of earlier flights has grown to in x and v, in its units
 
   [[nodiscard]] double end() const { return time + length; }
   [[nodiscard]] bool is_rest() const { return kind == Kind::rest; }
@@ -20,6 +22,8 @@ struct Event : point::MotionEvent {
 /// The events of a record, in which each rest and each chatter is one event, however many sections cut it. A chatter
 /// follows an impact; a time on a stop that follows none, or a rest, is a rest, though its force be within rounding
 /// of 0. On a soft stop this is no event.
-[[nodiscard]] std::vector<Event> joined_events(const point::MotionRecorder& recorder, const Stops& stops);
+/// `growth` is of all of them, up to the last.
+[[nodiscard]] std::vector<Event> joined_events(const point::MotionRecorder& recorder, const Stops& stops,
+                                               Growth& growth);
 
 }  // namespace clatter::certificates

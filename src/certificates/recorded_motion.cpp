@@ -1,5 +1,7 @@
 #include "certificates/recorded_motion.hpp"
 
+#include <utility>
+
 #include "point/exact_motion.hpp"
 
 namespace clatter::certificates {
@@ -11,8 +13,10 @@ std::optional<RecordedMotion> recorded(const point::Problem& problem, double tur
   motion::State<double> state = motion->start();
   if (released != Side::none) state.released = true, state.from_stop = released;
   if (motion->run_for(state, turns, recorder) != stepping::Outcome::completed) return std::nullopt;
-  return RecordedMotion{joined_events(recorder, problem.stops), state, recorder.watch.derivative(),
-                        turns * motion->period()};
+  Growth growth;
+  std::vector<Event> events = joined_events(recorder, problem.stops, growth);
+  growth.pass(recorder.watch.derivative(), 0.0);
+  return RecordedMotion{std::move(events), state, growth.derivative(), growth.rounding(), turns * motion->period()};
 }
 
 }  // namespace clatter::certificates

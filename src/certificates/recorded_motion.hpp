@@ -13,6 +13,7 @@ struct RecordedMotion {
   std::vector<Event> events{};  ///< times since the start
   motion::State<double> end{};
   motion::Jacobian<double> derivative{};  ///< from the start to the end
+  std::array<double, 2> rounding{};       ///< of all flights but the last, grown to the end, as in `Event`
   double duration = 0.0;                  ///< tau
 };
 

@@ -57,17 +57,17 @@ class MotionRecorder {
   }
 
   void keep_events() { keeps_events_ = true; }
-  /// Keeps them with the derivative of the motion from here to each.
+  /// Keeps them with the derivative of the motion to each from the one before, the first from here.
   void keep_derivatives() { keeps_events_ = keeps_derivatives_ = true, watch.differentiate(); }
 
   steady::PassageObserver watch;
   std::vector<MotionEvent> events{};                    ///< in order, if they are kept
-  std::vector<motion::Jacobian<double>> derivatives{};  ///< before each of them, if they are kept
+  std::vector<motion::Jacobian<double>> derivatives{};  ///< of the state before each of them by that before the last
 
  private:
   void add(const MotionEvent& event) {
     if (keeps_events_) events.push_back(event);
-    if (keeps_derivatives_) derivatives.push_back(watch.derivative());
+    if (keeps_derivatives_) derivatives.push_back(watch.derivative()), watch.begin_derivative_anew();
   }
 
   bool keeps_events_ = false, keeps_derivatives_ = false;

@@ -59,6 +59,9 @@ class PassageObserver {
   /// Begins to compute the derivative anew, from here.
   void differentiate() { differentiates_ = true, tangent_ = motion::TangentMap<double>(stops_); }
 
+  /// Makes the derivative that from here on, within an event, too.
+  void begin_derivative_anew() { tangent_.begin_anew(); }
+
   [[nodiscard]] const Passage& passage() const { return passage_; }  ///< since the section
   [[nodiscard]] motion::Jacobian<double> derivative() const { return tangent_.map(); }
 

@@ -5,7 +5,6 @@ import os
 import subprocess
 from pathlib import Path
 
-from random_scenes import random_scenes
 from scene_runs import keys_of, numbers
 
 CLATTER, VERIFY = os.environ["CLATTER"], os.environ.get("CLATTER_VERIFY", "")
@@ -46,9 +45,9 @@ def certified_scenes(folder, scenes, time):
     return whole
 
 
-def random_certificates(folder, count, seed):
-    """Certificates of the steady motions and of transients of random scenes."""
+def random_certificates(folder, scenes):
+    """Certificates of the steady motions and of transients of scenes."""
     for name, time in (("steady", "max_periods = 600\n"), ("transient", 'mode = "transient"\nduration = 30\n')):
         place = Path(folder) / name
-        place.mkdir()
-        yield certified_scenes(place, random_scenes(count, seed), time)
+        place.mkdir(parents=True)
+        yield certified_scenes(place, scenes, time)

@@ -120,6 +120,57 @@ def random_scenes(count, seed):
     return [drawn(draw) for _ in range(count)]
 
 
+def compliant(draw):
+    """Strongly damped soft stops: contacts that are interrupted, and a mass that a load presses into one."""
+    gap = logarithmic(draw, 0.1, 2)
+    scene = Scene(h=draw.choice([0.0, logarithmic(draw, 1e-3, 0.5)]), nu=draw.uniform(1, 8), f=draw.uniform(0.3, 8))
+    scene.stop_lower = -gap
+    scene.stop_stiffness_lower, scene.stop_damping_lower = logarithmic(draw, 1.2, 100), draw.uniform(0.5, 5)
+    scene.load = -draw.uniform(0, 1) * (1 + gap)
+    scene.x0, scene.v0 = draw.uniform(-gap, 0.4 * gap), draw.uniform(-2, 2)
+    if draw.random() < 0.5:
+        scene.stop_upper = gap * draw.uniform(0.5, 2)
+        scene.stop_stiffness_upper, scene.stop_damping_upper = logarithmic(draw, 1.2, 100), draw.uniform(0.5, 5)
+    elif draw.random() < 0.5:
+        scene.load = -gap - scene.f * draw.uniform(0.3, 1.5)
+    return scene
+
+
+def compliant_scenes(count, seed):
+    draw = random.Random(seed)
+    return [compliant(draw) for _ in range(count)]
+
+
+def close_scenes(count, seed):
+    """Rigid stops that are close to each other, so that a step passes both."""
+    draw = random.Random(seed)
+    scenes = []
+    for _ in range(count):
+        scene = Scene(h=draw.choice([0.0, logarithmic(draw, 1e-3, 0.5)]), nu=logarithmic(draw, 0.3, 3))
+        scene.f, scene.load = draw.choice([-1, 1]) * logarithmic(draw, 0.03, 3), draw.uniform(-1, 1)
+        scene.stop_lower = draw.uniform(-0.5, 0.5)
+        scene.stop_upper = scene.stop_lower + logarithmic(draw, 0.01, 0.2)
+        scene.R_lower, scene.R_upper = draw.uniform(0.5, 1), draw.uniform(0.5, 1)
+        scene.x0 = draw.uniform(scene.stop_lower, scene.stop_upper)
+        scene.v0 = draw.choice([-1, 1]) * draw.uniform(0.5, 2)
+        scenes.append(scene)
+    return scenes
+
+
+def pressing_scenes(count, seed):
+    """A fast force, and a load that presses the mass on a stop: chatter that contracts errors, and flights that stretch
+    them again."""
+    draw = random.Random(seed)
+    scenes = []
+    for _ in range(count):
+        scene = Scene(h=draw.choice([0.0, logarithmic(draw, 1e-3, 0.5)]), nu=logarithmic(draw, 2, 12), stop_lower=0.0)
+        scene.f, scene.phase = logarithmic(draw, 0.3, 3), draw.uniform(-math.pi, math.pi)
+        scene.load, scene.R_lower = -scene.f * draw.uniform(0.2, 1.3), 1 - logarithmic(draw, 0.01, 0.6)
+        scene.x0, scene.v0 = draw.uniform(0, 0.3), draw.uniform(-1, 1)
+        scenes.append(scene)
+    return scenes
+
+
 def followed_scenes(count, seed):
     """Forced ones, at rest in the ground's frame."""
     draw = random.Random(seed)

@@ -13,6 +13,7 @@ import unittest
 from certified_runs import VERIFY, certified, random_certificates, verified
 from command_line import LONGEST, SOURCE, CommandLine
 from forgeries import FORGERIES, forged
+from random_scenes import close_scenes, compliant_scenes, pressing_scenes, random_scenes
 
 SCENES = int(os.environ.get("CLATTER_VERIFIED", "150"))
 IS_LONG = SCENES > 1000
@@ -167,10 +168,18 @@ class Verify(CommandLine):
                 self.assert_proved(verified(file), 30, undecided)
 
     def test_random_scenes_are_proved(self):
-        for file in random_certificates(self.directory, SCENES, seed=43):
-            count = len(file.read_text(encoding="utf-8").splitlines())
-            self.assertGreater(count, SCENES // 2)
-            self.assert_proved(verified(file), 0.99 * count, undecided=count // 100)
+        few = SCENES // 4
+        for name, scenes in (
+            ("any", random_scenes(SCENES, seed=43)),
+            ("compliant", compliant_scenes(few, seed=44)),
+            ("close", close_scenes(few, seed=45)),
+            ("pressing", pressing_scenes(few, seed=46)),
+        ):
+            for file in random_certificates(self.directory / name, scenes):
+                with self.subTest(file):
+                    count = len(file.read_text(encoding="utf-8").splitlines())
+                    self.assertGreater(count, len(scenes) // 4)
+                    self.assert_proved(verified(file), 0.98 * count, undecided=count // 50)
 
     def test_every_forgery_is_refuted(self):
         lines, kinds = [], []

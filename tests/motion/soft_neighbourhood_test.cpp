@@ -226,6 +226,11 @@ TEST(SoftNeighbourhood, encloses_motions_that_begin_or_end_near_an_event) {
   EXPECT_GT(tally.touched, tally.proved / 2);
 }
 
+TEST(SoftNeighbourhood, counts_the_velocity_in_the_margin_of_a_force_that_nearly_falls_to_zero) {
+  Tally tally;
+  for (const std::uint64_t i : {6126u, 9630u}) check(close_case(34, i), i, tally);
+}
+
 /// A displacement and a velocity in 50 digits.
 struct Exactly {
   FiftyDigits x, v;
