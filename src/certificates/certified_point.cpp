@@ -40,6 +40,12 @@ Certificate claims_of(const Problem& problem, const RecordedMotion& motion, cons
   return certificate;
 }
 
+/// Drops a certificate whose errors are so large that it says nothing.
+void keep_if_known(CertifiedPoint& point, const ErrorBounds& bounds) {
+  point.without = bounds.tell(*point.certificate) ? Without::none : Without::rounding;
+  if (point.without != Without::none) point.certificate.reset();
+}
+
 bool is_cut(const RecordedMotion& motion) {
   return !motion.events.empty() && motion.events.back().kind == Kind::chatter &&
          motion.events.back().end() >= motion.duration * (1 - 1e-12);
@@ -55,7 +61,7 @@ void certify_transient(const Problem& problem, const PointResult& result, Certif
   const ErrorBounds bounds(problem, *motion, result, 0.0, false);
   point.certificate = claims_of(problem, *motion, bounds, result);
   point.certificate->end = bounds.claimed_end(*motion);
-  point.without = Without::none;
+  keep_if_known(point, bounds);
 }
 
 /// The problem of a periodic motion that begins `start.time` after a section.
@@ -124,7 +130,7 @@ void certify_periodic(const Problem& problem, const PointResult& result, Certifi
   point.certificate->x_error = point.certificate->v_error = bounds.of_start();
   point.certificate->time = time, point.certificate->released = start.released;
   point.certificate->period = claimed_period(result, bounds, start.released != Side::none || start.rests_for_ever);
-  point.without = Without::none;
+  keep_if_known(point, bounds);
 }
 
 }  // namespace

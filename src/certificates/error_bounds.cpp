@@ -117,6 +117,16 @@ double ErrorBounds::release_error(const Event& event) const {
   return time_error(event.end()) + of_state * largest / rate;
 }
 
+bool ErrorBounds::tell(const Certificate& certificate) const {
+  constexpr double small = 1e-3;
+  const auto known = [](const Claimed& claim, double scale) { return claim.error <= small * scale; };
+  const auto& end = certificate.end;
+  return certificate.x_error <= small * size_ && known(certificate.x_min, size_) && known(certificate.x_max, size_) &&
+         (!end || (known(end->x, size_) && known(end->v, size_))) &&
+         std::ranges::all_of(certificate.events,
+                             [&](const ClaimedEvent& event) { return known(event.time, forcing_period_); });
+}
+
 ClaimedEnd ErrorBounds::claimed_end(const RecordedMotion& motion) const {
   const StateError error = error_after(motion.derivative, motion.rounding, size_);
   return {begin_ + motion.duration, {motion.end.x, error.x}, {motion.end.v, error.v}};

@@ -23,6 +23,8 @@ class ErrorBounds {
   [[nodiscard]] bool know_the_start() const { return of_start_ < 1e10; }
   /// Of x and of v at the start.
   [[nodiscard]] double of_start() const { return of_state * size_ * of_start_; }
+  /// Whether the errors of a motion's claims are small beside it, so that they say something.
+  [[nodiscard]] bool tell(const Certificate& certificate) const;
   [[nodiscard]] ClaimedEnd claimed_end(const RecordedMotion& motion) const;
   [[nodiscard]] Claimed claimed_extremum(double x) const;
   /// Of motion that rests both are 0.
