@@ -22,7 +22,7 @@ tests/stepping or tests/cli; build first (scripts/test.sh). NAME is one of
   releases     the periods and impacts of COUNT scenes that rest now and then, in 60 digits
                (default 300; about 0.5 s each)
   verify       COUNT random scenes certified and proved by clatter-verify, and all points of the shipped
-               configurations and branches (default 10000; about 20 ms each)
+               configurations and branches (default 100000; about 25 ms each)
   scenes       all hard scenes proved by clatter-verify and written anew (no COUNT; about 5 minutes)
   starts       tests/regression on every instruction set with all starts of basins and zones, of which
                ctest runs all on the widest set only (no COUNT; about 2 minutes)
@@ -42,7 +42,7 @@ case "${1-}" in
   disks) filter=faults_test.Faults.test_a_disk_that_is_full_at_any_size_loses_nothing count=100 ;;
   combinations) filter=combinations_test.Combinations count=3000 ;;
   releases) filter=releases_test.Releases.test_random_rests_are_told_as_60_digits_tell_them count=300 ;;
-  verify) filter=verify_test.Verify count=10000 ;;
+  verify) filter=verify_test.Verify count=100000 ;;
   scenes) filter=hard_scenes_test.HardScenes count=1 ;;
   starts) filter=regress_test.Regress.test_the_committed_baseline_holds_on_every_instruction_set count=1 ;;
   -h | --help) usage; exit 0 ;;
