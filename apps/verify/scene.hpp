@@ -43,8 +43,8 @@ struct BasicScene {
   }
 };
 
-/// The centre about which a scene is its own mirror image, exactly, and stays so if it changes: a linear function of the
-/// parameter, too.
+/// The centre about which a scene is its own mirror image, exactly, and stays so if it changes: a linear function of
+/// the parameter, too.
 template <class Number>
 [[nodiscard]] std::optional<Number> mirror_centre(const BasicScene<Number>& scene) {
   const auto& [lower, upper] = scene.stops;
