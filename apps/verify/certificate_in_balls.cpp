@@ -1,0 +1,71 @@
+#include <array>
+#include <charconv>
+
+#include "certificate.hpp"
+
+namespace verify {
+
+Ball Number::ball() const {
+  if (const double* const value = std::get_if<double>(&value_)) return Ball(*value);
+  Ball ball;
+  if (!Ball::read(std::get<std::string>(value_), ball)) throw FormatError("a number that can't be read");
+  return ball;
+}
+
+std::string Number::text() const {
+  if (const auto* const text = std::get_if<std::string>(&value_)) return *text;
+  std::array<char, 32> buffer{};
+  const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), std::get<double>(value_)).ptr;
+  return {buffer.data(), end};
+}
+
+namespace {
+
+/// A scene of the numbers that `of(member, stop)` gives; stop -1: a number of the scene itself.
+template <class T, class Of>
+BasicScene<T> scene_made(const Certificate::SceneNumbers& shape, const Of& of) {
+  using In = Certificate::SceneNumbers;
+  using At = Certificate::StopNumbers;
+  const auto of_scene = [&](Number In::*member) { return of([=](const In& in) { return in.*member; }); };
+  BasicScene<T> scene{of_scene(&In::h),
+                      of_scene(&In::k),
+                      of_scene(&In::f),
+                      of_scene(&In::nu),
+                      of_scene(&In::load),
+                      of_scene(&In::phase),
+                      {}};
+  for (std::size_t i = 0; i < 2; ++i) {
+    if (!shape.stops[i]) continue;
+    const auto of_stop = [&](Number At::*member) {
+      return of([=](const In& in) { return in.stops[i] ? *in.stops[i].*member : Number(); });
+    };
+    BasicStop<T> stop{of_stop(&At::position), shape.stops[i]->soft, T(0), T(0), T(0), T(0)};
+    if (stop.soft)
+      stop.kappa = of_stop(&At::stiffness), stop.zeta = of_stop(&At::damping), stop.h_s = stop.zeta * sqrt(stop.kappa);
+    else
+      stop.R = of_stop(&At::R);
+    scene.stops[i] = stop;
+  }
+  return scene;
+}
+
+}  // namespace
+
+Scene Certificate::scene_in_balls() const {
+  return scene_made<Ball>(scene, [&](const auto& number_in) { return number_in(scene).ball(); });
+}
+
+MovingScene Certificate::moving_scene(const Ball& offset) const {
+  return scene_made<Dual>(scene, [&](const auto& number_in) {
+    const Ball slope = number_in(special->slopes).ball();
+    const Ball here = number_in(scene).ball();
+    return slope.is_zero() ? Dual(here) : Dual(here + slope * offset, slope);
+  });
+}
+
+Start Certificate::start_in_balls() const {
+  return {start_time.ball(), start_x.value.ball(), start_v.value.ball(), released.has_value(),
+          released.value_or(Side::lower)};
+}
+
+}  // namespace verify
