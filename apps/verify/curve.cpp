@@ -135,7 +135,7 @@ void Curve::find_centre() {
   box_ = {width(along_.x, all.x), width(along_.v, all.v), width(along_.p, all.p)};
 }
 
-/// What Newton's step leaves of a displacement, by the derivatives over all of a box.
+/// The part of a displacement that Newton's step leaves, by the derivatives over all of a box.
 std::array<Place, 3> Curve::rest_over(const Place& box) const {
   const Passage all = pass(box);
   const Rows slope = transposed({all.row_x, all.row_v, along_});

@@ -11,7 +11,7 @@
 
 namespace clatter::certificates {
 
-/// What a certificate is of, for people.
+/// The point of a certificate, for people.
 struct CertifiedPlace {
   std::size_t number = 0;                            ///< of the point, or of the special point
   std::optional<std::size_t> branch{};               ///< that it is on

@@ -11,7 +11,7 @@ namespace clatter::certificates {
 /// An event and the derivative of the motion from its start to the instant before it.
 struct Event : point::MotionEvent {
   motion::Jacobian<double> derivative{};
-  std::array<double, 2> rounding{};  ///< what that of earlier flights has grown to in x and v, in its units
+  std::array<double, 2> rounding{};  ///< that of earlier flights as it has grown, in x and v, in its units
 
   [[nodiscard]] double end() const { return time + length; }
   [[nodiscard]] bool is_rest() const { return kind == Kind::rest; }

@@ -25,7 +25,7 @@ class Growth {
   }
 
   [[nodiscard]] const motion::Jacobian<double>& derivative() const { return derivative_; }  ///< from the start
-  /// What the rounding of earlier flights has grown to, in x and in v: the root of the sum of squares.
+  /// The rounding of earlier flights as it has grown, in x and in v: the root of the sum of squares.
   [[nodiscard]] const std::array<double, 2>& rounding() const { return before_; }
 
  private:
