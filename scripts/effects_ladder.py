@@ -8,7 +8,7 @@ import sys
 
 from readme_table import SOURCE, add_build, program, replaced, section
 
-README = SOURCE / "src" / "model" / "README.md"
+README = SOURCE / "src" / "scene" / "README.md"
 NAME = "effects ladder"
 HEAD = """\
 | effects of the scene | left out | set | impacts | rests | evaluations | time | ÷ kept in | ÷ all effects |
@@ -66,7 +66,7 @@ def main():
     )
     add_build(parser)
     parser.add_argument(
-        "--write", action="store_true", help="put the table into src/model/README.md instead of printing it"
+        "--write", action="store_true", help="put the table into src/scene/README.md instead of printing it"
     )
     parser.add_argument(
         "--repetitions", type=int, default=51, help="of each benchmark, in random order; medians count (default: 51)"

@@ -128,7 +128,7 @@ std::string accuracy_json(const accuracy::PointAccuracy& of_point, const sweep::
     for (const auto& [name, long_name, value] : accuracy::row_variables()) put(name, row.*value);
     out << ", \"status\": " << static_cast<int>(row.status) << ", \"point\": " << point;
     each_coordinate(sweep, point,
-                    [&](const sweep::Axis& axis, double value) { put(std::string(key_of(axis.parameter)), value); });
+                    [&](const sweep::Axis& axis, double value) { put(std::string(axis.parameter.key()), value); });
     for (const auto& [name, long_name, value] : accuracy::point_variables()) put(name, of_point.*value);
     out << "}\n";
   }

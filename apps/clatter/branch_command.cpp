@@ -16,15 +16,10 @@
 namespace clatter::app {
 namespace {
 
-using branches::Followed;
 using branches::SpecialPoint;
 
-double user_value(const branches::ShakenScene& scene, const Followed& followed) {
-  return followed.to_user(branches::value_of(scene, followed.parameter));
-}
-
 /// {"kind": "fold", "nu": 1.42, ..., "multipliers": [[1, 0], [0.1, 0]]}: one line; real and imaginary parts.
-std::string special_json(const SpecialPoint& special, const std::vector<Followed>& parameters, const Units& units) {
+std::string special_json(const SpecialPoint& special, const std::vector<Parameter>& parameters, const Units& units) {
   const branches::BranchPoint& at = special.at;
   const PhasePoint state = branches::state_at_phase_zero(at.scene, at.orbit);
   const auto pair = [](double re, double im) { return '[' + json_number(re) + ", " + json_number(im) + ']'; };
@@ -32,8 +27,8 @@ std::string special_json(const SpecialPoint& special, const std::vector<Followed
   for (const std::size_t branch : special.branches) numbers += (numbers.empty() ? "" : ", ") + std::to_string(branch);
   std::string values;
   const double velocity = factor_of(units, Quantity::velocity);
-  for (const Followed& followed : parameters)
-    values += ", " + json_text(std::string(followed.name())) + ": " + json_number(user_value(at.scene, followed));
+  for (const Parameter parameter : parameters)
+    values += ", " + json_text(std::string(parameter.key())) + ": " + json_number(value_of(at.scene, parameter));
   return "{\"kind\": " + json_text(std::string(name_of(special.kind))) + values +
          ", \"impact_speed\": " + json_number(velocity * branches::impact_speed(special.at.orbit)) +
          ", \"x\": " + json_number(state.x) + ", \"v\": " + json_number(velocity * state.v) +
@@ -44,12 +39,12 @@ std::string special_json(const SpecialPoint& special, const std::vector<Followed
 }
 
 /// "fold                  nu = 1.42486182628998  speed 1.72122564705845  LU  branch 0"
-std::string special_text(const SpecialPoint& special, const std::vector<Followed>& parameters, const Units& units) {
+std::string special_text(const SpecialPoint& special, const std::vector<Parameter>& parameters, const Units& units) {
   std::string text(name_of(special.kind));
   const std::string word = special.at.orbit.word();
   text.resize(22, ' ');
-  for (const Followed& followed : parameters)
-    text += std::string(followed.name()) + " = " + formatted("%-18.15g", user_value(special.at.scene, followed)) + ' ';
+  for (const Parameter parameter : parameters)
+    text += std::string(parameter.key()) + " = " + formatted("%-18.15g", value_of(special.at.scene, parameter)) + ' ';
   const double speed = factor_of(units, Quantity::velocity) * branches::impact_speed(special.at.orbit);
   text += "speed " + formatted("%-18.15g", speed) + ' ' + (word.empty() ? "no impacts" : word) +
           (parameters.size() > 1 ? "  curve" : "  branch");
@@ -59,8 +54,8 @@ std::string special_text(const SpecialPoint& special, const std::vector<Followed
 }
 
 /// "nu = 0.91"
-std::string place_of(const branches::ShakenScene& scene, const Followed& followed) {
-  return std::string(followed.name()) + " = " + formatted("%.9g", user_value(scene, followed));
+std::string place_of(const branches::FollowedScene& scene, const Parameter parameter) {
+  return std::string(parameter.key()) + " = " + formatted("%.9g", value_of(scene, parameter));
 }
 
 /// "mine.toml: branch 2 stops at nu = 0.91: branch.max_points is spent"
@@ -81,9 +76,9 @@ const branches::BranchSettings& branch_of(const config::Config& config, const st
                      "--set branch.range='0.8, 1.5'");
   if (!config.sweep.dimensions.empty())
     throw UsageError(storage::printable(file) + ": [sweep] has the axis " +
-                     std::string(sweep::key_of(config.sweep.dimensions[0][0].parameter)) +
+                     std::string(config.sweep.dimensions[0][0].parameter.key()) +
                      ", and a branch is followed at one value of it; give that in [" +
-                     std::string(config.branch->along.section) + ']');
+                     (config.sweep.problem.is_si ? "machine]" : "scene]"));
   return *config.branch;
 }
 
@@ -95,7 +90,7 @@ int run_branch(const Arguments& arguments) {
   const branches::BranchSettings& settings = branch_of(config, file);
   const results::OutputPlace place(output, {.command = "branch", .title = config.title}, arguments.has("force"));
   storage::require_idle(output);
-  const point::Problem start = branches::start_problem(config.sweep);
+  const branches::StartProblem start(config.sweep.problem);
   branches::Branches found;
   try {
     found = settings.across ? branches::follow_curves(start, settings) : branches::follow_branches(start, settings);
@@ -103,7 +98,7 @@ int run_branch(const Arguments& arguments) {
     std::cerr << storage::printable(file) << ": " << error.what() << '\n';
     return points_failed;
   }
-  std::vector<Followed> parameters{settings.along};
+  std::vector<Parameter> parameters{settings.along};
   if (settings.across) parameters.push_back(*settings.across);
   // before anything is printed, as a reader such as head may close the pipe
   place.write_atomically(results::file_image(branch_dataset(found, settings, start.units), config).bytes);

@@ -53,12 +53,12 @@ CertifiedBranches::CertifiedBranches(const std::string& path) {
   const config::Config config = config_of_output(summary, path);
   if (!config.branch)
     storage::refuse_reading(path, "has no [branch] in its configuration", "follow its configuration again");
-  sweep_ = config.sweep, settings_ = *config.branch, start_ = branches::start_problem(sweep_);
-  const std::string name(settings_.along.name());
+  sweep_ = config.sweep, settings_ = *config.branch, start_.emplace(sweep_.problem);
+  const std::string name(settings_.along.key());
   results_ = results::read_variables(path, {name, "x", "v", "special_" + name, "special_x", "special_v"});
   try {
     found_ =
-        settings_.across ? branches::follow_curves(start_, settings_) : branches::follow_branches(start_, settings_);
+        settings_.across ? branches::follow_curves(*start_, settings_) : branches::follow_branches(*start_, settings_);
   } catch (const branches::StartError& error) {
     storage::refuse_reading(path, std::string("can't be followed anew: ") + error.what(),
                             "follow its configuration again");
@@ -69,11 +69,11 @@ bool CertifiedBranches::is_reproduced(const std::string& prefix, std::size_t num
                                       const branches::BranchPoint& point) const {
   constexpr double same = 1e-9;
   const PhasePoint state = branches::state_at_phase_zero(point.scene, point.orbit);
-  const double velocity = factor_of(start_.units, Quantity::velocity);
-  const double parameter = settings_.along.to_user(value_of(point.scene, settings_.along.parameter));
+  const double velocity = factor_of(start_->units, Quantity::velocity);
+  const double parameter = value_of(point.scene, settings_.along);
   const double size = std::abs(velocity * state.v) + std::abs(state.x) + std::abs(parameter);
-  for (const auto& [name, value] : {std::pair<std::string, double>{settings_.along.name(), parameter},
-                                    {"x", factor_of(start_.units, Quantity::length) * state.x},
+  for (const auto& [name, value] : {std::pair<std::string, double>{settings_.along.key(), parameter},
+                                    {"x", factor_of(start_->units, Quantity::length) * state.x},
                                     {"v", velocity * state.v}}) {
     const auto* const told = values_of<double>(results_, prefix + name);
     if (told == nullptr || number >= told->size() || !(std::abs((*told)[number] - value) <= same * size)) return false;
@@ -82,20 +82,19 @@ bool CertifiedBranches::is_reproduced(const std::string& prefix, std::size_t num
 }
 
 bool CertifiedBranches::is_graze(const branches::BranchPoint& point) const {
-  const double value = value_of(point.scene, settings_.along.parameter);
+  const double value = value_of(point.scene, settings_.along);
   return std::ranges::any_of(found_.special, [&](const branches::SpecialPoint& special) {
     return special.kind == branches::SpecialKind::graze &&
-           std::abs(value_of(special.at.scene, settings_.along.parameter) - value) <= 1e-12 * std::abs(value) &&
+           std::abs(value_of(special.at.scene, settings_.along) - value) <= 1e-12 * std::abs(value) &&
            std::ranges::count(special.branches, point.branch) > 0;
   });
 }
 
 certificates::CertifiedPlace CertifiedBranches::place_of(std::size_t number, const branches::BranchPoint& point) const {
-  certificates::CertifiedPlace place{.number = number, .branch = point.branch, .machine = sweep_.machine};
-  const auto add = [&](const branches::Followed& followed) {
-    const double value = followed.to_user(value_of(point.scene, followed.parameter));
-    place.at.emplace_back(followed.name(), value);
-    if (place.machine) (void)sweep::set(*place.machine, followed.given, value);
+  certificates::CertifiedPlace place{.number = number, .branch = point.branch};
+  if (sweep_.problem.is_si) place.machine = point.scene.given;
+  const auto add = [&](Parameter parameter) {
+    place.at.emplace_back(parameter.key(), value_of(point.scene, parameter));
   };
   add(settings_.along);
   if (settings_.across) add(*settings_.across);
@@ -117,16 +116,16 @@ certificates::Tally CertifiedBranches::certify(const std::optional<std::size_t>&
     if (!settings_.across && is_graze(point))
       add({.status = steady::Status::grazing, .without = certificates::Without::graze}, true, i, point);
     else if (settings_.across)
-      add(certificates::certified(curve[i], settings_.along, start_), is_reproduced("", i, point), i, point);
+      add(certificates::certified(curve[i], settings_.along, *start_), is_reproduced("", i, point), i, point);
     else {
-      const certificates::CertifiedPoint found = certificates::certified(point, start_);
+      const certificates::CertifiedPoint found = certificates::certified(point, *start_);
       const bool returns = found.without != certificates::Without::rounding || !must_return(point);
       add(found, returns && is_reproduced("", i, point), i, point);
     }
   }
   for (const std::size_t i : chosen(found_.special.size(), sample)) {
     const branches::SpecialPoint& special = found_.special[i];
-    add(certificates::certified(special, settings_.along, start_), is_reproduced("special_", i, special.at), i,
+    add(certificates::certified(special, settings_.along, *start_), is_reproduced("special_", i, special.at), i,
         special.at);
   }
   return tally;

@@ -35,7 +35,7 @@ class CertifiedBranches {
 
   sweep::Sweep sweep_;
   branches::BranchSettings settings_;
-  point::Problem start_;
+  std::optional<branches::StartProblem> start_{};
   branches::Branches found_;
   sweep::Dataset results_{};
 };

@@ -24,10 +24,11 @@ bool has(const results::FileSummary& summary, std::string_view name) {
 
 /// The values of the axes of a point, in the user's units, and its machine.
 certificates::CertifiedPlace place_of(const sweep::Sweep& sweep, std::size_t point) {
-  certificates::CertifiedPlace place{.number = point, .machine = sweep.machine};
+  certificates::CertifiedPlace place{.number = point};
+  if (sweep.problem.is_si) place.machine = sweep.problem;
   each_coordinate(sweep, point, [&](const sweep::Axis& axis, double value) {
-    place.at.emplace_back(key_of(axis.parameter), value);
-    if (place.machine) (void)set(*place.machine, axis.parameter, value);
+    place.at.emplace_back(axis.parameter.key(), value);
+    if (place.machine) set(*place.machine, axis.parameter, value);
   });
   if (sweep.direction == sweep::Direction::both) place.direction = point < size_one_way(sweep) ? "up" : "down";
   return place;

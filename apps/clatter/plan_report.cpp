@@ -23,8 +23,8 @@ std::string range(const plan::Bounds& estimate, const char* format) {
 }
 
 std::string axis_text(const sweep::Axis& axis, bool is_si) {
-  const std::string_view unit = unit_of(axis.quantity, is_si);
-  return std::string(key_of(axis.parameter)) + " (" + std::to_string(axis.values.size()) + " from " +
+  const std::string_view unit = unit_of(axis.parameter.row().quantity, is_si);
+  return std::string(axis.parameter.key()) + " (" + std::to_string(axis.values.size()) + " from " +
          formatted("%.10g", axis.values.front()) + " to " + formatted("%.10g", axis.values.back()) +
          (is_si && unit != "1" ? ' ' + std::string(unit) : "") + ')';
 }
@@ -39,7 +39,7 @@ std::string axes_text(const sweep::Sweep& sweep) {
   for (const sweep::Dimension& dimension : sweep.dimensions) {
     text += text.empty() ? "" : " x ";
     for (std::size_t i = 0; i < dimension.size(); ++i)
-      text += (i > 0 ? " with " : "") + axis_text(dimension[i], sweep.machine.has_value());
+      text += (i > 0 ? " with " : "") + axis_text(dimension[i], sweep.problem.is_si);
   }
   if (sweep.follow)
     text += ", following " + std::string(name_of(sweep.dimensions[*sweep.follow])).append(way_text(sweep));
@@ -216,7 +216,7 @@ std::string plan_json(const plan::Plan& plan, const sweep::Sweep& sweep, int thr
       << ",\n  \"mirror_images\": " << plan.mirror_images << ",\n  \"dimensions\": ";
   list(out, sweep.dimensions, [&](const sweep::Dimension& dimension) {
     list(out, dimension, [&](const sweep::Axis& axis) {
-      out << "{\"key\": " << json_text(std::string(key_of(axis.parameter))) << ", \"length\": " << axis.values.size()
+      out << "{\"key\": " << json_text(std::string(axis.parameter.key())) << ", \"length\": " << axis.values.size()
           << ", \"first\": " << json_number(axis.values.front()) << ", \"last\": " << json_number(axis.values.back())
           << '}';
     });

@@ -31,7 +31,7 @@ struct TimeIsUp {};
 /// So many values of an axis, the middles of equal parts.
 sweep::Axis thinned(const sweep::Axis& axis, std::size_t kept) {
   const std::size_t length = axis.values.size();
-  sweep::Axis some{axis.parameter, {}, axis.quantity};
+  sweep::Axis some{axis.parameter, {}};
   for (std::size_t i = 0; i < kept; ++i) some.values.push_back(axis.values[(2 * i + 1) * length / (2 * kept)]);
   return some;
 }
@@ -52,7 +52,7 @@ std::vector<std::size_t> kept_values(const std::vector<sweep::Dimension>& dimens
 
 /// A sweep over about so many points of another one.
 sweep::Sweep thinned(const sweep::Sweep& sweep, double points) {
-  sweep::Sweep some{sweep.problem, {}, sweep.follow, sweep.direction, sweep.start_period, sweep.machine};
+  sweep::Sweep some{sweep.problem, {}, sweep.follow, sweep.direction};
   const std::vector<std::size_t> kept = kept_values(sweep.dimensions, points);
   for (std::size_t i = 0; i < kept.size(); ++i) {
     sweep::Dimension& dimension = some.dimensions.emplace_back();

@@ -5,9 +5,9 @@
 #include <span>
 #include <vector>
 
-#include "model/displacement_bound.hpp"
 #include "observables/impact_word.hpp"
 #include "point/problem.hpp"
+#include "scene/displacement_bound.hpp"
 #include "steady/orbit.hpp"
 
 namespace clatter::attractors {

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "attractors/tracked_motion.hpp"
-#include "model/scene.hpp"
+#include "scene/scene.hpp"
 
 namespace clatter::attractors {
 namespace {

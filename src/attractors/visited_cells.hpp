@@ -5,7 +5,7 @@
 #include <span>
 #include <unordered_set>
 
-#include "model/displacement_bound.hpp"
+#include "scene/displacement_bound.hpp"
 
 namespace clatter::attractors {
 

@@ -18,13 +18,13 @@ constexpr std::string_view closed_curve = "closed", no_step_off = "no step leads
 /// Everything about following one branch after the other.
 class Follower {
  public:
-  Follower(const point::Problem& problem, const BranchSettings& settings)
-      : problem_(problem),
+  Follower(const StartProblem& problem, const BranchSettings& settings)
+      : problem_(damped_by(problem, settings.along)),
         settings_(settings),
         width_(settings.range[1] - settings.range[0]),
-        symmetric_(is_symmetric(problem) && keeps_symmetry(problem, settings.along.parameter) &&
-                   (!settings.across || keeps_symmetry(problem, settings.across->parameter))),
-        record_({{settings.along.parameter, width_}}, settings.max_points) {}
+        symmetric_(is_symmetric(problem) && keeps_symmetry(problem_, settings.along) &&
+                   (!settings.across || keeps_symmetry(problem_, *settings.across))),
+        record_({{settings.along, width_}}, settings.max_points) {}
 
   Branches run() {
     require_start_in_range(problem_, settings_.along, settings_.range, "along");
@@ -42,11 +42,11 @@ class Follower {
 
  private:
   [[nodiscard]] OrbitEquations equations_for(const Orbit& orbit, std::vector<Condition> conditions = {}) const {
-    return {problem_, orbit, {{settings_.along.parameter, width_}}, speed_unit_, std::move(conditions)};
+    return {problem_, orbit, {{settings_.along, width_}}, speed_unit_, std::move(conditions)};
   }
   [[nodiscard]] Equations any_equations() const { return std::bind_front(&Follower::equations_for, this); }
   [[nodiscard]] RestingBranch resting() { return {problem_, settings_, symmetric_, speed_unit_, record_, waiting_}; }
-  [[nodiscard]] double parameter(const ShakenScene& scene) const { return value_of(scene, settings_.along.parameter); }
+  [[nodiscard]] double parameter(const FollowedScene& scene) const { return value_of(scene, settings_.along); }
   [[nodiscard]] bool in_range(double value) const { return value >= settings_.range[0] && value <= settings_.range[1]; }
 
   void follow(const Waiting& from) {
@@ -230,7 +230,7 @@ class Follower {
     const OrbitImpact &turn = touch.orbit.impacts[touch.impact], &begins = touch.orbit.impacts[impact];
     const bool at_once = turn.side == side && turn.phase - begins.phase < 1e-2;
     if (!at_once || begins.event != Event::impact) return false;
-    if (Parameters<double>(equations.scene_at(touch.beyond.at)).restitution(side) != 0) return false;
+    if (numbers_of<double>(equations.scene_at(touch.beyond.at)).restitution(side) != 0) return false;
     const OrbitEquations there = equations_for(equations.shape(), {{Condition::Kind::release, 1, impact}});
     const auto exact = solution(there, touch.beyond.at, settings_.tolerance);
     if (!exact || std::abs(exact->back() - touch.beyond.at.back()) > 10 * step) return false;
@@ -291,11 +291,11 @@ class Follower {
     wait_without(at.scene, at.orbit.without(exact.impact), special);
   }
 
-  void wait_with(const ShakenScene& scene, const Orbit& orbit, std::size_t graze, std::size_t special) {
+  void wait_with(const FollowedScene& scene, const Orbit& orbit, std::size_t graze, std::size_t special) {
     waiting_.push_back({scene, orbit, {}, special, generation_});
     if (orbit.impacts[graze].event != Event::impact) waiting_.back().opens = graze;
   }
-  void wait_without(const ShakenScene& scene, Orbit orbit, std::size_t special) {
+  void wait_without(const FollowedScene& scene, Orbit orbit, std::size_t special) {
     if (orbit.size() == 0 && orbit.pressed == Side::none) {
       if (scene.oscillator.stiffness == 0) return;  // it drifts, or has no place of its own
       orbit = Orbit{};
@@ -304,7 +304,7 @@ class Follower {
     waiting_.push_back({scene, orbit.half_if_same(1e-6, symmetric_), {}, special, generation_});
   }
 
-  point::Problem problem_;
+  StartProblem problem_;
   BranchSettings settings_;
   double width_;
   bool symmetric_;  ///< all scenes of the branch
@@ -316,7 +316,7 @@ class Follower {
 
 }  // namespace
 
-Branches follow_branches(const point::Problem& problem, const BranchSettings& settings) {
+Branches follow_branches(const StartProblem& problem, const BranchSettings& settings) {
   return Follower(problem, settings).run();
 }
 

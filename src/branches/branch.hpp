@@ -37,7 +37,7 @@ enum class SpecialKind : std::uint8_t {
 struct BranchPoint {
   std::size_t branch = 0;
   double arclength = 0.0;  ///< from the branch's first point, in the units of the equations; backwards negative
-  ShakenScene scene;
+  FollowedScene scene;
   Orbit orbit;
   bool stable = false;
   /// Of the whole period, the one of larger modulus first: real and imaginary parts.
@@ -54,8 +54,8 @@ struct SpecialPoint {
 /// How the end of a branch, or of a curve, came about.
 struct BranchEnd {
   std::size_t branch = 0;
-  ShakenScene scene;   ///< of the last good point
-  std::string reason;  ///< "range", "graze", ..., or the words of a failure
+  FollowedScene scene;  ///< of the last good point
+  std::string reason;   ///< "range", "graze", ..., or the words of a failure
   bool failed = false;
   bool of_curve = false;
 };
@@ -73,6 +73,6 @@ struct Branches {
 
 /// Follows the branch of a problem both ways from its start, and what it leads to. Throws StartError if the scene
 /// settles on nothing that can be followed.
-[[nodiscard]] Branches follow_branches(const point::Problem& problem, const BranchSettings& settings);
+[[nodiscard]] Branches follow_branches(const StartProblem& problem, const BranchSettings& settings);
 
 }  // namespace clatter::branches

@@ -43,9 +43,8 @@ class Columns {
       const PhasePoint state = state_at_phase_zero(point.scene, point.orbit);
       const observables::Extrema::Values range = extrema(point.scene, point.orbit);
       const Stops rigid = rigid_ones(point.scene.stops);
-      value.push_back(settings.along.to_user(value_of(point.scene, settings.along.parameter)));
-      if (settings.across)
-        second.push_back(settings.across->to_user(value_of(point.scene, settings.across->parameter)));
+      value.push_back(value_of(point.scene, settings.along));
+      if (settings.across) second.push_back(value_of(point.scene, *settings.across));
       x.push_back(state.x), v.push_back(state.v);
       period.push_back(point.orbit.period_ratio()), word.push_back(point.orbit.word());
       regime.push_back(point.orbit.regime());
@@ -86,9 +85,9 @@ class Columns {
     dataset_.variables.back().units = unit_of(quantity, units_.is_si);
   }
   /// Numbers of the user.
-  void add_parameter(const Followed& followed, std::vector<double> values, const std::string& long_name) {
-    add(std::string(followed.name()), std::move(values), long_name);
-    dataset_.variables.back().units = unit_of(sweep::quantity_of(followed.given), units_.is_si);
+  void add_parameter(Parameter parameter, std::vector<double> values, const std::string& long_name) {
+    add(std::string(parameter.key()), std::move(values), long_name);
+    dataset_.variables.back().units = unit_of(parameter.row().quantity, units_.is_si);
   }
 
   sweep::Dataset& dataset_;

@@ -53,19 +53,15 @@ Condition condition_of(const SpecialPoint& special) {
 
 class CurveFollower {
  public:
-  CurveFollower(const point::Problem& problem, const BranchSettings& settings)
-      : problem_(problem),
+  CurveFollower(const StartProblem& problem, const BranchSettings& settings)
+      : problem_(damped_by(damped_by(problem, settings.along), *settings.across)),
         settings_(settings),
         ranges_{settings.range, settings.across_range},
-        axes_{{settings.along.parameter, width_of(along_axis)}, {settings.across->parameter, width_of(across_axis)}},
+        axes_{{settings.along, width_of(along_axis)}, {*settings.across, width_of(across_axis)}},
         record_(axes_, settings.max_points) {}
 
   Branches run() {
-    using enum sweep::Parameter;
-    const auto shakes = [](sweep::Parameter parameter) {
-      return parameter == stop_amplitude || parameter == base_amplitude;
-    };
-    if (shakes(settings_.along.parameter) && shakes(settings_.across->parameter))
+    if (settings_.along.role() == Role::shaking && settings_.across->role() == Role::shaking)
       throw StartError("stops and base can't be shaken at once; expected another branch.across");
     require_start_in_range(problem_, *settings_.across, settings_.across_range, "across");
     Branches along = follow_branches(problem_, settings_);
@@ -90,15 +86,15 @@ class CurveFollower {
   double width_of(std::size_t axis) const {
     const double width = ranges_[axis][1] - ranges_[axis][0];
     if (std::isfinite(width)) return width;
-    const double value = std::abs(value_of(problem_, settings_.across->parameter));
-    return problem_.units.is_si && value > 0 ? value : std::max(0.1, value);
+    const double value = std::abs(value_of(problem_, *settings_.across));
+    const double unit = factor_of(problem_.units, settings_.across->row().quantity);
+    return problem_.units.is_si && value > 0 ? value : std::max(0.1 * unit, value);
   }
   /// What to do if the branches that could be followed have no point to begin with.
   [[nodiscard]] std::string way_out(const Branches& along) const {
     if (along.ends.empty()) return "; widen branch.range, raise branch.switch, or begin on another motion";
-    return " up to its end at " + std::string(settings_.along.name()) + " = " +
-           std::to_string(settings_.along.to_user(value_of(along.ends.front().scene, settings_.along.parameter))) +
-           ": " + along.ends.front().reason;
+    return " up to its end at " + std::string(settings_.along.key()) + " = " +
+           std::to_string(value_of(along.ends.front().scene, settings_.along)) + ": " + along.ends.front().reason;
   }
   [[nodiscard]] OrbitEquations equations_for(const Orbit& orbit, std::vector<Condition> conditions) const {
     return {problem_, orbit, axes_, speed_unit_, std::move(conditions)};
@@ -193,7 +189,7 @@ class CurveFollower {
     if (touch->appears && of_multiplier) condition.without = touch->impact;
     if (touch->appears && !of_multiplier && touch->impact <= condition.impact) ++condition.impact;
     BranchPoint last = record_.point(equations, touch->last_good);
-    const ShakenScene near = equations.scene_at(touch->beyond.at);
+    const FollowedScene near = equations.scene_at(touch->beyond.at);
     const bool on_soft_stop = touch->orbit.impacts[touch->impact].event != Event::impact;
     SpecialKind kind =
         of_multiplier && !touch->appears && !on_soft_stop ? SpecialKind::resonant_graze : SpecialKind::graze;
@@ -238,9 +234,9 @@ class CurveFollower {
   }
 
   /// The solution of an orbit's equations with two conditions near a guess; nothing if there is none near.
-  [[nodiscard]] std::optional<std::pair<ShakenScene, Orbit>> solved(std::vector<Condition> conditions,
-                                                                    const ShakenScene& scene,
-                                                                    const Orbit& orbit) const {
+  [[nodiscard]] std::optional<std::pair<FollowedScene, Orbit>> solved(std::vector<Condition> conditions,
+                                                                      const FollowedScene& scene,
+                                                                      const Orbit& orbit) const {
     const OrbitEquations equations = equations_for(orbit, std::move(conditions));
     const Vector guess = equations.unknowns_of(scene, orbit);
     const auto at = solution(equations, guess, settings_.tolerance);
@@ -261,7 +257,7 @@ class CurveFollower {
 
   /// The special point of a branch along the first parameter, at the scene's value of the second, within a step.
   void note_start_between(const OrbitEquations& equations, const Walk& walk, double step) {
-    const double across = value_of(problem_, settings_.across->parameter);
+    const double across = value_of(problem_, *settings_.across);
     const auto zero = walk.zero([&](const CurvePoint& p) { return parameter(p.at, across_axis) - across; }, step);
     if (zero) record_.note(kind_, record_.point(equations, *zero));
   }
@@ -299,7 +295,7 @@ class CurveFollower {
   /// Zero in a resonant graze: the nth iterate of the motion's map has no term in the square root of the distance from
   /// the graze (Simpson & Ghosh 2026).
   static double resonance(const OrbitEquations& equations, const Vector& at, int n) {
-    const ShakenScene scene = equations.scene_at(at);
+    const FollowedScene scene = equations.scene_at(at);
     const Orbit orbit = equations.orbit_at(at);
     if (n == 1) {
       const ImpactMap map = impact_map(scene, orbit);
@@ -321,7 +317,7 @@ class CurveFollower {
     return many;
   }
 
-  point::Problem problem_;
+  StartProblem problem_;
   BranchSettings settings_;
   std::array<std::array<double, 2>, 2> ranges_;  ///< [axis]: low and high
   std::vector<OrbitEquations::Axis> axes_;
@@ -332,7 +328,7 @@ class CurveFollower {
 
 }  // namespace
 
-Branches follow_curves(const point::Problem& problem, const BranchSettings& settings) {
+Branches follow_curves(const StartProblem& problem, const BranchSettings& settings) {
   return CurveFollower(problem, settings).run();
 }
 

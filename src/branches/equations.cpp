@@ -10,13 +10,15 @@ namespace clatter::branches {
 
 using namespace clatter::branches::detail;
 
-OrbitEquations::OrbitEquations(const ShakenScene& scene, const Orbit& shape, std::vector<Axis> axes, double speed_unit,
-                               std::vector<Condition> conditions)
+OrbitEquations::OrbitEquations(const FollowedScene& scene, const Orbit& shape, std::vector<Axis> axes,
+                               double speed_unit, std::vector<Condition> conditions)
     : scene_(scene),
       shape_(shape),
       axes_(std::move(axes)),
       speed_unit_(speed_unit),
-      conditions_(std::move(conditions)) {}
+      conditions_(std::move(conditions)),
+      stiffness_varies_(
+          std::ranges::any_of(axes_, [&](const Axis& axis) { return varies_stiffness(scene, axis.parameter); })) {}
 
 std::optional<std::size_t> OrbitEquations::grazing() const {
   for (const Condition& condition : conditions_)
@@ -28,11 +30,7 @@ bool OrbitEquations::grazes_outside() const {
   return std::ranges::find(conditions_, Condition::Kind::graze, &Condition::kind) != conditions_.end();
 }
 
-bool OrbitEquations::stiffness_varies() const {
-  return std::ranges::any_of(axes_, [](const Axis& axis) { return varies_stiffness(axis.parameter); });
-}
-
-Vector OrbitEquations::unknowns_of(const ShakenScene& scene, const Orbit& orbit) const {
+Vector OrbitEquations::unknowns_of(const FollowedScene& scene, const Orbit& orbit) const {
   Vector z(unknowns());
   for (std::size_t i = 0; i < orbit.size(); ++i)
     z[2 * i] = orbit.impacts[i].phase, z[2 * i + 1] = orbit.impacts[i].before / speed_unit_;
@@ -48,26 +46,26 @@ Orbit OrbitEquations::orbit_at(const Vector& z) const {
   return orbit;
 }
 
-ShakenScene OrbitEquations::scene_at(const Vector& z) const {
-  ShakenScene scene = scene_;
+FollowedScene OrbitEquations::scene_at(const Vector& z) const {
+  FollowedScene scene = scene_;
   for (std::size_t k = 0; k < axes_.size(); ++k)
     scene = changed(scene, axes_[k].parameter, z[2 * shape_.size() + k] * axes_[k].unit);
   return scene;
 }
 
 std::optional<OrbitEquations::Linearised> OrbitEquations::at(const Vector& z) const {
-  const ShakenScene scene = scene_at(z);
+  const FollowedScene scene = scene_at(z);
   const Orbit orbit = orbit_at(z);
   if (!(scene.oscillator.frequency > 0) || !(scene.stops.lower < scene.stops.upper)) return std::nullopt;
   for (const double number : z)
     if (!std::isfinite(number)) return std::nullopt;
-  const Parameters<double> p(scene);
+  const SceneNumbers<double> p = numbers_of<double>(scene);
   for (std::size_t i = 0; i < orbit.size(); ++i)
     if (!flight_of<double>(orbit, i).may_vanish(p) && !(orbit.impact(i).phase < orbit.impact(i + 1).phase))
       return std::nullopt;
   Linearised out{Vector(equations(), 0.0), Matrix(equations(), unknowns())};
   const auto add_flights = [&]<Effects E>() {
-    const Flights<First, E> flights(parameters_of<First>(scene, axes_));
+    const Flights<First, E> flights(numbers_along<First>(scene, axes_));
     const std::size_t count = orbit.size();
     for (std::size_t i = 0; i < count; ++i) {
       const FlightEnd<First> end = flights.fly(flight_of<First>(orbit, i));
@@ -87,7 +85,7 @@ std::optional<OrbitEquations::Linearised> OrbitEquations::at(const Vector& z) co
       out.slope(row + 1, next + 1) -= sign * speed_unit_;
     }
   };
-  with_arcs(scene, add_flights, stiffness_varies());
+  with_arcs(scene, add_flights, stiffness_varies_);
   std::size_t row = 2 * orbit.size();
   for (const Condition& condition : conditions_) {
     if (condition.kind == Condition::Kind::graze)
@@ -110,13 +108,14 @@ void OrbitEquations::add_graze(const Orbit& orbit, std::size_t impact, std::size
   out.slope(row, 2 * impact + 1) = speed_unit_;
 }
 
-void OrbitEquations::add_force(const ShakenScene& scene, const OrbitImpact& event, std::size_t unknown, std::size_t row,
-                               Linearised& out) const {
-  const Parameters<First> p = parameters_of<First>(scene, axes_);
+void OrbitEquations::add_force(const FollowedScene& scene, const OrbitImpact& event, std::size_t unknown,
+                               std::size_t row, Linearised& out) const {
+  const SceneNumbers<First> p = numbers_along<First>(scene, axes_);
   const First phase(event.phase, by_begin), v(event.before, by_before);
   const First relaxation = p.soft_stop(event.side).relaxation();
   const auto [f, lead] = p.force();
-  const First a = f * sin(phase + lead) + p.load - 2 * p.h * v - p.k * (p.position(event.side) - relaxation * v);
+  const First a = f * sin(phase + lead) + p.oscillator.load - 2 * p.oscillator.damping * v -
+                  p.oscillator.stiffness * (p.position(event.side) - relaxation * v);
   const First rate = v + relaxation * a;  // of the force over kappa
   out.residual[row] = rate.value;
   out.slope(row, unknown) = rate.slope[by_begin];
@@ -133,18 +132,19 @@ void OrbitEquations::add_duration(const Orbit& orbit, const Condition& condition
   out.slope(row, 2 * next) += 1;
 }
 
-void OrbitEquations::add_release(const ShakenScene& scene, const OrbitImpact& impact, std::size_t phase,
+void OrbitEquations::add_release(const FollowedScene& scene, const OrbitImpact& impact, std::size_t phase,
                                  std::size_t row, Linearised& out) const {
-  const Parameters<First> p = parameters_of<First>(scene, axes_);
+  const SceneNumbers<First> p = numbers_along<First>(scene, axes_);
   const auto [f, lead] = p.force();
-  const First force = f * sin(First(impact.phase, by_begin) + lead) + p.load - p.k * p.position(impact.side);
+  const First force = f * sin(First(impact.phase, by_begin) + lead) + p.oscillator.load -
+                      p.oscillator.stiffness * p.position(impact.side);
   out.residual[row] = force.value;
   out.slope(row, phase) = force.slope[by_begin];
   for (std::size_t k = 0; k < axes_.size(); ++k)
     out.slope(row, 2 * shape_.size() + k) = force.slope[by_first_axis + k] * axes_[k].unit;
 }
 
-void OrbitEquations::add_multiplier(const ShakenScene& scene, const Orbit& all, const Condition& condition,
+void OrbitEquations::add_multiplier(const FollowedScene& scene, const Orbit& all, const Condition& condition,
                                     std::size_t row, Linearised& out) const {
   const Orbit orbit = condition.without ? all.without(*condition.without) : all;
   const std::size_t count = orbit.size(), parameters = 2 * all.size();
@@ -153,17 +153,17 @@ void OrbitEquations::add_multiplier(const ShakenScene& scene, const Orbit& all, 
   };
   std::vector<Link<First>> links;
   const auto add_links = [&]<Effects E>() {
-    const Flights<Second, E> flights(parameters_of<Second>(scene, axes_));
+    const Flights<Second, E> flights(numbers_along<Second>(scene, axes_));
     for (std::size_t i = 0; i < count; ++i) {
       const FlightEnd<Second> end = flights.fly(flight_of<Second>(orbit, i));
       links.push_back(link_of(end.beyond.slope, end.velocity.slope, last_is_mirrored(orbit, i)));
     }
   };
-  const Parameters<First> p = parameters_of<First>(scene, axes_);
+  const SceneNumbers<First> p = numbers_along<First>(scene, axes_);
   if (orbit.meets_soft_stop())
-    links = links_of_states(scene, orbit, p, stiffness_varies());
+    links = links_of_states(scene, orbit, p, stiffness_varies_);
   else
-    with_arcs(scene, add_links, stiffness_varies());
+    with_arcs(scene, add_links, stiffness_varies_);
   // g = c (1 + D) - sigma tr(K_n ... K_1), c the product of the links' denominators
   const auto plain = [](const Link<First>& link) {
     Square<double> k;
@@ -202,8 +202,8 @@ void OrbitEquations::add_multiplier(const ShakenScene& scene, const Orbit& all, 
     out.slope(row, parameters + k) += axes_[k].unit * c_before[count] * determinant.slope[by_first_axis + k];
   for (std::size_t i = 0; i < count; ++i) {  // longer contacts with a soft stop take more
     if (!presses(orbit.impacts[i].event)) continue;
-    const double longer =
-        -2 * p.soft_stop(orbit.impacts[i].side).damping.value / p.nu.value * c_before[count] * determinant.value;
+    const double longer = -2 * p.soft_stop(orbit.impacts[i].side).damping.value / p.oscillator.frequency.value *
+                          c_before[count] * determinant.value;
     out.slope(row, unknown_of(i)) -= longer;
     out.slope(row, unknown_of(i + 1 == count ? 0 : i + 1)) += longer;
   }

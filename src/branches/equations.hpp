@@ -9,7 +9,6 @@
 #include "branches/flight.hpp"
 #include "branches/linear_system.hpp"
 #include "branches/orbit.hpp"
-#include "sweep/parameter.hpp"
 
 namespace clatter::branches {
 
@@ -36,13 +35,13 @@ struct Condition {
 /// (`violation`).
 class OrbitEquations {
  public:
-  /// One parameter, or two; the units of a parameter are the width of its range.
+  /// One parameter, or two, in the user's units; its unit here is the width of its range.
   struct Axis {
-    sweep::Parameter parameter;
+    Parameter parameter;
     double unit = 1.0;
   };
 
-  OrbitEquations(const ShakenScene& scene, const Orbit& shape, std::vector<Axis> axes, double speed_unit,
+  OrbitEquations(const FollowedScene& scene, const Orbit& shape, std::vector<Axis> axes, double speed_unit,
                  std::vector<Condition> conditions = {});
 
   [[nodiscard]] std::size_t equations() const { return 2 * shape_.size() + conditions_.size(); }
@@ -56,14 +55,14 @@ class OrbitEquations {
   /// Nothing if two impacts have changed places, or the scene has no positive frequency, or stops in the wrong order.
   [[nodiscard]] std::optional<Linearised> at(const Vector& unknowns) const;
 
-  [[nodiscard]] Vector unknowns_of(const ShakenScene& scene, const Orbit& orbit) const;
+  [[nodiscard]] Vector unknowns_of(const FollowedScene& scene, const Orbit& orbit) const;
   [[nodiscard]] Orbit orbit_at(const Vector& unknowns) const;
-  [[nodiscard]] ShakenScene scene_at(const Vector& unknowns) const;
+  [[nodiscard]] FollowedScene scene_at(const Vector& unknowns) const;
 
   [[nodiscard]] const Orbit& shape() const { return shape_; }
   [[nodiscard]] const std::vector<Axis>& axes() const { return axes_; }
   /// Whether the stiffness of the spring, per unit mass, is one of what varies, or changes with it.
-  [[nodiscard]] bool stiffness_varies() const;
+  [[nodiscard]] bool stiffness_varies() const { return stiffness_varies_; }
   [[nodiscard]] double speed_unit() const { return speed_unit_; }
   [[nodiscard]] const std::vector<Condition>& conditions() const { return conditions_; }
   /// The impact, or the event on a soft stop, that grazes by a condition, if there is one.
@@ -72,20 +71,21 @@ class OrbitEquations {
   [[nodiscard]] bool grazes_outside() const;
 
  private:
-  void add_release(const ShakenScene& scene, const OrbitImpact& impact, std::size_t phase, std::size_t row,
+  void add_release(const FollowedScene& scene, const OrbitImpact& impact, std::size_t phase, std::size_t row,
                    Linearised& out) const;
   void add_graze(const Orbit& orbit, std::size_t impact, std::size_t row, Linearised& out) const;
-  void add_force(const ShakenScene& scene, const OrbitImpact& event, std::size_t unknown, std::size_t row,
+  void add_force(const FollowedScene& scene, const OrbitImpact& event, std::size_t unknown, std::size_t row,
                  Linearised& out) const;
   void add_duration(const Orbit& orbit, const Condition& condition, std::size_t row, Linearised& out) const;
-  void add_multiplier(const ShakenScene& scene, const Orbit& all, const Condition& condition, std::size_t row,
+  void add_multiplier(const FollowedScene& scene, const Orbit& all, const Condition& condition, std::size_t row,
                       Linearised& out) const;
 
-  ShakenScene scene_;
+  FollowedScene scene_;
   Orbit shape_;
   std::vector<Axis> axes_;
   double speed_unit_;
   std::vector<Condition> conditions_;
+  bool stiffness_varies_;
 };
 
 /// The derivative of the map of one impact to the same impact a period, or half a period, later (impact phase and
@@ -103,17 +103,17 @@ struct ImpactMap {
     return denominator * (1 + determinant) - multiplier * (numerator[0][0] + numerator[1][1]);
   }
 };
-[[nodiscard]] ImpactMap impact_map(const ShakenScene& scene, const Orbit& orbit);
+[[nodiscard]] ImpactMap impact_map(const FollowedScene& scene, const Orbit& orbit);
 /// In phase and velocity of the first event, at soft stops, too.
-[[nodiscard]] ImpactMap event_map(const ShakenScene& scene, const Orbit& orbit);
+[[nodiscard]] ImpactMap event_map(const FollowedScene& scene, const Orbit& orbit);
 
 /// The unit direction from a flip, or a loss of symmetry, into the motion that is born there, which passes the one
 /// before twice: along the eigenvector of multiplier -1. In the equations' units, with this one of speeds.
-[[nodiscard]] Vector direction_of_daughter(const ShakenScene& scene, const Orbit& orbit, const Orbit& daughter,
+[[nodiscard]] Vector direction_of_daughter(const FollowedScene& scene, const Orbit& orbit, const Orbit& daughter,
                                            double speed_unit);
 
 /// [impact i][phase, velocity]: how a small change of the first impact spreads over the others.
-[[nodiscard]] std::vector<std::array<double, 2>> spread(const ShakenScene& scene, const Orbit& orbit,
+[[nodiscard]] std::vector<std::array<double, 2>> spread(const FollowedScene& scene, const Orbit& orbit,
                                                         std::array<double, 2> change);
 
 }  // namespace clatter::branches

@@ -14,9 +14,9 @@ namespace {
 /// A number with its derivatives by phase and velocity at the beginning of a flight and by the phase at its end.
 using Three = Dual<double, 3>;
 
-std::vector<Link<double>> links_of(const ShakenScene& scene, const Orbit& orbit) {
+std::vector<Link<double>> links_of(const FollowedScene& scene, const Orbit& orbit) {
   return with_arcs(scene, [&]<Effects E>() {
-    const Flights<Three, E> flights{Parameters<Three>(scene)};
+    const Flights<Three, E> flights{numbers_of<Three>(scene)};
     std::vector<Link<double>> links;
     for (std::size_t i = 0; i < orbit.size(); ++i) {
       const FlightEnd<Three> end = flights.fly(flight_of<Three>(orbit, i));
@@ -28,11 +28,11 @@ std::vector<Link<double>> links_of(const ShakenScene& scene, const Orbit& orbit)
 
 }  // namespace
 
-ImpactMap event_map(const ShakenScene& scene, const Orbit& orbit) {
-  return map_of(links_of(scene, orbit), determinant_of(Parameters<double>(scene), orbit));
+ImpactMap event_map(const FollowedScene& scene, const Orbit& orbit) {
+  return map_of(links_of(scene, orbit), determinant_of(numbers_of<double>(scene), orbit));
 }
 
-Vector direction_of_daughter(const ShakenScene& scene, const Orbit& orbit, const Orbit& daughter, double speed_unit) {
+Vector direction_of_daughter(const FollowedScene& scene, const Orbit& orbit, const Orbit& daughter, double speed_unit) {
   const ImpactMap map = event_map(scene, orbit);
   const auto& m = map.numerator;
   const double c = map.denominator;
@@ -47,7 +47,8 @@ Vector direction_of_daughter(const ShakenScene& scene, const Orbit& orbit, const
   return direction;
 }
 
-std::vector<std::array<double, 2>> spread(const ShakenScene& scene, const Orbit& orbit, std::array<double, 2> change) {
+std::vector<std::array<double, 2>> spread(const FollowedScene& scene, const Orbit& orbit,
+                                          std::array<double, 2> change) {
   std::vector<std::array<double, 2>> changes{change};
   for (const Link<double>& link : links_of(scene, orbit)) {
     const auto& k = link.numerator;

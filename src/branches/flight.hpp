@@ -3,80 +3,18 @@
 #include <array>
 #include <cmath>
 
+#include "branches/followed_scene.hpp"
 #include "branches/orbit.hpp"
-#include "branches/shaken_scene.hpp"
 #include "motion/arc.hpp"
 #include "stepping/soft_contact.hpp"
 
 namespace clatter::branches {
 
-/// The parameters of a scene, as numbers of a type that may carry derivatives by some of them.
-template <class Number>
-struct Parameters {
-  Number h, f, nu, load, lower, upper, R_lower, R_upper, k, stop_amplitude, base_amplitude;
-  Number kappa_lower, kappa_upper, zeta_lower, zeta_upper;  ///< of soft stops
-  Number inverse_mass;                                      ///< over that at the start
-
-  /// Each of them.
-  static constexpr std::array<Number Parameters::*, 16> all{&Parameters::h,
-                                                            &Parameters::f,
-                                                            &Parameters::nu,
-                                                            &Parameters::load,
-                                                            &Parameters::lower,
-                                                            &Parameters::upper,
-                                                            &Parameters::R_lower,
-                                                            &Parameters::R_upper,
-                                                            &Parameters::k,
-                                                            &Parameters::stop_amplitude,
-                                                            &Parameters::base_amplitude,
-                                                            &Parameters::kappa_lower,
-                                                            &Parameters::kappa_upper,
-                                                            &Parameters::zeta_lower,
-                                                            &Parameters::zeta_upper,
-                                                            &Parameters::inverse_mass};
-
-  Parameters() = default;
-  explicit Parameters(const ShakenScene& scene)
-      : h(scene.oscillator.damping),
-        f(scene.oscillator.forcing),
-        nu(scene.oscillator.frequency),
-        load(scene.oscillator.load),
-        lower(scene.stops.lower),
-        upper(scene.stops.upper),
-        R_lower(scene.stops.restitution_lower),
-        R_upper(scene.stops.restitution_upper),
-        k(scene.oscillator.stiffness),
-        stop_amplitude(scene.shaking.stops),
-        base_amplitude(scene.shaking.base),
-        kappa_lower(scene.stops.stiffness_lower),
-        kappa_upper(scene.stops.stiffness_upper),
-        zeta_lower(scene.stops.damping_lower),
-        zeta_upper(scene.stops.damping_upper),
-        inverse_mass(scene.inverse_mass) {}
-
-  [[nodiscard]] const Number& position(Side stop) const { return stop == Side::upper ? upper : lower; }
-  [[nodiscard]] const Number& restitution(Side stop) const { return stop == Side::upper ? R_upper : R_lower; }
-  [[nodiscard]] bool is_soft(Side stop) const {
-    return std::isfinite(static_cast<double>(position(stop))) &&
-           std::isfinite(static_cast<double>(stop == Side::upper ? kappa_upper : kappa_lower));
-  }
-  [[nodiscard]] motion::SoftStop<Number> soft_stop(Side stop) const {
-    using std::sqrt;
-    const bool is_upper = stop == Side::upper;
-    const Number& stiffness = is_upper ? kappa_upper : kappa_lower;
-    return {stop, position(stop), stiffness, (is_upper ? zeta_upper : zeta_lower) * sqrt(stiffness)};
-  }
-  /// In the frame of what is shaken.
-  [[nodiscard]] LeadingForce<Number> force() const {
-    return force_in_frame(h, f, nu, k, stop_amplitude, base_amplitude);
-  }
-};
-
 /// Calls `function.operator()<E>()` with the effects of a scene's arcs under a force, which have derivatives by k if it
 /// varies. They don't depend on h = 0, at which the formulas of light damping hold too, so that derivatives by h exist
 /// there.
 template <class Function>
-decltype(auto) with_arcs(const ShakenScene& scene, Function&& function, bool stiffness_varies = false) {
+decltype(auto) with_arcs(const Scene& scene, Function&& function, bool stiffness_varies = false) {
   const Oscillator oscillator = oscillator_in_frame(scene);
   const bool secular = forcing_of(oscillator) == Forcing::secular;
   const auto with = [&]<bool any_stiffness>(bool heavy) -> decltype(auto) {
@@ -104,7 +42,7 @@ struct Flight {
   /// Whether it is a contact with a soft stop, or an interruption of one: these become infinitely short where they
   /// vanish. An interruption lies beyond the stop's position, but without a damper, on the other side of it.
   template <class AnyNumber>
-  [[nodiscard]] bool may_vanish(const Parameters<AnyNumber>& p) const {
+  [[nodiscard]] bool may_vanish(const SceneNumbers<AnyNumber>& p) const {
     if (arrives == Event::separation) return presses(leaves);
     if (leaves != Event::separation) return false;
     return arrives == Event::renewal || (arrives == Event::touch && from == to && p.soft_stop(to).damping == 0);
@@ -125,12 +63,12 @@ struct FlightEnd {
 template <class Number, Effects E>
 class Flights {
  public:
-  explicit Flights(const Parameters<Number>& parameters) : Flights(parameters, parameters.force()) {}
+  explicit Flights(const SceneNumbers<Number>& parameters) : Flights(parameters, parameters.force()) {}
   Flights(const Flights&) = delete;
   Flights& operator=(const Flights&) = delete;
 
   [[nodiscard]] const motion::ArcConstants<Number, E>& constants() const { return constants_; }
-  [[nodiscard]] const Parameters<Number>& parameters() const { return p_; }
+  [[nodiscard]] const SceneNumbers<Number>& parameters() const { return p_; }
 
   /// Calls `function(arc)` with the arc that begins with a flight.
   template <class Function>
@@ -152,7 +90,7 @@ class Flights {
 
   /// Flies through stops, if it meets any.
   [[nodiscard]] FlightEnd<Number> fly(const Flight<Number>& flight) const {
-    const Number time = (flight.end - flight.begin) / p_.nu;
+    const Number time = (flight.end - flight.begin) / p_.oscillator.frequency;
     return with_arc(flight, [&](const auto& arc) -> FlightEnd<Number> {
       if (flight.may_vanish(p_)) return fly_beyond(arc, flight, time);
       const motion::Motion<Number> end = arc.at(time);
@@ -172,13 +110,14 @@ class Flights {
     if (pressed == Side::none) {
       const Response<Number> of_force = free_response();
       return function(arc_from(Number(constants_.equilibrium + of_force.displacement(sine, cosine)),
-                               of_force.velocity(p_.nu, sine, cosine), Number(0)),
+                               of_force.velocity(p_.oscillator.frequency, sine, cosine), Number(0)),
                       of_force);
     }
     return soft_.with_constants(pressed, [&](const auto& c) {
-      const Response<Number> of_force = response_to(Number(c.k - p_.nu * p_.nu), c.h, c.f, p_.nu);
+      const Response<Number> of_force = response_to(Number(c.k - p_.oscillator.frequency * p_.oscillator.frequency),
+                                                    c.h, c.f, p_.oscillator.frequency);
       return function(arc_beside(c, c.origin, Number(c.balance + of_force.displacement(sine, cosine)),
-                                 of_force.velocity(p_.nu, sine, cosine), Number(0)),
+                                 of_force.velocity(p_.oscillator.frequency, sine, cosine), Number(0)),
                       of_force);
     });
   }
@@ -193,17 +132,20 @@ class Flights {
   [[nodiscard]] const Number& lead() const { return lead_; }
 
  private:
-  Flights(const Parameters<Number>& parameters, const LeadingForce<Number>& force)
+  Flights(const SceneNumbers<Number>& parameters, const LeadingForce<Number>& force)
       : p_(parameters),
         lead_(force.lead),
-        constants_(motion::ArcConstants<Number, E>::of(p_.h, force.amplitude, p_.nu, p_.load, p_.k)) {
+        constants_(motion::ArcConstants<Number, E>::of(p_.oscillator.damping, force.amplitude, p_.oscillator.frequency,
+                                                       p_.oscillator.load, p_.oscillator.stiffness)) {
     for (const Side side : {Side::lower, Side::upper})
-      if (p_.is_soft(side)) soft_.add(constants_, p_.soft_stop(side));
+      if (is_soft(p_.stops, side)) soft_.add(constants_, p_.soft_stop(side));
   }
 
   [[nodiscard]] Response<Number> free_response() const {
-    if constexpr (E.stiffness) return response_to(Number(p_.k - p_.nu * p_.nu), p_.h, constants_.f, p_.nu);
-    return steady_response(p_.h, constants_.f, p_.nu);
+    if constexpr (E.stiffness)
+      return response_to(Number(p_.oscillator.stiffness - p_.oscillator.frequency * p_.oscillator.frequency),
+                         p_.oscillator.damping, constants_.f, p_.oscillator.frequency);
+    return steady_response(p_.oscillator.damping, constants_.f, p_.oscillator.frequency);
   }
 
   /// A contact with a soft stop, or an interruption of one. A short one is a Taylor polynomial, which keeps the digits
@@ -255,7 +197,7 @@ class Flights {
     return {constants, {offset, x, v, a, sine, cosine}, stop};
   }
 
-  Parameters<Number> p_;
+  SceneNumbers<Number> p_;
   Number lead_;
   motion::ArcConstants<Number, E> constants_;
   stepping::SoftContact<Number> soft_;

@@ -11,14 +11,14 @@ namespace clatter::branches {
 namespace {
 
 /// Acceleration at an event, that of the free motion.
-double acceleration(const Parameters<double>& p, const OrbitImpact& event, double offset) {
+double acceleration(const SceneNumbers<double>& p, const OrbitImpact& event, double offset) {
   const LeadingForce<double> force = p.force();
-  return force.amplitude * std::sin(event.phase + force.lead) + p.load - 2 * p.h * event.before -
-         p.k * (p.position(event.side) + offset);
+  return force.amplitude * std::sin(event.phase + force.lead) + p.oscillator.load -
+         2 * p.oscillator.damping * event.before - p.oscillator.stiffness * (p.position(event.side) + offset);
 }
 
-std::optional<ExactGraze> solved(const Equations& equations, const ShakenScene& near, const Graze& graze, double within,
-                                 double tolerance) {
+std::optional<ExactGraze> solved(const Equations& equations, const FollowedScene& near, const Graze& graze,
+                                 double within, double tolerance) {
   const OrbitEquations there = equations(graze.orbit, {graze.condition});
   const Vector guess = there.unknowns_of(near, graze.orbit);
   const auto exact = solution(there, guess, tolerance);
@@ -54,10 +54,10 @@ Graze once_of(Graze graze, double slow, bool symmetric_scene) {
 
 /// An orbit with a graze as if a contact or an interruption that lasts for `advance` of the phase began and ended
 /// there.
-Orbit with_short(const ShakenScene& scene, const Orbit& orbit, std::size_t graze, double advance) {
-  const Parameters<double> p(scene);
+Orbit with_short(const FollowedScene& scene, const Orbit& orbit, std::size_t graze, double advance) {
+  const SceneNumbers<double> p = numbers_of<double>(scene);
   const OrbitImpact middle = orbit.impacts[graze];
-  const double relaxation = p.soft_stop(middle.side).relaxation(), time = advance / p.nu;
+  const double relaxation = p.soft_stop(middle.side).relaxation(), time = advance / p.oscillator.frequency;
   OrbitImpact begin = middle, end = middle;
   const double a = acceleration(p, middle, -relaxation * middle.before);
   double before = time / 2;  // from the beginning to the extremum
@@ -69,7 +69,7 @@ Orbit with_short(const ShakenScene& scene, const Orbit& orbit, std::size_t graze
     begin.event = middle.event == Event::separation ? Event::renewal : Event::separation;
     if (relaxation == 0 && presses(middle.event)) end.event = Event::touch;
   }
-  begin.phase = middle.phase - p.nu * before, begin.before = middle.before - a * before;
+  begin.phase = middle.phase - p.oscillator.frequency * before, begin.before = middle.before - a * before;
   end.phase = begin.phase + advance, end.before = begin.before + a * time;
   Orbit out = orbit;
   out.impacts[graze] = end;
@@ -84,7 +84,7 @@ struct Lasting {
 };
 /// That which lasts for `advance` of the phase, in place of a graze. Motion that is symmetric about another place than
 /// x = 0 has two contacts at once.
-std::optional<Lasting> with_lasting(const Equations& equations, const ShakenScene& scene, const Orbit& orbit,
+std::optional<Lasting> with_lasting(const Equations& equations, const FollowedScene& scene, const Orbit& orbit,
                                     std::size_t graze, double advance, double tolerance) {
   Lasting lasting{with_short(scene, orbit, graze, advance), {}, graze};
   for (int contacts = 1; contacts <= 2; ++contacts) {
@@ -107,7 +107,7 @@ std::optional<Lasting> with_lasting(const Equations& equations, const ShakenScen
 
 }  // namespace
 
-std::optional<ExactGraze> exact_graze(const Equations& equations, const ShakenScene& near, Graze graze, double slow,
+std::optional<ExactGraze> exact_graze(const Equations& equations, const FollowedScene& near, Graze graze, double slow,
                                       bool symmetric_scene, double within, double tolerance) {
   const auto exact = solved(equations, near, graze, within, tolerance);
   if (exact) graze.orbit = exact->orbit;
@@ -130,12 +130,14 @@ std::optional<Vector> direction_into_motion(const OrbitEquations& equations, con
   return std::nullopt;
 }
 
-std::optional<Opened> opened(const Equations& equations, const ShakenScene& scene, const Orbit& orbit,
+std::optional<Opened> opened(const Equations& equations, const FollowedScene& scene, const Orbit& orbit,
                              std::size_t graze, double tolerance) {
-  const Parameters<double> p(scene);
-  const double rate = std::max(p.nu, std::sqrt(std::abs(p.k) + p.soft_stop(orbit.impacts[graze].side).stiffness));
+  const SceneNumbers<double> p = numbers_of<double>(scene);
+  const double rate = std::max(p.oscillator.frequency, std::sqrt(std::abs(p.oscillator.stiffness) +
+                                                                 p.soft_stop(orbit.impacts[graze].side).stiffness));
   for (const double turned_by : {1e-3, 1e-2, 1e-4}) {
-    const auto lasting = with_lasting(equations, scene, orbit, graze, p.nu / rate * turned_by, tolerance);
+    const auto lasting =
+        with_lasting(equations, scene, orbit, graze, p.oscillator.frequency / rate * turned_by, tolerance);
     if (!lasting) continue;
     const OrbitEquations there = equations(lasting->orbit, {});
     Vector longer(there.unknowns(), 0.0);

@@ -21,7 +21,7 @@ using Equations = std::function<OrbitEquations(const Orbit&, std::vector<Conditi
 
 /// The scene and the motion of a graze.
 struct ExactGraze {
-  ShakenScene scene;
+  FollowedScene scene;
   Orbit orbit;
   std::size_t impact = 0;
   bool joins =
@@ -29,7 +29,7 @@ struct ExactGraze {
 };
 /// That near a guess, at a parameter within a distance of it, over the width of the range; nothing if there is none. A
 /// contact with a soft stop that begins with less than `slow` may graze, too.
-[[nodiscard]] std::optional<ExactGraze> exact_graze(const Equations& equations, const ShakenScene& near, Graze graze,
+[[nodiscard]] std::optional<ExactGraze> exact_graze(const Equations& equations, const FollowedScene& near, Graze graze,
                                                     double slow, bool symmetric_scene, double within, double tolerance);
 
 /// Of some directions from a point on, the first in which there is motion between the stops.
@@ -42,7 +42,7 @@ struct Opened {
   Orbit orbit;
   Vector at, tangent;  ///< of the equations with one parameter, towards longer ones
 };
-[[nodiscard]] std::optional<Opened> opened(const Equations& equations, const ShakenScene& scene, const Orbit& orbit,
+[[nodiscard]] std::optional<Opened> opened(const Equations& equations, const FollowedScene& scene, const Orbit& orbit,
                                            std::size_t graze, double tolerance);
 
 /// The same with a renewal as a touch, or a touch as a renewal.

@@ -9,8 +9,8 @@ namespace clatter::branches {
 
 using namespace clatter::branches::detail;
 
-ImpactMap impact_map(const ShakenScene& scene, const Orbit& orbit) {
-  const Parameters<double> p(scene);
+ImpactMap impact_map(const FollowedScene& scene, const Orbit& orbit) {
+  const SceneNumbers<double> p = numbers_of<double>(scene);
   if (orbit.size() == 0) {  // free motion around the response
     ImpactMap map{.determinant = determinant_of(p, orbit)};
     with_arcs(scene, [&]<Effects E>() {

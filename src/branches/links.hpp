@@ -12,68 +12,10 @@
 /// How small changes spread from event to event of a motion; for the equations and the maps.
 namespace clatter::branches::detail {
 
-using sweep::Parameter;
-
 /// Derivatives by phase and velocity at the beginning of a flight, by the phase at its end, and by two parameters.
 constexpr std::size_t by_begin = 0, by_before = 1, by_end = 2, by_first_axis = 3, most_variables = 5;
 using First = Dual<double, most_variables>;
 using Second = Dual<First, 3>;  // of the first three, each with its derivatives by all of them
-
-/// Makes a parameter of a scene a variable.
-template <class Number>
-void vary(Parameters<Number>& p, const ShakenScene& scene, Parameter parameter, std::size_t variable) {
-  const auto seed = [variable](Number& number, double slope) {
-    if constexpr (std::is_same_v<Number, Second>)
-      number.value.slope[variable] = slope;
-    else
-      number.slope[variable] = slope;
-  };
-  switch (parameter) {
-    case Parameter::mass:
-      for (Number* const per_mass : {&p.h, &p.f, &p.load, &p.k, &p.kappa_lower, &p.kappa_upper})
-        if (const double number = static_cast<double>(*per_mass); std::isfinite(number))
-          seed(*per_mass, number / scene.inverse_mass);
-      return seed(p.inverse_mass, 1);
-    case Parameter::h:
-      return seed(p.h, 1);
-    case Parameter::f:
-      return seed(p.f, 1);
-    case Parameter::nu:
-      return seed(p.nu, 1);
-    case Parameter::load:
-      return seed(p.load, 1);
-    case Parameter::stiffness:
-      return seed(p.k, 1);
-    case Parameter::stop_amplitude:
-      return seed(p.stop_amplitude, 1);
-    case Parameter::base_amplitude:
-      return seed(p.base_amplitude, 1);
-    case Parameter::stop_lower:
-      return seed(p.lower, 1);
-    case Parameter::stop_upper:
-      return seed(p.upper, 1);
-    case Parameter::R_lower:
-      return seed(p.R_lower, 1);
-    case Parameter::R_upper:
-      return seed(p.R_upper, 1);
-    case Parameter::R:
-      return seed(p.R_lower, 1), seed(p.R_upper, 1);
-    case Parameter::stop_stiffness_lower:
-      return seed(p.kappa_lower, 1);
-    case Parameter::stop_stiffness_upper:
-      return seed(p.kappa_upper, 1);
-    case Parameter::stop_stiffness:
-      return seed(p.kappa_lower, 1), seed(p.kappa_upper, 1);
-    case Parameter::stop_damping_lower:
-      return seed(p.zeta_lower, 1);
-    case Parameter::stop_damping_upper:
-      return seed(p.zeta_upper, 1);
-    case Parameter::stop_damping:
-      return seed(p.zeta_lower, 1), seed(p.zeta_upper, 1);
-    default:
-      return seed(p.lower, -1), seed(p.upper, 1);  // xs
-  }
-}
 
 /// The variable that a flight's first three derivatives belong to.
 inline Second variable(double value, std::size_t index) {
@@ -96,11 +38,22 @@ Flight<Number> flight_of(const Orbit& orbit, std::size_t i) {
             to.event};
 }
 
+/// A variable that a scene's parameter is, in numbers with derivatives by it.
 template <class Number>
-Parameters<Number> parameters_of(const ShakenScene& scene, const std::vector<OrbitEquations::Axis>& axes) {
-  Parameters<Number> p(scene);
-  for (std::size_t k = 0; k < axes.size(); ++k) vary(p, scene, axes[k].parameter, by_first_axis + k);
-  return p;
+Number variable_of_axis(double value, std::size_t axis) {
+  if constexpr (std::is_same_v<Number, Second>)
+    return Number(First(value, by_first_axis + axis));
+  else
+    return Number(value, by_first_axis + axis);
+}
+
+/// The numbers of a scene, with derivatives by the parameters that vary.
+template <class Number>
+SceneNumbers<Number> numbers_along(const FollowedScene& scene, const std::vector<OrbitEquations::Axis>& axes) {
+  Varied<Number> varied;
+  for (std::size_t k = 0; k < axes.size(); ++k)
+    varied.emplace_back(axes[k].parameter, variable_of_axis<Number>(value_of(scene, axes[k].parameter), k));
+  return numbers_of(scene, varied);
 }
 
 template <class Number>
@@ -146,17 +99,19 @@ inline bool last_is_mirrored(const Orbit& orbit, std::size_t i) { return orbit.m
 /// speed before a rigid impact.
 template <class Number, Effects E>
 Link<Number> link_of_states(const Flights<Number, E>& flights, const Flight<Number>& flight, bool mirrored) {
-  const Parameters<Number>& p = flights.parameters();
+  const SceneNumbers<Number>& p = flights.parameters();
   Link<Number> link{{{{Number(1), Number(0)}, {Number(0), Number(1)}}}, Number(1)};
   if (flight.leaves == Event::impact) {
     const Number &R = p.restitution(flight.from), &v = flight.before;
     const Number force = flights.force_at(p.position(flight.from), flight.begin);
-    link.numerator = {{{-R * v, Number(0)}, {R * (force - 2 * p.h * v) + force + 2 * p.h * R * v, -R * v}}};
+    link.numerator = {
+        {{-R * v, Number(0)},
+         {R * (force - 2 * p.oscillator.damping * v) + force + 2 * p.oscillator.damping * R * v, -R * v}}};
     link.denominator = v;
   } else if (flight.leaves == Event::touch) {
     link.numerator[1][0] = -2 * p.soft_stop(flight.from).damping;
   }
-  const Number time = (flight.end - flight.begin) / p.nu;
+  const Number time = (flight.end - flight.begin) / p.oscillator.frequency;
   flights.with_constants(presses(flight.leaves) ? flight.from : Side::none, [&](const auto& constants) {
     const motion::Propagator<Number> free = constants.propagator(time);
     const Number sign = mirrored ? -1 : 1;
@@ -167,7 +122,7 @@ Link<Number> link_of_states(const Flights<Number, E>& flights, const Flight<Numb
 }
 
 template <class Number>
-std::vector<Link<Number>> links_of_states(const ShakenScene& scene, const Orbit& orbit, const Parameters<Number>& p,
+std::vector<Link<Number>> links_of_states(const FollowedScene& scene, const Orbit& orbit, const SceneNumbers<Number>& p,
                                           bool stiffness_varies) {
   std::vector<Link<Number>> links;
   with_arcs(
@@ -183,11 +138,11 @@ std::vector<Link<Number>> links_of_states(const ShakenScene& scene, const Orbit&
 
 /// R^(2n) e^(-2 h T) of the impacts of an orbit as it is kept, less by e^(-2 h_s t) in a contact with a soft stop.
 template <class Number>
-Number determinant_of(const Parameters<Number>& p, const Orbit& orbit) {
+Number determinant_of(const SceneNumbers<Number>& p, const Orbit& orbit) {
   using std::exp;
-  Number determinant = exp(Number(-2) * p.h * (Number(orbit.advance()) / p.nu));
+  Number determinant = exp(Number(-2) * p.oscillator.damping * (Number(orbit.advance()) / p.oscillator.frequency));
   const auto press = [&](Side side, double advance) {
-    determinant *= exp(Number(-2) * p.soft_stop(side).damping * (Number(advance) / p.nu));
+    determinant *= exp(Number(-2) * p.soft_stop(side).damping * (Number(advance) / p.oscillator.frequency));
   };
   if (orbit.pressed != Side::none) press(orbit.pressed, orbit.advance());
   for (std::size_t i = 0; i < orbit.size(); ++i) {

@@ -13,9 +13,9 @@ namespace {
 
 /// Calls `function(arc, length)` for each flight of an orbit in turn.
 template <class Function>
-void each_flight(const ShakenScene& scene, const Orbit& orbit, Function&& function) {
+void each_flight(const FollowedScene& scene, const Orbit& orbit, Function&& function) {
   with_arcs(scene, [&]<Effects E>() {
-    const Flights<double, E> flights{Parameters<double>(scene)};
+    const Flights<double, E> flights{numbers_of<double>(scene)};
     if (orbit.size() == 0)
       return flights.with_response(
           orbit.pressed, [&](const auto& arc, const auto&) { function(arc, 0.0, flights.constants().period); });
@@ -34,7 +34,7 @@ void each_flight(const ShakenScene& scene, const Orbit& orbit, Function&& functi
 
 }  // namespace
 
-Multipliers multipliers(const ShakenScene& scene, const Orbit& orbit) {
+Multipliers multipliers(const FollowedScene& scene, const Orbit& orbit) {
   if (orbit.rests()) return {{0, 0}, {0, 0}, true};
   const ImpactMap map = impact_map(scene, orbit);
   const double half = map.trace() / 2;
@@ -46,7 +46,7 @@ Multipliers multipliers(const ShakenScene& scene, const Orbit& orbit) {
   return {{first.real(), second.real()}, {first.imag(), second.imag()}, stable};
 }
 
-PhasePoint state_at(const ShakenScene& scene, const Orbit& orbit, std::size_t i, double phase) {
+PhasePoint state_at(const FollowedScene& scene, const Orbit& orbit, std::size_t i, double phase) {
   PhasePoint state{};
   std::size_t flight = 0;
   each_flight(scene, orbit, [&](const auto& arc, double begin, double) {
@@ -57,7 +57,7 @@ PhasePoint state_at(const ShakenScene& scene, const Orbit& orbit, std::size_t i,
   return state;
 }
 
-PhasePoint state_at_phase_zero(const ShakenScene& scene, const Orbit& orbit) {
+PhasePoint state_at_phase_zero(const FollowedScene& scene, const Orbit& orbit) {
   std::optional<PhasePoint> state;
   constexpr double turn = 2 * std::numbers::pi;
   const Orbit whole = orbit.whole();
@@ -70,16 +70,16 @@ PhasePoint state_at_phase_zero(const ShakenScene& scene, const Orbit& orbit) {
   if (state) return *state;
   for (const OrbitImpact& impact : whole.impacts)  // it rests then, or is about to
     if (std::ceil(impact.phase / turn) * turn <= impact.phase + impact.rest)
-      return {Parameters<double>(scene).position(impact.side), 0.0};
+      return {numbers_of<double>(scene).position(impact.side), 0.0};
   const auto rest = std::ranges::find_if(whole.impacts, [](const OrbitImpact& impact) { return impact.rest > 0; });
-  return {Parameters<double>(scene).position(rest->side), 0.0};
+  return {numbers_of<double>(scene).position(rest->side), 0.0};
 }
 
-observables::Extrema::Values extrema(const ShakenScene& scene, const Orbit& orbit) {
+observables::Extrema::Values extrema(const FollowedScene& scene, const Orbit& orbit) {
   observables::Extrema::Observer extrema;
   const Orbit whole = orbit.whole();
   each_flight(scene, whole, [&](const auto& arc, double begin, double length) { extrema.arc(arc, begin, length); });
-  const Parameters<double> p(scene);
+  const SceneNumbers<double> p = numbers_of<double>(scene);
   for (const OrbitImpact& impact : whole.impacts) {
     if (impact.event != Event::impact) continue;  // the arcs have all
     const double x = p.position(impact.side);
@@ -96,14 +96,14 @@ double impact_speed(const Orbit& orbit) {
   return fastest;
 }
 
-double impact_power(const ShakenScene& scene, const Orbit& orbit) {
-  const Parameters<double> p(scene);
+double impact_power(const FollowedScene& scene, const Orbit& orbit) {
+  const SceneNumbers<double> p = numbers_of<double>(scene);
   double all = 0;
   for (std::size_t i = 0; i < orbit.size(); ++i)
     if (orbit.impacts[i].event == Event::impact)
       all += lost(p.restitution(orbit.impacts[i].side), orbit.impacts[i].before, orbit.next_is_rest(i));
   if (orbit.meets_soft_stop()) all += loss_on_soft_stops(scene, orbit);
-  return all * p.nu / orbit.advance() / p.inverse_mass;
+  return all * p.oscillator.frequency / orbit.advance() * p.mass;
 }
 
 }  // namespace clatter::branches

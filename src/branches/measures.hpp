@@ -13,21 +13,21 @@ struct Multipliers {
   std::array<double, 2> re, im;  ///< the one of larger modulus first
   bool stable;
 };
-[[nodiscard]] Multipliers multipliers(const ShakenScene& scene, const Orbit& orbit);
+[[nodiscard]] Multipliers multipliers(const FollowedScene& scene, const Orbit& orbit);
 
 /// The state at a phase after event i of an orbit and before the next, neither of which is a rest; at any phase of
 /// motion without events.
-[[nodiscard]] PhasePoint state_at(const ShakenScene& scene, const Orbit& orbit, std::size_t i, double phase);
+[[nodiscard]] PhasePoint state_at(const FollowedScene& scene, const Orbit& orbit, std::size_t i, double phase);
 /// The state when the forcing phase is 0.
-[[nodiscard]] PhasePoint state_at_phase_zero(const ShakenScene& scene, const Orbit& orbit);
+[[nodiscard]] PhasePoint state_at_phase_zero(const FollowedScene& scene, const Orbit& orbit);
 
 /// Least and greatest displacement and velocity, which meet rigid stops to rounding.
-[[nodiscard]] observables::Extrema::Values extrema(const ShakenScene& scene, const Orbit& orbit);
+[[nodiscard]] observables::Extrema::Values extrema(const FollowedScene& scene, const Orbit& orbit);
 
 /// Speed of the fastest impact.
 [[nodiscard]] double impact_speed(const Orbit& orbit);
 /// Energy lost on the stops per tau, of the mass over that at the start: in impacts (eq. 33), in contacts with soft
 /// stops (eq. 54); a chatter that ends in rest loses all that it has.
-[[nodiscard]] double impact_power(const ShakenScene& scene, const Orbit& orbit);
+[[nodiscard]] double impact_power(const FollowedScene& scene, const Orbit& orbit);
 
 }  // namespace clatter::branches

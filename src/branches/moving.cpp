@@ -9,40 +9,31 @@
 namespace clatter::branches {
 namespace {
 
-/// The parameters of a scene that changes to another one, linearly, over `distance`.
-Parameters<Along> towards(const ShakenScene& scene, const ShakenScene& other, double distance) {
-  Parameters<Along> p(scene);
-  const Parameters<double> here(scene), there(other);
-  for (std::size_t i = 0; i < p.all.size(); ++i) {
-    const double from = here.*here.all[i], to = there.*there.all[i];
-    (p.*p.all[i]).slope[0] = std::isfinite(from) ? (to - from) / distance : 0.0;
-  }
-  return p;
-}
-
 /// A motion at some parameters, which don't change if p doesn't, without its impacts.
-Moving motion_at(const ShakenScene& scene, const Orbit& orbit, const Parameters<Along>& p) {
+Moving motion_at(const FollowedScene& scene, const Orbit& orbit, const SceneNumbers<Along>& p) {
   return {.scene = scene,
           .p = p,
           .impacts = {},
-          .period = Along(orbit.advance()) / p.nu,
+          .period = Along(orbit.advance()) / p.oscillator.frequency,
           .pressed = orbit.pressed,
           .soft = orbit.meets_soft_stop()};
 }
 
 }  // namespace
 
-Parameters<Along> varied(const ShakenScene& scene, sweep::Parameter parameter) {
-  Parameters<Along> p(scene);
-  detail::vary(p, scene, parameter, 0);
-  return p;
-}
-
 Moving moving(const OrbitEquations& equations, const Vector& point, const Vector& tangent) {
   const Orbit orbit = equations.orbit_at(point);
-  constexpr double step = 1e-3;  // the parameters are linear in the point
-  const ShakenScene scene = equations.scene_at(point);
-  Moving m = motion_at(scene, orbit, towards(scene, equations.scene_at(sum(point, step, tangent)), step));
+  const FollowedScene scene = equations.scene_at(point);
+  constexpr double step = 1e-3;  // the parameter is linear in the point
+  Varied<Along> varied;
+  for (std::size_t k = 0; k < equations.axes().size(); ++k) {
+    const auto& [parameter, unit] = equations.axes()[k];
+    const std::size_t unknown = 2 * orbit.size() + k;
+    const double value = point[unknown] * unit, ahead = (point[unknown] + step * tangent[unknown]) * unit;
+    varied.emplace_back(parameter, value);
+    varied.back().second.slope[0] = (ahead - value) / step;
+  }
+  Moving m = motion_at(scene, orbit, numbers_of(scene, varied));
   m.stiffness_varies = equations.stiffness_varies();
   for (std::size_t i = 0; i < orbit.size(); ++i) {
     Along phase(orbit.impacts[i].phase), before(orbit.impacts[i].before);
@@ -52,19 +43,18 @@ Moving moving(const OrbitEquations& equations, const Vector& point, const Vector
   return m;
 }
 
-Moving moving_from_release(const ShakenScene& scene, const Orbit& orbit, sweep::Parameter parameter) {
+Moving moving_from_release(const FollowedScene& scene, const Orbit& orbit, Parameter parameter) {
   constexpr std::size_t by_begin = 0, by_before = 1, by_end = 2, by_parameter = 3;
   using Four = Dual<double, 4>;
-  Moving m = motion_at(scene, orbit, varied(scene, parameter));
-  m.stiffness_varies = varies_stiffness(parameter);
-  Parameters<Four> p(scene);
-  for (std::size_t i = 0; i < p.all.size(); ++i) (p.*p.all[i]).slope[by_parameter] = (m.p.*m.p.all[i]).slope[0];
+  Moving m = motion_at(scene, orbit, numbers_along(scene, parameter));
+  m.stiffness_varies = varies_stiffness(scene, parameter);
+  const auto p = numbers_of<Four>(scene, {{parameter, Four(value_of(scene, parameter), by_parameter)}});
   // f sin(phase + lead) + load = k x at a release
   const LeadingForce<Along> force = m.p.force();
   const auto release = [&](const OrbitImpact& rest) {
     Along phase(rest.phase + rest.rest);
     const double of_force = phase.value + force.lead.value, sine = std::sin(of_force), cosine = std::cos(of_force);
-    const Along needed = m.p.k * m.p.position(rest.side) - m.p.load;
+    const Along needed = m.p.oscillator.stiffness * m.p.position(rest.side) - m.p.oscillator.load;
     phase.slope[0] =
         (needed.slope[0] - force.amplitude.slope[0] * sine) / (force.amplitude.value * cosine) - force.lead.slope[0];
     return phase;
@@ -98,8 +88,8 @@ Moving moving_from_release(const ShakenScene& scene, const Orbit& orbit, sweep::
   return m;
 }
 
-double loss_on_soft_stops(const ShakenScene& scene, const Orbit& orbit) {
-  Moving m = motion_at(scene, orbit, Parameters<Along>(scene));
+double loss_on_soft_stops(const FollowedScene& scene, const Orbit& orbit) {
+  Moving m = motion_at(scene, orbit, numbers_of<Along>(scene));
   for (const OrbitImpact& event : orbit.impacts)
     m.impacts.push_back({event.side, event.phase, event.before, false, event.event});
   return soft_contacts(m).loss.value;
@@ -117,13 +107,13 @@ Along impact_power(const Moving& moving) {
   for (const auto& [side, phase, before, rests, event] : moving.impacts)
     if (event == Event::impact) all += lost(moving.p.restitution(side), before, rests);
   if (moving.soft) all += soft_contacts(moving).loss;
-  return all / moving.period / moving.p.inverse_mass;
+  return all / moving.period * moving.p.mass;
 }
 
 Along harmonic(const Moving& moving) {
   // (k - nu^2 + 2 i h nu) X = F + (1/T) sum of (v+ - v-) e^{-i phase}, F = -i f e^{i lead}/2, and the force of soft
   // stops likewise; mirror images add the same
-  const Parameters<Along>& p = moving.p;
+  const SceneNumbers<Along>& p = moving.p;
   const LeadingForce<Along> force = p.force();
   Along re = force.amplitude * sin(force.lead) / 2, im = -force.amplitude * cos(force.lead) / 2;
   for (const auto& [side, phase, before, rests, event] : moving.impacts) {
@@ -135,8 +125,10 @@ Along harmonic(const Moving& moving) {
     const SoftContacts contacts = soft_contacts(moving);
     re += contacts.re / moving.period, im += contacts.im / moving.period;
   }
-  const bool unit_spring = p.k == 1 && p.k.is_constant();
-  const Along a = unit_spring ? (1 - p.nu) * (1 + p.nu) : p.k - p.nu * p.nu, b = 2 * p.h * p.nu;
+  const bool unit_spring = p.oscillator.stiffness == 1 && p.oscillator.stiffness.is_constant();
+  const Along a = unit_spring ? (1 - p.oscillator.frequency) * (1 + p.oscillator.frequency)
+                              : p.oscillator.stiffness - p.oscillator.frequency * p.oscillator.frequency,
+              b = 2 * p.oscillator.damping * p.oscillator.frequency;
   return 2 * sqrt(re * re + im * im) / sqrt(a * a + b * b);
 }
 

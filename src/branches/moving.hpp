@@ -8,11 +8,10 @@
 
 namespace clatter::branches {
 
-/// A scene's parameters and an orbit's impacts with their derivatives along a branch.
-using Along = Dual<double, 1>;
+/// A scene's numbers and an orbit's impacts with their derivatives along a branch.
 struct Moving {
-  ShakenScene scene;
-  Parameters<Along> p;
+  FollowedScene scene;
+  SceneNumbers<Along> p;
   struct Impact {
     Side side;
     Along phase, before;
@@ -25,13 +24,11 @@ struct Moving {
   bool soft = false;          ///< whether it meets soft stops
   bool stiffness_varies = false;
 };
-/// The parameters of a scene, of which one changes.
-[[nodiscard]] Parameters<Along> varied(const ShakenScene& scene, sweep::Parameter parameter);
 /// Along a tangent of equations.
 [[nodiscard]] Moving moving(const OrbitEquations& equations, const Vector& point, const Vector& tangent);
 /// Along a parameter, for a motion that rests: its impacts follow from the release. Those of a chatter that ends in
 /// rest don't move.
-[[nodiscard]] Moving moving_from_release(const ShakenScene& scene, const Orbit& orbit, sweep::Parameter parameter);
+[[nodiscard]] Moving moving_from_release(const FollowedScene& scene, const Orbit& orbit, Parameter parameter);
 
 /// Whether a quantity changes by more than rounding. The impact speed of a bouncing ball doesn't: gravity alone gives
 /// it.
@@ -51,6 +48,6 @@ template <class Number>
   return rests ? Number(before * before / 2) : Number((1 - R) * (1 + R) * before * before / 2);
 }
 /// The same on soft stops, in one repetition of a motion.
-[[nodiscard]] double loss_on_soft_stops(const ShakenScene& scene, const Orbit& orbit);
+[[nodiscard]] double loss_on_soft_stops(const FollowedScene& scene, const Orbit& orbit);
 
 }  // namespace clatter::branches

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "attractors/exact_run.hpp"
-#include "model/scene.hpp"
+#include "scene/scene.hpp"
 
 namespace clatter::branches {
 

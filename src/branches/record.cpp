@@ -64,7 +64,7 @@ Record::Noted Record::note(SpecialKind kind, BranchPoint at, const Condition& co
 
 bool Record::grazes_at(std::size_t special) const {
   const SpecialPoint& at = found_.special[special];
-  const sweep::Parameter parameter = axes_[0].parameter;
+  const Parameter parameter = axes_[0].parameter;
   const double near = 1e-12 * axes_[0].unit;
   return std::ranges::any_of(found_.special, [&](const SpecialPoint& other) {
     return other.kind == SpecialKind::graze && std::ranges::count(other.branches, at.branches.front()) > 0 &&

@@ -1,7 +1,6 @@
 #include "branches/resting.hpp"
 
 #include <algorithm>
-#include <boost/math/tools/roots.hpp>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -15,7 +14,7 @@ namespace {
 
 constexpr double turn = 2 * std::numbers::pi;
 
-double position_of(const ShakenScene& scene, Side stop) {
+double position_of(const FollowedScene& scene, Side stop) {
   return stop == Side::upper ? scene.stops.upper : scene.stops.lower;
 }
 
@@ -64,8 +63,8 @@ bool is_at_rest(const Orbit& orbit, Side side, double phase) {
 
 }  // namespace
 
-std::optional<double> release_phase(const ShakenScene& scene, Side stop) {
-  const auto [f, lead] = Parameters<double>(scene).force();
+std::optional<double> release_phase(const FollowedScene& scene, Side stop) {
+  const auto [f, lead] = numbers_of<double>(scene).force();
   const double sine = -constant_force(scene.oscillator, position_of(scene, stop)) / f;  // f sin(phase) + load = k x
   if (!(std::abs(sine) < 1)) return std::nullopt;
   const double rising = std::asin(sine), falling = std::numbers::pi - rising;
@@ -73,39 +72,19 @@ std::optional<double> release_phase(const ShakenScene& scene, Side stop) {
   return phase < 0 ? phase + turn : phase < turn ? phase : phase - turn;
 }
 
-std::optional<double> release_tangency(const ShakenScene& scene, Side stop, sweep::Parameter parameter, double within) {
+std::optional<double> release_tangency(const FollowedScene& scene, Side stop, Parameter parameter, double within) {
   const double at = value_of(scene, parameter);
-  const auto near = [&](double value) { return std::abs(value - at) <= within ? std::optional(value) : std::nullopt; };
-  const double k = scene.oscillator.stiffness, load = scene.oscillator.load, sign = sign_of(stop);
-  const double f = std::abs(oscillator_in_frame(scene).forcing);
-  const double spring = k * position_of(scene, stop);  // tangency: k x = load - sign |f|
-  switch (parameter) {
-    case sweep::Parameter::f:
-      if (is_shaken(scene.shaking)) break;
-      return near(std::copysign(sign * (load - spring), scene.oscillator.forcing));
-    case sweep::Parameter::load:
-      return near(spring + sign * f);
-    case sweep::Parameter::xs:
-      return near(sign * (load - sign * f) / k);
-    case sweep::Parameter::stop_lower:
-      return stop == Side::lower ? near((load + f) / k) : std::nullopt;
-    case sweep::Parameter::stop_upper:
-      return stop == Side::upper ? near((load - f) / k) : std::nullopt;
-    default:
-      break;
+  double value = at;
+  for (int i = 0; i < 20; ++i) {  // Newton's method on the least pressure on the stop
+    const SceneNumbers<Along> p = numbers_along(changed(scene, parameter, value), parameter);
+    const Along pull = p.oscillator.load - p.oscillator.stiffness * p.position(stop);
+    const Along pressure = sign_of(stop) * pull - abs(p.force().amplitude);
+    const double step = pressure.value / pressure.slope[0];
+    value -= step;
+    if (!(std::abs(value - at) <= within)) return std::nullopt;
+    if (std::abs(step) <= 4e-16 * std::abs(value)) return value;
   }
-  const auto least_pressure = [&](double value) {
-    const ShakenScene there = changed(scene, parameter, value);
-    return sign * constant_force(there.oscillator, position_of(there, stop)) -
-           std::abs(oscillator_in_frame(there).forcing);
-  };
-  const double low = at - within, high = at + within, first = least_pressure(low), last = least_pressure(high);
-  if (!((first < 0) != (last < 0))) return std::nullopt;
-  std::uintmax_t most = 60;
-  const auto [a, b] = boost::math::tools::toms748_solve(
-      least_pressure, low, high, first, last,
-      [at](double x, double y) { return std::abs(x - y) <= 4e-16 * std::abs(at); }, most);
-  return a + (b - a) / 2;
+  return value;
 }
 
 std::optional<Orbit> resting_orbit(const point::Problem& problem, Side stop, std::int64_t most_periods) {

@@ -11,11 +11,11 @@ namespace clatter::branches {
 
 /// The phase in 0 ... 2 pi at which the force takes a mass at rest off a stop: the pressing force is zero and falls.
 /// Nothing if it always or never presses.
-[[nodiscard]] std::optional<double> release_phase(const ShakenScene& scene, Side stop);
+[[nodiscard]] std::optional<double> release_phase(const FollowedScene& scene, Side stop);
 
 /// The value of a parameter within a distance of the scene's at which the release from a stop vanishes, as the force
 /// presses all the time: spring, load and force amplitude balance. Nothing if there is none.
-[[nodiscard]] std::optional<double> release_tangency(const ShakenScene& scene, Side stop, sweep::Parameter parameter,
+[[nodiscard]] std::optional<double> release_tangency(const FollowedScene& scene, Side stop, Parameter parameter,
                                                      double within);
 
 /// The periodic motion that rests on a stop until its release from there, and again after at most so many forcing

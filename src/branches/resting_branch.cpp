@@ -34,7 +34,7 @@ void no_longer_waits(std::deque<Waiting>& waiting, std::size_t special, const Or
                 [&](const Waiting& one) { return one.special == special && one.orbit.word() == orbit.word(); });
 }
 
-RestingBranch::RestingBranch(const point::Problem& problem, const BranchSettings& settings, bool symmetric,
+RestingBranch::RestingBranch(const StartProblem& problem, const BranchSettings& settings, bool symmetric,
                              double speed_unit, Record& record, std::deque<Waiting>& waiting)
     : problem_(problem),
       settings_(settings),
@@ -45,7 +45,7 @@ RestingBranch::RestingBranch(const point::Problem& problem, const BranchSettings
       waiting_(waiting) {}
 
 void RestingBranch::follow(const Waiting& from) {
-  stop_ = from.orbit.impacts.back().side, start_ = value_of(from.scene, settings_.along.parameter);
+  stop_ = from.orbit.impacts.back().side, start_ = value_of(from.scene, settings_.along);
   generation_ = from.generation, cascade_side_ = from.cascade_side;
   if (from.cascade)
     if (const auto known = record_.branch_of(from.orbit.word(), start_)) return join(*known, from);
@@ -69,8 +69,8 @@ void RestingBranch::join(std::size_t branch, const Waiting& cascade) {
   const std::vector<SpecialPoint>& special = record_.found().special;
   for (std::size_t i = 0; i < special.size(); ++i) {
     if (special[i].kind != SpecialKind::chatter_limit || !std::ranges::count(special[i].branches, branch)) continue;
-    const double distance = std::abs(value_of(special[i].at.scene, settings_.along.parameter) -
-                                     value_of(cascade.scene, settings_.along.parameter));
+    const double distance =
+        std::abs(value_of(special[i].at.scene, settings_.along) - value_of(cascade.scene, settings_.along));
     if (distance < least) least = distance, nearest = i;
   }
   if (nearest) record_.meet(*nearest, *cascade.cascade);
@@ -132,8 +132,7 @@ void RestingBranch::end(double last, const Orbit& good, double beyond, const std
   BranchPoint at = point(last, good);
   SpecialKind kind = SpecialKind::chatter_limit;
   // nearby, flights are too short to be told from rest
-  if (const auto tangency =
-          release_tangency(at.scene, stop_, settings_.along.parameter, 1e-9 * (std::abs(last) + width_)))
+  if (const auto tangency = release_tangency(at.scene, stop_, settings_.along, 1e-9 * (std::abs(last) + width_)))
     kind = SpecialKind::release_tangency, at.scene = scene(*tangency);
   else if (other && rests_of(*other) == rests_of(good))
     kind = SpecialKind::graze;
@@ -155,7 +154,7 @@ void RestingBranch::go_on_beyond(std::size_t limit, double last, const Orbit& go
                                  const std::optional<Orbit>& other, int heading) {
   if (other && rests_of(*other) > rests_of(good))
     return waiting_.push_back({scene(beyond), *other, {}, limit, generation_, heading});
-  if (Parameters<double>(scene(last)).restitution(stop_) == 0) wait_without_rest(limit, last, good, heading);
+  if (numbers_of<double>(scene(last)).restitution(stop_) == 0) wait_without_rest(limit, last, good, heading);
   const double value = last + heading * 1e-5 * width_;
   if (value < settings_.range[0] || value > settings_.range[1]) return;
   for (const Side stop : {Side::lower, Side::upper})
@@ -177,7 +176,7 @@ void RestingBranch::note_maxima(double here, double next, const Orbit& like) {
   const auto look = [&](SpecialKind kind, Along (*measure)(const Moving&)) {
     const auto slope = [&](double value) {
       const std::optional<Orbit> there = orbit(value, stop_, like);
-      return there ? measure(moving_from_release(scene(value), *there, settings_.along.parameter)).slope[0] : 0.0;
+      return there ? measure(moving_from_release(scene(value), *there, settings_.along)).slope[0] : 0.0;
     };
     const double low = std::min(here, next), high = std::max(here, next), first = slope(low), last = slope(high);
     if (!(first > 0 && last < 0)) return;
@@ -193,8 +192,7 @@ void RestingBranch::note_maxima(double here, double next, const Orbit& like) {
 
 bool RestingBranch::waits_beyond(const BranchPoint& last, Side stop, std::int64_t generation) {
   const auto first = std::ranges::find(record_.found().points, record_.branch(), &BranchPoint::branch);
-  const double end = value_of(last.scene, settings_.along.parameter),
-               distance = end - value_of(first->scene, settings_.along.parameter);
+  const double end = value_of(last.scene, settings_.along), distance = end - value_of(first->scene, settings_.along);
   if (last.orbit.size() < 8 || distance == 0 || std::abs(distance) > 1e-5 * width_) return false;
   const auto resting = resting_ahead(last, stop, distance);
   if (resting)
@@ -212,7 +210,7 @@ void RestingBranch::wait_beyond(const BranchPoint& last, Side stop, double ahead
 std::optional<std::pair<double, Orbit>> RestingBranch::resting_ahead(const BranchPoint& last, Side stop,
                                                                      double ahead) const {
   const Orbit whole = last.orbit.whole();
-  const double end = value_of(last.scene, settings_.along.parameter);
+  const double end = value_of(last.scene, settings_.along);
   for (; ahead != 0 && std::abs(ahead) < 0.01 * width_; ahead *= 2) {
     const double value = end + ahead;
     if (value < settings_.range[0] || value > settings_.range[1]) return std::nullopt;

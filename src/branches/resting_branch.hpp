@@ -10,7 +10,7 @@ namespace clatter::branches {
 
 /// A branch that waits to be followed.
 struct Waiting {
-  ShakenScene scene;
+  FollowedScene scene;
   Orbit orbit;
   std::optional<Vector> direction{};     ///< along which it begins; nothing: both ways
   std::optional<std::size_t> special{};  ///< that it comes from
@@ -28,7 +28,7 @@ void no_longer_waits(std::deque<Waiting>& waiting, std::size_t special, const Or
 class RestingBranch {
  public:
   /// `symmetric`: all scenes along the parameter are.
-  RestingBranch(const point::Problem& problem, const BranchSettings& settings, bool symmetric, double speed_unit,
+  RestingBranch(const StartProblem& problem, const BranchSettings& settings, bool symmetric, double speed_unit,
                 Record& record, std::deque<Waiting>& waiting);
 
   /// Both ways, or one if the branch has a heading; what begins at its ends waits.
@@ -43,7 +43,7 @@ class RestingBranch {
   void wait_beyond(const BranchPoint& last, Side stop, double ahead, std::size_t special, std::int64_t generation);
 
  private:
-  [[nodiscard]] ShakenScene scene(double value) const { return changed(problem_, settings_.along.parameter, value); }
+  [[nodiscard]] FollowedScene scene(double value) const { return changed(problem_, settings_.along, value); }
   [[nodiscard]] std::optional<Orbit> orbit(double value, Side stop, const Orbit& like) const;
   /// The motion with one rest more that begins at least so far ahead of a branch's end, and its parameter.
   [[nodiscard]] std::optional<std::pair<double, Orbit>> resting_ahead(const BranchPoint& last, Side stop,
@@ -59,7 +59,7 @@ class RestingBranch {
   void join(std::size_t branch, const Waiting& cascade);
   void note_maxima(double here, double next, const Orbit& like);
 
-  point::Problem problem_;
+  StartProblem problem_;
   BranchSettings settings_;
   bool symmetric_;
   double width_, speed_unit_;

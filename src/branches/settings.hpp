@@ -6,47 +6,25 @@
 #include <string>
 #include <string_view>
 
-#include "branches/followed.hpp"
+#include "scene/parameter.hpp"
 
 namespace clatter::branches {
-
-/// The keys of [scene] and of [machine] along which a motion can be followed.
-inline constexpr std::array<std::string_view, 26> parameter_names{"h",
-                                                                  "f",
-                                                                  "nu",
-                                                                  "R",
-                                                                  "xs",
-                                                                  "stop_lower",
-                                                                  "stop_upper",
-                                                                  "R_lower",
-                                                                  "R_upper",
-                                                                  "load",
-                                                                  "stiffness",
-                                                                  "stop_amplitude",
-                                                                  "base_amplitude",
-                                                                  "stop_stiffness",
-                                                                  "stop_stiffness_lower",
-                                                                  "stop_stiffness_upper",
-                                                                  "stop_damping",
-                                                                  "stop_damping_lower",
-                                                                  "stop_damping_upper",
-                                                                  "mass",
-                                                                  "damping",
-                                                                  "damping_ratio",
-                                                                  "quality",
-                                                                  "force",
-                                                                  "frequency",
-                                                                  "gap"};
 
 /// The special points that can be followed in two parameters.
 inline constexpr std::array<std::string_view, 4> curve_names{"fold", "flip", "symmetry breaking", "graze"};
 
+namespace detail {
+
+inline constexpr Parameter by_default("nu");
+
+}  // namespace detail
+
 /// How a branch is followed; [branch] of a configuration.
 struct BranchSettings {
-  Followed along = sweep::Parameter::nu;
-  std::array<double, 2> range{};         ///< of that parameter of the computed scene, low and high
-  std::optional<Followed> across{};      ///< second parameter, of a curve of special points
-  std::array<double, 2> across_range{};  ///< of that parameter of the computed scene, low and high, or infinite
+  Parameter along = detail::by_default;
+  std::array<double, 2> range{};         ///< of that parameter, low and high
+  std::optional<Parameter> across{};     ///< second parameter, of a curve of special points
+  std::array<double, 2> across_range{};  ///< of that parameter, low and high, or infinite
   std::string curve{};                   ///< one of curve_names; empty without a second parameter
   std::int64_t period = 0;          ///< forcing periods of the motion near x0, v0; 0: that which the scene settles on
   double tolerance = 1e-12;         ///< of Newton's method, relative

@@ -44,10 +44,11 @@ SoftContacts contacts_of(const Moving& moving) {
     const Moving::Impact &from = moving.impacts[i], &to = moving.impacts[(i + 1) % count];
     if (!presses(from.event)) continue;
     const motion::SoftStop<Along> stop = moving.p.soft_stop(from.side);
-    const Along end = i + 1 < count ? to.phase : to.phase + moving.period * moving.p.nu;
+    const Along end = i + 1 < count ? to.phase : to.phase + moving.period * moving.p.oscillator.frequency;
     const Flight<Along> flight{from.side, from.phase, from.before, to.side, end, from.event, to.event};
-    flights.with_arc(
-        flight, [&](const auto& arc) { add_contact(arc, stop, from.phase, (end - from.phase) / moving.p.nu, sum); });
+    flights.with_arc(flight, [&](const auto& arc) {
+      add_contact(arc, stop, from.phase, (end - from.phase) / moving.p.oscillator.frequency, sum);
+    });
     // a stop that the mass outruns relaxes as far as it is touched again
     if (to.event == Event::separation) sum.loss += stored(stop, to.before);
     if (from.event == Event::renewal && !presses(moving.impacts[(i + count - 1) % count].event))

@@ -8,8 +8,8 @@
 #include "branches/event_run.hpp"
 #include "branches/measures.hpp"
 #include "branches/resting.hpp"
-#include "model/response.hpp"
 #include "point/point.hpp"
+#include "scene/response.hpp"
 #include "sweep/sweep.hpp"
 
 namespace clatter::branches {
@@ -77,79 +77,77 @@ Orbit soft_start(const point::Problem& given, const point::Problem& problem, con
   return orbit->half_if_same(1e-6, symmetric);
 }
 
+/// "stop_stiffness_lower" of a stop, or the key of both.
+std::string with_side(const std::string& key, Side side) {
+  return side == Side::none ? key : key + (side == Side::lower ? "_lower" : "_upper");
+}
+
 /// Throws StartError if a parameter of soft stops is to be followed and there is none, or a restitution of one.
-void require_soft_stop(const Stops& stops, const Followed& followed, const std::string& asked) {
-  using enum sweep::Parameter;
-  const sweep::Parameter parameter = followed.parameter;
-  const bool lower = is_soft(stops, Side::lower), upper = is_soft(stops, Side::upper);
-  const bool of_lower = parameter == stop_stiffness_lower || parameter == stop_damping_lower,
-             of_upper = parameter == stop_stiffness_upper || parameter == stop_damping_upper,
-             of_both = parameter == stop_stiffness || parameter == stop_damping;
-  if ((of_lower && !lower) || (of_upper && !upper) || (of_both && !lower && !upper))
-    throw StartError(asked + " is of a soft stop, and this one is rigid; give " + std::string(followed.section) + '.' +
-                     std::string(of_both    ? "stop_stiffness"
-                                 : of_lower ? "stop_stiffness_lower"
-                                            : "stop_stiffness_upper"));
-  if ((parameter == R && lower && upper) || (parameter == R_lower && lower) || (parameter == R_upper && upper))
+void require_soft_stop(const FollowedScene& scene, Parameter parameter, const std::string& asked) {
+  const auto of_any = [&](const auto& holds) {
+    if (parameter.side() != Side::none) return holds(parameter.side());
+    return holds(Side::lower) || holds(Side::upper);
+  };
+  const auto soft = [&](Side side) { return is_soft(scene.stops, side); };
+  if (parameter.role() == Role::softness && !of_any(soft))
+    throw StartError(asked + " is of a soft stop, and this one is rigid; give " +
+                     (scene.given.is_si ? "machine." : "scene.") + with_side("stop_stiffness", parameter.side()));
+  if (parameter.role() == Role::restitution && !of_any([&](Side side) { return !soft(side); }))
     throw StartError(asked + " has no effect on a soft stop; take stop_damping");
 }
 
 /// Throws StartError if a parameter changes both stops, which differ.
-void require_equal_stops(const Stops& stops, const Followed& followed, const std::string& asked) {
-  using enum sweep::Parameter;
-  const sweep::Parameter parameter = followed.parameter;
-  if (parameter == xs && stops.lower != -stops.upper)
+void require_equal_stops(const FollowedScene& scene, Parameter parameter, const std::string& asked) {
+  GivenScene same = scene.given;
+  set(same, parameter, value_of(scene, parameter));
+  if (!parameter.is_of_both() || same.stops == scene.given.stops) return;
+  if (parameter.role() == Role::position)
     throw StartError(asked + " moves both stops, which aren't symmetric; take stop_lower or stop_upper");
-  const bool differ = (parameter == R && stops.restitution_lower != stops.restitution_upper) ||
-                      (parameter == stop_stiffness && stops.stiffness_lower != stops.stiffness_upper) ||
-                      (parameter == stop_damping && stops.damping_lower != stops.damping_upper);
-  const std::string name(followed.name());
-  if (differ)
-    throw StartError(asked + " changes both stops, which differ; take " + name + "_lower or " + name + "_upper");
+  const std::string key(parameter.key());
+  throw StartError(asked + " changes both stops, which differ; take " + key + "_lower or " + key + "_upper");
 }
 
 /// Throws StartError at a start at which derivatives by a parameter don't exist, as the formulas change there.
-void require_derivatives(const Oscillator& oscillator, const Followed& followed) {
-  using enum sweep::Parameter;
-  const double k = oscillator.stiffness, critical = oscillator.damping * oscillator.damping;
-  const std::string by = "derivatives by " + std::string(followed.name()) + " don't exist ",
-                    begin = ", where the formulas change; begin at another " + followed.key();
-  const bool is_stiffness = followed.parameter == stiffness;
-  const std::string at_critical = followed.section == "machine" ? "at critical damping" : "at h^2 = stiffness";
-  if (is_stiffness && (k == 0 || k == critical)) throw StartError(by + "at 0 and " + at_critical + begin);
-  if ((followed.parameter == h || followed.parameter == mass) && k == critical)
-    throw StartError(by + at_critical + begin);
+void require_derivatives(const FollowedScene& scene, Parameter parameter) {
+  const auto [h, f, nu, load, k] = numbers_along(scene, parameter).oscillator;
+  const std::string by = "derivatives by " + std::string(parameter.key()) + " don't exist ",
+                    begin = ", where the formulas change; begin at another " + key_in_section(scene, parameter),
+                    at_critical = scene.given.is_si ? "at critical damping" : "at h^2 = stiffness";
+  const bool is_critical = k == h * h;
+  if (!k.is_constant() && (k == 0 || is_critical)) throw StartError(by + "at 0 and " + at_critical + begin);
+  if (!h.is_constant() && is_critical) throw StartError(by + at_critical + begin);
 }
 
 }  // namespace
 
-void require_start_in_range(const ShakenScene& scene, const Followed& followed, const std::array<double, 2>& range,
+void require_start_in_range(const FollowedScene& scene, Parameter parameter, const std::array<double, 2>& range,
                             const std::string& key) {
-  using enum sweep::Parameter;
-  const sweep::Parameter parameter = followed.parameter;
   const Stops& stops = scene.stops;
-  const std::string asked = "branch." + key + " = " + std::string(followed.name()),
+  const std::string asked = "branch." + key + " = " + std::string(parameter.key()),
                     interval = key == "along" ? "branch.range" : "branch.across_range";
-  require_equal_stops(stops, followed, asked);
-  require_soft_stop(stops, followed, asked);
+  require_equal_stops(scene, parameter, asked);
+  require_soft_stop(scene, parameter, asked);
   const double at = value_of(scene, parameter), width = range[1] - range[0];
-  if (!std::isfinite(at)) throw StartError("there is no stop to move by branch." + key + "; give " + followed.key());
+  if (!std::isfinite(at))
+    throw StartError("there is no stop to move by branch." + key + "; give " + key_in_section(scene, parameter));
   if (key == "along" && !std::isfinite(width)) throw StartError(interval + " has no end; give two finite numbers");
-  const double rounding = followed.section == "machine" && std::isfinite(width) ? 1e-14 * width : 0.0;  // of the units
-  if (!(at >= range[0] - rounding && at <= range[1] + rounding))
-    throw StartError("the start lies outside " + interval + "; give " + followed.key() + " a value within it");
-  if (parameter == stop_lower && range[1] >= stops.upper && std::isfinite(range[1]))
+  if (!(at >= range[0] && at <= range[1]))
+    throw StartError("the start lies outside " + interval + "; give " + key_in_section(scene, parameter) +
+                     " a value within it");
+  const bool is_place = parameter.role() == Role::position && !parameter.is_of_both();
+  if (is_place && parameter.side() == Side::lower && range[1] >= stops.upper && std::isfinite(range[1]))
     throw StartError(interval + " reaches the upper stop; end it below stop_upper");
-  if (parameter == stop_upper && range[0] <= stops.lower && std::isfinite(range[0]))
+  if (is_place && parameter.side() == Side::upper && range[0] <= stops.lower && std::isfinite(range[0]))
     throw StartError(interval + " reaches the lower stop; begin it above stop_lower");
-  require_derivatives(scene.oscillator, followed);
-  if ((parameter == stop_amplitude && scene.shaking.base != 0) ||
-      (parameter == base_amplitude && scene.shaking.stops != 0))
+  require_derivatives(scene, parameter);
+  GivenScene shaken = scene.given;
+  set(shaken, parameter, 1.0);
+  if (shaken.shaking.stops != 0 && shaken.shaking.base != 0)
     throw StartError("stops and base can't be shaken at once; " + asked + " needs " +
-                     (parameter == stop_amplitude ? "base_amplitude" : "stop_amplitude") + " = 0");
+                     (parameter == Parameter("stop_amplitude") ? "base_amplitude" : "stop_amplitude") + " = 0");
 }
 
-double speed_scale(const ShakenScene& scene, const Orbit& orbit) {
+double speed_scale(const FollowedScene& scene, const Orbit& orbit) {
   const Oscillator oscillator = oscillator_in_frame(scene);
   const double nu = oscillator.frequency;
   const double response = nu * steady_response(oscillator).amplitude;
@@ -158,7 +156,8 @@ double speed_scale(const ShakenScene& scene, const Orbit& orbit) {
   return speed > 1e-2 * free ? speed : std::max(free, 1e-12);
 }
 
-Orbit start_orbit(const point::Problem& given, std::int64_t period, bool symmetric) {
+Orbit start_orbit(const StartProblem& start, std::int64_t period, bool symmetric) {
+  const point::Problem given = with_scene(start, start);
   point::Problem problem = given;
   sweep::enter_shaken_frame(problem);
   const bool is_si = given.units.is_si;

@@ -5,9 +5,8 @@
 #include <stdexcept>
 #include <string>
 
-#include "branches/followed.hpp"
+#include "branches/followed_scene.hpp"
 #include "branches/orbit.hpp"
-#include "branches/shaken_scene.hpp"
 
 namespace clatter::branches {
 
@@ -18,15 +17,15 @@ struct StartError : std::runtime_error {
 
 /// Throws StartError if a scene's parameter can't be followed over a range from its present value on. `key` says which
 /// parameter of [branch] it is: "along" or "across".
-void require_start_in_range(const ShakenScene& scene, const Followed& followed, const std::array<double, 2>& range,
+void require_start_in_range(const FollowedScene& scene, Parameter parameter, const std::array<double, 2>& range,
                             const std::string& key);
 
 /// A speed of the order of the motion's: that of its fastest impact, or if that is hardly one, of the response.
-[[nodiscard]] double speed_scale(const ShakenScene& scene, const Orbit& orbit);
+[[nodiscard]] double speed_scale(const FollowedScene& scene, const Orbit& orbit);
 
 /// The periodic motion that a branch begins with: that which the scene settles on, or, for a period > 0 in forcing
 /// periods, that near x0, v0; kept as a half if it is its own mirror image and `symmetric` scenes follow. Motion that
 /// rests is kept as a whole from its release on (`resting_orbit`). Throws StartError.
-[[nodiscard]] Orbit start_orbit(const point::Problem& problem, std::int64_t period, bool symmetric);
+[[nodiscard]] Orbit start_orbit(const StartProblem& problem, std::int64_t period, bool symmetric);
 
 }  // namespace clatter::branches

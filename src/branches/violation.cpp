@@ -54,14 +54,14 @@ bool is_at_end(double elapsed, double length, double x, double speed, double nu)
 }
 
 template <Effects E>
-std::optional<Violation> cut_short(const Parameters<double>& p, const motion::Arc<double, E>& arc, const Path& path) {
-  const Stops stops{.lower = p.lower, .upper = p.upper};
+std::optional<Violation> cut_short(const SceneNumbers<double>& p, const motion::Arc<double, E>& arc, const Path& path) {
+  const Stops stops{.lower = p.stops.lower, .upper = p.stops.upper};
   const motion::Contact<double> contact = motion::next_contact(arc, stops, path.length);
   if (contact.side == Side::none) return std::nullopt;
   const motion::Motion<double> m = contact.motion;
   if (contact.side == path.to && is_at_end(contact.elapsed, path.length, m.x, m.v, arc.constants().nu))
     return std::nullopt;
-  const Event turns = p.is_soft(contact.side) ? Event::separation : Event::impact;
+  const Event turns = is_soft(p.stops, contact.side) ? Event::separation : Event::impact;
   const Margin gap{-static_cast<double>(sign_of(contact.side)), 0.0};
   std::optional<Violation> found = passes_through(arc, path, gap, contact.elapsed, contact.side, turns);
   found->turning.before = 0.0;
@@ -85,7 +85,7 @@ std::optional<Violation> separates(const motion::SoftStop<double>& stop, const m
 
 /// After a separation beyond the position of a soft stop the mass comes back to that position, or to the stop.
 template <Effects E>
-std::optional<Violation> free_within(const Parameters<double>& p, const motion::SoftStop<double>& stop,
+std::optional<Violation> free_within(const SceneNumbers<double>& p, const motion::SoftStop<double>& stop,
                                      const motion::Arc<double, E>& arc, const Path& path) {
   const double into = stop.into(1.0), nu = arc.constants().nu;
   const Margin depth{into, 0.0}, pull{-into, -into * stop.relaxation()};
@@ -122,7 +122,7 @@ Flight<double> flight_after(const Orbit& orbit, std::size_t i) {
 }
 
 /// Where two events of a soft stop are about to vanish, the proof may find a third one beside them: it is theirs.
-Violation told_apart(const Parameters<double>& p, const Orbit& orbit, const Violation& found) {
+Violation told_apart(const SceneNumbers<double>& p, const Orbit& orbit, const Violation& found) {
   constexpr double about = 1e-6;  // rad: the force turns at about its square
   if (found.kind == Violation::Kind::pulls) {
     const Flight<double> flight = flight_after(orbit, found.impact);
@@ -142,15 +142,15 @@ Violation told_apart(const Parameters<double>& p, const Orbit& orbit, const Viol
 /// Motion without events.
 template <Effects E>
 std::optional<Violation> response_violation(const Flights<double, E>& flights, const Orbit& orbit) {
-  const Parameters<double>& p = flights.parameters();
+  const SceneNumbers<double>& p = flights.parameters();
   return flights.with_response(
       orbit.pressed, [&](const auto& arc, const Response<double>& response) -> std::optional<Violation> {
-        const Path path{0, 0, 0.0, orbit.advance() / p.nu, Side::none};
+        const Path path{0, 0, 0.0, orbit.advance() / p.oscillator.frequency, Side::none};
         if (orbit.pressed != Side::none) return separates(p.soft_stop(orbit.pressed), arc, path);
         for (const Side side : {Side::lower, Side::upper})  // begins beyond the stop
           if (const double sign = sign_of(side); sign * (arc.start().x - p.position(side)) > 0) {
             const double turn = std::atan2(sign * response.in_phase, sign * response.quadrature) - flights.lead();
-            const Event turns = p.is_soft(side) ? Event::separation : Event::impact;
+            const Event turns = is_soft(p.stops, side) ? Event::separation : Event::impact;
             return Violation{Violation::Kind::passes_through, 0, {side, turn, 0.0, 0.0, turns}};
           }
         return cut_short(p, arc, path);
@@ -159,10 +159,10 @@ std::optional<Violation> response_violation(const Flights<double, E>& flights, c
 
 }  // namespace
 
-std::optional<Violation> violation(const ShakenScene& scene, const Orbit& orbit, std::optional<std::size_t> grazing) {
+std::optional<Violation> violation(const FollowedScene& scene, const Orbit& orbit, std::optional<std::size_t> grazing) {
   // next to its double zero in a graze, the sign of a soft stop's force is that of rounding
   constexpr double clear_of_rounding = 1e-6;
-  const Parameters<double> of_scene(scene);
+  const SceneNumbers<double> of_scene = numbers_of<double>(scene);
   for (std::size_t i = 0; i < orbit.size(); ++i)
     if (const Flight<double> flight = flight_after(orbit, i);
         flight.may_vanish(of_scene) && !(flight.begin < flight.end))
@@ -170,15 +170,16 @@ std::optional<Violation> violation(const ShakenScene& scene, const Orbit& orbit,
   for (std::size_t i = 0; i < orbit.size(); ++i)
     if (i != grazing && !points_right(orbit.impacts[i])) return Violation{Violation::Kind::pulls, i, {}};
   return with_arcs(scene, [&]<Effects E>() -> std::optional<Violation> {
-    const Flights<double, E> flights{Parameters<double>(scene)};
-    const Parameters<double>& p = flights.parameters();
+    const Flights<double, E> flights{numbers_of<double>(scene)};
+    const SceneNumbers<double>& p = flights.parameters();
     if (orbit.size() == 0) return response_violation(flights, orbit);
     for (std::size_t i = 0; i < orbit.size(); ++i) {
       Flight<double> flight = flight_after(orbit, i);
       const bool without_speed = flight.leaves == Event::impact || std::abs(flight.before) <= 1e-9;
       const bool leaves_graze = i == grazing && !presses(flight.leaves) && without_speed;
       if (leaves_graze) flight.before = 0;
-      Path path{i, (i + 1) % orbit.size(), flight.begin, (flight.end - flight.begin) / p.nu, flight.to, flight.arrives};
+      Path path{i,         (i + 1) % orbit.size(), flight.begin, (flight.end - flight.begin) / p.oscillator.frequency,
+                flight.to, flight.arrives};
       path.ends_in_graze = path.next == grazing && flight.arrives == Event::separation && !presses(flight.leaves);
       auto found = flights.with_arc(flight, [&](const auto& arc) {
         if (flight.leaves == Event::impact || leaves_graze) return cut_short(p, arc, path);
@@ -189,7 +190,7 @@ std::optional<Violation> violation(const ShakenScene& scene, const Orbit& orbit,
         };
         if (i != grazing) return flown(arc);
         const double clear = std::min(clear_of_rounding / arc.constants().rate, path.length);
-        path.begin += p.nu * clear, path.length -= clear;
+        path.begin += p.oscillator.frequency * clear, path.length -= clear;
         return flown(motion::Arc(arc.constants(), arc.at(clear), stop.position));
       });
       if (found && !(found->kind == Violation::Kind::pulls && found->impact == grazing))

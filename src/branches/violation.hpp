@@ -22,7 +22,7 @@ struct Violation {
 
 /// The first violation of an orbit, by the proof of first contact on each of its flights, and by that of the first sign
 /// change of a soft stop's force; nothing: it is a motion. The event `grazing` may be without speed.
-[[nodiscard]] std::optional<Violation> violation(const ShakenScene& scene, const Orbit& orbit,
+[[nodiscard]] std::optional<Violation> violation(const FollowedScene& scene, const Orbit& orbit,
                                                  std::optional<std::size_t> grazing = {});
 /// Of a point of a branch or a curve.
 [[nodiscard]] inline std::optional<Violation> violation(const OrbitEquations& equations, const Vector& point) {

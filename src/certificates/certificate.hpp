@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "model/scene.hpp"
 #include "point/exact_motion.hpp"
+#include "scene/scene.hpp"
 
 namespace clatter::certificates {
 

@@ -77,12 +77,17 @@ Json start_of(const Certificate& certificate) {
 }
 
 /// The machine of a point, in SI.
-Json json_of(const sweep::Machine& machine) {
-  const char* const damping = machine.damping_given == sweep::DampingGiven::coefficient ? "damping"
-                              : machine.damping_given == sweep::DampingGiven::ratio     ? "damping_ratio"
-                                                                                        : "quality";
-  return {{"mass", machine.mass},   {"stiffness", machine.stiffness}, {damping, json_of(machine.damping)},
-          {"force", machine.force}, {"frequency", machine.frequency}, {"load", machine.load}};
+Json json_of(const GivenScene& machine) {
+  const auto& [h, force, frequency, load, stiffness] = machine.oscillator;
+  Json json{{"mass", machine.mass}, {"stiffness", stiffness}};
+  if (std::isfinite(machine.quality))
+    json["quality"] = machine.quality;
+  else if (machine.damping_ratio != 0)
+    json["damping_ratio"] = machine.damping_ratio;
+  else
+    json["damping"] = machine.damper;
+  json["force"] = force, json["frequency"] = frequency, json["load"] = load;
+  return json;
 }
 
 Json json_of(const SceneSlopes& slopes) {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "certificates/certificate.hpp"
-#include "sweep/scaling.hpp"
+#include "scene/given_scene.hpp"
 
 namespace clatter::certificates {
 
@@ -17,7 +17,7 @@ struct CertifiedPlace {
   std::optional<std::size_t> branch{};               ///< that it is on
   std::vector<std::pair<std::string, double>> at{};  ///< parameters, in the user's units
   std::optional<std::string> direction{};            ///< of a sweep both ways: up or down
-  std::optional<sweep::Machine> machine{};           ///< with those parameters
+  std::optional<GivenScene> machine{};               ///< with those parameters
 };
 
 /// A certificate as one line of JSON (RFC 8259), its end included. Numbers have the digits that read back to the same

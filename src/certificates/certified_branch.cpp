@@ -12,16 +12,17 @@ namespace clatter::certificates {
 namespace {
 
 using branches::BranchPoint;
+using branches::FollowedScene;
 using branches::Orbit;
 using branches::OrbitImpact;
-using branches::ShakenScene;
 using branches::SpecialKind;
 using branches::SpecialPoint;
+using branches::StartProblem;
 using point::Problem;
 using Kind = point::MotionEvent::Kind;
 
 /// The problem of a state at a phase of the shaking, in the frame of what is shaken.
-Problem problem_from(const Problem& start, const ShakenScene& scene, const PhasePoint& state, double phase) {
+Problem problem_from(const StartProblem& start, const FollowedScene& scene, const PhasePoint& state, double phase) {
   Problem problem = branches::with_scene(start, scene);
   problem.start = {state.x, state.v, phase};
   sweep::enter_shaken_frame(problem);
@@ -55,7 +56,7 @@ struct Begin {
   PhasePoint state;
   std::size_t flight = 0;  ///< that begins with this event
 };
-Begin begin_of(const ShakenScene& scene, const Orbit& orbit, std::optional<double> graze) {
+Begin begin_of(const FollowedScene& scene, const Orbit& orbit, std::optional<double> graze) {
   if (orbit.size() == 0 && !graze) return {0.0, branches::state_at(scene, orbit, 0, 0.0)};
   Begin longest;
   double length = 0.0;
@@ -82,7 +83,7 @@ struct EventError {
 };
 
 /// How an error of the state at the start spreads over the events of a period.
-std::vector<EventError> errors_after(const ShakenScene& scene, const Orbit& orbit, const Begin& begin,
+std::vector<EventError> errors_after(const FollowedScene& scene, const Orbit& orbit, const Begin& begin,
                                      double state_error) {
   if (orbit.size() == 0) return {};
   Orbit all = orbit.whole();
@@ -102,18 +103,19 @@ std::vector<EventError> errors_after(const ShakenScene& scene, const Orbit& orbi
   return errors;
 }
 
-SceneSlopes slopes_along(const ShakenScene& scene, const branches::Followed& along) {
-  const branches::Parameters<branches::Along> p = branches::varied(scene, along.parameter);
+SceneSlopes slopes_along(const FollowedScene& scene, Parameter along) {
+  const auto p = branches::numbers_along(scene, along);
   const auto force = p.force();
+  const auto& o = p.oscillator;
   const auto slope = [](const branches::Along& number) { return number.slope[0]; };
   const auto of_stop = [&](Side side) {
     const bool upper = side == Side::upper, soft = is_soft(scene.stops, side);
     return SceneSlopes::Stop{slope(p.position(side)), soft ? 0.0 : slope(p.restitution(side)),
-                             soft ? slope(upper ? p.kappa_upper : p.kappa_lower) : 0.0,
-                             soft ? slope(upper ? p.zeta_upper : p.zeta_lower) : 0.0};
+                             soft ? slope(upper ? p.stops.stiffness_upper : p.stops.stiffness_lower) : 0.0,
+                             soft ? slope(upper ? p.stops.damping_upper : p.stops.damping_lower) : 0.0};
   };
-  return {slope(p.h),    slope(p.k),        slope(force.amplitude), slope(p.nu),
-          slope(p.load), slope(force.lead), of_stop(Side::lower),   of_stop(Side::upper)};
+  return {slope(o.damping), slope(o.stiffness), slope(force.amplitude), slope(o.frequency),
+          slope(o.load),    slope(force.lead),  of_stop(Side::lower),   of_stop(Side::upper)};
 }
 
 /// The name under which a special point is claimed; nothing: the format has none.
@@ -137,7 +139,7 @@ constexpr double of_special = 1e-12;  ///< error over the size, where the place 
 
 }  // namespace
 
-CertifiedPoint certified(const BranchPoint& point, const Problem& start) {
+CertifiedPoint certified(const BranchPoint& point, const StartProblem& start) {
   const PhasePoint state = branches::state_at_phase_zero(point.scene, point.orbit);
   const observables::Extrema::Values range = branches::extrema(point.scene, point.orbit);
   const Stops rigid = rigid_ones(point.scene.stops);
@@ -153,13 +155,13 @@ CertifiedPoint certified(const BranchPoint& point, const Problem& start) {
   return certified_period(problem, result);
 }
 
-CertifiedPoint certified(const SpecialPoint& special, const branches::Followed& along, const Problem& start) {
+CertifiedPoint certified(const SpecialPoint& special, Parameter along, const StartProblem& start) {
   CertifiedPoint found{.status = steady::Status::periodic,
                        .periods = special.at.orbit.period_ratio(),
                        .without = Without::no_such_claim};
   const auto kind = claimed_kind(special);
   const auto graze = grazing(special);
-  const ShakenScene& scene = special.at.scene;
+  const FollowedScene& scene = special.at.scene;
   const Orbit& kept = special.at.orbit;
   if (!kind || kept.rests() || (special.kind == SpecialKind::graze) != graze.has_value()) return found;
   const Orbit orbit = graze ? kept.without(*graze) : kept;
@@ -195,9 +197,9 @@ CertifiedPoint certified(const SpecialPoint& special, const branches::Followed& 
   }
   certificate.period = ClaimedPeriod{.periods = static_cast<std::size_t>(std::llround(kept.period_ratio()))};
   if (kept.mirrored) certificate.period->symmetric = true;
-  const double parameter = branches::value_of(scene, along.parameter);
-  certificate.special = ClaimedSpecial{
-      std::string(*kind), {parameter, of_special * std::max(std::abs(parameter), 1e-3)}, slopes_along(scene, along)};
+  const double parameter = value_of(scene, along), unit = factor_of(scene.units, along.row().quantity);
+  const Claimed value{parameter, of_special * std::max(std::abs(parameter), 1e-3 * unit)};
+  certificate.special = ClaimedSpecial{std::string(*kind), value, slopes_along(scene, along)};
   found.certificate = certificate, found.without = Without::none;
   return found;
 }

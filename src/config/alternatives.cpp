@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <string>
 
@@ -8,11 +9,9 @@
 namespace clatter::config {
 namespace {
 
-using enum sweep::Parameter;
-
 /// A stop that is not given does not exist; a scene without any was hardly meant.
 void check_stops_given(const Settings& settings) {
-  if (settings.given_symmetric_stops() || settings.given(stop_lower) || settings.given(stop_upper)) return;
+  if (settings.given_symmetric_stops() || settings.given("stop_lower") || settings.given("stop_upper")) return;
   const std::string section(settings.scene_section), both = settings.is_si() ? "gap" : "xs";
   fail(settings.location_of_section(section), '\'' + both + "' is missing in [" + section + "]; give " + both +
                                                   ", or stop_lower, stop_upper or both (-inf and inf: no stop)");
@@ -21,29 +20,29 @@ void check_stops_given(const Settings& settings) {
 bool is_zero(double value) { return value == 0; }
 
 /// A key of a machine that isn't 0 at some point, or nullptr.
-const Setting* not_zero(const Settings& settings, sweep::Parameter parameter) {
+const Setting* not_zero(const Settings& settings, Parameter parameter) {
   const Setting* const given = settings.given(parameter);
   return given == nullptr || std::ranges::all_of(given->numbers(), is_zero) ? nullptr : given;
 }
 
 /// Whether a machine has no spring at some point.
 bool lacks_spring(const Settings& settings) {
-  const Setting* const given = settings.given(stiffness);
+  const Setting* const given = settings.given("stiffness");
   return given == nullptr || std::ranges::any_of(given->numbers(), is_zero);
 }
 
 /// A machine needs a mass, a force its frequency, a damping ratio its spring.
 void check_machine(const Settings& settings) {
   if (!settings.is_si()) return;
-  if (settings.given(mass) == nullptr)
+  if (settings.given("mass") == nullptr)
     fail(settings.location_of_section("machine"),
          "'mass' is missing in [machine]; give it in kg, or as e.g. \"250 g\"");
-  for (const sweep::Parameter needs_frequency : {force, stop_amplitude, base_amplitude})
+  for (const Parameter needs_frequency : std::array<Parameter, 3>{"force", "stop_amplitude", "base_amplitude"})
     if (const Setting* const given = not_zero(settings, needs_frequency);
-        given != nullptr && settings.given(frequency) == nullptr)
+        given != nullptr && settings.given("frequency") == nullptr)
       fail(given->key_location,
            in_quotes(given->key->name) + " without 'frequency'; add it to [machine] in Hz, or as e.g. \"25 Hz\"");
-  for (const sweep::Parameter needs_spring : {damping_ratio, quality})
+  for (const Parameter needs_spring : std::array<Parameter, 2>{"damping_ratio", "quality"})
     if (const Setting* const given = settings.given(needs_spring); given != nullptr && lacks_spring(settings))
       fail(given->key_location, in_quotes(given->key->name) +
                                     " where the stiffness is 0, to which it refers; give 'damping' in N s/m, or a "
@@ -52,9 +51,9 @@ void check_machine(const Settings& settings) {
 
 /// start_period is the period of free motion without loss between symmetric stops (src/motion/README.md, eq. 36).
 void check_start_period(const Settings& settings) {
-  const Setting* const start = settings.given(start_period);
+  const Setting* const start = settings.given("start_period");
   if (start == nullptr) return;
-  const auto demand = [&](sweep::Parameter parameter, double value) {
+  const auto demand = [&](Parameter parameter, double value) {
     const Setting* const given = settings.given(parameter);
     if (given == nullptr) return;
     for (std::size_t i = 0; i < given->numbers().size(); ++i) {
@@ -64,12 +63,13 @@ void check_start_period(const Settings& settings) {
                                       ", or x0 and v0 in place of start_period");
     }
   };
-  for (const sweep::Parameter parameter : {h, f, load}) demand(parameter, 0);
-  demand(stiffness, 1);
-  for (const sweep::Parameter parameter : {R, R_lower, R_upper}) demand(parameter, 1);
-  for (const sweep::Parameter parameter : {stop_stiffness, stop_stiffness_lower, stop_stiffness_upper})
+  for (const Parameter parameter : std::array<Parameter, 3>{"h", "f", "load"}) demand(parameter, 0);
+  demand("stiffness", 1);
+  for (const Parameter parameter : std::array<Parameter, 3>{"R", "R_lower", "R_upper"}) demand(parameter, 1);
+  for (const Parameter parameter :
+       std::array<Parameter, 3>{"stop_stiffness", "stop_stiffness_lower", "stop_stiffness_upper"})
     demand(parameter, std::numeric_limits<double>::infinity());
-  if (!settings.given(xs))
+  if (!settings.given("xs"))
     fail(start->key_location,
          "'start_period' without 'xs'; give the stops by xs, or x0 and v0 in place of start_period");
 }

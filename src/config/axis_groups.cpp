@@ -17,7 +17,8 @@ std::size_t axis_of(const Settings& settings, const Setting& setting, std::strin
   if (found != names.end()) return static_cast<std::size_t>(found - names.begin());
   const std::string message =
       std::string(setting.key->name) + " names " + in_quotes(name) + ", which is no axis of [sweep]";
-  const auto replaced = std::ranges::find(settings.replaced, sweep::parameter_of(name), &Replaced::parameter);
+  const auto replaced =
+      std::ranges::find_if(settings.replaced, [&](const Replaced& one) { return one.parameter.key() == name; });
   if (replaced != settings.replaced.end())
     fail(setting.location,
          message + " with " + to_string(replaced->by) + "; add --set sweep." + std::string(setting.key->name) + "=''");

@@ -7,9 +7,8 @@
 
 namespace clatter::config {
 
-/// [branch], in the units of the problem that the branch begins with; nothing if no key of it is given. Throws
+/// [branch], with ranges in the user's units; nothing if no key of it is given. Throws
 /// ConfigError if a key is missing, a value of a range isn't permitted, or [sweep] has an axis of the same key.
-[[nodiscard]] std::optional<branches::BranchSettings> branch_settings_of(const Settings& settings,
-                                                                         const point::Problem& start);
+[[nodiscard]] std::optional<branches::BranchSettings> branch_settings_of(const Settings& settings);
 
 }  // namespace clatter::config

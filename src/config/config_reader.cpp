@@ -77,42 +77,24 @@ stepping::Integration integration(const Settings& settings) {
           .all_effects = settings.text("integrator", "effects") == "all"};
 }
 
-/// Whether the damping of a stop is given in N s/m, in place of a ratio.
-bool is_stop_damping_in_si(const Setting& given) {
-  return given.key->with_unit == Quantity::damping && given.quantity == Quantity::damping;
-}
+/// The parameter that a setting of the scene gives.
+Parameter parameter_of(const Setting& given) { return Parameter::of(given.key->name, given.quantity).value(); }
 
-/// Notes which stops' damping is.
-void note_stop_damping(const Setting& given, sweep::Machine& machine) {
-  if (!is_stop_damping_in_si(given)) return;
-  const sweep::Parameter parameter = sweep::parameter_of(given.key->name).value();
-  machine.stop_damping_in_si[0] |= parameter != sweep::Parameter::stop_damping_upper;
-  machine.stop_damping_in_si[1] |= parameter != sweep::Parameter::stop_damping_lower;
-}
-
-/// Gives a sweep the scene or the machine before any axis is applied; a key that isn't given keeps the value that
-/// Problem or Machine has.
-void set_scene(const Settings& settings, sweep::Sweep& sweep) {
-  sweep.problem.time = time_settings(settings);
-  sweep.problem.observe = observe(settings);
-  sweep.problem.integration = integration(settings);
-  if (settings.is_si()) sweep.machine.emplace();
-  for (const Setting& given : settings.values) {
-    if (given.key->section != settings.scene_section) continue;
-    const sweep::Parameter parameter = sweep::parameter_of(given.key->name).value();
-    const double value = std::get<double>(given.value);
-    if (sweep.machine) note_stop_damping(given, *sweep.machine);
-    if (parameter == sweep::Parameter::start_period) {
-      sweep.start_period = value;
-    } else if (!sweep.machine || !sweep::set(*sweep.machine, parameter, value)) {
-      sweep::set(sweep.problem, parameter, value);
-    }
-  }
+/// The scene before any axis is applied; a key that isn't given keeps its neutral value.
+sweep::GivenProblem given_problem(const Settings& settings) {
+  sweep::GivenProblem problem;
+  problem.time = time_settings(settings);
+  problem.observe = observe(settings);
+  problem.integration = integration(settings);
+  problem.is_si = settings.is_si();
+  if (problem.is_si) problem.oscillator.stiffness = problem.oscillator.frequency = 0;  // none without a key
+  for (const Setting& given : settings.values)
+    if (given.key->section == settings.scene_section) set(problem, parameter_of(given), std::get<double>(given.value));
+  return problem;
 }
 
 sweep::Sweep sweep_of(Settings& settings, const AxisGroups& groups) {
-  sweep::Sweep sweep{.follow = followed_dimension(settings, groups)};
-  set_scene(settings, sweep);
+  sweep::Sweep sweep{.problem = given_problem(settings), .follow = followed_dimension(settings, groups)};
   sweep.problem.observe.of_soft_stops =
       is_soft_somewhere(settings, Side::lower) || is_soft_somewhere(settings, Side::upper);
   if (sweep.follow) sweep.direction = direction_of(settings);
@@ -120,10 +102,7 @@ sweep::Sweep sweep_of(Settings& settings, const AxisGroups& groups) {
     sweep::Dimension& dimension = sweep.dimensions.emplace_back();
     for (const std::size_t axis : group) {
       Setting& setting = settings.axes[axis];
-      if (sweep.machine) note_stop_damping(setting, *sweep.machine);
-      dimension.push_back(
-          {sweep::parameter_of(setting.key->name).value(), std::move(std::get<AxisValues>(setting.value).values)});
-      if (is_stop_damping_in_si(setting)) dimension.back().quantity = setting.quantity;
+      dimension.push_back({parameter_of(setting), std::move(std::get<AxisValues>(setting.value).values)});
     }
   }
   return sweep;
@@ -162,7 +141,7 @@ Config config_of(ParsedConfig parsed) {
   config.warnings = warnings_of(settings, groups);
   config.compression = static_cast<int>(settings.integer("output", "compression"));
   config.sweep = sweep_of(settings, groups);  // takes the values of the axes
-  config.branch = branch_settings_of(settings, branches::start_problem(config.sweep));
+  config.branch = branch_settings_of(settings);
   return config;
 }
 

@@ -1,7 +1,6 @@
 #include "config/config_text.hpp"
 
 #include <algorithm>
-#include <array>
 #include <type_traits>
 
 #include "config/consistency.hpp"
@@ -9,8 +8,6 @@
 
 namespace clatter::config {
 namespace {
-
-using enum sweep::Parameter;
 
 bool is_swept(const Settings& settings, const Key& key) {
   return std::ranges::find(settings.axes, &key, &Setting::key) != settings.axes.end();
@@ -22,18 +19,21 @@ bool is_excluded(const Settings& settings, const Key& key) {
   return (key.name == "R" && (lower || upper)) || (key.name == "R_lower" && lower) || (key.name == "R_upper" && upper);
 }
 
+/// Whether the key of either stop is given, in place of that of both.
+bool is_half_given(const Settings& settings, std::string_view both) {
+  for (const Parameter half : all_parameters)
+    if (half.row().other == both && settings.given(half) != nullptr) return true;
+  return false;
+}
+
 /// Whether the default of a key belongs in the text: not if its alternative was given.
 bool default_counts(const Settings& settings, const Key& key) {
-  for (const auto& [both, lower, upper] : {std::array{R, R_lower, R_upper},
-                                           {stop_stiffness, stop_stiffness_lower, stop_stiffness_upper},
-                                           {stop_damping, stop_damping_lower, stop_damping_upper}}) {
-    const bool each_stop = settings.given(lower) || settings.given(upper);
-    if (key.other == sweep::key_of(both)) return each_stop && !is_excluded(settings, key);
-    if (key.name == sweep::key_of(both)) return !each_stop && !is_excluded(settings, key);
-  }
+  if (is_excluded(settings, key)) return false;
   if (key.other == "xs" || key.other == "gap") return !settings.given_symmetric_stops();
-  if (key.name == "x0" || key.name == "v0") return !settings.given(start_period);
-  if (key.name == "damping") return !settings.given(damping_ratio) && !settings.given(quality);
+  if (!key.other.empty()) return is_half_given(settings, key.other);
+  if (is_half_given(settings, key.name)) return false;
+  if (key.name == "x0" || key.name == "v0") return !settings.given("start_period");
+  if (key.name == "damping") return !settings.given("damping_ratio") && !settings.given("quality");
   return key.has_default();
 }
 

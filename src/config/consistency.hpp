@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "config/settings.hpp"
-#include "model/stops.hpp"
+#include "scene/stops.hpp"
 
 namespace clatter::config {
 

@@ -5,25 +5,21 @@
 #include <numbers>
 
 #include "branches/settings.hpp"
-#include "config/machine_keys.hpp"
 #include "config/suggestion.hpp"
 #include "config/unit.hpp"
 #include "config/value_grammar.hpp"
-#include "model/shaking.hpp"
 #include "observables/all.hpp"
+#include "scene/parameter.hpp"
+#include "scene/shaking.hpp"
 #include "stepping/integration.hpp"
+#include "sweep/sweep.hpp"
 
 namespace clatter::config {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-constexpr AllowedRange any{};
-constexpr AllowedRange any_or_infinite{.infinite = true};
 constexpr AllowedRange not_negative{.low = 0};
-constexpr AllowedRange positive{.low = 0, .open = true};
-constexpr AllowedRange positive_or_infinite{.low = 0, .open = true, .infinite = true};
-constexpr AllowedRange not_zero{.not_zero = true};
 constexpr AllowedRange zero_to_one{.low = 0, .high = 1};
 
 constexpr std::array<std::string_view, 2> modes{"steady", "transient"};
@@ -31,73 +27,40 @@ constexpr std::array<std::string_view, 2> effects{"required", "all"};
 
 using enum Kind;
 
-constexpr std::string_view a_force = "f = 1.0\n", stops = "xs = 1.0\n", a_stop_axis = "xs = \"linspace(1, 2, 11)\"\n",
-                           soft = "xs = 1.0\nstop_stiffness = 100.0\n", is_transient = "mode = \"transient\"\n",
+constexpr std::string_view a_stop_axis = "xs = \"linspace(1, 2, 11)\"\n", is_transient = "mode = \"transient\"\n",
                            by_moreau = "method = \"moreau\"\n", a_range = "range = [0.8, 1.5]\n",
                            a_branch = "along = \"nu\"\nrange = [0.8, 1.5]\n",
                            a_kind = "along = \"nu\"\nrange = [0.8, 1.5]\ncurve = \"fold\"\n",
                            a_second = "along = \"nu\"\nrange = [0.8, 1.5]\nacross = \"xs\"\n",
                            a_curve = "along = \"nu\"\nrange = [0.8, 1.5]\nacross = \"xs\"\ncurve = \"fold\"\n";
 
-constexpr std::array keys_of_scene{
+constexpr std::array keys_of_file{
     Key{"", "title", text, "", "My sweep", "what the configuration shows; the output file keeps it"},
     Key{"", "source", text, "", "doi:10.5755/j02.mech.32277",
         "where it comes from, e.g. a DOI; the output file keeps it"},
-
-    Key{"scene", "h", number, "0", "0.05", "damping ratio: 2 h is the factor of x'", not_negative},
-    Key{"scene", "f", number, "0", "-1", "force amplitude over stiffness; negative: a phase shift of pi", any},
-    with(a_force, Key{"scene", "nu", number, "1", "1.2", "excitation frequency over natural frequency", positive}),
-    with(a_force, of(Quantity::angle, Key{"scene", "phase", number, "0", "0.5",
-                                          "phase of the force at tau = 0, rad; pi/2: a cosine", any})),
-    with(stops, Key{"scene", "R", number, "1", "0.7", "restitution of velocity on both stops", zero_to_one}),
-    Key{"scene", "xs", number, "", "-1", "symmetric stops at -|xs| and +|xs|", not_zero},
-    or_as("xs",
-          Key{"scene", "stop_lower", number, "-inf", "-1", "lower stop, in place of xs; -inf: none", any_or_infinite}),
-    or_as("xs",
-          Key{"scene", "stop_upper", number, "inf", "2", "upper stop, in place of xs; inf: none", any_or_infinite}),
-    with(stops, or_as("R", Key{"scene", "R_lower", number, "1", "0.5", "restitution of the lower stop, in place of R",
-                               zero_to_one})),
-    with(stops, or_as("R", Key{"scene", "R_upper", number, "1", "0.5", "restitution of the upper stop, in place of R",
-                               zero_to_one})),
-    with(stops, Key{"scene", "stop_stiffness", number, "inf", "100",
-                    "kappa of both stops, in the unit of the spring's; inf: rigid. A soft stop, in place of R, pushes "
-                    "with kappa times the depth beyond it plus damping, and never pulls",
-                    positive_or_infinite}),
-    with(stops, or_as("stop_stiffness",
-                      Key{"scene", "stop_stiffness_lower", number, "inf", "100",
-                          "kappa of the lower stop, in place of stop_stiffness; inf: rigid", positive_or_infinite})),
-    with(stops, or_as("stop_stiffness",
-                      Key{"scene", "stop_stiffness_upper", number, "inf", "100",
-                          "kappa of the upper stop, in place of stop_stiffness; inf: rigid", positive_or_infinite})),
-    with(soft, Key{"scene", "stop_damping", number, "0", "0.1",
-                   "damping ratio zeta of both soft stops: 2 zeta kappa^(1/2) is the factor of x'", not_negative}),
-    with(soft,
-         or_as("stop_damping", Key{"scene", "stop_damping_lower", number, "0", "0.1",
-                                   "damping ratio of the lower soft stop, in place of stop_damping", not_negative})),
-    with(soft,
-         or_as("stop_damping", Key{"scene", "stop_damping_upper", number, "0", "0.1",
-                                   "damping ratio of the upper soft stop, in place of stop_damping", not_negative})),
-    Key{"scene", "load", number, "0", "-0.2", "constant force over stiffness", any},
-    Key{"scene", "stiffness", number, "1", "4",
-        "k of the spring, in units in which mass is 1; 0: none, negative: pushes away from x = 0. With k not 1, h is "
-        "half the damping over the mass, f and load are forces over the mass",
-        any},
-    with(stops, Key{"scene", "stop_amplitude", number, "0", "0.1",
-                    "both stops move as that times sin(nu tau + phase); displacements, x0, v0 and impact speeds are "
-                    "relative to them",
-                    any}),
-    Key{"scene", "base_amplitude", number, "0", "0.1",
-        "the base, and with it the stops, moves as that times sin(nu tau + phase); displacements, x0, v0 and impact "
-        "speeds are relative to it",
-        any},
-    Key{"scene", "x0", number, "0", "0.2", "displacement at tau = 0, between the stops", any},
-    Key{"scene", "v0", number, "0", "-1.5", "velocity at tau = 0", any},
-    with(stops, Key{"scene", "start_period", number, "", "3",
-                    "period of the motion to start on, just after its contact with the lower stop; in place of x0 and "
-                    "v0, only if h = f = load = 0, R = 1 and xs is given",
-                    AllowedRange{.low = 0, .high = 2 * std::numbers::pi, .open = true}}),
-
 };
+
+/// The key of a parameter in one of the sections that describe a scene. In [scene] nothing but an angle has a unit.
+Key key_of(Parameter parameter, bool is_si) {
+  const auto& row = parameter.row();
+  const KeyText& words = is_si ? row.in_machine : row.in_scene;
+  Key key{is_si ? "machine" : "scene", row.key, number, words.fallback, words.example, words.help, row.range};
+  key.other = row.other, key.beside = words.beside;
+  if (is_si || row.quantity == Quantity::angle) key.quantity = row.quantity;
+  for (const Parameter other : all_parameters) {
+    if (is_si && other.key() == row.other && !other.is_in("machine")) key.other = other.row().counterpart;
+    if (is_si && other.key() == row.key && other.row().is_with_unit) key.with_unit = other.row().quantity;
+  }
+  return key;
+}
+
+/// The keys along which a motion can be followed.
+const std::vector<std::string_view> followed_names = [] {
+  std::vector<std::string_view> keys;
+  for (const Parameter parameter : all_parameters)
+    if (parameter.role() != Role::start && !parameter.row().is_with_unit) keys.push_back(parameter.key());
+  return keys;
+}();
 
 constexpr std::array keys_before_observe{
     with("xs = [1.0, 2.0]\nR = [0.7, 0.5]\n",
@@ -129,7 +92,7 @@ constexpr std::array keys_before_observe{
         "impacts after which a point is given up, with the status event_budget", AllowedRange{.low = 1, .high = 1e15}},
 };
 
-constexpr std::array keys_after_observe{
+const std::array keys_after_observe{
     with("[scene]\nbase_amplitude = 0.1\n\n[observe]\nextrema = true\n",
          one_of(frame_names, Key{"observe", "frame", choice, "relative", "absolute",
                                  "of displacements and velocities, if stops or base are shaken: relative to them, or "
@@ -152,14 +115,14 @@ constexpr std::array keys_after_observe{
                         "required: simulate what a scene calls for; all: to compare with, simulate every effect, run "
                         "max_periods, and look for the repeat only then"}),
 
-    with(a_range, one_of(branches::parameter_names,
-                         Key{"branch", "along", choice, "", "nu",
-                             "key of [scene] or [machine] along which `clatter branch` follows a motion"})),
+    with(a_range,
+         one_of(followed_names, Key{"branch", "along", choice, "", "nu",
+                                    "key of [scene] or [machine] along which `clatter branch` follows a motion"})),
     with("along = \"nu\"\n", Key{"branch", "range", interval, "", "0.8, 1.5", "of that key; there the branch ends"}),
-    with(a_kind, one_of(branches::parameter_names,
-                        Key{"branch", "across", choice, "", "xs",
-                            "second key of [scene] or [machine]: special points are followed in the plane of "
-                            "both"})),
+    with(a_kind,
+         one_of(followed_names, Key{"branch", "across", choice, "", "xs",
+                                    "second key of [scene] or [machine]: special points are followed in the plane of "
+                                    "both"})),
     with(a_curve, Key{"branch", "across_range", interval, "", "0.5, 4",
                       "of that second key; without it, all that is permitted"}),
     with(a_second, one_of(branches::curve_names, Key{"branch", "curve", choice, "", "fold",
@@ -186,7 +149,12 @@ constexpr std::array keys_after_observe{
 const std::vector<Key> all_keys = [] {
   std::vector<Key> keys;
   const auto add = [&](std::span<const Key> some) { keys.insert(keys.end(), some.begin(), some.end()); };
-  add(keys_of_scene), add(machine_keys()), add(keys_before_observe);
+  add(keys_of_file);
+  for (const bool is_si : {false, true})
+    for (const Parameter parameter : all_parameters)
+      if (parameter.is_in(is_si ? "machine" : "scene") && !parameter.row().is_with_unit)
+        keys.push_back(key_of(parameter, is_si));
+  add(keys_before_observe);
   add(observables::All::keys()), add(keys_after_observe);
   return keys;
 }();

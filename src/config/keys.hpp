@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "model/key.hpp"
+#include "scene/key.hpp"
 
 namespace clatter::config {
 

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <string>
 #include <tuple>
+#include <vector>
 
 #include "config/consistency.hpp"
 #include "config/suggestion.hpp"
@@ -9,9 +10,7 @@
 namespace clatter::config {
 namespace {
 
-using enum sweep::Parameter;
-
-std::string quoted_name(sweep::Parameter parameter) { return in_quotes(key_of(parameter)); }
+std::string quoted_name(Parameter parameter) { return in_quotes(parameter.key()); }
 
 /// Whether a location comes after another one of the same origin.
 bool later(const SourceLocation& left, const SourceLocation& right) {
@@ -24,7 +23,7 @@ bool contradict(const SourceLocation& one, const SourceLocation& other) {
 }
 
 /// Refuses two keys that say the same, at the one that was written last.
-void exclude(const Settings& settings, sweep::Parameter one, sweep::Parameter other) {
+void exclude(const Settings& settings, Parameter one, Parameter other) {
   const Setting* const first = settings.given(one);
   const Setting* const second = settings.given(other);
   if (first == nullptr || second == nullptr || !contradict(first->key_location, second->key_location)) return;
@@ -37,34 +36,34 @@ bool from_command_line(const Setting* given) { return given != nullptr && on_com
 bool from_file(const Setting* given) { return given != nullptr && !on_command_line(given->key_location); }
 
 /// The key of a parameter in the section that describes the scene; nullptr if it has none.
-const Key* key_of_scene(const Settings& settings, sweep::Parameter parameter) {
-  return find_key(settings.scene_section, key_of(parameter));
+const Key* key_of_scene(const Settings& settings, Parameter parameter) {
+  return find_key(settings.scene_section, parameter.key());
 }
 
 /// Removes the file's setting of a parameter from the scene's section or [sweep].
-void remove(Settings& settings, sweep::Parameter parameter) {
+void remove(Settings& settings, Parameter parameter) {
   for (auto* const list : {&settings.values, &settings.axes})
     std::erase_if(*list, [&](const Setting& setting) {
       return setting.key == key_of_scene(settings, parameter) && !on_command_line(setting.key_location);
     });
 }
 
-void note(Settings& settings, sweep::Parameter parameter, const SourceLocation& by, const SourceLocation& former,
+void note(Settings& settings, Parameter parameter, const SourceLocation& by, const SourceLocation& former,
           const std::string& remark = "") {
   settings.replaced.push_back({parameter, by, former, remark});
 }
 
 /// Lets the command line's setting of a parameter, in the scene's section or [sweep], replace that of the other section
 /// in the file.
-void choose_section(Settings& settings, sweep::Parameter parameter) {
-  const Setting* const fixed = settings.find(settings.scene_section, key_of(parameter));
+void choose_section(Settings& settings, Parameter parameter) {
+  const Setting* const fixed = settings.find(settings.scene_section, parameter.key());
   const auto swept = std::ranges::find(settings.axes, key_of_scene(settings, parameter), &Setting::key);
   if (fixed == nullptr || swept == settings.axes.end()) return;
   const SourceLocation in_scene = fixed->key_location, in_sweep = swept->key_location;
   if (contradict(in_scene, in_sweep))
     fail(later(in_scene, in_sweep) ? in_scene : in_sweep,
          quoted_name(parameter) + " in both [" + std::string(settings.scene_section) +
-             "] and [sweep]; remove one of them (for a single value: sweep." + std::string(key_of(parameter)) +
+             "] and [sweep]; remove one of them (for a single value: sweep." + std::string(parameter.key()) +
              " = VALUE)");
   const bool by_axis = on_command_line(in_sweep);
   note(settings, parameter, by_axis ? in_sweep : in_scene, by_axis ? in_scene : in_sweep);
@@ -72,7 +71,7 @@ void choose_section(Settings& settings, sweep::Parameter parameter) {
 }
 
 /// Lets a parameter of the command line replace another one of the file.
-void replace(Settings& settings, sweep::Parameter by, sweep::Parameter replaced) {
+void replace(Settings& settings, Parameter by, Parameter replaced) {
   const Setting *const given = settings.given(by), *const former = settings.given(replaced);
   if (!from_command_line(given) || !from_file(former)) return;
   note(settings, replaced, given->key_location, former->key_location);
@@ -80,41 +79,49 @@ void replace(Settings& settings, sweep::Parameter by, sweep::Parameter replaced)
 }
 
 /// Makes `linked` and `follow` name an axis by its new key.
-void rename(Settings& settings, sweep::Parameter from, sweep::Parameter to) {
+void rename(Settings& settings, Parameter from, Parameter to) {
   for (Setting& setting : settings.values) {
     if (setting.key->kind != Kind::names) continue;
     std::vector<std::string> names = split_names(std::get<std::string>(setting.value));
-    if (std::ranges::find(names, key_of(from)) == names.end()) continue;
-    std::ranges::replace(names, std::string(key_of(from)), std::string(key_of(to)));
+    if (std::ranges::find(names, from.key()) == names.end()) continue;
+    std::ranges::replace(names, std::string(from.key()), std::string(to.key()));
     setting.value = joined(std::vector<std::string_view>(names.begin(), names.end()));
   }
 }
 
-/// A key that sets two values and the key of each; `half` derives one of these from the common value.
+/// A key that sets a number of both stops, and the keys of each.
 struct Pair {
-  sweep::Parameter both;
-  sweep::Parameter one, other;
-  double (*half)(sweep::Parameter, double);
+  Parameter both;
+  Parameter one, other;
 };
 
-double same(sweep::Parameter, double value) { return value; }
-double stop_of(sweep::Parameter side, double xs_value) {
-  return side == stop_lower ? -std::abs(xs_value) : std::abs(xs_value);
+/// The keys of [scene] and [machine] of which one stands for two others.
+std::vector<Pair> pairs() {
+  std::vector<Pair> found;
+  for (const Parameter both : all_parameters) {
+    if (!both.is_of_both() || both.row().is_with_unit) continue;
+    std::vector<Parameter> halves;
+    for (const Parameter half : all_parameters)
+      if (both.stands_for(half) && !half.row().is_with_unit) halves.push_back(half);
+    found.push_back({both, halves.at(0), halves.at(1)});
+  }
+  return found;
 }
 
-constexpr Pair pairs[] = {{xs, stop_lower, stop_upper, stop_of},
-                          {gap, stop_lower, stop_upper, stop_of},
-                          {R, R_lower, R_upper, same},
-                          {stop_stiffness, stop_stiffness_lower, stop_stiffness_upper, same},
-                          {stop_damping, stop_damping_lower, stop_damping_upper, same}};
+/// The number of one stop that a value of the common key sets.
+double half_of(double value, const Pair& pair, Parameter half) {
+  GivenScene given;
+  set(given, pair.both, value);
+  return value_of(given, half);
+}
 
 /// The keys of a machine that give its damping.
-constexpr sweep::Parameter dampings[] = {damping, damping_ratio, quality};
+constexpr Parameter dampings[] = {"damping", "damping_ratio", "quality"};
 
 /// Makes a setting of the pair's common key one of the remaining half.
-void halve(Setting& setting, const Pair& pair, sweep::Parameter remaining, const Key* key_of_remaining) {
+void halve(Setting& setting, const Pair& pair, Parameter remaining, const Key* key_of_remaining) {
   std::vector<double> halves;
-  for (const double number : setting.numbers()) halves.push_back(pair.half(remaining, number));
+  for (const double number : setting.numbers()) halves.push_back(half_of(number, pair, remaining));
   setting.key = key_of_remaining;
   auto* const axis = std::get_if<AxisValues>(&setting.value);
   if (axis == nullptr) {
@@ -125,7 +132,7 @@ void halve(Setting& setting, const Pair& pair, sweep::Parameter remaining, const
   }
 }
 
-void halve(Settings& settings, const Pair& pair, sweep::Parameter remaining) {
+void halve(Settings& settings, const Pair& pair, Parameter remaining) {
   for (auto* const list : {&settings.values, &settings.axes})
     for (Setting& setting : *list)
       if (setting.key == key_of_scene(settings, pair.both))
@@ -134,7 +141,7 @@ void halve(Settings& settings, const Pair& pair, sweep::Parameter remaining) {
 }
 
 /// Lets the command line replace one half of a pair; the other keeps the file's value.
-void replace_half(Settings& settings, const Pair& pair, sweep::Parameter by, sweep::Parameter remaining) {
+void replace_half(Settings& settings, const Pair& pair, Parameter by, Parameter remaining) {
   const Setting *const given = settings.given(by), *const former = settings.given(pair.both);
   if (!from_command_line(given) || !from_file(former)) return;
   if (settings.given(remaining)) return replace(settings, by, pair.both);
@@ -145,8 +152,9 @@ void replace_half(Settings& settings, const Pair& pair, sweep::Parameter by, swe
 /// A soft stop has no restitution.
 void let_soft_stop_or_restitution_win(Settings& settings, Side side) {
   const bool lower = side == Side::lower;
-  for (const sweep::Parameter soft : {stop_stiffness, lower ? stop_stiffness_lower : stop_stiffness_upper})
-    for (const sweep::Parameter rigid : {R, lower ? R_lower : R_upper}) {
+  for (const Parameter soft :
+       {Parameter("stop_stiffness"), lower ? Parameter("stop_stiffness_lower") : Parameter("stop_stiffness_upper")})
+    for (const Parameter rigid : {Parameter("R"), lower ? Parameter("R_lower") : Parameter("R_upper")}) {
       exclude(settings, soft, rigid);
       replace(settings, soft, rigid), replace(settings, rigid, soft);
     }
@@ -155,24 +163,24 @@ void let_soft_stop_or_restitution_win(Settings& settings, Side side) {
 }  // namespace
 
 void let_command_line_win(Settings& settings) {
-  for (int parameter = 0; parameter <= static_cast<int>(start_period); ++parameter)
-    choose_section(settings, static_cast<sweep::Parameter>(parameter));
-  for (const Pair& pair : pairs) {
+  for (const Parameter parameter : all_parameters)
+    if (!parameter.row().is_with_unit) choose_section(settings, parameter);
+  for (const Pair& pair : pairs()) {
     exclude(settings, pair.both, pair.one), exclude(settings, pair.both, pair.other);
     replace(settings, pair.both, pair.one), replace(settings, pair.both, pair.other);
     replace_half(settings, pair, pair.one, pair.other), replace_half(settings, pair, pair.other, pair.one);
   }
   for (const Side side : {Side::lower, Side::upper})
     if (is_soft_somewhere(settings, side)) let_soft_stop_or_restitution_win(settings, side);
-  for (const sweep::Parameter one : dampings)
-    for (const sweep::Parameter other : dampings)
-      if (one < other) exclude(settings, one, other);
-  for (const sweep::Parameter one : dampings)
-    for (const sweep::Parameter other : dampings)
+  for (const Parameter one : dampings)
+    for (const Parameter other : dampings)
+      if (one.index() < other.index()) exclude(settings, one, other);
+  for (const Parameter one : dampings)
+    for (const Parameter other : dampings)
       if (one != other) replace(settings, one, other);
-  for (const sweep::Parameter start : {x0, v0}) exclude(settings, start_period, start);
-  for (const sweep::Parameter start : {x0, v0})
-    replace(settings, start_period, start), replace(settings, start, start_period);
+  constexpr Parameter start_period = "start_period", starts[] = {"x0", "v0"};
+  for (const Parameter start : starts) exclude(settings, start_period, start);
+  for (const Parameter start : starts) replace(settings, start_period, start), replace(settings, start, start_period);
 }
 
 std::string to_string(const Replaced& replaced) {

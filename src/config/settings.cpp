@@ -9,10 +9,6 @@
 namespace clatter::config {
 namespace {
 
-/// Keys of [scene] and those of [machine] that say the same.
-constexpr std::pair<std::string_view, std::string_view> counterparts[] = {
-    {"h", "damping_ratio"}, {"f", "force"}, {"nu", "frequency"}, {"xs", "gap"}};
-
 void check_section(const std::string& name, const SourceLocation& location) {
   const auto known = sections();
   if (name.empty() || std::find(known.begin(), known.end(), name) != known.end()) return;
@@ -149,16 +145,14 @@ const Setting* Settings::find(std::string_view section, std::string_view name) c
   return nullptr;
 }
 
-const Setting* Settings::given(sweep::Parameter parameter) const {
+const Setting* Settings::given(Parameter parameter) const {
   for (const Setting& axis : axes) {
-    if (axis.key->name == key_of(parameter)) return &axis;
+    if (axis.key->name == parameter.key()) return &axis;
   }
-  return find(scene_section, key_of(parameter));
+  return find(scene_section, parameter.key());
 }
 
-const Setting* Settings::given_symmetric_stops() const {
-  return given(is_si() ? sweep::Parameter::gap : sweep::Parameter::xs);
-}
+const Setting* Settings::given_symmetric_stops() const { return given(is_si() ? Parameter("gap") : Parameter("xs")); }
 
 std::string Settings::text(std::string_view section, std::string_view name) const {
   return value_of<std::string>(*this, section, name);
@@ -192,11 +186,8 @@ Setting default_setting(const Key& key) { return setting_of(key, key.fallback); 
 Setting example_setting(const Key& key) { return setting_of(key, key.example); }
 
 std::string_view counterpart_of(std::string_view name) {
-  for (const auto& [in_scene, in_machine] : counterparts) {
-    if (name == in_scene) return in_machine;
-    if (name == in_machine) return in_scene;
-  }
-  return {};
+  const std::optional<Parameter> parameter = Parameter::of(name);
+  return parameter ? parameter->row().counterpart : std::string_view{};
 }
 
 Settings check_keys(ParsedConfig parsed) {

@@ -10,7 +10,7 @@
 #include "config/keys.hpp"
 #include "config/parsed_config.hpp"
 #include "config/value_grammar.hpp"
-#include "sweep/parameter.hpp"
+#include "scene/parameter.hpp"
 
 namespace clatter::config {
 
@@ -34,9 +34,9 @@ struct Setting {
 
 /// A setting of the file that one of the command line replaced.
 struct Replaced {
-  sweep::Parameter parameter = sweep::Parameter::nu;  ///< of the file's setting
-  SourceLocation by, former;                          ///< of the two settings
-  std::string remark;                                 ///< ", which stays as 'stop_lower'", or empty
+  Parameter parameter;        ///< of the file's setting
+  SourceLocation by, former;  ///< of the two settings
+  std::string remark;         ///< ", which stays as 'stop_lower'", or empty
 };
 
 /// "--set scene.stop_upper=2 in place of 'xs', fig22.toml:7:1, which stays as 'stop_lower'"
@@ -58,7 +58,7 @@ struct Settings {
   [[nodiscard]] const Setting* find(std::string_view section, std::string_view name) const;
 
   /// The setting of a parameter in [sweep] or in the scene's section, or nullptr if it is in neither.
-  [[nodiscard]] const Setting* given(sweep::Parameter parameter) const;
+  [[nodiscard]] const Setting* given(Parameter parameter) const;
 
   /// The setting that places both stops: xs, of a machine gap.
   [[nodiscard]] const Setting* given_symmetric_stops() const;

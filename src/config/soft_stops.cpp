@@ -8,19 +8,19 @@
 namespace clatter::config {
 namespace {
 
-using enum sweep::Parameter;
-
 /// The stiffness given for a stop, alone or for both; nullptr: it is rigid.
 const Setting* stiffness_of(const Settings& settings, Side side) {
-  const Setting* const both = settings.given(stop_stiffness);
-  return both != nullptr ? both : settings.given(side == Side::lower ? stop_stiffness_lower : stop_stiffness_upper);
+  const Setting* const both = settings.given("stop_stiffness");
+  return both != nullptr ? both
+                         : settings.given(side == Side::lower ? Parameter("stop_stiffness_lower")
+                                                              : Parameter("stop_stiffness_upper"));
 }
 
 bool is_finite(double value) { return std::isfinite(value); }
 
 /// Throws ConfigError if the spring pushes a mass away more strongly than a soft stop holds it.
 void check_hold(const Settings& settings, Side side, const AxisGroups& groups) {
-  const Setting *const spring = settings.given(stiffness), *const stop = stiffness_of(settings, side);
+  const Setting *const spring = settings.given("stiffness"), *const stop = stiffness_of(settings, side);
   if (spring == nullptr || stop == nullptr) return;
   const auto kappas = stop->numbers(), springs = spring->numbers();
   const auto check = [&](std::size_t i, double k) {

@@ -7,8 +7,6 @@
 namespace clatter::config {
 namespace {
 
-using enum sweep::Parameter;
-
 /// A stop or the start: its position on the x axis at every point of the sweep.
 struct Quantity {
   std::string name;
@@ -17,9 +15,9 @@ struct Quantity {
   std::optional<std::size_t> dimension;  ///< along which it varies
 };
 
-Quantity quantity(const Settings& settings, const AxisGroups& groups, sweep::Parameter parameter) {
+Quantity quantity(const Settings& settings, const AxisGroups& groups, Parameter parameter) {
   const Setting* const given = settings.given(parameter);
-  const std::string name(key_of(parameter));
+  const std::string name(parameter.key());
   if (given == nullptr) return {name, {settings.number(settings.scene_section, name)}, nullptr, std::nullopt};
   const auto numbers = given->numbers();
   return {name, {numbers.begin(), numbers.end()}, given, dimension_of(settings, given, groups)};
@@ -27,7 +25,7 @@ Quantity quantity(const Settings& settings, const AxisGroups& groups, sweep::Par
 
 /// The lower (-1) or the upper (+1) one of symmetric stops.
 Quantity symmetric_stop(const Settings& settings, const AxisGroups& groups, double side) {
-  Quantity stop = quantity(settings, groups, settings.is_si() ? gap : xs);
+  Quantity stop = quantity(settings, groups, settings.is_si() ? Parameter("gap") : Parameter("xs"));
   for (double& value : stop.values) value = side * std::abs(value);
   const std::string place = settings.is_si() ? "gap" : "|xs|";
   stop.name = side < 0 ? '-' + place : place;
@@ -69,14 +67,14 @@ const SourceLocation* place_of_shaking(const Setting* amplitude) {
 
 /// Throws ConfigError if neither a spring nor a stop keeps the mass.
 void check_unsprung(const Settings& settings) {
-  const Setting* const given = settings.given(stiffness);
+  const Setting* const given = settings.given("stiffness");
   if (given == nullptr && !settings.is_si()) return;
-  const auto absent = [&](sweep::Parameter stop) {
+  const auto absent = [&](Parameter stop) {
     const Setting* const position = settings.given(stop);
     return position == nullptr ||
            std::ranges::any_of(position->numbers(), [](double value) { return std::isinf(value); });
   };
-  if (settings.given_symmetric_stops() != nullptr || !absent(stop_lower) || !absent(stop_upper)) return;
+  if (settings.given_symmetric_stops() != nullptr || !absent("stop_lower") || !absent("stop_upper")) return;
   const std::string way_out = " without stops, so nothing bounds the motion; give " +
                               std::string(settings.is_si() ? "gap" : "xs") +
                               ", stop_lower or stop_upper, or a stiffness > 0";
@@ -90,15 +88,15 @@ void check_unsprung(const Settings& settings) {
 
 /// Throws ConfigError if both amplitudes, or an amplitude and start_period, are given, or there is no stop to move.
 void check_shaking(const Settings& settings) {
-  const SourceLocation* const moved = place_of_shaking(settings.given(stop_amplitude));
-  const SourceLocation* const carried = place_of_shaking(settings.given(base_amplitude));
+  const SourceLocation* const moved = place_of_shaking(settings.given("stop_amplitude"));
+  const SourceLocation* const carried = place_of_shaking(settings.given("base_amplitude"));
   if (moved != nullptr && carried != nullptr)
     fail(*carried, "'base_amplitude' and 'stop_amplitude'; give one of them, as the base moves the stops, too");
   const SourceLocation* const shaken = moved != nullptr ? moved : carried;
-  if (shaken != nullptr && settings.given(start_period) != nullptr)
+  if (shaken != nullptr && settings.given("start_period") != nullptr)
     fail(*shaken, "an amplitude conflicts with 'start_period', which is that of free motion; give x0 and v0 instead");
-  if (moved != nullptr && settings.given_symmetric_stops() == nullptr && settings.given(stop_lower) == nullptr &&
-      settings.given(stop_upper) == nullptr)
+  if (moved != nullptr && settings.given_symmetric_stops() == nullptr && settings.given("stop_lower") == nullptr &&
+      settings.given("stop_upper") == nullptr)
     fail(*moved, "'stop_amplitude' without stops; give " + std::string(settings.is_si() ? "gap" : "xs") +
                      ", stop_lower or stop_upper");
 }
@@ -109,12 +107,12 @@ void check_stops_and_start(const Settings& settings, const AxisGroups& groups) {
   check_unsprung(settings);
   check_shaking(settings);
   const bool symmetric = settings.given_symmetric_stops() != nullptr;
-  Quantity lower = symmetric ? symmetric_stop(settings, groups, -1) : quantity(settings, groups, stop_lower);
-  Quantity upper = symmetric ? symmetric_stop(settings, groups, 1) : quantity(settings, groups, stop_upper);
+  Quantity lower = symmetric ? symmetric_stop(settings, groups, -1) : quantity(settings, groups, "stop_lower");
+  Quantity upper = symmetric ? symmetric_stop(settings, groups, 1) : quantity(settings, groups, "stop_upper");
   const Permitted below = [](double left, double right) { return left < right; };
   const Permitted not_above = [](double left, double right) { return left <= right; };
   if (!symmetric) compare(lower, upper, below, "stop_lower < stop_upper");
-  if (settings.given(start_period)) return;  // it starts on the lower stop
+  if (settings.given("start_period")) return;  // it starts on the lower stop
   // along `follow` only the first point starts from [scene]; a later one beyond a rigid stop is moved onto it
   const auto followed = followed_dimension(settings, groups);
   const auto at_start = [&](Quantity quantity) {
@@ -122,7 +120,7 @@ void check_stops_and_start(const Settings& settings, const AxisGroups& groups) {
     return quantity;
   };
   lower = at_start(lower), upper = at_start(upper);
-  const Quantity start = at_start(quantity(settings, groups, x0));
+  const Quantity start = at_start(quantity(settings, groups, "x0"));
   const std::string rule = "a start between the stops, " + lower.name + " <= x0 <= " + upper.name;
   if (!is_soft_everywhere(settings, Side::lower)) compare(lower, start, not_above, rule);
   if (!is_soft_everywhere(settings, Side::upper)) compare(start, upper, not_above, rule);

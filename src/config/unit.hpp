@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-#include "model/quantity.hpp"
+#include "scene/quantity.hpp"
 
 namespace clatter::config {
 

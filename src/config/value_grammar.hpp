@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "config/source_location.hpp"
-#include "model/quantity.hpp"
+#include "scene/quantity.hpp"
 
 namespace clatter::config {
 

@@ -7,8 +7,6 @@
 namespace clatter::config {
 namespace {
 
-using enum sweep::Parameter;
-
 bool transient(const Settings& settings) { return settings.text("time", "mode") == "transient"; }
 bool steady(const Settings& settings) { return !transient(settings); }
 
@@ -27,28 +25,28 @@ bool all_anyway(const Settings& settings) { return transient(settings) && not_by
 
 /// Whether a test holds for a parameter at every point, or the parameter isn't given.
 template <typename Test>
-bool everywhere(const Settings& settings, sweep::Parameter parameter, Test test) {
+bool everywhere(const Settings& settings, Parameter parameter, Test test) {
   const Setting* const given = settings.given(parameter);
   return given == nullptr || std::ranges::all_of(given->numbers(), test);
 }
 bool zero(double value) { return value == 0; }
 bool unshaken(const Settings& settings) {
-  return everywhere(settings, stop_amplitude, zero) && everywhere(settings, base_amplitude, zero);
+  return everywhere(settings, "stop_amplitude", zero) && everywhere(settings, "base_amplitude", zero);
 }
 bool unforced(const Settings& settings) {
-  return everywhere(settings, f, zero) && everywhere(settings, force, zero) && unshaken(settings);
+  return everywhere(settings, "f", zero) && everywhere(settings, "force", zero) && unshaken(settings);
 }
 /// Whether nothing is observed that frame decides.
 bool frameless(const Settings& settings) {
   return no_harmonics(settings) && no_section(settings) && !settings.flag("observe", "extrema") &&
          settings.integer("observe", "trajectory") == 0 && !settings.flag("observe", "attractor");
 }
-bool absent(const Settings& settings, sweep::Parameter stop) {
+bool absent(const Settings& settings, Parameter stop) {
   return !settings.given_symmetric_stops() &&
          everywhere(settings, stop, [](double value) { return std::isinf(value); });
 }
-bool no_lower(const Settings& settings) { return absent(settings, stop_lower); }
-bool no_upper(const Settings& settings) { return absent(settings, stop_upper); }
+bool no_lower(const Settings& settings) { return absent(settings, "stop_lower"); }
+bool no_upper(const Settings& settings) { return absent(settings, "stop_upper"); }
 bool no_soft_lower(const Settings& settings) { return !is_soft_somewhere(settings, Side::lower); }
 bool no_soft_upper(const Settings& settings) { return !is_soft_somewhere(settings, Side::upper); }
 bool no_soft_stop(const Settings& settings) { return no_soft_lower(settings) && no_soft_upper(settings); }
@@ -57,7 +55,7 @@ bool no_stops(const Settings& settings) { return no_lower(settings) && no_upper(
 /// A transient has no period; at symmetric stops `period` still gives the ratio of velocities.
 bool no_period(const Settings& settings) {
   if (steady(settings) || settings.given_symmetric_stops()) return false;
-  const Setting *const lower = settings.given(stop_lower), *const upper = settings.given(stop_upper);
+  const Setting *const lower = settings.given("stop_lower"), *const upper = settings.given("stop_upper");
   if (lower == nullptr || upper == nullptr) return true;
   return !lower->is_axis() && !upper->is_axis() && lower->numbers()[0] != -upper->numbers()[0];
 }

@@ -2,7 +2,7 @@
 
 #include <cstddef>
 
-#include "model/effects.hpp"
+#include "scene/effects.hpp"
 
 namespace clatter::lanes {
 

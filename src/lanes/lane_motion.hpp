@@ -4,8 +4,8 @@
 #include "lanes/functions.hpp"
 #include "lanes/vector.hpp"
 #include "math/bernstein.hpp"
-#include "model/response.hpp"
 #include "motion/equation_of_motion.hpp"
+#include "scene/response.hpp"
 
 namespace clatter::lanes {
 

@@ -9,12 +9,12 @@
 #include "lanes/block_state.hpp"
 #include "lanes/instruction_set.hpp"
 #include "lanes/lane_effects.hpp"
-#include "model/displacement_bound.hpp"
-#include "model/scene.hpp"
 #include "motion/arc_constants.hpp"
 #include "motion/state.hpp"
 #include "observables/all.hpp"
 #include "observables/range.hpp"
+#include "scene/displacement_bound.hpp"
+#include "scene/scene.hpp"
 
 namespace clatter::lanes {
 

@@ -71,6 +71,11 @@ struct Dual {
     using std::cos, std::sin;
     return chained(cos(x.value), -sin(x.value), x);
   }
+  friend Dual tan(const Dual& x) {
+    using std::tan;
+    const T y = tan(x.value);
+    return chained(y, T(1) + y * y, x);
+  }
   friend Dual exp(const Dual& x) {
     using std::exp;
     const T y = exp(x.value);

@@ -20,6 +20,19 @@ template <class Number>
   return std::numeric_limits<Number>::epsilon();
 }
 
+/// Whether a number is finite, whatever its derivatives.
+template <class Number>
+[[nodiscard]] bool is_finite(const Number& number) {
+  return std::isfinite(static_cast<double>(number));
+}
+
+/// Whether a number is 0 and, if it carries derivatives, they are 0, too.
+template <class Number>
+[[nodiscard]] constexpr bool is_always_zero(const Number& y) {
+  if constexpr (requires { y.is_constant(); }) return is_always_zero(y.value) && y.is_constant();
+  return y == 0;
+}
+
 /// a if the mask holds, else b; for SIMD vectors it replaces a branch.
 template <class Number>
 [[nodiscard]] Number select(bool mask, const Number& a, const Number& b) {

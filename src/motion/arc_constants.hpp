@@ -4,15 +4,15 @@
 #include <cmath>
 
 #include "math/number.hpp"
-#include "model/effects.hpp"
-#include "model/oscillator.hpp"
-#include "model/response.hpp"
 #include "motion/derivative_bounds.hpp"
 #include "motion/divided_exponentials.hpp"
 #include "motion/equation_of_motion.hpp"
 #include "motion/propagation.hpp"
 #include "motion/soft_stop.hpp"
 #include "motion/state.hpp"
+#include "scene/effects.hpp"
+#include "scene/oscillator.hpp"
+#include "scene/response.hpp"
 
 namespace clatter::motion {
 

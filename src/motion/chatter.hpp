@@ -6,8 +6,8 @@
 #include <limits>
 #include <optional>
 
-#include "model/scene.hpp"
 #include "motion/contact_force.hpp"
+#include "scene/scene.hpp"
 
 namespace clatter::motion {
 

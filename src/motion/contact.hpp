@@ -5,9 +5,9 @@
 #include <limits>
 
 #include "math/bernstein.hpp"
-#include "model/stops.hpp"
 #include "motion/arc.hpp"
 #include "motion/arc_bounds.hpp"
+#include "scene/stops.hpp"
 
 namespace clatter::motion {
 

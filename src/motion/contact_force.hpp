@@ -3,9 +3,9 @@
 #include <cmath>
 #include <optional>
 
-#include "model/restitution.hpp"
-#include "model/stops.hpp"
 #include "motion/arc_constants.hpp"
+#include "scene/restitution.hpp"
+#include "scene/stops.hpp"
 
 namespace clatter::motion {
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "math/number.hpp"
-#include "model/effects.hpp"
+#include "scene/effects.hpp"
 
 namespace clatter::motion {
 

@@ -2,7 +2,7 @@
 
 #include <cstdint>
 
-#include "model/stops.hpp"
+#include "scene/stops.hpp"
 
 namespace clatter::motion {
 

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "model/shaking.hpp"
-#include "model/stops.hpp"
 #include "motion/arc.hpp"
 #include "motion/arc_bounds.hpp"
+#include "scene/shaking.hpp"
+#include "scene/stops.hpp"
 
 namespace clatter::observables {
 

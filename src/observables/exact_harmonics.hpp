@@ -7,11 +7,11 @@
 #include <span>
 #include <vector>
 
-#include "model/displacement_bound.hpp"
-#include "model/shaking.hpp"
 #include "motion/arc.hpp"
 #include "motion/polynomial_arc.hpp"
 #include "observables/quadrature.hpp"
+#include "scene/displacement_bound.hpp"
+#include "scene/shaking.hpp"
 
 namespace clatter::observables {
 

@@ -5,12 +5,12 @@
 #include <cmath>
 
 #include "math/bernstein.hpp"
-#include "model/response.hpp"
-#include "model/stops.hpp"
 #include "motion/polynomial_arc.hpp"
 #include "observables/absolute_arc.hpp"
 #include "observables/extrema.hpp"
 #include "observables/range_search.hpp"
+#include "scene/response.hpp"
+#include "scene/stops.hpp"
 
 namespace clatter::observables {
 

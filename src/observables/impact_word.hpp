@@ -5,8 +5,8 @@
 #include <tuple>
 #include <vector>
 
-#include "model/stops.hpp"
 #include "observables/observable.hpp"
+#include "scene/stops.hpp"
 
 namespace clatter::observables {
 

@@ -3,9 +3,9 @@
 #include <optional>
 #include <vector>
 
-#include "model/displacement_bound.hpp"
 #include "motion/state.hpp"
 #include "observables/impact_word.hpp"
+#include "scene/displacement_bound.hpp"
 
 namespace clatter::observables {
 

@@ -14,11 +14,11 @@
 #include <variant>
 #include <vector>
 
-#include "model/key.hpp"
-#include "model/quantity.hpp"
-#include "model/scene.hpp"
-#include "model/shaking.hpp"
 #include "observables/fourier_transform.hpp"
+#include "scene/key.hpp"
+#include "scene/quantity.hpp"
+#include "scene/scene.hpp"
+#include "scene/shaking.hpp"
 
 namespace clatter::observables {
 

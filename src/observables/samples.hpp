@@ -6,9 +6,9 @@
 #include <limits>
 #include <vector>
 
-#include "model/shaking.hpp"
-#include "model/stops.hpp"
 #include "motion/arc.hpp"
+#include "scene/shaking.hpp"
+#include "scene/stops.hpp"
 
 namespace clatter::observables {
 

@@ -8,10 +8,10 @@
 #include <vector>
 
 #include "math/number.hpp"
-#include "model/displacement_bound.hpp"
 #include "observables/bracketed_root.hpp"
 #include "observables/samples.hpp"
 #include "observables/section.hpp"
+#include "scene/displacement_bound.hpp"
 
 namespace clatter::observables {
 

@@ -5,11 +5,11 @@
 #include <cmath>
 #include <cstdio>
 
-#include "model/required_effects.hpp"
-#include "model/response.hpp"
 #include "plan/sample.hpp"
 #include "plan/survey.hpp"
 #include "point/point.hpp"
+#include "scene/required_effects.hpp"
+#include "scene/response.hpp"
 
 namespace clatter::plan {
 namespace {
@@ -119,7 +119,7 @@ std::optional<std::string> warning_of_costliest_point(const sweep::Sweep& sweep,
     return *told + ": with R = 1 nothing ends its bouncing; lower time.max_impacts, or take R below 1";
   if (const auto told = periods.told(sweep, 1, "steps"))
     return *told + ", since its time is long beside its periods; lower time.duration, or look for a slip in " +
-           (sweep.machine ? "mass, stiffness or frequency" : "nu or stiffness");
+           (sweep.problem.is_si ? "mass, stiffness or frequency" : "nu or stiffness");
   return std::nullopt;
 }
 

@@ -6,7 +6,7 @@
 #include <cstdio>
 #include <limits>
 
-#include "model/required_effects.hpp"
+#include "scene/required_effects.hpp"
 
 namespace clatter::plan {
 namespace {
@@ -163,7 +163,7 @@ Reason rest_reason(const point::Problem& scene, const Requirements& needs) {
           force + (needs.effects.rest ? ": a stop can be pressed" : ": no stop can hold the mass")};
 }
 
-/// The share of the time that leaving an effect out saves, as measured on the ladder of scenes in src/model/README.md.
+/// The share of the time that leaving an effect out saves, as measured on the ladder of scenes in src/scene/README.md.
 Bounds measured_saving(const std::string& effect) {
   if (effect == "damping") return {0.13, 0.16};
   if (effect == "forcing") return {0.07, 0.35};

@@ -7,10 +7,10 @@
 #include <vector>
 
 #include "lanes/run_in_lanes.hpp"
-#include "model/displacement_bound.hpp"
 #include "motion/contact.hpp"
 #include "plan/sample.hpp"
 #include "point/point.hpp"
+#include "scene/displacement_bound.hpp"
 #include "steady/repeat.hpp"
 #include "sweep/branches.hpp"
 #include "sweep/parallel.hpp"

@@ -4,8 +4,8 @@
 #include <cstddef>
 #include <vector>
 
-#include "model/required_effects.hpp"
 #include "plan/bounds.hpp"
+#include "scene/required_effects.hpp"
 #include "sweep/run.hpp"
 
 namespace clatter::plan {

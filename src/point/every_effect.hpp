@@ -1,6 +1,6 @@
 #pragma once
 
-#include "model/effects.hpp"
+#include "scene/effects.hpp"
 
 namespace clatter::point {
 

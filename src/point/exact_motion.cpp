@@ -1,7 +1,7 @@
 #include "point/exact_motion.hpp"
 
-#include "model/required_effects.hpp"
 #include "point/exact_points.hpp"
+#include "scene/required_effects.hpp"
 
 namespace clatter::point {
 

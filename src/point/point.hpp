@@ -3,11 +3,11 @@
 #include <functional>
 #include <span>
 
-#include "model/required_effects.hpp"
 #include "motion/state.hpp"
 #include "observables/all.hpp"
 #include "point/decided.hpp"
 #include "point/problem.hpp"
+#include "scene/required_effects.hpp"
 #include "steady/observed_time.hpp"
 
 namespace clatter::point {

@@ -2,22 +2,24 @@
 
 #include <optional>
 
-#include "model/scene.hpp"
-#include "model/shaking.hpp"
-#include "model/units.hpp"
 #include "observables/all.hpp"
+#include "scene/scene.hpp"
+#include "scene/units.hpp"
 #include "steady/time_settings.hpp"
 #include "stepping/integration.hpp"
 
 namespace clatter::point {
 
-/// One point of a sweep: a scene, and all else that its results depend on.
-struct Problem : Scene {
+/// All but the scene that results depend on.
+struct RunSettings {
   steady::TimeSettings time;
   observables::Observe observe;
   stepping::Integration integration;
-  Shaking shaking{};  ///< of the stops or the base, by which the displacement counts
-  Units units{};      ///< of all its numbers
+};
+
+/// One point of a sweep: a scene, and how it is run and observed.
+struct Problem : Scene, RunSettings {
+  Units units{};  ///< of all its numbers
 };
 
 /// The motion of the frame from the start of a problem on, or from a time after it, if absolute motion is asked for and

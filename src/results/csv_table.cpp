@@ -7,10 +7,10 @@
 
 #include "config/suggestion.hpp"
 #include "results/csv_text.hpp"
+#include "scene/parameter.hpp"
 #include "storage/error.hpp"
 #include "storage/input_file.hpp"
 #include "storage/utf8.hpp"
-#include "sweep/parameter.hpp"
 
 namespace clatter::results {
 namespace {
@@ -132,7 +132,7 @@ CsvTable::CsvTable(const FileSummary& summary, const std::string& path, TableCho
 /// to that, or a direction.
 bool CsvTable::is_coordinate(const Entry& entry, const sweep::NamedLength& dimension) {
   if (entry.dimensions.size() != 1 || !are_same(entry.dimensions[0], dimension)) return false;
-  return entry.name == dimension.name || sweep::parameter_of(entry.name).has_value();
+  return entry.name == dimension.name || Parameter::of(entry.name).has_value();
 }
 
 const Entry* CsvTable::find(std::string_view name) const {

@@ -9,9 +9,9 @@
 #include <optional>
 #include <span>
 
-#include "model/displacement_bound.hpp"
-#include "model/response.hpp"
 #include "motion/soft_stop.hpp"
+#include "scene/displacement_bound.hpp"
+#include "scene/response.hpp"
 #include "steady/doubt.hpp"
 #include "steady/observed_time.hpp"
 #include "steady/stroboscopic_map.hpp"

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "math/number.hpp"
-#include "model/stops.hpp"
+#include "scene/stops.hpp"
 
 namespace clatter::steady {
 

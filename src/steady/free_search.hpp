@@ -4,7 +4,7 @@
 #include <cmath>
 #include <optional>
 
-#include "model/displacement_bound.hpp"
+#include "scene/displacement_bound.hpp"
 #include "steady/free_period.hpp"
 #include "steady/observed_time.hpp"
 #include "steady/return_observer.hpp"

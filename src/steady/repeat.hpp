@@ -8,7 +8,7 @@
 #include <limits>
 #include <utility>
 
-#include "model/oscillator.hpp"
+#include "scene/oscillator.hpp"
 
 namespace clatter::steady {
 

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <limits>
 
-#include "model/scene.hpp"
 #include "motion/soft_stop.hpp"
 #include "motion/state.hpp"
+#include "scene/scene.hpp"
 
 namespace clatter::steady {
 

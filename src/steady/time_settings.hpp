@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <limits>
 
-#include "model/oscillator.hpp"
+#include "scene/oscillator.hpp"
 #include "stepping/integration.hpp"
 
 namespace clatter::steady {

@@ -10,8 +10,8 @@
 #include <type_traits>
 #include <utility>
 
-#include "model/scene.hpp"
 #include "motion/contact_force.hpp"
+#include "scene/scene.hpp"
 #include "stepping/integration.hpp"
 #include "stepping/soft_contact.hpp"
 

@@ -16,10 +16,7 @@ namespace clatter::sweep {
 namespace {
 
 bool is_of_start(const Dimension& dimension) {
-  return std::ranges::all_of(dimension, [](const Axis& axis) {
-    return axis.parameter == Parameter::x0 || axis.parameter == Parameter::v0 || axis.parameter == Parameter::phase ||
-           axis.parameter == Parameter::start_period;
-  });
+  return std::ranges::all_of(dimension, [](const Axis& axis) { return axis.parameter.role() == Role::start; });
 }
 
 attractors::Grid grid_of(const Sweep& sweep) {
@@ -31,7 +28,7 @@ attractors::Grid grid_of(const Sweep& sweep) {
 
 bool varies_phase(const Sweep& sweep) {
   return std::ranges::any_of(sweep.dimensions, [](const Dimension& dimension) {
-    return std::ranges::find(dimension, Parameter::phase, &Axis::parameter) != dimension.end();
+    return std::ranges::find(dimension, Parameter("phase"), &Axis::parameter) != dimension.end();
   });
 }
 
@@ -156,7 +153,7 @@ void add_attractors(const Sweep& sweep, bool is_shard, const std::vector<std::st
     values.reserve(motions.size());
     for (const attractors::NumberedMotion& motion : motions) values.push_back(value_of(motion));
     dataset.variables.push_back(
-        {name, {"motion"}, std::move(values), long_name, std::string(unit_of(quantity, sweep.machine.has_value()))});
+        {name, {"motion"}, std::move(values), long_name, std::string(unit_of(quantity, sweep.problem.is_si))});
   };
   using Motion = attractors::NumberedMotion;
   std::size_t number = 0;

@@ -1,12 +1,11 @@
 #include "sweep/mirror_images.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <utility>
 
 #include "math/number.hpp"
-#include "model/scene.hpp"
+#include "scene/scene.hpp"
 
 namespace clatter::sweep {
 namespace {
@@ -24,16 +23,15 @@ bool are_half_a_turn_apart(double a, double b) {
   return std::abs(turns - std::floor(turns) - 0.5) <= 4 * epsilon<double>() * std::max(1.0, std::abs(turns));
 }
 
-bool is_start(Parameter parameter) {
-  return parameter == Parameter::x0 || parameter == Parameter::v0 || parameter == Parameter::phase;
-}
+constexpr Parameter x0("x0"), v0("v0"), phase("phase"), start_period("start_period");
+
+bool is_start(Parameter parameter) { return parameter.role() == Role::start; }
 
 /// Whether the values of a dimension at two indexes are those of a point and its mirror image.
 bool are_mirrored(const Dimension& dimension, std::size_t a, std::size_t b, bool forced) {
   return std::ranges::all_of(dimension, [&](const Axis& axis) {
-    if (!is_start(axis.parameter) || (axis.parameter == Parameter::phase && !forced))
-      return axis.values[a] == axis.values[b];
-    if (axis.parameter == Parameter::phase) return are_half_a_turn_apart(axis.values[a], axis.values[b]);
+    if (!is_start(axis.parameter) || (axis.parameter == phase && !forced)) return axis.values[a] == axis.values[b];
+    if (axis.parameter == phase) return are_half_a_turn_apart(axis.values[a], axis.values[b]);
     const double largest = std::max(std::abs(axis.values.front()), std::abs(axis.values.back()));
     return std::abs(axis.values[a] + axis.values[b]) <= 4 * epsilon<double>() * largest;
   });
@@ -64,15 +62,16 @@ std::vector<std::size_t> images_in(const Dimension& dimension, bool forced) {
 /// Whether the scene is symmetric about 0 at every point.
 bool is_always_symmetric(const Sweep& sweep) {
   const bool varies = std::ranges::any_of(sweep.dimensions, [](const Dimension& dimension) {
-    return std::ranges::any_of(dimension, [](const Axis& axis) {
-      using enum Parameter;
-      return axis.parameter == load || axis.parameter == stop_lower || axis.parameter == stop_upper ||
-             axis.parameter == R_lower || axis.parameter == R_upper || axis.parameter == stop_stiffness_lower ||
-             axis.parameter == stop_stiffness_upper || axis.parameter == stop_damping_lower ||
-             axis.parameter == stop_damping_upper;
-    });
+    return std::ranges::any_of(dimension, [](const Axis& axis) { return !axis.parameter.keeps_symmetry(); });
   });
   return !varies && mirror_centre(problem_at(sweep, 0)) == 0.0;
+}
+
+/// Whether a dimension varies the force, or what shakes.
+bool drives(const Dimension& dimension) {
+  return std::ranges::any_of(dimension, [](const Axis& axis) {
+    return axis.parameter.role() == Role::drive || axis.parameter.role() == Role::shaking;
+  });
 }
 
 bool is_swept(const Sweep& sweep, Parameter parameter) {
@@ -85,17 +84,14 @@ bool is_swept(const Sweep& sweep, Parameter parameter) {
 
 MirrorImages::MirrorImages(const Sweep& sweep) : points_(size_one_way(sweep)) {
   constexpr std::size_t longest = 100'000;  // of a dimension, whose images are looked for one by one
-  const point::Problem& problem = sweep.problem;
-  constexpr std::array forces{Parameter::f, Parameter::force, Parameter::stop_amplitude, Parameter::base_amplitude};
-  const double force = sweep.machine ? sweep.machine->force : problem.oscillator.forcing;
-  const bool forced = force != 0 || is_shaken(problem.shaking) ||
-                      std::ranges::any_of(forces, [&](Parameter parameter) { return is_swept(sweep, parameter); });
-  const bool paired = (problem.start.displacement == 0 || is_swept(sweep, Parameter::x0)) &&
-                      (problem.start.velocity == 0 || is_swept(sweep, Parameter::v0)) &&
-                      (!forced || is_swept(sweep, Parameter::phase));
+  const GivenProblem& problem = sweep.problem;
+  const bool forced =
+      problem.oscillator.forcing != 0 || is_shaken(sweep) || std::ranges::any_of(sweep.dimensions, drives);
+  const bool paired = (problem.start.displacement == 0 || is_swept(sweep, x0)) &&
+                      (problem.start.velocity == 0 || is_swept(sweep, v0)) && (!forced || is_swept(sweep, phase));
   if (!paired || problem.time.mode != steady::Mode::steady || problem.integration.method != stepping::Method::exact ||
-      problem.integration.all_effects || sweep.follow || sweep.start_period ||
-      is_swept(sweep, Parameter::start_period) || !is_always_symmetric(sweep) || !can_mirror(problem.observe))
+      problem.integration.all_effects || sweep.follow || !std::isnan(problem.start_period) ||
+      is_swept(sweep, start_period) || !is_always_symmetric(sweep) || !can_mirror(problem.observe))
     return;
   std::vector<std::vector<std::size_t>> images;
   for (const Dimension& dimension : sweep.dimensions) {

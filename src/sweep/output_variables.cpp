@@ -2,13 +2,13 @@
 
 namespace clatter::sweep {
 
-std::vector<OutputVariable> outputs_of(const point::Problem& scene) {
+std::vector<OutputVariable> outputs_of(const point::RunSettings& settings) {
   std::vector<OutputVariable> outputs;
-  if (scene.time.mode == steady::Mode::steady)
+  if (settings.time.mode == steady::Mode::steady)
     outputs.push_back(observables::scalar("settling_estimate",
                                           "forcing periods until within the tolerance of the steady motion",
                                           &point::PointResult::settling_estimate));
-  for (OutputVariable& output : observables::All::columns<point::PointResult>(scene.observe))
+  for (OutputVariable& output : observables::All::columns<point::PointResult>(settings.observe))
     outputs.push_back(std::move(output));
   return outputs;
 }

@@ -276,7 +276,7 @@ void ResultStore::add_impact_log(Dataset& dataset) {
   log_ = {};
   malloc_trim(0);  // otherwise blocks between others stay with the process
   const std::vector<std::string> along{"impact"};
-  const auto unit = [this](Quantity quantity) { return std::string(unit_of(quantity, sweep_.machine.has_value())); };
+  const auto unit = [this](Quantity quantity) { return std::string(unit_of(quantity, sweep_.problem.is_si)); };
   dataset.dimensions.push_back({"impact", tau.size()});
   dataset.variables.push_back({"impact_count", along_, std::move(counts), "impacts in the log of the point", "1"});
   dataset.variables.back().attributes = {{"sample_dimension", "impact"}};
@@ -302,7 +302,7 @@ Dataset ResultStore::dataset() {
     ValueArray values = std::move(values_[i]);
     if (output.text) values = std::move(texts_[i]);
     if (output.intermediate && !shard_) continue;
-    const bool is_si = sweep_.machine.has_value();
+    const bool is_si = sweep_.problem.is_si;
     const std::string& long_name = is_si && !output.name_in_si.empty() ? output.name_in_si : output.long_name;
     const Quantity quantity = output.intermediate ? Quantity::number : output.quantity;
     dataset.variables.push_back(

@@ -22,7 +22,7 @@ using OutputVariable = observables::Column<point::PointResult>;
 
 /// The variables of a point's observables, except the impact log and the integer ones; for steady motion also the
 /// estimate of its settling time.
-[[nodiscard]] std::vector<OutputVariable> outputs_of(const point::Problem& scene);
+[[nodiscard]] std::vector<OutputVariable> outputs_of(const point::RunSettings& settings);
 
 /// The names of all variables of texts.
 [[nodiscard]] std::vector<std::string> names_of_texts();

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "lanes/instruction_set.hpp"
-#include "model/effects.hpp"
+#include "scene/effects.hpp"
 #include "steady/observed_time.hpp"
 #include "sweep/dataset.hpp"
 #include "sweep/result_store.hpp"

@@ -1,21 +1,19 @@
 #include "sweep/sweep.hpp"
 
 #include <algorithm>
+#include <numbers>
 
 namespace clatter::sweep {
 
 void enter_shaken_frame(point::Problem& problem) {
-  if (!is_shaken(problem.shaking)) return;
-  const auto [amplitude, lead] = force_in_frame(problem.oscillator, problem.shaking);
-  problem.oscillator.forcing = amplitude, problem.shaking.lead = lead;
-  problem.start.phase += lead, problem.observe.section_phase += lead;
+  static_cast<Scene&>(problem) = in_shaken_frame(problem);
+  problem.observe.section_phase += problem.shaking.lead;
 }
 
 bool is_shaken(const Sweep& sweep) {
   const auto shakes = [](const Axis& axis) {
-    const bool is_amplitude =
-        axis.parameter == Parameter::stop_amplitude || axis.parameter == Parameter::base_amplitude;
-    return is_amplitude && std::ranges::any_of(axis.values, [](double value) { return value != 0; });
+    return axis.parameter.role() == Role::shaking &&
+           std::ranges::any_of(axis.values, [](double value) { return value != 0; });
   };
   return is_shaken(sweep.problem.shaking) || std::ranges::any_of(sweep.dimensions, [&](const Dimension& dimension) {
            return std::ranges::any_of(dimension, shakes);
@@ -28,22 +26,19 @@ std::size_t size_one_way(const Sweep& sweep) {
   return points;
 }
 
-point::Problem problem_at(const Sweep& sweep, std::size_t point) {
-  point::Problem problem = sweep.problem;
-  std::optional<double> start_period = sweep.start_period;
-  std::optional<Machine> machine = sweep.machine;
-  each_coordinate(sweep, point, [&](const Axis& axis, double value) {
-    if (axis.parameter == Parameter::start_period) {
-      start_period = value;
-    } else if (!machine || !set(*machine, axis.parameter, value)) {
-      set(problem, axis.parameter, value);
-    }
-  });
-  if (start_period) set(problem, Parameter::start_period, *start_period);  // last: it depends on the stops
-  if (machine) to_computed_units(problem, *machine);
+point::Problem computed(const GivenProblem& given) {
+  const auto [scene, units] = clatter::computed(given);
+  point::Problem problem{scene, given, units};
+  problem.time.duration /= units.time;
+  problem.observe.base_frequency *= units.is_si ? 2 * std::numbers::pi * units.time : units.time;
   enter_shaken_frame(problem);
-  if (!machine) to_computed_units(problem);
   return problem;
+}
+
+point::Problem problem_at(const Sweep& sweep, std::size_t point) {
+  GivenProblem given = sweep.problem;
+  each_coordinate(sweep, point, [&](const Axis& axis, double value) { set(given, axis.parameter, value); });
+  return computed(given);
 }
 
 }  // namespace clatter::sweep

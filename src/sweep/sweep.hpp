@@ -8,24 +8,20 @@
 #include <vector>
 
 #include "point/problem.hpp"
-#include "sweep/parameter.hpp"
-#include "sweep/scaling.hpp"
+#include "scene/parameter.hpp"
 
 namespace clatter::sweep {
 
-/// Sets a parameter of the scene. `xs` and `gap` set both stops to -|xs| and +|xs|, `R` both restitutions,
-/// `stop_stiffness` and `stop_damping` those of both stops; `start_period` sets x0 and v0 from the lower stop, v0 =
-/// |xs| cot(start_period / 4) (eq. 36), so it is set after the stops.
-void set(point::Problem& scene, Parameter parameter, double value);
-
-/// Sets a parameter of a machine; returns false if it isn't one of mass, spring, damper and force.
-[[nodiscard]] bool set(Machine& machine, Parameter parameter, double value);
+/// A scene as its user gives it, and how it is run and observed.
+struct GivenProblem : GivenScene, point::RunSettings {
+  GivenProblem() = default;
+  GivenProblem(const point::Problem& problem) : GivenScene(problem), RunSettings(problem) {}
+};
 
 /// One swept parameter and its values.
 struct Axis {
-  Parameter parameter = Parameter::nu;
+  Parameter parameter;
   std::vector<double> values;
-  Quantity quantity = quantity_of(parameter);  ///< that they are in SI
 };
 
 /// Axes of equal length that run together; named by the first.
@@ -39,22 +35,16 @@ inline constexpr std::array<std::string_view, 3> direction_names{"up", "down", "
 
 /// Every combination of the dimensions' values; the first dimension varies slowest, the two directions slower still.
 struct Sweep {
-  point::Problem problem{};             ///< the problem that the axes vary
+  GivenProblem problem{};               ///< the problem that the axes vary
   std::vector<Dimension> dimensions{};  ///< empty: one point
   std::optional<std::size_t> follow{};  ///< the dimension along which each point starts from the end of the one before
   Direction direction = Direction::up;  ///< along `follow`
-  std::optional<double>
-      start_period{};  ///< start_period of [scene], set at each point after its stops; empty: x0 and v0 are the start
-  std::optional<Machine>
-      machine{};  ///< in SI, in place of the oscillator of the problem, whose other numbers are in SI too
 };
 
 [[nodiscard]] inline std::size_t length(const Dimension& dimension) { return dimension.front().values.size(); }
 
 /// The name of a dimension: the key of its first axis.
-[[nodiscard]] inline std::string_view name_of(const Dimension& dimension) {
-  return key_of(dimension.front().parameter);
-}
+[[nodiscard]] inline std::string_view name_of(const Dimension& dimension) { return dimension.front().parameter.key(); }
 
 /// Number of points in each direction.
 [[nodiscard]] std::size_t size_one_way(const Sweep& sweep);
@@ -78,12 +68,15 @@ void each_coordinate(const Sweep& sweep, std::size_t point, const Take& take) {
 /// Whether stops or base are shaken at any point.
 [[nodiscard]] bool is_shaken(const Sweep& sweep);
 
-/// Puts the force in the moving frame in place of the shaking of a problem as the user gave it (eqs. 39 to 41); phases
-/// that the user gave are those of the shaking.
+/// Puts the force in the moving frame in place of the one that was given (eqs. 39 to 41); phases that the user gave are
+/// those of the shaking.
 void enter_shaken_frame(point::Problem& problem);
 
-/// The problem of a point, 0 <= point < size(sweep), in row-major order of the directions and dimensions, in the units
-/// that it is computed in; of a shaken scene that in the moving frame.
+/// A problem in the units that it is computed in; of a shaken scene that in the moving frame.
+[[nodiscard]] point::Problem computed(const GivenProblem& given);
+
+/// The problem of a point, 0 <= point < size(sweep), in row-major order of the directions and dimensions, as it is
+/// computed.
 [[nodiscard]] point::Problem problem_at(const Sweep& sweep, std::size_t point);
 
 }  // namespace clatter::sweep

@@ -27,7 +27,7 @@ struct MeasuredSweep {
 };
 
 MeasuredSweep two_points() {
-  MeasuredSweep all{sweep::sweep_of(smooth_scene(), {{sweep::Parameter::nu, {0.9, 1.0}}}), {}};
+  MeasuredSweep all{sweep::sweep_of(smooth_scene(), {{Parameter("nu"), {0.9, 1.0}}}), {}};
   for (std::size_t i = 0; i < 2; ++i)
     all.points.push_back(measure_accuracy(problem_at(all.sweep, i), one_of_each(), once));
   return all;
@@ -114,7 +114,7 @@ TEST(AccuracyDataset, names_the_instruction_set_of_each_row) {
 
 TEST(AccuracyDataset, names_linked_axes_as_coordinates) {
   sweep::Sweep sweep = sweep::sweep_of(smooth_scene(), {});
-  sweep.dimensions = {{{sweep::Parameter::nu, {0.9, 1.0}}, {sweep::Parameter::f, {1.0, 2.0}}}};
+  sweep.dimensions = {{{Parameter("nu"), {0.9, 1.0}}, {Parameter("f"), {1.0, 2.0}}}};
   const sweep::Dataset dataset = accuracy_dataset(sweep, std::vector<PointAccuracy>(2));
   for (const char* name : {"status", "horizon", "missed"})
     EXPECT_EQ(find(dataset, name)->attributes.back(), (sweep::Attribute{"coordinates", "f"})) << name;
@@ -135,7 +135,7 @@ TEST(AccuracyDataset, of_one_point_has_rows_alone) {
 
 TEST(AccuracyDataset, of_two_axes_lets_the_first_vary_slowest) {
   const sweep::Sweep sweep =
-      sweep::sweep_of(smooth_scene(), {{sweep::Parameter::nu, {0.9, 1.0}}, {sweep::Parameter::R, {0.5, 0.6, 0.7}}});
+      sweep::sweep_of(smooth_scene(), {{Parameter("nu"), {0.9, 1.0}}, {Parameter("R"), {0.5, 0.6, 0.7}}});
   std::vector<PointAccuracy> points(6);
   for (std::size_t i = 0; i < 6; ++i) points[i].horizon = static_cast<double>(i), points[i].rows.resize(2);
   const sweep::Dataset dataset = accuracy_dataset(sweep, points);

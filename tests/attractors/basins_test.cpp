@@ -14,7 +14,6 @@ namespace clatter::attractors {
 namespace {
 
 using sweep::Dataset;
-using sweep::Parameter;
 
 /// The middles of n equal parts of -a ... a.
 std::vector<double> middles(double a, int n) {
@@ -32,7 +31,8 @@ point::Problem scene(double stop, double nu, double forcing) {
 }
 
 Dataset basins_of(const point::Problem& problem, double x, double v, int n) {
-  return run(sweep::sweep_of(problem, {{Parameter::x0, middles(x, n)}, {Parameter::v0, middles(v, n)}}), {}).dataset;
+  return run(sweep::sweep_of(problem, {{Parameter("x0"), middles(x, n)}, {Parameter("v0"), middles(v, n)}}), {})
+      .dataset;
 }
 
 template <class T>
@@ -73,9 +73,9 @@ TEST(Basins, of_a_mirror_pair_are_told_apart) {
 TEST(Basins, of_chaos_are_one_motion_until_it_splits_into_a_mirror_pair) {
   point::Problem problem = scene(3.0, 0.0, -1.0);
   problem.time.max_periods = 300;
-  const Dataset dataset = run(sweep::sweep_of(problem, {{Parameter::nu, {0.92, 0.93, 0.94, 0.95}},
-                                                        {Parameter::x0, middles(3, 12)},
-                                                        {Parameter::v0, middles(6, 12)}}),
+  const Dataset dataset = run(sweep::sweep_of(problem, {{Parameter("nu"), {0.92, 0.93, 0.94, 0.95}},
+                                                        {Parameter("x0"), middles(3, 12)},
+                                                        {Parameter("v0"), middles(6, 12)}}),
                               {})
                               .dataset;
   EXPECT_EQ(of<std::int64_t>(dataset, "motion_count"), (std::vector<std::int64_t>{1, 1, 2, 2}));
@@ -139,8 +139,8 @@ TEST(Basins, of_bistable_motion_hold_both_closed_forms_under_two_numbers) {
   for (int i = 0; i <= 20; ++i) nu.push_back(1.15 + 0.03 * i);
   const point::Problem problem = scene(3.0, 0.0, -1.0);
   const Dataset dataset =
-      run(sweep::sweep_of(problem,
-                          {{Parameter::nu, nu}, {Parameter::x0, middles(3, 16)}, {Parameter::v0, middles(6, 16)}}),
+      run(sweep::sweep_of(
+              problem, {{Parameter("nu"), nu}, {Parameter("x0"), middles(3, 16)}, {Parameter("v0"), middles(6, 16)}}),
           {})
           .dataset;
   ASSERT_EQ(of<std::string>(dataset, "motion_word"), (std::vector<std::string>{"", "LU"}));

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "model/effects.hpp"
+#include "scene/effects.hpp"
 #include "stepping/exact.hpp"
 #include "stepping/run.hpp"
 #include "support/random.hpp"
@@ -21,8 +21,6 @@
 
 namespace clatter::attractors {
 namespace {
-
-using sweep::Parameter;
 
 constexpr std::size_t starts = 10;
 constexpr int looked_at = 6000;  // forcing periods
@@ -114,7 +112,7 @@ TEST(BruteForce, long_runs_from_the_states_in_which_points_ended_make_the_same_g
   for (std::uint64_t i = range.from; i < range.to; ++i) {
     support::Random random(22, i);
     const point::Problem scene = any_scene(random);
-    sweep::Axis x0{Parameter::x0, {}}, v0{Parameter::v0, {}};
+    sweep::Axis x0{Parameter("x0"), {}}, v0{Parameter("v0"), {}};
     const double widest = std::isfinite(scene.stops.upper) ? scene.stops.upper : -scene.stops.lower;
     for (std::size_t k = 0; k < starts; ++k) {
       x0.values.push_back(random.uniform(scene.stops.lower, widest));

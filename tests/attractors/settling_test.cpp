@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "model/displacement_bound.hpp"
 #include "point/point.hpp"
+#include "scene/displacement_bound.hpp"
 
 namespace clatter::attractors {
 namespace {

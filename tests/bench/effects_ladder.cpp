@@ -1,6 +1,6 @@
 // The cost of each effect. Every rung is a scene without one effect, timed with the compiled set of its own effects,
 // with one that also has that effect, and with one that has them all: the same motion by different compiled sets.
-// scripts/effects_ladder.py makes the table in src/model/README.md.
+// scripts/effects_ladder.py makes the table in src/scene/README.md.
 #include <benchmark/benchmark.h>
 
 #include <cstddef>
@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
-#include "model/required_effects.hpp"
 #include "point/problem.hpp"
+#include "scene/required_effects.hpp"
 #include "stepping/exact.hpp"
 #include "stepping/run.hpp"
 

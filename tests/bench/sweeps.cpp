@@ -9,8 +9,7 @@ namespace {
 point::Problem scene_between(double xs) {
   point::Problem scene;
   scene.oscillator = {.damping = 0.1, .forcing = -1.0};
-  set(scene, sweep::Parameter::xs, xs);
-  set(scene, sweep::Parameter::R, 0.7);
+  scene.stops = {-xs, xs, 0.7, 0.7};
   scene.observe.extrema = true;
   return scene;
 }
@@ -20,7 +19,7 @@ sweep::Sweep transients_over(const std::vector<double>& frequencies, double xs, 
   sweep.problem = scene_between(xs);
   sweep.problem.time.mode = steady::Mode::transient;
   sweep.problem.time.duration = periods * 2 * std::numbers::pi;
-  sweep.dimensions = {{{sweep::Parameter::nu, frequencies}}};
+  sweep.dimensions = {{{Parameter("nu"), frequencies}}};
   return sweep;
 }
 
@@ -31,8 +30,7 @@ sweep::Sweep map_between(std::size_t n, double nearest, double farthest) {
   sweep.problem.observe.harmonics = 3;
   sweep.problem.observe.harmonics_method = observables::HarmonicsMethod::exact;
   sweep.problem.observe.period = true;
-  sweep.dimensions = {{{sweep::Parameter::nu, linspace(0.5, 1.5, n)}},
-                      {{sweep::Parameter::xs, linspace(nearest, farthest, n)}}};
+  sweep.dimensions = {{{Parameter("nu"), linspace(0.5, 1.5, n)}}, {{Parameter("xs"), linspace(nearest, farthest, n)}}};
   return sweep;
 }
 

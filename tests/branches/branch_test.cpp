@@ -15,8 +15,6 @@
 namespace clatter::branches {
 namespace {
 
-using sweep::Parameter;
-
 point::Problem problem_of(double h, double f, double nu, const Stops& stops) {
   point::Problem problem;
   problem.oscillator = {h, f, nu, 0.0};
@@ -27,7 +25,7 @@ point::Problem problem_of(double h, double f, double nu, const Stops& stops) {
 }
 
 void expect_values(const Branches& found, SpecialKind kind, const std::vector<double>& expected, double tolerance,
-                   Parameter along = Parameter::nu) {
+                   Parameter along = Parameter("nu")) {
   const std::vector<double> all = special_values(found, kind, along);
   ASSERT_EQ(all.size(), expected.size()) << name_of(kind);
   for (std::size_t i = 0; i < all.size(); ++i) EXPECT_NEAR(all[i], expected[i], tolerance) << name_of(kind);
@@ -173,13 +171,13 @@ TEST(Branch, flips_where_vivid_says) {
       for (double x = -0.4; x <= 0.4 && !found; x += 0.1) {
         problem.start = {x, v, 0.0};
         try {
-          Branches all = follow_branches(problem, {.along = Parameter::f, .range = {0.34, 0.42}, .period = 2});
-          if (!special_values(all, SpecialKind::flip, Parameter::f).empty()) found = std::move(all);
+          Branches all = follow_branches(problem, {.along = Parameter("f"), .range = {0.34, 0.42}, .period = 2});
+          if (!special_values(all, SpecialKind::flip, Parameter("f")).empty()) found = std::move(all);
         } catch (const StartError&) {
         }
       }
     ASSERT_TRUE(found) << nu;
-    const std::vector<double> flips = special_values(*found, SpecialKind::flip, Parameter::f);
+    const std::vector<double> flips = special_values(*found, SpecialKind::flip, Parameter("f"));
     EXPECT_TRUE(std::ranges::any_of(flips, [&](double f) { return std::abs(f - flip) < 1e-12; })) << nu;
   }
 }
@@ -204,7 +202,7 @@ TEST(Branch, measures_are_the_observables_of_a_run) {
   point::ThreadScratch scratch;
   const point::PointResult run = run_point(problem, scratch);
   const Orbit orbit = start_orbit(problem, 0, true);
-  const OrbitEquations equations(problem, orbit, {{Parameter::nu, 1.0}}, 1.0);
+  const OrbitEquations equations(problem, orbit, {{Parameter("nu"), 1.0}}, 1.0);
   const Vector z = equations.unknowns_of(problem, orbit), still(z.size(), 0.0);
   EXPECT_NEAR(impact_power(moving(equations, z, still)).value, run.impact_power, 1e-12);
   EXPECT_NEAR(harmonic(moving(equations, z, still)).value, run.x_spectrum.amplitude[1], 1e-12);
@@ -215,7 +213,7 @@ TEST(Branch, measures_are_the_observables_of_a_run) {
 
 /// A load, or one stop that moves, takes the symmetry away: no half of a motion stands for the other then.
 TEST(Branch, of_motion_that_loses_its_symmetry_by_the_parameter_is_that_of_runs) {
-  for (const Parameter along : {Parameter::load, Parameter::stop_upper, Parameter::R_upper}) {
+  for (const Parameter along : {Parameter("load"), Parameter("stop_upper"), Parameter("R_upper")}) {
     point::Problem problem = problem_of(0.1, 1.0, 2.0, {-0.5, 0.5, 0.7, 0.7});
     problem.start = {0.1, 1.0, 0.0};
     const double here = value_of(problem, along);
@@ -254,7 +252,7 @@ TEST(Branch, may_begin_on_a_bound_of_its_range) {
 TEST(Branch, of_small_motion_at_its_start_takes_no_more_points) {
   const auto points = [](double f) {
     const point::Problem problem = problem_of(0.1, f, 1.1, {-3.0, 3.0, 0.7, 0.7});
-    return follow_branches(problem, {.along = Parameter::f, .range = {0.0, 1.0}}).points.size();
+    return follow_branches(problem, {.along = Parameter("f"), .range = {0.0, 1.0}}).points.size();
   };
   EXPECT_LT(points(1e-3), 2 * points(0.5));
 }
@@ -277,8 +275,8 @@ TEST(Branch, refuses_starts_that_it_cannot_follow) {
   EXPECT_THROW((void)follow(problem_of(0.1, 0.0, 1.0, {-1.0, 1.0, 0.7, 0.7})), StartError);
   EXPECT_THROW((void)follow(problem_of(0.1, 1.0, 3.5, {-1.0, 1.0, 0.7, 0.7})), StartError);  // outside the range
   const point::Problem uneven = problem_of(0.1, 1.0, 1.0, {-1.0, 2.0, 0.7, 0.5});
-  EXPECT_THROW((void)follow_branches(uneven, {.along = Parameter::xs, .range = {0.5, 3}}), StartError);
-  EXPECT_THROW((void)follow_branches(uneven, {.along = Parameter::R, .range = {0.1, 1}}), StartError);
+  EXPECT_THROW((void)follow_branches(uneven, {.along = Parameter("xs"), .range = {0.5, 3}}), StartError);
+  EXPECT_THROW((void)follow_branches(uneven, {.along = Parameter("R"), .range = {0.1, 1}}), StartError);
   point::Problem chaos = problem_of(0.1, 1.0, 2.8, {});
   chaos.stops.upper = 0.0, chaos.stops.restitution_upper = 0.7;
   chaos.time.max_periods = 50;

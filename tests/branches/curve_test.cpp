@@ -10,8 +10,6 @@
 namespace clatter::branches {
 namespace {
 
-using sweep::Parameter;
-
 /// One stop at 1, force of frequency nu, motion over two forcing periods from x = 0 (VIVID, arXiv 2510.16218).
 point::Problem one_stop(double f, double nu, double v) {
   point::Problem problem;
@@ -21,9 +19,9 @@ point::Problem one_stop(double f, double nu, double v) {
   return problem;
 }
 BranchSettings over_both(std::string curve) {
-  return {.along = Parameter::f,
+  return {.along = Parameter("f"),
           .range = {0.34, 0.42},
-          .across = Parameter::nu,
+          .across = Parameter("nu"),
           .across_range = {0.78, 0.92},
           .curve = std::move(curve),
           .period = 2};
@@ -38,7 +36,7 @@ point::Problem two_stops(double nu, double xs) {
 }
 BranchSettings over_nu_and_stops(std::string curve) {
   return {.range = {0.5, 2.0},
-          .across = Parameter::xs,
+          .across = Parameter("xs"),
           .across_range = {0.05, 6.0},
           .curve = std::move(curve),
           .generations = 2};
@@ -163,12 +161,12 @@ TEST(Curve, of_folds_has_a_cusp_where_two_folds_of_a_branch_meet) {
   problem.start = {0.0, 1.0, 0.0};
   const Branches found = follow_curves(
       problem,
-      {.range = {0.3, 4.0}, .across = Parameter::xs, .across_range = {0.02, 5.0}, .curve = "fold", .generations = 1});
+      {.range = {0.3, 4.0}, .across = Parameter("xs"), .across_range = {0.02, 5.0}, .curve = "fold", .generations = 1});
   const SpecialPoint* cusp = of_kind(found, SpecialKind::cusp);
   ASSERT_NE(cusp, nullptr);
   const auto folds_near = [&](double xs) {
-    const Scene scene = changed(cusp->at.scene, Parameter::xs, xs);
-    const OrbitEquations equations(scene, cusp->at.orbit, {{Parameter::nu, 1.0}}, 1.0);
+    const Scene scene = changed(cusp->at.scene, Parameter("xs"), xs);
+    const OrbitEquations equations(scene, cusp->at.orbit, {{Parameter("nu"), 1.0}}, 1.0);
     const double nu = cusp->at.scene.oscillator.frequency;
     Vector speed(equations.unknowns(), 0.0);  // the branch crosses the cusp in the direction of its orbit
     speed[1] = 1;

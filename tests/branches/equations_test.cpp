@@ -13,8 +13,6 @@
 namespace clatter::branches {
 namespace {
 
-using sweep::Parameter;
-
 Scene symmetric_scene(double h, double f, double nu, double R, double xs) {
   Scene scene;
   scene.oscillator = {h, f, nu, 0.0};
@@ -132,7 +130,7 @@ TEST(OrbitEquations, with_a_multiplier_of_one_have_the_fold_of_the_closed_form_a
     scene.oscillator.forcing = fold->forcing * (1 + 1e-6);  // where there are two motions
     for (const ClosedForm& near : closed_forms(scene)) {
       const Orbit shape{{{Side::upper, near.phase, near.speed}}, 1, true};
-      const OrbitEquations equations(scene, shape, {{Parameter::f, fold->forcing}}, fold->speed,
+      const OrbitEquations equations(scene, shape, {{Parameter("f"), fold->forcing}}, fold->speed,
                                      {{Condition::Kind::multiplier, 1}});
       const auto at = solution(equations, equations.unknowns_of(scene, shape), 1e-12);
       ASSERT_TRUE(at) << i;
@@ -162,7 +160,7 @@ TEST(OrbitEquations, know_the_multipliers_of_an_unstable_motion) {
 TEST(OrbitEquations, of_a_multiplier_have_the_derivatives_of_their_differences) {
   const Scene scene = symmetric_scene(0.1, 1.0, 2.0, 0.7, 0.5);
   const Orbit orbit{{{Side::lower, 0.9, -0.8}, {Side::upper, 4.2, 0.9}}, 2, false};
-  const OrbitEquations equations(scene, orbit, {{Parameter::nu, 0.5}, {Parameter::R, 0.3}}, 0.7,
+  const OrbitEquations equations(scene, orbit, {{Parameter("nu"), 0.5}, {Parameter("R"), 0.3}}, 0.7,
                                  {{Condition::Kind::multiplier, -1}});
   const Vector z = equations.unknowns_of(scene, orbit);
   const auto here = equations.at(z);

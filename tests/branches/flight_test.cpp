@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
+#include <array>
 #include <random>
 
 #include "math/dual.hpp"
@@ -11,35 +11,40 @@
 namespace clatter::branches {
 namespace {
 
-/// A flight and all that it depends on, as variables: its two phases, its velocity, then the parameters.
-constexpr std::size_t of_flight = 3, variables = of_flight + Parameters<double>::all.size();
+/// The numbers of a scene that a flight depends on.
+template <class Number>
+std::array<Number*, 15> numbers_in(SceneNumbers<Number>& p) {
+  auto& [h, f, nu, load, k] = p.oscillator;
+  auto& [lower, upper, R_lower, R_upper, kappa_lower, kappa_upper, zeta_lower, zeta_upper] = p.stops;
+  return {&h,     &f,       &nu,      &load,        &k,           &p.shaking.stops, &p.shaking.base, &lower,
+          &upper, &R_lower, &R_upper, &kappa_lower, &kappa_upper, &zeta_lower,      &zeta_upper};
+}
+constexpr std::size_t number_of_h = 0, number_of_k = 4, number_of_stops = 5, number_of_base = 6;
+
+/// A flight and all that it depends on, as variables: its two phases, its velocity, then the numbers of the scene.
+constexpr std::size_t of_flight = 3, variables = of_flight + 15;
 
 template <class Number>
 struct Flown {
-  Parameters<Number> p;
+  SceneNumbers<Number> p;
   Flight<Number> flight;
 
   Number& variable(std::size_t i) {
     if (i == 0) return flight.begin;
     if (i == 1) return flight.before;
-    return i == 2 ? flight.end : p.*p.all[i - of_flight];
+    return i == 2 ? flight.end : *numbers_in(p)[i - of_flight];
   }
 };
 
 template <class Number>
-Flown<Number> flown_of(const ShakenScene& scene, const Flight<double>& flight) {
-  return {Parameters<Number>(scene),
+Flown<Number> flown_of(const FollowedScene& scene, const Flight<double>& flight) {
+  return {numbers_of<Number>(scene),
           {flight.from, Number(flight.begin), Number(flight.before), flight.to, Number(flight.end), flight.leaves,
            flight.arrives}};
 }
 
-constexpr std::size_t index_of(double Parameters<double>::*parameter) {
-  const auto& all = Parameters<double>::all;
-  return of_flight + static_cast<std::size_t>(std::ranges::find(all, parameter) - all.begin());
-}
-
 /// Against central differences in 50 digits, whose error is 1e-32.
-void expect_derivatives(const ShakenScene& scene, const Flight<double>& flight, bool any_stiffness) {
+void expect_derivatives(const FollowedScene& scene, const Flight<double>& flight, bool any_stiffness) {
   using Many = Dual<double, variables>;
   Flown<Many> many = flown_of<Many>(scene, flight);
   for (std::size_t i = 0; i < variables; ++i) many.variable(i).slope[i] = 1;
@@ -51,10 +56,10 @@ void expect_derivatives(const ShakenScene& scene, const Flight<double>& flight, 
             .damping = E.damping, .forcing = Forcing::regular, .stiffness = E.stiffness};
         const FlightEnd<Many> exact = Flights<Many, E>(many.p).fly(many.flight);
         for (std::size_t i = 0; i < variables; ++i) {
-          if (i == index_of(&Parameters<double>::k) && (!any_stiffness || k == 0)) continue;
-          if (i == index_of(&Parameters<double>::h) && h * h == k) continue;
-          if (i == index_of(&Parameters<double>::stop_amplitude) && scene.shaking.base != 0) continue;
-          if (i == index_of(&Parameters<double>::base_amplitude) && scene.shaking.stops != 0) continue;
+          if (i == of_flight + number_of_k && (!any_stiffness || k == 0)) continue;
+          if (i == of_flight + number_of_h && h * h == k) continue;
+          if (i == of_flight + number_of_stops && scene.shaking.base != 0) continue;
+          if (i == of_flight + number_of_base && scene.shaking.stops != 0) continue;
           const auto at = [&](const char* step) {
             Flown<FiftyDigits> one = flown_of<FiftyDigits>(scene, flight);
             one.variable(i) += FiftyDigits(step);
@@ -80,7 +85,7 @@ TEST(Flight, has_the_derivatives_that_differences_in_fifty_digits_have) {
     const double k = i % 4 == 0 ? 1.0 : i % 4 == 1 ? 0.0 : i % 4 == 2 ? in(-2, -0.1) : in(0.1, 4);
     double h = i % 5 == 0 ? 0.0 : i % 3 == 0 ? in(1.1, 2) : in(0.01, 0.9);
     if (k > 0 && std::abs(h * h - k) < 0.1) h = std::sqrt(k + 0.2);
-    ShakenScene scene;
+    Scene scene;
     scene.oscillator = {h, in(-2, 2), in(0.2, 4), in(-0.3, 0.3), k};
     scene.stops = {-in(0.2, 2), in(0.2, 2), in(0, 1), in(0, 1)};
     if (i % 3 == 1) scene.shaking.stops = in(-1, 1);
@@ -104,7 +109,7 @@ TEST(Flight, has_the_derivatives_of_differences_at_soft_stops) {
                                                       {Event::separation, Event::impact}}};
   for (std::size_t i = 0; i < 180; ++i) {
     const auto [leaves, arrives] = kinds[i % kinds.size()];
-    ShakenScene scene;
+    Scene scene;
     scene.oscillator = {in(0.05, 0.4), in(-2, 2), in(0.5, 3), in(-0.3, 0.3), i % 2 == 0 ? 1.0 : in(0.4, 3)};
     scene.stops = {-in(0.2, 1), in(0.2, 1), in(0.3, 0.9), in(0.3, 0.9)};
     const bool from_rigid = leaves == Event::impact;
@@ -125,7 +130,7 @@ TEST(Flight, has_the_derivatives_of_differences_at_soft_stops) {
 /// Near resonance the response is formed together with the free motion.
 TEST(Flight, has_the_derivatives_of_differences_near_resonance) {
   for (const double k : {1.0, 0.3, 4.0}) {
-    ShakenScene scene;
+    Scene scene;
     scene.oscillator = {0.01, 1.0, std::sqrt(k) * 1.003, 0.1, k};
     scene.stops = {-1.0, 0.7, 0.8, 0.8};
     const Flight<double> flight{Side::lower, 0.3, -0.8, Side::upper, 5.0};

@@ -14,8 +14,6 @@
 namespace clatter::branches {
 namespace {
 
-using sweep::Parameter;
-
 /// Rests on both stops in every period below nu = 0.4666; above it the chatters don't end before the release.
 point::Problem two_stops(double nu) {
   point::Problem problem;
@@ -73,7 +71,7 @@ TEST(RestingOrbit, is_released_where_the_pressing_force_falls_to_zero) {
 
 TEST(MovingFromRelease, has_the_derivatives_of_differences) {
   for (const Parameter along :
-       {Parameter::h, Parameter::f, Parameter::nu, Parameter::R, Parameter::load, Parameter::xs}) {
+       {Parameter("h"), Parameter("f"), Parameter("nu"), Parameter("R"), Parameter("load"), Parameter("xs")}) {
     point::Problem problem = two_stops(0.3);
     problem.oscillator.load = 0.03;  // one impact is the fastest
     const auto at = [&](double change) {
@@ -87,7 +85,7 @@ TEST(MovingFromRelease, has_the_derivatives_of_differences) {
     const Moving m = moving_from_release(scene, orbit, along);
     const double speed = (impact_speed(ahead) - impact_speed(behind)) / 2e-6;
     const double power = (impact_power(scene_ahead, ahead) - impact_power(scene_behind, behind)) / 2e-6;
-    const auto name = sweep::key_of(along);
+    const auto name = along.key();
     EXPECT_NEAR(impact_speed(m).value, impact_speed(orbit), 1e-15) << name;
     EXPECT_NEAR(impact_power(m).value, impact_power(scene, orbit), 1e-14) << name;
     EXPECT_NEAR(impact_speed(m).slope[0], speed, 1e-8) << name;
@@ -99,13 +97,13 @@ TEST(MovingFromRelease, has_the_derivatives_of_differences) {
 TEST(ChatterLimit, is_where_grazes_accumulate_and_rests_vanish) {
   const BranchSettings settings{.range = {0.2, 1.1}};
   const Branches down = follow_branches(two_stops(0.8), settings), up = follow_branches(two_stops(0.3), settings);
-  const std::vector<double> one = special_values(down, SpecialKind::chatter_limit, Parameter::nu),
-                            other = special_values(up, SpecialKind::chatter_limit, Parameter::nu);
+  const std::vector<double> one = special_values(down, SpecialKind::chatter_limit, Parameter("nu")),
+                            other = special_values(up, SpecialKind::chatter_limit, Parameter("nu"));
   ASSERT_EQ(one.size(), 1);
   ASSERT_EQ(other.size(), 1);
   EXPECT_NEAR(one[0], other[0], 1e-14);
   // the impact numbers' grazes accumulate there as a geometric series
-  const std::vector<double> grazes = special_values(down, SpecialKind::graze, Parameter::nu);
+  const std::vector<double> grazes = special_values(down, SpecialKind::graze, Parameter("nu"));
   ASSERT_GT(grazes.size(), 10);
   const double a = grazes[2] - grazes[1], b = grazes[1] - grazes[0], ratio = b / a;
   EXPECT_NEAR(grazes[0] - b * ratio / (1 - ratio), one[0], 0.02 * b);
@@ -114,7 +112,7 @@ TEST(ChatterLimit, is_where_grazes_accumulate_and_rests_vanish) {
 
 TEST(ChatterLimit, separates_runs_that_rest_from_runs_that_do_not) {
   const Branches found = follow_branches(two_stops(0.3), {.range = {0.2, 1.1}});
-  const double limit = special_values(found, SpecialKind::chatter_limit, Parameter::nu).at(0);
+  const double limit = special_values(found, SpecialKind::chatter_limit, Parameter("nu")).at(0);
   EXPECT_TRUE(resting_orbit(two_stops(limit * (1 - 1e-13)), Side::upper, 1));
   EXPECT_FALSE(resting_orbit(two_stops(limit * (1 + 1e-13)), Side::upper, 1));
 }
@@ -131,7 +129,7 @@ TEST(ChatterLimit, without_restitution_joins_landings_that_rest_and_landings_tha
   const Branches down = follow_branches(at(2.0), settings), up = follow_branches(at(1.2), settings);
   for (const Branches& found : {down, up}) {
     for (const BranchEnd& end : found.ends) EXPECT_FALSE(end.failed) << end.reason;
-    const std::vector<double> limits = special_values(found, SpecialKind::chatter_limit, Parameter::nu);
+    const std::vector<double> limits = special_values(found, SpecialKind::chatter_limit, Parameter("nu"));
     ASSERT_EQ(limits.size(), 1);
     const double nu = limits[0], h = 0.1, g = 0.5;
     const auto flow = free_flow(h, 1.0, std::numbers::pi / nu);
@@ -141,7 +139,7 @@ TEST(ChatterLimit, without_restitution_joins_landings_that_rest_and_landings_tha
     EXPECT_NEAR(-x + flow[0] * (-g - x) + flow[1] * -v, g, 1e-12);
     const auto limit = std::ranges::find(found.special, SpecialKind::chatter_limit, &SpecialPoint::kind);
     EXPECT_EQ(limit->branches.size(), 2);
-    EXPECT_EQ(special_values(found, SpecialKind::fold, Parameter::nu).size(), 1);
+    EXPECT_EQ(special_values(found, SpecialKind::fold, Parameter("nu")).size(), 1);
     std::size_t resting = 0, landing = 0;
     for (const BranchPoint& point : found.points) {
       const double here = point.scene.oscillator.frequency;
@@ -155,17 +153,17 @@ TEST(ChatterLimit, without_restitution_joins_landings_that_rest_and_landings_tha
 }
 
 TEST(ReleaseTangency, is_where_load_and_force_balance) {
-  const Branches along_load = follow_branches(loaded(0.3), {.along = Parameter::load, .range = {-0.5, 2.0}});
-  EXPECT_EQ(special_values(along_load, SpecialKind::release_tangency, Parameter::load), (std::vector<double>{1.2}));
-  const Branches along_force = follow_branches(loaded(0.3), {.along = Parameter::f, .range = {0.01, 3.0}});
-  const std::vector<double> force = special_values(along_force, SpecialKind::release_tangency, Parameter::f);
+  const Branches along_load = follow_branches(loaded(0.3), {.along = Parameter("load"), .range = {-0.5, 2.0}});
+  EXPECT_EQ(special_values(along_load, SpecialKind::release_tangency, Parameter("load")), (std::vector<double>{1.2}));
+  const Branches along_force = follow_branches(loaded(0.3), {.along = Parameter("f"), .range = {0.01, 3.0}});
+  const std::vector<double> force = special_values(along_force, SpecialKind::release_tangency, Parameter("f"));
   ASSERT_EQ(force.size(), 1);
   EXPECT_NEAR(force[0], 0.1, 1e-16);
 }
 
 TEST(RestingBranch, has_its_largest_speed_where_no_neighbour_is_faster) {
-  const Branches found = follow_branches(loaded(0.3), {.along = Parameter::load, .range = {-0.5, 2.0}});
-  const std::vector<double> best = special_values(found, SpecialKind::impact_speed, Parameter::load);
+  const Branches found = follow_branches(loaded(0.3), {.along = Parameter("load"), .range = {-0.5, 2.0}});
+  const std::vector<double> best = special_values(found, SpecialKind::impact_speed, Parameter("load"));
   ASSERT_EQ(best.size(), 1);
   const auto speed_at = [](double load) { return impact_speed(resting_orbit(loaded(load), Side::upper, 1).value()); };
   EXPECT_LT(speed_at(best[0] - 1e-5), speed_at(best[0]));
@@ -187,8 +185,8 @@ TEST(RestingOrbit, has_a_letter_for_each_chatter_and_each_landing_without_restit
 TEST(ChatterLimit, of_one_stop_leads_to_motion_that_rests_on_the_other) {
   point::Problem problem = two_stops(0.3);
   problem.stops.lower = -0.5, problem.stops.upper = 0.5;
-  const Branches found = follow_branches(problem, {.along = Parameter::load, .range = {0.0, 1.0}});
-  const double limit = special_values(found, SpecialKind::chatter_limit, Parameter::load).at(0);
+  const Branches found = follow_branches(problem, {.along = Parameter("load"), .range = {0.0, 1.0}});
+  const double limit = special_values(found, SpecialKind::chatter_limit, Parameter("load")).at(0);
   for (const double load : {limit + 1e-3, 0.3, 0.6}) {
     problem.oscillator.load = load;
     const auto orbit = resting_orbit(problem, Side::upper, 1);

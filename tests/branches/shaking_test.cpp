@@ -19,8 +19,6 @@
 namespace clatter::branches {
 namespace {
 
-using sweep::Parameter;
-
 point::Problem problem_of(double k, double f, const Shaking& shaking) {
   point::Problem problem;
   problem.oscillator = {0.1, f, 2.0, 0.0, k};
@@ -32,10 +30,10 @@ point::Problem problem_of(double k, double f, const Shaking& shaking) {
 }
 
 /// The same motion under the force in the moving frame, whose phase leads that of the shaking.
-std::pair<Scene, Orbit> under_force(const ShakenScene& shaken, Orbit orbit) {
+std::pair<Scene, Orbit> under_force(const FollowedScene& shaken, Orbit orbit) {
   const auto [f, lead] = force_in_frame(shaken.oscillator, shaken.shaking);
   Scene scene = shaken;
-  scene.oscillator.forcing = f;
+  scene.oscillator.forcing = f, scene.shaking = {};
   for (OrbitImpact& impact : orbit.impacts) impact.phase += lead;
   return {scene, orbit};
 }
@@ -76,11 +74,11 @@ void expect_folds(const Branches& found) {
 TEST(ShakenBase, has_the_branch_of_the_force_that_grows_with_the_square_of_the_frequency) {
   const Branches found = follow_branches(problem_of(1.0, 0.0, {.base = 0.3}), {.range = {1.1, 6.0}});
   expect_motions_under_force(found);
-  const std::vector<double> maxima = special_values(found, SpecialKind::impact_speed, Parameter::nu);
+  const std::vector<double> maxima = special_values(found, SpecialKind::impact_speed, Parameter("nu"));
   for (const BranchPoint& point : found.points) {  // by hand, at this frequency
     Scene scene = point.scene;
     const double nu = scene.oscillator.frequency;
-    scene.oscillator.forcing = 0.3 * nu * nu;
+    scene.oscillator.forcing = 0.3 * nu * nu, scene.shaking = {};
     if (point.orbit.size() == 0) continue;
     const OrbitEquations equations(scene, point.orbit, {}, 1.0);
     const auto at = equations.at(equations.unknowns_of(scene, point.orbit));
@@ -93,8 +91,8 @@ TEST(ShakenBase, has_the_folds_of_the_closed_form) {
   // f shrinks the force of the base, so that the branch ends in a fold at high frequencies, too
   for (const double k : {1.0, 0.0, -0.3})
     expect_folds(follow_branches(problem_of(k, 1.0, {.base = -0.02}), {.range = {1.1, 6.0}}));
-  expect_folds(
-      follow_branches(problem_of(1.0, 1.0, {.base = 0.0}), {.along = Parameter::base_amplitude, .range = {-0.3, 0.5}}));
+  expect_folds(follow_branches(problem_of(1.0, 1.0, {.base = 0.0}),
+                               {.along = Parameter("base_amplitude"), .range = {-0.3, 0.5}}));
 }
 
 TEST(ShakenStops, have_the_branch_of_the_force_with_its_lead) {
@@ -103,16 +101,16 @@ TEST(ShakenStops, have_the_branch_of_the_force_with_its_lead) {
     expect_motions_under_force(found);
   }
   expect_motions_under_force(
-      follow_branches(problem_of(0.3, 0.8, {.stops = 0.05}), {.along = Parameter::stiffness, .range = {-4.0, 12.0}}));
+      follow_branches(problem_of(0.3, 0.8, {.stops = 0.05}), {.along = Parameter("stiffness"), .range = {-4.0, 12.0}}));
 }
 
 TEST(ShakenStops, have_the_folds_of_the_closed_form) {
   expect_folds(follow_branches(problem_of(1.0, 1.0, {.stops = -0.02}), {.range = {1.1, 6.0}}));
   expect_folds(follow_branches(problem_of(1.0, 1.0, {.stops = 0.0}),
-                               {.along = Parameter::stop_amplitude, .range = {-0.3, 0.5}}));
+                               {.along = Parameter("stop_amplitude"), .range = {-0.3, 0.5}}));
   // a negative force, whose amplitude in the frame changes sign with that of the stops
   expect_folds(follow_branches(problem_of(1.0, -1.0, {.stops = 0.0}),
-                               {.along = Parameter::stop_amplitude, .range = {-0.5, 0.3}}));
+                               {.along = Parameter("stop_amplitude"), .range = {-0.5, 0.3}}));
   expect_folds(follow_branches(problem_of(0.3, 0.8, {.stops = 0.02}), {.range = {1.1, 6.0}}));
 }
 
@@ -142,19 +140,19 @@ TEST(Shaken, branch_has_the_states_of_runs) {
 
 TEST(Shaken, measures_are_the_observables_of_a_run) {
   for (const Shaking shaking : {Shaking{.stops = 0.1}, {.base = 0.2}}) {
-    sweep::Sweep one{.problem = problem_of(0.5, 0.8, shaking)};
-    observables::Observe& observe = one.problem.observe;
+    point::Problem problem = problem_of(0.5, 0.8, shaking);
+    observables::Observe& observe = problem.observe;
     observe.extrema = true, observe.harmonics = 1, observe.harmonics_method = observables::HarmonicsMethod::exact;
-    point::Problem in_frame = one.problem;
+    point::Problem in_frame = problem;
     sweep::enter_shaken_frame(in_frame);
     point::ThreadScratch scratch;
     const point::PointResult run = run_point(in_frame, scratch);
-    const Orbit orbit = start_orbit(one.problem, 0, true);
-    const OrbitEquations equations(one.problem, orbit, {{Parameter::nu, 1.0}}, 1.0);
-    const Vector z = equations.unknowns_of(one.problem, orbit), still(z.size(), 0.0);
+    const Orbit orbit = start_orbit(problem, 0, true);
+    const OrbitEquations equations(problem, orbit, {{Parameter("nu"), 1.0}}, 1.0);
+    const Vector z = equations.unknowns_of(problem, orbit), still(z.size(), 0.0);
     EXPECT_NEAR(impact_power(moving(equations, z, still)).value, run.impact_power, 1e-12);
     EXPECT_NEAR(harmonic(moving(equations, z, still)).value, run.x_spectrum.amplitude[1], 1e-12);
-    EXPECT_NEAR(extrema(one.problem, orbit).x_max, run.x_max, 1e-12);
+    EXPECT_NEAR(extrema(problem, orbit).x_max, run.x_max, 1e-12);
   }
 }
 
@@ -188,17 +186,17 @@ TEST(Shaken, resting_motion_is_that_of_a_run) {
 }
 
 TEST(MovingFromRelease, has_the_derivatives_of_differences_along_stiffness_and_amplitudes) {
-  for (const auto& [along, k, shaking] : {std::tuple(Parameter::stiffness, 1.0, Shaking{}),
-                                          {Parameter::stiffness, 0.4, {.stops = 0.3}},
-                                          {Parameter::stop_amplitude, 1.0, {.stops = 0.3}},
-                                          {Parameter::stop_amplitude, 1.0, {}},
-                                          {Parameter::base_amplitude, 0.0, {.base = 0.5}},
-                                          {Parameter::nu, 0.0, {.base = 0.5}},
-                                          {Parameter::nu, 1.0, {.stops = 0.3}},
-                                          {Parameter::h, 0.4, {.stops = 0.3}}}) {
+  for (const auto& [along, k, shaking] : {std::tuple(Parameter("stiffness"), 1.0, Shaking{}),
+                                          {Parameter("stiffness"), 0.4, {.stops = 0.3}},
+                                          {Parameter("stop_amplitude"), 1.0, {.stops = 0.3}},
+                                          {Parameter("stop_amplitude"), 1.0, {}},
+                                          {Parameter("base_amplitude"), 0.0, {.base = 0.5}},
+                                          {Parameter("nu"), 0.0, {.base = 0.5}},
+                                          {Parameter("nu"), 1.0, {.stops = 0.3}},
+                                          {Parameter("h"), 0.4, {.stops = 0.3}}}) {
     const point::Problem problem = resting(k, shaking);
     const auto at = [&, by = along](double change) {
-      const ShakenScene scene = changed(problem, by, value_of(problem, by) + change);
+      const FollowedScene scene = changed(problem, by, value_of(problem, by) + change);
       return std::pair(scene, resting_orbit(with_scene(problem, scene), Side::upper, 1).value());
     };
     const auto [scene, orbit] = at(0.0);
@@ -207,7 +205,7 @@ TEST(MovingFromRelease, has_the_derivatives_of_differences_along_stiffness_and_a
     const Moving m = moving_from_release(scene, orbit, along);
     const double speed = (impact_speed(ahead) - impact_speed(behind)) / 2e-6;
     const double power = (impact_power(scene_ahead, ahead) - impact_power(scene_behind, behind)) / 2e-6;
-    const auto name = sweep::key_of(along);
+    const auto name = along.key();
     EXPECT_NEAR(impact_speed(m).value, impact_speed(orbit), 1e-15) << name;
     EXPECT_NEAR(impact_speed(m).slope[0], speed, 1e-8) << name;
     EXPECT_NEAR(impact_power(m).slope[0], power, 1e-8) << name;
@@ -218,25 +216,25 @@ TEST(ReleaseTangency, of_shaken_stops_is_where_spring_load_and_force_balance) {
   point::Problem problem = resting(0.5, {.stops = 0.3});
   problem.stops = {-std::numeric_limits<double>::infinity(), 0.2, 0.5, 0.5}, problem.oscillator.load = 0.45;
   problem.oscillator.frequency = 0.4;
-  for (const Parameter along : {Parameter::stop_amplitude, Parameter::nu, Parameter::f, Parameter::load}) {
-    const std::array<double, 2> range = along == Parameter::nu               ? std::array{0.05, 1.2}
-                                        : along == Parameter::stop_amplitude ? std::array{0.1, 4.0}
-                                                                             : std::array{0.01, 2.0};
+  for (const Parameter along : {Parameter("stop_amplitude"), Parameter("nu"), Parameter("f"), Parameter("load")}) {
+    const std::array<double, 2> range = along == Parameter("nu")               ? std::array{0.05, 1.2}
+                                        : along == Parameter("stop_amplitude") ? std::array{0.1, 4.0}
+                                                                               : std::array{0.01, 2.0};
     const Branches found = follow_branches(problem, {.along = along, .range = range});
     for (const double value : special_values(found, SpecialKind::release_tangency, along)) {
-      const ShakenScene there = changed(problem, along, value);
+      const FollowedScene there = changed(problem, along, value);
       const double press = constant_force(there.oscillator, 0.2);
-      EXPECT_NEAR(std::abs(oscillator_in_frame(there).forcing), press, 1e-15) << sweep::key_of(along);
+      EXPECT_NEAR(std::abs(oscillator_in_frame(there).forcing), press, 1e-15) << along.key();
     }
-    if (along == Parameter::load || along == Parameter::stop_amplitude) {
-      EXPECT_EQ(special_values(found, SpecialKind::release_tangency, along).size(), 1) << sweep::key_of(along);
+    if (along == Parameter("load") || along == Parameter("stop_amplitude")) {
+      EXPECT_EQ(special_values(found, SpecialKind::release_tangency, along).size(), 1) << along.key();
     }
   }
 }
 
 TEST(Shaken, stops_and_base_are_not_varied_at_once) {
   EXPECT_THROW(static_cast<void>(follow_branches(problem_of(1.0, 1.0, {.base = 0.1}),
-                                                 {.along = Parameter::stop_amplitude, .range = {0.0, 1.0}})),
+                                                 {.along = Parameter("stop_amplitude"), .range = {0.0, 1.0}})),
                StartError);
 }
 

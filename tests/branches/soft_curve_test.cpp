@@ -16,8 +16,6 @@
 namespace clatter::branches {
 namespace {
 
-using sweep::Parameter;
-
 struct Curve {
   std::string_view name;
   SpecialKind kind;
@@ -44,11 +42,11 @@ double distance(const std::vector<double>& values, double value) {
 /// begins with the motion that the scene settles on, and not with anything of the curve.
 TEST(SoftCurve, has_the_special_points_of_branches_that_it_crosses) {
   for (const Curve& curve :
-       {Curve{"fold", SpecialKind::fold, Parameter::stop_stiffness, {40.0, 150.0}},
-        Curve{"fold", SpecialKind::fold, Parameter::stop_damping, {0.02, 0.3}},
-        Curve{"flip", SpecialKind::flip, Parameter::stop_stiffness, {60.0, 85.0}},
-        Curve{"symmetry breaking", SpecialKind::symmetry_breaking, Parameter::stop_stiffness, {50.0, 100.0}},
-        Curve{"graze", SpecialKind::graze, Parameter::stop_stiffness, {60.0, 85.0}}}) {
+       {Curve{"fold", SpecialKind::fold, Parameter("stop_stiffness"), {40.0, 150.0}},
+        Curve{"fold", SpecialKind::fold, Parameter("stop_damping"), {0.02, 0.3}},
+        Curve{"flip", SpecialKind::flip, Parameter("stop_stiffness"), {60.0, 85.0}},
+        Curve{"symmetry breaking", SpecialKind::symmetry_breaking, Parameter("stop_stiffness"), {50.0, 100.0}},
+        Curve{"graze", SpecialKind::graze, Parameter("stop_stiffness"), {60.0, 85.0}}}) {
     const Branches found = follow_curves(bumpers(70.0, 0.1), settings_of(curve));
     std::size_t compared = 0;
     for (const double at : {0.2, 0.4, 0.6, 0.8}) {
@@ -60,7 +58,7 @@ TEST(SoftCurve, has_the_special_points_of_branches_that_it_crosses) {
       const double across = value_of(point.scene, curve.across);
       const point::Problem there = with_scene(bumpers(70.0, 0.1), changed(bumpers(70.0, 0.1), curve.across, across));
       const Branches along = follow_branches(there, {.range = {0.85, 1.5}, .generations = 1});
-      const std::vector<double> values = special_values(along, curve.kind, Parameter::nu);
+      const std::vector<double> values = special_values(along, curve.kind, Parameter("nu"));
       EXPECT_LT(distance(values, point.scene.oscillator.frequency), 1e-10) << curve.name << ' ' << across;
       ++compared;
     }
@@ -75,10 +73,10 @@ TEST(SoftCurve, of_folds_tends_to_the_fold_between_rigid_stops) {
   const double R = std::exp(-2 * zeta * std::acos(zeta) / root);
   point::Problem rigid = bumpers(1.0, 0.0);
   rigid.stops = {-3.0, 3.0, R, R};
-  const auto folds = special_values(follow_branches(rigid, {.range = {0.85, 1.5}}), SpecialKind::fold, Parameter::nu);
+  const auto folds = special_values(follow_branches(rigid, {.range = {0.85, 1.5}}), SpecialKind::fold, Parameter("nu"));
   ASSERT_FALSE(folds.empty());
-  const Branches found = follow_curves(bumpers(1e6, zeta),
-                                       settings_of({"fold", SpecialKind::fold, Parameter::stop_stiffness, {1e6, 1e8}}));
+  const Branches found = follow_curves(
+      bumpers(1e6, zeta), settings_of({"fold", SpecialKind::fold, Parameter("stop_stiffness"), {1e6, 1e8}}));
   std::vector<double> scaled;  // by the root of kappa
   for (const BranchPoint& point : found.points)
     if (point.branch == found.points.front().branch)
@@ -90,8 +88,8 @@ TEST(SoftCurve, of_folds_tends_to_the_fold_between_rigid_stops) {
 
 /// Where the response grazes the bumpers neither their stiffness nor their damping matters.
 TEST(SoftCurve, of_the_grazing_response_keeps_its_frequency) {
-  for (const Parameter across : {Parameter::stop_stiffness, Parameter::stop_damping}) {
-    const bool stiffness = across == Parameter::stop_stiffness;
+  for (const Parameter across : {Parameter("stop_stiffness"), Parameter("stop_damping")}) {
+    const bool stiffness = across == Parameter("stop_stiffness");
     const Branches found =
         follow_curves(bumpers(200.0, 0.1), {.range = {1.0, 4.0},
                                             .across = across,
@@ -105,13 +103,14 @@ TEST(SoftCurve, of_the_grazing_response_keeps_its_frequency) {
 
 /// Speed of the slowest event, or least rate of the force of a soft stop over its stiffness where that is zero.
 double least_rate(const BranchPoint& point) {
-  const Parameters<double> p(point.scene);
+  const SceneNumbers<double> p = numbers_of<double>(point.scene);
   double least = std::numeric_limits<double>::infinity();
   for (const auto& [side, phase, before, rest, event] : point.orbit.impacts) {
     least = std::min(least, std::abs(before));
     if (event != Event::separation && event != Event::renewal) continue;
     const double relaxation = p.soft_stop(side).relaxation(), x = p.position(side) - relaxation * before;
-    const double a = p.f * std::sin(phase) + p.load - 2 * p.h * before - p.k * x;
+    const auto& [h, f, nu, load, k] = p.oscillator;
+    const double a = f * std::sin(phase) + load - 2 * h * before - k * x;
     least = std::min(least, std::abs(before + relaxation * a));
   }
   return least;
@@ -131,7 +130,7 @@ TEST(SoftCurve, of_random_scenes_keeps_its_equation) {
       Branches found;
       try {
         found = follow_curves(problem, {.range = {0.8 * nu, 1.25 * nu},
-                                        .across = Parameter::stop_stiffness_lower,
+                                        .across = Parameter("stop_stiffness_lower"),
                                         .across_range = {0.7 * kappa, 1.4 * kappa},
                                         .curve = std::string(name),
                                         .max_points = 300});

@@ -19,8 +19,6 @@
 namespace clatter::branches {
 namespace {
 
-using sweep::Parameter;
-
 /// A run of the simulator over one period of a motion.
 point::PointResult observed(const point::Problem& given, const BranchPoint& point) {
   point::Problem problem = with_scene(given, point.scene);
@@ -48,7 +46,7 @@ std::optional<Branches> branches_of(point::Problem& problem, bool along_stiffnes
   problem.time = {};
   problem.time.max_periods = 2000;
   BranchSettings settings{.range = {0.8 * nu, 1.25 * nu}, .max_points = 150};
-  if (along_stiffness) settings.along = Parameter::stiffness, settings.range = {0.9 * k, 1.1 * k};
+  if (along_stiffness) settings.along = Parameter("stiffness"), settings.range = {0.9 * k, 1.1 * k};
   try {
     return follow_branches(problem, settings);
   } catch (const StartError&) {
@@ -73,7 +71,7 @@ TEST(SoftMeasures, are_those_of_a_run_of_the_simulator) {
       const double power = impact_power(point.scene, point.orbit), k = point.scene.oscillator.stiffness;
       EXPECT_NEAR(power, run.impact_power, 1e-10 * (1 + largest_multiplier(point))) << index << ' ' << i;
       const double nu = point.scene.oscillator.frequency;
-      const OrbitEquations equations(point.scene, point.orbit, {{Parameter::nu, 1.0}}, 1.0);
+      const OrbitEquations equations(point.scene, point.orbit, {{Parameter("nu"), 1.0}}, 1.0);
       const Vector at = equations.unknowns_of(point.scene, point.orbit);
       const Along amplitude = harmonic(moving(equations, at, Vector(at.size(), 0.0)));
       // eq. 38 divides by k - nu^2 + 2ih nu
@@ -108,7 +106,7 @@ TEST(SoftMeasures, of_motion_shaken_off_a_stop_are_those_of_runs) {
     const point::Problem problem = pressed_scene(index);
     Branches found;
     try {
-      found = follow_branches(problem, {.along = Parameter::f, .range = {0.01, 3.0}, .max_points = 150});
+      found = follow_branches(problem, {.along = Parameter("f"), .range = {0.01, 3.0}, .max_points = 150});
     } catch (const StartError&) {
       continue;
     }
@@ -160,7 +158,7 @@ TEST(SoftMeasures, have_the_derivatives_of_their_differences_along_a_branch) {
     if (problem.oscillator.forcing == 0 || (along_stiffness && !(problem.oscillator.stiffness > 0))) continue;
     const auto found = branches_of(problem, along_stiffness);
     if (!found) continue;
-    const Parameter along = along_stiffness ? Parameter::stiffness : Parameter::nu;
+    const Parameter along = along_stiffness ? Parameter("stiffness") : Parameter("nu");
     for (std::size_t i = 4; i < found->points.size(); i += 12) {
       const BranchPoint& point = found->points[i];
       if (!point.orbit.meets_soft_stop() || largest_multiplier(point) > 10) continue;

@@ -18,8 +18,6 @@
 namespace clatter::branches {
 namespace {
 
-using sweep::Parameter;
-
 constexpr double rigid = std::numeric_limits<double>::infinity();
 
 /// A random soft lower stop and a rigid upper one, against which a load presses.
@@ -76,14 +74,14 @@ TEST(SoftResting, has_the_derivative_of_its_loss) {
       if (!point.orbit.rests() || !point.orbit.meets_soft_stop() || compared > 300) continue;
       const double nu = point.scene.oscillator.frequency, step = 1e-4;
       const auto power = [&](double there) -> std::optional<double> {
-        const ShakenScene scene = changed(point.scene, Parameter::nu, there);
+        const FollowedScene scene = changed(point.scene, Parameter("nu"), there);
         const auto orbit = resting_orbit(with_scene(problem, scene), Side::upper, point.orbit.half_turns / 2);
         if (!orbit || letters_of(*orbit) != letters_of(point.orbit) || orbit->size() != point.orbit.size()) return {};
         return impact_power(scene, *orbit);
       };
       const auto a = power(nu - 2 * step), b = power(nu - step), c = power(nu + step), d = power(nu + 2 * step);
       if (!a || !b || !c || !d) continue;
-      const Along along = impact_power(moving_from_release(point.scene, point.orbit, Parameter::nu));
+      const Along along = impact_power(moving_from_release(point.scene, point.orbit, Parameter("nu")));
       EXPECT_NEAR(along.value, impact_power(point.scene, point.orbit), 1e-12 * (1 + along.value));
       // where a graze is near, the loss turns sharply
       const double by_difference = (8 * (*c - *b) - (*d - *a)) / (12 * step), wide = (*d - *a) / (4 * step);
@@ -108,7 +106,7 @@ TEST(SoftResting, ends_a_cascade_in_the_chatter_limit_of_rigid_stops) {
     problem.start = {0.0, 0.15, 0.0};
     const Branches found = follow_branches(problem, {.range = {0.37, 0.74}, .max_points = 2000});
     EXPECT_TRUE(std::ranges::none_of(found.ends, &BranchEnd::failed)) << kappa;
-    const std::vector<double> limits = special_values(found, SpecialKind::chatter_limit, Parameter::nu);
+    const std::vector<double> limits = special_values(found, SpecialKind::chatter_limit, Parameter("nu"));
     return limits.empty() ? std::numeric_limits<double>::quiet_NaN() : limits.front();
   };
   const double at = limit(rigid), near = limit(1e6) - at, nearer = limit(1e8) - at;
@@ -127,7 +125,7 @@ TEST(SoftResting, is_no_failure_without_a_spring_between_stops_about_another_mid
   problem.start = {0.0, 0.5, 0.0};
   const Branches found = follow_branches(problem, {.range = {0.32, 0.6}, .max_points = 2000});
   EXPECT_TRUE(std::ranges::none_of(found.ends, &BranchEnd::failed));
-  EXPECT_GT(special_values(found, SpecialKind::graze, Parameter::nu).size(), 3);
+  EXPECT_GT(special_values(found, SpecialKind::graze, Parameter("nu")).size(), 3);
 }
 
 /// Over 22 forcing periods of chaos between its rests rounding grows to the motion's own size.

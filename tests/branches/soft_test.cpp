@@ -13,8 +13,8 @@
 #include "branches/event_run.hpp"
 #include "branches/measures.hpp"
 #include "branches/special_values.hpp"
-#include "model/required_effects.hpp"
 #include "motion/tangent_map.hpp"
+#include "scene/required_effects.hpp"
 #include "stepping/exact.hpp"
 #include "stepping/run.hpp"
 #include "support/soft_scene.hpp"
@@ -22,8 +22,6 @@
 
 namespace clatter::branches {
 namespace {
-
-using sweep::Parameter;
 
 /// A run of the integrator over one period of a motion, with its derivative.
 struct Round {
@@ -72,7 +70,8 @@ double largest_multiplier(const BranchPoint& point) {
 std::optional<Branches> branches_of(const point::Problem& problem, bool along_force) {
   const double nu = problem.oscillator.frequency, f = problem.oscillator.forcing;
   BranchSettings settings{.range = {0.7 * nu, 1.4 * nu}, .max_points = 600, .generations = 1};
-  if (along_force) settings.along = Parameter::f, settings.range = {std::min(0.5 * f, 2 * f), std::max(0.5 * f, 2 * f)};
+  if (along_force)
+    settings.along = Parameter("f"), settings.range = {std::min(0.5 * f, 2 * f), std::max(0.5 * f, 2 * f)};
   try {
     return follow_branches(problem, settings);
   } catch (const StartError&) {
@@ -126,7 +125,7 @@ TEST(SoftBranch, of_random_scenes_has_only_fixed_points_of_the_integrator) {
 
 double fold_of(const point::Problem& problem) {
   const Branches found = follow_branches(problem, {.range = {0.85, 1.5}});
-  const std::vector<double> folds = special_values(found, SpecialKind::fold, Parameter::nu);
+  const std::vector<double> folds = special_values(found, SpecialKind::fold, Parameter("nu"));
   return folds.empty() ? std::numeric_limits<double>::quiet_NaN() : folds.front();
 }
 
@@ -146,7 +145,7 @@ TEST(SoftBranch, tends_to_that_between_rigid_stops_of_equal_restitution) {
 TEST(SoftBranch, begins_where_the_response_grazes_the_bumpers) {
   for (const double zeta : {0.0, 0.1, 2.0}) {
     const Branches found = follow_branches(bumpers(200.0, zeta), {.range = {0.85, 4.0}});
-    const std::vector<double> grazes = special_values(found, SpecialKind::graze, Parameter::nu);
+    const std::vector<double> grazes = special_values(found, SpecialKind::graze, Parameter("nu"));
     ASSERT_GE(grazes.size(), 1) << zeta;
     for (const double nu : grazes) EXPECT_NEAR(steady_response(0.1, 1.0, nu).amplitude, 3.0, 1e-12) << zeta;
     const auto meets = [](const BranchPoint& point) { return point.orbit.meets_soft_stop(); };
@@ -187,17 +186,17 @@ TEST(SoftBranch, has_its_folds_along_the_numbers_of_the_stops) {
   point::Problem problem = with_scene(bumpers(70.0, 0.1), begin->scene);
   const PhasePoint state = state_at_phase_zero(begin->scene, begin->orbit);
   problem.start = {state.x, state.v, 0.0};
-  for (const Parameter along : {Parameter::stop_stiffness, Parameter::stop_damping}) {
-    const bool stiffness = along == Parameter::stop_stiffness;
+  for (const Parameter along : {Parameter("stop_stiffness"), Parameter("stop_damping")}) {
+    const bool stiffness = along == Parameter("stop_stiffness");
     const Branches found = follow_branches(
         problem, {.along = along, .range = stiffness ? std::array{10.0, 90.0} : std::array{0.02, 0.9}, .period = 1});
     const auto fold = std::ranges::find(found.special, SpecialKind::fold, &SpecialPoint::kind);
-    ASSERT_NE(fold, found.special.end()) << sweep::key_of(along);
+    ASSERT_NE(fold, found.special.end()) << along.key();
     EXPECT_NEAR(fold->at.multiplier_re[0], 1.0, 1e-9);
     const double there = value_of(fold->at.scene, along);
     EXPECT_NEAR(fold_of(bumpers(stiffness ? there : 70.0, stiffness ? 0.1 : there)), begin->scene.oscillator.frequency,
                 1e-11)
-        << sweep::key_of(along);
+        << along.key();
   }
 }
 
@@ -209,11 +208,11 @@ TEST(SoftBranch, begins_to_hop_where_the_pressed_response_leaves_the_bumper) {
   problem.stops.upper = 0.5;
   problem.stops.stiffness_upper = 10.0;
   problem.start = {1.0, 0.0, 0.0};
-  const Branches found = follow_branches(problem, {.along = Parameter::f, .range = {0.1, 8.0}});
+  const Branches found = follow_branches(problem, {.along = Parameter("f"), .range = {0.1, 8.0}});
   EXPECT_TRUE(std::ranges::none_of(found.ends, &BranchEnd::failed));
   const double k = 11.0, depth = (5.0 + 10.0 * 0.5) / k - 0.5;
   const double limit = depth * std::hypot(k - 0.25, 2 * 0.1 * 0.5);
-  const std::vector<double> grazes = special_values(found, SpecialKind::graze, Parameter::f);
+  const std::vector<double> grazes = special_values(found, SpecialKind::graze, Parameter("f"));
   ASSERT_FALSE(grazes.empty());
   EXPECT_NEAR(grazes.front(), limit, 1e-12 * limit);
   const auto hops = [](const BranchPoint& point) { return point.orbit.size() > 0; };
@@ -234,7 +233,7 @@ TEST(SoftBranch, with_two_contacts_may_end_on_free_motion) {
   problem.stops.stiffness_lower = 266, problem.stops.stiffness_upper = 483;
   problem.start = {-0.18, 0.616, 0.0};
   const Branches found = follow_branches(problem, {.range = {2.0, 4.0}, .max_points = 1000});
-  const std::vector<double> grazes = special_values(found, SpecialKind::graze, Parameter::nu);
+  const std::vector<double> grazes = special_values(found, SpecialKind::graze, Parameter("nu"));
   ASSERT_EQ(grazes.size(), 1);
   const double nu = grazes.front();
   EXPECT_NEAR(std::hypot(0.9 - nu * nu, 2 * 0.67 * nu), 1.0 / 0.227, 1e-11);

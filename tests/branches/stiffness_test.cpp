@@ -18,7 +18,6 @@ namespace clatter::branches {
 namespace {
 
 using std::numbers::pi;
-using sweep::Parameter;
 
 /// A ball on a table that is shaken with the acceleration Gamma, gravity 1, from its impact in a motion that repeats
 /// after n periods of the table.
@@ -44,9 +43,9 @@ TEST(BouncingBall, repeats_from_its_fold_to_its_flip) {
   for (const BouncingBall ball : {BouncingBall{1, 0.8}, {1, 0.3}, {2, 0.8}, {3, 0.95}}) {
     const double low = ball.lowest(), flip = ball.flip();
     const Branches found =
-        follow_branches(ball.at(low + 0.6 * (flip - low)), {.along = Parameter::f, .range = {0.5 * low, flip + 0.1}});
-    const std::vector<double> folds = special_values(found, SpecialKind::fold, Parameter::f),
-                              flips = special_values(found, SpecialKind::flip, Parameter::f);
+        follow_branches(ball.at(low + 0.6 * (flip - low)), {.along = Parameter("f"), .range = {0.5 * low, flip + 0.1}});
+    const std::vector<double> folds = special_values(found, SpecialKind::fold, Parameter("f")),
+                              flips = special_values(found, SpecialKind::flip, Parameter("f"));
     ASSERT_GE(folds.size(), 1) << ball.n << ' ' << ball.R;
     ASSERT_GE(flips.size(), 1) << ball.n << ' ' << ball.R;
     EXPECT_NEAR(folds[0], low, 1e-14 * low);
@@ -101,7 +100,7 @@ std::size_t expect_symmetric_motion(const Branches& found) {
     const double fast = known.speed(1), slow = known.speed(-1);
     EXPECT_LT(std::min(std::abs(speed - fast), std::abs(speed - slow)), 1e-11 * scale) << o.frequency;
     const double of_force =
-        impact.phase + Parameters<double>(point.scene).force().lead + (impact.side == Side::upper ? 0.0 : pi);
+        impact.phase + numbers_of<double>(point.scene).force().lead + (impact.side == Side::upper ? 0.0 : pi);
     const double trace = known.trace(speed, of_force);
     EXPECT_NEAR(impact_map(point.scene, point.orbit).trace(), trace, 1e-9 * (1 + std::abs(trace))) << o.frequency;
     ++compared;
@@ -142,7 +141,7 @@ TEST(SymmetricMotion, with_an_unstable_spring_has_its_closed_form_along_nu) {
 /// From an unstable spring over none to one beyond critical damping and k = 1.
 TEST(SymmetricMotion, has_its_closed_form_along_the_stiffness) {
   const Branches found =
-      follow_branches(between_walls(0.3, 1.5, 1.0, 0.5, 0.6), {.along = Parameter::stiffness, .range = {-1.5, 3.1}});
+      follow_branches(between_walls(0.3, 1.5, 1.0, 0.5, 0.6), {.along = Parameter("stiffness"), .range = {-1.5, 3.1}});
   EXPECT_GT(expect_symmetric_motion(found), 60);
   const auto bounds =
       std::ranges::minmax(found.points, {}, [](const BranchPoint& p) { return p.scene.oscillator.stiffness; });
@@ -155,12 +154,12 @@ TEST(Branch, of_any_spring_is_that_of_1_in_other_units_of_time) {
   const Branches a = follow_branches(unit, {.range = {1.1, 4.0}}), b = follow_branches(other, {.range = {2.2, 8.0}});
   for (const SpecialKind kind : {SpecialKind::fold, SpecialKind::symmetry_breaking, SpecialKind::impact_speed,
                                  SpecialKind::impact_power, SpecialKind::graze}) {
-    const std::vector<double> one = special_values(a, kind, Parameter::nu),
-                              two = special_values(b, kind, Parameter::nu);
+    const std::vector<double> one = special_values(a, kind, Parameter("nu")),
+                              two = special_values(b, kind, Parameter("nu"));
     ASSERT_EQ(one.size(), two.size()) << name_of(kind);
     for (std::size_t i = 0; i < one.size(); ++i) EXPECT_NEAR(two[i], 2 * one[i], 1e-11) << name_of(kind);
   }
-  ASSERT_EQ(special_values(b, SpecialKind::fold, Parameter::nu).size(), 1);
+  ASSERT_EQ(special_values(b, SpecialKind::fold, Parameter("nu")).size(), 1);
 }
 
 TEST(Branch, measures_are_the_observables_of_a_run_for_any_stiffness) {
@@ -171,7 +170,7 @@ TEST(Branch, measures_are_the_observables_of_a_run_for_any_stiffness) {
     point::ThreadScratch scratch;
     const point::PointResult run = run_point(problem, scratch);
     const Orbit orbit = start_orbit(problem, 0, true);
-    const OrbitEquations equations(problem, orbit, {{Parameter::nu, 1.0}}, 1.0);
+    const OrbitEquations equations(problem, orbit, {{Parameter("nu"), 1.0}}, 1.0);
     const Vector z = equations.unknowns_of(problem, orbit), still(z.size(), 0.0);
     EXPECT_NEAR(impact_power(moving(equations, z, still)).value, run.impact_power, 1e-12) << k;
     EXPECT_NEAR(harmonic(moving(equations, z, still)).value, run.x_spectrum.amplitude[1], 1e-12) << k;
@@ -189,7 +188,7 @@ TEST(Branch, of_the_response_around_an_unstable_equilibrium_ends_where_that_graz
   problem.start = {response.displacement(0.0, 1.0), response.velocity(3.0, 0.0, 1.0), 0.0};
   const Branches found = follow_branches(problem, {.range = {1.0, 4.0}, .period = 1});
   EXPECT_EQ(found.points[0].orbit.size(), 0);
-  const std::vector<double> grazes = special_values(found, SpecialKind::graze, Parameter::nu);
+  const std::vector<double> grazes = special_values(found, SpecialKind::graze, Parameter("nu"));
   ASSERT_GE(grazes.size(), 1);
   Oscillator there = problem.oscillator;
   there.frequency = grazes.back();
@@ -214,11 +213,11 @@ TEST(Branch, says_why_it_cannot_begin) {
     return "";
   };
   const point::Problem free = between_walls(0.0, 1.5, 0.0, 0.5, 0.6), damped = between_walls(0.5, 1.5, 0.25, 0.5, 0.6);
-  EXPECT_NE(message(free, {.along = Parameter::h, .range = {0, 1}}).find("h^2 = stiffness"), std::string::npos);
-  EXPECT_NE(message(damped, {.along = Parameter::h, .range = {0, 1}}).find("h^2 = stiffness"), std::string::npos);
-  EXPECT_NE(message(free, {.along = Parameter::stiffness, .range = {-1, 1}}).find("at 0 and at h^2"),
+  EXPECT_NE(message(free, {.along = Parameter("h"), .range = {0, 1}}).find("h^2 = stiffness"), std::string::npos);
+  EXPECT_NE(message(damped, {.along = Parameter("h"), .range = {0, 1}}).find("h^2 = stiffness"), std::string::npos);
+  EXPECT_NE(message(free, {.along = Parameter("stiffness"), .range = {-1, 1}}).find("at 0 and at h^2"),
             std::string::npos);
-  EXPECT_NE(message(damped, {.along = Parameter::stiffness, .range = {-1, 1}}).find("at 0 and at h^2"),
+  EXPECT_NE(message(damped, {.along = Parameter("stiffness"), .range = {-1, 1}}).find("at 0 and at h^2"),
             std::string::npos);
   point::Problem quiet = between_walls(0.1, 4.0, 0.0, 0.5, 0.6);
   quiet.start = {};

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "branches/shaken_scene.hpp"
-#include "model/response.hpp"
+#include "branches/followed_scene.hpp"
+#include "scene/response.hpp"
 
 namespace clatter::branches {
 
@@ -23,7 +23,7 @@ inline std::array<double, 4> free_flow(double h, double k, double time) {
 /// Symmetric motion with one impact on each stop and period (Masri and Caughey 1966): alpha u - g and gamma u are
 /// components of the response at an impact of speed u.
 struct SymmetricMotion {
-  explicit SymmetricMotion(const ShakenScene& scene)
+  explicit SymmetricMotion(const FollowedScene& scene)
       : oscillator(oscillator_in_frame(scene)), gap(scene.stops.upper), R(scene.stops.restitution_upper) {
     const double nu = oscillator.frequency;
     flow = free_flow(oscillator.damping, oscillator.stiffness, std::numbers::pi / nu);

@@ -1,7 +1,7 @@
 """Rooms of src include only their right-hand neighbours, and each has its own namespace:
 apps -> { results, accuracy, certificates }, results -> { config, plan }, config -> { branches, storage },
 certificates -> branches, { accuracy, branches, plan } -> sweep -> { lanes, attractors } -> point,
-point -> { steady, observables }, steady -> stepping -> motion, observables -> motion -> model -> math."""
+point -> { steady, observables }, steady -> stepping -> motion, observables -> motion -> scene -> math."""
 
 import os
 import re
@@ -12,8 +12,8 @@ from pathlib import Path
 SOURCE = Path(os.environ["CLATTER_SOURCE"])
 NEXT = {  # room: its right-hand neighbours; what these may include, it may include too
     "math": set(),
-    "model": {"math"},
-    "motion": {"model"},
+    "scene": {"math"},
+    "motion": {"scene"},
     "stepping": {"motion"},
     "steady": {"stepping"},
     "observables": {"motion"},
@@ -55,7 +55,6 @@ HEAVY = {  # what takes seconds to compile: the only files that it reaches throu
     },
     r"boost/numeric/odeint": {"src/point/dormand_prince_points.cpp"},
     r"boost/math": {
-        "src/branches/resting.cpp",
         "src/branches/resting_branch.cpp",
         "src/branches/walk.cpp",
         "src/observables/bracketed_root.cpp",
@@ -110,7 +109,7 @@ HEAVY = {  # what takes seconds to compile: the only files that it reaches throu
         "src/point/moreau_points.cpp",
     },
 }
-WORDS_OF_ALL = {"math", "model"}  # their namespaces are inline: every room says Scene, Effects, pi without their name
+WORDS_OF_ALL = {"math", "scene"}  # their namespaces are inline: every room says Scene, Effects, pi without their name
 
 
 def below(room):
@@ -225,11 +224,11 @@ class Arrows(unittest.TestCase):
                 "src/motion/a.hpp": '#include "math/number.hpp"\n#include "sweep/run.hpp"\n'
                 + "namespace clatter::motion {\n",
                 "src/observables/b.hpp": '#include "stepping/exact.hpp"\nnamespace clatter {\n',
-                "src/model/d.hpp": "namespace clatter {\ninline namespace model {\nnamespace clatter::math {\n",
-                "src/model/e.cpp": "namespace clatter {\ninline namespace model {\n",
-                "src/model/roots.hpp": "#include <boost/math/tools/roots.hpp>\n",
+                "src/scene/d.hpp": "namespace clatter {\ninline namespace scene {\nnamespace clatter::math {\n",
+                "src/scene/e.cpp": "namespace clatter {\ninline namespace scene {\n",
+                "src/scene/roots.hpp": "#include <boost/math/tools/roots.hpp>\n",
                 "src/plan/f.cpp": '#include "f.hpp"\n',
-                "src/plan/f.hpp": '#include "model/roots.hpp"\n',
+                "src/plan/f.hpp": '#include "scene/roots.hpp"\n',
                 "src/sweep/c.cpp": "#include <hdf5.h>\n#include <omp.h>\nusing namespace lanes;\nx.lane[0] = 1;\n",
             }.items():
                 (root / name).parent.mkdir(parents=True, exist_ok=True)
@@ -237,16 +236,16 @@ class Arrows(unittest.TestCase):
             self.assertEqual(
                 wrong_includes(root),
                 [
-                    "src/model/roots.hpp:1: boost/math/tools/roots.hpp",
                     "src/motion/a.hpp:2: sweep/run.hpp",
                     "src/observables/b.hpp:1: stepping/exact.hpp",
+                    "src/scene/roots.hpp:1: boost/math/tools/roots.hpp",
                     "src/sweep/c.cpp:1: hdf5.h",
                 ],
             )
             self.assertEqual(
                 wrong_namespaces(root),
                 [
-                    "src/model/d.hpp:3: namespace clatter::math {",
+                    "src/scene/d.hpp:3: namespace clatter::math {",
                     "src/observables/b.hpp:2: namespace clatter {",
                     "src/sweep/c.cpp:3: using namespace lanes;",
                 ],

@@ -200,7 +200,7 @@ class Branch(BranchRuns):
             (SCENE, ("a.toml: no branch.along and branch.range", "--set branch.along=nu")),
             (SCENE + "[branch]\nrange = [1, 2]\n", ("a.toml:9:2", "without 'along'")),
             (SCENE + '[branch]\nalong = "nu"\n', ("a.toml:9:2", "without 'range'")),
-            (SCENE + '[branch]\nalong = "x0"\nrange = [1, 2]\n', ("a.toml:10:9", "expected one of h, f, nu")),
+            (SCENE + '[branch]\nalong = "x0"\nrange = [1, 2]\n', ("a.toml:10:9", "expected one of mass, h, stiffness")),
             (SCENE + '[branch]\nalong = "nu"\nrange = [2, 1]\n', ("a.toml:11:9", "two numbers, the lower first")),
             (SCENE + '[branch]\nalong = "nu"\nrange = 2\n', ("a.toml:11:9", "two numbers, the lower first")),
             (SCENE + '[branch]\nalong = "nu"\nrange = [-1, 1]\n', ("a.toml:11:9", "nu = -1", "> 0")),

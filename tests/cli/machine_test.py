@@ -180,7 +180,7 @@ class Machine(StoppedRuns):
         curve, _ = self.branch(self.write("a.toml", DRIVE_ALONG), *way, "branch.across_range=300 g, 0.7 kg")
         self.assertEqual(curve.mass.attrs["units"], "kg")
         # at the ends of the range of either
-        np.testing.assert_allclose([curve.mass[0], curve.frequency[-1]], [0.7, 240 / (2 * np.pi)], rtol=1e-12)
+        np.testing.assert_allclose([curve.mass[-1], curve.frequency[0]], [0.7, 240 / (2 * np.pi)], rtol=1e-12)
         np.testing.assert_allclose(curve.multiplier_re.max("multiplier"), 1, atol=1e-6)
 
     def test_pictures_have_units(self):

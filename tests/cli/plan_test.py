@@ -117,8 +117,8 @@ class Plan(CommandLine):
             self.assertEqual([group["points"] for group in plan["groups"]], [1, points - 1])
 
     def test_savings_are_those_of_the_ladder(self):
-        """The guide of model has the ladder: for each effect that is left out, the share of time with it kept in."""
-        guide = (SOURCE / "src" / "model" / "README.md").read_text(encoding="utf-8")
+        """The guide of scene has the ladder: for each effect that is left out, the share of time with it kept in."""
+        guide = (SOURCE / "src" / "scene" / "README.md").read_text(encoding="utf-8")
         ladder = guide.split("<!-- begin: effects ladder -->")[1].split("<!-- end -->")[0]
         measured = {}
         for row in ladder.strip().splitlines()[2:]:

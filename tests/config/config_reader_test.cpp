@@ -58,7 +58,7 @@ TEST(Config, means_what_it_says) {
 }
 
 TEST(Config, has_the_documented_defaults) {
-  const point::Problem scene = read_as("a.toml", "[scene]\nxs = 1\n").sweep.problem;
+  const sweep::GivenProblem scene = read_as("a.toml", "[scene]\nxs = 1\n").sweep.problem;
   EXPECT_EQ(scene.oscillator.damping, 0.0);
   EXPECT_EQ(scene.oscillator.frequency, 1.0);
   EXPECT_EQ(scene.stops.restitution_lower, 1.0);
@@ -157,18 +157,18 @@ TEST(Config, one_stop_alone_has_its_restitution_and_the_other_is_none) {
 TEST(Axes, are_in_the_order_of_the_text_not_of_the_alphabet) {
   const Config config = read_as("a.toml", "[scene]\nxs = 1\n[sweep]\nnu = [1, 2]\nh = [0.1]\nf = [1, 2, 3]\n");
   ASSERT_EQ(config.sweep.dimensions.size(), 3u);
-  EXPECT_EQ(config.sweep.dimensions[0][0].parameter, sweep::Parameter::nu);
-  EXPECT_EQ(config.sweep.dimensions[1][0].parameter, sweep::Parameter::h);
-  EXPECT_EQ(config.sweep.dimensions[2][0].parameter, sweep::Parameter::f);
+  EXPECT_EQ(config.sweep.dimensions[0][0].parameter, Parameter("nu"));
+  EXPECT_EQ(config.sweep.dimensions[1][0].parameter, Parameter("h"));
+  EXPECT_EQ(config.sweep.dimensions[2][0].parameter, Parameter("f"));
 }
 
 TEST(Axes, linked_ones_are_one_dimension_named_by_the_first) {
   const Config config =
       read_as("a.ini", "[scene]\nxs=1\n[sweep]\nnu = 1, 2\nh = 0.1, 0.2, 0.3\nf = 5, 6\nlinked = f, nu\nfollow = nu\n");
   ASSERT_EQ(config.sweep.dimensions.size(), 2u);
-  EXPECT_EQ(config.sweep.dimensions[0][0].parameter, sweep::Parameter::h);
-  EXPECT_EQ(config.sweep.dimensions[1][0].parameter, sweep::Parameter::f);  // stands where f stands
-  EXPECT_EQ(config.sweep.dimensions[1][1].parameter, sweep::Parameter::nu);
+  EXPECT_EQ(config.sweep.dimensions[0][0].parameter, Parameter("h"));
+  EXPECT_EQ(config.sweep.dimensions[1][0].parameter, Parameter("f"));  // stands where f stands
+  EXPECT_EQ(config.sweep.dimensions[1][1].parameter, Parameter("nu"));
   EXPECT_EQ(config.sweep.follow, 1u);  // following one follows them all
   EXPECT_EQ(size(config.sweep), 6u);
 }
@@ -198,7 +198,7 @@ TEST(Set, replaces_an_axis_in_its_place_and_adds_one_at_the_end) {
   const Config config = read_as("a.toml", text, {{"sweep.f", "[1, 2, 3]"}, {"sweep.nu", "5"}});
   ASSERT_EQ(config.sweep.dimensions.size(), 3u);
   EXPECT_EQ(config.sweep.dimensions[0][0].values, std::vector{5.0});
-  EXPECT_EQ(config.sweep.dimensions[2][0].parameter, sweep::Parameter::f);
+  EXPECT_EQ(config.sweep.dimensions[2][0].parameter, Parameter("f"));
 }
 
 TEST(Set, gives_the_text_of_the_file_that_says_the_same) {

@@ -21,13 +21,13 @@ TEST(Machine, numbers_are_in_si_and_units_are_converted) {
       "stop_upper = \"4 mm\"\nbase_amplitude = \"50 um\"\nx0 = \"1 mm\"\nv0 = \"-20 mm/s\"\n"
       "[time]\nmode = \"transient\"\nduration = \"300 ms\"\n";
   const sweep::Sweep sweep = read_as("a.toml", units).sweep;
-  ASSERT_TRUE(sweep.machine);
-  EXPECT_EQ(sweep.machine->mass, 0.5);
-  EXPECT_EQ(sweep.machine->stiffness, 12800);
-  EXPECT_EQ(sweep.machine->damping, 16);
-  EXPECT_EQ(sweep.machine->force, -12.8);
-  EXPECT_DOUBLE_EQ(sweep.machine->frequency, 20);  // 2 pi in and out
-  EXPECT_EQ(sweep.machine->load, 0.003);
+  ASSERT_TRUE(sweep.problem.is_si);
+  EXPECT_EQ(sweep.problem.mass, 0.5);
+  EXPECT_EQ(sweep.problem.oscillator.stiffness, 12800);
+  EXPECT_EQ(sweep.problem.damper, 16);
+  EXPECT_EQ(sweep.problem.oscillator.forcing, -12.8);
+  EXPECT_DOUBLE_EQ(sweep.problem.oscillator.frequency, 20);  // 2 pi in and out
+  EXPECT_EQ(sweep.problem.oscillator.load, 0.003);
   EXPECT_EQ(sweep.problem.stops.lower, -0.003);
   EXPECT_EQ(sweep.problem.stops.upper, 0.004);
   EXPECT_EQ(sweep.problem.stops.restitution_lower, 0.7);
@@ -77,7 +77,7 @@ TEST(Machine, every_key_is_an_axis) {
     const std::string name(key.name), example(key.example);
     const Config config = read_as("a.toml", "[machine]\n" + std::string(key.beside), {{"sweep." + name, example}});
     ASSERT_EQ(config.sweep.dimensions.size(), 1u) << name;
-    EXPECT_EQ(key_of(config.sweep.dimensions[0][0].parameter), name);
+    EXPECT_EQ(config.sweep.dimensions[0][0].parameter.key(), name);
     EXPECT_EQ(config.sweep.dimensions[0][0].values, std::vector{value}) << name;
   }
 }
@@ -99,12 +99,12 @@ TEST(Machine, follows_and_links_its_axes_and_yields_to_the_command_line) {
                                 "frequency = 10 Hz, 2*pi*20 rad/s\nforce = 1 N, 2 kN\nlinked = frequency, force\n"
                                 "follow = force\n",
                                 {{"machine.mass", "300 g"}, {"machine.stop_upper", "5 mm"}, {"machine.quality", "20"}});
-  EXPECT_EQ(config.sweep.machine->mass, 0.3);
+  EXPECT_EQ(config.sweep.problem.mass, 0.3);
   EXPECT_EQ(config.sweep.problem.stops.lower, -0.002);
   EXPECT_EQ(config.sweep.problem.stops.upper, 0.005);
   EXPECT_EQ(config.sweep.follow, 0u);
   EXPECT_EQ(config.sweep.dimensions[0][1].values, (std::vector{1.0, 2000.0}));
-  EXPECT_EQ(config.sweep.machine->damping_given, sweep::DampingGiven::quality);
+  EXPECT_EQ(config.sweep.problem.quality, 20);
 }
 
 TEST(Machine, the_complete_text_is_the_same_machine) {
@@ -148,15 +148,8 @@ TEST(Machine, wrong_machines) {
        "'nu' is no key of [machine], which describes this scene; take 'frequency'"},
       {"[scene]\nxs = 1\n[branch]\nrange = [\"1 Hz\", \"2 Hz\"]\nalong = \"frequency\"\n", "5:9",
        "'frequency' is no key of [scene], which describes this scene; take 'nu'"},
-      {machine + "quality = 5\n[branch]\nalong = \"mass\"\nrange = [1, 2]\n", "5:1",
-       "a branch along 'mass' beside 'quality', which changes with it; give 'damping', in N s/m, in its place"},
-      {machine +
-           "damping_ratio = 1\n[branch]\nalong = \"gap\"\nrange = [1, 2]\nacross = \"stiffness\"\ncurve = \"fold\"",
-       "5:1", "a branch along 'stiffness' beside 'damping_ratio'"},
       {machine + "[branch]\nalong = \"quality\"\nrange = [1, 2]\nacross = \"damping\"\ncurve = \"fold\"", "8:10",
        "'damping' and 'quality' change the same quantity; expected another key of [machine]"},
-      {machine + "stop_stiffness = 1e5\nstop_damping = \"9 N s/m\"\n[branch]\nalong = \"mass\"\nrange = [1, 2]\n",
-       "6:1", "a branch along 'mass' beside 'stop_damping', which changes with it; give it as a damping ratio"},
       {machine + "[branch]\nalong = \"mass\"\nrange = [0, 2]\n", "7:9", "range has mass = 0; expected > 0, in kg"},
   };
   expect_all("a.toml", table);
@@ -176,8 +169,10 @@ TEST(Machine, wrong_units) {
        "expected a damping in N s/m, or a damping ratio without unit"},
       {machine + "stop_stiffness = 1e5\n[sweep]\nstop_damping = [\"3 N s/m\", 0.1]\n", "7:28",
        "0.1 without a unit beside a number with one; give each"},
-      {machine + "stop_stiffness = 1e5\n[branch]\nalong = \"stop_damping\"\nrange = [0, \"3 N s/m\"]\n", "8:9",
-       "range of stop_damping, which is followed as a damping ratio; give it without unit, as damping over 2 (stop_st"},
+      {machine + "stop_stiffness = 1e5\nstop_damping = 0.1\n[branch]\nalong = \"stop_damping\"\nrange = [\"0 N s/m\", "
+                 "\"3 N s/m\"]\n",
+       "9:9",
+       "range of stop_damping is a damping in N s/m, and [machine] gives it as a number without unit; give both"},
       {"[scene]\nxs = 1\nstop_stiffness = 9\nstop_damping = \"3 N s/m\"\n", "4:19",
        "expected a number without unit, or the scene in [machine]"},
       {machine + "R = \"0.5 m\"\n", "5:10", "the unit 'm' doesn't fit; expected a number without unit"},
@@ -197,6 +192,22 @@ TEST(Machine, wrong_units) {
       {"[scene]\nxs = 1\n[sweep]\nnu = [\"1 Hz\"]\n", "4:10", "a number without unit, or the scene in [machine]"},
   };
   expect_all("a.toml", table);
+}
+
+/// Of soft stops that may be given in two ways the one of the scene, or else of the range.
+TEST(Machine, a_branch_follows_a_key_as_it_is_given) {
+  const std::string soft = machine + "frequency = 20\nforce = 1\nstop_stiffness = 1e5\n";
+  const auto along = [&](const std::string& given, const std::string& range) {
+    return read_as("a.toml", soft + given + "[branch]\nalong = \"stop_damping\"\nrange = " + range + "\n")
+        .branch->along;
+  };
+  EXPECT_EQ(along("stop_damping = 0.1\n", "[0, 1]"), Parameter("stop_damping"));
+  EXPECT_EQ(along("", "[0, 1]"), Parameter("stop_damping"));
+  for (const std::string given : {"stop_damping = \"1 N s/m\"\n", "stop_damping_upper = \"1 N s/m\"\n", ""}) {
+    const Parameter damper = along(given, "[\"0 N s/m\", \"3 N s/m\"]");
+    EXPECT_EQ(damper.key(), "stop_damping");
+    EXPECT_EQ(damper.row().quantity, Quantity::damping);
+  }
 }
 
 TEST(Machine, a_frequency_of_nothing_is_warned_of) {

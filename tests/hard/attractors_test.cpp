@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "lanes/run_in_lanes.hpp"
-#include "model/displacement_bound.hpp"
-#include "model/response.hpp"
 #include "point/point.hpp"
+#include "scene/displacement_bound.hpp"
+#include "scene/response.hpp"
 #include "support/random.hpp"
 #include "support/runs.hpp"
 #include "support/scene_range.hpp"

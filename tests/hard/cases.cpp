@@ -4,7 +4,7 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "model/shaking.hpp"
+#include "scene/shaking.hpp"
 
 namespace clatter::hard {
 namespace {
@@ -35,7 +35,7 @@ point::Problem on_table(double f, double R, const Start& start) {
 
 /// The same motion in the frame of shaken stops, which move as b sin(theta).
 point::Problem between_shaken(point::Problem scene, double b) {
-  const auto [amplitude, lead] = force_in_frame(scene.oscillator, {.stops = b});
+  const auto [amplitude, lead] = force_in_frame(scene.oscillator, Shaking{.stops = b});
   scene.oscillator.forcing = amplitude, scene.start.phase += lead;
   return scene;
 }

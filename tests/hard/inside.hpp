@@ -5,7 +5,7 @@
 
 #include "hard/any_scene.hpp"
 #include "hard/tally.hpp"
-#include "model/response.hpp"
+#include "scene/response.hpp"
 
 namespace clatter::hard {
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstddef>
 
-#include "model/oscillator.hpp"
+#include "scene/oscillator.hpp"
 
 namespace clatter::hard {
 

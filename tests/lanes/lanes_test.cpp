@@ -20,7 +20,7 @@ class InLanes : public testing::TestWithParam<InstructionSet> {
 };
 
 sweep::Sweep figure(double xs) {
-  sweep::Axis nu{sweep::Parameter::nu, {}};
+  sweep::Axis nu{Parameter("nu"), {}};
   for (int i = 0; i <= 500; ++i)
     if (xs != 5 || i != 250) nu.values.push_back(0.5 + i / 500.0);  // that one grazes to 3e-16: rounding decides
   return sweep::sweep_of(observed(sweep::paper_scene(xs, 1.0)), {nu});
@@ -41,7 +41,7 @@ TEST_P(InLanes, long_chaotic_transients_end_in_the_same_motion) {
   // motion of period 3 beside a chaotic saddle, which starts that hardly differ leave after some 900 forcing periods
   point::Problem scene = observed(sweep::paper_scene(2.19231, 0.827759));
   scene.time.max_periods = 20000;
-  sweep::Axis x0{sweep::Parameter::x0, {}};
+  sweep::Axis x0{Parameter("x0"), {}};
   for (int i = 0; i < 48; ++i) x0.values.push_back(1e-11 * i);
   const sweep::Dataset dataset = lanes(sweep::sweep_of(scene, {x0}));
   const std::vector<double> ratio = values(dataset, "period_ratio"), periods = values(dataset, "simulated_periods"),
@@ -84,7 +84,7 @@ TEST_P(InLanes, a_few_periods_from_any_start_are_those_of_the_scalar_loop) {
 }
 
 TEST_P(InLanes, fifty_periods_and_a_part_are_those_of_the_scalar_loop) {
-  sweep::Axis nu{sweep::Parameter::nu, {}};
+  sweep::Axis nu{Parameter("nu"), {}};
   for (int i = 0; i < 100; ++i) nu.values.push_back(0.4 + i / 25.0);
   for (const double part : {0.0, 1e-9, 0.37, 1 - 1e-9}) {
     point::Problem scene = transient(sweep::paper_scene(0.5, 1.3), 50 + part);
@@ -111,8 +111,7 @@ std::vector<point::Problem> chattering() {
 
 TEST_P(InLanes, motion_clear_of_its_stops_for_good_is_taken_to_its_end_at_once) {
   // the response stays within 2.5 of the load's equilibrium; the transient of the start meets the stops before
-  sweep::Axis nu{sweep::Parameter::nu, {}}, x0{sweep::Parameter::x0, {-2.9, 0.3, 2.5}},
-      load{sweep::Parameter::load, {0.0, 0.2}};
+  sweep::Axis nu{Parameter("nu"), {}}, x0{Parameter("x0"), {-2.9, 0.3, 2.5}}, load{Parameter("load"), {0.0, 0.2}};
   for (int i = 0; i < 40; ++i) nu.values.push_back(i % 2 == 0 ? 0.4 + i / 100.0 : 1.25 + i / 50.0);
   point::Problem scene = sweep::paper_scene(3.0, 1.0);
   scene.start.velocity = 3.0;

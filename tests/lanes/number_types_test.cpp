@@ -11,11 +11,11 @@
 #include "lanes/vector.hpp"
 #include "math/fifty_digits.hpp"
 #include "math/quintic.hpp"
-#include "model/response.hpp"
-#include "model/restitution.hpp"
 #include "motion/equation_of_motion.hpp"
 #include "motion/propagation.hpp"
 #include "observables/velocity_jumps.hpp"
+#include "scene/response.hpp"
+#include "scene/restitution.hpp"
 #include "support/random.hpp"
 
 namespace clatter::lanes {

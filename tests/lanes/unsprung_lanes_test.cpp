@@ -75,7 +75,7 @@ TEST_P(UnsprungLanes, a_few_periods_without_a_spring_are_those_of_the_scalar_loo
 
 TEST_P(UnsprungLanes, springs_of_every_kind_can_be_followed_through) {
   // with k from -0.5 to 0.5 the kind of lanes changes along a branch, and with the branches of R others wait meanwhile
-  sweep::Axis k{sweep::Parameter::stiffness, {}}, R{sweep::Parameter::R, {}};
+  sweep::Axis k{Parameter("stiffness"), {}}, R{Parameter("R"), {}};
   for (int i = -10; i <= 10; ++i) k.values.push_back(i / 20.0);
   for (int i = 0; i < 40; ++i) R.values.push_back(0.5 + i / 200.0);
   point::Problem scene = observed(sweep::paper_scene(0.5, 2.0));

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "model/stops.hpp"
+#include "scene/stops.hpp"
 
 namespace clatter::motion {
 namespace {

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "math/fifty_digits.hpp"
-#include "model/response.hpp"
 #include "motion/watched_run.hpp"
+#include "scene/response.hpp"
 #include "support/random.hpp"
 #include "support/runs.hpp"
 #include "support/scene_range.hpp"

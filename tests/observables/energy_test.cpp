@@ -7,8 +7,8 @@
 #include <limits>
 #include <numbers>
 
-#include "model/response.hpp"
 #include "point/point.hpp"
+#include "scene/response.hpp"
 #include "support/random.hpp"
 
 namespace clatter::observables {

@@ -6,8 +6,8 @@
 #include <limits>
 #include <numbers>
 
-#include "model/displacement_bound.hpp"
 #include "point/point.hpp"
+#include "scene/displacement_bound.hpp"
 
 namespace clatter::observables {
 namespace {

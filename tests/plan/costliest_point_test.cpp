@@ -67,7 +67,7 @@ TEST(CostliestPoint, of_a_fast_one_costs_its_path_in_distances_between_the_stops
 
 TEST(CostliestPoint, of_a_sweep_is_named_in_its_plan) {
   const sweep::Sweep sweep =
-      sweep::sweep_of(transient({0.05, 0.3, 1.4, 2.0}, 0.5, 0.0), {{sweep::Parameter::R, {0.5, 0.9, 1.0}}});
+      sweep::sweep_of(transient({0.05, 0.3, 1.4, 2.0}, 0.5, 0.0), {{Parameter("R"), {0.5, 0.9, 1.0}}});
   const Plan plan = plan_of(sweep, 1);
   ASSERT_EQ(plan.warnings.size(), 1u);
   EXPECT_NE(plan.warnings[0].find("point 2 alone may take 1e+08 impacts"), std::string::npos) << plan.warnings[0];
@@ -75,9 +75,9 @@ TEST(CostliestPoint, of_a_sweep_is_named_in_its_plan) {
 
 /// A slip in the mass, 1e-308 kg, makes a second of so many periods that no run ends.
 TEST(CostliestPoint, of_a_transient_is_the_one_of_the_most_periods) {
-  sweep::Sweep sweep =
-      sweep::sweep_of(transient({0.1, 0.3, 1.4, 0.0}, 0.7, 0.0), {{sweep::Parameter::mass, {1, 1e-308}}});
-  sweep.machine = sweep::Machine{.stiffness = 800, .force = 40, .frequency = 25};
+  sweep::Sweep sweep = sweep::sweep_of(transient({0.1, 0.3, 1.4, 0.0}, 0.7, 0.0), {{Parameter("mass"), {1, 1e-308}}});
+  sweep.problem.is_si = true;
+  sweep.problem.oscillator = {.forcing = 40, .frequency = 25, .stiffness = 800};
   sweep.problem.time.duration = 1;
   sweep.problem.stops = {-0.01, 0.01, 0.7, 0.7}, sweep.problem.start = {};
   const auto warning = warning_of_costliest_point(sweep);

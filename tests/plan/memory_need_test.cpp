@@ -32,8 +32,8 @@ std::size_t logged(const sweep::Dataset& dataset) {
 sweep::Sweep small_sweep() {
   sweep::Sweep sweep;
   sweep.problem.stops = {-1, 1, 0.5, 0.5};
-  sweep.dimensions = {{{sweep::Parameter::nu, {0.8, 0.9, 1.0}}},
-                      {{sweep::Parameter::h, {0.1, 0.2}}, {sweep::Parameter::f, {1.0, 1.5}}}};
+  sweep.dimensions = {{{Parameter("nu"), {0.8, 0.9, 1.0}}},
+                      {{Parameter("h"), {0.1, 0.2}}, {Parameter("f"), {1.0, 1.5}}}};
   return sweep;
 }
 
@@ -41,7 +41,7 @@ sweep::Sweep small_sweep() {
 sweep::Sweep line(std::size_t points) {
   sweep::Sweep sweep;
   sweep.problem.time.mode = steady::Mode::transient;
-  sweep.dimensions = {{{sweep::Parameter::nu, std::vector<double>(points, 0.5)}}};
+  sweep.dimensions = {{{Parameter("nu"), std::vector<double>(points, 0.5)}}};
   return sweep;
 }
 
@@ -75,8 +75,7 @@ TEST(Memory, of_a_run_holds_an_axis_twice_each_result_once_and_the_largest_varia
 TEST(Memory, of_a_huge_sweep_is_known_without_running_it) {
   sweep::Sweep sweep;
   const std::vector<double> values(1000, 0.5);
-  sweep.dimensions = {
-      {{sweep::Parameter::nu, values}}, {{sweep::Parameter::h, values}}, {{sweep::Parameter::f, values}}};
+  sweep.dimensions = {{{Parameter("nu"), values}}, {{Parameter("h"), values}}, {{Parameter("f"), values}}};
   sweep.problem.observe.trajectory = 1000;
   EXPECT_EQ(memory_need(sweep).output, 1e9 * (25 + 3 * 8000) + 3 * 8000);
 }
@@ -108,7 +107,7 @@ TEST(Memory, of_a_log_is_estimated_from_a_few_points) {
   sweep.problem.observe.impact_log = true;
   std::vector<double> speeds;
   for (int i = 0; i < 1000; ++i) speeds.push_back(1 + i / 1000.0);
-  sweep.dimensions = {{{sweep::Parameter::v0, speeds}}};
+  sweep.dimensions = {{{Parameter("v0"), speeds}}};
   for (const double duration : {1.0, 100.0, 700.0}) {  // shorter and longer than the runs for the estimate
     sweep.problem.time.duration = duration;
     const auto impacts = static_cast<double>(logged(run(sweep, {}).dataset));

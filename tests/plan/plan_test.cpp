@@ -33,8 +33,8 @@ bool warns(const Plan& plan, const std::string& words) {
 }
 
 TEST(Plan, groups_are_the_same_for_every_number_of_threads) {
-  const sweep::Sweep sweep = sweep::sweep_of(
-      figure(3), {{sweep::Parameter::nu, frequencies()}, {sweep::Parameter::h, {0.0, 0.05, 0.1, 1.0, 2.0}}});
+  const sweep::Sweep sweep =
+      sweep::sweep_of(figure(3), {{Parameter("nu"), frequencies()}, {Parameter("h"), {0.0, 0.05, 0.1, 1.0, 2.0}}});
   const Plan one = plan_of(sweep, 1);
   EXPECT_GT(one.groups.size(), 6u);
   for (const int threads : {2, 3, 7}) {
@@ -54,7 +54,7 @@ TEST(Plan, points_run_with_the_effects_of_their_group_and_no_longer_than_it_says
   scene.time.max_periods = 300;
   for (const bool all : {false, true}) {
     scene.integration.all_effects = all;
-    const sweep::Sweep sweep = sweep::sweep_of(scene, {{sweep::Parameter::nu, frequencies()}});
+    const sweep::Sweep sweep = sweep::sweep_of(scene, {{Parameter("nu"), frequencies()}});
     const Plan plan = plan_of(sweep, 2);
     const sweep::RunResult result = run(sweep, {.threads = 2});
     ASSERT_EQ(result.work.size(), plan.groups.size());
@@ -71,7 +71,7 @@ TEST(Plan, points_run_with_the_effects_of_their_group_and_no_longer_than_it_says
 
 TEST(Plan, the_work_of_points_that_lanes_take_is_counted_on_its_own) {
   const sweep::Sweep sweep = sweep::sweep_of(
-      figure(3), {{sweep::Parameter::nu, frequencies()}, {sweep::Parameter::h, {0.1, 2.0}}});  // too much for lanes
+      figure(3), {{Parameter("nu"), frequencies()}, {Parameter("h"), {0.1, 2.0}}});  // too much for lanes
   const sweep::Share share(sweep);
   const Survey scalar = survey_of(sweep, share, {.threads = 1, .arch = lanes::InstructionSet::scalar});
   const Survey lanes = survey_of(sweep, share, {.threads = 1, .arch = lanes::InstructionSet::sse2});
@@ -99,7 +99,7 @@ TEST(Plan, the_least_work_of_transients_and_of_conservative_motion_is_the_most) 
 }
 
 TEST(Plan, memory_is_that_of_the_run) {
-  const sweep::Sweep sweep = sweep::sweep_of(figure(3), {{sweep::Parameter::nu, frequencies()}});
+  const sweep::Sweep sweep = sweep::sweep_of(figure(3), {{Parameter("nu"), frequencies()}});
   const Plan plan = plan_of(sweep, 1);
   EXPECT_EQ(plan.need.output, memory_need(sweep).output);
   EXPECT_EQ(plan.need.memory, memory_need(sweep).memory);
@@ -111,17 +111,17 @@ TEST(Plan, a_stop_that_no_point_reaches_is_named_with_the_closest_of_all_groups)
   scene.oscillator.damping = 0.03;  // the amplitude at resonance is 16.7, and resonant points are another group
   for (const bool all : {false, true}) {
     scene.integration.all_effects = all;
-    const Plan plan = plan_of(sweep::sweep_of(scene, {{sweep::Parameter::nu, frequencies()}}), 1);
+    const Plan plan = plan_of(sweep::sweep_of(scene, {{Parameter("nu"), frequencies()}}), 1);
     EXPECT_TRUE(warns(plan, "the lower stop is never reached at any point, at the closest |x| <= 16.67 < 20"));
     EXPECT_TRUE(warns(plan, "the upper stop is never reached"));
   }
-  EXPECT_FALSE(warns(plan_of(sweep::sweep_of(figure(3), {{sweep::Parameter::nu, frequencies()}}), 1), "never reached"));
+  EXPECT_FALSE(warns(plan_of(sweep::sweep_of(figure(3), {{Parameter("nu"), frequencies()}}), 1), "never reached"));
 }
 
 TEST(Plan, a_stop_may_be_absent_at_some_points) {
   point::Problem scene = figure(9);
   for (const std::vector<double>& lower : {std::vector<double>{-infinity, -9, -20}, {-9, -infinity, -20}}) {
-    const Plan plan = plan_of(sweep::sweep_of(scene, {{sweep::Parameter::stop_lower, lower}}), 1);
+    const Plan plan = plan_of(sweep::sweep_of(scene, {{Parameter("stop_lower"), lower}}), 1);
     EXPECT_TRUE(warns(plan, "the lower stop is never reached"));
   }
   scene.stops.lower = -infinity;
@@ -138,8 +138,7 @@ TEST(Plan, warns_of_motion_that_keeps_its_transient) {
 }
 
 TEST(Plan, along_a_followed_branch_only_the_first_start_is_known) {
-  sweep::Sweep sweep =
-      sweep::sweep_of(figure(6), {{sweep::Parameter::R, {0.5, 0.7}}, {sweep::Parameter::nu, frequencies()}});
+  sweep::Sweep sweep = sweep::sweep_of(figure(6), {{Parameter("R"), {0.5, 0.7}}, {Parameter("nu"), frequencies()}});
   sweep.follow = 1;
   const Plan plan = plan_of(sweep, 1);
   EXPECT_EQ(plan.branches, 2u);
@@ -157,9 +156,9 @@ std::vector<double> evenly(double first, double last, int number) {
 
 /// 2.5 million points in nine or more groups.
 sweep::Sweep large_sweep() {
-  return sweep::sweep_of(figure(3), {{sweep::Parameter::h, evenly(0.0, 2.0, 100)},
-                                     {sweep::Parameter::f, evenly(-3.5, 0.0, 250)},
-                                     {sweep::Parameter::nu, evenly(0.5, 1.5, 100)}});
+  return sweep::sweep_of(figure(3), {{Parameter("h"), evenly(0.0, 2.0, 100)},
+                                     {Parameter("f"), evenly(-3.5, 0.0, 250)},
+                                     {Parameter("nu"), evenly(0.5, 1.5, 100)}});
 }
 
 TEST(Plan, of_a_large_sweep_is_that_of_all_points_within_the_error_of_a_sample) {
@@ -208,8 +207,8 @@ TEST(Plan, of_a_sample_is_the_same_for_every_number_of_threads) {
 }
 
 TEST(Plan, of_a_large_followed_sweep_knows_how_many_points_begin_a_branch) {
-  sweep::Sweep sweep = sweep::sweep_of(
-      figure(6), {{sweep::Parameter::R, {0.5, 0.7}}, {sweep::Parameter::nu, evenly(0.5, 1.5, 1'000'000)}});
+  sweep::Sweep sweep =
+      sweep::sweep_of(figure(6), {{Parameter("R"), {0.5, 0.7}}, {Parameter("nu"), evenly(0.5, 1.5, 1'000'000)}});
   sweep.follow = 1;
   const Plan plan = plan_of(sweep, 2);
   EXPECT_EQ(plan.sampled_points, 1'000'000u);
@@ -220,14 +219,14 @@ TEST(Plan, of_a_large_followed_sweep_knows_how_many_points_begin_a_branch) {
 
 TEST(Plan, of_a_sample_says_so_of_a_stop_that_it_never_meets) {
   const sweep::Sweep sweep = sweep::sweep_of(
-      figure(9), {{sweep::Parameter::nu, evenly(0.5, 1.5, 2000)}, {sweep::Parameter::f, evenly(-1.0, 1.0, 1000)}});
+      figure(9), {{Parameter("nu"), evenly(0.5, 1.5, 2000)}, {Parameter("f"), evenly(-1.0, 1.0, 1000)}});
   const Plan plan = plan_of(sweep, 2);
   EXPECT_TRUE(warns(plan, "the lower stop is reached at none of the 1000000 points examined, at the closest |x| <= "));
   EXPECT_FALSE(warns(plan, "never reached"));
 }
 
 TEST(Plan, of_a_shard_is_that_of_its_points) {
-  const sweep::Sweep sweep = sweep::sweep_of(figure(3), {{sweep::Parameter::nu, frequencies()}});
+  const sweep::Sweep sweep = sweep::sweep_of(figure(3), {{Parameter("nu"), frequencies()}});
   const sweep::Shard shard{1, 3};
   const Plan plan = plan_of(sweep, 1, shard);
   EXPECT_EQ(plan.points, sweep::Share(sweep, shard).points());

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "model/response.hpp"
+#include "scene/response.hpp"
 #include "support/random.hpp"
 #include "sweep/figures.hpp"
 

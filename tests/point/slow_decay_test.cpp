@@ -4,8 +4,8 @@
 
 #include <gtest/gtest.h>
 
-#include "model/response.hpp"
 #include "point/point.hpp"
+#include "scene/response.hpp"
 
 namespace clatter::point {
 namespace {

@@ -7,8 +7,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "model/response.hpp"
 #include "point/point.hpp"
+#include "scene/response.hpp"
 #include "support/random.hpp"
 #include "support/runs.hpp"
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "accuracy/run_record.hpp"
-#include "model/effects.hpp"
+#include "scene/effects.hpp"
 #include "stepping/run.hpp"
 
 namespace clatter::support {

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "model/oscillator.hpp"
 #include "motion/state.hpp"
+#include "scene/oscillator.hpp"
 
 namespace clatter::support {
 

@@ -193,11 +193,11 @@ point::Problem observing_much(point::Problem scene) {
 
 Sweep over_amplitudes(point::Problem scene, Parameter amplitude) {
   scene.shaking = {};
-  return sweep_of(scene, {{amplitude, {0.0, 0.05, 0.1, 0.3}}, {Parameter::nu, {0.6, 0.9, 1.4, 2.2}}});
+  return sweep_of(scene, {{amplitude, {0.0, 0.05, 0.1, 0.3}}, {Parameter("nu"), {0.6, 0.9, 1.4, 2.2}}});
 }
 
 TEST(AbsoluteFrame, changes_nothing_but_displacements_and_velocities_of_the_mass) {
-  for (const Parameter amplitude : {Parameter::stop_amplitude, Parameter::base_amplitude})
+  for (const Parameter amplitude : {Parameter("stop_amplitude"), Parameter("base_amplitude")})
     for (const bool follows : {false, true})
       for (const lanes::InstructionSet arch : {scalar, lanes::widest_instruction_set()}) {
         point::Problem scene = observing_much(shaken({.damping = 0.1, .forcing = 0.4}, {}, {-0.5, 0.5, 0.7, 0.7}));
@@ -229,7 +229,7 @@ TEST(AbsoluteFrame, is_observed_by_lanes_and_the_scalar_loop_alike) {
   scene.observe.frame = Frame::absolute;
   scene.observe.extrema = true;
   scene.observe.harmonics = 3, scene.observe.harmonics_method = observables::HarmonicsMethod::exact;
-  const Sweep sweep = over_amplitudes(scene, Parameter::stop_amplitude);
+  const Sweep sweep = over_amplitudes(scene, Parameter("stop_amplitude"));
   const Dataset a = run(sweep, {.threads = 1}).dataset, b = run(sweep, {.threads = 1, .arch = scalar}).dataset;
   for (std::size_t i = 0; i < 16; ++i) {
     if (statuses(b)[i] != 0) continue;
@@ -245,7 +245,7 @@ TEST(AbsoluteFrame, of_a_mirror_image_is_mirrored) {
   scene.observe.extrema = true;
   const double half = pi<double>();
   const Sweep sweep = sweep_of(
-      scene, {{Parameter::x0, {-0.3, -0.1, 0.1, 0.3}}, {Parameter::phase, {0.3, 1.1, 0.3 + half, 1.1 + half}}});
+      scene, {{Parameter("x0"), {-0.3, -0.1, 0.1, 0.3}}, {Parameter("phase"), {0.3, 1.1, 0.3 + half, 1.1 + half}}});
   ASSERT_TRUE(MirrorImages(sweep).exist());
   const Dataset all = run(sweep, {.threads = 1, .arch = scalar}).dataset;
   point::ThreadScratch scratch;
@@ -261,7 +261,7 @@ TEST(AbsoluteFrame, shows_the_states_of_attractors_at_phase_0) {
       shaken({.damping = 0.1, .forcing = 0.4, .frequency = 1.4}, {.base = 0.2}, {-0.5, 0.5, 0.7, 0.7});
   scene.observe.attractor = true;
   scene.oscillator.stiffness = 2;  // computed in other units of velocity
-  Sweep sweep = sweep_of(scene, {{Parameter::v0, {-1, -0.5, 0.5, 1}}});
+  Sweep sweep = sweep_of(scene, {{Parameter("v0"), {-1, -0.5, 0.5, 1}}});
   const Dataset relative = run(sweep, {.threads = 1}).dataset;
   sweep.problem.observe.frame = Frame::absolute;
   const Dataset absolute = run(sweep, {.threads = 1}).dataset;
@@ -285,7 +285,7 @@ TEST(AbsoluteFrame, is_named_by_the_variables_that_it_decides) {
   scene.observe.attractor = scene.observe.settling = true;
   for (const Frame frame : {Frame::relative, Frame::absolute}) {
     scene.observe.frame = frame;
-    Sweep sweep = sweep_of(scene, {{Parameter::stop_amplitude, {0.0, 0.1}}, {Parameter::x0, {0.0, 0.1}}});
+    Sweep sweep = sweep_of(scene, {{Parameter("stop_amplitude"), {0.0, 0.1}}, {Parameter("x0"), {0.0, 0.1}}});
     const Dataset dataset = run(sweep, {.threads = 1}).dataset;
     const std::string asked = frame == Frame::absolute ? "absolute" : "relative";
     for (const char* name : {"x_min", "x_max", "v_min", "v_max", "x_amplitude", "x_phase", "v_amplitude", "v_phase",
@@ -297,7 +297,7 @@ TEST(AbsoluteFrame, is_named_by_the_variables_that_it_decides) {
     for (const char* name : {"stop_amplitude", "status", "period", "impact_tau", "impulse", "loss_impact", "tau",
                              "impacts_per_period", "base_frequency", "multiplier_re", "settling_periods", "attractor"})
       EXPECT_EQ(frame_of(dataset, name), "") << name;
-    sweep = sweep_of(scene, {{Parameter::x0, {0.0, 0.1}}});
+    sweep = sweep_of(scene, {{Parameter("x0"), {0.0, 0.1}}});
     const Dataset unshaken = run(sweep, {.threads = 1}).dataset;
     for (const Variable& variable : unshaken.variables)
       EXPECT_EQ(frame_of(unshaken, variable.name), "") << variable.name;

@@ -24,10 +24,9 @@ const std::vector<double>& values(const Dataset& dataset, const std::string& nam
   return std::get<std::vector<double>>(variable(dataset, name).values);
 }
 
-/// A machine, the rest of its problem in SI, and units of length and time of somebody else's choice.
+/// A machine in SI, and units of length and time of somebody else's choice.
 struct Drawn {
-  Machine machine{};
-  point::Problem problem{};
+  GivenProblem problem{};
   double length = 1, time = 1;
 };
 
@@ -37,53 +36,49 @@ Drawn drawn(std::uint64_t i) {
   const double mass = random.logarithmic(1e-6, 1e3), rate = random.logarithmic(1, 1e4),
                size = random.logarithmic(1e-5, 1);  // kg, rad/s, m
   Drawn it{.length = random.logarithmic(1e-3, 1e3), .time = random.logarithmic(1e-3, 1e3)};
-  Machine& machine = it.machine;
-  machine.mass = mass;
-  machine.stiffness = random.happens(0.7) ? mass * rate * rate : random.happens(0.5) ? 0 : -mass * rate * rate;
-  machine.damping = 2 * random.uniform(0, 0.3) * mass * rate;
-  if (machine.stiffness != 0 && random.happens(0.3))
-    machine.damping_given = DampingGiven::ratio, machine.damping = random.uniform(0, 0.3);
-  else if (machine.stiffness != 0 && random.happens(0.3))
-    machine.damping_given = DampingGiven::quality, machine.damping = random.uniform(2, 20);
-  machine.frequency = rate * random.uniform(0.5, 2) / (2 * std::numbers::pi);
-  if (random.happens(0.8)) machine.force = random.sign() * random.uniform(0.5, 2) * mass * rate * rate * size;
-  if (random.happens(0.3)) machine.load = random.uniform(-0.2, 0.2) * mass * rate * rate * size;
+  GivenProblem& machine = it.problem;
+  machine.is_si = true, machine.mass = mass;
+  auto& [h, force, frequency, load, stiffness] = machine.oscillator;
+  stiffness = random.happens(0.7) ? mass * rate * rate : random.happens(0.5) ? 0 : -mass * rate * rate;
+  machine.damper = 2 * random.uniform(0, 0.3) * mass * rate;
+  if (stiffness != 0 && random.happens(0.3))
+    machine.damper = 0, machine.damping_ratio = random.uniform(0, 0.3);
+  else if (stiffness != 0 && random.happens(0.3))
+    machine.damper = 0, machine.quality = random.uniform(2, 20);
+  frequency = rate * random.uniform(0.5, 2) / (2 * std::numbers::pi);
+  if (random.happens(0.8)) force = random.sign() * random.uniform(0.5, 2) * mass * rate * rate * size;
+  if (random.happens(0.3)) load = random.uniform(-0.2, 0.2) * mass * rate * rate * size;
   if (random.happens(0.2))
-    it.problem.shaking.base = random.uniform(0.1, 0.5) * size;
+    machine.shaking.base = random.uniform(0.1, 0.5) * size;
   else if (random.happens(0.2))
-    it.problem.shaking.stops = random.uniform(0.1, 0.5) * size;
-  it.problem.stops = {-size * random.uniform(0.3, 1), size * random.uniform(0.3, 1), random.uniform(0.4, 1), 0.8};
-  it.problem.start = {random.uniform(-0.2, 0.2) * size, random.uniform(-1, 1) * size * rate, random.uniform(0, 6)};
-  it.problem.time = {.mode = steady::Mode::transient, .duration = 3 / machine.frequency};
-  it.problem.observe.extrema = it.problem.observe.energy = it.problem.observe.impact_log = true;
-  it.problem.observe.trajectory = 50, it.problem.observe.harmonics = 2;
+    machine.shaking.stops = random.uniform(0.1, 0.5) * size;
+  machine.stops = {-size * random.uniform(0.3, 1), size * random.uniform(0.3, 1), random.uniform(0.4, 1), 0.8};
+  machine.start = {random.uniform(-0.2, 0.2) * size, random.uniform(-1, 1) * size * rate, random.uniform(0, 6)};
+  machine.time = {.mode = steady::Mode::transient, .duration = 3 / frequency};
+  machine.observe.extrema = machine.observe.energy = machine.observe.impact_log = true;
+  machine.observe.trajectory = 50, machine.observe.harmonics = 2;
   return it;
 }
 
 /// The coefficient of the damping in N s/m.
-double damping_of(const Machine& machine) {
-  const double critical = 2 * std::sqrt(std::abs(machine.stiffness) * machine.mass);
-  switch (machine.damping_given) {
-    case DampingGiven::ratio:
-      return machine.damping * critical;
-    case DampingGiven::quality:
-      return critical / (2 * machine.damping);
-    case DampingGiven::coefficient:
-      break;
-  }
-  return machine.damping;
+double damping_of(const GivenScene& machine) {
+  const double critical = 2 * std::sqrt(std::abs(machine.oscillator.stiffness) * machine.mass);
+  if (std::isfinite(machine.quality)) return critical / (2 * machine.quality);
+  return machine.damper + machine.damping_ratio * critical;
 }
 
 /// The same, scaled by hand into [scene]: in these units of length and time and that of mass.
-point::Problem scaled(const Drawn& it) {
-  const auto& [machine, problem, length, time] = it;
+GivenProblem scaled(const Drawn& it) {
+  const auto& [machine, length, time] = it;
   const double force = machine.mass * length / (time * time), speed = length / time;
-  point::Problem scene = problem;
+  GivenProblem scene = machine;
+  scene.is_si = false, scene.mass = 1;
+  scene.damper = scene.damping_ratio = 0, scene.quality = HUGE_VAL;
   scene.oscillator = {.damping = damping_of(machine) * time / (2 * machine.mass),
-                      .forcing = machine.force / force,
-                      .frequency = 2 * std::numbers::pi * machine.frequency * time,
-                      .load = machine.load / force,
-                      .stiffness = machine.stiffness * time * time / machine.mass};
+                      .forcing = machine.oscillator.forcing / force,
+                      .frequency = 2 * std::numbers::pi * machine.oscillator.frequency * time,
+                      .load = machine.oscillator.load / force,
+                      .stiffness = machine.oscillator.stiffness * time * time / machine.mass};
   scene.stops.lower /= length, scene.stops.upper /= length;
   scene.shaking.stops /= length, scene.shaking.base /= length;
   scene.start.displacement /= length, scene.start.velocity /= speed;
@@ -94,7 +89,7 @@ point::Problem scaled(const Drawn& it) {
 /// Expects each result of the machine to be that of the scene times its unit, to a share of the largest value and what
 /// a start moved by ten thousand roundings changes.
 void expect_same(const Drawn& it, const Dataset& machine, const Dataset& scene, const Dataset& moved) {
-  const double speed = it.length / it.time, mass = it.machine.mass, energy = mass * speed * speed;
+  const double speed = it.length / it.time, mass = it.problem.mass, energy = mass * speed * speed;
   const std::vector<std::pair<std::string, double>> units{
       {"x_min", it.length},       {"x_max", it.length},      {"v_min", speed},
       {"v_max", speed},           {"x", it.length},          {"v", speed},
@@ -121,8 +116,7 @@ TEST(Machine, is_the_scene_that_is_scaled_by_hand) {
   std::size_t impacts = 0;
   for (std::uint64_t i = 0; i < 400; ++i) {
     const Drawn it = drawn(i);
-    const Dataset machine = run({.problem = it.problem, .machine = it.machine}, {}).dataset,
-                  scene = run({.problem = scaled(it)}, {}).dataset;
+    const Dataset machine = run({.problem = it.problem}, {}).dataset, scene = run({.problem = scaled(it)}, {}).dataset;
     Drawn other = it;
     other.problem.start.displacement += 1e-12 * it.problem.stops.upper;
     const Dataset moved = run({.problem = scaled(other)}, {}).dataset;
@@ -139,10 +133,12 @@ TEST(Machine, is_the_scene_that_is_scaled_by_hand) {
 TEST(Machine, follows_an_axis_of_its_mass_with_the_velocity_kept) {
   // each point begins where the one before ended: with its velocity in m/s, whatever the units of time of the two
   Sweep sweep{.problem = drawn(1).problem, .follow = 0};
-  sweep.machine = Machine{.mass = 1, .stiffness = 100, .damping = 0.5};
-  sweep.problem.shaking = {}, sweep.problem.start = {0, 0.5, 0}, sweep.problem.stops = {-10, 10, 1, 1};
+  GivenScene machine;
+  machine.is_si = true, machine.damper = 0.5, machine.oscillator.stiffness = 100;
+  static_cast<GivenScene&>(sweep.problem) = machine;
+  sweep.problem.start = {0, 0.5, 0}, sweep.problem.stops = {-10, 10, 1, 1};
   sweep.problem.time.duration = 0.3;
-  sweep.dimensions = {{{Parameter::mass, {1, 2, 5}}}};
+  sweep.dimensions = {{{Parameter("mass"), {1, 2, 5}}}};
   const Dataset dataset = run(sweep, {}).dataset;
   const std::vector<double>&x = values(dataset, "x"), &v = values(dataset, "v");
   const std::size_t samples = x.size() / 3;
@@ -155,11 +151,10 @@ TEST(Machine, follows_an_axis_of_its_mass_with_the_velocity_kept) {
 TEST(Machine, names_the_unit_of_every_result) {
   Drawn it = drawn(3);
   it.problem.observe.period = it.problem.observe.stability = it.problem.observe.impacts = true;
-  const Dataset dataset = run({.problem = it.problem,
-                               .dimensions = {{{Parameter::frequency, {20, 30}}}, {{Parameter::mass, {1, 2}}}},
-                               .machine = it.machine},
-                              {})
-                              .dataset;
+  const Dataset dataset =
+      run({.problem = it.problem, .dimensions = {{{Parameter("frequency"), {20, 30}}}, {{Parameter("mass"), {1, 2}}}}},
+          {})
+          .dataset;
   const std::pair<const char*, const char*> units[] = {{"x_max", "m"},
                                                        {"v_max", "m s-1"},
                                                        {"x", "m"},

@@ -17,9 +17,9 @@ Sweep starts() {
   point::Problem scene = paper_scene(0.5, 3.0);
   scene.observe = {};
   scene.observe.extrema = scene.observe.settling = scene.observe.attractor = scene.observe.stability = true;
-  return sweep_of(scene, {{Parameter::x0, {-0.4, -0.2, 0, 0.2, 0.4}},
-                          {Parameter::v0, {-1.5, -0.5, 0.5, 1.5}},
-                          {Parameter::phase, {0, 0.5, M_PI / 2, M_PI, M_PI + 0.5, 3 * M_PI / 2}}});
+  return sweep_of(scene, {{Parameter("x0"), {-0.4, -0.2, 0, 0.2, 0.4}},
+                          {Parameter("v0"), {-1.5, -0.5, 0.5, 1.5}},
+                          {Parameter("phase"), {0, 0.5, M_PI / 2, M_PI, M_PI + 0.5, 3 * M_PI / 2}}});
 }
 
 TEST(MirrorImages, are_pairs) {
@@ -71,7 +71,7 @@ TEST(MirrorImages, need_symmetric_scenes_and_starts) {
       [](Sweep& s) { s.dimensions.erase(s.dimensions.begin() + 2); },
       [](Sweep& s) { s.dimensions.erase(s.dimensions.begin()), s.problem.start.displacement = 0.1; },
       [](Sweep& s) {
-        s.dimensions.push_back({{Parameter::load, {0, 0.1}}});
+        s.dimensions.push_back({{Parameter("load"), {0, 0.1}}});
       },
   };
   for (std::size_t i = 0; i < changes.size(); ++i) {
@@ -84,7 +84,7 @@ TEST(MirrorImages, need_symmetric_scenes_and_starts) {
   free.dimensions.pop_back();
   EXPECT_EQ(MirrorImages(free).count(), 10);
   Sweep parameters = starts();
-  parameters.dimensions.insert(parameters.dimensions.begin(), {{Parameter::nu, {2, 3}}});
+  parameters.dimensions.insert(parameters.dimensions.begin(), {{Parameter("nu"), {2, 3}}});
   EXPECT_EQ(MirrorImages(parameters).count(), 120);
 }
 

@@ -26,9 +26,9 @@ TEST(Run, gives_the_same_bits_for_every_number_of_threads) {
   scene.observe.impact_log = true;
   scene.observe.trajectory = 5;
   scene.observe.period = true;
-  Axis nu{Parameter::nu, {}};
+  Axis nu{Parameter("nu"), {}};
   for (int i = 0; i < 40; ++i) nu.values.push_back(0.8 + 0.01 * i);
-  const Sweep sweep = sweep_of(scene, {nu, {Parameter::R, {0.5, 0.7}}});
+  const Sweep sweep = sweep_of(scene, {nu, {Parameter("R"), {0.5, 0.7}}});
   const Dataset one = run(sweep, {.threads = 1}).dataset;
   for (int threads : {2, 3, 8}) expect_same(one, run(sweep, {.threads = threads}).dataset);
   const auto status = statuses(one);
@@ -46,7 +46,7 @@ TEST(Run, stores_nothing_that_is_not_observed) {
 TEST(Run, points_stand_at_their_index_in_every_order_of_axes) {
   point::Problem scene = paper_scene(6.0, 1.0);
   scene.observe.extrema = true;
-  const Axis nu{Parameter::nu, {0.6, 0.9, 1.4}}, f{Parameter::f, {1.0, 2.0}};
+  const Axis nu{Parameter("nu"), {0.6, 0.9, 1.4}}, f{Parameter("f"), {1.0, 2.0}};
   const Dataset a = run(sweep_of(scene, {nu, f}), {}).dataset, b = run(sweep_of(scene, {f, nu}), {}).dataset;
   for (std::size_t i = 0; i < 3; ++i)
     for (std::size_t j = 0; j < 2; ++j) EXPECT_EQ(values(a, "x_max")[i * 2 + j], values(b, "x_max")[j * 3 + i]);
@@ -59,7 +59,7 @@ TEST(Run, follow_starts_where_the_point_before_ended_with_its_phase) {
   scene.time.mode = steady::Mode::transient;
   scene.time.duration = 7.7;  // no whole number of periods: the phase has to come along
   scene.observe.trajectory = 12;
-  Sweep halves = sweep_of(scene, {{Parameter::R, {0.7, 0.7}}});
+  Sweep halves = sweep_of(scene, {{Parameter("R"), {0.7, 0.7}}});
   halves.follow = 0;
   scene.time.duration *= 2;
   scene.observe.trajectory = 23;
@@ -77,7 +77,7 @@ TEST(Run, follow_goes_on_from_within_a_soft_stop) {
   for (std::uint64_t index = 0; index < 150; ++index) {
     point::Problem scene = support::soft_scene(index);
     scene.observe.trajectory = 2;
-    Sweep halves = sweep_of(scene, {{Parameter::f, {scene.oscillator.forcing, scene.oscillator.forcing}}});
+    Sweep halves = sweep_of(scene, {{Parameter("f"), {scene.oscillator.forcing, scene.oscillator.forcing}}});
     halves.follow = 0;
     scene.time.duration *= 2;
     const Dataset two = run(halves, {}).dataset, whole = run(sweep_of(scene, {}), {}).dataset;
@@ -96,7 +96,7 @@ TEST(Run, follow_stays_on_its_branch_upwards_and_downwards) {
   point::Problem scene = paper_scene(3.0, 1.0);
   scene.stops.restitution_lower = scene.stops.restitution_upper = 0.95;
   scene.observe.extrema = scene.observe.impacts = true;
-  Axis up{Parameter::nu, {}};
+  Axis up{Parameter("nu"), {}};
   for (int i = 0; i <= 120; ++i) up.values.push_back(1.0 + 0.01 * i);
   Axis down = up;
   std::reverse(down.values.begin(), down.values.end());
@@ -116,10 +116,10 @@ TEST(Run, follow_stays_on_its_branch_upwards_and_downwards) {
 TEST(Run, follow_downwards_and_both_ways_is_that_along_the_values_in_their_order) {
   point::Problem scene = paper_scene(4.0, 1.0);  // two branches between folds
   scene.observe.extrema = true, scene.observe.section = 1;
-  const Axis R{Parameter::R, {0.6, 0.7}};
-  Axis nu{Parameter::nu, {}}, there_and_back;
+  const Axis R{Parameter("R"), {0.6, 0.7}};
+  Axis nu{Parameter("nu"), {}};
   for (int i = 0; i <= 50; ++i) nu.values.push_back(0.8 + 0.01 * i);
-  there_and_back = nu;
+  Axis there_and_back = nu;
   there_and_back.values.insert(there_and_back.values.end(), nu.values.rbegin(), nu.values.rend());
   const auto followed = [&](const Axis& axis, Direction direction) {
     Sweep sweep = sweep_of(scene, {R, axis});
@@ -152,7 +152,7 @@ TEST(Run, follow_moves_a_state_outside_narrower_stops_onto_the_stop) {
   scene.time.duration = 30.0;
   scene.observe.extrema = true;
   scene.observe.trajectory = 2;
-  Sweep sweep = sweep_of(scene, {{Parameter::xs, {3.0, 0.01}}});
+  Sweep sweep = sweep_of(scene, {{Parameter("xs"), {3.0, 0.01}}});
   sweep.follow = 0;
   const Dataset figure = run(sweep, {}).dataset;
   EXPECT_EQ(std::abs(values(figure, "x")[2]), 0.01);
@@ -171,7 +171,7 @@ TEST(Run, a_failed_point_has_no_values_and_does_not_lead_the_next_astray) {
   scene.observe.impact_log = true;
   scene.observe.trajectory = 3;
   scene.observe.period = true;
-  Sweep sweep = sweep_of(scene, {{Parameter::xs, {0.01, 6.0}}});
+  Sweep sweep = sweep_of(scene, {{Parameter("xs"), {0.01, 6.0}}});
   sweep.follow = 0;
   const RunResult result = run(sweep, {});
   EXPECT_EQ(statuses(result.dataset), (std::vector<std::uint8_t>{16, 0}));
@@ -180,7 +180,7 @@ TEST(Run, a_failed_point_has_no_values_and_does_not_lead_the_next_astray) {
     EXPECT_TRUE(std::isnan(values(result.dataset, name)[0])) << name;
     EXPECT_FALSE(std::isnan(values(result.dataset, name)[1])) << name;
   }
-  Sweep alone = sweep_of(scene, {{Parameter::xs, {6.0}}});
+  Sweep alone = sweep_of(scene, {{Parameter("xs"), {6.0}}});
   EXPECT_EQ(values(result.dataset, "x_max")[1], values(run(alone, {}).dataset, "x_max")[0]);
   sweep.dimensions[0][0].values = {0.01, 0.5};  // starting anew from a scene that narrower stops have come past
   sweep.problem.start.displacement = 0.8;
@@ -200,7 +200,7 @@ TEST(Run, a_failed_point_says_how_far_it_came) {
 }
 
 TEST(Run, progress_reaches_the_total_along_a_branch_too) {
-  Sweep sweep = sweep_of(paper_scene(6.0, 1.0), {{Parameter::nu, std::vector<double>(50, 0.9)}});
+  Sweep sweep = sweep_of(paper_scene(6.0, 1.0), {{Parameter("nu"), std::vector<double>(50, 0.9)}});
   for (const bool follow : {false, true}) {
     if (follow) sweep.follow = 0;
     double last = 0;

@@ -1,5 +1,3 @@
-#include "sweep/scaling.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -119,9 +117,11 @@ TEST(Scaling, follow_keeps_the_velocity_when_the_stiffness_changes) {
 }
 
 TEST(Scaling, machine_gives_its_scene) {
-  const Machine machine{.mass = 2, .stiffness = 800, .damping = 4, .force = 40, .frequency = 5, .load = 8};
-  const Units units = units_of(machine);
-  const Oscillator oscillator = oscillator_of(machine, units);
+  GivenScene machine;
+  machine.is_si = true, machine.mass = 2, machine.damper = 4;
+  machine.oscillator = {.forcing = 40, .frequency = 5, .load = 8, .stiffness = 800};
+  const auto [scene, units] = clatter::computed(machine);
+  const Oscillator& oscillator = scene.oscillator;
   EXPECT_DOUBLE_EQ(units.time, 1 / 20.0);                // (m/K)^(1/2)
   EXPECT_DOUBLE_EQ(oscillator.damping, 4.0 / (2 * 40));  // c/(2 (K m)^(1/2))
   EXPECT_DOUBLE_EQ(oscillator.forcing, 0.05);
@@ -131,9 +131,11 @@ TEST(Scaling, machine_gives_its_scene) {
 }
 
 TEST(Scaling, machine_without_a_spring_counts_in_the_time_of_its_force) {
-  const Machine machine{.mass = 0.5, .stiffness = 0, .force = 3, .frequency = 10};
+  GivenScene machine;
+  machine.is_si = true, machine.mass = 0.5;
+  machine.oscillator = {.forcing = 3, .frequency = 10, .stiffness = 0};
   const double omega = 2 * std::numbers::pi * 10;
-  const Oscillator oscillator = oscillator_of(machine, units_of(machine));
+  const Oscillator oscillator = clatter::computed(machine).first.oscillator;
   EXPECT_EQ(oscillator.stiffness, 0);
   EXPECT_EQ(oscillator.frequency, 1);
   EXPECT_DOUBLE_EQ(oscillator.forcing, 3 / (0.5 * omega * omega));

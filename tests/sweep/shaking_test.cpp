@@ -78,7 +78,7 @@ Flown integrate(const Moving& m, Absolute s, double duration) {
 
 point::PointResult run(const Moving& m, double x, double v, double duration) {
   Sweep sweep;
-  point::Problem& p = sweep.problem;
+  GivenProblem& p = sweep.problem;
   p.oscillator = {.damping = m.h, .forcing = m.f, .frequency = m.nu, .load = m.load};
   p.stops = {m.lower, m.upper, m.R, m.R};
   p.start = {x, v, m.phase};

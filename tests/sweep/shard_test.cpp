@@ -41,7 +41,8 @@ Sweep any_sweep(const Order& order = {}) {
   scene.observe.attractor = true;
   scene.observe.stability = true;
   Sweep sweep = sweep_of(
-      scene, {{Parameter::f, {-1, 2}}, {Parameter::nu, {0.5, 0.7, 0.9, 1.1, 1.3}}, {Parameter::R, {0, 0.5, 0.9}}});
+      scene,
+      {{Parameter("f"), {-1, 2}}, {Parameter("nu"), {0.5, 0.7, 0.9, 1.1, 1.3}}, {Parameter("R"), {0, 0.5, 0.9}}});
   sweep.follow = order.follow, sweep.direction = order.direction;
   return sweep;
 }

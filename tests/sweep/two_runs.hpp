@@ -20,26 +20,26 @@ inline Sweep sweep_over(const std::vector<point::Problem>& scenes) {
     for (const point::Problem& scene : scenes) one.values.push_back(value(scene));
     return one;
   };
-  Dimension dimension{axis(Parameter::nu, [](const point::Problem& s) { return s.oscillator.frequency; }),
-                      axis(Parameter::h, [](const point::Problem& s) { return s.oscillator.damping; }),
-                      axis(Parameter::f, [](const point::Problem& s) { return s.oscillator.forcing; }),
-                      axis(Parameter::load, [](const point::Problem& s) { return s.oscillator.load; }),
-                      axis(Parameter::stiffness, [](const point::Problem& s) { return s.oscillator.stiffness; }),
-                      axis(Parameter::stop_lower, [](const point::Problem& s) { return s.stops.lower; }),
-                      axis(Parameter::stop_upper, [](const point::Problem& s) { return s.stops.upper; }),
-                      axis(Parameter::R_lower, [](const point::Problem& s) { return s.stops.restitution_lower; }),
-                      axis(Parameter::R_upper, [](const point::Problem& s) { return s.stops.restitution_upper; }),
-                      axis(Parameter::x0, [](const point::Problem& s) { return s.start.displacement; }),
-                      axis(Parameter::v0, [](const point::Problem& s) { return s.start.velocity; }),
-                      axis(Parameter::phase, [](const point::Problem& s) { return s.start.phase; })};
+  Dimension dimension{axis(Parameter("nu"), [](const point::Problem& s) { return s.oscillator.frequency; }),
+                      axis(Parameter("h"), [](const point::Problem& s) { return s.oscillator.damping; }),
+                      axis(Parameter("f"), [](const point::Problem& s) { return s.oscillator.forcing; }),
+                      axis(Parameter("load"), [](const point::Problem& s) { return s.oscillator.load; }),
+                      axis(Parameter("stiffness"), [](const point::Problem& s) { return s.oscillator.stiffness; }),
+                      axis(Parameter("stop_lower"), [](const point::Problem& s) { return s.stops.lower; }),
+                      axis(Parameter("stop_upper"), [](const point::Problem& s) { return s.stops.upper; }),
+                      axis(Parameter("R_lower"), [](const point::Problem& s) { return s.stops.restitution_lower; }),
+                      axis(Parameter("R_upper"), [](const point::Problem& s) { return s.stops.restitution_upper; }),
+                      axis(Parameter("x0"), [](const point::Problem& s) { return s.start.displacement; }),
+                      axis(Parameter("v0"), [](const point::Problem& s) { return s.start.velocity; }),
+                      axis(Parameter("phase"), [](const point::Problem& s) { return s.start.phase; })};
   if (std::ranges::any_of(scenes, [](const point::Problem& s) { return has_soft_stop(s.stops); })) {
     const auto add = [&](Parameter parameter, double Stops::*value) {
       dimension.push_back(axis(parameter, [value](const point::Problem& s) { return s.stops.*value; }));
     };
-    add(Parameter::stop_stiffness_lower, &Stops::stiffness_lower);
-    add(Parameter::stop_stiffness_upper, &Stops::stiffness_upper);
-    add(Parameter::stop_damping_lower, &Stops::damping_lower);
-    add(Parameter::stop_damping_upper, &Stops::damping_upper);
+    add(Parameter("stop_stiffness_lower"), &Stops::stiffness_lower);
+    add(Parameter("stop_stiffness_upper"), &Stops::stiffness_upper);
+    add(Parameter("stop_damping_lower"), &Stops::damping_lower);
+    add(Parameter("stop_damping_upper"), &Stops::damping_upper);
   }
   return {.problem = scenes.front(), .dimensions = {dimension}, .follow = {}};
 }

@@ -2,11 +2,11 @@
 
 #include <limits>
 
-#include "model/effects.hpp"
-#include "model/scene.hpp"
+#include "scene/effects.hpp"
+#include "scene/scene.hpp"
 
 namespace clatter {
-inline namespace model {
+inline namespace scene {
 
 /// The effects that a scene can meet, and the bounds by which others are left out.
 struct Requirements {
@@ -28,5 +28,5 @@ struct Requirements {
 /// The stops that a motion with these effects can meet; the others are at infinity.
 [[nodiscard]] Stops stops_in_reach(const Stops& stops, const Effects& effects);
 
-}  // namespace model
+}  // namespace scene
 }  // namespace clatter

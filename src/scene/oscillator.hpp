@@ -4,19 +4,21 @@
 #include <numbers>
 
 namespace clatter {
-inline namespace model {
+inline namespace scene {
 
 /// x'' + 2 h x' + k x = f sin(nu tau + phase) + load (eq. 3): with k = 1 in units of the natural frequency and the
 /// spring.
-struct Oscillator {
-  double damping = 0.0;    ///< h, damping ratio, >= 0
-  double forcing = 0.0;    ///< f, force amplitude over stiffness, any finite
-  double frequency = 1.0;  ///< nu, excitation over natural frequency, > 0
-  double load = 0.0;       ///< constant force over stiffness, any finite
-  double stiffness = 1.0;  ///< k, any finite: 0 without a spring, negative for one that pushes away
+template <class Number>
+struct BasicOscillator {
+  Number damping{0.0};    ///< h, damping ratio, >= 0
+  Number forcing{0.0};    ///< f, force amplitude over stiffness, any finite
+  Number frequency{1.0};  ///< nu, excitation over natural frequency, > 0
+  Number load{0.0};       ///< constant force over stiffness, any finite
+  Number stiffness{1.0};  ///< k, any finite: 0 without a spring, negative for one that pushes away
 
-  friend constexpr bool operator==(const Oscillator&, const Oscillator&) = default;
+  friend bool operator==(const BasicOscillator&, const BasicOscillator&) = default;
 };
+using Oscillator = BasicOscillator<double>;
 
 /// The natural frequency of the spring, |k|^(1/2); of an unstable one (k < 0) the rate at which motion departs.
 [[nodiscard]] inline double natural_frequency(const Oscillator& oscillator) {
@@ -52,5 +54,5 @@ struct Oscillator {
   return 2 * std::numbers::pi / counting_frequency(oscillator);
 }
 
-}  // namespace model
+}  // namespace scene
 }  // namespace clatter

@@ -1,4 +1,4 @@
-#include "model/restitution.hpp"
+#include "scene/restitution.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include "math/fifty_digits.hpp"
 
 namespace clatter {
-inline namespace model {
+inline namespace scene {
 namespace {
 
 template <class Number>
@@ -38,5 +38,5 @@ TEST(Restitution, lets_a_value_that_is_no_number_through) {
 }
 
 }  // namespace
-}  // namespace model
+}  // namespace scene
 }  // namespace clatter

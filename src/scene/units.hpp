@@ -3,17 +3,18 @@
 #include <numbers>
 #include <string_view>
 
-#include "model/quantity.hpp"
+#include "scene/quantity.hpp"
 
 namespace clatter {
-inline namespace model {
+inline namespace scene {
 
 /// The units that a problem is computed in, in those of the user; displacements keep their unit. A scene with k = 1 is
 /// computed as it is.
 struct Units {
-  double time = 1.0;   ///< one unit of computed time: s of a machine, > 0
-  double mass = 1.0;   ///< the mass: kg of a machine, > 0
-  bool is_si = false;  ///< the user's units are those of the SI, frequencies in cycles
+  double time = 1.0;       ///< one unit of computed time: s of a machine, > 0
+  double mass = 1.0;       ///< the mass: kg of a machine, > 0
+  double stiffness = 1.0;  ///< stiffness that is computed as 1: N/m of a machine, > 0
+  bool is_si = false;      ///< the user's units are those of the SI, frequencies in cycles
 
   friend constexpr bool operator==(const Units&, const Units&) = default;
 };
@@ -40,5 +41,5 @@ namespace detail {
   return is_si || quantity == Quantity::angle ? si_unit(quantity) : si_unit(Quantity::number);
 }
 
-}  // namespace model
+}  // namespace scene
 }  // namespace clatter

@@ -1,7 +1,7 @@
 #pragma once
 
 namespace clatter {
-inline namespace model {
+inline namespace scene {
 
 /// Newton's law of restitution on a stop (eq. 4), for every number type: the exact loop and its derivative, the general
 /// methods and the lanes take it from here.
@@ -17,5 +17,5 @@ struct Restitution {
   [[nodiscard]] Number derivative() const { return -R; }
 };
 
-}  // namespace model
+}  // namespace scene
 }  // namespace clatter

@@ -4,7 +4,7 @@
 #include <string_view>
 
 namespace clatter {
-inline namespace model {
+inline namespace scene {
 
 /// The physical quantity that a number is.
 enum class Quantity : std::uint8_t {
@@ -98,5 +98,5 @@ struct Exponents {
   return "";
 }
 
-}  // namespace model
+}  // namespace scene
 }  // namespace clatter

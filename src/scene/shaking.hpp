@@ -7,18 +7,20 @@
 #include <string_view>
 
 #include "math/number.hpp"
-#include "model/oscillator.hpp"
+#include "scene/oscillator.hpp"
 
 namespace clatter {
-inline namespace model {
+inline namespace scene {
 
 /// Stops or base that move as b sin(theta), theta = nu tau + phase, phase being that of the force; one of the two at
 /// most is not 0.
-struct Shaking {
-  double stops = 0.0;  ///< amplitude b of both stops, any finite
-  double base = 0.0;   ///< amplitude b of the base, which carries the stops, any finite
-  double lead = 0.0;   ///< phase of the force in the moving frame less theta, rad; 0 until that force is in place
+template <class Number>
+struct BasicShaking {
+  Number stops{0.0};  ///< amplitude b of both stops, any finite
+  Number base{0.0};   ///< amplitude b of the base, which carries the stops, any finite
+  Number lead{0.0};   ///< phase of the force in the moving frame less theta, rad; 0 until that force is in place
 };
+using Shaking = BasicShaking<double>;
 
 [[nodiscard]] constexpr bool is_shaken(const Shaking& shaking) { return shaking.stops != 0 || shaking.base != 0; }
 
@@ -28,20 +30,14 @@ struct LeadingForce {
   Number amplitude{}, lead{};
 };
 
-/// Whether a number is 0 and, if it carries derivatives, they are 0, too.
-template <class Number>
-[[nodiscard]] constexpr bool is_always_zero(const Number& y) {
-  if constexpr (requires { y.is_constant(); }) return is_always_zero(y.value) && y.is_constant();
-  return y == 0;
-}
-
 /// The force on the mass in the frame of what is shaken: f sin(theta) and the inertia of that frame, with moving stops
-/// the spring and the damper, too, which don't move with them (eqs. 39 and 40). For every number type, from h, f, nu, k
-/// and the two amplitudes.
+/// the spring and the damper, too, which don't move with them (eqs. 39 and 40).
 template <class Number>
-[[nodiscard]] LeadingForce<Number> force_in_frame(const Number& h, const Number& f, const Number& nu, const Number& k,
-                                                  const Number& stops, const Number& base) {
+[[nodiscard]] LeadingForce<Number> force_in_frame(const BasicOscillator<Number>& oscillator,
+                                                  const BasicShaking<Number>& shaking) {
   using std::atan2, std::fma, std::hypot;
+  const auto& [h, f, nu, load, k] = oscillator;
+  const auto& [stops, base, lead] = shaking;
   if (is_always_zero(stops) && is_always_zero(base)) return {f, Number(0)};
   const Number with_base = fma(Number(base * nu), nu, f);
   if (is_always_zero(stops)) return {with_base, Number(0)};
@@ -49,10 +45,6 @@ template <class Number>
   const Number quadrature = -2 * h * nu * stops;
   if (is_always_zero(quadrature)) return {in_phase, Number(0)};  // a sign, no jump by pi, when the force passes 0
   return {hypot(in_phase, quadrature), atan2(quadrature, in_phase)};
-}
-[[nodiscard]] inline LeadingForce<double> force_in_frame(const Oscillator& oscillator, const Shaking& shaking) {
-  return force_in_frame(oscillator.damping, oscillator.forcing, oscillator.frequency, oscillator.stiffness,
-                        shaking.stops, shaking.base);
 }
 
 /// The frame in which displacements and velocities are given: that of what is shaken, or that of the ground.
@@ -103,5 +95,5 @@ class FrameMotion {
   bool is_forced_;
 };
 
-}  // namespace model
+}  // namespace scene
 }  // namespace clatter

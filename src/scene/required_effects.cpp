@@ -1,12 +1,12 @@
-#include "model/required_effects.hpp"
+#include "scene/required_effects.hpp"
 
 #include <cmath>
 #include <limits>
 
-#include "model/displacement_bound.hpp"
+#include "scene/displacement_bound.hpp"
 
 namespace clatter {
-inline namespace model {
+inline namespace scene {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -61,5 +61,5 @@ Stops stops_in_reach(const Stops& stops, const Effects& effects) {
   return met;
 }
 
-}  // namespace model
+}  // namespace scene
 }  // namespace clatter

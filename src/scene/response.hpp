@@ -4,10 +4,10 @@
 #include <cmath>
 
 #include "math/number.hpp"
-#include "model/oscillator.hpp"
+#include "scene/oscillator.hpp"
 
 namespace clatter {
-inline namespace model {
+inline namespace scene {
 
 /// Steady forced response P sin(theta) + Q cos(theta) of eq. 3 (eq. 6): P = f(k - nu^2)/D, Q = -2 h nu f/D,
 /// D = (k - nu^2)^2 + (2 h nu)^2. Infinite or NaN if there is none: f at h = 0, k = nu^2.
@@ -48,5 +48,5 @@ template <class Number>
   return response_to(o.stiffness - o.frequency * o.frequency, o.damping, o.forcing, o.frequency);
 }
 
-}  // namespace model
+}  // namespace scene
 }  // namespace clatter

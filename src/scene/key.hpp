@@ -5,10 +5,10 @@
 #include <span>
 #include <string_view>
 
-#include "model/quantity.hpp"
+#include "scene/quantity.hpp"
 
 namespace clatter {
-inline namespace model {
+inline namespace scene {
 
 enum class Kind : std::uint8_t { text, names, number, interval, integer, flag, choice };
 
@@ -73,5 +73,5 @@ struct Key {
   return key;
 }
 
-}  // namespace model
+}  // namespace scene
 }  // namespace clatter

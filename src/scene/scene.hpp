@@ -5,25 +5,32 @@
 #include <limits>
 #include <optional>
 
-#include "model/oscillator.hpp"
-#include "model/stops.hpp"
+#include "scene/oscillator.hpp"
+#include "scene/shaking.hpp"
+#include "scene/stops.hpp"
 
 namespace clatter {
-inline namespace model {
+inline namespace scene {
 
 /// The state at tau = 0.
-struct Start {
-  double displacement = 0.0;  ///< x0, between the stops
-  double velocity = 0.0;      ///< v0
-  double phase = 0.0;         ///< forcing phase at tau = 0, rad
+template <class Number>
+struct BasicStart {
+  Number displacement{0.0};  ///< x0, between the stops
+  Number velocity{0.0};      ///< v0
+  Number phase{0.0};         ///< forcing phase at tau = 0, rad
 };
+using Start = BasicStart<double>;
 
-/// An oscillator, its stops and its start: everything that the motion depends on.
-struct Scene {
-  Oscillator oscillator;
-  Stops stops;
-  Start start;
+/// An oscillator, its stops, its start, and the shaking by which displacements count: everything that the motion
+/// depends on.
+template <class Number>
+struct BasicScene {
+  BasicOscillator<Number> oscillator{};
+  BasicStops<Number> stops{};
+  BasicStart<Number> start{};
+  BasicShaking<Number> shaking{};
 };
+using Scene = BasicScene<double>;
 
 /// The place about which the mirror image of each motion, half a forcing period later, is a motion too: the equilibrium
 /// of the spring or, without spring and load, the middle between the stops. Nothing if stops or load aren't the same on
@@ -44,5 +51,5 @@ struct Scene {
 }
 [[nodiscard]] inline bool is_symmetric(const Scene& scene) { return mirror_centre(scene).has_value(); }
 
-}  // namespace model
+}  // namespace scene
 }  // namespace clatter

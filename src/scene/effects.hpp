@@ -6,11 +6,11 @@
 #include <cstdint>
 #include <tuple>
 
-#include "model/oscillator.hpp"
-#include "model/scene.hpp"
+#include "scene/oscillator.hpp"
+#include "scene/scene.hpp"
 
 namespace clatter {
-inline namespace model {
+inline namespace scene {
 
 /// h = 0, 0 < h^2 < k, h^2 = k, h^2 > k: no decay, a decaying rotation, its limit, two exponentials. Without a spring
 /// (k <= 0) motion is always the sum of two exponentials, one of which doesn't decay.
@@ -84,7 +84,7 @@ namespace effect_sets {
 /// in every evaluation), dissipation (one multiplication an impact), chatter and rest (one comparison an impact), and
 /// critical damping, which is rare. A stiffness other than 1 has two sets that contain all the rest: points with k > 0
 /// are run with k = 1, in other units of time, so only those without a spring or with an unstable one need them.
-/// Soft stops need them, too, as the mass moves on another spring while it is in contact. src/model/README.md has the
+/// Soft stops need them, too, as the mass moves on another spring while it is in contact. src/scene/README.md has the
 /// cost of each effect.
 inline constexpr std::array compiled_effects{
     effect_sets::free_of_stops(Damping::none, Forcing::none),
@@ -235,5 +235,5 @@ decltype(auto) with_any_stops(const Scene& scene, Function&& function) {
   return function.template operator()<effect_sets::with_soft_stops(Damping::heavy, Forcing::regular)>();
 }
 
-}  // namespace model
+}  // namespace scene
 }  // namespace clatter

@@ -1,4 +1,4 @@
-#include "model/displacement_bound.hpp"
+#include "scene/displacement_bound.hpp"
 
 #include <gtest/gtest.h>
 
@@ -11,7 +11,7 @@
 #include "support/random.hpp"
 
 namespace clatter {
-inline namespace model {
+inline namespace scene {
 namespace {
 
 constexpr double forever = std::numeric_limits<double>::infinity(), ulp = std::numeric_limits<double>::epsilon();
@@ -194,5 +194,5 @@ TEST(Transient, stays_within_its_bound_and_the_decayed_bound) {
 }
 
 }  // namespace
-}  // namespace model
+}  // namespace scene
 }  // namespace clatter

@@ -1,7 +1,7 @@
-#include "model/effects.hpp"
+#include "scene/effects.hpp"
 
 namespace clatter {
-inline namespace model {
+inline namespace scene {
 
 Forcing forcing_of(const Oscillator& oscillator) {
   if (oscillator.forcing == 0.0) return Forcing::none;
@@ -11,5 +11,5 @@ Forcing forcing_of(const Oscillator& oscillator) {
   return secular ? Forcing::secular : Forcing::regular;
 }
 
-}  // namespace model
+}  // namespace scene
 }  // namespace clatter

@@ -1,11 +1,11 @@
 #pragma once
 
 #include "math/number.hpp"
-#include "model/oscillator.hpp"
-#include "model/scene.hpp"
+#include "scene/oscillator.hpp"
+#include "scene/scene.hpp"
 
 namespace clatter {
-inline namespace model {
+inline namespace scene {
 
 /// An instant of a motion, relative to the load's equilibrium.
 struct PhaseState {
@@ -61,5 +61,5 @@ struct PhasePoint {
 /// Whether no stop can be met from an instant on, for all time.
 [[nodiscard]] bool out_of_reach(const Oscillator& oscillator, const PhaseState& now, const Stops& stops);
 
-}  // namespace model
+}  // namespace scene
 }  // namespace clatter

@@ -1,4 +1,4 @@
-#include "model/displacement_bound.hpp"
+#include "scene/displacement_bound.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -6,10 +6,10 @@
 #include <limits>
 
 #include "math/number.hpp"
-#include "model/response.hpp"
+#include "scene/response.hpp"
 
 namespace clatter {
-inline namespace model {
+inline namespace scene {
 namespace {
 
 using Complex = std::complex<double>;
@@ -172,14 +172,14 @@ bool response_meets(const Oscillator& oscillator, const Stops& stops) {
 }
 
 bool grows_at_resonance(const Scene& scene) {
-  const auto& [o, stops, start] = scene;
+  const auto& [o, stops, start, shaking] = scene;
   const double natural = natural_frequency(o);
   return o.stiffness > 0 && o.damping == 0 && o.forcing != 0 && std::isinf(stops.lower) && std::isinf(stops.upper) &&
          std::abs(o.frequency - natural) <= 4 * std::numeric_limits<double>::epsilon() * natural;
 }
 
 bool escapes(const Scene& scene, double x, double v, const SineCosine<double>& phase) {
-  const auto& [o, stops, start] = scene;
+  const auto& [o, stops, start, shaking] = scene;
   if (grows_at_resonance(scene)) return true;
   if (!(o.stiffness <= 0) || (std::isfinite(stops.lower) && std::isfinite(stops.upper))) return false;
   const PhasePoint free = transient_of(o, {x - equilibrium_of(o), v, phase.sine, phase.cosine});
@@ -206,5 +206,5 @@ bool out_of_reach(const Oscillator& oscillator, const PhaseState& now, const Sto
   return displacement_bound(oscillator, now, std::numeric_limits<double>::infinity(), gap) < gap;
 }
 
-}  // namespace model
+}  // namespace scene
 }  // namespace clatter

@@ -1,4 +1,4 @@
-#include "model/required_effects.hpp"
+#include "scene/required_effects.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <vector>
 
 namespace clatter {
-inline namespace model {
+inline namespace scene {
 namespace {
 
 constexpr double none = std::numeric_limits<double>::infinity(), nan = std::numeric_limits<double>::quiet_NaN();
@@ -207,5 +207,5 @@ TEST(RequiredEffects, damping_and_resonance_are_told_apart_at_their_borders) {
 }
 
 }  // namespace
-}  // namespace model
+}  // namespace scene
 }  // namespace clatter

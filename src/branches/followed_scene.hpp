@@ -1,0 +1,101 @@
+#pragma once
+
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "math/dual.hpp"
+#include "motion/soft_stop.hpp"
+#include "scene/parameter.hpp"
+#include "sweep/sweep.hpp"
+
+namespace clatter::branches {
+
+/// A scene on a branch: the numbers that its user gives, of which one or two are followed, and those that are computed
+/// from them, in the units of the start. Phases are those of the shaking, nu tau + phase; without any that is the phase
+/// of the force.
+struct FollowedScene : Scene {
+  GivenScene given{};
+  Units units{};
+
+  FollowedScene() = default;
+  /// In units of its own.
+  FollowedScene(const Scene& scene) : Scene(scene), given(scene) {}
+  FollowedScene(const GivenScene& numbers, const Units& of_start)
+      : Scene(computed(numbers, of_start)), given(numbers), units(of_start) {}
+};
+
+/// The problem that a branch begins with; shaking stays as it was given. A machine is computed in its natural units, a
+/// scene in its own.
+struct StartProblem : FollowedScene, point::RunSettings {
+  StartProblem(const point::Problem& problem) : FollowedScene(problem), RunSettings(problem) {}
+  StartProblem(const sweep::GivenProblem& problem)
+      : FollowedScene(problem, problem.is_si ? natural_units(problem) : Units{}), RunSettings(problem) {}
+};
+
+/// The same problem with its damping given by a parameter, if that is a way to give it.
+[[nodiscard]] StartProblem damped_by(const StartProblem& start, Parameter parameter);
+
+/// A scene with one of its parameters changed.
+[[nodiscard]] FollowedScene changed(const FollowedScene& scene, Parameter parameter, double value);
+[[nodiscard]] inline double value_of(const FollowedScene& scene, Parameter parameter) {
+  return value_of(scene.given, parameter);
+}
+
+/// The numbers of a computed scene, of a type that may carry derivatives.
+template <class Number>
+struct SceneNumbers : BasicScene<Number> {
+  Number mass{1.0};  ///< over that of the units
+
+  [[nodiscard]] const Number& position(Side stop) const {
+    return stop == Side::upper ? this->stops.upper : this->stops.lower;
+  }
+  [[nodiscard]] const Number& restitution(Side stop) const {
+    return stop == Side::upper ? this->stops.restitution_upper : this->stops.restitution_lower;
+  }
+  [[nodiscard]] motion::SoftStop<Number> soft_stop(Side stop) const {
+    using std::sqrt;
+    const bool is_upper = stop == Side::upper;
+    const Number& stiffness = is_upper ? this->stops.stiffness_upper : this->stops.stiffness_lower;
+    return {stop, position(stop), stiffness,
+            (is_upper ? this->stops.damping_upper : this->stops.damping_lower) * sqrt(stiffness)};
+  }
+  /// In the frame of what is shaken.
+  [[nodiscard]] LeadingForce<Number> force() const { return force_in_frame(this->oscillator, this->shaking); }
+};
+
+/// Parameters that vary, each with its value and derivatives.
+template <class Number>
+using Varied = std::vector<std::pair<Parameter, Number>>;
+
+/// The numbers of a scene, some of whose parameters vary.
+template <class Number>
+[[nodiscard]] SceneNumbers<Number> numbers_of(const FollowedScene& scene, const Varied<Number>& varied = {}) {
+  if constexpr (std::is_same_v<Number, double>)
+    if (varied.empty()) return {scene, scene.given.mass / scene.units.mass};
+  BasicGivenScene<Number> given = with_numbers<Number>(scene.given);
+  for (const auto& [parameter, value] : varied) set(given, parameter, value);
+  return {computed(given, scene.units), given.mass / scene.units.mass};
+}
+
+/// A scene's numbers with their derivatives by one parameter.
+using Along = Dual<double, 1>;
+[[nodiscard]] SceneNumbers<Along> numbers_along(const FollowedScene& scene, Parameter parameter);
+
+/// Whether a symmetric scene stays so if a parameter changes.
+[[nodiscard]] bool keeps_symmetry(const FollowedScene& scene, Parameter parameter);
+
+/// Whether the stiffness of the spring, per unit mass, changes with a parameter.
+[[nodiscard]] bool varies_stiffness(const FollowedScene& scene, Parameter parameter);
+
+/// Its oscillator in the frame of what is shaken, with the force there (eqs. 39 and 40).
+[[nodiscard]] Oscillator oscillator_in_frame(const Scene& scene);
+
+/// The problem that a branch begins with, or another scene on it, as it is computed.
+[[nodiscard]] point::Problem with_scene(const StartProblem& start, const FollowedScene& scene);
+
+/// "scene.nu", "machine.frequency"
+[[nodiscard]] std::string key_in_section(const FollowedScene& scene, Parameter parameter);
+
+}  // namespace clatter::branches

@@ -1,0 +1,79 @@
+#pragma once
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <utility>
+
+#include "scene/scene.hpp"
+#include "scene/units.hpp"
+
+namespace clatter {
+inline namespace scene {
+
+/// The numbers of a scene as its user gives them, in [scene], or in SI in [machine]: a mass m, its spring, damper and
+/// force, m X'' + c X' + K X = F sin(2 pi frequency t + phase) + L. There K, F, L and the frequency, in Hz, are the
+/// oscillator's stiffness, forcing, load and frequency. The damping is given in one of several ways; those that aren't
+/// used stay at their neutral values. In [scene] the mass is 1.
+template <class Number>
+struct BasicGivenScene : BasicScene<Number> {
+  Number mass{1.0};                                         ///< m, kg, > 0
+  Number damper{0.0};                                       ///< c, N s/m, >= 0
+  Number damping_ratio{0.0};                                ///< c/(2 (|K| m)^(1/2)), >= 0
+  Number quality{std::numeric_limits<double>::infinity()};  ///< (|K| m)^(1/2)/c, > 0
+  Number stop_damper_lower{0.0};                            ///< damping of the lower soft stop, N s/m, >= 0
+  Number stop_damper_upper{0.0};                            ///< damping of the upper soft stop, N s/m, >= 0
+  /// Period of the free motion that the start lies on, in place of x0 and v0 (eq. 36); NaN: these are the start.
+  Number start_period{std::numeric_limits<double>::quiet_NaN()};
+  bool is_si = false;  ///< given in [machine]
+
+  BasicGivenScene() = default;
+  explicit BasicGivenScene(const BasicScene<Number>& scene) : BasicScene<Number>(scene) {}
+};
+using GivenScene = BasicGivenScene<double>;
+
+/// The units in which a point of a sweep is computed: with a spring those of its natural frequency, so that k is 1 or
+/// -1; without one a machine is computed in those of its force's frequency, and a scene in its own.
+[[nodiscard]] Units natural_units(const GivenScene& given);
+
+/// The scene that is computed, in units that may be those of another one. Each number is a formula of those that were
+/// given, so derivatives by any key of [scene] or [machine] follow from numbers that carry them.
+template <class Number>
+[[nodiscard]] BasicScene<Number> computed(const BasicGivenScene<Number>& given, const Units& units) {
+  using std::abs, std::sqrt, std::tan;
+  const double T = units.time;
+  const Number& m = given.mass;
+  const Number force = units.stiffness * (m / units.mass);  // that gives a unit of displacement to k = 1
+  BasicScene<Number> scene = given;
+  auto& [h, f, nu, load, k] = scene.oscillator;
+  f = f / force, load = load / force, k = k / force;
+  nu = (given.is_si ? 2 * std::numbers::pi : 1.0) * nu * T;
+  h = h * T + given.damper * T / (2 * m);
+  if (!is_always_zero(given.damping_ratio)) h += given.damping_ratio * sqrt(abs(k));
+  if (is_finite(given.quality)) h += sqrt(abs(k)) / (2 * given.quality);
+  auto& stops = scene.stops;
+  const auto soften = [&](Number& kappa, Number& zeta, const Number& damper) {
+    if (!is_finite(kappa)) return;  // c = 2 zeta (kappa m)^(1/2); of a rigid stop nothing is left
+    kappa = kappa * (T * T / m);
+    if (!is_always_zero(damper)) zeta += damper * (T / (2 * m * sqrt(kappa)));
+  };
+  soften(stops.stiffness_lower, stops.damping_lower, given.stop_damper_lower);
+  soften(stops.stiffness_upper, stops.damping_upper, given.stop_damper_upper);
+  scene.start.velocity = scene.start.velocity * T;
+  if (is_finite(
+          given.start_period)) {  // just after the contact with the lower stop, a quarter of the period from x = 0
+    scene.start.displacement = stops.lower;
+    scene.start.velocity = stops.upper / tan(given.start_period / 4);
+  }
+  return scene;
+}
+
+/// The scene in its natural units, and these. A machine without a spring has the frequency 1, as has one that nothing
+/// shakes.
+[[nodiscard]] std::pair<Scene, Units> computed(const GivenScene& given);
+
+/// The scene in the frame of what is shaken, with the force there in place of the one that was given (eqs. 39 to 41).
+[[nodiscard]] Scene in_shaken_frame(Scene scene);
+
+}  // namespace scene
+}  // namespace clatter
