@@ -5,7 +5,6 @@
 
 #include "branches/flight.hpp"
 #include "motion/contact.hpp"
-#include "motion/crossing.hpp"
 
 namespace clatter::branches {
 namespace {
@@ -56,13 +55,13 @@ bool is_at_end(double elapsed, double length, double x, double speed, double nu)
 template <Effects E>
 std::optional<Violation> cut_short(const SceneNumbers<double>& p, const motion::Arc<double, E>& arc, const Path& path) {
   const Stops stops{.lower = p.stops.lower, .upper = p.stops.upper};
-  const motion::Contact<double> contact = motion::next_contact(arc, stops, path.length);
+  const motion::Crossing<double> contact = motion::next_contact(arc, stops, path.length);
   if (contact.side == Side::none) return std::nullopt;
   const motion::Motion<double> m = contact.motion;
   if (contact.side == path.to && is_at_end(contact.elapsed, path.length, m.x, m.v, arc.constants().nu))
     return std::nullopt;
   const Event turns = is_soft(p.stops, contact.side) ? Event::separation : Event::impact;
-  const Margin gap{-static_cast<double>(sign_of(contact.side)), 0.0};
+  const Margin gap{0.0, -static_cast<double>(sign_of(contact.side)), 0.0};
   std::optional<Violation> found = passes_through(arc, path, gap, contact.elapsed, contact.side, turns);
   found->turning.before = 0.0;
   return found;
@@ -73,7 +72,7 @@ template <Effects E>
 std::optional<Violation> separates(const motion::SoftStop<double>& stop, const motion::Arc<double, E>& arc,
                                    const Path& path) {
   const double into = stop.into(1.0);
-  const Margin force{into, into * stop.relaxation()};
+  const Margin force{0.0, into, into * stop.relaxation()};
   const auto crossing = motion::first_crossing(arc, std::array{force}, path.length);
   if (crossing.resolved && crossing.margin != 0) return std::nullopt;
   const motion::Motion<double>& m = crossing.motion;
@@ -88,7 +87,7 @@ template <Effects E>
 std::optional<Violation> free_within(const SceneNumbers<double>& p, const motion::SoftStop<double>& stop,
                                      const motion::Arc<double, E>& arc, const Path& path) {
   const double into = stop.into(1.0), nu = arc.constants().nu;
-  const Margin depth{into, 0.0}, pull{-into, -into * stop.relaxation()};
+  const Margin depth{0.0, into, 0.0}, pull{0.0, -into, -into * stop.relaxation()};
   const auto crossing = motion::first_crossing(arc, std::array{depth, pull}, path.length);
   const motion::Motion<double>& m = crossing.motion;
   const bool renews = path.arrives == Event::renewal;

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <utility>
 
-#include "motion/crossing.hpp"
+#include "motion/first_crossing.hpp"
 #include "motion/neighbourhood.hpp"
 #include "motion/soft_stop.hpp"
 
@@ -99,7 +99,7 @@ class SoftNeighbourhood : public Neighbourhood {
   template <class A>
   void keep_margin(const A& arc, double begin, double from, double length) {
     const double one = stop_.into(mode_ == contact ? 1.0 : -1.0), relaxation = stop_.relaxation();
-    const Margin<double> margin{one, one * relaxation};
+    const Margin<double> margin{0.0, one, one * relaxation};
     const double less = one * bound_ * norm(1 / field_.weight, relaxation);
     Motion<double> start = from > 0 ? arc.at(from) : arc.start();
     start.offset -= less;  // the margin less the bound is that of a stop a little farther away

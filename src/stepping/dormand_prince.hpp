@@ -9,7 +9,6 @@
 #include <limits>
 #include <utility>
 
-#include "motion/crossing.hpp"
 #include "motion/polynomial_arc.hpp"
 #include "stepping/event_driven.hpp"
 #include "stepping/integration.hpp"
@@ -46,18 +45,18 @@ class DormandPrince : public EventDriven<DormandPrince<E>, double, E> {
     go_on(this->constants(), state, start, anchor);
     Flight<DenseArc> flight{standing(this->constants(), state)};
     if (const Side side = entered(); side != Side::none) {
-      flight.contact = {side, 0.0, start};
-      flight.contact.motion.x =
+      flight.crossing = {0, side, 0.0, start};
+      flight.crossing.motion.x =
           motion::stop_at<double>(this->stops(), side).position;  // the step ended there, to rounding
       return flight;
     }
     try {
       flight.arc = step(this->constants(), state, start.a);
     } catch (const boost::numeric::odeint::odeint_error&) {  // no step is short enough
-      flight.contact = {Side::none, 0.0, start, 0, false};
+      flight.crossing = {0, Side::none, 0.0, start, 0, false};
       return flight;
     }
-    motion::Contact<double>& contact = flight.contact = first_contact(flight.arc, horizon);
+    motion::Crossing<double>& contact = flight.crossing = first_contact(flight.arc, horizon);
     const double turns = state.phase_turns + contact.elapsed / this->period();
     contact.resolved = this->finite(contact.motion.x) && (contact.side != Side::none || turns > state.phase_turns);
     if (contact.side == Side::none && contact.elapsed < horizon) reached_ = {contact.motion.x, contact.motion.v, turns};
@@ -66,12 +65,12 @@ class DormandPrince : public EventDriven<DormandPrince<E>, double, E> {
 
   /// The same beyond the position of a soft stop, with the first of some margins that falls to 0.
   template <Effects Within, std::size_t count>
-  [[nodiscard]] FlightWithin<motion::PolynomialArc<Within>> fly_within(
+  [[nodiscard]] Flight<motion::PolynomialArc<Within>> fly_within(
       const motion::ArcConstants<double, Within>& constants, const motion::State<double>& state,
       const motion::Motion<double>& start, double anchor, const std::array<motion::Margin<double>, count>& margins,
       double horizon) {
     go_on(constants, state, start, anchor);
-    FlightWithin<motion::PolynomialArc<Within>> flight{standing(constants, state), {count, 0.0, start}};
+    Flight<motion::PolynomialArc<Within>> flight{standing(constants, state), {count, Side::none, 0.0, start}};
     for (std::size_t i = 0; i < count; ++i) {
       if (!(margins[i].of(start) <= 0 && margins[i].slope(start) < 0)) continue;
       flight.crossing.margin = i;
@@ -185,8 +184,8 @@ class DormandPrince : public EventDriven<DormandPrince<E>, double, E> {
   }
 
   /// The first crossing of a stop by the polynomial; else its end, or the horizon.
-  [[nodiscard]] motion::Contact<double> first_contact(const DenseArc& arc, double horizon) const {
-    motion::Contact<double> first{Side::none, std::min(arc.length(), horizon), {}};
+  [[nodiscard]] motion::Crossing<double> first_contact(const DenseArc& arc, double horizon) const {
+    motion::Crossing<double> first{0, Side::none, std::min(arc.length(), horizon), {}};
     for (const Side side : {Side::lower, Side::upper}) {
       if (std::isinf(gap(side))) continue;
       Bernstein<double> c = arc.offset();
@@ -209,11 +208,11 @@ class DormandPrince : public EventDriven<DormandPrince<E>, double, E> {
   [[nodiscard]] static motion::Crossing<double> first_crossing(const motion::PolynomialArc<Of>& arc,
                                                                const std::array<motion::Margin<double>, count>& margins,
                                                                double horizon) {
-    motion::Crossing<double> first{count, std::min(arc.length(), horizon), {}};
+    motion::Crossing<double> first{count, Side::none, std::min(arc.length(), horizon), {}};
     for (std::size_t i = 0; i < count; ++i) {
       Bernstein<double> c;
       for (std::size_t j = 0; j < c.size(); ++j)
-        c[j] = margins[i].place * arc.offset()[j] + margins[i].speed * arc.velocity()[j];
+        c[j] = margins[i].constant + margins[i].place * arc.offset()[j] + margins[i].speed * arc.velocity()[j];
       c[0] = std::max(c[0], 0.0);
       const auto root = FirstRoot<double>::of(c);
       if (root && *root * arc.length() <= first.elapsed) first.margin = i, first.elapsed = *root * arc.length();

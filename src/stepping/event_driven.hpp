@@ -8,23 +8,14 @@
 
 #include "motion/chatter.hpp"
 #include "motion/contact.hpp"
-#include "motion/crossing.hpp"
 #include "stepping/integrator.hpp"
 
 namespace clatter::stepping {
 
-/// An arc and its end: the first contact, else the horizon, or an earlier instant if the method divides the flight into
-/// several arcs.
+/// An arc and its end: the first of its margins that falls to 0, else the horizon, or an earlier instant if the method
+/// divides the flight into several arcs.
 template <class A>
 struct Flight {
-  A arc;
-  motion::Contact<typename A::Number> contact{};
-};
-
-/// An arc within a soft stop and its end: the first of some margins that falls to 0, else the horizon, or an earlier
-/// instant if the method divides the flight into several arcs.
-template <class A>
-struct FlightWithin {
   A arc;
   motion::Crossing<typename A::Number> crossing{};
 };
@@ -52,47 +43,10 @@ class EventDriven : public IntegratorBase<N, E> {
   template <class Observer>
   [[nodiscard]] Outcome advance(motion::State<Number>& state, const Number& end, std::int64_t origin,
                                 Observer& observer) {
-    while (end - state.phase_turns > 2 * epsilon<Number>()) {  // fly, find the contact, rebound: the whole algorithm
+    while (end - state.phase_turns > 2 * epsilon<Number>()) {
       this->report(state);
-      if constexpr (E.soft) {
-        if (soft_stops_ && soft_stop_around(state) != Side::none) {
-          const Outcome outcome = run_within(state, end, origin, observer);
-          if (outcome != Outcome::completed) return outcome;
-          continue;
-        }
-      }
-      if (E.rest && state.chatters) {
-        const Outcome outcome = fly_on_in_chatter(state, end, origin, observer);
-        if (outcome != Outcome::completed) return outcome;
-        continue;
-      }
-      if (const auto stop = this->holding_stop(state)) {
-        rest(state, *stop, end, origin, observer);
-        continue;
-      }
-      const Number horizon = (end - state.phase_turns) * this->period();
-      const auto [arc, contact] = static_cast<Method&>(*this).fly(state, motion(state), anchor(state), horizon);
-      if (!contact.resolved) return this->finite(contact.motion.x) ? Outcome::unresolved : Outcome::not_finite;
-      if (contact.side != Side::none && contact.elapsed == 0 && state.v == 0) {
-        if (E.soft && is_soft(this->stops(), contact.side) && begin_pressed(state, contact)) continue;
-        pass_zero_force(state, motion::stop_at<Number>(this->stops(), contact.side), end, origin, observer);
-        continue;
-      }
-      observer.arc(arc, this->time(state, origin), static_cast<double>(contact.elapsed));
-      pass(state, contact.elapsed);
-      state.x = contact.motion.x, state.v = contact.motion.v, state.offset = contact.motion.offset,
-      state.released = false;
-      if (contact.side == Side::none && contact.elapsed == horizon) break;
-      if (contact.side == Side::none) continue;
-      if constexpr (E.soft) {
-        if (is_soft(this->stops(), contact.side)) {
-          if (!touch(state, contact.side, origin, observer)) return Outcome::event_budget;
-          continue;
-        }
-      }
-      const bool touches = state.v == 0;  // no impact
-      rebound(state, motion::stop_at<Number>(this->stops(), contact.side), end, origin, observer);
-      if (!touches && !this->count_impact()) return Outcome::event_budget;
+      const Outcome outcome = run_phase(state, end, origin, observer);
+      if (outcome != Outcome::completed) return outcome;
     }
     state.phase_turns = end;
     return this->outcome_of(state);
@@ -109,6 +63,55 @@ class EventDriven : public IntegratorBase<N, E> {
   }
 
  private:
+  /// Runs one phase up to its event, or to `end`: the whole algorithm.
+  ///
+  /// | phase         | oscillator         | margins                       | events                                |
+  /// |---------------|--------------------|-------------------------------|---------------------------------------|
+  /// | between stops | free               | gaps to both stops            | impact, rest; touch of a soft stop    |
+  /// | in chatter    | free               | the same                      | its end, in rest                      |
+  /// | at rest       | held by a stop     | its force, in closed form     | release                               |
+  /// | in contact    | with the soft stop | its force                     | separation                            |
+  /// | beyond a stop | free               | depth; pull of the soft stop  | back between the stops; renewal       |
+  template <class Observer>
+  [[nodiscard]] Outcome run_phase(motion::State<Number>& state, const Number& end, std::int64_t origin,
+                                  Observer& observer) {
+    if constexpr (E.soft) {
+      if (soft_stops_ && soft_stop_around(state) != Side::none)
+        return state.pressed ? run_in_contact(state, end, origin, observer) : run_beyond(state, end, origin, observer);
+    }
+    if (E.rest && state.chatters) return run_in_chatter(state, end, origin, observer);
+    if (const auto stop = this->holding_stop(state)) return rest(state, *stop, end, origin, observer);
+    return run_between(state, end, origin, observer);
+  }
+
+  /// Flies, finds the contact, and rebounds.
+  template <class Observer>
+  [[nodiscard]] Outcome run_between(motion::State<Number>& state, const Number& end, std::int64_t origin,
+                                    Observer& observer) {
+    const Number horizon = (end - state.phase_turns) * this->period();
+    const auto [arc, contact] = static_cast<Method&>(*this).fly(state, motion(state), anchor(state), horizon);
+    if (!contact.resolved) return outcome_at(contact);
+    const Side side = contact.side;
+    if (side != Side::none && contact.elapsed == 0 && state.v == 0) {
+      if (!E.soft || !is_soft(this->stops(), side) || !begin_pressed(state, contact))
+        pass_zero_force(state, motion::stop_at<Number>(this->stops(), side), end, origin, observer);
+      return Outcome::completed;
+    }
+    observer.arc(arc, this->time(state, origin), static_cast<double>(contact.elapsed));
+    pass(state, contact.elapsed);
+    state.x = contact.motion.x, state.v = contact.motion.v, state.offset = contact.motion.offset,
+    state.released = false;
+    if (side == Side::none) {
+      if (contact.elapsed == horizon) state.phase_turns = end;
+      return Outcome::completed;
+    }
+    if constexpr (E.soft)
+      if (is_soft(this->stops(), side)) return touch(state, side, origin, observer);
+    const bool touches = state.v == 0;  // no impact
+    rebound(state, motion::stop_at<Number>(this->stops(), side), end, origin, observer);
+    return touches || this->count_impact() ? Outcome::completed : Outcome::event_budget;
+  }
+
   [[nodiscard]] motion::Motion<Number> motion(const motion::State<Number>& state) const {
     const auto [sine, cosine] = this->phase(state);
     const Number offset = state.from_stop == Side::none ? Number(0) : state.offset;
@@ -157,8 +160,8 @@ class EventDriven : public IntegratorBase<N, E> {
   /// Flies through a chatter that is summed but goes on beyond `end`, until it is complete or up to `end`: a section
   /// neither begins a sum nor shows impacts of it.
   template <class Observer>
-  [[nodiscard]] Outcome fly_on_in_chatter(motion::State<Number>& state, const Number& end, std::int64_t origin,
-                                          Observer& observer) {
+  [[nodiscard]] Outcome run_in_chatter(motion::State<Number>& state, const Number& end, std::int64_t origin,
+                                       Observer& observer) {
     const auto stop = motion::stop_at<Number>(this->stops(), state.from_stop);
     const motion::State<Number> begin = state;
     while (state.chatters && end - state.phase_turns > 2 * epsilon<Number>()) {
@@ -170,9 +173,9 @@ class EventDriven : public IntegratorBase<N, E> {
         }
       }
       const Number horizon = (end - state.phase_turns) * this->period();
-      const motion::Contact<Number> contact =
-          static_cast<Method&>(*this).fly(state, motion(state), anchor(state), horizon).contact;
-      if (!contact.resolved) return this->finite(contact.motion.x) ? Outcome::unresolved : Outcome::not_finite;
+      const motion::Crossing<Number> contact =
+          static_cast<Method&>(*this).fly(state, motion(state), anchor(state), horizon).crossing;
+      if (!contact.resolved) return outcome_at(contact);
       pass(state, contact.elapsed);
       state.x = contact.motion.x, state.v = contact.motion.v, state.offset = contact.motion.offset;
       if (contact.side == Side::none && contact.elapsed == horizon) state.phase_turns = end;
@@ -195,8 +198,8 @@ class EventDriven : public IntegratorBase<N, E> {
 
   /// Holds the mass until its release or until `end`, whichever is first.
   template <class Observer>
-  void rest(motion::State<Number>& state, const motion::Stop<Number>& stop, const Number& end, std::int64_t origin,
-            Observer& observer) {
+  [[nodiscard]] Outcome rest(motion::State<Number>& state, const motion::Stop<Number>& stop, const Number& end,
+                             std::int64_t origin, Observer& observer) {
     Number until = end;
     state.from_stop = stop.side, state.offset = 0;
     if (auto release = release_turns(stop)) {
@@ -207,6 +210,7 @@ class EventDriven : public IntegratorBase<N, E> {
     }
     this->show_rest(state, stop, Number(until - state.phase_turns), true, origin, observer);
     state.phase_turns = until;
+    return Outcome::completed;
   }
 
   /// The soft stop beyond whose position the mass is.
@@ -217,43 +221,47 @@ class EventDriven : public IntegratorBase<N, E> {
     return side;
   }
 
-  /// Begins a contact with a soft stop at its position; false if the impact budget is exceeded. A mass that only
-  /// touches, without speed, flies on.
+  /// Begins a contact with a soft stop at its position. A mass that only touches, without speed, flies on.
   template <class Observer>
-  [[nodiscard]] bool touch(motion::State<Number>& state, Side side, std::int64_t origin, Observer& observer) {
+  [[nodiscard]] Outcome touch(motion::State<Number>& state, Side side, std::int64_t origin, Observer& observer) {
     state.from_stop = side, state.offset = 0;
-    if (state.v == 0) return true;
+    if (state.v == 0) return Outcome::completed;
     state.within = side, state.pressed = true;
     this->show_touch(state, true, origin, observer);
-    return this->count_impact();
+    return this->count_impact() ? Outcome::completed : Outcome::event_budget;
   }
   /// Presses a mass without speed into the soft stop that it is on, if the force does so.
-  [[nodiscard]] bool begin_pressed(motion::State<Number>& state, const motion::Contact<Number>& contact) const {
+  [[nodiscard]] bool begin_pressed(motion::State<Number>& state, const motion::Crossing<Number>& contact) const {
     const auto stop = motion::soft_stop_at<Number>(this->stops(), contact.side);
     if (!(stop.into(contact.motion.a) > 0)) return false;
     state.x = stop.position, state.offset = 0, state.from_stop = state.within = contact.side, state.pressed = true;
     return true;
   }
 
-  /// Runs a mass beyond a soft stop's position: in contact until the stop's force falls to 0, else free until it comes
-  /// back to that position or the stop, which relaxes at once, pushes again (eqs. 50 and 51).
+  /// In contact with a soft stop until its force falls to 0 (eqs. 50 and 51).
   template <class Observer>
-  [[nodiscard]] Outcome run_within(motion::State<Number>& state, const Number& end, std::int64_t origin,
+  [[nodiscard]] Outcome run_in_contact(motion::State<Number>& state, const Number& end, std::int64_t origin,
+                                       Observer& observer) {
+    const auto stop = motion::soft_stop_at<Number>(this->stops(), state.within);
+    const motion::Margin<Number> force{Number(0), stop.into(Number(1)), stop.into(stop.relaxation())};
+    return this->in_contact(state.within, [&](const auto& constants) {
+      const Number offset = state.offset, v = state.v;
+      const auto crossing = cross(constants, state, std::array{force}, end, origin, observer);
+      if (crossing.resolved && crossing.margin == 0) {
+        if (constants.h == 0 && constants.f == 0) state.v = stop.into(-constants.speed_at_stop(offset, v));
+        separate(state, stop, origin, observer);
+      }
+      return outcome_at(crossing);
+    });
+  }
+  /// Free beyond a soft stop's position until the mass comes back to that, or the stop, which relaxes at once, pushes
+  /// again.
+  template <class Observer>
+  [[nodiscard]] Outcome run_beyond(motion::State<Number>& state, const Number& end, std::int64_t origin,
                                    Observer& observer) {
     const auto stop = motion::soft_stop_at<Number>(this->stops(), state.within);
-    const Number one = stop.into(Number(1)), relaxation = stop.into(stop.relaxation());
-    const motion::Margin<Number> depth{one, Number(0)}, force{one, relaxation}, pull{-one, -relaxation};
-    if (state.pressed) {
-      return this->in_contact(state.within, [&](const auto& constants) {
-        const Number offset = state.offset, v = state.v;
-        const auto crossing = cross(constants, state, std::array{force}, end, origin, observer);
-        if (crossing.resolved && crossing.margin == 0) {
-          if (constants.h == 0 && constants.f == 0) state.v = stop.into(-constants.speed_at_stop(offset, v));
-          separate(state, stop, origin, observer);
-        }
-        return outcome_at(crossing);
-      });
-    }
+    const Number one = stop.into(Number(1));
+    const motion::Margin<Number> depth{Number(0), one, Number(0)}, pull{Number(0), -one, -stop.into(stop.relaxation())};
     const auto crossing = cross(this->constants(), state, std::array{depth, pull}, end, origin, observer);
     if (crossing.resolved && crossing.margin == 0) leave(state, stop);
     if (crossing.resolved && crossing.margin == 1) {

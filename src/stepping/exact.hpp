@@ -27,22 +27,24 @@ class Exact : public EventDriven<Exact<N, E>, N, E> {
                                                          const Number& horizon) {
     Flight<motion::Arc<Number, E.arc()>> flight{motion::Arc<Number, E.arc()>(this->constants(), start, anchor)};
     if constexpr (E.stops()) {
-      flight.contact = next_contact(flight.arc, this->stops(), horizon);
+      flight.crossing = next_contact(flight.arc, this->stops(), horizon);
     } else {
       const motion::Motion<Number> there = flight.arc.at(horizon);
-      flight.contact = {Side::none, horizon, there, 1, this->finite(there.x)};
+      flight.crossing = {0, Side::none, horizon, there, 1, this->finite(there.x)};
     }
-    this->count_evaluations(flight.contact.evaluations);
+    this->count_evaluations(flight.crossing.evaluations);
     return flight;
   }
 
   /// The same beyond the position of a soft stop, with the first of some margins that falls to 0.
   template <Effects Within, std::size_t count>
-  [[nodiscard]] FlightWithin<motion::Arc<Number, Within>> fly_within(
-      const motion::ArcConstants<Number, Within>& constants, const motion::State<Number>&,
-      const motion::Motion<Number>& start, const Number& anchor,
-      const std::array<motion::Margin<Number>, count>& margins, const Number& horizon) {
-    FlightWithin<motion::Arc<Number, Within>> flight{motion::Arc<Number, Within>(constants, start, anchor)};
+  [[nodiscard]] Flight<motion::Arc<Number, Within>> fly_within(const motion::ArcConstants<Number, Within>& constants,
+                                                               const motion::State<Number>&,
+                                                               const motion::Motion<Number>& start,
+                                                               const Number& anchor,
+                                                               const std::array<motion::Margin<Number>, count>& margins,
+                                                               const Number& horizon) {
+    Flight<motion::Arc<Number, Within>> flight{motion::Arc<Number, Within>(constants, start, anchor)};
     flight.crossing = first_crossing(flight.arc, margins, horizon);
     this->count_evaluations(flight.crossing.evaluations);
     return flight;

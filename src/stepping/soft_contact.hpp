@@ -5,7 +5,7 @@
 #include <utility>
 #include <variant>
 
-#include "motion/crossing.hpp"
+#include "motion/first_crossing.hpp"
 
 namespace clatter::stepping {
 

@@ -14,7 +14,7 @@ TEST(Contact, grazing_contact_is_found_at_its_time_with_its_speed) {
     double past, time;  // 50 digits
   } rows[] = {{1e-2, 0.79580791516640404}, {1e-6, 0.88922475492920602}, {1e-10, 0.89015813595893962}};
   for (const auto& [past, time] : rows) {
-    const Contact<double> contact = first_contact(graze::oscillator, graze::stops(past), graze::x0, graze::v0, 4.0);
+    const Crossing<double> contact = first_contact(graze::oscillator, graze::stops(past), graze::x0, graze::v0, 4.0);
     EXPECT_EQ(contact.side, Side::lower);
     const double nu = graze::oscillator.frequency, speed = nu * graze::amplitude * std::sqrt(past * (2 - past));
     // conditioning (eq. 21): a few ulps of the amplitude move the time by themselves over the speed, and the speed by
@@ -26,7 +26,7 @@ TEST(Contact, grazing_contact_is_found_at_its_time_with_its_speed) {
 }
 
 TEST(Contact, a_miss_by_1e_12_is_a_miss) {
-  const Contact<double> contact = first_contact(graze::oscillator, graze::stops(-1e-12), graze::x0, graze::v0, 100.0);
+  const Crossing<double> contact = first_contact(graze::oscillator, graze::stops(-1e-12), graze::x0, graze::v0, 100.0);
   EXPECT_EQ(contact.side, Side::none);
   EXPECT_TRUE(contact.resolved);
   EXPECT_EQ(contact.elapsed, 100.0);
@@ -41,7 +41,7 @@ TEST(Contact, agrees_with_a_dense_scan_on_random_scenes) {
                        0.1 + 3 * unit(random), 0.2 * unit(random)};
     const Stops stops{-0.05 - unit(random), 0.05 + unit(random), 0.7, 0.7};
     const double x = stops.lower + (stops.upper - stops.lower) * unit(random), v = 2 * unit(random) - 1, horizon = 8.0;
-    const Contact<double> contact = first_contact(o, stops, x, v, horizon);
+    const Crossing<double> contact = first_contact(o, stops, x, v, horizon);
     ASSERT_TRUE(contact.resolved);
     contacts += contact.side != Side::none;
     with_any_stops(o, [&]<Effects effects>() {
@@ -66,7 +66,7 @@ TEST(Contact, two_contacts_closer_than_any_step_are_not_jumped_over) {
   // a parabola that dips behind the upper stop for 2e-4 in the middle of a long flight
   const Oscillator free{0, 0, 1, 0};
   const double depth = 5e-9, amplitude = 1.0;
-  const Contact<double> contact = first_contact(free, {-2, amplitude - depth, 1, 1}, 0.0, amplitude, 3.0);
+  const Crossing<double> contact = first_contact(free, {-2, amplitude - depth, 1, 1}, 0.0, amplitude, 3.0);
   EXPECT_EQ(contact.side, Side::upper);
   EXPECT_NEAR(contact.elapsed, std::asin(amplitude - depth), 1e-15 / std::sqrt(2 * depth));  // rounding over the speed
 }
@@ -74,12 +74,12 @@ TEST(Contact, two_contacts_closer_than_any_step_are_not_jumped_over) {
 TEST(Contact, a_start_on_a_stop_is_no_contact_unless_it_moves_in) {
   const Oscillator free{0, 0, 1, 0};
   const Stops stops{-1, 0.5, 1, 1};
-  const Contact<double> away = first_contact(free, stops, 0.5, -1.0, 3.0);
+  const Crossing<double> away = first_contact(free, stops, 0.5, -1.0, 3.0);
   EXPECT_EQ(away.side, Side::lower);  // amplitude sqrt(1.25): it reaches -1 first
-  const Contact<double> in = first_contact(free, stops, 0.5, 1.0, 3.0);
+  const Crossing<double> in = first_contact(free, stops, 0.5, 1.0, 3.0);
   EXPECT_EQ(in.side, Side::upper);
   EXPECT_EQ(in.elapsed, 0.0);
-  const Contact<double> leaving = first_contact(free, stops, 0.5, 0.0, 3.0);  // the spring pulls it off
+  const Crossing<double> leaving = first_contact(free, stops, 0.5, 0.0, 3.0);  // the spring pulls it off
   EXPECT_EQ(leaving.side, Side::none);
 }
 
@@ -88,7 +88,7 @@ TEST(Contact, micro_flights_keep_their_relative_accuracy) {
   // flight goes far below an ulp of the stop's position
   const Oscillator pressed{0, 0, 1, 1.2};
   for (double w : {1e-3, 1e-6, 1e-9, 1e-12}) {
-    const Contact<double> contact = first_contact(pressed, {-1, 0.5, 1, 1}, 0.5, -w, 3.0);
+    const Crossing<double> contact = first_contact(pressed, {-1, 0.5, 1, 1}, 0.5, -w, 3.0);
     EXPECT_EQ(contact.side, Side::upper);
     const double exact = 2 * std::atan2(w, 0.7);  // rotation about x = 1.2
     EXPECT_NEAR(contact.elapsed / exact, 1.0, 1e-14);
@@ -104,19 +104,19 @@ TEST(Contact, conservative_contacts_keep_the_speed_however_soft) {
 }
 
 TEST(Contact, stops_out_of_reach_cost_one_evaluation) {
-  const Contact<double> contact = first_contact({0.1, 1.0, 1.5, 0}, {-6, 6, 1, 1}, 0, 0, 1000.0);
+  const Crossing<double> contact = first_contact({0.1, 1.0, 1.5, 0}, {-6, 6, 1, 1}, 0, 0, 1000.0);
   EXPECT_EQ(contact.side, Side::none);
   EXPECT_EQ(contact.evaluations, 1);
 }
 
 TEST(Contact, lengths_near_the_smallest_numbers_are_solved_or_refused) {
   for (double scale : {1e-150, 1e-250}) {  // squares vanish, the motion is the same
-    const Contact<double> contact = first_contact({0.1, scale, 0.5, 0}, {-scale / 2, scale / 2, 1, 1}, 0, 0, 4.0);
+    const Crossing<double> contact = first_contact({0.1, scale, 0.5, 0}, {-scale / 2, scale / 2, 1, 1}, 0, 0, 4.0);
     EXPECT_EQ(contact.side, Side::upper);
     EXPECT_NEAR(contact.elapsed, 2.0515931595927638, 1e-14);  // as at scale 1 (tests/stepping/exact_test.cpp)
   }
   EXPECT_FALSE(first_contact({0.1, 1e-300, 0.5, 0}, {-1e-300, 1e-300, 1, 1}, 0, 0, 4.0).resolved);
-  const Contact<double> decayed =
+  const Crossing<double> decayed =
       first_contact({0.1, 0, 1, 0}, {-1, 1, 1, 1}, 1e-300, 0, 4.0);  // out of reach: no length to resolve
   EXPECT_EQ(decayed.side, Side::none);
   EXPECT_TRUE(decayed.resolved);

@@ -8,8 +8,8 @@
 namespace clatter::motion {
 
 /// First contact of a scene that starts at (x, v) with phase 0, within a time `horizon`.
-inline Contact<double> first_contact(const Oscillator& oscillator, const Stops& stops, double x, double v,
-                                     double horizon) {
+inline Crossing<double> first_contact(const Oscillator& oscillator, const Stops& stops, double x, double v,
+                                      double horizon) {
   return with_any_stops(oscillator, [&]<Effects effects>() {
     const ArcConstants<double, effects.arc()> constants(oscillator);
     const Arc<double, effects.arc()> arc(constants,

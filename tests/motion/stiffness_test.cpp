@@ -118,19 +118,19 @@ TEST(Stiffness, reach_is_never_exceeded) {
 
 TEST(Stiffness, contacts_of_free_flight_are_known) {
   // no spring, no load: constant speed; a load alone: a parabola; an unstable spring: a hyperbolic cosine
-  const Contact<double> straight = first_contact({0.0, 0.0, 1.0, 0.0, 0.0}, {-1, 1, 1, 1}, 0.25, 0.5, 10);
+  const Crossing<double> straight = first_contact({0.0, 0.0, 1.0, 0.0, 0.0}, {-1, 1, 1, 1}, 0.25, 0.5, 10);
   EXPECT_EQ(straight.side, Side::upper);
   EXPECT_NEAR(straight.elapsed, 1.5, 4e-16);
   EXPECT_EQ(straight.motion.v, 0.5);
-  const Contact<double> thrown = first_contact({0.0, 0.0, 1.0, -2.0, 0.0}, {0, 9, 1, 1}, 0.0, 3.0, 10);
+  const Crossing<double> thrown = first_contact({0.0, 0.0, 1.0, -2.0, 0.0}, {0, 9, 1, 1}, 0.0, 3.0, 10);
   EXPECT_EQ(thrown.side, Side::lower);
   EXPECT_NEAR(thrown.elapsed, 3.0, 1e-15);
   EXPECT_EQ(thrown.motion.v, -3.0);  // by its energy
-  const Contact<double> pushed = first_contact({0.0, 0.0, 1.0, 0.0, -1.0}, {-2, 2, 1, 1}, 0.5, 0.0, 10);
+  const Crossing<double> pushed = first_contact({0.0, 0.0, 1.0, 0.0, -1.0}, {-2, 2, 1, 1}, 0.5, 0.0, 10);
   EXPECT_EQ(pushed.side, Side::upper);
   EXPECT_NEAR(pushed.elapsed, std::acosh(4.0), 1e-15 * 4);
   EXPECT_NEAR(pushed.motion.v, std::sqrt(4 - 0.25), 1e-15 * 2);
-  const Contact<double> slowed = first_contact({0.5, 0.0, 1.0, 0.0, 0.0}, {-1, 1, 1, 1}, 0.0, 2.0, 10);
+  const Crossing<double> slowed = first_contact({0.5, 0.0, 1.0, 0.0, 0.0}, {-1, 1, 1, 1}, 0.0, 2.0, 10);
   EXPECT_NEAR(slowed.elapsed, std::log(2.0), 1e-15);  // 1 = 2 (1 - e^-s)
   EXPECT_NEAR(slowed.motion.v, 1.0, 1e-15 * 2);
   // one that is slowed to a halt before the stop never gets there
