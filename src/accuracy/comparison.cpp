@@ -88,7 +88,7 @@ class Pairing {
     if (keeps_lag_) lag_ = lag;
     ++errors_.paired;
     errors_.time = std::max(errors_.time, std::abs(lag));
-    errors_.speed = std::max(errors_.speed, std::abs(impact.speed - expected.speed));
+    errors_.speed = std::max(errors_.speed, std::abs(impact.speed() - expected.speed()));
   }
   void count_extra(const Event& impact) {
     if (!reference_.completes(impact.time - lag_)) ++errors_.extra;
@@ -145,7 +145,7 @@ Agreement agreement_of(const RunRecord& in_double, const RunRecord& in_fifty_dig
 ContactErrors compare(std::span<const Event> run, std::span<const Event> reference, double latest) {
   ContactErrors errors;
   double fastest = 0.0;
-  for (const Event& event : reference) fastest = std::max(fastest, event.speed);
+  for (const Event& event : reference) fastest = std::max(fastest, event.speed());
   for (const Side side : {Side::lower, Side::upper}) {
     const ContactErrors on_stop = compare_on_stop(OfStop(run, side), OfStop(reference, side), latest);
     errors.time = std::max(errors.time, on_stop.time), errors.speed = std::max(errors.speed, on_stop.speed);

@@ -44,10 +44,7 @@ class RunObserver {
     if (harmonics_) extrema_.impact(impact);
   }
 
-  /// A contact with a soft stop is an event like an impact.
-  void touch(const motion::Touch& touch) {
-    events.push_back({Event::Kind::impact, touch.side, touch.time, std::abs(touch.velocity), 0.0});
-  }
+  void touch(const motion::Touch& touch) { events.push_back(as_impact(event_of(touch))); }
 
   void finish(RunRecord& record) {
     record.events = std::move(events);

@@ -12,21 +12,11 @@ namespace {
 
 using namespace clatter::accuracy::detail;
 
-Event event_of(const point::MotionEvent& event) {
-  using Kind = point::MotionEvent::Kind;
-  const Event::Kind kind = event.kind == Kind::rest      ? Event::Kind::rest
-                           : event.kind == Kind::chatter ? Event::Kind::chatter
-                                                         : Event::Kind::impact;
-  return {kind, event.side, event.time, std::abs(event.velocity), event.length};
-}
-
 }  // namespace
 
-Event event_of(const motion::Impact& impact) {
-  return {Event::Kind::impact, impact.side, impact.time, std::abs(impact.before), 0.0};
-}
-Event event_of(const motion::Rest& rest) {
-  return {rest.held ? Event::Kind::rest : Event::Kind::chatter, rest.side, rest.time, 0.0, rest.length};
+Event as_impact(Event contact) {
+  contact.kind = Event::Kind::impact;
+  return contact;
 }
 
 std::vector<Event> with_rests_joined(const std::vector<Event>& events) {
@@ -52,8 +42,10 @@ RunRecord record_of(const point::Problem& scene, double duration) {
   record.outcome = motion->run_for(state, duration / motion->period(), recorder);
   record.x = state.x, record.v = state.v;
   record.impacts = motion->impacts(), record.evaluations = motion->evaluations();
-  for (const point::MotionEvent& event : recorder.events)  // each contact with a soft stop is an event, like an impact
-    if (event.kind != point::MotionEvent::Kind::separation) record.events.push_back(event_of(event));
+  for (const Event& event : recorder.events) {
+    const bool is_soft_contact = event.kind == Event::Kind::touch || event.kind == Event::Kind::renewal;
+    if (event.kind != Event::Kind::separation) record.events.push_back(is_soft_contact ? as_impact(event) : event);
+  }
   return record;
 }
 RunRecord reference_of(const point::Problem& scene, double duration,

@@ -7,29 +7,17 @@
 #include <optional>
 #include <vector>
 
-#include "motion/state.hpp"
+#include "motion/event.hpp"
 #include "observables/range.hpp"
 #include "point/problem.hpp"
 #include "stepping/integration.hpp"
 
 namespace clatter::accuracy {
 
-/// An event of a run.
-struct Event {
-  enum class Kind : std::uint8_t { impact, chatter, rest };  ///< chatter: the completed rest of infinitely many impacts
+using motion::Event;
 
-  Kind kind = Kind::impact;
-  Side side = Side::none;
-  double time = 0.0;    ///< tau since the start
-  double speed = 0.0;   ///< impact: |x'| before it
-  double length = 0.0;  ///< chatter, rest: in tau
-
-  [[nodiscard]] double end() const { return time + length; }
-};
-
-/// The event of an impact or a rest that an observer is told of.
-[[nodiscard]] Event event_of(const motion::Impact& impact);
-[[nodiscard]] Event event_of(const motion::Rest& rest);
+/// A contact with a soft stop, which is counted like an impact.
+[[nodiscard]] Event as_impact(Event contact);
 
 /// Joins the parts into which stroboscopic sections cut a rest or a chatter: then there is one for each time on a stop.
 [[nodiscard]] std::vector<Event> with_rests_joined(const std::vector<Event>& events);

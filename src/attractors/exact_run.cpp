@@ -9,14 +9,14 @@
 namespace clatter::attractors {
 namespace {
 
-using point::MotionEvent;
+using motion::Event;
 
 /// Adds the contacts of a round over a time in tau.
-void add_contacts(const std::vector<MotionEvent>& events, double total, Round& round) {
+void add_contacts(const std::vector<Event>& events, double total, Round& round) {
   std::vector<double> ends;  // [contact]: the beginning of the flight after it
-  for (const MotionEvent& event : events) {
-    if (event.kind == MotionEvent::Kind::separation && !ends.empty()) ends.back() = event.time;
-    if (event.kind == MotionEvent::Kind::separation || event.kind == MotionEvent::Kind::renewal) continue;
+  for (const Event& event : events) {
+    if (event.kind == Event::Kind::separation && !ends.empty()) ends.back() = event.time;
+    if (event.kind == Event::Kind::separation || event.kind == Event::Kind::renewal) continue;
     round.contacts.push_back({event.time, event.velocity, event.side}), ends.push_back(event.time + event.length);
     round.fastest = std::max(round.fastest, std::abs(event.velocity));
   }

@@ -229,7 +229,7 @@ class Follower {
     const Side side = equations.shape().impacts[impact].side;
     const OrbitImpact &turn = touch.orbit.impacts[touch.impact], &begins = touch.orbit.impacts[impact];
     const bool at_once = turn.side == side && turn.phase - begins.phase < 1e-2;
-    if (!at_once || begins.event != Event::impact) return false;
+    if (!at_once || begins.event != EventKind::impact) return false;
     if (numbers_of<double>(equations.scene_at(touch.beyond.at)).restitution(side) != 0) return false;
     const OrbitEquations there = equations_for(equations.shape(), {{Condition::Kind::release, 1, impact}});
     const auto exact = solution(there, touch.beyond.at, settings_.tolerance);
@@ -293,7 +293,7 @@ class Follower {
 
   void wait_with(const FollowedScene& scene, const Orbit& orbit, std::size_t graze, std::size_t special) {
     waiting_.push_back({scene, orbit, {}, special, generation_});
-    if (orbit.impacts[graze].event != Event::impact) waiting_.back().opens = graze;
+    if (orbit.impacts[graze].event != EventKind::impact) waiting_.back().opens = graze;
   }
   void wait_without(const FollowedScene& scene, Orbit orbit, std::size_t special) {
     if (orbit.size() == 0 && orbit.pressed == Side::none) {

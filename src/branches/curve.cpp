@@ -18,7 +18,7 @@ constexpr std::size_t along_axis = 0, across_axis = 1;
 /// Of those on rigid stops.
 std::size_t slowest_impact(const Orbit& orbit) {
   const auto slow = std::ranges::min_element(orbit.impacts, {}, [](const OrbitImpact& impact) {
-    return impact.event == Event::impact ? std::abs(impact.before) : std::numeric_limits<double>::infinity();
+    return impact.event == EventKind::impact ? std::abs(impact.before) : std::numeric_limits<double>::infinity();
   });
   return static_cast<std::size_t>(slow - orbit.impacts.begin());
 }
@@ -31,8 +31,8 @@ std::optional<std::size_t> shortest_contact(const Orbit& orbit) {
   double least = is_short;
   for (std::size_t i = 0; i < orbit.size(); ++i) {
     const OrbitImpact from = orbit.impact(i), to = orbit.impact(i + 1);
-    const bool contact = to.event == Event::separation && presses(from.event),
-               interruption = presses(to.event) && from.event == Event::separation && from.side == to.side;
+    const bool contact = to.event == EventKind::separation && presses(from.event),
+               interruption = presses(to.event) && from.event == EventKind::separation && from.side == to.side;
     if ((contact || interruption) && to.phase - from.phase < least) least = to.phase - from.phase, found = i;
   }
   return found;
@@ -41,7 +41,7 @@ std::optional<std::size_t> shortest_contact(const Orbit& orbit) {
 /// A graze, of motion over many periods in one of them, as that of the motion that repeats sooner.
 void make_once(SpecialPoint& graze) {
   Orbit& orbit = graze.at.orbit;
-  if (orbit.impacts[graze.condition.impact].event != Event::impact) return;  // is so already
+  if (orbit.impacts[graze.condition.impact].event != EventKind::impact) return;  // is so already
   orbit = orbit.once_with_graze(slowest_impact(orbit), is_symmetric(graze.at.scene));
   graze.condition = {Condition::Kind::graze, 1, slowest_impact(orbit)};
 }
@@ -190,7 +190,7 @@ class CurveFollower {
     if (touch->appears && !of_multiplier && touch->impact <= condition.impact) ++condition.impact;
     BranchPoint last = record_.point(equations, touch->last_good);
     const FollowedScene near = equations.scene_at(touch->beyond.at);
-    const bool on_soft_stop = touch->orbit.impacts[touch->impact].event != Event::impact;
+    const bool on_soft_stop = touch->orbit.impacts[touch->impact].event != EventKind::impact;
     SpecialKind kind =
         of_multiplier && !touch->appears && !on_soft_stop ? SpecialKind::resonant_graze : SpecialKind::graze;
     auto exact = solved({condition, touch->graze().condition}, near, touch->orbit);
@@ -281,7 +281,7 @@ class CurveFollower {
         record_.note(SpecialKind::cusp, record_.point(equations, *turned));
       return;
     }
-    if (equations.shape().impacts[*equations.grazing()].event != Event::impact) return;  // no square root there
+    if (equations.shape().impacts[*equations.grazing()].event != EventKind::impact) return;  // no square root there
     for (const int periods : {1, 2, 3, 4}) {
       if (periods > 1 && equations.shape().mirrored) break;
       const auto resonant = zero_of([&](const CurvePoint& p) { return resonance(equations, p.at, periods); });

@@ -3,23 +3,6 @@
 #include "point/exact_motion.hpp"
 
 namespace clatter::branches {
-namespace {
-
-Event event_of(point::MotionEvent::Kind kind) {
-  using Kind = point::MotionEvent::Kind;
-  switch (kind) {
-    case Kind::touch:
-      return Event::touch;
-    case Kind::renewal:
-      return Event::renewal;
-    case Kind::separation:
-      return Event::separation;
-    default:
-      return Event::impact;
-  }
-}
-
-}  // namespace
 
 std::optional<Orbit> event_run(const point::Problem& problem, std::size_t periods) {
   const auto motion = point::ExactMotion::of(problem);
@@ -30,8 +13,11 @@ std::optional<Orbit> event_run(const point::Problem& problem, std::size_t period
     return std::nullopt;
   Orbit orbit{{}, 2 * static_cast<int>(periods), false};
   const double nu = problem.oscillator.frequency;
-  for (const point::MotionEvent& event : recorder.events)
-    orbit.impacts.push_back({event.side, nu * event.time, event.velocity, nu * event.length, event_of(event.kind)});
+  for (const motion::Event& event : recorder.events) {
+    const bool rests = event.kind == EventKind::rest || event.kind == EventKind::chatter;
+    orbit.impacts.push_back({event.side, nu * event.time, event.velocity, nu * event.length,
+                             rests ? EventKind::impact : event.kind});  // one without speed
+  }
   if (orbit.size() == 0)
     for (const Side side : {Side::lower, Side::upper}) {
       const double position = side == Side::upper ? problem.stops.upper : problem.stops.lower;

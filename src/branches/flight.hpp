@@ -37,15 +37,15 @@ struct Flight {
   Number begin, before;
   Side to;
   Number end;
-  Event leaves = Event::impact, arrives = Event::impact;
+  EventKind leaves = EventKind::impact, arrives = EventKind::impact;
 
   /// Whether it is a contact with a soft stop, or an interruption of one: these become infinitely short where they
   /// vanish. An interruption lies beyond the stop's position, but without a damper, on the other side of it.
   template <class AnyNumber>
   [[nodiscard]] bool may_vanish(const SceneNumbers<AnyNumber>& p) const {
-    if (arrives == Event::separation) return presses(leaves);
-    if (leaves != Event::separation) return false;
-    return arrives == Event::renewal || (arrives == Event::touch && from == to && p.soft_stop(to).damping == 0);
+    if (arrives == EventKind::separation) return presses(leaves);
+    if (leaves != EventKind::separation) return false;
+    return arrives == EventKind::renewal || (arrives == EventKind::touch && from == to && p.soft_stop(to).damping == 0);
   }
 };
 
@@ -73,11 +73,11 @@ class Flights {
   /// Calls `function(arc)` with the arc that begins with a flight.
   template <class Function>
   decltype(auto) with_arc(const Flight<Number>& flight, Function&& function) const {
-    if (flight.leaves == Event::impact)
+    if (flight.leaves == EventKind::impact)
       return function(
           arc_from(p_.position(flight.from), Number(-p_.restitution(flight.from) * flight.before), flight.begin));
     const motion::SoftStop<Number> stop = p_.soft_stop(flight.from);
-    const Number offset = flight.leaves == Event::touch ? Number(0) : Number(-stop.relaxation() * flight.before);
+    const Number offset = flight.leaves == EventKind::touch ? Number(0) : Number(-stop.relaxation() * flight.before);
     return with_constants(presses(flight.leaves) ? flight.from : Side::none, [&](const auto& constants) {
       return function(arc_beside(constants, stop.position, offset, flight.before, flight.begin));
     });
@@ -95,7 +95,7 @@ class Flights {
       if (flight.may_vanish(p_)) return fly_beyond(arc, flight, time);
       const motion::Motion<Number> end = arc.at(time);
       Number beyond = flight.from == flight.to ? end.offset : Number(end.x - p_.position(flight.to));
-      if (flight.arrives == Event::separation || flight.arrives == Event::renewal)
+      if (flight.arrives == EventKind::separation || flight.arrives == EventKind::renewal)
         beyond += p_.soft_stop(flight.to).relaxation() * end.v;
       return {beyond, end.v};
     });
@@ -154,7 +154,7 @@ class Flights {
   template <class A>
   [[nodiscard]] FlightEnd<Number> fly_beyond(const A& arc, const Flight<Number>& flight, const Number& time) const {
     const Number relaxation = p_.soft_stop(flight.to).relaxation();
-    const bool divided = flight.leaves != Event::touch || relaxation == 0;
+    const bool divided = flight.leaves != EventKind::touch || relaxation == 0;
     const motion::Motion<Number>& m = arc.start();
     if (time * arc.constants().rate > 1e-2) {
       const motion::Motion<Number> end = arc.at(time);

@@ -25,17 +25,18 @@ std::optional<ExactGraze> solved(const Equations& equations, const FollowedScene
   if (!exact || std::abs(exact->back() - guess.back()) > within) return std::nullopt;
   ExactGraze at{there.scene_at(*exact), there.orbit_at(*exact), graze.impact};
   OrbitImpact& impact = at.orbit.impacts[graze.impact];
-  if (impact.event != Event::impact && graze.condition.kind == Condition::Kind::graze) impact.before = 0;
+  if (impact.event != EventKind::impact && graze.condition.kind == Condition::Kind::graze) impact.before = 0;
   return at;
 }
 
 /// Several grazes of soft stops at once as the one of a motion that repeats sooner, or is symmetric.
 Graze once_of(Graze graze, double slow, bool symmetric_scene) {
-  if (graze.condition.kind != Condition::Kind::graze || graze.orbit.impacts[graze.impact].event != Event::separation)
+  if (graze.condition.kind != Condition::Kind::graze ||
+      graze.orbit.impacts[graze.impact].event != EventKind::separation)
     return graze;
   for (std::size_t i = graze.orbit.size(); i-- > 0;) {
     const std::size_t next = (i + 1) % graze.orbit.size();
-    if (i == graze.impact || graze.orbit.impacts[i].event != Event::touch || next == graze.impact) continue;
+    if (i == graze.impact || graze.orbit.impacts[i].event != EventKind::touch || next == graze.impact) continue;
     if (std::abs(graze.orbit.impacts[i].before) > slow) continue;
     for (const std::size_t each : {std::max(i, next), std::min(i, next)}) {
       graze.orbit.impacts.erase(graze.orbit.impacts.begin() + static_cast<std::ptrdiff_t>(each));
@@ -45,7 +46,7 @@ Graze once_of(Graze graze, double slow, bool symmetric_scene) {
   graze.orbit.impacts[graze.impact].before = 0;
   graze.orbit = graze.orbit.once_with_graze(graze.impact, symmetric_scene);
   const auto at = std::ranges::find_if(graze.orbit.impacts, [](const OrbitImpact& impact) {
-    return impact.event == Event::separation && impact.before == 0;
+    return impact.event == EventKind::separation && impact.before == 0;
   });
   graze.impact = static_cast<std::size_t>(at - graze.orbit.impacts.begin());
   graze.condition.impact = graze.impact;
@@ -61,13 +62,13 @@ Orbit with_short(const FollowedScene& scene, const Orbit& orbit, std::size_t gra
   OrbitImpact begin = middle, end = middle;
   const double a = acceleration(p, middle, -relaxation * middle.before);
   double before = time / 2;  // from the beginning to the extremum
-  if (middle.event == Event::separation && middle.before == 0) {
+  if (middle.event == EventKind::separation && middle.before == 0) {
     // v t + a t^2/2 + r (v + a t) = 0, the end of a contact that begins with v: the mass turns after the time -v/a
     before = time * (time / 2 + relaxation) / (time + relaxation);
-    begin.event = Event::touch;
+    begin.event = EventKind::touch;
   } else {
-    begin.event = middle.event == Event::separation ? Event::renewal : Event::separation;
-    if (relaxation == 0 && presses(middle.event)) end.event = Event::touch;
+    begin.event = middle.event == EventKind::separation ? EventKind::renewal : EventKind::separation;
+    if (relaxation == 0 && presses(middle.event)) end.event = EventKind::touch;
   }
   begin.phase = middle.phase - p.oscillator.frequency * before, begin.before = middle.before - a * before;
   end.phase = begin.phase + advance, end.before = begin.before + a * time;
@@ -95,7 +96,7 @@ std::optional<Lasting> with_lasting(const Equations& equations, const FollowedSc
     const auto violated = violation(there, *at);
     lasting.at = *std::move(at);
     if (!violated) return lasting;
-    if (violated->kind != Violation::Kind::passes_through || violated->turning.event == Event::impact)
+    if (violated->kind != Violation::Kind::passes_through || violated->turning.event == EventKind::impact)
       return std::nullopt;
     const std::size_t second = violated->impact + 1;
     const Orbit both = there.orbit_at(lasting.at).with(violated->turning, second);
@@ -148,8 +149,8 @@ std::optional<Opened> opened(const Equations& equations, const FollowedScene& sc
 }
 
 Orbit turned(Orbit orbit, std::size_t event) {
-  Event& kind = orbit.impacts[event].event;
-  kind = kind == Event::touch ? Event::renewal : Event::touch;
+  EventKind& kind = orbit.impacts[event].event;
+  kind = kind == EventKind::touch ? EventKind::renewal : EventKind::touch;
   return orbit;
 }
 

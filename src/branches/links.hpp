@@ -101,14 +101,14 @@ template <class Number, Effects E>
 Link<Number> link_of_states(const Flights<Number, E>& flights, const Flight<Number>& flight, bool mirrored) {
   const SceneNumbers<Number>& p = flights.parameters();
   Link<Number> link{{{{Number(1), Number(0)}, {Number(0), Number(1)}}}, Number(1)};
-  if (flight.leaves == Event::impact) {
+  if (flight.leaves == EventKind::impact) {
     const Number &R = p.restitution(flight.from), &v = flight.before;
     const Number force = flights.force_at(p.position(flight.from), flight.begin);
     link.numerator = {
         {{-R * v, Number(0)},
          {R * (force - 2 * p.oscillator.damping * v) + force + 2 * p.oscillator.damping * R * v, -R * v}}};
     link.denominator = v;
-  } else if (flight.leaves == Event::touch) {
+  } else if (flight.leaves == EventKind::touch) {
     link.numerator[1][0] = -2 * p.soft_stop(flight.from).damping;
   }
   const Number time = (flight.end - flight.begin) / p.oscillator.frequency;
@@ -147,7 +147,7 @@ Number determinant_of(const SceneNumbers<Number>& p, const Orbit& orbit) {
   if (orbit.pressed != Side::none) press(orbit.pressed, orbit.advance());
   for (std::size_t i = 0; i < orbit.size(); ++i) {
     const OrbitImpact& impact = orbit.impacts[i];
-    if (impact.event == Event::impact) determinant *= p.restitution(impact.side) * p.restitution(impact.side);
+    if (impact.event == EventKind::impact) determinant *= p.restitution(impact.side) * p.restitution(impact.side);
     if (presses(impact.event)) press(impact.side, orbit.impact(i + 1).phase - impact.phase);
   }
   return determinant;

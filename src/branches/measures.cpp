@@ -81,7 +81,7 @@ observables::Extrema::Values extrema(const FollowedScene& scene, const Orbit& or
   each_flight(scene, whole, [&](const auto& arc, double begin, double length) { extrema.arc(arc, begin, length); });
   const SceneNumbers<double> p = numbers_of<double>(scene);
   for (const OrbitImpact& impact : whole.impacts) {
-    if (impact.event != Event::impact) continue;  // the arcs have all
+    if (impact.event != EventKind::impact) continue;  // the arcs have all
     const double x = p.position(impact.side);
     extrema.include({x, x}, {impact.before, impact.before});
   }
@@ -100,7 +100,7 @@ double impact_power(const FollowedScene& scene, const Orbit& orbit) {
   const SceneNumbers<double> p = numbers_of<double>(scene);
   double all = 0;
   for (std::size_t i = 0; i < orbit.size(); ++i)
-    if (orbit.impacts[i].event == Event::impact)
+    if (orbit.impacts[i].event == EventKind::impact)
       all += lost(p.restitution(orbit.impacts[i].side), orbit.impacts[i].before, orbit.next_is_rest(i));
   if (orbit.meets_soft_stop()) all += loss_on_soft_stops(scene, orbit);
   return all * p.oscillator.frequency / orbit.advance() * p.mass;

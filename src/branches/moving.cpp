@@ -98,14 +98,14 @@ double loss_on_soft_stops(const FollowedScene& scene, const Orbit& orbit) {
 Along impact_speed(const Moving& moving) {
   Along fastest = 0;
   for (const auto& [side, phase, before, rests, event] : moving.impacts)
-    if (event == Event::impact || event == Event::touch) fastest = std::max(fastest, abs(before));
+    if (event == EventKind::impact || event == EventKind::touch) fastest = std::max(fastest, abs(before));
   return fastest;
 }
 
 Along impact_power(const Moving& moving) {
   Along all = 0;
   for (const auto& [side, phase, before, rests, event] : moving.impacts)
-    if (event == Event::impact) all += lost(moving.p.restitution(side), before, rests);
+    if (event == EventKind::impact) all += lost(moving.p.restitution(side), before, rests);
   if (moving.soft) all += soft_contacts(moving).loss;
   return all / moving.period * moving.p.mass;
 }
@@ -117,7 +117,7 @@ Along harmonic(const Moving& moving) {
   const LeadingForce<Along> force = p.force();
   Along re = force.amplitude * sin(force.lead) / 2, im = -force.amplitude * cos(force.lead) / 2;
   for (const auto& [side, phase, before, rests, event] : moving.impacts) {
-    if (event != Event::impact) continue;
+    if (event != EventKind::impact) continue;
     const Along jump = -(1 + p.restitution(side)) * before / moving.period;
     re += jump * cos(phase), im -= jump * sin(phase);
   }

@@ -16,7 +16,7 @@ struct Moving {
     Side side;
     Along phase, before;
     bool rests;  ///< the next contact is a rest: this impact and those that follow lose all
-    Event event = Event::impact;
+    EventKind event = EventKind::impact;
   };
   std::vector<Impact> impacts;
   Along period;               ///< of the impacts as they are kept, in tau

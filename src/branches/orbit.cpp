@@ -47,12 +47,12 @@ OrbitImpact Orbit::impact(std::size_t i) const {
 
 bool Orbit::meets_soft_stop() const {
   return pressed != Side::none ||
-         std::ranges::any_of(impacts, [](const OrbitImpact& impact) { return impact.event != Event::impact; });
+         std::ranges::any_of(impacts, [](const OrbitImpact& impact) { return impact.event != EventKind::impact; });
 }
 
 bool Orbit::changes_nothing(std::size_t i) const {
-  const Event event = impacts[i].event, before = impacts[(i + size() - 1) % size()].event;
-  return event == Event::impact || presses(event) == presses(before);
+  const EventKind event = impacts[i].event, before = impacts[(i + size() - 1) % size()].event;
+  return event == EventKind::impact || presses(event) == presses(before);
 }
 
 Orbit Orbit::whole() const {
@@ -95,7 +95,7 @@ Orbit Orbit::with(const OrbitImpact& impact, std::size_t after) const {
 
 Orbit Orbit::without(std::size_t i) const {
   if (size() == 1)
-    return {{}, mirrored ? 1 : 2, mirrored, impacts[0].event == Event::renewal ? impacts[0].side : Side::none};
+    return {{}, mirrored ? 1 : 2, mirrored, impacts[0].event == EventKind::renewal ? impacts[0].side : Side::none};
   Orbit orbit = *this;
   orbit.impacts.erase(orbit.impacts.begin() + static_cast<std::ptrdiff_t>(i));
   return orbit;

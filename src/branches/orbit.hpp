@@ -6,20 +6,17 @@
 #include <vector>
 
 #include "attractors/exact_run.hpp"
+#include "motion/event.hpp"
 #include "scene/scene.hpp"
 
 namespace clatter::branches {
 
-/// How the motion changes at an instant that it is known by.
-enum class Event : std::uint8_t {
-  impact,      ///< on a rigid stop
-  touch,       ///< of a soft stop at its position, where contact begins
-  separation,  ///< from a soft stop, whose force falls to zero
-  renewal      ///< of the contact with a soft stop, whose force rises from zero, beyond its position
-};
+using EventKind = motion::Event::Kind;
 
 /// Whether the mass is in contact with a soft stop after an event.
-[[nodiscard]] constexpr bool presses(Event event) { return event == Event::touch || event == Event::renewal; }
+[[nodiscard]] constexpr bool presses(EventKind event) {
+  return event == EventKind::touch || event == EventKind::renewal;
+}
 
 /// One impact of a periodic motion, or another event on a stop, or the instant at which it comes to rest there.
 struct OrbitImpact {
@@ -27,12 +24,12 @@ struct OrbitImpact {
   double phase = 0.0;   ///< forcing phase, rad, growing from impact to impact
   double before = 0.0;  ///< velocity before the impact; at a soft stop it goes on
   double rest = 0.0;    ///< forcing phase, rad, for which the mass rests from then on
-  Event event = Event::impact;
+  EventKind event = EventKind::impact;
 
   /// Whether it is a contact from outside: an impact, or a touch.
-  [[nodiscard]] bool is_contact() const { return event == Event::impact || event == Event::touch; }
+  [[nodiscard]] bool is_contact() const { return event == EventKind::impact || event == EventKind::touch; }
   /// Whether it is a letter of the impact word: an impact, a touch, or a graze of a soft stop.
-  [[nodiscard]] bool is_letter() const { return is_contact() || (event == Event::separation && before == 0); }
+  [[nodiscard]] bool is_letter() const { return is_contact() || (event == EventKind::separation && before == 0); }
 };
 
 /// A periodic motion by its impacts. A motion that is its own mirror image half a period later is kept as that half,

@@ -37,7 +37,7 @@ void each_letter(const Orbit& orbit, Function&& function) {
     if (orbit.impacts[i].rest == 0) continue;
     const std::size_t chatter = std::max(next, begin_of_chatter(orbit, i));
     for (; next < chatter; ++next)
-      if (orbit.impacts[next].event != Event::separation) function(orbit.impacts[next]);
+      if (orbit.impacts[next].event != EventKind::separation) function(orbit.impacts[next]);
     function(orbit.impacts[i]);
     next = i + 1;
   }
@@ -99,7 +99,7 @@ std::optional<Orbit> resting_orbit(const point::Problem& problem, Side stop, std
     Orbit orbit{{}, static_cast<int>(2 * periods), false};
     for (OrbitImpact impact : *events) {
       impact.phase += *release, impact.rest = 0;
-      const bool is_rest = impact.before == 0 && impact.event == Event::impact;
+      const bool is_rest = impact.before == 0 && impact.event == EventKind::impact;
       if (is_rest && is_at_rest(orbit, impact.side, impact.phase)) continue;  // a chatter's end, then the rest
       if (is_rest) {
         const std::optional<double> next = release_phase(problem, impact.side);
@@ -132,7 +132,7 @@ Orbit half_of_resting(const Orbit& orbit, bool symmetric_scene) {
 std::string letters_of(const Orbit& orbit) {
   std::string letters;
   each_letter(orbit, [&](const OrbitImpact& impact) {
-    const bool renews = impact.event == Event::renewal;
+    const bool renews = impact.event == EventKind::renewal;
     letters += impact.side == Side::upper ? (renews ? 'u' : 'U') : (renews ? 'l' : 'L');
     if (impact.rest > 0) letters += '*';
   });

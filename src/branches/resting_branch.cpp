@@ -17,7 +17,7 @@ std::ptrdiff_t rests_of(const Orbit& orbit) {
 }
 
 std::ptrdiff_t renewals_of(const Orbit& orbit) {
-  return std::ranges::count(orbit.impacts, Event::renewal, &OrbitImpact::event);
+  return std::ranges::count(orbit.impacts, EventKind::renewal, &OrbitImpact::event);
 }
 
 double shortest_rest(const Orbit& orbit) {

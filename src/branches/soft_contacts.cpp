@@ -50,8 +50,8 @@ SoftContacts contacts_of(const Moving& moving) {
       add_contact(arc, stop, from.phase, (end - from.phase) / moving.p.oscillator.frequency, sum);
     });
     // a stop that the mass outruns relaxes as far as it is touched again
-    if (to.event == Event::separation) sum.loss += stored(stop, to.before);
-    if (from.event == Event::renewal && !presses(moving.impacts[(i + count - 1) % count].event))
+    if (to.event == EventKind::separation) sum.loss += stored(stop, to.before);
+    if (from.event == EventKind::renewal && !presses(moving.impacts[(i + count - 1) % count].event))
       sum.loss -= stored(stop, from.before);
   }
   return sum;

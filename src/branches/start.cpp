@@ -71,7 +71,7 @@ Orbit soft_start(const point::Problem& given, const point::Problem& problem, con
   const auto orbit = event_run(attractors::started(problem, state, 0.0), static_cast<std::size_t>(period));
   if (!orbit) throw StartError("the run from the start fails");
   for (const OrbitImpact& event : orbit->impacts)
-    if (event.event == Event::impact && event.before == 0) return resting_start(given, event.side, period);
+    if (event.event == EventKind::impact && event.before == 0) return resting_start(given, event.side, period);
   if (orbit->size() == 0 && orbit->pressed == Side::none && problem.oscillator.stiffness == 0)
     throw StartError("without a spring, motion without impacts has no place of its own; begin where it meets a stop");
   return orbit->half_if_same(1e-6, symmetric);

@@ -19,8 +19,9 @@ Orbit with_graze(Orbit orbit, std::size_t first) {
   const OrbitImpact one = orbit.impact(first), other = orbit.impact(first + 1);
   OrbitImpact& graze = orbit.impacts[first];
   graze.phase = (one.phase + other.phase) / 2;
-  graze.before = one.event == Event::touch ? 0.0 : (one.before + other.before) / 2;
-  graze.event = presses(other.event) ? Event::renewal : other.event;  // after which the arc is that before the first
+  graze.before = one.event == EventKind::touch ? 0.0 : (one.before + other.before) / 2;
+  graze.event =
+      presses(other.event) ? EventKind::renewal : other.event;  // after which the arc is that before the first
   const std::size_t second = (first + 1) % orbit.size();
   orbit.impacts.erase(orbit.impacts.begin() + static_cast<std::ptrdiff_t>(second));
   return orbit;
@@ -28,7 +29,7 @@ Orbit with_graze(Orbit orbit, std::size_t first) {
 
 Graze Touch::graze() const {
   const OrbitImpact& event = orbit.impacts[impact];
-  const bool within = event.event != Event::impact && event.before != 0 && !turns;
+  const bool within = event.event != EventKind::impact && event.before != 0 && !turns;
   return {orbit, impact, {within ? Condition::Kind::force : Condition::Kind::graze, 1, impact}};
 }
 

@@ -33,15 +33,15 @@ struct Path {
   double begin;  ///< forcing phase, rad
   double length;
   Side to;  ///< none: it meets no stop
-  Event arrives = Event::impact;
+  EventKind arrives = EventKind::impact;
   bool ends_in_graze = false;
 };
 
 template <Effects E>
 std::optional<Violation> passes_through(const motion::Arc<double, E>& arc, const Path& path, const Margin& margin,
-                                        double from, Side side, Event turns) {
+                                        double from, Side side, EventKind turns) {
   const double turn = turning_time(arc, margin, from);
-  const double v = turns == Event::impact ? 0.0 : arc.at(turn).v;
+  const double v = turns == EventKind::impact ? 0.0 : arc.at(turn).v;
   return Violation{
       Violation::Kind::passes_through, path.number, {side, path.begin + arc.constants().nu * turn, v, 0.0, turns}};
 }
@@ -60,7 +60,7 @@ std::optional<Violation> cut_short(const SceneNumbers<double>& p, const motion::
   const motion::Motion<double> m = contact.motion;
   if (contact.side == path.to && is_at_end(contact.elapsed, path.length, m.x, m.v, arc.constants().nu))
     return std::nullopt;
-  const Event turns = is_soft(p.stops, contact.side) ? Event::separation : Event::impact;
+  const EventKind turns = is_soft(p.stops, contact.side) ? EventKind::separation : EventKind::impact;
   const Margin gap{0.0, -static_cast<double>(sign_of(contact.side)), 0.0};
   std::optional<Violation> found = passes_through(arc, path, gap, contact.elapsed, contact.side, turns);
   found->turning.before = 0.0;
@@ -76,10 +76,10 @@ std::optional<Violation> separates(const motion::SoftStop<double>& stop, const m
   const auto crossing = motion::first_crossing(arc, std::array{force}, path.length);
   if (crossing.resolved && crossing.margin != 0) return std::nullopt;
   const motion::Motion<double>& m = crossing.motion;
-  if (path.arrives != Event::impact && crossing.resolved &&
+  if (path.arrives != EventKind::impact && crossing.resolved &&
       is_at_end(crossing.elapsed, path.length, m.offset, force.slope(m), arc.constants().nu))
     return std::nullopt;
-  return passes_through(arc, path, force, crossing.elapsed, stop.side, Event::renewal);
+  return passes_through(arc, path, force, crossing.elapsed, stop.side, EventKind::renewal);
 }
 
 /// After a separation beyond the position of a soft stop the mass comes back to that position, or to the stop.
@@ -90,7 +90,7 @@ std::optional<Violation> free_within(const SceneNumbers<double>& p, const motion
   const Margin depth{0.0, into, 0.0}, pull{0.0, -into, -into * stop.relaxation()};
   const auto crossing = motion::first_crossing(arc, std::array{depth, pull}, path.length);
   const motion::Motion<double>& m = crossing.motion;
-  const bool renews = path.arrives == Event::renewal;
+  const bool renews = path.arrives == EventKind::renewal;
   if (crossing.resolved && crossing.margin == 0 && !renews) {
     Path rest = path;
     rest.begin += nu * crossing.elapsed, rest.length -= crossing.elapsed;
@@ -106,13 +106,13 @@ std::optional<Violation> free_within(const SceneNumbers<double>& p, const motion
   // where the mass just comes back to that position first, a renewal turns into a touch of the stop from outside
   const bool is_late = (path.length - crossing.elapsed) * arc.constants().rate < 1e-2;
   if (presses(path.arrives) && path.to == stop.side && is_late) return Violation{Violation::Kind::pulls, path.next, {}};
-  return passes_through(arc, path, pull, crossing.elapsed, stop.side, Event::separation);
+  return passes_through(arc, path, pull, crossing.elapsed, stop.side, EventKind::separation);
 }
 
 /// Whether the velocity of an event has the right sign.
 bool points_right(const OrbitImpact& impact) {
   const double into = sign_of(impact.side) * impact.before;
-  return impact.event == Event::impact || impact.event == Event::touch ? into > 0 : into < 0;
+  return impact.event == EventKind::impact || impact.event == EventKind::touch ? into > 0 : into < 0;
 }
 
 Flight<double> flight_after(const Orbit& orbit, std::size_t i) {
@@ -128,7 +128,7 @@ Violation told_apart(const SceneNumbers<double>& p, const Orbit& orbit, const Vi
     if (!flight.may_vanish(p) || flight.end - flight.begin >= about) return found;
     return {Violation::Kind::ends_early, found.impact, {}};
   }
-  if (found.turning.event == Event::impact) return found;
+  if (found.turning.event == EventKind::impact) return found;
   for (std::size_t i = 0; i < orbit.size(); ++i) {
     const Flight<double> flight = flight_after(orbit, i);
     const double distance = std::remainder(found.turning.phase - flight.begin, orbit.advance());
@@ -149,7 +149,7 @@ std::optional<Violation> response_violation(const Flights<double, E>& flights, c
         for (const Side side : {Side::lower, Side::upper})  // begins beyond the stop
           if (const double sign = sign_of(side); sign * (arc.start().x - p.position(side)) > 0) {
             const double turn = std::atan2(sign * response.in_phase, sign * response.quadrature) - flights.lead();
-            const Event turns = is_soft(p.stops, side) ? Event::separation : Event::impact;
+            const EventKind turns = is_soft(p.stops, side) ? EventKind::separation : EventKind::impact;
             return Violation{Violation::Kind::passes_through, 0, {side, turn, 0.0, 0.0, turns}};
           }
         return cut_short(p, arc, path);
@@ -174,14 +174,14 @@ std::optional<Violation> violation(const FollowedScene& scene, const Orbit& orbi
     if (orbit.size() == 0) return response_violation(flights, orbit);
     for (std::size_t i = 0; i < orbit.size(); ++i) {
       Flight<double> flight = flight_after(orbit, i);
-      const bool without_speed = flight.leaves == Event::impact || std::abs(flight.before) <= 1e-9;
+      const bool without_speed = flight.leaves == EventKind::impact || std::abs(flight.before) <= 1e-9;
       const bool leaves_graze = i == grazing && !presses(flight.leaves) && without_speed;
       if (leaves_graze) flight.before = 0;
       Path path{i,         (i + 1) % orbit.size(), flight.begin, (flight.end - flight.begin) / p.oscillator.frequency,
                 flight.to, flight.arrives};
-      path.ends_in_graze = path.next == grazing && flight.arrives == Event::separation && !presses(flight.leaves);
+      path.ends_in_graze = path.next == grazing && flight.arrives == EventKind::separation && !presses(flight.leaves);
       auto found = flights.with_arc(flight, [&](const auto& arc) {
-        if (flight.leaves == Event::impact || leaves_graze) return cut_short(p, arc, path);
+        if (flight.leaves == EventKind::impact || leaves_graze) return cut_short(p, arc, path);
         const motion::SoftStop<double> stop = p.soft_stop(flight.from);
         const auto flown = [&](const auto& from) {
           if (presses(flight.leaves)) return separates(stop, from, path);

@@ -18,7 +18,7 @@ struct Claimed {
 
 /// A claimed event; times are counted as the start's.
 struct ClaimedEvent {
-  point::MotionEvent::Kind kind;
+  motion::Event::Kind kind;
   Side side;
   Claimed time;
   Claimed then;         ///< of a rest or a chatter the time of its end, else the velocity before the event

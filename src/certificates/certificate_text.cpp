@@ -7,7 +7,7 @@ namespace clatter::certificates {
 namespace {
 
 using Json = nlohmann::ordered_json;
-using Kind = point::MotionEvent::Kind;
+using Kind = motion::Event::Kind;
 
 const char* name_of(Side side) { return side == Side::upper ? "upper" : "lower"; }
 

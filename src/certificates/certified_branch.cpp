@@ -19,7 +19,6 @@ using branches::SpecialKind;
 using branches::SpecialPoint;
 using branches::StartProblem;
 using point::Problem;
-using Kind = point::MotionEvent::Kind;
 
 /// The problem of a state at a phase of the shaking, in the frame of what is shaken.
 Problem problem_from(const StartProblem& start, const FollowedScene& scene, const PhasePoint& state, double phase) {
@@ -27,19 +26,6 @@ Problem problem_from(const StartProblem& start, const FollowedScene& scene, cons
   problem.start = {state.x, state.v, phase};
   sweep::enter_shaken_frame(problem);
   return problem;
-}
-
-Kind kind_of(branches::Event event) {
-  switch (event) {
-    case branches::Event::touch:
-      return Kind::touch;
-    case branches::Event::separation:
-      return Kind::separation;
-    case branches::Event::renewal:
-      return Kind::renewal;
-    default:
-      return Kind::impact;
-  }
 }
 
 /// The event that a graze claims to be none.
@@ -64,7 +50,7 @@ Begin begin_of(const FollowedScene& scene, const Orbit& orbit, std::optional<dou
   for (std::size_t i = 0; i < flights; ++i) {
     double from = orbit.size() > 0 ? orbit.impact(i).phase : *graze;
     const double to = orbit.size() > 0 ? orbit.impact(i + 1).phase : from + orbit.advance();
-    if (orbit.size() > 0 && presses(orbit.impact(i).event)) continue;
+    if (orbit.size() > 0 && branches::presses(orbit.impact(i).event)) continue;
     const auto consider = [&](double begin, double end) {
       if (end - begin <= length) return;
       length = end - begin, longest.phase = (begin + end) / 2, longest.flight = i;
@@ -178,7 +164,7 @@ CertifiedPoint certified(const SpecialPoint& special, Parameter along, const Sta
     OrbitImpact event = whole.impacts[i];
     const double late = event.phase - begin.phase;
     event.phase = begin.phase + late - std::floor(late / whole.advance()) * whole.advance();
-    ClaimedEvent claimed{kind_of(event.event), event.side, {event.phase / nu, time_error}, {event.before, state_error}};
+    ClaimedEvent claimed{event.event, event.side, {event.phase / nu, time_error}, {event.before, state_error}};
     claimed.grazes = graze && i % kept.size() == *graze;
     certificate.events.push_back(claimed);
   }

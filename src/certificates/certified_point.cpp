@@ -14,7 +14,7 @@ namespace {
 
 using point::PointResult;
 using point::Problem;
-using Kind = point::MotionEvent::Kind;
+using Kind = motion::Event::Kind;
 
 /// The same problem with the observables that are claimed, and no others.
 Problem observed(Problem problem) {
@@ -33,7 +33,7 @@ Problem from(Problem problem, double x, double v, double phase) {
 Certificate claims_of(const Problem& problem, const RecordedMotion& motion, const ErrorBounds& bounds,
                       const PointResult& result) {
   Certificate certificate{.scene = problem};
-  for (const Event& event : motion.events)
+  for (const RecordedEvent& event : motion.events)
     certificate.events.push_back(
         bounds.claimed(event, certificate.events.empty() ? nullptr : &certificate.events.back()));
   certificate.x_min = bounds.claimed_extremum(result.x_min), certificate.x_max = bounds.claimed_extremum(result.x_max);

@@ -8,7 +8,7 @@
 namespace clatter::certificates {
 namespace {
 
-using Kind = point::MotionEvent::Kind;
+using Kind = motion::Event::Kind;
 using motion::Jacobian;
 
 constexpr double of_arithmetic = 1e-13;  // of each later one: some dozens of roundings
@@ -39,7 +39,7 @@ ErrorBounds::ErrorBounds(const point::Problem& problem, const RecordedMotion& mo
                       std::abs(result.v_min), std::abs(result.v_max)})),
       of_start_(periodic ? norm_of_return(motion.derivative) : 1.0),
       stretching_(std::max(1.0, norm(motion.derivative))) {
-  for (const Event& event : motion.events)
+  for (const RecordedEvent& event : motion.events)
     stretching_ = std::max({stretching_, norm(event.derivative), event.rounding[0], event.rounding[1]});
 }
 
@@ -54,18 +54,18 @@ double ErrorBounds::time_error(double time) const {
 }
 
 /// The displacement at an event: where the force of a soft stop is 0, x - position + q v = 0.
-double ErrorBounds::place_of(const Event& event) const {
+double ErrorBounds::place_of(const RecordedEvent& event) const {
   const double position = event.side == Side::upper ? stops_.upper : stops_.lower;
   if (event.kind != Kind::separation && event.kind != Kind::renewal) return position;
   return position - motion::soft_stop_at<double>(stops_, event.side).relaxation() * event.velocity;
 }
 /// The acceleration before an event, at which no soft stop pushes.
-double ErrorBounds::acceleration(const Event& event) const {
+double ErrorBounds::acceleration(const RecordedEvent& event) const {
   return oscillator_.forcing * std::sin(oscillator_.frequency * event.time + phase_) +
          constant_force(oscillator_, place_of(event)) - 2 * oscillator_.damping * event.velocity;
 }
 
-ClaimedEvent ErrorBounds::claimed(const Event& event, const ClaimedEvent* before) const {
+ClaimedEvent ErrorBounds::claimed(const RecordedEvent& event, const ClaimedEvent* before) const {
   if (event.lasts()) return claimed_stay(event, before);
   const bool after_rest = before != nullptr && before->kind == Kind::rest;
   return claimed_contact(
@@ -73,7 +73,7 @@ ClaimedEvent ErrorBounds::claimed(const Event& event, const ClaimedEvent* before
 }
 
 /// The instant at which x, or x + q v where the force of a soft stop passes 0, reaches a place.
-ClaimedEvent ErrorBounds::claimed_contact(const Event& event, double since) const {
+ClaimedEvent ErrorBounds::claimed_contact(const RecordedEvent& event, double since) const {
   const StateError error = error_after(event.derivative, event.rounding, size_ * since);
   const double a = acceleration(event);
   double off = error.x, rate = std::abs(event.velocity);
@@ -85,7 +85,7 @@ ClaimedEvent ErrorBounds::claimed_contact(const Event& event, double since) cons
   return {event.kind, event.side, {begin_ + event.time, late}, {event.velocity, error.v + std::abs(a) * late}};
 }
 
-ClaimedEvent ErrorBounds::claimed_stay(const Event& event, const ClaimedEvent* before) const {
+ClaimedEvent ErrorBounds::claimed_stay(const RecordedEvent& event, const ClaimedEvent* before) const {
   const bool follows = before != nullptr && before->side == event.side;
   const bool after_chatter = follows && before->kind == Kind::chatter;
   const double late = after_chatter                             ? before->then.error
@@ -97,7 +97,7 @@ ClaimedEvent ErrorBounds::claimed_stay(const Event& event, const ClaimedEvent* b
 
 /// The flights of a chatter last 2 v/(a (1 - R)) together: its end is off by the error of its first impact and by that
 /// of its speed.
-double ErrorBounds::chatter_error(const Event& event, const ClaimedEvent* before) const {
+double ErrorBounds::chatter_error(const RecordedEvent& event, const ClaimedEvent* before) const {
   const double R = event.side == Side::upper ? stops_.restitution_upper : stops_.restitution_lower;
   double error = of_chatter * event.length + time_error(event.end());
   if (before != nullptr)
@@ -107,7 +107,7 @@ double ErrorBounds::chatter_error(const Event& event, const ClaimedEvent* before
 
 /// The force that presses the mass falls to 0 the later the slower it changes; where nothing releases the mass, the end
 /// is that of the motion.
-double ErrorBounds::release_error(const Event& event) const {
+double ErrorBounds::release_error(const RecordedEvent& event) const {
   const double theta = oscillator_.frequency * event.end() + phase_, x = place_of(event);
   const double force = oscillator_.forcing * std::sin(theta) + constant_force(oscillator_, x);
   const double largest =

@@ -18,7 +18,7 @@ class ErrorBounds {
               double time, bool periodic);
 
   /// Claims an event of the motion that follows another, null if it is the first.
-  [[nodiscard]] ClaimedEvent claimed(const Event& event, const ClaimedEvent* before) const;
+  [[nodiscard]] ClaimedEvent claimed(const RecordedEvent& event, const ClaimedEvent* before) const;
   /// Whether a periodic motion is alone, so that its start is known.
   [[nodiscard]] bool know_the_start() const { return of_start_ < 1e10; }
   /// Of x and of v at the start.
@@ -40,12 +40,12 @@ class ErrorBounds {
   [[nodiscard]] StateError error_after(const motion::Jacobian<double>& derivative,
                                        const std::array<double, 2>& rounding, double path) const;
   [[nodiscard]] double time_error(double time) const;
-  [[nodiscard]] double place_of(const Event& event) const;
-  [[nodiscard]] double acceleration(const Event& event) const;
-  [[nodiscard]] ClaimedEvent claimed_contact(const Event& event, double since) const;
-  [[nodiscard]] ClaimedEvent claimed_stay(const Event& event, const ClaimedEvent* before) const;
-  [[nodiscard]] double chatter_error(const Event& event, const ClaimedEvent* before) const;
-  [[nodiscard]] double release_error(const Event& event) const;
+  [[nodiscard]] double place_of(const RecordedEvent& event) const;
+  [[nodiscard]] double acceleration(const RecordedEvent& event) const;
+  [[nodiscard]] ClaimedEvent claimed_contact(const RecordedEvent& event, double since) const;
+  [[nodiscard]] ClaimedEvent claimed_stay(const RecordedEvent& event, const ClaimedEvent* before) const;
+  [[nodiscard]] double chatter_error(const RecordedEvent& event, const ClaimedEvent* before) const;
+  [[nodiscard]] double release_error(const RecordedEvent& event) const;
 
   Oscillator oscillator_;
   Stops stops_;

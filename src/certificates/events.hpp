@@ -9,11 +9,10 @@
 namespace clatter::certificates {
 
 /// An event and the derivative of the motion from its start to the instant before it.
-struct Event : point::MotionEvent {
+struct RecordedEvent : motion::Event {
   motion::Jacobian<double> derivative{};
   std::array<double, 2> rounding{};  ///< that of earlier flights as it has grown, in x and v, in its units
 
-  [[nodiscard]] double end() const { return time + length; }
   [[nodiscard]] bool is_rest() const { return kind == Kind::rest; }
   /// Whether it is a time on a stop, not an instant.
   [[nodiscard]] bool lasts() const { return kind == Kind::rest || kind == Kind::chatter; }
@@ -23,7 +22,7 @@ struct Event : point::MotionEvent {
 /// follows an impact; a time on a stop that follows none, or a rest, is a rest, though its force be within rounding
 /// of 0. On a soft stop this is no event.
 /// `growth` is of all of them, up to the last.
-[[nodiscard]] std::vector<Event> joined_events(const point::MotionRecorder& recorder, const Stops& stops,
-                                               Growth& growth);
+[[nodiscard]] std::vector<RecordedEvent> joined_events(const point::MotionRecorder& recorder, const Stops& stops,
+                                                       Growth& growth);
 
 }  // namespace clatter::certificates

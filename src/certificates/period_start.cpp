@@ -6,16 +6,16 @@
 namespace clatter::certificates {
 namespace {
 
-using Kind = point::MotionEvent::Kind;
+using Kind = motion::Event::Kind;
 
 /// Whether the mass flies free of the stops after an event.
-bool begins_flight(const Event& event) { return event.kind != Kind::touch && event.kind != Kind::renewal; }
+bool begins_flight(const RecordedEvent& event) { return event.kind != Kind::touch && event.kind != Kind::renewal; }
 
 /// The rest that ends in a release before the section or at it; of several the first.
 std::optional<PeriodStart> release_of(const RecordedMotion& motion) {
   const double same = 1e-12 * motion.duration;
   const auto& events = motion.events;
-  const auto rest = std::ranges::find_if(events, &Event::is_rest);
+  const auto rest = std::ranges::find_if(events, &RecordedEvent::is_rest);
   if (rest == events.end()) return std::nullopt;
   if (rest->end() < motion.duration - same) return PeriodStart{rest->end(), rest->side};
   if (rest->time <= same) return PeriodStart{.time = 0.0, .released = Side::none, .rests_for_ever = true};

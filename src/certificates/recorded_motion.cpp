@@ -14,7 +14,7 @@ std::optional<RecordedMotion> recorded(const point::Problem& problem, double tur
   if (released != Side::none) state.released = true, state.from_stop = released;
   if (motion->run_for(state, turns, recorder) != stepping::Outcome::completed) return std::nullopt;
   Growth growth;
-  std::vector<Event> events = joined_events(recorder, problem.stops, growth);
+  std::vector<RecordedEvent> events = joined_events(recorder, problem.stops, growth);
   growth.pass(recorder.watch.derivative(), 0.0);
   return RecordedMotion{std::move(events), state, growth.derivative(), growth.rounding(), turns * motion->period()};
 }

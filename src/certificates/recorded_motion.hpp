@@ -10,10 +10,10 @@ namespace clatter::certificates {
 
 /// A motion over some forcing periods, from the start of its problem on.
 struct RecordedMotion {
-  std::vector<Event> events{};  ///< times since the start
+  std::vector<RecordedEvent> events{};  ///< times since the start
   motion::State<double> end{};
   motion::Jacobian<double> derivative{};  ///< from the start to the end
-  std::array<double, 2> rounding{};       ///< of all flights but the last, grown to the end, as in `Event`
+  std::array<double, 2> rounding{};       ///< of all flights but the last, grown to the end, as in `RecordedEvent`
   double duration = 0.0;                  ///< tau
 };
 

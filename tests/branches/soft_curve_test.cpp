@@ -107,7 +107,7 @@ double least_rate(const BranchPoint& point) {
   double least = std::numeric_limits<double>::infinity();
   for (const auto& [side, phase, before, rest, event] : point.orbit.impacts) {
     least = std::min(least, std::abs(before));
-    if (event != Event::separation && event != Event::renewal) continue;
+    if (event != EventKind::separation && event != EventKind::renewal) continue;
     const double relaxation = p.soft_stop(side).relaxation(), x = p.position(side) - relaxation * before;
     const auto& [h, f, nu, load, k] = p.oscillator;
     const double a = f * std::sin(phase) + load - 2 * h * before - k * x;

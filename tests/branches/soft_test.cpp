@@ -113,7 +113,7 @@ TEST(SoftBranch, of_random_scenes_has_only_fixed_points_of_the_integrator) {
           << index << ' ' << point.arclength << ' ' << point.orbit.word();
       ++points;
       renewals +=
-          static_cast<std::size_t>(std::ranges::count(point.orbit.impacts, Event::renewal, &OrbitImpact::event));
+          static_cast<std::size_t>(std::ranges::count(point.orbit.impacts, EventKind::renewal, &OrbitImpact::event));
     }
   }
   EXPECT_GT(scenes, 80);

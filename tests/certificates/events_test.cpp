@@ -5,17 +5,17 @@
 namespace clatter::certificates {
 namespace {
 
-using Kind = point::MotionEvent::Kind;
+using Kind = motion::Event::Kind;
 
 const Stops stops{};  // rigid ones
 
-point::MotionRecorder recorder_of(const std::vector<point::MotionEvent>& events) {
+point::MotionRecorder recorder_of(const std::vector<motion::Event>& events) {
   point::MotionRecorder recorder{Stops{}};
   recorder.events = events;
   return recorder;
 }
 
-std::vector<Event> events_of(const point::MotionRecorder& recorder, const Stops& of) {
+std::vector<RecordedEvent> events_of(const point::MotionRecorder& recorder, const Stops& of) {
   Growth growth;
   return joined_events(recorder, of, growth);
 }

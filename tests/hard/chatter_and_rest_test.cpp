@@ -16,7 +16,7 @@ TEST(ChatterAndRest, has_its_known_times) {
   const accuracy::RunRecord record = accuracy::record_of(one.scene, 9.0);
   const auto& events = record.events;
   EXPECT_NEAR(events.at(0).time, 2.0515931595927638, 1e-14);
-  EXPECT_NEAR(events.at(0).speed, 0.57647176137699961, 1e-14);
+  EXPECT_NEAR(events.at(0).speed(), 0.57647176137699961, 1e-14);
   EXPECT_NEAR(events.at(1).time, 3.1907700695690808, 1e-14);
   const accuracy::Event &rest = events.at(events.size() - 2), &last = events.back();
   ASSERT_EQ(rest.kind, accuracy::Event::Kind::rest);
@@ -24,7 +24,7 @@ TEST(ChatterAndRest, has_its_known_times) {
   EXPECT_NEAR(rest.time + rest.length, 5 * std::numbers::pi / 3, 1e-14);
   EXPECT_EQ(last.side, Side::lower);
   EXPECT_NEAR(last.time, 7.9756605890323812, 2e-14);
-  EXPECT_NEAR(last.speed, 0.7854147777624616, 2e-14);
+  EXPECT_NEAR(last.speed(), 0.7854147777624616, 2e-14);
 }
 
 }  // namespace

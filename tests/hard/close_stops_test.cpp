@@ -25,7 +25,7 @@ TEST(CloseStops, are_hit_one_after_the_other_with_R_times_the_speed) {
   for (std::size_t i = 1; i < record.events.size(); ++i) {
     const accuracy::Event &before = record.events[i - 1], &event = record.events[i];
     EXPECT_EQ(sign_of(event.side), -sign_of(before.side));
-    EXPECT_NEAR(event.speed, 0.9 * before.speed, 1e-6 * before.speed);  // the force has 1e-6 of time to act
+    EXPECT_NEAR(event.speed(), 0.9 * before.speed(), 1e-6 * before.speed());  // the force has 1e-6 of time to act
     if (i == 1) {
       EXPECT_NEAR(event.time - before.time, 2e-9 / 0.9, 1e-15);
     }

@@ -20,7 +20,7 @@ TEST(Edges, moving_in_is_an_impact_at_once_and_only_one) {
   const auto events = from("start moving in").events;
   EXPECT_EQ(events.at(0).kind, accuracy::Event::Kind::impact);
   EXPECT_EQ(events[0].time, 0.0);
-  EXPECT_EQ(events[0].speed, 0.25);
+  EXPECT_EQ(events[0].speed(), 0.25);
   EXPECT_GT(events.at(1).time, 0.0);
 }
 

@@ -11,7 +11,7 @@ namespace clatter::hard {
 
 /// An event of a run in 50 digits. Rests and chatters are whole, however many sections cut them.
 struct ExactEvent {
-  using Kind = point::MotionEvent::Kind;
+  using Kind = motion::Event::Kind;
 
   Kind kind = Kind::impact;
   Side side = Side::none;

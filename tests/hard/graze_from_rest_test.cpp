@@ -21,7 +21,7 @@ TEST(GrazeFromRest, contact_is_where_the_closed_form_meets_the_stop) {
     EXPECT_LT(contact.time, 2 * std::numbers::pi / 3) << what;  // x grows until then, so this contact is the first
     EXPECT_NEAR(static_cast<double>(x), one.scene.stops.upper, 2 * epsilon<double>()) << what;
     // the time to rounding over speed, and the speed to the deceleration 3^(1/2) times that
-    EXPECT_NEAR(static_cast<double>(v), contact.speed, 4 * epsilon<double>() / contact.speed) << what;
+    EXPECT_NEAR(static_cast<double>(v), contact.speed(), 4 * epsilon<double>() / contact.speed()) << what;
   }
 }
 

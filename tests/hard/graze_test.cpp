@@ -28,7 +28,7 @@ TEST(Graze, first_contact_has_its_time_and_speed) {
     // an ulp of the amplitude moves the time by itself over the speed, and the speed by the acceleration times that
     const double rounding = 4 * epsilon<double>() * amplitude / speed;
     EXPECT_NEAR(first.time, time, rounding) << what;
-    EXPECT_NEAR(first.speed, speed, nu * nu * amplitude * rounding) << what;
+    EXPECT_NEAR(first.speed(), speed, nu * nu * amplitude * rounding) << what;
   }
 }
 

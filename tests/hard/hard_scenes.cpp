@@ -81,7 +81,7 @@ Json certificate_of(const Case& one, const ExactRun& run) {
 void write(const std::vector<std::string>& rows) {
   for (const Case& one : cases()) {
     if (!rows.empty() && std::ranges::find(rows, one.row) == rows.end()) continue;
-    const auto in_double = with_rests_joined(accuracy::record_of(one.scene, one.duration).events);
+    const auto in_double = accuracy::with_rests_joined(accuracy::record_of(one.scene, one.duration).events);
     if (in_double.size() > most_events) continue;
     const ExactRun run = in_double.empty() ? exact_flight(one) : exact_run(one);
     std::cout << certificate_of(one, run).dump() << '\n' << std::flush;

@@ -102,7 +102,7 @@ TEST_P(LaneSteps, a_step_with_a_nan_in_any_input_of_its_proof_is_not_proved) {
 accuracy::RunRecord first_of(const std::vector<motion::Impact>& impacts, std::size_t count, double duration) {
   accuracy::RunRecord record;
   record.duration = duration;
-  for (std::size_t i = 0; i < count; ++i) record.events.push_back(accuracy::event_of(impacts[i]));
+  for (std::size_t i = 0; i < count; ++i) record.events.push_back(motion::event_of(impacts[i]));
   return record;
 }
 

@@ -39,7 +39,7 @@ void expect_same_events(const std::vector<accuracy::Event>& a, const std::vector
     EXPECT_EQ(sign * sign_of(a[i].side), sign_of(b[i].side));
     EXPECT_EQ(a[i].time, b[i].time);
     EXPECT_EQ(a[i].length, b[i].length);
-    EXPECT_EQ(a[i].speed * scale, b[i].speed);
+    EXPECT_EQ(a[i].speed() * scale, b[i].speed());
   }
 }
 

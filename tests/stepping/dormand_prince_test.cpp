@@ -169,7 +169,7 @@ TEST(DormandPrince, chatter_is_completed_and_the_mass_rests_until_its_release) {
     const accuracy::RunRecord record = run(chattering, 9.0, tolerance);
     const auto& events = record.events;
     EXPECT_NEAR(events.at(0).time, 2.0515931595927638, 10 * tolerance);
-    EXPECT_NEAR(events.at(0).speed, 0.57647176137699961, 10 * tolerance);
+    EXPECT_NEAR(events.at(0).speed(), 0.57647176137699961, 10 * tolerance);
     EXPECT_NEAR(events.at(1).time, 3.1907700695690808, 10 * tolerance);
     const auto rest = std::ranges::find(events, accuracy::Event::Kind::rest, &accuracy::Event::kind);
     ASSERT_NE(rest, events.end());
@@ -179,7 +179,7 @@ TEST(DormandPrince, chatter_is_completed_and_the_mass_rests_until_its_release) {
     EXPECT_NEAR(rest->end(), 5 * pi_ / 3, 4e-15);  // decided by the force alone
     EXPECT_EQ(events.back().side, Side::lower);
     EXPECT_NEAR(events.back().time, 7.9756605890323812, 10 * tolerance);
-    EXPECT_NEAR(events.back().speed, 0.7854147777624616, 10 * tolerance);
+    EXPECT_NEAR(events.back().speed(), 0.7854147777624616, 10 * tolerance);
   }
 }
 

@@ -105,7 +105,7 @@ TEST(MoreauMotion, after_a_rest_the_next_contact_is_within_a_step_again) {
       EXPECT_EQ(events.back().side, Side::lower);
       // a step at the release and one at the contact, with the speed of half a step away
       EXPECT_NEAR(events.back().time, 7.9756605890323812, 2 * L);
-      EXPECT_NEAR(events.back().speed, 0.7854147777624616, L);
+      EXPECT_NEAR(events.back().speed(), 0.7854147777624616, L);
     }
 }
 
@@ -115,7 +115,7 @@ TEST(MoreauMotion, a_rest_ends_with_the_step_before_the_force_pulls) {
     double earliest = infinity, latest = -infinity;  // in steps after the release
     for (int n = 1000; n < 1100; ++n) {
       const accuracy::RunRecord record = support::record_by<Moreau>(with_step(chattering, 1.0 / n, theta), 6.0);
-      const accuracy::Event rest = with_rests_joined(record.events).back();
+      const accuracy::Event rest = accuracy::with_rests_joined(record.events).back();
       ASSERT_EQ(rest.kind, accuracy::Event::Kind::rest);
       const double late = (rest.end() - 5 * pi_ / 3) / (4 * pi_ / n);
       earliest = std::min(earliest, late), latest = std::max(latest, late);
@@ -131,7 +131,7 @@ TEST(MoreauMotion, a_mass_that_is_pressed_from_the_start_rests_without_impact) {
     scene.stops.restitution_upper = R;
     scene.start = {0.5, 0.0, pi_ / 2};
     const accuracy::RunRecord record = support::record_by<Moreau>(scene, 3.0);
-    const std::vector<accuracy::Event> events = with_rests_joined(record.events);
+    const std::vector<accuracy::Event> events = accuracy::with_rests_joined(record.events);
     ASSERT_EQ(events.size(), 1u) << R;
     EXPECT_EQ(events[0].time, 0.0);
     EXPECT_NEAR(events[0].length, (5 * pi_ / 6 - pi_ / 2) / 0.5, 4 * pi_ * 1e-3);  // a step
@@ -223,7 +223,7 @@ TEST(MoreauMotion, mirrored_and_scaled_by_a_power_of_two_is_the_same_to_the_last
     ASSERT_EQ(a.events.size(), b.events.size());
     for (std::size_t i = 0; i < a.events.size(); ++i) {
       EXPECT_EQ(a.events[i].time, b.events[i].time);
-      EXPECT_EQ(a.events[i].speed * std::abs(factor), b.events[i].speed);
+      EXPECT_EQ(a.events[i].speed() * std::abs(factor), b.events[i].speed());
     }
   }
 }

@@ -92,7 +92,7 @@ TEST(Moreau, an_impacts_speed_is_the_one_half_a_step_off_at_most) {
     const double allowed = 0.6 * pi_ / n;  // deceleration at the stop times half a step, 2 pi/n/2
     const accuracy::Event impact =
         support::record_by<Moreau>(with_step(first_contact(0.6, 0.7), 1.0 / n), 1.0).events.at(0);
-    const double error = std::abs(impact.speed - 0.8) / allowed;
+    const double error = std::abs(impact.speed() - 0.8) / allowed;
     EXPECT_LE(error, 1.02) << n;  // the parts by the jerk and by the rule are of the order of a step
     worst = std::max(worst, error);
   }

@@ -18,7 +18,7 @@ std::size_t& count_of(accuracy::Event::Kind kind, Deviation& deviation) {
 }
 
 std::string text(const accuracy::Event& event) {
-  static const char* const names[] = {"impact", "chatter", "rest"};
+  static const char* const names[] = {"impact", "rest", "chatter"};
   std::ostringstream out;
   out << names[static_cast<int>(event.kind)] << " on " << (event.side == Side::upper ? "upper" : "lower") << " stop at "
       << std::setprecision(17) << event.time;
@@ -30,7 +30,7 @@ std::string text(const accuracy::Event& event) {
 double Deviation::largest() const { return std::max({time, speed, end}); }
 
 Deviation deviation(const accuracy::RunRecord& record, const accuracy::RunRecord& reference) {
-  const auto events = with_rests_joined(record.events), expected = with_rests_joined(reference.events);
+  const auto events = accuracy::with_rests_joined(record.events), expected = accuracy::with_rests_joined(reference.events);
   Deviation result;
   double size_x = std::abs(reference.x), size_v = std::abs(reference.v);
   std::size_t j = 0;
@@ -47,8 +47,8 @@ Deviation deviation(const accuracy::RunRecord& record, const accuracy::RunRecord
     const double off = std::abs(event.time - other.time),
                  end_off = std::abs(event.time + event.length - other.time - other.length);
     result.time = std::max({result.time, event.kind == accuracy::Event::Kind::chatter ? 0.0 : off, end_off});
-    result.speed = std::max(result.speed, std::abs(event.speed - other.speed));
-    size_v = std::max(size_v, other.speed);
+    result.speed = std::max(result.speed, std::abs(event.speed() - other.speed()));
+    size_v = std::max(size_v, other.speed());
     ++count_of(event.kind, result);
   }
   while (j < expected.size() && expected[j].time >= (1 - at_the_end) * reference.duration) ++j;

@@ -33,8 +33,8 @@ struct EventList {
 
   template <class A>
   void arc(const A&, double, double) {}
-  void rest(const motion::Rest& rest) { events.push_back(accuracy::event_of(rest)); }
-  void impact(const motion::Impact& impact) { events.push_back(accuracy::event_of(impact)); }
+  void rest(const motion::Rest& rest) { events.push_back(motion::event_of(rest)); }
+  void impact(const motion::Impact& impact) { events.push_back(motion::event_of(impact)); }
 };
 
 /// The run of a scene by a general method, as record_of gives that of the exact one.

@@ -8,9 +8,9 @@ namespace clatter::support {
 
 namespace {
 
-void record_events(const std::vector<point::MotionEvent>& events, const Stops& stops, Recorder& record) {
-  using Kind = point::MotionEvent::Kind;
-  for (const point::MotionEvent& event : events) {
+void record_events(const std::vector<motion::Event>& events, const Stops& stops, Recorder& record) {
+  using Kind = motion::Event::Kind;
+  for (const motion::Event& event : events) {
     const double position = event.side == Side::upper ? stops.upper : stops.lower;
     if (event.kind == Kind::impact)
       record.impact({event.time, event.side, event.velocity, event.after, position});
