@@ -13,7 +13,7 @@
 #include "results/dataset_file.hpp"
 #include "storage/input_file.hpp"
 #include "storage/utf8.hpp"
-#include "sweep/branches.hpp"
+#include "sweep/chains.hpp"
 
 namespace clatter::app {
 namespace {
@@ -76,14 +76,14 @@ certificates::Tally CertifiedFile::certify(const std::vector<std::size_t>& point
   for (const std::size_t point : points) is_chosen[point] = true;
   certificates::Tally tally;
   point::ThreadScratch scratch;
-  const sweep::Branches branches(sweep_);
-  for (std::size_t branch = 0; branch < branches.count; ++branch) {
-    std::size_t length = branches.length;  // up to the last point that is chosen
-    while (length > 0 && !is_chosen[branches.point(branch, length - 1)]) --length;
+  const sweep::Chains chains(sweep_);
+  for (std::size_t chain = 0; chain < chains.count; ++chain) {
+    std::size_t length = chains.length;  // up to the last point that is chosen
+    while (length > 0 && !is_chosen[chains.point(chain, length - 1)]) --length;
     std::optional<Start> end;
     Units units_of_end{};
     for (std::size_t i = 0; i < length; ++i) {
-      const std::size_t index = branches.point(branch, i);
+      const std::size_t index = chains.point(chain, i);
       point::Problem problem = problem_at(sweep_, index);
       if (sweep_.follow) sweep::start_from(problem, end, units_of_end);
       const certificates::CertifiedPoint found = certificates::certified(problem, scratch);

@@ -21,7 +21,7 @@ class CertifiedFile {
 
   [[nodiscard]] const std::vector<std::size_t>& points() const { return points_; }  ///< those chosen, ascending
 
-  /// Passes on the certificates of some points, one a line; along `follow` in the order of branches.
+  /// Passes on the certificates of some points, one a line; along `follow` in the order of chains.
   [[nodiscard]] certificates::Tally certify(const std::vector<std::size_t>& points,
                                             const std::function<void(std::string_view line)>& take) const;
 

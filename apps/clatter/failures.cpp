@@ -21,9 +21,9 @@ std::span<const std::uint8_t> statuses_of(const sweep::Dataset& dataset) {
 
 /// The index in the sweep of the point with a local index in a run.
 std::size_t point_of(const sweep::Share& share, std::size_t local_index) {
-  for (std::size_t branch = 0; branch < share.count(); ++branch)
+  for (std::size_t chain = 0; chain < share.count(); ++chain)
     for (std::size_t i = 0; i < share.length(); ++i)
-      if (share.local_index(branch, i) == local_index) return share.point(branch, i);
+      if (share.local_index(chain, i) == local_index) return share.point(chain, i);
   return local_index;
 }
 

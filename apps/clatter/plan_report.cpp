@@ -135,7 +135,7 @@ std::string points_text(const plan::Plan& plan, const sweep::Sweep& sweep) {
 plan::Bounds seconds_of(const plan::Plan& plan, int threads) {
   plan::Bounds sum;
   for (const plan::Group& group : plan.groups) sum += group.seconds;
-  const double together = std::clamp(static_cast<double>(plan.branches), 1.0, static_cast<double>(threads));
+  const double together = std::clamp(static_cast<double>(plan.chains), 1.0, static_cast<double>(threads));
   return {sum.least / together, sum.most / together};
 }
 

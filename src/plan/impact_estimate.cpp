@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "point/point.hpp"
-#include "sweep/branches.hpp"
+#include "sweep/chains.hpp"
 
 namespace clatter::plan {
 namespace {

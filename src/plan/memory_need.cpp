@@ -24,7 +24,7 @@ constexpr double lone_block = 128 * kibi;  ///< size from which on a block is re
 
 /// Sizes of everything that is held value by value, in bytes.
 struct Parts {
-  double points = 0.0, branches = 0.0;
+  double points = 0.0, chains = 0.0;
   double axes = 0.0;          ///< coordinates that are axes of the sweep, which holds them too
   double coordinates = 0.0;   ///< all of the file
   double results = 0.0;       ///< all but the log
@@ -68,7 +68,7 @@ void add_numbering(const sweep::Sweep& sweep, Parts& parts) {
 
 Parts parts_of(const sweep::Sweep& sweep, const std::optional<sweep::Shard>& shard, double impacts) {
   const sweep::Share share(sweep, shard);
-  Parts parts{.points = static_cast<double>(share.points()), .branches = static_cast<double>(share.count())};
+  Parts parts{.points = static_cast<double>(share.points()), .chains = static_cast<double>(share.count())};
   add_coordinates(sweep, shard.has_value(), parts);
   parts.results = (sizeof(std::uint8_t) + sizeof(std::int64_t) + value) * parts.points;  // status, impacts, periods
   parts.largest = std::max(parts.largest, value * parts.points);
@@ -100,9 +100,9 @@ double log_bytes(const sweep::Sweep& sweep, const Parts& parts) {
   return alone ? std::max(held, columns) : held + columns;
 }
 
-/// A branch that is packed to be saved.
+/// A chain that is packed to be saved.
 double saving_bytes(const sweep::Sweep& sweep, const Parts& parts, double log) {
-  return sweep.follow && parts.branches > 0 ? (parts.results + log) / parts.branches : 0.0;
+  return sweep.follow && parts.chains > 0 ? (parts.results + log) / parts.chains : 0.0;
 }
 
 /// While the file is built: coordinates and results are in one place or the other, the largest variable in both.
@@ -123,11 +123,11 @@ MemoryNeed memory_need(const sweep::Sweep& sweep, const std::optional<sweep::Sha
                        double impacts) {
   const Parts parts = parts_of(sweep, shard, impacts);
   const double log = log_bytes(sweep, parts),
-               held = parts.results + parts.intermediate + parts.branches;  // a byte tells a branch's state
+               held = parts.results + parts.intermediate + parts.chains;  // a byte tells a chain's state
   const double working = threads * value * observables::All::values_held(sweep.problem.observe);
   const double running = held + log + std::max(working, saving_bytes(sweep, parts, log));
   const double collecting = parts.coordinates + held + log;
-  const double building = parts.branches + building_bytes(parts);
+  const double building = parts.chains + building_bytes(parts);
   return {.output = parts.coordinates + parts.results + parts.logged_in_file(),
           .memory = before_bytes(parts, threads) + std::max({running, collecting, building}),
           .log = log};

@@ -10,7 +10,7 @@
 #include "plan/costliest_point.hpp"
 #include "plan/survey.hpp"
 #include "point/point.hpp"
-#include "sweep/branches.hpp"
+#include "sweep/chains.hpp"
 #include "sweep/mirror_images.hpp"
 
 namespace clatter::plan {
@@ -102,7 +102,7 @@ Plan plan_of(const sweep::Sweep& sweep, const sweep::RunOptions& options, const 
   std::ranges::sort(survey.groups, cheaper, &Collected::effects);
   Plan plan;
   plan.shard = shard;
-  plan.points = share.points(), plan.branches = share.count();
+  plan.points = share.points(), plan.chains = share.count();
   if (survey.examined < plan.points) plan.sampled_points = survey.examined;
   plan.observed = observables::All::descriptions(sweep.problem.observe);
   for (const Collected& group : survey.groups) {

@@ -28,7 +28,7 @@ struct Plan {
   std::size_t points = 0;
   std::optional<std::size_t> sampled_points;  ///< points that were examined, so counts are estimates; empty: all were
   std::size_t mirror_images = 0;              ///< points whose results follow from others', and aren't simulated
-  std::size_t branches = 0;                   ///< number of independent branches
+  std::size_t chains = 0;                     ///< number of independent chains
   std::vector<std::string> observed;          ///< the observables, e.g. "harmonics 0 ... 3 by FFT of 4096 samples"
   std::vector<Group> groups;                  ///< the cheapest compiled set of effects first
   MemoryNeed need;                            ///< the need of a run

@@ -12,7 +12,7 @@
 #include "point/point.hpp"
 #include "scene/displacement_bound.hpp"
 #include "steady/repeat.hpp"
-#include "sweep/branches.hpp"
+#include "sweep/chains.hpp"
 #include "sweep/parallel.hpp"
 
 namespace clatter::plan {
@@ -51,7 +51,7 @@ double closeness(const Requirements& needs, double gap) {
   return gap < infinity ? (needs.effects.stops() ? needs.reach : needs.free_reach) / gap : -1;
 }
 
-/// The points of a run that are examined. Those that begin a branch are sampled apart from the others: their start is
+/// The points of a run that are examined. Those that begin a chain are sampled apart from the others: their start is
 /// known, so their work differs.
 class ExaminedPoints {
  public:
@@ -131,7 +131,7 @@ double work_of_period(const point::Problem& scene, const Effects& effects) {
 
 point::Problem planned_problem(const sweep::Sweep& sweep, std::size_t point) {
   point::Problem problem = problem_at(sweep, point);
-  if (sweep::Branches(sweep).begins(point)) {
+  if (sweep::Chains(sweep).begins(point)) {
     sweep::start_from(problem, std::nullopt, {});
   } else {
     problem.start = {point::no_value, point::no_value, point::no_value};

@@ -67,7 +67,7 @@ struct Survey {
   }
 };
 
-/// A point as the plan examines it; along a followed branch its start isn't known yet, and NaN.
+/// A point as the plan examines it; along a followed chain its start isn't known yet, and NaN.
 [[nodiscard]] point::Problem planned_problem(const sweep::Sweep& sweep, std::size_t point);
 
 /// Evaluations of arcs in a forcing period, from the length of the steps that are proved free of contact; two impacts a

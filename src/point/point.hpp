@@ -25,7 +25,7 @@ struct PointResult : observables::All::Values {
   double evaluations = 0.0;
   double settling_estimate = no_value;  ///< forcing periods until the motion is within the tolerance of the steady one
   double observed_turns = no_value;     ///< forcing periods observed
-  Start end{};  ///< the end of the observed motion, from which the next point of a branch starts
+  Start end{};                          ///< the end of the observed motion, from which the next point of a chain starts
 };
 
 /// Memory that the points of one thread share.
@@ -44,7 +44,7 @@ struct ThreadScratch {
 
 /// A point that waits to be run.
 struct WorkItem {
-  std::size_t branch = 0;    ///< of a run: points that start from the ends of each other, or a single one (`Share`)
+  std::size_t chain = 0;     ///< of a run: points that start from the ends of each other, or a single one (`Share`)
   std::size_t position = 0;  ///< along it
   Problem problem;
   Effects effects;

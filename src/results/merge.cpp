@@ -67,7 +67,7 @@ std::string missing_text(const sweep::Sweep& sweep, const std::vector<ShardHeade
   return missing > shown ? text + "\nand " + std::to_string(missing - shown) + " more shards" : text;
 }
 
-/// Throws unless every point is there exactly once. Two shards have a branch in common if their numbers agree modulo
+/// Throws unless every point is there exactly once. Two shards have a chain in common if their numbers agree modulo
 /// the greatest common divisor of their counts.
 void check_points(const sweep::Sweep& sweep, const std::vector<ShardHeader>& headers) {
   for (auto one = headers.begin(); one != headers.end(); ++one)

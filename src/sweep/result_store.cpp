@@ -66,9 +66,9 @@ void require_length(const std::string& name, std::size_t length, std::size_t wan
 
 std::vector<std::int64_t> point_numbers(const Share& share) {
   std::vector<std::int64_t> numbers(share.points());
-  for (std::size_t branch = 0; branch < share.count(); ++branch)
+  for (std::size_t chain = 0; chain < share.count(); ++chain)
     for (std::size_t i = 0; i < share.length(); ++i)
-      numbers[share.local_index(branch, i)] = static_cast<std::int64_t>(share.point(branch, i));
+      numbers[share.local_index(chain, i)] = static_cast<std::int64_t>(share.point(chain, i));
   return numbers;
 }
 

@@ -32,14 +32,14 @@ SweepRun::SweepRun(const Sweep& sweep, const std::optional<Shard>& shard)
 
 bool SweepRun::restore(std::span<const std::byte> results) {
   while (!results.empty()) {
-    std::uint64_t branch = 0;
-    if (results.size() < sizeof branch) return false;
-    std::memcpy(&branch, results.data(), sizeof branch);
-    results = results.subspan(sizeof branch);
-    if (branch >= share_.count() || states_[branch] != BranchState::open) return false;
+    std::uint64_t chain = 0;
+    if (results.size() < sizeof chain) return false;
+    std::memcpy(&chain, results.data(), sizeof chain);
+    results = results.subspan(sizeof chain);
+    if (chain >= share_.count() || states_[chain] != ChainState::open) return false;
     for (std::size_t i = 0; i < share_.length(); ++i)
-      if (!store_.unpack(share_.local_index(branch, i), results)) return false;
-    states_[branch] = BranchState::saved, restored_ += share_.length();
+      if (!store_.unpack(share_.local_index(chain, i), results)) return false;
+    states_[chain] = ChainState::saved, restored_ += share_.length();
   }
   return true;
 }
@@ -54,19 +54,19 @@ void SweepRun::save(const std::function<void(std::span<const std::byte> results)
   std::vector<std::size_t> packed;
   const auto write_packed = [&] {
     write(results), results.clear();
-    for (const std::size_t branch : packed) states_[branch] = BranchState::saved;
+    for (const std::size_t chain : packed) states_[chain] = ChainState::saved;
     packed.clear();
   };
-  for (std::uint64_t branch = 0; branch < share_.count(); ++branch) {
-    if (states_[branch] != BranchState::finished) continue;
-    std::size_t more = sizeof branch;
-    for (std::size_t i = 0; i < share_.length(); ++i) more += store_.most_packed(share_.local_index(branch, i));
+  for (std::uint64_t chain = 0; chain < share_.count(); ++chain) {
+    if (states_[chain] != ChainState::finished) continue;
+    std::size_t more = sizeof chain;
+    for (std::size_t i = 0; i < share_.length(); ++i) more += store_.most_packed(share_.local_index(chain, i));
     if (more > enough_to_save)
       results.reserve(results.size() + more);  // growing by doubling would take up to twice as much
-    const auto number = std::as_bytes(std::span(&branch, 1));
+    const auto number = std::as_bytes(std::span(&chain, 1));
     results.insert(results.end(), number.begin(), number.end());
-    for (std::size_t i = 0; i < share_.length(); ++i) store_.pack(share_.local_index(branch, i), results);
-    packed.push_back(branch);
+    for (std::size_t i = 0; i < share_.length(); ++i) store_.pack(share_.local_index(chain, i), results);
+    packed.push_back(chain);
     if (results.size() >= enough_to_save) write_packed();
   }
   if (!results.empty()) write_packed();

@@ -59,8 +59,8 @@ struct RunResult {
   LaneWork lanes;                                              ///< work in SIMD lanes
 };
 
-/// The state of a branch of points.
-enum class BranchState : std::uint8_t { open, finished, saved };
+/// The state of a chain of points.
+enum class ChainState : std::uint8_t { open, finished, saved };
 
 /// A sweep, or a shard of it, on its way to its results.
 class SweepRun {
@@ -77,7 +77,7 @@ class SweepRun {
   /// points. Throws LimitError before the first point if the threads' stacks are too small.
   void run(const RunOptions& options);
 
-  /// Passes the results of branches finished since the last call to `write`, several at once, at most `most_saved`
+  /// Passes the results of chains finished since the last call to `write`, several at once, at most `most_saved`
   /// bytes each time besides the impact log. Another thread may call it during `run`.
   void save(const std::function<void(std::span<const std::byte> results)>& write);
 
@@ -91,7 +91,7 @@ class SweepRun {
   std::optional<Shard> shard_;
   Share share_;
   ResultStore store_;
-  std::vector<std::atomic<BranchState>> states_;  ///< [branch]
+  std::vector<std::atomic<ChainState>> states_;  ///< [chain]
   std::size_t restored_ = 0;
   RunResult result_;
 };

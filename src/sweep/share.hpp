@@ -5,11 +5,11 @@
 #include <string>
 #include <string_view>
 
-#include "sweep/branches.hpp"
+#include "sweep/chains.hpp"
 
 namespace clatter::sweep {
 
-/// One of several runs that share a sweep: it has the branches `number`, `number + of`, … of it.
+/// One of several runs that share a sweep: it has the chains `number`, `number + of`, … of it.
 struct Shard {
   static constexpr std::size_t most = 1'000'000;
   std::size_t number = 0, of = 1;  ///< number < of <= most
@@ -21,35 +21,35 @@ struct Shard {
 [[nodiscard]] std::string text_of(const Shard& shard);
 [[nodiscard]] std::optional<Shard> shard_named(std::string_view text);
 
-/// The branches and points of a sweep that one run has: all, or those of a shard.
+/// The chains and points of a sweep that one run has: all, or those of a shard.
 class Share {
  public:
   explicit Share(const Sweep& sweep, const std::optional<Shard>& shard = {})
-      : branches_(sweep), shard_(shard.value_or(Shard{})), count_(before(branches_.count)) {}
+      : chains_(sweep), shard_(shard.value_or(Shard{})), count_(before(chains_.count)) {}
 
-  [[nodiscard]] std::size_t count() const { return count_; }             ///< branches
-  [[nodiscard]] std::size_t length() const { return branches_.length; }  ///< points of a branch
-  [[nodiscard]] std::size_t points() const { return count_ * branches_.length; }
+  [[nodiscard]] std::size_t count() const { return count_; }           ///< chains
+  [[nodiscard]] std::size_t length() const { return chains_.length; }  ///< points of a chain
+  [[nodiscard]] std::size_t points() const { return count_ * chains_.length; }
 
-  /// Index in the sweep of the i-th point of the run's own n-th branch.
+  /// Index in the sweep of the i-th point of the run's own n-th chain.
   [[nodiscard]] std::size_t point(std::size_t n, std::size_t i) const {
-    return branches_.point(shard_.number + n * shard_.of, i);
+    return chains_.point(shard_.number + n * shard_.of, i);
   }
-  /// Number of points of this run with a smaller index in the sweep. If each branch is one point, that is n.
+  /// Number of points of this run with a smaller index in the sweep. If each chain is one point, that is n.
   [[nodiscard]] std::size_t local_index(std::size_t n, std::size_t i) const {
-    const std::size_t block = (shard_.number + n * shard_.of) / branches_.stride * branches_.stride;
-    const std::size_t first = before(block), beside = before(block + branches_.stride) - first;
-    const std::size_t way = branches_.returns(i) ? count_ * branches_.values : 0;
-    return way + first * branches_.values + branches_.value(i) * beside + (n - first);
+    const std::size_t block = (shard_.number + n * shard_.of) / chains_.stride * chains_.stride;
+    const std::size_t first = before(block), beside = before(block + chains_.stride) - first;
+    const std::size_t way = chains_.returns(i) ? count_ * chains_.values : 0;
+    return way + first * chains_.values + chains_.value(i) * beside + (n - first);
   }
 
  private:
-  /// Number of the run's branches before this branch of the sweep.
-  [[nodiscard]] std::size_t before(std::size_t branch) const {
-    return branch <= shard_.number ? 0 : (branch - shard_.number - 1) / shard_.of + 1;
+  /// Number of the run's chains before this chain of the sweep.
+  [[nodiscard]] std::size_t before(std::size_t chain) const {
+    return chain <= shard_.number ? 0 : (chain - shard_.number - 1) / shard_.of + 1;
   }
 
-  Branches branches_;
+  Chains chains_;
   Shard shard_;
   std::size_t count_;
 };

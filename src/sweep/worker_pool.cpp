@@ -6,7 +6,7 @@
 
 #include "lanes/run_in_lanes.hpp"
 #include "lanes/scheduler.hpp"
-#include "sweep/branches.hpp"
+#include "sweep/chains.hpp"
 #include "sweep/parallel.hpp"
 
 namespace clatter::sweep {
@@ -33,7 +33,7 @@ void add(std::vector<WorkStats>& sum, const WorkStats& part) {
 }  // namespace
 
 WorkerPool::WorkerPool(const Sweep& sweep, const Share& share, const RunOptions& options, int threads,
-                       ResultStore& store, std::vector<std::atomic<BranchState>>& states, std::size_t restored)
+                       ResultStore& store, std::vector<std::atomic<ChainState>>& states, std::size_t restored)
     : sweep_(sweep),
       share_(share),
       store_(store),
@@ -55,7 +55,7 @@ WorkerPool::WorkerPool(const Sweep& sweep, const Share& share, const RunOptions&
   for (point::ThreadScratch& scratch : scratches_) scratch.fourier = fourier.for_another_thread();
   for (std::size_t point = 0; has_whole_pairs_ && restored > 0 && point < share_.count(); ++point)
     if (const auto original = mirror_images_.original_of(point))
-      if (states_[point] == BranchState::open && states_[*original] == BranchState::saved) bereft_.push_back(point);
+      if (states_[point] == ChainState::open && states_[*original] == ChainState::saved) bereft_.push_back(point);
 }
 
 void WorkerPool::run() {
@@ -94,18 +94,18 @@ std::optional<WorkerPool::Chunk> WorkerPool::next_chunk() {
   }
 }
 
-point::WorkItem WorkerPool::item_of(std::size_t branch, std::size_t position, const std::optional<Start>& end,
+point::WorkItem WorkerPool::item_of(std::size_t chain, std::size_t position, const std::optional<Start>& end,
                                     const Units& units_of_end) const {
-  const std::size_t point = share_.point(branch, position);
-  point::WorkItem item{branch, position, problem_at(sweep_, mirror_images_.original_of(point).value_or(point)), {}};
+  const std::size_t point = share_.point(chain, position);
+  point::WorkItem item{chain, position, problem_at(sweep_, mirror_images_.original_of(point).value_or(point)), {}};
   if (sweep_.follow) start_from(item.problem, end, units_of_end);
   item.effects = effects_of(item.problem);
   return item;
 }
 
 void WorkerPool::run_lanes(std::size_t thread) {
-  std::vector<point::WorkItem> ready;  // next points of branches that have been begun
-  std::size_t begun = 0, ended = 0;    // branches
+  std::vector<point::WorkItem> ready;  // next points of chains that have been begun
+  std::size_t begun = 0, ended = 0;    // chains
   const auto take = [&](const point::WorkItem& item, point::PointResult&& result) {
     if (auto successor = store(item, std::move(result), thread))
       ready.push_back(std::move(*successor));
@@ -150,17 +150,17 @@ std::optional<point::WorkItem> WorkerPool::store(const point::WorkItem& item, po
   if (end) end->phase -= item.problem.shaking.lead;
   add(work_[thread], work_of(item, result));
   if (mirror_images_.exist()) {
-    const std::size_t point = share_.point(item.branch, item.position);
+    const std::size_t point = share_.point(item.chain, item.position);
     if (mirror_images_.original_of(point)) {
       result = mirrored(result);
     } else if (has_whole_pairs_) {
       store_image_of(point, result, item.problem.units, thread);
     }
   }
-  store_.store(share_.local_index(item.branch, item.position), std::move(result), item.problem.units);
+  store_.store(share_.local_index(item.chain, item.position), std::move(result), item.problem.units);
   progress_.add_point(thread);
-  if (item.position + 1 < share_.length()) return item_of(item.branch, item.position + 1, end, item.problem.units);
-  states_[item.branch] = BranchState::finished;
+  if (item.position + 1 < share_.length()) return item_of(item.chain, item.position + 1, end, item.problem.units);
+  states_[item.chain] = ChainState::finished;
   return std::nullopt;
 }
 
@@ -170,11 +170,11 @@ void WorkerPool::store_image_of(std::size_t point, const point::PointResult& res
   if (!image || is_restored(*image) || is_bereft(*image)) return;
   store_.store(*image, mirrored(result), units);
   progress_.add_point(thread);
-  states_[*image] = BranchState::finished;
+  states_[*image] = ChainState::finished;
 }
 
-void WorkerPool::run_branch(std::size_t branch, std::size_t thread) {
-  std::optional<point::WorkItem> item = item_of(branch), successor;
+void WorkerPool::run_chain(std::size_t chain, std::size_t thread) {
+  std::optional<point::WorkItem> item = item_of(chain), successor;
   for (; item; item = std::move(successor))
     run_batch({&*item, 1}, scratches_[thread], [&](const point::WorkItem& done, point::PointResult&& result) {
       successor = store(done, std::move(result), thread);
@@ -183,7 +183,7 @@ void WorkerPool::run_branch(std::size_t branch, std::size_t thread) {
 
 void WorkerPool::run_chunk(const Chunk& chunk, std::size_t thread) {
   if (sweep_.follow) {
-    if (!is_restored(chunk.begin)) run_branch(chunk.begin, thread);
+    if (!is_restored(chunk.begin)) run_chain(chunk.begin, thread);
   } else {
     run_points(chunk, thread);
   }
@@ -192,8 +192,8 @@ void WorkerPool::run_chunk(const Chunk& chunk, std::size_t thread) {
 void WorkerPool::run_points(const Chunk& chunk, std::size_t thread) {
   std::vector<point::WorkItem> items;
   items.reserve(chunk.end - chunk.begin);
-  for (std::size_t branch = chunk.begin; branch < chunk.end; ++branch)
-    if (!is_left_out(branch)) items.push_back(item_of(branch));
+  for (std::size_t chain = chunk.begin; chain < chunk.end; ++chain)
+    if (!is_left_out(chain)) items.push_back(item_of(chain));
   const auto set_of = [](const point::WorkItem& item) { return effect_set_of(item.effects); };
   std::ranges::stable_sort(items, {}, set_of);
   for (std::span<const point::WorkItem> left(items); !left.empty();) {

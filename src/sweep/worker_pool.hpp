@@ -21,11 +21,11 @@ namespace clatter::sweep {
 /// The threads that run a sweep, and their shared state.
 class WorkerPool {
  public:
-  /// Leaves out the branches that are saved; `restored` is the number of their points.
+  /// Leaves out the chains that are saved; `restored` is the number of their points.
   WorkerPool(const Sweep& sweep, const Share& share, const RunOptions& options, int threads, ResultStore& store,
-             std::vector<std::atomic<BranchState>>& states, std::size_t restored);
+             std::vector<std::atomic<ChainState>>& states, std::size_t restored);
 
-  /// Runs every branch; results go by index, so their bits don't depend on which thread runs what.
+  /// Runs every chain; results go by index, so their bits don't depend on which thread runs what.
   void run();
 
   /// The work of all threads, the cheapest compiled set first.
@@ -45,33 +45,33 @@ class WorkerPool {
   struct Chunk {
     std::size_t begin, end;
   };
-  /// Branches that no thread has begun; empty if none is left or another thread has failed.
+  /// Chains that no thread has begun; empty if none is left or another thread has failed.
   std::optional<Chunk> next_chunk();
 
-  [[nodiscard]] bool is_restored(std::size_t branch) const { return states_[branch] == BranchState::saved; }
-  /// Whether a branch needs no run: it is restored, or follows from its mirror image.
-  [[nodiscard]] bool is_left_out(std::size_t branch) const {
-    return is_restored(branch) || (has_whole_pairs_ && mirror_images_.original_of(branch) && !is_bereft(branch));
+  [[nodiscard]] bool is_restored(std::size_t chain) const { return states_[chain] == ChainState::saved; }
+  /// Whether a chain needs no run: it is restored, or follows from its mirror image.
+  [[nodiscard]] bool is_left_out(std::size_t chain) const {
+    return is_restored(chain) || (has_whole_pairs_ && mirror_images_.original_of(chain) && !is_bereft(chain));
   }
   /// Whether the original of a mirror image is restored, and can't give it its result any more.
   [[nodiscard]] bool is_bereft(std::size_t point) const { return std::ranges::binary_search(bereft_, point); }
 
-  /// A point of a branch, the first or, if there is an end of the one before, from that.
-  [[nodiscard]] point::WorkItem item_of(std::size_t branch, std::size_t position = 0,
+  /// A point of a chain, the first or, if there is an end of the one before, from that.
+  [[nodiscard]] point::WorkItem item_of(std::size_t chain, std::size_t position = 0,
                                         const std::optional<Start>& end = {}, const Units& units_of_end = {}) const;
 
-  /// Runs the points that lanes accept, and between them, one by one, those that they don't. Of branches, a thread
+  /// Runs the points that lanes accept, and between them, one by one, those that they don't. Of chains, a thread
   /// takes no more than its share, so that the others have as many.
   void run_lanes(std::size_t thread);
 
-  /// Stores a point's result; returns the next point of its branch, if there is one.
+  /// Stores a point's result; returns the next point of its chain, if there is one.
   std::optional<point::WorkItem> store(const point::WorkItem& item, point::PointResult&& result, std::size_t thread);
 
   /// Stores the result of a point's mirror image, which no other thread touches.
   void store_image_of(std::size_t point, const point::PointResult& result, const Units& units, std::size_t thread);
 
-  /// Runs the points of a branch, each from the end of the one before.
-  void run_branch(std::size_t branch, std::size_t thread);
+  /// Runs the points of a chain, each from the end of the one before.
+  void run_chain(std::size_t chain, std::size_t thread);
 
   void run_chunk(const Chunk& chunk, std::size_t thread);
 
@@ -81,9 +81,9 @@ class WorkerPool {
   const Sweep& sweep_;
   const Share& share_;
   ResultStore& store_;
-  std::vector<std::atomic<BranchState>>& states_;  ///< [branch]
+  std::vector<std::atomic<ChainState>>& states_;  ///< [chain]
   SweepProgress progress_;
-  std::size_t chunk_;          ///< branches that a thread takes at once
+  std::size_t chunk_;          ///< chains that a thread takes at once
   Scatter chunks_;             ///< the order of the chunks
   std::size_t most_branches_;  ///< that a thread has under way
   lanes::InstructionSet arch_;

@@ -69,7 +69,7 @@ TEST(Memory, of_an_impact_log_is_that_of_the_figure_if_the_impacts_are_known) {
 
 TEST(Memory, of_a_run_holds_an_axis_twice_each_result_once_and_the_largest_variable_twice) {
   const double a_point = memory_need(line(2'000'000)).memory - memory_need(line(1'000'000)).memory;
-  EXPECT_EQ(a_point / 1e6, 8 + 8 + (1 + 8 + 8) + 8 + 1);  // and a byte for the state of its branch
+  EXPECT_EQ(a_point / 1e6, 8 + 8 + (1 + 8 + 8) + 8 + 1);  // and a byte for the state of its chain
 }
 
 TEST(Memory, of_a_huge_sweep_is_known_without_running_it) {
@@ -90,7 +90,7 @@ TEST(Memory, of_samples_counts_for_each_thread) {
   EXPECT_NEAR(four - two, 2.0 * 6 * 8 * (1 << 20), 1e6);
 }
 
-TEST(Memory, of_followed_branches_counts_one_that_is_saved) {
+TEST(Memory, of_followed_chains_counts_one_that_is_saved) {
   sweep::Sweep sweep = line(1'000'000);
   sweep.problem.observe.extrema = true;
   const double apart = memory_need(sweep).memory;

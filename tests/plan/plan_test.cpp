@@ -137,11 +137,11 @@ TEST(Plan, warns_of_motion_that_keeps_its_transient) {
   EXPECT_FALSE(warns(plan_of(sweep::sweep_of(scene, {}), 1), "never fades"));
 }
 
-TEST(Plan, along_a_followed_branch_only_the_first_start_is_known) {
+TEST(Plan, along_a_followed_chain_only_the_first_start_is_known) {
   sweep::Sweep sweep = sweep::sweep_of(figure(6), {{Parameter("R"), {0.5, 0.7}}, {Parameter("nu"), frequencies()}});
   sweep.follow = 1;
   const Plan plan = plan_of(sweep, 1);
-  EXPECT_EQ(plan.branches, 2u);
+  EXPECT_EQ(plan.chains, 2u);
   ASSERT_EQ(plan.groups.size(), 2u);
   EXPECT_EQ(plan.groups[0].points, 2u);
   EXPECT_FALSE(plan.groups[0].effects.stops());
@@ -206,7 +206,7 @@ TEST(Plan, of_a_sample_is_the_same_for_every_number_of_threads) {
   }
 }
 
-TEST(Plan, of_a_large_followed_sweep_knows_how_many_points_begin_a_branch) {
+TEST(Plan, of_a_large_followed_sweep_knows_how_many_points_begin_a_chain) {
   sweep::Sweep sweep =
       sweep::sweep_of(figure(6), {{Parameter("R"), {0.5, 0.7}}, {Parameter("nu"), evenly(0.5, 1.5, 1'000'000)}});
   sweep.follow = 1;
@@ -230,7 +230,7 @@ TEST(Plan, of_a_shard_is_that_of_its_points) {
   const sweep::Shard shard{1, 3};
   const Plan plan = plan_of(sweep, 1, shard);
   EXPECT_EQ(plan.points, sweep::Share(sweep, shard).points());
-  EXPECT_EQ(plan.branches, plan.points);
+  EXPECT_EQ(plan.chains, plan.points);
   EXPECT_EQ(plan.need.output, memory_need(sweep, shard, 1).output);
   EXPECT_EQ(plan.need.memory, memory_need(sweep, shard, 1).memory);
   std::size_t points = 0;

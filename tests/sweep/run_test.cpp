@@ -199,7 +199,7 @@ TEST(Run, a_failed_point_says_how_far_it_came) {
   EXPECT_NEAR(result.periods, 10.0, 1.0);
 }
 
-TEST(Run, progress_reaches_the_total_along_a_branch_too) {
+TEST(Run, progress_reaches_the_total_along_a_chain_too) {
   Sweep sweep = sweep_of(paper_scene(6.0, 1.0), {{Parameter("nu"), std::vector<double>(50, 0.9)}});
   for (const bool follow : {false, true}) {
     if (follow) sweep.follow = 0;

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "support/random.hpp"
-#include "sweep/branches.hpp"
+#include "sweep/chains.hpp"
 #include "sweep/run.hpp"
 
 namespace clatter::sweep {

@@ -72,10 +72,10 @@ TEST(Shard, is_named_by_number_and_count) {
     EXPECT_EQ(shard_named(wrong), std::nullopt) << wrong;
 }
 
-TEST(Shard, has_each_point_once_in_ascending_order_and_whole_branches) {
+TEST(Shard, has_each_point_once_in_ascending_order_and_whole_chains) {
   for (const Order& order : every_order) {
     const Sweep sweep = any_sweep(order);
-    const Branches branches(sweep);
+    const Chains chains(sweep);
     for (std::size_t of = 1; of <= 33; ++of) {
       std::vector<int> owners(size(sweep), 0);
       for (std::size_t number = 0; number < of; ++number) {
@@ -83,7 +83,7 @@ TEST(Shard, has_each_point_once_in_ascending_order_and_whole_branches) {
         std::vector<std::size_t> points(share.points(), size(sweep));
         for (std::size_t n = 0; n < share.count(); ++n)
           for (std::size_t i = 0; i < share.length(); ++i) {
-            ASSERT_EQ(share.point(n, i), branches.point(number + n * of, i));
+            ASSERT_EQ(share.point(n, i), chains.point(number + n * of, i));
             ASSERT_LT(share.local_index(n, i), points.size());
             points[share.local_index(n, i)] = share.point(n, i);
             ++owners[share.point(n, i)];
@@ -205,7 +205,7 @@ TEST(SavedRun, refuses_results_that_are_not_its_own) {
 }
 
 TEST(SavedRun, may_be_saved_while_it_is_at_work) {
-  Sweep alone = any_sweep({2});  // branches of one point
+  Sweep alone = any_sweep({2});  // chains of one point
   alone.dimensions[2][0].values.resize(1);
   for (const Sweep& sweep : {any_sweep(), any_sweep({1}), alone}) {
     const Dataset whole = run(sweep, {.threads = 1}).dataset;

@@ -8,15 +8,15 @@
 
 namespace clatter::sweep {
 
-/// Points that run one after the other: along `follow` a whole branch, else a single point.
-struct Branches {
-  std::size_t count = 0;                ///< branches
-  std::size_t length = 1;               ///< points of a branch
+/// Points that run one after the other: along `follow` a whole chain, else a single point.
+struct Chains {
+  std::size_t count = 0;                ///< chains
+  std::size_t length = 1;               ///< points of a chain
   std::size_t values = 1;               ///< of the followed dimension; in both directions half the length
   std::size_t stride = 1;               ///< between points that are neighbours in the followed dimension
   Direction direction = Direction::up;  ///< along it
 
-  explicit Branches(const Sweep& sweep) : count(size_one_way(sweep)) {
+  explicit Chains(const Sweep& sweep) : count(size_one_way(sweep)) {
     if (!sweep.follow) return;
     direction = sweep.direction, values = clatter::sweep::length(sweep.dimensions[*sweep.follow]);
     length = direction == Direction::both ? 2 * values : values;
@@ -24,24 +24,24 @@ struct Branches {
       stride *= clatter::sweep::length(sweep.dimensions[d]);
     count /= values;
   }
-  /// Whether the i-th point of a branch lies on the way back.
+  /// Whether the i-th point of a chain lies on the way back.
   [[nodiscard]] bool returns(std::size_t i) const { return i >= values; }
   /// Index of its value in the followed dimension.
   [[nodiscard]] std::size_t value(std::size_t i) const {
     return returns(i) || direction == Direction::down ? length - 1 - i : i;
   }
-  /// Index of the i-th point of a branch.
-  [[nodiscard]] std::size_t point(std::size_t branch, std::size_t i) const {
+  /// Index of the i-th point of a chain.
+  [[nodiscard]] std::size_t point(std::size_t chain, std::size_t i) const {
     const std::size_t way = returns(i) ? count * values : 0;
-    return way + (branch / stride * values + value(i)) * stride + branch % stride;
+    return way + (chain / stride * values + value(i)) * stride + chain % stride;
   }
-  /// Whether a point begins its branch, so that its start is known before anything runs.
+  /// Whether a point begins its chain, so that its start is known before anything runs.
   [[nodiscard]] bool begins(std::size_t point) const {
     return point < count * values && point / stride % values == value(0);
   }
 };
 
-/// Starts a point of a branch from the end of the one before, whose phase is that of the shaking, or from the scene's
+/// Starts a point of a chain from the end of the one before, whose phase is that of the shaking, or from the scene's
 /// own start if that one failed. A displacement beyond narrower rigid stops is moved onto the stop, the velocity kept,
 /// though the units of time may differ.
 inline void start_from(point::Problem& problem, const std::optional<Start>& end, const Units& units_of_end) {
