@@ -4,7 +4,7 @@
 
 #include "branches/branch_dataset.hpp"
 #include "branches/curve.hpp"
-#include "branches/measures.hpp"
+#include "branches/measures/measures.hpp"
 #include "commands.hpp"
 #include "common_options.hpp"
 #include "format.hpp"

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "branches/curve.hpp"
-#include "branches/measures.hpp"
+#include "branches/measures/measures.hpp"
 #include "certificates/certified_branch.hpp"
 #include "certificates/sample.hpp"
 #include "command_line.hpp"

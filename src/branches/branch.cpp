@@ -5,10 +5,10 @@
 #include <deque>
 #include <functional>
 
-#include "branches/resting_branch.hpp"
-#include "branches/special_points.hpp"
+#include "branches/resting/resting_branch.hpp"
 #include "branches/start.hpp"
-#include "branches/touch.hpp"
+#include "branches/walk/special_points.hpp"
+#include "branches/walk/touch.hpp"
 
 namespace clatter::branches {
 namespace {

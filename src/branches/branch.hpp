@@ -9,10 +9,10 @@
 #include <string_view>
 #include <vector>
 
-#include "branches/equations.hpp"
+#include "branches/equations/equations.hpp"
 #include "branches/settings.hpp"
 #include "branches/start.hpp"
-#include "branches/violation.hpp"
+#include "branches/walk/violation.hpp"
 #include "point/problem.hpp"
 
 namespace clatter::branches {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "branches/measures.hpp"
+#include "branches/measures/measures.hpp"
 
 namespace clatter::branches {
 namespace {

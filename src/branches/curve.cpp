@@ -6,9 +6,9 @@
 #include <tuple>
 #include <utility>
 
-#include "branches/measures.hpp"
+#include "branches/measures/measures.hpp"
 #include "branches/record.hpp"
-#include "branches/touch.hpp"
+#include "branches/walk/touch.hpp"
 
 namespace clatter::branches {
 namespace {

@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <optional>
 
-#include "branches/orbit.hpp"
+#include "branches/equations/orbit.hpp"
 #include "point/problem.hpp"
 
 namespace clatter::branches {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "branches/measures.hpp"
+#include "branches/measures/measures.hpp"
 
 namespace clatter::branches {
 namespace {

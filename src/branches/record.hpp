@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "branches/branch.hpp"
-#include "branches/walk.hpp"
+#include "branches/walk/walk.hpp"
 
 namespace clatter::branches {
 

@@ -6,8 +6,8 @@
 
 #include "attractors/periodic_motion.hpp"
 #include "branches/event_run.hpp"
-#include "branches/measures.hpp"
-#include "branches/resting.hpp"
+#include "branches/measures/measures.hpp"
+#include "branches/resting/resting.hpp"
 #include "point/point.hpp"
 #include "scene/response.hpp"
 #include "sweep/sweep.hpp"

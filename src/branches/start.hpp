@@ -5,8 +5,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "branches/equations/orbit.hpp"
 #include "branches/followed_scene.hpp"
-#include "branches/orbit.hpp"
 
 namespace clatter::branches {
 

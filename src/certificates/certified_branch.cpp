@@ -4,8 +4,8 @@
 #include <array>
 #include <cmath>
 
-#include "branches/measures.hpp"
-#include "branches/moving.hpp"
+#include "branches/measures/measures.hpp"
+#include "branches/measures/moving.hpp"
 #include "sweep/sweep.hpp"
 
 namespace clatter::certificates {

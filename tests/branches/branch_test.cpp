@@ -5,9 +5,9 @@
 #include <algorithm>
 
 #include "branches/branch_dataset.hpp"
-#include "branches/measures.hpp"
-#include "branches/moving.hpp"
-#include "branches/newton.hpp"
+#include "branches/equations/newton.hpp"
+#include "branches/measures/measures.hpp"
+#include "branches/measures/moving.hpp"
 #include "branches/special_values.hpp"
 #include "point/point.hpp"
 #include "support/random.hpp"

@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
-#include "branches/newton.hpp"
-#include "branches/walk.hpp"
+#include "branches/equations/newton.hpp"
+#include "branches/walk/walk.hpp"
 
 namespace clatter::branches {
 namespace {

@@ -1,12 +1,12 @@
-#include "branches/equations.hpp"
+#include "branches/equations/equations.hpp"
 
 #include <gtest/gtest.h>
 
 #include <optional>
 #include <random>
 
-#include "branches/newton.hpp"
-#include "branches/violation.hpp"
+#include "branches/equations/newton.hpp"
+#include "branches/walk/violation.hpp"
 #include "math/dual.hpp"
 #include "math/fifty_digits.hpp"
 

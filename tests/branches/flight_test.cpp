@@ -1,4 +1,4 @@
-#include "branches/flight.hpp"
+#include "branches/equations/flight.hpp"
 
 #include <gtest/gtest.h>
 

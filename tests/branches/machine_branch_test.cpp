@@ -4,7 +4,7 @@
 #include <string>
 
 #include "branches/branch.hpp"
-#include "branches/measures.hpp"
+#include "branches/measures/measures.hpp"
 #include "point/point.hpp"
 #include "sweep/sweep.hpp"
 

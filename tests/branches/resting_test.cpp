@@ -1,12 +1,12 @@
-#include "branches/resting.hpp"
+#include "branches/resting/resting.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
 #include "branches/branch.hpp"
-#include "branches/measures.hpp"
-#include "branches/moving.hpp"
+#include "branches/measures/measures.hpp"
+#include "branches/measures/moving.hpp"
 #include "branches/special_values.hpp"
 #include "branches/symmetric_motion.hpp"
 #include "point/point.hpp"

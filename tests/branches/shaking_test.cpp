@@ -7,10 +7,10 @@
 #include <cmath>
 
 #include "branches/branch.hpp"
-#include "branches/measures.hpp"
-#include "branches/moving.hpp"
-#include "branches/newton.hpp"
-#include "branches/resting.hpp"
+#include "branches/equations/newton.hpp"
+#include "branches/measures/measures.hpp"
+#include "branches/measures/moving.hpp"
+#include "branches/resting/resting.hpp"
 #include "branches/special_values.hpp"
 #include "branches/symmetric_motion.hpp"
 #include "point/point.hpp"

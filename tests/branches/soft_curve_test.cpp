@@ -9,7 +9,7 @@
 
 #include "branches/bumpers.hpp"
 #include "branches/curve.hpp"
-#include "branches/flight.hpp"
+#include "branches/equations/flight.hpp"
 #include "branches/special_values.hpp"
 #include "support/soft_scene.hpp"
 

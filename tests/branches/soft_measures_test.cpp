@@ -8,9 +8,9 @@
 
 #include "branches/branch.hpp"
 #include "branches/bumpers.hpp"
-#include "branches/measures.hpp"
-#include "branches/moving.hpp"
-#include "branches/newton.hpp"
+#include "branches/equations/newton.hpp"
+#include "branches/measures/measures.hpp"
+#include "branches/measures/moving.hpp"
 #include "point/point.hpp"
 #include "support/random.hpp"
 #include "support/soft_scene.hpp"

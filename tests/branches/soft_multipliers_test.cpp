@@ -11,7 +11,7 @@
 #include <string>
 
 #include "branches/branch.hpp"
-#include "branches/measures.hpp"
+#include "branches/measures/measures.hpp"
 #include "math/fifty_digits.hpp"
 #include "support/runs.hpp"
 #include "sweep/sweep.hpp"

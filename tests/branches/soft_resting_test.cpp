@@ -8,9 +8,9 @@
 
 #include "attractors/exact_run.hpp"
 #include "branches/branch.hpp"
-#include "branches/measures.hpp"
-#include "branches/moving.hpp"
-#include "branches/resting.hpp"
+#include "branches/measures/measures.hpp"
+#include "branches/measures/moving.hpp"
+#include "branches/resting/resting.hpp"
 #include "branches/special_values.hpp"
 #include "support/soft_scene.hpp"
 #include "sweep/sweep.hpp"

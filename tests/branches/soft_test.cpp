@@ -11,7 +11,7 @@
 #include "branches/branch.hpp"
 #include "branches/bumpers.hpp"
 #include "branches/event_run.hpp"
-#include "branches/measures.hpp"
+#include "branches/measures/measures.hpp"
 #include "branches/special_values.hpp"
 #include "motion/tangent_map.hpp"
 #include "scene/required_effects.hpp"

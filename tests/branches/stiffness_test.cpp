@@ -8,8 +8,8 @@
 #include <numbers>
 
 #include "branches/branch.hpp"
-#include "branches/measures.hpp"
-#include "branches/moving.hpp"
+#include "branches/measures/measures.hpp"
+#include "branches/measures/moving.hpp"
 #include "branches/special_values.hpp"
 #include "branches/symmetric_motion.hpp"
 #include "point/point.hpp"

@@ -55,8 +55,8 @@ HEAVY = {  # what takes seconds to compile: the only files that it reaches throu
     },
     r"boost/numeric/odeint": {"src/point/dormand_prince_points.cpp"},
     r"boost/math": {
-        "src/branches/resting_branch.cpp",
-        "src/branches/walk.cpp",
+        "src/branches/resting/resting_branch.cpp",
+        "src/branches/walk/walk.cpp",
         "src/observables/bracketed_root.cpp",
         "src/observables/quadrature.cpp",
         "src/sweep/attractor_table.cpp",
@@ -122,7 +122,7 @@ def below(room):
 
 def sources(root):
     """Every source file below `root`, with its room."""
-    for path in sorted([*root.glob("src/*/*.?pp"), *root.glob("apps/*/*.?pp")]):
+    for path in sorted([*root.glob("src/*/**/*.?pp"), *root.glob("apps/*/**/*.?pp")]):
         parts = path.relative_to(root).parts
         yield path, "apps" if parts[:2] == ("apps", "clatter") else parts[1]
 

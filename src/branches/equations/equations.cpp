@@ -1,10 +1,10 @@
-#include "branches/equations.hpp"
+#include "branches/equations/equations.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
-#include "branches/links.hpp"
+#include "branches/equations/links.hpp"
 
 namespace clatter::branches {
 

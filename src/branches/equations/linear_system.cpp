@@ -1,4 +1,4 @@
-#include "branches/linear_system.hpp"
+#include "branches/equations/linear_system.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "branches/moving.hpp"
+#include "branches/measures/moving.hpp"
 
 namespace clatter::branches {
 

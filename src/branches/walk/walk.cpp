@@ -1,4 +1,4 @@
-#include "branches/walk.hpp"
+#include "branches/walk/walk.hpp"
 
 #include <algorithm>
 #include <boost/math/tools/roots.hpp>

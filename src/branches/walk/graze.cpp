@@ -1,11 +1,11 @@
-#include "branches/graze.hpp"
+#include "branches/walk/graze.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "branches/flight.hpp"
-#include "branches/newton.hpp"
-#include "branches/violation.hpp"
+#include "branches/equations/flight.hpp"
+#include "branches/equations/newton.hpp"
+#include "branches/walk/violation.hpp"
 
 namespace clatter::branches {
 namespace {

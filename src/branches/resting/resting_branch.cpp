@@ -1,13 +1,13 @@
-#include "branches/resting_branch.hpp"
+#include "branches/resting/resting_branch.hpp"
 
 #include <algorithm>
 #include <boost/math/tools/roots.hpp>
 #include <cmath>
 #include <limits>
 
-#include "branches/measures.hpp"
-#include "branches/moving.hpp"
-#include "branches/resting.hpp"
+#include "branches/measures/measures.hpp"
+#include "branches/measures/moving.hpp"
+#include "branches/resting/resting.hpp"
 
 namespace clatter::branches {
 namespace {

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "branches/branch.hpp"
-#include "branches/walk.hpp"
+#include "branches/walk/walk.hpp"
 #include "observables/all.hpp"
 
 namespace clatter::branches {

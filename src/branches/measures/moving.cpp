@@ -1,10 +1,10 @@
-#include "branches/moving.hpp"
+#include "branches/measures/moving.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "branches/links.hpp"
-#include "branches/soft_contacts.hpp"
+#include "branches/equations/links.hpp"
+#include "branches/measures/soft_contacts.hpp"
 
 namespace clatter::branches {
 namespace {

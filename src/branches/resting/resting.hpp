@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "branches/equations.hpp"
+#include "branches/equations/equations.hpp"
 #include "point/problem.hpp"
 
 namespace clatter::branches {

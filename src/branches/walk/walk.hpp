@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "branches/newton.hpp"
+#include "branches/equations/newton.hpp"
 
 namespace clatter::branches {
 

@@ -6,9 +6,9 @@
 #include <optional>
 #include <vector>
 
-#include "branches/flight.hpp"
-#include "branches/linear_system.hpp"
-#include "branches/orbit.hpp"
+#include "branches/equations/flight.hpp"
+#include "branches/equations/linear_system.hpp"
+#include "branches/equations/orbit.hpp"
 
 namespace clatter::branches {
 

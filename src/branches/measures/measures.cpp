@@ -1,11 +1,11 @@
-#include "branches/measures.hpp"
+#include "branches/measures/measures.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <complex>
 #include <numbers>
 
-#include "branches/moving.hpp"
+#include "branches/measures/moving.hpp"
 #include "observables/extrema_observer.hpp"
 
 namespace clatter::branches {

@@ -1,4 +1,4 @@
-#include "branches/newton.hpp"
+#include "branches/equations/newton.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <vector>
 
-#include "branches/equations.hpp"
+#include "branches/equations/equations.hpp"
 #include "math/dual.hpp"
 
 namespace clatter::branches {

@@ -1,9 +1,9 @@
-#include "branches/special_points.hpp"
+#include "branches/walk/special_points.hpp"
 
 #include <algorithm>
 
-#include "branches/measures.hpp"
-#include "branches/moving.hpp"
+#include "branches/measures/measures.hpp"
+#include "branches/measures/moving.hpp"
 
 namespace clatter::branches {
 

@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "branches/equations.hpp"
+#include "branches/equations/equations.hpp"
 
 namespace clatter::branches {
 

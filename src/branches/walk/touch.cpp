@@ -1,4 +1,4 @@
-#include "branches/touch.hpp"
+#include "branches/walk/touch.hpp"
 
 #include <cmath>
 #include <numbers>

@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "branches/equations.hpp"
+#include "branches/equations/equations.hpp"
 
 namespace clatter::branches {
 

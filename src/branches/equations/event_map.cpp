@@ -2,8 +2,8 @@
 #include <cmath>
 #include <vector>
 
-#include "branches/equations.hpp"
-#include "branches/links.hpp"
+#include "branches/equations/equations.hpp"
+#include "branches/equations/links.hpp"
 
 namespace clatter::branches {
 

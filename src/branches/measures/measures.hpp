@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "branches/equations.hpp"
+#include "branches/equations/equations.hpp"
 #include "observables/extrema.hpp"
 
 namespace clatter::branches {

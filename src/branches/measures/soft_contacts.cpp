@@ -1,8 +1,8 @@
-#include "branches/soft_contacts.hpp"
+#include "branches/measures/soft_contacts.hpp"
 
 #include <cmath>
 
-#include "branches/flight.hpp"
+#include "branches/equations/flight.hpp"
 #include "observables/quadrature.hpp"
 
 namespace clatter::branches {

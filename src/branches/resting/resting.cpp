@@ -1,4 +1,4 @@
-#include "branches/resting.hpp"
+#include "branches/resting/resting.hpp"
 
 #include <algorithm>
 #include <cmath>

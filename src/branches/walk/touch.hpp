@@ -3,9 +3,9 @@
 #include <cstddef>
 #include <optional>
 
-#include "branches/graze.hpp"
-#include "branches/violation.hpp"
-#include "branches/walk.hpp"
+#include "branches/walk/graze.hpp"
+#include "branches/walk/violation.hpp"
+#include "branches/walk/walk.hpp"
 
 namespace clatter::branches {
 

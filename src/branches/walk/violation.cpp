@@ -1,9 +1,9 @@
-#include "branches/violation.hpp"
+#include "branches/walk/violation.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "branches/flight.hpp"
+#include "branches/equations/flight.hpp"
 #include "motion/contact.hpp"
 
 namespace clatter::branches {

@@ -1,4 +1,4 @@
-#include "branches/orbit.hpp"
+#include "branches/equations/orbit.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -6,7 +6,7 @@
 #include <type_traits>
 #include <vector>
 
-#include "branches/equations.hpp"
+#include "branches/equations/equations.hpp"
 #include "math/dual.hpp"
 
 /// How small changes spread from event to event of a motion; for the equations and the maps.

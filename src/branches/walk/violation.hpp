@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <optional>
 
-#include "branches/equations.hpp"
+#include "branches/equations/equations.hpp"
 
 namespace clatter::branches {
 

@@ -3,8 +3,8 @@
 #include <array>
 #include <cmath>
 
+#include "branches/equations/orbit.hpp"
 #include "branches/followed_scene.hpp"
-#include "branches/orbit.hpp"
 #include "motion/arc.hpp"
 #include "stepping/soft_contact.hpp"
 
