@@ -245,8 +245,8 @@ class Arrows(unittest.TestCase):
             self.assertEqual(
                 wrong_namespaces(root),
                 [
-                    "src/scene/d.hpp:3: namespace clatter::math {",
                     "src/observables/b.hpp:2: namespace clatter {",
+                    "src/scene/d.hpp:3: namespace clatter::math {",
                     "src/sweep/c.cpp:3: using namespace lanes;",
                 ],
             )
