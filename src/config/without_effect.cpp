@@ -78,6 +78,7 @@ constexpr Rule rules[] = {
     {"scene", "nu", unforced, no_force, or_force},
     {"machine", "frequency", unforced, no_force, "give a force, stop_amplitude or base_amplitude"},
     {"scene", "phase", unforced, no_force, or_force},
+    {"scene", "stop_phase", unshaken, "without stop_amplitude or base_amplitude", "give one of them"},
     {"scene", "R", no_stops, "without stops", or_stops},
     {"scene", "R_lower", no_lower, "without a lower stop", "give stop_lower"},
     {"scene", "R_upper", no_upper, "without an upper stop", "give stop_upper"},

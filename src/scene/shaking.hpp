@@ -12,13 +12,14 @@
 namespace clatter {
 inline namespace scene {
 
-/// Stops or base that move as b sin(theta), theta = nu tau + phase, phase being that of the force; one of the two at
-/// most is not 0.
+/// Stops or base that move as b sin(theta + phase), theta = nu tau plus the phase of the force at tau = 0; one of the
+/// two at most is not 0.
 template <class Number>
 struct BasicShaking {
   Number stops{0.0};  ///< amplitude b of both stops, any finite
   Number base{0.0};   ///< amplitude b of the base, which carries the stops, any finite
   Number lead{0.0};   ///< phase of the force in the moving frame less theta, rad; 0 until that force is in place
+  Number phase{0.0};  ///< by which the motion leads the force, rad
 };
 using Shaking = BasicShaking<double>;
 
@@ -31,14 +32,19 @@ struct LeadingForce {
 };
 
 /// The force on the mass in the frame of what is shaken: f sin(theta) and the inertia of that frame, with moving stops
-/// the spring and the damper, too, which don't move with them (eqs. 39 and 40).
+/// the spring and the damper, too, which don't move with them (eqs. 39, 40 and 61).
 template <class Number>
 [[nodiscard]] LeadingForce<Number> force_in_frame(const BasicOscillator<Number>& oscillator,
                                                   const BasicShaking<Number>& shaking) {
-  using std::atan2, std::fma, std::hypot;
+  using std::atan2, std::cos, std::fma, std::hypot, std::sin;
   const auto& [h, f, nu, load, k] = oscillator;
-  const auto& [stops, base, lead] = shaking;
+  const auto& [stops, base, lead, phase] = shaking;
   if (is_always_zero(stops) && is_always_zero(base)) return {f, Number(0)};
+  if (!is_always_zero(phase)) {
+    const Number P = base * nu * nu - stops * fma(Number(-nu), nu, k), Q = -2 * h * nu * stops;
+    const Number in_phase = f + P * cos(phase) - Q * sin(phase), quadrature = P * sin(phase) + Q * cos(phase);
+    return {hypot(in_phase, quadrature), atan2(quadrature, in_phase)};
+  }
   const Number with_base = fma(Number(base * nu), nu, f);
   if (is_always_zero(stops)) return {with_base, Number(0)};
   const Number in_phase = with_base - stops * fma(Number(-nu), nu, k);
@@ -52,15 +58,15 @@ enum class Frame : std::uint8_t { relative, absolute };
 
 inline constexpr std::array<std::string_view, 2> frame_names{"relative", "absolute"};  ///< in the order of Frame
 
-/// The motion of stops or base during an observed time, b sin(theta): absolute motion less relative motion.
+/// The motion of stops or base during an observed time, b sin(theta + phase): absolute motion less relative motion.
 class FrameMotion {
  public:
-  /// From the instant at which theta is `phase` (rad); of an oscillator in the moving frame.
-  FrameMotion(const Shaking& shaking, const Oscillator& oscillator, double phase)
+  /// From the instant at which theta is `theta` (rad); of an oscillator in the moving frame.
+  FrameMotion(const Shaking& shaking, const Oscillator& oscillator, double theta)
       : b_(shaking.stops + shaking.base),
         nu_(oscillator.frequency),
-        phase_(phase),
-        lead_{std::sin(shaking.lead), std::cos(shaking.lead)},
+        phase_(theta + shaking.phase),
+        lead_{std::sin(shaking.lead - shaking.phase), std::cos(shaking.lead - shaking.phase)},
         is_forced_(oscillator.forcing != 0) {}
 
   [[nodiscard]] double amplitude() const { return std::abs(b_); }
@@ -68,22 +74,22 @@ class FrameMotion {
   /// Whether a force is left in the moving frame, so that arcs keep its phase.
   [[nodiscard]] bool is_forced() const { return is_forced_; }
 
-  /// Sine and cosine of theta a time tau after the beginning.
+  /// Sine and cosine of the phase of the motion a time tau after the beginning.
   [[nodiscard]] SineCosine<double> at(double tau) const {
     return {std::sin(nu_ * tau + phase_), std::cos(nu_ * tau + phase_)};
   }
-  /// Sine and cosine of theta from those of the phase of the force.
+  /// The same from sine and cosine of the phase of the force.
   [[nodiscard]] SineCosine<double> by_force(double sine, double cosine) const {
     return {sine * lead_.cosine - cosine * lead_.sine, cosine * lead_.cosine + sine * lead_.sine};
   }
 
-  [[nodiscard]] double displacement(const SineCosine<double>& theta) const { return b_ * theta.sine; }
-  [[nodiscard]] double velocity(const SineCosine<double>& theta) const { return b_ * nu_ * theta.cosine; }
-  [[nodiscard]] double acceleration(const SineCosine<double>& theta) const { return -b_ * nu_ * nu_ * theta.sine; }
-  [[nodiscard]] double jerk(const SineCosine<double>& theta) const { return -b_ * nu_ * nu_ * nu_ * theta.cosine; }
+  [[nodiscard]] double displacement(const SineCosine<double>& at) const { return b_ * at.sine; }
+  [[nodiscard]] double velocity(const SineCosine<double>& at) const { return b_ * nu_ * at.cosine; }
+  [[nodiscard]] double acceleration(const SineCosine<double>& at) const { return -b_ * nu_ * nu_ * at.sine; }
+  [[nodiscard]] double jerk(const SineCosine<double>& at) const { return -b_ * nu_ * nu_ * nu_ * at.cosine; }
 
-  /// Whether theta passes a quarter turn (0 ... 3, of any whole turn) in a time `length` from `tau` on; at 1 and 3 the
-  /// displacement turns back, at 0 and 2 the velocity.
+  /// Whether that phase passes a quarter turn (0 ... 3, of any whole turn) in a time `length` from `tau` on; at 1 and 3
+  /// the displacement turns back, at 0 and 2 the velocity.
   [[nodiscard]] bool passes(int quarter, double tau, double length) const {
     const auto turns = [&](double at) { return (nu_ * at + phase_) / (2 * std::numbers::pi) - quarter / 4.0; };
     return std::floor(turns(tau + length)) > std::floor(turns(tau));
@@ -91,7 +97,7 @@ class FrameMotion {
 
  private:
   double b_, nu_, phase_;
-  SineCosine<double> lead_;  ///< of the force
+  SineCosine<double> lead_;  ///< of the force over it
   bool is_forced_;
 };
 

@@ -13,16 +13,17 @@ namespace {
 
 /// The numbers of a scene that a flight depends on.
 template <class Number>
-std::array<Number*, 15> numbers_in(SceneNumbers<Number>& p) {
+std::array<Number*, 16> numbers_in(SceneNumbers<Number>& p) {
   auto& [h, f, nu, load, k] = p.oscillator;
   auto& [lower, upper, R_lower, R_upper, kappa_lower, kappa_upper, zeta_lower, zeta_upper] = p.stops;
-  return {&h,     &f,       &nu,      &load,        &k,           &p.shaking.stops, &p.shaking.base, &lower,
-          &upper, &R_lower, &R_upper, &kappa_lower, &kappa_upper, &zeta_lower,      &zeta_upper};
+  auto& [stops, base, lead, phase] = p.shaking;
+  return {&h,     &f,     &nu,      &load,    &k,           &stops,       &base,       &phase,
+          &lower, &upper, &R_lower, &R_upper, &kappa_lower, &kappa_upper, &zeta_lower, &zeta_upper};
 }
 constexpr std::size_t number_of_h = 0, number_of_k = 4, number_of_stops = 5, number_of_base = 6;
 
 /// A flight and all that it depends on, as variables: its two phases, its velocity, then the numbers of the scene.
-constexpr std::size_t of_flight = 3, variables = of_flight + 15;
+constexpr std::size_t of_flight = 3, variables = of_flight + 16;
 
 template <class Number>
 struct Flown {
@@ -90,6 +91,7 @@ TEST(Flight, has_the_derivatives_that_differences_in_fifty_digits_have) {
     scene.stops = {-in(0.2, 2), in(0.2, 2), in(0, 1), in(0, 1)};
     if (i % 3 == 1) scene.shaking.stops = in(-1, 1);
     if (i % 3 == 2) scene.shaking.base = in(-1, 1);
+    if (i % 2 == 1) scene.shaking.phase = 0.05 * i;
     const double begin = in(0, 6), end = begin + scene.oscillator.frequency * in(0.05, 6);
     const Side to = i % 7 == 0 ? Side::lower : Side::upper;
     const Flight<double> flight{Side::lower, begin, in(-2, -0.1), to, end};

@@ -190,6 +190,8 @@ TEST(MovingFromRelease, has_the_derivatives_of_differences_along_stiffness_and_a
                                           {Parameter("stiffness"), 0.4, {.stops = 0.3}},
                                           {Parameter("stop_amplitude"), 1.0, {.stops = 0.3}},
                                           {Parameter("stop_amplitude"), 1.0, {}},
+                                          {Parameter("stop_phase"), 1.0, {.stops = 0.3, .phase = 0.4}},
+                                          {Parameter("stop_phase"), 0.4, {.base = 0.5}},
                                           {Parameter("base_amplitude"), 0.0, {.base = 0.5}},
                                           {Parameter("nu"), 0.0, {.base = 0.5}},
                                           {Parameter("nu"), 1.0, {.stops = 0.3}},

@@ -64,6 +64,8 @@ class Campaign:
         compare("scalar", run(scenes, "--arch", "scalar"))
         compare("effects", run(scenes, "--set", "integrator.effects=all"))
         compare("mirror", run([s.mirrored() for s in scenes]), mirror=True)
+        shaken = [s.turned() if s.base_amplitude or s.stop_amplitude else s for s in scenes]
+        compare("half a turn ahead", run(shaken))
         compare("scale 4", run([s.scaled(4.0) for s in scenes]), size=4.0)
         compare("scale 3", run([s.scaled(3.0) for s in scenes]), size=3.0)
         compare(

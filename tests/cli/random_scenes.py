@@ -30,6 +30,7 @@ class Scene:
     stop_stiffness_upper: float = INF
     stop_damping_lower: float = 0.0
     stop_damping_upper: float = 0.0
+    stop_phase: float = 0.0
 
     def changed(self, **values):
         return Scene(**{**self.__dict__, **values})
@@ -58,6 +59,11 @@ class Scene:
         changes = {name: getattr(self, name) / faster for name in ("h", "nu", "v0")}
         squares = ("f", "load", "stiffness", "stop_stiffness_lower", "stop_stiffness_upper")
         return self.changed(**changes, **{name: getattr(self, name) / faster**2 for name in squares})
+
+    def turned(self):
+        """The same motion of stops or base, half a turn ahead with the other sign."""
+        changes = {name: -getattr(self, name) for name in ("stop_amplitude", "base_amplitude")}
+        return self.changed(stop_phase=self.stop_phase + math.pi, **changes)
 
     def is_unforced(self):
         return self.f == 0 and self.stop_amplitude == 0 and self.base_amplitude == 0
@@ -112,6 +118,8 @@ def drawn(draw):
         scene.f = draw.choice([0.0, scene.f])
     elif not weak and draw.random() < 0.15:
         scene.stop_amplitude = draw.uniform(0.05, 0.3)
+    if scene.base_amplitude or scene.stop_amplitude:
+        scene.stop_phase = random.Random(scene.v0).choice([0.0, scene.phase, 2.0, -2.5])
     return scene
 
 

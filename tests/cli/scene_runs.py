@@ -21,7 +21,7 @@ def keys_of(scene):
         if math.isfinite(getattr(scene, "stop" + side)):
             is_soft = math.isfinite(getattr(scene, "stop_stiffness" + side))
             keys += ["stop" + side] + (["stop_stiffness" + side, "stop_damping" + side] if is_soft else ["R" + side])
-    keys += [key for key in ("stop_amplitude", "base_amplitude") if getattr(scene, key) != 0]
+    keys += [key for key in ("stop_amplitude", "base_amplitude", "stop_phase") if getattr(scene, key) != 0]
     return {key: getattr(scene, key) for key in keys}
 
 
