@@ -8,7 +8,7 @@
 #include "observables/impact_word.hpp"
 #include "point/problem.hpp"
 #include "scene/displacement_bound.hpp"
-#include "steady/orbit.hpp"
+#include "steady/map_orbit.hpp"
 
 namespace clatter::attractors {
 
@@ -17,7 +17,7 @@ namespace clatter::attractors {
 
 /// A motion over some forcing periods with its derivative and its contacts.
 struct Round {
-  steady::Orbit orbit;
+  steady::MapOrbit orbit;
   std::vector<observables::ImpactWord::Contact> contacts;  ///< times in tau since the start
   double middle_of_flight = 0.0;  ///< of the longest one, forcing periods after the start; a flight may span the end
   double fastest = 0.0;           ///< speed of an impact

@@ -65,7 +65,7 @@ PeriodicMotion described(const point::Problem& problem, const Round& round) {
 }
 
 /// A motion that is near a round, decided beyond rounding.
-steady::ObservedTime decided(const point::Problem& problem, const steady::Orbit& orbit) {
+steady::ObservedTime decided(const point::Problem& problem, const steady::MapOrbit& orbit) {
   steady::Rests rests;
   for (std::size_t i = 0; i < orbit.periods; ++i) rests.pass(orbit.passages[i], static_cast<std::int64_t>(i));
   const auto section = static_cast<std::int64_t>(orbit.periods);

@@ -19,8 +19,7 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-constexpr AllowedRange not_negative{.low = 0};
-constexpr AllowedRange zero_to_one{.low = 0, .high = 1};
+using ranges::not_negative, ranges::zero_to_one;
 
 constexpr std::array<std::string_view, 2> modes{"steady", "transient"};
 constexpr std::array<std::string_view, 2> effects{"required", "all"};

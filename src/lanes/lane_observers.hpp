@@ -8,7 +8,7 @@ namespace clatter::lanes {
 
 /// A flight of some lanes within a step: its beginning, its end, and its time.
 template <class V>
-struct Flight {
+struct LaneFlight {
   struct End {
     V y, v, a, cosine;  ///< the motion, and the cosine of the forcing phase
   };
@@ -45,7 +45,7 @@ class LaneObservers {
         (slope.low >= v_low * length) & (slope.high <= v_high * length) & (to.v >= v_low) & (to.v <= v_high);
     const Mask open = active - (y_inside & v_inside);
     if (!any(open)) return active;
-    const Flight<V> flight{from, {to.y, to.v, to.a, to.phase.cosine}, length};
+    const LaneFlight<V> flight{from, {to.y, to.v, to.a, to.phase.cosine}, length};
     return active & ((!open) | look_closer(oscillators_, open, flight));
   }
 
@@ -82,12 +82,12 @@ class LaneObservers {
   };
 
   /// Widens the ranges of the open lanes by a flight that may exceed them; returns those for which that is certain.
-  [[gnu::noinline]] static Mask look_closer(LaneOscillators<V, E> oscillators, Mask open, Flight<V> flight) {
+  [[gnu::noinline]] static Mask look_closer(LaneOscillators<V, E> oscillators, Mask open, LaneFlight<V> flight) {
     return LaneObservers(oscillators).widen(open, flight);
   }
-  Mask widen(const Mask& open, const Flight<V>& flight) {
+  Mask widen(const Mask& open, const LaneFlight<V>& flight) {
     const LaneMotion<V>& from = flight.from;
-    const typename Flight<V>::End& to = flight.to;
+    const typename LaneFlight<V>::End& to = flight.to;
     const ErrorBound<V> bound = oscillators_.uncertainty(from.free);
     const V change = sixth_power(flight.length * row(lanes_.inverse_step));  // of the bounds, to those of this flight
     const V error = bound.error * change, error_v = oscillators_.error_v(bound) * change;
@@ -122,8 +122,8 @@ class LaneObservers {
   /// `derivatives` at an instant. A flight equal, to rounding, to the one in which the extremum was found isn't
   /// searched again.
   template <class Derivatives>
-  Mask search(const Mask& open, Interval<V>& range, const HermiteData<V>& ends, const Flight<V>& flight, const V& error,
-              const V& slack, BlockState::Reference* references, const Derivatives& derivatives) {
+  Mask search(const Mask& open, Interval<V>& range, const HermiteData<V>& ends, const LaneFlight<V>& flight,
+              const V& error, const V& slack, BlockState::Reference* references, const Derivatives& derivatives) {
     const V zero(0.0), one(1.0), &length = flight.length;
     const Bernstein<V> inner = hermite(ends);
     const Interval<V> bounds = enclosure(inner, error);
@@ -167,14 +167,14 @@ class LaneObservers {
 
   /// Whether a flight begins as the reference did, and lasts no longer: then it stays as close to the reference as the
   /// bound says, since their difference is a free motion and a constant shift of the forcing phase.
-  Mask like(const BlockState::Reference& r, const Flight<V>& flight, const V& slack) const {
+  Mask like(const BlockState::Reference& r, const LaneFlight<V>& flight, const V& slack) const {
     const LaneMotion<V>& from = flight.from;
     const V free = oscillators_.size({from.free.x - row(r.free_x), from.free.v - row(r.free_v)});
     const V phase = abs(from.phase.sine - row(r.sine)) + abs(from.phase.cosine - row(r.cosine));
     return (mul_add(phase, row(lanes_.forced_size), free) <= slack * V(0.5)) &
            (flight.length <= row(r.length) * V(1 + 0x1p-44));
   }
-  void refer(BlockState::Reference& r, const Mask& m, const Flight<V>& flight) const {
+  void refer(BlockState::Reference& r, const Mask& m, const LaneFlight<V>& flight) const {
     const LaneMotion<V>& from = flight.from;
     put(r.free_x, select(m, from.free.x, row(r.free_x))), put(r.free_v, select(m, from.free.v, row(r.free_v)));
     put(r.sine, select(m, from.phase.sine, row(r.sine))), put(r.cosine, select(m, from.phase.cosine, row(r.cosine)));

@@ -22,6 +22,17 @@ struct AllowedRange {
   bool infinite = false;  ///< inf is permitted, and -inf if there is no lower bound
 };
 
+namespace ranges {
+
+inline constexpr AllowedRange any_or_infinite{.infinite = true};
+inline constexpr AllowedRange not_negative{.low = 0};
+inline constexpr AllowedRange positive{.low = 0, .open = true};
+inline constexpr AllowedRange positive_or_infinite{.low = 0, .open = true, .infinite = true};
+inline constexpr AllowedRange not_zero{.not_zero = true};
+inline constexpr AllowedRange zero_to_one{.low = 0, .high = 1};
+
+}  // namespace ranges
+
 /// All that is known of a configuration key, as plain data: reading, validation, `clatter defaults`, the help and the
 /// reference are made from it.
 struct Key {

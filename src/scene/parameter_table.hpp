@@ -1,65 +1,15 @@
 #pragma once
 
 #include <array>
-#include <cstddef>
-#include <limits>
 #include <numbers>
 #include <string_view>
 
-#include "scene/given_scene.hpp"
-#include "scene/key.hpp"
+#include "scene/parameter_row.hpp"
 
 namespace clatter {
 inline namespace scene {
 
-/// How a parameter acts on a scene.
-enum class Role : std::uint8_t {
-  other,
-  start,        ///< it says where the motion begins
-  damping,      ///< of the damper, in one of several ways
-  drive,        ///< amplitude of the force
-  load,         ///< constant force
-  shaking,      ///< amplitude of stops or base
-  position,     ///< of a stop
-  restitution,  ///< of a rigid stop
-  softness      ///< stiffness or damping of a soft stop
-};
-
-/// A key in one of [scene] and [machine].
-struct KeyText {
-  std::string_view fallback{};   ///< the default, as in INI; empty: none
-  std::string_view example{};    ///< another value, as in INI
-  std::string_view help{};       ///< its meaning, without the range; empty: no key of that section
-  std::string_view beside{};     ///< lines of TOML without which it has no effect
-  std::string_view long_name{};  ///< of its axis in results
-};
-
-/// All that is known of a parameter of the scene. Reading, validation, help, defaults, axes of [sweep], [branch], names
-/// and units of results, symmetry and derivatives are made from it.
-template <class Number>
-struct ParameterRow {
-  std::string_view key;
-  Quantity quantity = Quantity::number;  ///< of its value in SI
-  AllowedRange range{};
-  KeyText in_scene{}, in_machine{};
-  std::string_view other{};        ///< the key that gives the value of both sides, in its place
-  std::string_view counterpart{};  ///< the key that says the same in the other section
-  Role role = Role::other;
-  Side side = Side::none;     ///< of the stop that it belongs to, if it is of one of them
-  bool is_with_unit = false;  ///< the key of the row before, if its value has a unit
-  using Place = Number& (*)(BasicGivenScene<Number>&);
-  Place place = nullptr, place_of_upper = nullptr;  ///< the second one of a key of both stops, whose first is the lower
-};
-
 namespace detail {
-
-constexpr AllowedRange any{};
-constexpr AllowedRange any_or_infinite{.infinite = true};
-constexpr AllowedRange not_negative{.low = 0};
-constexpr AllowedRange positive{.low = 0, .open = true};
-constexpr AllowedRange positive_or_infinite{.low = 0, .open = true, .infinite = true};
-constexpr AllowedRange not_zero{.not_zero = true};
-constexpr AllowedRange zero_to_one{.low = 0, .high = 1};
 
 constexpr std::string_view a_force = "f = 1.0\n", stops = "xs = 1.0\n", soft = "xs = 1.0\nstop_stiffness = 100.0\n";
 constexpr std::string_view some_mass = "mass = 0.25\n", mass_stops = "mass = 0.25\ngap = 3e-3\n",
@@ -85,6 +35,7 @@ constexpr Number& at(BasicGivenScene<Number>& scene) {
 template <class Number>
 constexpr auto parameter_rows() {
   using namespace clatter::scene::detail;
+  using namespace clatter::scene::ranges;
   using enum Quantity;
   using Given = BasicGivenScene<Number>;
   using Parts = BasicScene<Number>;
@@ -111,7 +62,6 @@ constexpr auto parameter_rows() {
           .place = in<Number, o, &O::damping>},
       Row{.key = "stiffness",
           .quantity = stiffness,
-          .range = any,
           .in_scene = {"1", "4",
                        "k of the spring, in units in which mass is 1; 0: none, negative: pushes away from x = 0. With "
                        "k not 1, h is half the damping over the mass, f and load are forces over the mass",
@@ -139,7 +89,6 @@ constexpr auto parameter_rows() {
           .role = Role::damping,
           .place = at<Number, &Given::quality>},
       Row{.key = "f",
-          .range = any,
           .in_scene = {"0", "-1", "force amplitude over stiffness; negative: a phase shift of pi", "",
                        "force amplitude over stiffness"},
           .counterpart = "force",
@@ -147,7 +96,6 @@ constexpr auto parameter_rows() {
           .place = in<Number, o, &O::forcing>},
       Row{.key = "force",
           .quantity = force,
-          .range = any,
           .in_machine = {"0", "40 N", "force amplitude; negative: a phase shift of pi", mass_stops_frequency,
                          "force amplitude"},
           .counterpart = "f",
@@ -170,7 +118,6 @@ constexpr auto parameter_rows() {
           .place = in<Number, o, &O::frequency>},
       Row{.key = "phase",
           .quantity = angle,
-          .range = any,
           .in_scene = {"0", "0.5", "phase of the force at tau = 0, rad; pi/2: a cosine", a_force,
                        "forcing phase at tau = 0"},
           .in_machine = {"0", "0.5 rad", "phase of the force at t = 0; pi/2: a cosine", forced,
@@ -333,14 +280,12 @@ constexpr auto parameter_rows() {
           .place = at<Number, &Given::stop_damper_upper>},
       Row{.key = "load",
           .quantity = force,
-          .range = any,
           .in_scene = {"0", "-0.2", "constant force over stiffness", "", "constant force over stiffness"},
           .in_machine = {"0", "-2 N", "constant force", mass_stops, "constant force"},
           .role = Role::load,
           .place = in<Number, o, &O::load>},
       Row{.key = "stop_amplitude",
           .quantity = length,
-          .range = any,
           .in_scene = {"0", "0.1",
                        "amplitude of the motion of both stops: amplitude * sin(nu tau + phase); displacements, x0, v0 "
                        "and impact speeds are relative to them",
@@ -353,7 +298,6 @@ constexpr auto parameter_rows() {
           .place = in<Number, k, &K::stops>},
       Row{.key = "base_amplitude",
           .quantity = length,
-          .range = any,
           .in_scene = {"0", "0.1",
                        "amplitude of the motion of the base, which carries the stops: amplitude * sin(nu tau + phase); "
                        "displacements, x0, v0 and impact speeds are relative to it",
@@ -366,7 +310,6 @@ constexpr auto parameter_rows() {
           .place = in<Number, k, &K::base>},
       Row{.key = "stop_phase",
           .quantity = angle,
-          .range = any,
           .in_scene = {"0", "0.5",
                        "lead of the motion of stops or base over the force, rad: they move as amplitude * sin(nu tau + "
                        "phase + stop_phase)",
@@ -377,14 +320,12 @@ constexpr auto parameter_rows() {
           .place = in<Number, k, &K::phase>},
       Row{.key = "x0",
           .quantity = length,
-          .range = any,
           .in_scene = {"0", "0.2", "displacement at tau = 0, between the stops", "", "displacement at tau = 0"},
           .in_machine = {"0", "1 mm", "displacement at t = 0, between the stops", mass_stops, "displacement at t = 0"},
           .role = Role::start,
           .place = in<Number, b, &B::displacement>},
       Row{.key = "v0",
           .quantity = velocity,
-          .range = any,
           .in_scene = {"0", "-1.5", "velocity at tau = 0", "", "velocity at tau = 0"},
           .in_machine = {"0", "-0.2 m/s", "velocity at t = 0", mass_stops, "velocity at t = 0"},
           .role = Role::start,

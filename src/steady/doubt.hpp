@@ -5,8 +5,8 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "steady/map_orbit.hpp"
 #include "steady/observed_time.hpp"
-#include "steady/orbit.hpp"
 #include "steady/time_settings.hpp"
 
 namespace clatter::steady {
@@ -45,7 +45,7 @@ inline constexpr std::size_t long_period = 4;
 }
 
 /// Whether a periodic motion stretches changes so much that sections computed from its first have lost digits.
-[[nodiscard]] inline bool stretches(const Orbit& orbit) {
+[[nodiscard]] inline bool stretches(const MapOrbit& orbit) {
   constexpr double much = 1e3;
   return std::any_of(orbit.derivatives.begin(), orbit.derivatives.begin() + static_cast<std::ptrdiff_t>(orbit.periods),
                      [](const motion::Jacobian<double>& D) {

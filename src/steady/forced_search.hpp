@@ -269,7 +269,7 @@ class ForcedSearch {
     return 0;
   }
 
-  [[nodiscard]] ObservedTime observed(const Orbit& orbit) const {
+  [[nodiscard]] ObservedTime observed(const MapOrbit& orbit) const {
     const motion::State<double>& start = orbit.states[0];
     const double limit =
         RepeatFinder::divisor_tolerances * time_.tolerance * std::max(std::abs(start.x), std::abs(start.v));
@@ -304,7 +304,7 @@ class ForcedSearch {
   BeginsBefore begins_before_;
   std::array<Passage, kept> passages_{};  ///< [section modulo kept]: the period from it; before the start no contact
   std::size_t next_ = 0;                  ///< index of the approach's next section
-  std::optional<Orbit> approach_;         ///< the periods that the last attempt followed
+  std::optional<MapOrbit> approach_;      ///< the periods that the last attempt followed
   PassageObserver watch_;
   StroboscopicMap<E> map_;
   /// [section modulo its size]; not in lanes, nor if the first section tells all.

@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "motion/tangent_map.hpp"
-#include "steady/orbit.hpp"
+#include "steady/map_orbit.hpp"
 #include "stepping/integration.hpp"
 
 namespace clatter::steady {
@@ -81,9 +81,9 @@ class PassageObserver {
 /// The motion over n periods from a state; nothing if it fails. `advance(state)` runs it to the next section and shows
 /// it to `watch`.
 template <class Advance>
-[[nodiscard]] std::optional<Orbit> orbit_from(motion::State<double> state, std::size_t periods, PassageObserver& watch,
-                                              Advance&& advance) {
-  Orbit orbit{.periods = periods};
+[[nodiscard]] std::optional<MapOrbit> orbit_from(motion::State<double> state, std::size_t periods,
+                                                 PassageObserver& watch, Advance&& advance) {
+  MapOrbit orbit{.periods = periods};
   orbit.states[0] = state, orbit.derivatives[0] = {1, 0, 0, 1};
   watch.differentiate();
   for (std::size_t i = 1; i <= periods; ++i) {

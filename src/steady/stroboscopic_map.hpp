@@ -10,7 +10,7 @@
 
 #include "motion/soft_neighbourhood.hpp"
 #include "steady/contraction.hpp"
-#include "steady/orbit.hpp"
+#include "steady/map_orbit.hpp"
 #include "steady/passage_observer.hpp"
 #include "stepping/exact.hpp"
 #include "stepping/run.hpp"
@@ -31,23 +31,23 @@ class StroboscopicMap {
 
   /// The motion over n periods from a state, reporting also to another observer; nothing if it fails.
   template <class Observer>
-  [[nodiscard]] std::optional<Orbit> follow(const motion::State<double>& from, std::size_t periods, Observer& also) {
+  [[nodiscard]] std::optional<MapOrbit> follow(const motion::State<double>& from, std::size_t periods, Observer& also) {
     Pair<Observer> observers{watch_, also};
     return follow_under(observers, from, periods);
   }
-  [[nodiscard]] std::optional<Orbit> follow(const motion::State<double>& from, std::size_t periods) {
+  [[nodiscard]] std::optional<MapOrbit> follow(const motion::State<double>& from, std::size_t periods) {
     return follow_under(watch_, from, periods);
   }
 
   /// The periodic motion that `approach`, one round of a motion, settles to. Newton's method finds it from the start of
   /// the round, with the same stops met in the same order, and it is proved to attract a neighbourhood that holds the
   /// end of the round.
-  [[nodiscard]] std::optional<Orbit> attractor_of(const Orbit& approach) {
+  [[nodiscard]] std::optional<MapOrbit> attractor_of(const MapOrbit& approach) {
     motion::State<double> start = moved(approach.states[0], newton_step(approach.derivative(), approach.gap()));
     double before = std::numeric_limits<double>::infinity();
     for (std::size_t iteration = 0; iteration < most_iterations; ++iteration) {
       if (!inside(start)) return std::nullopt;
-      const std::optional<Orbit> orbit = follow(start, approach.periods);
+      const std::optional<MapOrbit> orbit = follow(start, approach.periods);
       if (!orbit || orbit->passages != approach.passages) return std::nullopt;
       const double gap = orbit->gap().size();
       const bool found = gap <= tolerance_ * size_of(start);
@@ -62,8 +62,8 @@ class StroboscopicMap {
  private:
   /// Follows a motion that is reported to `watch_`, or to it and another observer.
   template <class Observer>
-  [[nodiscard]] std::optional<Orbit> follow_under(Observer& observer, const motion::State<double>& from,
-                                                  std::size_t periods) {
+  [[nodiscard]] std::optional<MapOrbit> follow_under(Observer& observer, const motion::State<double>& from,
+                                                     std::size_t periods) {
     return orbit_from(from, periods, watch_, [&](motion::State<double>& state) {
       ++simulated_;
       return advance_to_section(integrator_, state, from.periods, observer);
@@ -111,15 +111,15 @@ class StroboscopicMap {
   /// The periodic motion from `start`, if it is proved to attract `motion` (eq. 30): all motions from the disc around
   /// `start` that holds `motion`, in a norm in which the derivative contracts, meet the same stops in the same order,
   /// and the remainder beyond the derivative is smaller than the contraction.
-  [[nodiscard]] std::optional<Orbit> attracting(const motion::State<double>& start, const Orbit& orbit,
-                                                const motion::State<double>& motion) {
+  [[nodiscard]] std::optional<MapOrbit> attracting(const motion::State<double>& start, const MapOrbit& orbit,
+                                                   const motion::State<double>& motion) {
     if (!(spectral_radius(orbit.derivative()) < 1) || !inside(start)) return std::nullopt;
     const ContractionNorm measure(orbit.derivative());
     const double rounding = 64 * epsilon<double>() * size_of(start);
     const double radius = measure.of(between(start, motion)) * (1 + 1e-9) + rounding;
     std::conditional_t<E.soft, motion::SoftNeighbourhood, motion::Neighbourhood> neighbourhood(
         integrator_.stops(), measure.disc(radius), rounding);
-    std::optional<Orbit> attractor = follow(start, orbit.periods, neighbourhood);
+    std::optional<MapOrbit> attractor = follow(start, orbit.periods, neighbourhood);
     if (!attractor || !neighbourhood.holds()) return std::nullopt;
     const double left =
         measure.of(neighbourhood.first_order()) + measure.of(neighbourhood.remainder()) + measure.of(attractor->gap());

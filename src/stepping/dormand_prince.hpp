@@ -40,10 +40,10 @@ class DormandPrince : public EventDriven<DormandPrince<E>, double, E> {
         stepper_(boost::numeric::odeint::make_dense_output(tolerance_ * size_of(scene), tolerance_, Pair())) {}
 
   /// The next step's arc and its first contact; without a contact it ends with the step, or at the horizon.
-  [[nodiscard]] Flight<DenseArc> fly(const motion::State<double>& state, const motion::Motion<double>& start,
-                                     double anchor, double horizon) {
+  [[nodiscard]] ArcToEvent<DenseArc> fly(const motion::State<double>& state, const motion::Motion<double>& start,
+                                         double anchor, double horizon) {
     go_on(this->constants(), state, start, anchor);
-    Flight<DenseArc> flight{standing(this->constants(), state)};
+    ArcToEvent<DenseArc> flight{standing(this->constants(), state)};
     if (const Side side = entered(); side != Side::none) {
       flight.crossing = {0, side, 0.0, start};
       flight.crossing.motion.x =
@@ -65,12 +65,12 @@ class DormandPrince : public EventDriven<DormandPrince<E>, double, E> {
 
   /// The same beyond the position of a soft stop, with the first of some margins that falls to 0.
   template <Effects Within, std::size_t count>
-  [[nodiscard]] Flight<motion::PolynomialArc<Within>> fly_within(
+  [[nodiscard]] ArcToEvent<motion::PolynomialArc<Within>> fly_within(
       const motion::ArcConstants<double, Within>& constants, const motion::State<double>& state,
       const motion::Motion<double>& start, double anchor, const std::array<motion::Margin<double>, count>& margins,
       double horizon) {
     go_on(constants, state, start, anchor);
-    Flight<motion::PolynomialArc<Within>> flight{standing(constants, state), {count, Side::none, 0.0, start}};
+    ArcToEvent<motion::PolynomialArc<Within>> flight{standing(constants, state), {count, Side::none, 0.0, start}};
     for (std::size_t i = 0; i < count; ++i) {
       if (!(margins[i].of(start) <= 0 && margins[i].slope(start) < 0)) continue;
       flight.crossing.margin = i;

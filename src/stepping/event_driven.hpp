@@ -15,7 +15,7 @@ namespace clatter::stepping {
 /// An arc and its end: the first of its margins that falls to 0, else the horizon, or an earlier instant if the method
 /// divides the flight into several arcs.
 template <class A>
-struct Flight {
+struct ArcToEvent {
   A arc;
   motion::Crossing<typename A::Number> crossing{};
 };

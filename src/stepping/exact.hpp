@@ -22,10 +22,10 @@ class Exact : public EventDriven<Exact<N, E>, N, E> {
       : EventDriven<Exact, N, E>(scene, in_reach, limits, rule) {}
 
   /// The arc that begins with `start`, and its first contact, or its end at the horizon.
-  [[nodiscard]] Flight<motion::Arc<Number, E.arc()>> fly(const motion::State<Number>&,
-                                                         const motion::Motion<Number>& start, const Number& anchor,
-                                                         const Number& horizon) {
-    Flight<motion::Arc<Number, E.arc()>> flight{motion::Arc<Number, E.arc()>(this->constants(), start, anchor)};
+  [[nodiscard]] ArcToEvent<motion::Arc<Number, E.arc()>> fly(const motion::State<Number>&,
+                                                             const motion::Motion<Number>& start, const Number& anchor,
+                                                             const Number& horizon) {
+    ArcToEvent<motion::Arc<Number, E.arc()>> flight{motion::Arc<Number, E.arc()>(this->constants(), start, anchor)};
     if constexpr (E.stops()) {
       flight.crossing = next_contact(flight.arc, this->stops(), horizon);
     } else {
@@ -38,13 +38,11 @@ class Exact : public EventDriven<Exact<N, E>, N, E> {
 
   /// The same beyond the position of a soft stop, with the first of some margins that falls to 0.
   template <Effects Within, std::size_t count>
-  [[nodiscard]] Flight<motion::Arc<Number, Within>> fly_within(const motion::ArcConstants<Number, Within>& constants,
-                                                               const motion::State<Number>&,
-                                                               const motion::Motion<Number>& start,
-                                                               const Number& anchor,
-                                                               const std::array<motion::Margin<Number>, count>& margins,
-                                                               const Number& horizon) {
-    Flight<motion::Arc<Number, Within>> flight{motion::Arc<Number, Within>(constants, start, anchor)};
+  [[nodiscard]] ArcToEvent<motion::Arc<Number, Within>> fly_within(
+      const motion::ArcConstants<Number, Within>& constants, const motion::State<Number>&,
+      const motion::Motion<Number>& start, const Number& anchor,
+      const std::array<motion::Margin<Number>, count>& margins, const Number& horizon) {
+    ArcToEvent<motion::Arc<Number, Within>> flight{motion::Arc<Number, Within>(constants, start, anchor)};
     flight.crossing = first_crossing(flight.arc, margins, horizon);
     this->count_evaluations(flight.crossing.evaluations);
     return flight;

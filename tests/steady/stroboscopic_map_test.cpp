@@ -139,7 +139,7 @@ TEST(StroboscopicMap, an_unstable_motion_is_not_taken_for_an_attractor) {
   Integrator integrator(scene, limits_of(scene));
   StroboscopicMap<effects> map(integrator, 1e-12);
   motion::State<double> symmetric = at(0.20072, -0.0738);
-  std::optional<Orbit> orbit;
+  std::optional<MapOrbit> orbit;
   for (int i = 0; i < 8; ++i) {
     orbit = map.follow(symmetric, 1);
     ASSERT_TRUE(orbit);
@@ -203,7 +203,7 @@ TEST(StroboscopicMap, a_motion_that_leaves_the_stops_between_its_states_is_refus
   const point::Problem scene = figure(0.5, 1.0);
   Integrator integrator(scene, limits_of(scene));
   StroboscopicMap<effects> map(integrator, 1e-12);
-  Orbit approach = *map.follow(at(0.1, 0.2), 1);
+  MapOrbit approach = *map.follow(at(0.1, 0.2), 1);
   approach.states[1].x = approach.states[0].x + 100;
   EXPECT_FALSE(map.attractor_of(approach));
   approach.states[1].v = std::numeric_limits<double>::quiet_NaN();

@@ -22,7 +22,7 @@ struct Passage {
 
 /// A motion over n forcing periods: its states at the stroboscopic sections and its derivative; periodic if its gap
 /// is 0.
-struct Orbit {
+struct MapOrbit {
   std::size_t periods = 0;
   std::array<motion::State<double>, RepeatFinder::longest + 1> states{};  ///< the last as computed from the first
   std::array<motion::Jacobian<double>, RepeatFinder::longest + 1> derivatives{};  ///< of each state by the first

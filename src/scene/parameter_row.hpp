@@ -1,0 +1,52 @@
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+
+#include "scene/given_scene.hpp"
+#include "scene/key.hpp"
+
+namespace clatter {
+inline namespace scene {
+
+/// How a parameter acts on a scene.
+enum class Role : std::uint8_t {
+  other,
+  start,        ///< it says where the motion begins
+  damping,      ///< of the damper, in one of several ways
+  drive,        ///< amplitude of the force
+  load,         ///< constant force
+  shaking,      ///< amplitude of stops or base
+  position,     ///< of a stop
+  restitution,  ///< of a rigid stop
+  softness      ///< stiffness or damping of a soft stop
+};
+
+/// A key in one of [scene] and [machine].
+struct KeyText {
+  std::string_view fallback{};   ///< the default, as in INI; empty: none
+  std::string_view example{};    ///< another value, as in INI
+  std::string_view help{};       ///< its meaning, without the range; empty: no key of that section
+  std::string_view beside{};     ///< lines of TOML without which it has no effect
+  std::string_view long_name{};  ///< of its axis in results
+};
+
+/// All that is known of a parameter of the scene. Reading, validation, help, defaults, axes of [sweep], [branch], names
+/// and units of results, symmetry and derivatives are made from it.
+template <class Number>
+struct ParameterRow {
+  std::string_view key;
+  Quantity quantity = Quantity::number;  ///< of its value in SI
+  AllowedRange range{};
+  KeyText in_scene{}, in_machine{};
+  std::string_view other{};        ///< the key that gives the value of both sides, in its place
+  std::string_view counterpart{};  ///< the key that says the same in the other section
+  Role role = Role::other;
+  Side side = Side::none;     ///< of the stop that it belongs to, if it is of one of them
+  bool is_with_unit = false;  ///< the key of the row before, if its value has a unit
+  using Place = Number& (*)(BasicGivenScene<Number>&);
+  Place place = nullptr, place_of_upper = nullptr;  ///< the second one of a key of both stops, whose first is the lower
+};
+
+}  // namespace scene
+}  // namespace clatter
