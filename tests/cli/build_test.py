@@ -12,7 +12,11 @@ from pathlib import Path
 SOURCE = Path(os.environ["CLATTER_SOURCE"])
 CLATTER = Path(os.environ["CLATTER"])
 ROOMS_OF_MOTION = "math|motion|stepping|steady|point|lanes"
-SHARED = {"impact_map.cpp", "soft_contacts.cpp"}  # of branches: a function each, called once a special point
+SHARED = {
+    "impact_map.cpp",
+    "resting.cpp",
+    "soft_contacts.cpp",
+}  # of branches: a function each, called once a special point
 PROBE = """
 add_executable(probe probe.cpp)
 target_link_libraries(probe PRIVATE hdf5)
