@@ -36,11 +36,12 @@ using GivenScene = BasicGivenScene<double>;
 /// -1; without one a machine is computed in those of its force's frequency, and a scene in its own.
 [[nodiscard]] Units natural_units(const GivenScene& given);
 
-/// The scene that is computed, in units that may be those of another one. Each number is a formula of those that were
-/// given, so derivatives by any key of [scene] or [machine] follow from numbers that carry them.
+namespace detail {
+
+/// A given scene in units that may be those of another one.
 template <class Number>
-[[nodiscard]] BasicScene<Number> computed(const BasicGivenScene<Number>& given, const Units& units) {
-  using std::abs, std::sqrt, std::tan;
+[[nodiscard]] BasicScene<Number> in_units(const BasicGivenScene<Number>& given, const Units& units) {
+  using std::abs, std::sqrt;
   const double T = units.time;
   const Number& m = given.mass;
   const Number force = units.stiffness * (m / units.mass);  // that gives a unit of displacement to k = 1
@@ -60,10 +61,23 @@ template <class Number>
   soften(stops.stiffness_lower, stops.damping_lower, given.stop_damper_lower);
   soften(stops.stiffness_upper, stops.damping_upper, given.stop_damper_upper);
   scene.start.velocity = scene.start.velocity * T;
+  return scene;
+}
+
+}  // namespace detail
+
+/// The scene that is computed, in units that may be those of another one. Each number is a formula of those that were
+/// given, so derivatives by any key of [scene] or [machine] follow from numbers that carry them.
+template <class Number>
+[[nodiscard]] BasicScene<Number> computed(const BasicGivenScene<Number>& given, const Units& units) {
+  using std::tan;
+  const bool is_in_own_units = !given.is_si && units == Units{};
+  BasicScene<Number> scene = given;
+  if (!is_in_own_units) scene = detail::in_units(given, units);
   if (is_finite(
           given.start_period)) {  // just after the contact with the lower stop, a quarter of the period from x = 0
-    scene.start.displacement = stops.lower;
-    scene.start.velocity = stops.upper / tan(given.start_period / 4);
+    scene.start.displacement = scene.stops.lower;
+    scene.start.velocity = scene.stops.upper / tan(given.start_period / 4);
   }
   return scene;
 }

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 #include <string_view>
+#include <utility>
 
 #include "scene/parameter_table.hpp"
 
@@ -86,18 +87,26 @@ void set(BasicGivenScene<Number>& given, Parameter parameter, const Number& valu
   return (parameter.is_of_both() ? row.place_of_upper : row.place)(copy);
 }
 
+namespace detail {
+
+template <std::size_t row, class Number, class Other>
+void convert(BasicGivenScene<Other>& from, BasicGivenScene<Number>& to) {
+  constexpr const ParameterRow<Other>& old = table<Other>[row];
+  constexpr const ParameterRow<Number>& own = table<Number>[row];
+  own.place(to) = Number(old.place(from));
+  if constexpr (own.place_of_upper != nullptr) own.place_of_upper(to) = Number(old.place_of_upper(from));
+}
+
+}  // namespace detail
+
 /// A given scene with numbers of another type.
 template <class Number, class Other>
 [[nodiscard]] BasicGivenScene<Number> with_numbers(const BasicGivenScene<Other>& given) {
   BasicGivenScene<Other> from = given;
   BasicGivenScene<Number> to;
   to.is_si = given.is_si;
-  for (std::size_t row = 0; row < detail::table<Number>.size(); ++row) {
-    const auto& old = detail::table<Other>[row];
-    const auto& own = detail::table<Number>[row];
-    own.place(to) = Number(old.place(from));
-    if (own.place_of_upper != nullptr) own.place_of_upper(to) = Number(old.place_of_upper(from));
-  }
+  [&]<std::size_t... row>(std::index_sequence<row...>) { (detail::convert<row>(from, to), ...); }
+  (std::make_index_sequence<detail::table<Number>.size()>{});
   return to;
 }
 
