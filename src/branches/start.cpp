@@ -129,7 +129,9 @@ void require_start_in_range(const FollowedScene& scene, Parameter parameter, con
   require_soft_stop(scene, parameter, asked);
   const double at = value_of(scene, parameter), width = range[1] - range[0];
   if (!std::isfinite(at))
-    throw StartError("there is no stop to move by branch." + key + "; give " + key_in_section(scene, parameter));
+    throw StartError((parameter.role() == Role::position ? "there is no stop to move by branch." + key
+                                                         : asked + " has no finite value at the start") +
+                     "; give " + key_in_section(scene, parameter));
   if (key == "along" && !std::isfinite(width)) throw StartError(interval + " has no end; give two finite numbers");
   if (!(at >= range[0] && at <= range[1]))
     throw StartError("the start lies outside " + interval + "; give " + key_in_section(scene, parameter) +

@@ -39,6 +39,9 @@ ErrorBounds::ErrorBounds(const point::Problem& problem, const RecordedMotion& mo
                       std::abs(result.v_min), std::abs(result.v_max)})),
       of_start_(periodic ? norm_of_return(motion.derivative) : 1.0),
       stretching_(std::max(1.0, norm(motion.derivative))) {
+  // rounding that a part of the period stretches up to its end, though the whole of it may contract
+  const double rounding = of_arithmetic / of_state * std::max(motion.rounding[0], motion.rounding[1]);
+  if (periodic) of_start_ *= std::max(1.0, rounding);
   for (const RecordedEvent& event : motion.events)
     stretching_ = std::max({stretching_, norm(event.derivative), event.rounding[0], event.rounding[1]});
 }

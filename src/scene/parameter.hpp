@@ -94,7 +94,7 @@ void convert(BasicGivenScene<Other>& from, BasicGivenScene<Number>& to) {
   constexpr const ParameterRow<Other>& old = table<Other>[row];
   constexpr const ParameterRow<Number>& own = table<Number>[row];
   own.place(to) = Number(old.place(from));
-  if constexpr (own.place_of_upper != nullptr) own.place_of_upper(to) = Number(old.place_of_upper(from));
+  if (own.place_of_upper != nullptr) own.place_of_upper(to) = Number(old.place_of_upper(from));
 }
 
 }  // namespace detail

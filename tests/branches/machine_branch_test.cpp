@@ -84,5 +84,14 @@ TEST(MachineBranch, is_followed_along_any_key_beside_any_other) {
   }
 }
 
+TEST(MachineBranch, begins_at_a_finite_value) {
+  try {
+    (void)follow_branches(machine(false), {.along = "quality", .range = {8, 12}});
+    FAIL() << "a quality of an undamped machine";
+  } catch (const StartError& error) {
+    EXPECT_STREQ(error.what(), "branch.along = quality has no finite value at the start; give machine.quality");
+  }
+}
+
 }  // namespace
 }  // namespace clatter::branches

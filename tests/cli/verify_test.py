@@ -214,6 +214,26 @@ class Verify(CommandLine):
         result = self.verify("-", text=json.dumps(certificate))
         self.assertRegex(result.stdout, "symmetric: (claimed true, found false|the scene isn't, to its last digit)")
 
+    def test_a_start_that_its_own_period_stretches_is_claimed_no_closer_than_it_is_known(self):
+        """The whole period contracts to 1e-43, but its last contacts stretch rounding to 1e-8 of the start."""
+        scene = {
+            "R_upper": 1.0,
+            "f": 1.0,
+            "nu": 0.7148252167432724,
+            "phase": -0.00815187300817577,
+            "stiffness": -0.04505265424297162,
+            "stop_damping_lower": 0.2863966953943423,
+            "stop_lower": -0.731740573404287,
+            "stop_stiffness_lower": 81492.90561961803,
+            "stop_upper": 0.06380606063950439,
+            "v0": -0.6280902265490824,
+            "x0": -0.9019230710144587,
+        }
+        lines = "".join(f"{key} = {value!r}\n" for key, value in scene.items())
+        file = self.certificates("stretched", f"[scene]\n{lines}[observe]\nextrema = true\nperiod = true\n")
+        if file.read_text(encoding="utf-8"):  # else it is counted as lost in rounding
+            self.assert_proved(verified(file), 0, undecided=1)
+
     def test_each_malformed_certificate_is_told_with_its_place_and_the_way_out(self):
         for certificate, words in MALFORMED:
             line = certificate if isinstance(certificate, str) else json.dumps(certificate)
