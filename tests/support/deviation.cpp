@@ -30,7 +30,8 @@ std::string text(const accuracy::Event& event) {
 double Deviation::largest() const { return std::max({time, speed, end}); }
 
 Deviation deviation(const accuracy::RunRecord& record, const accuracy::RunRecord& reference) {
-  const auto events = accuracy::with_rests_joined(record.events), expected = accuracy::with_rests_joined(reference.events);
+  const auto events = accuracy::with_rests_joined(record.events),
+             expected = accuracy::with_rests_joined(reference.events);
   Deviation result;
   double size_x = std::abs(reference.x), size_v = std::abs(reference.v);
   std::size_t j = 0;
