@@ -13,8 +13,8 @@
 namespace clatter::branches {
 
 /// A scene on a branch: the numbers that its user gives, of which one or two are followed, and those that are computed
-/// from them, in the units of the start. Phases are those of the shaking, nu tau + phase; without any that is the phase
-/// of the force.
+/// from them, in the units of the start. Phases are nu tau + phase, as the user gave it: those of the force that was
+/// given, not of the one in the moving frame.
 struct FollowedScene : Scene {
   GivenScene given{};
   Units units{};

@@ -69,7 +69,7 @@ void each_coordinate(const Sweep& sweep, std::size_t point, const Take& take) {
 [[nodiscard]] bool is_shaken(const Sweep& sweep);
 
 /// Puts the force in the moving frame in place of the one that was given (eqs. 39 to 41); phases that the user gave are
-/// those of the shaking.
+/// those of the force that was given.
 void enter_shaken_frame(point::Problem& problem);
 
 /// A problem in the units that it is computed in; of a shaken scene that in the moving frame.
