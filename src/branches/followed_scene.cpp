@@ -28,7 +28,7 @@ FollowedScene changed(const FollowedScene& scene, Parameter parameter, double va
 }
 
 SceneNumbers<Along> numbers_along(const FollowedScene& scene, Parameter parameter) {
-  return numbers_of<Along>(scene, {{parameter, Along(value_of(scene, parameter), 0)}});
+  return numbers_of<Along>(scene, [&](auto& given) { set(given, parameter, Along(value_of(scene, parameter), 0)); });
 }
 
 bool keeps_symmetry(const FollowedScene& scene, Parameter parameter) {

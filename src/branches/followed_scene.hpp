@@ -2,8 +2,6 @@
 
 #include <string>
 #include <type_traits>
-#include <utility>
-#include <vector>
 
 #include "math/dual.hpp"
 #include "motion/soft_stop.hpp"
@@ -65,18 +63,19 @@ struct SceneNumbers : BasicScene<Number> {
   [[nodiscard]] LeadingForce<Number> force() const { return force_in_frame(this->oscillator, this->shaking); }
 };
 
-/// Parameters that vary, each with its value and derivatives.
-template <class Number>
-using Varied = std::vector<std::pair<Parameter, Number>>;
-
-/// The numbers of a scene, some of whose parameters vary.
-template <class Number>
-[[nodiscard]] SceneNumbers<Number> numbers_of(const FollowedScene& scene, const Varied<Number>& varied = {}) {
-  if constexpr (std::is_same_v<Number, double>)
-    if (varied.empty()) return {scene, scene.given.mass / scene.units.mass};
+/// The numbers of a scene; `vary(given)` sets those of its parameters that vary, with their derivatives.
+template <class Number, class Vary>
+[[nodiscard]] SceneNumbers<Number> numbers_of(const FollowedScene& scene, const Vary& vary) {
   BasicGivenScene<Number> given = with_numbers<Number>(scene.given);
-  for (const auto& [parameter, value] : varied) set(given, parameter, value);
+  vary(given);
   return {computed(given, scene.units), given.mass / scene.units.mass};
+}
+
+/// The numbers of a scene in which nothing varies.
+template <class Number>
+[[nodiscard]] SceneNumbers<Number> numbers_of(const FollowedScene& scene) {
+  if constexpr (std::is_same_v<Number, double>) return {scene, scene.given.mass / scene.units.mass};
+  return numbers_of<Number>(scene, [](auto&) {});
 }
 
 /// A scene's numbers with their derivatives by one parameter.

@@ -50,10 +50,10 @@ Number variable_of_axis(double value, std::size_t axis) {
 /// The numbers of a scene, with derivatives by the parameters that vary.
 template <class Number>
 SceneNumbers<Number> numbers_along(const FollowedScene& scene, const std::vector<OrbitEquations::Axis>& axes) {
-  Varied<Number> varied;
-  for (std::size_t k = 0; k < axes.size(); ++k)
-    varied.emplace_back(axes[k].parameter, variable_of_axis<Number>(value_of(scene, axes[k].parameter), k));
-  return numbers_of(scene, varied);
+  return numbers_of<Number>(scene, [&](BasicGivenScene<Number>& given) {
+    for (std::size_t k = 0; k < axes.size(); ++k)
+      set(given, axes[k].parameter, variable_of_axis<Number>(value_of(scene, axes[k].parameter), k));
+  });
 }
 
 template <class Number>

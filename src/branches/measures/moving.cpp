@@ -25,15 +25,17 @@ Moving moving(const OrbitEquations& equations, const Vector& point, const Vector
   const Orbit orbit = equations.orbit_at(point);
   const FollowedScene scene = equations.scene_at(point);
   constexpr double step = 1e-3;  // the parameter is linear in the point
-  Varied<Along> varied;
-  for (std::size_t k = 0; k < equations.axes().size(); ++k) {
-    const auto& [parameter, unit] = equations.axes()[k];
-    const std::size_t unknown = 2 * orbit.size() + k;
-    const double value = point[unknown] * unit, ahead = (point[unknown] + step * tangent[unknown]) * unit;
-    varied.emplace_back(parameter, value);
-    varied.back().second.slope[0] = (ahead - value) / step;
-  }
-  Moving m = motion_at(scene, orbit, numbers_of(scene, varied));
+  const auto vary = [&](BasicGivenScene<Along>& given) {
+    for (std::size_t k = 0; k < equations.axes().size(); ++k) {
+      const auto& [parameter, unit] = equations.axes()[k];
+      const std::size_t unknown = 2 * orbit.size() + k;
+      const double ahead = (point[unknown] + step * tangent[unknown]) * unit;
+      Along value(point[unknown] * unit);
+      value.slope[0] = (ahead - value.value) / step;
+      set(given, parameter, value);
+    }
+  };
+  Moving m = motion_at(scene, orbit, numbers_of<Along>(scene, vary));
   m.stiffness_varies = equations.stiffness_varies();
   for (std::size_t i = 0; i < orbit.size(); ++i) {
     Along phase(orbit.impacts[i].phase), before(orbit.impacts[i].before);
@@ -48,7 +50,8 @@ Moving moving_from_release(const FollowedScene& scene, const Orbit& orbit, Param
   using Four = Dual<double, 4>;
   Moving m = motion_at(scene, orbit, numbers_along(scene, parameter));
   m.stiffness_varies = varies_stiffness(scene, parameter);
-  const auto p = numbers_of<Four>(scene, {{parameter, Four(value_of(scene, parameter), by_parameter)}});
+  const auto p = numbers_of<Four>(
+      scene, [&](auto& given) { set(given, parameter, Four(value_of(scene, parameter), by_parameter)); });
   // f sin(phase + lead) + load = k x at a release
   const LeadingForce<Along> force = m.p.force();
   const auto release = [&](const OrbitImpact& rest) {
