@@ -1,4 +1,4 @@
-"""Finds heaps of texts in HDF5 files that HDF5 1.10 would read for ever, like src/results/hdf5_soundness.cpp."""
+"""Finds heaps of texts in HDF5 files that HDF5 1.10 would read for ever, like src/results/hdf5_plain.cpp."""
 
 import mmap
 import struct

@@ -4,10 +4,10 @@
 #include <vector>
 
 #include "accuracy/accuracy_dataset.hpp"
-#include "accuracy_answer.hpp"
 #include "accuracy_report.hpp"
 #include "commands.hpp"
 #include "common_options.hpp"
+#include "json_output.hpp"
 #include "results/dataset_file.hpp"
 #include "results/output_place.hpp"
 #include "signals.hpp"

@@ -8,6 +8,7 @@
 #include "commands.hpp"
 #include "common_options.hpp"
 #include "format.hpp"
+#include "json_output.hpp"
 #include "results/dataset_file.hpp"
 #include "results/output_place.hpp"
 #include "storage/journal.hpp"
@@ -17,26 +18,6 @@ namespace clatter::app {
 namespace {
 
 using branches::SpecialPoint;
-
-/// {"kind": "fold", "nu": 1.42, ..., "multipliers": [[1, 0], [0.1, 0]]}: one line; real and imaginary parts.
-std::string special_json(const SpecialPoint& special, const std::vector<Parameter>& parameters, const Units& units) {
-  const branches::BranchPoint& at = special.at;
-  const PhasePoint state = branches::state_at_phase_zero(at.scene, at.orbit);
-  const auto pair = [](double re, double im) { return '[' + json_number(re) + ", " + json_number(im) + ']'; };
-  std::string numbers;
-  for (const std::size_t branch : special.branches) numbers += (numbers.empty() ? "" : ", ") + std::to_string(branch);
-  std::string values;
-  const double velocity = factor_of(units, Quantity::velocity);
-  for (const Parameter parameter : parameters)
-    values += ", " + json_text(std::string(parameter.key())) + ": " + json_number(value_of(at.scene, parameter));
-  return "{\"kind\": " + json_text(std::string(name_of(special.kind))) + values +
-         ", \"impact_speed\": " + json_number(velocity * branches::impact_speed(special.at.orbit)) +
-         ", \"x\": " + json_number(state.x) + ", \"v\": " + json_number(velocity * state.v) +
-         ", \"period_ratio\": " + json_number(at.orbit.period_ratio()) + ", \"word\": " + json_text(at.orbit.word()) +
-         ", \"stable\": " + (at.stable ? "true" : "false") + ", \"multipliers\": [" +
-         pair(at.multiplier_re[0], at.multiplier_im[0]) + ", " + pair(at.multiplier_re[1], at.multiplier_im[1]) +
-         "], \"branches\": [" + numbers + "]}\n";
-}
 
 /// "fold                  nu = 1.42486182628998  speed 1.72122564705845  LU  branch 0"
 std::string special_text(const SpecialPoint& special, const std::vector<Parameter>& parameters, const Units& units) {

@@ -10,7 +10,7 @@
 #include "certificates/certified_branch.hpp"
 #include "certificates/sample.hpp"
 #include "command_line.hpp"
-#include "output_config.hpp"
+#include "outputs/output_summary.hpp"
 #include "storage/input_file.hpp"
 
 namespace clatter::app {
@@ -49,8 +49,8 @@ bool must_return(const branches::BranchPoint& point) {
 }  // namespace
 
 CertifiedBranches::CertifiedBranches(const std::string& path) {
-  const results::FileSummary summary = results::read_summary(path);
-  const config::Config config = config_of_output(summary, path);
+  const results::FileSummary summary = outputs::read_summary(path);
+  const config::Config config = outputs::config_of_output(summary, path);
   if (!config.branch)
     storage::refuse_reading(path, "has no [branch] in its configuration", "follow its configuration again");
   sweep_ = config.sweep, settings_ = *config.branch, start_.emplace(sweep_.problem);
@@ -75,7 +75,7 @@ bool CertifiedBranches::is_reproduced(const std::string& prefix, std::size_t num
   for (const auto& [name, value] : {std::pair<std::string, double>{settings_.along.key(), parameter},
                                     {"x", factor_of(start_->units, Quantity::length) * state.x},
                                     {"v", velocity * state.v}}) {
-    const auto* const told = values_of<double>(results_, prefix + name);
+    const auto* const told = results::values_of<double>(results_, prefix + name);
     if (told == nullptr || number >= told->size() || !(std::abs((*told)[number] - value) <= same * size)) return false;
   }
   return true;

@@ -10,7 +10,7 @@
 #include "branches/settings.hpp"
 #include "certificates/certificate_text.hpp"
 #include "certificates/tally.hpp"
-#include "sweep/dataset.hpp"
+#include "results/dataset.hpp"
 #include "sweep/sweep.hpp"
 
 namespace clatter::app {
@@ -37,7 +37,7 @@ class CertifiedBranches {
   branches::BranchSettings settings_;
   std::optional<branches::StartProblem> start_{};
   branches::Branches found_;
-  sweep::Dataset results_{};
+  results::Dataset results_{};
 };
 
 }  // namespace clatter::app

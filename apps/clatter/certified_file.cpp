@@ -8,8 +8,8 @@
 
 #include "certificates/certificate_text.hpp"
 #include "command_line.hpp"
-#include "output_config.hpp"
-#include "results/csv_table.hpp"
+#include "csv_table.hpp"
+#include "outputs/output_summary.hpp"
 #include "results/dataset_file.hpp"
 #include "storage/input_file.hpp"
 #include "storage/utf8.hpp"
@@ -44,15 +44,15 @@ void require_exact(const sweep::Sweep& sweep, const std::string& path) {
 }  // namespace
 
 CertifiedFile::CertifiedFile(const std::string& path, const std::vector<std::pair<std::string, double>>& where) {
-  const results::FileSummary summary = results::read_summary(path);
-  results::TableChoice choice{.only = {"status"}, .where = where};
+  const results::FileSummary summary = outputs::read_summary(path);
+  TableChoice choice{.only = {"status"}, .where = where};
   if (has(summary, "status") && has(summary, "period_ratio")) choice.only.emplace_back("period_ratio");
-  const results::CsvTable table(summary, path, choice);
-  sweep_ = config_of_output(summary, path).sweep;
+  const CsvTable table(summary, path, choice);
+  sweep_ = outputs::config_of_output(summary, path).sweep;
   require_exact(sweep_, path);
   results_ = results::read_variables(path, table.variables());
   points_ = table.points(results_);
-  const auto* const status = values_of<std::uint8_t>(results_, "status");
+  const auto* const status = results::values_of<std::uint8_t>(results_, "status");
   if (status == nullptr || status->size() != size(sweep_))
     storage::refuse_reading(path, "is damaged: its points aren't those of its configuration",
                             "run its configuration again");
@@ -63,9 +63,9 @@ bool CertifiedFile::is_reproduced(std::size_t point, const certificates::Certifi
   const auto without_graze = [](steady::Status status) {
     return status == steady::Status::grazing ? steady::Status::periodic : status;
   };
-  const auto told = static_cast<steady::Status>((*values_of<std::uint8_t>(results_, "status"))[point]);
+  const auto told = static_cast<steady::Status>((*results::values_of<std::uint8_t>(results_, "status"))[point]);
   if (without_graze(told) != without_graze(found.status)) return false;
-  const auto* const periods = values_of<double>(results_, "period_ratio");
+  const auto* const periods = results::values_of<double>(results_, "period_ratio");
   return periods == nullptr || !found.certificate || !found.certificate->period || !((*periods)[point] > 0) ||
          (*periods)[point] == found.periods;
 }

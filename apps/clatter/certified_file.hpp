@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "certificates/tally.hpp"
-#include "sweep/dataset.hpp"
+#include "results/dataset.hpp"
 #include "sweep/sweep.hpp"
 
 namespace clatter::app {
@@ -29,7 +29,7 @@ class CertifiedFile {
   [[nodiscard]] bool is_reproduced(std::size_t point, const certificates::CertifiedPoint& found) const;
 
   sweep::Sweep sweep_;
-  sweep::Dataset results_{};  ///< status and, if the file has it, period_ratio
+  results::Dataset results_{};  ///< status and, if the file has it, period_ratio
   std::vector<std::size_t> points_{};
 };
 

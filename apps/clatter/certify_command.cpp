@@ -13,7 +13,7 @@
 #include "commands.hpp"
 #include "common_options.hpp"
 #include "config/suggestion.hpp"
-#include "results/csv_table.hpp"
+#include "csv_table.hpp"
 #include "results/origin.hpp"
 #include "storage/atomic_write.hpp"
 #include "storage/input_file.hpp"
@@ -64,7 +64,7 @@ int certify(const Arguments& arguments) try {
   if (output) storage::write_atomically(*output, std::as_bytes(std::span(text)));
   std::cerr << tally.text() << '\n';
   return tally.not_reproduced() > 0 ? points_failed : done;
-} catch (const results::ChoiceError& error) {
+} catch (const ChoiceError& error) {
   throw UsageError(error.what());
 }
 

@@ -36,14 +36,14 @@ int threads_of(const Arguments& arguments) {
   return threads;
 }
 
-std::optional<sweep::Shard> shard_of(const Arguments& arguments) {
+std::optional<results::Shard> shard_of(const Arguments& arguments) {
   const std::optional<std::string> word = arguments.value("shard");
   if (!word) return std::nullopt;
-  const std::optional<sweep::Shard> shard = sweep::shard_named(*word);
+  const std::optional<results::Shard> shard = results::shard_named(*word);
   if (!shard)
     throw UsageError("--shard " + config::in_quotes(*word) +
                      "; expected K/N, two whole numbers, K from 0 to N - 1, N up to " +
-                     std::to_string(sweep::Shard::most));
+                     std::to_string(results::Shard::most));
   return shard;
 }
 

@@ -26,7 +26,7 @@ inline const Option threads_option{"threads", 0, "N",
 [[nodiscard]] int threads_of(const Arguments& arguments);
 
 /// The shard of --shard; nothing if it isn't given. Throws UsageError.
-[[nodiscard]] std::optional<sweep::Shard> shard_of(const Arguments& arguments);
+[[nodiscard]] std::optional<results::Shard> shard_of(const Arguments& arguments);
 
 inline const Option arch_option{
     "arch", 0,

@@ -1,7 +1,7 @@
 #include <iostream>
 
 #include "commands.hpp"
-#include "config/defaults.hpp"
+#include "config/config_text.hpp"
 
 namespace clatter::app {
 namespace {

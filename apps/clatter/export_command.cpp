@@ -6,7 +6,8 @@
 #include "common_options.hpp"
 #include "config/config.hpp"
 #include "config/suggestion.hpp"
-#include "results/csv_table.hpp"
+#include "csv_table.hpp"
+#include "outputs/output_summary.hpp"
 #include "results/dataset_file.hpp"
 #include "storage/atomic_write.hpp"
 #include "table_options.hpp"
@@ -29,17 +30,17 @@ std::vector<std::string> listed(const std::vector<std::string>& values) {
   return words;
 }
 
-results::TableChoice choice_of(const Arguments& arguments) {
+TableChoice choice_of(const Arguments& arguments) {
   return {.only = listed(arguments.values("only")), .where = places_of(arguments), .impacts = arguments.has("impacts")};
 }
 
 int export_table(const Arguments& arguments) try {
   const std::string& path = arguments.operands[0];
-  const results::TableChoice choice = choice_of(arguments);
+  const TableChoice choice = choice_of(arguments);
   const std::optional<std::string> output = text_output_of(arguments);
-  const results::FileSummary summary = results::read_summary(path);
-  const results::CsvTable table(summary, path, choice);
-  const sweep::Dataset dataset = results::read_variables(path, table.variables());
+  const results::FileSummary summary = outputs::read_summary(path);
+  const CsvTable table(summary, path, choice);
+  const results::Dataset dataset = results::read_variables(path, table.variables());
   if (!output) {
     table.write(dataset,
                 [](std::string_view text) { std::cout.write(text.data(), static_cast<std::streamsize>(text.size())); });
@@ -49,7 +50,7 @@ int export_table(const Arguments& arguments) try {
   table.write(dataset, [&](std::string_view more) { text += more; });
   storage::write_atomically(*output, std::as_bytes(std::span(text)));
   return done;
-} catch (const results::ChoiceError& error) {
+} catch (const ChoiceError& error) {
   throw UsageError(error.what());
 }
 

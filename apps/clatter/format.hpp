@@ -1,6 +1,9 @@
 #pragma once
 
+#include <cstddef>
 #include <string>
+
+#include "sweep/sweep.hpp"
 
 namespace clatter::app {
 
@@ -13,10 +16,7 @@ namespace clatter::app {
 /// "12.5 KiB", "1.25 GiB".
 [[nodiscard]] std::string bytes_text(double bytes);
 
-/// A text as JSON, with quotes. Bytes that aren't UTF-8 become U+FFFD, since JSON is text.
-[[nodiscard]] std::string json_text(const std::string& text);
-
-/// A number as JSON; null unless it is finite.
-[[nodiscard]] std::string json_number(double value);
+/// "nu = 0.5, xs = -3"; empty if nothing is swept.
+[[nodiscard]] std::string coordinates_text(const sweep::Sweep& sweep, std::size_t point);
 
 }  // namespace clatter::app

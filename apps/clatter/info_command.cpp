@@ -4,7 +4,8 @@
 #include <iostream>
 
 #include "commands.hpp"
-#include "info_json.hpp"
+#include "json_output.hpp"
+#include "outputs/output_summary.hpp"
 #include "results/dataset_file.hpp"
 #include "storage/error.hpp"
 #include "storage/utf8.hpp"
@@ -19,7 +20,7 @@ std::string column(std::string text, std::size_t width) {
 
 std::string shape_text(const results::FileSummary::Entry& entry) {
   std::string text;
-  for (const sweep::NamedLength& dimension : entry.dimensions) {
+  for (const results::NamedLength& dimension : entry.dimensions) {
     text += (text.empty() ? "[" : ", ") + dimension.name + " = " + std::to_string(dimension.length);
   }
   return text.empty() ? "scalar" : text + ']';
@@ -45,7 +46,7 @@ results::FileSummary harmless(results::FileSummary summary) {
   for (results::FileSummary::Entry& entry : summary.variables) {
     for (std::string* const text : {&entry.name, &entry.type, &entry.units, &entry.long_name, &entry.frame})
       clean(*text);
-    for (sweep::NamedLength& dimension : entry.dimensions) clean(dimension.name);
+    for (results::NamedLength& dimension : entry.dimensions) clean(dimension.name);
   }
   for (auto& [meaning, count] : summary.status_counts) clean(meaning);
   return summary;
@@ -76,11 +77,11 @@ int print_info(const Arguments& arguments) {
   if (arguments.has("json") && arguments.has("config"))
     throw UsageError("--json conflicts with --config; give one of them");
   const std::string& path = arguments.operands[0];
-  const results::FileSummary summary = results::read_summary(path);
+  const results::FileSummary summary = outputs::read_summary(path);
   if (arguments.has("config")) {
     print_config(path, summary);
   } else if (arguments.has("json")) {
-    std::cout << json(summary);
+    std::cout << summary_json(summary);
   } else {
     print_text(harmless(summary));
   }

@@ -25,7 +25,7 @@ plan::MemoryNeed with_configuration(plan::MemoryNeed need, const config::Config&
 
 }  // namespace
 
-plan::MemoryNeed check_memory(const config::Config& config, const std::optional<sweep::Shard>& shard, int threads) {
+plan::MemoryNeed check_memory(const config::Config& config, const std::optional<results::Shard>& shard, int threads) {
   const plan::MemoryNeed need = with_configuration(plan::memory_need(config.sweep, shard, threads), config);
   std::string what = counted(static_cast<double>(sweep::Share(config.sweep, shard).points()), "point") + " take " +
                      bytes_text(need.memory);

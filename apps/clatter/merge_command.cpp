@@ -6,12 +6,12 @@
 
 #include "commands.hpp"
 #include "common_options.hpp"
-#include "failures.hpp"
 #include "format.hpp"
 #include "memory_check.hpp"
+#include "outputs/merge.hpp"
 #include "results/dataset_file.hpp"
-#include "results/merge.hpp"
 #include "results/output_place.hpp"
+#include "run_report.hpp"
 #include "storage/atomic_write.hpp"
 #include "storage/journal.hpp"
 #include "storage/utf8.hpp"
@@ -36,14 +36,14 @@ int merge_shards(const Arguments& arguments) {
   storage::check_writable(output);
   check_not_shard(arguments.operands, output);
   storage::require_idle(output);
-  const results::ShardSet shards = results::shard_set(arguments.operands);
+  const outputs::ShardSet shards = outputs::shard_set(arguments.operands);
   const results::OutputPlace place(output, {.title = shards.config.title}, arguments.has("force"));
   check_merge_memory(shards.bytes);
   if (arguments.has("verbose"))
     std::cerr << "shards           " << shards.headers.size() << "\nrounding         "
               << storage::printable(shards.headers.front().rounding) << "\nmemory           "
               << bytes_text(shards.bytes) << '\n';
-  results::Merged merged = merge(shards);
+  outputs::Merged merged = merge(shards);
   const std::string failures = failures_text(merged.dataset, shards.config.sweep);
   place.write_atomically(results::file_image(std::move(merged.dataset), shards.config).bytes);
   if (!arguments.has("quiet"))

@@ -2,6 +2,7 @@
 
 #include "commands.hpp"
 #include "common_options.hpp"
+#include "json_output.hpp"
 #include "memory_check.hpp"
 #include "plan_report.hpp"
 #include "sweep/run.hpp"
@@ -14,7 +15,7 @@ namespace {
 int print_plan(const Arguments& arguments) {
   const int threads = sweep::threads_used({.threads = threads_of(arguments)});
   const lanes::InstructionSet arch = arch_of(arguments);
-  const std::optional<sweep::Shard> shard = shard_of(arguments);
+  const std::optional<results::Shard> shard = shard_of(arguments);
   const config::Config config = config_of(arguments);
   const plan::MemoryNeed need = check_memory(config, shard, threads);
   const sweep::RunOptions options{.threads = threads, .arch = arch};

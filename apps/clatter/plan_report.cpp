@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 #include <string_view>
 
 #include "format.hpp"
@@ -52,10 +51,6 @@ std::string joined(const std::vector<std::string>& names) {
   return text.empty() ? "nothing" : text;
 }
 
-std::string method_of(const sweep::Sweep& sweep) {
-  return std::string(stepping::method_names[static_cast<std::size_t>(sweep.problem.integration.method)]);
-}
-
 /// "saves 11 %" of the time, or a range.
 std::string saving_text(const plan::Bounds& saving) {
   if (saving.most == 0) return {};
@@ -63,37 +58,10 @@ std::string saving_text(const plan::Bounds& saving) {
   return "; saves " + (saving.least == saving.most ? most : formatted("%.0f", 100 * saving.least) + " ... " + most);
 }
 
-/// A key of [scene] and its number.
-using Number = std::pair<std::string_view, double>;
-
-/// A scene in the keys of [scene], in the units that it is computed in; empty if these are the user's.
-std::vector<Number> computed_scene(const point::Problem& problem) {
-  if (problem.units == Units{}) return {};
-  const Oscillator& o = problem.oscillator;
-  const Stops& stops = problem.stops;
-  std::vector<Number> scene{
-      {"h", o.damping}, {"f", o.forcing},           {"nu", o.frequency},         {"phase", problem.start.phase},
-      {"load", o.load}, {"stiffness", o.stiffness}, {"stop_lower", stops.lower}, {"stop_upper", stops.upper}};
-  if (is_soft(stops, Side::lower)) {
-    scene.insert(scene.end(),
-                 {{"stop_stiffness_lower", stops.stiffness_lower}, {"stop_damping_lower", stops.damping_lower}});
-  } else {
-    scene.push_back({"R_lower", stops.restitution_lower});
-  }
-  if (is_soft(stops, Side::upper)) {
-    scene.insert(scene.end(),
-                 {{"stop_stiffness_upper", stops.stiffness_upper}, {"stop_damping_upper", stops.damping_upper}});
-  } else {
-    scene.push_back({"R_upper", stops.restitution_upper});
-  }
-  scene.insert(scene.end(), {{"x0", problem.start.displacement}, {"v0", problem.start.velocity}});
-  return scene;
-}
-
 /// The scene that a point of a group is computed as, unless it is the user's.
 std::string scene_text(const plan::Group& group, const sweep::Sweep& sweep) {
   const point::Problem problem = problem_at(sweep, group.example);
-  const std::vector<Number> scene = computed_scene(problem);
+  const std::vector<KeyAndNumber> scene = computed_scene(problem);
   if (scene.empty()) return {};
   constexpr std::size_t in_row = 6;
   std::vector<std::string> row;
@@ -132,6 +100,12 @@ std::string points_text(const plan::Plan& plan, const sweep::Sweep& sweep) {
   return text;
 }
 
+}  // namespace
+
+std::string method_of(const sweep::Sweep& sweep) {
+  return std::string(stepping::method_names[static_cast<std::size_t>(sweep.problem.integration.method)]);
+}
+
 plan::Bounds seconds_of(const plan::Plan& plan, int threads) {
   plan::Bounds sum;
   for (const plan::Group& group : plan.groups) sum += group.seconds;
@@ -139,52 +113,28 @@ plan::Bounds seconds_of(const plan::Plan& plan, int threads) {
   return {sum.least / together, sum.most / together};
 }
 
-/// A JSON array whose elements `print` prints.
-template <typename Range, typename Print>
-void list(std::ostringstream& out, const Range& range, const Print& print) {
-  const char* separator = "";
-  out << '[';
-  for (const auto& element : range) {
-    out << separator;
-    print(element);
-    separator = ", ";
+std::vector<KeyAndNumber> computed_scene(const point::Problem& problem) {
+  if (problem.units == Units{}) return {};
+  const Oscillator& o = problem.oscillator;
+  const Stops& stops = problem.stops;
+  std::vector<KeyAndNumber> scene{
+      {"h", o.damping}, {"f", o.forcing},           {"nu", o.frequency},         {"phase", problem.start.phase},
+      {"load", o.load}, {"stiffness", o.stiffness}, {"stop_lower", stops.lower}, {"stop_upper", stops.upper}};
+  if (is_soft(stops, Side::lower)) {
+    scene.insert(scene.end(),
+                 {{"stop_stiffness_lower", stops.stiffness_lower}, {"stop_damping_lower", stops.damping_lower}});
+  } else {
+    scene.push_back({"R_lower", stops.restitution_lower});
   }
-  out << ']';
-}
-
-std::string estimate_json(const plan::Bounds& estimate) {
-  std::ostringstream out;
-  out << '[' << json_number(estimate.least) << ", " << json_number(estimate.most) << ']';
-  return out.str();
-}
-
-/// The scene that the example of a group is computed as, and its units, or null if these are the user's.
-void put_scene(std::ostringstream& out, const point::Problem& problem) {
-  const std::vector<Number> scene = computed_scene(problem);
-  if (scene.empty()) {
-    out << "null";
-    return;
+  if (is_soft(stops, Side::upper)) {
+    scene.insert(scene.end(),
+                 {{"stop_stiffness_upper", stops.stiffness_upper}, {"stop_damping_upper", stops.damping_upper}});
+  } else {
+    scene.push_back({"R_upper", stops.restitution_upper});
   }
-  out << '{';
-  for (const auto& [key, number] : scene) out << json_text(std::string(key)) << ": " << json_number(number) << ", ";
-  out << "\"unit_of_time\": " << json_number(problem.units.time) << '}';
+  scene.insert(scene.end(), {{"x0", problem.start.displacement}, {"v0", problem.start.velocity}});
+  return scene;
 }
-
-void put_group(std::ostringstream& out, const plan::Group& group, const sweep::Sweep& sweep) {
-  out << "\n    {\"points\": " << group.points << ", \"example\": " << group.example << ", \"computed_as\": ";
-  put_scene(out, problem_at(sweep, group.example));
-  out << ", \"effect_set\": " << json_text(plan::effect_set_name(group.effects))
-      << ", \"periods\": " << estimate_json(group.periods) << ", \"seconds\": " << estimate_json(group.seconds)
-      << ", \"effects\": ";
-  list(out, group.reasons, [&](const plan::Reason& reason) {
-    out << "\n      {\"effect\": " << json_text(reason.effect)
-        << ", \"required\": " << (reason.required ? "true" : "false") << ", \"why\": " << json_text(reason.why)
-        << ", \"saves\": [" << json_number(reason.saving.least) << ", " << json_number(reason.saving.most) << "]}";
-  });
-  out << '}';
-}
-
-}  // namespace
 
 std::string plan_text(const plan::Plan& plan, const sweep::Sweep& sweep, int threads, std::optional<double> seconds) {
   std::string text =
@@ -206,38 +156,6 @@ std::string plan_text(const plan::Plan& plan, const sweep::Sweep& sweep, int thr
                              (need.log > 0 ? ", by an estimate of the impact log: " + bytes_text(need.log) : "") +
                              (std::isfinite(plan.available_memory) ? ", of " + bytes_text(plan.available_memory) : ""));
   return text;
-}
-
-std::string plan_json(const plan::Plan& plan, const sweep::Sweep& sweep, int threads, std::optional<double> seconds) {
-  std::ostringstream out;
-  out << "{\n  \"schema\": \"clatter-plan/1\",\n  \"shard\": "
-      << (plan.shard ? json_text(text_of(*plan.shard)) : "null") << ",\n  \"points\": " << plan.points
-      << ",\n  \"sampled_points\": " << (plan.sampled_points ? std::to_string(*plan.sampled_points) : "null")
-      << ",\n  \"mirror_images\": " << plan.mirror_images << ",\n  \"dimensions\": ";
-  list(out, sweep.dimensions, [&](const sweep::Dimension& dimension) {
-    list(out, dimension, [&](const sweep::Axis& axis) {
-      out << "{\"key\": " << json_text(std::string(axis.parameter.key())) << ", \"length\": " << axis.values.size()
-          << ", \"first\": " << json_number(axis.values.front()) << ", \"last\": " << json_number(axis.values.back())
-          << '}';
-    });
-  });
-  out << ",\n  \"follow\": ";
-  out << (sweep.follow ? json_text(std::string(name_of(sweep.dimensions[*sweep.follow]))) : "null");
-  out << ",\n  \"direction\": \"" << sweep::direction_names[static_cast<std::size_t>(sweep.direction)] << '"';
-  out << ",\n  \"observed\": ";
-  list(out, plan.observed, [&](const std::string& name) { out << json_text(name); });
-  out << ",\n  \"method\": " << json_text(method_of(sweep))
-      << ",\n  \"all_effects\": " << (sweep.problem.integration.all_effects ? "true" : "false") << ",\n  \"groups\": ";
-  list(out, plan.groups, [&](const plan::Group& group) { put_group(out, group, sweep); });
-  out << ",\n  \"threads\": " << threads << ",\n  \"seconds\": " << estimate_json(seconds_of(plan, threads))
-      << ",\n  \"foretold_seconds\": " << (seconds ? json_number(*seconds) : "null")
-      << ",\n  \"output_bytes\": " << json_number(plan.need.output)
-      << ",\n  \"memory_bytes\": " << json_number(plan.need.memory)
-      << ",\n  \"estimated_log_bytes\": " << json_number(plan.need.log)
-      << ",\n  \"machine_bytes\": " << json_number(plan.available_memory) << ",\n  \"warnings\": ";
-  list(out, plan.warnings, [&](const std::string& warning) { out << json_text(warning); });
-  out << "\n}\n";
-  return out.str();
 }
 
 }  // namespace clatter::app

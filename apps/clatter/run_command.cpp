@@ -15,7 +15,7 @@ namespace clatter::app {
 namespace {
 
 /// The file that -o names; else the configuration's name with .h5, for a shard with .K-of-N.h5.
-std::string output_of(const Arguments& arguments, const std::optional<sweep::Shard>& shard) {
+std::string output_of(const Arguments& arguments, const std::optional<results::Shard>& shard) {
   if (!shard) return output_of(arguments, ".h5");
   return output_of(arguments, '.' + std::to_string(shard->number) + "-of-" + std::to_string(shard->of) + ".h5");
 }

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "commands.hpp"
+#include "config/config_diff.hpp"
 #include "format.hpp"
 #include "memory_check.hpp"
 #include "plan_report.hpp"
@@ -20,7 +21,7 @@
 namespace clatter::app {
 namespace {
 
-std::string name_of(const std::optional<sweep::Shard>& shard) { return shard ? text_of(*shard) : ""; }
+std::string name_of(const std::optional<results::Shard>& shard) { return shard ? text_of(*shard) : ""; }
 
 storage::JournalKey journal_key(const config::Config& config, const RunRequest& request) {
   return {.config = config.text,
@@ -31,6 +32,12 @@ storage::JournalKey journal_key(const config::Config& config, const RunRequest& 
                          .append(results::compiler()),
           .rounding = sweep::rounding_fingerprint(config.sweep, request.arch),
           .shard = name_of(request.shard)};
+}
+
+/// A key as lines that can be compared.
+std::string lines_of(const storage::JournalKey& key) {
+  return "program: " + storage::printable(key.program) + "\nrounding: " + storage::printable(key.rounding) + '\n' +
+         (key.shard.empty() ? "the whole sweep" : "shard " + storage::printable(key.shard)) + '\n' + key.config;
 }
 
 void say_plan(const config::Config& config, const RunRequest& request, const plan::MemoryNeed& need) {
@@ -67,8 +74,14 @@ void RunSession::announce(const plan::MemoryNeed& need) const {
 void RunSession::open_journal() {
   sweep_.emplace(config_.sweep, request_.shard);
   const storage::RecordLimit limit{sweep_->most_saved(), config_.sweep.problem.observe.impact_log};
-  journal_.emplace(request_.output, journal_key(config_, request_), limit, request_.begin,
-                   [this](std::span<const std::byte> results) { restore(results); });
+  const storage::JournalKey key = journal_key(config_, request_);
+  try {
+    journal_.emplace(request_.output, key, limit, request_.begin,
+                     [this](std::span<const std::byte> results) { restore(results); });
+  } catch (const storage::OtherRun& other) {
+    const std::string theirs = lines_of(other.key()), ours = lines_of(key);
+    throw storage::IoError(other.what() + (':' + config::config_diff({"that run: ", theirs}, {"this run: ", ours})));
+  }
 }
 
 void RunSession::restore(std::span<const std::byte> results) {

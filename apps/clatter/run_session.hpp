@@ -27,7 +27,7 @@ struct RunRequest {
   int threads = 1;
   ProgressKind progress = ProgressKind::none;
   storage::Journal::Begin begin = storage::Journal::Begin::resume_if_any;
-  std::optional<sweep::Shard> shard;
+  std::optional<results::Shard> shard;
   std::string output;
   bool force = false;
   bool quiet = false;

@@ -90,7 +90,7 @@ Trial run(const sweep::Sweep& sweep, const config::Config& config, sweep::RunOpt
 }  // namespace
 
 std::optional<double> foretold_seconds(const config::Config& config, const sweep::RunOptions& options,
-                                       const std::optional<sweep::Shard>& shard, const plan::MemoryNeed& need) {
+                                       const std::optional<results::Shard>& shard, const plan::MemoryNeed& need) {
   const auto all = static_cast<double>(sweep::Share(config.sweep, shard).points());
   const double fit = std::floor(room * all / std::max(need.output, need.memory - of_program));
   if (!(fit >= 1) || plan::warning_of_costliest_point(config.sweep, shard)) return std::nullopt;

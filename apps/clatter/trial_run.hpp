@@ -12,7 +12,7 @@ namespace clatter::app {
 /// more and more of them, until some tenths of a second are spent, or all of them. Nothing if not even part of a point
 /// can be run in that time, or a single one may take long. The trial takes little memory beside the run.
 [[nodiscard]] std::optional<double> foretold_seconds(const config::Config& config, const sweep::RunOptions& options,
-                                                     const std::optional<sweep::Shard>& shard,
+                                                     const std::optional<results::Shard>& shard,
                                                      const plan::MemoryNeed& need);
 
 }  // namespace clatter::app

@@ -19,7 +19,7 @@ void warn(const plan::Plan& plan) {
   for (const std::string& warning : plan.warnings) std::cerr << "warning: " << storage::printable(warning) << '\n';
 }
 
-void warn_of_costliest_point(const sweep::Sweep& sweep, const std::optional<sweep::Shard>& shard) {
+void warn_of_costliest_point(const sweep::Sweep& sweep, const std::optional<results::Shard>& shard) {
   if (const auto warning = plan::warning_of_costliest_point(sweep, shard)) std::cerr << "warning: " << *warning << '\n';
 }
 

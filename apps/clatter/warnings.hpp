@@ -16,7 +16,7 @@ void warn(const config::Config& config, std::span<const std::string_view> ignore
 void warn(const plan::Plan& plan);
 
 /// Warns on stderr if a single point may take long; a plan includes this warning.
-void warn_of_costliest_point(const sweep::Sweep& sweep, const std::optional<sweep::Shard>& shard);
+void warn_of_costliest_point(const sweep::Sweep& sweep, const std::optional<results::Shard>& shard);
 
 /// Prints to stderr which settings of the file --set has replaced.
 void say_notes(const config::Config& config);

@@ -2,8 +2,7 @@
 
 #include <algorithm>
 
-#include "periodic_claims.hpp"
-#include "special_claims.hpp"
+#include "claims.hpp"
 
 namespace verify {
 namespace {

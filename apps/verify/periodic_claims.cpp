@@ -1,4 +1,4 @@
-#include "periodic_claims.hpp"
+#include "claims.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,10 +1,9 @@
-#include "special_claims.hpp"
+#include "claims.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 #include "curve.hpp"
-#include "periodic_claims.hpp"
 
 namespace verify {
 namespace {

@@ -39,13 +39,13 @@ constexpr PointVariable all_point_variables[] = {
 };
 
 /// Attributes with the meanings of the values 0, 1, ... of a variable.
-std::vector<sweep::Attribute> flags_of(std::span<const std::string_view> names) {
+std::vector<results::Attribute> flags_of(std::span<const std::string_view> names) {
   std::vector<std::pair<std::uint8_t, std::string_view>> meanings;
   for (const std::string_view name : names) meanings.emplace_back(static_cast<std::uint8_t>(meanings.size()), name);
   return sweep::flag_attributes(meanings);
 }
 
-void add_trials(sweep::Dataset& dataset, const std::vector<WorkPrecision>& rows) {
+void add_trials(results::Dataset& dataset, const std::vector<WorkPrecision>& rows) {
   std::vector<std::uint8_t> method, arch;
   std::vector<double> setting;
   for (const WorkPrecision& row : rows) {
@@ -66,8 +66,8 @@ void add_trials(sweep::Dataset& dataset, const std::vector<WorkPrecision>& rows)
 std::span<const RowVariable> row_variables() { return all_row_variables; }
 std::span<const PointVariable> point_variables() { return all_point_variables; }
 
-sweep::Dataset accuracy_dataset(const sweep::Sweep& sweep, const std::vector<PointAccuracy>& points) {
-  sweep::Dataset dataset;
+results::Dataset accuracy_dataset(const sweep::Sweep& sweep, const std::vector<PointAccuracy>& points) {
+  results::Dataset dataset;
   add_axes(sweep, dataset);
   add_trials(dataset, points.front().rows);
   const std::vector<std::string> axes = axis_names(sweep);

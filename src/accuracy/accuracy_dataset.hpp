@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "accuracy/accuracy.hpp"
-#include "sweep/dataset.hpp"
+#include "results/dataset.hpp"
 #include "sweep/sweep.hpp"
 
 namespace clatter::accuracy {
@@ -26,6 +26,6 @@ struct PointVariable {
 [[nodiscard]] std::span<const PointVariable> point_variables();
 
 /// The dataset of an accuracy run of every point of a sweep: the sweep's axes and `row`; errors and times over both.
-[[nodiscard]] sweep::Dataset accuracy_dataset(const sweep::Sweep& sweep, const std::vector<PointAccuracy>& points);
+[[nodiscard]] results::Dataset accuracy_dataset(const sweep::Sweep& sweep, const std::vector<PointAccuracy>& points);
 
 }  // namespace clatter::accuracy

@@ -20,7 +20,7 @@ std::vector<std::int32_t> numbers_of(const std::vector<std::size_t>& branches, s
 /// Variables over one dimension, column by column.
 class Columns {
  public:
-  Columns(sweep::Dataset& dataset, const Units& units, std::string dimension, std::size_t length, std::string prefix)
+  Columns(results::Dataset& dataset, const Units& units, std::string dimension, std::size_t length, std::string prefix)
       : dataset_(dataset), units_(units), dimension_(std::move(dimension)), prefix_(std::move(prefix)) {
     dataset_.dimensions.push_back({dimension_, length});
   }
@@ -90,19 +90,15 @@ class Columns {
     dataset_.variables.back().units = unit_of(parameter.row().quantity, units_.is_si);
   }
 
-  sweep::Dataset& dataset_;
+  results::Dataset& dataset_;
   const Units& units_;
   std::string dimension_, prefix_;
 };
 
 }  // namespace
 
-std::vector<std::string> names_of_texts() {
-  return {"word", "regime", "special_kind", "special_word", "special_regime"};
-}
-
-sweep::Dataset branch_dataset(const Branches& branches, const BranchSettings& settings, const Units& units) {
-  sweep::Dataset dataset;
+results::Dataset branch_dataset(const Branches& branches, const BranchSettings& settings, const Units& units) {
+  results::Dataset dataset;
   std::vector<std::int32_t> branch;
   std::vector<double> arclength;
   for (const BranchPoint& point : branches.points) {

@@ -5,9 +5,9 @@
 #include <string>
 
 #include "attractors/periodic_motion.hpp"
-#include "branches/event_run.hpp"
 #include "branches/measures/measures.hpp"
 #include "branches/resting/resting.hpp"
+#include "point/exact_motion.hpp"
 #include "point/point.hpp"
 #include "scene/response.hpp"
 #include "sweep/sweep.hpp"
@@ -185,6 +185,29 @@ Orbit start_orbit(const StartProblem& start, std::int64_t period, bool symmetric
   if (orbit.size() == 0 && problem.oscillator.stiffness == 0)
     throw StartError("without a spring, motion without impacts has no place of its own; begin where it meets a stop");
   return orbit.half_if_same(1e-6, symmetric);
+}
+
+std::optional<Orbit> event_run(const point::Problem& problem, std::size_t periods) {
+  const auto motion = point::ExactMotion::of(problem);
+  point::MotionRecorder recorder(motion->stops());
+  recorder.keep_events();
+  motion::State<double> state = motion->start();
+  if (motion->run_for(state, static_cast<double>(periods), recorder) != stepping::Outcome::completed)
+    return std::nullopt;
+  Orbit orbit{{}, 2 * static_cast<int>(periods), false};
+  const double nu = problem.oscillator.frequency;
+  for (const motion::Event& event : recorder.events) {
+    const bool rests = event.kind == EventKind::rest || event.kind == EventKind::chatter;
+    orbit.impacts.push_back({event.side, nu * event.time, event.velocity, nu * event.length,
+                             rests ? EventKind::impact : event.kind});  // one without speed
+  }
+  if (orbit.size() == 0)
+    for (const Side side : {Side::lower, Side::upper}) {
+      const double position = side == Side::upper ? problem.stops.upper : problem.stops.lower;
+      if (is_soft(problem.stops, side) && sign_of(side) * (problem.start.displacement - position) > 0)
+        orbit.pressed = side;
+    }
+  return orbit;
 }
 
 }  // namespace clatter::branches

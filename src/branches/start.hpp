@@ -1,12 +1,15 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <stdexcept>
 #include <string>
 
 #include "branches/equations/orbit.hpp"
 #include "branches/followed_scene.hpp"
+#include "point/problem.hpp"
 
 namespace clatter::branches {
 
@@ -27,5 +30,9 @@ void require_start_in_range(const FollowedScene& scene, Parameter parameter, con
 /// periods, that near x0, v0; kept as a half if it is its own mirror image and `symmetric` scenes follow. Motion that
 /// rests is kept as a whole from its release on (`resting_orbit`). Throws StartError.
 [[nodiscard]] Orbit start_orbit(const StartProblem& problem, std::int64_t period, bool symmetric);
+
+/// The impacts of a run over whole forcing periods from phase 0, and its events on soft stops; nothing if it fails. A
+/// problem in the frame of what is shaken, which starts at phase 0.
+[[nodiscard]] std::optional<Orbit> event_run(const point::Problem& problem, std::size_t periods);
 
 }  // namespace clatter::branches

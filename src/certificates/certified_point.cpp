@@ -1,11 +1,11 @@
 #include "certificates/certified_point.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <complex>
 #include <utility>
 
 #include "certificates/error_bounds.hpp"
-#include "certificates/period_start.hpp"
 #include "certificates/recorded_motion.hpp"
 #include "observables/impact_word.hpp"
 
@@ -15,6 +15,40 @@ namespace {
 using point::PointResult;
 using point::Problem;
 using Kind = motion::Event::Kind;
+
+/// The instant at which the certificate of a periodic motion begins.
+struct PeriodStart {
+  double time = 0.0;           ///< tau since a section, 0 ... duration
+  Side released = Side::none;  ///< the stop that releases the mass then, so that the state is known; none: in flight
+  bool rests_for_ever = false;
+};
+
+/// Whether the mass flies free of the stops after an event.
+bool begins_flight(const RecordedEvent& event) { return event.kind != Kind::touch && event.kind != Kind::renewal; }
+
+/// The rest that ends in a release before the section or at it; of several the first.
+std::optional<PeriodStart> release_of(const RecordedMotion& motion) {
+  const double same = 1e-12 * motion.duration;
+  const auto& events = motion.events;
+  const auto rest = std::ranges::find_if(events, &RecordedEvent::is_rest);
+  if (rest == events.end()) return std::nullopt;
+  if (rest->end() < motion.duration - same) return PeriodStart{rest->end(), rest->side};
+  if (rest->time <= same) return PeriodStart{.time = 0.0, .released = Side::none, .rests_for_ever = true};
+  return PeriodStart{0.0, rest->side};
+}
+
+/// The release from a rest of a periodic motion, if it has one, else the middle of its longest flight, clear of stops.
+PeriodStart start_of_period(const RecordedMotion& from_section) {
+  if (const auto release = release_of(from_section)) return *release;
+  const auto& events = from_section.events;
+  double longest = 0.0, middle = 0.0;
+  for (std::size_t i = 0; i < events.size(); ++i) {
+    const double next = i + 1 < events.size() ? events[i + 1].time : events[0].time + from_section.duration;
+    if (!begins_flight(events[i]) || next - events[i].end() <= longest) continue;
+    longest = next - events[i].end(), middle = (events[i].end() + next) / 2;
+  }
+  return {std::fmod(middle, from_section.duration)};
+}
 
 /// The same problem with the observables that are claimed, and no others.
 Problem observed(Problem problem) {
@@ -132,6 +166,8 @@ void certify_periodic(const Problem& problem, const PointResult& result, Certifi
   point.certificate->period = claimed_period(result, bounds, start.released != Side::none || start.rests_for_ever);
   keep_if_known(point, bounds);
 }
+
+using Kind = motion::Event::Kind;
 
 }  // namespace
 

@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "certificates/certificate.hpp"
+#include "certificates/recorded_motion.hpp"
 #include "point/point.hpp"
 
 namespace clatter::certificates {

@@ -1,12 +1,31 @@
 #pragma once
 
+#include <array>
 #include <optional>
 #include <vector>
 
-#include "certificates/events.hpp"
+#include "certificates/growth.hpp"
+#include "point/exact_motion.hpp"
 #include "point/problem.hpp"
 
 namespace clatter::certificates {
+
+/// An event and the derivative of the motion from its start to the instant before it.
+struct RecordedEvent : motion::Event {
+  motion::Jacobian<double> derivative{};
+  std::array<double, 2> rounding{};  ///< that of earlier flights as it has grown, in x and v, in its units
+
+  [[nodiscard]] bool is_rest() const { return kind == Kind::rest; }
+  /// Whether it is a time on a stop, not an instant.
+  [[nodiscard]] bool lasts() const { return kind == Kind::rest || kind == Kind::chatter; }
+};
+
+/// The events of a record, in which each rest and each chatter is one event, however many sections cut it. A chatter
+/// follows an impact; a time on a stop that follows none, or a rest, is a rest, though its force be within rounding
+/// of 0. On a soft stop this is no event.
+/// `growth` is of all of them, up to the last.
+[[nodiscard]] std::vector<RecordedEvent> joined_events(const point::MotionRecorder& recorder, const Stops& stops,
+                                                       Growth& growth);
 
 /// A motion over some forcing periods, from the start of its problem on.
 struct RecordedMotion {

@@ -7,6 +7,7 @@
 
 #include "branches/settings.hpp"
 #include "config/config_error.hpp"
+#include "results/dataset_file.hpp"
 #include "sweep/sweep.hpp"
 
 namespace clatter::config {
@@ -21,13 +22,9 @@ struct Warning {
 };
 
 /// A complete configuration: the sweep with its observables, and how to write the output.
-struct Config {
-  std::string title;
-  std::string source;
+struct Config : results::FileHead {
   sweep::Sweep sweep;
   std::optional<branches::BranchSettings> branch{};  ///< if the text has [branch]
-  int compression = 0;                               ///< deflate level of the output, 0 ... 9
-  std::string text;  ///< complete with defaults, as TOML that runs again (root attribute `config`)
   std::vector<Warning> warnings;
   std::vector<std::string> notes;  ///< settings of the file that the command line replaced by other keys
 };

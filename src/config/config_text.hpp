@@ -3,6 +3,7 @@
 #include <string>
 #include <string_view>
 
+#include "config/config.hpp"
 #include "config/settings.hpp"
 
 namespace clatter::config {
@@ -16,5 +17,8 @@ namespace clatter::config {
 
 /// A TOML text in quotes.
 [[nodiscard]] std::string toml_text(std::string_view text);
+
+/// A complete commented configuration that runs: every key with its default, meaning and range.
+[[nodiscard]] std::string default_config(Format format);
 
 }  // namespace clatter::config

@@ -3,7 +3,6 @@
 #include <type_traits>
 
 #include "config/axis_functions.hpp"
-#include "config/comma.hpp"
 #include "config/settings.hpp"
 #include "config/suggestion.hpp"
 #include "config/unit.hpp"

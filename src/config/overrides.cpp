@@ -1,7 +1,13 @@
 #include <algorithm>
+#include <cmath>
+#include <string>
+#include <tuple>
+#include <vector>
 
 #include "config/config.hpp"
+#include "config/consistency.hpp"
 #include "config/parsed_config.hpp"
+#include "config/suggestion.hpp"
 #include "config/text_file.hpp"
 #include "storage/utf8.hpp"
 
@@ -32,6 +38,156 @@ ParsedEntry entry_of(const Override& change) {
   return entry;
 }
 
+std::string quoted_name(Parameter parameter) { return in_quotes(parameter.key()); }
+
+/// Whether a location comes after another one of the same origin.
+bool later(const SourceLocation& left, const SourceLocation& right) {
+  return std::tie(left.line, left.column) > std::tie(right.line, right.column);
+}
+
+/// Two locations contradict if both are in the file or both on the command line; otherwise the command line decides.
+bool contradict(const SourceLocation& one, const SourceLocation& other) {
+  return on_command_line(one) == on_command_line(other);
+}
+
+/// Refuses two keys that say the same, at the one that was written last.
+void exclude(const Settings& settings, Parameter one, Parameter other) {
+  const Setting* const first = settings.given(one);
+  const Setting* const second = settings.given(other);
+  if (first == nullptr || second == nullptr || !contradict(first->key_location, second->key_location)) return;
+  const bool in_order = later(second->key_location, first->key_location);
+  fail((in_order ? second : first)->key_location, quoted_name(in_order ? other : one) + " conflicts with " +
+                                                      quoted_name(in_order ? one : other) + "; remove one of them");
+}
+
+bool from_command_line(const Setting* given) { return given != nullptr && on_command_line(given->key_location); }
+bool from_file(const Setting* given) { return given != nullptr && !on_command_line(given->key_location); }
+
+/// The key of a parameter in the section that describes the scene; nullptr if it has none.
+const Key* key_of_scene(const Settings& settings, Parameter parameter) {
+  return find_key(settings.scene_section, parameter.key());
+}
+
+/// Removes the file's setting of a parameter from the scene's section or [sweep].
+void remove(Settings& settings, Parameter parameter) {
+  for (auto* const list : {&settings.values, &settings.axes})
+    std::erase_if(*list, [&](const Setting& setting) {
+      return setting.key == key_of_scene(settings, parameter) && !on_command_line(setting.key_location);
+    });
+}
+
+void note(Settings& settings, Parameter parameter, const SourceLocation& by, const SourceLocation& former,
+          const std::string& remark = "") {
+  settings.replaced.push_back({parameter, by, former, remark});
+}
+
+/// Lets the command line's setting of a parameter, in the scene's section or [sweep], replace that of the other section
+/// in the file.
+void choose_section(Settings& settings, Parameter parameter) {
+  const Setting* const fixed = settings.find(settings.scene_section, parameter.key());
+  const auto swept = std::ranges::find(settings.axes, key_of_scene(settings, parameter), &Setting::key);
+  if (fixed == nullptr || swept == settings.axes.end()) return;
+  const SourceLocation in_scene = fixed->key_location, in_sweep = swept->key_location;
+  if (contradict(in_scene, in_sweep))
+    fail(later(in_scene, in_sweep) ? in_scene : in_sweep,
+         quoted_name(parameter) + " in both [" + std::string(settings.scene_section) +
+             "] and [sweep]; remove one of them (for a single value: sweep." + std::string(parameter.key()) +
+             " = VALUE)");
+  const bool by_axis = on_command_line(in_sweep);
+  note(settings, parameter, by_axis ? in_sweep : in_scene, by_axis ? in_scene : in_sweep);
+  remove(settings, parameter);
+}
+
+/// Lets a parameter of the command line replace another one of the file.
+void replace(Settings& settings, Parameter by, Parameter replaced) {
+  const Setting *const given = settings.given(by), *const former = settings.given(replaced);
+  if (!from_command_line(given) || !from_file(former)) return;
+  note(settings, replaced, given->key_location, former->key_location);
+  remove(settings, replaced);
+}
+
+/// Makes `linked` and `follow` name an axis by its new key.
+void rename(Settings& settings, Parameter from, Parameter to) {
+  for (Setting& setting : settings.values) {
+    if (setting.key->kind != Kind::names) continue;
+    std::vector<std::string> names = split_names(std::get<std::string>(setting.value));
+    if (std::ranges::find(names, from.key()) == names.end()) continue;
+    std::ranges::replace(names, std::string(from.key()), std::string(to.key()));
+    setting.value = joined(std::vector<std::string_view>(names.begin(), names.end()));
+  }
+}
+
+/// A key that sets a number of both stops, and the keys of each.
+struct Pair {
+  Parameter both;
+  Parameter one, other;
+};
+
+/// The keys of [scene] and [machine] of which one stands for two others.
+std::vector<Pair> pairs() {
+  std::vector<Pair> found;
+  for (const Parameter both : all_parameters) {
+    if (!both.is_of_both() || both.row().is_with_unit) continue;
+    std::vector<Parameter> halves;
+    for (const Parameter half : all_parameters)
+      if (both.stands_for(half) && !half.row().is_with_unit) halves.push_back(half);
+    found.push_back({both, halves.at(0), halves.at(1)});
+  }
+  return found;
+}
+
+/// The number of one stop that a value of the common key sets.
+double half_of(double value, const Pair& pair, Parameter half) {
+  GivenScene given;
+  set(given, pair.both, value);
+  return value_of(given, half);
+}
+
+/// The keys of a machine that give its damping.
+constexpr Parameter dampings[] = {"damping", "damping_ratio", "quality"};
+
+/// Makes a setting of the pair's common key one of the remaining half.
+void halve(Setting& setting, const Pair& pair, Parameter remaining, const Key* key_of_remaining) {
+  std::vector<double> halves;
+  for (const double number : setting.numbers()) halves.push_back(half_of(number, pair, remaining));
+  setting.key = key_of_remaining;
+  auto* const axis = std::get_if<AxisValues>(&setting.value);
+  if (axis == nullptr) {
+    setting.value = halves.front();
+  } else if (halves != axis->values) {
+    axis->text = toml_list(halves);
+    axis->values = std::move(halves);
+  }
+}
+
+void halve(Settings& settings, const Pair& pair, Parameter remaining) {
+  for (auto* const list : {&settings.values, &settings.axes})
+    for (Setting& setting : *list)
+      if (setting.key == key_of_scene(settings, pair.both))
+        halve(setting, pair, remaining, key_of_scene(settings, remaining));
+  rename(settings, pair.both, remaining);
+}
+
+/// Lets the command line replace one half of a pair; the other keeps the file's value.
+void replace_half(Settings& settings, const Pair& pair, Parameter by, Parameter remaining) {
+  const Setting *const given = settings.given(by), *const former = settings.given(pair.both);
+  if (!from_command_line(given) || !from_file(former)) return;
+  if (settings.given(remaining)) return replace(settings, by, pair.both);
+  note(settings, pair.both, given->key_location, former->key_location, ", which stays as " + quoted_name(remaining));
+  halve(settings, pair, remaining);
+}
+
+/// A soft stop has no restitution.
+void let_soft_stop_or_restitution_win(Settings& settings, Side side) {
+  const bool lower = side == Side::lower;
+  for (const Parameter soft :
+       {Parameter("stop_stiffness"), lower ? Parameter("stop_stiffness_lower") : Parameter("stop_stiffness_upper")})
+    for (const Parameter rigid : {Parameter("R"), lower ? Parameter("R_lower") : Parameter("R_upper")}) {
+      exclude(settings, soft, rigid);
+      replace(settings, soft, rigid), replace(settings, rigid, soft);
+    }
+}
+
 }  // namespace
 
 void apply_overrides(ParsedConfig& parsed, const std::vector<Override>& overrides) {
@@ -47,6 +203,32 @@ void apply_overrides(ParsedConfig& parsed, const std::vector<Override>& override
       *same = std::move(entry);
     }
   }
+}
+
+void let_command_line_win(Settings& settings) {
+  for (const Parameter parameter : all_parameters)
+    if (!parameter.row().is_with_unit) choose_section(settings, parameter);
+  for (const Pair& pair : pairs()) {
+    exclude(settings, pair.both, pair.one), exclude(settings, pair.both, pair.other);
+    replace(settings, pair.both, pair.one), replace(settings, pair.both, pair.other);
+    replace_half(settings, pair, pair.one, pair.other), replace_half(settings, pair, pair.other, pair.one);
+  }
+  for (const Side side : {Side::lower, Side::upper})
+    if (is_soft_somewhere(settings, side)) let_soft_stop_or_restitution_win(settings, side);
+  for (const Parameter one : dampings)
+    for (const Parameter other : dampings)
+      if (one.index() < other.index()) exclude(settings, one, other);
+  for (const Parameter one : dampings)
+    for (const Parameter other : dampings)
+      if (one != other) replace(settings, one, other);
+  constexpr Parameter start_period = "start_period", starts[] = {"x0", "v0"};
+  for (const Parameter start : starts) exclude(settings, start_period, start);
+  for (const Parameter start : starts) replace(settings, start_period, start), replace(settings, start, start_period);
+}
+
+std::string to_string(const Replaced& replaced) {
+  return to_string(replaced.by) + " in place of " + quoted_name(replaced.parameter) + ", " +
+         to_string(replaced.former) + replaced.remark;
 }
 
 }  // namespace clatter::config

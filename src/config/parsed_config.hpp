@@ -6,7 +6,7 @@
 #include <variant>
 #include <vector>
 
-#include "config/source_location.hpp"
+#include "config/config_error.hpp"
 
 namespace clatter::config {
 

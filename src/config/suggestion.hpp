@@ -4,6 +4,8 @@
 #include <string>
 #include <string_view>
 
+#include "config/keys.hpp"
+
 namespace clatter::config {
 
 /// Quotes a text for a one-line message: in single quotes, made printable, cut after 60 bytes.
@@ -18,5 +20,12 @@ namespace clatter::config {
 
 /// "h, f, nu"
 [[nodiscard]] std::string joined(std::span<const std::string_view> names);
+
+/// "; a decimal comma? write 0.1" if a text would be a number without its comma, such as 0,1; for whole numbers ";
+/// write it without commas: 10000"; else nothing.
+[[nodiscard]] std::string comma_hint(std::string_view text, Kind kind = Kind::number);
+
+/// The same for the first such number in a text, as in linspace(0,5, 1,5, 501).
+[[nodiscard]] std::string comma_hint_within(std::string_view text);
 
 }  // namespace clatter::config

@@ -3,7 +3,7 @@
 #include <string>
 #include <string_view>
 
-#include "config/source_location.hpp"
+#include "config/config_error.hpp"
 
 namespace clatter::config {
 

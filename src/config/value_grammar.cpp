@@ -9,7 +9,6 @@
 #include <optional>
 
 #include "config/axis_functions.hpp"
-#include "config/comma.hpp"
 #include "config/suggestion.hpp"
 #include "config/text_file.hpp"
 #include "config/unit.hpp"

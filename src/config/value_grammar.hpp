@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "config/source_location.hpp"
+#include "config/config_error.hpp"
 #include "scene/quantity.hpp"
 
 namespace clatter::config {

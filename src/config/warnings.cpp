@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 #include <optional>
 #include <string>
@@ -57,12 +58,145 @@ void warn_of_repeats(const Settings& settings, const AxisGroups& groups, std::ve
   }
 }
 
+bool transient(const Settings& settings) { return settings.text("time", "mode") == "transient"; }
+bool steady(const Settings& settings) { return !transient(settings); }
+
+bool no_harmonics(const Settings& settings) { return settings.integer("observe", "harmonics") == 0; }
+bool follows_nothing(const Settings& settings) { return settings.text("sweep", "follow").empty(); }
+bool no_section(const Settings& settings) { return settings.integer("observe", "section") == 0; }
+bool exact_harmonics(const Settings& settings) { return settings.text("observe", "harmonics_method") == "exact"; }
+
+bool not_by(const Settings& settings, std::string_view method) {
+  return settings.text("integrator", "method") != method;
+}
+bool not_dopri5(const Settings& settings) { return not_by(settings, "dopri5"); }
+bool not_moreau(const Settings& settings) { return not_by(settings, "moreau"); }
+/// A general method simulates every effect anyway, and a transient has no repeat to look for.
+bool all_anyway(const Settings& settings) { return transient(settings) && not_by(settings, "exact"); }
+
+/// Whether a test holds for a parameter at every point, or the parameter isn't given.
+template <typename Test>
+bool everywhere(const Settings& settings, Parameter parameter, Test test) {
+  const Setting* const given = settings.given(parameter);
+  return given == nullptr || std::ranges::all_of(given->numbers(), test);
+}
+bool zero(double value) { return value == 0; }
+bool unshaken(const Settings& settings) {
+  return everywhere(settings, "stop_amplitude", zero) && everywhere(settings, "base_amplitude", zero);
+}
+bool unforced(const Settings& settings) {
+  return everywhere(settings, "f", zero) && everywhere(settings, "force", zero) && unshaken(settings);
+}
+/// Whether nothing is observed that frame decides.
+bool frameless(const Settings& settings) {
+  return no_harmonics(settings) && no_section(settings) && !settings.flag("observe", "extrema") &&
+         settings.integer("observe", "trajectory") == 0 && !settings.flag("observe", "attractor");
+}
+bool absent(const Settings& settings, Parameter stop) {
+  return !settings.given_symmetric_stops() &&
+         everywhere(settings, stop, [](double value) { return std::isinf(value); });
+}
+bool no_lower(const Settings& settings) { return absent(settings, "stop_lower"); }
+bool no_upper(const Settings& settings) { return absent(settings, "stop_upper"); }
+bool no_soft_lower(const Settings& settings) { return !is_soft_somewhere(settings, Side::lower); }
+bool no_soft_upper(const Settings& settings) { return !is_soft_somewhere(settings, Side::upper); }
+bool no_soft_stop(const Settings& settings) { return no_soft_lower(settings) && no_soft_upper(settings); }
+bool no_stops(const Settings& settings) { return no_lower(settings) && no_upper(settings); }
+
+/// A transient has no period; at symmetric stops `period` still gives the ratio of velocities.
+bool no_period(const Settings& settings) {
+  if (steady(settings) || settings.given_symmetric_stops()) return false;
+  const Setting *const lower = settings.given("stop_lower"), *const upper = settings.given("stop_upper");
+  if (lower == nullptr || upper == nullptr) return true;
+  return !lower->is_axis() && !upper->is_axis() && lower->numbers()[0] != -upper->numbers()[0];
+}
+
+/// A condition under which a key has no effect, and how it would have one.
+struct Rule {
+  std::string_view section, name;
+  bool (*holds)(const Settings&);
+  std::string_view condition, remedy;
+};
+
+constexpr std::string_view in_transient = "in a transient", or_steady = "write mode = \"steady\" in [time]";
+constexpr std::string_view no_force = "without a force", or_force = "give a force";
+constexpr std::string_view or_soft = "give a finite stop_stiffness";
+constexpr std::string_view or_stops = "give stops";
+constexpr std::string_view no_harmonic = "without harmonics", or_harmonics = "write e.g. harmonics = 3";
+constexpr std::string_view only_moreau = "without method = \"moreau\"", or_moreau = "write that in [integrator]";
+
+constexpr Rule rules[] = {
+    {"scene", "nu", unforced, no_force, or_force},
+    {"machine", "frequency", unforced, no_force, "give a force, stop_amplitude or base_amplitude"},
+    {"scene", "phase", unforced, no_force, or_force},
+    {"scene", "stop_phase", unshaken, "without stop_amplitude or base_amplitude", "give one of them"},
+    {"scene", "R", no_stops, "without stops", or_stops},
+    {"scene", "R_lower", no_lower, "without a lower stop", "give stop_lower"},
+    {"scene", "R_upper", no_upper, "without an upper stop", "give stop_upper"},
+    {"scene", "stop_stiffness", no_stops, "without stops", or_stops},
+    {"scene", "stop_stiffness_lower", no_lower, "without a lower stop", "give stop_lower"},
+    {"scene", "stop_stiffness_upper", no_upper, "without an upper stop", "give stop_upper"},
+    {"scene", "stop_damping", no_soft_stop, "without a soft stop", or_soft},
+    {"scene", "stop_damping_lower", no_soft_lower, "without a soft lower stop", or_soft},
+    {"scene", "stop_damping_upper", no_soft_upper, "without a soft upper stop", or_soft},
+    {"sweep", "direction", follows_nothing, "without follow", "name an axis in follow"},
+    {"time", "max_periods", transient, in_transient, or_steady},
+    {"time", "window", transient, in_transient, or_steady},
+    {"time", "tolerance", transient, in_transient, or_steady},
+    {"time", "max_impacts", no_stops, "without stops", or_stops},
+    {"time", "duration", steady, "without mode = \"transient\"", "write that in [time]"},
+    {"observe", "harmonics_method", no_harmonics, no_harmonic, or_harmonics},
+    {"observe", "harmonics_samples", no_harmonics, no_harmonic, or_harmonics},
+    {"observe", "harmonics_samples", exact_harmonics, "with harmonics_method = \"exact\"",
+     "write harmonics_method = \"fft\""},
+    {"observe", "settling", transient, in_transient, or_steady},
+    {"observe", "settling", unforced, no_force, or_force},
+    {"observe", "attractor", transient, in_transient, or_steady},
+    {"observe", "section_phase", no_section, "without a section", "write e.g. section = 500"},
+    {"observe", "section_phase", unforced, no_force, or_force},
+    {"observe", "period", no_period, "in a transient, which has none: its values will be NaN", or_steady},
+    {"observe", "frame", unshaken, "without stop_amplitude or base_amplitude", "give one of them in [scene]"},
+    {"observe", "frame", frameless, "without displacements or velocities of the mass", "write e.g. extrema = true"},
+    {"integrator", "tolerance", not_dopri5, "without method = \"dopri5\"",
+     "write that in [integrator]; that of repeats is tolerance in [time]"},
+    {"integrator", "step", not_moreau, only_moreau, or_moreau},
+    {"integrator", "theta", not_moreau, only_moreau, or_moreau},
+    {"integrator", "effects", all_anyway, "on a transient by a general method, which simulates every effect",
+     "write method = \"exact\""},
+};
+
+bool is_default(const Setting& setting) {
+  return !setting.key->fallback.empty() && setting.value == default_setting(*setting.key).value;
+}
+
+/// Adds a warning if a key has no effect.
+void look_at(const Settings& settings, const Setting& setting, std::vector<Warning>& warnings) {
+  const Key& key = *setting.key;
+  for (const Rule& rule : rules) {
+    const bool is_in_section =
+        rule.section == key.section || (describes_scene(rule.section) && describes_scene(key.section));
+    if (!is_in_section || rule.name != key.name || !rule.holds(settings)) continue;
+    warnings.push_back({to_string(setting.key_location), std::string(key.section),
+                        '\'' + std::string(key.name) + "' has no effect " + std::string(rule.condition) +
+                            "; leave it out, or " + std::string(rule.remedy)});
+    return;
+  }
+}
+
 }  // namespace
 
 std::vector<Warning> warnings_of(const Settings& settings, const AxisGroups& groups) {
   std::vector<Warning> warnings = keys_without_effect(settings);
   warn_of_repeats(settings, groups, warnings);
   warn_of_nothing_observed(settings, warnings);
+  return warnings;
+}
+
+std::vector<Warning> keys_without_effect(const Settings& settings) {
+  std::vector<Warning> warnings;
+  for (const auto* const list : {&settings.values, &settings.axes})
+    for (const Setting& setting : *list)
+      if (!is_default(setting)) look_at(settings, setting, warnings);
   return warnings;
 }
 

@@ -6,7 +6,7 @@
 #include "lanes/lane_effects.hpp"
 #include "lanes/lane_observers.hpp"
 #include "lanes/lane_phases.hpp"
-#include "scene/restitution.hpp"
+#include "scene/stops.hpp"
 
 namespace clatter::lanes {
 

@@ -4,7 +4,6 @@
 #include <optional>
 
 #include "motion/arc_constants.hpp"
-#include "scene/restitution.hpp"
 #include "scene/stops.hpp"
 
 namespace clatter::motion {

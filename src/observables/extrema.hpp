@@ -24,7 +24,12 @@ struct Extrema {
 
   [[nodiscard]] static bool wanted(const Settings& settings) { return settings.extrema; }
   [[nodiscard]] static std::string description(const Settings&) { return "extrema"; }
-  [[nodiscard]] static std::vector<Column<Values>> columns(const Settings&);
+  [[nodiscard]] static std::vector<Column<Values>> columns(const Settings&) {
+    return {in_observed_frame(scalar("x_min", "minimum displacement", &Values::x_min, Quantity::length)),
+            in_observed_frame(scalar("x_max", "maximum displacement", &Values::x_max, Quantity::length)),
+            in_observed_frame(scalar("v_min", "minimum velocity", &Values::v_min, Quantity::velocity)),
+            in_observed_frame(scalar("v_max", "maximum velocity", &Values::v_max, Quantity::velocity))};
+  }
   /// Lanes know the relative motion.
   [[nodiscard]] static bool in_lanes(const Settings&, const ObservedSpan& span) { return !span.frame; }
 

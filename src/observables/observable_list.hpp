@@ -78,16 +78,6 @@ struct ObservableList {
     return all;
   }
 
-  /// The names of all columns of texts.
-  [[nodiscard]] static std::vector<std::string> names_of_texts() {
-    std::vector<std::string> names;
-    each([&]<class O>() {
-      for (const Column<typename O::Values>& column : O::columns(typename O::Settings{}))
-        if (column.text) names.push_back(column.name);
-    });
-    return names;
-  }
-
   /// The dimensions that they add, each once.
   [[nodiscard]] static std::vector<Coordinate> coordinates(const Settings& settings) {
     std::vector<Coordinate> all;

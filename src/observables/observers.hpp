@@ -6,7 +6,18 @@
 #include <type_traits>
 
 #include "motion/state.hpp"
+#include "observables/all.hpp"
+#include "observables/energy_observer.hpp"
+#include "observables/extrema_observer.hpp"
+#include "observables/harmonics_observer.hpp"
+#include "observables/impact_log_observer.hpp"
+#include "observables/impact_word_observer.hpp"
+#include "observables/impacts_observer.hpp"
 #include "observables/observable_list.hpp"
+#include "observables/period_observer.hpp"
+#include "observables/section_observer.hpp"
+#include "observables/stability_observer.hpp"
+#include "observables/trajectory_observer.hpp"
 
 namespace clatter::observables {
 

@@ -25,7 +25,15 @@ struct Period {
 
   [[nodiscard]] static bool wanted(const Settings& settings) { return settings.period; }
   [[nodiscard]] static std::string description(const Settings&) { return "period"; }
-  [[nodiscard]] static std::vector<Column<Values>> columns(const Settings&);
+  [[nodiscard]] static std::vector<Column<Values>> columns(const Settings&) {
+    return {scalar("period", "period of the motion", &Values::period, Quantity::time),
+            scalar("period_ratio", "period of the motion in forcing periods", &Values::period_ratio),
+            in_si("one over the period of unforced motion",
+                  scalar("eigenfrequency", "2 pi over the period of unforced motion", &Values::eigenfrequency,
+                         Quantity::frequency)),
+            in_relative_frame(
+                scalar("velocity_ratio", "|velocity before impact / xs|", &Values::velocity_ratio, Quantity::rate))};
+  }
   [[nodiscard]] static bool in_lanes(const Settings&, const ObservedSpan&) { return true; }
 
   class Observer;  ///< in period_observer.hpp

@@ -5,6 +5,7 @@
 #include <tuple>
 #include <vector>
 
+#include "motion/state.hpp"
 #include "observables/observable.hpp"
 
 namespace clatter::observables {
@@ -28,10 +29,25 @@ struct Settling {
 
   [[nodiscard]] static bool wanted(const Settings& settings) { return settings.settling; }
   [[nodiscard]] static std::string description(const Settings&) { return "settling time"; }
-  [[nodiscard]] static std::vector<Column<Values>> columns(const Settings&);
+  [[nodiscard]] static std::vector<Column<Values>> columns(const Settings&) {
+    return {scalar("settling_periods", "forcing periods after which the motion stays within 1e-3 of the steady one",
+                   &Values::settling_periods)};
+  }
   [[nodiscard]] static bool in_lanes(const Settings&, const ObservedSpan&) { return true; }
 
-  class Observer;  ///< in settling_observer.hpp
+  class Observer;
+};
+
+class Settling::Observer {
+ public:
+  Observer(const Settings&, const ObservedSpan&) {}
+
+  template <class A>
+  void arc(const A&, double, double) {}
+  void rest(const motion::Rest&) {}
+  void impact(const motion::Impact&) {}
+  bool response(const ObservedSpan&, double) { return true; }
+  [[nodiscard]] Values finish(const ObservedSpan&, double, double) const { return {}; }
 };
 
 }  // namespace clatter::observables

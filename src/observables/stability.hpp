@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <string>
 #include <tuple>
 #include <vector>
@@ -27,7 +28,14 @@ struct Stability {
 
   [[nodiscard]] static bool wanted(const Settings& settings) { return settings.stability; }
   [[nodiscard]] static std::string description(const Settings&) { return "stability"; }
-  [[nodiscard]] static std::vector<Column<Values>> columns(const Settings&);
+  [[nodiscard]] static std::vector<Column<Values>> columns(const Settings&) {
+    const Coordinate multiplier{"multiplier", 2, std::vector<std::int8_t>{1, 2},
+                                "number of the multiplier, 1: the larger modulus"};
+    return {pair("multiplier_re", "real part of the period's multipliers", multiplier, &Values::multiplier_re),
+            pair("multiplier_im", "imaginary part of the period's multipliers", multiplier, &Values::multiplier_im),
+            in_si("largest Lyapunov exponent",
+                  scalar("lyapunov", "largest Lyapunov exponent per tau", &Values::lyapunov, Quantity::rate))};
+  }
 
   class Observer;  ///< in stability_observer.hpp
 };

@@ -31,7 +31,16 @@ struct Trajectory {
   [[nodiscard]] static std::string description(const Settings& settings) {
     return "trajectory of " + std::to_string(settings.trajectory) + " samples";
   }
-  [[nodiscard]] static std::vector<Column<Values>> columns(const Settings& settings);
+  [[nodiscard]] static std::vector<Column<Values>> columns(const Settings& settings) {
+    const auto of = [&](const char* name, const char* long_name, std::vector<double> Values::*member,
+                        Quantity quantity) {
+      return series<Values>(name, long_name, quantity, {"sample", count_of(settings)},
+                            [member](const Values& v) -> const std::vector<double>& { return v.*member; });
+    };
+    return {of("tau", "time since the beginning of the observed time", &Values::tau, Quantity::time),
+            in_observed_frame(of("x", "displacement", &Values::x, Quantity::length)),
+            in_observed_frame(of("v", "velocity", &Values::v, Quantity::velocity))};
+  }
   /// Of the samples.
   [[nodiscard]] static std::size_t count_of(const Settings& settings) {
     return static_cast<std::size_t>(settings.trajectory);

@@ -104,7 +104,7 @@ double impacts_without_loss(const point::Problem& scene) {
 }
 
 std::optional<std::string> warning_of_costliest_point(const sweep::Sweep& sweep,
-                                                      const std::optional<sweep::Shard>& shard) {
+                                                      const std::optional<results::Shard>& shard) {
   const sweep::Share share(sweep, shard);
   const Sample sample(share.points(), 10000);
   Costliest bounces, periods;

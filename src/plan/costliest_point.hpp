@@ -16,6 +16,6 @@ namespace clatter::plan {
 /// transient has a great many periods; nothing if none does. In a large sweep or shard, ten thousand points are
 /// examined.
 [[nodiscard]] std::optional<std::string> warning_of_costliest_point(const sweep::Sweep& sweep,
-                                                                    const std::optional<sweep::Shard>& shard = {});
+                                                                    const std::optional<results::Shard>& shard = {});
 
 }  // namespace clatter::plan

@@ -17,20 +17,23 @@ struct MemoryNeed {
 };
 
 /// The need of a sweep, or of a shard.
-[[nodiscard]] MemoryNeed memory_need(const sweep::Sweep& sweep, const std::optional<sweep::Shard>& shard = {},
+[[nodiscard]] MemoryNeed memory_need(const sweep::Sweep& sweep, const std::optional<results::Shard>& shard = {},
                                      int threads = 1);
 
 /// The need of a sweep, or of a shard, with so many impacts in its log.
-[[nodiscard]] MemoryNeed memory_need(const sweep::Sweep& sweep, const std::optional<sweep::Shard>& shard, int threads,
+[[nodiscard]] MemoryNeed memory_need(const sweep::Sweep& sweep, const std::optional<results::Shard>& shard, int threads,
                                      double impacts);
 
 /// A shard and the length of its impact log.
 struct ShardSize {
-  sweep::Shard shard;
+  results::Shard shard;
   std::size_t impacts = 0;
 };
 
 /// Bytes that merging shards takes: those of a run that has all results already, and those of the largest shard.
 [[nodiscard]] double merge_bytes(const sweep::Sweep& sweep, std::span<const ShardSize> shards);
+
+/// An estimate of the impacts in the log of a sweep or a shard, from short runs of a few of its points.
+[[nodiscard]] double expected_impacts(const sweep::Sweep& sweep, const std::optional<results::Shard>& shard);
 
 }  // namespace clatter::plan

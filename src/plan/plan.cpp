@@ -96,7 +96,7 @@ std::string effect_set_name(const Effects& effects) {
 }
 
 Plan plan_of(const sweep::Sweep& sweep, const sweep::RunOptions& options, const MemoryNeed& need,
-             const std::optional<sweep::Shard>& shard) {
+             const std::optional<results::Shard>& shard) {
   const sweep::Share share(sweep, shard);
   Survey survey = survey_of(sweep, share, options);
   std::ranges::sort(survey.groups, cheaper, &Collected::effects);

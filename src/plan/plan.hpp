@@ -24,7 +24,7 @@ struct Group {
 
 /// The plan of a sweep, or of a shard of it: its groups, work and memory, known before anything runs.
 struct Plan {
-  std::optional<sweep::Shard> shard;
+  std::optional<results::Shard> shard;
   std::size_t points = 0;
   std::optional<std::size_t> sampled_points;  ///< points that were examined, so counts are estimates; empty: all were
   std::size_t mirror_images = 0;              ///< points whose results follow from others', and aren't simulated
@@ -40,7 +40,7 @@ struct Plan {
 /// of threads is known; runs none of them, and examines a million at most. `need` is the need of the run, which the
 /// caller has checked before.
 [[nodiscard]] Plan plan_of(const sweep::Sweep& sweep, const sweep::RunOptions& options, const MemoryNeed& need,
-                           const std::optional<sweep::Shard>& shard = {});
+                           const std::optional<results::Shard>& shard = {});
 
 /// A compiled set of effects in words, e.g. "light damping, forcing, impacts".
 [[nodiscard]] std::string effect_set_name(const Effects& effects);

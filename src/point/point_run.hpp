@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "observables/all_observers.hpp"
+#include "observables/observers.hpp"
 #include "point/point.hpp"
 #include "steady/find_steady.hpp"
 #include "steady/settling_periods.hpp"

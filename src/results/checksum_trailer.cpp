@@ -1,5 +1,6 @@
 #include "results/checksum_trailer.hpp"
 
+#include <nettle/sha2.h>
 #include <unistd.h>
 
 #include <array>
@@ -66,6 +67,19 @@ void require_checksum(const std::string& path) {
     storage::refuse_reading(path, "is damaged (length or CRC-32 of the file)", "copy it again, or run its shard again");
   storage::refuse_reading(path, "is not a complete shard of a sweep",
                           std::string("name ").append(shards_of_clatter).append(", or copy it again"));
+}
+
+std::string sha256(std::string_view text) {
+  constexpr std::string_view digits = "0123456789abcdef";
+  const std::vector<std::uint8_t> bytes(text.begin(), text.end());
+  std::array<std::uint8_t, SHA256_DIGEST_SIZE> digest{};
+  sha256_ctx context;
+  sha256_init(&context);
+  sha256_update(&context, bytes.size(), bytes.data());
+  sha256_digest(&context, digest.size(), digest.data());
+  std::string hex;
+  for (const std::uint8_t byte : digest) hex += {digits[byte / 16U], digits[byte % 16U]};
+  return hex;
 }
 
 }  // namespace clatter::results

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <span>
 #include <string>
+#include <string_view>
 
 namespace clatter::results {
 
@@ -15,5 +16,8 @@ inline constexpr const char* shards_of_clatter = "files that `clatter run --shar
 
 /// Throws IoError if a file cannot be read, has no checksum trailer, or has changed since that was written.
 void require_checksum(const std::string& path);
+
+/// The SHA-256 digest of a text in hexadecimal, which shows whether two files come from the same configuration.
+[[nodiscard]] std::string sha256(std::string_view text);
 
 }  // namespace clatter::results

@@ -6,10 +6,17 @@
 #include <string>
 #include <vector>
 
-#include "config/config.hpp"
-#include "sweep/dataset.hpp"
+#include "results/dataset.hpp"
 
 namespace clatter::results {
+
+/// The attributes of a file that its user gives, and how it is stored.
+struct FileHead {
+  std::string title;
+  std::string source;
+  std::string text;     ///< the complete configuration, as TOML that runs again (root attribute `config`)
+  int compression = 0;  ///< deflate level, 0 ... 9
+};
 
 /// The bytes of a file in the memory of the library that made them, since a copy would take their size again.
 struct FileImage {
@@ -18,18 +25,18 @@ struct FileImage {
 };
 
 /// The bytes of an HDF5 file that is netCDF-4 too: dimension scales, attributes, the whole configuration
-/// (src/results/README.md). The same dataset and configuration give the same bytes. Releases the memory of each
+/// (src/results/README.md). The same dataset and head give the same bytes. Releases the memory of each
 /// variable once it is in the image, so that a run holds its results once and one variable twice.
-[[nodiscard]] FileImage file_image(sweep::Dataset dataset, const config::Config& config);
+[[nodiscard]] FileImage file_image(Dataset dataset, const FileHead& head);
 
 /// The same with a checksum trailer (`require_checksum`), for a file that another run of clatter will read.
-[[nodiscard]] FileImage image_with_checksum(sweep::Dataset dataset, const config::Config& config);
+[[nodiscard]] FileImage image_with_checksum(Dataset dataset, const FileHead& head);
 
 /// The contents of a file that `clatter info` prints; shapes are dimension names with their lengths.
 struct FileSummary {
   struct Entry {
     std::string name, type, units, long_name;
-    std::vector<sweep::NamedLength> dimensions;
+    std::vector<NamedLength> dimensions;
     std::string frame{};  ///< of displacements and velocities, if something is shaken
 
     /// The long name, and the frame, if there is one.
@@ -40,10 +47,13 @@ struct FileSummary {
   std::vector<std::pair<std::string, std::size_t>> status_counts;  ///< flag meaning and number of points that have it
 };
 
+/// Throws the IoError of a file that is damaged.
+[[noreturn]] void refuse_damaged(const std::string& path, const std::string& why);
+
 /// Reads a clatter file. Throws IoError if it cannot be read, is no HDF5 file, or was not written by clatter.
 [[nodiscard]] FileSummary read_summary(const std::string& path);
 
 /// Reads the values of some variables of such a file, in this order, with the meanings of flags. Throws IoError.
-[[nodiscard]] sweep::Dataset read_variables(const std::string& path, const std::vector<std::string>& names);
+[[nodiscard]] Dataset read_variables(const std::string& path, const std::vector<std::string>& names);
 
 }  // namespace clatter::results

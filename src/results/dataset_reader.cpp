@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <optional>
 #include <sstream>
 #include <stdexcept>
 #include <utility>
@@ -12,26 +11,24 @@
 #include "results/hdf5_handle.hpp"
 #include "results/hdf5_plain.hpp"
 #include "results/hdf5_shape.hpp"
-#include "results/hdf5_soundness.hpp"
-#include "results/hdf5_texts.hpp"
 #include "results/hdf5_values.hpp"
 #include "results/summary_bytes.hpp"
 #include "storage/error.hpp"
 #include "storage/input_file.hpp"
 #include "storage/run_in_child.hpp"
 #include "storage/utf8.hpp"
-#include "sweep/share.hpp"
 
 namespace clatter::results {
+
+void refuse_damaged(const std::string& path, const std::string& why) {
+  storage::refuse_reading(path, "cannot be read: " + why, "copy it again, or run its configuration again");
+}
+
 namespace {
 
 using detail::checked;
 using detail::Handle;
 using detail::text_attribute;
-
-[[noreturn]] void refuse_damaged(const std::string& path, const std::string& why) {
-  storage::refuse_reading(path, "cannot be read: " + why, "copy it again, or run its configuration again");
-}
 
 Handle open(const std::string& path) {
   const htri_t is_hdf5 = H5Fis_hdf5(path.c_str());
@@ -103,9 +100,9 @@ herr_t keep_name(hid_t, unsigned, hid_t scale, void* name) try {
   return -1;
 }
 
-std::vector<sweep::NamedLength> dimensions_of(hid_t dataset, const std::string& variable) {
+std::vector<NamedLength> dimensions_of(hid_t dataset, const std::string& variable) {
   const bool is_scale = checked(H5DSis_scale(dataset)) > 0;
-  std::vector<sweep::NamedLength> dimensions;
+  std::vector<NamedLength> dimensions;
   for (const hsize_t length : detail::shape_of(dataset)) {
     std::string name = is_scale ? variable : "";
     const auto d = static_cast<unsigned>(dimensions.size());
@@ -121,26 +118,10 @@ bool is_bare_scale(hid_t dataset) {
   return text_attribute(dataset, "NAME").starts_with("This is a netCDF dimension but not a netCDF variable.");
 }
 
-/// The number of points by the configuration in the file; nothing if that is of another version and cannot be read.
-std::optional<std::size_t> points_told(hid_t file, const std::string& path) try {
-  const config::Config config = config::parse_config(text_attribute(file, "config"), path);
-  const std::string shard = text_attribute(file, "shard");
-  return sweep::Share(config.sweep, shard.empty() ? std::nullopt : sweep::shard_named(shard)).points();
-} catch (const config::ConfigError&) {
-  return std::nullopt;
-}
-
-/// Refuses a file that claims more values than it can have, however short it is. `told` are the points of its
-/// configuration.
-void require_possible(const FileSummary::Entry& status, const std::optional<std::size_t>& told,
-                      std::uint64_t stored_bytes) {
-  double points = 1, values = 1;
-  for (const sweep::NamedLength& dimension : status.dimensions) {
-    values *= static_cast<double>(dimension.length);
-    if (dimension.name != "row") points *= static_cast<double>(dimension.length);  // of `clatter accuracy`
-  }
-  if (told && points != static_cast<double>(*told))
-    throw detail::Failure("its 'status' doesn't have the " + std::to_string(*told) + " points of its configuration");
+/// Refuses a file that claims more values than it can have, however short it is.
+void require_possible(const FileSummary::Entry& status, std::uint64_t stored_bytes) {
+  double values = 1;
+  for (const NamedLength& dimension : status.dimensions) values *= static_cast<double>(dimension.length);
   if (values > detail::most_deflated * static_cast<double>(stored_bytes))
     throw detail::Failure("its 'status' is longer than a file of its size can hold");
 }
@@ -180,7 +161,7 @@ FileSummary summary_of(const Handle& file, const std::string& path, std::uint64_
   for (const std::string& name : detail::variables_in(file)) add_variable(summary, file, name, texts);
   const auto status = std::ranges::find(summary.variables, "status", &FileSummary::Entry::name);
   if (status == summary.variables.end()) return summary;
-  require_possible(*status, points_told(file, path), stored_bytes);
+  require_possible(*status, stored_bytes);
   summary.status_counts = flag_counts(detail::open_variable(file, "status"));
   return summary;
 }
@@ -195,11 +176,10 @@ FileSummary unguarded_summary(const std::string& path, std::uint64_t stored_byte
   refuse_damaged(path, "it holds an impossible length");
 }
 
-sweep::Variable variable_in(const Handle& file, const std::string& name) {
+Variable variable_in(const Handle& file, const std::string& name) {
   const Handle dataset = detail::open_variable(file, name);
-  sweep::Variable variable{name, {}, detail::values_of(dataset), "", ""};
-  for (const sweep::NamedLength& dimension : dimensions_of(dataset, name))
-    variable.dimensions.push_back(dimension.name);
+  Variable variable{name, {}, detail::values_of(dataset), "", ""};
+  for (const NamedLength& dimension : dimensions_of(dataset, name)) variable.dimensions.push_back(dimension.name);
   if (std::string meanings = text_attribute(dataset, "flag_meanings"); !meanings.empty())
     variable.attributes = {{"flag_values", detail::byte_attribute(dataset, "flag_values")},
                            {"flag_meanings", std::move(meanings)}};
@@ -222,13 +202,13 @@ void try_variables(const std::string& path, const std::vector<std::string>& name
 
 }  // namespace
 
-sweep::Dataset read_variables(const std::string& path, const std::vector<std::string>& names) try {
+Dataset read_variables(const std::string& path, const std::vector<std::string>& names) try {
   const std::uint64_t stored = storage::open_input(path, "an output of clatter").stored_bytes;
   static_cast<void>(
       storage::run_in_child([&] { return try_variables(path, names, stored), ""; }, storage::limits_for(stored)));
   const detail::QuietErrors quiet;
   const Handle file = open(path);
-  sweep::Dataset dataset;
+  Dataset dataset;
   for (const std::string& name : names) dataset.variables.push_back(variable_in(file, name));
   return dataset;
 } catch (const detail::Failure& failure) {

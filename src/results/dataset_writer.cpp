@@ -15,8 +15,7 @@
 #include "results/hdf5_handle.hpp"
 #include "results/hdf5_image.hpp"
 #include "results/hdf5_shape.hpp"
-#include "results/hdf5_texts.hpp"
-#include "results/sha256.hpp"
+#include "results/hdf5_values.hpp"
 #include "results/version.hpp"
 #include "storage/error.hpp"
 
@@ -38,15 +37,15 @@ constexpr std::size_t worth_compressing = 16UL * 1024;  // bytes
 /// The least growth of the file in memory: few steps for a large file, and little to clear for a small one.
 constexpr std::size_t growth = 64UL * 1024;  // bytes
 
-bool is_coordinate(const sweep::Variable& variable) {
+bool is_coordinate(const Variable& variable) {
   return variable.dimensions.size() == 1 && variable.dimensions.front() == variable.name;
 }
 
-Shape shape_of(const sweep::Variable& variable, const sweep::Dataset& dataset) {
+Shape shape_of(const Variable& variable, const Dataset& dataset) {
   Shape shape;
   for (const std::string& name : variable.dimensions) {
     const auto found = std::find_if(dataset.dimensions.begin(), dataset.dimensions.end(),
-                                    [&](const sweep::NamedLength& dimension) { return dimension.name == name; });
+                                    [&](const NamedLength& dimension) { return dimension.name == name; });
     if (found == dataset.dimensions.end()) throw std::logic_error{variable.name + ": no dimension '" + name + "'"};
     shape.push_back(found->length);
   }
@@ -85,7 +84,7 @@ Handle text_transfer(std::size_t bytes) {
 
 /// Writes the values, of `type`, in one call: the order in which deflated chunks are written changes the file.
 template <typename Value>
-Handle write_values(hid_t file, const sweep::Variable& variable, const Shape& shape, const std::vector<Value>& values,
+Handle write_values(hid_t file, const Variable& variable, const Shape& shape, const std::vector<Value>& values,
                     const ValueType& type, int level) {
   if (values.size() != detail::count(shape))
     throw std::logic_error{variable.name + ": values don't fill its dimensions"};
@@ -109,13 +108,13 @@ Handle write_values(hid_t file, const sweep::Variable& variable, const Shape& sh
 }
 
 template <typename Value>
-Handle write_values(hid_t file, const sweep::Variable& variable, const Shape& shape, const std::vector<Value>& values,
+Handle write_values(hid_t file, const Variable& variable, const Shape& shape, const std::vector<Value>& values,
                     int level) {
   return write_values(file, variable, shape, values, type_of(Value{}), level);
 }
 
-Handle write_values(hid_t file, const sweep::Variable& variable, const Shape& shape,
-                    const std::vector<std::string>& texts, int level) {
+Handle write_values(hid_t file, const Variable& variable, const Shape& shape, const std::vector<std::string>& texts,
+                    int level) {
   std::vector<const char*> pointers;
   pointers.reserve(texts.size());
   for (const std::string& text : texts) pointers.push_back(text.c_str());
@@ -123,12 +122,12 @@ Handle write_values(hid_t file, const sweep::Variable& variable, const Shape& sh
   return write_values(file, variable, shape, pointers, {type, type}, level);
 }
 
-void put(hid_t object, const std::vector<sweep::Attribute>& attributes) {
+void put(hid_t object, const std::vector<Attribute>& attributes) {
   for (const auto& [name, value] : attributes)
     std::visit([&, &key = name](const auto& held) { detail::put(object, key, held); }, value);
 }
 
-Handle write_variable(hid_t file, const sweep::Variable& variable, const sweep::Dataset& dataset, int level) {
+Handle write_variable(hid_t file, const Variable& variable, const Dataset& dataset, int level) {
   const Shape shape = shape_of(variable, dataset);
   Handle stored = std::visit([&](const auto& values) { return write_values(file, variable, shape, values, level); },
                              variable.values);
@@ -139,7 +138,7 @@ Handle write_variable(hid_t file, const sweep::Variable& variable, const sweep::
 }
 
 /// The scale of a dimension that no variable describes: without values, and with the name that netCDF expects.
-Handle write_bare_scale(hid_t file, const sweep::NamedLength& dimension) {
+Handle write_bare_scale(hid_t file, const NamedLength& dimension) {
   const Handle properties = dataset_properties();
   Handle scale{H5Dcreate2(file, dimension.name.c_str(), H5T_IEEE_F32LE, dataspace_of({dimension.length}), H5P_DEFAULT,
                           properties, H5P_DEFAULT),
@@ -152,7 +151,7 @@ Handle write_bare_scale(hid_t file, const sweep::NamedLength& dimension) {
 }
 
 /// Releases the memory of values, which clear() would keep.
-void release(sweep::ValueArray& values) {
+void release(ValueArray& values) {
   std::visit(
       [](auto& held) {
         held = {};
@@ -162,9 +161,9 @@ void release(sweep::ValueArray& values) {
 }
 
 /// Writes the scale of a dimension; takes the values of its coordinate out of the dataset.
-Handle write_scale(hid_t file, const sweep::NamedLength& dimension, sweep::Dataset& dataset, int level) {
+Handle write_scale(hid_t file, const NamedLength& dimension, Dataset& dataset, int level) {
   const auto found = std::find_if(dataset.variables.begin(), dataset.variables.end(),
-                                  [&](const sweep::Variable& variable) { return variable.name == dimension.name; });
+                                  [&](const Variable& variable) { return variable.name == dimension.name; });
   if (found == dataset.variables.end()) return write_bare_scale(file, dimension);
   if (!is_coordinate(*found)) throw std::logic_error{found->name + ": a variable with the name of a dimension"};
   Handle scale = write_variable(file, *found, dataset, level);
@@ -175,12 +174,12 @@ Handle write_scale(hid_t file, const sweep::NamedLength& dimension, sweep::Datas
 
 /// Writes scales first, since netCDF numbers dimensions in their order of creation. Takes the values out of the
 /// dataset.
-void write_dataset(hid_t file, sweep::Dataset& dataset, int level) {
+void write_dataset(hid_t file, Dataset& dataset, int level) {
   std::map<std::string, Handle> scales;
-  for (const sweep::NamedLength& dimension : dataset.dimensions) {
+  for (const NamedLength& dimension : dataset.dimensions) {
     scales.emplace(dimension.name, write_scale(file, dimension, dataset, level));
   }
-  for (sweep::Variable& variable : dataset.variables) {
+  for (Variable& variable : dataset.variables) {
     if (is_coordinate(variable)) continue;
     const Handle stored = write_variable(file, variable, dataset, level);
     release(variable.values);
@@ -190,15 +189,15 @@ void write_dataset(hid_t file, sweep::Dataset& dataset, int level) {
   }
 }
 
-void write_origin(hid_t file, const config::Config& config) {
+void write_origin(hid_t file, const FileHead& head) {
   put(file, "Conventions", std::string{"CF-1.10"});
-  put(file, "title", config.title);
-  put(file, "source", config.source);
+  put(file, "title", head.title);
+  put(file, "source", head.source);
   put(file, "clatter_schema", std::string{"clatter/1"});
   put(file, "clatter_version", std::string{version()});
   put(file, "git_commit", std::string{git_commit()});
-  put(file, "config", config.text);
-  put(file, "config_sha256", sha256(config.text));
+  put(file, "config", head.text);
+  put(file, "config_sha256", sha256(head.text));
   put(file, "compiler", std::string{compiler()});
 }
 
@@ -218,11 +217,11 @@ Handle create_in(detail::Image& image) {
 }
 
 /// Builds the file and closes it, which finishes it; returns its size.
-std::size_t build(detail::Image& image, sweep::Dataset& dataset, const config::Config& config) {
+std::size_t build(detail::Image& image, Dataset& dataset, const FileHead& head) {
   const Handle file = create_in(image);
-  write_origin(file, config);
+  write_origin(file, head);
   put(file, dataset.attributes);
-  write_dataset(file, dataset, config.compression);
+  write_dataset(file, dataset, head.compression);
   checked(H5Fflush(file, H5F_SCOPE_LOCAL));
   return static_cast<std::size_t>(checked(H5Fget_file_image(file, nullptr, 0)));
 }
@@ -232,10 +231,10 @@ std::size_t build(detail::Image& image, sweep::Dataset& dataset, const config::C
   throw storage::no_memory("the output file, which must fit into it, cannot be built (" + why + ')');
 }
 
-FileImage image_of(sweep::Dataset& dataset, const config::Config& config, bool with_trailer) try {
+FileImage image_of(Dataset& dataset, const FileHead& head, bool with_trailer) try {
   const detail::QuietErrors quiet;
   const auto image = std::make_shared<detail::Image>();
-  const std::size_t size = build(*image, dataset, config);
+  const std::size_t size = build(*image, dataset, head);
   if (!with_trailer) return {image, image->first(size)};
   const std::string trailer = checksum_trailer_of(image->first(size));
   return {image, image->append(size, std::as_bytes(std::span(trailer)))};
@@ -247,10 +246,8 @@ FileImage image_of(sweep::Dataset& dataset, const config::Config& config, bool w
 
 }  // namespace
 
-FileImage file_image(sweep::Dataset dataset, const config::Config& config) { return image_of(dataset, config, false); }
+FileImage file_image(Dataset dataset, const FileHead& head) { return image_of(dataset, head, false); }
 
-FileImage image_with_checksum(sweep::Dataset dataset, const config::Config& config) {
-  return image_of(dataset, config, true);
-}
+FileImage image_with_checksum(Dataset dataset, const FileHead& head) { return image_of(dataset, head, true); }
 
 }  // namespace clatter::results

@@ -1,7 +1,7 @@
 #include "results/hdf5_attributes.hpp"
 
 #include "results/hdf5_handle.hpp"
-#include "results/hdf5_texts.hpp"
+#include "results/hdf5_values.hpp"
 
 namespace clatter::results::detail {
 namespace {

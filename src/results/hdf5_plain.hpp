@@ -21,4 +21,8 @@ namespace clatter::results::detail {
 /// Opens a variable, if clatter may have written it; checked once more, since the indexes of a file may disagree.
 [[nodiscard]] Handle open_variable(hid_t file, const std::string& name);
 
+/// Throws Failure if a heap of texts in the file is damaged such that HDF5 1.10 would read it for ever. A block of
+/// zeros, as a disk error or an interrupted copy leaves it, is enough.
+void require_sound_heaps(const std::string& path);
+
 }  // namespace clatter::results::detail

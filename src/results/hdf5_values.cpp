@@ -1,20 +1,53 @@
 #include "results/hdf5_values.hpp"
 
+#include <functional>
+#include <memory>
+#include <new>
+#include <string_view>
 #include <vector>
 
 #include "results/hdf5_attributes.hpp"
 #include "results/hdf5_handle.hpp"
 #include "results/hdf5_shape.hpp"
-#include "results/hdf5_texts.hpp"
 
 namespace clatter::results::detail {
 namespace {
 
 template <typename Value>
-sweep::ValueArray numbers_of(hid_t dataset) {
+ValueArray numbers_of(hid_t dataset) {
   std::vector<Value> values(length_of(dataset));
   if (!values.empty()) checked(H5Dread(dataset, type_of(Value{}).memory, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()));
   return values;
+}
+
+/// The memory of the texts of one block, which a read that fails leaves behind.
+using TextMemory = std::vector<std::unique_ptr<char[]>>;
+
+/// Memory for one text; without any for a longer one, the read fails.
+void* memory_for_text(std::size_t bytes, void* memory) noexcept {
+  if (bytes > longest_text + 1) return nullptr;
+  try {
+    return static_cast<TextMemory*>(memory)->emplace_back(std::make_unique_for_overwrite<char[]>(bytes)).get();
+  } catch (const std::bad_alloc&) {
+    return nullptr;
+  }
+}
+void keep_text(void*, void*) {}
+
+/// Calls `take` for each text; none is as much as a null pointer.
+void each_text(hid_t dataset, const std::function<void(std::string_view)>& take) {
+  TextMemory memory;
+  const Handle type = text_type(), transfer{H5Pcreate(H5P_DATASET_XFER), H5Pclose};
+  checked(H5Pset_vlen_mem_manager(transfer, memory_for_text, &memory, keep_text, &memory));
+  std::vector<char*> texts(largest_block / sizeof(char*));
+  read_blocks(
+      dataset, type, texts.data(),
+      [&](std::size_t count) {
+        for (std::size_t i = 0; i < count; ++i)
+          take(texts[i] != nullptr ? std::string_view(texts[i]) : std::string_view());
+        memory.clear();
+      },
+      transfer);
 }
 
 }  // namespace
@@ -24,7 +57,7 @@ std::size_t length_of(hid_t dataset) {
   return static_cast<std::size_t>(checked(H5Sget_simple_extent_npoints(space)));
 }
 
-sweep::ValueArray values_of(hid_t dataset) {
+ValueArray values_of(hid_t dataset) {
   if (is_text(dataset)) return read_texts(dataset);
   const Handle type{H5Dget_type(dataset), H5Tclose};
   const std::size_t bytes = H5Tget_size(type);
@@ -39,6 +72,29 @@ void try_values(hid_t dataset) {
   std::vector<std::byte> memory(largest_block);
   const Handle type{H5Dget_type(dataset), H5Tclose}, native{H5Tget_native_type(type, H5T_DIR_ASCEND), H5Tclose};
   read_blocks(dataset, native, memory.data(), [](std::size_t) {});
+}
+
+Handle text_type() {
+  Handle type{H5Tcopy(H5T_C_S1), H5Tclose};
+  checked(H5Tset_size(type, H5T_VARIABLE));
+  checked(H5Tset_cset(type, H5T_CSET_UTF8));
+  return type;
+}
+
+bool is_text(hid_t dataset) {
+  const Handle type{H5Dget_type(dataset), H5Tclose};
+  return H5Tget_class(type) == H5T_STRING && checked(H5Tis_variable_str(type)) > 0;
+}
+
+std::vector<std::string> read_texts(hid_t dataset) {
+  std::vector<std::string> texts;
+  texts.reserve(count(shape_of(dataset)));
+  each_text(dataset, [&](std::string_view text) { texts.emplace_back(text); });
+  return texts;
+}
+
+void try_texts(hid_t dataset) {
+  each_text(dataset, [](std::string_view) {});
 }
 
 }  // namespace clatter::results::detail

@@ -5,9 +5,9 @@
 #include <optional>
 #include <utility>
 
-#include "config/suggestion.hpp"
 #include "storage/atomic_write.hpp"
 #include "storage/file_calls.hpp"
+#include "storage/utf8.hpp"
 
 namespace clatter::results {
 namespace {
@@ -26,8 +26,8 @@ std::string difference(const std::optional<Origin>& there, const Origin& ours) {
         .append(command(ours));
   if (there->shard != ours.shard) return "the file there has " + part(*there) + " of a sweep, this one " + part(ours);
   if (there->title != ours.title)
-    return "the file there has the title " + config::in_quotes(there->title) + ", this one " +
-           config::in_quotes(ours.title);
+    return "the file there has the title '" + storage::excerpt(there->title, 60) + "', this one '" +
+           storage::excerpt(ours.title, 60) + '\'';
   return {};
 }
 

@@ -9,7 +9,6 @@
 #include <utility>
 #include <vector>
 
-#include "config/config.hpp"
 #include "results/checksum_trailer.hpp"
 #include "results/hdf5_attributes.hpp"
 #include "results/hdf5_handle.hpp"
@@ -21,7 +20,6 @@
 #include "storage/packed.hpp"
 #include "storage/run_in_child.hpp"
 #include "storage/utf8.hpp"
-#include "sweep/result_store.hpp"
 
 namespace clatter::results {
 namespace {
@@ -70,7 +68,7 @@ void try_values(const Handle& file) {
 }
 
 ShardHeader header_of(const Handle& file, const std::string& path) {
-  const std::optional<sweep::Shard> shard = sweep::shard_named(text_attribute(file, "shard"));
+  const std::optional<Shard> shard = shard_named(text_attribute(file, "shard"));
   if (!shard) throw detail::Failure("it doesn't say which shard it has");
   ShardHeader header{.path = path,
                      .shard = *shard,
@@ -97,17 +95,13 @@ void pass_all(Pass& pass, Header& header) {
 }
 
 /// Throws if a shard claims more values than its size can hold or a run of its configuration writes, since all of them
-/// are read into memory. A configuration that can't be read is of another version, and the merge refuses that.
-void require_possible(const ShardHeader& header, std::uint64_t stored_bytes) try {
+/// are read into memory.
+void require_possible(const ShardHeader& header, std::uint64_t stored_bytes, const MostValues& most_values) {
   const auto values = static_cast<double>(header.values);
   if (values > detail::most_deflated * static_cast<double>(stored_bytes))
     throw detail::Failure("it holds more values than its size can hold");
-  const sweep::Sweep sweep = config::parse_config(header.config, header.path).sweep;
-  const double logged =
-      sweep.problem.observe.impact_log ? sweep::logged_values * static_cast<double>(header.impacts) : 0.0;
-  if (values > most_values(sweep, header.shard) + logged)
-    throw detail::Failure("it holds more values than a run of its configuration writes");
-} catch (const config::ConfigError&) {
+  const std::optional<double> most = most_values(header);
+  if (most && values > *most) throw detail::Failure("it holds more values than a run of its configuration writes");
 }
 
 std::string packed(const ShardHeader& header) {
@@ -119,14 +113,14 @@ std::string packed(const ShardHeader& header) {
 }  // namespace
 
 /// A child process reads all of it first: the checksum shows damage, but the file may be of any origin.
-ShardHeader read_shard_header(const std::string& path) try {
+ShardHeader read_shard_header(const std::string& path, const MostValues& most_values) try {
   const std::uint64_t stored = storage::open_input(path, shards_of_clatter).stored_bytes;
   const std::string bytes = storage::run_in_child(
       [&] {
         require_checksum(path);
         return read_file(path, [&](const Handle& file) {
           const ShardHeader header = header_of(file, path);
-          require_possible(header, stored);
+          require_possible(header, stored, most_values);
           try_values(file);
           return packed(header);
         });
@@ -136,16 +130,16 @@ ShardHeader read_shard_header(const std::string& path) try {
   header.path = path;
   storage::Unpacker unpacker(bytes);
   pass_all(unpacker, header);
-  if (!unpacker.complete() || header.shard.number >= header.shard.of || header.shard.of > sweep::Shard::most)
+  if (!unpacker.complete() || header.shard.number >= header.shard.of || header.shard.of > Shard::most)
     refuse(path, "it makes the HDF5 library corrupt its memory");
   return header;
 } catch (const storage::ChildFailed& death) {
   refuse(path, death.what());
 }
 
-sweep::Dataset read_shard(const std::string& path) {
+Dataset read_shard(const std::string& path) {
   return read_file(path, [](const Handle& file) {
-    sweep::Dataset dataset;
+    Dataset dataset;
     walk_variables(file, [&](const std::string& name, const Handle& variable) {
       dataset.variables.push_back({name, {}, detail::values_of(variable), "", ""});
     });

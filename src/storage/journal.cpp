@@ -12,7 +12,6 @@
 #include <string_view>
 #include <utility>
 
-#include "storage/config_diff.hpp"
 #include "storage/error.hpp"
 #include "storage/input_file.hpp"
 #include "storage/journal_blocks.hpp"
@@ -52,16 +51,6 @@ std::optional<JournalKey> key_of(std::span<const std::byte> bytes) {
   return bytes.empty() ? std::optional(key) : std::nullopt;
 }
 
-/// The lines in which another key differs from this run's.
-std::string difference_of(const JournalKey& other, const JournalKey& key) {
-  const auto about = [](const JournalKey& of) {
-    return "program: " + printable(of.program) + "\nrounding: " + printable(of.rounding) + '\n' +
-           (of.shard.empty() ? "the whole sweep" : "shard " + printable(of.shard)) + '\n' + of.config;
-  };
-  const std::string others = about(other), ours = about(key);
-  return config_diff({"that run: ", others}, {"this run: ", ours});
-}
-
 /// Throws the error of a file that has the journal's name, and can't be a journal.
 [[noreturn]] void refuse_place(const fs::path& path, int error) {
   if (error == ELOOP) refuse(path, "is a symbolic link", "move it away, or name another output");
@@ -92,6 +81,12 @@ void require_idle(const fs::path& output) {
   require_regular(path, opened.st_mode);
   if (::flock(file.number(), LOCK_SH | LOCK_NB) != 0 && errno == EWOULDBLOCK) refuse_busy(output);
 }
+
+OtherRun::OtherRun(const std::string& path, JournalKey key)
+    : IoError(quoted_name(path) +
+              " has the finished points of another run; run that again to complete it, begin "
+              "anew with --restart, or name another output"),
+      key_(std::move(key)) {}
 
 Journal::Journal(const fs::path& output, JournalKey key, const RecordLimit& limit, Begin begin, const ResultSink& take)
     : output_(target_of(output)), path_(journal_of(output_)), key_(std::move(key)) {
@@ -152,7 +147,7 @@ void Journal::read(const ResultSink& take, const RecordLimit& limit, Begin begin
     if (!key) reader.damaged(magic.size());
     // A log may be longer than its file takes on the disk, if zeros are stored as holes; but within limits.
     const double most_bytes = limit.bytes + (limit.has_log ? 1000.0 * static_cast<double>(stored_) : 0.0);
-    if (*key != key_ && reader.head(std::numeric_limits<double>::infinity())) refuse_other(*key);
+    if (*key != key_ && reader.head(std::numeric_limits<double>::infinity())) throw OtherRun(path_.string(), *key);
     while (const auto record = *key == key_ ? reader.block(most_bytes) : std::nullopt) {
       take(*record);
       ends_.push_back(whole = reader.at());
@@ -163,11 +158,6 @@ void Journal::read(const ResultSink& take, const RecordLimit& limit, Begin begin
                   " holds no finished points; leave --resume out");
   if (uninterrupted([&] { return ::ftruncate(file_.number(), static_cast<off_t>(whole)); }) != 0) refuse(path_, errno);
   size_ = whole;
-}
-
-void Journal::refuse_other(const JournalKey& key) const {
-  throw IoError(quoted_name(path_.string()) + " has the finished points of another run:" + difference_of(key, key_) +
-                "\nrun that again to complete it, begin anew with --restart, or name another output");
 }
 
 void Journal::append(std::span<const std::byte> record) {

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "storage/error.hpp"
 #include "storage/file_calls.hpp"
 
 namespace clatter::storage {
@@ -30,6 +31,16 @@ struct JournalKey {
   std::string shard;     ///< "K/N"; empty: the whole sweep
 
   bool operator==(const JournalKey&) const = default;
+};
+
+/// A journal has the finished points of another run, one with another key.
+class OtherRun : public IoError {
+ public:
+  OtherRun(const std::string& path, JournalKey key);
+  [[nodiscard]] const JournalKey& key() const { return key_; }
+
+ private:
+  JournalKey key_;
 };
 
 /// The most bytes that a record of a run can have.
@@ -54,7 +65,7 @@ class Journal {
   using ResultSink = std::function<void(std::span<const std::byte> record)>;
 
   /// Locks the journal of an output, and passes each of its records to `take`; one longer than `limit` is damaged.
-  /// Throws BusyError, and IoError if the journal has another key, is damaged, or cannot be read or written.
+  /// Throws BusyError, OtherRun, and IoError if the journal is damaged, or cannot be read or written.
   Journal(const std::filesystem::path& output, JournalKey key, const RecordLimit& limit, Begin begin,
           const ResultSink& take);
   /// Removes the file if it is empty.
@@ -82,7 +93,6 @@ class Journal {
   void lock();
   void unlink() const;
   void read(const ResultSink& take, const RecordLimit& limit, Begin begin);
-  [[noreturn]] void refuse_other(const JournalKey& key) const;
 
   std::filesystem::path output_, path_;
   JournalKey key_;

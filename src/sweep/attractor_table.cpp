@@ -92,7 +92,7 @@ std::vector<std::string> parameter_names(const Sweep& sweep) {
 }
 
 void add_counts(const Sweep& sweep, const attractors::Grid& grid, const attractors::Numbering& numbering,
-                Dataset& dataset) {
+                results::Dataset& dataset) {
   const std::size_t motions = numbering.motions.size();
   std::vector<std::int64_t> motion_count(grid.ensembles(), 0);
   std::vector<std::int32_t> seen(motions, -1);  // [motion]: the ensemble whose points had it last
@@ -144,7 +144,7 @@ attractors::Numbering numbering_of(const Sweep& sweep, int threads, const PointE
 std::size_t ensembles_of(const Sweep& sweep) { return grid_of(sweep).ensembles(); }
 
 void add_attractors(const Sweep& sweep, bool is_shard, const std::vector<std::string>& along,
-                    attractors::Numbering numbering, Dataset& dataset) {
+                    attractors::Numbering numbering, results::Dataset& dataset) {
   const std::vector<attractors::NumberedMotion>& motions = numbering.motions;
   dataset.dimensions.push_back({"motion", motions.size()});
   const auto add = [&]<class T>(const char* name, const char* long_name, T value_of,

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "attractors/numbering.hpp"
-#include "sweep/dataset.hpp"
+#include "results/dataset.hpp"
 #include "sweep/sweep.hpp"
 
 namespace clatter::sweep {
@@ -29,7 +29,7 @@ struct PointEndings {
 /// Adds the numbers of the points, over the dimensions `along`, and the table of the motions; unless the points are
 /// those of a shard, also how many motions each ensemble has, and their shares of its starts.
 void add_attractors(const Sweep& sweep, bool is_shard, const std::vector<std::string>& along,
-                    attractors::Numbering numbering, Dataset& dataset);
+                    attractors::Numbering numbering, results::Dataset& dataset);
 
 /// Upper bound of the values of one point in these variables.
 inline constexpr double attractor_values = 16;

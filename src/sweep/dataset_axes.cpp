@@ -17,14 +17,14 @@ observables::FrameOf frame_of(Parameter parameter) {
 
 }  // namespace
 
-void name_frame(const Sweep& sweep, observables::FrameOf frame, Variable& variable) {
+void name_frame(const Sweep& sweep, observables::FrameOf frame, results::Variable& variable) {
   if (frame == observables::FrameOf::any || !is_shaken(sweep)) return;
   const bool is_absolute = frame == observables::FrameOf::observed && sweep.problem.observe.frame == Frame::absolute;
   const Frame given = is_absolute ? Frame::absolute : Frame::relative;
   variable.attributes.emplace_back("frame", std::string(frame_names[static_cast<std::size_t>(given)]));
 }
 
-void add_axes(const Sweep& sweep, Dataset& dataset) {
+void add_axes(const Sweep& sweep, results::Dataset& dataset) {
   const bool is_si = sweep.problem.is_si;
   if (sweep.direction == Direction::both) {
     dataset.dimensions.push_back({direction, 2});
@@ -47,11 +47,11 @@ void add_axes(const Sweep& sweep, Dataset& dataset) {
   }
 }
 
-void name_linked_axes(const Sweep& sweep, Dataset& dataset) {
+void name_linked_axes(const Sweep& sweep, results::Dataset& dataset) {
   std::vector<std::string> axes;
   for (const Dimension& dimension : sweep.dimensions)
     for (const Axis& axis : dimension) axes.emplace_back(axis.parameter.key());
-  for (Variable& variable : dataset.variables) {
+  for (results::Variable& variable : dataset.variables) {
     if (std::ranges::find(axes, variable.name) != axes.end()) continue;
     std::string linked;
     for (const Dimension& dimension : sweep.dimensions) {

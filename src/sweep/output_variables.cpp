@@ -1,4 +1,8 @@
-#include "sweep/result_store.hpp"
+#include "sweep/output_variables.hpp"
+
+#include <string>
+
+#include "sweep/attractor_table.hpp"
 
 namespace clatter::sweep {
 
@@ -13,10 +17,33 @@ std::vector<OutputVariable> outputs_of(const point::RunSettings& settings) {
   return outputs;
 }
 
-std::vector<std::string> names_of_texts() {
-  std::vector<std::string> names = observables::All::names_of_texts();
-  names.insert(names.end(), {"motion_word", "motion_regime"});
-  return names;
+std::vector<results::Attribute> flag_attributes(std::span<const std::pair<std::uint8_t, std::string_view>> meanings) {
+  std::vector<std::uint8_t> values;
+  std::string text;
+  for (const auto& [value, meaning] : meanings) {
+    values.push_back(value);
+    (text += text.empty() ? "" : " ") += meaning;
+  }
+  return {{"flag_values", values}, {"flag_meanings", text}};
+}
+
+std::vector<results::Attribute> status_flags() {
+  std::vector<std::pair<std::uint8_t, std::string_view>> meanings;
+  for (const auto& [status, name] : steady::status_names)
+    meanings.emplace_back(static_cast<std::uint8_t>(status), name);
+  return flag_attributes(meanings);
+}
+
+double most_values(const Sweep& sweep, const std::optional<results::Shard>& shard) {
+  double of_point = 5;  // status, impact_total, simulated_periods, index in the sweep, impact_count
+  for (const OutputVariable& output : outputs_of(sweep.problem)) of_point += static_cast<double>(output.width());
+  double coordinates = sweep.direction == Direction::both ? 2 : 0;
+  for (const observables::Coordinate& coordinate : observables::All::coordinates(sweep.problem.observe))
+    coordinates += static_cast<double>(coordinate.length);
+  for (const Dimension& dimension : sweep.dimensions)
+    coordinates += static_cast<double>(dimension.size() * length(dimension));
+  if (sweep.problem.observe.attractor) of_point += attractor_values;
+  return of_point * static_cast<double>(Share(sweep, shard).points()) + coordinates;
 }
 
 }  // namespace clatter::sweep

@@ -52,8 +52,8 @@ std::size_t impacts_in(const std::vector<std::vector<motion::Impact>>& log) {
 
 /// The values of a variable. Throws std::runtime_error if it is missing or of another type.
 template <class T>
-std::vector<T>& values_in(Dataset& dataset, const std::string& name) {
-  const auto found = std::ranges::find(dataset.variables, name, &Variable::name);
+std::vector<T>& values_in(results::Dataset& dataset, const std::string& name) {
+  const auto found = std::ranges::find(dataset.variables, name, &results::Variable::name);
   if (found == dataset.variables.end()) throw std::runtime_error("it has no '" + name + "'");
   auto* const values = std::get_if<std::vector<T>>(&found->values);
   if (values == nullptr) throw std::runtime_error("its '" + name + "' is of another type");
@@ -74,36 +74,7 @@ std::vector<std::int64_t> point_numbers(const Share& share) {
 
 }  // namespace
 
-std::vector<Attribute> flag_attributes(std::span<const std::pair<std::uint8_t, std::string_view>> meanings) {
-  std::vector<std::uint8_t> values;
-  std::string text;
-  for (const auto& [value, meaning] : meanings) {
-    values.push_back(value);
-    (text += text.empty() ? "" : " ") += meaning;
-  }
-  return {{"flag_values", values}, {"flag_meanings", text}};
-}
-
-std::vector<Attribute> status_flags() {
-  std::vector<std::pair<std::uint8_t, std::string_view>> meanings;
-  for (const auto& [status, name] : steady::status_names)
-    meanings.emplace_back(static_cast<std::uint8_t>(status), name);
-  return flag_attributes(meanings);
-}
-
-double most_values(const Sweep& sweep, const std::optional<Shard>& shard) {
-  double of_point = 5;  // status, impact_total, simulated_periods, index in the sweep, impact_count
-  for (const OutputVariable& output : outputs_of(sweep.problem)) of_point += static_cast<double>(output.width());
-  double coordinates = sweep.direction == Direction::both ? 2 : 0;
-  for (const observables::Coordinate& coordinate : observables::All::coordinates(sweep.problem.observe))
-    coordinates += static_cast<double>(coordinate.length);
-  for (const Dimension& dimension : sweep.dimensions)
-    coordinates += static_cast<double>(dimension.size() * length(dimension));
-  if (sweep.problem.observe.attractor) of_point += attractor_values;
-  return of_point * static_cast<double>(Share(sweep, shard).points()) + coordinates;
-}
-
-ResultStore::ResultStore(const Sweep& sweep, const std::optional<Shard>& shard)
+ResultStore::ResultStore(const Sweep& sweep, const std::optional<results::Shard>& shard)
     : sweep_(sweep),
       shard_(shard),
       share_(sweep, shard),
@@ -190,8 +161,8 @@ bool ResultStore::unpack(std::size_t local_index, std::span<const std::byte>& fr
   return take_off(from, std::span(log_[local_index]));
 }
 
-void ResultStore::add_coordinates(Dataset& dataset) const {
-  const auto coordinate = [&](std::string name, ValueArray values, std::string long_name) {
+void ResultStore::add_coordinates(results::Dataset& dataset) const {
+  const auto coordinate = [&](std::string name, results::ValueArray values, std::string long_name) {
     dataset.variables.push_back({name, {name}, std::move(values), std::move(long_name), "1"});
   };
   add_axes(sweep_, dataset);
@@ -209,7 +180,7 @@ void ResultStore::add_coordinates(Dataset& dataset) const {
   }
 }
 
-void ResultStore::take(Dataset& dataset, const Shard& shard) {
+void ResultStore::take(results::Dataset& dataset, const results::Shard& shard) {
   const std::vector<std::int64_t> numbers = point_numbers(Share(sweep_, shard));
   if (values_in<std::int64_t>(dataset, "point") != numbers)
     throw std::runtime_error("its points aren't those of its shard");
@@ -230,7 +201,7 @@ void ResultStore::take(Dataset& dataset, const Shard& shard) {
   if (sweep_.problem.observe.impact_log) take_impact_log(dataset, numbers);
 }
 
-void ResultStore::take_impact_log(Dataset& dataset, std::span<const std::int64_t> numbers) {
+void ResultStore::take_impact_log(results::Dataset& dataset, std::span<const std::int64_t> numbers) {
   const auto& counts = values_in<std::int64_t>(dataset, "impact_count");
   const auto& tau = values_in<double>(dataset, "impact_tau");
   const auto& stops = values_in<std::int8_t>(dataset, "impact_stop");
@@ -252,14 +223,14 @@ void ResultStore::take_impact_log(Dataset& dataset, std::span<const std::int64_t
   require_length("impact_tau", tau.size(), at);
 }
 
-void ResultStore::add_always(Dataset& dataset) {
+void ResultStore::add_always(results::Dataset& dataset) {
   dataset.variables.push_back({"status", along_, std::move(status_), "what became of the point", "1"});
   dataset.variables.back().attributes = status_flags();
   dataset.variables.push_back({"impact_total", along_, std::move(impacts_), "impacts simulated", "1"});
   dataset.variables.push_back({"simulated_periods", along_, std::move(periods_), "forcing periods simulated", "1"});
 }
 
-void ResultStore::add_impact_log(Dataset& dataset) {
+void ResultStore::add_impact_log(results::Dataset& dataset) {
   std::vector<std::int64_t> counts;
   std::vector<double> tau, before, after;
   std::vector<std::int8_t> stops;
@@ -291,15 +262,15 @@ void ResultStore::add_impact_log(Dataset& dataset) {
   name_frame(sweep_, observables::FrameOf::relative, dataset.variables.back());
 }
 
-Dataset ResultStore::dataset() {
-  Dataset dataset;
+results::Dataset ResultStore::dataset() {
+  results::Dataset dataset;
   add_coordinates(dataset);
   add_always(dataset);
   for (std::size_t i = 0; i < outputs_.size(); ++i) {
     OutputVariable& output = outputs_[i];
     std::vector<std::string> dimensions = along_;
     for (const observables::Coordinate& along : output.along) dimensions.push_back(along.name);
-    ValueArray values = std::move(values_[i]);
+    results::ValueArray values = std::move(values_[i]);
     if (output.text) values = std::move(texts_[i]);
     if (output.intermediate && !shard_) continue;
     const bool is_si = sweep_.problem.is_si;

@@ -11,39 +11,18 @@
 
 #include "attractors/numbering.hpp"
 #include "point/point.hpp"
-#include "sweep/dataset.hpp"
+#include "results/dataset.hpp"
+#include "sweep/output_variables.hpp"
 #include "sweep/share.hpp"
 #include "sweep/sweep.hpp"
 
 namespace clatter::sweep {
 
-/// A variable of the results, and how to extract it from a PointResult.
-using OutputVariable = observables::Column<point::PointResult>;
-
-/// The variables of a point's observables, except the impact log and the integer ones; for steady motion also the
-/// estimate of its settling time.
-[[nodiscard]] std::vector<OutputVariable> outputs_of(const point::RunSettings& settings);
-
-/// The names of all variables of texts.
-[[nodiscard]] std::vector<std::string> names_of_texts();
-
-/// Attributes that give the meanings of the values of a variable.
-[[nodiscard]] std::vector<Attribute> flag_attributes(
-    std::span<const std::pair<std::uint8_t, std::string_view>> meanings);
-
-/// Those of `status`.
-[[nodiscard]] std::vector<Attribute> status_flags();
-
-/// Upper bound of the number of values in all variables of a sweep or a shard, except its impact log; an impact there
-/// has `logged_values`.
-[[nodiscard]] double most_values(const Sweep& sweep, const std::optional<Shard>& shard);
-inline constexpr double logged_values = 4;
-
 /// The results of all points of a run, by their local index (`Share`), and the dataset that they make.
 class ResultStore {
  public:
   /// Makes room for the results of a whole sweep, or of a shard. Throws std::bad_alloc.
-  explicit ResultStore(const Sweep& sweep, const std::optional<Shard>& shard = {});
+  explicit ResultStore(const Sweep& sweep, const std::optional<results::Shard>& shard = {});
 
   /// Stores a point's result, which is in `units`, in those of the user; different points may be stored at the same
   /// time.
@@ -60,10 +39,10 @@ class ResultStore {
 
   /// Moves the results of a shard's dataset into those of the whole sweep. Throws std::runtime_error if the dataset
   /// isn't that of the shard; the values of its points are then unspecified.
-  void take(Dataset& dataset, const Shard& shard);
+  void take(results::Dataset& dataset, const results::Shard& shard);
 
   /// The dataset over the sweep's axes, or over the points of a shard. Empties the store.
-  [[nodiscard]] Dataset dataset();
+  [[nodiscard]] results::Dataset dataset();
 
   /// Numbers the motions that the points end in, once all results are there. Throws std::bad_alloc.
   void number_motions(int threads);
@@ -72,14 +51,14 @@ class ResultStore {
 
  private:
   void to_users_units(std::size_t local_index, const Units& units);
-  void add_coordinates(Dataset& dataset) const;
-  void add_always(Dataset& dataset);
-  void add_impact_log(Dataset& dataset);
+  void add_coordinates(results::Dataset& dataset) const;
+  void add_always(results::Dataset& dataset);
+  void add_impact_log(results::Dataset& dataset);
   [[nodiscard]] std::vector<double>& values_of(std::string_view output);
-  void take_impact_log(Dataset& dataset, std::span<const std::int64_t> numbers);
+  void take_impact_log(results::Dataset& dataset, std::span<const std::int64_t> numbers);
 
   const Sweep& sweep_;
-  std::optional<Shard> shard_;
+  std::optional<results::Shard> shard_;
   Share share_;
   std::vector<std::string> along_;  ///< dimensions of a variable with one value a point
   std::vector<std::uint8_t> status_;

@@ -27,7 +27,7 @@ bool runs_in_lanes(const Sweep& sweep, lanes::InstructionSet arch) {
          integration.shortcuts && !integration.all_effects;
 }
 
-SweepRun::SweepRun(const Sweep& sweep, const std::optional<Shard>& shard)
+SweepRun::SweepRun(const Sweep& sweep, const std::optional<results::Shard>& shard)
     : sweep_(sweep), shard_(shard), share_(sweep, shard), store_(sweep, shard), states_(share_.count()) {}
 
 bool SweepRun::restore(std::span<const std::byte> results) {

@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "lanes/instruction_set.hpp"
+#include "results/dataset.hpp"
 #include "scene/effects.hpp"
 #include "steady/observed_time.hpp"
-#include "sweep/dataset.hpp"
 #include "sweep/result_store.hpp"
 #include "sweep/share.hpp"
 #include "sweep/sweep.hpp"
@@ -50,7 +50,7 @@ struct LaneWork {
 
 /// The results of a sweep, and the work that they took.
 struct RunResult {
-  Dataset dataset;                ///< coordinates, status, impact_total, simulated_periods, then what is observed
+  results::Dataset dataset;       ///< coordinates, status, impact_total, simulated_periods, then what is observed
   std::size_t points = 0;         ///< points of the sweep, or of the shard
   std::size_t failed_points = 0;  ///< points whose status is a failure
   int threads = 1;                ///< threads that were used
@@ -66,7 +66,7 @@ enum class ChainState : std::uint8_t { open, finished, saved };
 class SweepRun {
  public:
   /// Throws std::bad_alloc if the results don't fit into memory.
-  explicit SweepRun(const Sweep& sweep, const std::optional<Shard>& shard = {});
+  explicit SweepRun(const Sweep& sweep, const std::optional<results::Shard>& shard = {});
 
   /// Restores results that `save` wrote in an earlier run of the same points. Returns false if they don't belong to
   /// this sweep.
@@ -88,7 +88,7 @@ class SweepRun {
 
  private:
   const Sweep& sweep_;
-  std::optional<Shard> shard_;
+  std::optional<results::Shard> shard_;
   Share share_;
   ResultStore store_;
   std::vector<std::atomic<ChainState>> states_;  ///< [chain]

@@ -2,30 +2,17 @@
 
 #include <cstddef>
 #include <optional>
-#include <string>
-#include <string_view>
 
+#include "results/shard.hpp"
 #include "sweep/chains.hpp"
 
 namespace clatter::sweep {
 
-/// One of several runs that share a sweep: it has the chains `number`, `number + of`, … of it.
-struct Shard {
-  static constexpr std::size_t most = 1'000'000;
-  std::size_t number = 0, of = 1;  ///< number < of <= most
-
-  bool operator==(const Shard&) const = default;
-};
-
-/// A shard as "K/N", from 0/N to N-1/N; empty if a text isn't one.
-[[nodiscard]] std::string text_of(const Shard& shard);
-[[nodiscard]] std::optional<Shard> shard_named(std::string_view text);
-
 /// The chains and points of a sweep that one run has: all, or those of a shard.
 class Share {
  public:
-  explicit Share(const Sweep& sweep, const std::optional<Shard>& shard = {})
-      : chains_(sweep), shard_(shard.value_or(Shard{})), count_(before(chains_.count)) {}
+  explicit Share(const Sweep& sweep, const std::optional<results::Shard>& shard = {})
+      : chains_(sweep), shard_(shard.value_or(results::Shard{})), count_(before(chains_.count)) {}
 
   [[nodiscard]] std::size_t count() const { return count_; }           ///< chains
   [[nodiscard]] std::size_t length() const { return chains_.length; }  ///< points of a chain
@@ -50,7 +37,7 @@ class Share {
   }
 
   Chains chains_;
-  Shard shard_;
+  results::Shard shard_;
   std::size_t count_;
 };
 

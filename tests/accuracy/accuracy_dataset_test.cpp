@@ -16,7 +16,7 @@ const AccuracyOptions once{.rounds = 1};
 
 using Names = std::vector<std::string>;
 
-std::size_t length_of(const sweep::ValueArray& column) {
+std::size_t length_of(const results::ValueArray& column) {
   return std::visit([](const auto& all) { return all.size(); }, column);
 }
 
@@ -35,14 +35,14 @@ MeasuredSweep two_points() {
 
 TEST(AccuracyDataset, has_the_axes_and_then_the_rows) {
   const auto [sweep, points] = two_points();
-  const sweep::Dataset dataset = accuracy_dataset(sweep, points);
+  const results::Dataset dataset = accuracy_dataset(sweep, points);
   ASSERT_EQ(dataset.dimensions.size(), 2u);
   EXPECT_EQ(dataset.dimensions[0].name, "nu");
   EXPECT_EQ(dataset.dimensions[0].length, 2u);
   EXPECT_EQ(dataset.dimensions[1].name, "row");
   EXPECT_EQ(dataset.dimensions[1].length, one_of_each().size());
   std::set<std::string> names;
-  for (const sweep::Variable& variable : dataset.variables) {
+  for (const results::Variable& variable : dataset.variables) {
     EXPECT_TRUE(names.insert(variable.name).second) << variable.name << " is there twice";
     EXPECT_FALSE(variable.long_name.empty());
     EXPECT_EQ(variable.units, "1");
@@ -62,7 +62,7 @@ TEST(AccuracyDataset, has_the_axes_and_then_the_rows) {
 
 TEST(AccuracyDataset, has_the_variables_of_the_contract) {
   const auto [sweep, points] = two_points();
-  const sweep::Dataset dataset = accuracy_dataset(sweep, points);
+  const results::Dataset dataset = accuracy_dataset(sweep, points);
   for (const char* name : {"method", "setting", "arch", "error_contact_time", "error_contact_speed", "missed",
                            "doubled", "error_extrema", "error_harmonics", "ns_per_period", "ns_spread"})
     EXPECT_NE(find(dataset, name), nullptr) << name;
@@ -70,7 +70,7 @@ TEST(AccuracyDataset, has_the_variables_of_the_contract) {
 
 TEST(AccuracyDataset, holds_the_numbers_of_the_points_in_their_order) {
   const auto [sweep, points] = two_points();
-  const sweep::Dataset dataset = accuracy_dataset(sweep, points);
+  const results::Dataset dataset = accuracy_dataset(sweep, points);
   const std::size_t rows = one_of_each().size();
   EXPECT_EQ(values(dataset, "nu"), (std::vector{0.9, 1.0}));
   const auto same = [](double a, double b) { return a == b || (std::isnan(a) && std::isnan(b)); };
@@ -89,8 +89,8 @@ TEST(AccuracyDataset, holds_the_numbers_of_the_points_in_their_order) {
 
 TEST(AccuracyDataset, names_its_methods) {
   const auto [sweep, points] = two_points();
-  const sweep::Dataset dataset = accuracy_dataset(sweep, points);
-  const sweep::Variable& method = *find(dataset, "method");
+  const results::Dataset dataset = accuracy_dataset(sweep, points);
+  const results::Variable& method = *find(dataset, "method");
   EXPECT_EQ(std::get<std::vector<std::uint8_t>>(method.values), (std::vector<std::uint8_t>{0, 1, 2, 3, 4, 5, 6}));
   ASSERT_EQ(method.attributes.size(), 2u);
   EXPECT_EQ(std::get<std::vector<std::uint8_t>>(method.attributes[0].second).size(), method_names.size());
@@ -105,8 +105,8 @@ TEST(AccuracyDataset, names_the_instruction_set_of_each_row) {
   for (const lanes::InstructionSet arch :
        {lanes::InstructionSet::scalar, lanes::InstructionSet::avx512, lanes::InstructionSet::sse2})
     point.rows.push_back({.trial = {TestedMethod::exact, no_setting, arch}});
-  const sweep::Dataset dataset = accuracy_dataset(sweep::sweep_of(smooth_scene(), {}), {point});
-  const sweep::Variable& arch = *find(dataset, "arch");
+  const results::Dataset dataset = accuracy_dataset(sweep::sweep_of(smooth_scene(), {}), {point});
+  const results::Variable& arch = *find(dataset, "arch");
   EXPECT_EQ(std::get<std::vector<std::uint8_t>>(arch.values), (std::vector<std::uint8_t>{0, 3, 1}));
   EXPECT_EQ(std::get<std::vector<std::uint8_t>>(arch.attributes[0].second), (std::vector<std::uint8_t>{0, 1, 2, 3}));
   EXPECT_EQ(std::get<std::string>(arch.attributes[1].second), "scalar sse2 avx2 avx512");
@@ -115,9 +115,9 @@ TEST(AccuracyDataset, names_the_instruction_set_of_each_row) {
 TEST(AccuracyDataset, names_linked_axes_as_coordinates) {
   sweep::Sweep sweep = sweep::sweep_of(smooth_scene(), {});
   sweep.dimensions = {{{Parameter("nu"), {0.9, 1.0}}, {Parameter("f"), {1.0, 2.0}}}};
-  const sweep::Dataset dataset = accuracy_dataset(sweep, std::vector<PointAccuracy>(2));
+  const results::Dataset dataset = accuracy_dataset(sweep, std::vector<PointAccuracy>(2));
   for (const char* name : {"status", "horizon", "missed"})
-    EXPECT_EQ(find(dataset, name)->attributes.back(), (sweep::Attribute{"coordinates", "f"})) << name;
+    EXPECT_EQ(find(dataset, name)->attributes.back(), (results::Attribute{"coordinates", "f"})) << name;
   for (const char* name : {"nu", "f", "setting"}) EXPECT_TRUE(find(dataset, name)->attributes.empty()) << name;
 }
 
@@ -125,7 +125,7 @@ TEST(AccuracyDataset, of_one_point_has_rows_alone) {
   const sweep::Sweep sweep = sweep::sweep_of(smooth_scene(), {});
   const std::vector<PointAccuracy> points{
       measure_accuracy(smooth_scene(), {{TestedMethod::exact, no_setting}}, {.rounds = 0})};
-  const sweep::Dataset dataset = accuracy_dataset(sweep, points);
+  const results::Dataset dataset = accuracy_dataset(sweep, points);
   ASSERT_EQ(dataset.dimensions.size(), 1u);
   EXPECT_EQ(dataset.dimensions[0].name, "row");
   EXPECT_EQ(find(dataset, "error_extrema")->dimensions, Names{"row"});
@@ -138,7 +138,7 @@ TEST(AccuracyDataset, of_two_axes_lets_the_first_vary_slowest) {
       sweep::sweep_of(smooth_scene(), {{Parameter("nu"), {0.9, 1.0}}, {Parameter("R"), {0.5, 0.6, 0.7}}});
   std::vector<PointAccuracy> points(6);
   for (std::size_t i = 0; i < 6; ++i) points[i].horizon = static_cast<double>(i), points[i].rows.resize(2);
-  const sweep::Dataset dataset = accuracy_dataset(sweep, points);
+  const results::Dataset dataset = accuracy_dataset(sweep, points);
   EXPECT_EQ(find(dataset, "horizon")->dimensions, (Names{"nu", "R"}));
   EXPECT_EQ(find(dataset, "missed")->dimensions, (Names{"nu", "R", "row"}));
   EXPECT_EQ(length_of(find(dataset, "missed")->values), 12u);

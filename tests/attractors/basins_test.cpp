@@ -13,7 +13,7 @@
 namespace clatter::attractors {
 namespace {
 
-using sweep::Dataset;
+using results::Dataset;
 
 /// The middles of n equal parts of -a ... a.
 std::vector<double> middles(double a, int n) {
@@ -37,7 +37,7 @@ Dataset basins_of(const point::Problem& problem, double x, double v, int n) {
 
 template <class T>
 const std::vector<T>& of(const Dataset& dataset, const std::string& name) {
-  return std::get<std::vector<T>>(sweep::find(dataset, name)->values);
+  return std::get<std::vector<T>>(results::find(dataset, name)->values);
 }
 
 /// Points that end in each motion, by its word.

@@ -119,9 +119,9 @@ TEST(BruteForce, long_runs_from_the_states_in_which_points_ended_make_the_same_g
       v0.values.push_back(random.uniform(-2, 2) * widest);
     }
     const sweep::Sweep sweep{.problem = scene, .dimensions = {{x0, v0}}};
-    const sweep::Dataset dataset = run(sweep, {.threads = 1, .arch = lanes::InstructionSet::scalar}).dataset;
-    const auto& number = std::get<std::vector<std::int32_t>>(sweep::find(dataset, "attractor")->values);
-    const auto& periods = std::get<std::vector<std::int64_t>>(sweep::find(dataset, "motion_period_ratio")->values);
+    const results::Dataset dataset = run(sweep, {.threads = 1, .arch = lanes::InstructionSet::scalar}).dataset;
+    const auto& number = std::get<std::vector<std::int32_t>>(results::find(dataset, "attractor")->values);
+    const auto& periods = std::get<std::vector<std::int64_t>>(results::find(dataset, "motion_period_ratio")->values);
     std::vector<std::vector<PhasePoint>> ends;
     std::vector<char> known(starts, 0);
     for (std::size_t k = 0; k < starts; ++k) {

@@ -15,7 +15,7 @@ namespace {
 template <class Number>
 const std::vector<Number>& values(const sweep::RunResult& result, std::string_view name) {
   return std::get<std::vector<Number>>(
-      std::ranges::find(result.dataset.variables, name, &sweep::Variable::name)->values);
+      std::ranges::find(result.dataset.variables, name, &results::Variable::name)->values);
 }
 
 std::vector<Transient> exact(sweep::Sweep sweep) {

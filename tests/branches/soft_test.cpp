@@ -10,9 +10,9 @@
 
 #include "branches/branch.hpp"
 #include "branches/bumpers.hpp"
-#include "branches/event_run.hpp"
 #include "branches/measures/measures.hpp"
 #include "branches/special_values.hpp"
+#include "branches/start.hpp"
 #include "motion/tangent_map.hpp"
 #include "scene/required_effects.hpp"
 #include "stepping/exact.hpp"

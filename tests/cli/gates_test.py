@@ -117,7 +117,7 @@ add_custom_target(clatter_version)
 
     def test_an_include_against_the_arrows_is_found(self):
         self.assert_found(
-            "arrows", "src/sweep/b.hpp", '#include "results/merge.hpp"\n', "src/sweep/b.hpp:1: results/merge.hpp"
+            "arrows", "src/sweep/b.hpp", '#include "outputs/merge.hpp"\n', "src/sweep/b.hpp:1: outputs/merge.hpp"
         )
 
     def test_a_warning_of_either_compiler_is_found(self):

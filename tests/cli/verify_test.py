@@ -7,6 +7,7 @@ number of random scenes, and of them all points of shipped configurations if it 
 import collections
 import json
 import os
+import shutil
 import subprocess
 import unittest
 
@@ -17,6 +18,7 @@ from random_scenes import close_scenes, compliant_scenes, pressing_scenes, rando
 
 SCENES = int(os.environ.get("CLATTER_VERIFIED", "150"))
 IS_LONG = SCENES > 1000
+AT_ONCE = 2000  # scenes of a configuration, which may have 1 MiB
 FIGURES = [f"fig{number}" for number in range(14, 24)]
 
 RESTS = """[scene]
@@ -175,11 +177,16 @@ class Verify(CommandLine):
             ("close", close_scenes(few, seed=45)),
             ("pressing", pressing_scenes(few, seed=46)),
         ):
-            for file in random_certificates(self.directory / name, scenes):
-                with self.subTest(file):
-                    count = len(file.read_text(encoding="utf-8").splitlines())
-                    self.assertGreater(count, len(scenes) // 4)
-                    self.assert_proved(verified(file), 0.98 * count, undecided=count // 50)
+            for first in range(0, len(scenes), AT_ONCE):
+                self.prove_scenes(f"{name}_{first}", scenes[first : first + AT_ONCE])
+
+    def prove_scenes(self, name, scenes):
+        for file in random_certificates(self.directory / name, scenes):
+            with self.subTest(file):
+                count = len(file.read_text(encoding="utf-8").splitlines())
+                self.assertGreater(count, len(scenes) // 4)
+                self.assert_proved(verified(file), 0.98 * count, undecided=count // 50)
+        shutil.rmtree(self.directory / name)
 
     def test_every_forgery_is_refuted(self):
         lines, kinds = [], []

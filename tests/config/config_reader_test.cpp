@@ -3,7 +3,7 @@
 #include <limits>
 #include <numbers>
 
-#include "config/defaults.hpp"
+#include "config/config_text.hpp"
 #include "config/written_config.hpp"
 #include "storage/error.hpp"
 

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "config/defaults.hpp"
+#include "config/config_text.hpp"
 #include "config/written_config.hpp"
 
 namespace clatter::config {

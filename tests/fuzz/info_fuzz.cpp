@@ -4,6 +4,6 @@
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   clatter::fuzz::check_reading({data, size},
-                               [](const std::string& path) { (void)clatter::results::read_summary(path); });
+                               [](const std::string& path) { (void)clatter::outputs::read_summary(path); });
   return 0;
 }

@@ -14,7 +14,7 @@
 #include <utility>
 #include <vector>
 
-#include "config/defaults.hpp"
+#include "config/config_text.hpp"
 #include "config/keys.hpp"
 #include "crafted.hpp"
 #include "journal_damage.hpp"
@@ -93,7 +93,7 @@ std::vector<double> ramp(std::size_t size) {
 
 /// Files with all kinds of contents: coordinates, scales without one, flags, integers, short and long texts, deflated
 /// values.
-sweep::Dataset figure(std::size_t points, std::size_t samples) {
+results::Dataset figure(std::size_t points, std::size_t samples) {
   const std::vector<std::uint8_t> flags{0, 1, 2, 16, 17, 18};
   const std::string meanings = "periodic aperiodic transient event_budget not_finite unresolved";
   return {{{"nu", points}, {"sample", samples}},
@@ -109,16 +109,16 @@ sweep::Dataset figure(std::size_t points, std::size_t samples) {
           {{"shard", "0/1"}, {"rounding", "sse2"}}};
 }
 
-sweep::Dataset scalar() { return {{}, {{"x_min", {}, std::vector<double>{-0.5}, "least displacement", "1"}}}; }
+results::Dataset scalar() { return {{}, {{"x_min", {}, std::vector<double>{-0.5}, "least displacement", "1"}}}; }
 
 void write_files(const fs::path& corpus) {
-  config::Config config;
+  results::FileHead config;
   config.title = "Größter Ausschlag";
   config.text = "[scene]\nxs = -4.0\n[sweep]\nnu = \"linspace(1, 2, 2)\"\n[observe]\ntrajectory = 2\n";
   const auto seed = [&](const std::string& name, std::string_view bytes) {
     for (const char* const reader : file_readers) write_seed(corpus / reader, name, bytes);
   };
-  const auto write = [&](const std::string& name, sweep::Dataset what, int compression) {
+  const auto write = [&](const std::string& name, results::Dataset what, int compression) {
     config.compression = compression;
     const results::FileImage image = results::file_image(std::move(what), config);
     seed(name, {reinterpret_cast<const char*>(image.bytes.data()), image.bytes.size()});

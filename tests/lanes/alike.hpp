@@ -61,15 +61,15 @@ inline double beyond(const point::Problem& scene, const sweep::RunPoint& lanes, 
 inline double beyond_if_longer(point::Problem scene, InstructionSet arch, Totals& totals) {
   scene.time.max_periods *= 16;
   const sweep::Sweep sweep = sweep::sweep_of(scene, {});
-  const sweep::Dataset lanes = run(sweep, {.threads = 1, .arch = arch}).dataset;
-  const sweep::Dataset scalar = run(sweep, {.threads = 1, .arch = InstructionSet::scalar}).dataset;
+  const results::Dataset lanes = run(sweep, {.threads = 1, .arch = arch}).dataset;
+  const results::Dataset scalar = run(sweep, {.threads = 1, .arch = InstructionSet::scalar}).dataset;
   ++totals.slow;
   return beyond(scene, {lanes, 0}, {scalar, 0}, totals);
 }
 
 inline Totals expect_alike(const sweep::Sweep& sweep, InstructionSet arch) {
-  const sweep::Dataset lanes = run(sweep, {.threads = 1, .arch = arch}).dataset;
-  const sweep::Dataset scalar = run(sweep, {.threads = 1, .arch = InstructionSet::scalar}).dataset;
+  const results::Dataset lanes = run(sweep, {.threads = 1, .arch = arch}).dataset;
+  const results::Dataset scalar = run(sweep, {.threads = 1, .arch = InstructionSet::scalar}).dataset;
   Totals totals;
   for (std::size_t i = 0; i < size(sweep); ++i) {
     const point::Problem scene = problem_at(sweep, i);

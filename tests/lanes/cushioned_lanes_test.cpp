@@ -131,18 +131,18 @@ TEST_P(CushionedLanes, meet_every_contact_that_the_scalar_loop_meets_up_to_each_
 
 TEST_P(CushionedLanes, bits_depend_neither_on_threads_nor_on_neighbours) {
   std::vector<point::Problem> scenes = steady_scenes(200);
-  const sweep::Dataset one = run(sweep::sweep_over(scenes), {.threads = 1, .arch = GetParam()}).dataset;
-  sweep::expect_same(one, run(sweep::sweep_over(scenes), {.threads = 3, .arch = GetParam()}).dataset);
+  const results::Dataset one = run(sweep::sweep_over(scenes), {.threads = 1, .arch = GetParam()}).dataset;
+  results::expect_same(one, run(sweep::sweep_over(scenes), {.threads = 3, .arch = GetParam()}).dataset);
   std::ranges::reverse(scenes);
-  const sweep::Dataset other = run(sweep::sweep_over(scenes), {.threads = 1, .arch = GetParam()}).dataset;
+  const results::Dataset other = run(sweep::sweep_over(scenes), {.threads = 1, .arch = GetParam()}).dataset;
   for (const char* name : {"x_min", "x_max", "v_min", "v_max", "simulated_periods"}) {
-    std::vector<double> backwards = sweep::values(other, name);
+    std::vector<double> backwards = results::values(other, name);
     std::ranges::reverse(backwards);
-    const std::vector<double>& forwards = sweep::values(one, name);
+    const std::vector<double>& forwards = results::values(one, name);
     EXPECT_EQ(std::memcmp(forwards.data(), backwards.data(), forwards.size() * sizeof(double)), 0) << name;
   }
-  const sweep::Dataset alone = run(sweep::sweep_over({scenes.back()}), {.threads = 1, .arch = GetParam()}).dataset;
-  EXPECT_EQ(sweep::values(alone, "x_max")[0], sweep::values(one, "x_max")[0]);
+  const results::Dataset alone = run(sweep::sweep_over({scenes.back()}), {.threads = 1, .arch = GetParam()}).dataset;
+  EXPECT_EQ(results::values(alone, "x_max")[0], results::values(one, "x_max")[0]);
 }
 
 TEST_P(CushionedLanes, a_step_with_a_nan_in_any_input_of_its_proof_is_not_proved) {
@@ -188,8 +188,8 @@ TEST_P(CushionedLanes, leave_what_they_do_not_take_to_the_scalar_loop) {
 TEST(CushionedBits, of_avx2_and_avx512_have_the_same_bits) {
   if (!is_supported(InstructionSet::avx512)) GTEST_SKIP() << "this machine has no avx512";
   const sweep::Sweep sweep = sweep::sweep_over(steady_scenes(300));
-  sweep::expect_same(run(sweep, {.arch = InstructionSet::avx2}).dataset,
-                     run(sweep, {.arch = InstructionSet::avx512}).dataset);
+  results::expect_same(run(sweep, {.arch = InstructionSet::avx2}).dataset,
+                       run(sweep, {.arch = InstructionSet::avx512}).dataset);
 }
 
 INSTANTIATE_TEST_SUITE_P(Of, CushionedLanes,

@@ -39,10 +39,10 @@ std::vector<point::Problem> scenes_of_all_kinds(steady::Mode mode) {
 }
 
 /// Compares the bits of a point in all variables, its work included.
-void expect_same_point(const sweep::Dataset& a, std::size_t i, const sweep::Dataset& b, std::size_t j) {
+void expect_same_point(const results::Dataset& a, std::size_t i, const results::Dataset& b, std::size_t j) {
   const std::size_t points = statuses(a).size(), others = statuses(b).size();
-  for (const sweep::Variable& variable : b.variables) {
-    const sweep::Variable* const same = find(a, variable.name);
+  for (const results::Variable& variable : b.variables) {
+    const results::Variable* const same = find(a, variable.name);
     if (!same) continue;  // a coordinate
     std::visit(
         [&](const auto& right) {
@@ -61,7 +61,7 @@ class LaneBits : public testing::TestWithParam<InstructionSet> {
   void SetUp() override {
     if (!is_supported(GetParam())) GTEST_SKIP() << "this machine has no " << name_of(GetParam());
   }
-  [[nodiscard]] sweep::Dataset lanes(const sweep::Sweep& sweep, int threads = 1) const {
+  [[nodiscard]] results::Dataset lanes(const sweep::Sweep& sweep, int threads = 1) const {
     return run(sweep, {.threads = threads, .arch = GetParam()}).dataset;
   }
 };
@@ -69,7 +69,7 @@ class LaneBits : public testing::TestWithParam<InstructionSet> {
 TEST_P(LaneBits, are_the_same_for_every_number_of_threads) {
   for (const steady::Mode mode : {steady::Mode::steady, steady::Mode::transient}) {
     const sweep::Sweep sweep = sweep::sweep_over(scenes_of_all_kinds(mode));
-    const sweep::Dataset one = lanes(sweep);
+    const results::Dataset one = lanes(sweep);
     for (const int threads : {2, 4}) expect_same(one, lanes(sweep, threads));
   }
 }
@@ -77,13 +77,13 @@ TEST_P(LaneBits, are_the_same_for_every_number_of_threads) {
 TEST_P(LaneBits, are_the_same_beside_other_neighbours) {
   for (const steady::Mode mode : {steady::Mode::steady, steady::Mode::transient}) {
     const std::vector<point::Problem> scenes = scenes_of_all_kinds(mode);
-    const sweep::Dataset dataset = lanes(sweep::sweep_over(scenes));
+    const results::Dataset dataset = lanes(sweep::sweep_over(scenes));
     std::vector<std::size_t> order(scenes.size());
     std::iota(order.rbegin(), order.rend(), 0u);  // from the last to the first
     for (int round = 0; round < 2; ++round) {
       std::vector<point::Problem> others;
       for (const std::size_t i : order) others.push_back(scenes[i]);
-      const sweep::Dataset other = lanes(sweep::sweep_over(others));
+      const results::Dataset other = lanes(sweep::sweep_over(others));
       for (std::size_t j = 0; j < order.size(); ++j) expect_same_point(dataset, order[j], other, j);
       std::shuffle(order.begin(), order.end(), std::mt19937_64(7));
     }
@@ -93,12 +93,12 @@ TEST_P(LaneBits, are_the_same_beside_other_neighbours) {
 TEST_P(LaneBits, are_the_same_alone_and_in_parts_of_a_sweep) {
   for (const steady::Mode mode : {steady::Mode::steady, steady::Mode::transient}) {
     const std::vector<point::Problem> scenes = scenes_of_all_kinds(mode);
-    const sweep::Dataset dataset = lanes(sweep::sweep_over(scenes));
+    const results::Dataset dataset = lanes(sweep::sweep_over(scenes));
     for (std::size_t i = 0; i < scenes.size(); i += 3)
       expect_same_point(dataset, i, lanes(sweep::sweep_of(scenes[i], {})), 0);
     for (const std::size_t begin : {std::size_t{0}, std::size_t{17}, scenes.size() - 50}) {
       const auto first = scenes.begin() + static_cast<std::ptrdiff_t>(begin);
-      const sweep::Dataset part = lanes(sweep::sweep_over({first, first + 50}));
+      const results::Dataset part = lanes(sweep::sweep_over({first, first + 50}));
       for (std::size_t j = 0; j < 50; ++j) expect_same_point(dataset, begin + j, part, j);
     }
   }
@@ -112,8 +112,8 @@ TEST(LaneBits, are_the_same_by_avx2_and_avx512_which_both_fuse_products_and_sums
   if (!is_supported(InstructionSet::avx512)) GTEST_SKIP() << "this machine has no avx512";
   for (const steady::Mode mode : {steady::Mode::steady, steady::Mode::transient}) {
     const sweep::Sweep sweep = sweep::sweep_over(scenes_of_all_kinds(mode));
-    sweep::expect_same(run(sweep, {.arch = InstructionSet::avx2}).dataset,
-                       run(sweep, {.arch = InstructionSet::avx512}).dataset);
+    results::expect_same(run(sweep, {.arch = InstructionSet::avx2}).dataset,
+                         run(sweep, {.arch = InstructionSet::avx512}).dataset);
   }
 }
 

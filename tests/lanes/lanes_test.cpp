@@ -14,7 +14,7 @@ class InLanes : public testing::TestWithParam<InstructionSet> {
   void SetUp() override {
     if (!is_supported(GetParam())) GTEST_SKIP() << "this machine has no " << name_of(GetParam());
   }
-  [[nodiscard]] sweep::Dataset lanes(const sweep::Sweep& sweep, int threads = 1) const {
+  [[nodiscard]] results::Dataset lanes(const sweep::Sweep& sweep, int threads = 1) const {
     return run(sweep, {.threads = threads, .arch = GetParam()}).dataset;
   }
 };
@@ -43,7 +43,7 @@ TEST_P(InLanes, long_chaotic_transients_end_in_the_same_motion) {
   scene.time.max_periods = 20000;
   sweep::Axis x0{Parameter("x0"), {}};
   for (int i = 0; i < 48; ++i) x0.values.push_back(1e-11 * i);
-  const sweep::Dataset dataset = lanes(sweep::sweep_of(scene, {x0}));
+  const results::Dataset dataset = lanes(sweep::sweep_of(scene, {x0}));
   const std::vector<double> ratio = values(dataset, "period_ratio"), periods = values(dataset, "simulated_periods"),
                             v_max = values(dataset, "v_max"), v_min = values(dataset, "v_min");
   std::size_t late = 0;
@@ -120,7 +120,7 @@ TEST_P(InLanes, motion_clear_of_its_stops_for_good_is_taken_to_its_end_at_once) 
   const Totals totals = expect_alike(sweep, GetParam());
   EXPECT_EQ(totals.sensitive + totals.chaotic, 0u);
   const sweep::RunResult result = run(sweep, {.threads = 1, .arch = GetParam()});
-  const std::vector<double>& impacts = sweep::values(result.dataset, "impacts_per_period");
+  const std::vector<double>& impacts = results::values(result.dataset, "impacts_per_period");
   EXPECT_GT(std::ranges::count_if(impacts, [](double n) { return n > 0; }), 100);
   double periods = 0;
   for (const sweep::WorkStats& part : result.work) periods += part.periods;
@@ -149,7 +149,7 @@ TEST_P(InLanes, grazes_and_near_misses_are_those_of_the_scalar_loop) {
       scenes.push_back(transient(scene, 20.25));
     }
   const sweep::Sweep sweep = sweep::sweep_over(scenes);
-  const sweep::Dataset lanes = InLanes::lanes(sweep), scalar = run(sweep, {.arch = InstructionSet::scalar}).dataset;
+  const results::Dataset lanes = InLanes::lanes(sweep), scalar = run(sweep, {.arch = InstructionSet::scalar}).dataset;
   Totals totals;
   for (std::size_t i = 0; i < scenes.size(); ++i) {
     const sweep::RunPoint point{lanes, i};
@@ -162,7 +162,7 @@ TEST_P(InLanes, grazes_and_near_misses_are_those_of_the_scalar_loop) {
 }
 
 double impacts_of(const point::Problem& scene, InstructionSet arch) {
-  const sweep::Dataset dataset = sweep::run(sweep::sweep_of(scene, {}), {.threads = 1, .arch = arch}).dataset;
+  const results::Dataset dataset = sweep::run(sweep::sweep_of(scene, {}), {.threads = 1, .arch = arch}).dataset;
   return static_cast<double>(std::get<std::vector<std::int64_t>>(find(dataset, "impact_total")->values)[0]);
 }
 
@@ -172,7 +172,7 @@ TEST_P(InLanes, a_budget_of_impacts_ends_the_same_transients) {
     const double impacts = impacts_of(scene, InstructionSet::scalar);
     for (const double missing : {-1.0, 0.0, 1.0, 10.0}) {
       scene.time.max_impacts = impacts - missing;
-      const sweep::Dataset dataset = lanes(sweep::sweep_of(scene, {}));
+      const results::Dataset dataset = lanes(sweep::sweep_of(scene, {}));
       EXPECT_EQ(statuses(dataset)[0], missing > 0 ? 16 : 2) << xs << " " << nu << ": " << impacts << " - " << missing;
       EXPECT_EQ(std::isnan(values(dataset, "x_max")[0]), missing > 0);
     }
@@ -193,7 +193,7 @@ TEST_P(InLanes, a_budget_of_impacts_holds_for_settling_and_observing_together) {
       for (const double missing :
            {-1.0, 0.0, 20.0}) {  // the scalar loop may repeat an observation, and meet one impact less
         scene.time.max_impacts = impacts - missing;
-        EXPECT_EQ(sweep::statuses(sweep::run(sweep::sweep_of(scene, {}), {.threads = 1, .arch = arch}).dataset)[0],
+        EXPECT_EQ(results::statuses(sweep::run(sweep::sweep_of(scene, {}), {.threads = 1, .arch = arch}).dataset)[0],
                   missing > 0 ? 16 : 1)
             << name_of(arch) << ": " << impacts << " - " << missing;
       }
@@ -202,7 +202,7 @@ TEST_P(InLanes, a_budget_of_impacts_holds_for_settling_and_observing_together) {
 
 TEST_P(InLanes, nothing_lies_beyond_a_stop_and_nothing_is_missing) {
   const sweep::Sweep sweep = random_sweep(1000, observed);
-  const sweep::Dataset dataset = lanes(sweep);
+  const results::Dataset dataset = lanes(sweep);
   for (std::size_t i = 0; i < size(sweep); ++i) {
     const Stops stops = problem_at(sweep, i).stops;
     const sweep::RunPoint point{dataset, i};

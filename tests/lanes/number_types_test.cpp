@@ -15,7 +15,7 @@
 #include "motion/propagation.hpp"
 #include "observables/velocity_jumps.hpp"
 #include "scene/response.hpp"
-#include "scene/restitution.hpp"
+#include "scene/stops.hpp"
 #include "support/random.hpp"
 
 namespace clatter::lanes {

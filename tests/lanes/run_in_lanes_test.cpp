@@ -28,7 +28,7 @@ point::Problem observed_scene() {
 TEST(LanePoints, are_those_of_a_sweep_however_many_run) {
   const point::Problem scene = observed_scene();
   ASSERT_TRUE(accepts(item_of(scene)));
-  const sweep::Dataset dataset =
+  const results::Dataset dataset =
       sweep::run(sweep::sweep_of(scene, {}), {.threads = 1, .arch = InstructionSet::sse2}).dataset;
   for (const std::size_t times : {std::size_t{1}, lanes_per_block, 2 * lanes_per_block + 3}) {
     point::ThreadScratch scratch;

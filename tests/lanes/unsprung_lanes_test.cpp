@@ -84,9 +84,9 @@ TEST_P(UnsprungLanes, springs_of_every_kind_can_be_followed_through) {
     sweep::Sweep sweep = sweep::sweep_of(scene, {R, k});
     if (follow) sweep.follow = 1;
     const sweep::RunResult result = run(sweep, {.threads = 1, .arch = GetParam()});
-    sweep::expect_same(result.dataset, run(sweep, {.threads = 3, .arch = GetParam()}).dataset);
+    results::expect_same(result.dataset, run(sweep, {.threads = 3, .arch = GetParam()}).dataset);
     EXPECT_GT(result.lanes.refined, 1000);
-    const sweep::Dataset scalar = run(sweep, {.threads = 1, .arch = InstructionSet::scalar}).dataset;
+    const results::Dataset scalar = run(sweep, {.threads = 1, .arch = InstructionSet::scalar}).dataset;
     for (std::size_t i = 0; i < size(sweep); ++i)  // a repeat to 1e-12
       EXPECT_LE(sweep::compare({result.dataset, i}, {scalar, i}).by, 1e-11) << i << ' ' << follow;
   }

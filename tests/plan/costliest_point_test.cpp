@@ -109,7 +109,7 @@ TEST(BlockState, spend_no_more_than_their_budget_within_a_forcing_period) {
   scene.observe.extrema = true;
   for (const lanes::InstructionSet arch :
        {lanes::InstructionSet::scalar, lanes::InstructionSet::sse2, lanes::widest_instruction_set()}) {
-    const sweep::Dataset figure = sweep::run(sweep::sweep_of(scene, {}), {.threads = 1, .arch = arch}).dataset;
+    const results::Dataset figure = sweep::run(sweep::sweep_of(scene, {}), {.threads = 1, .arch = arch}).dataset;
     EXPECT_EQ(statuses(figure)[0], static_cast<std::uint8_t>(steady::Status::event_budget));
     EXPECT_EQ(std::get<std::vector<std::int64_t>>(find(figure, "impact_total")->values)[0], 200001);
   }

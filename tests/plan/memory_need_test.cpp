@@ -6,16 +6,15 @@
 #include <variant>
 #include <vector>
 
-#include "plan/impact_estimate.hpp"
 #include "sweep/run.hpp"
 
 namespace clatter::plan {
 namespace {
 
 /// Bytes of all values of a dataset.
-double bytes_of(const sweep::Dataset& dataset) {
+double bytes_of(const results::Dataset& dataset) {
   double bytes = 0;
-  for (const sweep::Variable& variable : dataset.variables)
+  for (const results::Variable& variable : dataset.variables)
     bytes += std::visit(
         [](const auto& values) {
           return values.empty() ? 0.0 : static_cast<double>(values.size()) * static_cast<double>(sizeof(values[0]));
@@ -24,8 +23,8 @@ double bytes_of(const sweep::Dataset& dataset) {
   return bytes;
 }
 
-std::size_t logged(const sweep::Dataset& dataset) {
-  const auto tau = std::ranges::find(dataset.variables, "impact_tau", &sweep::Variable::name);
+std::size_t logged(const results::Dataset& dataset) {
+  const auto tau = std::ranges::find(dataset.variables, "impact_tau", &results::Variable::name);
   return std::get<std::vector<double>>(tau->values).size();
 }
 
@@ -63,7 +62,7 @@ TEST(Memory, of_an_impact_log_is_that_of_the_figure_if_the_impacts_are_known) {
   sweep.problem.observe = {};
   sweep.problem.observe.extrema = true;
   sweep.problem.observe.impact_log = true;
-  const sweep::Dataset dataset = run(sweep, {}).dataset;
+  const results::Dataset dataset = run(sweep, {}).dataset;
   EXPECT_EQ(memory_need(sweep, std::nullopt, 1, static_cast<double>(logged(dataset))).output, bytes_of(dataset));
 }
 
@@ -112,7 +111,7 @@ TEST(Memory, of_a_log_is_estimated_from_a_few_points) {
     sweep.problem.time.duration = duration;
     const auto impacts = static_cast<double>(logged(run(sweep, {}).dataset));
     EXPECT_NEAR(expected_impacts(sweep, std::nullopt), impacts, 0.02 * impacts) << duration;
-    EXPECT_NEAR(expected_impacts(sweep, sweep::Shard{1, 4}), impacts / 4, 0.02 * impacts) << duration;
+    EXPECT_NEAR(expected_impacts(sweep, results::Shard{1, 4}), impacts / 4, 0.02 * impacts) << duration;
   }
 }
 

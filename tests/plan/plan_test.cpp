@@ -168,7 +168,7 @@ TEST(Plan, of_a_large_sweep_is_that_of_all_points_within_the_error_of_a_sample) 
   EXPECT_EQ(sampled.points, 2'500'000u);
   std::vector<Group> exact;
   for (std::size_t number = 0; number < 4; ++number) {  // the shards are small enough to be examined as a whole
-    const Plan part = plan_of(sweep, 2, sweep::Shard{number, 4});
+    const Plan part = plan_of(sweep, 2, results::Shard{number, 4});
     EXPECT_EQ(part.sampled_points, std::nullopt);
     EXPECT_EQ(part.points, 625'000u);
     for (const Group& group : part.groups) {
@@ -227,7 +227,7 @@ TEST(Plan, of_a_sample_says_so_of_a_stop_that_it_never_meets) {
 
 TEST(Plan, of_a_shard_is_that_of_its_points) {
   const sweep::Sweep sweep = sweep::sweep_of(figure(3), {{Parameter("nu"), frequencies()}});
-  const sweep::Shard shard{1, 3};
+  const results::Shard shard{1, 3};
   const Plan plan = plan_of(sweep, 1, shard);
   EXPECT_EQ(plan.points, sweep::Share(sweep, shard).points());
   EXPECT_EQ(plan.chains, plan.points);
@@ -239,7 +239,7 @@ TEST(Plan, of_a_shard_is_that_of_its_points) {
     EXPECT_EQ(group.example % 3, 1u);
   }
   EXPECT_EQ(points, plan.points);
-  const Plan empty = plan_of(sweep, 1, sweep::Shard{102, 103});
+  const Plan empty = plan_of(sweep, 1, results::Shard{102, 103});
   EXPECT_EQ(empty.points, 0u);
   EXPECT_TRUE(empty.groups.empty());
 }

@@ -5,7 +5,7 @@
 namespace clatter::plan {
 
 /// The plan of a sweep, or of a shard, with the memory that its run alone takes.
-inline Plan plan_of(const sweep::Sweep& sweep, int threads, const std::optional<sweep::Shard>& shard = {}) {
+inline Plan plan_of(const sweep::Sweep& sweep, int threads, const std::optional<results::Shard>& shard = {}) {
   return plan_of(sweep, {.threads = threads}, memory_need(sweep, shard, threads), shard);
 }
 

@@ -12,7 +12,6 @@
 #include <stdexcept>
 #include <utility>
 
-#include "results/shard_file.hpp"
 #include "storage/error.hpp"
 #include "support/lookup3.hpp"
 #include "support/temporary_directory.hpp"
@@ -39,13 +38,13 @@ class DatasetFile : public testing::Test {
   support::TemporaryDirectory directory_;
 };
 
-config::Config configuration(int compression = 4) {
-  config::Config config;
-  config.title = "Größter Ausschlag";
-  config.source = "doi:10.5755/j02.mech.32277";
-  config.text = "[scene]\nxs = -4.0\n[sweep]\nnu = [1, 2, 3, 4, 5]\n";
-  config.compression = compression;
-  return config;
+FileHead head(int compression = 4) {
+  FileHead given;
+  given.title = "Größter Ausschlag";
+  given.source = "doi:10.5755/j02.mech.32277";
+  given.text = "[scene]\nxs = -4.0\n[sweep]\nnu = [1, 2, 3, 4, 5]\n";
+  given.compression = compression;
+  return given;
 }
 
 std::vector<double> ramp(std::size_t size) {
@@ -58,8 +57,8 @@ const std::vector<std::uint8_t> flags{0, 1, 2, 16, 17, 18};
 const std::string meanings = "periodic aperiodic transient event_budget not_finite unresolved";
 
 /// A copy of the image, to be changed and compared; file_image takes the dataset, tests keep theirs.
-std::vector<std::byte> bytes_of(sweep::Dataset dataset, const config::Config& config) {
-  const FileImage image = file_image(std::move(dataset), config);
+std::vector<std::byte> bytes_of(Dataset dataset, const FileHead& given) {
+  const FileImage image = file_image(std::move(dataset), given);
   return {image.bytes.begin(), image.bytes.end()};
 }
 
@@ -71,7 +70,7 @@ std::size_t number_at(const std::vector<std::byte>& bytes, std::size_t place, st
 }
 
 /// A sweep over nu with trajectories: a coordinate, a scale without one, an integer, a float, and flags.
-sweep::Dataset sweep(std::size_t points, std::size_t samples) {
+Dataset sweep(std::size_t points, std::size_t samples) {
   std::vector<std::uint8_t> status(points, 0);
   status.front() = 16;
   return {{{"nu", points}, {"sample", samples}},
@@ -82,7 +81,7 @@ sweep::Dataset sweep(std::size_t points, std::size_t samples) {
 }
 
 TEST_F(DatasetFile, summary_names_all_that_was_written) {
-  const FileSummary summary = read_summary(write("sweep.h5", bytes_of(sweep(5, 7), configuration())));
+  const FileSummary summary = read_summary(write("sweep.h5", bytes_of(sweep(5, 7), head())));
   ASSERT_EQ(summary.variables.size(), 4U);  // `sample` is a dimension, no variable
   EXPECT_EQ(summary.variables[0].name, "nu");
   EXPECT_EQ(summary.variables[1].type, "uint8");
@@ -96,7 +95,7 @@ TEST_F(DatasetFile, summary_names_all_that_was_written) {
 }
 
 TEST_F(DatasetFile, root_attributes_come_in_the_order_of_the_contract) {
-  const FileSummary summary = read_summary(write("sweep.h5", bytes_of(sweep(5, 7), configuration())));
+  const FileSummary summary = read_summary(write("sweep.h5", bytes_of(sweep(5, 7), head())));
   std::string names;
   for (const auto& [name, text] : summary.attributes) names += name + " ";
   EXPECT_EQ(names, "Conventions title source clatter_schema clatter_version git_commit config config_sha256 compiler ");
@@ -108,20 +107,20 @@ TEST_F(DatasetFile, root_attributes_come_in_the_order_of_the_contract) {
 }
 
 TEST_F(DatasetFile, points_are_counted_by_status) {
-  const FileSummary summary = read_summary(write("sweep.h5", bytes_of(sweep(5, 7), configuration())));
+  const FileSummary summary = read_summary(write("sweep.h5", bytes_of(sweep(5, 7), head())));
   ASSERT_EQ(summary.status_counts.size(), flags.size());
   EXPECT_EQ(summary.status_counts[0], (std::pair<std::string, std::size_t>{"periodic", 4}));
   EXPECT_EQ(summary.status_counts[3], (std::pair<std::string, std::size_t>{"event_budget", 1}));
 }
 
 TEST_F(DatasetFile, the_same_figure_gives_the_same_bytes) {
-  const sweep::Dataset dataset = sweep(501, 64);
-  EXPECT_EQ(bytes_of(dataset, configuration()), bytes_of(dataset, configuration()));
+  const Dataset dataset = sweep(501, 64);
+  EXPECT_EQ(bytes_of(dataset, head()), bytes_of(dataset, head()));
 }
 
 TEST_F(DatasetFile, the_file_is_closed_and_ends_where_it_says) {
   for (const int compression : {0, 4}) {
-    const std::vector<std::byte> image = bytes_of(sweep(501, 1000), configuration(compression));
+    const std::vector<std::byte> image = bytes_of(sweep(501, 1000), head(compression));
     ASSERT_EQ(number_at(image, 8, 1), 0U);             // the version of the superblock that the next lines assume
     EXPECT_EQ(number_at(image, 20, 4), 0U);            // not open for writing
     EXPECT_EQ(number_at(image, 40, 8), image.size());  // end of file
@@ -129,41 +128,39 @@ TEST_F(DatasetFile, the_file_is_closed_and_ends_where_it_says) {
 }
 
 TEST_F(DatasetFile, an_image_outlives_its_figure_and_other_images) {
-  std::optional<FileImage> first = file_image(sweep(501, 64), configuration());
-  const FileImage second = file_image(sweep(501, 65), configuration());
+  std::optional<FileImage> first = file_image(sweep(501, 64), head());
+  const FileImage second = file_image(sweep(501, 65), head());
   const std::vector<std::byte> copy{first->bytes.begin(), first->bytes.end()};
-  EXPECT_EQ(copy, bytes_of(sweep(501, 64), configuration()));
+  EXPECT_EQ(copy, bytes_of(sweep(501, 64), head()));
   first.reset();
-  EXPECT_EQ((std::vector<std::byte>{second.bytes.begin(), second.bytes.end()}),
-            bytes_of(sweep(501, 65), configuration()));
+  EXPECT_EQ((std::vector<std::byte>{second.bytes.begin(), second.bytes.end()}), bytes_of(sweep(501, 65), head()));
 }
 
 TEST_F(DatasetFile, a_sweep_without_axes_has_scalars) {
-  const sweep::Dataset dataset{{}, {{"x_min", {}, std::vector<double>{-0.5}, "least displacement", "1"}}};
-  const FileSummary summary = read_summary(write("scalar.h5", bytes_of(dataset, configuration())));
+  const Dataset dataset{{}, {{"x_min", {}, std::vector<double>{-0.5}, "least displacement", "1"}}};
+  const FileSummary summary = read_summary(write("scalar.h5", bytes_of(dataset, head())));
   ASSERT_EQ(summary.variables.size(), 1U);
   EXPECT_TRUE(summary.variables[0].dimensions.empty());
   EXPECT_TRUE(summary.status_counts.empty());
 }
 
 TEST_F(DatasetFile, an_impact_log_may_be_empty) {
-  const sweep::Dataset dataset{{{"impact", 0}},
-                               {{"impact_tau", {"impact"}, std::vector<double>{}, "time of impact", "1"}}};
-  const FileSummary summary = read_summary(write("log.h5", bytes_of(dataset, configuration())));
+  const Dataset dataset{{{"impact", 0}}, {{"impact_tau", {"impact"}, std::vector<double>{}, "time of impact", "1"}}};
+  const FileSummary summary = read_summary(write("log.h5", bytes_of(dataset, head())));
   ASSERT_EQ(summary.variables.size(), 1U);
   EXPECT_EQ(summary.variables[0].dimensions.front().name, "impact");
   EXPECT_EQ(summary.variables[0].dimensions.front().length, 0U);
 }
 
 TEST_F(DatasetFile, a_configuration_may_be_long) {
-  config::Config config = configuration();
-  config.text = std::string(300'000, '#');  // an object header holds at most 64 KiB
-  const FileSummary summary = read_summary(write("long.h5", bytes_of(sweep(5, 7), config)));
-  EXPECT_TRUE(summary.attributes[6].second == config.text);  // not EXPECT_EQ, which would print both
+  FileHead given = head();
+  given.text = std::string(300'000, '#');  // an object header holds at most 64 KiB
+  const FileSummary summary = read_summary(write("long.h5", bytes_of(sweep(5, 7), given)));
+  EXPECT_TRUE(summary.attributes[6].second == given.text);  // not EXPECT_EQ, which would print both
 }
 
 /// Words over nu and R: empty ones, letters beyond ASCII, and one of this many bytes.
-sweep::Dataset words(std::size_t longest) {
+Dataset words(std::size_t longest) {
   return {{{"nu", 2}, {"R", 2}},
           {{"impact_word",
             {"nu", "R"},
@@ -175,39 +172,39 @@ sweep::Dataset words(std::size_t longest) {
 constexpr std::size_t longest = 255;  // bytes of a text
 
 TEST_F(DatasetFile, texts_come_back_as_they_were) {
-  const sweep::Dataset dataset = words(longest);
-  const std::string path = write("words.h5", bytes_of(dataset, configuration()));
-  EXPECT_EQ(read_shard(path).variables[0].values, dataset.variables[0].values);
+  const Dataset dataset = words(longest);
+  const std::string path = write("words.h5", bytes_of(dataset, head()));
+  EXPECT_EQ(read_variables(path, {"impact_word"}).variables[0].values, dataset.variables[0].values);
   EXPECT_EQ(read_summary(path).variables[0].type, "string");
-  EXPECT_EQ(bytes_of(dataset, configuration()), bytes_of(dataset, configuration()));
+  EXPECT_EQ(bytes_of(dataset, head()), bytes_of(dataset, head()));
 }
 
 TEST_F(DatasetFile, texts_that_are_longer_than_any_of_clatter_are_refused) {
-  const std::string path = write("long.h5", bytes_of(words(longest + 1), configuration()));
-  EXPECT_THROW(static_cast<void>(read_shard(path)), storage::IoError);
+  const std::string path = write("long.h5", bytes_of(words(longest + 1), head()));
+  EXPECT_THROW(static_cast<void>(read_variables(path, {"impact_word"})), storage::IoError);
 }
 
 TEST_F(DatasetFile, large_arrays_are_deflated_and_small_ones_are_not) {
-  const std::size_t plain = bytes_of(sweep(501, 1000), configuration(0)).size();
+  const std::size_t plain = bytes_of(sweep(501, 1000), head(0)).size();
   EXPECT_GT(plain, 501U * 1000U * sizeof(double));
-  EXPECT_LT(bytes_of(sweep(501, 1000), configuration(4)).size(), plain);
-  EXPECT_EQ(bytes_of(sweep(501, 2), configuration(4)), bytes_of(sweep(501, 2), configuration(0)));
+  EXPECT_LT(bytes_of(sweep(501, 1000), head(4)).size(), plain);
+  EXPECT_EQ(bytes_of(sweep(501, 2), head(4)), bytes_of(sweep(501, 2), head(0)));
 }
 
 TEST_F(DatasetFile, values_lie_in_the_file_as_little_endian_doubles) {
-  const sweep::Dataset dataset = sweep(501, 2);  // too small to be deflated; copies_test.py reads deflated ones
-  const std::vector<std::byte> image = bytes_of(dataset, configuration());
+  const Dataset dataset = sweep(501, 2);  // too small to be deflated; copies_test.py reads deflated ones
+  const std::vector<std::byte> image = bytes_of(dataset, head());
   const auto bytes = std::as_bytes(std::span{std::get<std::vector<double>>(dataset.variables.back().values)});
   EXPECT_NE(std::search(image.begin(), image.end(), bytes.begin(), bytes.end()), image.end());
 }
 
 TEST_F(DatasetFile, a_figure_that_contradicts_itself_is_a_bug) {
-  sweep::Dataset dataset = sweep(5, 7);
+  Dataset dataset = sweep(5, 7);
   dataset.variables[3].values = ramp(34);  // one short
-  EXPECT_THROW(static_cast<void>(bytes_of(dataset, configuration())), std::logic_error);
+  EXPECT_THROW(static_cast<void>(bytes_of(dataset, head())), std::logic_error);
   dataset = sweep(5, 7);
   dataset.variables[3].dimensions = {"nu", "impact"};
-  EXPECT_THROW(static_cast<void>(bytes_of(dataset, configuration())), std::logic_error);
+  EXPECT_THROW(static_cast<void>(bytes_of(dataset, head())), std::logic_error);
 }
 
 TEST_F(DatasetFile, foreign_files_are_refused_in_words) {
@@ -217,7 +214,7 @@ TEST_F(DatasetFile, foreign_files_are_refused_in_words) {
   const std::string text = write("text.h5", std::vector<std::byte>(4096, std::byte{'a'}));
   EXPECT_EQ(refusal(text), "'" + text + "': is not an HDF5 file; name an output of clatter");
   EXPECT_NE(refusal(write("empty.h5", {})).find("is not an HDF5 file"), std::string::npos);
-  std::vector<std::byte> foreign = bytes_of(sweep(5, 7), configuration());
+  std::vector<std::byte> foreign = bytes_of(sweep(5, 7), head());
   const auto schema = std::as_bytes(std::span{std::string_view{"clatter/1"}});
   const auto found = std::search(foreign.begin(), foreign.end(), schema.begin(), schema.end());
   ASSERT_NE(found, foreign.end());
@@ -226,7 +223,7 @@ TEST_F(DatasetFile, foreign_files_are_refused_in_words) {
 }
 
 TEST_F(DatasetFile, a_truncated_file_is_refused_at_every_length) {
-  const std::vector<std::byte> whole = bytes_of(sweep(5, 7), configuration());
+  const std::vector<std::byte> whole = bytes_of(sweep(5, 7), head());
   for (std::size_t size = 0; size < whole.size(); size += 97) {
     const std::string file = write("cut.h5", {whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(size)});
     EXPECT_NE(refusal(file), "") << size << " of " << whole.size() << " bytes";
@@ -234,7 +231,7 @@ TEST_F(DatasetFile, a_truncated_file_is_refused_at_every_length) {
 }
 
 TEST_F(DatasetFile, a_damaged_file_is_read_or_refused_but_ends_no_process_and_holds_none_up) {
-  const std::vector<std::byte> whole = bytes_of(sweep(5, 7), configuration());
+  const std::vector<std::byte> whole = bytes_of(sweep(5, 7), head());
   for (std::size_t place = 0; place + 64 < whole.size(); place += 64) {
     std::vector<std::byte> damaged = whole;
     std::fill_n(damaged.begin() + static_cast<std::ptrdiff_t>(place), 64, std::byte{0});
@@ -244,7 +241,7 @@ TEST_F(DatasetFile, a_damaged_file_is_read_or_refused_but_ends_no_process_and_ho
 
 // HDF5 1.10 divides by the length of a record, here 0; the checksum is right, as in a file damaged on purpose.
 TEST_F(DatasetFile, a_file_that_makes_the_library_crash_is_refused) {
-  std::vector<std::byte> damaged = bytes_of(sweep(5, 7), configuration());
+  std::vector<std::byte> damaged = bytes_of(sweep(5, 7), head());
   const auto signature = std::as_bytes(std::span{std::string_view{"BTHD"}});
   const auto found = std::search(damaged.begin(), damaged.end(), signature.begin(), signature.end());
   ASSERT_NE(found, damaged.end());

@@ -29,12 +29,12 @@ class OutputPlaceTest : public testing::Test {
 
 /// The bytes of an output: of a run, of a shard, or, with its variable of times, of an accuracy run.
 std::string output(const Origin& origin) {
-  config::Config config;
-  config.title = origin.title;
-  sweep::Dataset dataset{
+  FileHead head;
+  head.title = origin.title;
+  results::Dataset dataset{
       {}, {{origin.command == "accuracy" ? "ns_per_period" : "x_min", {}, std::vector<double>{1.0}, "", "1"}}};
   if (!origin.shard.empty()) dataset.attributes = {{"shard", origin.shard}};
-  const FileImage image = file_image(std::move(dataset), config);
+  const FileImage image = file_image(std::move(dataset), head);
   return {reinterpret_cast<const char*>(image.bytes.data()), image.bytes.size()};
 }
 

@@ -28,13 +28,14 @@ point::Problem mirrored(point::Problem scene) {
 /// The motion from just after the impact is the same, and its own extrema are what is observed.
 void expect_start_after_impact(const point::Problem& into, const point::Problem& after, const RunOptions& options,
                                double tolerance) {
-  const Dataset figure = run(sweep_of(into, {}), options).dataset, same = run(sweep_of(after, {}), options).dataset;
+  const results::Dataset figure = run(sweep_of(into, {}), options).dataset,
+                         same = run(sweep_of(after, {}), options).dataset;
   for (const char* const name : {"x_min", "x_max", "v_min", "v_max", "impacts_per_period"})
     for (std::size_t i = 0; i < values(figure, name).size(); ++i)
       EXPECT_NEAR(values(figure, name)[i], values(same, name)[i], tolerance) << name;
   EXPECT_LT(values(figure, "v_max")[0], 1.5);
   EXPECT_GT(values(figure, "v_min")[0], -1.5);
-  const auto total = [](const Dataset& of) {
+  const auto total = [](const results::Dataset& of) {
     return std::get<std::vector<std::int64_t>>(find(of, "impact_total")->values)[0];
   };
   EXPECT_EQ(total(figure), total(same) + 1);  // it is simulated all the same
@@ -92,7 +93,7 @@ TEST(Chatter, is_told_impact_by_impact_however_low_its_first_rebound_is) {
   scene.start = {1.0, -1e-9, 0.0};
   scene.time.mode = steady::Mode::transient, scene.time.duration = 1;
   scene.observe.extrema = scene.observe.impacts = true;
-  const Dataset figure = run(sweep_of(scene, {}), {.threads = 1}).dataset;
+  const results::Dataset figure = run(sweep_of(scene, {}), {.threads = 1}).dataset;
   EXPECT_EQ(values(figure, "impacts_per_period")[1], 20);  // 4^-20 < 1e-12
   EXPECT_NEAR(values(figure, "v_before")[1], 1e-9, 1e-15);
   EXPECT_NEAR(values(figure, "v_after")[1], -0.5e-9, 1e-15);

@@ -125,9 +125,9 @@ TEST(AbsoluteFrame, has_sections_at_the_phase_of_the_shaking) {
   for (const double phase : {0.2, 1.0}) {  // that of the start is observed in lanes, the other one isn't
     scene.observe.section = 3, scene.observe.section_phase = phase;
     const Sweep sweep{.problem = scene};
-    const Dataset relative = run(sweep, {.threads = 1}).dataset;
+    const results::Dataset relative = run(sweep, {.threads = 1}).dataset;
     scene.observe.frame = Frame::absolute;
-    const Dataset absolute = run(Sweep{.problem = scene}, {.threads = 1}).dataset;
+    const results::Dataset absolute = run(Sweep{.problem = scene}, {.threads = 1}).dataset;
     EXPECT_EQ(values(absolute, "section_x")[0], values(relative, "section_x")[0] + 0.3 * std::sin(phase));
     EXPECT_EQ(values(absolute, "section_v")[0], values(relative, "section_v")[0] + 0.3 * 1.3 * std::cos(phase));
     scene.observe.frame = Frame::relative;
@@ -203,9 +203,9 @@ TEST(AbsoluteFrame, changes_nothing_but_displacements_and_velocities_of_the_mass
         point::Problem scene = observing_much(shaken({.damping = 0.1, .forcing = 0.4}, {}, {-0.5, 0.5, 0.7, 0.7}));
         Sweep sweep = over_amplitudes(scene, amplitude);
         if (follows) sweep.follow = 1;
-        const Dataset relative = run(sweep, {.threads = 1, .arch = arch}).dataset;
+        const results::Dataset relative = run(sweep, {.threads = 1, .arch = arch}).dataset;
         sweep.problem.observe.frame = Frame::absolute;
-        const Dataset absolute = run(sweep, {.threads = 1, .arch = arch}).dataset;
+        const results::Dataset absolute = run(sweep, {.threads = 1, .arch = arch}).dataset;
         for (const std::string name :
              {"v_before", "v_after", "impact_speed", "impacts_per_period", "rest_fraction", "period", "work_in",
               "energy_residual", "impulse", "multiplier_re", "lyapunov", "impact_v_before", "symmetric"}) {
@@ -230,7 +230,7 @@ TEST(AbsoluteFrame, is_observed_by_lanes_and_the_scalar_loop_alike) {
   scene.observe.extrema = true;
   scene.observe.harmonics = 3, scene.observe.harmonics_method = observables::HarmonicsMethod::exact;
   const Sweep sweep = over_amplitudes(scene, Parameter("stop_amplitude"));
-  const Dataset a = run(sweep, {.threads = 1}).dataset, b = run(sweep, {.threads = 1, .arch = scalar}).dataset;
+  const results::Dataset a = run(sweep, {.threads = 1}).dataset, b = run(sweep, {.threads = 1, .arch = scalar}).dataset;
   for (std::size_t i = 0; i < 16; ++i) {
     if (statuses(b)[i] != 0) continue;
     EXPECT_NEAR(values(a, "x_max")[i], values(b, "x_max")[i], 1e-11) << i;
@@ -247,7 +247,7 @@ TEST(AbsoluteFrame, of_a_mirror_image_is_mirrored) {
   const Sweep sweep = sweep_of(
       scene, {{Parameter("x0"), {-0.3, -0.1, 0.1, 0.3}}, {Parameter("phase"), {0.3, 1.1, 0.3 + half, 1.1 + half}}});
   ASSERT_TRUE(MirrorImages(sweep).exist());
-  const Dataset all = run(sweep, {.threads = 1, .arch = scalar}).dataset;
+  const results::Dataset all = run(sweep, {.threads = 1, .arch = scalar}).dataset;
   point::ThreadScratch scratch;
   for (std::size_t i = 0; i < size(sweep); ++i) {
     const point::PointResult alone = run_point(problem_at(sweep, i), scratch);
@@ -262,9 +262,9 @@ TEST(AbsoluteFrame, shows_the_states_of_attractors_at_phase_0) {
   scene.observe.attractor = true;
   scene.oscillator.stiffness = 2;  // computed in other units of velocity
   Sweep sweep = sweep_of(scene, {{Parameter("v0"), {-1, -0.5, 0.5, 1}}});
-  const Dataset relative = run(sweep, {.threads = 1}).dataset;
+  const results::Dataset relative = run(sweep, {.threads = 1}).dataset;
   sweep.problem.observe.frame = Frame::absolute;
-  const Dataset absolute = run(sweep, {.threads = 1}).dataset;
+  const results::Dataset absolute = run(sweep, {.threads = 1}).dataset;
   EXPECT_EQ(find(relative, "attractor")->values, find(absolute, "attractor")->values);
   EXPECT_EQ(values(relative, "motion_x"), values(absolute, "motion_x"));
   const std::vector<double>&a = values(relative, "motion_v"), &b = values(absolute, "motion_v");
@@ -273,9 +273,9 @@ TEST(AbsoluteFrame, shows_the_states_of_attractors_at_phase_0) {
 }
 
 /// The attribute `frame` of a variable, empty if it has none.
-std::string frame_of(const Dataset& dataset, const std::string& name) {
-  const std::vector<Attribute>& attributes = find(dataset, name)->attributes;
-  const auto found = std::ranges::find(attributes, "frame", &Attribute::first);
+std::string frame_of(const results::Dataset& dataset, const std::string& name) {
+  const std::vector<results::Attribute>& attributes = find(dataset, name)->attributes;
+  const auto found = std::ranges::find(attributes, "frame", &results::Attribute::first);
   return found == attributes.end() ? "" : std::get<std::string>(found->second);
 }
 
@@ -286,7 +286,7 @@ TEST(AbsoluteFrame, is_named_by_the_variables_that_it_decides) {
   for (const Frame frame : {Frame::relative, Frame::absolute}) {
     scene.observe.frame = frame;
     Sweep sweep = sweep_of(scene, {{Parameter("stop_amplitude"), {0.0, 0.1}}, {Parameter("x0"), {0.0, 0.1}}});
-    const Dataset dataset = run(sweep, {.threads = 1}).dataset;
+    const results::Dataset dataset = run(sweep, {.threads = 1}).dataset;
     const std::string asked = frame == Frame::absolute ? "absolute" : "relative";
     for (const char* name : {"x_min", "x_max", "v_min", "v_max", "x_amplitude", "x_phase", "v_amplitude", "v_phase",
                              "x", "v", "section_x", "section_v", "motion_x", "motion_v"})
@@ -298,8 +298,8 @@ TEST(AbsoluteFrame, is_named_by_the_variables_that_it_decides) {
                              "impacts_per_period", "base_frequency", "multiplier_re", "settling_periods", "attractor"})
       EXPECT_EQ(frame_of(dataset, name), "") << name;
     sweep = sweep_of(scene, {{Parameter("x0"), {0.0, 0.1}}});
-    const Dataset unshaken = run(sweep, {.threads = 1}).dataset;
-    for (const Variable& variable : unshaken.variables)
+    const results::Dataset unshaken = run(sweep, {.threads = 1}).dataset;
+    for (const results::Variable& variable : unshaken.variables)
       EXPECT_EQ(frame_of(unshaken, variable.name), "") << variable.name;
   }
 }

@@ -14,13 +14,13 @@
 namespace clatter::sweep {
 namespace {
 
-const Variable& variable(const Dataset& dataset, const std::string& name) {
-  for (const Variable& one : dataset.variables)
+const results::Variable& variable(const results::Dataset& dataset, const std::string& name) {
+  for (const results::Variable& one : dataset.variables)
     if (one.name == name) return one;
   throw std::runtime_error("no " + name);
 }
 
-const std::vector<double>& values(const Dataset& dataset, const std::string& name) {
+const std::vector<double>& values(const results::Dataset& dataset, const std::string& name) {
   return std::get<std::vector<double>>(variable(dataset, name).values);
 }
 
@@ -88,7 +88,8 @@ GivenProblem scaled(const Drawn& it) {
 
 /// Expects each result of the machine to be that of the scene times its unit, to a share of the largest value and what
 /// a start moved by ten thousand roundings changes.
-void expect_same(const Drawn& it, const Dataset& machine, const Dataset& scene, const Dataset& moved) {
+void expect_same(const Drawn& it, const results::Dataset& machine, const results::Dataset& scene,
+                 const results::Dataset& moved) {
   const double speed = it.length / it.time, mass = it.problem.mass, energy = mass * speed * speed;
   const std::vector<std::pair<std::string, double>> units{
       {"x_min", it.length},       {"x_max", it.length},      {"v_min", speed},
@@ -116,10 +117,11 @@ TEST(Machine, is_the_scene_that_is_scaled_by_hand) {
   std::size_t impacts = 0;
   for (std::uint64_t i = 0; i < 400; ++i) {
     const Drawn it = drawn(i);
-    const Dataset machine = run({.problem = it.problem}, {}).dataset, scene = run({.problem = scaled(it)}, {}).dataset;
+    const results::Dataset machine = run({.problem = it.problem}, {}).dataset,
+                           scene = run({.problem = scaled(it)}, {}).dataset;
     Drawn other = it;
     other.problem.start.displacement += 1e-12 * it.problem.stops.upper;
-    const Dataset moved = run({.problem = scaled(other)}, {}).dataset;
+    const results::Dataset moved = run({.problem = scaled(other)}, {}).dataset;
     ASSERT_EQ(std::get<std::vector<std::uint8_t>>(variable(machine, "status").values),
               std::get<std::vector<std::uint8_t>>(variable(scene, "status").values))
         << i;
@@ -139,7 +141,7 @@ TEST(Machine, follows_an_axis_of_its_mass_with_the_velocity_kept) {
   sweep.problem.start = {0, 0.5, 0}, sweep.problem.stops = {-10, 10, 1, 1};
   sweep.problem.time.duration = 0.3;
   sweep.dimensions = {{{Parameter("mass"), {1, 2, 5}}}};
-  const Dataset dataset = run(sweep, {}).dataset;
+  const results::Dataset dataset = run(sweep, {}).dataset;
   const std::vector<double>&x = values(dataset, "x"), &v = values(dataset, "v");
   const std::size_t samples = x.size() / 3;
   for (const std::size_t point : {1U, 2U}) {
@@ -151,7 +153,7 @@ TEST(Machine, follows_an_axis_of_its_mass_with_the_velocity_kept) {
 TEST(Machine, names_the_unit_of_every_result) {
   Drawn it = drawn(3);
   it.problem.observe.period = it.problem.observe.stability = it.problem.observe.impacts = true;
-  const Dataset dataset =
+  const results::Dataset dataset =
       run({.problem = it.problem, .dimensions = {{{Parameter("frequency"), {20, 30}}}, {{Parameter("mass"), {1, 2}}}}},
           {})
           .dataset;

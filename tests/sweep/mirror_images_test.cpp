@@ -92,7 +92,7 @@ TEST(MirrorImages, need_symmetric_scenes_and_starts) {
 /// bits.
 TEST(MirrorImages, of_restored_points_are_run) {
   const Sweep sweep = starts();
-  const Dataset whole = run(sweep, {.threads = 1}).dataset;
+  const results::Dataset whole = run(sweep, {.threads = 1}).dataset;
   SweepRun first(sweep);
   first.run({.threads = 1});
   std::vector<std::byte> pieces;

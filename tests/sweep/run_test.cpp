@@ -29,7 +29,7 @@ TEST(Run, gives_the_same_bits_for_every_number_of_threads) {
   Axis nu{Parameter("nu"), {}};
   for (int i = 0; i < 40; ++i) nu.values.push_back(0.8 + 0.01 * i);
   const Sweep sweep = sweep_of(scene, {nu, {Parameter("R"), {0.5, 0.7}}});
-  const Dataset one = run(sweep, {.threads = 1}).dataset;
+  const results::Dataset one = run(sweep, {.threads = 1}).dataset;
   for (int threads : {2, 3, 8}) expect_same(one, run(sweep, {.threads = threads}).dataset);
   const auto status = statuses(one);
   EXPECT_GT(std::count(status.begin(), status.end(), 0), 0);
@@ -37,9 +37,9 @@ TEST(Run, gives_the_same_bits_for_every_number_of_threads) {
 }
 
 TEST(Run, stores_nothing_that_is_not_observed) {
-  const Dataset figure = run(sweep_of(paper_scene(0.5, 1.0), {}), {.threads = 1}).dataset;
+  const results::Dataset figure = run(sweep_of(paper_scene(0.5, 1.0), {}), {.threads = 1}).dataset;
   std::vector<std::string> names;
-  for (const Variable& variable : figure.variables) names.push_back(variable.name);
+  for (const results::Variable& variable : figure.variables) names.push_back(variable.name);
   EXPECT_EQ(names, (std::vector<std::string>{"status", "impact_total", "simulated_periods", "settling_estimate"}));
 }
 
@@ -47,7 +47,7 @@ TEST(Run, points_stand_at_their_index_in_every_order_of_axes) {
   point::Problem scene = paper_scene(6.0, 1.0);
   scene.observe.extrema = true;
   const Axis nu{Parameter("nu"), {0.6, 0.9, 1.4}}, f{Parameter("f"), {1.0, 2.0}};
-  const Dataset a = run(sweep_of(scene, {nu, f}), {}).dataset, b = run(sweep_of(scene, {f, nu}), {}).dataset;
+  const results::Dataset a = run(sweep_of(scene, {nu, f}), {}).dataset, b = run(sweep_of(scene, {f, nu}), {}).dataset;
   for (std::size_t i = 0; i < 3; ++i)
     for (std::size_t j = 0; j < 2; ++j) EXPECT_EQ(values(a, "x_max")[i * 2 + j], values(b, "x_max")[j * 3 + i]);
 }
@@ -63,7 +63,7 @@ TEST(Run, follow_starts_where_the_point_before_ended_with_its_phase) {
   halves.follow = 0;
   scene.time.duration *= 2;
   scene.observe.trajectory = 23;
-  const Dataset two = run(halves, {}).dataset, whole = run(sweep_of(scene, {}), {}).dataset;
+  const results::Dataset two = run(halves, {}).dataset, whole = run(sweep_of(scene, {}), {}).dataset;
   for (std::size_t i = 0; i < 12; ++i) {
     EXPECT_NEAR(values(two, "x")[i], values(whole, "x")[i], 1e-13);
     EXPECT_NEAR(values(two, "x")[12 + i], values(whole, "x")[11 + i], 1e-13);
@@ -80,7 +80,7 @@ TEST(Run, follow_goes_on_from_within_a_soft_stop) {
     Sweep halves = sweep_of(scene, {{Parameter("f"), {scene.oscillator.forcing, scene.oscillator.forcing}}});
     halves.follow = 0;
     scene.time.duration *= 2;
-    const Dataset two = run(halves, {}).dataset, whole = run(sweep_of(scene, {}), {}).dataset;
+    const results::Dataset two = run(halves, {}).dataset, whole = run(sweep_of(scene, {}), {}).dataset;
     const double x = values(two, "x")[1], speed = std::abs(values(whole, "v")[1]);
     within += x < scene.stops.lower || x > scene.stops.upper;
     EXPECT_EQ(values(two, "x")[2], x) << index;
@@ -102,7 +102,7 @@ TEST(Run, follow_stays_on_its_branch_upwards_and_downwards) {
   std::reverse(down.values.begin(), down.values.end());
   Sweep a = sweep_of(scene, {up}), b = sweep_of(scene, {down});
   a.follow = b.follow = 0;
-  const Dataset rising = run(a, {}).dataset, falling = run(b, {}).dataset;
+  const results::Dataset rising = run(a, {}).dataset, falling = run(b, {}).dataset;
   const std::size_t n = up.values.size();
   std::size_t apart = 0;
   for (std::size_t i = 0; i < n; ++i)
@@ -126,10 +126,10 @@ TEST(Run, follow_downwards_and_both_ways_is_that_along_the_values_in_their_order
     sweep.follow = 1, sweep.direction = direction;
     return run(sweep, {.threads = 2}).dataset;
   };
-  const Dataset wanted = followed(there_and_back, Direction::up), both = followed(nu, Direction::both);
+  const results::Dataset wanted = followed(there_and_back, Direction::up), both = followed(nu, Direction::both);
   Axis falling = nu;
   std::ranges::reverse(falling.values);
-  const Dataset down = followed(nu, Direction::down), reversed = followed(falling, Direction::up);
+  const results::Dataset down = followed(nu, Direction::down), reversed = followed(falling, Direction::up);
   ASSERT_EQ(find(both, "x_max")->dimensions, (std::vector<std::string>{"direction", "R", "nu"}));
   EXPECT_EQ(std::get<std::vector<std::int8_t>>(find(both, "direction")->values), (std::vector<std::int8_t>{1, -1}));
   const std::size_t n = nu.values.size();
@@ -154,7 +154,7 @@ TEST(Run, follow_moves_a_state_outside_narrower_stops_onto_the_stop) {
   scene.observe.trajectory = 2;
   Sweep sweep = sweep_of(scene, {{Parameter("xs"), {3.0, 0.01}}});
   sweep.follow = 0;
-  const Dataset figure = run(sweep, {}).dataset;
+  const results::Dataset figure = run(sweep, {}).dataset;
   EXPECT_EQ(std::abs(values(figure, "x")[2]), 0.01);
   ASSERT_GT(values(figure, "v")[1] * values(figure, "x")[2], 0.0);  // it moves into the stop,
   EXPECT_DOUBLE_EQ(values(figure, "v")[2],

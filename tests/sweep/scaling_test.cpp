@@ -33,8 +33,8 @@ point::Problem rescaled(point::Problem scene, double rate) {
   return scene;
 }
 
-const std::vector<double>& values(const Dataset& dataset, const std::string& name) {
-  for (const Variable& variable : dataset.variables)
+const std::vector<double>& values(const results::Dataset& dataset, const std::string& name) {
+  for (const results::Variable& variable : dataset.variables)
     if (variable.name == name) return std::get<std::vector<double>>(variable.values);
   throw std::runtime_error("no " + name);
 }
@@ -64,8 +64,8 @@ TEST(Scaling, stiffness_becomes_one_or_minus_one) {
 
 TEST(Scaling, slower_time_gives_the_same_motion) {
   constexpr double rate = 4;  // a power of 2, so that every conversion is exact and so are the comparisons
-  const Dataset one = run({.problem = unit_scene()}, {}).dataset,
-                other = run({.problem = rescaled(unit_scene(), rate)}, {}).dataset;
+  const results::Dataset one = run({.problem = unit_scene()}, {}).dataset,
+                         other = run({.problem = rescaled(unit_scene(), rate)}, {}).dataset;
   const auto expect = [&](const std::string& name, double factor) {
     for (std::size_t i = 0; i < values(one, name).size(); ++i)
       EXPECT_EQ(values(one, name)[i] * factor, values(other, name)[i]) << name;
@@ -86,13 +86,13 @@ TEST(Scaling, settling_is_counted_in_the_units_of_the_scene) {
     scene.stops = {-1, 1, random.uniform(0.2, 0.7), random.uniform(0.2, 0.7)};
     scene.start = {random.uniform(-1, 1), random.uniform(-2, 2), 0.0};
     scene.observe.settling = scene.observe.period = true, scene.observe.section = 400;
-    const Dataset steady = run({.problem = scene}, {}).dataset;
+    const results::Dataset steady = run({.problem = scene}, {}).dataset;
     const double told = values(steady, "settling_periods")[0];
     if (values(steady, "period_ratio")[0] != 1 || !(told > 0 && told < 390)) continue;
     scene.observe.settling = scene.observe.period = false;
     scene.time.mode = steady::Mode::transient;
     scene.time.duration = 400 * period_of(scene.oscillator);
-    const Dataset transient = run({.problem = scene}, {}).dataset;
+    const results::Dataset transient = run({.problem = scene}, {}).dataset;
     const double x = values(steady, "section_x")[0], v = values(steady, "section_v")[0];
     std::size_t settled = 0;
     for (std::size_t k = 0; k < 400; ++k) {

@@ -47,7 +47,7 @@ Sweep any_sweep(const Order& order = {}) {
   return sweep;
 }
 
-Dataset shard_figure(const Sweep& sweep, const Shard& shard, const RunOptions& options = {}) {
+results::Dataset shard_figure(const Sweep& sweep, const results::Shard& shard, const RunOptions& options = {}) {
   SweepRun run(sweep, shard);
   run.run(options);
   return run.result().dataset;
@@ -64,12 +64,12 @@ const std::vector<Order> every_order{
     {}, {0}, {1}, {2}, {1, Direction::down}, {0, Direction::both}, {1, Direction::both}, {2, Direction::both}};
 
 TEST(Shard, is_named_by_number_and_count) {
-  EXPECT_EQ(shard_named("0/1"), (Shard{0, 1}));
-  EXPECT_EQ(shard_named("3/8"), (Shard{3, 8}));
-  EXPECT_EQ(text_of({3, 8}), "3/8");
+  EXPECT_EQ(results::shard_named("0/1"), (results::Shard{0, 1}));
+  EXPECT_EQ(results::shard_named("3/8"), (results::Shard{3, 8}));
+  EXPECT_EQ(results::text_of({3, 8}), "3/8");
   for (const char* wrong : {"", "/", "3", "3/", "/8", "8/8", "9/8", "-1/8", "+1/8", "1/0", "0/0", "1/8 ", " 1/8",
                             "1/8/2", "1.0/8", "0/1000001", "99999999999999999999/999999999999999999999"})
-    EXPECT_EQ(shard_named(wrong), std::nullopt) << wrong;
+    EXPECT_EQ(results::shard_named(wrong), std::nullopt) << wrong;
 }
 
 TEST(Shard, has_each_point_once_in_ascending_order_and_whole_chains) {
@@ -79,7 +79,7 @@ TEST(Shard, has_each_point_once_in_ascending_order_and_whole_chains) {
     for (std::size_t of = 1; of <= 33; ++of) {
       std::vector<int> owners(size(sweep), 0);
       for (std::size_t number = 0; number < of; ++number) {
-        const Share share(sweep, Shard{number, of});
+        const Share share(sweep, results::Shard{number, of});
         std::vector<std::size_t> points(share.points(), size(sweep));
         for (std::size_t n = 0; n < share.count(); ++n)
           for (std::size_t i = 0; i < share.length(); ++i) {
@@ -98,11 +98,11 @@ TEST(Shard, has_each_point_once_in_ascending_order_and_whole_chains) {
 TEST(Shard, figures_make_that_of_the_whole_sweep_bit_for_bit) {
   for (const Order& order : every_order) {
     const Sweep sweep = any_sweep(order);
-    const Dataset whole = run(sweep, {.threads = 1}).dataset;
+    const results::Dataset whole = run(sweep, {.threads = 1}).dataset;
     for (const std::size_t of : {1U, 3U, 40U}) {
       ResultStore columns(sweep);
       for (std::size_t number = of; number-- > 0;) {
-        Dataset part = shard_figure(sweep, {number, of}, {.threads = static_cast<int>(1 + number % 3)});
+        results::Dataset part = shard_figure(sweep, {number, of}, {.threads = static_cast<int>(1 + number % 3)});
         columns.take(part, {number, of});
       }
       columns.number_motions(2);
@@ -113,7 +113,7 @@ TEST(Shard, figures_make_that_of_the_whole_sweep_bit_for_bit) {
 
 TEST(Shard, figure_of_another_one_is_refused) {
   const Sweep sweep = any_sweep();
-  const auto refusal = [&](Dataset figure, const Shard& shard = {0, 2}) -> std::string {
+  const auto refusal = [&](results::Dataset figure, const results::Shard& shard = {0, 2}) -> std::string {
     try {
       ResultStore(sweep).take(figure, shard);
       return "";
@@ -121,19 +121,19 @@ TEST(Shard, figure_of_another_one_is_refused) {
       return error.what();
     }
   };
-  const Dataset figure = shard_figure(sweep, {0, 2});
+  const results::Dataset figure = shard_figure(sweep, {0, 2});
   EXPECT_EQ(refusal(figure), "");
   EXPECT_NE(refusal(figure, {1, 2}).find("points"), std::string::npos);
   EXPECT_NE(refusal(figure, {0, 3}).find("points"), std::string::npos);
   EXPECT_NE(refusal(run(sweep, {}).dataset).find("'point'"), std::string::npos);
-  for (const Variable& variable : figure.variables) {
+  for (const results::Variable& variable : figure.variables) {
     if (variable.dimensions == std::vector{variable.name} && variable.name != "point") continue;  // not read
     if (variable.name == "attractor" || variable.name.starts_with("motion_")) continue;           // made anew
-    Dataset without = figure, longer = figure, other = figure;
+    results::Dataset without = figure, longer = figure, other = figure;
     const auto at = &variable - figure.variables.data();
     without.variables.erase(without.variables.begin() + at);
     std::visit([](auto& values) { values.push_back({}); }, longer.variables[static_cast<std::size_t>(at)].values);
-    ValueArray& values = other.variables[static_cast<std::size_t>(at)].values;
+    results::ValueArray& values = other.variables[static_cast<std::size_t>(at)].values;
     if (std::holds_alternative<std::vector<double>>(values))
       values = std::vector<std::int64_t>();
     else
@@ -148,9 +148,9 @@ TEST(Shard, takes_memory_by_its_points) {
   Sweep sweep = any_sweep();
   sweep.problem.observe.impact_log = sweep.problem.observe.word = false;  // neither has one size for every point
   sweep.problem.observe.attractor = false;
-  for (const Shard shard : {Shard{0, 4}, Shard{3, 4}, Shard{35, 40}}) {
+  for (const results::Shard shard : {results::Shard{0, 4}, results::Shard{3, 4}, results::Shard{35, 40}}) {
     double bytes = 0;
-    for (const Variable& variable : shard_figure(sweep, shard).variables)
+    for (const results::Variable& variable : shard_figure(sweep, shard).variables)
       bytes += std::visit([](const auto& held) { return static_cast<double>(held.size() * sizeof held[0]); },
                           variable.values);
     EXPECT_EQ(plan::memory_need(sweep, shard).output, bytes) << shard.number;
@@ -161,7 +161,7 @@ TEST(SavedRun, goes_on_from_whatever_was_saved_to_the_same_bits) {
   for (const Order& order : {every_order[0], every_order[2], every_order[6]}) {
     Sweep sweep = any_sweep(order);
     sweep.dimensions[1][0].values.resize(2);  // every length of what was saved is tried
-    const Dataset whole = run(sweep, {.threads = 2}).dataset;
+    const results::Dataset whole = run(sweep, {.threads = 2}).dataset;
     SweepRun first(sweep);
     EXPECT_TRUE(saved(first).empty());
     first.run({.threads = 2});
@@ -192,23 +192,23 @@ TEST(SavedRun, goes_on_from_whatever_was_saved_to_the_same_bits) {
 
 TEST(SavedRun, refuses_results_that_are_not_its_own) {
   const Sweep sweep = any_sweep();
-  SweepRun first(sweep, Shard{1, 2});
+  SweepRun first(sweep, results::Shard{1, 2});
   first.run({});
   const Bytes bytes = saved(first).at(0);
-  SweepRun again(sweep, Shard{1, 2});
+  SweepRun again(sweep, results::Shard{1, 2});
   EXPECT_TRUE(again.restore(bytes));
   EXPECT_FALSE(again.restore(bytes));  // twice
-  EXPECT_FALSE(SweepRun(sweep, Shard{1, 4}).restore(bytes));
+  EXPECT_FALSE(SweepRun(sweep, results::Shard{1, 4}).restore(bytes));
   Sweep other = sweep;
   other.problem.observe.trajectory = 6;
-  EXPECT_FALSE(SweepRun(other, Shard{1, 2}).restore(bytes));
+  EXPECT_FALSE(SweepRun(other, results::Shard{1, 2}).restore(bytes));
 }
 
 TEST(SavedRun, may_be_saved_while_it_is_at_work) {
   Sweep alone = any_sweep({2});  // chains of one point
   alone.dimensions[2][0].values.resize(1);
   for (const Sweep& sweep : {any_sweep(), any_sweep({1}), alone}) {
-    const Dataset whole = run(sweep, {.threads = 1}).dataset;
+    const results::Dataset whole = run(sweep, {.threads = 1}).dataset;
     for (int round = 0; round < 5; ++round) {
       std::vector<Bytes> pieces;
       SweepRun first(sweep);

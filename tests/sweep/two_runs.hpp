@@ -46,7 +46,7 @@ inline Sweep sweep_over(const std::vector<point::Problem>& scenes) {
 
 /// A point's place in the figure of a run.
 struct RunPoint {
-  const Dataset& figure;
+  const results::Dataset& figure;
   std::size_t index;
 
   [[nodiscard]] std::uint8_t status() const { return statuses(figure)[index]; }
@@ -149,7 +149,7 @@ inline point::Problem moved(point::Problem scene, std::uint64_t index) {
 inline double sensitivity(const point::Problem& scene, const RunPoint& unmoved) {
   double worst = 0;
   for (std::uint64_t index = 0; index < 8 && std::isfinite(worst); ++index) {
-    const Dataset other =
+    const results::Dataset other =
         run(sweep_of(moved(scene, index), {}), {.threads = 1, .arch = lanes::InstructionSet::scalar}).dataset;
     worst = std::max(worst, compare({other, 0}, unmoved).by);
   }

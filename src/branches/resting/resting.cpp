@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "attractors/exact_run.hpp"
-#include "branches/event_run.hpp"
+#include "branches/start.hpp"
 #include "sweep/sweep.hpp"
 
 namespace clatter::branches {

@@ -1,0 +1,83 @@
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "results/dataset.hpp"
+#include "results/dataset_file.hpp"
+
+namespace clatter::app {
+
+/// A choice that a file doesn't offer; `what()` is one line that ends with the way out.
+class ChoiceError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// The part of an output that becomes a table.
+struct TableChoice {
+  std::vector<std::string> only{};                      ///< results, or components such as v_before[-1]; empty: all
+  std::vector<std::pair<std::string, double>> where{};  ///< axes at one value each
+  bool impacts = false;                                 ///< a row for each impact of the log instead of each point
+};
+
+/// An output file as a table in CSV: lines that begin with # tell title, origin, and the unit and meaning of each
+/// variable; then one header row (RFC 4180), and one row a point or an impact. The axes come first. Numbers have the
+/// digits that read back to the same double, nan or inf; flags such as `status` are their meanings.
+class CsvTable {
+ public:
+  /// Throws ChoiceError, or IoError if the file isn't a whole output.
+  CsvTable(const results::FileSummary& summary, const std::string& path, TableChoice choice);
+
+  /// The variables whose values `write` needs.
+  [[nodiscard]] const std::vector<std::string>& variables() const { return names_; }
+
+  /// Passes the text on in pieces. The dataset holds `variables()` of the file. Throws ChoiceError if no axis has a
+  /// value of `where`.
+  void write(const results::Dataset& dataset, const std::function<void(std::string_view)>& take) const;
+
+  /// The indexes of the points that `where` chooses, the last axis fastest. Throws as `write` does.
+  [[nodiscard]] std::vector<std::size_t> points(const results::Dataset& dataset) const;
+
+  /// A column: the values of a variable that it has in each row.
+  struct Column {
+    std::string name;
+    const results::Variable* variable;
+    std::vector<std::string> meanings;                    ///< of flags, by their value
+    std::size_t width = 1, part = 0;                      ///< values of a row, and which of them
+    std::optional<std::size_t> dimension = std::nullopt;  ///< of an axis: its place among those of the rows
+  };
+
+ private:
+  [[nodiscard]] static bool is_coordinate(const results::FileSummary::Entry& entry,
+                                          const results::NamedLength& dimension);
+  [[nodiscard]] const results::FileSummary::Entry* find(std::string_view name) const;
+  [[nodiscard]] std::vector<std::string> results_in_file() const;
+  void require_known(const std::string& name, const std::vector<std::string>& known) const;
+  [[noreturn]] void refuse_axis(const std::string& axis) const;
+  [[nodiscard]] bool is_named(const std::string& name) const;
+  void collect_variables();
+  [[nodiscard]] std::vector<Column> columns_of(const std::string& name, const results::Dataset& dataset) const;
+  [[nodiscard]] std::vector<Column> columns(const results::Dataset& dataset) const;
+  [[nodiscard]] std::string comments(const std::vector<Column>& columns) const;
+  [[nodiscard]] std::vector<bool> chosen(const results::Dataset& dataset) const;
+  void require_complete(const std::vector<Column>& columns, std::size_t rows) const;
+  [[nodiscard]] std::vector<std::size_t> rows_of_points(const results::Dataset& dataset) const;
+  [[nodiscard]] std::vector<std::vector<bool>> wanted(const results::Dataset& dataset) const;
+
+  const results::FileSummary& summary_;
+  std::string path_;
+  TableChoice choice_;
+  std::vector<results::NamedLength> rows_;  ///< dimensions whose combinations are the points
+  std::vector<std::string> axes_;           ///< coordinates along them
+  std::vector<std::string> results_;        ///< variables with a value, or several, for each row
+  std::vector<std::string> names_;
+};
+
+}  // namespace clatter::app

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "accuracy/accuracy.hpp"
+#include "branches/branch.hpp"
+#include "plan/plan.hpp"
+#include "results/dataset_file.hpp"
+
+namespace clatter::app {
+
+// All that commands print for scripts by --json. It is ASCII: other characters are escaped, those that a terminal obeys
+// among them, and bytes that aren't UTF-8 become U+FFFD. A number that isn't finite is null.
+
+/// The summary of a file: attributes, variables with their dimensions, number of points by status.
+[[nodiscard]] std::string summary_json(const results::FileSummary& summary);
+
+/// A plan, schema "clatter-plan/1" (src/plan/README.md); `seconds` is the time of a run, if it is known.
+[[nodiscard]] std::string plan_json(const plan::Plan& plan, const sweep::Sweep& sweep, int threads,
+                                    std::optional<double> seconds);
+
+/// The accuracy at a point: a line, with one object, for each row.
+[[nodiscard]] std::string accuracy_json(const accuracy::PointAccuracy& of_point, const sweep::Sweep& sweep,
+                                        std::size_t point);
+
+/// A special point of a branch: {"kind":"fold","nu":1.42, ... "multipliers":[[1.0,0.0],[0.1,0.0]], ...} in one line;
+/// multipliers are pairs of real and imaginary parts.
+[[nodiscard]] std::string special_json(const branches::SpecialPoint& special, const std::vector<Parameter>& parameters,
+                                       const Units& units);
+
+}  // namespace clatter::app
