@@ -90,6 +90,7 @@ results::Dataset accuracy_dataset(const sweep::Sweep& sweep, const std::vector<P
       for (const WorkPrecision& row : point.rows) values.push_back(row.*value);
     dataset.variables.push_back({name, over_rows, std::move(values), long_name, "1"});
   }
+  sweep::add_drawn_names(sweep.problem.is_si, dataset);
   name_linked_axes(sweep, dataset);
   return dataset;
 }

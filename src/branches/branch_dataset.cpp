@@ -5,6 +5,8 @@
 #include <limits>
 
 #include "branches/measures/measures.hpp"
+#include "sweep/dataset_axes.hpp"
+#include "sweep/output_variables.hpp"
 
 namespace clatter::branches {
 namespace {
@@ -95,6 +97,17 @@ class Columns {
   std::string dimension_, prefix_;
 };
 
+/// Names the key of [observe] that asks a run for a variable of the same name.
+void name_observables(results::Dataset& dataset) {
+  point::RunSettings settings;
+  observables::Observe& observe = settings.observe;
+  observe.extrema = observe.impacts = observe.word = observe.period = observe.stability = observe.energy = true;
+  for (const sweep::OutputVariable& output : sweep::outputs_of(settings))
+    for (results::Variable& variable : dataset.variables)
+      if (variable.name == output.name && !output.observable.empty())
+        sweep::name_observable(output.observable, variable);
+}
+
 }  // namespace
 
 results::Dataset branch_dataset(const Branches& branches, const BranchSettings& settings, const Units& units) {
@@ -127,6 +140,8 @@ results::Dataset branch_dataset(const Branches& branches, const BranchSettings& 
   specials.add("branch", std::move(meeting), "numbers of the branches, or the curves, that meet there; -1: no more",
                {"meeting"});
   specials.add_motions(at, settings);
+  sweep::add_drawn_names(units.is_si, dataset);
+  name_observables(dataset);
   return dataset;
 }
 

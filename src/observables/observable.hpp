@@ -65,6 +65,7 @@ struct Column {
   std::size_t longest_text = 0;                            ///< bytes
   bool intermediate = false;  ///< a number for later work on the whole sweep: in journals and shards only
   std::string name_in_si{};   ///< the long name in the results of a machine, if that is another
+  std::string_view observable{};  ///< the key of [observe] that asks for it
   FrameOf frame = FrameOf::any;
 
   [[nodiscard]] std::size_t width() const { return along.empty() ? 1 : along.front().length; }

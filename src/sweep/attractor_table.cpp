@@ -186,6 +186,7 @@ void add_attractors(const Sweep& sweep, bool is_shard, const std::vector<std::st
   if (!is_shard) add_counts(sweep, grid_of(sweep), numbering, dataset);
   dataset.variables.push_back({"attractor", along, std::move(numbering.number),
                                "number of the motion that the point ends in, -1: undecided or failed", "1"});
+  name_observable("attractor", dataset.variables.back());
 }
 
 }  // namespace clatter::sweep

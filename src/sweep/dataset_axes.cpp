@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <span>
 
+#include "observables/drawn_names.hpp"
+
 namespace clatter::sweep {
 namespace {
 
@@ -45,6 +47,19 @@ void add_axes(const Sweep& sweep, results::Dataset& dataset) {
       name_frame(sweep, frame_of(axis.parameter), dataset.variables.back());
     }
   }
+}
+
+void name_observable(std::string_view key, results::Variable& variable) {
+  variable.attributes.emplace_back("observable", std::string(key));
+}
+
+void add_drawn_names(bool is_si, results::Dataset& dataset) {
+  for (results::Variable& variable : dataset.variables) {
+    const auto [words, symbol] = observables::drawn_name(variable.name, is_si);
+    if (!words.empty()) variable.attributes.emplace_back("label", std::string(words));
+    if (!symbol.empty()) variable.attributes.emplace_back("symbol", std::string(symbol));
+  }
+  dataset.attributes.emplace_back("scene_names", observables::scene_names(is_si));
 }
 
 void name_linked_axes(const Sweep& sweep, results::Dataset& dataset) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "results/dataset.hpp"
@@ -13,6 +14,13 @@ void add_axes(const Sweep& sweep, results::Dataset& dataset);
 
 /// Says of a variable in which frame it is given, by the attribute `frame`, if something is shaken.
 void name_frame(const Sweep& sweep, observables::FrameOf frame, results::Variable& variable);
+
+/// Says of a variable which key of [observe] asks for it, by the attribute `observable`.
+void name_observable(std::string_view key, results::Variable& variable);
+
+/// Says how pictures name each variable, by the attributes `label` and `symbol`, and the constants of the scene, by the
+/// root attribute `scene_names`.
+void add_drawn_names(bool is_si, results::Dataset& dataset);
 
 /// Names linked axes in the attribute `coordinates` of each variable over their dimension, so that readers take them
 /// for coordinates (CF conventions, 5). Call it once all variables are added.

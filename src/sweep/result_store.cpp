@@ -251,6 +251,7 @@ void ResultStore::add_impact_log(results::Dataset& dataset) {
   dataset.dimensions.push_back({"impact", tau.size()});
   dataset.variables.push_back({"impact_count", along_, std::move(counts), "impacts in the log of the point", "1"});
   dataset.variables.back().attributes = {{"sample_dimension", "impact"}};
+  name_observable("impact_log", dataset.variables.back());
   dataset.variables.push_back({"impact_tau", along, std::move(tau),
                                "time of the impact since the beginning of the observed time", unit(Quantity::time)});
   dataset.variables.push_back({"impact_stop", along, std::move(stops), "stop that is hit, -1: lower, +1: upper", "1"});
@@ -279,9 +280,11 @@ results::Dataset ResultStore::dataset() {
     dataset.variables.push_back(
         {output.name, std::move(dimensions), std::move(values), long_name, std::string(unit_of(quantity, is_si))});
     name_frame(sweep_, output.frame, dataset.variables.back());
+    if (!output.observable.empty()) name_observable(output.observable, dataset.variables.back());
   }
   if (numbering_) add_attractors(sweep_, shard_.has_value(), along_, std::move(*numbering_), dataset);
   if (sweep_.problem.observe.impact_log) add_impact_log(dataset);
+  add_drawn_names(sweep_.problem.is_si, dataset);
   name_linked_axes(sweep_, dataset);
   return dataset;
 }

@@ -89,9 +89,10 @@ RunResult SweepRun::result() {
   result_.points = share_.points();
   result_.failed_points = store_.failed_points();
   result_.dataset = store_.dataset();
-  if (shard_)
-    result_.dataset.attributes = {{"shard", text_of(*shard_)},
-                                  {"rounding", rounding_fingerprint(sweep_, result_.arch)}};
+  if (shard_) {
+    result_.dataset.attributes.emplace_back("shard", text_of(*shard_));
+    result_.dataset.attributes.emplace_back("rounding", rounding_fingerprint(sweep_, result_.arch));
+  }
   return std::move(result_);
 }
 

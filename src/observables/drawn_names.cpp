@@ -1,0 +1,119 @@
+#include "observables/drawn_names.hpp"
+
+#include <algorithm>
+#include <optional>
+
+#include "scene/parameter.hpp"
+
+namespace clatter::observables {
+namespace {
+
+struct NamedVariable {
+  std::string_view variable;
+  DrawnName name;
+  std::optional<DrawnName> in_si{};  ///< where a scene is given in [machine], if that is another
+};
+
+/// In the order of captions. [machine] has its own keys as symbols, but for the letters of m x'' + c x' + k x.
+constexpr NamedVariable names[] = {
+    {"h", {"damping ratio", "$h$"}},
+    {"f", {"force amplitude", "$f$"}},
+    {"nu", {"excitation frequency", "$\\nu$"}},
+    {"phase", {"forcing phase", "$\\varphi$"}, DrawnName{"forcing phase", "phase"}},
+    {"R", {"restitution", "$R$"}},
+    {"xs", {"stop", "$x_s$"}},
+    {"stop_lower", {"lower stop", "$x_-$"}, DrawnName{"", "stop_lower"}},
+    {"stop_upper", {"upper stop", "$x_+$"}, DrawnName{"", "stop_upper"}},
+    {"R_lower", {"restitution, lower stop", "$R_-$"}, DrawnName{"", "R_lower"}},
+    {"R_upper", {"restitution, upper stop", "$R_+$"}, DrawnName{"", "R_upper"}},
+    {"stop_stiffness", {"stiffness of the stops", "$\\kappa$"}, DrawnName{"", "stop_stiffness"}},
+    {"stop_stiffness_lower", {"stiffness of the lower stop", "$\\kappa_-$"}, DrawnName{"", "stop_stiffness_lower"}},
+    {"stop_stiffness_upper", {"stiffness of the upper stop", "$\\kappa_+$"}, DrawnName{"", "stop_stiffness_upper"}},
+    {"stop_damping", {"damping of the stops", "$\\zeta$"}, DrawnName{"", "stop_damping"}},
+    {"stop_damping_lower", {"damping of the lower stop", "$\\zeta_-$"}, DrawnName{"", "stop_damping_lower"}},
+    {"stop_damping_upper", {"damping of the upper stop", "$\\zeta_+$"}, DrawnName{"", "stop_damping_upper"}},
+    {"load", {"constant load", "load"}},
+    {"stiffness", {"stiffness", "$k$"}},
+    {"mass", {"mass", "$m$"}},
+    {"damping", {"damping", "$c$"}},
+    {"damping_ratio", {"damping ratio", "$h$"}, DrawnName{"", "damping_ratio"}},
+    {"quality", {"quality factor", "$Q$"}, DrawnName{"quality factor", "quality"}},
+    {"force", {"force amplitude", "$F$"}},
+    {"frequency", {"excitation frequency", "$f$"}, DrawnName{"excitation frequency", "frequency"}},
+    {"gap", {"stop", "$x_s$"}, DrawnName{"", "gap"}},
+    {"stop_amplitude", {"amplitude of the stops", "$b$"}, DrawnName{"", "stop_amplitude"}},
+    {"base_amplitude", {"amplitude of the base", "$b$"}, DrawnName{"", "base_amplitude"}},
+    {"stop_phase", {"lead of the shaking", "$\\sigma$"}, DrawnName{"", "stop_phase"}},
+    {"x0", {"initial displacement", "$x(0)$"}},
+    {"v0", {"initial velocity", "$x$′$(0)$"}},
+    {"start_period", {"period", "$\\bar\\tau$"}},
+    {"tau", {"time", "$\\tau$"}, DrawnName{"time", "$t$"}},
+    {"x", {"displacement", "$x$"}},
+    {"v", {"velocity", "$x$′"}},
+    {"impact_tau", {"time", "$\\tau$"}, DrawnName{"time", "$t$"}},
+    {"impact_v_before", {"velocity before impact", "$x$′$^{{-}}$"}},
+    {"section_x", {"displacement", "$x$"}},
+    {"section_v", {"velocity", "$x$′"}},
+    {"x_min", {"minimum", "$x_{\\min}$"}},
+    {"x_max", {"maximum", "$x_{\\max}$"}},
+    {"v_min", {"minimum", "$x$′$_{\\min}$"}},
+    {"v_max", {"maximum", "$x$′$_{\\max}$"}},
+    {"v_before", {"velocity before impact", "$x$′$^{{-}}$"}},
+    {"v_after", {"velocity after impact", "$x$′$^{{+}}$"}},
+    {"period", {"period", "$\\bar\\tau$"}, DrawnName{"period", "$T$"}},
+    {"eigenfrequency", {"eigenfrequency", "$\\bar\\omega$"}, DrawnName{"eigenfrequency", ""}},
+    {"period_ratio", {"period", "$\\nu\\bar\\tau/2\\pi$"}, DrawnName{"period in forcing periods", ""}},
+    {"velocity_ratio", {"velocity ratio", "$|x$′$^{{-}}/x_s|$"}, DrawnName{"velocity ratio", "$|x$′$^{{-}}|$ / gap"}},
+    {"base_frequency", {"base frequency", "$\\Omega$"}, DrawnName{"base frequency", ""}},
+    {"harmonic", {"harmonic", "$k$"}},
+    {"x_amplitude", {"amplitude of displacement", "$a_k$"}},
+    {"v_amplitude", {"amplitude of velocity", "$a$′$_k$"}},
+    {"x_phase", {"phase of displacement", "$\\varphi_k$"}},
+    {"v_phase", {"phase of velocity", "$\\varphi$′$_k$"}},
+    {"multiplier_re", {"multipliers", "$\\mathrm{Re}\\,\\mu$"}},
+    {"multiplier_im", {"multipliers", "$\\mathrm{Im}\\,\\mu$"}},
+    {"lyapunov", {"Lyapunov exponent", "$\\lambda$"}},
+    {"impacts_per_period", {"impacts per period", ""}},
+    {"rest_fraction", {"share of time at rest", ""}},
+    {"contact_fraction", {"share of time in contact", ""}},
+    {"contact_force_max", {"greatest force of the stop", ""}},
+    {"symmetric", {"symmetric motion", ""}},
+    {"attractor", {"motion", ""}},
+    {"settling_periods", {"periods until settled", ""}},
+    {"work_in", {"work of force and load", "work"}},
+    {"loss_damping", {"loss by damping", "damping"}},
+    {"loss_impact", {"loss by impacts", ""}},
+    {"impulse", {"impulse", ""}},
+    {"impact_power", {"power lost in impacts", ""}},
+};
+
+const NamedVariable* find(std::string_view variable) {
+  const auto* const found = std::ranges::find(names, variable, &NamedVariable::variable);
+  return found == std::ranges::end(names) ? nullptr : found;
+}
+
+}  // namespace
+
+DrawnName drawn_name(std::string_view variable, bool is_si) {
+  const NamedVariable* const found = find(variable);
+  if (found == nullptr) return {};
+  return is_si ? found->in_si.value_or(found->name) : found->name;
+}
+
+std::string scene_names(bool is_si) {
+  std::string lines;
+  for (const NamedVariable& named : names) {
+    const auto parameter = Parameter::of(named.variable);
+    if (!parameter || !parameter->is_in(is_si ? "machine" : "scene")) continue;
+    const auto put = [&](std::string_view name, std::string_view text) {  // no text has a quote
+      lines.append(name).append(" = '").append(text).append("'");
+    };
+    lines.append(named.variable).append(" = { ");
+    put("units", unit_of(parameter->row().quantity, is_si)), lines += ", ";
+    put("words", named.name.words), lines += ", ";
+    put("symbol", drawn_name(named.variable, is_si).symbol), lines += " }\n";
+  }
+  return lines;
+}
+
+}  // namespace clatter::observables
