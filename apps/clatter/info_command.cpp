@@ -55,7 +55,7 @@ results::FileSummary harmless(results::FileSummary summary) {
 /// Prints a summary for people; scripts use --json.
 void print_text(const results::FileSummary& summary) {
   for (const auto& [name, value] : summary.attributes) {
-    if (name != "config") std::cout << column(name, 16) << value << '\n';
+    if (name != "config" && name != "scene_names") std::cout << column(name, 16) << value << '\n';
   }
   std::cout << "\nVariables\n";
   print_variables(summary);
@@ -74,13 +74,19 @@ void print_config(const std::string& path, const results::FileSummary& summary) 
 }
 
 int print_info(const Arguments& arguments) {
-  if (arguments.has("json") && arguments.has("config"))
-    throw UsageError("--json conflicts with --config; give one of them");
+  std::string chosen;
+  for (const char* const option : {"json", "config", "check"}) {
+    if (!arguments.has(option)) continue;
+    if (!chosen.empty()) throw UsageError("--" + chosen + " conflicts with --" + option + "; give one of them");
+    chosen = option;
+  }
   const std::string& path = arguments.operands[0];
   const results::FileSummary summary = outputs::read_summary(path);
-  if (arguments.has("config")) {
+  if (chosen == "check") {
+    results::require_readable(summary, path);
+  } else if (chosen == "config") {
     print_config(path, summary);
-  } else if (arguments.has("json")) {
+  } else if (chosen == "json") {
     std::cout << summary_json(summary);
   } else {
     print_text(harmless(summary));
@@ -90,19 +96,21 @@ int print_info(const Arguments& arguments) {
 
 constexpr std::string_view examples =
     "  clatter info fig22.h5\n"
-    "  clatter info fig22.h5 --config > again.toml\n";
+    "  clatter info fig22.h5 --config > again.toml\n"
+    "  clatter info --check fig22.h5 && echo sound\n";
 
 }  // namespace
 
 Command info_command() {
   return {.name = "info",
-          .usage = "info FILE.h5 [--json|--config]",
+          .usage = "info FILE.h5 [--json|--config|--check]",
           .summary = "print the contents of an output file and how it was made",
           .examples = examples,
           .operands = {"FILE.h5"},
           .required_operands = 1,
           .options = {{"json", 0, "", "print JSON"},
                       {"config", 0, "", "print the configuration that made the file; it runs again"},
+                      {"check", 0, "", "print nothing, but read all values: the exit code is 0 if none is damaged"},
                       {"help", 'h', "", "print this help"}},
           .run = print_info};
 }

@@ -56,4 +56,7 @@ struct FileSummary {
 /// Reads the values of some variables of such a file, in this order, with the meanings of flags. Throws IoError.
 [[nodiscard]] Dataset read_variables(const std::string& path, const std::vector<std::string>& names);
 
+/// Reads all values of such a file, and keeps none, in a process that the HDF5 library may crash. Throws IoError.
+void require_readable(const FileSummary& summary, const std::string& path);
+
 }  // namespace clatter::results

@@ -200,12 +200,25 @@ void try_variables(const std::string& path, const std::vector<std::string>& name
   refuse_damaged(path, failure.what());
 }
 
-}  // namespace
-
-Dataset read_variables(const std::string& path, const std::vector<std::string>& names) try {
+/// Throws IoError unless all values of some variables can be read.
+void require_readable(const std::string& path, const std::vector<std::string>& names) try {
   const std::uint64_t stored = storage::open_input(path, "an output of clatter").stored_bytes;
   static_cast<void>(
       storage::run_in_child([&] { return try_variables(path, names, stored), ""; }, storage::limits_for(stored)));
+} catch (const storage::ChildFailed& death) {
+  refuse_damaged(path, death.what());
+}
+
+}  // namespace
+
+void require_readable(const FileSummary& summary, const std::string& path) {
+  std::vector<std::string> names;
+  for (const FileSummary::Entry& entry : summary.variables) names.push_back(entry.name);
+  require_readable(path, names);
+}
+
+Dataset read_variables(const std::string& path, const std::vector<std::string>& names) try {
+  require_readable(path, names);
   const detail::QuietErrors quiet;
   const Handle file = open(path);
   Dataset dataset;
@@ -213,8 +226,6 @@ Dataset read_variables(const std::string& path, const std::vector<std::string>& 
   return dataset;
 } catch (const detail::Failure& failure) {
   refuse_damaged(path, failure.what());
-} catch (const storage::ChildFailed& death) {
-  refuse_damaged(path, death.what());
 }
 
 FileSummary read_summary(const std::string& path) try {

@@ -57,6 +57,7 @@ class WrongCommandLines(CommandLine):
             (["info"], "FILE.h5 is missing"),
             (["info", "a.h5", "--jsn"], "did you mean '--json'?"),
             (["info", "a.h5", "--json", "--config"], "--json conflicts with --config"),
+            (["info", "a.h5", "--check", "--config"], "--config conflicts with --check"),
             (["export"], "FILE.h5 is missing"),
             (["export", "a.h5", "--ony", "x"], "did you mean '--only'?"),
             (["export", "a.h5", "--only", "x_max,"], "--only 'x_max,' has an empty name"),

@@ -124,7 +124,12 @@ class HostileFiles(CommandLine):
 
     def test_nothing_but_the_file_is_read(self):
         for name, reason in self.each_crafted("a.h5"):
-            for words in (["info", name], ["info", name, "--json"], ["info", name, "--config"]):
+            for words in (
+                ["info", name],
+                ["info", name, "--json"],
+                ["info", name, "--config"],
+                ["info", name, "--check"],
+            ):
                 self.assert_refused(74, f"'{name}': cannot be read: {reason}", *words)
             self.assert_tells_nothing(self.clatter("info", name))
             self.assert_reads_only({name}, "info", name)
@@ -168,12 +173,38 @@ class HostileFiles(CommandLine):
         name = self.craft("a.h5", grow)
         self.assertLess((self.directory / name).stat().st_blocks * 512, 1 << 20)
         before = resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss
-        self.assert_refused(74, "its 'status' doesn't have the 5 points of its configuration", "info", name)
-        for change in (grow_unread, grow_rows):
+        for change in (grow, grow_unread, grow_rows):
             name = self.craft("a.h5", change)
             self.assert_refused(74, "its 'status' is longer than a file of its size can hold", "info", name)
         used = resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss
         self.assertLess(max(0, used - before), 256 * 1024)  # KiB
+
+    def test_a_check_reads_all_values(self):
+        self.run_whole(
+            "run",
+            self.config,
+            "-o",
+            "b.h5",
+            "--set",
+            "sweep.nu=linspace(0.5, 1.5, 5000)",
+            "--set",
+            "output.compression=4",
+        )
+        self.assertEqual(self.clatter("info", "--check", "b.h5").stderr, "")
+        path = self.directory / "b.h5"
+        with h5py.File(path) as file:
+            chunk = file["x_max"].id.get_chunk_info(0)
+        content = bytearray(path.read_bytes())
+        for at in range(chunk.byte_offset + chunk.size // 2, chunk.byte_offset + chunk.size // 2 + 20):
+            content[at] ^= 0x55
+        path.write_bytes(content)
+        self.run_whole("info", "b.h5")
+        self.assert_refused(74, "'b.h5': cannot be read: ", "info", "--check", "b.h5")
+
+    def test_an_output_with_other_points_than_those_of_its_configuration_is_refused(self):
+        name = self.craft("a.h5", lambda file, directory: claim("status", (1000,), file))
+        for words in (["info", name], ["export", name], ["certify", name]):
+            self.assert_refused(74, "its 'status' doesn't have the 5 points of its configuration", *words)
 
     def test_a_shard_that_claims_more_than_its_points_is_not_merged(self):
         def grow(file, directory):
