@@ -24,7 +24,7 @@ FILTERS = {h5z.FILTER_SHUFFLE, h5z.FILTER_DEFLATE}
 
 
 class FileProblem(Exception):
-    """A file that cannot be used; the message is one line that names it and the way out."""
+    """A file that cannot be used; the message is one line that names it and how to fix it."""
 
 
 def printable(value):

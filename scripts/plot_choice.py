@@ -33,7 +33,7 @@ MOST = 12  # curves that can be told apart
 
 
 class ChoiceProblem(Exception):
-    """A choice that the file doesn't offer; the message is one line that names it and the way out."""
+    """A choice that the file doesn't offer; the message is one line that names it and how to fix it."""
 
 
 @dataclass

@@ -48,7 +48,7 @@ std::string unknown_option(const Command& command, const std::string& written) {
   return near.empty() ? message + help_hint(command) : message + "; did you mean " + config::in_quotes(near) + "?";
 }
 
-/// Throws an error of Boost's as one line with the way out.
+/// Throws an error of Boost's as one line with how to fix it.
 [[noreturn]] void refuse(const Command& command, const po::error& error) {
   if (const auto* const unknown = dynamic_cast<const po::unknown_option*>(&error)) {
     throw UsageError(unknown_option(command, unknown->get_option_name()));

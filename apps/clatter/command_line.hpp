@@ -11,7 +11,7 @@
 
 namespace clatter::app {
 
-/// A wrong command line; `what()` is one line that ends with the way out.
+/// A wrong command line; `what()` is one line that ends with how to fix it.
 class UsageError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;

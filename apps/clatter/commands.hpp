@@ -64,7 +64,7 @@ struct Command {
 [[nodiscard]] std::string_view program_examples();
 
 /// What the program is, in one line.
-inline constexpr std::string_view program_summary = "exact sweeps of oscillators between rigid stops";
+inline constexpr std::string_view program_summary = "exact sweeps of oscillators that knock against stops";
 
 /// The help of the program, and of one command.
 [[nodiscard]] std::string program_help();

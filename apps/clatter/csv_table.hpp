@@ -14,7 +14,7 @@
 
 namespace clatter::app {
 
-/// A choice that a file doesn't offer; `what()` is one line that ends with the way out.
+/// A choice that a file doesn't offer; `what()` is one line that ends with how to fix it.
 class ChoiceError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;

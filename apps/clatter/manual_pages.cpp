@@ -114,7 +114,7 @@ ManualPage command_page(const Command& command) {
 }
 
 constexpr std::string_view description =
-    "clatter computes how a mass on a spring and a damper, shaken by a harmonic force, knocks between rigid stops:";
+    "clatter computes how a mass on a spring and a damper, shaken by a harmonic force, knocks between stops:";
 constexpr std::string_view equations =
     "  x'' + 2 h x' + x = f sin(nu tau + phase) + load,\n"
     "  x' after an impact = -R times x' before it.\n";

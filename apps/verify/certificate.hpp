@@ -11,7 +11,7 @@
 
 namespace verify {
 
-/// A malformed certificate; `what()` names the field and the way out.
+/// A malformed certificate; `what()` names the field and how to fix it.
 class FormatError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;

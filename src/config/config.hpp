@@ -18,7 +18,7 @@ enum class Format { toml, ini };
 struct Warning {
   std::string location;  ///< "fig22.toml:7:6", or the words of a --set
   std::string section;   ///< of the key
-  std::string text;      ///< the problem; the way out
+  std::string text;      ///< the problem; how to fix it
 };
 
 /// A complete configuration: the sweep with its observables, and how to write the output.

@@ -7,7 +7,7 @@
 
 namespace clatter::config {
 
-/// A mistake in a configuration: `what()` is one line, "file:line:column: what is wrong; the way out".
+/// A mistake in a configuration: `what()` is one line, "file:line:column: what is wrong; how to fix it".
 class ConfigError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;

@@ -333,8 +333,8 @@ constexpr auto parameter_rows() {
       Row{.key = "start_period",
           .range = {.low = 0, .high = 2 * std::numbers::pi, .open = true},
           .in_scene = {"", "3",
-                       "period of the motion to start on, just after its contact with the lower stop; in place of x0 "
-                       "and v0, only if h = f = load = 0, R = 1 and xs is given",
+                       "start on the free motion that has this period, just after its contact with the lower stop; in "
+                       "place of x0 and v0, only if h = f = load = 0, R = 1 and xs is given",
                        stops, "period of the free vibration that the start lies on"},
           .role = Role::start,
           .place = at<Number, &Given::start_period>},

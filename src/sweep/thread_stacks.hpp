@@ -16,7 +16,7 @@ class LimitError : public std::runtime_error {
 /// Bytes of stack that each thread must have: four times the deepest use that was measured.
 inline constexpr std::size_t needed_stack = std::size_t{512} << 10U;
 
-/// Why the stack of the main thread, which has what `ulimit -s` permits, is too small, and the way out; empty if it
+/// Why the stack of the main thread, which has what `ulimit -s` permits, is too small, and how to fix it; empty if it
 /// suffices. No exception, which would need more of it than there may be.
 [[nodiscard]] std::string fault_of_main_stack();
 

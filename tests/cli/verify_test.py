@@ -74,7 +74,7 @@ def in_scene(**values):
     return {**RIGHT, "scene": {**RIGHT["scene"], **values}}
 
 
-MALFORMED = [  # a line, and the place and the way out that are told
+MALFORMED = [  # a line, and the place and how to fix it that are told
     ("{", "is no JSON .*; write one object a line"),
     ("[1]", "is no JSON object; write"),
     ("[" * 100000, "nests more than"),

@@ -38,8 +38,8 @@ class RestingBranch {
   /// rest just at its release. Returns whether this is so; the motion that rests, not far beyond, waits then.
   bool waits_beyond(const BranchPoint& last, Side stop, std::int64_t generation);
 
-  /// The motion that rests on a stop beyond the special point in which a branch without that rest ended, some way ahead
-  /// of it or a little further, waits.
+  /// Where a branch ends because a chatter begins to complete, finds the motion that rests on that stop beyond, so far
+  /// ahead or a little further, and lets it wait to be followed.
   void wait_beyond(const BranchPoint& last, Side stop, double ahead, std::size_t special, std::int64_t generation);
 
  private:
