@@ -10,11 +10,11 @@ import sys
 import textwrap
 from pathlib import Path
 
-import plot_options
-import report_options
+import clatter.plots.options
+import clatter.reports.cli
 
 CITATION = Path(__file__).resolve().parent.parent / "CITATION.cff"
-OPTIONS = {"clatter-plot": plot_options, "clatter-report": report_options}
+OPTIONS = {"clatter-plot": clatter.plots.options, "clatter-report": clatter.reports.cli}
 EXAMPLES = {
     "clatter-plot": "clatter run fig22.toml\nclatter-plot fig22.h5\nclatter-plot map.h5 --along nu --at xs=4",
     "clatter-report": "clatter run map.toml\nclatter-report map.h5 -o map.html",

@@ -14,16 +14,11 @@ if(TARGET manual_of_verifier)
   install(DIRECTORY ${PROJECT_BINARY_DIR}/manual_of_verifier/ DESTINATION ${CMAKE_INSTALL_DATADIR})
 endif()
 
-# Scripts for users. The others need the sources, and stay there.
-file(GLOB modules CONFIGURE_DEPENDS scripts/plot*.py scripts/report*.py scripts/plain_hdf5.py scripts/hdf5_heaps.py)
-set(entries ${modules})
-list(FILTER entries INCLUDE REGEX "/(plot|report)[.]py$")
-list(REMOVE_ITEM modules ${entries})
-install(FILES ${modules} DESTINATION ${share}/scripts)
+# Scripts for users, and the Python package, which they find beside them. The others need the sources, and stay there.
+set(entries scripts/plot.py scripts/report.py)
 install(PROGRAMS ${entries} DESTINATION ${share}/scripts)
-install(FILES scripts/report.css scripts/report.js DESTINATION ${share}/scripts)
-file(GLOB python_module CONFIGURE_DEPENDS scripts/clatter/*.py)
-install(FILES ${python_module} DESTINATION ${share}/scripts/clatter)
+install(DIRECTORY scripts/clatter DESTINATION ${share}/scripts
+  FILES_MATCHING PATTERN "*.py" PATTERN "*.css" PATTERN "*.js" PATTERN __pycache__ EXCLUDE)
 install(PROGRAMS scripts/slurm/submit.sh scripts/slurm/sweep.sbatch DESTINATION ${share}/scripts/slurm)
 
 # clatter-plot and clatter-report: links that hold wherever the prefix is moved.

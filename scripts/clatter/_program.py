@@ -9,17 +9,17 @@ import tempfile
 import warnings
 from pathlib import Path
 
-import xarray
-
 from ._config import set_words, toml_of
 
-SOME_FAILED, WRONG_USE = 1, 2  # exit codes: points failed, or a branch stopped early, and the file is there; a mistake
+# Exit codes: points failed, or a branch stopped early, and the file is there; a mistake; a file can't be read or
+# written.
+SOME_FAILED, WRONG_USE, BAD_FILE = 1, 2, 74
 
 
 class ClatterError(Exception):
-    """The program refused or failed; the text is its message.
+    """The program, or what draws, refused or failed; the text is its message.
 
-    exit_code: that of the program.
+    exit_code: that of the program, e.g. 2 for a mistake, 74 for a file that can't be read or written; else None.
     """
 
     def __init__(self, message, exit_code):
@@ -77,6 +77,8 @@ def _dataset(command, words, config, output, sections):
             f"output = {output!r}: expected the path of a file to keep, or None; keys of the section [output] belong "
             "in the configuration"
         )
+    import xarray  # here, since it takes long, and pictures need none
+
     with _Workplace(config) as place:
         file = Path(output) if output is not None else place.folder / "out.h5"
         place.call(command, [*words, "-o", str(file), *set_words(sections)], file)

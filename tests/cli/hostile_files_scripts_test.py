@@ -69,11 +69,11 @@ def each():
             yield path
 """
 READS = """
-import plot_data
+from clatter.plots import data
 for path in each():
     try:
-        plot_data.Output(path)
-    except plot_data.FileProblem:
+        data.Output(path)
+    except data.FileProblem:
         pass
 """
 TABULATES = """

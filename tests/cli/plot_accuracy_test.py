@@ -15,9 +15,8 @@ from matplotlib import image
 SOURCE = Path(os.environ["CLATTER_SOURCE"])
 sys.path.insert(0, str(SOURCE / "scripts"))
 
-import plot_accuracy  # noqa: E402  (from the source tree)
-import plot_data  # noqa: E402
-import plot_style  # noqa: E402
+from clatter.plots import accuracy as plot_accuracy  # noqa: E402  (from the source tree)
+from clatter.plots import data, style  # noqa: E402
 from synthetic_accuracy import MOTION, RESULTS, SyntheticAccuracy  # noqa: E402
 
 
@@ -62,7 +61,7 @@ class Pictures(unittest.TestCase):
         cls.kept = tempfile.TemporaryDirectory()
         cls.folder = Path(cls.kept.name)
         cls.accuracies = make_accuracies(cls.folder)
-        plot_style.use_style()
+        style.use_style()
         cls.result = plot(*(cls.folder / f"{name}.h5" for name in cls.accuracies))
 
     @classmethod
@@ -171,7 +170,7 @@ class Pictures(unittest.TestCase):
 
     def test_labels_cover_nothing(self):
         for name in ("scalar", "sweep", "transient", "map"):
-            figure = plot_accuracy.accuracy_figure(plot_data.Output(self.folder / f"{name}.h5"))
+            figure = plot_accuracy.accuracy_figure(data.Output(self.folder / f"{name}.h5"))
             figure.draw_without_rendering()
             for axes in figure.axes:
                 boxes = [text.get_window_extent() for text in axes.texts]
@@ -208,7 +207,7 @@ class Reductions(unittest.TestCase):
     def read(self, accuracy, method, cost="ns_per_period"):
         with tempfile.TemporaryDirectory() as folder:
             accuracy.write(Path(folder) / "accuracy.h5")
-            return plot_accuracy.curve(plot_data.Output(Path(folder) / "accuracy.h5"), method, MOTION, cost)
+            return plot_accuracy.curve(data.Output(Path(folder) / "accuracy.h5"), method, MOTION, cost)
 
     def test_a_curve_has_the_worst_error_and_the_median_time_over_the_points(self):
         accuracy = SyntheticAccuracy(nu=[0.9, 1.0, 1.1])
@@ -234,7 +233,7 @@ class Reductions(unittest.TestCase):
         accuracy.results["missed"][accuracy.rows("exact", arch="avx512")] = 1.0
         with tempfile.TemporaryDirectory() as folder:
             accuracy.write(Path(folder) / "accuracy.h5")
-            output = plot_data.Output(Path(folder) / "accuracy.h5")
+            output = data.Output(Path(folder) / "accuracy.h5")
         scalar, lanes = (
             plot_accuracy.curve(output, "exact", ("error_extrema",), "ns_per_period", in_lanes=in_lanes)
             for in_lanes in (False, True)
@@ -273,14 +272,14 @@ class Reductions(unittest.TestCase):
         accuracy.results["ns_per_period"][accuracy.rows("moreau", 1e-1)] = 1.0  # cheapest, but it missed impacts
         with tempfile.TemporaryDirectory() as folder:
             accuracy.write(Path(folder) / "accuracy.h5")
-            figure = plot_accuracy.accuracy_figure(plot_data.Output(Path(folder) / "accuracy.h5"))
+            figure = plot_accuracy.accuracy_figure(data.Output(Path(folder) / "accuracy.h5"))
         front = next(line for line in figure.axes[0].get_lines() if line.get_gid() == "pareto-front")
         self.assertEqual(front.get_xdata().tolist(), accuracy.results["ns_per_period"][accuracy.rows("exact")].tolist())
 
     def test_slopes_of_first_and_second_order(self):
         with tempfile.TemporaryDirectory() as folder:
             SyntheticAccuracy().write(Path(folder) / "accuracy.h5")
-            figure = plot_accuracy.accuracy_figure(plot_data.Output(Path(folder) / "accuracy.h5"))
+            figure = plot_accuracy.accuracy_figure(data.Output(Path(folder) / "accuracy.h5"))
         axes = next(axes for axes in figure.axes if axes.get_gid() == "panel-samples")
         lines = {line.get_gid(): line for line in axes.get_lines()}
         for order in (1, 2):
@@ -298,12 +297,12 @@ class Reductions(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             path = Path(folder) / "accuracy.h5"
             accuracy.write(path)
-            output = plot_data.Output(path)
+            output = data.Output(path)
             self.assertTrue(output.is_accuracy)
             self.assertEqual((output.axes, output.shape), (("nu",), (2,)))
             with h5py.File(path, "a") as file:
                 del file["ns_per_period"]
-            self.assertFalse(plot_data.Output(path).is_accuracy)
+            self.assertFalse(data.Output(path).is_accuracy)
 
 
 if __name__ == "__main__":

@@ -21,7 +21,7 @@ from plot_checks import Svg
 from script_runs import SCRIPTS, run_script, start_script
 from small_disk import small_disk
 
-import plot_style
+from clatter.plots import style
 
 MAKES = {"plot.py": ("--format", "svg", "-o", "."), "report.py": ("--no-histories", "-o", "a.html")}
 MADE = {"plot.py": "a.svg", "report.py": "a.html"}
@@ -66,7 +66,7 @@ class Stopped(Made):
     def test_a_signal_while_a_picture_is_drawn_ends_it_without_a_word_and_the_older_one_stays(self):
         for name, words, made in self.scripts():
             for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
-                with mock.patch.object(plot_style, "lay_out", sends(number)):
+                with mock.patch.object(style, "lay_out", sends(number)):
                     result = self.run_here(name, *words)
                 self.assertEqual((result.returncode, result.stdout, result.stderr), (-number, "", ""))
                 self.assert_as_before(made)

@@ -16,9 +16,9 @@ from plot_checks import overlapping_texts, texts_beyond, texts_with_boxes
 from plot_pictures import CONFIGURATIONS, Pictures, choice
 from script_runs import run_script
 
-import plot
-from plot_choice import ChoiceProblem, members_of
-from plot_scales import integer_levels, is_constant, shown_values
+from clatter.plots import pictures
+from clatter.plots.choice import ChoiceProblem, members_of
+from clatter.plots.scales import integer_levels, is_constant, shown_values
 
 
 class Kinds(Pictures):
@@ -126,7 +126,7 @@ class Kinds(Pictures):
         self.assertEqual([text.replace("$", "") for text in legend], ["R = 0.5", "R = 0.8"])
 
     def test_basins_have_a_colour_and_a_name_for_each_motion_and_its_state(self):
-        basins = plot.single_figure(self.output("basins"), choice(only=("attractor",))).axes[0]
+        basins = pictures.single_figure(self.output("basins"), choice(only=("attractor",))).axes[0]
         output = self.output("basins")
         (points,) = [image for image in basins.images]
         colours = {tuple(pixel) for pixel in points.get_array().reshape(-1, 4).tolist()}
@@ -170,7 +170,7 @@ class Kinds(Pictures):
 
     def test_a_motion_has_one_colour_in_all_pictures_of_a_file(self):
         output = self.output("zones")
-        low, high = (plot.single_figure(output, choice(at=(("nu", nu),))).axes[0] for nu in (1.2, 1.4))
+        low, high = (pictures.single_figure(output, choice(at=(("nu", nu),))).axes[0] for nu in (1.2, 1.4))
         colours = [{line.get_label().split(",")[0]: line.get_color() for line in axes.lines} for axes in (low, high)]
         self.assertEqual(colours[0], colours[1])
         self.assertEqual(len(colours[0]), 2)
@@ -188,7 +188,7 @@ class Kinds(Pictures):
     def test_a_map_shows_each_value_where_its_point_lies(self):
         for name in ("map", "uneven"):
             output = self.output(name)
-            axes = plot.single_figure(output, choice(only=("x_max",))).axes[0]
+            axes = pictures.single_figure(output, choice(only=("x_max",))).axes[0]
             image = axes.images[0]
             pixels, values = image.get_array(), output.values("x_max")
             bar = ScalarMappable(Normalize(values.min(), values.max()), "viridis")
@@ -202,7 +202,7 @@ class Kinds(Pictures):
     def test_a_hatch_is_one_image(self):
         output = self.output("map")
         self.assertTrue((output.values("status") == 1).any())
-        axes = plot.single_figure(output, choice(only=("x_max",))).axes[0]
+        axes = pictures.single_figure(output, choice(only=("x_max",))).axes[0]
         self.assertEqual(len(axes.images), 2)
         self.assertEqual(len(axes.collections), 0)
 
@@ -290,7 +290,7 @@ class Kinds(Pictures):
         svg = self.draw("linear", arguments=picture)
         self.assertEqual(svg.root.get("width"), f"{12 / 2.54 * 72:.6f}".rstrip("0") + "pt")
         self.assertIn("My $own", " ".join(svg.texts()).replace("\\", ""))
-        axes = plot.single_figure(self.output("linear"), choice(xlim=(0.9, 1.1), ylim=(-5, 5), log="x")).axes[0]
+        axes = pictures.single_figure(self.output("linear"), choice(xlim=(0.9, 1.1), ylim=(-5, 5), log="x")).axes[0]
         self.assertEqual((axes.get_xlim(), axes.get_ylim(), axes.get_xscale()), ((0.9, 1.1), (-5, 5), "log"))
 
     def test_wrong_choices(self):

@@ -11,7 +11,7 @@ import numpy as np
 from scene_pictures import ScenePictures
 from script_runs import run_script
 
-from plot_names import equation
+from clatter.plots.names import equation
 
 
 class Labels(ScenePictures):

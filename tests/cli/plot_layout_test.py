@@ -17,13 +17,10 @@ from plot_checks import SVG, Svg, overlapping_texts, texts_beyond, texts_in, tex
 from plot_pictures import choice
 from script_runs import run_script
 
-import plot
-import plot_attractors
-import plot_style
-from matplotlib import pyplot
-from plot_branch_names import NAMED, REST
-from plot_data import Output
-from plot_text import short_word
+from clatter.plots import attractors, pictures, style
+from clatter.plots.branch_names import NAMED, REST
+from clatter.plots.data import Output
+from clatter.plots.names import short_word
 
 DRIVE = """title = "The vibration drive of the paper in SI, followed over the excitation frequency"
 [machine]
@@ -61,11 +58,10 @@ class Layout(unittest.TestCase):
         kept = tempfile.TemporaryDirectory()
         cls.addClassCleanup(kept.cleanup)
         cls.folder = Path(kept.name)
-        cls.addClassCleanup(pyplot.close, "all")
-        plot_style.use_style()
+        style.use_style()
 
     def setUp(self):
-        self.addCleanup(plot_style.use_style)
+        self.addCleanup(style.use_style)
 
     @classmethod
     def make(cls, command, name, text):
@@ -82,8 +78,8 @@ class Layout(unittest.TestCase):
     def figure(self, *names, **options):
         """A picture of these files in memory, as the program draws it."""
         options = choice(files=[self.folder / f"{name}.h5" for name in names], backbone=False, **options)
-        plot_style.use_style(options.size)
-        ((_, figure),) = plot.pictures(options)
+        style.use_style(options.size)
+        ((_, figure),) = pictures.pictures(options)
         return figure
 
     def assert_clear(self, figure, height):
@@ -283,9 +279,9 @@ class Words(unittest.TestCase):
 class Motions(unittest.TestCase):
     def test_those_with_a_name_have_a_colour_each(self):
         chosen = [0, 3, 24, 27, 51, 72]
-        colours = plot_attractors.distinct_colours(chosen)
+        colours = attractors.distinct_colours(chosen)
         self.assertEqual(len(set(colours.values())), len(chosen))
-        self.assertEqual((colours[0], colours[3]), (plot_style.colour_of(0), plot_style.colour_of(3)))
+        self.assertEqual((colours[0], colours[3]), (style.colour_of(0), style.colour_of(3)))
 
 
 if __name__ == "__main__":

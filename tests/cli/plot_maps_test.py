@@ -15,12 +15,10 @@ import numpy as np
 from command_line import CLATTER, SOURCE
 from plot_checks import Svg, overlapping_texts
 
-import plot
-import plot_style
-from matplotlib import pyplot
-from plot_data import APERIODIC, FIRST_FAILURE, GRAZING, Output
-from plot_maps import Quantity, white_notes
-from plot_scales import DIGITS, integer_levels, tidy_ticks
+from clatter.plots import pictures, style
+from clatter.plots.data import APERIODIC, FIRST_FAILURE, GRAZING, Output
+from clatter.plots.maps import Quantity, white_notes
+from clatter.plots.scales import DIGITS, integer_levels, tidy_ticks
 
 FORCED = "[scene]\nf = -1.0\nh = 0.1\nR = 0.8\n"
 SCENES = {
@@ -56,9 +54,8 @@ class Maps(unittest.TestCase):
             command = [CLATTER, "run", cls.folder / f"{name}.toml", "-o", cls.folder / f"{name}.h5", "-q"]
             code = subprocess.run(command, timeout=300).returncode
             assert code == (1 if name == "failed" else 0), (name, code)
-        plot_style.use_style()
-        cls.figures = {name: plot.single_figure(Output(cls.folder / f"{name}.h5"), NO_CHOICE) for name in SCENES}
-        cls.addClassCleanup(pyplot.close, "all")
+        style.use_style()
+        cls.figures = {name: pictures.single_figure(Output(cls.folder / f"{name}.h5"), NO_CHOICE) for name in SCENES}
 
     def output(self, name):
         return Output(self.folder / f"{name}.h5")
@@ -178,7 +175,7 @@ class Maps(unittest.TestCase):
 
 class Scales(unittest.TestCase):
     def setUp(self):
-        plot_style.use_style()
+        style.use_style()
 
     def test_levels(self):
         for values, wanted in (
@@ -214,8 +211,8 @@ class Scales(unittest.TestCase):
             (4.99997e-9, 4.99999e-9, "\N{MINUS SIGN} 4.9999$\\cdot 10^{-9}$, in $10^{-14}$"),
         ):
             with self.subTest(low=low, high=high):
-                figure, axes = pyplot.subplots(figsize=(3, 2))
-                self.addCleanup(pyplot.close, figure)
+                figure = style.new_figure(2, 3)
+                axes = figure.subplots()
                 axes.set(xlim=(low, high), ylim=(low, high), xlabel="along")
                 self.assertEqual(tidy_ticks(axes), {"x": words, "y": words})
                 figure.draw_without_rendering()

@@ -13,9 +13,8 @@ from command_line import CLATTER
 from plot_checks import Svg
 from script_runs import run_script
 
-import plot
-import plot_style
-from plot_data import Output
+from clatter.plots import pictures, style
+from clatter.plots.data import Output
 
 FORCED = "[scene]\nf = -1.0\nh = 0.1\n"
 ALONG_NU = '[sweep]\nnu = "linspace(0.84, 1.0, 81)"\n'
@@ -88,7 +87,7 @@ class Pictures(unittest.TestCase):
             (cls.folder / f"{name}.toml").write_text(text)
             command = [CLATTER, "run", cls.folder / f"{name}.toml", "-o", cls.folder / f"{name}.h5", "-q"]
             subprocess.run(command, check=True, timeout=300)
-        plot_style.use_style()
+        style.use_style()
         cls.drawn, cls.figures = {}, {}
 
     def draw(self, *names, arguments=()):
@@ -105,7 +104,7 @@ class Pictures(unittest.TestCase):
     def figure(self, name):
         """The picture of a file without any choice, drawn once for all tests, which leave it as it is."""
         if name not in self.figures:
-            self.figures[name] = plot.single_figure(self.output(name), NO_CHOICE)
+            self.figures[name] = pictures.single_figure(self.output(name), NO_CHOICE)
         return self.figures[name]
 
     def output(self, name):

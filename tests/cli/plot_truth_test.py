@@ -15,10 +15,10 @@ from plot_checks import Svg
 from plot_pictures import choice
 from scene_pictures import ScenePictures
 
-import plot
-from plot_attractors import basin_kinds, name_of
-from plot_data import ESCAPED
-from plot_motion import motion
+from clatter.plots import pictures
+from clatter.plots.attractors import basin_kinds, name_of
+from clatter.plots.data import ESCAPED
+from clatter.plots.motion import motion
 
 
 class Contacts(ScenePictures):
@@ -77,8 +77,7 @@ class Speeds(ScenePictures):
         fastest = np.fmax(*speeds.T)
         self.assertTrue((fastest > 1.001 * first).any())  # the first impact isn't always the fastest
         files = [str(self.folder / f"{name}.h5") for name in ("branch", "speeds")]
-        figure = plot.branches_together(choice(files=files, only=("impact_speed",), backbone=False))
-        self.addCleanup(plot.pyplot.close, figure)
+        figure = pictures.branches_together(choice(files=files, only=("impact_speed",), backbone=False))
         (points,) = [line for line in figure.axes[0].lines if line.get_gid() == "sweep"]
         np.testing.assert_array_equal(points.get_ydata(), fastest)
         self.assertNotIn("impact_speed", self.caption(figure))

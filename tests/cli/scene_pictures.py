@@ -13,9 +13,8 @@ from plot_checks import Svg, overlapping_texts, texts_beyond
 from plot_pictures import choice
 from script_runs import run_script
 
-import plot
-import plot_style
-from plot_data import Output
+from clatter.plots import pictures, style
+from clatter.plots.data import Output
 
 SOFT = "[scene]\nf = -1.0\nh = 0.1\n{}[observe]\ntrajectory = 801\nimpact_log = true\n"
 STEADY = "[scene]\nf = -1.0\nh = 0.1\nR = 0.7\n"
@@ -94,7 +93,7 @@ class ScenePictures(unittest.TestCase):
             STEADY + "xs = -3\nnu = 1.05\n[observe]\nstability = true\n[branch]\nalong = 'nu'\nrange = [0.9, 1.1]\n"
         )
         cls.run_text("branch", branch, "branch", codes=(0, 1))
-        plot_style.use_style()
+        style.use_style()
 
     @classmethod
     def run_text(cls, name, text, command, codes=(0,)):
@@ -108,8 +107,7 @@ class ScenePictures(unittest.TestCase):
 
     def figure(self, name, **options):
         """The picture of a file, whose texts lie apart and within it."""
-        figure = plot.single_figure(self.output(name), choice(**options))
-        self.addCleanup(plot.pyplot.close, figure)
+        figure = pictures.single_figure(self.output(name), choice(**options))
         self.assertEqual((overlapping_texts(figure), texts_beyond(figure)), ([], []), name)
         return figure
 

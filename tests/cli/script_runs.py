@@ -19,8 +19,8 @@ from command_line import LONGEST, SOURCE
 SCRIPTS = SOURCE / "scripts"
 sys.path.insert(0, str(SCRIPTS))
 
-import plot  # noqa: E402, F401  (from the source tree, so that forks have it and all that it imports)
-import report_page  # noqa: E402, F401
+import clatter.plots.pictures  # noqa: E402, F401  (from the source tree, so that forks have what they import)
+import clatter.reports.page  # noqa: E402, F401
 
 
 def run_script(name, *words, cwd=None, environment=None, timeout=LONGEST):

@@ -3,12 +3,11 @@
 import numpy as np
 from matplotlib import colors
 
-from plot_data import ESCAPED, FIRST_FAILURE, has_failed
-from plot_maps import OLIVE, class_map, edges_between, name_colours, name_panel
-from plot_scales import shown_values, tidy_ticks
-from plot_names import label, number, symbol
-from plot_style import COLOURS, GREEN, SKY, colour_of, legend_above
-from plot_text import plain, short_word
+from .data import ESCAPED, FIRST_FAILURE, has_failed
+from .maps import OLIVE, class_map, edges_between, name_colours, name_panel
+from .scales import shown_values, tidy_ticks
+from .names import label, number, plain, short_word, symbol
+from .style import COLOURS, GREEN, SKY, colour_of, legend_above
 
 STARTS = ("x0", "v0", "phase", "start_period")
 OTHERS = "#bfbfbf"

@@ -2,12 +2,11 @@
 
 import numpy as np
 
-from plot_curves import MARGIN, name_statuses
-from plot_scales import shown_values
-from plot_names import in_frame, label, symbol, with_unit
-from plot_empty import say_empty
-from plot_text import short_word
-from plot_style import BLUE, CYCLE, GREEN, STOP, VERMILION, colour_of, legend_above, set_axis
+from .curves import MARGIN, name_statuses
+from .scales import shown_values
+from .names import in_frame, label, short_word, symbol, with_unit
+from .empty import say_empty
+from .style import BLUE, CYCLE, GREEN, STOP, VERMILION, colour_of, legend_above, set_axis
 
 MANY = 2000  # points, from which on they are small
 WORD = "impact word"  # marks the texts that may have to go

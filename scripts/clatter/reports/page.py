@@ -1,4 +1,5 @@
-"""The page itself: one file with its style, its script, pictures, tables and the numbers of points."""
+"""The page: one file with its style, its script, pictures, tables and the numbers of points, which replaces no other
+file but an older page."""
 
 import base64
 import hashlib
@@ -10,24 +11,51 @@ from html import escape
 from pathlib import Path
 from urllib.parse import quote
 
-import h5py
-
-from plain_hdf5 import UNREADABLE, damaged, printable, text
-from report_commands import command, command_notes
-from report_histories import NoHistories, config_text, histories, program
-from report_pictures import picture
-from report_points import Points
-from report_tables import tables
+from .._command import write_whole
+from ..plain_hdf5 import FileProblem
+from ..plots.data import Output
+from ..plots.style import own_style
+from .commands import command, command_notes
+from .histories import NoHistories, histories, program
+from .pictures import picture
+from .points import Points
+from .tables import tables
 
 HERE = Path(__file__).resolve().parent
 TIME = r", [^,\n]* on one thread|estimated time .*\n|memory .*\n"  # in a plan: not the same on every run or machine
 MARK = "<!-- a report of clatter -->"
-ORIGIN = ("clatter_version", "git_commit", "compiler", "source", "config_sha256", "instruction_set")
+
+
+def write_page(files, path, title, may_run):
+    """Writes the page of these files, all of it or nothing, and returns its path."""
+    check_place(path)
+    with own_style():
+        text = page([Output(name) for name in files], title, may_run)
+    try:
+        write_whole(path, text.encode(errors="backslashreplace"))
+    except OSError as error:
+        raise FileProblem(f"{path}: cannot be written ({error.strerror}); name another file with -o") from None
+    return path
+
+
+def check_place(path):
+    """An older report may be replaced, any other file not."""
+    if not path.parent.is_dir():
+        raise FileProblem(f"{path}: there is no folder {path.parent}; make it, or name another file with -o")
+    if not os.path.exists(path):
+        return
+    try:
+        with open(path, "rb") as file:
+            is_report = path.is_file() and file.read(200).decode(errors="replace").splitlines()[1:2] == [MARK]
+    except OSError as error:
+        raise FileProblem(f"{path}: cannot be read ({error.strerror}); name another file with -o") from None
+    if not is_report:
+        raise FileProblem(f"{path}: is no report, so it is kept; name another file with -o, or move that one away")
 
 
 def page(outputs, title, may_run):
     """The page as text; the same for the same files."""
-    script, style = (Path(HERE / f"report.{kind}").read_text(encoding="utf-8") for kind in ("js", "css"))
+    script, style = (Path(HERE / f"page.{kind}").read_text(encoding="utf-8") for kind in ("js", "css"))
     title = title or outputs[0].title or Path(shown_name(outputs[0].path)).stem
     many = len(outputs) > 1
     sections = [section(place, output, may_run, many) for place, output in enumerate(outputs)]
@@ -54,7 +82,6 @@ def section(place, output, may_run, has_title):
     points = Points(output) if not output.is_accuracy else None
     svg, panels = picture(output)
     name = Path(shown_name(output.path)).stem
-    toml = config_of(output)
     data = {"panels": panels, **(points.packed() if points else {"shape": [0]})}
     notes = []
     try:
@@ -81,7 +108,7 @@ def section(place, output, may_run, has_title):
         f"<p class=path>{escape(Path(shown_name(output.path)).name)}</p>\n{explorer}\n"
         + "".join(f"<p class=note>{escape(note)}</p>" for note in notes)
         + tables(output, points)
-        + how_it_was_made(output, name, toml, may_run)
+        + how_it_was_made(output, name, may_run)
         + f"\n<script type=application/json>{safe_json(data)}</script>\n</section>"
     )
 
@@ -100,20 +127,10 @@ def safe_json(data):
     return json.dumps(data, separators=(",", ":"), allow_nan=False).replace("<", "\\u003c")
 
 
-def config_of(output):
-    try:
-        return config_text(output)
-    except UNREADABLE as error:
-        raise damaged(output.path, error) from None
-
-
-def how_it_was_made(output, name, toml, may_run):
+def how_it_was_made(output, name, may_run):
     """Configuration, version and plan."""
-    with h5py.File(output.path, "r") as file:
-        origin = [(key, printable(text(file.attrs[key]))) for key in ORIGIN if key in file.attrs]
-    rows = "".join(
-        f"<dt>{escape(key.replace('_', ' '))}</dt><dd>{escape(value)}</dd>" for key, value in origin if value
-    )
+    toml, origin = output.config_text, {key: value for key, value in output.origin.items() if value}
+    rows = "".join(f"<dt>{escape(key.replace('_', ' '))}</dt><dd>{escape(value)}</dd>" for key, value in origin.items())
     link = (
         f'<a download="{escape(name)}.toml" href="data:text/plain;charset=utf-8,{quote(toml)}">{escape(name)}.toml</a>'
     )

@@ -2,43 +2,29 @@
 
 import io
 
-from matplotlib import pyplot
-
-import plot
-import plot_names
-import plot_style
-from plot_branch import chosen, parameter_of, plane_of
-from plot_choice import members_of
-from plot_maps import AxesImage
+from ..plots import names, options, pictures, style
+from ..plots.branch import chosen, parameter_of, plane_of
+from ..plots.choice import members_of
+from ..plots.maps import AxesImage
 
 LARGEST = 1_500_000  # bytes of a picture
 RESOLUTIONS = (150, 110, 80, 55)  # dots per inch of what is drawn as an image
 
 
-class Choices:
-    """The options of plot.py, at their defaults."""
-
-    only, along, over, at, size, xlim, ylim, log, backbone, title = (), "", "", (), None, None, None, "", False, None
-
-    def __init__(self, path):
-        self.files = [path]
-
-
 def picture(output):
     """The picture as SVG, and its panels."""
-    options = Choices(output.path)
+    choices = options.choices([output.path])
     if output.is_branch:
-        figure = plot.branches_together(options)
+        figure = pictures.branches_together(choices)
         panels = branch_panels(figure, output)
     elif output.is_accuracy:
-        figure = plot.single_figure(output, options)
+        figure = pictures.single_figure(output, choices)
         panels = []
     else:
         members = members_of(output)
-        figure = plot.figure_of(members, options)
+        figure = pictures.figure_of(members, choices)
         panels = sweep_panels(figure, output, members[0].output)
     svg = svg_of(figure)
-    pyplot.close(figure)
     return svg, panels
 
 
@@ -46,7 +32,7 @@ def svg_of(figure):
     """The picture, coarser if it would be large."""
     for dpi in RESOLUTIONS:
         file = io.StringIO()
-        figure.savefig(file, format="svg", metadata=plot.DATELESS["svg"], dpi=plot_style.resolution(figure, dpi))
+        figure.savefig(file, format="svg", metadata=pictures.DATELESS["svg"], dpi=style.resolution(figure, dpi))
         if file.tell() < LARGEST:
             break
     return file.getvalue()
@@ -76,7 +62,7 @@ def sweep_panels(figure, output, shown):
 
 def lies_across(axes, shown, axis):
     """Whether a panel has an axis of the sweep as its abscissa; its label may go on, with what its ticks share."""
-    label, text = plot_names.label(shown, axis), axes.get_xlabel()
+    label, text = names.label(shown, axis), axes.get_xlabel()
     return text.startswith(label) and text[len(label) :][:1] in ("", " ", ",")
 
 

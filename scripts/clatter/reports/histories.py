@@ -5,15 +5,13 @@ import shutil
 import subprocess
 from pathlib import Path
 
-import h5py
 import numpy as np
 
-from plain_hdf5 import text
-from plot_data import Output
-from plot_files import run_child, temporary_folder
-from plot_motion import motion
-from report_commands import keys_along
-from report_points import packed, shared_out, spread
+from .._command import run_child, temporary_folder
+from ..plots.data import Output
+from ..plots.motion import motion
+from .commands import keys_along
+from .points import packed, shared_out, spread
 
 MOST = 200  # points whose motion is in a page
 SAMPLES = 241  # of a motion that is computed for it
@@ -74,7 +72,7 @@ def computed(output, kept):
     """The output of a run at these points that keeps the motion and nothing else."""
     with temporary_folder("clatter-report-") as folder:
         config, file = folder / "configuration.toml", folder / "motion.h5"
-        config.write_text(config_text(output), encoding="utf-8")
+        config.write_text(output.config_text, encoding="utf-8")
         words = [program(), "run", str(config), "-o", str(file), "--quiet", *settings(output, kept)]
         try:
             done = run_child(words, SECONDS, stdin=subprocess.DEVNULL)
@@ -88,12 +86,6 @@ def computed(output, kept):
         return Output(file)
 
 
-def config_text(output):
-    """The configuration that the file has from its run."""
-    with h5py.File(output.path, "r") as file:
-        return text(file.attrs["config"])
-
-
 def settings(output, kept):
     """Words that change the configuration: the axes at these indexes, and only the motion kept."""
     changes = {f"observe.{key}": "false" for key, value in output.config.get("observe", {}).items() if value is True}
@@ -105,8 +97,8 @@ def settings(output, kept):
 
 
 def program():
-    """The program: that of CLATTER, else that beside this script, installed or built, else that on PATH."""
-    scripts = Path(__file__).resolve().parent
+    """The program: that of CLATTER, else that beside this package, installed or built, else that on PATH."""
+    scripts = Path(__file__).resolve().parents[2]
     beside = [scripts.parents[2] / "bin" / "clatter"] if len(scripts.parents) > 2 else []
     for path in [*beside, scripts.parent / "build" / "release" / "apps" / "clatter" / "clatter"]:
         if not os.environ.get("CLATTER") and os.access(path, os.X_OK):

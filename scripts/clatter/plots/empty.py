@@ -2,10 +2,10 @@
 
 import numpy as np
 
-from plot_data import lacks_period
-from plot_maps import MISSING
-from plot_names import label
-from plot_scales import shown_values
+from .data import lacks_period
+from .maps import MISSING
+from .names import label
+from .scales import shown_values
 
 EMPTY = "empty"  # marks the text of a panel without anything
 

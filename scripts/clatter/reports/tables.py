@@ -4,8 +4,8 @@ from html import escape
 
 import numpy as np
 
-from plot_attractors import name_of
-from plot_data import FIRST_FAILURE
+from ..plots.attractors import name_of
+from ..plots.data import FIRST_FAILURE
 
 MOST = 300  # rows
 

@@ -6,8 +6,8 @@ from pathlib import Path
 
 import numpy as np
 
-from plot_data import FIRST_FAILURE
-from report_points import packed
+from ..plots.data import FIRST_FAILURE
+from .points import packed
 
 
 def shell_word(name):

@@ -6,11 +6,10 @@ from itertools import product
 import numpy as np
 from matplotlib import ticker
 
-from plot_data import ESCAPED, has_failed, lacks_period
-from plot_scales import COUNTS, is_integer, shown_values
-from plot_names import amount, in_frame, label, result_in_words, symbol, with_unit
-from plot_text import plain
-from plot_style import BLUE, STOP, colour_of, draw_walls, legend_above, set_axis
+from .data import ESCAPED, has_failed, lacks_period
+from .scales import COUNTS, is_integer, shown_values
+from .names import amount, in_frame, label, plain, result_in_words, symbol, with_unit
+from .style import BLUE, STOP, colour_of, draw_walls, legend_above, set_axis
 
 MARGIN = 0.012  # of an axis beside its points
 DENSE = 60  # points from which a curve is drawn without markers

@@ -2,10 +2,10 @@
 
 import numpy as np
 
-from plot_data import lacks_period
-from plot_names import equation, label
-from plot_empty import say_empty
-from plot_style import BLUE, CYCLE, GRID, STOP, VERMILION, draw_walls, legend_above
+from .data import lacks_period
+from .names import equation, label
+from .empty import say_empty
+from .style import BLUE, CYCLE, GRID, STOP, VERMILION, draw_walls, legend_above
 
 LAST_PERIODS = 20  # of motion without a period that are drawn
 

@@ -1,6 +1,6 @@
 """Legends that have room: above their panels, or once below all of them, in columns."""
 
-import plot_style
+from . import style
 
 SIDES, BAR = 0.75, 1.0  # inches, of a panel's column: what the numbers and names beside it take, and a colour bar
 HIGHEST, OWN = 0.25, 0.4  # of the height of a panel's row, for a legend above it; for one that no other panel shares
@@ -20,7 +20,7 @@ def lay_out(figure, is_fixed):
             figure.set_figheight(figure.get_figheight() + height)
         share = height / figure.get_figheight()
         figure.get_layout_engine().set(rect=(0.0, share, 1.0, 1.0 - share))
-    plot_style.lay_out(figure)
+    style.lay_out(figure)
     if below:
         caption = figure._supxlabel
         top = caption.get_window_extent().y1 if caption and caption.get_text() else 0.0
@@ -60,7 +60,7 @@ def fit_above(axes, share):
     room = figure.get_figwidth() / grid.ncols - SIDES - (BAR if bars else 0.0)
     most = share * figure.get_figheight() / grid.nrows
     for columns in range(min(axes.get_legend()._ncols, len(entries(axes))), 0, -1):
-        plot_style.legend_above(axes, columns=columns, markerscale=axes.get_legend().markerscale)
+        style.legend_above(axes, columns=columns, markerscale=axes.get_legend().markerscale)
         width, height = (side / figure.dpi for side in axes.get_legend().get_window_extent().size)
         if height > most or width <= room:
             return height <= most
@@ -87,7 +87,7 @@ def legend_below(figure, named, is_fixed):
 
 def in_room(name, room):
     """A name in lines of so many letters at most; a longer word without mathematics is cut."""
-    lines = plot_style.lines_of(name, room)
+    lines = style.lines_of(name, room)
     return "\n".join(line if "$" in line or len(line) <= room else line[: room - 1] + "…" for line in lines)
 
 

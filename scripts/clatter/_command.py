@@ -1,6 +1,7 @@
-"""What plot.py and report.py leave behind: whole files or none, lines on standard output, and nothing that a signal
-cut short."""
+"""How clatter-plot and clatter-report run, and what they leave behind: whole files or none, lines on standard output,
+and nothing that a signal cut short."""
 
+import logging
 import os
 import secrets
 import shutil
@@ -8,17 +9,19 @@ import signal
 import subprocess
 import sys
 import tempfile
+import warnings
 from contextlib import contextmanager, suppress
 from pathlib import Path
 
-BAD_FILE = 74  # exit code, clatter's
+from ._program import BAD_FILE, ClatterError
+
 SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 unfinished = set()  # files and folders that a signal removes
 children = set()  # processes that it ends before, since they may write into these folders
 
 
 def begin():
-    """Lets Ctrl-C end the script without a traceback, and names of any bytes be printed as they are."""
+    """Lets Ctrl-C end the command without a traceback, and names of any bytes be printed as they are."""
     for number in SIGNALS:
         if signal.getsignal(number) is not signal.SIG_IGN:  # as nohup sets it
             signal.signal(number, end)
@@ -49,12 +52,23 @@ def remove(path):
     unfinished.discard(path)
 
 
-def run(name, main):
-    """The exit code of a script's main function, once all that it printed is written."""
+def run(name, work):
+    """The exit code of a command that does this, once all that it printed is written."""
+    begin()  # before what takes long to import
+    if not sys.warnoptions:  # warnings of numpy and matplotlib are for those who work on this program
+        warnings.simplefilter("ignore")
+        logging.getLogger("matplotlib").setLevel(logging.ERROR)
+    code = 0
     try:
-        code = main()
+        work()
     except SystemExit as end_of_it:  # after --help, for one
         code = end_of_it.code
+    except ClatterError as problem:
+        print(f"{name}: {problem}", file=sys.stderr)
+        code = problem.exit_code
+    except ImportError as error:
+        print(f"{name}: {error}", file=sys.stderr)
+        code = 1
     with printing(name):
         return code
 
@@ -101,7 +115,7 @@ def write_whole(path, content):
 
 @contextmanager
 def temporary_folder(prefix):
-    """A folder that is gone afterwards, whatever ends the script."""
+    """A folder that is gone afterwards, whatever ends the program."""
     folder = Path(tempfile.gettempdir()) / f"{prefix}{secrets.token_hex(8)}"
     unfinished.add(folder)
     try:

@@ -2,9 +2,9 @@
 
 import numpy as np
 
-from plot_choice import differences
-from plot_style import colour_of
-from plot_text import plain, short_word
+from .choice import differences
+from .names import plain, short_word
+from .style import colour_of
 
 NAMED = 10  # branches, or files if there are several
 REST = "#a0a0a0"  # colour of all others

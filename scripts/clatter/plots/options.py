@@ -1,4 +1,4 @@
-"""The command line of plot.py."""
+"""The command line of clatter-plot, and the same choices from Python."""
 
 import argparse
 import os
@@ -6,6 +6,8 @@ import re
 import sys
 from itertools import takewhile
 from pathlib import Path
+
+from .._program import WRONG_USE, ClatterError
 
 FORMATS = ("pdf", "png", "svg")
 USAGE = """%(prog)s [-o DIR] [--format svg|png|pdf...] [--only NAME,...]
@@ -21,9 +23,16 @@ paper, or if one of them holds branches. Exit codes: 0 done, 2 wrong command lin
 written."""
 
 
-def options_parser():
+class Strict(argparse.ArgumentParser):
+    """Throws a mistake in place of ending the program."""
+
+    def error(self, message):
+        raise ClatterError(message, WRONG_USE)
+
+
+def options_parser(kind=argparse.ArgumentParser):
     """All that --help and the man page tell."""
-    parser = argparse.ArgumentParser(usage=USAGE, description=DESCRIPTION, allow_abbrev=False, epilog=EPILOG)
+    parser = kind(usage=USAGE, description=DESCRIPTION, allow_abbrev=False, epilog=EPILOG)
     add = parser.add_argument
     add(
         "files",
@@ -62,6 +71,13 @@ def command_line():
     options.files += files
     if not options.files:
         parser.error("no FILE.h5")
+    return options
+
+
+def choices(files, words=()):
+    """The options that these words choose, for files of any names."""
+    options = options_parser(Strict).parse_args(words)
+    options.files = list(files)
     return options
 
 

@@ -6,13 +6,12 @@ from pathlib import Path
 import numpy as np
 from matplotlib import colors
 
-from plot_attractors import ZONES, has_shares, runs
-from plot_branch_names import REST, colours_and_names
-from plot_choice import OBSERVED, ChoiceProblem
-from plot_maps import Grid, edges_between, kind_map, regime_map
-from plot_names import label
-from plot_style import STOP, caption_below, legend_above, new_figure
-from plot_text import plain
+from .attractors import ZONES, has_shares, runs
+from .branch_names import REST, colours_and_names
+from .choice import OBSERVED, ChoiceProblem
+from .maps import Grid, edges_between, kind_map, regime_map
+from .names import label, plain
+from .style import STOP, caption_below, legend_above, new_figure
 
 PANELS = ("v_max", "impact_speed")  # unless --only names others
 OFFERED = ("x", "v", "x_min", "x_max", "v_min", "v_max", "impact_speed", "impact_power")

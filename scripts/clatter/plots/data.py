@@ -3,15 +3,19 @@
 import copy
 import dataclasses
 import re
-import tomllib
 from dataclasses import dataclass
 
-import h5py
 import numpy as np
 
-from plain_hdf5 import FileProblem, UNREADABLE, damaged, open_output, printable, text, values_of
+from ..plain_hdf5 import FileProblem, UNREADABLE, damaged, dimensions_of, open_output, printable, text, values_of
+
+try:
+    import tomllib
+except ModuleNotFoundError:  # before Python 3.11
+    import tomli as tomllib
 
 PAPER = "10.5755/j02.mech.32277"
+ORIGIN = ("clatter_version", "git_commit", "compiler", "source", "config_sha256", "instruction_set")  # attributes
 APERIODIC = 1  # status of motion without a period
 UNDECIDED = 4  # status of motion whose period rounding would decide
 GRAZING = 3  # status of periodic motion without multipliers, since it just touches a stop
@@ -80,7 +84,9 @@ class Output:
                 raise FileProblem(f"{path}: shard {shard} of a sweep; join all with 'clatter merge' first")
             self.title = text(file.attrs.get("title", ""))
             self.source = text(file.attrs.get("source", ""))
-            self.config = tomllib.loads(text(file.attrs["config"]))
+            self.config_text = text(file.attrs["config"])
+            self.config = tomllib.loads(self.config_text)
+            self.origin = {key: printable(text(file.attrs[key])) for key in ORIGIN if key in file.attrs}
             self.variables = {name: read_variable(item) for name, item in file.items() if not is_bare_dimension(item)}
             self.meanings = flag_meanings(file["status"]) if "status" in file else {}
             self.methods = flag_meanings(file["method"]) if "method" in file else {}
@@ -301,13 +307,11 @@ def is_bare_dimension(item):
 
 
 def read_variable(item):
-    scales = [dim[0].name.lstrip("/") if len(dim) else f"dim{place}" for place, dim in enumerate(item.dims)]
     name = item.name.lstrip("/")
-    dims = (name,) if h5py.h5ds.is_scale(item.id) else tuple(scales)
     return Variable(
         name,
         values_of(item),
-        dims,
+        dimensions_of(item),
         text(item.attrs.get("long_name", name)),
         text(item.attrs.get("units", "1")),
         text(item.attrs.get("frame", "")),

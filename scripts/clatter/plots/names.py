@@ -1,10 +1,10 @@
-"""Names of variables and constants in pictures: words, symbols, values with their units."""
+"""Names of variables and constants in pictures: words, symbols, values with their units; and texts of files and command
+lines as pictures show them."""
 
 import re
+from itertools import groupby
 
 import numpy as np
-
-from plot_text import plain
 
 # Words and symbol of what the paper and the configuration name; anything else is labelled by its long_name.
 LABELS = {
@@ -108,6 +108,7 @@ UNITS = {
     "v0": "m s-1",
     **dict.fromkeys(("gap", "stop_lower", "stop_upper", "stop_amplitude", "base_amplitude", "x0"), "m"),
 }
+LONGEST = 12  # letters of a word that is written out
 SHORT = 0.1  # m: lengths that are all below it are written in mm
 YES_OR_NO = ("symmetric",)  # what 1 and 0 stand for
 PLACES = ("x", "x_min", "x_max")  # drawn between the stops
@@ -221,3 +222,23 @@ def typeset_unit(unit):
 def number(value):
     """A number as text, with a real minus sign, and none for zero."""
     return re.sub(r"e([-+])0", r"e\1", f"{value + 0.0:.6g}").replace("-", "\N{MINUS SIGN}")
+
+
+def plain(text):
+    """A text in one line without mathematics, and with a mark for what no picture can show."""
+    text = re.sub(r"[\t\n\r]", " ", text)
+    return re.sub(r"[\x00-\x1f\x7f\ud800-\udfff]", "\N{REPLACEMENT CHARACTER}", text).replace("$", r"\$")
+
+
+def short_word(word):
+    """An impact word, a long one with powers of what repeats: LLLLLLLUUUUUUU becomes L⁷U⁷."""
+    if len(word) <= LONGEST:
+        return plain(word)
+    shown, room = "", LONGEST
+    for letter, run in groupby(re.findall(r"\w\*?", word)):
+        times = len(list(run))
+        room -= len(letter) + (len(str(times)) if times > 1 else 0)
+        if room < 0:
+            return shown + "…"
+        shown += letter + (f"$^{{{times}}}$" if times > 1 else "")
+    return shown

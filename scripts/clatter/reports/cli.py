@@ -1,19 +1,24 @@
-"""The command line of report.py."""
+"""The command clatter-report: makes one page of outputs of clatter; --help says more."""
 
 import argparse
+from pathlib import Path
 
+from .._command import run, tell
+from .._pictures import needing
+
+NAME = "clatter-report"
 DESCRIPTION = """Makes one self-contained page of outputs of clatter: how they were made, pictures, tables; a click or
 the arrow keys on a picture show a point's numbers, its motion, and the command that runs it alone. The page needs no
 network."""
 EPILOG = """The motion of up to 200 points of each sweep is computed for the page by the program clatter: the one that
-the variable CLATTER names, else that beside this script, else that on PATH. Exit codes: 0 done, 2 wrong command line,
+the variable CLATTER names, else that beside this command, else that on PATH. Exit codes: 0 done, 2 wrong command line,
 74 a file cannot be read or written."""
 SUMMARY = "make one page of outputs of clatter"
 
 
 def options_parser():
     """All that --help and the man page tell."""
-    parser = argparse.ArgumentParser(prog="clatter-report", description=DESCRIPTION, epilog=EPILOG, allow_abbrev=False)
+    parser = argparse.ArgumentParser(prog=NAME, description=DESCRIPTION, epilog=EPILOG, allow_abbrev=False)
     add = parser.add_argument
     add("files", nargs="+", metavar="FILE.h5", help="output of 'clatter run', 'clatter accuracy' or 'clatter branch'")
     add("-o", "--output", metavar="FILE.html", default="report.html", help="the page; default: report.html")
@@ -22,5 +27,14 @@ def options_parser():
     return parser
 
 
-def command_line():
-    return options_parser().parse_args()
+def main():
+    """The exit code."""
+    return run(NAME, make)
+
+
+def make():
+    """Writes the page, and tells its name."""
+    options = options_parser().parse_args()
+    with needing("report"):
+        from .page import write_page
+    tell(NAME, write_page(options.files, Path(options.output), options.title, not options.no_histories))

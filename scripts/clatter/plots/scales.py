@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 from matplotlib import rcParams, ticker
 
-from plot_names import scale_in
+from .names import scale_in
 
 SAME = 1e-9  # of its scale: what differs by less is one value
 NEGLIGIBLE = 1e-12  # of the largest: the phase of such an amplitude is noise
@@ -214,6 +214,7 @@ class RoomyLocator(ticker.MaxNLocator):
     def __init__(self, formatter, is_across, integer):
         super().__init__(nbins=self.MOST, steps=[1, 2, 5, 10], integer=integer)
         self.common, self.is_across = formatter, is_across
+        self.font_size = rcParams[f"{'x' if is_across else 'y'}tick.labelsize"]  # a later draw may have another style
 
     def tick_values(self, low, high):
         for bins in range(self.MOST, 0, -1):
@@ -228,7 +229,7 @@ class RoomyLocator(ticker.MaxNLocator):
         if len(ticks) < 2:
             return True
         axes, side = self.axis.axes, "x" if self.is_across else "y"
-        size, length = rcParams[f"{side}tick.labelsize"], axes.bbox.width if self.is_across else axes.bbox.height
+        size, length = self.font_size, axes.bbox.width if self.is_across else axes.bbox.height
         scale = self.axis.get_transform().transform
         share = np.diff(scale(ticks)).min() / np.ptp(scale(np.array(getattr(axes, f"get_{side}lim")())))
         longest = max(map(len, self.common.format_ticks(ticks)))

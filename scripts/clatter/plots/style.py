@@ -2,15 +2,14 @@
 
 import re
 import textwrap
+from contextlib import contextmanager
 
 import matplotlib
 import numpy as np
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.figure import Figure
 
-from plot_names import LABELS, equation, label, symbol
-from plot_text import plain
-
-matplotlib.use("Agg")
-from matplotlib import pyplot  # noqa: E402  (the backend comes first)
+from .names import LABELS, equation, label, plain, symbol
 
 DPI = 200  # of PNG; texts are measured for it, once
 LARGE = 115.0  # square inches, of a picture that has fewer dots an inch
@@ -68,9 +67,16 @@ def use_style(size=None):
             "figure.dpi": DPI,
             "figure.figsize": size or (WIDEST, WIDEST),
             "svg.hashsalt": "clatter",
-            "figure.max_open_warning": 0,
         }
     )
+
+
+@contextmanager
+def own_style(size=None):
+    """The same for a while, in a program whose own look comes back afterwards."""
+    with matplotlib.rc_context():
+        use_style(size)
+        yield
 
 
 def typeset(title):
@@ -276,5 +282,8 @@ def resolution(figure, dpi):
 
 
 def new_figure(height, width=WIDTH):
+    """A figure that needs no display: pyplot doesn't know it."""
     widest, _ = matplotlib.rcParams["figure.figsize"]
-    return pyplot.figure(figsize=(min(width, widest), height), layout="constrained")
+    figure = Figure(figsize=(min(width, widest), height), layout="constrained")
+    FigureCanvasAgg(figure)
+    return figure

@@ -3,10 +3,10 @@
 import numpy as np
 from matplotlib import ticker
 
-from plot_curves import draw_branch, draw_stops_along, label_of, name_statuses
-from plot_motion import draw_common_walls, impact_log, motion, phase_plane, time_history
-from plot_names import label
-from plot_style import BLUE, CYCLE, GRID, ORANGE, STOP, VERMILION, legend_above, new_figure, set_axis
+from .curves import draw_branch, draw_stops_along, label_of, name_statuses
+from .motion import draw_common_walls, impact_log, motion, phase_plane, time_history
+from .names import label
+from .style import BLUE, CYCLE, GRID, ORANGE, STOP, VERMILION, legend_above, new_figure, set_axis
 
 SHOWN_TIME = 20.0  # tau to which the paper shows free vibration
 ONE = [((), "")]  # the only point of a sweep without axes, untitled

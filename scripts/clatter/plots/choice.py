@@ -7,9 +7,9 @@ from pathlib import Path
 
 import numpy as np
 
-from plot_data import Output
-from plot_names import equation
-from plot_text import plain
+from .._program import WRONG_USE, ClatterError
+from .data import Output
+from .names import equation, plain
 
 OBSERVED = {  # the results of each key of [observe]
     "extrema": ("x_min", "x_max", "v_min", "v_max"),
@@ -32,8 +32,11 @@ FEW = 6  # values of an axis that make a family of curves rather than a map
 MOST = 12  # curves that can be told apart
 
 
-class ChoiceProblem(Exception):
+class ChoiceProblem(ClatterError):
     """A choice that the file doesn't offer; the message is one line that names it and how to fix it."""
+
+    def __init__(self, message):
+        super().__init__(message, WRONG_USE)
 
 
 @dataclass

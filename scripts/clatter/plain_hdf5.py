@@ -6,9 +6,10 @@ import stat
 
 import h5py
 import numpy as np
-from h5py import h5d, h5l, h5o, h5t, h5z
+from h5py import h5d, h5ds, h5l, h5o, h5t, h5z
 
-from hdf5_heaps import damaged_heap, longest_text
+from ._program import BAD_FILE, ClatterError
+from .hdf5_heaps import damaged_heap, longest_text
 
 WANTED = "give a file that 'clatter run', 'clatter accuracy' or 'clatter branch' wrote"
 ANEW = "run its configuration again, or get the file anew"
@@ -23,8 +24,11 @@ MOST_DEFLATED = 1032  # bytes that one byte gives when it is inflated (zlib's te
 FILTERS = {h5z.FILTER_SHUFFLE, h5z.FILTER_DEFLATE}
 
 
-class FileProblem(Exception):
+class FileProblem(ClatterError):
     """A file that cannot be used; the message is one line that names it and how to fix it."""
+
+    def __init__(self, message):
+        super().__init__(message, BAD_FILE)
 
 
 def printable(value):
@@ -136,6 +140,13 @@ def is_text(dataset):
     """Whether a low-level dataset holds texts of variable length."""
     kind = dataset.get_type()
     return kind.get_class() == h5t.STRING and kind.is_variable_str()
+
+
+def dimensions_of(dataset):
+    """The names of a variable's dimensions, slowest first; of an axis its own."""
+    if h5ds.is_scale(dataset.id):
+        return (dataset.name.lstrip("/"),)
+    return tuple(dim[0].name.lstrip("/") if len(dim) else f"dim{place}" for place, dim in enumerate(dataset.dims))
 
 
 def values_of(dataset):

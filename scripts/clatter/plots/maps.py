@@ -7,12 +7,11 @@ import numpy as np
 from matplotlib import cm, colormaps, colors
 from matplotlib.image import AxesImage
 
-from plot_choice import ChoiceProblem
-from plot_data import APERIODIC, ESCAPED, FIRST_FAILURE, GRAZING, UNDECIDED, has_failed, lacks_period
-from plot_scales import integer_levels, shown_values, tidy_ticks
-from plot_names import label, number
-from plot_text import plain
-from plot_style import BLUE, CYCLE, GREEN, ORANGE, is_geometric
+from .choice import ChoiceProblem
+from .data import APERIODIC, ESCAPED, FIRST_FAILURE, GRAZING, UNDECIDED, has_failed, lacks_period
+from .scales import integer_levels, shown_values, tidy_ticks
+from .names import label, number, plain
+from .style import BLUE, CYCLE, GREEN, ORANGE, is_geometric
 
 PIXELS = 900  # along an axis of an image, if its cells aren't all equal
 MOST_PIXELS = 1200  # along one axis; of more points the nearest to each pixel is shown

@@ -4,8 +4,8 @@ import textwrap
 
 import numpy as np
 
-from plot_empty import say_empty
-from plot_style import NOTE, legend_above
+from .empty import say_empty
+from .style import NOTE, legend_above
 
 MARGIN = 0.05  # of the length of a logarithmic axis beside its values
 

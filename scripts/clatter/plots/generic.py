@@ -5,7 +5,7 @@ from math import ceil
 
 import numpy as np
 
-from plot_attractors import (
+from .attractors import (
     attractor_map,
     basin_points,
     has_linked_starts,
@@ -15,16 +15,15 @@ from plot_attractors import (
     start_plane,
     value_points,
 )
-from plot_bifurcation import impact_diagram, poincare, section_diagram
-from plot_curves import curves, scalar_parts, scalars, spectrum
-from plot_data import FIRST_FAILURE
-from plot_empty import empty_panel, empty_results, why_empty
-from plot_maps import Grid, kind_map, quantity, regime_map, value_map
-from plot_motion import chosen_points, impact_log, phase_plane, time_history
-from plot_scales import constant_value, is_constant, largest, shown_values
-from plot_names import YES_OR_NO, amount, label, number, result_in_words, symbol
-from plot_text import plain
-from plot_style import caption_below, legend_above, new_figure, set_axis
+from .bifurcation import impact_diagram, poincare, section_diagram
+from .curves import curves, scalar_parts, scalars, spectrum
+from .data import FIRST_FAILURE
+from .empty import empty_panel, empty_results, why_empty
+from .maps import Grid, kind_map, quantity, regime_map, value_map
+from .motion import chosen_points, impact_log, phase_plane, time_history
+from .scales import constant_value, is_constant, largest, shown_values
+from .names import YES_OR_NO, amount, label, number, plain, result_in_words, symbol
+from .style import caption_below, legend_above, new_figure, set_axis
 
 BOOKKEEPING = (
     "status",

@@ -6,10 +6,10 @@ from functools import partial
 import numpy as np
 from matplotlib import colors, ticker
 
-from plot_data import FIRST_FAILURE
-from plot_labels import BELOW, DIRECTIONS, Labels, place_labels
-from plot_names import amount, symbol, unit_of
-from plot_style import BLUE, GREEN, PURPLE, STOP, VERMILION, heading, legend_above, new_figure
+from .data import FIRST_FAILURE
+from .labels import BELOW, DIRECTIONS, Labels, place_labels
+from .names import amount, symbol, unit_of
+from .style import BLUE, GREEN, PURPLE, STOP, VERMILION, heading, legend_above, new_figure
 
 FLOOR = 1e-17  # smaller errors are drawn here: a logarithmic axis has no place for 0
 MINUS = "\N{MINUS SIGN}"

@@ -1,0 +1,1 @@
+"""Pictures of outputs: clatter.plot and the command clatter-plot. Importing it loads no library."""

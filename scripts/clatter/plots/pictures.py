@@ -1,0 +1,107 @@
+"""Pictures of outputs of clatter, by what they hold."""
+
+import io
+from pathlib import Path
+
+from . import legends, style
+from .accuracy import accuracy_figure
+from .bifurcation import keep_words_with_room
+from .branch import branch_figure, curve_figure, plane_of
+from .choice import members_of, results_named, together
+from .data import Output
+from .figures import paper_figure
+from .generic import generic_figure
+from .log import names_left_out, note_left_out
+from .scales import tidy_ticks
+
+DATELESS = {"svg": {"Date": None}, "pdf": {"CreationDate": None}, "png": {}}  # the same bytes on every run
+ENCODING = {"png": {"pil_kwargs": {"compress_level": 4}}}  # nearly as small as at 6, sooner
+RASTER = {"svg": 150, "pdf": 200, "png": style.DPI}  # dots per inch of what is drawn as an image
+
+
+def pictures(options):
+    """(stem of the name, figure) for each picture, drawn one at a time."""
+    shared = shared_figure(options)
+    if shared:
+        yield "+".join(Path(path).stem for path in options.files), shared
+        return
+    for path in options.files:
+        yield Path(path).stem, single_figure(Output(path), options)
+
+
+def shared_figure(options):
+    """The picture of all files together, or of a single one; None if each has its own."""
+    if any(is_branch(path) for path in options.files):
+        return branches_together(options)
+    if len(options.files) == 1:
+        return single_figure(Output(options.files[0]), options)
+    members = shared_members(options)
+    return figure_of(members, options) if members else None
+
+
+def is_branch(path):
+    return Output(path).is_branch
+
+
+def branches_together(options):
+    """All branches, or curves, of the files in one picture, with the results of sweeps behind them."""
+    outputs = [Output(path) for path in options.files]
+    branches = [output for output in outputs if output.is_branch]
+    figure = curve_figure(outputs, options) if any(map(plane_of, branches)) else branch_figure(outputs, options)
+    style.heading(figure, branches[0], options.title, branches)
+    return finished(figure, options)
+
+
+def shared_members(options):
+    """What several files draw in one picture, if they can share one."""
+    parts = []
+    for path in options.files:
+        output = Output(path)
+        if output.is_accuracy or output.figure:
+            return None
+        members = members_of(output, options.along, options.over, options.at)
+        if len(members) > 1 or len(members[0].output.axes) != 1:
+            return None
+        parts.append(members[0].output)
+    return together(parts)
+
+
+def single_figure(output, options):
+    if output.is_accuracy:
+        return accuracy_figure(output)
+    chosen = options.only or options.along or options.over or options.at
+    draw = None if chosen else paper_figure(output)
+    if draw is None:
+        return figure_of(members_of(output, options.along, options.over, options.at), options)
+    figure = draw(output)
+    style.heading(figure, output, options.title)
+    return finished(figure, options)
+
+
+def figure_of(members, options):
+    figure = generic_figure(members, results_named(members, options.only), options)
+    style.heading(figure, members[0].output, options.title, [member.output for member in members])
+    return finished(figure, options)
+
+
+def finished(figure, options):
+    """Sets what the options say of every panel, and the layout once for all formats."""
+    left_out = []
+    for axes in figure.axes:
+        if axes.get_label() != "<colorbar>" and axes.axison:  # a table has no scales
+            left_out += names_left_out(axes, options)
+            style.set_view(axes, options)
+            tidy_ticks(axes)
+    note_left_out(figure, left_out)
+    if options.size:
+        figure.set_size_inches(options.size)
+    legends.lay_out(figure, is_fixed=bool(options.size))
+    keep_words_with_room(figure)
+    return figure
+
+
+def in_format(figure, kind):
+    """A picture as a file of this format holds it."""
+    drawn, dpi = io.BytesIO(), style.resolution(figure, RASTER[kind])
+    figure.savefig(drawn, format=kind, metadata=DATELESS[kind], dpi=dpi, **ENCODING.get(kind, {}))
+    return drawn.getbuffer()
