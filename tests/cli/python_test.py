@@ -1,10 +1,15 @@
-"""The Python module: the same values as the program's files, and errors as exceptions with their place.
+"""The Python package: the same values as the program's files, the pictures and pages of the commands, and errors as
+exceptions with their place.
 
 Environment: CLATTER, the program; CLATTER_SOURCE, the source directory.
 """
 
+import contextlib
+import io
 import json
+import os
 import re
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -13,9 +18,12 @@ import warnings
 import zipfile
 from pathlib import Path
 
+import matplotlib
 import numpy as np
 import xarray
-from command_line import SOURCE, CommandLine
+from command_line import CLATTER, SOURCE, CommandLine
+from matplotlib import image, pyplot
+from script_runs import run_script
 
 sys.path.insert(0, str(SOURCE / "scripts"))
 import clatter  # noqa: E402  (it stands in the folder of the line above)
@@ -115,16 +123,166 @@ class Module(CommandLine):
         self.assertEqual(clatter.__version__, version)
         with tempfile.TemporaryDirectory() as folder:
             sources = Path(folder) / "scripts"  # pip builds beside the sources
-            (sources / "clatter").mkdir(parents=True)
-            for path in (SOURCE / "scripts" / "pyproject.toml", *(SOURCE / "scripts" / "clatter").glob("*.py")):
-                (sources / path.relative_to(SOURCE / "scripts")).write_bytes(path.read_bytes())
+            shutil.copytree(
+                SOURCE / "scripts/clatter", sources / "clatter", ignore=shutil.ignore_patterns("__pycache__")
+            )
+            shutil.copy(SOURCE / "scripts/pyproject.toml", sources)
+            package = {str(path.relative_to(sources)) for path in sources.rglob("clatter/**/*.*")}
             pip = ["/usr/bin/python3", "-m", "pip", "wheel", "--no-deps", "--no-build-isolation", "--no-index", "-q"]
             result = subprocess.run([*pip, "-w", folder, sources], capture_output=True, text=True)
             self.assertEqual(result.returncode, 0, result.stderr)
             (wheel,) = Path(folder).glob("*.whl")
             self.assertEqual(wheel.name, f"clatter-{version}-py3-none-any.whl")
-            modules = {name for name in zipfile.ZipFile(wheel).namelist() if name.endswith(".py")}
-            self.assertEqual(modules, {f"clatter/{path.name}" for path in (SOURCE / "scripts/clatter").glob("*.py")})
+            with zipfile.ZipFile(wheel) as content:
+                names = set(content.namelist())
+                (entries,) = (name for name in names if name.endswith("/entry_points.txt"))
+                commands = content.read(entries).decode().split()
+            self.assertEqual({name for name in names if not name.startswith("clatter-")}, package)
+            self.assertIn("clatter/reports/page.css", package)
+            self.assertEqual(commands[1::3], ["clatter-plot", "clatter-report"])
+
+
+class Pictures(CommandLine):
+    """clatter.plot and clatter.report, of an output of three points."""
+
+    def setUp(self):
+        super().setUp()
+        self.file = self.directory / "a.h5"
+        self.data = clatter.run(SWEEP, output=self.file)
+
+    def python(self, code, **environment):
+        """A new interpreter that sees the package, runs the code here, and says nothing."""
+        done = subprocess.run(
+            ["/usr/bin/python3", "-c", code],
+            cwd=self.directory,
+            env={"PATH": "/usr/bin:/bin", "PYTHONPATH": SOURCE / "scripts", **environment},
+            capture_output=True,
+            text=True,
+        )
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        return done.stdout
+
+    def curves(self, figure):
+        """The points of each curve by its name in the legend, of all panels."""
+        lines = [line for axes in figure.axes for line in axes.lines if len(line.get_xdata()) == len(self.data.nu)]
+        return {line.get_label(): np.array(line.get_data()) for line in lines}
+
+    def test_a_figure_holds_the_values_of_the_file(self):
+        figure = clatter.plot(self.file, only="extrema")
+        curves = self.curves(figure)
+        for name, label in (("x_min", r"$x_{\min}$"), ("x_max", r"$x_{\max}$")):
+            np.testing.assert_array_equal(curves[label], [self.data.nu, self.data[name]])
+        self.assertEqual(len(figure.axes), 2)
+        self.assertEqual(self.files(), ["a.h5"])
+
+    def test_choices_are_those_of_the_command(self):
+        figure = clatter.plot(
+            str(self.file), only=["v_max"], xlim=(0.8, 1.2), ylim=(-1, 9.5), size=(4, 3), title="$ own", log="x"
+        )
+        (axes,) = figure.axes
+        self.assertEqual((axes.get_xlim(), axes.get_ylim(), axes.get_xscale()), ((0.8, 1.2), (-1.0, 9.5), "log"))
+        self.assertEqual(figure.get_size_inches().tolist(), [4.0, 3.0])
+        self.assertIn("own", figure._suptitle.get_text())
+        clatter.run(SWEEP, sweep={"xs": [3, 4, 5], "nu": [0.9, 1.0, 1.1]}, output=self.directory / "map.h5")
+        part = self.curves(
+            clatter.plot(self.directory / "map.h5", only="x_max", along="nu", at={"xs": np.float64(4.1)})
+        )
+        (points,) = part.values()
+        np.testing.assert_array_equal(points, [self.data.nu, self.data.x_max])
+        family = self.curves(clatter.plot(self.directory / "map.h5", only="x_max", over="xs"))
+        self.assertEqual(len(family), 3)
+
+    def test_files_over_one_axis_share_a_figure(self):
+        other = self.directory / "b.h5"
+        data = clatter.run(SWEEP, scene={"xs": 5}, output=other)
+        curves = self.curves(clatter.plot([self.file, other], only="x_max"))
+        np.testing.assert_array_equal([points[1] for points in curves.values()], [self.data.x_max, data.x_max])
+        clatter.run(SWEEP, sweep={"nu": 1, "xs": [4, 5]}, output=other)
+        with self.assertRaisesRegex(clatter.ClatterError, "^these files share no picture: .*; plot one by one$"):
+            clatter.plot([self.file, other])
+
+    def test_a_figure_is_the_commands_in_a_program_of_any_style_which_stays_as_it_is(self):
+        done = run_script("plot.py", self.file, "--format", "png", cwd=self.directory)
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        style = {
+            "font.size": 30,
+            "axes.grid": True,
+            "xtick.labelsize": "medium",
+            "figure.dpi": 50,
+            "lines.linewidth": 9,
+        }
+        with matplotlib.rc_context(style):
+            before = dict(matplotlib.rcParams)
+            figure, drawn = clatter.plot(self.file), io.BytesIO()
+            figure.savefig(drawn)
+            self.assertEqual(dict(matplotlib.rcParams), before)
+        self.assertEqual(pyplot.get_fignums(), [])
+        drawn.seek(0)
+        np.testing.assert_array_equal(image.imread(drawn), image.imread(self.directory / "a.png"))
+
+    def test_to_import_loads_no_library_and_to_plot_needs_no_display(self):
+        libraries = "print({'numpy', 'xarray', 'h5py', 'matplotlib'} & set(sys.modules))"
+        self.assertEqual(self.python(f"import clatter, sys; {libraries}"), "set()\n")
+        code = "import clatter; print(len(clatter.plot('a.h5', only='x_max').axes))"
+        self.assertEqual(self.python(code, MPLBACKEND="tkagg"), "1\n")
+
+    def test_a_library_that_is_missing_is_told_with_the_extra_that_brings_it(self):
+        for call, library, extra in (("plot", "matplotlib", "plot"), ("report", "h5py", "report")):
+            code = f"""import sys; sys.modules[{library!r}] = None
+import clatter
+try: clatter.{call}('a.h5')
+except ImportError as error: print(error)"""
+            self.assertRegex(self.python(code), rf"^import of {library} .*; pip install 'clatter\[{extra}\]', or .*\n$")
+            (self.directory / f"{library}.py").write_text("raise ImportError('nothing')")
+            environment = {**os.environ, "PYTHONPATH": str(self.directory)}
+            command = [SOURCE / "scripts" / f"{call}.py", self.file]
+            done = subprocess.run(command, env=environment, capture_output=True, text=True)
+            self.assertEqual((done.returncode, done.stdout), (1, ""))
+            self.assertRegex(done.stderr, rf"^\S+: nothing; pip install 'clatter\[{extra}\]', or .*\n$")
+
+    def test_mistakes_are_errors_in_one_line_by_the_names_of_arguments(self):
+        for choice, words in (
+            ({"only": "x_maxx"}, "only: 'x_maxx' is no result in .*; did you mean 'x_max'[?]"),
+            ({"along": "xs"}, "along: 'xs' is no axis of this file, which has nu"),
+            ({"at": {"nu": 2}}, "at nu=2: beyond the axis, which goes from 0.9 to 1.1"),
+            ({"size": (700, 1)}, "argument size: '700.0x1.0' is no size; .*"),
+            ({"xlim": (1, 1)}, "argument xlim: '1.0,1.0' is no pair of limits; .*"),
+            ({"log": "z"}, "argument log: .*'z'.*"),
+        ):
+            with self.subTest(choice):
+                with self.assertRaisesRegex(clatter.ClatterError, rf"^{words}$") as caught:
+                    clatter.plot(self.file, **choice)
+                self.assertEqual(caught.exception.exit_code, 2)
+        for draw in (clatter.plot, lambda file: clatter.report(file, self.directory / "a.html")):
+            with self.assertRaisesRegex(clatter.ClatterError, "^none.h5: no such file; .*$") as caught:
+                draw("none.h5")
+            self.assertEqual(caught.exception.exit_code, 74)
+            for wrong in (5, [], [None]):
+                with self.assertRaisesRegex(TypeError, "expected the path of an output, or a list of them$"):
+                    draw(wrong)
+        for wrong in ({"only": 5}, {"at": 1}, {"at": {"nu": "x"}}, {"xlim": 1}, {"size": ("a", "b")}):
+            with self.assertRaisesRegex(TypeError, "^(only|at|xlim|size) = .*: expected .*$"):
+                clatter.plot(self.file, **wrong)
+
+    def test_a_report_is_the_commands_page_and_replaces_no_other_file(self):
+        environment = {"PATH": "/usr/bin:/bin", "CLATTER": CLATTER}
+        words = ("-o", "command.html", "--title", "Own & only")
+        done = run_script("report.py", "a.h5", *words, cwd=self.directory, environment=environment)
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        with contextlib.chdir(self.directory):
+            page = clatter.report("a.h5", "page.html", title="Own & only")
+        self.assertEqual(page, Path("page.html"))
+        page = self.directory / page
+        self.assertEqual(page.read_bytes(), (self.directory / "command.html").read_bytes())
+        self.assertIn("<h1>Own &amp; only</h1>", page.read_text(encoding="utf-8"))
+        clatter.report([self.file, self.file], page, histories=False)
+        self.assertEqual(page.read_text(encoding="utf-8").count("<section class=file"), 2)
+        kept = self.file.read_bytes()
+        with self.assertRaisesRegex(
+            clatter.ClatterError, "a.h5: is no report, so it is kept; name another file, or .*"
+        ):
+            clatter.report(self.file, self.file)
+        self.assertEqual(self.file.read_bytes(), kept)
 
 
 if __name__ == "__main__":
