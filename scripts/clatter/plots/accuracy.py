@@ -99,7 +99,7 @@ def note(output, found):
         symbols.append("bars: interquartile range")
     if any(part.floored for part in found):
         symbols.append("errors below $10^{-17}$ are drawn there")
-    ends = (f"{symbol(axis, output)} = {span(output, axis)}" for axis in output.axes)
+    ends = (f"{symbol(output, axis)} = {span(output, axis)}" for axis in output.axes)
     lines = [f"worst error and median cost of {points} points, {', '.join(ends)}"] if points > 1 else []
     return "\n".join([*lines, ";  ".join(symbols)])
 

@@ -179,7 +179,7 @@ def share_panel(figure, axes, output):
     places, shares = places[order], shares[order]
     edges = edges_between(places)
     chosen, more = frequent(shares.max(axis=0))
-    names = apart([name_of(output, motion) for motion in chosen], shares[:, chosen], places, symbol(parameter, output))
+    names = apart([name_of(output, motion) for motion in chosen], shares[:, chosen], places, symbol(output, parameter))
     colours = distinct_colours(chosen)
     parts = [(name, colours[motion], shares[:, motion]) for name, motion in zip(names, chosen)]
     if more:

@@ -42,7 +42,7 @@ def section_diagram(members, name, axes):
     if not axes.get_lines():
         say_empty(axes, "no states of a section")
     output = members[0].output
-    words = f"{symbol(name.removeprefix('section_'))} {instants(output)}"
+    words = f"{symbol(output, name)} {instants(output)}"
     axes.set_ylabel(in_frame(output, name, with_unit(output, words, name)))
 
 

@@ -8,7 +8,7 @@ from matplotlib import colors
 
 from .attractors import ZONES, has_shares, runs
 from .branch_names import REST, colours_and_names
-from .choice import OBSERVED, ChoiceProblem
+from .choice import ChoiceProblem
 from .maps import Grid, edges_between, kind_map, regime_map
 from .names import label, plain
 from .style import STOP, caption_below, legend_above, new_figure
@@ -53,7 +53,7 @@ def branch_figure(outputs, options):
     for axes, name in zip(panels, names):
         for output in outputs:
             if not output.is_branch:
-                notes += sweep_behind(axes, output, parameter, name)
+                notes += sweep_behind(axes, output, parameter, branches[0][name])
         if options.backbone and name == "impact_speed":
             notes += draw_backbones(axes, branches, parameter)
         for colour, title in legend:
@@ -206,11 +206,11 @@ def draw_specials(axes, output, parameter, name, skip=""):
         axes.plot(x[own], y[own], marker, label=plain(kind).replace("_", " "), **look)
 
 
-def sweep_behind(axes, output, parameter, name):
-    """Behind branches, the zones of a sweep with shares of its motions, or else the results of one."""
+def sweep_behind(axes, output, parameter, quantity):
+    """Behind branches, the zones of a sweep with shares of its motions, or else its results of that quantity."""
     if has_shares(output) and output["motion_share"].dims[0] == parameter:
         return zones_behind(axes, output, parameter)
-    return points_behind(axes, output, parameter, name)
+    return points_behind(axes, output, parameter, quantity)
 
 
 def zones_behind(axes, output, parameter):
@@ -226,14 +226,15 @@ def zones_behind(axes, output, parameter):
     return []
 
 
-def points_behind(axes, output, parameter, name):
+def points_behind(axes, output, parameter, quantity):
     """The results of a sweep over the parameter, of two stops the larger; returns the note that it has none."""
     if output.axes != (parameter,):
         raise ChoiceProblem(
             f"a sweep behind branches runs over {parameter} alone; '{output.title}' runs over {', '.join(output.axes)}"
         )
+    name = quantity.name
     if name not in output:
-        key = next((key for key, names in OBSERVED.items() if name in names), "")
+        key = quantity.observable
         way = f", which a run with observe.{key} = true writes" if key else ""
         return [f"no points of the sweep: {plain(Path(output.path).name)} has no {name}{way}"]
     values = output.values(name)

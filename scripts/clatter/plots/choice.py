@@ -11,23 +11,6 @@ from .._program import WRONG_USE, ClatterError
 from .data import Output
 from .names import equation, plain
 
-OBSERVED = {  # the results of each key of [observe]
-    "extrema": ("x_min", "x_max", "v_min", "v_max"),
-    "harmonics": ("x_amplitude", "x_phase", "v_amplitude", "v_phase", "base_frequency"),
-    "impacts": (
-        *("impacts_per_period", "v_before", "v_after", "impact_speed"),
-        *("rest_fraction", "contact_fraction", "contact_force_max"),
-    ),
-    "impact_log": ("impact_count",),
-    "trajectory": ("tau", "x", "v"),
-    "section": ("section_x", "section_v"),
-    "word": ("impact_word", "regime", "symmetric"),
-    "period": ("period", "period_ratio", "eigenfrequency", "velocity_ratio"),
-    "stability": ("multiplier_re", "multiplier_im", "lyapunov"),
-    "settling": ("settling_periods",),
-    "attractor": ("attractor",),
-    "energy": ("work_in", "loss_damping", "loss_impact", "impulse", "energy_residual", "impact_power"),
-}
 FEW = 6  # values of an axis that make a family of curves rather than a map
 MOST = 12  # curves that can be told apart
 
@@ -142,13 +125,14 @@ def results_named(members, only):
     """The results that --only names, by themselves or by their key of [observe]; empty if it names none."""
     output, results = members[0].output, []
     there = [name for name in output.results() if name != "status"]
-    keys = [key for key, names in OBSERVED.items() if any(name in output for name in names)]
+    observed = {name: output[name].observable for name in there if output[name].observable}
+    keys = list(dict.fromkeys(observed.values()))
     for name in only:
         if name not in there + keys:
             near = difflib.get_close_matches(name, there + keys, 1)
             hint = f"did you mean '{near[0]}'?" if near else f"there are {', '.join(keys + there)}"
             raise ChoiceProblem(f"--only: '{name}' is no result in {output.path}; {hint}")
-        results += [name] if name in there else OBSERVED[name]
+        results += [name] if name in there else [result for result, key in observed.items() if key == name]
     return results
 
 

@@ -193,7 +193,7 @@ def label_of(output, group):
     title = group[0][2]
     is_part = len(group) == 1 and group[0][1] is not None
     words, frame = label(output, first), f", {output[first].frame}"
-    part = title.removeprefix(symbol(first)).strip() if is_part else ""
+    part = title.removeprefix(symbol(output, first)).strip() if is_part else ""
     if frame == ", " or not words.endswith(frame) or not part and len(words) <= LONGEST_LABEL:
         return f"{words}\n{part}".strip()
     return f"{words.removesuffix(frame)}\n{frame[2:]}{', ' * is_part}{part}"  # no longer than the panel is high

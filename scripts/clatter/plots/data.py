@@ -36,6 +36,9 @@ class Variable:
     long_name: str
     units: str
     frame: str = ""  # "relative" or "absolute" in scenes that are shaken
+    label: str = ""  # words of an axis
+    symbol: str = ""
+    observable: str = ""  # the key of [observe] that asks for it
 
     def at(self, axis, index):
         """This variable at one value of an axis; itself if it doesn't depend on it."""
@@ -86,6 +89,8 @@ class Output:
             self.source = text(file.attrs.get("source", ""))
             self.config_text = text(file.attrs["config"])
             self.config = tomllib.loads(self.config_text)
+            named = tomllib.loads(text(file.attrs.get("scene_names", "")))  # in files of 0.3.0 and later
+            self.constants = named or {key: {} for key in self.config.get("machine", self.config.get("scene", {}))}
             self.origin = {key: printable(text(file.attrs[key])) for key in ORIGIN if key in file.attrs}
             self.variables = {name: read_variable(item) for name, item in file.items() if not is_bare_dimension(item)}
             self.meanings = flag_meanings(file["status"]) if "status" in file else {}
@@ -307,14 +312,14 @@ def is_bare_dimension(item):
 
 
 def read_variable(item):
-    name = item.name.lstrip("/")
+    own = item.name.lstrip("/")
     return Variable(
-        name,
+        own,
         values_of(item),
         dimensions_of(item),
-        text(item.attrs.get("long_name", name)),
+        text(item.attrs.get("long_name", own)),
         text(item.attrs.get("units", "1")),
-        text(item.attrs.get("frame", "")),
+        *(text(item.attrs.get(name, "")) for name in ("frame", "label", "symbol", "observable")),
     )
 
 

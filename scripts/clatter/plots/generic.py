@@ -237,12 +237,12 @@ def components(output, group):
     for name in group:
         dims = output[name].dims[len(output.axes) :]
         if not dims:
-            parts.append((name, None, symbol(name)))
+            parts.append((name, None, symbol(output, name)))
         elif len(dims) == 1 and dims[0] in output:
             known = np.isfinite(shown_values(output, name)).reshape(-1, len(output.values(dims[0]))).any(axis=0)
             if dims[0] == "stop":
                 known &= [output.has_stop(side) for side in output.values("stop")]
-            prefix = f"{symbol(name)} " if len(group) > 1 else ""
+            prefix = f"{symbol(output, name)} " if len(group) > 1 else ""
             parts += [(name, part, prefix + component_name(output, name, part)) for part in np.flatnonzero(known)]
     return parts
 
@@ -250,7 +250,7 @@ def components(output, group):
 def component_name(output, name, part):
     """The name of a component of a result, e.g. 'lower stop'."""
     if part is None:
-        return symbol(name)
+        return symbol(output, name)
     dimension = output[name].dims[-1]
     value = output.values(dimension)[part]
     if dimension == "stop":
@@ -320,9 +320,13 @@ def constant_note(outputs, name, part, title):
 def plain_title(output, name, part, title):
     """A result in words, and which component of it."""
     words = result_in_words(output, name)
-    return words if part is None else f"{words}, {title.removeprefix(symbol(name)).strip()}"
+    return words if part is None else f"{words}, {title.removeprefix(symbol(output, name)).strip()}"
 
 
 def map_title(output, name, part, title):
     """Title of a map: the result, and which component of it."""
-    return label(output, name) if part is None else f"{label(output, name)}, {title.removeprefix(symbol(name)).strip()}"
+    return (
+        label(output, name)
+        if part is None
+        else f"{label(output, name)}, {title.removeprefix(symbol(output, name)).strip()}"
+    )

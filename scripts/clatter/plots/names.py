@@ -6,108 +6,6 @@ from itertools import groupby
 
 import numpy as np
 
-# Words and symbol of what the paper and the configuration name; anything else is labelled by its long_name.
-LABELS = {
-    "h": ("damping ratio", r"$h$"),
-    "f": ("force amplitude", r"$f$"),
-    "nu": ("excitation frequency", r"$\nu$"),
-    "phase": ("forcing phase", r"$\varphi$"),
-    "R": ("restitution", r"$R$"),
-    "xs": ("stop", r"$x_s$"),
-    "stop_lower": ("lower stop", r"$x_-$"),
-    "stop_upper": ("upper stop", r"$x_+$"),
-    "R_lower": ("restitution, lower stop", r"$R_-$"),
-    "R_upper": ("restitution, upper stop", r"$R_+$"),
-    "stop_stiffness": ("stiffness of the stops", r"$\kappa$"),
-    "stop_stiffness_lower": ("stiffness of the lower stop", r"$\kappa_-$"),
-    "stop_stiffness_upper": ("stiffness of the upper stop", r"$\kappa_+$"),
-    "stop_damping": ("damping of the stops", r"$\zeta$"),
-    "stop_damping_lower": ("damping of the lower stop", r"$\zeta_-$"),
-    "stop_damping_upper": ("damping of the upper stop", r"$\zeta_+$"),
-    "load": ("constant load", "load"),
-    "stiffness": ("stiffness", r"$k$"),
-    "mass": ("mass", r"$m$"),
-    "damping": ("damping", r"$c$"),
-    "damping_ratio": ("damping ratio", r"$h$"),
-    "quality": ("quality factor", r"$Q$"),
-    "force": ("force amplitude", r"$F$"),
-    "frequency": ("excitation frequency", r"$f$"),
-    "gap": ("stop", r"$x_s$"),
-    "stop_amplitude": ("amplitude of the stops", r"$b$"),
-    "base_amplitude": ("amplitude of the base", r"$b$"),
-    "x0": ("initial displacement", r"$x(0)$"),
-    "v0": ("initial velocity", "$x$\N{PRIME}$(0)$"),
-    "start_period": ("period", r"$\bar\tau$"),
-    "tau": ("time", r"$\tau$"),
-    "x": ("displacement", r"$x$"),
-    "v": ("velocity", "$x$\N{PRIME}"),
-    "x_min": ("minimum", r"$x_{\min}$"),
-    "x_max": ("maximum", r"$x_{\max}$"),
-    "v_min": ("minimum", "$x$\N{PRIME}$_{\\min}$"),
-    "v_max": ("maximum", "$x$\N{PRIME}$_{\\max}$"),
-    "v_before": ("velocity before impact", "$x$\N{PRIME}$^{{-}}$"),
-    "v_after": ("velocity after impact", "$x$\N{PRIME}$^{{+}}$"),
-    "period": ("period", r"$\bar\tau$"),
-    "eigenfrequency": ("eigenfrequency", r"$\bar\omega$"),
-    "period_ratio": ("period", r"$\nu\bar\tau/2\pi$"),
-    "velocity_ratio": ("velocity ratio", "$|x$\N{PRIME}$^{{-}}/x_s|$"),
-    "base_frequency": ("base frequency", r"$\Omega$"),
-    "harmonic": ("harmonic", r"$k$"),
-    "x_amplitude": ("amplitude of displacement", r"$a_k$"),
-    "v_amplitude": ("amplitude of velocity", "$a$\N{PRIME}$_k$"),
-    "x_phase": ("phase of displacement", r"$\varphi_k$"),
-    "v_phase": ("phase of velocity", "$\\varphi$\N{PRIME}$_k$"),
-    "multiplier_re": ("multipliers", r"$\mathrm{Re}\,\mu$"),
-    "multiplier_im": ("multipliers", r"$\mathrm{Im}\,\mu$"),
-    "lyapunov": ("Lyapunov exponent", r"$\lambda$"),
-    "impacts_per_period": ("impacts per period", ""),
-    "rest_fraction": ("share of time at rest", ""),
-    "contact_fraction": ("share of time in contact", ""),
-    "contact_force_max": ("greatest force of the stop", ""),
-    "symmetric": ("symmetric motion", ""),
-    "attractor": ("motion", ""),
-    "settling_periods": ("periods until settled", ""),
-    "work_in": ("work of force and load", "work"),
-    "loss_damping": ("loss by damping", "damping"),
-    "loss_impact": ("loss by impacts", ""),
-    "impulse": ("impulse", ""),
-    "impact_power": ("power lost in impacts", ""),
-}
-
-
-# The same where a scene is given in [machine]: its own keys, but for the letters of its equation m x'' + c x' + k x.
-SI_LABELS = {
-    **{
-        key: ("", key)
-        for key in (
-            *("damping_ratio", "gap", "stop_lower", "stop_upper", "R_lower", "R_upper", "stop_amplitude"),
-            *("stop_stiffness", "stop_stiffness_lower", "stop_stiffness_upper", "base_amplitude"),
-            *("stop_damping", "stop_damping_lower", "stop_damping_upper"),
-        )
-    },
-    "quality": ("quality factor", "quality"),
-    "frequency": ("excitation frequency", "frequency"),
-    "phase": ("forcing phase", "phase"),
-    "tau": ("time", "$t$"),
-    "period": ("period", "$T$"),
-    "period_ratio": ("period in forcing periods", ""),
-    "eigenfrequency": ("eigenfrequency", ""),
-    "base_frequency": ("base frequency", ""),
-    "velocity_ratio": ("velocity ratio", "$|x$\N{PRIME}$^{{-}}|$ / gap"),
-}
-
-# The units of constants in [machine], as of the variables in the file.
-UNITS = {
-    "mass": "kg",
-    **dict.fromkeys(("stiffness", "stop_stiffness", "stop_stiffness_lower", "stop_stiffness_upper"), "N m-1"),
-    "damping": "N s m-1",
-    "force": "N",
-    "frequency": "Hz",
-    "phase": "rad",
-    "load": "N",
-    "v0": "m s-1",
-    **dict.fromkeys(("gap", "stop_lower", "stop_upper", "stop_amplitude", "base_amplitude", "x0"), "m"),
-}
 LONGEST = 12  # letters of a word that is written out
 SHORT = 0.1  # m: lengths that are all below it are written in mm
 YES_OR_NO = ("symmetric",)  # what 1 and 0 stand for
@@ -116,18 +14,23 @@ RECORDED = {"tau": "impact_tau", "v_before": "impact_v_before", "x": "section_x"
 
 
 def names_of(output, name):
-    """Words and symbol of a variable of an output, or of a constant of its scene; empty if it has none."""
-    return (SI_LABELS if output.is_si and name in SI_LABELS else LABELS).get(name, ("", ""))
+    """Words and symbol of a variable of an output, or of a constant of its scene; empty if the file has none."""
+    variable = variable_of(output, name)
+    if variable and (variable.label or variable.symbol):
+        return variable.label, variable.symbol
+    constant = output.constants.get(name, {})
+    return constant.get("words", ""), constant.get("symbol", "")
 
 
-def symbol(name, output=None):
-    """The symbol of a variable or constant, of an output as it names it; its name in the file if it has none."""
-    _, sign = names_of(output, name) if output else LABELS.get(name, ("", ""))
-    return sign or name.replace("_", " ")
+def symbol(output, name):
+    """The symbol of a variable or constant; its name in the file if it has none."""
+    return names_of(output, name)[1] or name.replace("_", " ")
 
 
-def words_of(name):
-    return LABELS.get(name, ("", ""))[0] or name.replace("_", " ")
+def words_of(output, name):
+    """A variable or constant in words."""
+    constant = output.constants.get(name, {})
+    return constant.get("words") or names_of(output, name)[0] or name.replace("_", " ")
 
 
 def label(output, name):
@@ -171,7 +74,7 @@ def si_unit(output, name):
     variable = variable_of(output, name)
     if variable:
         return variable.units
-    return output.units.get(name, UNITS.get(name, "1") if output.is_si else "1")
+    return output.units.get(name, output.constants.get(name, {}).get("units", "1"))
 
 
 def are_short(output, names, value):
@@ -193,7 +96,7 @@ def scale_in(words):
 
 def result_in_words(output, name):
     """A result as a sentence has it, in words alone."""
-    return words_of(name) if name in YES_OR_NO else plain(output[name].long_name)
+    return words_of(output, name) if name in YES_OR_NO else plain(output[name].long_name)
 
 
 def amount(output, name, value):
@@ -209,9 +112,9 @@ def equation(output, name, value):
     if name == "direction":
         return "up" if value > 0 else "down"
     if not np.isfinite(value):
-        words = words_of(name)
+        words = words_of(output, name)
         return words.replace("stiffness of the", "rigid") if name.startswith("stop_stiffness") else f"no {words}"
-    return f"{symbol(name, output)} = {amount(output, name, value)}"
+    return f"{symbol(output, name)} = {amount(output, name, value)}"
 
 
 def typeset_unit(unit):

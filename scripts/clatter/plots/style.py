@@ -1,5 +1,6 @@
 """How the pictures look: fonts, colours, stops, legends, headings."""
 
+import functools
 import re
 import textwrap
 from contextlib import contextmanager
@@ -9,7 +10,7 @@ import numpy as np
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
-from .names import LABELS, equation, label, plain, symbol
+from .names import equation, label, plain, symbol
 
 DPI = 200  # of PNG; texts are measured for it, once
 LARGE = 115.0  # square inches, of a picture that has fewer dots an inch
@@ -79,10 +80,10 @@ def own_style(size=None):
         yield
 
 
-def typeset(title):
+def typeset(output, title):
     """A configuration's title with its keys as symbols: 'xs = -4' becomes x_s = −4."""
     title = plain(title)
-    title = re.sub(r"\b(xs|nu|x0|v0|R|h|f)(?= = )", lambda key: symbol(key.group(1)), title)
+    title = re.sub(r"\b(xs|nu|x0|v0|R|h|f)(?= = )", lambda key: symbol(output, key.group(1)), title)
     return re.sub(r"(?<=[=,( ])-(?=\d)", "\N{MINUS SIGN}", title)
 
 
@@ -93,7 +94,8 @@ def heading(figure, output, title=None, others=()):
     own = output.title if len(titles) < 2 else ""
     shown = constants(output, own, others)
     lines = constant_lines(figure, shown)
-    first = title_lines(figure, f"{name}{own}" if title is None else title, typeset if title is None else plain)
+    to_text = functools.partial(typeset, output) if title is None else plain
+    first = title_lines(figure, f"{name}{own}" if title is None else title, to_text)
     figure.suptitle("\n".join([*first, *lines]).strip(), fontsize=10.5, linespacing=1.5)
 
 
@@ -158,14 +160,14 @@ def gathered(notes):
 
 def constants(output, title, others=()):
     """The fixed numbers of the scene that the title doesn't name, e.g. ['h = 0.1', 'f = −1']."""
-    nothing = ("phase", "load", "damping", "stop_amplitude", "base_amplitude")
+    nothing = ("phase", "load", "damping", "stop_amplitude", "base_amplitude", "stop_phase")
     stiffnesses = ("stop_stiffness", "stop_stiffness_lower", "stop_stiffness_upper")
     hidden = {
         **dict.fromkeys(nothing, 0.0),
         "stiffness": 0.0 if output.is_si else 1.0,
     }  # nothing to say at these values
-    named = {key for key in LABELS if re.search(rf"\b{key} = ", title)}
-    keys = [key for key in LABELS if key in output.scene and key not in named and not output.swept(key)]
+    named = {key for key in output.constants if re.search(rf"\b{key} = ", title)}
+    keys = [key for key in output.constants if key in output.scene and key not in named and not output.swept(key)]
     keys = [key for key in keys if all(other.scene.get(key) == output.scene[key] for other in others)]
     forces = ("force" if output.is_si else "f", "stop_amplitude", "base_amplitude")
     if not any(float(output.scene.get(key, 0.0)) or output.swept(key) for key in forces):
