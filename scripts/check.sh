@@ -30,7 +30,7 @@ packages, runs each gate, names those that fail, and exits with 1 if any does:
   shellcheck    no finding in any shell script
   black         Python is formatted by black, in lines of at most $line_length
   flake8        no finding in any Python file (.flake8)
-  arrows        no include points against the arrows between the rooms
+  arrows        no include points against the arrows between the folders
                 (tests/cli/arrows_test.py)
   g++           everything compiles without a warning: the release build,
                 which scripts/test.sh has made already

@@ -12,7 +12,7 @@ import typing
 
 import numpy
 
-from clatter.plain_hdf5 import UNREADABLE, FileProblem, open_output, values_of
+from clatter.hdf5_files import UNREADABLE, FileProblem, open_output, values_of
 
 ROWS = 11  # of each variable in a text baseline: its points are far from tangencies, past which the last bits decide
 SETTLING = (

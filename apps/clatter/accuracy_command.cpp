@@ -102,7 +102,7 @@ constexpr std::string_view examples =
 Command accuracy_command() {
   return {.name = "accuracy",
           .usage = "accuracy CONFIG [OPTION]...",
-          .summary = "measure what accuracy costs in time: methods and settings against 50 digits",
+          .summary = "measure what accuracy costs in time: methods and settings against a 50-digit reference",
           .examples = examples,
           .operands = {"CONFIG"},
           .required_operands = 1,
@@ -114,7 +114,7 @@ Command accuracy_command() {
                       {"verbose", 'v', "", "print every row as well: all settings, errors and counts"},
                       {"json", 0, "", "print a JSON object per row instead"},
                       progress_option,
-                      {"quiet", 'q', "", "print only answers and errors"},
+                      {"quiet", 'q', "", "print no progress, only answers and errors"},
                       {"help", 'h', "", "print this help"}},
           .run = run_accuracy};
 }

@@ -52,9 +52,9 @@ void tell_failures(const branches::Branches& found, const branches::BranchSettin
 
 const branches::BranchSettings& branch_of(const config::Config& config, const std::string& file) {
   if (!config.branch)
-    throw UsageError(storage::printable(file) +
-                     ": no branch.along and branch.range, along which to follow; e.g. --set branch.along=nu "
-                     "--set branch.range='0.8, 1.5'");
+    throw UsageError(storage::printable(file) + ": no branch.along and branch.range; say what to follow, e.g. --set " +
+                     (config.sweep.problem.is_si ? "branch.along=frequency --set branch.range='20 Hz, 30 Hz'"
+                                                 : "branch.along=nu --set branch.range='0.8, 1.5'"));
   if (!config.sweep.dimensions.empty())
     throw UsageError(storage::printable(file) + ": [sweep] has the axis " +
                      std::string(config.sweep.dimensions[0][0].parameter.key()) +
@@ -101,20 +101,22 @@ constexpr std::string_view examples =
 }  // namespace
 
 Command branch_command() {
-  return {.name = "branch",
-          .usage = "branch CONFIG [OPTION]...",
-          .summary = "follow periodic motion, stable and unstable, along a parameter",
-          .examples = examples,
-          .operands = {"CONFIG"},
-          .required_operands = 1,
-          .options = {{"output", 'o', "FILE.h5", "output file; default: NAME.branch.h5 in this directory"},
-                      force_option,
-                      set_option,
-                      ini_option,
-                      {"json", 0, "", "print a JSON object per special point instead"},
-                      {"quiet", 'q', "", "print only special points and errors"},
-                      {"help", 'h', "", "print this help"}},
-          .run = run_branch};
+  return {
+      .name = "branch",
+      .usage = "branch CONFIG [OPTION]...",
+      .summary =
+          "follow periodic motion, stable and unstable, along a parameter; list its folds, flips, grazes and maxima",
+      .examples = examples,
+      .operands = {"CONFIG"},
+      .required_operands = 1,
+      .options = {{"output", 'o', "FILE.h5", "output file; default: NAME.branch.h5 in this directory"},
+                  force_option,
+                  set_option,
+                  ini_option,
+                  {"json", 0, "", "print a JSON object per special point instead"},
+                  {"quiet", 'q', "", "print only special points and errors"},
+                  {"help", 'h', "", "print this help"}},
+      .run = run_branch};
 }
 
 }  // namespace clatter::app

@@ -76,18 +76,19 @@ constexpr std::string_view examples =
 }  // namespace
 
 Command certify_command() {
-  return {.name = "certify",
-          .usage = "certify FILE.h5 [OPTION]...",
-          .summary = "write motions and claims of an output for clatter-verify, which proves them",
-          .examples = examples,
-          .operands = {"FILE.h5"},
-          .required_operands = 1,
-          .options = {{"sample", 0, "N", "only N points, and as many special points, spread evenly; default: all"},
-                      where_option,
-                      {"output", 'o', "FILE.jsonl", "output file; default: standard output"},
-                      force_option,
-                      {"help", 'h', "", "print this help"}},
-          .run = certify};
+  return {
+      .name = "certify",
+      .usage = "certify FILE.h5 [OPTION]...",
+      .summary = "write the results of an output as certificates, for clatter-verify to prove",
+      .examples = examples,
+      .operands = {"FILE.h5"},
+      .required_operands = 1,
+      .options = {{"sample", 0, "N", "certify only N points, and as many special points, spread evenly; default: all"},
+                  where_option,
+                  {"output", 'o', "FILE.jsonl", "output file; default: standard output"},
+                  force_option,
+                  {"help", 'h', "", "print this help"}},
+      .run = certify};
 }
 
 }  // namespace clatter::app

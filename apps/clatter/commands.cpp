@@ -17,6 +17,11 @@ const Command& find_command(std::string_view name) {
     if (command.name == name) return command;
     names.push_back(command.name);
   }
+  if (name == "plot" || name == "report")
+    throw UsageError("clatter draws nothing; use clatter-" + std::string(name) + ", or scripts/" + std::string(name) +
+                     ".py");
+  if (name.ends_with(".toml") || name.ends_with(".ini"))
+    throw UsageError("no command before " + config::in_quotes(name) + "; write e.g. clatter run " + std::string(name));
   throw UsageError("unknown command " + config::in_quotes(name) +
                    config::suggestion(name, names, "; the commands are: "));
 }

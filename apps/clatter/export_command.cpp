@@ -71,7 +71,7 @@ Command export_command() {
           .options = {{"only", 0, "NAME,...", "columns of these results, or components like v_before[-1]; repeatable",
                        true},
                       where_option,
-                      {"impacts", 0, "", "a row for each impact of the log; default: for each point"},
+                      {"impacts", 0, "", "one row for each logged impact instead of one for each point"},
                       {"output", 'o', "FILE.csv", "output file; default: standard output"},
                       force_option,
                       {"help", 'h', "", "print this help"}},

@@ -122,14 +122,12 @@ std::string_view program_examples() {
 Command help_command() {
   return {.name = "help",
           .usage = "help [COMMAND|KEY]",
-          .summary =
-              "print the help of a command, of a key of the configuration with an example, or of all "
-              "keys: configuration",
+          .summary = "explain a command, a key of the configuration with an example, or all keys (help configuration)",
           .examples = examples,
           .operands = {"COMMAND|KEY"},
           .required_operands = 0,
           .options = {{"manual", 0, "DIR",
-                       "write the man pages, and completions for bash, zsh and fish, as they lie in PREFIX/share"},
+                       "write the man pages, and completions for bash, zsh and fish, laid out as in PREFIX/share"},
                       {"help", 'h', "", "print this help"}},
           .run = print_help};
 }

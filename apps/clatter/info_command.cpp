@@ -59,7 +59,7 @@ void print_text(const results::FileSummary& summary) {
   }
   std::cout << "\nVariables\n";
   print_variables(summary);
-  std::cout << "\nBy status\n";
+  if (!summary.status_counts.empty()) std::cout << "\nBy status\n";
   for (const auto& [meaning, count] : summary.status_counts) std::cout << "  " << column(meaning, 12) << count << '\n';
 }
 
@@ -109,7 +109,7 @@ Command info_command() {
           .operands = {"FILE.h5"},
           .required_operands = 1,
           .options = {{"json", 0, "", "print JSON"},
-                      {"config", 0, "", "print the configuration that made the file; it runs again"},
+                      {"config", 0, "", "print the configuration that made the file, which can be run again"},
                       {"check", 0, "", "print nothing, but read all values: the exit code is 0 if none is damaged"},
                       {"help", 'h', "", "print this help"}},
           .run = print_info};

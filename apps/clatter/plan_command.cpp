@@ -41,7 +41,7 @@ constexpr std::string_view examples =
 Command plan_command() {
   return {.name = "plan",
           .usage = "plan CONFIG [OPTION]...",
-          .summary = "print what a configuration will simulate, why, and at what cost; write nothing",
+          .summary = "show the work of a run before it starts: effects and why, time, memory, output",
           .examples = examples,
           .operands = {"CONFIG"},
           .required_operands = 1,

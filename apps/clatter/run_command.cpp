@@ -89,7 +89,7 @@ Command run_command() {
                   threads_option,
                   arch_option,
                   {"shard", 0, "K/N", "compute only points K, K + N, ... (K from 0); `clatter merge` joins the files"},
-                  {"resume", 0, "", "continue an interrupted run (the default); fail if there is none"},
+                  {"resume", 0, "", "fail unless there is an interrupted run to continue (continuing is the default)"},
                   {"restart", 0, "", "discard an interrupted run and start over"},
                   {"max-time", 0, "SECONDS", "stop after this time, keep what is finished, and exit with 124"},
                   progress_option,

@@ -10,7 +10,7 @@
 namespace clatter::app {
 
 /// Options of the commands that print a part of an output as text.
-inline const Option where_option{"where", 0, "AXIS=VALUE", "rows at this value of an axis; repeatable", true};
+inline const Option where_option{"where", 0, "AXIS=VALUE", "points at this value of an axis; repeatable", true};
 
 /// The axes and values of all --where. Throws UsageError.
 [[nodiscard]] std::vector<std::pair<std::string, double>> places_of(const Arguments& arguments);

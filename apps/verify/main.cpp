@@ -28,19 +28,19 @@ enum ExitCode : int { all_proved = 0, some_refuted = 1, usage_error = 2, some_un
 constexpr const char* usage =
     "clatter-verify FILE.jsonl... [OPTION]...\n\n"
     "prove or refute the motions that certificates claim\n\n"
-    "Each motion is computed anew in ball arithmetic, numbers with proved bounds of their error. What isn't proved is\n"
-    "printed with its place, the claimed number, and bounds of the true one. FILE.jsonl holds a certificate on each\n"
-    "line, as clatter certify writes them; - reads standard input.\n\n"
+    "Each motion is computed anew in ball arithmetic, numbers with proved bounds of their error. Each claim\n"
+    "that isn't proved is printed with its place, the claimed value, and bounds of the true one. FILE.jsonl holds a\n"
+    "certificate on each line, as clatter certify writes them; - reads standard input.\n\n"
     "Options\n"
     "      --json       print one JSON object instead\n"
     "      --threads N  certificates checked at once; default: all cores\n"
     "  -h, --help       print this help\n"
     "      --version    print the version\n\n"
     "Exit codes\n"
-    "  0    all are proved\n"
-    "  1    one is refuted\n"
+    "  0    every claim is proved\n"
+    "  1    at least one is refuted\n"
     "  2    wrong command line, or a malformed certificate\n"
-    "  3    none is refuted, but one is undecided\n"
+    "  3    none is refuted, but at least one is undecided\n"
     "  70   a bug in clatter-verify\n"
     "  74   a file cannot be read, or the result cannot be written\n\n"
     "Examples\n"
@@ -131,25 +131,32 @@ class Result {
   nlohmann::json claims_ = nlohmann::json::array();
 };
 
-/// Examines the lines of a stream, some at a time, so that memory doesn't grow with the file.
+[[noreturn]] void fail(ExitCode code, const std::string& message) {
+  std::cerr << "clatter-verify: " << message << '\n';
+  std::exit(code);
+}
+
+/// Examines the lines of a stream, some at a time, so that memory doesn't grow with the file. A stream that begins like
+/// no certificate isn't read on: each line of it would be a mistake.
 void examine_stream(std::istream& in, const std::string& name, unsigned threads, Result& result) {
   constexpr std::size_t at_once = 4096;
+  const std::size_t before = result.lines();
   std::size_t number = 0;
   for (bool more = true; more;) {
     std::vector<Line> lines;
     std::string text;
     while (lines.size() < at_once && (more = static_cast<bool>(std::getline(in, text)))) {
       ++number;
-      if (text.find_first_not_of(" \t\r") != std::string::npos) lines.push_back({number, std::move(text)});
+      const std::size_t begin = text.find_first_not_of(" \t\r");
+      if (begin == std::string::npos) continue;
+      if (lines.empty() && result.lines() == before && text[begin] != '{')
+        fail(usage_error, name + ':' + std::to_string(number) +
+                              ": isn't the JSON of a certificate; name a file that clatter certify wrote");
+      lines.push_back({number, std::move(text)});
     }
     examine_all(lines, threads);
     for (const Line& line : lines) result.add(name, line);
   }
-}
-
-[[noreturn]] void fail(ExitCode code, const std::string& message) {
-  std::cerr << "clatter-verify: " << message << '\n';
-  std::exit(code);
 }
 
 void examine_file(const std::string& name, unsigned threads, Result& result) {

@@ -1,6 +1,7 @@
 """How clatter-plot and clatter-report run, and what they leave behind: whole files or none, lines on standard output,
 and nothing that a signal cut short."""
 
+import argparse
 import logging
 import os
 import secrets
@@ -13,11 +14,21 @@ import warnings
 from contextlib import contextmanager, suppress
 from pathlib import Path
 
-from ._program import BAD_FILE, ClatterError
+from ._program import BAD_FILE, WRONG_USE, ClatterError
 
+SEE_HELP = "; see --help"
 SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 unfinished = set()  # files and folders that a signal removes
 children = set()  # processes that it ends before, since they may write into these folders
+
+
+class Parser(argparse.ArgumentParser):
+    """Throws a mistake in place of ending the program."""
+
+    hint = ""  # behind its message
+
+    def error(self, message):
+        raise ClatterError(message + self.hint, WRONG_USE)
 
 
 def begin():

@@ -147,8 +147,17 @@ class _Workplace:
         return ConfigError(message, exit_code, file=place[1], line=line, column=column)
 
 
+def program():
+    """The program: that of CLATTER, else that beside this package, installed or built, else that on PATH, or None."""
+    scripts = Path(__file__).resolve().parents[1]
+    beside = [scripts.parents[2] / "bin" / "clatter"] if len(scripts.parents) > 2 else []
+    beside.append(scripts.parent / "build" / "release" / "apps" / "clatter" / "clatter")
+    own = next((str(path) for path in beside if os.access(path, os.X_OK)), None)
+    return os.environ.get("CLATTER") or own or shutil.which("clatter")
+
+
 def _program():
-    program = os.environ.get("CLATTER") or shutil.which("clatter")
-    if program is None:
+    found = program()
+    if found is None:
         raise ClatterError("no program clatter on PATH; install it, or name it in the variable CLATTER", None)
-    return program
+    return found

@@ -73,7 +73,7 @@ constexpr std::string_view ini_head =
     "; a key that is not in use. Values: 0.5, 2*pi; axes: a, b, c or\n"
     "; linspace(a, b, n), logspace(a, b, n), arange(a, b, step), sobol(a, b, n).\n\n";
 
-constexpr const char* machine_help = " in place of [scene]: a scene in SI; values may have units, such as \"3 mm\"\n";
+constexpr const char* machine_help = " the scene in SI, in place of [scene]: delete that, and uncomment lines here\n";
 
 /// The value to show: the default, or an example if there is none.
 std::string shown_value(const Key& key, Format format) {
@@ -144,9 +144,10 @@ std::string default_config(Format format) {
       if (section == "machine") text += std::string(toml ? "#" : ";") + machine_help;
     }
     if (key.name == "linked") {
-      text +=
-          toml ? "# one line an axis, any key of [scene]; the first varies slowest\n#nu = \"linspace(0.5, 1.5, 501)\"\n"
-               : "; one line an axis, any key of [scene]; the first varies slowest\n;nu = linspace(0.5, 1.5, 501)\n";
+      text += toml ? "# one axis a line, any key of [scene] or [machine]; the first varies slowest\n#nu = "
+                     "\"linspace(0.5, 1.5, 501)\"\n"
+                   : "; one axis a line, any key of [scene] or [machine]; the first varies slowest\n;nu = "
+                     "linspace(0.5, 1.5, 501)\n";
     }
     text += commented(key, format);
   }

@@ -34,9 +34,9 @@ constexpr std::string_view a_stop_axis = "xs = \"linspace(1, 2, 11)\"\n", is_tra
                            a_curve = "along = \"nu\"\nrange = [0.8, 1.5]\nacross = \"xs\"\ncurve = \"fold\"\n";
 
 constexpr std::array keys_of_file{
-    Key{"", "title", text, "", "My sweep", "what the configuration shows; the output file keeps it"},
+    Key{"", "title", text, "", "My sweep", "title of the configuration, which pictures and the output file bear"},
     Key{"", "source", text, "", "doi:10.5755/j02.mech.32277",
-        "where it comes from, e.g. a DOI; the output file keeps it"},
+        "origin of the configuration, e.g. a DOI, kept in the output file"},
 };
 
 /// The key of a parameter in one of the sections that describe a scene. In [scene] nothing but an angle has a unit.
@@ -65,8 +65,9 @@ constexpr std::array keys_before_observe{
     with("xs = [1.0, 2.0]\nR = [0.7, 0.5]\n",
          Key{"sweep", "linked", names, "", "xs, R",
              "axes of equal length that run together instead of crossing, e.g. nu, f; the first names the dimension"}),
-    with(a_stop_axis, Key{"sweep", "follow", names, "", "xs",
-                          "one axis (or linked ones) along which each point starts from the end of the one before"}),
+    with(a_stop_axis,
+         Key{"sweep", "follow", names, "", "xs",
+             "axis (or linked axes) along which each point starts from the final state of the one before"}),
     with(
         "xs = \"linspace(1, 2, 11)\"\nfollow = \"xs\"\n",
         one_of(sweep::direction_names,
@@ -77,65 +78,66 @@ constexpr std::array keys_before_observe{
          one_of(modes,
                 Key{"time", "mode", choice, "steady", "transient",
                     "steady: run until the motion repeats, observe one period; transient: observe from tau = 0"})),
-    Key{"time", "max_periods", integer, "5000", "1000", "steady: forcing periods after which settling is given up",
+    Key{"time", "max_periods", integer, "5000", "1000", "steady: give up settling after so many forcing periods",
         AllowedRange{.low = 1, .high = 1e12}},
-    Key{"time", "window", integer, "64", "16", "steady: forcing periods observed of a motion that does not repeat",
+    Key{"time", "window", integer, "64", "16", "steady: forcing periods to observe if the motion doesn't repeat",
         AllowedRange{.low = 1, .high = 1e9}},
     with(is_transient,
          of(Quantity::time,
             Key{"time", "duration", number, "0", "63",
-                "transient: observed time in tau, with [machine] in s; greater than 0 there", not_negative})),
+                "transient: time to observe, in tau, with [machine] in s; needed there, and above 0", not_negative})),
     Key{"time", "tolerance", number, "1e-12", "1e-9",
         "steady: two states count as a repeat if they are closer than this",
         AllowedRange{.low = 0, .high = 1, .open = true}},
     Key{"time", "max_impacts", integer, "1e8", "1e6",
-        "impacts after which a point is given up, with the status event_budget", AllowedRange{.low = 1, .high = 1e15}},
+        "give up a point after so many impacts, with the status event_budget", AllowedRange{.low = 1, .high = 1e15}},
 };
 
 const std::array keys_after_observe{
     with("[scene]\nbase_amplitude = 0.1\n\n[observe]\nextrema = true\n",
          one_of(frame_names, Key{"observe", "frame", choice, "relative", "absolute",
-                                 "of displacements and velocities, if stops or base are shaken: relative to them, or "
-                                 "absolute; impact speeds, energies, x0 and v0 stay relative"})),
+                                 "frame of displacements and velocities if stops or base are shaken: relative to them, "
+                                 "or absolute; impact speeds, energies, x0 and v0 stay relative"})),
     one_of(stepping::method_names,
            Key{"integrator", "method", choice, "exact", "dopri5",
-               "exact: closed-form arcs, proved contacts; to compare with, dopri5: Dormand-Prince pair "
+               "exact: closed form, every contact proved to be the first; for comparison, dopri5: Dormand-Prince pair "
                "of orders 5 and 4, contacts on its dense output; moreau: Moreau-Jean time stepping"}),
-    with("method = \"dopri5\"\n",
-         Key{"integrator", "tolerance", number, "1e-10", "1e-8",
-             "dopri5: error of a step, relative to the size of the motion that start, force and stops suggest",
-             AllowedRange{.low = 1e-14, .high = 0.1}}),
+    with("method = \"dopri5\"\n", Key{"integrator", "tolerance", number, "1e-10", "1e-8",
+                                      "dopri5: error of a step, relative to the expected size of the motion",
+                                      AllowedRange{.low = 1e-14, .high = 0.1}}),
     with(by_moreau, Key{"integrator", "step", number, "1e-3", "1e-4",
-                        "moreau: in forcing periods, without forcing in 2 pi", AllowedRange{.low = 1e-9, .high = 1}}),
+                        "moreau: time step in forcing periods, without a force in units of 2 pi",
+                        AllowedRange{.low = 1e-9, .high = 1}}),
     with(by_moreau, Key{"integrator", "theta", number, "0.5", "1",
                         "moreau: weight of a step's end; 1/2: the trapezoidal rule, 1: implicit Euler; below 1/2 "
                         "stable only for short steps",
                         zero_to_one}),
     one_of(effects, Key{"integrator", "effects", choice, "required", "all",
-                        "required: simulate what a scene calls for; all: to compare with, simulate every effect, run "
-                        "max_periods, and look for the repeat only then"}),
+                        "required: simulate only the effects that a scene calls for; all: for comparison, simulate "
+                        "every effect for max_periods, and look for a repeat only then"}),
 
     with(a_range,
-         one_of(followed_names, Key{"branch", "along", choice, "", "nu",
-                                    "key of [scene] or [machine] along which `clatter branch` follows a motion"})),
-    with("along = \"nu\"\n", Key{"branch", "range", interval, "", "0.8, 1.5", "of that key; there the branch ends"}),
-    with(a_kind,
-         one_of(followed_names, Key{"branch", "across", choice, "", "xs",
-                                    "second key of [scene] or [machine]: special points are followed in the plane of "
-                                    "both"})),
+         one_of(followed_names,
+                Key{"branch", "along", choice, "", "nu",
+                    "parameter, by its key in [scene] or [machine], along which `clatter branch` follows a motion"})),
+    with("along = \"nu\"\n",
+         Key{"branch", "range", interval, "", "0.8, 1.5", "range of that parameter; branches end at its limits"}),
+    with(a_kind, one_of(followed_names, Key{"branch", "across", choice, "", "xs",
+                                            "second parameter: special points are followed in the plane of the two"})),
     with(a_curve, Key{"branch", "across_range", interval, "", "0.5, 4",
-                      "of that second key; without it, all that is permitted"}),
-    with(a_second, one_of(branches::curve_names, Key{"branch", "curve", choice, "", "fold",
-                                                     "special points on the branch that are followed across"})),
+                      "range of the second parameter; without it, all values that are permitted"}),
+    with(a_second, one_of(branches::curve_names,
+                          Key{"branch", "curve", choice, "", "fold", "kind of special point to follow in that plane"})),
     with(a_branch, Key{"branch", "period", integer, "0", "2",
-                       "forcing periods of the motion near x0, v0 to begin with, unstable or not; 0: that which the "
-                       "scene settles on",
+                       "forcing periods of the motion near x0, v0 to start from, stable or not; 0: start from the "
+                       "motion that the scene settles on",
                        AllowedRange{.low = 0, .high = 64}}),
-    with(a_branch, Key{"branch", "tolerance", number, "1e-12", "1e-10", "of Newton's method, relative",
+    with(a_branch, Key{"branch", "tolerance", number, "1e-12", "1e-10", "relative tolerance of Newton's method",
                        AllowedRange{.low = 1e-14, .high = 1e-3}}),
     with(a_branch, Key{"branch", "largest_step", number, "0.02", "0.01",
-                       "along the branch, relative to the width of the range", AllowedRange{.low = 1e-6, .high = 1}}),
-    with(a_branch, Key{"branch", "max_points", integer, "10000", "1000", "points after which following is given up",
+                       "largest step along the branch, relative to the width of the range",
+                       AllowedRange{.low = 1e-6, .high = 1}}),
+    with(a_branch, Key{"branch", "max_points", integer, "10000", "1000", "give up following after so many points",
                        AllowedRange{.low = 2, .high = 1e7}}),
     with(a_branch,
          Key{"branch", "switch", integer, "0", "2",

@@ -26,10 +26,10 @@ std::string home_of(std::string_view name) {
   for (const std::string_view section : sections()) {
     if (section == name) return "; begin the section with [" + std::string(name) + "]";
   }
-  for (const Key& key : keys()) {
-    if (key.name == name) return "; it belongs " + shown(key.section);
-  }
-  return {};
+  std::string homes;
+  for (const Key& key : keys())
+    if (key.name == name) homes += (homes.empty() ? "; it belongs " : ", or ") + shown(key.section);
+  return homes;
 }
 
 /// Refuses [[sweep]] in place of [sweep].

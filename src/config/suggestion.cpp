@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "config/text_file.hpp"
+#include "config/unit.hpp"
 #include "storage/utf8.hpp"
 
 namespace clatter::config {
@@ -98,16 +99,18 @@ std::string suggestion(std::string_view written, std::span<const std::string_vie
 }
 
 std::string comma_hint(std::string_view text, Kind kind) {
-  std::string number(without_blanks(text));
+  const std::string_view whole = without_blanks(text), unit = whole.substr(std::min(whole.find(' '), whole.size()));
+  std::string number(whole.substr(0, whole.size() - unit.size()));
   const std::size_t comma = number.find(',');
-  if (comma == std::string::npos || number.find_first_of(".[( \t") != std::string::npos) return {};
+  if (comma == std::string::npos || number.find_first_of(".[(\t") != std::string::npos) return {};
+  if (!unit.empty() && !parse_unit(without_blanks(unit))) return {};
   if (kind == Kind::integer && has_thousands(number)) {
     std::erase(number, ',');
     return "; write it without commas: " + number;
   }
   if (!joins_digits(number, comma) || number.find(',', comma + 1) != std::string::npos) return {};
   number[comma] = '.';
-  return "; a decimal comma? write " + number;
+  return "; a decimal comma? write " + number.append(unit);
 }
 
 std::string comma_hint_within(std::string_view text) {

@@ -43,6 +43,8 @@ std::string read_pieces(int file, const std::string& name) {
 
 /// Checks that the bytes of a configuration are text, and returns it.
 std::string as_text(const std::string& name, std::string bytes) {
+  if (bytes.starts_with("\x89HDF"))
+    unreadable(name, "it is an HDF5 file; `clatter info --config` prints the configuration of an output");
   if (bytes.find('\0') != std::string::npos) unreadable(name, "it holds NUL bytes; a configuration is UTF-8 text");
   if (bytes.size() > max_config_bytes)
     fail({name, 1, 1}, "more than 1 MiB; write long lists as functions, e.g. linspace(a, b, n)");

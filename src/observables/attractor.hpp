@@ -21,7 +21,7 @@ struct Attractor {
   };
   static constexpr std::tuple fields{
       Field{Key{"observe", "attractor", Kind::flag, "false", "true",
-                "number of the motion that the start ends in, table of the motions, their shares of the starts"},
+                "which motion each start settles on, a table of these motions, and their shares of the starts"},
             &Settings::attractor}};
 
   [[nodiscard]] static bool wanted(const Settings& settings) { return settings.attractor; }

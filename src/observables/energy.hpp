@@ -26,9 +26,8 @@ struct Energy {
     double impact_power = no_value;                         ///< loss by impacts on both stops over the observed time
   };
   static constexpr std::tuple fields{Field{Key{"observe", "energy", Kind::flag, "false", "true",
-                                               "energy ledger, in [scene] per unit mass: work of force and load, "
-                                               "losses by damping and impacts, impulse on the "
-                                               "stops"},
+                                               "energy balance, in [scene] per unit mass: work of force and load, "
+                                               "losses by damping and impacts, impulse on the stops, impact power"},
                                            &Settings::energy}};
 
   [[nodiscard]] static bool wanted(const Settings& settings) { return settings.energy; }

@@ -18,9 +18,10 @@ struct Extrema {
   struct Values {
     double x_min = no_value, x_max = no_value, v_min = no_value, v_max = no_value;
   };
-  static constexpr std::tuple fields{Field{
-      Key{"observe", "extrema", Kind::flag, "false", "true", "x_min x_max v_min v_max, exact, between samples too"},
-      &Settings::extrema}};
+  static constexpr std::tuple fields{
+      Field{Key{"observe", "extrema", Kind::flag, "false", "true",
+                "exact extrema of displacement and velocity: x_min, x_max, v_min, v_max"},
+            &Settings::extrema}};
 
   [[nodiscard]] static bool wanted(const Settings& settings) { return settings.extrema; }
   [[nodiscard]] static std::string description(const Settings&) { return "extrema"; }

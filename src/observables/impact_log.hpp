@@ -19,8 +19,9 @@ struct ImpactLog {
     std::vector<motion::Impact> log{};
     std::vector<motion::Rest> rests{};
   };
-  static constexpr std::tuple fields{
-      Field{Key{"observe", "impact_log", Kind::flag, "false", "true", "every observed impact"}, &Settings::impact_log}};
+  static constexpr std::tuple fields{Field{
+      Key{"observe", "impact_log", Kind::flag, "false", "true", "log of every observed impact: time, stop, velocities"},
+      &Settings::impact_log}};
 
   [[nodiscard]] static bool wanted(const Settings& settings) { return settings.impact_log || settings.full_log; }
   [[nodiscard]] static std::string description(const Settings&) { return "impact log"; }

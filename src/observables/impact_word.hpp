@@ -21,10 +21,10 @@ struct ImpactWord {
     double symmetric = no_value;          ///< 1 or 0; NaN: no period, or the scene isn't symmetric
   };
   static constexpr std::size_t longest = 64;  ///< characters of a word
-  static constexpr std::tuple fields{
-      Field{Key{"observe", "word", Kind::flag, "false", "true",
-                "impacts of one period in order as text (LLU), their number over periods, symmetry of the motion"},
-            &Settings::word}};
+  static constexpr std::tuple fields{Field{Key{"observe", "word", Kind::flag, "false", "true",
+                                               "impacts of one period in order, e.g. LLU (L lower, U upper stop), "
+                                               "their number over periods, symmetry of the motion"},
+                                           &Settings::word}};
 
   [[nodiscard]] static bool wanted(const Settings& settings) { return settings.word; }
   [[nodiscard]] static std::string description(const Settings&) { return "impact words"; }

@@ -27,8 +27,8 @@ struct Impacts {
     std::array<double, 2> contact_fraction{no_value, no_value}, contact_force_max{no_value, no_value};
   };
   static constexpr std::tuple fields{Field{Key{"observe", "impacts", Kind::flag, "false", "true",
-                                               "per stop: impacts per period, velocity before and after the first, "
-                                               "speed of the fastest, share of time at rest"},
+                                               "for each stop: impacts per period, velocity before and after the "
+                                               "first, speed of the fastest, share of time at rest"},
                                            &Settings::impacts}};
 
   [[nodiscard]] static bool wanted(const Settings& settings) { return settings.impacts; }

@@ -28,7 +28,8 @@ struct Section {
                 Kind::integer,
                 "0",
                 "500",
-                "states x, x' at one forcing phase in so many successive periods; 0: none",
+                "number of successive forcing periods whose state is sampled at section_phase (Poincare section); 0: "
+                "none",
                 {.low = 0, .high = 1e7}},
             &Settings::section},
       Field{with(observed, of(Quantity::angle, Key{"observe", "section_phase", Kind::number, "0", "1.5708",

@@ -23,7 +23,7 @@ struct Trajectory {
                                                Kind::integer,
                                                "0",
                                                "2001",
-                                               "samples of tau, x, x' over the observed time; 0: none",
+                                               "number of samples of time, x and x' over the observed time; 0: none",
                                                {.low = 2, .high = 1e7, .or_zero = true}},
                                            &Settings::trajectory}};
 

@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cctype>
 #include <array>
 #include <cerrno>
 #include <cstddef>
@@ -35,7 +36,8 @@ constexpr unsigned external_files_message = 7;
 
 /// Examines a link, and the object behind it only if that is in this file.
 void require_own_object(hid_t file, const std::string& name) {
-  if (name.empty() || name == "." || name.find('/') != std::string::npos) refuse(name, "is a path");
+  const bool is_word = std::ranges::all_of(name, [](unsigned char c) { return std::isalnum(c) != 0 || c == '_'; });
+  if (name.empty() || !is_word) refuse(name, "is no name of a variable");
   H5L_info_t link;
   checked(H5Lget_info(file, name.c_str(), &link, H5P_DEFAULT));
   if (link.type != H5L_TYPE_HARD) refuse(name, "is a link to something else");

@@ -185,3 +185,33 @@ def hide_variables(path):
     content[records:end] = bytes(8)
     struct.pack_into("<I", content, end, checksum(bytes(content[begin:end])))
     path.write_bytes(content)
+
+
+ELSEWHERE, LINK = "'x_max' has its values in another file", "'x_max' is a link to something else"
+NO_NUMBERS = "'x_max' holds no numbers"
+NO_TEXTS = "'impact_word' holds no texts of variable length"
+REASONS = {  # what clatter says of each
+    "external": ELSEWHERE,
+    "external_pipe": ELSEWHERE,
+    "virtual": ELSEWHERE,
+    "growing_virtual": ELSEWHERE,
+    "external_link": LINK,
+    "external_link_to_pipe": LINK,
+    "soft_link": LINK,
+    "dangling_link": LINK,
+    "status_link": "'status' is a link to something else",
+    "group": "'x_max' is a group or a type, not a variable",
+    "link_in_group": "'hidden' is a group or a type, not a variable",
+    "type": "'x_max' is a group or a type, not a variable",
+    "lzf": "'x_max' passes through filter 32000",
+    "scaled": "'x_max' passes through filter 6",
+    "checked": "'x_max' passes through filter 3",
+    "deflated_twice": "'x_max' passes through filter 1",
+    "compact": "'x_max' is stored compactly",
+    "texts": NO_NUMBERS,
+    "number_words": NO_TEXTS,
+    "fixed_words": NO_TEXTS,
+    "references": NO_NUMBERS,
+    "name": "'a\\x1b]0;title\\x07\\x1b[2J\\xe2\\x80\\xae\\xc2\\x9b\\x0aclatter: all is well' is no name of a variable",
+    **dict.fromkeys(("hidden", "hidden_storage"), "its list of variables is damaged"),
+}

@@ -2,6 +2,7 @@
 open nothing but the file itself, and wait for nothing."""
 
 import os
+import re
 import shutil
 import signal
 import stat
@@ -13,41 +14,24 @@ from pathlib import Path
 import h5py
 
 from command_line import CLATTER, LONGEST, SMALL, SOURCE
-from crafted_files import CHANGES, SECRET, claim, hide_variables, impact_words, make_surroundings, require_trace
+from crafted_files import (
+    CHANGES,
+    REASONS,
+    SECRET,
+    claim,
+    hide_variables,
+    impact_words,
+    make_surroundings,
+    require_trace,
+)
 from script_runs import run_script
 
 PYTHON = "/usr/bin/python3"
-ELSEWHERE, LINK = "'x_max' has its values in other files", "'x_max' is a link to another place"
-FILTER = "'x_max' has other filters than shuffle and deflate, each once"
-NO_NUMBERS = "'x_max' holds something else than numbers"
-NO_TEXTS = "'impact_word' holds no texts of variable length"
-REASONS = {  # what is said of each
-    "external": ELSEWHERE,
-    "external_pipe": ELSEWHERE,
-    "virtual": ELSEWHERE,
-    "growing_virtual": ELSEWHERE,
-    "external_link": LINK,
-    "external_link_to_pipe": LINK,
-    "soft_link": LINK,
-    "dangling_link": LINK,
-    "status_link": "'status' is a link to another place",
-    "group": "'x_max' is no dataset",
-    "link_in_group": "'hidden' is no dataset",
-    "type": "'x_max' is no dataset",
-    "lzf": FILTER,
-    "scaled": FILTER,
-    "checked": FILTER,
-    "deflated_twice": FILTER,
-    "compact": "'x_max' is stored in an unknown layout",
-    "texts": NO_NUMBERS,
-    "number_words": NO_TEXTS,
-    "fixed_words": NO_TEXTS,
-    "references": NO_NUMBERS,
-    "name": "'a\\x1b]0;title\\x07\\x1b[2J\\u202e\\x9b\\nclatter: all is well' is no name of a variable",
-    "schema": "its schema is '\\x1b[2J'",
-    "claimed": "'status' has more values than the file can hold",
-    "hidden": "it lacks its status or configuration",
-    "long_words": "holds a text of more than 255 characters",
+TOLD = {  # what the program says of each, which looks at it first
+    **{name: words for name, words in REASONS.items() if name != "hidden_storage"},
+    "schema": "not one of clatter's",
+    "claimed": "its 'status' is longer than a file of its size can hold",
+    "long_words": "cannot be read: ",
 }
 CASES = {
     **CHANGES,
@@ -108,12 +92,12 @@ class ForeignFiles(unittest.TestCase):
         (cls.crafted / "zeros.h5").write_bytes(content[:texts] + bytes(128) + content[texts + 128 :])
         os.mkfifo(cls.crafted / "fifo.h5")
         cls.program = cls.folder / "clatter"  # has the same output ready for every configuration
-        cls.program.write_text(f'#!/bin/sh\ncp "{output}" "$4"\n')
+        cls.program.write_text(f'#!/bin/sh\n[ "$1" = info ] && exec "{CLATTER}" "$@"\ncp "{output}" "$4"\n')
         cls.program.chmod(cls.program.stat().st_mode | stat.S_IXUSR)
 
     def expected(self):
-        yield from ((self.crafted / f"{name}.h5", words) for name, words in REASONS.items())
-        yield self.crafted / "zeros.h5", "damaged (a heap of texts at byte "
+        yield from ((self.crafted / f"{name}.h5", words) for name, words in TOLD.items())
+        yield self.crafted / "zeros.h5", "heap"
         yield self.crafted / "fifo.h5", "not a regular file"
 
     def run_to_its_end(self, *words):
@@ -144,9 +128,11 @@ class ForeignFiles(unittest.TestCase):
             with self.subTest(path.stem):
                 result = run_script("plot.py", path, timeout=LONGEST)
                 self.assertEqual((result.returncode, result.stdout), (74, ""), result.stderr)
-                self.assertTrue(result.stderr.startswith(f"plot.py: {path}: "), result.stderr)
+                self.assertRegex(result.stderr, f"^plot.py: '?{re.escape(str(path))}'?:? ")
                 self.assertIn(words, result.stderr)
-                self.assertRegex(result.stderr, "; (run its configuration again, or get the file anew|give a .*)\n$")
+                self.assertRegex(
+                    result.stderr, "; (copy it again, or run its configuration again|name an .*|give a .*)\n$"
+                )
                 self.assertEqual(result.stderr.count("\n"), 1)
                 self.assertEqual(sorted(self.crafted.iterdir()), before)
 
@@ -159,7 +145,7 @@ class ForeignFiles(unittest.TestCase):
             with self.subTest(path.stem):
                 row = rows[path.stem]
                 self.assertEqual(row.split()[1:7], ["-", "-", "-", "-", "-", "differs"])
-                self.assertIn(f"can't be read: {path}: ", row)
+                self.assertIn("can't be read: ", row)
                 self.assertIn(words, row)
 
     def test_regress_waits_for_no_text(self):

@@ -13,43 +13,14 @@ import h5py
 import numpy
 
 from command_line import CLATTER, SANITIZED, SMALL, CommandLine
-from crafted_files import CHANGES, CONTROLS, SECRET, claim, hide_variables, make_surroundings, require_trace
+from crafted_files import CHANGES, CONTROLS, REASONS, SECRET, claim, hide_variables, make_surroundings, require_trace
 
-ELSEWHERE, LINK = "'x_max' has its values in another file", "'x_max' is a link to something else"
-NO_NUMBERS = "'x_max' holds no numbers"
-NO_TEXTS = "'impact_word' holds no texts of variable length"
-REASONS = {  # what is said of each
-    "external": ELSEWHERE,
-    "external_pipe": ELSEWHERE,
-    "virtual": ELSEWHERE,
-    "growing_virtual": ELSEWHERE,
-    "external_link": LINK,
-    "external_link_to_pipe": LINK,
-    "soft_link": LINK,
-    "dangling_link": LINK,
-    "status_link": "'status' is a link to something else",
-    "group": "'x_max' is a group or a type, not a variable",
-    "link_in_group": "'hidden' is a group or a type, not a variable",
-    "type": "'x_max' is a group or a type, not a variable",
-    "lzf": "'x_max' passes through filter 32000",
-    "scaled": "'x_max' passes through filter 6",
-    "checked": "'x_max' passes through filter 3",
-    "deflated_twice": "'x_max' passes through filter 1",
-    "compact": "'x_max' is stored compactly",
-    "texts": NO_NUMBERS,
-    "number_words": NO_TEXTS,
-    "fixed_words": NO_TEXTS,
-    "references": NO_NUMBERS,
-    "name": "'a\\x1b]0;title\\x07\\x1b[2J\\xe2\\x80\\xae\\xc2\\x9b\\x0aclatter: all is well' is a group",
-    "hidden": "its list of variables is damaged",
-}
 CASES = {
     **CHANGES,
     "name": lambda file, directory: file.create_group("a" + CONTROLS),
     "hidden": CHANGES["external_link"],
     "hidden_storage": CHANGES["external"],
 }
-REASONS["hidden_storage"] = REASONS["hidden"]
 
 
 def add_trailer(path):

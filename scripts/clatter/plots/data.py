@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..plain_hdf5 import FileProblem, UNREADABLE, damaged, dimensions_of, open_output, printable, text, values_of
+from ..hdf5_files import FileProblem, UNREADABLE, damaged, dimensions_of, open_output, printable, text, values_of
 
 try:
     import tomllib

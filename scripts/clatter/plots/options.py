@@ -7,7 +7,7 @@ import sys
 from itertools import takewhile
 from pathlib import Path
 
-from .._program import WRONG_USE, ClatterError
+from .._command import SEE_HELP, Parser
 
 FORMATS = ("pdf", "png", "svg")
 USAGE = """%(prog)s [-o DIR] [--format svg|png|pdf...] [--only NAME,...]
@@ -23,16 +23,9 @@ paper, or if one of them holds branches. Exit codes: 0 done, 2 wrong command lin
 written."""
 
 
-class Strict(argparse.ArgumentParser):
-    """Throws a mistake in place of ending the program."""
-
-    def error(self, message):
-        raise ClatterError(message, WRONG_USE)
-
-
-def options_parser(kind=argparse.ArgumentParser):
+def options_parser():
     """All that --help and the man page tell."""
-    parser = kind(usage=USAGE, description=DESCRIPTION, allow_abbrev=False, epilog=EPILOG)
+    parser = Parser(usage=USAGE, description=DESCRIPTION, allow_abbrev=False, epilog=EPILOG)
     add = parser.add_argument
     add(
         "files",
@@ -60,8 +53,9 @@ def options_parser(kind=argparse.ArgumentParser):
 
 
 def command_line():
-    """The options and files; ends the program on a mistake, with one line that names it."""
+    """The options and files. A mistake is a ClatterError of one line that names it."""
     parser = options_parser()
+    parser.hint = SEE_HELP
     words, files = parted(sys.argv[1:])
     for word in words:
         if word.startswith("-") and word.endswith(".h5") and os.path.exists(word):
@@ -76,7 +70,7 @@ def command_line():
 
 def choices(files, words=()):
     """The options that these words choose, for files of any names."""
-    options = options_parser(Strict).parse_args(words)
+    options = options_parser().parse_args(words)
     options.files = list(files)
     return options
 

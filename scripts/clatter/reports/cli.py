@@ -1,9 +1,8 @@
 """The command clatter-report: makes one page of outputs of clatter; --help says more."""
 
-import argparse
 from pathlib import Path
 
-from .._command import run, tell
+from .._command import SEE_HELP, Parser, run, tell
 from .._pictures import needing
 
 NAME = "clatter-report"
@@ -18,7 +17,7 @@ SUMMARY = "make one page of outputs of clatter"
 
 def options_parser():
     """All that --help and the man page tell."""
-    parser = argparse.ArgumentParser(prog=NAME, description=DESCRIPTION, epilog=EPILOG, allow_abbrev=False)
+    parser = Parser(prog=NAME, description=DESCRIPTION, epilog=EPILOG, allow_abbrev=False)
     add = parser.add_argument
     add("files", nargs="+", metavar="FILE.h5", help="output of 'clatter run', 'clatter accuracy' or 'clatter branch'")
     add("-o", "--output", metavar="FILE.html", default="report.html", help="the page; default: report.html")
@@ -34,7 +33,9 @@ def main():
 
 def make():
     """Writes the page, and tells its name."""
-    options = options_parser().parse_args()
+    parser = options_parser()
+    parser.hint = SEE_HELP
+    options = parser.parse_args()
     with needing("report"):
         from .page import write_page
     tell(NAME, write_page(options.files, Path(options.output), options.title, not options.no_histories))

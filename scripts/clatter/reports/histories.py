@@ -1,13 +1,11 @@
 """The motion of some points of an output: stored in it, or computed for the page by the program."""
 
-import os
-import shutil
 import subprocess
-from pathlib import Path
 
 import numpy as np
 
 from .._command import run_child, temporary_folder
+from .._program import program
 from ..plots.data import Output
 from ..plots.motion import motion
 from .commands import keys_along
@@ -73,7 +71,10 @@ def computed(output, kept):
     with temporary_folder("clatter-report-") as folder:
         config, file = folder / "configuration.toml", folder / "motion.h5"
         config.write_text(output.config_text, encoding="utf-8")
-        words = [program(), "run", str(config), "-o", str(file), "--quiet", *settings(output, kept)]
+        found = program()
+        if not found:
+            raise NoHistories("The motion wasn't computed: there is no program clatter on PATH; CLATTER may name it.")
+        words = [found, "run", str(config), "-o", str(file), "--quiet", *settings(output, kept)]
         try:
             done = run_child(words, SECONDS, stdin=subprocess.DEVNULL)
         except subprocess.TimeoutExpired:
@@ -94,16 +95,3 @@ def settings(output, kept):
         for key in keys_along(output, axis):
             changes[f"sweep.{key}"] = "[" + ", ".join(repr(float(v)) for v in output.values(key)[indexes]) + "]"
     return [word for key, value in changes.items() for word in ("--set", f"{key}={value}")]
-
-
-def program():
-    """The program: that of CLATTER, else that beside this package, installed or built, else that on PATH."""
-    scripts = Path(__file__).resolve().parents[2]
-    beside = [scripts.parents[2] / "bin" / "clatter"] if len(scripts.parents) > 2 else []
-    for path in [*beside, scripts.parent / "build" / "release" / "apps" / "clatter" / "clatter"]:
-        if not os.environ.get("CLATTER") and os.access(path, os.X_OK):
-            return str(path)
-    found = os.environ.get("CLATTER") or shutil.which("clatter")
-    if not found:
-        raise NoHistories("The motion wasn't computed: there is no program clatter on PATH; CLATTER may name it.")
-    return found

@@ -12,7 +12,7 @@ from pathlib import Path
 from urllib.parse import quote
 
 from .._command import write_whole
-from ..plain_hdf5 import FileProblem
+from ..hdf5_files import FileProblem
 from ..plots.data import Output
 from ..plots.style import own_style
 from .commands import command, command_notes

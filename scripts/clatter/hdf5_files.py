@@ -1,0 +1,156 @@
+"""Opens an output of clatter, whoever made the file: another process has read all of it before."""
+
+import os
+import resource
+import stat
+import subprocess
+import sys
+from pathlib import Path
+
+import h5py
+import numpy as np
+from h5py import h5ds, h5t
+
+from ._program import BAD_FILE, WRONG_USE, ClatterError, program
+
+WANTED = "give a file that 'clatter run', 'clatter accuracy' or 'clatter branch' wrote"
+ANEW = "run its configuration again, or get the file anew"
+UNREADABLE = (AttributeError, LookupError, MemoryError, OSError, RuntimeError, TypeError, ValueError)  # if damaged
+# Without the program: what reads a file in a process of its own.
+TRIAL = "import sys; sys.path.insert(0, sys.argv[1]); from clatter import hdf5_files; hdf5_files.try_all(sys.argv[2])"
+
+
+class FileProblem(ClatterError):
+    """A file that cannot be used; the message is one line that names it and how to fix it."""
+
+    def __init__(self, message):
+        super().__init__(message, BAD_FILE)
+
+
+def printable(value):
+    """A text of a file in one line that moves no cursor."""
+    return repr(text(value))[1:-1]
+
+
+def damaged(path, error):
+    """The error for damage that a library found: its words may quote the file."""
+    return FileProblem(f"{path}: damaged ({printable(error)}); {ANEW}")
+
+
+def open_output(path):
+    """Opens an output of clatter, or says why it isn't one."""
+    require_regular(path)
+    require_sound(path)
+    try:
+        file = h5py.File(path, "r")
+    except UNREADABLE as error:
+        raise damaged(path, error) from None
+    try:
+        require_schema(path, file)
+    except UNREADABLE as error:
+        file.close()
+        raise damaged(path, error) from None
+    except FileProblem:
+        file.close()
+        raise
+    return file
+
+
+def require_sound(path):
+    """Lets another process read all of a file, since HDF5 crashes on damaged ones, and may lead to others."""
+    found = program()
+    if found:
+        told = subprocess.run([found, "info", "--check", "--", path], capture_output=True, stdin=subprocess.DEVNULL)
+        if told.returncode == 0:
+            return
+        if told.returncode != WRONG_USE:  # of a program that is older than --check
+            raise FileProblem(words_of(told) or f"{path}: damaged (clatter ends by {told.returncode}); {ANEW}")
+    words = [sys.executable, "-c", TRIAL, str(Path(__file__).parents[1]), path]
+    told = subprocess.run(words, capture_output=True, stdin=subprocess.DEVNULL)
+    if told.returncode != 0:
+        raise FileProblem(words_of(told) if told.returncode == BAD_FILE else str(damaged(path, "HDF5 crashes on it")))
+
+
+def words_of(told):
+    """The last line that a process has printed, without the program's name."""
+    lines = os.fsdecode(told.stderr).strip().splitlines()
+    return lines[-1].removeprefix("clatter: ") if lines else ""
+
+
+def try_all(path):
+    """Reads all of a file, and ends this process by what becomes of that."""
+    size = os.stat(path).st_size
+    for limit, most in ((resource.RLIMIT_CPU, 60 + size // 10**7), (resource.RLIMIT_AS, 2**31 + 8 * size)):
+        resource.setrlimit(limit, (most, most))
+    try:
+        with h5py.File(path, "r") as file:
+            for name in file:
+                require_own(path, file, name)
+                values_of(file[name])
+    except FileProblem as problem:
+        end_trial(problem)
+    except OSError as error:
+        end_trial(damaged(path, error) if h5py.is_hdf5(path) else f"{path}: not an HDF5 file; {WANTED}")
+    except UNREADABLE as error:
+        end_trial(damaged(path, error))
+
+
+def end_trial(words):
+    print(words, file=sys.stderr)
+    sys.exit(BAD_FILE)
+
+
+def require_own(path, file, name):
+    """Refuses what would be read from elsewhere."""
+    is_own = isinstance(file.get(name, getlink=True), h5py.HardLink) and isinstance(file[name], h5py.Dataset)
+    if not is_own or file[name].external or file[name].is_virtual:
+        raise FileProblem(f"{path}: {name!r} leads out of the file, or is no variable; {ANEW}")
+
+
+def require_regular(path):
+    """Looks at the file without opening it: a pipe would wait for a writer."""
+    if not path:
+        raise FileProblem(f"'': an empty name; {WANTED}")
+    try:
+        mode = os.stat(path).st_mode
+    except OSError as error:
+        if isinstance(error, FileNotFoundError):
+            raise FileProblem(f"{path}: no such file; make it with 'clatter run CONFIG -o {path}'") from None
+        raise FileProblem(f"{path}: not readable ({error.strerror}); check its name and permissions") from None
+    if stat.S_ISDIR(mode):
+        raise FileProblem(f"{path}: a folder, not a file; name the .h5 files in it")
+    if not stat.S_ISREG(mode):
+        raise FileProblem(f"{path}: not a regular file; {WANTED}")
+
+
+def require_schema(path, file):
+    schema = text(file.attrs.get("clatter_schema", ""))
+    if schema != "clatter/1":
+        found = f"its schema is '{printable(schema)}'" if schema else "it has no attribute clatter_schema"
+        raise FileProblem(f"{path}: not a clatter/1 file ({found}); {WANTED}")
+    if not {"status", "arclength"} & set(file) or "config" not in file.attrs:
+        raise FileProblem(f"{path}: not a clatter/1 file (it lacks its status or configuration); {WANTED}")
+
+
+def is_text(dataset):
+    """Whether a low-level dataset holds texts of variable length."""
+    kind = dataset.get_type()
+    return kind.get_class() == h5t.STRING and kind.is_variable_str()
+
+
+def dimensions_of(dataset):
+    """The names of a variable's dimensions, slowest first; of an axis its own."""
+    if h5ds.is_scale(dataset.id):
+        return (dataset.name.lstrip("/"),)
+    return tuple(dim[0].name.lstrip("/") if len(dim) else f"dim{place}" for place, dim in enumerate(dataset.dims))
+
+
+def values_of(dataset):
+    """All values of a variable: an array of numbers, or of strings."""
+    return np.asarray(dataset.asstr()[()], str) if is_text(dataset.id) else np.asarray(dataset[()])
+
+
+def text(value):
+    """A text attribute; nccopy makes an array of one out of it."""
+    value = value.item() if isinstance(value, np.ndarray) and value.size == 1 else value
+    return value.decode() if isinstance(value, bytes) else str(value)
