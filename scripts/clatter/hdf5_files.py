@@ -3,7 +3,6 @@
 import os
 import resource
 import stat
-import subprocess
 import sys
 from pathlib import Path
 
@@ -11,6 +10,7 @@ import h5py
 import numpy as np
 from h5py import h5ds, h5t
 
+from ._command import run_child
 from ._program import BAD_FILE, WRONG_USE, ClatterError, program
 
 WANTED = "give a file that 'clatter run', 'clatter accuracy' or 'clatter branch' wrote"
@@ -58,23 +58,25 @@ def open_output(path):
 
 def require_sound(path):
     """Lets another process read all of a file, since HDF5 crashes on damaged ones, and may lead to others."""
+    told = read_by_program(path)
+    if told is None:
+        told = run_child([sys.executable, "-c", TRIAL, str(Path(__file__).parents[1]), path], None)
+    if told.returncode == 0:
+        return
+    lines = told.stderr.strip().splitlines()
+    if told.returncode != BAD_FILE or not lines:
+        raise damaged(path, f"reading it ends by {told.returncode}")
+    raise FileProblem(lines[-1].removeprefix("clatter: ").replace(f"'{path}'", str(path), 1))
+
+
+def read_by_program(path):
+    """The program's check of a file; None if there is no program, or one that is older than the check."""
     found = program()
-    if found:
-        told = subprocess.run([found, "info", "--check", "--", path], capture_output=True, stdin=subprocess.DEVNULL)
-        if told.returncode == 0:
-            return
-        if told.returncode != WRONG_USE:  # of a program that is older than --check
-            raise FileProblem(words_of(told) or f"{path}: damaged (clatter ends by {told.returncode}); {ANEW}")
-    words = [sys.executable, "-c", TRIAL, str(Path(__file__).parents[1]), path]
-    told = subprocess.run(words, capture_output=True, stdin=subprocess.DEVNULL)
-    if told.returncode != 0:
-        raise FileProblem(words_of(told) if told.returncode == BAD_FILE else str(damaged(path, "HDF5 crashes on it")))
-
-
-def words_of(told):
-    """The last line that a process has printed, without the program's name."""
-    lines = os.fsdecode(told.stderr).strip().splitlines()
-    return lines[-1].removeprefix("clatter: ") if lines else ""
+    try:
+        told = run_child([found, "info", "--check", "--", path], None, errors="replace") if found else None
+    except OSError:
+        return None
+    return None if told is None or told.returncode == WRONG_USE else told
 
 
 def try_all(path):

@@ -16,7 +16,7 @@ from unittest import mock
 
 import h5py
 
-from command_line import LONGEST, SMALL, CommandLine, heed_signals
+from command_line import CLATTER, LONGEST, SMALL, CommandLine, heed_signals
 from plot_checks import Svg
 from script_runs import SCRIPTS, run_script, start_script
 from small_disk import small_disk
@@ -106,7 +106,8 @@ class Stopped(Made):
 
     def test_a_signal_while_motion_is_computed_ends_the_program_and_leaves_no_folder(self):
         program = self.directory / "slow"
-        program.write_text('#!/bin/bash\n[ "$1" = run ] && kill -TERM $PPID\nexec sleep 1000\n')
+        look = f'[ "$1" = info ] && exec "{CLATTER}" "$@"'
+        program.write_text(f'#!/bin/bash\n{look}\n[ "$1" = run ] && kill -TERM $PPID\nexec sleep 1000\n')
         program.chmod(0o755)
         folder = self.directory / "tmp"
         folder.mkdir()

@@ -146,7 +146,7 @@ class Report(ReportRuns):
         (self.directory / "no.h5").write_text("no")
         done = self.report("no.h5")
         self.assertEqual(done.returncode, 74)
-        self.assertRegex(done.stderr, r"^clatter-report: no.h5: not an HDF5 file; .*\n$")
+        self.assertRegex(done.stderr, r"^clatter-report: no.h5: is not an HDF5 file; .*\n$")
         self.assertEqual(self.report().returncode, 2)
 
 
