@@ -145,7 +145,7 @@ class ManualOfVerifier(CommandLine):
 
     def test_every_word_of_the_help_is_there_in_its_order(self):
         told = subprocess.run([VERIFY, "--help"], capture_output=True, check=True, text=True).stdout
-        self.assertRegex(told, r"(?m)^Exit codes\n  0    all are proved$")
+        self.assertRegex(told, r"(?m)^Exit codes\n  0    every claim is proved$")
         page = subprocess.run(["mandoc", "-Tascii", *self.pages], capture_output=True, check=True, text=True).stdout
         shown = iter(re.sub(".\b", "", page).split())
         titles = {"Options": "OPTIONS", "Exit codes": "EXIT STATUS", "Examples": "EXAMPLES"}
