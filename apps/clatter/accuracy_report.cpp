@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <span>
-#include <sstream>
 #include <string_view>
 #include <vector>
 

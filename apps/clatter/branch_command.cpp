@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <cmath>
 #include <iostream>
 
 #include "branches/branch_dataset.hpp"

@@ -63,7 +63,7 @@ struct Command {
 /// Examples of the whole program, for the end of its help.
 [[nodiscard]] std::string_view program_examples();
 
-/// What the program is, in one line.
+/// The program in one line.
 inline constexpr std::string_view program_summary = "exact sweeps of oscillators that knock against stops";
 
 /// The help of the program, and of one command.

@@ -1,13 +1,10 @@
 #include "format.hpp"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdio>
-#include <string_view>
 
-#include "storage/utf8.hpp"
 
 namespace clatter::app {
 

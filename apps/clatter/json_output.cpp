@@ -1,6 +1,5 @@
 #include "json_output.hpp"
 
-#include <cmath>
 #include <cstdint>
 #include <nlohmann/json.hpp>
 

@@ -9,7 +9,6 @@
 #include <fstream>
 #include <iterator>
 #include <span>
-#include <variant>
 #include <vector>
 
 #include "format.hpp"
@@ -52,13 +51,6 @@ std::string work_text(const std::vector<sweep::WorkStats>& work) {
   }
   return text + "impacts          " + formatted("%.0f", impacts) + "\nforcing periods  " + formatted("%.6g", periods) +
          "\nevaluations      " + formatted("%.0f", evaluations) + '\n';
-}
-
-std::span<const std::uint8_t> statuses_of(const results::Dataset& dataset) {
-  const auto status = std::ranges::find(dataset.variables, "status", &results::Variable::name);
-  const auto* const values =
-      status == dataset.variables.end() ? nullptr : std::get_if<std::vector<std::uint8_t>>(&status->values);
-  return values == nullptr ? std::span<const std::uint8_t>{} : *values;
 }
 
 /// The index in the sweep of the point with a local index in a run.
@@ -109,7 +101,7 @@ std::string command_line() {
 
 std::string failures_text(const results::Dataset& dataset, const sweep::Sweep& sweep,
                           const std::optional<results::Shard>& shard) {
-  const std::span<const std::uint8_t> statuses = statuses_of(dataset);
+  const std::vector<std::uint8_t>& statuses = *results::values_of<std::uint8_t>(dataset, "status");
   const sweep::Share share(sweep, shard);
   std::string text;
   std::ptrdiff_t failures = 0;

@@ -9,7 +9,7 @@ namespace verify {
 
 enum class Verdict { proved, undecided, refuted };
 
-/// What was found of a certificate.
+/// The verdict on a certificate.
 struct Finding {
   Verdict verdict = Verdict::proved;
   std::vector<std::string> remarks{};  ///< each claim that isn't proved, with both numbers

@@ -9,7 +9,8 @@
     figure = clatter.plot("fig22.h5", only="x_max")
 
 The program does all the work: values are those of the file that `clatter run` writes, and keys are those of
-`clatter help configuration`. The program is the one that the variable CLATTER names, else `clatter` on PATH. Pictures
+`clatter help configuration`. The program is the one that the variable CLATTER names, else that beside the
+package, installed or built, else `clatter` on PATH. Pictures
 and pages are those of the commands clatter-plot and clatter-report; they need the extras clatter[plot] and
 clatter[report].
 """

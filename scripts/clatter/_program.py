@@ -65,7 +65,7 @@ def branch(config, *, output=None, **sections):
 
 
 def plan(config, **sections):
-    """What a run simulates and why, its work and its memory: the object of `clatter plan --json` as a dictionary.
+    """The effects that a run simulates and why, its work and its memory: the object of `clatter plan --json` as a dictionary.
     Arguments and errors are those of `run`."""
     with _Workplace(config) as place:
         return json.loads(place.call("plan", ["--json", *set_words(sections)]).stdout)
@@ -150,9 +150,11 @@ class _Workplace:
 def program():
     """The program: that of CLATTER, else that beside this package, installed or built, else that on PATH, or None."""
     scripts = Path(__file__).resolve().parents[1]
-    beside = [scripts.parents[2] / "bin" / "clatter"] if len(scripts.parents) > 2 else []
-    beside.append(scripts.parent / "build" / "release" / "apps" / "clatter" / "clatter")
-    own = next((str(path) for path in beside if os.access(path, os.X_OK)), None)
+    beside = scripts.parent / "build" / "release" / "apps" / "clatter" / "clatter"
+    if scripts.parent.name == "clatter" and len(scripts.parents) > 2:  # PREFIX/share/clatter/scripts
+        installed = scripts.parents[2] / "bin" / "clatter"
+        beside = installed if os.access(installed, os.X_OK) else beside
+    own = str(beside) if os.access(beside, os.X_OK) else None
     return os.environ.get("CLATTER") or own or shutil.which("clatter")
 
 

@@ -3,21 +3,24 @@
 import os
 import resource
 import stat
+import subprocess
 import sys
 from pathlib import Path
 
 import h5py
 import numpy as np
-from h5py import h5ds, h5t
+from h5py import h5d, h5ds, h5t, h5z
 
 from ._command import run_child
-from ._program import BAD_FILE, WRONG_USE, ClatterError, program
+from ._program import BAD_FILE, ClatterError, program
 
 WANTED = "give a file that 'clatter run', 'clatter accuracy' or 'clatter branch' wrote"
 ANEW = "run its configuration again, or get the file anew"
 UNREADABLE = (AttributeError, LookupError, MemoryError, OSError, RuntimeError, TypeError, ValueError)  # if damaged
+FILTERS = {h5z.FILTER_SHUFFLE, h5z.FILTER_DEFLATE}
+sound = set()  # files that have been read, by name and state
 # Without the program: what reads a file in a process of its own.
-TRIAL = "import sys; sys.path.insert(0, sys.argv[1]); from clatter import hdf5_files; hdf5_files.try_all(sys.argv[2])"
+TRIAL = "import sys; sys.path[0] = sys.argv[1]; from clatter import hdf5_files; hdf5_files.try_all(sys.argv[2])"
 
 
 class FileProblem(ClatterError):
@@ -58,37 +61,49 @@ def open_output(path):
 
 def require_sound(path):
     """Lets another process read all of a file, since HDF5 crashes on damaged ones, and may lead to others."""
-    told = read_by_program(path)
-    if told is None:
-        told = run_child([sys.executable, "-c", TRIAL, str(Path(__file__).parents[1]), path], None)
-    if told.returncode == 0:
+    state = os.stat(path)
+    key = (os.fspath(path), state.st_dev, state.st_ino, state.st_size, state.st_mtime_ns)
+    if key in sound:
         return
-    lines = told.stderr.strip().splitlines()
-    if told.returncode != BAD_FILE or not lines:
-        raise damaged(path, f"reading it ends by {told.returncode}")
-    raise FileProblem(lines[-1].removeprefix("clatter: ").replace(f"'{path}'", str(path), 1))
+    wait = 120 + state.st_size // 10**6  # seconds
+    try:
+        told = read_by_program(path, wait) or read_by_python(path, wait)
+    except subprocess.TimeoutExpired:
+        raise damaged(path, f"reading it takes more than {wait} s") from None
+    if told.returncode != 0:
+        lines = told.stderr.strip().splitlines()
+        if told.returncode != BAD_FILE or not lines:
+            raise damaged(path, lines[-1] if lines and told.returncode > 0 else "HDF5 crashes on it")
+        raise FileProblem(lines[-1].removeprefix("clatter: ").replace(f"'{path}'", str(path), 1))
+    sound.add(key)
 
 
-def read_by_program(path):
-    """The program's check of a file; None if there is no program, or one that is older than the check."""
+def read_by_program(path, wait):
+    """The program's check of a file; None if there is no program, or none that runs and has this check."""
     found = program()
     try:
-        told = run_child([found, "info", "--check", "--", path], None, errors="replace") if found else None
+        told = run_child([found, "info", "--check", "--", path], wait, errors="replace") if found else None
     except OSError:
         return None
-    return None if told is None or told.returncode == WRONG_USE else told
+    is_answer = told and (told.returncode == 0 or told.returncode == BAD_FILE and told.stderr.startswith("clatter: "))
+    return told if is_answer else None
+
+
+def read_by_python(path, wait):
+    """The same by h5py, in a process of its own."""
+    words = [sys.executable, "-c", TRIAL, str(Path(__file__).parents[1]), os.fspath(path)]
+    return run_child(words, wait, errors="replace", env={**os.environ, "OPENBLAS_NUM_THREADS": "1"})
 
 
 def try_all(path):
     """Reads all of a file, and ends this process by what becomes of that."""
-    size = os.stat(path).st_size
-    for limit, most in ((resource.RLIMIT_CPU, 60 + size // 10**7), (resource.RLIMIT_AS, 2**31 + 8 * size)):
-        resource.setrlimit(limit, (most, most))
+    limit_process(os.stat(path).st_size)
     try:
         with h5py.File(path, "r") as file:
+            dict(file.attrs)
             for name in file:
                 require_own(path, file, name)
-                values_of(file[name])
+                values_of(file[name]), dimensions_of(file[name]), dict(file[name].attrs)
     except FileProblem as problem:
         end_trial(problem)
     except OSError as error:
@@ -97,16 +112,30 @@ def try_all(path):
         end_trial(damaged(path, error))
 
 
+def limit_process(size):
+    """So much time and memory, beyond what the process has, as reading a file of this size can take."""
+    present = int(Path("/proc/self/statm").read_text(encoding="ascii").split()[0]) * resource.getpagesize()
+    for limit, most in (
+        (resource.RLIMIT_CPU, 60 + size // 10**7),
+        (resource.RLIMIT_AS, present + 2**30 + 8 * size),
+    ):
+        hard = resource.getrlimit(limit)[1]
+        resource.setrlimit(limit, (most if hard == resource.RLIM_INFINITY else min(most, hard), hard))
+
+
 def end_trial(words):
     print(words, file=sys.stderr)
     sys.exit(BAD_FILE)
 
 
 def require_own(path, file, name):
-    """Refuses what would be read from elsewhere."""
-    is_own = isinstance(file.get(name, getlink=True), h5py.HardLink) and isinstance(file[name], h5py.Dataset)
-    if not is_own or file[name].external or file[name].is_virtual:
-        raise FileProblem(f"{path}: {name!r} leads out of the file, or is no variable; {ANEW}")
+    """Refuses what would be read from elsewhere, or by a program that the file names: links, foreign filters."""
+    is_own = name.isidentifier() and isinstance(file.get(name, getlink=True), h5py.HardLink)
+    is_own = is_own and file.get(name, getclass=True) is h5py.Dataset
+    made = h5d.open(file.id, name.encode()).get_create_plist() if is_own else None
+    is_own = is_own and made.get_layout() in (h5d.CONTIGUOUS, h5d.CHUNKED) and made.get_external_count() == 0
+    if not is_own or not {made.get_filter(place)[0] for place in range(made.get_nfilters())} <= FILTERS:
+        raise FileProblem(f"{path}: {name!r} is no variable as clatter writes it; {ANEW}")
 
 
 def require_regular(path):

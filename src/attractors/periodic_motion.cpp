@@ -47,7 +47,7 @@ Round polished(const point::Problem& problem, Round round) {
   return round;
 }
 
-/// What is told of a motion by one round of it.
+/// The facts that one round of a motion tells.
 PeriodicMotion described(const point::Problem& problem, const Round& round) {
   PeriodicMotion motion{.size = size_of(round)};
   const std::size_t periods = round.orbit.periods;

@@ -215,7 +215,7 @@ class Follower {
     if (kind == SpecialKind::flip || kind == SpecialKind::symmetry_breaking) wait_for_daughter(at, special);
   }
 
-  /// What is born at a flip or a loss of symmetry begins along the eigenvector of multiplier -1.
+  /// A branch born at a flip or a loss of symmetry begins along the eigenvector of multiplier -1.
   void wait_for_daughter(const BranchPoint& at, std::size_t special) {
     const Orbit daughter = at.orbit.mirrored ? at.orbit.whole() : at.orbit.repeated(2);
     const Vector direction = direction_of_daughter(at.scene, at.orbit, daughter, speed_scale(at.scene, daughter));

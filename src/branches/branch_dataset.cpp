@@ -35,7 +35,7 @@ class Columns {
     dataset_.variables.push_back({prefix_ + name, over, std::move(values), long_name, "1"});
   }
 
-  /// What a motion is, for all of them.
+  /// The variables that describe each motion.
   void add_motions(const std::vector<BranchPoint>& points, const BranchSettings& settings) {
     std::vector<double> value, second, x, v, period, symmetric, re, im;
     std::vector<std::uint8_t> stable;

@@ -90,7 +90,7 @@ class CurveFollower {
     const double unit = factor_of(problem_.units, settings_.across->row().quantity);
     return problem_.units.is_si && value > 0 ? value : std::max(0.1 * unit, value);
   }
-  /// What to do if the branches that could be followed have no point to begin with.
+  /// Advice if the branches that could be followed have no point to begin with.
   [[nodiscard]] std::string way_out(const Branches& along) const {
     if (along.ends.empty()) return "; widen branch.range, raise branch.switch, or begin on another motion";
     return " up to its end at " + std::string(settings_.along.key()) + " = " +

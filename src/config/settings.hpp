@@ -77,7 +77,7 @@ struct Settings {
 /// Checks every entry against the key table. Throws ConfigError at the first unknown key or wrong value.
 [[nodiscard]] Settings check_keys(ParsedConfig parsed);
 
-/// What says the same as a key in the other one of [scene] and [machine]; empty if nothing does.
+/// The key that says the same in the other one of [scene] and [machine]; empty if nothing does.
 [[nodiscard]] std::string_view counterpart_of(std::string_view name);
 
 /// The quantity of a value as it was written: that which the key has with a unit if there is one.

@@ -9,7 +9,7 @@
 
 namespace clatter::lanes {
 
-/// What the observers of the scalar loop have seen of a lane's motion.
+/// The scalar loop's observers of a lane's motion, as far as they have come.
 struct Observed {
   observables::Extrema::Observer extrema{};
   observables::Impacts::Observer impacts{};

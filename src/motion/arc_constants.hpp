@@ -141,7 +141,7 @@ class ArcConstants {
   struct Coefficients {};  ///< tells the numbers of eq. 3 from those of an oscillator in braces
   ArcConstants(Coefficients, const Number& damping, const Number& forcing, const Number& frequency,
                const Number& constant_force, const Number& stiffness);
-  /// That of `counting_frequency`, to the digits of the number type.
+  /// The period of `counting_frequency`, to the digits of the number type.
   [[nodiscard]] static Number counting_frequency_of(const Oscillator& oscillator) {
     using std::sqrt;
     if constexpr (E.stiffness)

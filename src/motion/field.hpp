@@ -20,7 +20,7 @@ struct Field {
   double weight = 1;  ///< Omega: the norm of a difference is that of (Omega x, v)
   double drift = 0;   ///< bound of the rate at which the norm grows, forwards (eqs. 48, 57); backwards 2 h more
 
-  /// That of some arcs in the norm of (x, v).
+  /// The field of some arcs in the norm of (x, v).
   template <class ArcConstants>
   [[nodiscard]] static Field of(const ArcConstants& constants) {
     return {constants.h, constants.k, std::abs(constants.f) * constants.nu, 1, std::abs(1 - constants.k) / 2};

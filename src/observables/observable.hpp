@@ -63,8 +63,8 @@ struct Column {
   std::function<void(const Values&, double* values)> put;  ///< writes `width()` values
   std::function<std::string(const Values&)> text{};        ///< instead of numbers: a text in UTF-8
   std::size_t longest_text = 0;                            ///< bytes
-  bool intermediate = false;  ///< a number for later work on the whole sweep: in journals and shards only
-  std::string name_in_si{};   ///< the long name in the results of a machine, if that is another
+  bool intermediate = false;      ///< a number for later work on the whole sweep: in journals and shards only
+  std::string name_in_si{};       ///< the long name in the results of a machine, if that is another
   std::string_view observable{};  ///< the key of [observe] that asks for it
   FrameOf frame = FrameOf::any;
 

@@ -23,7 +23,7 @@ struct Variable {
   std::vector<std::string> dimensions;  ///< names, slowest first; empty: a scalar
   ValueArray values;
   std::string long_name;
-  std::string units;                    ///< "1", or "rad" for phases
+  std::string units;                    ///< "1", "rad" for phases; of a [machine] those of the SI
   std::vector<Attribute> attributes{};  ///< besides long_name and units, e.g. flag_values; the writer adds _FillValue
 };
 

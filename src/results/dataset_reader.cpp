@@ -16,7 +16,6 @@
 #include "storage/error.hpp"
 #include "storage/input_file.hpp"
 #include "storage/run_in_child.hpp"
-#include "storage/utf8.hpp"
 
 namespace clatter::results {
 

@@ -31,7 +31,7 @@ class Parameter {
 
   /// The number of its row.
   [[nodiscard]] constexpr std::size_t index() const { return row_; }
-  /// What the table says of it.
+  /// Its row of the table.
   [[nodiscard]] constexpr const ParameterRow<double>& row() const { return detail::table<double>[row_]; }
   /// Its key, e.g. "nu".
   [[nodiscard]] constexpr std::string_view key() const { return row().key; }

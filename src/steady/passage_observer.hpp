@@ -50,7 +50,7 @@ class PassageObserver {
   }
   void separate(const motion::Separation& separation) { add(separation.side == Side::upper ? 10 : 9); }
 
-  /// That of a period which begins in contact with a soft stop, as long as that goes on.
+  /// The contact of a period which begins in contact with a soft stop, as long as that goes on.
   [[nodiscard]] static constexpr std::uint64_t itinerary_in_contact(Side side) {
     return with(0, side == Side::upper ? 12 : 11);
   }

@@ -44,6 +44,7 @@ ROOT = [
     "config",
     "config_sha256",
     "compiler",
+    "scene_names",
 ]
 # Axes have the same names and order whatever their lengths: some points of the configurations that have many.
 SHORTER = {

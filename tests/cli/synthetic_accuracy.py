@@ -110,6 +110,11 @@ class SyntheticAccuracy:
                 periods = 5 + 7 * np.arange(len(tolerance)) if slowness else np.where(tolerance > 1e-5, 4, 6)
                 self.results["simulated_periods"][self.rows(method)] = periods
 
+    def sweep(self):
+        """The axes as lines of the configuration."""
+        lines = "".join(f"{name} = {[float(value) for value in values]}\n" for name, values in self.axes.items())
+        return f"\n[sweep]\n{lines}" if lines else ""
+
     def write(self, path):
         with h5py.File(path, "w") as file:
             file.attrs.update(
@@ -118,7 +123,7 @@ class SyntheticAccuracy:
                     "title": "Minimum and maximum displacement, xs = -4",
                     "source": "doi:10.5755/j02.mech.32277, Fig. 22",
                     "clatter_schema": "clatter/1",
-                    "config": CONFIG,
+                    "config": CONFIG + self.sweep(),
                 }
             )
             for name, values in self.axes.items():

@@ -10,8 +10,8 @@
 #include "certificate_damage.hpp"
 #include "finding.hpp"
 #include "verify/check.hpp"
+#include "verify/claims.hpp"
 #include "verify/orbit.hpp"
-#include "verify/special_claims.hpp"
 
 namespace clatter::fuzz {
 namespace {

@@ -1,6 +1,6 @@
 // `clatter info` on damaged files.
 #include "hdf5_target.hpp"
-#include "results/dataset_file.hpp"
+#include "outputs/output_summary.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   clatter::fuzz::check_reading({data, size},

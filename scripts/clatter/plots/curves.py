@@ -239,7 +239,7 @@ def scalar_parts(output, name):
 
 
 def component_names(output, variable):
-    """What each value of a result of a single point is called, None if it is of a stop that isn't there."""
+    """The name of each value of a result of a single point, None if it is of a stop that isn't there."""
     if variable.dims == ("stop",):
         names = ((side, ", lower stop" if side < 0 else ", upper stop") for side in output.values("stop"))
         return [words if output.has_stop(side) else None for side, words in names]

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from .names import plain, typeset_symbol
 from ..hdf5_files import FileProblem, UNREADABLE, damaged, dimensions_of, open_output, printable, text, values_of
 
 try:
@@ -89,8 +90,9 @@ class Output:
             self.source = text(file.attrs.get("source", ""))
             self.config_text = text(file.attrs["config"])
             self.config = tomllib.loads(self.config_text)
-            named = tomllib.loads(text(file.attrs.get("scene_names", "")))  # in files of 0.3.0 and later
-            self.constants = named or {key: {} for key in self.config.get("machine", self.config.get("scene", {}))}
+            self.constants = constants_of(text(file.attrs.get("scene_names", "")))
+            if not self.constants:  # in files before 0.3.0
+                self.constants = {key: {} for key in self.config.get("machine", self.config.get("scene", {}))}
             self.origin = {key: printable(text(file.attrs[key])) for key in ORIGIN if key in file.attrs}
             self.variables = {name: read_variable(item) for name, item in file.items() if not is_bare_dimension(item)}
             self.meanings = flag_meanings(file["status"]) if "status" in file else {}
@@ -319,8 +321,20 @@ def read_variable(item):
         dimensions_of(item),
         text(item.attrs.get("long_name", own)),
         text(item.attrs.get("units", "1")),
-        *(text(item.attrs.get(name, "")) for name in ("frame", "label", "symbol", "observable")),
+        text(item.attrs.get("frame", "")),
+        plain(text(item.attrs.get("label", ""))),
+        typeset_symbol(text(item.attrs.get("symbol", ""))),
+        text(item.attrs.get("observable", "")),
     )
+
+
+def constants_of(names):
+    """What a file says of the constants of its scene, by key: units, words and symbol of each."""
+    constants = tomllib.loads(names)
+    for key, told in constants.items():
+        units, words, symbol = (told[name] for name in ("units", "words", "symbol"))
+        constants[key] = {"units": plain(units), "words": plain(words), "symbol": typeset_symbol(symbol)}
+    return constants
 
 
 def numbers_of(scene):

@@ -43,12 +43,12 @@ def move_down(figure):
 
 
 def entries(axes):
-    """What the legend of a panel names, each name once."""
+    """The entries of a panel's legend, each name once."""
     return dict(zip(*reversed(axes.get_legend_handles_labels())))
 
 
 def look(handle):
-    """What tells an entry from another of its name."""
+    """The look that tells an entry from another of its name."""
     return tuple(str(getattr(handle, f"get_{part}", str)()) for part in ("color", "linestyle", "marker", "facecolor"))
 
 

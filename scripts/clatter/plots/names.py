@@ -5,6 +5,7 @@ import re
 from itertools import groupby
 
 import numpy as np
+from matplotlib import mathtext
 
 LONGEST = 12  # letters of a word that is written out
 SHORT = 0.1  # m: lengths that are all below it are written in mm
@@ -125,6 +126,15 @@ def typeset_unit(unit):
 def number(value):
     """A number as text, with a real minus sign, and none for zero."""
     return re.sub(r"e([-+])0", r"e\1", f"{value + 0.0:.6g}").replace("-", "\N{MINUS SIGN}")
+
+
+def typeset_symbol(text):
+    """A symbol of a file if it is mathematics that can be typeset, else as text."""
+    try:
+        mathtext.MathTextParser("path").parse(text)
+    except ValueError:
+        return plain(text)
+    return text
 
 
 def plain(text):

@@ -53,7 +53,7 @@ def branches_together(options):
 
 
 def shared_members(options):
-    """What several files draw in one picture, if they can share one."""
+    """The members of one picture of several files, if they can share it."""
     parts = []
     for path in options.files:
         output = Output(path)

@@ -135,7 +135,7 @@ def wants_integers(axis):
 
 
 def common_part(low, high):
-    """What the numbers between two limits have in common; nothing if six digits tell them apart without it."""
+    """The part that the numbers between two limits have in common; nothing if six digits tell them apart without it."""
     span, offset = high - low, 0.0
     if not span > 0:
         return Common(0.0, 0, "")

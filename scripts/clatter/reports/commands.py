@@ -30,7 +30,7 @@ def command(output, points):
 
 
 def command_notes(output, config):
-    """What to know of the command."""
+    """Remarks on the command."""
     notes = [
         f"The command of a point takes the configuration from {shell_word(output.path)}. Where that file isn't, "
         f"download the configuration below and begin with: clatter run {shell_word(config)}"

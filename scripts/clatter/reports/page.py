@@ -12,11 +12,12 @@ from pathlib import Path
 from urllib.parse import quote
 
 from .._command import write_whole
+from .._program import program
 from ..hdf5_files import FileProblem
 from ..plots.data import Output
 from ..plots.style import own_style
 from .commands import command, command_notes
-from .histories import NoHistories, histories, program
+from .histories import NoHistories, histories
 from .pictures import picture
 from .points import Points
 from .tables import tables
@@ -143,10 +144,11 @@ def how_it_was_made(output, name, may_run):
 
 def plan_of(toml):
     """The plan as the program prints it, or why there is none."""
-    try:
-        done = subprocess.run([program(), "plan", "-"], input=toml, capture_output=True, text=True, timeout=60)
-    except NoHistories:
+    found = program()
+    if not found:
         return "There is no program clatter here that could tell it."
+    try:
+        done = subprocess.run([found, "plan", "-"], input=toml, capture_output=True, text=True, timeout=60)
     except (OSError, subprocess.TimeoutExpired) as error:
         return f"The program doesn't tell it: {error}"
     return (

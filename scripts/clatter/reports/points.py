@@ -53,7 +53,7 @@ class Points:
         return tuple(self.shape) == tuple(self.whole)
 
     def packed(self):
-        """What the page's script needs of them."""
+        """Their data for the page's script."""
         return {
             "shape": self.shape,
             "whole": [list(map(int, kept)) for kept in self.kept],  # their indexes in the file
