@@ -263,6 +263,15 @@ class HostileFiles(CommandLine):
             self.assertEqual(result.stderr.count("\n"), 1)
             self.assert_harmless(result.stderr)
 
+    def test_a_foreign_key_of_a_journal_is_shown_and_not_obeyed(self):
+        config = 'nu = 1\nx = "\x1b]0;title\x07"\n'
+        journal = self.journal("1.0\x1b[2J\nclatter: all is well", "\u202eavx2", "", config)
+        (self.directory / "b.h5.journal").write_bytes(journal)
+        result = self.clatter("run", self.config, "-o", "b.h5")
+        self.assertEqual(result.returncode, 74)
+        self.assert_harmless(result.stderr)
+        self.assertIn("1.0\\x1b[2J\\x0aclatter: all is well", result.stderr)
+
     @unittest.skipIf(SANITIZED, "a sanitizer reserves all addresses")
     def test_a_journal_of_one_long_section_takes_no_memory(self):
         config = "[" + "s" * (1 << 20) + "]\n" + "a\n" * 10_000  # as lines with their section 10 GiB

@@ -163,10 +163,10 @@ class Pictures(unittest.TestCase):
         for kind in ("svg", "png"):
             self.assertEqual((again / f"sweep.{kind}").read_bytes(), (self.folder / f"sweep.{kind}").read_bytes())
 
-    def test_help_and_refusals_name_both_commands(self):
+    def test_help_and_refusals_say_which_files(self):
         (self.folder / "text.h5").write_text("no HDF5\n")
-        for text in (plot("--help").stdout, plot(self.folder / "text.h5").stderr):
-            self.assertIn("'clatter run', 'clatter accuracy' or 'clatter branch'", " ".join(text.split()))
+        self.assertIn("'clatter run', 'clatter accuracy' or 'clatter branch'", " ".join(plot("--help").stdout.split()))
+        self.assertIn("is not an HDF5 file; name an output of clatter", plot(self.folder / "text.h5").stderr)
 
     def test_labels_cover_nothing(self):
         for name in ("scalar", "sweep", "transient", "map"):

@@ -246,19 +246,6 @@ TEST_F(JournalFile, with_a_log_has_no_longer_record_than_it_can_hold) {
   EXPECT_THROW(Journal(output(), key, with_log, Journal::Begin::resume_if_any, take), IoError);
 }
 
-TEST_F(JournalFile, shows_a_foreign_key_and_does_not_obey_it) {
-  const JournalKey hostile{"nu = 1\nx = \"\x1b]0;title\a\"\n", "1.0\x1b[2J\nclatter: all is well", "\u202eavx2", ""};
-  {
-    Journal journal(output(), hostile, usual, Journal::Begin::resume_if_any, [](auto) {});
-    journal.append(bytes_of("one"));
-  }
-  const std::string shown = refusal();
-  EXPECT_EQ(shown.find_first_of("\x1b\a"), std::string::npos) << shown;
-  EXPECT_EQ(shown.find("\u202e"), std::string::npos) << shown;
-  EXPECT_EQ(shown.find("\nclatter:"), std::string::npos) << shown;
-  EXPECT_NE(shown.find("1.0\\x1b[2J\\x0aclatter: all is well"), std::string::npos) << shown;
-}
-
 TEST_F(JournalFile, gives_the_room_of_its_last_records_back) {
   const std::string large(900'000, 'x');
   Journal journal(output(), key, usual, Journal::Begin::resume_if_any, [](auto) {});
