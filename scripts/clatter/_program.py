@@ -65,7 +65,7 @@ def branch(config, *, output=None, **sections):
 
 
 def plan(config, **sections):
-    """The effects that a run simulates and why, its work and its memory: the object of `clatter plan --json` as a dictionary.
+    """The effects that a run simulates and why, its work and memory: the object of `clatter plan --json`, a dictionary.
     Arguments and errors are those of `run`."""
     with _Workplace(config) as place:
         return json.loads(place.call("plan", ["--json", *set_words(sections)]).stdout)

@@ -17,6 +17,8 @@ from ._program import BAD_FILE, ClatterError, program
 WANTED = "give a file that 'clatter run', 'clatter accuracy' or 'clatter branch' wrote"
 ANEW = "run its configuration again, or get the file anew"
 UNREADABLE = (AttributeError, LookupError, MemoryError, OSError, RuntimeError, TypeError, ValueError)  # if damaged
+TEXTS = ("word", "regime", "kind")  # ends of the names of variables of texts
+MOST_DEFLATED = 1032  # bytes that one byte gives when it is inflated (zlib's technical details)
 FILTERS = {h5z.FILTER_SHUFFLE, h5z.FILTER_DEFLATE}
 sound = set()  # files that have been read, by name and state
 # Without the program: what reads a file in a process of its own.
@@ -129,13 +131,24 @@ def end_trial(words):
 
 
 def require_own(path, file, name):
-    """Refuses what would be read from elsewhere, or by a program that the file names: links, foreign filters."""
+    """Refuses what clatter doesn't write: links, values elsewhere, foreign filters and types, impossible lengths."""
     is_own = name.isidentifier() and isinstance(file.get(name, getlink=True), h5py.HardLink)
-    is_own = is_own and file.get(name, getclass=True) is h5py.Dataset
-    made = h5d.open(file.id, name.encode()).get_create_plist() if is_own else None
-    is_own = is_own and made.get_layout() in (h5d.CONTIGUOUS, h5d.CHUNKED) and made.get_external_count() == 0
-    if not is_own or not {made.get_filter(place)[0] for place in range(made.get_nfilters())} <= FILTERS:
+    if not is_own or file.get(name, getclass=True) is not h5py.Dataset or not is_plain(path, file, name):
         raise FileProblem(f"{path}: {name!r} is no variable as clatter writes it; {ANEW}")
+
+
+def is_plain(path, file, name):
+    dataset = h5d.open(file.id, name.encode())  # opens no other file yet
+    made, kind = dataset.get_create_plist(), dataset.get_type().get_class()
+    if made.get_layout() not in (h5d.CONTIGUOUS, h5d.CHUNKED) or made.get_external_count() > 0:
+        return False
+    filters = [made.get_filter(place)[0] for place in range(made.get_nfilters())]
+    if not FILTERS.issuperset(filters) or len(set(filters)) < len(filters):
+        return False
+    is_right_kind = is_text(dataset) if name.endswith(TEXTS) else kind in (h5t.INTEGER, h5t.FLOAT)
+    state = os.stat(path)
+    stored = 512 * state.st_blocks or state.st_size
+    return is_right_kind and dataset.get_space().get_simple_extent_npoints() <= MOST_DEFLATED * stored
 
 
 def require_regular(path):
