@@ -5,7 +5,6 @@
 #include <cstddef>
 #include <cstdio>
 
-
 namespace clatter::app {
 
 std::string formatted(const char* format, double value) {
