@@ -53,11 +53,7 @@ struct SceneNumbers : BasicScene<Number> {
     return stop == Side::upper ? this->stops.restitution_upper : this->stops.restitution_lower;
   }
   [[nodiscard]] motion::SoftStop<Number> soft_stop(Side stop) const {
-    using std::sqrt;
-    const bool is_upper = stop == Side::upper;
-    const Number& stiffness = is_upper ? this->stops.stiffness_upper : this->stops.stiffness_lower;
-    return {stop, position(stop), stiffness,
-            (is_upper ? this->stops.damping_upper : this->stops.damping_lower) * sqrt(stiffness)};
+    return motion::soft_stop_at<Number>(this->stops, stop);
   }
   /// In the frame of what is shaken.
   [[nodiscard]] LeadingForce<Number> force() const { return force_in_frame(this->oscillator, this->shaking); }

@@ -15,8 +15,7 @@ std::size_t axis_of(const Settings& settings, const Setting& setting, std::strin
   for (const Setting& axis : settings.axes) names.push_back(axis.key->name);
   const auto found = std::find(names.begin(), names.end(), name);
   if (found != names.end()) return static_cast<std::size_t>(found - names.begin());
-  const std::string message =
-      std::string(setting.key->name) + " names " + in_quotes(name) + ", which is no axis of [sweep]";
+  const std::string message = names_key(setting, name) + ", which is no axis of [sweep]";
   const auto replaced =
       std::ranges::find_if(settings.replaced, [&](const Replaced& one) { return one.parameter.key() == name; });
   if (replaced != settings.replaced.end())
@@ -35,8 +34,7 @@ std::vector<std::size_t> named_axes(const Settings& settings, const Setting* set
   for (const std::string& name : split_names(std::get<std::string>(setting->value))) {
     const std::size_t axis = axis_of(settings, *setting, name);
     if (std::find(axes.begin(), axes.end(), axis) != axes.end())
-      fail(setting->location,
-           std::string(setting->key->name) + " names " + in_quotes(name) + " twice; name each axis once");
+      fail(setting->location, names_key(*setting, name) + " twice; name each axis once");
     axes.push_back(axis);
   }
   return axes;
@@ -57,10 +55,14 @@ std::vector<std::size_t> linked_axes(const Settings& settings) {
   return linked;
 }
 
-/// Following along a start would label all points but the first with a coordinate that they don't start from.
-void check_no_start(const Settings& settings, const Setting& follow, const std::vector<std::size_t>& group) {
+/// Following along a start would label all points but the first with a coordinate that they don't start from, and
+/// Sobol's sequence leaps from value to value.
+void check_can_follow(const Settings& settings, const Setting& follow, const std::vector<std::size_t>& group) {
   for (const std::size_t axis : group) {
     const std::string_view name = settings.axes[axis].key->name;
+    if (std::get<AxisValues>(settings.axes[axis].value).sobol)
+      fail(follow.location, "follow along " + in_quotes(name) +
+                                ", whose values sobol(...) leap to and fro; write linspace(a, b, n), or follow none");
     if (name != "phase" && name != "x0" && name != "v0" && name != "start_period") continue;
     fail(follow.location, "follow along " + in_quotes(name) +
                               ", which only the first point would start from; follow another axis, or none");
@@ -86,11 +88,6 @@ void spread_sobol(Settings& settings) {
   const auto fail_at = [&](std::size_t axis, const std::string& message) {
     fail(settings.axes[axis].location, name_of(settings.axes[axis]) + " = sobol(...)" + message);
   };
-  for (const std::size_t axis : axes) {
-    const std::string name = name_of(settings.axes[axis]);
-    if (name != "x0" && name != "v0" && name != "phase")
-      fail_at(axis, ", which only starts can have: x0, v0, phase; write linspace(a, b, n)");
-  }
   if (axes.size() > 1) {
     const std::vector<std::size_t> linked = linked_axes(settings);
     std::string names;
@@ -103,6 +100,9 @@ void spread_sobol(Settings& settings) {
     auto& axis = std::get<AxisValues>(settings.axes[axes[i]].value);
     const auto [a, b] = *axis.sobol;
     axis.values = sobol_values(a, b, axis.values.size(), i, axes.size());
+    const Key& key = *settings.axes[axes[i]].key;
+    for (const double value : axis.values)
+      if (!contains(key.range, value)) fail_at(axes[i], " has " + number_text(value) + "; expected " + permitted(key));
   }
 }
 
@@ -137,7 +137,7 @@ std::optional<std::size_t> followed_dimension(const Settings& settings, const Ax
                                 in_quotes(name_of(settings.axes[axis])) +
                                 ", which are not linked; follow one axis, or name both in linked too");
   }
-  check_no_start(settings, *setting, *followed);
+  check_can_follow(settings, *setting, *followed);
   return static_cast<std::size_t>(followed - groups.begin());
 }
 

@@ -49,6 +49,8 @@ void read(const Settings& settings, const observables::Field<Object, T>& field, 
     object.*field.member = settings.integer(section, name);
   } else if constexpr (std::is_same_v<T, double>) {
     object.*field.member = settings.number(section, name);
+  } else if constexpr (std::is_same_v<T, std::vector<Parameter>>) {
+    object.*field.member = named_parameters(settings, section, name);
   } else {
     static_assert(std::is_enum_v<T>);
     const auto chosen = std::ranges::find(field.key.choices, settings.text(section, name));
@@ -104,18 +106,11 @@ sweep::Sweep sweep_of(Settings& settings, const AxisGroups& groups) {
     sweep::Dimension& dimension = sweep.dimensions.emplace_back();
     for (const std::size_t axis : group) {
       Setting& setting = settings.axes[axis];
-      dimension.push_back({parameter_of(setting), std::move(std::get<AxisValues>(setting.value).values)});
+      AxisValues& axis_values = std::get<AxisValues>(setting.value);
+      dimension.push_back({parameter_of(setting), std::move(axis_values.values), axis_values.sobol.has_value()});
     }
   }
   return sweep;
-}
-
-/// The quantity in which the scene gives a key, or one that stands for it; nothing if none is given.
-std::optional<Quantity> quantity_given(const Settings& settings, Parameter key) {
-  for (const Parameter other : all_parameters)
-    if (const bool is_its = other.key() == key.key() || other.stands_for(key) || key.stands_for(other); is_its)
-      if (const Setting* const given = settings.given(other)) return given->quantity;
-  return std::nullopt;
 }
 
 /// The parameter that `along` or `across` names. Throws ConfigError if a value of its interval isn't permitted for it,
@@ -230,6 +225,7 @@ Config config_of(ParsedConfig parsed) {
   const AxisGroups groups = group_axes(settings);
   check_stops_and_start(settings, groups);
   check_soft_stops(settings, groups);
+  check_sensitivity(settings);
   Config config;
   config.title = settings.text("", "title"), config.source = settings.text("", "source");
   config.text = config_text(settings);

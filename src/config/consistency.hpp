@@ -16,8 +16,8 @@ struct Warning;
 /// The names between the commas of `linked` or `follow`.
 [[nodiscard]] std::vector<std::string> split_names(std::string_view text);
 
-/// Gives each axis of sobol(a, b, n) a dimension of the sequence, in the order of the axes. Throws ConfigError if one
-/// is no start, or if several are not linked.
+/// Gives each axis of sobol(a, b, n) a dimension of the sequence, in the order of the axes. Throws ConfigError if
+/// several are not linked, or if an end isn't permitted for the key.
 void spread_sobol(Settings& settings);
 
 /// The axes of each dimension of a sweep by index: linked ones together, beginning with the one that names the
@@ -26,6 +26,20 @@ using AxisGroups = std::vector<std::vector<std::size_t>>;
 
 /// Groups the axes by `linked`. Throws ConfigError if they cannot run together.
 [[nodiscard]] AxisGroups group_axes(const Settings& settings);
+
+/// The message that a setting names something: "sensitivity names 'R'".
+[[nodiscard]] std::string names_key(const Setting& setting, std::string_view name);
+
+/// The quantity in which the scene gives a key, or one that stands for it; nothing if none is given.
+[[nodiscard]] std::optional<Quantity> quantity_given(const Settings& settings, Parameter key);
+
+/// The parameters of the scene that a key names, as they are given. Throws ConfigError at a name that is none, or by
+/// which steady motion has no derivative.
+[[nodiscard]] std::vector<Parameter> named_parameters(const Settings& settings, std::string_view section,
+                                                      std::string_view name);
+
+/// Throws ConfigError if derivatives are asked for that the motion, or the method, doesn't have.
+void check_sensitivity(const Settings& settings);
 
 /// The dimension that `follow` names, or nothing. Throws ConfigError if it names no axis, axes of different dimensions,
 /// or a start, which only the first point has.

@@ -229,7 +229,7 @@ std::string permitted(const Key& key) {
     case text:
       return "text";
     case names:
-      return "names of axes";
+      return key.section == "sweep" ? "names of axes" : "keys of the scene, but no starts";
     case flag:
       return "true or false";
     case choice:

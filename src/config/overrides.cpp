@@ -109,7 +109,7 @@ void replace(Settings& settings, Parameter by, Parameter replaced) {
 /// Makes `linked` and `follow` name an axis by its new key.
 void rename(Settings& settings, Parameter from, Parameter to) {
   for (Setting& setting : settings.values) {
-    if (setting.key->kind != Kind::names) continue;
+    if (setting.key->kind != Kind::names || setting.key->section != "sweep") continue;
     std::vector<std::string> names = split_names(std::get<std::string>(setting.value));
     if (std::ranges::find(names, from.key()) == names.end()) continue;
     std::ranges::replace(names, std::string(from.key()), std::string(to.key()));

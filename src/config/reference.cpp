@@ -19,9 +19,9 @@ constexpr std::string_view values = R"text(Values, in TOML, in INI and after --s
   logspace(a, b, n)    n values from a to b (not exponents) in equal ratios; a
                        and b of the same sign
   arange(a, b, step)   a, a + step, ... ; b is excluded
-  sobol(a, b, n)       n values of x0, v0 or phase, spread evenly over a ... b
-                       by Sobol's sequence; several such axes, linked, fill
-                       all their ranges together
+  sobol(a, b, n)       n values spread evenly over a ... b by Sobol's sequence;
+                       several such axes, linked, fill all their ranges
+                       together
   [a, b, c]            a list; in INI and after --set the brackets may be left
                        out
 

@@ -23,8 +23,8 @@ struct SoftStop {
   }
 };
 
-template <class Number>
-[[nodiscard]] SoftStop<Number> soft_stop_at(const Stops& stops, Side side) {
+template <class Number, class Given>
+[[nodiscard]] SoftStop<Number> soft_stop_at(const BasicStops<Given>& stops, Side side) {
   using std::sqrt;
   const bool upper = side == Side::upper;
   const Number stiffness(upper ? stops.stiffness_upper : stops.stiffness_lower);

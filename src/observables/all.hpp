@@ -10,6 +10,7 @@
 #include "observables/observable_list.hpp"
 #include "observables/period.hpp"
 #include "observables/section.hpp"
+#include "observables/sensitivity.hpp"
 #include "observables/settling.hpp"
 #include "observables/stability.hpp"
 #include "observables/trajectory.hpp"
@@ -19,7 +20,7 @@ namespace clatter::observables {
 /// Every observable, in the order of keys and results. Configuration keys, help, observers, results, plan and memory
 /// are made from this list.
 using All = ObservableList<Extrema, Harmonics, Impacts, ImpactLog, Trajectory, Section, ImpactWord, Period, Stability,
-                           Energy, Settling, Attractor>;
+                           Energy, Sensitivity, Settling, Attractor>;
 
 /// The observables that are computed and stored; nothing else is.
 struct Observe : All::Settings {

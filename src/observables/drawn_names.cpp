@@ -2,16 +2,21 @@
 
 #include <algorithm>
 #include <optional>
+#include <utility>
 
 #include "scene/parameter.hpp"
 
 namespace clatter::observables {
 namespace {
 
+struct Name {
+  std::string_view words, symbol;
+};
+
 struct NamedVariable {
   std::string_view variable;
-  DrawnName name;
-  std::optional<DrawnName> in_si{};  ///< where a scene is given in [machine], if that is another
+  Name name;
+  std::optional<Name> in_si{};  ///< where a scene is given in [machine], if that is another
 };
 
 /// In the order of captions. [machine] has its own keys as symbols, but for the letters of m x'' + c x' + k x.
@@ -19,38 +24,38 @@ constexpr NamedVariable names[] = {
     {"h", {"damping ratio", "$h$"}},
     {"f", {"force amplitude", "$f$"}},
     {"nu", {"excitation frequency", "$\\nu$"}},
-    {"phase", {"forcing phase", "$\\varphi$"}, DrawnName{"forcing phase", "phase"}},
+    {"phase", {"forcing phase", "$\\varphi$"}, Name{"forcing phase", "phase"}},
     {"R", {"restitution", "$R$"}},
     {"xs", {"stop", "$x_s$"}},
-    {"stop_lower", {"lower stop", "$x_-$"}, DrawnName{"", "stop_lower"}},
-    {"stop_upper", {"upper stop", "$x_+$"}, DrawnName{"", "stop_upper"}},
-    {"R_lower", {"restitution, lower stop", "$R_-$"}, DrawnName{"", "R_lower"}},
-    {"R_upper", {"restitution, upper stop", "$R_+$"}, DrawnName{"", "R_upper"}},
-    {"stop_stiffness", {"stiffness of the stops", "$\\kappa$"}, DrawnName{"", "stop_stiffness"}},
-    {"stop_stiffness_lower", {"stiffness of the lower stop", "$\\kappa_-$"}, DrawnName{"", "stop_stiffness_lower"}},
-    {"stop_stiffness_upper", {"stiffness of the upper stop", "$\\kappa_+$"}, DrawnName{"", "stop_stiffness_upper"}},
-    {"stop_damping", {"damping of the stops", "$\\zeta$"}, DrawnName{"", "stop_damping"}},
-    {"stop_damping_lower", {"damping of the lower stop", "$\\zeta_-$"}, DrawnName{"", "stop_damping_lower"}},
-    {"stop_damping_upper", {"damping of the upper stop", "$\\zeta_+$"}, DrawnName{"", "stop_damping_upper"}},
+    {"stop_lower", {"lower stop", "$x_-$"}, Name{"", "stop_lower"}},
+    {"stop_upper", {"upper stop", "$x_+$"}, Name{"", "stop_upper"}},
+    {"R_lower", {"restitution, lower stop", "$R_-$"}, Name{"", "R_lower"}},
+    {"R_upper", {"restitution, upper stop", "$R_+$"}, Name{"", "R_upper"}},
+    {"stop_stiffness", {"stiffness of the stops", "$\\kappa$"}, Name{"", "stop_stiffness"}},
+    {"stop_stiffness_lower", {"stiffness of the lower stop", "$\\kappa_-$"}, Name{"", "stop_stiffness_lower"}},
+    {"stop_stiffness_upper", {"stiffness of the upper stop", "$\\kappa_+$"}, Name{"", "stop_stiffness_upper"}},
+    {"stop_damping", {"damping of the stops", "$\\zeta$"}, Name{"", "stop_damping"}},
+    {"stop_damping_lower", {"damping of the lower stop", "$\\zeta_-$"}, Name{"", "stop_damping_lower"}},
+    {"stop_damping_upper", {"damping of the upper stop", "$\\zeta_+$"}, Name{"", "stop_damping_upper"}},
     {"load", {"constant load", "load"}},
     {"stiffness", {"stiffness", "$k$"}},
     {"mass", {"mass", "$m$"}},
     {"damping", {"damping", "$c$"}},
-    {"damping_ratio", {"damping ratio", "$h$"}, DrawnName{"", "damping_ratio"}},
-    {"quality", {"quality factor", "$Q$"}, DrawnName{"quality factor", "quality"}},
+    {"damping_ratio", {"damping ratio", "$h$"}, Name{"", "damping_ratio"}},
+    {"quality", {"quality factor", "$Q$"}, Name{"quality factor", "quality"}},
     {"force", {"force amplitude", "$F$"}},
-    {"frequency", {"excitation frequency", "$f$"}, DrawnName{"excitation frequency", "frequency"}},
-    {"gap", {"stop", "$x_s$"}, DrawnName{"", "gap"}},
-    {"stop_amplitude", {"amplitude of the stops", "$b$"}, DrawnName{"", "stop_amplitude"}},
-    {"base_amplitude", {"amplitude of the base", "$b$"}, DrawnName{"", "base_amplitude"}},
-    {"stop_phase", {"lead of the shaking", "$\\sigma$"}, DrawnName{"", "stop_phase"}},
+    {"frequency", {"excitation frequency", "$f$"}, Name{"excitation frequency", "frequency"}},
+    {"gap", {"stop", "$x_s$"}, Name{"", "gap"}},
+    {"stop_amplitude", {"amplitude of the stops", "$b$"}, Name{"", "stop_amplitude"}},
+    {"base_amplitude", {"amplitude of the base", "$b$"}, Name{"", "base_amplitude"}},
+    {"stop_phase", {"lead of the shaking", "$\\sigma$"}, Name{"", "stop_phase"}},
     {"x0", {"initial displacement", "$x(0)$"}},
     {"v0", {"initial velocity", "$x$′$(0)$"}},
     {"start_period", {"period", "$\\bar\\tau$"}},
-    {"tau", {"time", "$\\tau$"}, DrawnName{"time", "$t$"}},
+    {"tau", {"time", "$\\tau$"}, Name{"time", "$t$"}},
     {"x", {"displacement", "$x$"}},
     {"v", {"velocity", "$x$′"}},
-    {"impact_tau", {"time", "$\\tau$"}, DrawnName{"time", "$t$"}},
+    {"impact_tau", {"time", "$\\tau$"}, Name{"time", "$t$"}},
     {"impact_v_before", {"velocity before impact", "$x$′$^{{-}}$"}},
     {"section_x", {"displacement", "$x$"}},
     {"section_v", {"velocity", "$x$′"}},
@@ -60,11 +65,11 @@ constexpr NamedVariable names[] = {
     {"v_max", {"maximum", "$x$′$_{\\max}$"}},
     {"v_before", {"velocity before impact", "$x$′$^{{-}}$"}},
     {"v_after", {"velocity after impact", "$x$′$^{{+}}$"}},
-    {"period", {"period", "$\\bar\\tau$"}, DrawnName{"period", "$T$"}},
-    {"eigenfrequency", {"eigenfrequency", "$\\bar\\omega$"}, DrawnName{"eigenfrequency", ""}},
-    {"period_ratio", {"period", "$\\nu\\bar\\tau/2\\pi$"}, DrawnName{"period in forcing periods", ""}},
-    {"velocity_ratio", {"velocity ratio", "$|x$′$^{{-}}/x_s|$"}, DrawnName{"velocity ratio", "$|x$′$^{{-}}|$ / gap"}},
-    {"base_frequency", {"base frequency", "$\\Omega$"}, DrawnName{"base frequency", ""}},
+    {"period", {"period", "$\\bar\\tau$"}, Name{"period", "$T$"}},
+    {"eigenfrequency", {"eigenfrequency", "$\\bar\\omega$"}, Name{"eigenfrequency", ""}},
+    {"period_ratio", {"period", "$\\nu\\bar\\tau/2\\pi$"}, Name{"period in forcing periods", ""}},
+    {"velocity_ratio", {"velocity ratio", "$|x$′$^{{-}}/x_s|$"}, Name{"velocity ratio", "$|x$′$^{{-}}|$ / gap"}},
+    {"base_frequency", {"base frequency", "$\\Omega$"}, Name{"base frequency", ""}},
     {"harmonic", {"harmonic", "$k$"}},
     {"x_amplitude", {"amplitude of displacement", "$a_k$"}},
     {"v_amplitude", {"amplitude of velocity", "$a$′$_k$"}},
@@ -92,12 +97,28 @@ const NamedVariable* find(std::string_view variable) {
   return found == std::ranges::end(names) ? nullptr : found;
 }
 
+/// The result and the key of a derivative d_RESULT_d_KEY; both empty if it is none.
+std::pair<std::string_view, std::string_view> parts_of_derivative(std::string_view variable) {
+  constexpr std::string_view begin = "d_", middle = "_d_";
+  const std::size_t at = variable.find(middle, begin.size());
+  if (!variable.starts_with(begin) || at == std::string_view::npos) return {};
+  return {variable.substr(begin.size(), at - begin.size()), variable.substr(at + middle.size())};
+}
+
+std::string symbol_of(std::string_view variable, bool is_si) {
+  const std::string symbol = drawn_name(variable, is_si).symbol;
+  return symbol.empty() ? std::string(variable) : symbol;
+}
+
 }  // namespace
 
 DrawnName drawn_name(std::string_view variable, bool is_si) {
+  if (const auto [result, key] = parts_of_derivative(variable); !key.empty())
+    return {"sensitivity", "∂" + symbol_of(result, is_si) + "/∂" + symbol_of(key, is_si)};
   const NamedVariable* const found = find(variable);
   if (found == nullptr) return {};
-  return is_si ? found->in_si.value_or(found->name) : found->name;
+  const Name& name = is_si && found->in_si ? *found->in_si : found->name;
+  return {std::string(name.words), std::string(name.symbol)};
 }
 
 std::string scene_names(bool is_si) {

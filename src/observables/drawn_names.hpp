@@ -8,10 +8,10 @@ namespace clatter::observables {
 /// How pictures name a variable of the results, or a key of the scene: words and a symbol, which is TeX between dollars
 /// and text otherwise. Both are empty if pictures use its long name.
 struct DrawnName {
-  std::string_view words, symbol;
+  std::string words, symbol;
 };
 
-/// Of a variable or a key, in a file of [scene] or of [machine].
+/// Of a variable or a key, in a file of [scene] or of [machine]; a derivative d_RESULT_d_KEY has the symbols of both.
 [[nodiscard]] DrawnName drawn_name(std::string_view variable, bool is_si);
 
 /// The keys of [scene], or of [machine], with unit, words and symbol of each, as lines of TOML: the constants of a

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "observables/fourier_transform.hpp"
+#include "scene/given_scene.hpp"
 #include "scene/key.hpp"
 #include "scene/quantity.hpp"
 #include "scene/scene.hpp"
@@ -67,6 +68,7 @@ struct Column {
   std::string name_in_si{};       ///< the long name in the results of a machine, if that is another
   std::string_view observable{};  ///< the key of [observe] that asks for it
   FrameOf frame = FrameOf::any;
+  Quantity per = Quantity::number;  ///< of a derivative: the quantity of what it is by, in the user's units
 
   [[nodiscard]] std::size_t width() const { return along.empty() ? 1 : along.front().length; }
 };
@@ -142,6 +144,8 @@ struct ObservedSpan {
   bool stands_still = false;    ///< nothing moves any more
   const FourierScratch* fourier = nullptr;  ///< for harmonics from samples
   std::optional<FrameMotion> frame{};       ///< if absolute motion is asked for, and something is shaken
+  const GivenScene* given = nullptr;        ///< if derivatives by its numbers are asked for, in the units below
+  Units units{};
 
   /// Whether it is a whole number of forcing periods, as the sums of harmonics and sections in lanes need.
   [[nodiscard]] bool has_whole_turns() const { return std::abs(turns - std::round(turns)) <= 1e-9; }

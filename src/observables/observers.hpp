@@ -16,6 +16,7 @@
 #include "observables/observable_list.hpp"
 #include "observables/period_observer.hpp"
 #include "observables/section_observer.hpp"
+#include "observables/sensitivity_observer.hpp"
 #include "observables/stability_observer.hpp"
 #include "observables/trajectory_observer.hpp"
 

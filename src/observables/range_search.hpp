@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <type_traits>
 
 #include "math/bernstein.hpp"
 #include "motion/arc.hpp"
@@ -80,14 +81,14 @@ struct StopForceOnArc {
 };
 
 /// Visits an arc of positive length wherever a quantity may exceed its range: every stretch is either proved not to, by
-/// the enclosure that finds contacts (eq. 13), or split, at the quantity's turning point if it has one. `see(motion)`
-/// gets both ends and every instant visited, and widens the ranges.
+/// the enclosure that finds contacts (eq. 13), or split, at the quantity's turning point if it has one. `see(motion)`,
+/// or `see(motion, s)` with the time since the start, gets both ends and every instant visited, and widens the ranges.
 template <class A, class See>
 class RangeSearch {
  public:
   RangeSearch(const A& arc, double length, const See& see)
       : arc_(arc), see_(see), from_{0.0, arc.start()}, to_{length, at(length)} {
-    see_(from_.motion), see_(to_.motion);
+    show(from_), show(to_);
   }
 
   template <class Quantity>
@@ -103,6 +104,13 @@ class RangeSearch {
     double s;
     motion::Motion<double> motion;
   };
+
+  void show(const Place& place) const {
+    if constexpr (std::is_invocable_v<const See&, const motion::Motion<double>&, double>)
+      see_(place.motion, place.s);
+    else
+      see_(place.motion);
+  }
 
   [[nodiscard]] motion::Motion<double> at(double s) {
     ++evaluations_;
@@ -124,7 +132,7 @@ class RangeSearch {
     if (!(high > range.high + rounding || low < range.low - rounding) || ++splits_ > max_splits) return;
     const Place middle = split(quantity, from, to);
     if (!(middle.s > from.s && middle.s < to.s)) return;
-    see_(middle.motion);
+    show(middle);
     exceed(quantity, range, from, middle);
     exceed(quantity, range, middle, to);
   }

@@ -84,8 +84,7 @@ class Point {
           settling_periods(integrator_, start(), observed_, problem_.time, observables::Settling::settled,
                            factor_of(problem_.units, Quantity::velocity));
     steady::ObservedTime complete = observed_;
-    const auto& stability = observers.template of<observables::Stability>();
-    if (stability && span_.periodic && problem_.oscillator.forcing != 0 && stability->grazes())
+    if (span_.periodic && problem_.oscillator.forcing != 0 && grazing_is_told(observers))
       complete.status = steady::Status::grazing;
     complete.simulated += observed_.turns + periods_beyond_;
     return result_of(complete);
@@ -93,6 +92,13 @@ class Point {
 
  private:
   [[nodiscard]] motion::State<double> start() const { return start_of(problem_); }
+
+  /// Whether derivatives that are asked for don't exist, since the motion grazes a stop.
+  [[nodiscard]] static bool grazing_is_told(Observers& observers) {
+    const auto& stability = observers.template of<observables::Stability>();
+    const auto& sensitivity = observers.template of<observables::Sensitivity>();
+    return (stability && stability->grazes()) || (sensitivity && sensitivity->grazes());
+  }
 
   /// Runs each forcing period of a periodic motion from its own state.
   stepping::Outcome run_by_sections(motion::State<double>& state, const std::vector<motion::State<double>>& sections,
@@ -138,6 +144,7 @@ class Point {
     span_.transient = observed_.status == steady::Status::transient;
     span_.stands_still = observed_.found_by == steady::FoundBy::standstill;
     span_.uncertainty = uncertainty();
+    span_.given = problem_.given.get(), span_.units = problem_.units;
     // a section under a force has the phase of the start
     span_.frame =
         observed_frame(problem_, forced ? 0.0 : static_cast<double>(observed_.from.periods) * integrator_.period());

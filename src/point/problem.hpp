@@ -1,10 +1,10 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 
 #include "observables/all.hpp"
-#include "scene/scene.hpp"
-#include "scene/units.hpp"
+#include "scene/given_scene.hpp"
 #include "steady/time_settings.hpp"
 #include "stepping/integration.hpp"
 
@@ -20,6 +20,7 @@ struct RunSettings {
 /// One point of a sweep: a scene, and how it is run and observed.
 struct Problem : Scene, RunSettings {
   Units units{};  ///< of all its numbers
+  std::shared_ptr<const GivenScene> given{};  ///< the user's numbers, if derivatives by them are asked for
 };
 
 /// The motion of the frame from the start of a problem on, or from a time after it, if absolute motion is asked for and

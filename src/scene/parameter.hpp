@@ -80,6 +80,19 @@ void set(BasicGivenScene<Number>& given, Parameter parameter, const Number& valu
   if (row.place_of_upper != nullptr) row.place_of_upper(given) = value;
 }
 
+/// Makes a parameter a variable of numbers that carry derivatives: those that it sets change with it, a key of both
+/// stops with each of the two, whose places go apart. One that is infinite doesn't change.
+template <class Dual>
+void differentiate_by(BasicGivenScene<Dual>& given, Parameter parameter, std::size_t variable) {
+  const ParameterRow<Dual>& row = detail::table<Dual>[parameter.index()];
+  const auto vary = [variable](Dual& number, double slope) {
+    if (is_finite(number)) number.slope[variable] = slope;
+  };
+  const bool is_distance = parameter.is_of_both() && parameter.role() == Role::position;
+  vary(row.place(given), is_distance ? -1.0 : 1.0);
+  if (row.place_of_upper != nullptr) vary(row.place_of_upper(given), 1.0);
+}
+
 /// The number that a parameter sets; of both stops that of the upper one.
 [[nodiscard]] inline double value_of(const GivenScene& given, Parameter parameter) {
   GivenScene copy = given;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <numbers>
+#include <string>
 #include <string_view>
 
 #include "scene/quantity.hpp"
@@ -39,6 +40,13 @@ namespace detail {
 /// The `units` attribute of a quantity: without SI every unit is that of the scene itself, but angles are in rad.
 [[nodiscard]] constexpr std::string_view unit_of(Quantity quantity, bool is_si) {
   return is_si || quantity == Quantity::angle ? si_unit(quantity) : si_unit(Quantity::number);
+}
+
+/// The same of a derivative: "m s-1/(N m-1)".
+[[nodiscard]] inline std::string unit_of_derivative(Quantity quantity, Quantity by, bool is_si) {
+  const std::string unit(unit_of(quantity, is_si)), per(unit_of(by, is_si));
+  if (per == "1") return unit;
+  return unit == per ? "1" : unit + (per.find(' ') == std::string::npos ? '/' + per : "/(" + per + ')');
 }
 
 }  // namespace scene

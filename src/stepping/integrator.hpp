@@ -11,9 +11,9 @@
 #include <utility>
 
 #include "motion/contact_force.hpp"
+#include "motion/soft_contact.hpp"
 #include "scene/scene.hpp"
 #include "stepping/integration.hpp"
-#include "stepping/soft_contact.hpp"
 
 namespace clatter::stepping {
 
@@ -146,7 +146,7 @@ class IntegratorBase {
 
   motion::ArcConstants<Number, E.arc()> constants_;
   Stops stops_;
-  [[no_unique_address]] std::conditional_t<E.soft, SoftContact<Number>, NoSoftContact> soft_;
+  [[no_unique_address]] std::conditional_t<E.soft, motion::SoftContact<Number>, motion::NoSoftContact> soft_;
   double budget_;
   double longest_;  ///< forcing periods that a run may take
   Number start_turns_;

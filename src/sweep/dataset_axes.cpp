@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <span>
+#include <utility>
 
 #include "observables/drawn_names.hpp"
 
@@ -49,15 +50,23 @@ void add_axes(const Sweep& sweep, results::Dataset& dataset) {
   }
 }
 
+void name_samples(const Sweep& sweep, results::Dataset& dataset) {
+  std::string names;
+  for (const Dimension& dimension : sweep.dimensions)
+    for (const Axis& axis : dimension)
+      if (axis.is_sample) names.append(names.empty() ? "" : " ").append(axis.parameter.key());
+  if (!names.empty()) dataset.attributes.emplace_back("sampled_axes", names);
+}
+
 void name_observable(std::string_view key, results::Variable& variable) {
   variable.attributes.emplace_back("observable", std::string(key));
 }
 
 void add_drawn_names(bool is_si, results::Dataset& dataset) {
   for (results::Variable& variable : dataset.variables) {
-    const auto [words, symbol] = observables::drawn_name(variable.name, is_si);
-    if (!words.empty()) variable.attributes.emplace_back("label", std::string(words));
-    if (!symbol.empty()) variable.attributes.emplace_back("symbol", std::string(symbol));
+    auto [words, symbol] = observables::drawn_name(variable.name, is_si);
+    if (!words.empty()) variable.attributes.emplace_back("label", std::move(words));
+    if (!symbol.empty()) variable.attributes.emplace_back("symbol", std::move(symbol));
   }
   dataset.attributes.emplace_back("scene_names", observables::scene_names(is_si));
 }

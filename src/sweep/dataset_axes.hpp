@@ -26,6 +26,10 @@ void add_drawn_names(bool is_si, results::Dataset& dataset);
 /// for coordinates (CF conventions, 5). Call it once all variables are added.
 void name_linked_axes(const Sweep& sweep, results::Dataset& dataset);
 
+/// Names the axes whose values are a sample of a range in the root attribute `sampled_axes`, so that readers take
+/// quantiles over them, and draw no line from value to value.
+void name_samples(const Sweep& sweep, results::Dataset& dataset);
+
 /// Names of the sweep's dimensions.
 [[nodiscard]] std::vector<std::string> axis_names(const Sweep& sweep);
 

@@ -278,7 +278,8 @@ results::Dataset ResultStore::dataset() {
     const std::string& long_name = is_si && !output.name_in_si.empty() ? output.name_in_si : output.long_name;
     const Quantity quantity = output.intermediate ? Quantity::number : output.quantity;
     dataset.variables.push_back(
-        {output.name, std::move(dimensions), std::move(values), long_name, std::string(unit_of(quantity, is_si))});
+        {output.name, std::move(dimensions), std::move(values), long_name,
+         unit_of_derivative(quantity, output.per, is_si)});
     name_frame(sweep_, output.frame, dataset.variables.back());
     if (!output.observable.empty()) name_observable(output.observable, dataset.variables.back());
   }
@@ -286,6 +287,7 @@ results::Dataset ResultStore::dataset() {
   if (sweep_.problem.observe.impact_log) add_impact_log(dataset);
   add_drawn_names(sweep_.problem.is_si, dataset);
   name_linked_axes(sweep_, dataset);
+  name_samples(sweep_, dataset);
   return dataset;
 }
 

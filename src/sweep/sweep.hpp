@@ -22,6 +22,7 @@ struct GivenProblem : GivenScene, point::RunSettings {
 struct Axis {
   Parameter parameter;
   std::vector<double> values;
+  bool is_sample = false;  ///< they are a sample of a range, in no order
 };
 
 /// Axes of equal length that run together; named by the first.

@@ -117,15 +117,39 @@ TEST(Together, start_period_belongs_to_free_motion_between_symmetric_stops) {
   expect_all("a.ini", table);
 }
 
-TEST(Together, axes_of_sobol_are_starts_and_linked) {
+TEST(Together, axes_of_sobol_are_linked_and_in_range) {
   const std::string scene = "[scene]\nxs = 9\nf = 1\n[sweep]\n";
   const std::string crossed = scene + "x0 = \"sobol(-1, 1, 8)\"\nv0 = \"sobol(-1, 1, 8)\"\n";
   const std::vector<Wrong> table{
-      {scene + "nu = \"sobol(1, 2, 8)\"\n", "5:6", "nu = sobol(...), which only starts can have: x0, v0, phase"},
+      {scene + "R = \"sobol(0.9, 1.2, 8)\"\n", "5:5", "R = 1.05; expected 0 ... 1"},
+      {scene + "R = \"sobol(0.9, 1.05, 2)\"\nnu = \"sobol(0, 1, 2)\"\nlinked = \"R, nu\"\n", "6:6", "nu = 0"},
+      {scene + "nu = \"sobol(1, 2, 8)\"\nfollow = \"nu\"\n", "6:10",
+       "follow along 'nu', whose values sobol(...) leap to and fro; write linspace(a, b, n), or follow none"},
       {crossed, "5:6", "x0 = sobol(...) without its partners, which would cross them; write linked = \"x0, v0\""},
       {crossed + "phase = \"sobol(0, 6, 8)\"\nlinked = \"x0, v0\"\n", "7:9", "write linked = \"x0, v0, phase\""},
       {crossed + "phase = \"sobol(0, 6, 9)\"\nlinked = \"x0, v0, phase\"\n", "8:10",
        "linked axes of different lengths"},
+  };
+  expect_all("a.toml", table);
+}
+
+TEST(Together, sensitivity_names_keys_of_steady_motion) {
+  const std::string scene = "[scene]\nf = 1\nstop_upper = 1\n", machine = "[machine]\nmass = 1\ngap = 1\n";
+  const auto asked = [](const std::string& by, const std::string& names) {
+    return by + "[observe]\nsensitivity = \"" + names + "\"\n";
+  };
+  const std::vector<Wrong> table{
+      {asked(scene, "R, hh"), "5:15", "sensitivity names 'hh', which is no key of [scene]; did you mean 'h'?"},
+      {asked(scene, "R,"), "5:15", "sensitivity names ''"},
+      {asked(scene, "R, R"), "5:15", "sensitivity names 'R' twice; name each key once"},
+      {asked(scene, "x0"), "5:15", "sensitivity names 'x0', a start, which steady motion doesn't depend on"},
+      {asked(scene, "frequency"), "5:15", "no key of [scene], which describes this scene; take 'nu'"},
+      {asked(machine, "f"), "5:15", "no key of [machine], which describes this scene; take 'force'"},
+      {asked(scene, "xs"), "5:15", "the stops are given one by one; name 'stop_lower' or 'stop_upper'"},
+      {asked(machine, "quality"), "5:15", "the damping isn't given by it; name 'damping' or 'damping_ratio'"},
+      {asked(scene, "R") + "[time]\nmode = \"transient\"\nduration = 9\n", "5:15", "sensitivity of a transient"},
+      {asked(scene, "R") + "[integrator]\nmethod = \"dopri5\"\n", "5:15",
+       "sensitivity by method = 'dopri5'; only 'exact' has it"},
   };
   expect_all("a.toml", table);
 }

@@ -24,7 +24,7 @@ TEST(DrawnNames, every_parameter_has_one_in_its_section) {
 
 TEST(DrawnNames, symbols_are_whole_TeX) {
   for (const Parameter parameter : all_parameters) {
-    const std::string_view symbol = drawn_name(parameter.key(), false).symbol;
+    const std::string symbol = drawn_name(parameter.key(), false).symbol;
     EXPECT_EQ(std::ranges::count(symbol, '$') % 2, 0) << symbol;
     EXPECT_EQ(std::ranges::count(symbol, '{'), std::ranges::count(symbol, '}')) << symbol;
   }
@@ -35,6 +35,12 @@ TEST(DrawnNames, a_key_of_a_machine_is_its_own_symbol_unless_the_equation_has_a_
   EXPECT_EQ(drawn_name("mass", true).symbol, "$m$");
   EXPECT_EQ(drawn_name("xs", false).symbol, "$x_s$");
   EXPECT_FALSE(is_named("no_such_variable", true));
+}
+
+TEST(DrawnNames, a_derivative_has_the_symbols_of_its_result_and_its_key) {
+  EXPECT_EQ(drawn_name("d_x_max_d_stop_upper", false).symbol, "∂$x_{\\max}$/∂$x_+$");
+  EXPECT_EQ(drawn_name("d_x_max_d_stop_upper", true).symbol, "∂$x_{\\max}$/∂stop_upper");
+  EXPECT_EQ(drawn_name("d_impact_power_d_mass", true).symbol, "∂impact_power/∂$m$");
 }
 
 TEST(DrawnNames, constants_of_a_scene_are_lines_of_TOML_with_their_units) {

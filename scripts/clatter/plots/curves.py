@@ -168,7 +168,8 @@ def line_style(members, parts, result, part, place):
     of two components."""
     ratios = [member.output.values("period_ratio") for member in members if "period_ratio" in member.output]
     many_periods = any((ratio > 1).any() for ratio in ratios)
-    if result == "period_ratio" or result == "period" and many_periods:
+    is_cloud = any(member.output.is_cloud for member in members)
+    if result == "period_ratio" or result == "period" and many_periods or is_cloud:
         return {"ls": "none", "marker": ".", "ms": 6.0 if len(members) == 2 and place < parts else 3.0}
     if len(members) == 2:
         return {"lw": 2.4 if place < parts else 1.0}

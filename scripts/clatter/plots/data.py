@@ -57,6 +57,7 @@ class Output:
             self.constants = constants_of(text(file.attrs.get("scene_names", "")))
             if not self.constants:  # in files before 0.3.0
                 self.constants = {key: {} for key in self.config.get("machine", self.config.get("scene", {}))}
+            self.sampled = text(file.attrs.get("sampled_axes", "")).split()
             self.origin = {key: printable(text(file.attrs[key])) for key in ORIGIN if key in file.attrs}
             self.variables = {name: read_variable(item) for name, item in file.items() if not is_bare_dimension(item)}
             self.meanings = flag_meanings(file["status"]) if "status" in file else {}
@@ -99,6 +100,11 @@ class Output:
         names = [] if self.is_branch else [name.strip() for name in self.sweep.get("follow", "").split(",")]
         axes = [self[name].dims[0] for name in names if name in self and self[name].dims]
         return next((axis for axis in axes if axis in self.axes), "")
+
+    @property
+    def is_cloud(self):
+        """Whether the only axis stands for several that are sampled together, so that no curve runs along it."""
+        return sum(self[name].dims == tuple(self.axes) for name in self.sampled) > 1
 
     @property
     def goes_down(self):

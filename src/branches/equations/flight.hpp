@@ -2,31 +2,24 @@
 
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "branches/equations/orbit.hpp"
 #include "branches/followed_scene.hpp"
 #include "motion/arc.hpp"
-#include "stepping/soft_contact.hpp"
+#include "motion/soft_contact.hpp"
+#include "scene/smooth_effects.hpp"
 
 namespace clatter::branches {
 
 /// Calls `function.operator()<E>()` with the effects of a scene's arcs under a force, which have derivatives by k if it
-/// varies. They don't depend on h = 0, at which the formulas of light damping hold too, so that derivatives by h exist
-/// there.
+/// varies.
 template <class Function>
 decltype(auto) with_arcs(const Scene& scene, Function&& function, bool stiffness_varies = false) {
   const Oscillator oscillator = oscillator_in_frame(scene);
-  const bool secular = forcing_of(oscillator) == Forcing::secular;
-  const auto with = [&]<bool any_stiffness>(bool heavy) -> decltype(auto) {
-    constexpr Effects light{.damping = Damping::light, .forcing = Forcing::regular, .stiffness = any_stiffness};
-    constexpr Effects resonant{.damping = Damping::light, .forcing = Forcing::secular, .stiffness = any_stiffness};
-    if (heavy)
-      return function.template
-      operator()<Effects{.damping = Damping::heavy, .forcing = Forcing::regular, .stiffness = any_stiffness}>();
-    return secular ? function.template operator()<resonant>() : function.template operator()<light>();
-  };
-  if (stiffness_varies || oscillator.stiffness != 1.0) return with.template operator()<true>(!rotates(oscillator));
-  return with.template operator()<false>(oscillator.damping >= 1);
+  if (stiffness_varies || oscillator.stiffness != 1.0)
+    return with_smooth_effects<true>(oscillator, std::forward<Function>(function));
+  return with_smooth_effects<false>(oscillator, std::forward<Function>(function));
 }
 
 /// A flight begins just after the impact of velocity `before` on stop `from` at phase `begin`, in rad, and is looked at
@@ -136,10 +129,8 @@ class Flights {
       : p_(parameters),
         lead_(force.lead),
         constants_(motion::ArcConstants<Number, E>::of(p_.oscillator.damping, force.amplitude, p_.oscillator.frequency,
-                                                       p_.oscillator.load, p_.oscillator.stiffness)) {
-    for (const Side side : {Side::lower, Side::upper})
-      if (is_soft(p_.stops, side)) soft_.add(constants_, p_.soft_stop(side));
-  }
+                                                       p_.oscillator.load, p_.oscillator.stiffness)),
+        soft_(constants_, p_.stops) {}
 
   [[nodiscard]] Response<Number> free_response() const {
     if constexpr (E.stiffness)
@@ -200,7 +191,7 @@ class Flights {
   SceneNumbers<Number> p_;
   Number lead_;
   motion::ArcConstants<Number, E> constants_;
-  stepping::SoftContact<Number> soft_;
+  motion::SoftContact<Number> soft_;
 };
 
 }  // namespace clatter::branches

@@ -7,7 +7,7 @@
 
 #include "motion/first_crossing.hpp"
 
-namespace clatter::stepping {
+namespace clatter::motion {
 
 /// The oscillators that the mass belongs to while it is in contact with soft stops (eq. 51). Their damping and
 /// resonance are of a class of their own, which only the scene's numbers decide.
@@ -15,14 +15,11 @@ template <class Number>
 class SoftContact {
  public:
   SoftContact() = default;
-  template <Effects E>
-  SoftContact(const motion::ArcConstants<Number, E>& free, const Stops& stops) {
+  template <Effects E, class Given>
+  SoftContact(const ArcConstants<Number, E>& free, const BasicStops<Given>& stops) {
     for (const Side side : {Side::lower, Side::upper})
-      if (is_soft(stops, side)) add(free, motion::soft_stop_at<Number>(stops, side));
-  }
-  template <Effects E>
-  void add(const motion::ArcConstants<Number, E>& free, const motion::SoftStop<Number>& stop) {
-    of_stop_[index_of(stop.side)].emplace(constants_for(free, stop));
+      if (is_soft(stops, side))
+        of_stop_[index_of(side)].emplace(constants_for(free, soft_stop_at<Number>(stops, side)));
   }
 
   /// Calls `function(constants)` with those of motion in contact with the soft stop on a side.
@@ -33,13 +30,13 @@ class SoftContact {
 
  private:
   template <Damping damping, Forcing forcing>
-  using Of = motion::ArcConstants<Number, Effects{.damping = damping, .forcing = forcing, .stiffness = true}>;
+  using Of = ArcConstants<Number, Effects{.damping = damping, .forcing = forcing, .stiffness = true}>;
   using Any = std::variant<Of<Damping::light, Forcing::regular>, Of<Damping::light, Forcing::secular>,
                            Of<Damping::heavy, Forcing::regular>>;
 
   template <Effects E>
-  [[nodiscard]] static Any constants_for(const motion::ArcConstants<Number, E>& free,
-                                         const motion::SoftStop<Number>& stop) {
+  [[nodiscard]] static Any constants_for(const ArcConstants<Number, E>& free,
+                                         const SoftStop<Number>& stop) {
     const Oscillator pressed{.damping = static_cast<double>(free.h + stop.damping),
                              .forcing = static_cast<double>(free.f),
                              .frequency = static_cast<double>(free.nu),
@@ -58,4 +55,4 @@ struct NoSoftContact {
   NoSoftContact(const Constants&, const Stops&) {}
 };
 
-}  // namespace clatter::stepping
+}  // namespace clatter::motion

@@ -1,0 +1,82 @@
+#include <algorithm>
+#include <string>
+
+#include "config/consistency.hpp"
+#include "config/suggestion.hpp"
+#include "config/text_file.hpp"
+
+namespace clatter::config {
+namespace {
+
+/// The keys by which steady motion has derivatives.
+std::vector<std::string_view> keys_of_motion(std::string_view section) {
+  std::vector<std::string_view> names;
+  for (const Parameter parameter : all_parameters)
+    if (parameter.is_in(section) && parameter.role() != Role::start && !parameter.row().is_with_unit)
+      names.push_back(parameter.key());
+  return names;
+}
+
+/// Throws ConfigError if a name is no such key.
+void check_name(const Settings& settings, const Setting& names, const std::string& name) {
+  const std::string section(settings.scene_section), message = names_key(names, name);
+  const std::vector<std::string_view> known = keys_of_motion(section);
+  if (std::ranges::find(known, name) != known.end()) return;
+  const std::optional<Parameter> parameter = Parameter::of(name);
+  if (parameter && parameter->role() == Role::start)
+    fail(names.location, message + ", a start, which steady motion doesn't depend on; leave it out");
+  if (parameter && !counterpart_of(name).empty())
+    fail(names.location, message + ", no key of [" + section + "], which describes this scene; take " +
+                             in_quotes(counterpart_of(name)));
+  fail(names.location, message + ", which is no key of [" + section + ']' + suggestion(name, known, "; the keys are: "));
+}
+
+/// Throws ConfigError if a key has no value that could change, since others give what it would.
+void check_given(const Settings& settings, const Setting& names, Parameter key) {
+  const std::string message = names_key(names, key.key());
+  const bool is_distance = key.is_of_both() && key.role() == Role::position;
+  if (is_distance && settings.given(key) == nullptr)
+    fail(names.location, message + ", and the stops are given one by one; name 'stop_lower' or 'stop_upper'");
+  if (key == "quality" && settings.given(key) == nullptr)
+    fail(names.location, message + ", and the damping isn't given by it; name 'damping' or 'damping_ratio'");
+}
+
+}  // namespace
+
+std::string names_key(const Setting& setting, std::string_view name) {
+  return std::string(setting.key->name) + " names " + in_quotes(name);
+}
+
+std::optional<Quantity> quantity_given(const Settings& settings, Parameter key) {
+  for (const Parameter other : all_parameters)
+    if (const bool is_its = other.key() == key.key() || other.stands_for(key) || key.stands_for(other); is_its)
+      if (const Setting* const given = settings.given(other)) return given->quantity;
+  return std::nullopt;
+}
+
+std::vector<Parameter> named_parameters(const Settings& settings, std::string_view section, std::string_view name) {
+  const Setting* const names = settings.find(section, name);
+  std::vector<Parameter> parameters;
+  if (names == nullptr || without_blanks(std::get<std::string>(names->value)).empty()) return parameters;
+  for (const std::string& key : split_names(std::get<std::string>(names->value))) {
+    check_name(settings, *names, key);
+    const Quantity written = quantity_given(settings, Parameter::of(key).value()).value_or(Quantity::number);
+    const Parameter parameter = Parameter::of(key, written).value();
+    if (std::ranges::find(parameters, parameter) != parameters.end())
+      fail(names->location, names_key(*names, key) + " twice; name each key once");
+    check_given(settings, *names, parameter);
+    parameters.push_back(parameter);
+  }
+  return parameters;
+}
+
+void check_sensitivity(const Settings& settings) {
+  const Setting* const names = settings.find("observe", "sensitivity");
+  if (named_parameters(settings, "observe", "sensitivity").empty()) return;
+  if (settings.text("time", "mode") == "transient")
+    fail(names->location, "sensitivity of a transient; only steady motion has it, so leave out it or mode = \"transient\"");
+  if (const std::string method = settings.text("integrator", "method"); method != "exact")
+    fail(names->location, "sensitivity by method = " + in_quotes(method) + "; only 'exact' has it");
+}
+
+}  // namespace clatter::config

@@ -1,0 +1,380 @@
+#include "observables/sensitivity_observer.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <utility>
+
+#include "math/dual.hpp"
+#include "motion/arc.hpp"
+#include "motion/soft_contact.hpp"
+#include "observables/absolute_arc.hpp"
+#include "observables/quadrature.hpp"
+#include "observables/range.hpp"
+#include "observables/range_search.hpp"
+#include "scene/smooth_effects.hpp"
+
+namespace clatter::observables {
+namespace {
+
+using motion::Event;
+
+/// By the displacement and the velocity at the beginning of the period, and by the key.
+using Along = Dual<double, 3>;
+constexpr std::size_t by_x = 0, by_v = 1, by_key = 2;
+
+/// A number whose derivatives are those of another one.
+Along with_slope_of(double value, const Along& other) {
+  Along number = other;
+  number.value = value;
+  return number;
+}
+
+/// An instant of a course at which the displacement is extreme.
+struct Place {
+  double x;
+  std::size_t stretch = 0;
+  double s = 0.0;    ///< tau since the stretch began
+  int quarter = -1;  ///< at rest on what is shaken, which turns back there: the quarter turn of its phase
+
+  [[nodiscard]] bool is_in(std::size_t i) const { return stretch == i; }
+};
+
+/// The least and the greatest displacement of a course in the observed frame.
+struct Extremes {
+  Place least{std::numeric_limits<double>::infinity()}, greatest{-std::numeric_limits<double>::infinity()};
+
+  void see(const Place& place) {
+    if (place.x < least.x) least = place;
+    if (place.x > greatest.x) greatest = place;
+  }
+};
+
+template <Effects E>
+Extremes extremes_of(const Course& course, const ObservedSpan& span) {
+  const motion::ArcConstants<double, E> constants(span.scene.oscillator);
+  const motion::SoftContact<double> contact(constants, span.scene.stops);
+  Extremes extremes;
+  Range range;
+  std::size_t i = 0;
+  const auto search = [&](const auto& arc) {
+    const auto see = [&](const motion::Motion<double>& m, double s) { range.include(m.x), extremes.see({m.x, i, s}); };
+    RangeSearch(arc, course[i].length, see).exceed(DisplacementOnArc{}, range);
+  };
+  const auto look_at = [&]<Effects of>(const motion::ArcConstants<double, of>& of_arc) {
+    const motion::Arc<double, of> arc(of_arc, course[i].start, course[i].anchor);
+    if (!span.frame) return search(arc);
+    search(AbsoluteArc(arc, *span.frame, span.scene.stops, course[i].begin));
+  };
+  const auto look_at_rest = [&](double position) {
+    if (!span.frame) return extremes.see({position, i});
+    for (const int quarter : {1, 3})
+      if (span.frame->passes(quarter, course[i].begin, course[i].length))
+        extremes.see({position + span.frame->displacement(sine_cosine_of_turns(quarter / 4.0)), i, 0.0, quarter});
+  };
+  for (; i < course.size(); ++i) {
+    if (course[i].is_rest())
+      look_at_rest(course[i].anchor);
+    else if (course[i].length > 0 && course[i].pressed != Side::none)
+      contact.with_constants(course[i].pressed, look_at);
+    else if (course[i].length > 0)
+      look_at(constants);
+  }
+  return extremes;
+}
+
+/// Follows a course on numbers that carry derivatives. Where a stretch ends is known; by how much that instant changes
+/// follows from the surface of its event, to first order.
+template <Effects E>
+class Walk {
+ public:
+  Walk(const Course& course, const ObservedSpan& span, const Extremes& extremes, const BasicScene<Along>& scene,
+       const Along& mass)
+      : course_(course),
+        span_(span),
+        extremes_(extremes),
+        scene_(scene),
+        force_(force_in_frame(scene.oscillator, scene.shaking)),
+        mass_(mass),
+        constants_(motion::ArcConstants<Along, E>::of(scene.oscillator.damping, force_.amplitude,
+                                                      scene.oscillator.frequency, scene.oscillator.load,
+                                                      scene.oscillator.stiffness)),
+        contact_(constants_, scene.stops) {}
+
+  Sensitivity::ByKey run() {
+    const std::size_t first = begin();
+    for (std::size_t n = 0; n < course_.size(); ++n) {
+      const std::size_t i = (first + n) % course_.size();
+      course_[i].is_rest() ? stay(i) : follow(i);
+    }
+    return closes_ ? result() : Sensitivity::ByKey{};
+  }
+
+ private:
+  using Motion = motion::Motion<Along>;
+
+  struct State {
+    Along x, v;
+    Along phase;  ///< of the force in the moving frame, rad; of it only the derivatives count
+  };
+
+  [[nodiscard]] Along position(Side side) const { return side == Side::upper ? scene_.stops.upper : scene_.stops.lower; }
+
+  /// The first stretch to follow. A rest forgets all that went before, so that the course of a motion that rests is
+  /// followed from a release on; any other begins at a section, with an unknown state.
+  std::size_t begin() {
+    state_.phase = force_.lead;
+    for (std::size_t i = 0; i < course_.size(); ++i)
+      if (!course_[i].is_rest() && course_[(i + course_.size() - 1) % course_.size()].is_rest()) {
+        forgets_ = rests_ = true, held_ = course_[(i + course_.size() - 1) % course_.size()].end->side;
+        return i;
+      }
+    forgets_ = !course_.empty() && course_.front().is_rest();  // for ever
+    if (!course_.empty()) state_.x = Along(course_.front().start.x, by_x), state_.v = Along(course_.front().start.v, by_v);
+    first_ = state_;
+    return 0;
+  }
+
+  /// A time on a stop takes all energy that is left.
+  void stay(std::size_t i) {
+    held_ = course_[i].end->side;
+    if (!rests_) lost_ += state_.v * state_.v / 2;
+    rests_ = true, state_.v = Along(0);
+    each_place(i, [&](const Place& place) {
+      Along x = position(held_);
+      if (place.quarter >= 0) x += frame_at(sine_cosine_of_turns(place.quarter / 4.0).sine, 0.0, 0.0).x;
+      return x;
+    });
+  }
+  /// A stop releases the mass where the pressing force falls to 0 (eq. 26).
+  void release(const motion::Motion<double>& m) {
+    const Along sine = (constants_.spring(position(held_)) - constants_.load) / constants_.f;
+    state_ = {position(held_), Along(0), with_slope_of(0, sine / m.cosine)};
+    closes_ = closes_ && std::abs(m.a) <= same * std::abs(constants_.f.value);
+    rests_ = false;
+  }
+
+  void follow(std::size_t i) {
+    const Stretch& stretch = course_[i];
+    if (rests_) release(stretch.start);
+    check(state_, stretch.start);
+    const auto fly = [&](const auto& constants) { this->fly(i, constants); };
+    if (stretch.pressed == Side::none)
+      fly(constants_);
+    else
+      contact_.with_constants(stretch.pressed, fly);
+  }
+
+  template <Effects of>
+  void fly(std::size_t i, const motion::ArcConstants<Along, of>& constants) {
+    const Stretch& stretch = course_[i];
+    const motion::Arc<Along, of> arc(constants, start_of(stretch, constants), Along(stretch.anchor));
+    const Motion end = arc.at(Along(stretch.length));
+    const auto& [h, f, nu, load, k] = scene_.oscillator;
+    Along phase = state_.phase + with_slope_of(0, nu * stretch.length);
+    const Along late = lateness(stretch, end, phase);
+    const Along v = end.v + end.a * late;
+    const State before = state_;
+    state_ = {end.x + end.v * late, v, phase + nu * late};
+    lose(stretch, arc, end, late);
+    each_place(i, [&](const Place& place) {
+      if (place.s >= stretch.length) return displacement({end.offset, state_.x, v, end.a, end.sine, end.cosine}, state_.phase);
+      if (!(place.s > 0)) return displacement(arc.start(), before.phase);
+      return turning_point(arc.at(Along(place.s)), before.phase + with_slope_of(0, nu * place.s));
+    });
+    if (stretch.end) meet(*stretch.end);
+  }
+
+  template <Effects of>
+  [[nodiscard]] Motion start_of(const Stretch& stretch, const motion::ArcConstants<Along, of>& constants) const {
+    const motion::Motion<double>& m = stretch.start;
+    const Along x = with_slope_of(m.x, state_.x), offset = with_slope_of(m.offset, state_.x),
+                v = with_slope_of(m.v, state_.v), sine = with_slope_of(m.sine, m.cosine * state_.phase),
+                cosine = with_slope_of(m.cosine, -m.sine * state_.phase);
+    const Along a = constants.acceleration(constants.from_equilibrium(x, Along(stretch.anchor), offset), v, sine);
+    return {offset, x, v, with_slope_of(m.a, a), sine, cosine};
+  }
+
+  /// By how much the end of a stretch comes later: the surface of its event (eqs. 4 and 50), or the phase of a section,
+  /// over its rate of change. Its value is 0.
+  [[nodiscard]] Along lateness(const Stretch& stretch, const Motion& end, const Along& phase) const {
+    if (!stretch.end) return with_slope_of(0, (force_.lead - phase) / scene_.oscillator.frequency.value);
+    const Side side = stretch.end->side;
+    const Along beyond = end.offset + stretch.anchor - position(side);
+    if (stretch.end->kind == Event::Kind::impact || stretch.end->kind == Event::Kind::touch)
+      return with_slope_of(0, -beyond / end.v.value);
+    const auto stop = motion::soft_stop_at<Along>(scene_.stops, side);
+    const Along relaxation = stop.relaxation();
+    return with_slope_of(0, -(beyond + relaxation * end.v) / (end.v.value + relaxation.value * end.a.value));
+  }
+
+  /// What an event does with the velocity.
+  void meet(const Event& event) {
+    if (event.kind == Event::Kind::impact || event.kind == Event::Kind::touch) {
+      const Along speed = abs(state_.v);
+      Along& fastest = fastest_[index_of(event.side)];
+      if (!(fastest.value >= speed.value)) fastest = speed;
+    }
+    if (event.kind != Event::Kind::impact) return;
+    const Along R = event.side == Side::upper ? scene_.stops.restitution_upper : scene_.stops.restitution_lower;
+    const Along after = Restitution<Along>{R}.after(state_.v);
+    lost_ += (state_.v * state_.v - after * after) / 2;
+    state_.x = position(event.side), state_.v = after;
+  }
+
+  /// The energy that soft stops take: in contact their dampers (eq. 54), and as they relax that of their springs.
+  template <Effects of>
+  void lose(const Stretch& stretch, const motion::Arc<Along, of>& arc, const Motion& end, const Along& late) {
+    if (stretch.pressed != Side::none) {
+      const auto panels = static_cast<std::size_t>(std::ceil(stretch.length * arc.constants().rate.value / 2));
+      Along squares = end.v * end.v * late;
+      over_panels<20>(stretch.length, panels, [&](double s, double weight) {
+        const Along v = arc.at(Along(s)).v;
+        squares += weight * v * v;
+      });
+      lost_ += 2 * arc.constants().stop.damping * squares;
+    } else if (has_soft_stop(span_.scene.stops)) {
+      lost_ += stored_at(arc.start().x) - stored_at(state_.x);
+    }
+  }
+  [[nodiscard]] Along stored_at(const Along& x) const {
+    Along stored = 0;
+    for (const Side side : {Side::lower, Side::upper}) {
+      if (!is_soft(scene_.stops, side)) continue;
+      const auto stop = motion::soft_stop_at<Along>(scene_.stops, side);
+      const Along depth = stop.into(x - stop.position);
+      if (depth.value > 0) stored += stop.stiffness * depth * depth / 2;
+    }
+    return stored;
+  }
+
+  /// Displacement, velocity and acceleration in the observed frame.
+  struct Observed {
+    Along x, v, a;
+  };
+  /// Those of what is shaken, from sine and cosine of its phase, and the derivative of that.
+  [[nodiscard]] Observed frame_at(const Along& sine, const Along& cosine, const Along& phase) const {
+    const Along b = scene_.shaking.stops + scene_.shaking.base, &nu = scene_.oscillator.frequency;
+    const Along moved_sine = sine + cosine * phase, moved_cosine = cosine - sine * phase;
+    return {b * moved_sine, b * nu * moved_cosine, -b * nu * nu * moved_sine};
+  }
+  /// `phase` is that of the force.
+  [[nodiscard]] Observed observed(const Motion& m, const Along& phase) const {
+    if (!span_.frame) return {m.x, m.v, m.a};
+    const Along ahead = phase - force_.lead + scene_.shaking.phase;  // of the motion of the frame
+    const auto [sine, cosine] = span_.frame->by_force(m.sine.value, m.cosine.value);
+    const Observed frame = frame_at(sine, cosine, with_slope_of(0, ahead));
+    return {m.x + frame.x, m.v + frame.v, m.a + frame.a};
+  }
+  [[nodiscard]] Along displacement(const Motion& m, const Along& phase) const { return observed(m, phase).x; }
+  /// The search stops a little beside a turning point; to first order the displacement there is x - v^2/(2 a).
+  [[nodiscard]] Along turning_point(const Motion& m, const Along& phase) const {
+    const auto [x, v, a] = observed(m, phase);
+    const Along beyond = -v * v / (2 * a);
+    return std::abs(beyond.value) <= 1e-6 * std::abs(x.value) ? x + beyond : x;
+  }
+
+  template <class Displacement>
+  void each_place(std::size_t i, const Displacement& displacement) {
+    if (extremes_.least.is_in(i)) least_ = displacement(extremes_.least);
+    if (extremes_.greatest.is_in(i)) greatest_ = displacement(extremes_.greatest);
+  }
+
+  /// A course whose stretches don't follow from each other has no derivatives.
+  void check(const State& state, const motion::Motion<double>& next) {
+    const double size = std::max(std::abs(next.x), std::abs(next.v));
+    closes_ = closes_ && std::abs(state.x.value - next.x) <= same * size && std::abs(state.v.value - next.v) <= same * size;
+  }
+
+  [[nodiscard]] Sensitivity::ByKey result() {
+    double x = 0, v = 0;  // how the state at the beginning changes with the key
+    if (!forgets_) {
+      check(state_, {.offset = 0, .x = first_.x.value, .v = first_.v.value, .a = 0, .sine = 0, .cosine = 0});
+      if (!closes_) return {};
+      const auto &a = state_.x.slope, &b = state_.v.slope;
+      const double determinant = (1 - a[by_x]) * (1 - b[by_v]) - a[by_v] * b[by_x];
+      x = ((1 - b[by_v]) * a[by_key] + a[by_v] * b[by_key]) / determinant;
+      v = ((1 - a[by_x]) * b[by_key] + b[by_x] * a[by_key]) / determinant;
+    }
+    const auto total = [&](const Along& y) { return y.slope[by_key] + y.slope[by_x] * x + y.slope[by_v] * v; };
+    const Along period = 2 * pi<double>() * span_.turns / scene_.oscillator.frequency;
+    return {total(least_), total(greatest_), total(period), {total(fastest_[0]), total(fastest_[1])},
+            total(lost_ * mass_ / period)};
+  }
+
+  static constexpr double same = 1e-6;  ///< relative difference of states that are one
+
+  const Course& course_;
+  const ObservedSpan& span_;
+  const Extremes& extremes_;
+  const BasicScene<Along>& scene_;
+  LeadingForce<Along> force_;
+  Along mass_;  ///< over that of the units
+  motion::ArcConstants<Along, E> constants_;
+  motion::SoftContact<Along> contact_;
+  State state_{}, first_{};
+  Side held_ = Side::none;  ///< the stop that held the mass last
+  bool rests_ = false, forgets_ = false, closes_ = true;
+  Along least_{}, greatest_{}, lost_{};
+  std::array<Along, 2> fastest_{no_derivative(), no_derivative()};  ///< [stop]
+
+  [[nodiscard]] static Along no_derivative() {
+    Along none(no_value);
+    none.slope.fill(no_value);
+    return none;
+  }
+};
+
+/// At k = 0 the formulas of arcs change, so that they have no derivative by k.
+bool has_derivative(const BasicScene<Along>& scene) {
+  return scene.oscillator.stiffness.value != 0 || scene.oscillator.stiffness.is_constant();
+}
+
+}  // namespace
+
+std::vector<Sensitivity::ByKey> sensitivities(const Course& course, const ObservedSpan& span,
+                                              const std::vector<Parameter>& keys) {
+  std::vector<Sensitivity::ByKey> all;
+  with_smooth_effects<true>(span.scene.oscillator, [&]<Effects E>() {
+    const Extremes extremes = extremes_of<E>(course, span);
+    for (const Parameter key : keys) {
+      auto given = with_numbers<Along>(*span.given);
+      differentiate_by(given, key, by_key);
+      const BasicScene<Along> scene = computed(given, span.units);
+      all.push_back(has_derivative(scene) ? Walk<E>(course, span, extremes, scene, given.mass / span.units.mass).run()
+                                          : Sensitivity::ByKey{});
+    }
+  });
+  return all;
+}
+
+std::vector<Column<Sensitivity::Values>> Sensitivity::columns(const Settings& settings) {
+  std::vector<Column<Values>> all;
+  for (std::size_t i = 0; i < settings.sensitivity.size(); ++i) {
+    const Parameter key = settings.sensitivity[i];
+    const auto add = [&](const std::string& name, Quantity quantity, FrameOf frame, auto ByKey::*member,
+                         std::vector<Coordinate> along = {}) {
+      const auto put = [i, member](const Values& values, double* out) {
+        const ByKey by_key = i < values.sensitivities.size() ? values.sensitivities[i] : ByKey{};
+        if constexpr (requires { (by_key.*member).size(); })
+          std::ranges::copy(by_key.*member, out);
+        else
+          *out = by_key.*member;
+      };
+      Column<Values>& column = all.emplace_back();
+      column.name = "d_" + name + "_d_" + std::string(key.key());
+      column.long_name = "derivative of " + name + " by " + std::string(key.key());
+      column.quantity = quantity, column.per = key.row().quantity, column.frame = frame;
+      column.along = std::move(along), column.put = put;
+    };
+    add("x_min", Quantity::length, FrameOf::observed, &ByKey::x_min);
+    add("x_max", Quantity::length, FrameOf::observed, &ByKey::x_max);
+    add("period", Quantity::time, FrameOf::any, &ByKey::period);
+    add("impact_speed", Quantity::velocity, FrameOf::relative, &ByKey::impact_speed, {stop_coordinate()});
+    add("impact_power", Quantity::power, FrameOf::any, &ByKey::impact_power);
+  }
+  return all;
+}
+
+}  // namespace clatter::observables

@@ -1,0 +1,69 @@
+#pragma once
+
+#include <vector>
+
+#include "motion/event.hpp"
+#include "motion/polynomial_arc.hpp"
+#include "observables/course.hpp"
+#include "observables/sensitivity.hpp"
+#include "observables/stability_observer.hpp"
+
+namespace clatter::observables {
+
+/// The derivatives by each key along a course, which is a whole period. Motion has to close, or they are NaN.
+[[nodiscard]] std::vector<Sensitivity::ByKey> sensitivities(const Course& course, const ObservedSpan& span,
+                                                            const std::vector<Parameter>& keys);
+
+/// Records the course of a period; the derivatives follow from it at the end.
+class Sensitivity::Observer {
+ public:
+  Observer(const Settings& settings, const ObservedSpan& span)
+      : keys_(settings.sensitivity),
+        is_sought_(span.periodic && span.given != nullptr && span.scene.oscillator.forcing != 0),
+        stability_({}, span) {}
+
+  template <class A>
+  void arc(const A& arc, double begin, double length) {
+    if constexpr (!motion::Polynomial<A>) {  // of general methods there are none
+      if (!is_sought_) return;
+      stability_.arc(arc, begin, length);
+      course_.push_back({arc.start(), arc.anchor(), begin, length});
+      if constexpr (A::effects.stiffness) course_.back().pressed = arc.constants().stop.side;
+    }
+  }
+  void rest(const motion::Rest& rest) {
+    if (!is_sought_) return;
+    stability_.rest(rest);
+    course_.push_back({{}, rest.position, rest.time, rest.length, Side::none, event_of(rest)});
+  }
+  void impact(const motion::Impact& impact) {
+    if (is_sought_) stability_.impact(impact), end_with(event_of(impact));
+  }
+  void touch(const motion::Touch& touch) {
+    if (is_sought_) stability_.touch(touch), end_with(event_of(touch));
+  }
+  void separate(const motion::Separation& separation) {
+    if (is_sought_) end_with(event_of(separation));
+  }
+
+  /// Whether a derivative that is sought doesn't exist, since the motion grazes a stop.
+  [[nodiscard]] bool grazes() const { return is_sought_ && stability_.grazes(); }
+
+  [[nodiscard]] Values finish(const ObservedSpan& span, double, double) const {
+    if (!is_sought_ || grazes()) return {};
+    return {sensitivities(course_, span, keys_)};
+  }
+  [[nodiscard]] double evaluations() const { return stability_.evaluations(); }  ///< of arcs
+
+ private:
+  void end_with(const motion::Event& event) {
+    if (!course_.empty()) course_.back().end = event;
+  }
+
+  const std::vector<Parameter>& keys_;
+  bool is_sought_;
+  Stability::Observer stability_;  ///< tells grazes
+  Course course_{};
+};
+
+}  // namespace clatter::observables
