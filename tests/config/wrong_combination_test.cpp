@@ -139,7 +139,8 @@ TEST(Together, sensitivity_names_keys_of_steady_motion) {
     return by + "[observe]\nsensitivity = \"" + names + "\"\n";
   };
   const std::vector<Wrong> table{
-      {asked(scene, "R, hh"), "5:15", "sensitivity names 'hh', which is no key of [scene]; did you mean 'h'?"},
+      {asked(scene, "R, stifness"), "5:15",
+       "sensitivity names 'stifness', which is no key of [scene]; did you mean 'stiffness'?"},
       {asked(scene, "R,"), "5:15", "sensitivity names ''"},
       {asked(scene, "R, R"), "5:15", "sensitivity names 'R' twice; name each key once"},
       {asked(scene, "x0"), "5:15", "sensitivity names 'x0', a start, which steady motion doesn't depend on"},

@@ -97,7 +97,8 @@ TEST(EveryKey, of_the_wrong_kind_says_what_is_expected) {
       for (const char* value : {"1", "true", "[\"a\"]"}) expect_wrong_value(key, value, words, "toml");
     }
     if (key.kind == Kind::choice) expect_wrong_value(key, "\"?\"", words);
-    if (key.kind == Kind::names) expect_wrong_value(key, "\"nu\"", "is no axis of [sweep]");
+    if (key.kind == Kind::names && key.section == "sweep") expect_wrong_value(key, "\"nu\"", "is no axis of [sweep]");
+    if (key.kind == Kind::names && key.section != "sweep") expect_wrong_value(key, "\"?\"", "is no key of [scene]");
   }
 }
 
