@@ -12,7 +12,7 @@ import netCDF4
 import numpy
 import xarray
 
-from runs import CLATTER, RunTest, toml
+from runs import CLATTER, RunTest, quoted, toml
 
 SHAKEN = {"h": 0.1, "R": 0.7, "xs": 0.5, "nu": 1.3, "stop_amplitude": 0.3, "phase": 0.4}
 ASKED = ("x_min", "x_max", "v_min", "v_max", "x_amplitude", "x_phase", "v_amplitude", "v_phase", "x", "v", "section_x")
@@ -28,7 +28,8 @@ class FrameOfFiles(RunTest):
 
     def test_impacts_as_the_ground_sees_them_differ_by_the_velocity_of_the_stops(self):
         for frame in ("relative", "absolute"):
-            with h5py.File(self.run_in(frame)) as file:
+            config = toml(scene={**SHAKEN, "xs": 0.1}, observe={"impact_log": True, "frame": quoted(frame)})
+            with h5py.File(self.run_clatter(config, name=frame)) as file:
                 theta, before = file["impact_phase"][:], file["impact_v_before"][:]
                 absolute = file["impact_v_before_absolute"]
                 self.assertEqual(absolute.attrs["frame"], "absolute")
