@@ -45,6 +45,10 @@ draw one_stop --only x_min,x_max --size 5x3.8
 draw drive_si --only impact_power --size 5x3.5 --title "The paper's vibration drive in SI"
 draw drill --only impact_power --size 5x3.8
 draw bouncing_ball --only section_v --size 5x3.5
+"$clatter" run "$source_dir/configs/bouncing_ball.toml" --set sweep.f='linspace(0.36, 1.5, 229)' --set time.window=200 \
+  --set observe.section=0 --set observe.stability=false --set observe.impact_log=true -o "$work/bouncing_ball_phases.h5" -q
+"$source_dir/scripts/plot.py" "$work/bouncing_ball_phases.h5" --only impact_phase --size 5x3.5 \
+  --title 'Impacts of a ball on a shaken table' --format svg -o "$out"
 draw gear_rattle --only x_min,x_max,impact_power --size 7x3.5
 draw harvester --only impact_power --size 5x3.8
 draw soft_bumper --only contact_force_max --log xy --size 5x3.5

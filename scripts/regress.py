@@ -160,7 +160,8 @@ class Comparison:
         apart = numpy.where(a == b, 0, math.inf) if is_text else difference(a, b)
         sized = numpy.ones(1) if is_text else a
         if name.endswith("_phase"):  # that of a zero amplitude is noise, and pi is -pi
-            amplitude = new.variables[name.replace("_phase", "_amplitude")].rows[:: old.step]
+            amplitudes = new.variables.get(name.replace("_phase", "_amplitude"))  # impacts have none
+            amplitude = amplitudes.rows[:: old.step] if amplitudes else numpy.ones(a.shape)
             error = numpy.abs(amplitude) * numpy.abs(numpy.remainder(apart + math.pi, 2 * math.pi) - math.pi)
             if ((apart > self.tolerance) & (error <= self.tolerance * scale(amplitude))).any():
                 self.permitted.append(f"{name} by whole turns or of no amplitude")

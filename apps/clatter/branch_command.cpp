@@ -26,7 +26,8 @@ std::string special_text(const SpecialPoint& special, const std::vector<Paramete
   for (const Parameter parameter : parameters)
     text += std::string(parameter.key()) + " = " + formatted("%-18.15g", value_of(special.at.scene, parameter)) + ' ';
   const double speed = factor_of(units, Quantity::velocity) * branches::impact_speed(special.at.orbit);
-  text += "speed " + formatted("%-18.15g", speed) + ' ' + (word.empty() ? "no impacts" : word) +
+  text += "speed " + formatted("%-18.15g", speed) + ' ' +
+          (word == observables::ImpactWord::no_contact ? "no impacts" : word) +
           (parameters.size() > 1 ? "  curve" : "  branch");
   if (special.branches.size() > 1) text += parameters.size() > 1 ? "s" : "es";
   for (const std::size_t branch : special.branches) text += ' ' + std::to_string(branch);

@@ -7,7 +7,7 @@
 namespace verify {
 namespace {
 
-void check_response(const Certificate& certificate, const Response& found, Report& report) {
+void check_response(const Certificate& certificate, const Scene& scene, const Response& found, Report& report) {
   if (certificate.periods != 1)
     report.add(Verdict::refuted, "periods: claimed " + std::to_string(certificate.periods) + ", found 1");
   report.compare("start, x", found.start.x, certificate.start_x);
@@ -15,13 +15,14 @@ void check_response(const Certificate& certificate, const Response& found, Repor
   if (certificate.x_min) report.compare("x_min", found.x_min, *certificate.x_min);
   if (certificate.x_max) report.compare("x_max", found.x_max, *certificate.x_max);
   check_multipliers(certificate, found.derivative, report);
-  check_word(certificate, {}, report);
+  check_word(certificate, {}, scene, found.start.x, report);
   if (certificate.symmetric == false) report.add(Verdict::refuted, "symmetric: claimed false, found true");
 }
 
 void check_periodic(const Certificate& certificate, Report& report) {
   const Scene scene = certificate.scene_in_balls();
-  if (const auto response = steady_response(certificate, scene)) return check_response(certificate, *response, report);
+  if (const auto response = steady_response(certificate, scene))
+    return check_response(certificate, scene, *response, report);
   const Orbit orbit = claimed_orbit(certificate, scene);
   compare_events(certificate, orbit.events, report);
   if (!certificate.released) {
@@ -30,7 +31,7 @@ void check_periodic(const Certificate& certificate, Report& report) {
   }
   compare_extrema(certificate, orbit.motion, orbit.events, scene, report);
   check_multipliers(certificate, orbit.derivative, report);
-  check_word(certificate, orbit.events, report);
+  check_word(certificate, orbit.events, scene, orbit.first.x, report);
   if (!certificate.released) check_smallest_period(certificate, scene, orbit, report);
   check_symmetry(certificate, scene, orbit, report);
 }

@@ -49,7 +49,8 @@ double range_error(double low, double high, const observables::Range& reference)
 
 std::vector<Event> events_of(const point::PointResult& result) {
   std::vector<Event> events;
-  for (const motion::Impact& impact : result.log) events.push_back(event_of(impact));
+  for (const observables::LoggedImpact& impact : result.log)
+    events.push_back({Event::Kind::impact, impact.side, impact.time, impact.before, 0.0, impact.after});
   for (const motion::Rest& rest : result.rests) events.push_back(event_of(rest));
   std::ranges::stable_sort(events, {}, &Event::time);  // an impact before the rest that it begins
   return events;

@@ -53,6 +53,10 @@ std::optional<Round> run_round(const point::Problem& problem, std::size_t period
   return round;
 }
 
+std::string word_of(const point::Problem& problem, const Round& round) {
+  return observables::ImpactWord::word_of(round.contacts, soft_stop_beyond(problem.stops, round.orbit.states[0].x));
+}
+
 std::optional<PhasePoint> state_after(const point::Problem& problem, double turns) {
   const auto motion = point::ExactMotion::of(problem);
   point::MotionRecorder recorder(motion->stops());

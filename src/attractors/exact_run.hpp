@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "observables/impact_word.hpp"
@@ -27,6 +28,9 @@ struct Round {
 /// fails. If the states at the sections are given, each period is run from its own.
 [[nodiscard]] std::optional<Round> run_round(const point::Problem& problem, std::size_t periods,
                                              std::span<const motion::State<double>> sections = {});
+
+/// The impact word of a round.
+[[nodiscard]] std::string word_of(const point::Problem& problem, const Round& round);
 
 /// The state so many forcing periods after the start; nothing if the run fails.
 [[nodiscard]] std::optional<PhasePoint> state_after(const point::Problem& problem, double turns);

@@ -58,7 +58,7 @@ PeriodicMotion described(const point::Problem& problem, const Round& round) {
     log_area += round.orbit.passages[i].log_area;
   }
   motion.contracts = log_area < -1e-12;
-  motion.word = ImpactWord::word_of(round.contacts);
+  motion.word = word_of(problem, round);
   motion.regime = ImpactWord::regime_of(round.contacts, static_cast<double>(periods));
   motion.middle_of_flight = round.middle_of_flight;
   return motion;
@@ -114,7 +114,13 @@ PeriodicMotion standstill(const point::Problem& problem, double x) {
   double size = larger_of(x, equilibrium_of(problem.oscillator));
   for (const double stop : {problem.stops.lower, problem.stops.upper})
     if (std::isfinite(stop)) size = std::max(size, std::abs(stop));
-  return {.cycle = {{x, 0.0}}, .word = {}, .regime = {}, .size = std::max(size, 1.0), .contracts = true};
+  const Stops& stops = problem.stops;
+  const Side on = x == stops.lower ? Side::lower : x == stops.upper ? Side::upper : soft_stop_beyond(stops, x);
+  return {.cycle = {{x, 0.0}},
+          .word = ImpactWord::word_of({}, on),
+          .regime = {},
+          .size = std::max(size, 1.0),
+          .contracts = true};
 }
 
 std::optional<PhasePoint> mirrored(const point::Problem& problem, const PhasePoint& state) {

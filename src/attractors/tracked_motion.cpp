@@ -106,8 +106,8 @@ bool TrackedMotion::correct(const point::Problem& problem) {
     const motion::Perturbation step = steady::newton_step(round->orbit.derivative(), round->orbit.gap());
     const double length = step.size();
     if (length <= enough)
-      return observables::ImpactWord::word_of(round->contacts) == word_ &&
-             steady::spectral_radius(round->orbit.derivative()) < 1 && move_section(problem, *round);
+      return word_of(problem, *round) == word_ && steady::spectral_radius(round->orbit.derivative()) < 1 &&
+             move_section(problem, *round);
     if (!(length <= before / 4)) return false;
     before = length;
     state_ = inside(problem.stops, {state_.x + step.x, state_.v + step.v});

@@ -111,6 +111,28 @@ bool no_period(const Settings& settings) {
   return !lower->is_axis() && !upper->is_axis() && lower->numbers()[0] != -upper->numbers()[0];
 }
 
+/// Whether a parameter is given, and a test holds for it at every point.
+template <typename Test>
+bool given_everywhere(const Settings& settings, Parameter parameter, Test test) {
+  return settings.given(parameter) != nullptr && everywhere(settings, parameter, test);
+}
+/// Damping brings motion that nothing drives to a standstill, which has no period and passes nothing.
+bool comes_to_a_standstill(const Settings& settings) {
+  const auto damps = [&](Parameter parameter) {
+    return given_everywhere(settings, parameter, [](double value) { return value > 0 && std::isfinite(value); });
+  };
+  return steady(settings) && unforced(settings) &&
+         (damps("h") || damps("damping") || damps("damping_ratio") || damps("quality"));
+}
+/// Without a spring a section is taken at x = 0, to which a rigid stop at 0 or beyond lets no mass rise.
+bool never_passes_zero(const Settings& settings) {
+  const bool above =
+      no_soft_lower(settings) && given_everywhere(settings, "stop_lower", [](double value) { return value >= 0; });
+  const bool below =
+      no_soft_upper(settings) && given_everywhere(settings, "stop_upper", [](double value) { return value <= 0; });
+  return unforced(settings) && given_everywhere(settings, "stiffness", zero) && (above || below);
+}
+
 /// A condition under which a key has no effect, and how it would have one.
 struct Rule {
   std::string_view section, name;
@@ -120,6 +142,9 @@ struct Rule {
 
 constexpr std::string_view in_transient = "in a transient", or_steady = "write mode = \"steady\" in [time]";
 constexpr std::string_view no_force = "without a force", or_force = "give a force";
+constexpr std::string_view standstill =
+    "without a force, since damping brings the mass to a standstill: its values will be NaN";
+constexpr std::string_view or_drive = "give a force, or mode = \"transient\" in [time]";
 constexpr std::string_view or_soft = "give a finite stop_stiffness";
 constexpr std::string_view or_stops = "give stops";
 constexpr std::string_view no_harmonic = "without harmonics", or_harmonics = "write e.g. harmonics = 3";
@@ -152,8 +177,14 @@ constexpr Rule rules[] = {
     {"observe", "settling", transient, in_transient, or_steady},
     {"observe", "settling", unforced, no_force, or_force},
     {"observe", "attractor", transient, in_transient, or_steady},
+    {"observe", "section", comes_to_a_standstill, standstill, or_drive},
+    {"observe", "section", never_passes_zero,
+     "without a force and a spring, since between these stops the mass never passes x = 0 on its way up: its values "
+     "will be NaN",
+     or_force},
     {"observe", "section_phase", no_section, "without a section", "write e.g. section = 500"},
     {"observe", "section_phase", unforced, no_force, or_force},
+    {"observe", "period", comes_to_a_standstill, standstill, or_force},
     {"observe", "period", no_period, "in a transient, which has none: its values will be NaN", or_steady},
     {"observe", "frame", unshaken, "without stop_amplitude or base_amplitude", "give one of them in [scene]"},
     {"observe", "frame", frameless, "without displacements or velocities of the mass", "write e.g. extrema = true"},

@@ -119,5 +119,20 @@ template <class Number>
   return {-c, s};
 }
 
+/// An angle in turns, -1/2 ... 1/2: by sine and cosine, so that no digit of it is lost, however large it is.
+template <class Number>
+[[nodiscard]] Number turns_of(const Number& angle) {
+  using std::atan2, std::cos, std::sin;
+  return atan2(Number(sin(angle)), Number(cos(angle))) / (2 * pi<Number>());
+}
+
+/// The part of a turn of an angle in turns, in [0, 1).
+template <class Number>
+[[nodiscard]] Number part_of_turn(const Number& turns) {
+  using std::floor;
+  const Number part = turns - floor(turns);
+  return part == 1 ? Number(0) : part;  // rounded up
+}
+
 }  // namespace math
 }  // namespace clatter

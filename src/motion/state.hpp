@@ -38,20 +38,22 @@ struct Motion {
 
 /// One impact, as it is reported to observers.
 struct Impact {
-  double time;      ///< tau since observation began
-  Side side;        ///< the stop that is hit
-  double before;    ///< velocity before
-  double after;     ///< velocity after
-  double position;  ///< of the stop
+  double time;         ///< tau since observation began
+  Side side;           ///< the stop that is hit
+  double before;       ///< velocity before
+  double after;        ///< velocity after
+  double position;     ///< of the stop
+  double turns = 0.0;  ///< forcing periods since the section before it, 0 ... 1
 };
 
 /// The beginning of a contact with a soft stop, as it is reported to observers.
 struct Touch {
-  double time;        ///< tau since observation began
-  Side side;          ///< the stop
-  double velocity;    ///< of the mass
-  double position;    ///< of the stop
-  bool from_outside;  ///< the mass passes that position; false: beyond it, it meets a stop that it had outrun
+  double time;         ///< tau since observation began
+  Side side;           ///< the stop
+  double velocity;     ///< of the mass
+  double position;     ///< of the stop
+  bool from_outside;   ///< the mass passes that position; false: beyond it, it meets a stop that it had outrun
+  double turns = 0.0;  ///< forcing periods since the section before it, 0 ... 1
 };
 
 /// The end of a contact with a soft stop: its force falls to 0.

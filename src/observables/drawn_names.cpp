@@ -57,6 +57,8 @@ constexpr NamedVariable names[] = {
     {"v", {"velocity", "$x$′"}},
     {"impact_tau", {"time", "$\\tau$"}, Name{"time", "$t$"}},
     {"impact_v_before", {"velocity before impact", "$x$′$^{{-}}$"}},
+    {"impact_v_before_absolute", {"velocity before impact", "$x$′$^{{-}}$"}},
+    {"impact_phase", {"forcing phase of the impact", "$\\theta$"}},
     {"section_x", {"displacement", "$x$"}},
     {"section_v", {"velocity", "$x$′"}},
     {"x_min", {"minimum", "$x_{\\min}$"}},

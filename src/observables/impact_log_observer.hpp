@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include "math/number.hpp"
 #include "motion/state.hpp"
 #include "observables/impact_log.hpp"
 
@@ -12,22 +13,28 @@ namespace clatter::observables {
 class ImpactLog::Observer {
  public:
   Observer() = default;
-  Observer(const Settings& settings, const ObservedSpan&) : full_(settings.full_log) {}
+  Observer(const Settings& settings, const ObservedSpan& span)
+      : full_(settings.full_log),
+        drive_(span.scene.oscillator.forcing != 0 ? Drive::force
+               : is_shaken(span.scene.shaking)    ? Drive::shaking
+                                                  : Drive::none),
+        shaking_(span.scene.shaking),
+        frequency_(span.scene.oscillator.frequency),
+        begin_(turns_of(span.theta)) {}
 
   template <class A>
   void arc(const A&, double, double) {}
   void rest(const motion::Rest& rest) {
     if (full_) values_.rests.push_back(rest);
   }
-  void impact(const motion::Impact& impact) { values_.log.push_back(impact); }
+  void impact(const motion::Impact& impact) { log(impact, impact.before, impact.after); }
   void impact_at_start(const motion::Impact& at_start) {
     if (full_) impact(at_start);
   }
   /// A contact with a soft stop is logged with the velocities at its beginning and where the stop's force first falls
   /// to 0, NaN if that isn't observed: beyond the stop's position the contact may be renewed after that.
   void touch(const motion::Touch& touch) {
-    if (!touch.from_outside) return;
-    values_.log.push_back({touch.time, touch.side, touch.velocity, no_value, touch.position});
+    if (touch.from_outside) log(touch, touch.velocity, no_value);
   }
   void separate(const motion::Separation& separation) {
     if (!values_.log.empty() && values_.log.back().side == separation.side && std::isnan(values_.log.back().after))
@@ -36,11 +43,36 @@ class ImpactLog::Observer {
   /// The response meets no stop.
   bool response(const ObservedSpan&, double) { return true; }
 
-  [[nodiscard]] const std::vector<motion::Impact>& impacts() const { return values_.log; }
+  [[nodiscard]] const std::vector<LoggedImpact>& impacts() const { return values_.log; }
   [[nodiscard]] Values finish(const ObservedSpan&, double, double) { return std::move(values_); }
 
  private:
+  /// Whence the forcing phase is known: runs count time in periods of the force, if one is left in the moving frame.
+  enum class Drive { none, force, shaking };
+
+  template <class Contact>
+  void log(const Contact& contact, double before, double after) {
+    LoggedImpact logged{
+        .time = contact.time, .before = before, .after = after, .absolute = before, .side = contact.side};
+    if (drive_ != Drive::none) {
+      const double since = drive_ == Drive::force ? contact.turns : frequency_ * contact.time / (2 * pi<double>());
+      const double turns = part_of_turn(begin_ + since);
+      logged.phase = 2 * pi<double>() * turns;
+      if (is_shaken(shaking_)) logged.absolute += velocity_of_stops(turns);
+    }
+    values_.log.push_back(logged);
+  }
+  /// At a forcing phase, in turns.
+  [[nodiscard]] double velocity_of_stops(double turns) const {
+    const double amplitude = shaking_.stops + shaking_.base;
+    return amplitude * frequency_ * sine_cosine_of_turns(turns + turns_of(shaking_.phase)).cosine;
+  }
+
   bool full_ = false;
+  Drive drive_ = Drive::none;
+  Shaking shaking_{};
+  double frequency_ = 0.0;  ///< nu
+  double begin_ = 0.0;      ///< forcing phase at the beginning of the observed time, turns
   Values values_;
 };
 

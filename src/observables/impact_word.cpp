@@ -65,8 +65,12 @@ std::vector<Column<ImpactWord::Values>> ImpactWord::columns(const Settings&) {
           scalar("symmetric", "1: half a period later the motion is its mirror image", &Values::symmetric)};
 }
 
-std::string ImpactWord::word_of(const std::vector<Contact>& contacts) {
+std::string ImpactWord::word_of(const std::vector<Contact>& contacts, Side within) {
   std::vector<Letter> letters = letters_of(contacts);
+  if (letters.empty()) {
+    const Side side = contacts.empty() ? within : contacts.front().side;
+    return std::string(side == Side::none ? no_contact : side == Side::upper ? "(U)" : "(L)");
+  }
   std::rotate(letters.begin(), letters.begin() + static_cast<std::ptrdiff_t>(first_rotation(letters)), letters.end());
   std::string word;
   for (const Letter letter : letters) {
@@ -110,7 +114,7 @@ bool ImpactWord::Observer::is_mirrored(const ObservedSpan& span, double x, doubl
 ImpactWord::Values ImpactWord::Observer::finish(const ObservedSpan& span, double x, double v) const {
   Values values;
   if (!span.periodic) return values;
-  values.impact_word = word_of(contacts_);
+  values.impact_word = word_of(contacts_, soft_stop_beyond(span.scene.stops, x));
   if (span.scene.oscillator.forcing != 0) values.regime = regime_of(contacts_, span.turns);
   if (is_symmetric(span.scene)) values.symmetric = is_mirrored(span, x, v) ? 1.0 : 0.0;
   return values;

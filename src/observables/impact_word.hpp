@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <string>
+#include <string_view>
 #include <tuple>
 #include <vector>
 
@@ -17,10 +18,11 @@ struct ImpactWord {
     bool word = false;
   };
   struct Values {
-    std::string impact_word{}, regime{};  ///< empty: no period, and no impact or no force
+    std::string impact_word{}, regime{};  ///< empty: no period; of the regime also no force
     double symmetric = no_value;          ///< 1 or 0; NaN: no period, or the scene isn't symmetric
   };
-  static constexpr std::size_t longest = 64;  ///< characters of a word
+  static constexpr std::size_t longest = 64;           ///< characters of a word
+  static constexpr std::string_view no_contact = "-";  ///< the word of motion that meets no stop
   static constexpr std::tuple fields{Field{Key{"observe", "word", Kind::flag, "false", "true",
                                                "impacts of one period in order, e.g. LLU (L lower, U upper stop), "
                                                "their number over periods, symmetry of the motion"},
@@ -39,8 +41,9 @@ struct ImpactWord {
     Side side;
   };
   /// The stops of the impacts of one period in order, from the rotation on that sorts first. Impacts that end in rest
-  /// are one L* or U*: how many of them were taken says nothing about the motion.
-  [[nodiscard]] static std::string word_of(const std::vector<Contact>& contacts);
+  /// are one L* or U*: how many of them were taken says nothing about the motion. Motion without impacts stays on a
+  /// stop, (L) or (U), if the mass rests there or `within` is the soft stop that it is beyond; else it meets none.
+  [[nodiscard]] static std::string word_of(const std::vector<Contact>& contacts, Side within = Side::none);
   /// "n/p": the larger number of impacts on one stop, "inf" if they end in rest, in p forcing periods.
   [[nodiscard]] static std::string regime_of(const std::vector<Contact>& contacts, double periods);
 

@@ -52,6 +52,7 @@ struct Coordinate {
 enum class FrameOf : std::uint8_t {
   any,       ///< the values are the same in both
   relative,  ///< always that of what is shaken
+  absolute,  ///< always that of the ground
   observed   ///< the one that is asked for
 };
 
@@ -138,6 +139,7 @@ struct ObservedSpan {
   double base_frequency = 0.0;  ///< of harmonics
   double base_turns = 0.0;      ///< turns of the base frequency in it
   double uncertainty = 0.0;     ///< of displacements and velocities: rounding, and after a repeat its tolerance
+  double theta = 0.0;           ///< forcing phase at its beginning, as the scene gives it, rad
   bool periodic = false;        ///< it is a period of the motion
   bool transient = false;       ///< it begins at the start of the scene
   bool undecided = false;       ///< whether the motion has a period isn't known

@@ -101,7 +101,7 @@ double bytes_for(const sweep::Sweep& sweep, const std::vector<results::ShardHead
 std::optional<double> most_values_of(const results::ShardHeader& header) try {
   const sweep::Sweep sweep = config::parse_config(header.config, header.path).sweep;
   const double logged =
-      sweep.problem.observe.impact_log ? sweep::logged_values * static_cast<double>(header.impacts) : 0.0;
+      sweep.problem.observe.impact_log ? sweep::logged_values(sweep) * static_cast<double>(header.impacts) : 0.0;
   return most_values(sweep, header.shard) + logged;
 } catch (const config::ConfigError&) {
   return std::nullopt;

@@ -19,8 +19,8 @@ constexpr double thread = 64 * kibi;            ///< stack and heap of a thread
 constexpr double value = sizeof(double);
 
 constexpr double short_text = 2 * sizeof(std::string);  ///< most are short; in the file a reference, a header, letters
-constexpr double logged = 3 * sizeof(double) + sizeof(std::int8_t);  ///< an impact in the file
-constexpr double heap = 2 * sizeof(void*);                           ///< overhead of a block
+constexpr double heap = 2 * sizeof(void*);              ///< overhead of a block
+constexpr double held_impact = sizeof(observables::LoggedImpact);
 constexpr double lone_block = 128 * kibi;  ///< size from which on a block is returned to the system by itself
 
 /// Sizes of everything that is held value by value, in bytes.
@@ -33,6 +33,7 @@ struct Parts {
   double largest = 0.0;       ///< largest variable of the file
   double impacts = 0.0;       ///< number of impacts in the log
   double counts = 0.0;        ///< the numbers of impacts of each point
+  double logged = 0.0;        ///< an impact in the file
 
   [[nodiscard]] double logged_in_file() const { return impacts * logged + counts; }
 };
@@ -84,6 +85,7 @@ Parts parts_of(const sweep::Sweep& sweep, const std::optional<results::Shard>& s
   if (sweep.problem.observe.attractor) add_numbering(sweep, parts);
   if (!sweep.problem.observe.impact_log) return parts;
   parts.impacts = impacts, parts.counts = sizeof(std::int64_t) * parts.points;
+  parts.logged = static_cast<double>(observables::log_columns(is_shaken(sweep)).size()) * value + sizeof(std::int8_t);
   parts.largest = std::max(parts.largest, value * impacts);
   return parts;
 }
@@ -91,13 +93,13 @@ Parts parts_of(const sweep::Sweep& sweep, const std::optional<results::Shard>& s
 /// The log while points are computed, one vector for each.
 double held_log_bytes(const sweep::Sweep& sweep, const Parts& parts) {
   if (!sweep.problem.observe.impact_log) return 0.0;
-  return (sizeof(std::vector<motion::Impact>) + heap) * parts.points + sizeof(motion::Impact) * parts.impacts;
+  return (sizeof(std::vector<observables::LoggedImpact>) + heap) * parts.points + held_impact * parts.impacts;
 }
 
 /// The log while its columns are made. Blocks of long logs are returned to the system one after the other meanwhile.
 double log_bytes(const sweep::Sweep& sweep, const Parts& parts) {
   const double held = held_log_bytes(sweep, parts), columns = parts.logged_in_file();
-  const bool alone = sizeof(motion::Impact) * parts.impacts >= lone_block * parts.points;
+  const bool alone = held_impact * parts.impacts >= lone_block * parts.points;
   return alone ? std::max(held, columns) : held + columns;
 }
 

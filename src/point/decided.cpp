@@ -40,6 +40,13 @@ ObservedTime over_window(Status status, const Problem& problem, ObservedTime fou
   return found;
 }
 
+/// The same of one that a stop releases time and again, in one state each: it repeats once the same stop does so again.
+ObservedTime with_rests(ObservedTime found) {
+  static_assert(steady::RepeatFinder::longest == 64, "found_by_names tells it");
+  found.found_by = steady::FoundBy::rests;
+  return found;
+}
+
 /// The time to observe of a periodic motion with these states at its sections. `found.settling` holds on if the motion
 /// that was found passes one of them, so that it is known which section of the run is which of the motion.
 ObservedTime observed(const Problem& problem, ObservedTime found, std::vector<motion::State<double>> sections) {
@@ -100,7 +107,7 @@ ObservedTime Decisions::decided_by_release(const Problem& problem, ObservedTime 
   found.simulated += motion.simulated;
   if (motion.kind == Kind::periodic) return observed(problem, std::move(found), motion.sections);
   const bool aperiodic = motion.kind == Kind::longer || (motion.kind == Kind::departs && lacks_period(found.status));
-  if (aperiodic) return over_window(Status::aperiodic, problem, std::move(found));
+  if (aperiodic) return with_rests(over_window(Status::aperiodic, problem, std::move(found)));
   if (motion.kind != Kind::departs) return over_window(Status::undecided, problem, std::move(found));
   // if motion without a rest attracts it, that is told
   Problem later = problem;

@@ -23,12 +23,16 @@ struct Problem : Scene, RunSettings {
   std::shared_ptr<const GivenScene> given{};  ///< the user's numbers, if derivatives by them are asked for
 };
 
+/// The forcing phase theta, as the scene gives it, a time after the start of a problem, rad.
+[[nodiscard]] inline double forcing_phase(const Problem& problem, double after = 0.0) {
+  return problem.start.phase - problem.shaking.lead + problem.oscillator.frequency * after;
+}
+
 /// The motion of the frame from the start of a problem on, or from a time after it, if absolute motion is asked for and
 /// something is shaken.
 [[nodiscard]] inline std::optional<FrameMotion> observed_frame(const Problem& problem, double after = 0.0) {
   if (problem.observe.frame == Frame::relative || !is_shaken(problem.shaking)) return std::nullopt;
-  const double phase = problem.start.phase - problem.shaking.lead + problem.oscillator.frequency * after;
-  return FrameMotion(problem.shaking, problem.oscillator, phase);
+  return FrameMotion(problem.shaking, problem.oscillator, forcing_phase(problem, after));
 }
 
 /// The limits of a run of a problem.

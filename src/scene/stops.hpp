@@ -45,6 +45,12 @@ template <class Number>
   return is_soft(stops, Side::lower) || is_soft(stops, Side::upper);
 }
 
+/// The soft stop beyond whose position a displacement lies; none if there is none.
+[[nodiscard]] inline Side soft_stop_beyond(const Stops& stops, double x) {
+  if (x < stops.lower && is_soft(stops, Side::lower)) return Side::lower;
+  return x > stops.upper && is_soft(stops, Side::upper) ? Side::upper : Side::none;
+}
+
 /// The stops that the mass can't pass: soft ones count as none.
 [[nodiscard]] inline Stops rigid_ones(Stops stops) {
   if (is_soft(stops, Side::lower)) stops.lower = -std::numeric_limits<double>::infinity();

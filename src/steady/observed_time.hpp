@@ -18,12 +18,14 @@ enum class FoundBy : std::uint8_t {
   newton,       ///< Newton's method on the stroboscopic map
   repetition,   ///< the state came back
   standstill,   ///< nothing moves any more
-  nothing       ///< the motion doesn't repeat, or the point has failed
+  nothing,      ///< the motion doesn't repeat, or the point has failed
+  rests         ///< no repeat among those that are looked for, but a stop releases the mass time and again
 };
 
 /// Names for output, in the order of FoundBy.
-inline constexpr std::array<const char*, 7> found_by_names{"transient",  "closed form", "energy",   "Newton's method",
-                                                           "repetition", "standstill",  "no repeat"};
+inline constexpr std::array<const char*, 8> found_by_names{
+    "transient",  "closed form", "energy",    "Newton's method",
+    "repetition", "standstill",  "no repeat", "probable repeat beyond 64 periods"};
 
 /// The time that is observed: its first state, its length, and the kind of its motion.
 struct ObservedTime {

@@ -188,12 +188,9 @@ class EventDriven : public IntegratorBase<N, E> {
 
   /// The phase at which a stop releases a mass, in turns since the section, 0 ... 1: the same number after every rest.
   [[nodiscard]] std::optional<Number> release_turns(const motion::Stop<Number>& stop) const {
-    using std::floor;
     const auto phase_of_release = release_phase(this->constants(), stop);
     if (!phase_of_release) return std::nullopt;
-    Number release = *phase_of_release - this->start_turns();
-    release -= floor(release);
-    return release == 1 ? Number(0) : release;  // rounded up
+    return part_of_turn(Number(*phase_of_release - this->start_turns()));
   }
 
   /// Holds the mass until its release or until `end`, whichever is first.

@@ -39,7 +39,7 @@ class IntegratorBase {
         soft_(constants_, stops_),
         budget_(limits.impacts),
         longest_(limits.periods),
-        start_turns_(turns_of(scene.start.phase)) {}
+        start_turns_(turns_of(Number(scene.start.phase))) {}
 
   /// Called with the share of its limits that a run has spent, several times a second in a long run.
   using Listener = std::function<void(double share)>;
@@ -106,14 +106,16 @@ class IntegratorBase {
   void show_impact(const motion::State<Number>& state, const motion::Stop<Number>& stop, const Number& before,
                    std::int64_t origin, Observer& observer) const {
     observer.impact(motion::Impact{time(state, origin), stop.side, static_cast<double>(before),
-                                   static_cast<double>(state.v), static_cast<double>(stop.position)});
+                                   static_cast<double>(state.v), static_cast<double>(stop.position),
+                                   static_cast<double>(state.phase_turns)});
   }
   template <class Observer>
   void show_touch(const motion::State<Number>& state, bool from_outside, std::int64_t origin,
                   Observer& observer) const {
     if constexpr (requires { observer.touch(motion::Touch{}); })
       observer.touch(motion::Touch{time(state, origin), state.within, static_cast<double>(state.v),
-                                   state.within == Side::upper ? stops_.upper : stops_.lower, from_outside});
+                                   state.within == Side::upper ? stops_.upper : stops_.lower, from_outside,
+                                   static_cast<double>(state.phase_turns)});
   }
   template <class Observer>
   void show_separation(const motion::State<Number>& state, Side side, std::int64_t origin, Observer& observer) const {
@@ -137,12 +139,6 @@ class IntegratorBase {
  private:
   static constexpr double between_reports = 1 << 18;  ///< evaluations: about a tenth of a second
   static constexpr double infinity = std::numeric_limits<double>::infinity();
-
-  [[nodiscard]] static Number turns_of(double phase) {
-    using std::atan2, std::cos, std::sin;
-    const Number angle(phase);
-    return atan2(Number(sin(angle)), Number(cos(angle))) / (2 * pi<Number>());
-  }
 
   motion::ArcConstants<Number, E.arc()> constants_;
   Stops stops_;

@@ -22,7 +22,8 @@ observables::FrameOf frame_of(Parameter parameter) {
 
 void name_frame(const Sweep& sweep, observables::FrameOf frame, results::Variable& variable) {
   if (frame == observables::FrameOf::any || !is_shaken(sweep)) return;
-  const bool is_absolute = frame == observables::FrameOf::observed && sweep.problem.observe.frame == Frame::absolute;
+  const bool is_absolute = frame == observables::FrameOf::absolute ||
+                           (frame == observables::FrameOf::observed && sweep.problem.observe.frame == Frame::absolute);
   const Frame given = is_absolute ? Frame::absolute : Frame::relative;
   variable.attributes.emplace_back("frame", std::string(frame_names[static_cast<std::size_t>(given)]));
 }

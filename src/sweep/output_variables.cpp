@@ -46,4 +46,8 @@ double most_values(const Sweep& sweep, const std::optional<results::Shard>& shar
   return of_point * static_cast<double>(Share(sweep, shard).points()) + coordinates;
 }
 
+double logged_values(const Sweep& sweep) {
+  return 1 + static_cast<double>(observables::log_columns(is_shaken(sweep)).size());  // the stop, too
+}
+
 }  // namespace clatter::sweep

@@ -31,6 +31,6 @@ using OutputVariable = observables::Column<point::PointResult>;
 /// Upper bound of the number of values in all variables of a sweep or a shard, except its impact log; an impact there
 /// has `logged_values`.
 [[nodiscard]] double most_values(const Sweep& sweep, const std::optional<results::Shard>& shard);
-inline constexpr double logged_values = 4;
+[[nodiscard]] double logged_values(const Sweep& sweep);
 
 }  // namespace clatter::sweep

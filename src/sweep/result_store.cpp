@@ -13,6 +13,8 @@
 namespace clatter::sweep {
 namespace {
 
+using observables::LogColumn, observables::LoggedImpact;
+
 template <class T>
 requires std::is_trivially_copyable_v<T>
 void append(std::vector<std::byte>& to, std::span<const T> values) {
@@ -44,9 +46,9 @@ bool take_off_text(std::span<const std::byte>& from, std::string& text) {
 }
 
 /// The number of impacts in the whole log, so that its columns are allocated at once.
-std::size_t impacts_in(const std::vector<std::vector<motion::Impact>>& log) {
+std::size_t impacts_in(const std::vector<std::vector<LoggedImpact>>& log) {
   std::size_t impacts = 0;
-  for (const std::vector<motion::Impact>& of_point : log) impacts += of_point.size();
+  for (const std::vector<LoggedImpact>& of_point : log) impacts += of_point.size();
   return impacts;
 }
 
@@ -114,9 +116,8 @@ void ResultStore::to_users_units(std::size_t local_index, const Units& units) {
       value *= factor;
   }
   if (log_.empty()) return;
-  const double time = factor_of(units, Quantity::time), velocity = factor_of(units, Quantity::velocity);
-  for (motion::Impact& impact : log_[local_index])
-    impact.time *= time, impact.before *= velocity, impact.after *= velocity;
+  for (const LogColumn& column : observables::log_columns_of_shaken)
+    for (LoggedImpact& impact : log_[local_index]) impact.*column.member *= factor_of(units, column.quantity);
 }
 
 std::size_t ResultStore::most_packed_without_log() const {
@@ -127,7 +128,7 @@ std::size_t ResultStore::most_packed_without_log() const {
 }
 
 std::size_t ResultStore::most_packed(std::size_t local_index) const {
-  return most_packed_without_log() + (log_.empty() ? 0 : log_[local_index].size() * sizeof(motion::Impact));
+  return most_packed_without_log() + (log_.empty() ? 0 : log_[local_index].size() * sizeof(LoggedImpact));
 }
 
 void ResultStore::pack(std::size_t local_index, std::vector<std::byte>& to) const {
@@ -142,7 +143,7 @@ void ResultStore::pack(std::size_t local_index, std::vector<std::byte>& to) cons
   if (log_.empty()) return;
   const std::uint64_t count = log_[local_index].size();
   append(to, std::span(&count, 1));
-  append(to, std::span<const motion::Impact>(log_[local_index]));
+  append(to, std::span<const LoggedImpact>(log_[local_index]));
 }
 
 bool ResultStore::unpack(std::size_t local_index, std::span<const std::byte>& from) {
@@ -156,7 +157,7 @@ bool ResultStore::unpack(std::size_t local_index, std::span<const std::byte>& fr
   }
   std::uint64_t count = 0;
   if (!whole || log_.empty()) return whole;
-  if (!take_off(from, std::span(&count, 1)) || count > from.size() / sizeof(motion::Impact)) return false;
+  if (!take_off(from, std::span(&count, 1)) || count > from.size() / sizeof(LoggedImpact)) return false;
   log_[local_index].resize(static_cast<std::size_t>(count));
   return take_off(from, std::span(log_[local_index]));
 }
@@ -203,24 +204,27 @@ void ResultStore::take(results::Dataset& dataset, const results::Shard& shard) {
 
 void ResultStore::take_impact_log(results::Dataset& dataset, std::span<const std::int64_t> numbers) {
   const auto& counts = values_in<std::int64_t>(dataset, "impact_count");
-  const auto& tau = values_in<double>(dataset, "impact_tau");
   const auto& stops = values_in<std::int8_t>(dataset, "impact_stop");
-  const auto& before = values_in<double>(dataset, "impact_v_before");
-  const auto& after = values_in<double>(dataset, "impact_v_after");
   require_length("impact_count", counts.size(), numbers.size());
-  require_length("impact_stop", stops.size(), tau.size());
-  require_length("impact_v_before", before.size(), tau.size());
-  require_length("impact_v_after", after.size(), tau.size());
+  const auto columns = observables::log_columns(is_shaken(sweep_));
+  for (const LogColumn& column : columns) {
+    const std::string name(column.name);
+    require_length(name, values_in<double>(dataset, name).size(), stops.size());
+  }
   std::size_t at = 0;
   for (std::size_t i = 0; i < numbers.size(); ++i) {
     const auto end = at + static_cast<std::size_t>(counts[i]);
-    if (end < at || end > tau.size()) throw std::runtime_error("its 'impact_count' doesn't fit its 'impact_tau'");
-    std::vector<motion::Impact>& log = log_[static_cast<std::size_t>(numbers[i])];
-    log.clear(), log.reserve(end - at);
-    for (; at < end; ++at)
-      log.push_back({tau[at], static_cast<Side>(stops[at]), before[at], after[at], point::no_value});
+    if (end < at || end > stops.size()) throw std::runtime_error("its 'impact_count' doesn't fit its 'impact_stop'");
+    Log& log = log_[static_cast<std::size_t>(numbers[i])];
+    log.assign(end - at, {});
+    for (std::size_t k = 0; k < log.size(); ++k) log[k].side = static_cast<Side>(stops[at + k]);
+    for (const LogColumn& column : columns) {
+      const auto& values = values_in<double>(dataset, std::string(column.name));
+      for (std::size_t k = 0; k < log.size(); ++k) log[k].*column.member = values[at + k];
+    }
+    at = end;
   }
-  require_length("impact_tau", tau.size(), at);
+  require_length("impact_stop", stops.size(), at);
 }
 
 void ResultStore::add_always(results::Dataset& dataset) {
@@ -231,36 +235,39 @@ void ResultStore::add_always(results::Dataset& dataset) {
 }
 
 void ResultStore::add_impact_log(results::Dataset& dataset) {
+  const auto columns = observables::log_columns(is_shaken(sweep_));
   std::vector<std::int64_t> counts;
-  std::vector<double> tau, before, after;
   std::vector<std::int8_t> stops;
+  std::vector<std::vector<double>> values(columns.size());
   const std::size_t total = impacts_in(log_);
-  counts.reserve(log_.size()), tau.reserve(total), before.reserve(total), after.reserve(total), stops.reserve(total);
-  for (std::vector<motion::Impact>& impacts : log_) {
+  counts.reserve(log_.size()), stops.reserve(total);
+  for (std::vector<double>& of_column : values) of_column.reserve(total);
+  for (Log& impacts : log_) {
     counts.push_back(static_cast<std::int64_t>(impacts.size()));
-    for (const motion::Impact& impact : impacts) {
-      tau.push_back(impact.time), before.push_back(impact.before), after.push_back(impact.after);
+    for (const LoggedImpact& impact : impacts) {
       stops.push_back(static_cast<std::int8_t>(impact.side));
+      for (std::size_t i = 0; i < columns.size(); ++i) values[i].push_back(impact.*columns[i].member);
     }
-    std::vector<motion::Impact>().swap(impacts);
+    Log().swap(impacts);
   }
   log_ = {};
   malloc_trim(0);  // otherwise blocks between others stay with the process
-  const std::vector<std::string> along{"impact"};
-  const auto unit = [this](Quantity quantity) { return std::string(unit_of(quantity, sweep_.problem.is_si)); };
-  dataset.dimensions.push_back({"impact", tau.size()});
+  dataset.dimensions.push_back({"impact", total});
   dataset.variables.push_back({"impact_count", along_, std::move(counts), "impacts in the log of the point", "1"});
   dataset.variables.back().attributes = {{"sample_dimension", "impact"}};
   name_observable("impact_log", dataset.variables.back());
-  dataset.variables.push_back({"impact_tau", along, std::move(tau),
-                               "time of the impact since the beginning of the observed time", unit(Quantity::time)});
-  dataset.variables.push_back({"impact_stop", along, std::move(stops), "stop that is hit, -1: lower, +1: upper", "1"});
-  dataset.variables.push_back(
-      {"impact_v_before", along, std::move(before), "velocity before the impact", unit(Quantity::velocity)});
-  name_frame(sweep_, observables::FrameOf::relative, dataset.variables.back());
-  dataset.variables.push_back(
-      {"impact_v_after", along, std::move(after), "velocity after the impact", unit(Quantity::velocity)});
-  name_frame(sweep_, observables::FrameOf::relative, dataset.variables.back());
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    const LogColumn& column = columns[i];
+    if (i == 1)  // after the times
+      dataset.variables.push_back(
+          {"impact_stop", {"impact"}, std::move(stops), "stop that is hit, -1: lower, +1: upper", "1"});
+    dataset.variables.push_back({std::string(column.name),
+                                 {"impact"},
+                                 std::move(values[i]),
+                                 std::string(column.long_name),
+                                 std::string(unit_of(column.quantity, sweep_.problem.is_si))});
+    name_frame(sweep_, column.frame, dataset.variables.back());
+  }
 }
 
 results::Dataset ResultStore::dataset() {

@@ -50,6 +50,8 @@ class ResultStore {
   [[nodiscard]] std::size_t failed_points() const;
 
  private:
+  using Log = std::vector<observables::LoggedImpact>;
+
   void to_users_units(std::size_t local_index, const Units& units);
   void add_coordinates(results::Dataset& dataset) const;
   void add_always(results::Dataset& dataset);
@@ -65,9 +67,9 @@ class ResultStore {
   std::vector<std::int64_t> impacts_;
   std::vector<double> periods_;
   std::vector<OutputVariable> outputs_;
-  std::vector<std::vector<double>> values_;       ///< [output][local index][width]; empty for texts
-  std::vector<std::vector<std::string>> texts_;   ///< [output][local index]; empty for numbers
-  std::vector<std::vector<motion::Impact>> log_;  ///< [local index]; empty if no log is observed
+  std::vector<std::vector<double>> values_;      ///< [output][local index][width]; empty for texts
+  std::vector<std::vector<std::string>> texts_;  ///< [output][local index]; empty for numbers
+  std::vector<Log> log_;                         ///< [local index]; empty if no log is observed
   std::optional<attractors::Numbering> numbering_;
 };
 

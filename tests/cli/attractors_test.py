@@ -121,7 +121,7 @@ class Attractors(CommandLine):
             )
             own = mirrors == data.motion.values
             self.assertEqual(data.motion_symmetric.values.tolist(), own.astype(float).tolist())
-            self.assertTrue({"LU", ""} <= set(data.motion_word.values.tolist()))
+            self.assertTrue({"LU", "-"} <= set(data.motion_word.values.tolist()))
 
     def test_a_state_of_the_table_is_on_its_motion(self):
         self.write("a.toml", ZONES)

@@ -19,7 +19,7 @@ OBSERVED = {  # variables of each [observe] key
     "extrema": ("x_min", "x_max", "v_min", "v_max"),
     "harmonics": ("harmonic", "x_amplitude", "x_phase", "v_amplitude", "v_phase", "base_frequency"),
     "impacts": ("impacts_per_period", "v_before", "v_after", "impact_speed", "rest_fraction"),
-    "impact_log": ("impact_count", "impact_tau", "impact_stop", "impact_v_before", "impact_v_after"),
+    "impact_log": ("impact_count", "impact_tau", "impact_stop", "impact_v_before", "impact_v_after", "impact_phase"),
     "trajectory": ("tau", "x", "v"),
     "section": ("section_x", "section_v"),
     "word": ("impact_word", "regime", "symmetric"),

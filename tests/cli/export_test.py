@@ -88,7 +88,7 @@ class Export(CommandLine):
         self.assertEqual(table["nu"].tolist(), [0.9, 0.9, 1.0, 1.0])
         self.assertEqual(table["xs"].tolist(), [-0.5, -9.0, -0.5, -9.0])
         self.assertEqual(table["status"].tolist(), ["periodic"] * 4)
-        self.assertEqual(table["impact_word"].fillna("").tolist(), ["LU", "", "LU", ""])
+        self.assertEqual(table["impact_word"].fillna("").tolist(), ["LU", "-", "LU", "-"])
         self.assertIn("# x_phase (rad): ", text)
 
     def test_only_and_where(self):

@@ -12,7 +12,7 @@ import netCDF4
 import numpy
 import xarray
 
-from runs import CLATTER, RunTest, toml
+from runs import CLATTER, RunTest, quoted, toml
 
 SHAKEN = {"h": 0.1, "R": 0.7, "xs": 0.5, "nu": 1.3, "stop_amplitude": 0.3, "phase": 0.4}
 ASKED = ("x_min", "x_max", "v_min", "v_max", "x_amplitude", "x_phase", "v_amplitude", "v_phase", "x", "v", "section_x")
@@ -25,6 +25,18 @@ class FrameOfFiles(RunTest):
         observe = {"extrema": True, "harmonics": 2, "trajectory": 9, "section": 1, "impacts": True, "impact_log": True}
         observe |= {"energy": True, "period": True, "stability": True, "frame": f'"{frame}"'}
         return self.run_clatter(toml(scene=SHAKEN, sweep={"x0": [0.0, 0.1]}, observe=observe), name=frame)
+
+    def test_impacts_as_the_ground_sees_them_differ_by_the_velocity_of_the_stops(self):
+        for frame in ("relative", "absolute"):
+            config = toml(scene={**SHAKEN, "xs": 0.1}, observe={"impact_log": True, "frame": quoted(frame)})
+            with h5py.File(self.run_clatter(config, name=frame)) as file:
+                theta, before = file["impact_phase"][:], file["impact_v_before"][:]
+                absolute = file["impact_v_before_absolute"]
+                self.assertEqual(absolute.attrs["frame"], "absolute")
+                self.assertGreater(len(theta), 1)
+                turns = (1.3 * file["impact_tau"][:] + 0.4 - theta) / (2 * numpy.pi)  # steady: as the samples below
+                numpy.testing.assert_allclose(turns, numpy.round(turns), atol=1e-14)
+                numpy.testing.assert_allclose(absolute[:], before + 0.3 * 1.3 * numpy.cos(theta), atol=1e-14)
 
     def assert_frames(self, frame_of, asked):
         for name in ASKED:
@@ -67,15 +79,17 @@ class FrameOfFiles(RunTest):
 
     def test_files_of_resting_stops_have_no_frame(self):
         scene = {key: value for key, value in SHAKEN.items() if key != "stop_amplitude"} | {"f": 1.0}
-        path = self.run_clatter(toml(scene=scene, observe={"extrema": True, "impacts": True, "energy": True}))
+        observe = {"extrema": True, "impacts": True, "energy": True, "impact_log": True}
+        path = self.run_clatter(toml(scene=scene, observe=observe))
         with h5py.File(path) as file:
+            self.assertNotIn("impact_v_before_absolute", file)
             self.assertFalse([name for name in file if "frame" in file[name].attrs])
 
     def test_shards_are_merged_to_the_same_bytes(self):
         config = toml(
             scene=SHAKEN,
             sweep={"nu": '"linspace(0.8, 2, 7)"', "v0": [-1.0, 1.0]},
-            observe={"extrema": True, "attractor": True, "frame": '"absolute"'},
+            observe={"extrema": True, "attractor": True, "impact_log": True, "frame": '"absolute"'},
         )
         whole = self.run_clatter(config)
         shards = [self.run_clatter(config, f"shard{k}", options=("--shard", f"{k}/2")) for k in (0, 1)]

@@ -50,11 +50,28 @@ class Machine(StoppedRuns):
         data = self.run_config(self.write("a.toml", DRIVE.replace('mass = "500 g"\n', "")), "a.h5", *sets(words))
         units = {"x_max": "m", "v_max": "m s-1", "tau": "s", "frequency": "Hz", "mass": "kg", "impact_tau": "s"}
         units |= {"work_in": "J", "impulse": "N s", "impact_power": "W", "section_v": "m s-1", "motion_v": "m s-1"}
-        units |= {"motion_x": "m", "impact_v_before": "m s-1", "status": "1", "attractor": "1"}
+        units |= {"motion_x": "m", "impact_v_before": "m s-1", "impact_phase": "rad", "status": "1", "attractor": "1"}
         self.assertEqual({name: data[name].attrs["units"] for name in units}, units)
         header = self.clatter("export", "a.h5", "--only", "v_max").stdout
         self.assertIn("# v_max (m s-1): maximum velocity\n", header)
         self.assertRegex(self.clatter("info", "a.h5").stdout, r"  mass +float64  \[mass = 2\] +mass, kg\n")
+
+    def test_impacts_have_their_phase_and_their_velocity_over_the_ground_in_SI(self):
+        # a table of 0.5 mm at 20 Hz throws a ball of R = 0.8 once a period: it leaves and lands at gT/2
+        config = self.write(
+            "a.toml",
+            '[machine]\nmass = "3 g"\nstiffness = 0\nload = "-0.02943 N"\nR = 0.8\nstop_lower = 0\nphase = 0.5\n'
+            'frequency = "20 Hz"\nbase_amplitude = "0.5 mm"\nv0 = "0.5 m/s"\n[observe]\nimpact_log = true\n',
+        )
+        data = self.run_config(config, "a.h5")
+        omega, landing = 2 * np.pi * 20, 9.81 / 20 / 2
+        self.assertEqual(data.impact_v_before_absolute.attrs["units"], "m s-1")
+        np.testing.assert_allclose(data.impact_v_before_absolute, [-landing], rtol=1e-11)
+        cosine = (1 - 0.8) / (1 + 0.8) * landing / (0.5e-3 * omega)
+        np.testing.assert_allclose(np.cos(data.impact_phase), [cosine], rtol=1e-11)
+        np.testing.assert_allclose(data.impact_v_before, -landing - 0.5e-3 * omega * cosine, rtol=1e-11)
+        turns = 20 * data.impact_tau + (0.5 - data.impact_phase) / (2 * np.pi)
+        np.testing.assert_allclose(turns, np.round(turns), atol=1e-14)
 
     def test_plan_prints_the_scene_that_is_computed(self):
         config = self.write("a.toml", DRIVE)

@@ -5,7 +5,9 @@ Environment: CLATTER, the program; CLATTER_SOURCE, the source directory. A reade
 
 import hashlib
 import os
+import re
 import subprocess
+import sys
 import tomllib
 import warnings
 from pathlib import Path
@@ -108,7 +110,7 @@ class Readers(RunTest):
         results = {**ALWAYS, "impact_word": "object", "regime": "object", "symmetric": "float64"}
         over = {name: (("nu", "xs"), kind) for name, kind in results.items()}
         self.assert_contents(path, {"nu": 2, "xs": 2}, {**axes, **over})
-        words, regimes = [["L*U*", ""], ["LU", ""]], [["inf/1", "0/1"], ["1/1", "0/1"]]
+        words, regimes = [["L*U*", "-"], ["LU", "-"]], [["inf/1", "0/1"], ["1/1", "0/1"]]
         for engine in ("h5netcdf", "netcdf4"):
             with xarray.open_dataset(path, engine=engine) as data:
                 self.assertEqual(data["impact_word"].values.tolist(), words)
@@ -240,6 +242,7 @@ class Readers(RunTest):
             self.assertTrue(numpy.isnan(data.x_phase[:, 0]).all())  # the constant part has none
 
     LOG = {"impact_tau": "float64", "impact_stop": "int8", "impact_v_before": "float64", "impact_v_after": "float64"}
+    LOG |= {"impact_phase": "float64"}
 
     def assert_log(self, path, impacts, always):
         self.assert_contents(
@@ -270,6 +273,27 @@ class Readers(RunTest):
     def test_impact_log_without_impacts(self):
         config = toml(scene={**FORCED, "xs": -100.0}, sweep={"nu": [0.9, 1.0]}, observe={"impact_log": True})
         self.assert_log(self.run_clatter(config), 0, ALWAYS)
+
+    def test_the_guides_example_for_xarray_needs_only_one_of_its_engines(self):
+        guide = (SOURCE / "src/results/README.md").read_text()
+        (example,) = (block for block in re.findall(r"```python\n(.*?)```", guide, re.S) if "import xarray" in block)
+        (self.scratch / "out").mkdir()
+        path = self.run_clatter((SOURCE / "configs/fig22.toml").read_text(), "out/fig22")
+        with h5py.File(path) as file:
+            expected = file["x_max"][numpy.abs(file["nu"][:] - 1.2).argmin()]
+        for missing in ("h5netcdf", "netCDF4"):
+            code = f"import sys\nsys.modules['{missing}'] = None\n{example}"
+            done = subprocess.run(
+                [sys.executable, "-c", code],
+                cwd=self.scratch,
+                env={**os.environ, "MPLBACKEND": "Agg"},
+                capture_output=True,
+                text=True,
+                check=False,
+                timeout=LONGEST,
+            )
+            self.assertEqual((done.returncode, done.stderr), (0, ""), f"without {missing}")
+            self.assertEqual(float(done.stdout), expected)
 
     def test_flags_and_failed_points(self):
         config = self.scratch / "failed.toml"

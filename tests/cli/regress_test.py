@@ -130,6 +130,8 @@ class Regress(RegressRuns):
             chaotic = int(numpy.argmax(file["status"][()] == 1))
         with h5py.File(self.outputs / "fig12.h5") as file:
             phase = file["v_phase"][7, 1]
+        with h5py.File(self.outputs / "fig17.h5") as file:
+            impact = file["impact_phase"][0]
         baseline = self.edited(
             fig20=lambda file: put("x_max", 7, file["x_max"][7] + 1e-12)(file),
             fig21=lambda file: put("x_max", 7, file["x_max"][7] + 5e-10)(file),
@@ -137,6 +139,7 @@ class Regress(RegressRuns):
             fig18=put("simulated_periods", (), 1e3),
             fig12=put("v_phase", (7, 1), phase + 2 * numpy.pi),
             fig13=put("x_phase", (7, 2), 1.0),
+            fig17=put("impact_phase", 0, impact - 2 * numpy.pi),
         )
         rows = self.assert_all_agree(self.regress(baseline, CLATTER=self.program()))
         self.assertEqual(
@@ -146,6 +149,7 @@ class Regress(RegressRuns):
                 "fig18": ("differs", "but for simulated_periods at 1 points"),
                 "fig12": ("differs", "but for v_phase by whole turns or of no amplitude"),
                 "fig13": ("differs", "but for x_phase by whole turns or of no amplitude"),
+                "fig17": ("differs", "but for impact_phase by whole turns or of no amplitude"),
             },
         )
         self.assertEqual(rows["fig20"][2:4], ["1.0e-12", "x_max[7]"])
@@ -160,6 +164,7 @@ class Regress(RegressRuns):
             stability=put("status", 7, 1),
             follow_down=lambda file: file["x_max"].attrs.__setitem__("units", "m"),
             fig12=put("v_phase", (7, 1), phase + 1e-6),
+            fig17=put("impact_phase", 0, impact + 1e-6),
             drive_si=lambda file: put("x_max", 7, file["x_max"][7] + 5e-11)(file),  # of some mm
             regimes=put("impact_word", (50, 40), "LLLUU"),
             transient=lambda file: file["sample"].attrs.__setitem__("more", 1),
@@ -179,6 +184,7 @@ class Regress(RegressRuns):
             stability="status at 1 of 501",
             follow_down="attributes of x_max",
             fig12="v_phase at 1 of 2364",
+            fig17="impact_phase at 1 of 2",
             drive_si="x_max at 1 of 501",
             regimes="impact_word at 1 of 8181",
             transient="h5diff finds what isn't seen here",

@@ -8,6 +8,7 @@ import numpy as np
 from command_line import SMALL, SOURCE, CommandLine
 
 TRANSIENT = ["--set", "time.mode=transient", "--set", "time.duration=20"]
+FREE = ["--set", "scene.f=0", "--set", "scene.v0=-3", "--set", "observe.period=false"]
 NO_STOPS = ["--set", "scene.stop_lower=-inf", "--set", "scene.stop_upper=inf"]
 IDLE = [  # a setting without effect, and what it stands beside
     ("time.duration=9", []),
@@ -21,9 +22,9 @@ IDLE = [  # a setting without effect, and what it stands beside
     ("observe.harmonics_samples=64", []),
     ("observe.harmonics_samples=64", ["--set", "observe.harmonics=3", "--set", "observe.harmonics_method=exact"]),
     ("observe.harmonics_method=exact", []),
-    ("scene.nu=3", ["--set", "scene.f=0", "--set", "scene.v0=-3"]),
-    ("scene.phase=1", ["--set", "scene.f=0", "--set", "scene.v0=-3"]),
-    ("scene.nu=3", ["--set", "scene.f=0", "--set", "scene.v0=-3", "--set", "integrator.method=moreau"]),
+    ("scene.nu=3", FREE),
+    ("scene.phase=1", FREE),
+    ("scene.nu=3", [*FREE, "--set", "integrator.method=moreau"]),
     ("scene.R=0.5", ["--set", "scene.R=1", *NO_STOPS]),
     ("time.max_impacts=1", ["--set", "scene.R=1", *NO_STOPS]),
     ("scene.R_lower=0.5", ["--set", "scene.stop_lower=-inf"]),

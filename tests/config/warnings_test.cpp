@@ -107,6 +107,33 @@ TEST(WithoutEffect, the_period_of_a_transient_is_warned_of) {
   expect_none("[scene]\nstop_lower = -1\nstop_upper = 1\n" + time);
 }
 
+TEST(WithoutEffect, section_and_period_of_motion_that_damping_stops_are_warned_of) {
+  const std::string free = "[scene]\nxs = 1\nh = 0.1\n", observe = "[observe]\n";
+  expect_warning(free + observe + "section = 3\n", "5:1",
+                 "'section' has no effect without a force, since damping brings the mass to a standstill: its values "
+                 "will be NaN; leave it out, or give a force, or mode = \"transient\" in [time]");
+  expect_warning(free + observe + "period = true\n", "5:1", "'period' has no effect without a force, since damping");
+  const std::string machine = "[machine]\nmass = 1\nstiffness = 1\ngap = 1\n";
+  for (const char* const damping : {"damping = 0.1\n", "damping_ratio = 0.1\n", "quality = 9\n"})
+    expect_warning(machine + damping + observe + "period = true\n", "7:1", "damping brings the mass to a standstill");
+  expect_none(free + "[sweep]\nf = [0, 1]\n" + observe + "section = 3\nperiod = true\n");
+  expect_none(free + "stop_amplitude = 1\n" + observe + "section = 3\nperiod = true\n");
+  expect_none("[scene]\nxs = 1\n[sweep]\nh = [0, 0.1]\n" + observe + "section = 3\nperiod = true\n");
+  expect_none(free + "[time]\nmode = \"transient\"\nduration = 9\n" + observe + "section = 3\n");
+}
+
+TEST(WithoutEffect, a_section_that_a_rigid_stop_keeps_the_mass_from_is_warned_of) {
+  const std::string ball = "[scene]\nload = -1\nstop_lower = 0\nx0 = 1\n", observe = "[observe]\nsection = 3\n";
+  expect_warning(ball + "stiffness = 0\n" + observe, "7:1",
+                 "'section' has no effect without a force and a spring, since between these stops the mass never "
+                 "passes x = 0 on its way up: its values will be NaN; leave it out, or give a force");
+  expect_warning("[scene]\nload = 1\nstop_upper = -2\nx0 = -3\nstiffness = 0\n" + observe, "7:1", "passes x = 0");
+  expect_none(ball + observe);  // a spring: it is taken at x = -1
+  expect_none(ball + "stiffness = 0\nf = 1\n" + observe);
+  expect_none(ball + "stiffness = 0\nstop_stiffness = 9\n" + observe);
+  expect_none("[scene]\nload = -1\nstop_lower = -1\nstiffness = 0\n" + observe);
+}
+
 TEST(WithoutEffect, is_said_of_set_in_its_words) {
   EXPECT_EQ(
       warnings_of("a.toml", observing(scene), {{"time.duration", "9"}}),

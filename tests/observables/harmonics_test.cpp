@@ -42,7 +42,7 @@ TEST(Harmonics, equal_those_of_the_impacts_alone) {
       Complex sum = k == 0   ? Complex(load)
                     : k == 1 ? Complex(0, 0.5)
                              : Complex(0);  // f = -1: -sin = Re(i e^{i nu tau})
-      for (const motion::Impact& impact : log.impacts())
+      for (const LoggedImpact& impact : log.impacts())
         sum += (impact.after - impact.before) / total * std::polar(1.0, -w * impact.time);
       const Complex expected = sum / Complex(1 - w * w, 0.2 * w);
       // settled to 1e-14, and a factor of |v|/|Z| <= 5 for both

@@ -50,7 +50,7 @@ TEST(Word, is_the_rotation_that_sorts_first) {
   EXPECT_EQ(word("UL"), "LU");
   EXPECT_EQ(word("ULLUUL"), "LLUULU");
   EXPECT_EQ(word("UUU"), "UUU");
-  EXPECT_EQ(word(""), "");
+  EXPECT_EQ(word(""), "-");
   support::Random random(1, 0);
   for (int trial = 0; trial < 500; ++trial) {
     std::string letters;
@@ -75,7 +75,8 @@ TEST(Word, has_one_sign_for_impacts_that_end_in_rest_wherever_the_period_begins)
   EXPECT_EQ(word("lULLl"), "L*U");  // the period begins during the rest
   EXPECT_EQ(word("LLllU"), "L*U");  // a summed end of the impacts, then the rest
   EXPECT_EQ(word("Ll"), "L*");
-  EXPECT_EQ(word("l"), "");  // it never moves
+  EXPECT_EQ(word("l"), "(L)");  // it never moves
+  EXPECT_EQ(word("uu"), "(U)");
   EXPECT_EQ(regime("l", 1), "0/1");
 }
 
@@ -95,7 +96,7 @@ TEST(Word, of_simulated_motion_is_that_of_its_impacts) {
     const point::PointResult r = result_of(scene);
     ASSERT_EQ(r.status, steady::Status::periodic) << nu;
     std::string letters;
-    for (const motion::Impact& impact : r.log) letters += impact.side == Side::lower ? 'L' : 'U';
+    for (const LoggedImpact& impact : r.log) letters += impact.side == Side::lower ? 'L' : 'U';
     EXPECT_EQ(r.impact_word, word(letters)) << nu;
     EXPECT_GE(letters.size(), 2u);
   }
@@ -118,6 +119,38 @@ TEST(Word, of_chatter_is_the_same_however_its_impacts_are_taken) {
   point::Problem scene = paper_scene(0.5, 0.3);
   scene.integration.method = stepping::Method::dopri5;
   EXPECT_EQ(result_of(scene).impact_word, "L*U*");
+}
+
+TEST(Word, tells_motion_that_stays_on_a_stop_from_one_that_meets_none) {
+  const auto word_of = [](double f, double load, double kappa, double zeta) {
+    Stops stops{-1, 1, 0.5, 0.5};
+    stops.stiffness_lower = stops.stiffness_upper = kappa, stops.damping_lower = stops.damping_upper = zeta;
+    const point::PointResult r = result_of(scene_of({0.1, f, 0.7, load}, stops, {0.9, 0.0, 0.0}));
+    EXPECT_EQ(r.status, steady::Status::periodic);
+    EXPECT_EQ(r.regime, f == 0 ? "" : "0/1");
+    return r.impact_word;
+  };
+  for (const double f : {0.0, 0.2}) {
+    EXPECT_EQ(word_of(f, 0, infinity, 0), "-") << f;
+    EXPECT_EQ(word_of(f, 5, infinity, 0), "(U)") << f;
+    EXPECT_EQ(word_of(f, -5, infinity, 0), "(L)") << f;
+    EXPECT_EQ(word_of(f, 0, 20, 0.1), "-") << f;
+    EXPECT_EQ(word_of(f, 5, 20, 0.1), "(U)") << f;
+    EXPECT_EQ(word_of(f, -5, 20, 0.1), "(L)") << f;
+  }
+}
+
+TEST(Word, tells_motion_that_stays_beyond_a_soft_stop_and_outruns_it) {
+  // a stiff spring's stop with a heavy damper loses the mass beyond its position and is met again there
+  point::Problem scene = scene_of({0.1, 3.0, 2.5, 3.0}, {-infinity, 0.0, 1, 1});
+  scene.stops.stiffness_upper = 1.0, scene.stops.damping_upper = 3.0;
+  scene.observe.impacts = true;
+  const point::PointResult r = result_of(scene);
+  ASSERT_EQ(r.status, steady::Status::periodic);
+  ASSERT_GT(r.contact_fraction[1], 0.0);
+  ASSERT_LT(r.contact_fraction[1], 1.0);
+  EXPECT_EQ(r.impacts_per_period[1], 0.0);
+  EXPECT_EQ(r.impact_word, "(U)");
 }
 
 TEST(Symmetry, of_a_mirrored_start_is_the_same_and_its_word_is_mirrored) {
@@ -160,7 +193,7 @@ TEST(Symmetry, of_motion_without_impacts_is_that_of_its_states) {
   for (const auto& [nu, symmetric] : {std::pair(3.0, 1.0), std::pair(1.5, 0.0), std::pair(2.0, 0.0)}) {
     const point::PointResult r = result_of(scene_of({0.0, 1.0, nu, 0.0}, {-9, 9, 1, 1}, {0.3, 0.0, 0.0}));
     ASSERT_EQ(r.status, steady::Status::periodic) << nu;
-    EXPECT_EQ(r.impact_word, "");
+    EXPECT_EQ(r.impact_word, "-");
     EXPECT_EQ(r.symmetric, symmetric) << nu;
   }
 }

@@ -29,7 +29,7 @@ PointResult result_of(Problem scene, bool all_effects) {
 double size_of(const Problem& scene, const PointResult& result) {
   double size = std::max({std::abs(scene.start.displacement) + std::abs(scene.oscillator.load), result.x_max,
                           -result.x_min, std::abs(scene.start.velocity), result.v_max, -result.v_min});
-  for (const motion::Impact& impact : result.log) size = std::max(size, std::abs(impact.before));
+  for (const observables::LoggedImpact& impact : result.log) size = std::max(size, std::abs(impact.before));
   return size;
 }
 
@@ -40,9 +40,10 @@ double stretch_of(const Problem& scene, const PointResult& result) {
   const Oscillator& o = scene.oscillator;
   const double size = size_of(scene, result), force = std::abs(o.forcing) + std::abs(o.load);
   double stretch = 1, last = 0, worst = 1;
-  for (const motion::Impact& impact : result.log) {
+  for (const observables::LoggedImpact& impact : result.log) {
     const double speed = std::abs(impact.before);
-    const double shear = 2 * (force + std::abs(impact.position) + 2 * o.damping * speed) / speed;
+    const double position = impact.side == Side::upper ? scene.stops.upper : scene.stops.lower;
+    const double shear = 2 * (force + std::abs(position) + 2 * o.damping * speed) / speed;
     worst = std::max(worst, stretch * (1 + shear + size / (speed * scene.time.duration)));
     const double flight = std::min(1.0, impact.time - last), growth = 1 + std::sqrt(shear * flight);
     stretch = impact.after == 0 ? 1 + shear : stretch * growth * growth, last = impact.time;
@@ -57,7 +58,7 @@ double difference(const Problem& scene, const PointResult& one, const PointResul
   const double size = size_of(scene, one);
   double worst = 0;
   for (std::size_t i = 0; i < one.log.size(); ++i) {
-    const motion::Impact &a = one.log[i], &b = other.log[i];
+    const observables::LoggedImpact &a = one.log[i], &b = other.log[i];
     if (a.side != b.side) return infinity;
     worst = std::max({worst, std::abs(a.time - b.time) / scene.time.duration, std::abs(a.before - b.before) / size,
                       std::abs(a.after - b.after) / size});
@@ -177,7 +178,7 @@ TEST(Effects, one_stop_that_is_hit_can_throw_the_mass_at_the_other) {
   for (const bool all : {true, false}) {
     const PointResult result = result_of(scene, all);
     EXPECT_GT(std::count_if(result.log.begin(), result.log.end(),
-                            [](const motion::Impact& i) { return i.side == Side::lower; }),
+                            [](const observables::LoggedImpact& i) { return i.side == Side::lower; }),
               5)
         << all;
   }

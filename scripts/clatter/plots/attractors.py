@@ -6,7 +6,7 @@ from matplotlib import colors
 from .data import ESCAPED, FIRST_FAILURE, has_failed
 from .maps import OLIVE, class_map, edges_between, name_colours, name_panel
 from .scales import shown_values, tidy_ticks
-from .names import label, number, plain, short_word, symbol
+from .names import NO_CONTACT, has_impacts, label, number, plain, short_word, symbol
 from .style import COLOURS, GREEN, SKY, colour_of, legend_above
 
 STARTS = ("x0", "v0", "phase", "start_period")
@@ -33,7 +33,7 @@ def words_of(output, motion):
     word, regime = output.values("motion_word")[motion], output.values("motion_regime")[motion]
     if output.values("motion_period_ratio")[motion] == 0:
         return "no period" + ", symmetric" * bool(output.values("motion_symmetric")[motion] == 1)
-    if not word:
+    if word in NO_CONTACT:
         return "no impacts"
     symmetry = " symmetric" if output.values("motion_symmetric")[motion] == 1 else ""
     return f"{plain(regime)}{symmetry}, {short_word(word)}".replace("inf", "∞").replace("*", "∗")
@@ -210,7 +210,7 @@ def apart(names, shares, places, parameter):
 
 
 def is_quiet(output, motion):
-    return output.values("motion_word")[motion] == "" and output.values("motion_period_ratio")[motion] != 0
+    return not has_impacts(output.values("motion_word")[motion]) and output.values("motion_period_ratio")[motion] != 0
 
 
 def zone_strips(axes, edges, shares, quiet):

@@ -4,7 +4,7 @@ import numpy as np
 
 from .curves import MARGIN, name_statuses
 from .scales import shown_values
-from .names import in_frame, label, short_word, symbol, with_unit
+from .names import NO_CONTACT, in_frame, label, short_word, symbol, with_unit
 from .empty import say_empty
 from .style import BLUE, CYCLE, GREEN, STOP, VERMILION, colour_of, legend_above, set_axis
 
@@ -88,7 +88,7 @@ def mark_words(axes, output, axis):
         place = (along[start - 1] + along[start]) / 2
         axes.axvline(place, color=STOP, lw=0.5, ls=(0, (1, 2)), zorder=0.5, label=CHANGE)
     ends = np.append(starts[1:], len(words)) - 1
-    runs = [(start, end) for start, end in zip(starts, ends) if words[start]]
+    runs = [(start, end) for start, end in zip(starts, ends) if words[start] not in NO_CONTACT]
     low, high = axes.get_ylim()
     axes.set_ylim(low, high + 0.1 * (high - low))  # room for the words
     for start, end in sorted(runs, key=lambda run: along[run[0]] - along[run[1]]):  # the widest first

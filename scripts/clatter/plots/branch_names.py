@@ -3,7 +3,7 @@
 import numpy as np
 
 from .choice import differences
-from .names import plain, short_word
+from .names import NO_CONTACT, plain, short_word
 from .style import colour_of
 
 NAMED = 10  # branches, or files if there are several
@@ -57,7 +57,8 @@ def titles_of_files(branches):
 
 
 def word_of(output, number):
-    return short_word(output.values("word")[middle(output, number)]) or "no impacts"
+    word = output.values("word")[middle(output, number)]
+    return short_word(word) if word not in NO_CONTACT else "no impacts"
 
 
 def middle(output, number):

@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from .._program import WRONG_USE, ClatterError
-from .data import Output
+from .data import PHASE, Output
 from .names import equation, plain
 
 FEW = 6  # values of an axis that make a family of curves rather than a map
@@ -125,6 +125,7 @@ def results_named(members, only):
     """The results that --only names, by themselves or by their key of [observe]; empty if it names none."""
     output, results = members[0].output, []
     there = [name for name in output.results() if name != "status"]
+    there += [name for name in (PHASE,) if name in output and name not in there]
     observed = {name: output[name].observable for name in there if output[name].observable}
     keys = list(dict.fromkeys(observed.values()))
     for name in only:

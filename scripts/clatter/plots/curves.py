@@ -227,7 +227,7 @@ def scalar_parts(output, name):
     if variable.values.ndim > 1 or variable.dims not in ((), ("stop",), ("multiplier",)):
         return []
     if variable.values.dtype.kind == "U":
-        text = str(variable.values).replace("inf", "∞")
+        text = {"-": "none"}.get(str(variable.values), str(variable.values).replace("inf", "∞"))
         return (
             [(plain(variable.long_name), plain(text if len(text) <= LONGEST else f"{text[:LONGEST]}…"))] if text else []
         )

@@ -19,6 +19,8 @@ ESCAPED = 19  # of them, the one that is no failure: nothing brings the mass bac
 SOFT_STOPS = ("stop_stiffness_lower", "stop_stiffness_upper")
 SI_WORDS = {"tau": "t", "xs": "gap"}  # of long names, in [machine]
 SHAKEN = ("stop_amplitude", "base_amplitude")
+LOGGED = ("impact",)  # dimensions of the log
+PHASE = "impact_phase"  # of the log, the result that has a diagram of its own
 
 
 class Output:
@@ -191,8 +193,9 @@ class Output:
         counts, points = whole.values("impact_count").ravel(), points.ravel()
         first, kept = np.cumsum(counts) - counts, counts[points]
         rows = np.repeat(first[points] - (np.cumsum(kept) - kept), kept) + np.arange(kept.sum())
-        for name in ("impact_tau", "impact_stop", "impact_v_before", "impact_v_after"):
-            self.variables[name] = dataclasses.replace(whole[name], values=whole.values(name)[rows])
+        for name, variable in whole.variables.items():
+            if variable.dims == LOGGED:
+                self.variables[name] = dataclasses.replace(variable, values=variable.values[rows])
 
     def parameter(self, key, default=np.nan):
         """A scene key at every point: its coordinate if it is swept, else its constant; of branches, their start's."""

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from .data import lacks_period
+from .data import PHASE, lacks_period
 from .maps import MISSING
 from .names import label
 from .scales import shown_values
@@ -19,7 +19,7 @@ def say_empty(axes, words, is_map=False):
 
 def empty_results(output, only):
     """The results that are asked for by name, and have no number at any point."""
-    names = [name for name in only if name in output and output[name].values.dtype.kind in "fi"]
+    names = [name for name in only if name in output and name != PHASE and output[name].values.dtype.kind in "fi"]
     return [name for name in names if not np.isfinite(shown_values(output, name)).any()]
 
 

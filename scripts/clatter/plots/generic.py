@@ -17,8 +17,9 @@ from .attractors import (
 )
 from .bifurcation import impact_diagram, poincare, section_diagram
 from .curves import curves, scalar_parts, scalars, spectrum
-from .data import FIRST_FAILURE
+from .data import FIRST_FAILURE, PHASE
 from .empty import empty_panel, empty_results, why_empty
+from .impact_phases import phases_panel
 from .maps import Grid, kind_map, quantity, regime_map, value_map
 from .motion import chosen_points, impact_log, phase_plane, time_history
 from .scales import constant_value, is_constant, largest, shown_values
@@ -85,6 +86,7 @@ def generic_figure(members, only, options):
         return not only or any(name in only for name in names)
 
     panels = motion_panels(output, drawn) if len(members) == 1 else []
+    panels += [phases_panel(members)] * (PHASE in only and all(PHASE in member.output for member in members))
     if len(output.axes) == 0:
         panels += point_panels(output, drawn)
         table = table_of(output, only, drawn, may_be_empty=bool(panels))

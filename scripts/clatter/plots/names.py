@@ -9,6 +9,7 @@ from matplotlib import mathtext
 
 LONGEST = 12  # letters of a word that is written out
 SHORT = 0.1  # m: lengths that are all below it are written in mm
+NO_CONTACT = ("-", "")  # the words of motion that meets no stop; the empty one in files before 0.3.0
 YES_OR_NO = ("symmetric",)  # what 1 and 0 stand for
 PLACES = ("x", "x_min", "x_max")  # drawn between the stops
 RECORDED = {"tau": "impact_tau", "v_before": "impact_v_before", "x": "section_x", "v": "section_v"}  # the same, too
@@ -141,6 +142,11 @@ def plain(text):
     """A text in one line without mathematics, and with a mark for what no picture can show."""
     text = re.sub(r"[\t\n\r]", " ", text)
     return re.sub(r"[\x00-\x1f\x7f\ud800-\udfff]", "\N{REPLACEMENT CHARACTER}", text).replace("$", r"\$")
+
+
+def has_impacts(word):
+    """Whether an impact word has a letter: motion that meets no stop, or stays on one, has none."""
+    return word[:1] in ("L", "U")
 
 
 def short_word(word):

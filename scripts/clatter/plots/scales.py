@@ -27,8 +27,9 @@ def shown_values(output, name):
     values = np.where(np.isfinite(values), values + 0.0, np.nan)  # no negative zero
     if name == "period_ratio":
         values[values == 0] = np.nan
-    if name.endswith("_phase"):
-        amplitude = np.abs(output.values(name.replace("_phase", "_amplitude")))
+    amplitudes = name.replace("_phase", "_amplitude")
+    if amplitudes != name and amplitudes in output:
+        amplitude = np.abs(output.values(amplitudes))
         values[amplitude <= NEGLIGIBLE * largest(amplitude)] = np.nan
     return values
 

@@ -113,7 +113,10 @@ Orbit Orbit::once_with_graze(std::size_t i, bool symmetric_scene) const {
   return once.with(graze, static_cast<std::size_t>(later_ones - once.impacts.begin()));
 }
 
-std::string Orbit::word() const { return ImpactWord::word_of(contacts_of(*this)); }
+/// Motion without a letter whose soft stop is left or meets the mass again does so beyond the stop's position.
+std::string Orbit::word() const {
+  return ImpactWord::word_of(contacts_of(*this), impacts.empty() ? pressed : impacts.front().side);
+}
 std::string Orbit::regime() const { return ImpactWord::regime_of(contacts_of(*this), period_ratio()); }
 
 Orbit orbit_of(const attractors::Round& round, double nu) {
