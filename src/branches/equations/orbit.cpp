@@ -116,9 +116,10 @@ Orbit Orbit::once_with_graze(std::size_t i, bool symmetric_scene) const {
 std::string Orbit::word() const { return ImpactWord::word_of(contacts_of(*this)); }
 std::string Orbit::regime() const { return ImpactWord::regime_of(contacts_of(*this), period_ratio()); }
 
-Orbit orbit_of(const attractors::Round& round, double nu) {
+Orbit orbit_of(const attractors::Round& round, double nu, double phase) {
   Orbit orbit{{}, 2 * static_cast<int>(round.orbit.periods), false};
-  for (const auto& contact : round.contacts) orbit.impacts.push_back({contact.side, nu * contact.time, contact.before});
+  for (const auto& contact : round.contacts)
+    orbit.impacts.push_back({contact.side, phase + nu * contact.time, contact.before});
   return orbit;
 }
 
