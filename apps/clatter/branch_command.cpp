@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <iostream>
 
+#include "branch_start.hpp"
 #include "branches/branch_dataset.hpp"
 #include "branches/curve.hpp"
 #include "branches/measures/measures.hpp"
@@ -50,27 +51,26 @@ void tell_failures(const branches::Branches& found, const branches::BranchSettin
     }
 }
 
-const branches::BranchSettings& branch_of(const config::Config& config, const std::string& file) {
-  if (!config.branch)
-    throw UsageError(storage::printable(file) + ": no branch.along and branch.range; say what to follow, e.g. --set " +
-                     (config.sweep.problem.is_si ? "branch.along=frequency --set branch.range='20 Hz, 30 Hz'"
-                                                 : "branch.along=nu --set branch.range='0.8, 1.5'"));
-  if (!config.sweep.dimensions.empty())
-    throw UsageError(storage::printable(file) + ": [sweep] has the axis " +
-                     std::string(config.sweep.dimensions[0][0].parameter.key()) +
-                     ", and a branch is followed at one value of it; give that in [" +
-                     (config.sweep.problem.is_si ? "machine]" : "scene]"));
-  return *config.branch;
+ExitCode code_of(const branches::Branches& found) {
+  return std::ranges::any_of(found.ends, &branches::BranchEnd::failed) ? points_failed : done;
+}
+
+/// "births that aren't followed: 0 symmetry, 2 flip, 1 graze (branch.births, branch.switch)"
+void tell_left_out(const branches::Branches& found) {
+  if (std::ranges::all_of(found.left_out, [](std::size_t count) { return count == 0; })) return;
+  std::cerr << "births that aren't followed: " << branches::births_text(found.left_out)
+            << " (branch.births, branch.switch)\n";
 }
 
 int run_branch(const Arguments& arguments) {
   const std::string output = output_of(arguments, ".branch.h5");
-  const config::Config config = config_of(arguments);
-  const std::string& file = arguments.operands[0];
-  check_not_config(file, output);
-  const branches::BranchSettings& settings = branch_of(config, file);
+  const auto [config, file, note] = branch_start_of(arguments);
+  if (!arguments.operands.empty()) check_not_config(file, output);
+  if (const auto from = arguments.value("from")) check_not_input(*from, output, "the one of --from");
+  const branches::BranchSettings& settings = *config.branch;
   const results::OutputPlace place(output, {.command = "branch", .title = config.title}, arguments.has("force"));
   storage::require_idle(output);
+  if (!note.empty() && !arguments.has("quiet")) std::cerr << note << '\n';
   const branches::StartProblem start(config.sweep.problem);
   branches::Branches found;
   try {
@@ -87,35 +87,44 @@ int run_branch(const Arguments& arguments) {
     std::cout << (arguments.has("json") ? special_json : special_text)(special, parameters, start.units);
   std::cout << std::flush;
   tell_failures(found, settings, file);
-  if (!arguments.has("quiet"))
-    std::cerr << counted(static_cast<double>(found.points.size()), "point") << ", "
-              << counted(static_cast<double>(found.special.size()), "special point") << ", "
-              << storage::printable(output) << '\n';
-  return std::ranges::any_of(found.ends, &branches::BranchEnd::failed) ? points_failed : done;
+  if (arguments.has("quiet")) return code_of(found);
+  tell_left_out(found);
+  std::cerr << counted(static_cast<double>(found.points.size()), "point") << ", "
+            << counted(static_cast<double>(found.special.size()), "special point") << ", " << storage::printable(output)
+            << '\n';
+  return code_of(found);
 }
 
 constexpr std::string_view examples =
     "  clatter branch configs/branch.toml\n"
-    "  clatter branch mine.toml --json --set branch.range='0.8, 1.5' | jq .nu\n";
+    "  clatter branch mine.toml --json --set branch.range='0.8, 1.5' | jq .nu\n"
+    "  clatter branch mine.toml --from map.h5 --where nu=1.2 --where R=0.7\n"
+    "  clatter branch --from mine.branch.h5 --where branch=2 --where nu=1.2 -o other.h5\n";
 
 }  // namespace
 
 Command branch_command() {
   return {
       .name = "branch",
-      .usage = "branch CONFIG [OPTION]...",
+      .usage = "branch [CONFIG] [--from FILE.h5] [OPTION]...",
       .summary =
           "follow periodic motion, stable and unstable, along a parameter; list its folds, flips, grazes and maxima",
       .examples = examples,
       .operands = {"CONFIG"},
-      .required_operands = 1,
-      .options = {{"output", 'o', "FILE.h5", "output file; default: NAME.branch.h5 in this directory"},
-                  force_option,
-                  set_option,
-                  ini_option,
-                  {"json", 0, "", "print a JSON object per special point instead"},
-                  {"quiet", 'q', "", "print only special points and errors"},
-                  {"help", 'h', "", "print this help"}},
+      .required_operands = 0,
+      .options =
+          {{"output", 'o', "FILE.h5", "output file; default: NAME.branch.h5 in this directory"},
+           from_option,
+           {"where", 0, "NAME=VALUE",
+            "the point of --from: at this value of an axis, or on branches of their parameter, or by the numbers "
+            "branch and point; repeatable",
+            true},
+           force_option,
+           set_option,
+           ini_option,
+           {"json", 0, "", "print a JSON object per special point instead"},
+           {"quiet", 'q', "", "print only special points and errors"},
+           {"help", 'h', "", "print this help"}},
       .run = run_branch};
 }
 

@@ -10,7 +10,7 @@
 
 namespace clatter::app {
 
-config::Config config_of(const Arguments& arguments) {
+std::vector<config::Override> overrides_of(const Arguments& arguments) {
   std::vector<config::Override> overrides;
   for (const std::string& word : arguments.values("set")) {
     const std::size_t sign = word.find('=');
@@ -19,8 +19,12 @@ config::Config config_of(const Arguments& arguments) {
     }
     overrides.push_back({word.substr(0, sign), word.substr(sign + 1)});
   }
-  config::Config config =
-      read_config(arguments.operands[0], overrides, arguments.has("ini") ? config::Format::ini : config::Format::toml);
+  return overrides;
+}
+
+config::Config config_of(const Arguments& arguments) {
+  config::Config config = read_config(arguments.operands[0], overrides_of(arguments),
+                                      arguments.has("ini") ? config::Format::ini : config::Format::toml);
   malloc_trim(0);  // reading a long list takes many times its length
   return config;
 }
@@ -70,17 +74,21 @@ ProgressKind progress_kind(const Arguments& arguments) {
 }
 
 std::string output_of(const Arguments& arguments, const std::string& ending) {
-  const std::filesystem::path config(arguments.operands[0]);
+  const std::filesystem::path config(arguments.operands.empty() ? arguments.value("from").value_or("")
+                                                                : arguments.operands[0]);
   if (config == config::standard_input && !arguments.has("output"))
     throw UsageError("a configuration from stdin has no name to give the output; name it with -o FILE.h5");
   return arguments.value("output").value_or(config.stem().string() + ending);
 }
 
 void check_not_config(const std::string& config, const std::string& output) {
+  check_not_input(config, output, "the configuration itself");
+}
+
+void check_not_input(const std::string& input, const std::string& output, const std::string& what) {
   std::error_code error;
-  if (!std::filesystem::equivalent(config, output, error)) return;
-  throw UsageError("the output " + config::in_quotes(output) +
-                   " is the configuration itself; name another file with -o");
+  if (!std::filesystem::equivalent(input, output, error)) return;
+  throw UsageError("the output " + config::in_quotes(output) + " is " + what + "; name another file with -o");
 }
 
 }  // namespace clatter::app

@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "command_line.hpp"
 #include "config/config.hpp"
@@ -18,6 +19,9 @@ inline const Option ini_option{"ini", 0, "",
                                "read CONFIG (- for stdin) as INI; default: TOML unless its name ends in .ini"};
 inline const Option threads_option{"threads", 0, "N",
                                    "number of threads, 1 to 1024; default: as many as the machine offers"};
+
+/// The settings of all --set. Throws UsageError.
+[[nodiscard]] std::vector<config::Override> overrides_of(const Arguments& arguments);
 
 /// The configuration of the first operand, changed by --set. Throws UsageError, ConfigError, IoError.
 [[nodiscard]] config::Config config_of(const Arguments& arguments);
@@ -50,10 +54,13 @@ inline const Option progress_option{
 /// How to show progress. Throws UsageError.
 [[nodiscard]] ProgressKind progress_kind(const Arguments& arguments);
 
-/// The file that -o names, else the configuration's name with this ending. Throws UsageError if there is neither.
+/// The file that -o names, else the name of the configuration, or of the output of --from in its place, with this
+/// ending. Throws UsageError if there is neither.
 [[nodiscard]] std::string output_of(const Arguments& arguments, const std::string& ending);
 
 /// Throws UsageError if the output would replace the configuration.
 void check_not_config(const std::string& config, const std::string& output);
+/// The same of another file that is read; `what` it is.
+void check_not_input(const std::string& input, const std::string& output, const std::string& what);
 
 }  // namespace clatter::app

@@ -37,6 +37,7 @@ std::vector<Setting> settings() {
       }
       const std::span<const std::string_view> values = key.kind == Kind::flag ? flags : key.choices;
       all.push_back({full, config::permitted_and_default(key), std::string(key.help), {values.begin(), values.end()}});
+      if (key.kind == Kind::choices) all.back().values.emplace_back(config::no_choice);
     }
   }
   return all;

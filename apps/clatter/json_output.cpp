@@ -140,7 +140,7 @@ std::string special_json(const branches::SpecialPoint& special, const std::vecto
   json["period_ratio"] = at.orbit.period_ratio(), json["word"] = at.orbit.word(), json["stable"] = at.stable;
   json["multipliers"] = Json::array();
   for (const std::size_t i : {0U, 1U}) json["multipliers"].push_back({at.multiplier_re[i], at.multiplier_im[i]});
-  json["branches"] = special.branches;
+  json["branches"] = special.branches, json["left_out"] = special.left_out;
   return text_of(json, in_one_line);
 }
 

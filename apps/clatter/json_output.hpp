@@ -27,7 +27,7 @@ namespace clatter::app {
                                         std::size_t point);
 
 /// A special point of a branch: {"kind":"fold","nu":1.42, ... "multipliers":[[1.0,0.0],[0.1,0.0]], ...} in one line;
-/// multipliers are pairs of real and imaginary parts.
+/// multipliers are pairs of real and imaginary parts. "left_out": a birth there isn't followed.
 [[nodiscard]] std::string special_json(const branches::SpecialPoint& special, const std::vector<Parameter>& parameters,
                                        const Units& units);
 

@@ -31,7 +31,7 @@ double size_of(const Round& round) {
 
 /// The exact round near another one, as far as Newton's method, which must meet the same stops in the same order, gets
 /// there.
-Round polished(const point::Problem& problem, Round round) {
+Round polished(const point::Problem& problem, Round round, double phase) {
   constexpr int most_iterations = 6;
   for (int iteration = 0; iteration < most_iterations; ++iteration) {
     const double gap = round.orbit.gap().size();
@@ -40,7 +40,7 @@ Round polished(const point::Problem& problem, Round round) {
     const motion::State<double>& from = round.orbit.states[0];
     const PhasePoint next{from.x + step.x, from.v + step.v};
     if (!inside(problem.stops, next)) break;
-    const std::optional<Round> closer = run_round(started(problem, next, 0.0), round.orbit.periods);
+    const std::optional<Round> closer = run_round(started(problem, next, phase), round.orbit.periods);
     if (!closer || closer->orbit.passages != round.orbit.passages || !(closer->orbit.gap().size() < gap)) break;
     round = *closer;
   }
@@ -65,11 +65,11 @@ PeriodicMotion described(const point::Problem& problem, const Round& round) {
 }
 
 /// A motion that is near a round, decided beyond rounding.
-steady::ObservedTime decided(const point::Problem& problem, const steady::MapOrbit& orbit) {
+steady::ObservedTime decided(const point::Problem& problem, const steady::MapOrbit& orbit, double phase) {
   steady::Rests rests;
   for (std::size_t i = 0; i < orbit.periods; ++i) rests.pass(orbit.passages[i], static_cast<std::int64_t>(i));
   const auto section = static_cast<std::int64_t>(orbit.periods);
-  const point::Problem from_here = started(problem, {orbit.states[0].x, orbit.states[0].v}, 0.0);
+  const point::Problem from_here = started(problem, {orbit.states[0].x, orbit.states[0].v}, phase);
   return point::Decisions{}.decided(from_here, steady::repeated(orbit.states[0], orbit.periods, 0.0, section, rests));
 }
 
@@ -87,23 +87,24 @@ PhasePoint after_impact(const Stops& stops, PhasePoint state, double size) {
   return state;
 }
 
-std::optional<PeriodicMotion> periodic_motion(const point::Problem& problem, PhasePoint state, std::size_t periods) {
-  const std::optional<Round> first = run_round(started(problem, state, 0.0), periods);
+std::optional<PeriodicMotion> periodic_motion(const point::Problem& problem, PhasePoint state, std::size_t periods,
+                                              double phase) {
+  const std::optional<Round> first = run_round(started(problem, state, phase), periods);
   if (!first) return std::nullopt;
-  const steady::ObservedTime exact = decided(problem, first->orbit);
+  const steady::ObservedTime exact = decided(problem, first->orbit, phase);
   if (exact.status != steady::Status::periodic) return std::nullopt;
   if (!exact.sections.empty()) {
     const auto round =
-        run_round(started(problem, {exact.from.x, exact.from.v}, 0.0), exact.sections.size(), exact.sections);
+        run_round(started(problem, {exact.from.x, exact.from.v}, phase), exact.sections.size(), exact.sections);
     return round ? std::optional(described(problem, *round)) : std::nullopt;
   }
-  Round round = polished(problem, *first);
+  Round round = polished(problem, *first, phase);
   const auto states = std::span(round.orbit.states);
   const double same = same_motion * size_of(round);
   const std::size_t shortest = steady::least_divisor(
       periods, [&](std::size_t m) { return motion::Perturbation(between(states[0], states[m])).size() <= same; });
   if (shortest < periods) {  // contacts, word and flight of the shorter period
-    const auto again = run_round(started(problem, {states[0].x, states[0].v}, 0.0), shortest);
+    const auto again = run_round(started(problem, {states[0].x, states[0].v}, phase), shortest);
     if (!again) return std::nullopt;
     round = *again;
   }

@@ -27,9 +27,9 @@ struct PeriodicMotion {
 
 /// The motion of period 1 or more forcing periods that a state at forcing phase 0 is near, made exact by Newton's
 /// method as long as that brings it closer to a repeat; nothing if the run fails. Motion that grazes a stop, or rests
-/// in every period, stays as it is.
+/// in every period, stays as it is. With another `phase`, in rad, all states are those at that.
 [[nodiscard]] std::optional<PeriodicMotion> periodic_motion(const point::Problem& problem, PhasePoint state,
-                                                            std::size_t periods);
+                                                            std::size_t periods, double phase = 0.0);
 
 /// A mass that stands still at x without a force.
 [[nodiscard]] PeriodicMotion standstill(const point::Problem& problem, double x);

@@ -37,6 +37,8 @@ class Follower {
     }
     if (!waiting_.empty() && record_.found().ends.back().reason != max_points_spent)
       record_.fail(record_.found().points.back(), max_points_spent);
+    for (const Waiting& one : waiting_)
+      if (one.special) record_.leave_out(*one.special);
     return record_.take();
   }
 
@@ -62,6 +64,7 @@ class Follower {
     if (from.special) {
       const auto first = first_step(equations, start, from);
       if (!first) return record_.fail(record_.point(equations, start), no_step_off);
+      if (is_left_out(from, *first)) return record_.leave_out(*from.special);
       record_.meet(*from.special, record_.branch());
       start.tangent = *first;
       record_.add(record_.point(equations, start));
@@ -96,11 +99,23 @@ class Follower {
       return record_.fail(record_.point(equations, {equations.unknowns_of(from.scene, from.orbit), {}, 0.0}),
                           no_step_off);
     }
+    if (is_left_out(from, begun->tangent)) return record_.leave_out(*from.special);
     const OrbitEquations equations = equations_for(begun->orbit);
     const CurvePoint start{begun->at, begun->tangent, 0.0};
     record_.meet(*from.special, record_.branch());
     record_.add(record_.point(equations, start));
     walk(equations, start, from.special);
+  }
+
+  /// Whether a branch that begins in a direction is born in a graze, on the side from which another one came, and such
+  /// births aren't followed.
+  [[nodiscard]] bool is_left_out(const Waiting& from, const Vector& direction) const {
+    return from.came * direction.back() < 0 && !settings_.follows(Birth::graze);
+  }
+  /// Leaves out what is born at a flip or a loss of symmetry, unless it is followed. Returns whether it does.
+  bool leaves_out(SpecialKind kind, std::size_t special) {
+    if (generation_ < settings_.generations && settings_.follows(birth_at(kind).value())) return false;
+    return record_.leave_out(special), true;
   }
 
   /// The direction from a special point into a branch that begins there, in which it is motion between the stops.
@@ -194,7 +209,7 @@ class Follower {
     if (!exact || std::abs(exact->back() - point.at.back()) > 1e-6) return false;
     const SpecialKind kind = half.mirrored ? SpecialKind::symmetry_breaking : SpecialKind::flip;
     const Record::Noted noted = record_.note(kind, record_.point(there, {*exact, {}, point.arclength}));
-    if (generation_ < settings_.generations && noted.is_new)
+    if (noted.is_new && !leaves_out(kind, noted.number))
       waiting_.push_back({there.scene_at(*exact), there.orbit_at(*exact), {}, noted.number, generation_ + 1});
     // what waits there to be born is this branch, or has the same numbers
     std::erase_if(waiting_, [&](const Waiting& one) { return one.special == noted.number && one.direction; });
@@ -204,15 +219,15 @@ class Follower {
   /// A special point on the branch; what is born there waits.
   void note(const OrbitEquations& equations, SpecialKind kind, const CurvePoint& point) {
     CurvePoint exact = point;
-    if (kind == SpecialKind::fold || kind == SpecialKind::flip || kind == SpecialKind::symmetry_breaking) {
+    const bool gives_birth = kind == SpecialKind::flip || kind == SpecialKind::symmetry_breaking;
+    if (kind == SpecialKind::fold || gives_birth) {
       const int multiplier = kind == SpecialKind::fold ? 1 : -1;
       const OrbitEquations there = equations_for(equations.shape(), {{Condition::Kind::multiplier, multiplier}});
       if (const auto at = solution(there, point.at, settings_.tolerance)) exact.at = *at;
     }
     const BranchPoint at = record_.point(equations, exact);
     const auto [special, is_new] = record_.note(kind, at);
-    if (!is_new || generation_ >= settings_.generations) return;
-    if (kind == SpecialKind::flip || kind == SpecialKind::symmetry_breaking) wait_for_daughter(at, special);
+    if (is_new && gives_birth && !leaves_out(kind, special)) wait_for_daughter(at, special);
   }
 
   /// A branch born at a flip or a loss of symmetry begins along the eigenvector of multiplier -1.
@@ -268,12 +283,13 @@ class Follower {
     const auto [special, is_new] = record_.note(SpecialKind::graze, at, touch->graze().condition);
     record_.end(last, "graze");
     if (!is_new) return no_longer_waits(waiting_, special, last.orbit);  // this is the branch that waits there
+    const int heading = touch->last_good.tangent.back() < 0 ? -1 : 1;
     if (touch->turns)
       waiting_.push_back({at.scene, turned(with, touch->impact), {}, special, generation_});
     else if (touch->appears)
-      wait_with(at.scene, with, touch->impact, special);
+      wait_with(at.scene, with, touch->impact, special, heading);
     else
-      wait_without(at.scene, without, special);
+      wait_without(at.scene, without, special, heading);
   }
 
   /// The branch ends on a motion that repeats sooner, or is symmetric, as that grazes soft stops, whose dampers change
@@ -287,21 +303,26 @@ class Follower {
     const auto [special, is_new] = record_.note(SpecialKind::graze, at, condition);
     record_.end(at, "graze");
     if (!is_new) return;
-    if (exact.orbit.half_turns != ends.half_turns) wait_with(at.scene, at.orbit, exact.impact, special);
+    if (exact.orbit.half_turns != ends.half_turns) {
+      if (!settings_.follows(Birth::graze)) return record_.leave_out(special);
+      wait_with(at.scene, at.orbit, exact.impact, special);
+    }
     wait_without(at.scene, at.orbit.without(exact.impact), special);
   }
 
-  void wait_with(const FollowedScene& scene, const Orbit& orbit, std::size_t graze, std::size_t special) {
+  void wait_with(const FollowedScene& scene, const Orbit& orbit, std::size_t graze, std::size_t special, int came = 0) {
     waiting_.push_back({scene, orbit, {}, special, generation_});
+    waiting_.back().came = came;
     if (orbit.impacts[graze].event != EventKind::impact) waiting_.back().opens = graze;
   }
-  void wait_without(const FollowedScene& scene, Orbit orbit, std::size_t special) {
+  void wait_without(const FollowedScene& scene, Orbit orbit, std::size_t special, int came = 0) {
     if (orbit.size() == 0 && orbit.pressed == Side::none) {
       if (scene.oscillator.stiffness == 0) return;  // it drifts, or has no place of its own
       orbit = Orbit{};
     }
     // without it the motion may repeat sooner, or be symmetric
     waiting_.push_back({scene, orbit.half_if_same(1e-6, symmetric_), {}, special, generation_});
+    waiting_.back().came = came;
   }
 
   StartProblem problem_;

@@ -32,6 +32,8 @@ enum class SpecialKind : std::uint8_t {
   cusp               ///< of a curve: two special points meet and vanish
 };
 [[nodiscard]] std::string_view name_of(SpecialKind kind);
+/// What may be born there, if anything.
+[[nodiscard]] std::optional<Birth> birth_at(SpecialKind kind);
 
 /// A periodic motion on a branch, with its multipliers.
 struct BranchPoint {
@@ -49,6 +51,7 @@ struct SpecialPoint {
   BranchPoint at;
   std::vector<std::size_t> branches;  ///< that meet there
   Condition condition{};              ///< of a graze
+  bool left_out = false;              ///< a birth there isn't followed
 };
 
 /// How the end of a branch, or of a curve, came about.
@@ -69,6 +72,7 @@ struct Branches {
   std::vector<BranchPoint> points;  ///< branch after branch, each in the order of its arclength
   std::vector<SpecialPoint> special;
   std::vector<BranchEnd> ends;
+  OfBirths<std::size_t> left_out{};  ///< special points with a birth that isn't followed
 };
 
 /// Follows the branch of a problem both ways from its start, and what it leads to. Throws StartError if the scene

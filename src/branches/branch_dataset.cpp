@@ -110,6 +110,13 @@ void name_observables(results::Dataset& dataset) {
 
 }  // namespace
 
+std::string births_text(const OfBirths<std::size_t>& births) {
+  std::string text;
+  for (std::size_t kind = 0; kind < births.size(); ++kind)
+    text += (text.empty() ? "" : ", ") + std::to_string(births[kind]) + ' ' + std::string(birth_names[kind]);
+  return text;
+}
+
 results::Dataset branch_dataset(const Branches& branches, const BranchSettings& settings, const Units& units) {
   results::Dataset dataset;
   std::vector<std::int32_t> branch;
@@ -124,21 +131,25 @@ results::Dataset branch_dataset(const Branches& branches, const BranchSettings& 
   points.add("arclength", std::move(arclength), "along the branch or curve, over the width of its range");
   points.add_motions(branches.points, settings);
 
+  if (settings.births) dataset.attributes.emplace_back("births_left_out", births_text(branches.left_out));
   std::size_t most = 1;
   std::vector<std::string> kind;
   std::vector<BranchPoint> at;
   std::vector<std::int32_t> meeting;
+  std::vector<std::uint8_t> left_out;
   for (const SpecialPoint& special : branches.special) most = std::max(most, special.branches.size());
   for (const SpecialPoint& special : branches.special) {
     kind.emplace_back(name_of(special.kind)), at.push_back(special.at);
     const std::vector<std::int32_t> numbers = numbers_of(special.branches, most);
     meeting.insert(meeting.end(), numbers.begin(), numbers.end());
+    left_out.push_back(special.left_out);
   }
   Columns specials(dataset, units, "special", at.size(), "special_");
   dataset.dimensions.push_back({"meeting", most});
   specials.add("kind", std::move(kind), "kind of the special point");
   specials.add("branch", std::move(meeting), "numbers of the branches, or the curves, that meet there; -1: no more",
                {"meeting"});
+  if (settings.births) specials.add("left_out", std::move(left_out), "1: a birth there isn't followed");
   specials.add_motions(at, settings);
   sweep::add_drawn_names(units.is_si, dataset);
   name_observables(dataset);

@@ -78,6 +78,7 @@ class CurveFollower {
       if (!record_.knows(start.kind, start.at) && !record_.is_full()) follow(start);
     }
     Branches found = record_.take();
+    found.left_out = along.left_out;
     found.ends.insert(found.ends.end(), along.ends.begin(), along.ends.end());
     return found;
   }

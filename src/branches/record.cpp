@@ -24,6 +24,19 @@ constexpr std::array<std::string_view, 11> special_names{"fold",
 
 std::string_view name_of(SpecialKind kind) { return special_names[static_cast<std::size_t>(kind)]; }
 
+std::optional<Birth> birth_at(SpecialKind kind) {
+  switch (kind) {
+    case SpecialKind::symmetry_breaking:
+      return Birth::symmetry;
+    case SpecialKind::flip:
+      return Birth::flip;
+    case SpecialKind::graze:
+      return Birth::graze;
+    default:
+      return std::nullopt;
+  }
+}
+
 void Record::begin(double speed_unit) {
   branch_ = found_.ends.empty() ? 0 : found_.ends.back().branch + 1;
   first_point_ = found_.points.size(), first_special_ = specials();
@@ -89,6 +102,15 @@ std::optional<std::size_t> Record::branch_of(const std::string& word, double val
     if (value >= std::min(a, b) && value <= std::max(a, b)) return one.branch;
   }
   return std::nullopt;
+}
+
+Branches Record::take() {
+  for (SpecialPoint& special : found_.special) {
+    const std::optional<Birth> birth = birth_at(special.kind);
+    special.left_out = special.left_out && birth && special.branches.size() < 2;
+    if (special.left_out) ++found_.left_out[static_cast<std::size_t>(*birth)];
+  }
+  return std::move(found_);
 }
 
 void Record::turn_round() {

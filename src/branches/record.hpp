@@ -37,6 +37,8 @@ class Record {
   /// Whether a special point can't be told from a graze of its branch: near a rigid stop a multiplier may be -1 within
   /// rounding of it.
   [[nodiscard]] bool grazes_at(std::size_t special) const;
+  /// A birth at a special point isn't followed from there.
+  void leave_out(std::size_t special) { found_.special[special].left_out = true; }
   /// A branch belongs to a special point, too.
   void meet(std::size_t special, std::size_t branch);
 
@@ -52,7 +54,8 @@ class Record {
   void turn_round();
 
   [[nodiscard]] const Branches& found() const { return found_; }
-  [[nodiscard]] Branches take() { return std::move(found_); }
+  /// All that is found. What was left out at a special point, but met it on a way of its own, isn't.
+  [[nodiscard]] Branches take();
 
  private:
   void end(const BranchPoint& last, std::string reason, bool failed);

@@ -15,28 +15,43 @@
 namespace clatter::branches {
 namespace {
 
-/// The state at phase 0 that a problem, in its frame, settles on, and its period.
-std::pair<PhasePoint, std::int64_t> settled(point::Problem problem) {
-  problem.observe = {};
-  problem.observe.attractor = true;
-  problem.time.mode = steady::Mode::steady;
-  point::ThreadScratch scratch;
-  const point::PointResult result = run_point(problem, scratch);
-  if (result.status == steady::Status::escaped)
-    throw StartError(
-        "the mass escapes from the start, as nothing brings it back; begin between stops, or nearer to one");
-  if (failed(result.status)) throw StartError("the run to the motion at the start fails");
-  if (!(result.attractor_periods > 0))
-    throw StartError(
-        "the scene settles on no periodic motion within time.max_periods; begin elsewhere in the range, raise "
-        "time.max_periods, or set branch.period and, near a periodic motion, x0 and v0");
-  const auto periods = static_cast<std::int64_t>(result.attractor_periods);
-  const PhasePoint there{result.attractor_x, result.attractor_v};  // at the phase of the start
-  const double phase = problem.start.phase - problem.shaking.lead, turns = phase / (2 * std::numbers::pi);
-  if (std::ceil(turns) == turns) return {there, periods};
-  const auto state = attractors::state_after(attractors::started(problem, there, phase), std::ceil(turns) - turns);
-  if (!state) throw StartError("the run to the motion at the start fails");
-  return {*state, periods};
+double phase_of_start(const point::Problem& problem) { return problem.start.phase - problem.shaking.lead; }
+
+bool is_on_stop(const Stops& stops, double x) {
+  const auto is_on = [&](double stop) {
+    return std::isfinite(stop) && std::abs(x - stop) <= attractors::same_motion * std::max(1.0, std::abs(stop));
+  };
+  return is_on(stops.lower) || is_on(stops.upper);
+}
+
+/// The middle of the first flight from the start on that lasts a thousandth of a forcing period or longer, in forcing
+/// periods after the start. Nothing if the run fails, or flies nowhere.
+std::optional<double> middle_of_flight(const point::Problem& problem, std::int64_t periods) {
+  constexpr double turn = 2 * std::numbers::pi, shortest = 1e-3;
+  const auto run = event_run(problem, static_cast<std::size_t>(periods));
+  if (!run) return std::nullopt;
+  double begin = 0;
+  for (const OrbitImpact& event : run->impacts) {
+    const double end = event.phase / turn;
+    const bool is_contact = event.event == EventKind::separation;
+    if (end - begin >= shortest && !is_contact) return (begin + end) / 2;
+    begin = (event.phase + event.rest) / turn;
+  }
+  const auto last = static_cast<double>(periods);
+  return begin < last ? std::optional((begin + last) / 2) : std::nullopt;
+}
+
+/// The motion near a start, of so many forcing periods: at phase 0 between the stops it is taken there. Else in the
+/// middle of a flight, since an impact near the instant at which a motion is looked at may lie on both sides of it.
+MotionStart near_start(const point::Problem& problem, std::int64_t periods) {
+  const PhasePoint state{problem.start.displacement, problem.start.velocity};
+  const double phase = phase_of_start(problem);
+  if (phase == 0 && !is_on_stop(problem.stops, state.x)) return {state, 0.0, periods};
+  const auto middle = middle_of_flight(problem, periods);
+  if (!middle) return {state, phase, periods};
+  const auto there = attractors::state_after(problem, *middle);
+  if (!there) throw StartError("the run from the start fails");
+  return {*there, phase + *middle * 2 * std::numbers::pi, periods};
 }
 
 /// Whether rounding decides a motion between its rests: a change of the frequency by 1e-11 has other letters, or lands
@@ -66,12 +81,12 @@ Orbit resting_start(const point::Problem& problem, Side stop, std::int64_t perio
 }
 
 /// Between soft stops, of which one may be rigid. `problem` is in the frame of what is shaken, and `given` is not.
-Orbit soft_start(const point::Problem& given, const point::Problem& problem, const PhasePoint& state,
-                 std::int64_t period, bool symmetric) {
-  const auto orbit = event_run(attractors::started(problem, state, 0.0), static_cast<std::size_t>(period));
+Orbit soft_start(const point::Problem& given, const point::Problem& problem, const MotionStart& near, bool symmetric) {
+  auto orbit = event_run(attractors::started(problem, near.state, near.phase), static_cast<std::size_t>(near.periods));
   if (!orbit) throw StartError("the run from the start fails");
+  for (OrbitImpact& event : orbit->impacts) event.phase += near.phase;
   for (const OrbitImpact& event : orbit->impacts)
-    if (event.event == EventKind::impact && event.before == 0) return resting_start(given, event.side, period);
+    if (event.event == EventKind::impact && event.before == 0) return resting_start(given, event.side, near.periods);
   if (orbit->size() == 0 && orbit->pressed == Side::none && problem.oscillator.stiffness == 0)
     throw StartError("without a spring, motion without impacts has no place of its own; begin where it meets a stop");
   return orbit->half_if_same(1e-6, symmetric);
@@ -158,6 +173,29 @@ double speed_scale(const FollowedScene& scene, const Orbit& orbit) {
   return speed > 1e-2 * free ? speed : std::max(free, 1e-12);
 }
 
+MotionStart settled(point::Problem problem) {
+  problem.observe = {};
+  problem.observe.attractor = true;
+  problem.time.mode = steady::Mode::steady;
+  point::ThreadScratch scratch;
+  const point::PointResult result = run_point(problem, scratch);
+  if (result.status == steady::Status::escaped)
+    throw StartError(
+        "the mass escapes from the start, as nothing brings it back; begin between stops, or nearer to one");
+  if (failed(result.status)) throw StartError("the run to the motion at the start fails");
+  if (!(result.attractor_periods > 0))
+    throw StartError(
+        "the scene settles on no periodic motion within time.max_periods; begin elsewhere in the range, raise "
+        "time.max_periods, or set branch.period and, near a periodic motion, x0 and v0");
+  const auto periods = static_cast<std::int64_t>(result.attractor_periods);
+  const PhasePoint there{result.attractor_x, result.attractor_v};  // at the phase of the start
+  const double phase = phase_of_start(problem), turns = phase / (2 * std::numbers::pi);
+  if (std::ceil(turns) == turns) return {there, 0.0, periods};
+  const auto state = attractors::state_after(attractors::started(problem, there, phase), std::ceil(turns) - turns);
+  if (!state) throw StartError("the run to the motion at the start fails");
+  return {*state, 0.0, periods};
+}
+
 Orbit start_orbit(const StartProblem& start, std::int64_t period, bool symmetric) {
   const point::Problem given = with_scene(start, start);
   point::Problem problem = given;
@@ -166,22 +204,18 @@ Orbit start_orbit(const StartProblem& start, std::int64_t period, bool symmetric
   if (problem.oscillator.forcing == 0)
     throw StartError(std::string("a branch needs a force, whose periods it counts: set ") +
                      (is_si ? "machine.force" : "scene.f"));
-  PhasePoint state{problem.start.displacement, problem.start.velocity};
-  if (period == 0) {
-    std::tie(state, period) = settled(problem);
-  } else if (given.start.phase != 0) {
-    throw StartError("with branch.period, x0 and v0 stand at forcing phase 0: leave out " +
-                     std::string(is_si ? "machine.phase" : "scene.phase"));
-  }
-  if (has_soft_stop(problem.stops)) return soft_start(given, problem, state, period, symmetric);
+  const MotionStart near = period == 0 ? settled(problem) : near_start(problem, period);
+  if (has_soft_stop(problem.stops)) return soft_start(given, problem, near, symmetric);
   // Newton's method on the map of the periods; unless a contact appears or vanishes on the way it gets there
-  const auto motion = attractors::periodic_motion(problem, state, static_cast<std::size_t>(period));
+  const auto motion =
+      attractors::periodic_motion(problem, near.state, static_cast<std::size_t>(near.periods), near.phase);
   if (!motion) throw StartError("the run from the start fails");
-  const auto round = attractors::run_round(attractors::started(problem, motion->cycle[0], 0.0), motion->cycle.size());
+  const auto round =
+      attractors::run_round(attractors::started(problem, motion->cycle[0], near.phase), motion->cycle.size());
   if (!round) throw StartError("the run from the start fails");
-  Orbit orbit = orbit_of(*round, problem.oscillator.frequency);
+  Orbit orbit = orbit_of(*round, problem.oscillator.frequency, near.phase);
   for (const OrbitImpact& impact : orbit.impacts)
-    if (impact.before == 0) return resting_start(given, impact.side, period);
+    if (impact.before == 0) return resting_start(given, impact.side, near.periods);
   if (orbit.size() == 0 && problem.oscillator.stiffness == 0)
     throw StartError("without a spring, motion without impacts has no place of its own; begin where it meets a stop");
   return orbit.half_if_same(1e-6, symmetric);

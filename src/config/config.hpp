@@ -44,6 +44,7 @@ inline constexpr std::string_view standard_input = "-";
                                  Format format = Format::toml);
 
 /// Reads a configuration from TOML, such as the complete text of another one; errors name `file`.
-[[nodiscard]] Config parse_config(const std::string& text, const std::string& file);
+[[nodiscard]] Config parse_config(const std::string& text, const std::string& file,
+                                  const std::vector<Override>& overrides = {});
 
 }  // namespace clatter::config

@@ -171,6 +171,17 @@ void add_second_parameter(const Settings& settings, branches::BranchSettings& br
   branch.across_range = range != nullptr ? settings.interval("branch", "across_range") : all;
 }
 
+/// The births that are followed; nothing if the key isn't given.
+std::optional<branches::OfBirths<bool>> births_of(const Settings& settings) {
+  const Setting* const given = settings.find("branch", "births");
+  if (given == nullptr) return std::nullopt;
+  const std::vector<std::string> chosen = split_names(std::get<std::string>(given->value));
+  branches::OfBirths<bool> births{};
+  for (std::size_t kind = 0; kind < births.size(); ++kind)
+    births[kind] = std::ranges::find(chosen, branches::birth_names[kind]) != chosen.end();
+  return births;
+}
+
 /// [branch], with ranges in the user's units; nothing if no key of it is given. Throws ConfigError if a key is missing,
 /// a value of a range isn't permitted, or [sweep] has an axis of the same key.
 std::optional<branches::BranchSettings> branch_settings_of(const Settings& settings) {
@@ -195,7 +206,8 @@ std::optional<branches::BranchSettings> branch_settings_of(const Settings& setti
                                   .tolerance = settings.number("branch", "tolerance"),
                                   .largest_step = settings.number("branch", "largest_step"),
                                   .max_points = settings.integer("branch", "max_points"),
-                                  .generations = settings.integer("branch", "switch")};
+                                  .generations = settings.integer("branch", "switch"),
+                                  .births = births_of(settings)};
   add_second_parameter(settings, branch);
   return branch;
 }
@@ -246,6 +258,10 @@ Config read_config(const std::string& path, const std::vector<Override>& overrid
   return config_of(std::move(parsed));
 }
 
-Config parse_config(const std::string& text, const std::string& file) { return config_of(read_toml(file, text)); }
+Config parse_config(const std::string& text, const std::string& file, const std::vector<Override>& overrides) {
+  ParsedConfig parsed = read_toml(file, text);
+  apply_overrides(parsed, overrides);
+  return config_of(std::move(parsed));
+}
 
 }  // namespace clatter::config

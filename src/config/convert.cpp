@@ -3,8 +3,10 @@
 #include <type_traits>
 
 #include "config/axis_functions.hpp"
+#include "config/consistency.hpp"
 #include "config/settings.hpp"
 #include "config/suggestion.hpp"
+#include "config/text_file.hpp"
 #include "config/unit.hpp"
 
 namespace clatter::config {
@@ -136,6 +138,38 @@ std::string choice_of(const Key& key, const ParsedValue& written) {
   wrong_kind(key, written, near.empty() ? "" : "; did you mean '" + std::string(near) + "'?");
 }
 
+/// The words of a list, or between the commas of a text, which may have the brackets and quotes of a list.
+std::vector<ParsedValue> words_of(const Key& key, const ParsedValue& written) {
+  if (const auto* const list = std::get_if<ParsedList>(&written.data)) return *list;
+  const std::string text = text_of(key, written);
+  std::string_view inside = without_blanks(text);
+  if (written.untyped && inside.starts_with('[') && inside.ends_with(']')) {
+    inside = without_blanks(inside.substr(1, inside.size() - 2));
+    if (inside.empty()) return {};
+  }
+  std::vector<ParsedValue> words;
+  for (const std::string& word : split_names(inside)) {
+    words.push_back(written);
+    words.back().data = written.untyped ? unquoted(word) : word;
+  }
+  return words;
+}
+
+/// Some of the choices in their order, each once, with commas between them, or "none".
+std::string choices_of(const Key& key, const ParsedValue& written) {
+  const std::vector<ParsedValue> words = words_of(key, written);
+  std::vector<std::string> chosen;
+  for (const ParsedValue& word : words) {
+    const auto* const text = std::get_if<std::string>(&word.data);
+    const bool is_none = words.size() == 1 && text != nullptr && *text == no_choice;
+    if (!is_none) chosen.push_back(choice_of(key, word));
+  }
+  std::vector<std::string_view> in_order;
+  for (const std::string_view choice : key.choices)
+    if (std::ranges::find(chosen, choice) != chosen.end()) in_order.push_back(choice);
+  return in_order.empty() ? std::string(no_choice) : joined(in_order);
+}
+
 AxisValues list_of(const Key& key, const ParsedList& list, bool is_si = false) {
   AxisValues axis;
   std::vector<Measure> measures;
@@ -195,6 +229,8 @@ Value convert(const Key& key, const ParsedValue& written, bool is_si) {
       return flag_of(key, written);
     case Kind::choice:
       return choice_of(key, written);
+    case Kind::choices:
+      return choices_of(key, written);
     case Kind::text:
     case Kind::names:
       break;

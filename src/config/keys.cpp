@@ -143,6 +143,11 @@ const std::array keys_after_observe{
          Key{"branch", "switch", integer, "0", "2",
              "follow branches born at flips and symmetry breakings, and those born on them, this many times over",
              AllowedRange{.low = 0, .high = 20}}),
+    with(a_branch,
+         one_of(branches::birth_names,
+                Key{"branch", "births", choices, "", "flip, graze",
+                    "births that are followed, flips and losses of symmetry as often as 'switch' says; a motion that "
+                    "goes on beyond a graze is always followed; without the key, all"})),
 
     Key{"output", "compression", integer, "0", "4", "deflate level of the output file; 0: none",
         AllowedRange{.low = 0, .high = 9}},
@@ -234,6 +239,8 @@ std::string permitted(const Key& key) {
       return "true or false";
     case choice:
       return joined(key.choices);
+    case choices:
+      return "some of " + joined(key.choices) + ", or " + std::string(no_choice);
     case integer:
       return "a whole number, " + describe(key.range);
     case interval:

@@ -9,6 +9,9 @@
 
 namespace clatter::config {
 
+/// The value of a key of several choices if it has none of them.
+inline constexpr std::string_view no_choice = "none";
+
 /// Every key, in the order of the configuration's text.
 [[nodiscard]] std::span<const Key> keys();
 

@@ -10,7 +10,7 @@
 namespace clatter {
 inline namespace scene {
 
-enum class Kind : std::uint8_t { text, names, number, interval, integer, flag, choice };
+enum class Kind : std::uint8_t { text, names, number, interval, integer, flag, choice, choices };
 
 /// The numbers that a key takes.
 struct AllowedRange {

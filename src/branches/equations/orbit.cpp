@@ -119,9 +119,10 @@ std::string Orbit::word() const {
 }
 std::string Orbit::regime() const { return ImpactWord::regime_of(contacts_of(*this), period_ratio()); }
 
-Orbit orbit_of(const attractors::Round& round, double nu) {
+Orbit orbit_of(const attractors::Round& round, double nu, double phase) {
   Orbit orbit{{}, 2 * static_cast<int>(round.orbit.periods), false};
-  for (const auto& contact : round.contacts) orbit.impacts.push_back({contact.side, nu * contact.time, contact.before});
+  for (const auto& contact : round.contacts)
+    orbit.impacts.push_back({contact.side, phase + nu * contact.time, contact.before});
   return orbit;
 }
 

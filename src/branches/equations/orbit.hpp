@@ -64,7 +64,7 @@ struct Orbit {
   [[nodiscard]] std::string regime() const;  ///< likewise
 };
 
-/// The impacts of a motion that was run over whole forcing periods from phase 0.
-[[nodiscard]] Orbit orbit_of(const attractors::Round& round, double nu);
+/// The impacts of a motion that was run over whole forcing periods from a phase on, in rad.
+[[nodiscard]] Orbit orbit_of(const attractors::Round& round, double nu, double phase = 0.0);
 
 }  // namespace clatter::branches

@@ -19,6 +19,9 @@ struct Waiting {
   std::optional<std::size_t> cascade{};  ///< the branch that came near it through ever more grazes
   int cascade_side = 0;                  ///< on which that lies: up or down the parameter
   std::optional<std::size_t> opens{};    ///< the event with which a contact with a soft stop begins or is interrupted
+  /// The heading, up or down the parameter, of the branch that came to the graze it begins at: if it turns back there,
+  /// it is born. 0: it goes on whatever its heading is.
+  int came = 0;
 };
 
 /// A branch that came to its end in a special point needn't begin there any more.
