@@ -5,9 +5,9 @@
 namespace clatter::app {
 
 std::span<const Command> commands() {
-  static const std::vector<Command> all{run_command(),      plan_command(),   accuracy_command(), branch_command(),
-                                        merge_command(),    export_command(), certify_command(),  info_command(),
-                                        defaults_command(), help_command()};
+  static const std::vector<Command> all{run_command(),   plan_command(),     accuracy_command(), branch_command(),
+                                        merge_command(), export_command(),   certify_command(),  info_command(),
+                                        init_command(),  defaults_command(), help_command()};
   return all;
 }
 

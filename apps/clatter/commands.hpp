@@ -54,6 +54,7 @@ struct Command {
 [[nodiscard]] Command export_command();
 [[nodiscard]] Command certify_command();
 [[nodiscard]] Command info_command();
+[[nodiscard]] Command init_command();
 [[nodiscard]] Command defaults_command();
 [[nodiscard]] Command help_command();
 

@@ -3,8 +3,18 @@
 #include "config/keys.hpp"
 #include "config/reference.hpp"
 #include "help_topics.hpp"
+#include "models.hpp"
 
 namespace clatter::app {
+namespace {
+
+std::vector<std::string> names_of_models() {
+  std::vector<std::string> names;
+  for (const Model& model : models()) names.emplace_back(model.name);
+  return names;
+}
+
+}  // namespace
 
 Offer offer_for(std::string_view argument, std::span<const std::string_view> choices) {
   using enum Offer::Kind;
@@ -13,6 +23,7 @@ Offer offer_for(std::string_view argument, std::span<const std::string_view> cho
   if (argument == "KEY=VALUE") return {settings};
   if (argument == "DIR") return {folders};
   if (argument == "COMMAND|KEY") return {words, help_topics()};
+  if (argument == "MODEL") return {words, names_of_models()};
   const std::size_t dot = argument.rfind('.');
   if (dot != std::string_view::npos && argument.find(',') == std::string_view::npos)
     return {files, {std::string(argument.substr(dot + 1))}};

@@ -4,8 +4,47 @@
 #include <limits>
 
 namespace clatter::branches {
+namespace {
+
+/// The numbers that give the damping of one stop, in each of its ways.
+struct StopDamping {
+  double &ratio, &damper, &restitution;
+
+  [[nodiscard]] bool is_given_by(const double& own) const {
+    return (&own == &ratio || ratio == 0) && (&own == &damper || damper == 0) &&
+           (&own == &restitution || restitution == 1);
+  }
+};
+
+StopDamping damping_of(GivenScene& given, Side side) {
+  auto& s = given.stops;
+  if (side == Side::lower) return {s.damping_lower, given.stop_damper_lower, given.stop_restitution_lower};
+  return {s.damping_upper, given.stop_damper_upper, given.stop_restitution_upper};
+}
+
+/// Gives the damping of a soft stop by a parameter of it, which may be another way than that of the user.
+void give_damping_by(Parameter parameter, Side side, const FollowedScene& start, GivenScene& given) {
+  const auto& row = parameter.row();
+  double& own = (side == Side::upper && parameter.is_of_both() ? row.place_of_upper : row.place)(given);
+  const StopDamping ways = damping_of(given, side);
+  if (!is_soft(start.stops, side) || ways.is_given_by(own)) return;
+  const double zeta = side == Side::lower ? start.stops.damping_lower : start.stops.damping_upper,
+               kappa = side == Side::lower ? start.stops.stiffness_lower : start.stops.stiffness_upper;
+  ways.ratio = ways.damper = 0, ways.restitution = 1;
+  own = &own == &ways.restitution ? restitution_of(zeta)
+        : &own == &ways.damper    ? 2 * zeta * std::sqrt(kappa) * given.mass / start.units.time
+                                  : zeta;
+}
+
+}  // namespace
 
 StartProblem damped_by(const StartProblem& start, Parameter parameter) {
+  if (parameter.role() == Role::stop_damping) {
+    StartProblem same = start;
+    for (const Side side : {Side::lower, Side::upper})
+      if (parameter.is_of_both() || parameter.side() == side) give_damping_by(parameter, side, start, same.given);
+    return same;
+  }
   const double h = start.oscillator.damping, natural = std::sqrt(std::abs(start.oscillator.stiffness));
   const double own = value_of(start, parameter);
   const bool is_own = own != 0 && std::isfinite(own);

@@ -104,18 +104,21 @@ void require_soft_stop(const FollowedScene& scene, Parameter parameter, const st
     return holds(Side::lower) || holds(Side::upper);
   };
   const auto soft = [&](Side side) { return is_soft(scene.stops, side); };
-  if (parameter.role() == Role::softness && !of_any(soft))
+  const bool is_of_soft = parameter.role() == Role::softness || parameter.role() == Role::stop_damping;
+  if (is_of_soft && !of_any(soft))
     throw StartError(asked + " is of a soft stop, and this one is rigid; give " +
                      (scene.given.is_si ? "machine." : "scene.") + with_side("stop_stiffness", parameter.side()));
   if (parameter.role() == Role::restitution && !of_any([&](Side side) { return !soft(side); }))
-    throw StartError(asked + " has no effect on a soft stop; take stop_damping");
+    throw StartError(asked + " has no effect on a soft stop; take stop_damping or stop_R");
 }
 
 /// Throws StartError if a parameter changes both stops, which differ.
 void require_equal_stops(const FollowedScene& scene, Parameter parameter, const std::string& asked) {
-  GivenScene same = scene.given;
+  if (!parameter.is_of_both()) return;
+  GivenScene given = scene.given, same = given;
   set(same, parameter, value_of(scene, parameter));
-  if (!parameter.is_of_both() || same.stops == scene.given.stops) return;
+  const auto& row = parameter.row();
+  if (row.place(same) == row.place(given) && row.place_of_upper(same) == row.place_of_upper(given)) return;
   if (parameter.role() == Role::position)
     throw StartError(asked + " moves both stops, which aren't symmetric; take stop_lower or stop_upper");
   const std::string key(parameter.key());

@@ -142,10 +142,12 @@ Parameter followed_key(const Settings& settings, const Setting& chosen, const Se
   return Parameter::of(name, key.with_unit != Quantity::number ? quantity : key.quantity).value();
 }
 
-/// Whether two keys are one, or stand for a number of a stop or of the damper that both change.
+/// Whether two keys are one, or stand for a number of a stop or of a damper that both change.
 bool change_the_same(Parameter one, Parameter other) {
-  const bool of_damper = one.role() == Role::damping && other.role() == Role::damping;
-  return one.key() == other.key() || one.stands_for(other) || other.stands_for(one) || of_damper;
+  const bool is_damping = one.role() == Role::damping || one.role() == Role::stop_damping;
+  const bool of_one_stop = one.side() == other.side() || one.is_of_both() || other.is_of_both();
+  const bool of_one_damper = is_damping && one.role() == other.role() && of_one_stop;
+  return one.key() == other.key() || one.stands_for(other) || other.stands_for(one) || of_one_damper;
 }
 
 /// The second parameter of [branch], if there is one, and the special points that are followed across it.

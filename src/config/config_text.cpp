@@ -30,11 +30,19 @@ bool is_half_given(const Settings& settings, std::string_view both) {
   return false;
 }
 
+/// Whether a restitution of soft stops stands in the place of a key, which is a damping of them.
+bool is_damped_otherwise(const Settings& settings, const Key& key) {
+  const auto given = [&](Parameter restitution) { return settings.given(restitution) != nullptr; };
+  if (key.name == "stop_damping") return given("stop_R") || given("stop_R_lower") || given("stop_R_upper");
+  return (key.name == "stop_damping_lower" && (given("stop_R") || given("stop_R_lower"))) ||
+         (key.name == "stop_damping_upper" && (given("stop_R") || given("stop_R_upper")));
+}
+
 /// Whether the default of a key belongs in the text: not if its alternative was given.
 bool default_counts(const Settings& settings, const Key& key) {
-  if (is_excluded(settings, key)) return false;
+  if (is_excluded(settings, key) || is_damped_otherwise(settings, key)) return false;
   if (key.other == "xs" || key.other == "gap") return !settings.given_symmetric_stops();
-  if (!key.other.empty()) return is_half_given(settings, key.other);
+  if (!key.other.empty()) return !key.fallback.empty() && is_half_given(settings, key.other);
   if (is_half_given(settings, key.name)) return false;
   if (key.name == "x0" || key.name == "v0") return !settings.given("start_period");
   if (key.name == "damping") return !settings.given("damping_ratio") && !settings.given("quality");

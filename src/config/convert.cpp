@@ -100,7 +100,8 @@ void check_range(const Key& key, double value, const SourceLocation& location, c
 }
 
 std::int64_t integer_of(const Key& key, const ParsedValue& written) {
-  const double value = number_of(key, written);
+  const auto [value, has_unit] = measure_of(key, written, false);
+  if (has_unit) wrong_kind(key, written);
   if (std::isfinite(value) && value != std::floor(value)) {
     fail(written.location, std::string(key.name) + " = " + number_text(value) + " is a fraction" + expected(key));
   }

@@ -190,7 +190,8 @@ std::string describe(const AllowedRange& range) {
   const std::string zero = range.or_zero ? "0 or " : "";
   if (range.high == infinity) return zero + (range.open ? "> " : ">= ") + low;
   const std::string high = bound_text(range.high);
-  return range.open ? "> " + low + " and < " + high : zero + low + " ... " + high;
+  if (range.open) return "> " + low + " and < " + high;
+  return range.above ? "> " + low + " and <= " + high : zero + low + " ... " + high;
 }
 
 }  // namespace
@@ -226,7 +227,8 @@ bool contains(const AllowedRange& range, double value) {
   if (std::isinf(value)) return range.infinite && (value > 0 || range.low == -infinity);
   if (value == 0 && range.or_zero) return true;
   if (value == 0 && range.not_zero) return false;
-  return range.open ? value > range.low && value < range.high : value >= range.low && value <= range.high;
+  if (range.open) return value > range.low && value < range.high;
+  return (range.above ? value > range.low : value >= range.low) && value <= range.high;
 }
 
 std::string permitted(const Key& key) {

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <string>
 #include <tuple>
 #include <vector>
@@ -78,7 +79,7 @@ void remove(Settings& settings, Parameter parameter) {
 
 void note(Settings& settings, Parameter parameter, const SourceLocation& by, const SourceLocation& former,
           const std::string& remark = "") {
-  settings.replaced.push_back({parameter, by, former, remark});
+  settings.replaced.push_back({parameter, by, former, remark, 0});
 }
 
 /// Lets the command line's setting of a parameter, in the scene's section or [sweep], replace that of the other section
@@ -95,6 +96,7 @@ void choose_section(Settings& settings, Parameter parameter) {
              " = VALUE)");
   const bool by_axis = on_command_line(in_sweep);
   note(settings, parameter, by_axis ? in_sweep : in_scene, by_axis ? in_scene : in_sweep);
+  if (!by_axis) settings.replaced.back().values = swept->numbers().size();
   remove(settings, parameter);
 }
 
@@ -185,6 +187,26 @@ void let_soft_stop_or_restitution_win(Settings& settings, Side side) {
     for (const Parameter rigid : {Parameter("R"), lower ? Parameter("R_lower") : Parameter("R_upper")}) {
       exclude(settings, soft, rigid);
       replace(settings, soft, rigid), replace(settings, rigid, soft);
+      for (const Parameter of_soft :
+           {Parameter("stop_R"), lower ? Parameter("stop_R_lower") : Parameter("stop_R_upper")})
+        replace(settings, rigid, of_soft);
+    }
+}
+
+/// The damping of a soft stop is given in one of several ways.
+void let_one_way_to_damp_stops_win(Settings& settings, const std::vector<Pair>& all) {
+  std::vector<Pair> ways;
+  std::ranges::copy_if(all, std::back_inserter(ways),
+                       [](const Pair& pair) { return pair.both.role() == Role::stop_damping; });
+  for (const Pair& way : ways)
+    for (const Pair& other : ways) {
+      if (way.both == other.both) continue;
+      for (const Parameter by : {way.both, way.one, way.other})
+        for (const Parameter former : {other.both, other.one, other.other})
+          if (by.side() == former.side() || by.is_of_both() || former.is_of_both()) exclude(settings, by, former);
+      for (const Parameter former : {other.both, other.one, other.other}) replace(settings, way.both, former);
+      replace(settings, way.one, other.one), replace(settings, way.other, other.other);
+      replace_half(settings, other, way.one, other.other), replace_half(settings, other, way.other, other.one);
     }
 }
 
@@ -208,13 +230,16 @@ void apply_overrides(ParsedConfig& parsed, const std::vector<Override>& override
 void let_command_line_win(Settings& settings) {
   for (const Parameter parameter : all_parameters)
     if (!parameter.row().is_with_unit) choose_section(settings, parameter);
-  for (const Pair& pair : pairs()) {
+  const std::vector<Pair> all_pairs = pairs();
+  for (const Pair& pair : all_pairs) {
     exclude(settings, pair.both, pair.one), exclude(settings, pair.both, pair.other);
     replace(settings, pair.both, pair.one), replace(settings, pair.both, pair.other);
     replace_half(settings, pair, pair.one, pair.other), replace_half(settings, pair, pair.other, pair.one);
   }
+  let_one_way_to_damp_stops_win(settings, all_pairs);
+  const bool is_soft[] = {is_soft_somewhere(settings, Side::lower), is_soft_somewhere(settings, Side::upper)};
   for (const Side side : {Side::lower, Side::upper})
-    if (is_soft_somewhere(settings, side)) let_soft_stop_or_restitution_win(settings, side);
+    if (is_soft[index_of(side)]) let_soft_stop_or_restitution_win(settings, side);
   for (const Parameter one : dampings)
     for (const Parameter other : dampings)
       if (one.index() < other.index()) exclude(settings, one, other);

@@ -13,8 +13,11 @@ constexpr std::string_view values = R"text(Values, in TOML, in INI and after --s
   3 mm   2*pi rad/s    a number with its unit, for keys of [machine] and, beside
                        them, duration and the ranges of [branch]: products and
                        quotients of m, s, N, g, Hz, rad with prefixes (n u m c
-                       d k M G) and powers, as N s/m, m s-1; in TOML in quotes:
-                       "3 mm"
+                       d k M G; for u also the micro sign) and powers, and of
+                       min, rpm, deg (or the degree sign): N s/m, m s-1, 1/min;
+                       in TOML in quotes: "3 mm"
+  60 %   30 deg        a number without unit, and an angle, also in [scene]; in
+                       TOML in quotes: "60 %"
   linspace(a, b, n)    n values from a to b in equal steps, both included
   logspace(a, b, n)    n values from a to b (not exponents) in equal ratios; a
                        and b of the same sign
@@ -34,7 +37,8 @@ source that holds one of them after a blank needs quotes. An axis has at most
 /// The default in words.
 std::string fallback(const Key& key) {
   const std::string other(key.other);
-  if (!other.empty()) return std::string(key.fallback) + ", or " + other + " if that is given";
+  if (!other.empty())
+    return std::string(key.fallback.empty() ? "none" : key.fallback) + ", or " + other + " if that is given";
   if (!key.has_default()) return "none";
   return key.fallback.empty() ? "empty" : std::string(key.fallback);
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <string>
@@ -37,6 +38,7 @@ struct Replaced {
   Parameter parameter;        ///< of the file's setting
   SourceLocation by, former;  ///< of the two settings
   std::string remark;         ///< ", which stays as 'stop_lower'", or empty
+  std::size_t values = 0;     ///< of an axis that one value replaced; 0: of none
 };
 
 /// "--set scene.stop_upper=2 in place of 'xs', fig22.toml:7:1, which stays as 'stop_lower'"

@@ -132,6 +132,25 @@ void check_hold(const Settings& settings, Side side, const AxisGroups& groups) {
   }
 }
 
+/// Whether a stop exists at some point.
+bool exists(const Settings& settings, Side side) {
+  const Setting* const place = settings.given(side == Side::lower ? Parameter("stop_lower") : Parameter("stop_upper"));
+  return settings.given_symmetric_stops() != nullptr ||
+         (place != nullptr && std::ranges::any_of(place->numbers(), is_finite));
+}
+
+/// Throws ConfigError if the restitution of a soft stop is given for a stop that is rigid at some point.
+void check_soft_restitution(const Settings& settings, Side side) {
+  const bool is_lower = side == Side::lower;
+  const Setting* given = settings.given("stop_R");
+  if (given == nullptr) given = settings.given(is_lower ? Parameter("stop_R_lower") : Parameter("stop_R_upper"));
+  if (given == nullptr || !exists(settings, side) || is_soft_everywhere(settings, side)) return;
+  const std::string name(given->key->name), rigid = name.substr(name.find('R'));
+  fail(given->key_location, in_quotes(name) + " is of a soft stop, and the " + (is_lower ? "lower" : "upper") +
+                                " one is rigid" + (is_soft_somewhere(settings, side) ? " at some points" : "") +
+                                "; give " + in_quotes(rigid) + ", or a finite stop_stiffness");
+}
+
 }  // namespace
 
 void check_stops_and_start(const Settings& settings, const AxisGroups& groups) {
@@ -168,7 +187,8 @@ bool is_soft_everywhere(const Settings& settings, Side side) {
 }
 
 void check_soft_stops(const Settings& settings, const AxisGroups& groups) {
-  for (const Side side : {Side::lower, Side::upper}) check_hold(settings, side, groups);
+  for (const Side side : {Side::lower, Side::upper})
+    check_soft_restitution(settings, side), check_hold(settings, side, groups);
 }
 
 }  // namespace clatter::config

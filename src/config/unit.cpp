@@ -11,61 +11,44 @@
 namespace clatter::config {
 namespace {
 
-struct Symbol {
-  std::string_view name;
-  Unit unit;
-};
+constexpr Unit degree{.angle = 1, .degrees = 1};
 
 constexpr std::array symbols{
-    Symbol{"m", {.exponents = {1, 0, 0}}},
-    Symbol{"s", {.exponents = {0, 1, 0}}},
-    Symbol{"N", {.exponents = {1, -2, 1}}},
-    Symbol{"g", {.exponents = {0, 0, 1}, .ten = -3}},
-    Symbol{"Hz", {.exponents = {0, -1, 0}, .angle = 1, .turns = 1}},
-    Symbol{"rad", {.exponents = {}, .angle = 1}},
+    Symbol{"m", true, {.exponents = {1, 0, 0}}},
+    Symbol{"s", true, {.exponents = {0, 1, 0}}},
+    Symbol{"N", true, {.exponents = {1, -2, 1}}},
+    Symbol{"g", true, {.exponents = {0, 0, 1}, .ten = -3}},
+    Symbol{"Hz", true, {.exponents = {0, -1, 0}, .angle = 1, .turns = 1}},
+    Symbol{"rad", true, {.angle = 1}},
+    Symbol{"min", false, {.exponents = {0, 1, 0}, .minutes = 1}},
+    Symbol{"rpm", false, {.exponents = {0, -1, 0}, .angle = 1, .turns = 1, .minutes = -1}},
+    Symbol{"deg", false, degree},
+    Symbol{"\u00B0", false, degree},
+    Symbol{"%", false, {.ten = -2}},
 };
 
-constexpr std::array<std::pair<std::string_view, int>, 10> prefixes{{{"n", -9},
-                                                                     {"u", -6},
-                                                                     {"\u00B5", -6},
-                                                                     {"\u03BC", -6},
-                                                                     {"m", -3},
-                                                                     {"c", -2},
-                                                                     {"d", -1},
-                                                                     {"k", 3},
-                                                                     {"M", 6},
-                                                                     {"G", 9}}};
+constexpr std::array prefixes{Prefix{"n", -9}, Prefix{"u", -6}, Prefix{"\u00B5", -6}, Prefix{"\u03BC", -6},
+                              Prefix{"m", -3}, Prefix{"c", -2}, Prefix{"d", -1},      Prefix{"k", 3},
+                              Prefix{"M", 6},  Prefix{"G", 9}};
 
-std::optional<Unit> symbol_named(std::string_view name) {
-  for (const Symbol& symbol : symbols)
-    if (symbol.name == name) return symbol.unit;
-  return std::nullopt;
-}
-
-std::optional<Unit> prefixed(std::string_view name) {
-  if (const auto plain = symbol_named(name)) return plain;
-  for (const auto& [prefix, ten] : prefixes) {
-    if (!name.starts_with(prefix)) continue;
-    if (auto unit = symbol_named(name.substr(prefix.size()))) {
-      unit->ten += ten;
-      return unit;
-    }
-  }
-  return std::nullopt;
+const Symbol* symbol_named(std::string_view name) {
+  const auto found = std::ranges::find(symbols, name, &Symbol::name);
+  return found == symbols.end() ? nullptr : &*found;
 }
 
 void multiply(Unit& product, const Unit& unit, int power) {
   product.exponents.length += power * unit.exponents.length;
   product.exponents.time += power * unit.exponents.time;
   product.exponents.mass += power * unit.exponents.mass;
-  product.angle += power * unit.angle, product.turns += power * unit.turns, product.ten += power * unit.ten;
+  product.angle += power * unit.angle, product.turns += power * unit.turns, product.degrees += power * unit.degrees;
+  product.minutes += power * unit.minutes, product.ten += power * unit.ten;
 }
 
 /// Takes a name with its power, "s", "s2", "s^2" or "s-1", off the beginning of the text, and multiplies by it.
 bool take_factor(std::string_view& text, bool divides, Unit& product) {
   constexpr int highest = 4;
   const std::size_t end = std::min(text.find_first_of(" */^-+0123456789"), text.size());
-  const std::optional<Unit> unit = prefixed(text.substr(0, end));
+  const std::optional<Unit> unit = unit_of_word(text.substr(0, end));
   if (!unit) return false;
   text.remove_prefix(end);
   const bool caret = text.starts_with('^');
@@ -81,17 +64,17 @@ bool take_factor(std::string_view& text, bool divides, Unit& product) {
 
 void skip_blanks(std::string_view& text) { text.remove_prefix(std::min(text.find_first_not_of(' '), text.size())); }
 
-/// A quantity in words, and the unit of its numbers without one.
+/// A quantity in words, the unit of its numbers without one, and others that are no multiples of it.
 struct Name {
   Quantity quantity;
-  std::string_view noun, unit;
+  std::string_view noun, unit, others{};
 };
 
 constexpr std::array quantity_names{Name{Quantity::number, "a number without unit", ""},
-                                    Name{Quantity::angle, "an angle", "rad"},
+                                    Name{Quantity::angle, "an angle", "rad", " or deg"},
                                     Name{Quantity::length, "a length", "m"},
                                     Name{Quantity::time, "a time", "s"},
-                                    Name{Quantity::frequency, "a frequency", "Hz"},
+                                    Name{Quantity::frequency, "a frequency", "Hz", ", rad/s, rpm or 1/min"},
                                     Name{Quantity::velocity, "a velocity", "m/s"},
                                     Name{Quantity::mass, "a mass", "kg"},
                                     Name{Quantity::force, "a force", "N"},
@@ -106,14 +89,50 @@ const Name& name_of(Quantity quantity) {
 
 int expected_angle(Quantity quantity) { return quantity == Quantity::angle || quantity == Quantity::frequency ? 1 : 0; }
 
+/// 1/min is a frequency in turns, as engines have; 1/s may be Hz or rad/s, and is none.
+bool is_per_minute(const Unit& unit) { return unit.angle == 0 && unit.minutes == -1; }
+
+double times_power(double value, double base, int power) {
+  const double factor = std::pow(base, std::abs(power));  // of ten exact up to 22
+  return power < 0 ? value / factor : value * factor;
+}
+
 }  // namespace
+
+std::span<const Symbol> unit_symbols() { return symbols; }
+
+std::span<const Prefix> unit_prefixes() { return prefixes; }
+
+std::string unit_names() {
+  std::string text;
+  for (const Symbol& symbol : symbols) (text += text.empty() ? "" : ", ") += symbol.name;
+  return text;
+}
+
+std::optional<Unit> unit_of_word(std::string_view word) {
+  if (const Symbol* const plain = symbol_named(word)) return plain->unit;
+  for (const auto& [prefix, ten] : prefixes) {
+    if (!word.starts_with(prefix)) continue;
+    const Symbol* const symbol = symbol_named(word.substr(prefix.size()));
+    if (symbol == nullptr || !symbol->takes_prefix) continue;
+    Unit unit = symbol->unit;
+    unit.ten += ten;
+    return unit;
+  }
+  return std::nullopt;
+}
 
 std::optional<Unit> parse_unit(std::string_view text) {
   constexpr std::size_t longest = 64;  // characters
   if (text.size() > longest) return std::nullopt;
   Unit unit;
   skip_blanks(text);
-  for (bool divides = false;; skip_blanks(text)) {
+  std::string_view behind_one = text.substr(text.starts_with('1') ? 1 : 0);
+  skip_blanks(behind_one);
+  bool divides = behind_one.starts_with('/');
+  if (divides) text = behind_one.substr(1);
+  for (;;) {
+    skip_blanks(text);
     if (!take_factor(text, divides, unit)) return std::nullopt;
     skip_blanks(text);
     if (text.empty()) return unit;
@@ -123,23 +142,22 @@ std::optional<Unit> parse_unit(std::string_view text) {
 }
 
 bool fits(const Unit& unit, Quantity quantity) {
-  return unit.exponents == exponents_of(quantity) && unit.angle == expected_angle(quantity);
+  if (unit.exponents != exponents_of(quantity)) return false;
+  return unit.angle == expected_angle(quantity) || (quantity == Quantity::frequency && is_per_minute(unit));
 }
 
 double in_si(double value, const Unit& unit, Quantity quantity) {
-  const double ten = std::pow(10.0, std::abs(unit.ten));  // exact up to 22
-  value = unit.ten < 0 ? value / ten : value * ten;
-  const int turns = unit.turns - (quantity == Quantity::frequency ? 1 : 0);
-  if (turns == 0) return value;
-  return value * std::pow(2 * std::numbers::pi, turns);
+  const int cycles = quantity == Quantity::frequency && !is_per_minute(unit) ? 1 : 0;
+  value = times_power(times_power(value, 10, unit.ten), 60, unit.minutes);
+  value = times_power(value, 180, -unit.degrees);
+  return times_power(value, std::numbers::pi, unit.degrees) * std::pow(2 * std::numbers::pi, unit.turns - cycles);
 }
 
 std::string_view unit_of_numbers(Quantity quantity) { return name_of(quantity).unit; }
 
 std::string description_of(Quantity quantity) {
-  const auto& [known, noun, unit] = name_of(quantity);
-  const std::string other = quantity == Quantity::frequency ? " or rad/s" : "";
-  return std::string(noun) + (unit.empty() ? "" : " in ") + std::string(unit) + other;
+  const auto& [known, noun, unit, others] = name_of(quantity);
+  return std::string(noun) + (unit.empty() ? "" : " in ") + std::string(unit) + std::string(others);
 }
 
 }  // namespace clatter::config

@@ -12,13 +12,13 @@
 #include "config/suggestion.hpp"
 #include "config/text_file.hpp"
 #include "config/unit.hpp"
+#include "config/unit_hint.hpp"
 #include "storage/utf8.hpp"
 
 namespace clatter::config {
 namespace {
 
 constexpr std::string_view blanks = " \t\r\n";
-constexpr const char* unit_hint = ", by products and quotients of m, s, N, g, Hz, rad with prefixes: mm, N s/m";
 
 /// Reads a value from its first character to its last by recursive descent.
 class Parser {
@@ -83,31 +83,57 @@ class Parser {
     return name;
   }
 
-  /// A number, and its unit up to the next ',', ')' or ']'.
+  /// A number, and its unit.
   [[nodiscard]] Measure measure() {
     const double value = product();
     const std::size_t begin = at_;
-    const std::string_view text = rest().substr(0, rest().find_first_of(",)]"));
-    if (!begins_word(text) || text.starts_with("pi")) return {value, false};
-    const std::optional<Unit> unit = parse_unit(text);
-    if (!unit && source_.quantity == Quantity::number) return {value, false};  // what follows is no unit
-    const std::string expected = "; expected " + description_of(source_.quantity);
-    if (!unit) fail_at(begin, "unknown unit " + in_quotes(text) + expected + unit_hint);
+    const std::string_view text = unit_text();
+    if (!begins_unit(text) || text.starts_with("pi")) return {value, false};
+    const std::optional<Unit> unit = parse_unit(text.starts_with('/') ? '1' + std::string(text) : text);
+    if (!unit) return refuse_unit(text, value);
     if (!fits(*unit, source_.quantity))
-      fail_at(begin, "the unit " + in_quotes(text) + " doesn't fit" + expected + std::string(source_.way_out));
+      fail_at(begin, "the unit " + in_quotes(text) + " doesn't fit; expected " + description_of(source_.quantity) +
+                         std::string(source_.way_out));
     at_ += text.size();
     return {in_si(value, *unit, source_.quantity), true};
   }
 
-  [[nodiscard]] static bool begins_word(std::string_view text) {
+  /// Refuses an unknown unit with a way out; without one, what follows a number without unit is none.
+  Measure refuse_unit(std::string_view text, double value) {
+    const std::string hint = unit_hint(without_blanks(text), source_.quantity), unknown = "unknown unit ";
+    if (hint.ends_with('?')) fail_here(unknown + in_quotes(text) + hint);
+    if (source_.quantity == Quantity::number) return {value, false};
+    fail_here(unknown + in_quotes(text) + "; expected " + description_of(source_.quantity) +
+              ", by products and quotients of " + unit_names() + " with prefixes: mm, N s/m" + hint);
+  }
+
+  /// The text at this point up to the next ',', ')' or ']' outside brackets of its own.
+  [[nodiscard]] std::string_view unit_text() const {
+    const std::string_view text = rest();
+    std::size_t end = 0;
+    for (int depth = 0; end < text.size() && text[end] != ',' && text[end] != ']'; ++end) {
+      depth += (text[end] == '(') - (text[end] == ')');
+      if (depth < 0) break;
+    }
+    return text.substr(0, end);
+  }
+
+  /// Whether a text is that of a unit: a word, %, or one over a unit.
+  [[nodiscard]] static bool begins_unit(std::string_view text) {
     constexpr unsigned char ascii = 0x80;
     const unsigned char first = text.empty() ? ' ' : static_cast<unsigned char>(text.front());
-    return std::isalpha(first) != 0 || first >= ascii;
+    const bool is_inverse = first == '/' || (first == '1' && without_blanks(text.substr(1)).starts_with('/'));
+    return std::isalpha(first) != 0 || first >= ascii || first == '%' || is_inverse;
+  }
+
+  /// Whether a '/' at this point divides by a unit, as in 1500/min.
+  [[nodiscard]] bool divides_by_unit() const {
+    return peek('/') && parse_unit('1' + std::string(unit_text())).has_value();
   }
 
   [[nodiscard]] double product() {
     double value = factor();
-    while (peek('*') || peek('/')) {
+    while ((peek('*') || peek('/')) && !divides_by_unit()) {
       const bool times = peek('*');
       ++at_;
       skip_blanks();

@@ -58,6 +58,33 @@ void warn_of_repeats(const Settings& settings, const AxisGroups& groups, std::ve
   }
 }
 
+/// Warns of a damping ratio of a machine's soft stop that was hardly meant to be one, as a coefficient without its unit.
+void warn_of_great_ratios(const Settings& settings, std::vector<Warning>& warnings) {
+  constexpr double greatest = 2;  // twice critical: R = 0.05 (eq. 55)
+  if (!settings.is_si()) return;
+  for (const Parameter damping :
+       {Parameter("stop_damping"), Parameter("stop_damping_lower"), Parameter("stop_damping_upper")}) {
+    const Setting* const given = settings.given(damping);
+    if (given == nullptr || given->quantity != Quantity::number) continue;
+    const auto values = given->numbers();
+    const auto found = std::ranges::find_if(values, [](double value) { return value > greatest; });
+    if (found == values.end()) continue;
+    const std::string number = number_text(*found);
+    warnings.push_back({to_string(given->location_of(static_cast<std::size_t>(found - values.begin()))), "machine",
+                        std::string(damping.key()) + " = " + number + " is the damping ratio, " + number +
+                            " times critical; if the damping is meant, give its unit: \"" + number + " N s/m\""});
+  }
+}
+
+/// Warns of an axis of the file that the command line replaces by one value.
+void warn_of_lost_axes(const Settings& settings, std::vector<Warning>& warnings) {
+  for (const Replaced& replaced : settings.replaced)
+    if (replaced.values > 1)
+      warnings.push_back({to_string(replaced.by), "sweep",
+                          "one value in place of the " + std::to_string(replaced.values) + " of '" +
+                              std::string(replaced.parameter.key()) + "' in [sweep], " + to_string(replaced.former)});
+}
+
 bool transient(const Settings& settings) { return settings.text("time", "mode") == "transient"; }
 bool steady(const Settings& settings) { return !transient(settings); }
 
@@ -164,6 +191,9 @@ constexpr Rule rules[] = {
     {"scene", "stop_damping", no_soft_stop, "without a soft stop", or_soft},
     {"scene", "stop_damping_lower", no_soft_lower, "without a soft lower stop", or_soft},
     {"scene", "stop_damping_upper", no_soft_upper, "without a soft upper stop", or_soft},
+    {"scene", "stop_R", no_stops, "without stops", or_stops},
+    {"scene", "stop_R_lower", no_lower, "without a lower stop", "give stop_lower"},
+    {"scene", "stop_R_upper", no_upper, "without an upper stop", "give stop_upper"},
     {"sweep", "direction", follows_nothing, "without follow", "name an axis in follow"},
     {"time", "max_periods", transient, in_transient, or_steady},
     {"time", "window", transient, in_transient, or_steady},
@@ -219,6 +249,7 @@ void look_at(const Settings& settings, const Setting& setting, std::vector<Warni
 std::vector<Warning> warnings_of(const Settings& settings, const AxisGroups& groups) {
   std::vector<Warning> warnings = keys_without_effect(settings);
   warn_of_repeats(settings, groups, warnings);
+  warn_of_great_ratios(settings, warnings), warn_of_lost_axes(settings, warnings);
   warn_of_nothing_observed(settings, warnings);
   return warnings;
 }

@@ -85,6 +85,10 @@ struct Dual {
     using std::exp, std::expm1;
     return chained(expm1(x.value), exp(x.value), x);
   }
+  friend Dual log(const Dual& x) {
+    using std::log;
+    return chained(log(x.value), T(1) / x.value, x);
+  }
   friend Dual sqrt(const Dual& x) {
     using std::sqrt;
     const T y = sqrt(x.value);

@@ -5,6 +5,7 @@
 #include <numbers>
 #include <utility>
 
+#include "scene/collision.hpp"
 #include "scene/scene.hpp"
 #include "scene/units.hpp"
 
@@ -23,6 +24,8 @@ struct BasicGivenScene : BasicScene<Number> {
   Number quality{std::numeric_limits<double>::infinity()};  ///< (|K| m)^(1/2)/c, > 0
   Number stop_damper_lower{0.0};                            ///< damping of the lower soft stop, N s/m, >= 0
   Number stop_damper_upper{0.0};                            ///< damping of the upper soft stop, N s/m, >= 0
+  Number stop_restitution_lower{1.0};  ///< of an isolated collision with the lower soft stop, > 0, <= 1 (eq. 55)
+  Number stop_restitution_upper{1.0};  ///< of an isolated collision with the upper soft stop, > 0, <= 1 (eq. 55)
   /// Period of the free motion that the start lies on, in place of x0 and v0 (eq. 36); NaN: these are the start.
   Number start_period{std::numeric_limits<double>::quiet_NaN()};
   bool is_si = false;  ///< given in [machine]
@@ -66,6 +69,16 @@ template <class Number>
 
 }  // namespace detail
 
+namespace detail {
+
+/// Adds the damping that a soft stop has by its restitution; that of 1, which is also that of a stop without one, is 0.
+template <class Number>
+void damp(const Number& kappa, const Number& restitution, Number& zeta) {
+  if (is_finite(kappa) && !is_always_zero(Number(restitution - Number(1)))) zeta += damping_ratio_of(restitution);
+}
+
+}  // namespace detail
+
 /// The scene that is computed, in units that may be those of another one. Each number is a formula of those that were
 /// given, so derivatives by any key of [scene] or [machine] follow from numbers that carry them.
 template <class Number>
@@ -74,6 +87,8 @@ template <class Number>
   const bool is_in_own_units = !given.is_si && units == Units{};
   BasicScene<Number> scene = given;
   if (!is_in_own_units) scene = detail::in_units(given, units);
+  detail::damp(scene.stops.stiffness_lower, given.stop_restitution_lower, scene.stops.damping_lower);
+  detail::damp(scene.stops.stiffness_upper, given.stop_restitution_upper, scene.stops.damping_upper);
   if (is_finite(
           given.start_period)) {  // just after the contact with the lower stop, a quarter of the period from x = 0
     scene.start.displacement = scene.stops.lower;

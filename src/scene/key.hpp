@@ -17,6 +17,7 @@ struct AllowedRange {
   double low = -std::numeric_limits<double>::infinity();
   double high = std::numeric_limits<double>::infinity();
   bool open = false;      ///< the ends themselves are excluded
+  bool above = false;     ///< the lower end is excluded
   bool not_zero = false;  ///< 0 is excluded
   bool or_zero = false;   ///< 0 is permitted too
   bool infinite = false;  ///< inf is permitted, and -inf if there is no lower bound
@@ -30,6 +31,7 @@ inline constexpr AllowedRange positive{.low = 0, .open = true};
 inline constexpr AllowedRange positive_or_infinite{.low = 0, .open = true, .infinite = true};
 inline constexpr AllowedRange not_zero{.not_zero = true};
 inline constexpr AllowedRange zero_to_one{.low = 0, .high = 1};
+inline constexpr AllowedRange above_zero_to_one{.low = 0, .high = 1, .above = true};
 
 }  // namespace ranges
 

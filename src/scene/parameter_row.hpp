@@ -19,7 +19,8 @@ enum class Role : std::uint8_t {
   shaking,      ///< amplitude of stops or base
   position,     ///< of a stop
   restitution,  ///< of a rigid stop
-  softness      ///< stiffness or damping of a soft stop
+  softness,     ///< stiffness of a soft stop
+  stop_damping  ///< damping of a soft stop, in one of several ways
 };
 
 /// A key in one of [scene] and [machine].
@@ -47,6 +48,20 @@ struct ParameterRow {
   using Place = Number& (*)(BasicGivenScene<Number>&);
   Place place = nullptr, place_of_upper = nullptr;  ///< the second one of a key of both stops, whose first is the lower
 };
+
+namespace detail {
+
+/// The number of a scene that a member of one of its parts is.
+template <class Number, auto part, auto member>
+constexpr Number& in(BasicGivenScene<Number>& scene) {
+  return scene.*part.*member;
+}
+template <class Number, auto member>
+constexpr Number& at(BasicGivenScene<Number>& scene) {
+  return scene.*member;
+}
+
+}  // namespace detail
 
 }  // namespace scene
 }  // namespace clatter

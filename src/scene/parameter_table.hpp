@@ -1,32 +1,31 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cstddef>
 #include <numbers>
 #include <string_view>
 
 #include "scene/parameter_row.hpp"
+#include "scene/stop_rows.hpp"
 
 namespace clatter {
 inline namespace scene {
 
 namespace detail {
 
-constexpr std::string_view a_force = "f = 1.0\n", stops = "xs = 1.0\n", soft = "xs = 1.0\nstop_stiffness = 100.0\n";
-constexpr std::string_view some_mass = "mass = 0.25\n", gap_only = "gap = 3e-3\n",
-                           mass_soft = "mass = 0.25\nstiffness = 800.0\ngap = 3e-3\nstop_stiffness = 1e5\n",
-                           mass_spring_stops = "mass = 0.25\nstiffness = 800.0\ngap = 3e-3\n",
+constexpr std::string_view a_force = "f = 1.0\n", gap_only = "gap = 3e-3\n",
                            mass_stops_frequency = "mass = 0.25\nstiffness = 800.0\ngap = 3e-3\nfrequency = 25.0\n",
                            mass_stops_force = "mass = 0.25\nstiffness = 800.0\ngap = 3e-3\nforce = 40.0\n",
                            forced = "mass = 0.25\nstiffness = 800.0\ngap = 3e-3\nforce = 40.0\nfrequency = 25.0\n";
 
-/// The number of a scene that a member of one of its parts is.
-template <class Number, auto part, auto member>
-constexpr Number& in(BasicGivenScene<Number>& scene) {
-  return scene.*part.*member;
-}
-template <class Number, auto member>
-constexpr Number& at(BasicGivenScene<Number>& scene) {
-  return scene.*member;
+/// Arrays one behind the other.
+template <class Row, std::size_t... sizes>
+constexpr auto joined(const std::array<Row, sizes>&... parts) {
+  std::array<Row, (sizes + ...)> all{};
+  auto end = all.begin();
+  ((end = std::ranges::copy(parts, end).out), ...);
+  return all;
 }
 
 }  // namespace detail
@@ -40,15 +39,13 @@ constexpr auto parameter_rows() {
   using Given = BasicGivenScene<Number>;
   using Parts = BasicScene<Number>;
   using O = BasicOscillator<Number>;
-  using S = BasicStops<Number>;
   using B = BasicStart<Number>;
   using K = BasicShaking<Number>;
   using Row = ParameterRow<Number>;
   constexpr auto o = &Parts::oscillator;
-  constexpr auto s = &Parts::stops;
   constexpr auto b = &Parts::start;
   constexpr auto k = &Parts::shaking;
-  return std::array{
+  const std::array before_stops{
       Row{.key = "mass",
           .quantity = mass,
           .range = positive,
@@ -125,163 +122,8 @@ constexpr auto parameter_rows() {
                          "forcing phase at t = 0"},
           .role = Role::start,
           .place = in<Number, b, &B::phase>},
-      Row{.key = "R",
-          .range = zero_to_one,
-          .in_scene = {"1", "0.7", "restitution of velocity on both stops", stops, "restitution of velocity"},
-          .in_machine = {"1", "0.7", "restitution of velocity on both stops", mass_spring_stops,
-                         "restitution of velocity"},
-          .role = Role::restitution,
-          .place = in<Number, s, &S::restitution_lower>,
-          .place_of_upper = in<Number, s, &S::restitution_upper>},
-      Row{.key = "xs",
-          .quantity = length,
-          .range = not_zero,
-          .in_scene = {"", "-1", "two stops, at -|xs| and +|xs|; for a single stop give stop_lower or stop_upper", "",
-                       "place of the symmetric stops"},
-          .counterpart = "gap",
-          .role = Role::position,
-          .place = in<Number, s, &S::lower>,
-          .place_of_upper = in<Number, s, &S::upper>},
-      Row{.key = "gap",
-          .quantity = length,
-          .range = positive,
-          .in_machine = {"", "3 mm", "two stops, at -gap and +gap; for a single stop give stop_lower or stop_upper",
-                         some_mass, "distance of the symmetric stops from the middle"},
-          .counterpart = "xs",
-          .role = Role::position,
-          .place = in<Number, s, &S::lower>,
-          .place_of_upper = in<Number, s, &S::upper>},
-      Row{.key = "stop_lower",
-          .quantity = length,
-          .range = any_or_infinite,
-          .in_scene = {"-inf", "-1", "lower stop, in place of xs; -inf: no stop", "", "place of the lower stop"},
-          .in_machine = {"-inf", "-2 mm", "lower stop, in place of gap; -inf: no stop", some_mass,
-                         "place of the lower stop"},
-          .other = "xs",
-          .role = Role::position,
-          .side = Side::lower,
-          .place = in<Number, s, &S::lower>},
-      Row{.key = "stop_upper",
-          .quantity = length,
-          .range = any_or_infinite,
-          .in_scene = {"inf", "2", "upper stop, in place of xs; inf: no stop", "", "place of the upper stop"},
-          .in_machine = {"inf", "4 mm", "upper stop, in place of gap; inf: no stop", some_mass,
-                         "place of the upper stop"},
-          .other = "xs",
-          .role = Role::position,
-          .side = Side::upper,
-          .place = in<Number, s, &S::upper>},
-      Row{.key = "R_lower",
-          .range = zero_to_one,
-          .in_scene = {"1", "0.5", "restitution of the lower stop, in place of R", stops,
-                       "restitution of the lower stop"},
-          .in_machine = {"1", "0.5", "restitution of the lower stop, in place of R", mass_spring_stops,
-                         "restitution of the lower stop"},
-          .other = "R",
-          .role = Role::restitution,
-          .side = Side::lower,
-          .place = in<Number, s, &S::restitution_lower>},
-      Row{.key = "R_upper",
-          .range = zero_to_one,
-          .in_scene = {"1", "0.5", "restitution of the upper stop, in place of R", stops,
-                       "restitution of the upper stop"},
-          .in_machine = {"1", "0.5", "restitution of the upper stop, in place of R", mass_spring_stops,
-                         "restitution of the upper stop"},
-          .other = "R",
-          .role = Role::restitution,
-          .side = Side::upper,
-          .place = in<Number, s, &S::restitution_upper>},
-      Row{.key = "stop_stiffness",
-          .quantity = stiffness,
-          .range = positive_or_infinite,
-          .in_scene = {"inf", "100",
-                       "stiffness kappa of both stops, in the unit of k; inf: rigid. A soft stop takes the place of R: "
-                       "it pushes back with kappa times its compression plus damping, and never pulls",
-                       stops, "stiffness of both stops"},
-          .in_machine = {"inf", "100 N/mm",
-                         "stiffness of both stops, in place of R; inf: rigid. A soft stop pushes back with that times "
-                         "its compression plus damping, and never pulls",
-                         mass_spring_stops, "stiffness of both stops"},
-          .role = Role::softness,
-          .place = in<Number, s, &S::stiffness_lower>,
-          .place_of_upper = in<Number, s, &S::stiffness_upper>},
-      Row{.key = "stop_stiffness_lower",
-          .quantity = stiffness,
-          .range = positive_or_infinite,
-          .in_scene = {"inf", "100", "stiffness of the lower stop, in place of stop_stiffness; inf: rigid", stops,
-                       "stiffness of the lower stop"},
-          .in_machine = {"inf", "90 N/m", "stiffness of the lower stop, in place of stop_stiffness", mass_spring_stops,
-                         "stiffness of the lower stop"},
-          .other = "stop_stiffness",
-          .role = Role::softness,
-          .side = Side::lower,
-          .place = in<Number, s, &S::stiffness_lower>},
-      Row{.key = "stop_stiffness_upper",
-          .quantity = stiffness,
-          .range = positive_or_infinite,
-          .in_scene = {"inf", "100", "stiffness of the upper stop, in place of stop_stiffness; inf: rigid", stops,
-                       "stiffness of the upper stop"},
-          .in_machine = {"inf", "90 N/m", "stiffness of the upper stop, in place of stop_stiffness", mass_spring_stops,
-                         "stiffness of the upper stop"},
-          .other = "stop_stiffness",
-          .role = Role::softness,
-          .side = Side::upper,
-          .place = in<Number, s, &S::stiffness_upper>},
-      Row{.key = "stop_damping",
-          .range = not_negative,
-          .in_scene = {"0", "0.1", "damping ratio zeta of both soft stops: 2 zeta kappa^(1/2) is the factor of x'",
-                       soft, "damping ratio of both stops"},
-          .in_machine = {"0", "0.1",
-                         "damping of both soft stops: without a unit the damping ratio, damping over 2 (stop_stiffness "
-                         "mass)^(1/2); with one, e.g. 40 N s/m, the damping coefficient",
-                         mass_soft, "damping ratio of both stops"},
-          .role = Role::softness,
-          .place = in<Number, s, &S::damping_lower>,
-          .place_of_upper = in<Number, s, &S::damping_upper>},
-      Row{.key = "stop_damping",
-          .quantity = damping,
-          .range = not_negative,
-          .in_machine = {"", "", "", "", "damping coefficient of both stops"},
-          .role = Role::softness,
-          .is_with_unit = true,
-          .place = at<Number, &Given::stop_damper_lower>,
-          .place_of_upper = at<Number, &Given::stop_damper_upper>},
-      Row{.key = "stop_damping_lower",
-          .range = not_negative,
-          .in_scene = {"0", "0.1", "damping ratio of the lower soft stop, in place of stop_damping", soft,
-                       "damping ratio of the lower stop"},
-          .in_machine = {"0", "0.1", "damping of the lower soft stop, in place of stop_damping", mass_soft,
-                         "damping ratio of the lower stop"},
-          .other = "stop_damping",
-          .role = Role::softness,
-          .side = Side::lower,
-          .place = in<Number, s, &S::damping_lower>},
-      Row{.key = "stop_damping_lower",
-          .quantity = damping,
-          .range = not_negative,
-          .in_machine = {"", "", "", "", "damping coefficient of the lower stop"},
-          .role = Role::softness,
-          .side = Side::lower,
-          .is_with_unit = true,
-          .place = at<Number, &Given::stop_damper_lower>},
-      Row{.key = "stop_damping_upper",
-          .range = not_negative,
-          .in_scene = {"0", "0.1", "damping ratio of the upper soft stop, in place of stop_damping", soft,
-                       "damping ratio of the upper stop"},
-          .in_machine = {"0", "0.1", "damping of the upper soft stop, in place of stop_damping", mass_soft,
-                         "damping ratio of the upper stop"},
-          .other = "stop_damping",
-          .role = Role::softness,
-          .side = Side::upper,
-          .place = in<Number, s, &S::damping_upper>},
-      Row{.key = "stop_damping_upper",
-          .quantity = damping,
-          .range = not_negative,
-          .in_machine = {"", "", "", "", "damping coefficient of the upper stop"},
-          .role = Role::softness,
-          .side = Side::upper,
-          .is_with_unit = true,
-          .place = at<Number, &Given::stop_damper_upper>},
+  };
+  const std::array after_stops{
       Row{.key = "load",
           .quantity = force,
           .in_scene = {"0", "-0.2", "constant force over stiffness", "", "constant force over stiffness"},
@@ -344,6 +186,7 @@ constexpr auto parameter_rows() {
           .role = Role::start,
           .place = at<Number, &Given::start_period>},
   };
+  return joined(before_stops, stop_rows<Number>(), after_stops);
 }
 
 }  // namespace scene

@@ -19,7 +19,7 @@ class WrongCommandLines(CommandLine):
             (["rnu", config], "unknown command 'rnu'; did you mean 'run'?"),
             (
                 ["frobnicate"],
-                "the commands are: run, plan, accuracy, branch, merge, export, certify, info, defaults, help",
+                "the commands are: run, plan, accuracy, branch, merge, export, certify, info, init, defaults, help",
             ),
             (
                 ["--verbose"],
@@ -268,7 +268,7 @@ class Run(CommandLine):
             result.stderr, r"^5 points, 5 failed \(event_budget: 5, e\.g\. point 0 at nu = 0\.5\), [0-9.e-]+ s, "
         )
         self.assertIn("a.h5", self.files())
-        one = self.clatter("run", config, *fail, "--set", "scene.nu=1").stderr
+        one = self.clatter("run", config, *fail, "--set", "sweep.nu=1").stderr
         self.assertRegex(one, r"^1 point, 1 failed \(event_budget: 1, e\.g\. point 0\), ")
 
     def test_each_status_of_failed_points_is_told(self):

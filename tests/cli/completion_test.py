@@ -123,6 +123,12 @@ class Typed:
         line = self.shell.typed("clatter branch --set branch.curve=sym\t")
         self.assertIn(r"branch.curve=symmetry\ breaking", line)
 
+    def test_models(self):
+        self.assertIn("clatter init bouncing_ball", self.shell.typed("clatter init bounc\t"))
+        text = self.offered("clatter init s")
+        for model in ("shaken_stops", "soft_bumper"):
+            self.assertIn(model, text)
+
     def test_topics_of_help(self):
         self.assertIn("clatter help configuration", self.shell.typed("clatter help conf\t"))
 

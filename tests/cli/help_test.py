@@ -5,7 +5,7 @@ import unittest
 
 from command_line import SOURCE, CommandLine
 
-COMMANDS = ("run", "plan", "accuracy", "branch", "merge", "export", "certify", "info", "defaults", "help")
+COMMANDS = ("run", "plan", "accuracy", "branch", "merge", "export", "certify", "info", "init", "defaults", "help")
 SECTIONS = ("scene", "sweep", "time", "observe", "integrator", "branch", "output")
 
 

@@ -93,6 +93,60 @@ TEST(Machine, axes_have_units_in_lists_and_functions) {
   }
 }
 
+/// As they stand on drawings, with characters outside ASCII, wherever a value may be written.
+TEST(Machine, takes_the_units_of_drawings_in_toml_in_ini_and_on_the_command_line) {
+  const std::string lists =
+                        "gap = [\"50 \u00B5m\", \"60 \u03BCm\"]\nphase = \"linspace(0 \u00B0, 90 \u00B0, 2)\"\n"
+                        "frequency = \"1500 rpm, 3000 1/min\"\nR = [\"60 %\", \"70%\"]\n",
+                    plain =
+                        "gap = 50 \u00B5m, 60 \u03BCm ; \u00B5\nphase = linspace(0\u00B0, 90\u00B0, 2)\n"
+                        "frequency = 1500/min, 3000 min-1\nR = 60 %, 70%\n";
+  const std::string head = "[machine]\nmass = 1\nstiffness = 1\nforce = 1\n";
+  const std::vector<Override> changes{{"sweep.gap", "50 \u00B5m, 60 \u03BCm"},
+                                      {"sweep.phase", "0 deg, 90\u00B0"},
+                                      {"sweep.frequency", "1500 rpm, 3000 rpm"},
+                                      {"sweep.R", "60 %, 70 %"}};
+  for (const Config& config : {read_as("a.toml", head + "[sweep]\n" + lists),
+                               read_as("a.ini", head + "[sweep]\n" + plain), read_as("b.toml", head, changes)}) {
+    const auto& axes = config.sweep.dimensions;
+    ASSERT_EQ(axes.size(), 4u);
+    EXPECT_EQ(axes[0][0].values, (std::vector{50e-6, 60e-6}));
+    EXPECT_EQ(axes[1][0].values, (std::vector{0.0, std::numbers::pi / 2}));
+    EXPECT_EQ(axes[2][0].values, (std::vector{25.0, 50.0}));
+    EXPECT_EQ(axes[3][0].values, (std::vector{0.6, 0.7}));
+  }
+}
+
+TEST(Machine, a_scene_without_dimensions_takes_degrees_and_percent) {
+  const sweep::Sweep sweep =
+      read_as("a.toml",
+              "[scene]\nxs = 1\nf = 1\nh = \"3 %\"\nR = \"60 %\"\nphase = \"90 \u00B0\"\n[branch]\nalong = \"R\"\n"
+              "range = [\"50 %\", \"90 %\"]\n")
+          .sweep;
+  EXPECT_EQ(sweep.problem.oscillator.damping, 0.03);
+  EXPECT_EQ(sweep.problem.stops.restitution_upper, 0.6);
+  EXPECT_EQ(sweep.problem.start.phase, std::numbers::pi / 2);
+}
+
+TEST(Machine, a_wrong_unit_is_told_with_the_one_that_was_meant) {
+  const std::vector<Wrong> table{
+      {machine + "damping = \"3 Ns/m\"\n", "5:14", "unknown unit 'Ns/m'; did you mean 'N s/m'?"},
+      {machine + "damping = \"3 N/(m/s)\"\n", "5:14", "unknown unit 'N/(m/s)'; did you mean 'N s/m'?"},
+      {machine + "frequency = \"25 hz\"\n", "5:17", "unknown unit 'hz'; did you mean 'Hz'?"},
+      {machine + "frequency = \"1500 U/min\"\n", "5:19", "unknown unit 'U/min'; did you mean 'rpm'?"},
+      {machine + "frequency = \"25 1/s\"\n", "5:17",
+       "the unit '1/s' doesn't fit; expected a frequency in Hz, rad/s, rpm"},
+      {machine + "load = \"3 lbf\"\n", "5:11", "1 lbf is 4.4482216152605 N"},
+      {machine + "R = \"60 percent\"\n", "5:9", "unknown unit 'percent'; did you mean '%'?"},
+      {machine + "x0 = \"3 %\"\n", "5:9", "the unit '%' doesn't fit; expected a length in m"},
+      {machine + "[sweep]\nx0 = \"linspace(0, 2 microns, 3)\"\n", "6:21", "unknown unit 'microns'; did you mean 'um'?"},
+      {"[scene]\nxs = 1\nphase = \"3 degrees\"\n", "3:12", "unknown unit 'degrees'; did you mean 'deg'?"},
+      {"[scene]\nxs = 1\nphase = 3\u00B0\n", "3:10", "a character outside ASCII; put the text in quotes"},
+      {"[scene]\nxs = 1\n[time]\nwindow = \"300 %\"\n", "4:10", "window = the text '300 %'; expected a whole number"},
+  };
+  expect_all("a.toml", table);
+}
+
 TEST(Machine, follows_and_links_its_axes_and_yields_to_the_command_line) {
   const Config config = read_as("a.ini",
                                 "[machine]\nmass = 250 g\nstiffness = 1 kN/m ; of steel\ngap = 2 mm\n[sweep]\n"
@@ -161,7 +215,8 @@ TEST(Machine, wrong_units) {
   const std::vector<Wrong> table{
       {machine + "damping = \"3 mm\"\n", "5:14", "the unit 'mm' doesn't fit; expected a damping in N s/m"},
       {machine + "force = \"3 kg\"\n", "5:12", "the unit 'kg' doesn't fit; expected a force in N"},
-      {machine + "frequency = \"3 rad\"\n", "5:16", "the unit 'rad' doesn't fit; expected a frequency in Hz or rad/s"},
+      {machine + "frequency = \"3 rad\"\n", "5:16",
+       "the unit 'rad' doesn't fit; expected a frequency in Hz, rad/s, rpm"},
       {machine + "x0 = \"1 inch\"\n", "5:9", "unknown unit 'inch'; expected a length in m, by products and quotients"},
       {machine + "x0 = \"0.001\"\n", "5:6", "without quotes unless it holds pi or a unit"},
       {machine + "damping_ratio = \"3 N s/m\"\n", "5:20", "expected a number without unit, or 'damping' in N s/m"},

@@ -147,6 +147,18 @@ TEST(Precedence, gives_a_complete_text_that_gives_itself_again) {
   EXPECT_GT(taken, 40);
 }
 
+TEST(Precedence, a_way_to_damp_a_soft_stop_comes_before_that_of_the_file) {
+  const std::string soft = "[scene]\nxs = 4\nstop_stiffness = 9\n";
+  expect_same(soft + "stop_damping = 0.1\n", {{"scene.stop_R", "0.5"}}, soft + "stop_R = 0.5\n");
+  expect_same(soft + "stop_R = 0.5\n", {{"sweep.stop_damping", "0.1, 0.2"}},
+              soft + "[sweep]\nstop_damping = [0.1, 0.2]\n");
+  expect_same(soft + "stop_R_lower = 0.5\nstop_damping_upper = 0.2\n", {{"scene.stop_R_upper", "0.4"}},
+              soft + "stop_R_lower = 0.5\nstop_R_upper = 0.4\n");
+  expect_same(soft + "stop_R = 0.5\n", {{"scene.stop_damping_lower", "0.1"}},
+              soft + "stop_damping_lower = 0.1\nstop_R_upper = 0.5\n");
+  expect_same(soft + "stop_R = 0.5\n", {{"scene.R", "0.6"}}, "[scene]\nxs = 4\nR = 0.6\n");
+}
+
 TEST(Precedence, nothing_is_noted_if_nothing_gives_way) {
   EXPECT_EQ(notes_of(fixed, {{"scene.R", "0.5"}, {"scene.f", "1"}}), std::vector<std::string>{});
   EXPECT_EQ(read_as("a.toml", fixed, {{"scene.stop_upper", "inf"}}).sweep.problem.stops.upper, infinity);

@@ -194,6 +194,25 @@ TEST(Repeats, on_linked_and_followed_axes_are_right) {
   expect_none(observing(scene + "[sweep]\nnu = [0.8, 0.9, 0.8]\nfollow = \"nu\"\n"));
 }
 
+TEST(Ratios, of_stops_far_beyond_critical_damping_are_warned_of_in_a_machine) {
+  const std::string machine = "[machine]\nmass = 1\nstiffness = 1e4\ngap = 1e-3\nstop_stiffness = 1e6\n";
+  expect_warning(observing(machine + "stop_damping = 40\n"), "6:16",
+                 "stop_damping = 40 is the damping ratio, 40 times critical; if the damping is meant, give its unit");
+  expect_warning(observing(machine + "[sweep]\nstop_damping_upper = [0.1, 3]\n"), "7:28", "stop_damping_upper = 3 is");
+  expect_none(observing(machine + "stop_damping = 2\n"));
+  EXPECT_EQ(warnings_of("a.toml", observing(machine + "stop_damping = \"40 N s/m\"\n")), Lines{});
+  expect_none(observing("[scene]\nxs = 1\nstop_stiffness = 9\nstop_damping = 40\n"));
+}
+
+TEST(Axes, that_one_value_replaces_are_told) {
+  const std::string swept = observing("[scene]\nxs = 1\n[sweep]\nR = \"linspace(0, 1, 1401)\"\n");
+  const Lines lines = warnings_of("a.toml", swept, {{"scene.R", "0.5"}});
+  ASSERT_EQ(lines.size(), 1u);
+  EXPECT_TRUE(lines[0].starts_with("--set scene.R=0.5: one value in place of the 1401 of 'R' in [sweep]")) << lines[0];
+  EXPECT_EQ(warnings_of("a.toml", swept, {{"sweep.R", "0.5"}}), Lines{});
+  EXPECT_EQ(warnings_of("a.toml", observing("[scene]\nxs = 1\n[sweep]\nR = [0.5]\n"), {{"scene.R", "0.6"}}), Lines{});
+}
+
 TEST(Warnings, are_none_if_every_default_is_written) {
   expect_none(default_config(Format::toml));
   EXPECT_EQ(warnings_of("a.ini", default_config(Format::ini)), Lines{});

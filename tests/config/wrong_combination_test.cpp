@@ -51,6 +51,36 @@ TEST(Together, a_soft_stop_has_no_restitution_and_holds_the_mass) {
   expect_all("a.toml", table);
 }
 
+TEST(Together, a_soft_stop_is_damped_in_one_way) {
+  const std::string soft = "[scene]\nxs = 1\nstop_stiffness = 10\n", one = "[scene]\nstop_upper = 1\n";
+  const std::vector<Wrong> table{
+      {soft + "stop_damping = 0.1\nstop_R = 0.7\n", "5:1", "'stop_R' conflicts with 'stop_damping'; remove one"},
+      {soft + "stop_R = 0.7\nstop_damping_lower = 0.1\n", "5:1", "'stop_damping_lower' conflicts with 'stop_R'"},
+      {soft + "stop_damping = 0.1\n[sweep]\nstop_R_upper = [0.7, 1]\n", "6:1", "conflicts with 'stop_damping'"},
+      {soft + "stop_R = 0.7\nstop_R_upper = 0.1\n", "5:1", "'stop_R_upper' conflicts with 'stop_R'"},
+      {soft + "stop_R = 0\n", "4:10", "stop_R = 0 is out of range; expected > 0 and <= 1"},
+      {soft + "stop_R = 1.01\n", "4:10", "expected > 0 and <= 1"},
+      {soft + "stop_R = inf\n", "4:10", "stop_R = inf is not finite; expected > 0 and <= 1"},
+      {"[scene]\nxs = 1\nstop_R = 0.7\n", "3:1",
+       "'stop_R' is of a soft stop, and the lower one is rigid; give 'R', or"},
+      {"[scene]\nxs = 1\nstop_stiffness_lower = 9\nstop_R_upper = 0.7\n", "4:1", "upper one is rigid; give 'R_upper'"},
+      {"[scene]\nxs = 1\nstop_R = 1\n[sweep]\nstop_stiffness = [9, inf]\n", "3:1", "lower one is rigid at some points"},
+      {one + "[branch]\nalong = \"stop_R\"\nrange = [0.1, 2]\n", "5:9", "range has stop_R = 2; expected > 0 and <= 1"},
+      {soft + "[branch]\nalong = \"stop_R\"\nrange = [0.1, 1]\nacross = \"stop_damping_upper\"\ncurve = \"fold\"\n",
+       "7:10", "'stop_damping_upper' and 'stop_R' change the same quantity"},
+  };
+  expect_all("a.toml", table);
+}
+
+TEST(Together, stops_may_be_damped_in_different_ways) {
+  const std::string soft = "[scene]\nxs = 1\nstop_stiffness = 10\nstop_damping_lower = 0.3\nstop_R_upper = 0.5\n";
+  const Stops stops = computed(read_as("a.toml", soft).sweep.problem).first.stops;
+  EXPECT_EQ(stops.damping_lower, 0.3);
+  EXPECT_EQ(stops.damping_upper, damping_ratio_of(0.5));
+  const std::string one = "[scene]\nstop_upper = 1\nstop_stiffness_upper = 10\nstop_R = 0.5\n";  // there is no other
+  EXPECT_EQ(computed(read_as("a.toml", one).sweep.problem).first.stops.damping_upper, damping_ratio_of(0.5));
+}
+
 TEST(Together, values_that_run_together_are_compared_one_by_one) {
   const std::string axes = "[scene]\nxs = 1\n[sweep]\nstiffness = [-5, 1]\nstop_stiffness = [100, 0.5]\n";
   EXPECT_EQ(size(read_as("a.toml", axes + "linked = \"stiffness, stop_stiffness\"\n").sweep), 2U);

@@ -94,6 +94,7 @@ GivenScene any_machine(support::Random& random) {
                  random.uniform(0, 1)};
   given.stop_damper_lower = random.uniform(0, 1) * given.mass * rate;
   given.stop_damper_upper = random.uniform(0, 1) * given.mass * rate;
+  given.stop_restitution_lower = random.uniform(0.01, 1), given.stop_restitution_upper = random.uniform(0.01, 1);
   given.start = {random.uniform(-0.1, 0.1), random.uniform(-1, 1), random.uniform(0, 6)};
   return given;
 }
