@@ -26,8 +26,7 @@ constexpr ColumnTitle titles[] = {
     {"periods", "run", 9},    {"ns per", "period", 10},    {"its", "spread", 10}};
 
 std::string status_name(steady::Status status) {
-  return std::string(
-      std::ranges::find(steady::status_names, status, &std::pair<steady::Status, std::string_view>::first)->second);
+  return std::string(std::ranges::find(steady::status_names, status, &steady::StatusName::status)->name);
 }
 
 std::string right(std::string text, std::size_t width) {

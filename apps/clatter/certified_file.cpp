@@ -43,7 +43,7 @@ void require_exact(const sweep::Sweep& sweep, const std::string& path) {
 
 }  // namespace
 
-CertifiedFile::CertifiedFile(const std::string& path, const std::vector<std::pair<std::string, double>>& where) {
+CertifiedFile::CertifiedFile(const std::string& path, const std::vector<Place>& where) {
   const results::FileSummary summary = outputs::read_summary(path);
   TableChoice choice{.only = {"status"}, .where = where};
   if (has(summary, "status") && has(summary, "period_ratio")) choice.only.emplace_back("period_ratio");

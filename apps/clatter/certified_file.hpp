@@ -4,10 +4,10 @@
 #include <functional>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 #include "certificates/tally.hpp"
+#include "file_points.hpp"
 #include "results/dataset.hpp"
 #include "sweep/sweep.hpp"
 
@@ -17,7 +17,7 @@ namespace clatter::app {
 class CertifiedFile {
  public:
   /// Reads the configuration, and the results that are compared. Throws UsageError, IoError, ChoiceError.
-  CertifiedFile(const std::string& path, const std::vector<std::pair<std::string, double>>& where);
+  CertifiedFile(const std::string& path, const std::vector<Place>& where);
 
   [[nodiscard]] const std::vector<std::size_t>& points() const { return points_; }  ///< those chosen, ascending
 

@@ -34,7 +34,7 @@ std::optional<std::size_t> sample_of(const Arguments& arguments) {
 }
 
 /// Certifies the points of an output of `clatter run` or `clatter branch`.
-certificates::Tally tally_of(const std::string& path, const std::vector<std::pair<std::string, double>>& places,
+certificates::Tally tally_of(const std::string& path, const std::vector<Place>& places,
                              const std::optional<std::size_t>& sample,
                              const std::function<void(std::string_view line)>& take) {
   const auto origin = results::origin_of(path);

@@ -22,7 +22,7 @@ Offer offer_for(std::string_view argument, std::span<const std::string_view> cho
   if (argument == "CONFIG") return {files, {"toml", "ini"}};
   if (argument == "KEY=VALUE") return {settings};
   if (argument == "DIR") return {folders};
-  if (argument == "COMMAND|KEY") return {words, help_topics()};
+  if (argument == "COMMAND|KEY|RESULT") return {words, help_topics()};
   if (argument == "MODEL") return {words, names_of_models()};
   const std::size_t dot = argument.rfind('.');
   if (dot != std::string_view::npos && argument.find(',') == std::string_view::npos)

@@ -1,14 +1,11 @@
 #include "csv_table.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <numeric>
-#include <optional>
+#include <utility>
 
 #include "config/suggestion.hpp"
 #include "csv_text.hpp"
-#include "scene/parameter.hpp"
-#include "storage/error.hpp"
 #include "storage/input_file.hpp"
 #include "storage/utf8.hpp"
 
@@ -17,31 +14,16 @@ namespace {
 
 using Entry = results::FileSummary::Entry;
 
-constexpr double same = 1e-9;  ///< of the length of an axis: values that count as equal
 constexpr std::int64_t most_impacts = std::int64_t{1} << 40;
-constexpr std::string_view log_counts = "impact_count", log_dimension = "impact";
+constexpr std::string_view log_counts = "impact_count";
 
-/// The name of a result, and of which component: "v_before[-1]" is {"v_before", "-1"}.
-struct ComponentName {
-  std::string variable;
-  std::optional<std::string> component;
+/// Columns of numbers come first, those of texts next, and flags, whose numbers are written as words, last.
+enum class ColumnKind { numbers, texts, flags };
 
-  explicit ComponentName(const std::string& name) : variable(name.substr(0, name.find('['))) {
-    if (name.ends_with(']')) component = name.substr(variable.size() + 1, name.size() - variable.size() - 2);
-  }
-};
-
-const results::Variable& variable_of(const results::Dataset& dataset, std::string_view name) {
-  return *std::ranges::find(dataset.variables, name, &results::Variable::name);
-}
-
-/// The name of each component along a dimension: by its coordinate, else counted from 0.
-std::string component_name(const results::Dataset& dataset, const std::string& dimension, std::size_t part) {
-  const auto coordinate = std::ranges::find(dataset.variables, dimension, &results::Variable::name);
-  std::string text;
-  if (coordinate == dataset.variables.end()) return std::to_string(part);
-  append_value(text, coordinate->values, part, {});
-  return text;
+ColumnKind kind_of(const CsvTable::Column& column) {
+  if (!column.meanings.empty()) return ColumnKind::flags;
+  const bool is_text = std::holds_alternative<std::vector<std::string>>(column.variable->values);
+  return is_text ? ColumnKind::texts : ColumnKind::numbers;
 }
 
 void append_row(Pieces& pieces, const std::vector<CsvTable::Column>& columns, const std::vector<std::size_t>& at,
@@ -55,99 +37,41 @@ void append_row(Pieces& pieces, const std::vector<CsvTable::Column>& columns, co
   pieces.end_line();
 }
 
-bool are_same(const results::NamedLength& one, const results::NamedLength& other) {
-  return one.name == other.name && one.length == other.length;
-}
-
-bool is_own_coordinate(const Entry& entry) {
-  return entry.dimensions.size() == 1 && entry.dimensions[0].name == entry.name;
-}
-
-std::size_t points_of(const std::vector<results::NamedLength>& rows) {
-  std::size_t points = 1;
-  for (const results::NamedLength& dimension : rows) points *= dimension.length;
-  return points;
-}
-
-/// Advances to the next point, the last dimension first.
-void advance(std::vector<std::size_t>& at, const std::vector<results::NamedLength>& rows) {
-  for (std::size_t d = rows.size(); d-- > 0;) {
-    if (++at[d] < rows[d].length) return;
-    at[d] = 0;
-  }
-}
-
-/// Which values of an axis are the one that --where asks for.
-std::vector<bool> indexes_of(const results::Variable& axis, double wanted) {
-  std::vector<double> values;
-  std::visit(
-      [&]<class T>(const std::vector<T>& of_type) {
-        if constexpr (std::is_arithmetic_v<T>)
-          for (const T value : of_type) values.push_back(static_cast<double>(value));
-      },
-      axis.values);
-  const double extent = values.empty() ? 0.0 : std::ranges::max(values) - std::ranges::min(values);
-  const double near_enough = same * (std::isfinite(extent) ? std::max(extent, std::abs(wanted)) : std::abs(wanted));
-  const auto is_it = [&](double value) {
-    return value == wanted || (std::isfinite(wanted) && std::abs(value - wanted) <= near_enough);
-  };
-  std::vector<bool> here;
-  for (const double value : values) here.push_back(is_it(value));
-  if (std::ranges::find(here, true) != here.end()) return here;
-  std::string asked, near;
-  append_number(asked, wanted);
-  std::ranges::sort(values, {}, [&](double value) { return std::abs(value - wanted); });
-  for (std::size_t i = 0; i < std::min<std::size_t>(2, values.size()); ++i)
-    append_number(near += i == 0 ? "" : " and ", values[i]);
-  throw ChoiceError("--where " + axis.name + '=' + asked + ": the axis has no such value; the nearest are " + near);
-}
-
 }  // namespace
 
 CsvTable::CsvTable(const results::FileSummary& summary, const std::string& path, TableChoice choice)
     : summary_(summary), path_(path), choice_(std::move(choice)) {
-  const Entry* const status = find("status");
-  for (const auto& [name, value] : summary_.attributes)
-    if (name == "shard")
-      throw storage::IoError(storage::quoted_name(path_) + " is shard " + storage::excerpt(value) +
-                             " of a sweep; join all with `clatter merge` first");
-  if (status == nullptr && find("arclength") != nullptr)
-    throw storage::IoError(storage::quoted_name(path_) +
-                           " holds branches, not points of a sweep; read it with h5py, xarray or plot.py");
-  if (status == nullptr) storage::refuse_reading(path_, "has no status", "name a whole output of clatter");
-  rows_ = status->dimensions;
+  rows_ = choice_.special ? dimensions_of_specials() : dimensions_of_points(summary_, path_);
   for (const results::NamedLength& dimension : rows_)
-    for (const Entry& entry : summary_.variables)
-      if (is_coordinate(entry, dimension)) axes_.push_back(entry.name);
+    for (const std::string& name : coordinates_along(summary_, dimension)) axes_.push_back(name);
   const std::vector<std::string> known = results_in_file();
   for (const std::string& name : choice_.only) require_known(name, known);
   for (const std::string& name : known)
     if (choice_.only.empty() || is_named(name)) results_.push_back(name);
-  for (const auto& [axis, value] : choice_.where)
-    if (std::ranges::find(axes_, axis) == axes_.end()) refuse_axis(axis);
+  for (const Place& place : choice_.where)
+    if (std::ranges::find(axes_, place.axis) == axes_.end()) refuse_axis(place.axis);
   collect_variables();
 }
 
-/// Whether a variable gives the places of the points along a dimension of the rows: the axis that names it, one linked
-/// to that, or a direction.
-bool CsvTable::is_coordinate(const Entry& entry, const results::NamedLength& dimension) {
-  if (entry.dimensions.size() != 1 || !are_same(entry.dimensions[0], dimension)) return false;
-  return entry.name == dimension.name || Parameter::of(entry.name).has_value();
-}
+const Entry* CsvTable::find(std::string_view name) const { return find_variable(summary_, name); }
 
-const Entry* CsvTable::find(std::string_view name) const {
-  const auto found = std::ranges::find(summary_.variables, name, &Entry::name);
-  return found == summary_.variables.end() ? nullptr : &*found;
+std::vector<results::NamedLength> CsvTable::dimensions_of_specials() const {
+  const Entry* const kind = find("special_kind");
+  if (kind == nullptr)
+    throw ChoiceError("--special: " + storage::quoted_name(path_) +
+                      " has no special points; `clatter branch` writes files that have them");
+  return kind->dimensions;
 }
 
 /// All variables with a value or several for each row.
 std::vector<std::string> CsvTable::results_in_file() const {
   const auto is_logged = [](const Entry& entry) {
-    return entry.dimensions.size() == 1 && entry.dimensions[0].name == log_dimension;
+    return entry.dimensions.size() == 1 && entry.dimensions[0].name == logged_impacts;
   };
   if (choice_.impacts && find(log_counts) == nullptr)
-    throw ChoiceError("--impacts: " + storage::quoted_name(path_) +
-                      " has no impact log; run its configuration with --set observe.impact_log=true");
+    throw ChoiceError(
+        "--impacts: " + storage::quoted_name(path_) + " has no impact log; " +
+        (holds_branches(summary_) ? "no branch has one" : "run its configuration with --set observe.impact_log=true"));
   std::vector<std::string> names;
   for (const Entry& entry : summary_.variables) {
     const bool is_axis = std::ranges::find(axes_, entry.name) != axes_.end();
@@ -224,6 +148,7 @@ std::vector<CsvTable::Column> CsvTable::columns(const results::Dataset& dataset)
   }
   for (const std::string& name : results_)
     for (Column& column : columns_of(name, dataset)) columns.push_back(std::move(column));
+  std::ranges::stable_sort(columns, {}, kind_of);
   return columns;
 }
 
@@ -247,11 +172,12 @@ std::string CsvTable::comments(const std::vector<Column>& columns) const {
 std::vector<std::vector<bool>> CsvTable::wanted(const results::Dataset& dataset) const {
   std::vector<std::vector<bool>> wanted;
   for (const results::NamedLength& dimension : rows_) wanted.emplace_back(dimension.length, true);
-  for (const auto& [axis, value] : choice_.where) {
-    const std::string& dimension = find(axis)->dimensions[0].name;
+  for (const Place& asked : choice_.where) {
+    const Entry& entry = *find(asked.axis);
+    const std::string& dimension = entry.dimensions[0].name;
     const auto place = std::ranges::find(rows_, dimension, &results::NamedLength::name) - rows_.begin();
     std::vector<bool>& along = wanted[static_cast<std::size_t>(place)];
-    const std::vector<bool> here = indexes_of(variable_of(dataset, axis), value);
+    const std::vector<bool> here = indexes_at(asked, variable_of(dataset, asked.axis), entry, path_);
     for (std::size_t i = 0; i < along.size(); ++i) along[i] = along[i] && here[i];
   }
   return wanted;

@@ -3,33 +3,28 @@
 #include <cstddef>
 #include <functional>
 #include <optional>
-#include <stdexcept>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
+#include "file_points.hpp"
 #include "results/dataset.hpp"
 #include "results/dataset_file.hpp"
 
 namespace clatter::app {
 
-/// A choice that a file doesn't offer; `what()` is one line that ends with how to fix it.
-class ChoiceError : public std::runtime_error {
- public:
-  using std::runtime_error::runtime_error;
-};
-
 /// The part of an output that becomes a table.
 struct TableChoice {
-  std::vector<std::string> only{};                      ///< results, or components such as v_before[-1]; empty: all
-  std::vector<std::pair<std::string, double>> where{};  ///< axes at one value each
-  bool impacts = false;                                 ///< a row for each impact of the log instead of each point
+  std::vector<std::string> only{};  ///< results, or components such as v_before[-1]; empty: all
+  std::vector<Place> where{};       ///< axes at one value each
+  bool impacts = false;             ///< a row for each impact of the log instead of each point
+  bool special = false;             ///< a row for each special point of branches instead of each point
 };
 
 /// An output file as a table in CSV: lines that begin with # tell title, origin, and the unit and meaning of each
-/// variable; then one header row (RFC 4180), and one row a point or an impact. The axes come first. Numbers have the
-/// digits that read back to the same double, nan or inf; flags such as `status` are their meanings.
+/// variable; then one header row (RFC 4180), and one row a point, an impact or a special point. The axes come first,
+/// the other numbers next, and all texts behind them. Numbers have the digits that read back to the same double, nan or
+/// inf; flags such as `status` are their meanings and come last.
 class CsvTable {
  public:
   /// Throws ChoiceError, or IoError if the file isn't a whole output.
@@ -55,8 +50,7 @@ class CsvTable {
   };
 
  private:
-  [[nodiscard]] static bool is_coordinate(const results::FileSummary::Entry& entry,
-                                          const results::NamedLength& dimension);
+  [[nodiscard]] std::vector<results::NamedLength> dimensions_of_specials() const;
   [[nodiscard]] const results::FileSummary::Entry* find(std::string_view name) const;
   [[nodiscard]] std::vector<std::string> results_in_file() const;
   void require_known(const std::string& name, const std::vector<std::string>& known) const;

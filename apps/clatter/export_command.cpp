@@ -31,7 +31,12 @@ std::vector<std::string> listed(const std::vector<std::string>& values) {
 }
 
 TableChoice choice_of(const Arguments& arguments) {
-  return {.only = listed(arguments.values("only")), .where = places_of(arguments), .impacts = arguments.has("impacts")};
+  if (arguments.has("impacts") && arguments.has("special"))
+    throw UsageError("--impacts conflicts with --special; give one of them");
+  return {.only = listed(arguments.values("only")),
+          .where = places_of(arguments),
+          .impacts = arguments.has("impacts"),
+          .special = arguments.has("special")};
 }
 
 int export_table(const Arguments& arguments) try {
@@ -57,7 +62,9 @@ int export_table(const Arguments& arguments) try {
 constexpr std::string_view examples =
     "  clatter export fig22.h5 > fig22.csv\n"
     "  clatter export map.h5 --only x_max,v_before[-1] --where nu=1.0 -o part.csv\n"
-    "  clatter export fig18.h5 --impacts\n";
+    "  clatter export drive.h5 --where gap='1.5 mm'\n"
+    "  clatter export fig18.h5 --impacts\n"
+    "  clatter export curve.branch.h5 --special\n";
 
 }  // namespace
 
@@ -72,6 +79,7 @@ Command export_command() {
                        true},
                       where_option,
                       {"impacts", 0, "", "one row for each logged impact instead of one for each point"},
+                      {"special", 0, "", "one row for each special point of branches instead of one for each point"},
                       {"output", 'o', "FILE.csv", "output file; default: standard output"},
                       force_option,
                       {"help", 'h', "", "print this help"}},

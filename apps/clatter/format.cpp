@@ -1,5 +1,6 @@
 #include "format.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -33,6 +34,24 @@ std::string coordinates_text(const sweep::Sweep& sweep, std::size_t point) {
     text += formatted(" = %.10g", value);
   });
   return text;
+}
+
+std::string unit_text(std::string_view units) {
+  if (units == "1") return "";
+  std::string over, under;
+  for (std::size_t begin = 0; begin < units.size();) {
+    const std::size_t end = std::min(units.find(' ', begin), units.size());
+    std::string_view factor = units.substr(begin, end - begin);
+    const std::size_t minus = factor.find('-');
+    if (minus == std::string_view::npos) {
+      over.append(over.empty() ? "" : " ").append(factor);
+    } else {
+      const std::string_view power = factor.substr(minus + 1);
+      under.append("/").append(factor.substr(0, minus)).append(power == "1" ? "" : power);
+    }
+    begin = end + 1;
+  }
+  return (over.empty() && !under.empty() ? "1" : over) + under;
 }
 
 }  // namespace clatter::app

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <string>
+#include <string_view>
 
 #include "sweep/sweep.hpp"
 
@@ -18,5 +19,8 @@ namespace clatter::app {
 
 /// "nu = 0.5, xs = -3"; empty if nothing is swept.
 [[nodiscard]] std::string coordinates_text(const sweep::Sweep& sweep, std::size_t point);
+
+/// A unit of a file as people write it: "m/s" for "m s-1", "1/s" for "s-1"; empty for "1".
+[[nodiscard]] std::string unit_text(std::string_view units);
 
 }  // namespace clatter::app

@@ -4,9 +4,12 @@
 
 #include "commands.hpp"
 #include "completions.hpp"
+#include "config/config_error.hpp"
+#include "config/reading.hpp"
 #include "config/suggestion.hpp"
 #include "config/wrapped.hpp"
 #include "help_topics.hpp"
+#include "json_output.hpp"
 #include "manual_pages.hpp"
 #include "storage/atomic_write.hpp"
 #include "storage/error.hpp"
@@ -55,6 +58,14 @@ void write_manual(const std::filesystem::path& folder) {
   write_below(folder, "fish/vendor_completions.d/clatter.fish", fish_completion());
 }
 
+/// The value whose unit scripts ask for. Throws UsageError.
+config::Reading reading_of(const Arguments& arguments) try {
+  if (arguments.operands.empty()) throw UsageError("--json without a value; write e.g. clatter help --json '1.5 mm'");
+  return config::parse_reading({arguments.operands[0], {.source = config::in_quotes(arguments.operands[0])}});
+} catch (const config::ConfigError& error) {
+  throw UsageError(std::string(error.what()) + "; --json takes a value, e.g. '1.5 mm'");
+}
+
 int print_help(const Arguments& arguments) {
   if (const std::optional<std::string> folder = arguments.value("manual")) {
     if (!arguments.operands.empty())
@@ -63,7 +74,10 @@ int print_help(const Arguments& arguments) {
     write_manual(*folder);
     return done;
   }
-  std::cout << (arguments.operands.empty() ? program_help() : help_on(arguments.operands[0]));
+  if (arguments.has("json"))
+    std::cout << reading_json(reading_of(arguments));
+  else
+    std::cout << (arguments.operands.empty() ? program_help() : help_on(arguments.operands[0]));
   return done;
 }
 
@@ -71,6 +85,8 @@ constexpr std::string_view examples =
     "  clatter help run\n"
     "  clatter help configuration\n"
     "  clatter help R                also scene.R, sweep.R, [scene], linspace\n"
+    "  clatter help impact_speed     a result; help results lists them\n"
+    "  clatter help --json '1.5 mm'\n"
     "  clatter help --manual ~/.local/share\n";
 
 constexpr Option options_of_program[] = {{"version", 0, "", "print version, commit and compiler"},
@@ -120,16 +136,19 @@ std::string_view program_examples() {
 }
 
 Command help_command() {
-  return {.name = "help",
-          .usage = "help [COMMAND|KEY]",
-          .summary = "explain a command, a key of the configuration with an example, or all keys (help configuration)",
-          .examples = examples,
-          .operands = {"COMMAND|KEY"},
-          .required_operands = 0,
-          .options = {{"manual", 0, "DIR",
-                       "write the man pages, and completions for bash, zsh and fish, laid out as in PREFIX/share"},
-                      {"help", 'h', "", "print this help"}},
-          .run = print_help};
+  return {
+      .name = "help",
+      .usage = "help [COMMAND|KEY|RESULT]",
+      .summary =
+          "explain a command, a key of the configuration with an example, a result, or all keys (help configuration)",
+      .examples = examples,
+      .operands = {"COMMAND|KEY|RESULT"},
+      .required_operands = 0,
+      .options = {{"manual", 0, "DIR",
+                   "write the man pages, and completions for bash, zsh and fish, laid out as in PREFIX/share"},
+                  {"json", 0, "", "print a value, e.g. '1.5 mm', as JSON: its number and its unit in SI"},
+                  {"help", 'h', "", "print this help"}},
+      .run = print_help};
 }
 
 }  // namespace clatter::app

@@ -5,8 +5,8 @@
 
 namespace clatter::app {
 
-/// The help on a topic: a command, a key, a section, a function of values, or the whole configuration. Throws
-/// UsageError if there is none.
+/// The help on a topic: a command, a key, a result, a section, a function of values, the whole configuration, all
+/// results. A name that is several of these has the help on each. Throws UsageError if there is none.
 [[nodiscard]] std::string help_on(const std::string& topic);
 
 /// Every topic, commands first.

@@ -4,8 +4,15 @@
 #include <iostream>
 
 #include "commands.hpp"
+#include "config/keys.hpp"
+#include "config/wrapped.hpp"
+#include "extremes.hpp"
+#include "extremes_report.hpp"
+#include "file_points.hpp"
 #include "json_output.hpp"
 #include "outputs/output_summary.hpp"
+#include "result_catalogue.hpp"
+#include "result_help.hpp"
 #include "results/dataset_file.hpp"
 #include "storage/error.hpp"
 #include "storage/utf8.hpp"
@@ -26,7 +33,15 @@ std::string shape_text(const results::FileSummary::Entry& entry) {
   return text.empty() ? "scalar" : text + ']';
 }
 
-void print_variables(const results::FileSummary& summary) {
+/// What the help knows beside the meaning of a variable; of a parameter, what the key is.
+std::string note_on(std::string_view name, std::string_view command) {
+  for (const CataloguedResult* const result : results_named(name))
+    if (result->command == command) return result_note(*result);
+  const auto key = std::ranges::find(config::keys(), name, &Key::name);
+  return key == config::keys().end() ? std::string() : std::string(key->help);
+}
+
+void print_variables(const results::FileSummary& summary, bool with_notes) {
   std::size_t name_width = 0, shape_width = 0;
   for (const auto& entry : summary.variables) {
     name_width = std::max(name_width, entry.name.size());
@@ -36,6 +51,8 @@ void print_variables(const results::FileSummary& summary) {
     const std::string unit = entry.units.empty() || entry.units == "1" ? "" : ", " + entry.units;
     std::cout << "  " << column(entry.name, name_width) << column(entry.type, 7)
               << column(shape_text(entry), shape_width) << entry.meaning() << unit << '\n';
+    if (const std::string note = with_notes ? note_on(entry.name, command_of(summary)) : ""; !note.empty())
+      std::cout << "      " << config::wrapped(note, 6);
   }
 }
 
@@ -53,12 +70,12 @@ results::FileSummary harmless(results::FileSummary summary) {
 }
 
 /// Prints a summary for people; scripts use --json.
-void print_text(const results::FileSummary& summary) {
+void print_text(const results::FileSummary& summary, bool with_notes) {
   for (const auto& [name, value] : summary.attributes) {
     if (name != "config" && name != "scene_names") std::cout << column(name, 16) << value << '\n';
   }
   std::cout << "\nVariables\n";
-  print_variables(summary);
+  print_variables(summary, with_notes);
   if (!summary.status_counts.empty()) std::cout << "\nBy status\n";
   for (const auto& [meaning, count] : summary.status_counts) std::cout << "  " << column(meaning, 12) << count << '\n';
 }
@@ -73,29 +90,49 @@ void print_config(const std::string& path, const results::FileSummary& summary) 
   std::cout << (::isatty(STDOUT_FILENO) != 0 ? storage::printable_lines(config->second) : config->second);
 }
 
-int print_info(const Arguments& arguments) {
+/// Prints the points at which a result is largest, or smallest.
+void print_extremes(const results::FileSummary& summary, const std::string& path, const std::string& name,
+                    bool is_largest, bool as_json) try {
+  const Extremes extremes(summary, path, name, is_largest);
+  const std::vector<Extreme> points = extremes.of(results::read_variables(path, extremes.variables()));
+  std::cout << (as_json ? extremes_json(extremes, points) : extremes_text(extremes, points));
+} catch (const ChoiceError& error) {
+  throw UsageError(error.what());
+}
+
+/// The option that says what to print; empty: none. Only --json goes with others: with --max and --min.
+std::string chosen_print(const Arguments& arguments) {
   std::string chosen;
-  for (const char* const option : {"json", "config", "check"}) {
-    if (!arguments.has(option)) continue;
+  for (const char* const option : {"max", "min", "json", "config", "check", "verbose"}) {
+    const bool refines = std::string_view(option) == "json" && (chosen == "max" || chosen == "min");
+    if (!arguments.has(option) || refines) continue;
     if (!chosen.empty()) throw UsageError("--" + chosen + " conflicts with --" + option + "; give one of them");
     chosen = option;
   }
+  return chosen;
+}
+
+int print_info(const Arguments& arguments) {
+  const std::string chosen = chosen_print(arguments);
   const std::string& path = arguments.operands[0];
   const results::FileSummary summary = outputs::read_summary(path);
-  if (chosen == "check") {
+  if (chosen == "max" || chosen == "min") {
+    print_extremes(summary, path, *arguments.value(chosen), chosen == "max", arguments.has("json"));
+  } else if (chosen == "check") {
     results::require_readable(summary, path);
   } else if (chosen == "config") {
     print_config(path, summary);
   } else if (chosen == "json") {
     std::cout << summary_json(summary);
   } else {
-    print_text(harmless(summary));
+    print_text(harmless(summary), chosen == "verbose");
   }
   return done;
 }
 
 constexpr std::string_view examples =
     "  clatter info fig22.h5\n"
+    "  clatter info fig22.h5 --max impact_speed\n"
     "  clatter info fig22.h5 --config > again.toml\n"
     "  clatter info --check fig22.h5 && echo sound\n";
 
@@ -103,12 +140,16 @@ constexpr std::string_view examples =
 
 Command info_command() {
   return {.name = "info",
-          .usage = "info FILE.h5 [--json|--config|--check]",
+          .usage = "info FILE.h5 [OPTION]...",
           .summary = "print the contents of an output file and how it was made",
           .examples = examples,
           .operands = {"FILE.h5"},
           .required_operands = 1,
-          .options = {{"json", 0, "", "print JSON"},
+          .options = {{"max", 0, "NAME",
+                       "print the five points at which this result, or component as v_before[-1], is largest"},
+                      {"min", 0, "NAME", "print those at which it is smallest"},
+                      {"verbose", 'v', "", "print also when each result is NaN, and what asks for it"},
+                      {"json", 0, "", "print JSON, also of --max and --min"},
                       {"config", 0, "", "print the configuration that made the file, which can be run again"},
                       {"check", 0, "", "print nothing, but read all values: the exit code is 0 if none is damaged"},
                       {"help", 'h', "", "print this help"}},

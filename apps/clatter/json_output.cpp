@@ -84,6 +84,30 @@ std::string summary_json(const results::FileSummary& summary) {
   return text_of({{"attributes", attributes}, {"variables", variables}, {"status", status}}, in_lines);
 }
 
+std::string extremes_json(const Extremes& extremes, const std::vector<Extreme>& points) {
+  const auto numbers = [](const std::vector<Whereabouts>& named) {
+    Json json = Json::object();
+    for (const auto& [name, value, units] : named) json[name] = value;
+    return json;
+  };
+  Json list = Json::array();
+  for (const Extreme& point : points) {
+    Json json{{"value", point.value}, {"at", numbers(point.axes)}, {"component", numbers(point.component)}};
+    for (const auto& [name, word] : point.words) json[name] = word;
+    list.push_back(json);
+  }
+  return text_of(
+      {{"result", entry_json(extremes.result())}, {"extreme", extremes.is_largest() ? "max" : "min"}, {"points", list}},
+      in_lines);
+}
+
+std::string reading_json(const config::Reading& reading) {
+  return text_of({{"value", reading.value},
+                  {"units", si_unit(reading.quantity)},
+                  {"unit", reading.unit.empty() ? Json() : Json(reading.unit)}},
+                 in_one_line);
+}
+
 std::string plan_json(const plan::Plan& plan, const sweep::Sweep& sweep, int threads, std::optional<double> seconds) {
   Json dimensions = Json::array(), groups = Json::array();
   for (const sweep::Dimension& dimension : sweep.dimensions) dimensions.push_back(dimension_json(dimension));

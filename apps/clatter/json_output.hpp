@@ -7,6 +7,8 @@
 
 #include "accuracy/accuracy.hpp"
 #include "branches/branch.hpp"
+#include "config/reading.hpp"
+#include "extremes.hpp"
 #include "plan/plan.hpp"
 #include "results/dataset_file.hpp"
 
@@ -17,6 +19,13 @@ namespace clatter::app {
 
 /// The summary of a file: attributes, variables with their dimensions, number of points by status.
 [[nodiscard]] std::string summary_json(const results::FileSummary& summary);
+
+/// The points at which a result of a file is largest, or smallest, the best first: for each its value, its axes, which
+/// component of the result, and the words for its motion.
+[[nodiscard]] std::string extremes_json(const Extremes& extremes, const std::vector<Extreme>& points);
+
+/// A value as it was written: {"value": 0.0015, "units": "m", "unit": "mm"}; without a unit that is null.
+[[nodiscard]] std::string reading_json(const config::Reading& reading);
 
 /// A plan, schema "clatter-plan/1" (src/plan/README.md); `seconds` is the time of a run, if it is known.
 [[nodiscard]] std::string plan_json(const plan::Plan& plan, const sweep::Sweep& sweep, int threads,

@@ -105,7 +105,7 @@ std::string failures_text(const results::Dataset& dataset, const sweep::Sweep& s
   const sweep::Share share(sweep, shard);
   std::string text;
   std::ptrdiff_t failures = 0;
-  for (const auto& [status, name] : steady::status_names) {
+  for (const auto& [status, name, meaning] : steady::status_names) {
     const auto value = static_cast<std::uint8_t>(status);
     const auto count = std::ranges::count(statuses, value);
     if (!steady::failed(status) || count == 0) continue;

@@ -1,32 +1,33 @@
 #include "table_options.hpp"
 
 #include <filesystem>
-#include <stdexcept>
 
+#include "config/config_error.hpp"
 #include "config/suggestion.hpp"
-#include "config/value_grammar.hpp"
 #include "storage/atomic_write.hpp"
 #include "storage/error.hpp"
+#include "storage/free_name.hpp"
 #include "storage/utf8.hpp"
 
 namespace clatter::app {
 namespace {
 
-std::pair<std::string, double> place(const std::string& text) {
+Place place(const std::string& text) {
   const std::size_t equals = text.find('=');
+  const std::string option = "--where " + config::in_quotes(text);
+  if (equals == std::string::npos || equals == 0) throw UsageError(option + "; expected AXIS=VALUE, e.g. nu=1.0");
   try {
-    if (equals == std::string::npos || equals == 0) throw UsageError("");
-    const double value = config::parse_number({std::string_view(text).substr(equals + 1), {}});
-    return {text.substr(0, equals), value};
-  } catch (const std::runtime_error&) {
-    throw UsageError("--where " + config::in_quotes(text) + "; expected AXIS=VALUE, e.g. nu=1.0");
+    return {text.substr(0, equals),
+            config::parse_reading({std::string_view(text).substr(equals + 1), {.source = option}})};
+  } catch (const config::ConfigError& error) {
+    throw UsageError(std::string(error.what()) + "; expected AXIS=VALUE, e.g. nu=1.0");
   }
 }
 
 }  // namespace
 
-std::vector<std::pair<std::string, double>> places_of(const Arguments& arguments) {
-  std::vector<std::pair<std::string, double>> places;
+std::vector<Place> places_of(const Arguments& arguments) {
+  std::vector<Place> places;
   for (const std::string& text : arguments.values("where")) places.push_back(place(text));
   return places;
 }
@@ -39,8 +40,8 @@ std::optional<std::string> text_output_of(const Arguments& arguments) {
   if (std::filesystem::equivalent(arguments.operands[0], output, error))
     throw UsageError("the output " + storage::quoted_name(output) + " is the input; name another file with -o");
   if (std::filesystem::exists(output, error) && !arguments.has("force"))
-    throw storage::IoError("cannot write " + storage::quoted_name(output) +
-                           ": there is a file; name another with -o, move that one away, or replace it with --force");
+    throw storage::IoError("cannot write " + storage::quoted_name(output) + ": there is a file; " +
+                           storage::instead_of_replacing(output));
   return output;
 }
 

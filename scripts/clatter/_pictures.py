@@ -29,9 +29,10 @@ def plot(
     only: results, or keys of [observe], that have a panel, e.g. "x_max", or a list of them; by default all.
     along: the axis on the abscissa; by default the longest, of a map the first.
     over: the axis of which each value has a curve; by default those with few values.
-    at: values of axes, the nearest is taken, e.g. {"xs": 4.0}, in the units of the file.
+    at: values of axes, the nearest is taken, e.g. {"xs": 4.0}; of several, [2.0, 4.0], each is a curve. Numbers are in
+        the units of the file, texts may have their own, e.g. {"gap": "1.5 mm"}.
     size: width and height in inches, 1 to 100.
-    xlim, ylim: two limits of the abscissa, or ordinate, of every panel, in the units of the file.
+    xlim, ylim: two limits of the abscissa, or ordinate, of every panel, likewise, e.g. ("10 Hz", "40 Hz").
     log: "x", "y" or "xy", the logarithmic scales.
     backbone: whether the speed of conservative motion is behind branches along nu.
     title: in place of the configuration's.
@@ -113,7 +114,9 @@ def _words(only, along, over, at, size, xlim, ylim, log, backbone, title):
     if not isinstance(at, (dict, type(None))):
         raise TypeError(f"at = {at!r}: expected a dictionary of axes, e.g. {{'xs': 4.0}}")
     words = [f"--{name}={value}" for name, value in texts.items() if value is not None]
-    words += [f"--at={axis}={value}" for axis, value in zip(at or {}, _numbers("at", (at or {}).values()))]
+    for axis, values in (at or {}).items():
+        is_one = isinstance(values, str) or not hasattr(values, "__iter__")
+        words.append(f"--at={axis}={','.join(_numbers('at', [values] if is_one else values))}")
     return words + ["--backbone"] * bool(backbone)
 
 
@@ -126,8 +129,13 @@ def _joined(name, texts):
 
 
 def _numbers(name, values):
-    """Numbers as words, to their last bit."""
+    """Numbers as words, to their last bit; texts of numbers with units as they are, but sizes have none."""
     try:
-        return [repr(float(value)) for value in values]
+        return [value if name != "size" and _is_measure(value) else repr(float(value)) for value in values]
     except (TypeError, ValueError):
         raise TypeError(f"{name} = {values!r}: expected numbers") from None
+
+
+def _is_measure(value):
+    """Whether it is a text that may be a number with a unit."""
+    return isinstance(value, str) and any(map(str.isdigit, value))

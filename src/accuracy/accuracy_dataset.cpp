@@ -38,6 +38,8 @@ constexpr PointVariable all_point_variables[] = {
     {"steady_periods", "period of the steady motion, in forcing periods", &PointAccuracy::steady_periods},
 };
 
+constexpr const char* missing_if = "it doesn't apply to the method or the motion, or there is nothing to compare";
+
 /// Attributes with the meanings of the values 0, 1, ... of a variable.
 std::vector<results::Attribute> flags_of(std::span<const std::string_view> names) {
   std::vector<std::pair<std::uint8_t, std::string_view>> meanings;
@@ -83,12 +85,14 @@ results::Dataset accuracy_dataset(const sweep::Sweep& sweep, const std::vector<P
     values.reserve(points.size());
     for (const PointAccuracy& point : points) values.push_back(point.*value);
     dataset.variables.push_back({name, axes, std::move(values), long_name, "1"});
+    dataset.variables.back().missing_if = missing_if;
   }
   for (const auto& [name, long_name, value] : all_row_variables) {
     std::vector<double> values;
     for (const PointAccuracy& point : points)
       for (const WorkPrecision& row : point.rows) values.push_back(row.*value);
     dataset.variables.push_back({name, over_rows, std::move(values), long_name, "1"});
+    dataset.variables.back().missing_if = missing_if;
   }
   sweep::add_drawn_names(sweep.problem.is_si, dataset);
   name_linked_axes(sweep, dataset);

@@ -64,8 +64,10 @@ class Columns {
     add("v", Quantity::velocity, std::move(v), "velocity at forcing phase 0");
     add("period_ratio", std::move(period), "period of the motion over the forcing period");
     add("word", std::move(word), "impacts of one period in order, L and U");
+    dataset_.variables.back().missing_if = "no stop is hit";
     add("regime", std::move(regime), "impacts on one stop over forcing periods");
     add("symmetric", std::move(symmetric), "1: the motion is its own mirror image; NaN: the scene isn't symmetric");
+    dataset_.variables.back().missing_if = "the scene isn't symmetric";
     add("stable", std::move(stable), "1: all multipliers lie within the unit circle");
     add("multiplier_re", std::move(re), "real parts of the multipliers of one period", {"multiplier"});
     add("multiplier_im", std::move(im), "imaginary parts of the multipliers of one period", {"multiplier"});

@@ -8,8 +8,7 @@ namespace {
 
 std::string name_of(steady::Status status) {
   if (failed(status)) return "failed";
-  return std::string(
-      std::ranges::find(steady::status_names, status, [](const auto& pair) { return pair.first; })->second);
+  return std::string(std::ranges::find(steady::status_names, status, &steady::StatusName::status)->name);
 }
 
 std::string reason_of(const CertifiedPoint& point) {

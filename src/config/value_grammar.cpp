@@ -31,6 +31,11 @@ class Parser {
     return measured;
   }
 
+  [[nodiscard]] LeadingNumber leading_number() {
+    const double value = product();
+    return {value, rest().substr(0, rest().find_last_not_of(blanks) + 1)};
+  }
+
   [[nodiscard]] AxisValues axis() {
     if (at_end()) fail_here("an empty axis; give at least one value");
     const std::size_t begin = at_;
@@ -233,6 +238,8 @@ class Parser {
 double parse_number(const SourceText& source) { return parse_measure(source).value; }
 
 Measure parse_measure(const SourceText& source) { return Parser(source).whole_number(); }
+
+LeadingNumber parse_leading_number(const SourceText& source) { return Parser(source).leading_number(); }
 
 void check_units(const std::vector<Measure>& measures, const std::vector<SourceLocation>& locations) {
   if (std::ranges::none_of(measures, &Measure::has_unit)) return;

@@ -51,6 +51,15 @@ inline constexpr double max_points = 1e9;
 /// The same with a unit, if there is one: 3 mm, 2*pi rad/s. Throws ConfigError.
 [[nodiscard]] Measure parse_measure(const SourceText& source);
 
+/// A number that begins a text, and all that follows it, such as a unit.
+struct LeadingNumber {
+  double value;
+  std::string_view rest;
+};
+
+/// Throws ConfigError if the text doesn't begin with a number.
+[[nodiscard]] LeadingNumber parse_leading_number(const SourceText& source);
+
 /// Reads linspace(a, b, n), logspace(a, b, n), arange(a, b, step), sobol(a, b, n), or numbers between commas in
 /// optional brackets; all numbers with units, or none. Throws ConfigError.
 [[nodiscard]] AxisValues parse_axis(const SourceText& source);

@@ -44,14 +44,16 @@ std::vector<Column<Harmonics::Values>> Harmonics::columns(const Settings& settin
         name, long_name, quantity, harmonic,
         [spectrum, part](const Values& v) -> const std::vector<double>& { return v.*spectrum.*part; });
   };
-  return {in_observed_frame(of("x_amplitude", "amplitude of the harmonics of displacement", Quantity::length,
-                               &Values::x_spectrum, &Spectrum::amplitude)),
-          in_observed_frame(of("x_phase", "phase of the harmonics of displacement at tau = 0", Quantity::angle,
-                               &Values::x_spectrum, &Spectrum::phase)),
-          in_observed_frame(of("v_amplitude", "amplitude of the harmonics of velocity", Quantity::velocity,
-                               &Values::v_spectrum, &Spectrum::amplitude)),
-          in_observed_frame(of("v_phase", "phase of the harmonics of velocity at tau = 0", Quantity::angle,
-                               &Values::v_spectrum, &Spectrum::phase)),
+  constexpr std::string_view beyond = "the harmonic is above half the rate of the samples (method fft)",
+                             constant = "it is that of the constant part, or above half the rate of the samples";
+  return {missing_if(beyond, in_observed_frame(of("x_amplitude", "amplitude of the harmonics of displacement",
+                                                  Quantity::length, &Values::x_spectrum, &Spectrum::amplitude))),
+          missing_if(constant, in_observed_frame(of("x_phase", "phase of the harmonics of displacement at tau = 0",
+                                                    Quantity::angle, &Values::x_spectrum, &Spectrum::phase))),
+          missing_if(beyond, in_observed_frame(of("v_amplitude", "amplitude of the harmonics of velocity",
+                                                  Quantity::velocity, &Values::v_spectrum, &Spectrum::amplitude))),
+          missing_if(constant, in_observed_frame(of("v_phase", "phase of the harmonics of velocity at tau = 0",
+                                                    Quantity::angle, &Values::v_spectrum, &Spectrum::phase))),
           scalar("base_frequency", "frequency whose multiples the harmonics are", &Values::base_frequency,
                  Quantity::frequency)};
 }

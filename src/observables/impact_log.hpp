@@ -28,6 +28,7 @@ struct LogColumn {
   double LoggedImpact::*member;
   Quantity quantity;
   FrameOf frame = FrameOf::any;
+  std::string_view missing_if{};  ///< as of results
 };
 
 /// The numbers of the log in the order of the file; the last one exists if stops or base are shaken.
@@ -37,7 +38,7 @@ inline constexpr std::array log_columns_of_shaken{
     LogColumn{"impact_v_before", "velocity before the impact", &LoggedImpact::before, Quantity::velocity,
               FrameOf::relative},
     LogColumn{"impact_v_after", "velocity after the impact", &LoggedImpact::after, Quantity::velocity,
-              FrameOf::relative},
+              FrameOf::relative, "the contact with a soft stop goes on beyond the observed time"},
     LogColumn{"impact_phase", "forcing phase of the impact", &LoggedImpact::phase, Quantity::angle},
     LogColumn{"impact_v_before_absolute", "velocity before the impact", &LoggedImpact::absolute, Quantity::velocity,
               FrameOf::absolute}};

@@ -59,10 +59,14 @@ std::size_t first_rotation(const std::vector<T>& items) {
 }  // namespace
 
 std::vector<Column<ImpactWord::Values>> ImpactWord::columns(const Settings&) {
-  return {text("impact_word", "impacts of one period in order, L: lower stop, U: upper stop, *: until at rest",
-               &Values::impact_word, longest + cut.size()),
-          text("regime", "impacts on the stop with more of them / forcing periods", &Values::regime, 40),
-          scalar("symmetric", "1: half a period later the motion is its mirror image", &Values::symmetric)};
+  return {
+      missing_if("no stop is hit, or no period is known",
+                 text("impact_word", "impacts of one period in order, L: lower stop, U: upper stop, *: until at rest",
+                      &Values::impact_word, longest + cut.size())),
+      missing_if("no period is known, or there is no force",
+                 text("regime", "impacts on the stop with more of them / forcing periods", &Values::regime, 40)),
+      missing_if("no period is known, or the scene isn't symmetric",
+                 scalar("symmetric", "1: half a period later the motion is its mirror image", &Values::symmetric))};
 }
 
 std::string ImpactWord::word_of(const std::vector<Contact>& contacts, Side within) {

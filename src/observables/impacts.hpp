@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <string>
+#include <string_view>
 #include <tuple>
 #include <vector>
 
@@ -26,6 +27,7 @@ struct Impacts {
     std::array<double, 2> rest_fraction{no_value, no_value};
     std::array<double, 2> contact_fraction{no_value, no_value}, contact_force_max{no_value, no_value};
   };
+  static constexpr std::string_view not_hit = "the stop isn't hit";
   static constexpr std::tuple fields{Field{Key{"observe", "impacts", Kind::flag, "false", "true",
                                                "for each stop: impacts per period, velocity before and after the "
                                                "first, speed of the fastest, share of time at rest"},
@@ -37,18 +39,20 @@ struct Impacts {
     const Coordinate stop = stop_coordinate();
     std::vector<Column<Values>> all{
         pair("impacts_per_period", "impacts per forcing period", stop, &Values::impacts_per_period),
-        in_relative_frame(
-            pair("v_before", "velocity before the first impact", stop, &Values::v_before, Quantity::velocity)),
-        in_relative_frame(
-            pair("v_after", "velocity after the first impact", stop, &Values::v_after, Quantity::velocity)),
-        in_relative_frame(
-            pair("impact_speed", "speed of the fastest impact", stop, &Values::impact_speed, Quantity::velocity)),
+        missing_if(not_hit, in_relative_frame(pair("v_before", "velocity before the first impact", stop,
+                                                   &Values::v_before, Quantity::velocity))),
+        missing_if("the stop isn't hit, or a transient ends in the first contact with a soft one",
+                   in_relative_frame(
+                       pair("v_after", "velocity after the first impact", stop, &Values::v_after, Quantity::velocity))),
+        missing_if(not_hit, in_relative_frame(pair("impact_speed", "speed of the fastest impact", stop,
+                                                   &Values::impact_speed, Quantity::velocity))),
         pair("rest_fraction", "share of time at rest on the stop", stop, &Values::rest_fraction)};
     if (!settings.of_soft_stops) return all;
     all.push_back(pair("contact_fraction", "share of time in contact with the stop", stop, &Values::contact_fraction));
-    all.push_back(in_si("greatest force of the soft stop",
-                        pair("contact_force_max", "greatest force of the soft stop, per unit mass", stop,
-                             &Values::contact_force_max, Quantity::force)));
+    all.push_back(missing_if("the stop is rigid, or isn't there",
+                             in_si("greatest force of the soft stop",
+                                   pair("contact_force_max", "greatest force of the soft stop, per unit mass", stop,
+                                        &Values::contact_force_max, Quantity::force))));
     return all;
   }
   [[nodiscard]] static bool in_lanes(const Settings&, const ObservedSpan&) { return true; }

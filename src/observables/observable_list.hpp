@@ -74,7 +74,7 @@ struct ObservableList {
       for (Column<typename O::Values>& c : O::columns(settings))
         all.push_back({std::move(c.name), std::move(c.long_name), c.quantity, std::move(c.along), std::move(c.put),
                        std::move(c.text), c.longest_text, c.intermediate, std::move(c.name_in_si),
-                       std::get<0>(O::fields).key.name, c.frame, c.per});
+                       std::get<0>(O::fields).key.name, c.frame, c.missing_if, c.per});
     });
     return all;
   }

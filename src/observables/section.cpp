@@ -24,9 +24,11 @@ std::vector<Column<Section::Values>> Section::columns(const Settings& settings) 
     return series<Values>(name, long_name, quantity, {"section", static_cast<std::size_t>(settings.section)},
                           [member](const Values& v) -> const std::vector<double>& { return v.*member; });
   };
-  return {
-      in_observed_frame(of("section_x", "displacement in successive periods", &Values::section_x, Quantity::length)),
-      in_observed_frame(of("section_v", "velocity in successive periods", &Values::section_v, Quantity::velocity))};
+  constexpr std::string_view fewer = "the motion has fewer such states: one for each forcing period of its period";
+  return {missing_if(fewer, in_observed_frame(of("section_x", "displacement in successive periods", &Values::section_x,
+                                                 Quantity::length))),
+          missing_if(fewer, in_observed_frame(of("section_v", "velocity in successive periods", &Values::section_v,
+                                                 Quantity::velocity)))};
 }
 
 }  // namespace clatter::observables

@@ -30,8 +30,10 @@ struct Settling {
   [[nodiscard]] static bool wanted(const Settings& settings) { return settings.settling; }
   [[nodiscard]] static std::string description(const Settings&) { return "settling time"; }
   [[nodiscard]] static std::vector<Column<Values>> columns(const Settings&) {
-    return {scalar("settling_periods", "forcing periods after which the motion stays within 1e-3 of the steady one",
-                   &Values::settling_periods)};
+    return {missing_if(
+        "no period is known, there is no force, or max_periods pass before",
+        scalar("settling_periods", "forcing periods after which the motion stays within 1e-3 of the steady one",
+               &Values::settling_periods))};
   }
   [[nodiscard]] static bool in_lanes(const Settings&, const ObservedSpan&) { return true; }
 

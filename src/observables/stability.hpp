@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <tuple>
 #include <vector>
 
@@ -31,10 +32,14 @@ struct Stability {
   [[nodiscard]] static std::vector<Column<Values>> columns(const Settings&) {
     const Coordinate multiplier{"multiplier", 2, std::vector<std::int8_t>{1, 2},
                                 "number of the multiplier, 1: the larger modulus"};
-    return {pair("multiplier_re", "real part of the period's multipliers", multiplier, &Values::multiplier_re),
-            pair("multiplier_im", "imaginary part of the period's multipliers", multiplier, &Values::multiplier_im),
-            in_si("largest Lyapunov exponent",
-                  scalar("lyapunov", "largest Lyapunov exponent per tau", &Values::lyapunov, Quantity::rate))};
+    constexpr std::string_view none = "no period is known, or the motion touches a stop within rounding";
+    return {missing_if(none, pair("multiplier_re", "real part of the period's multipliers", multiplier,
+                                  &Values::multiplier_re)),
+            missing_if(none, pair("multiplier_im", "imaginary part of the period's multipliers", multiplier,
+                                  &Values::multiplier_im)),
+            missing_if("the motion touches a stop within rounding; -inf if the mass rests in every period",
+                       in_si("largest Lyapunov exponent", scalar("lyapunov", "largest Lyapunov exponent per tau",
+                                                                 &Values::lyapunov, Quantity::rate)))};
   }
 
   class Observer;  ///< in stability_observer.hpp

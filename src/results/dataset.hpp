@@ -25,6 +25,7 @@ struct Variable {
   std::string long_name;
   std::string units;                    ///< "1", "rad" for phases; of a [machine] those of the SI
   std::vector<Attribute> attributes{};  ///< besides long_name and units, e.g. flag_values; the writer adds _FillValue
+  std::string missing_if{};             ///< when a value is NaN or an empty text, in words for the help; not in files
 };
 
 /// The names of all variables of texts, in files of any command; the others hold numbers.

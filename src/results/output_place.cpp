@@ -7,6 +7,7 @@
 
 #include "storage/atomic_write.hpp"
 #include "storage/file_calls.hpp"
+#include "storage/free_name.hpp"
 #include "storage/utf8.hpp"
 
 namespace clatter::results {
@@ -55,7 +56,7 @@ std::optional<OutputPlace::State> OutputPlace::state() const {
 void OutputPlace::require_replaceable() const {
   if (force_ || !state()) return;
   const std::string why = difference(origin_of(path_), origin_);
-  if (!why.empty()) storage::refuse(path_, why, "name another with -o, move that one away, or replace it with --force");
+  if (!why.empty()) storage::refuse(path_, why, storage::instead_of_replacing(path_));
 }
 
 void OutputPlace::write_atomically(std::span<const std::byte> bytes, const storage::MakeRoom& make_room) const {

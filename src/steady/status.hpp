@@ -3,7 +3,6 @@
 #include <array>
 #include <cstdint>
 #include <string_view>
-#include <utility>
 
 #include "stepping/integration.hpp"
 
@@ -22,17 +21,24 @@ enum class Status : std::uint8_t {
   escaped = 19  ///< no stop and no spring brings the mass back, or an undamped resonance grows for ever
 };
 
-/// Every status and its name.
-inline constexpr std::array<std::pair<Status, std::string_view>, 9> status_names{
-    {{Status::periodic, "periodic"},
-     {Status::aperiodic, "aperiodic"},
-     {Status::transient, "transient"},
-     {Status::grazing, "grazing"},
-     {Status::undecided, "undecided"},
-     {Status::event_budget, "event_budget"},
-     {Status::not_finite, "not_finite"},
-     {Status::unresolved, "unresolved"},
-     {Status::escaped, "escaped"}}};
+/// A status, its name in files, and its meaning in words, after "the point".
+struct StatusName {
+  Status status;
+  std::string_view name, meaning;
+};
+
+/// Every status, in the order of its numbers.
+inline constexpr std::array<StatusName, 9> status_names{
+    {{Status::periodic, "periodic", "repeats; one period is observed"},
+     {Status::aperiodic, "aperiodic", "did not repeat within max_periods; a window is observed"},
+     {Status::transient, "transient", "was observed from the start"},
+     {Status::grazing, "grazing", "is periodic but touches a stop, so its stability doesn't exist"},
+     {Status::undecided, "undecided", "has no known period: rounding would decide it, even in 50 digits"},
+     {Status::event_budget, "event_budget", "failed: more than max_impacts"},
+     {Status::not_finite, "not_finite", "failed: numbers beyond the range of double"},
+     {Status::unresolved, "unresolved", "failed: lengths or times too far apart for double"},
+     {Status::escaped, "escaped",
+      "failed: nothing brings the mass back, or undamped motion without stops grows at resonance"}}};
 
 [[nodiscard]] constexpr bool failed(Status status) { return status >= Status::event_budget; }
 

@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "storage/error.hpp"
+#include "storage/free_name.hpp"
 #include "storage/input_file.hpp"
 #include "storage/journal_blocks.hpp"
 #include "storage/utf8.hpp"
@@ -64,11 +65,11 @@ void require_regular(const fs::path& path, mode_t mode) {
 }
 
 [[noreturn]] void refuse_busy(const fs::path& output) {
-  throw BusyError(quoted_name(output.string()) +
-                  " is being written by another run; wait for its end, or name another output");
+  throw BusyError(quoted_name(output.string()) + " is being written by another run; wait for its end, or " +
+                  name_another(output.string()));
 }
 
-fs::path journal_of(const fs::path& output) { return fs::path(output) += ".journal"; }
+fs::path journal_of(const fs::path& output) { return fs::path(output) += journal_ending; }
 
 }  // namespace
 
@@ -82,10 +83,10 @@ void require_idle(const fs::path& output) {
   if (::flock(file.number(), LOCK_SH | LOCK_NB) != 0 && errno == EWOULDBLOCK) refuse_busy(output);
 }
 
-OtherRun::OtherRun(const std::string& path, JournalKey key)
-    : IoError(quoted_name(path) +
-              " has the finished points of another run; run that again to complete it, begin "
-              "anew with --restart, or name another output"),
+OtherRun::OtherRun(const fs::path& output, JournalKey key)
+    : IoError(quoted_name(journal_of(output).string()) +
+              " has the finished points of another run; run that again to complete it, begin anew with --restart, or " +
+              name_another(output.string())),
       key_(std::move(key)) {}
 
 Journal::Journal(const fs::path& output, JournalKey key, const RecordLimit& limit, Begin begin, const ResultSink& take)
@@ -147,7 +148,7 @@ void Journal::read(const ResultSink& take, const RecordLimit& limit, Begin begin
     if (!key) reader.damaged(magic.size());
     // A log may be longer than its file takes on the disk, if zeros are stored as holes; but within limits.
     const double most_bytes = limit.bytes + (limit.has_log ? 1000.0 * static_cast<double>(stored_) : 0.0);
-    if (*key != key_ && reader.head(std::numeric_limits<double>::infinity())) throw OtherRun(path_.string(), *key);
+    if (*key != key_ && reader.head(std::numeric_limits<double>::infinity())) throw OtherRun(output_, *key);
     while (const auto record = *key == key_ ? reader.block(most_bytes) : std::nullopt) {
       take(*record);
       ends_.push_back(whole = reader.at());

@@ -14,6 +14,9 @@
 
 namespace clatter::storage {
 
+/// Of the name of a journal, behind that of its output.
+inline constexpr const char* journal_ending = ".journal";
+
 /// Another run is writing the same output (exit code 75).
 class BusyError : public std::runtime_error {
  public:
@@ -36,7 +39,7 @@ struct JournalKey {
 /// A journal has the finished points of another run, one with another key.
 class OtherRun : public IoError {
  public:
-  OtherRun(const std::string& path, JournalKey key);
+  OtherRun(const std::filesystem::path& output, JournalKey key);
   [[nodiscard]] const JournalKey& key() const { return key_; }
 
  private:

@@ -163,13 +163,16 @@ void add_attractors(const Sweep& sweep, bool is_shard, const std::vector<std::st
       [](const Motion& m) { return static_cast<std::int64_t>(m.periods); });
   add("motion_word", "impacts of one period in order, L: lower stop, U: upper stop, *: until at rest",
       [](const Motion& m) { return m.word; });
+  dataset.variables.back().missing_if = "no stop is hit, or it has no period";
   add("motion_regime", "impacts on the stop with more of them / forcing periods",
       [](const Motion& m) { return m.regime; });
+  dataset.variables.back().missing_if = "it has no period, or there is no force";
   number = 0;
   add("motion_symmetric", "1: half a period later the motion is its mirror image", [&](const Motion& m) {
     const bool is_own_mirror = m.mirror == static_cast<std::int32_t>(number++);
     return m.has_mirror ? (is_own_mirror ? 1.0 : 0.0) : observables::no_value;
   });
+  dataset.variables.back().missing_if = "the scene isn't symmetric";
   add("motion_mirror", "number of its mirror image, -1: no start ends in it", [](const Motion& m) { return m.mirror; });
   add("motion_points", "points that end in it", [](const Motion& m) { return static_cast<std::int64_t>(m.points); });
   add(

@@ -9,9 +9,10 @@ namespace clatter::sweep {
 std::vector<OutputVariable> outputs_of(const point::RunSettings& settings) {
   std::vector<OutputVariable> outputs;
   if (settings.time.mode == steady::Mode::steady)
-    outputs.push_back(observables::scalar("settling_estimate",
-                                          "forcing periods until within the tolerance of the steady motion",
-                                          &point::PointResult::settling_estimate));
+    outputs.push_back(observables::missing_if(
+        "no period is known",
+        observables::scalar("settling_estimate", "forcing periods until within the tolerance of the steady motion",
+                            &point::PointResult::settling_estimate)));
   for (OutputVariable& output : observables::All::columns<point::PointResult>(settings.observe))
     outputs.push_back(std::move(output));
   return outputs;
@@ -29,7 +30,7 @@ std::vector<results::Attribute> flag_attributes(std::span<const std::pair<std::u
 
 std::vector<results::Attribute> status_flags() {
   std::vector<std::pair<std::uint8_t, std::string_view>> meanings;
-  for (const auto& [status, name] : steady::status_names)
+  for (const auto& [status, name, meaning] : steady::status_names)
     meanings.emplace_back(static_cast<std::uint8_t>(status), name);
   return flag_attributes(meanings);
 }

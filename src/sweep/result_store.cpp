@@ -267,6 +267,7 @@ void ResultStore::add_impact_log(results::Dataset& dataset) {
                                  std::string(column.long_name),
                                  std::string(unit_of(column.quantity, sweep_.problem.is_si))});
     name_frame(sweep_, column.frame, dataset.variables.back());
+    dataset.variables.back().missing_if = column.missing_if;
   }
 }
 
@@ -289,6 +290,9 @@ results::Dataset ResultStore::dataset() {
          unit_of_derivative(quantity, output.per, is_si)});
     name_frame(sweep_, output.frame, dataset.variables.back());
     if (!output.observable.empty()) name_observable(output.observable, dataset.variables.back());
+    std::string& missing_if = dataset.variables.back().missing_if;
+    missing_if = output.missing_if.empty() ? "the point failed" : "the point failed, or ";
+    missing_if += output.missing_if;
   }
   if (numbering_) add_attractors(sweep_, shard_.has_value(), along_, std::move(*numbering_), dataset);
   if (sweep_.problem.observe.impact_log) add_impact_log(dataset);
@@ -316,6 +320,12 @@ void ResultStore::number_motions(int threads) {
   };
   const auto ending = [&](std::size_t i) { return attractors::Ending{{x[i], v[i]}, periods[i]}; };
   numbering_ = numbering_of(sweep_, threads, {status_.size(), index, ending});
+}
+
+results::Dataset ResultStore::description() {
+  if (sweep_.problem.observe.attractor)
+    numbering_ = {.number = std::vector<std::int32_t>(status_.size(), attractors::undecided), .motions = {{}}};
+  return dataset();
 }
 
 std::size_t ResultStore::failed_points() const {

@@ -47,6 +47,10 @@ class ResultStore {
   /// Numbers the motions that the points end in, once all results are there. Throws std::bad_alloc.
   void number_motions(int threads);
 
+  /// The variables of such a sweep without results: names, dimensions, meanings. There is one motion if attractors are
+  /// numbered. Empties the store.
+  [[nodiscard]] results::Dataset description();
+
   [[nodiscard]] std::size_t failed_points() const;
 
  private:

@@ -69,13 +69,13 @@ std::string refusal(const TableChoice& choice) {
   }
 }
 
-TEST(CsvTable, has_axes_then_results_and_their_components) {
+TEST(CsvTable, has_axes_then_numbers_by_component_then_texts_then_words_of_flags) {
   EXPECT_EQ(table({}),
-            "nu,f,R,status,x_max,x_phase[0],x_phase[1],impact_word,impact_count\n"
-            "0.5,-1,0.3,periodic,0.1,0,0.1,LU,1\n"
-            "0.5,-1,0.7,aperiodic,nan,1,1.1,,0\n"
-            "1,-2,0.3,periodic,-0,2,2.1,\"L,U\",2\n"
-            "1,-2,0.7,event_budget,inf,3,3.1,\"L\"\"U\",0\n");
+            "nu,f,R,x_max,x_phase[0],x_phase[1],impact_count,impact_word,status\n"
+            "0.5,-1,0.3,0.1,0,0.1,1,LU,periodic\n"
+            "0.5,-1,0.7,nan,1,1.1,0,,aperiodic\n"
+            "1,-2,0.3,-0,2,2.1,2,\"L,U\",periodic\n"
+            "1,-2,0.7,inf,3,3.1,0,\"L\"\"U\",event_budget\n");
 }
 
 TEST(CsvTable, tells_title_units_and_meanings_in_lines_of_their_own) {

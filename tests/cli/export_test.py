@@ -12,6 +12,7 @@ import h5py
 import numpy as np
 import pandas
 
+from branch_runs import BRANCH, SCENE
 from command_line import CLATTER, SMALL, SOURCE, CommandLine
 
 LOGGED = """[scene]
@@ -28,6 +29,17 @@ impacts = true
 harmonics = 2
 section = 2
 word = true
+"""
+MACHINE = """[machine]
+mass = "500 g"
+stiffness = "12.8 kN/m"
+force = "12.8 N"
+damping = "16 N s/m"
+[sweep]
+frequency = ["15 Hz", "20 Hz", "25 Hz"]
+gap = ["1 mm", "1.5 mm", "2 mm"]
+[observe]
+extrema = true
 """
 
 
@@ -81,7 +93,8 @@ class Export(CommandLine):
         path = self.run_text("a", LOGGED)
         text = self.export(path)
         header = next(csv.reader([next(line for line in text.splitlines() if not line.startswith("#"))]))
-        self.assertEqual(header[:3], ["nu", "xs", "status"])
+        self.assertEqual(header[:2], ["nu", "xs"])
+        self.assertEqual(header[-3:], ["impact_word", "regime", "status"])  # texts behind all numbers, for gnuplot
         for name in ("v_before[-1]", "v_before[1]", "x_amplitude[0]", "x_amplitude[2]", "section_x[1]", "impact_word"):
             self.assertIn(name, header)
         table = self.table(path)
@@ -107,6 +120,64 @@ class Export(CommandLine):
             table = self.table(path, "--only", "x_max", "--where", f"stop_stiffness={stiffness}")
             self.assertEqual(table["stop_stiffness"].tolist(), rows)
 
+    def test_gnuplot_reads_numbers_by_their_columns(self):
+        path = self.run_text("a", LOGGED)
+        table = self.table(path)
+        numbers = [name for name in table.columns if table[name].dtype.kind in "fi"]
+        self.assertEqual(list(table.columns[: len(numbers)]), numbers)
+        self.assertGreater(len(numbers), 10)
+
+    def test_where_takes_units_as_configurations_do(self):
+        path = self.run_text("si", MACHINE)
+        for where, gap in (("gap=1.5 mm", 0.0015), ("gap=0.2 cm", 0.002), ("gap=0.0015", 0.0015)):
+            table = self.table(path, "--only", "x_max", "--where", where)
+            self.assertEqual(table["gap"].tolist(), [gap] * 3)
+        table = self.table(path, "--where", "frequency=40*pi rad/s", "--where", "gap=2 mm")
+        self.assertEqual(table["frequency"].tolist(), [20.0])
+        plain = self.run_text("plain", LOGGED)
+        for path, where, words in (
+            (path, "gap=3 Hz", "--where gap: the unit 'Hz' doesn't fit: 'gap' in 'si.h5' is in m"),
+            (path, "gap=3 foo", "--where 'gap=3 foo': unknown unit 'foo'"),
+            (path, "gap=3 mm", "--where gap=0.003: the axis has no such value; the nearest are 0.002 and 0.0015"),
+            (plain, "xs=0.5 mm", "the unit 'mm' doesn't fit: 'xs' in 'plain.h5' has none; give the number alone"),
+            (plain, "xs", "--where 'xs'; expected AXIS=VALUE, e.g. nu=1.0"),
+            (plain, "xs=a", "--where 'xs=a': expected a number, such as 0.5 or 2*pi, found 'a'; expected AXIS=VALUE"),
+        ):
+            self.assert_refused(2, words, "export", path, "--where", where)
+
+    def follow(self):
+        self.write("b.toml", SCENE + "[observe]\nenergy = true\n" + BRANCH)
+        self.assertEqual(self.clatter("branch", "b.toml", "-q").returncode, 0)
+        return "b.branch.h5"
+
+    def test_branches_are_a_row_for_each_point(self):
+        path = self.follow()
+        table = self.table(path)
+        self.assertEqual(list(table.columns[:3]), ["branch", "nu", "arclength"])
+        self.assertEqual(list(table.columns[-2:]), ["word", "regime"])
+        with h5py.File(self.directory / path) as file:
+            for name in ("nu", "branch", "x_max", "impact_speed", "stable"):
+                np.testing.assert_array_equal(table[name], file[name][()])
+            for part in (0, 1):
+                np.testing.assert_array_equal(table[f"multiplier_re[{part}]"], file["multiplier_re"][:, part])
+            words = [word.decode() for word in file["word"][()]]
+            first = file["branch"][()] == 0
+        self.assertEqual(table["word"].fillna("").tolist(), words)
+        self.assertEqual(len(self.table(path, "--where", "branch=0")), first.sum())
+
+    def test_special_points_of_branches(self):
+        path = self.follow()
+        table = self.table(path, "--special")
+        self.assertEqual(list(table.columns[-3:]), ["special_kind", "special_word", "special_regime"])
+        with h5py.File(self.directory / path) as file:
+            self.assertEqual(table["special_kind"].tolist(), [kind.decode() for kind in file["special_kind"][()]])
+            np.testing.assert_array_equal(table["special_nu"], file["special_nu"][()])
+            np.testing.assert_array_equal(table["special_branch[0]"], file["special_branch"][:, 0])
+        plain = self.run_text("plain", SMALL)
+        self.assert_refused(2, "--special: 'plain.h5' has no special points", "export", plain, "--special")
+        self.assert_refused(2, "no impact log; no branch has one", "export", path, "--impacts")
+        self.assert_refused(2, "--impacts conflicts with --special", "export", path, "--impacts", "--special")
+
     def test_a_row_for_each_impact(self):
         path = self.run_text("a", LOGGED)
         table = self.table(path, "--impacts")
@@ -128,6 +199,7 @@ class Export(CommandLine):
         self.assertEqual(written, self.export(path))
         self.assertEqual(written, self.export(path, "-o", "-"))
         self.assert_refused(74, "cannot write 'a.csv': there is a file", "export", path, "-o", "a.csv")
+        self.assert_refused(74, "name another with -o, e.g. -o a-2.csv, move", "export", path, "-o", "a.csv")
         self.assertEqual(self.export(path, "-o", "a.csv", "--force", "--only", "x_max"), "")
         self.assertNotEqual((self.directory / "a.csv").read_text(), written)
 

@@ -32,6 +32,7 @@ class Help(CommandLine):
         pages += [["help", section] for section in SECTIONS]
         pages += [["help", function] for function in ("linspace", "logspace", "arange")]
         pages += [["help", name] for section, name in self.keys()]
+        pages += [["help", "results"], ["help", "units"]]
         for words in pages:
             with self.subTest(words):
                 text = self.page(*words)
@@ -93,6 +94,9 @@ class Help(CommandLine):
             "conf": "configuration",
             "linspce": "linspace",
             "obsrve": "observe",
+            "impact_sped": "impact_speed",
+            "multiplier_rr": "multiplier_re",
+            "error_extema": "error_extrema",
         }
         for topic, meant in cases.items():
             words = f"no help on '{topic}'; did you mean '{meant}'?" if meant else f"no help on '{topic}'; "

@@ -9,7 +9,13 @@ from command_line import SMALL, SOURCE, CommandLine
 
 # Over in no time, since all of it fails.
 ACCURACY = SMALL.partition("[sweep]")[0].replace("xs = -4.0", "xs = -0.5") + "[time]\nwindow = 1\nmax_impacts = 1\n"
-REMEDY = "name another with -o, move that one away, or replace it with --force"
+REMEDY = "name another with -o, e.g. -o {}, move that one away, or replace it with --force"
+
+
+def second(name):
+    """mine-2.h5 for mine.h5"""
+    stem, dot, ending = name.rpartition(".")
+    return f"{stem}-2.{ending}" if dot else f"{name}-2"
 
 
 class Replace(CommandLine):
@@ -24,7 +30,7 @@ class Replace(CommandLine):
     def assert_kept(self, name, why, *command):
         """The command is refused before it does anything, since a file would be lost; with --force it isn't."""
         before = (self.directory / name).read_bytes()
-        self.assert_refused(74, f"cannot write '{name}': {why}; {REMEDY}", *command)
+        self.assert_refused(74, f"cannot write '{name}': {why}; {REMEDY.format(second(name))}", *command)
         self.assertEqual((self.directory / name).read_bytes(), before)
         result = self.clatter(*command, "--force", "-q")
         self.assertIn(result.returncode, (0, 1), result.stderr)
@@ -133,6 +139,19 @@ class Replace(CommandLine):
         self.assert_kept(
             "letter", "the file there is not an output of clatter, or is damaged", "merge", "-o", "letter", *shards
         )
+
+    def test_the_name_that_is_offered_is_free_and_works(self):
+        self.ok("run", self.config)
+        other = ("run", self.config, "--set", "title=another")
+        self.write("a-2.h5", "")
+        (self.directory / "a-3.h5").symlink_to("nothing")
+        self.write("a-4.h5.journal", "")
+        self.assert_refused(74, "e.g. -o a-5.h5, move", *other)
+        self.ok(*other, "-o", "a-5.h5")
+        self.assert_refused(74, "e.g. -o a-6.h5, move", *other)
+        (self.directory / "my own").mkdir()
+        self.write("my own/a.h5", "a letter")
+        self.assert_refused(74, "e.g. -o 'my own/a-2.h5', move", *other, "-o", "my own/a.h5")
 
     def test_inputs_are_never_replaced(self):
         self.assert_refused(2, "is the configuration itself", "run", self.config, "-o", self.config, "--force")

@@ -10,6 +10,7 @@ import numpy as np
 from .._program import WRONG_USE, ClatterError
 from .data import PHASE, Output
 from .names import equation, plain
+from .written import misfit
 
 FEW = 6  # values of an axis that make a family of curves rather than a map
 MOST = 12  # curves that can be told apart
@@ -38,18 +39,30 @@ def members_of(output, along="", over="", at=()):
 
 def chosen_members(output, along, over, at):
     """The same with all the values of their axes, infinite ones, too."""
-    for axis, value in at:
-        output = output.at(require_axis(output, axis, "--at"), index_at(output, axis, value))
+    several = []  # axes of which some values are chosen: each has its own curves
+    for axis in dict.fromkeys(axis for axis, _ in at):
+        require_axis(output, axis, "--at")
+        indexes = list(dict.fromkeys(index_at(output, axis, value) for name, value in at if name == axis))
+        if len(indexes) > 1:
+            output = output.picked(axis, indexes)
+            several.append(axis)
+        else:
+            output = output.at(axis, indexes[0])
+    if along in several:
+        raise ChoiceProblem(
+            f"--along {along}: --at chooses values of it, which are a curve each; leave one of them out"
+        )
     for axis, option in ((along, "--along"), (over, "--over")):
         if axis:
             require_axis(output, axis, option)
     if along and along == over:
         raise ChoiceProblem(f"--along and --over both name '{along}'; name two axes")
     if len(output.axes) < 2:
-        if over:
-            raise ChoiceProblem(f"--over {over}: no axis is left to draw along; the file has {axes_text(output)}")
+        if over or several:
+            option = f"--over {over}" if over else f"--at {several[0]}"
+            raise ChoiceProblem(f"{option}: no axis is left to draw along; the file has {axes_text(output)}")
         return [Member("", output)]
-    families = families_of(output, along, over)
+    families = families_of(output, along, over, several)
     if not families:
         return [Member("", map_of(output, along))]
     along = along or longest(output, families)
@@ -59,15 +72,16 @@ def chosen_members(output, along, over, at):
     return [Member(*part) for part in parts(output, families)]
 
 
-def families_of(output, along, over):
+def families_of(output, along, over, several):
     """The axes of which each value has its own curves; none for a map."""
     others = [axis for axis in output.axes if axis != (along or longest(output))]
-    if over:
-        families = [axis for axis in output.axes if axis in (over, "direction") and axis != along]
+    if over or several:
+        families = [axis for axis in output.axes if axis in (over, "direction", *several) and axis != along]
+        if len(families) == len(output.axes):
+            raise ChoiceProblem(f"--at {', '.join(several)}: no axis is left to draw along")
         if curves(output, families) > MOST:
-            raise ChoiceProblem(
-                f"--over {over}: {curves(output, families)} curves; at most {MOST}: choose some with --at"
-            )
+            option = f"--over {over}" if over else f"--at {', '.join(several)}"
+            raise ChoiceProblem(f"{option}: {curves(output, families)} curves; at most {MOST}: choose some with --at")
         return families
     return others if curves(output, [axis for axis in others if axis != "direction"]) <= FEW else []
 
@@ -113,7 +127,10 @@ def axes_text(output):
 
 
 def index_at(output, axis, value):
-    """The index of the value of an axis that is nearest to this one. Throws beyond its range."""
+    """The index of the value of an axis that is nearest to this one. Throws beyond its range, or if its unit doesn't
+    fit."""
+    if why := misfit(value, output[axis].units):
+        raise ChoiceProblem(f"--at {axis}: {why}")
     values = output.values(axis).astype(float)
     low, high = values.min(), values.max()
     if not low <= value <= high:

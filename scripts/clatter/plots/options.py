@@ -8,10 +8,11 @@ from itertools import takewhile
 from pathlib import Path
 
 from .._command import SEE_HELP, Parser
+from .written import finite, limits
 
 FORMATS = ("pdf", "png", "svg")
 USAGE = """%(prog)s [-o DIR] [--format svg|png|pdf...] [--only NAME,...]
-               [--along AXIS] [--over AXIS] [--at AXIS=VALUE]
+               [--along AXIS] [--over AXIS] [--at AXIS=VALUE,...]
                [--size WxH] [--xlim A,B] [--ylim A,B] [--log x|y|xy]
                [--backbone] [--title TEXT] FILE.h5..."""
 SUMMARY = "draw outputs of clatter"
@@ -42,9 +43,22 @@ def options_parser():
     add(
         "--over", default="", metavar="AXIS", help="a curve for each value of this axis; default: those with few values"
     )
-    add("--at", type=place, action="append", default=[], metavar="AXIS=VALUE", help="one value of an axis, the nearest")
+    add(
+        "--at",
+        type=places,
+        action="extend",
+        default=[],
+        metavar="AXIS=VALUE,...",
+        help="the value of an axis that is nearest; several, here or in further --at of that axis, are a curve each. "
+        "Values may have units: 'gap=1 mm,2 mm'",
+    )
     add("--size", type=size, metavar="WxH", help="of the picture in inches, or with cm at the end")
-    add("--xlim", type=limits, metavar="A,B", help="limits of the abscissa of every panel")
+    add(
+        "--xlim",
+        type=limits,
+        metavar="A,B",
+        help="limits of the abscissa of every panel, e.g. 0.9,1.1 or '10 Hz,40 Hz'",
+    )
     add("--ylim", type=limits, metavar="A,B", help="limits of the ordinate of every panel")
     add("--log", choices=("x", "y", "xy"), default="", metavar="x|y|xy", help="logarithmic scales")
     add("--backbone", action="store_true", help="behind branches along nu, the speed of conservative motion")
@@ -99,9 +113,10 @@ def names(text):
     return parts
 
 
-def place(text):
-    axis, _, value = text.partition("=")
-    return axis.strip(), finite(value, text, "AXIS=VALUE, e.g. nu=1")
+def places(text):
+    """(axis, value) for each value of AXIS=VALUE,..."""
+    axis, _, values = text.partition("=")
+    return [(axis.strip(), finite(value, text, "AXIS=VALUE, e.g. nu=1")) for value in values.split(",")]
 
 
 def size(text):
@@ -111,23 +126,6 @@ def size(text):
     if not sides or not all(1.0 <= side / unit <= 100.0 for side in sides):
         raise argparse.ArgumentTypeError(f"'{text}' is no size; write WxH in inches, 1 to 100, e.g. 7x5, or 18x12cm")
     return tuple(side / unit for side in sides)
-
-
-def limits(text):
-    parts = [finite(part, text, "A,B, e.g. 0.9,1.1") for part in text.split(",")]
-    if len(parts) != 2 or parts[0] == parts[1]:
-        raise argparse.ArgumentTypeError(f"'{text}' is no pair of limits; write A,B, e.g. 0.9,1.1")
-    return tuple(parts)
-
-
-def finite(word, text, wanted):
-    try:
-        value = float(word)
-    except ValueError:
-        value = float("nan")
-    if not abs(value) < float("inf"):
-        raise argparse.ArgumentTypeError(f"'{text}' is no {wanted}")
-    return value
 
 
 def end_formats(parser, options):

@@ -10,7 +10,8 @@ import numpy as np
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
-from .names import equation, label, plain, symbol
+from .choice import ChoiceProblem
+from .names import equation, label, plain, scale_in, symbol, typeset_unit
 
 DPI = 200  # of PNG; texts are measured for it, once
 LARGE = 115.0  # square inches, of a picture that has fewer dots an inch
@@ -131,7 +132,19 @@ def set_view(axes, options):
         if axis in options.log:
             getattr(axes, f"set_{axis}scale")("log")
         if limits:
+            require_unit(axes, axis, limits)
             getattr(axes, f"set_{axis}lim")(*limits)
+
+
+def require_unit(axes, axis, limits):
+    """Refuses limits with a unit that isn't that of the axis, as its label names it; one without label is as another
+    that has one."""
+    words, unit = getattr(axes, f"get_{axis}label")(), getattr(limits, "unit", "")
+    if not unit or not words or scale_in(words) != 1 and limits.units == "m":
+        return
+    if f"({typeset_unit(limits.units)})" not in words:
+        name = " ".join(words.split())
+        raise ChoiceProblem(f"--{axis}lim: the unit '{unit}' doesn't fit the axis '{name}'")
 
 
 def caption_below(figure, notes):

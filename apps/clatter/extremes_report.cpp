@@ -1,0 +1,68 @@
+#include "extremes_report.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+
+#include "format.hpp"
+#include "storage/utf8.hpp"
+
+namespace clatter::app {
+namespace {
+
+constexpr double short_length = 0.1;  ///< m
+
+/// Numbers of one unit as text, all with the same prefix.
+class Amounts {
+ public:
+  Amounts(const std::string& units, const std::vector<double>& values) : unit_(storage::printable(unit_text(units))) {
+    const auto is_short = [](double value) { return std::abs(value) < short_length; };
+    if (unit_ == "m" && std::ranges::all_of(values, is_short)) unit_ = "mm", scale_ = 1e3;
+  }
+
+  [[nodiscard]] std::string text(const char* format, double value) const {
+    return formatted(format, scale_ * value) + (unit_.empty() ? "" : ' ' + unit_);
+  }
+
+ private:
+  std::string unit_;
+  double scale_ = 1.0;
+};
+
+/// The values of one of the numbers that every point has.
+std::vector<double> values_of(const std::vector<Extreme>& points, const auto& value_of) {
+  std::vector<double> values;
+  for (const Extreme& point : points) values.push_back(value_of(point));
+  return values;
+}
+
+/// ", stop = 1", after " at" or a comma.
+void append(std::string& line, const std::string& words, bool is_first) { line += (is_first ? " at " : ", ") + words; }
+
+std::string line_of(const Extreme& point, const Extremes& extremes, const std::vector<Extreme>& points) {
+  const Amounts amounts(extremes.result().units, values_of(points, [](const Extreme& other) { return other.value; }));
+  std::string line = "  " + amounts.text("%.6g", point.value);
+  bool is_first = true;
+  for (std::size_t i = 0; i < point.axes.size(); ++i) {
+    const auto& [name, value, units] = point.axes[i];
+    const Amounts of_axis(units, values_of(points, [i](const Extreme& other) { return other.axes[i].value; }));
+    append(line, name + " = " + of_axis.text("%.10g", value), std::exchange(is_first, false));
+  }
+  for (const auto& [name, value, units] : point.component)
+    append(line, name + " = " + formatted("%.10g", value), std::exchange(is_first, false));
+  for (const auto& [name, word] : point.words) append(line, word, false);
+  return line + '\n';
+}
+
+}  // namespace
+
+std::string extremes_text(const Extremes& extremes, const std::vector<Extreme>& points) {
+  const results::FileSummary::Entry& result = extremes.result();
+  const std::string meaning = result.name + ", " + storage::printable(result.meaning());
+  if (points.empty()) return "no point has a value of " + meaning + '\n';
+  std::string text = std::string(extremes.is_largest() ? "largest " : "smallest ") + meaning + '\n';
+  for (const Extreme& point : points) text += line_of(point, extremes, points);
+  return text;
+}
+
+}  // namespace clatter::app
