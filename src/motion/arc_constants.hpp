@@ -232,7 +232,7 @@ Step<Number> ArcConstants<Number, E>::step(const Number& s) const {
   if constexpr (E.forcing == Forcing::secular) respond_from_rest(s, step);
   if constexpr (E.damping == Damping::heavy) step.fast_decay = exp(-fast * s);
   if constexpr (E.stiffness)
-    if (unbalanced < 0 || unbalanced > 0) step.pulled = s * s * second_divided_decay(Number(2 * h * s));
+    if (!is_always_zero(unbalanced)) step.pulled = s * s * second_divided_decay(Number(2 * h * s));
   return step;
 }
 

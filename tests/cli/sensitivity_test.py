@@ -186,7 +186,7 @@ class OfRandomScenes(unittest.TestCase):
             near, far = (at[1] - at[-1]) / (2 * step), (at[2] - at[-2]) / (4 * step)
             told, noise = np.atleast_1d(derivative(runs, result, key)[i]), 1e-11 * np.abs(at[1]) / contraction / step
             for own, one, other, rounding in zip(told, near, far, noise):
-                if math.isnan(one) or math.isnan(other):
+                if math.isnan(one) or math.isnan(other) or (key == "stiffness" and scene.stiffness == 0):
                     continue
                 allowed = 0.05 * abs(one - other) + rounding + 1e-12 / step
                 self.check(abs(own - (4 * one - other) / 3), allowed, f"{result} by {key}, {scene}")
@@ -241,7 +241,7 @@ class ClosedForms(RunTest):
         return h5py.File(self.run_clatter(toml(scene=values, **sections), name))
 
     def test_symmetric_motion_with_one_impact_on_each_stop(self):
-        for n, (h, nu, R) in enumerate([(0.0, 1.7, 0.6), (0.3, 1.1, 0.9), (0.02, 2.2, 0.5), (0.05, 2.0, 0.7)]):
+        for n, (h, nu, R) in enumerate([(0.0, 2.0, 0.6), (0.3, 1.1, 0.9), (0.02, 2.2, 0.5), (0.05, 2.0, 0.7)]):
             values = {"h": h, "f": 1.0, "nu": nu, "R": R, "xs": 0.4}
             V, slopes = symmetric_motion(**values).real, by_each(symmetric_motion, values)
             with self.run_at(values, f"impacts{n}") as file:
@@ -298,8 +298,8 @@ class ClosedForms(RunTest):
     def test_none_at_a_graze_and_the_status_says_so(self):
         """The stop is a few roundings off an extremum of the response to the force."""
         grazing = 0
-        for n in range(12):
-            nu, h = 0.4 + 0.15 * n, 0.03 * (1 + n % 4)
+        for n in range(24):
+            nu, h = 0.4 + 0.08 * n, 0.03 * (1 + n % 4)
             dynamic, friction = 1 - nu**2, 2 * h * nu
             square = dynamic**2 + friction**2
             place = (1 + (n % 5 - 2) * 2.0**-52) / math.sqrt(square)
