@@ -1,33 +1,13 @@
 #include "extremes_report.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <span>
 
+#include "amounts.hpp"
 #include "format.hpp"
 #include "storage/utf8.hpp"
 
 namespace clatter::app {
 namespace {
-
-constexpr double short_length = 0.1;  ///< m
-
-/// Numbers of one unit as text, all with the same prefix.
-class Amounts {
- public:
-  Amounts(const std::string& units, const std::vector<double>& values) : unit_(storage::printable(unit_text(units))) {
-    const auto is_short = [](double value) { return std::abs(value) < short_length; };
-    if (unit_ == "m" && std::ranges::all_of(values, is_short)) unit_ = "mm", scale_ = 1e3;
-  }
-
-  [[nodiscard]] std::string text(const char* format, double value) const {
-    return formatted(format, scale_ * value) + (unit_.empty() ? "" : ' ' + unit_);
-  }
-
- private:
-  std::string unit_;
-  double scale_ = 1.0;
-};
 
 /// The values of one of the numbers that every point has.
 std::vector<double> values_of(const std::vector<Extreme>& points, const auto& value_of) {

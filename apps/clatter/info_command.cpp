@@ -11,6 +11,7 @@
 #include "file_points.hpp"
 #include "json_output.hpp"
 #include "outputs/output_summary.hpp"
+#include "quantiles.hpp"
 #include "result_catalogue.hpp"
 #include "result_help.hpp"
 #include "results/dataset_file.hpp"
@@ -70,7 +71,7 @@ results::FileSummary harmless(results::FileSummary summary) {
 }
 
 /// Prints a summary for people; scripts use --json.
-void print_text(const results::FileSummary& summary, bool with_notes) {
+void print_text(const results::FileSummary& summary, const std::vector<Quantiles>& quantiles, bool with_notes) {
   for (const auto& [name, value] : summary.attributes) {
     if (name != "config" && name != "scene_names") std::cout << column(name, 16) << value << '\n';
   }
@@ -78,6 +79,7 @@ void print_text(const results::FileSummary& summary, bool with_notes) {
   print_variables(summary, with_notes);
   if (!summary.status_counts.empty()) std::cout << "\nBy status\n";
   for (const auto& [meaning, count] : summary.status_counts) std::cout << "  " << column(meaning, 12) << count << '\n';
+  std::cout << quantiles_text(summary, quantiles);
 }
 
 /// Prints the configuration unchanged, so that it runs again; on a terminal control characters are made printable.
@@ -123,9 +125,9 @@ int print_info(const Arguments& arguments) {
   } else if (chosen == "config") {
     print_config(path, summary);
   } else if (chosen == "json") {
-    std::cout << summary_json(summary);
+    std::cout << summary_json(summary, quantiles_of(summary, path));
   } else {
-    print_text(harmless(summary), chosen == "verbose");
+    print_text(harmless(summary), quantiles_of(summary, path), chosen == "verbose");
   }
   return done;
 }

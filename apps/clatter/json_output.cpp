@@ -5,6 +5,7 @@
 
 #include "accuracy/accuracy_dataset.hpp"
 #include "branches/measures/measures.hpp"
+#include "format.hpp"
 #include "plan_report.hpp"
 
 namespace clatter::app {
@@ -76,12 +77,18 @@ Json entry_json(const results::FileSummary::Entry& entry) {
 
 }  // namespace
 
-std::string summary_json(const results::FileSummary& summary) {
+std::string summary_json(const results::FileSummary& summary, const std::vector<Quantiles>& quantiles) {
   Json attributes = Json::object(), variables = Json::array(), status = Json::object();
   for (const auto& [name, text] : summary.attributes) attributes[name] = text;
   for (const results::FileSummary::Entry& entry : summary.variables) variables.push_back(entry_json(entry));
   for (const auto& [meaning, count] : summary.status_counts) status[meaning] = count;
-  return text_of({{"attributes", attributes}, {"variables", variables}, {"status", status}}, in_lines);
+  Json json{{"attributes", attributes}, {"variables", variables}, {"status", status}};
+  for (const Quantiles& of_result : quantiles) {
+    Json values = Json::object();
+    for (std::size_t i = 0; i < told_shares.size(); ++i) values[formatted("%g", told_shares[i])] = of_result.values[i];
+    json["quantiles"][of_result.result] = {{"points", of_result.points}, {"units", of_result.units}, {"at", values}};
+  }
+  return text_of(json, in_lines);
 }
 
 std::string extremes_json(const Extremes& extremes, const std::vector<Extreme>& points) {

@@ -10,6 +10,7 @@
 #include "config/reading.hpp"
 #include "extremes.hpp"
 #include "plan/plan.hpp"
+#include "quantiles.hpp"
 #include "results/dataset_file.hpp"
 
 namespace clatter::app {
@@ -17,8 +18,9 @@ namespace clatter::app {
 // All that commands print for scripts by --json. It is ASCII: other characters are escaped, those that a terminal obeys
 // among them, and bytes that aren't UTF-8 become U+FFFD. A number that isn't finite is null.
 
-/// The summary of a file: attributes, variables with their dimensions, number of points by status.
-[[nodiscard]] std::string summary_json(const results::FileSummary& summary);
+/// The summary of a file: attributes, variables with their dimensions, number of points by status, and of a sample the
+/// quantiles of its results.
+[[nodiscard]] std::string summary_json(const results::FileSummary& summary, const std::vector<Quantiles>& quantiles);
 
 /// The points at which a result of a file is largest, or smallest, the best first: for each its value, its axes, which
 /// component of the result, and the words for its motion.
