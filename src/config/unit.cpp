@@ -127,10 +127,12 @@ std::optional<Unit> parse_unit(std::string_view text) {
   if (text.size() > longest) return std::nullopt;
   Unit unit;
   skip_blanks(text);
-  std::string_view behind_one = text.substr(text.starts_with('1') ? 1 : 0);
-  skip_blanks(behind_one);
-  bool divides = behind_one.starts_with('/');
-  if (divides) text = behind_one.substr(1);
+  bool divides = text.starts_with('1');  // one over a unit
+  if (divides) {
+    text.remove_prefix(1), skip_blanks(text);
+    if (!text.starts_with('/')) return std::nullopt;
+    text.remove_prefix(1);
+  }
   for (;;) {
     skip_blanks(text);
     if (!take_factor(text, divides, unit)) return std::nullopt;

@@ -268,8 +268,8 @@ class Run(CommandLine):
             result.stderr, r"^5 points, 5 failed \(event_budget: 5, e\.g\. point 0 at nu = 0\.5\), [0-9.e-]+ s, "
         )
         self.assertIn("a.h5", self.files())
-        one = self.clatter("run", config, *fail, "--set", "sweep.nu=1").stderr
-        self.assertRegex(one, r"^1 point, 1 failed \(event_budget: 1, e\.g\. point 0\), ")
+        one = self.clatter("run", config, *fail, "--set", "scene.nu=1").stderr
+        self.assertRegex(one, r"(?m)^1 point, 1 failed \(event_budget: 1, e\.g\. point 0\), ")
 
     def test_each_status_of_failed_points_is_told(self):
         config = self.write("a.toml", SMALL)

@@ -191,6 +191,9 @@ class Fish(unittest.TestCase):
         self.assertEqual(set(self.offered("clatter run --arch ")), {"scalar", "sse2", "avx2", "avx512"})
         self.assertIn("-q", self.offered("clatter run -"))
 
+    def test_models(self):
+        self.assertEqual(set(self.offered("clatter init dri")), {"drive_si", "drill"})
+
     def test_files_with_the_right_endings_first(self):
         self.assertEqual(list(self.offered("clatter run o"))[:1], ["one.toml"])
         self.assertEqual(list(self.offered("clatter info r"))[:1], ["ran.h5"])

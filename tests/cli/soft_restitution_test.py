@@ -101,6 +101,17 @@ class SoftRestitution(BranchRuns):
         other_way = self.folds(f"stop_R = {restitution(zeta)}\n", "stop_damping", ends)
         np.testing.assert_allclose(other_way, by_ratio, rtol=1e-9)
 
+    def test_a_curve_of_folds_in_the_plane_with_another_parameter_is_the_same(self):
+        across = 'across = "stop_stiffness"\nacross_range = [250, 350]\ncurve = "fold"\nmax_points = 300\n'
+        given = "stop_damping = 0.11322410680103415\n"
+        curves = {}
+        for along, ends in (("stop_damping", [0.034, 0.27]), ("stop_R", [0.4, 0.9])):
+            text = FOLDED + given + f'[branch]\nalong = "{along}"\nrange = {ends}\n' + across
+            (curves[along],) = [point for point in self.special_points(text) if point["kind"] == "graze"]
+        by_ratio, by_share = curves["stop_damping"], curves["stop_R"]
+        self.assertAlmostEqual(by_share["stop_R"], restitution(by_ratio["stop_damping"]), 9)
+        self.assertAlmostEqual(by_share["stop_stiffness"] / by_ratio["stop_stiffness"], 1, 9)
+
     def test_the_complete_configuration_runs_again_to_the_same_bytes(self):
         text = COLLISION.format(axis="v0 = [1.0, 2.0]").replace("v0 = 1.5\n", "stop_R_upper = 0.4\n")
         self.run_text("once", text).close()

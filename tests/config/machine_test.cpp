@@ -128,6 +128,12 @@ TEST(Machine, a_scene_without_dimensions_takes_degrees_and_percent) {
   EXPECT_EQ(sweep.problem.start.phase, std::numbers::pi / 2);
 }
 
+TEST(Machine, percent_of_a_stop_damping_is_its_ratio) {
+  const sweep::Sweep sweep = read_as("a.toml", machine + "stop_stiffness = 1e5\nstop_damping = \"10 %\"\n").sweep;
+  EXPECT_EQ(sweep.problem.stops.damping_upper, 0.1);
+  EXPECT_EQ(sweep.problem.stop_damper_upper, 0);
+}
+
 TEST(Machine, a_wrong_unit_is_told_with_the_one_that_was_meant) {
   const std::vector<Wrong> table{
       {machine + "damping = \"3 Ns/m\"\n", "5:14", "unknown unit 'Ns/m'; did you mean 'N s/m'?"},

@@ -74,11 +74,11 @@ TEST(Together, a_soft_stop_is_damped_in_one_way) {
 
 TEST(Together, stops_may_be_damped_in_different_ways) {
   const std::string soft = "[scene]\nxs = 1\nstop_stiffness = 10\nstop_damping_lower = 0.3\nstop_R_upper = 0.5\n";
-  const Stops stops = computed(read_as("a.toml", soft).sweep.problem).first.stops;
+  const Stops stops = computed(read_as("a.toml", soft).sweep.problem).stops;
   EXPECT_EQ(stops.damping_lower, 0.3);
   EXPECT_EQ(stops.damping_upper, damping_ratio_of(0.5));
   const std::string one = "[scene]\nstop_upper = 1\nstop_stiffness_upper = 10\nstop_R = 0.5\n";  // there is no other
-  EXPECT_EQ(computed(read_as("a.toml", one).sweep.problem).first.stops.damping_upper, damping_ratio_of(0.5));
+  EXPECT_EQ(computed(read_as("a.toml", one).sweep.problem).stops.damping_upper, damping_ratio_of(0.5));
 }
 
 TEST(Together, values_that_run_together_are_compared_one_by_one) {
