@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cmath>
+#include <cstdint>
 #include <utility>
 #include <vector>
 
@@ -47,8 +48,8 @@ class ImpactLog::Observer {
   [[nodiscard]] Values finish(const ObservedSpan&, double, double) { return std::move(values_); }
 
  private:
-  /// Whence the forcing phase is known: runs count time in periods of the force, if one is left in the moving frame.
-  enum class Drive { none, force, shaking };
+  /// What the forcing phase is counted by: periods of the force, if one is left in the moving frame, else time.
+  enum class Drive : std::uint8_t { none, force, shaking };
 
   template <class Contact>
   void log(const Contact& contact, double before, double after) {

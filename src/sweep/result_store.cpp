@@ -116,8 +116,10 @@ void ResultStore::to_users_units(std::size_t local_index, const Units& units) {
       value *= factor;
   }
   if (log_.empty()) return;
-  for (const LogColumn& column : observables::log_columns_of_shaken)
-    for (LoggedImpact& impact : log_[local_index]) impact.*column.member *= factor_of(units, column.quantity);
+  for (const LogColumn& column : observables::log_columns_of_shaken) {
+    const double factor = factor_of(units, column.quantity);
+    for (LoggedImpact& impact : log_[local_index]) impact.*column.member *= factor;
+  }
 }
 
 std::size_t ResultStore::most_packed_without_log() const {
@@ -207,9 +209,10 @@ void ResultStore::take_impact_log(results::Dataset& dataset, std::span<const std
   const auto& stops = values_in<std::int8_t>(dataset, "impact_stop");
   require_length("impact_count", counts.size(), numbers.size());
   const auto columns = observables::log_columns(is_shaken(sweep_));
+  std::vector<const std::vector<double>*> values;
   for (const LogColumn& column : columns) {
-    const std::string name(column.name);
-    require_length(name, values_in<double>(dataset, name).size(), stops.size());
+    values.push_back(&values_in<double>(dataset, std::string(column.name)));
+    require_length(std::string(column.name), values.back()->size(), stops.size());
   }
   std::size_t at = 0;
   for (std::size_t i = 0; i < numbers.size(); ++i) {
@@ -218,10 +221,8 @@ void ResultStore::take_impact_log(results::Dataset& dataset, std::span<const std
     Log& log = log_[static_cast<std::size_t>(numbers[i])];
     log.assign(end - at, {});
     for (std::size_t k = 0; k < log.size(); ++k) log[k].side = static_cast<Side>(stops[at + k]);
-    for (const LogColumn& column : columns) {
-      const auto& values = values_in<double>(dataset, std::string(column.name));
-      for (std::size_t k = 0; k < log.size(); ++k) log[k].*column.member = values[at + k];
-    }
+    for (std::size_t c = 0; c < columns.size(); ++c)
+      for (std::size_t k = 0; k < log.size(); ++k) log[k].*columns[c].member = (*values[c])[at + k];
     at = end;
   }
   require_length("impact_stop", stops.size(), at);

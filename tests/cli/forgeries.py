@@ -114,9 +114,15 @@ def wrong_minimum(certificate):
         return certificate | {"x_min": off(certificate["x_min"])}
 
 
+WITHOUT_IMPACTS = {"-": "(L)", "(L)": "-", "(U)": "(L)"}  # words of such motion, and other ones
+
+
 def wrong_word(certificate):
-    if certificate.get("word"):
-        return certificate | {"word": certificate["word"] + "L"}
+    word = certificate.get("word")
+    if word in WITHOUT_IMPACTS:
+        return certificate | {"word": WITHOUT_IMPACTS[word]}
+    if word:
+        return certificate | {"word": word + "L"}
 
 
 def wrong_symmetry(certificate):

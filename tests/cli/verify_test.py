@@ -40,6 +40,19 @@ stop_damping = 0.1
 nu = "linspace(0.5, 1.5, 21)"
 """
 
+QUIET = """[scene]
+f = 0.2
+h = 0.1
+nu = 0.7
+{}
+xs = 1
+x0 = 0.9
+[sweep]
+load = [-5, 0, 5]
+[observe]
+word = true
+"""
+
 TRANSIENT = """[scene]
 f = -1.0
 h = 0.1
@@ -80,6 +93,7 @@ MALFORMED = [  # a line, and the place and how to fix it that are told
     (without("format"), "format: is missing; add it"),
     ({**RIGHT, "format": "other"}, 'format: .*; write "clatter-certificate-1"'),
     (without("scene"), "scene: is missing; add it"),
+    ({**RIGHT, "claim": "periodic", "periods": 1, "word": "-L"}, "word: is '-L'; write L, U, .* or -"),
     (in_scene(h=-1), "scene.h: is -1; it must be at least 0"),
     (in_scene(nu=0), "scene.nu: is 0; it must be above 0"),
     (in_scene(k="1e"), "scene.k: .* is no decimal number; write e.g."),
@@ -209,6 +223,18 @@ class Verify(CommandLine):
         )
         self.assertEqual(missed, {})
         self.assertEqual(set(kinds), {forge.__name__ for forge in FORGERIES})
+
+    def test_where_motion_without_impacts_stays_is_proved_and_other_words_are_refuted(self):
+        files = [self.certificates(stop[:4], QUIET.format(stop)) for stop in ("stop_stiffness = 20", "R = 0.5")]
+        certificates = [json.loads(line) for file in files for line in file.read_text(encoding="utf-8").splitlines()]
+        words = ["(L)", "-", "(U)"]
+        self.assertEqual([certificate["word"] for certificate in certificates], [*words, *words])
+        for certificate in certificates:
+            for word in (*words, "L", ""):
+                result = self.verify("-", text=json.dumps({**certificate, "word": word}))
+                self.assertEqual(result.returncode, 0 if word in (certificate["word"], "") else 1, result.stdout)
+                if result.returncode:
+                    self.assertIn(f"word: claimed '{word}', found '{certificate['word']}'", result.stdout)
 
     def test_a_scene_that_is_symmetric_to_24_digits_only_proves_no_symmetry(self):
         for line in self.certificates("soft", SOFT).read_text(encoding="utf-8").splitlines():

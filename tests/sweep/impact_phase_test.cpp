@@ -30,8 +30,7 @@ struct Ball {
 
   [[nodiscard]] point::Problem scene(Shaking shaking) const {
     shaking.phase = lead;
-    point::Problem scene =
-        shaken({.frequency = nu, .load = -g, .stiffness = 0.0}, shaking, {0.0, infinity, R, 1.0});
+    point::Problem scene = shaken({.frequency = nu, .load = -g, .stiffness = 0.0}, shaking, {0.0, infinity, R, 1.0});
     scene.start = {0.01, 2.9 * g / nu, phase};
     return scene;
   }
@@ -162,7 +161,8 @@ TEST(ImpactPhase, of_the_mirror_image_is_half_a_turn_away) {
 }
 
 TEST(ImpactPhase, of_a_soft_stop_is_that_of_the_touch) {
-  // from x = 0 at rest in the frame of the table, under gravity alone onto a soft floor at -1/2: the touch is at tau = 1
+  // from x = 0 at rest in the frame of the table, under gravity alone onto a soft floor at -1/2: the touch is at tau =
+  // 1
   point::Problem scene = shaken({.load = -1, .stiffness = 0.0}, {}, {-0.5, infinity, 1, 1, 30});
   scene.oscillator.forcing = 1e-300;
   scene.start.phase = 6.0;
