@@ -12,7 +12,6 @@
 #include "config/suggestion.hpp"
 #include "csv_text.hpp"
 #include "file_points.hpp"
-#include "steady/status.hpp"
 #include "storage/input_file.hpp"
 #include "storage/utf8.hpp"
 
@@ -63,11 +62,13 @@ std::string word_at(const results::Variable& variable, std::size_t index) {
 
 }  // namespace
 
-Extremes::Extremes(const results::FileSummary& summary, const std::string& path, const std::string& name, bool largest)
+Extremes::Extremes(const results::FileSummary& summary, const std::string& path, const std::string& name, bool largest,
+                   bool periodic)
     : summary_(summary),
       path_(path),
       named_(name),
       is_largest_(largest),
+      is_periodic_(periodic),
       of_points_(dimensions_of_points(summary, path)),
       result_(&require_result(ComponentName(name).variable)) {
   for (const results::NamedLength& dimension : result_->dimensions) {
@@ -76,6 +77,9 @@ Extremes::Extremes(const results::FileSummary& summary, const std::string& path,
   }
   if (places_.empty() && !of_points_.empty()) places_.swap(parts_);  // of motions: each of them counts as a point
   collect_variables();
+  if (is_periodic_ && std::ranges::find(words_, "status") == words_.end())
+    throw ChoiceError("--periodic: " + storage::quoted_name(path_) + " has no status beside " +
+                      config::in_quotes(result_->name) + "; leave it out");
 }
 
 /// The variable of that name, if it holds numbers of points.
@@ -153,6 +157,11 @@ std::vector<bool> Extremes::wanted_parts(const results::Dataset& dataset) const 
   return wanted;
 }
 
+bool Extremes::counts(steady::Status status) const {
+  if (is_periodic_) return status == steady::Status::periodic || status == steady::Status::grazing;
+  return !failed(status);
+}
+
 /// The best component of each point that has a value and hasn't failed, in the order of the file.
 std::vector<Extremes::Candidate> Extremes::candidates(const results::Dataset& dataset) const {
   const results::Variable& variable = variable_of(dataset, result_->name);
@@ -160,7 +169,8 @@ std::vector<Extremes::Candidate> Extremes::candidates(const results::Dataset& da
   const std::vector<std::uint8_t>* const status = results::values_of<std::uint8_t>(dataset, "status");
   std::vector<Candidate> found;
   for (std::size_t point = 0; point < points_of(places_); ++point) {
-    if (status != nullptr && failed(static_cast<steady::Status>((*status)[point]))) continue;
+    const bool is_counted = status == nullptr || counts(static_cast<steady::Status>((*status)[point]));
+    if (!is_counted) continue;
     Candidate best{point, wanted.size(), std::nan("")};
     for (std::size_t part = 0; part < wanted.size(); ++part) {
       const double value = number_at(variable.values, point * wanted.size() + part);

@@ -7,6 +7,7 @@
 
 #include "results/dataset.hpp"
 #include "results/dataset_file.hpp"
+#include "steady/status.hpp"
 
 namespace clatter::app {
 
@@ -31,9 +32,10 @@ inline constexpr std::size_t most_extremes = 5;
 /// counts by the best of a point, or by the one that is named, as in v_before[-1]. Failed points and NaN don't count.
 class Extremes {
  public:
-  /// `name` may name a component. Throws ChoiceError if the file has no such result or it isn't one of numbers, IoError
-  /// if it is a shard.
-  Extremes(const results::FileSummary& summary, const std::string& path, const std::string& name, bool largest);
+  /// `name` may name a component. `periodic`: only points whose motion is periodic count. Throws ChoiceError if the file
+  /// has no such result, it isn't one of numbers, or no status says what is periodic; IoError if it is a shard.
+  Extremes(const results::FileSummary& summary, const std::string& path, const std::string& name, bool largest,
+           bool periodic = false);
 
   /// The variables whose values `of` needs.
   [[nodiscard]] const std::vector<std::string>& variables() const { return names_; }
@@ -54,13 +56,14 @@ class Extremes {
   [[nodiscard]] const results::FileSummary::Entry& require_result(const std::string& name) const;
   void collect_variables();
   [[nodiscard]] std::vector<bool> wanted_parts(const results::Dataset& dataset) const;
+  [[nodiscard]] bool counts(steady::Status status) const;
   [[nodiscard]] std::vector<Candidate> candidates(const results::Dataset& dataset) const;
   [[nodiscard]] Extreme described(const Candidate& candidate, const results::Dataset& dataset) const;
   void require_complete(const results::Dataset& dataset) const;
 
   const results::FileSummary& summary_;
   std::string path_, named_;
-  bool is_largest_;
+  bool is_largest_, is_periodic_;
   std::vector<results::NamedLength> of_points_;  ///< dimensions of the file's points
   const results::FileSummary::Entry* result_;
   std::vector<results::NamedLength> places_{}, parts_{};  ///< dimensions of the result: of points, of components

@@ -94,8 +94,9 @@ void print_config(const std::string& path, const results::FileSummary& summary) 
 
 /// Prints the points at which a result is largest, or smallest.
 void print_extremes(const results::FileSummary& summary, const std::string& path, const std::string& name,
-                    bool is_largest, bool as_json) try {
-  const Extremes extremes(summary, path, name, is_largest);
+                    const Arguments& arguments) try {
+  const bool as_json = arguments.has("json");
+  const Extremes extremes(summary, path, name, arguments.has("max"), arguments.has("periodic"));
   const std::vector<Extreme> points = extremes.of(results::read_variables(path, extremes.variables()));
   std::cout << (as_json ? extremes_json(extremes, points) : extremes_text(extremes, points));
 } catch (const ChoiceError& error) {
@@ -116,10 +117,12 @@ std::string chosen_print(const Arguments& arguments) {
 
 int print_info(const Arguments& arguments) {
   const std::string chosen = chosen_print(arguments);
+  if (arguments.has("periodic") && chosen != "max" && chosen != "min")
+    throw UsageError("--periodic without --max or --min; it chooses among their points");
   const std::string& path = arguments.operands[0];
   const results::FileSummary summary = outputs::read_summary(path);
   if (chosen == "max" || chosen == "min") {
-    print_extremes(summary, path, *arguments.value(chosen), chosen == "max", arguments.has("json"));
+    print_extremes(summary, path, *arguments.value(chosen), arguments);
   } else if (chosen == "check") {
     results::require_readable(summary, path);
   } else if (chosen == "config") {
@@ -135,6 +138,7 @@ int print_info(const Arguments& arguments) {
 constexpr std::string_view examples =
     "  clatter info fig22.h5\n"
     "  clatter info fig22.h5 --max impact_speed\n"
+    "  clatter info fig22.h5 --max impact_speed --periodic\n"
     "  clatter info fig22.h5 --config > again.toml\n"
     "  clatter info --check fig22.h5 && echo sound\n";
 
@@ -150,6 +154,7 @@ Command info_command() {
           .options = {{"max", 0, "NAME",
                        "print the five points at which this result, or component as v_before[-1], is largest"},
                       {"min", 0, "NAME", "print those at which it is smallest"},
+                      {"periodic", 0, "", "with --max or --min: of points with periodic motion alone"},
                       {"verbose", 'v', "", "print also when each result is NaN, and what asks for it"},
                       {"json", 0, "", "print JSON, also of --max and --min"},
                       {"config", 0, "", "print the configuration that made the file, which can be run again"},

@@ -37,8 +37,11 @@ void check_given(const Settings& settings, const Setting& names, Parameter key) 
   const bool is_distance = key.is_of_both() && key.role() == Role::position;
   if (is_distance && settings.given(key) == nullptr)
     fail(names.location, message + ", and the stops are given one by one; name 'stop_lower' or 'stop_upper'");
-  if (key == "quality" && settings.given(key) == nullptr)
+  if (key == "quality" && !quantity_given(settings, key))
     fail(names.location, message + ", and the damping isn't given by it; name 'damping' or 'damping_ratio'");
+  const bool is_of_collision = key == "stop_R" || key == "stop_R_lower" || key == "stop_R_upper";
+  if (is_of_collision && !quantity_given(settings, key))
+    fail(names.location, message + ", and the damping of the stop isn't given by it; name 'stop_damping'");
 }
 
 }  // namespace

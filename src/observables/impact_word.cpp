@@ -60,7 +60,7 @@ std::size_t first_rotation(const std::vector<T>& items) {
 
 std::vector<Column<ImpactWord::Values>> ImpactWord::columns(const Settings&) {
   return {
-      missing_if("no stop is hit, or no period is known",
+      missing_if("no period is known",
                  text("impact_word", "impacts of one period in order, L: lower stop, U: upper stop, *: until at rest",
                       &Values::impact_word, longest + cut.size())),
       missing_if("no period is known, or there is no force",

@@ -32,7 +32,7 @@ inline constexpr std::array<StatusName, 9> status_names{
     {{Status::periodic, "periodic", "repeats; one period is observed"},
      {Status::aperiodic, "aperiodic", "did not repeat within max_periods; a window is observed"},
      {Status::transient, "transient", "was observed from the start"},
-     {Status::grazing, "grazing", "is periodic but touches a stop, so its stability doesn't exist"},
+     {Status::grazing, "grazing", "is periodic but touches a stop, so its derivatives don't exist"},
      {Status::undecided, "undecided", "has no known period: rounding would decide it, even in 50 digits"},
      {Status::event_budget, "event_budget", "failed: more than max_impacts"},
      {Status::not_finite, "not_finite", "failed: numbers beyond the range of double"},
