@@ -147,7 +147,7 @@ class HelpOnResults(CommandLine):
         self.assertEqual([line for line in verbose.splitlines() if line in brief.splitlines()], brief.splitlines())
         words = " ".join(verbose.split())
         self.assertIn(
-            "speed of the fastest impact, m s-1 NaN if the stop isn't hit, asked for by", words
+            "fastest impact, m s-1 NaN if the point failed, or the stop isn't hit; asked for by", words
         )
         self.assertIn("asked for by observe.impacts", words)
 

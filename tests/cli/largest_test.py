@@ -12,7 +12,7 @@ import h5py
 import numpy as np
 
 from branch_runs import BRANCH, SCENE
-from command_line import SMALL, CommandLine
+from command_line import SMALL, SOURCE, CommandLine
 
 MAP = """[scene]
 f = -1.0
@@ -198,6 +198,19 @@ class Largest(CommandLine):
         first = self.points(path, "special_impact_power")[0]
         self.assertEqual(first["value"], special.max())
         self.assertEqual(first["special_kind"], self.values(path, "special_kind")[np.argmax(special)].decode())
+
+    def test_the_guide_shows_what_is_printed(self):
+        words = ("run", SOURCE / "configs" / "harvester.toml", "-o", "harvester.h5", "-q")
+        self.assertEqual(self.clatter(*words).returncode, 0)
+        guide = (SOURCE / "apps" / "clatter" / "README.md").read_text(encoding="utf-8")
+        self.assertIn(self.told("harvester.h5", "--max", "impact_speed"), guide)
+
+    def test_files_of_accuracy_have_no_points(self):
+        text = SMALL.partition("[sweep]")[0].replace("xs = -4.0", "xs = -0.5")
+        config = self.write("a.toml", text + "[time]\nwindow = 1\nmax_impacts = 1\n")
+        self.assertEqual(self.clatter("accuracy", config, "-q").returncode, 1)
+        words = ("info", "a.accuracy.h5", "--max", "error_extrema")
+        self.assert_refused(2, "'a.accuracy.h5' holds what accuracy costs, by method", *words)
 
     def test_wrong_names(self):
         path = self.run_text(MAP + "impact_log = true\n")

@@ -46,7 +46,7 @@ class Manual(CommandLine):
         for command in commands:
             self.assertIn(f"clatter-{command}(1)", main)
             page = self.shown(f"clatter-{command}.1")
-            options, examples = self.help(command).split("Options\n")[1].split("\nExamples\n")
+            options, examples = self.clatter(command, "--help").stdout.split("Options\n")[1].split("\nExamples\n")
             for option in re.findall(r"--[\w-]+", re.sub(r"(?m)^ {10}.*", "", options)):
                 self.assertRegex(page, rf"(?m)^ .*{option}\b", command)
             for line in examples.splitlines():
