@@ -35,7 +35,7 @@ source that holds one of them after a blank needs quotes. An axis has at most
 std::string fallback(const Key& key) {
   const std::string other(key.other);
   if (!other.empty()) return std::string(key.fallback) + ", or " + other + " if that is given";
-  if (!key.has_default()) return "none";
+  if (!key.has_default()) return key.kind == Kind::choices ? "all" : "none";
   return key.fallback.empty() ? "empty" : std::string(key.fallback);
 }
 
