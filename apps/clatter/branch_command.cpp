@@ -99,7 +99,7 @@ constexpr std::string_view examples =
     "  clatter branch configs/branch.toml\n"
     "  clatter branch mine.toml --json --set branch.range='0.8, 1.5' | jq .nu\n"
     "  clatter branch mine.toml --from map.h5 --where nu=1.2 --where R=0.7\n"
-    "  clatter branch --from mine.branch.h5 --where branch=2 --where nu=1.2 -o other.h5\n";
+    "  clatter branch --from mine.branch.h5 --where branch=2 --where nu=1.2 -o b.h5\n";
 
 }  // namespace
 

@@ -35,13 +35,6 @@ std::string written(Parameter parameter, double value) {
          (row.is_with_unit ? ' ' + std::string(config::unit_of_numbers(row.quantity)) : "");
 }
 
-bool is_swept(const config::Config& config, Parameter parameter) {
-  return std::ranges::any_of(config.sweep.dimensions, [&](const sweep::Dimension& dimension) {
-    return std::ranges::find(dimension, parameter.key(),
-                             [](const sweep::Axis& axis) { return axis.parameter.key(); }) != dimension.end();
-  });
-}
-
 /// Whether one of the parameters sets a number of the scene that another one sets, too.
 bool is_among(const std::vector<Parameter>& parameters, Parameter one) {
   return std::ranges::any_of(parameters, [&](Parameter other) {
@@ -50,36 +43,45 @@ bool is_among(const std::vector<Parameter>& parameters, Parameter one) {
   });
 }
 
-/// What the point gives: the parameters that the output varies, and those that the branch is followed along.
-std::vector<Parameter> parameters_of(const PointOfOutput& point, const branches::BranchSettings& branch) {
-  std::vector<Parameter> parameters;
-  for (const Parameter parameter : point.varied)
-    if (parameter.role() != Role::start) parameters.push_back(parameter);
-  if (!is_among(parameters, branch.along)) parameters.push_back(branch.along);
-  if (branch.across && !is_among(parameters, *branch.across)) parameters.push_back(*branch.across);
-  return parameters;
-}
+/// Settings of a configuration that --from gives.
+class FromPoint {
+ public:
+  FromPoint(const PointOfOutput& point, const std::string& path)
+      : point_(point), option_("--from " + storage::quoted_name(path)) {}
 
-/// The settings that make a configuration start at a point.
-std::vector<config::Override> changes_for(const PointOfOutput& point, const config::Config& config) {
-  const std::string section = section_of(point.scene) + '.';
-  std::vector<config::Override> changes;
-  for (const Parameter parameter : parameters_of(point, *config.branch)) {
-    const double value = value_of(point.scene, parameter);
-    GivenScene changed = config.sweep.problem;
-    set(changed, parameter, value);
-    if (is_swept(config, parameter) || difference(changed, config.sweep.problem))
-      changes.push_back({section + std::string(parameter.key()), written(parameter, value)});
+  /// What the output varies, in place of axes.
+  [[nodiscard]] std::vector<config::Override> varied() const {
+    std::vector<config::Override> changes{{"sweep.linked", "", option_}, {"sweep.follow", "", option_}};
+    for (const Parameter parameter : point_.varied) changes.push_back(setting(parameter));
+    return changes;
   }
-  const Start& start = point.scene.start;
-  changes.push_back({section + "x0", config::number_text(start.displacement)});
-  changes.push_back({section + "v0", config::number_text(start.velocity)});
-  changes.push_back({section + "phase", config::number_text(start.phase)});
-  changes.push_back({"branch.period", std::to_string(point.periods)});
-  if (!config.sweep.dimensions.empty())
-    for (const char* const names : {"sweep.linked", "sweep.follow"}) changes.push_back({names, ""});
-  return changes;
-}
+  /// The start of its motion, and the parameters that a branch is followed along.
+  [[nodiscard]] std::vector<config::Override> start(const GivenScene& scene,
+                                                    const branches::BranchSettings& branch) const {
+    std::vector<config::Override> changes;
+    for (const std::optional<Parameter> parameter : {std::optional(branch.along), branch.across}) {
+      if (!parameter || is_among(point_.varied, *parameter)) continue;
+      GivenScene changed = scene;
+      set(changed, *parameter, value_of(point_.scene, *parameter));
+      if (difference(changed, scene)) changes.push_back(setting(*parameter));
+    }
+    const Start& start = point_.scene.start;
+    for (const auto& [key, value] :
+         {std::pair("x0", start.displacement), {"v0", start.velocity}, {"phase", start.phase}})
+      changes.push_back({section() + key, config::number_text(value), option_});
+    changes.push_back({"branch.period", std::to_string(point_.periods), option_});
+    return changes;
+  }
+
+ private:
+  [[nodiscard]] std::string section() const { return section_of(point_.scene) + '.'; }
+  [[nodiscard]] config::Override setting(Parameter parameter) const {
+    return {section() + std::string(parameter.key()), written(parameter, value_of(point_.scene, parameter)), option_};
+  }
+
+  const PointOfOutput& point_;
+  std::string option_;
+};
 
 /// Throws UsageError if the motion of a point isn't one of the configuration's scene.
 void require_same_scene(const PointOfOutput& point, const GivenScene& scene, const std::string& file,
@@ -102,8 +104,13 @@ void require_period(const PointOfOutput& point, const std::string& from) {
                    config::number_text(key.range.high));
 }
 
-config::Config config_of_file(const std::string& path, const std::vector<config::Override>& changes) {
-  return config::parse_config(outputs::config_of_output(outputs::read_summary(path), path).text, path, changes);
+/// The configuration of the first operand, or without one that of --from, changed by --set and then by `changes`.
+config::Config read(const Arguments& arguments, const std::vector<config::Override>& changes) {
+  if (!arguments.operands.empty()) return config_of(arguments, changes);
+  const std::string path = arguments.value("from").value();
+  std::vector<config::Override> all = overrides_of(arguments);
+  all.insert(all.end(), changes.begin(), changes.end());
+  return config::parse_config(outputs::config_of_output(outputs::read_summary(path), path).text, path, all);
 }
 
 void require_branch(const config::Config& config, const std::string& file) {
@@ -121,31 +128,31 @@ void require_no_sweep(const config::Config& config, const std::string& file) {
                    ']');
 }
 
+BranchStart from_scene(const Arguments& arguments) {
+  if (arguments.has("where"))
+    throw UsageError("--where chooses the point of an output that a branch starts from; name that with --from FILE.h5");
+  if (arguments.operands.empty())
+    throw UsageError("CONFIG is missing; write: clatter branch CONFIG, or clatter branch --from FILE.h5");
+  BranchStart begun{config_of(arguments), arguments.operands[0], {}};
+  require_branch(begun.config, begun.file), require_no_sweep(begun.config, begun.file);
+  return begun;
+}
+
 }  // namespace
 
 BranchStart branch_start_of(const Arguments& arguments) {
   const std::optional<std::string> from = arguments.value("from");
-  if (!from && arguments.has("where"))
-    throw UsageError("--where chooses the point of an output that a branch starts from; name that with --from FILE.h5");
-  if (!from && arguments.operands.empty())
-    throw UsageError("CONFIG is missing; write: clatter branch CONFIG, or clatter branch --from FILE.h5");
-  const bool has_config = !arguments.operands.empty();
-  BranchStart begun{has_config ? config_of(arguments) : config_of_file(*from, overrides_of(arguments)),
-                    has_config ? arguments.operands[0] : *from,
-                    {}};
+  if (!from) return from_scene(arguments);
+  const PointOfOutput point = point_of_output(*from, places_of(arguments));
+  require_period(point, *from);
+  const FromPoint changes(point, *from);
+  BranchStart begun{read(arguments, changes.varied()), arguments.operands.empty() ? *from : arguments.operands[0],
+                    "starts from " + storage::quoted_name(*from) + (point.name.empty() ? "" : " at " + point.name) +
+                        ", period " + std::to_string(point.periods)};
   require_branch(begun.config, begun.file);
-  if (from) {
-    const PointOfOutput point = point_of_output(*from, places_of(arguments));
-    if (point.scene.is_si != begun.config.sweep.problem.is_si)
-      throw UsageError(storage::printable(begun.file) + " describes its scene in [" +
-                       section_of(begun.config.sweep.problem) + "], and " + storage::quoted_name(*from) + " in [" +
-                       section_of(point.scene) + "]; name an output of this scene");
-    require_period(point, *from);
-    begun.config = config::parse_config(begun.config.text, begun.file, changes_for(point, begun.config));
-    require_same_scene(point, begun.config.sweep.problem, begun.file, *from);
-    begun.note = "starts from " + storage::quoted_name(*from) + (point.name.empty() ? "" : " at " + point.name) +
-                 ", period " + std::to_string(point.periods);
-  }
+  begun.config = config::parse_config(begun.config.text, begun.file,
+                                      changes.start(begun.config.sweep.problem, *begun.config.branch));
+  require_same_scene(point, begun.config.sweep.problem, begun.file, *from);
   require_no_sweep(begun.config, begun.file);
   return begun;
 }

@@ -22,9 +22,11 @@ std::vector<config::Override> overrides_of(const Arguments& arguments) {
   return overrides;
 }
 
-config::Config config_of(const Arguments& arguments) {
-  config::Config config = read_config(arguments.operands[0], overrides_of(arguments),
-                                      arguments.has("ini") ? config::Format::ini : config::Format::toml);
+config::Config config_of(const Arguments& arguments, const std::vector<config::Override>& changes) {
+  std::vector<config::Override> overrides = overrides_of(arguments);
+  overrides.insert(overrides.end(), changes.begin(), changes.end());
+  config::Config config =
+      read_config(arguments.operands[0], overrides, arguments.has("ini") ? config::Format::ini : config::Format::toml);
   malloc_trim(0);  // reading a long list takes many times its length
   return config;
 }

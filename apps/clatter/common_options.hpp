@@ -23,8 +23,9 @@ inline const Option threads_option{"threads", 0, "N",
 /// The settings of all --set. Throws UsageError.
 [[nodiscard]] std::vector<config::Override> overrides_of(const Arguments& arguments);
 
-/// The configuration of the first operand, changed by --set. Throws UsageError, ConfigError, IoError.
-[[nodiscard]] config::Config config_of(const Arguments& arguments);
+/// The configuration of the first operand, changed by --set, and then by `changes`. Throws UsageError, ConfigError,
+/// IoError.
+[[nodiscard]] config::Config config_of(const Arguments& arguments, const std::vector<config::Override>& changes = {});
 
 /// The number of --threads; 0 if it isn't given. Throws UsageError.
 [[nodiscard]] int threads_of(const Arguments& arguments);

@@ -129,7 +129,7 @@ class BranchPoints {
     for (const Parameter parameter : varied_) names.emplace_back(parameter.key());
     dataset_ = results::read_variables(path, names);
     const auto* const branch = results::values_of<std::int32_t>(dataset_, "branch");
-    if (branch == nullptr) refuse_damaged(path);
+    if (branch == nullptr || branch->empty()) refuse_damaged(path);
     count_ = branch->size();
   }
 

@@ -33,6 +33,7 @@ struct Config : results::FileHead {
 struct Override {
   std::string key;
   std::string value;
+  std::string option = "--set";  ///< or the words of another option that sets the key
 };
 
 /// The operand that means standard input.

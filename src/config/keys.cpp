@@ -147,7 +147,7 @@ const std::array keys_after_observe{
          one_of(branches::birth_names,
                 Key{"branch", "births", choices, "", "flip, graze",
                     "births that are followed, flips and losses of symmetry as often as 'switch' says; a motion that "
-                    "goes on beyond a graze is always followed; without the key, all"})),
+                    "goes on beyond a graze is always followed"})),
 
     Key{"output", "compression", integer, "0", "4", "deflate level of the output file; 0: none",
         AllowedRange{.low = 0, .high = 9}},

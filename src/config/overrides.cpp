@@ -15,7 +15,7 @@
 namespace clatter::config {
 namespace {
 
-std::string words_of(const Override& change) { return "--set " + change.key + '=' + change.value; }
+std::string words_of(const Override& change) { return change.option + ' ' + change.key + '=' + change.value; }
 
 /// The command line has the encoding of the terminal or script, which need not be UTF-8.
 void check_words(const Override& change) {

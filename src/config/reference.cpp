@@ -39,7 +39,7 @@ std::string fallback(const Key& key) {
   const std::string other(key.other);
   if (!other.empty())
     return std::string(key.fallback.empty() ? "none" : key.fallback) + ", or " + other + " if that is given";
-  if (!key.has_default()) return "none";
+  if (!key.has_default()) return key.kind == Kind::choices ? "all" : "none";
   return key.fallback.empty() ? "empty" : std::string(key.fallback);
 }
 

@@ -42,7 +42,8 @@ class Starts(BranchRuns):
         """The point at which a branch from a start begins, by the scene's frequency."""
         values = "".join(f"{key} = {value!r}\n" for key, value in keys_of(scene).items())
         branch = f'[branch]\nalong = "nu"\nrange = [{scene.nu - 1e-4!r}, {scene.nu + 1e-4!r}]\nperiod = {periods}\n'
-        done = self.branch(f"[scene]\n{values}{branch}", "-q", "--force")
+        (self.directory / "a.branch.h5").unlink(missing_ok=True)
+        done = self.branch(f"[scene]\n{values}{branch}", "-q")
         self.assertTrue((self.directory / "a.branch.h5").exists(), (scene, done.stderr))
         with h5py.File(self.directory / "a.branch.h5") as file:
             at = int(np.argmin(np.abs(file["nu"][()] - scene.nu) + file["branch"][()]))
@@ -83,6 +84,26 @@ class Starts(BranchRuns):
                 starts += self.assert_begins_anywhere(at, periods)
             self.assertGreater(starts, 50)
             self.assertEqual(kinds, {True, False}, scene)
+
+    def test_a_ball_that_bounces_begins_with_its_impact(self):
+        """Of its two motions with an impact a period, both are known: x'' = f sin(theta + tau) - 1 from 0 to 0."""
+        f, ratio = 0.7, 0.8
+        after = TURN * ratio / (1 + ratio)
+        found = []
+        for sign in (1, -1):
+            theta = sign * math.acos(math.pi * (1 - ratio) / (1 + ratio) / f)
+            rest = (TURN - theta) % TURN
+            x = after * rest - rest**2 / 2 + f * (rest * math.cos(theta) + math.sin(theta))
+            v = after - rest + f * (math.cos(theta) - 1)
+            for v0 in (after, after - TURN):  # behind the impact and before it
+                scene = Scene(f=f, load=-1.0, stiffness=0.0, stop_lower=0.0, R_lower=ratio, v0=v0, phase=theta)
+                begun = self.started(scene, 1)
+                self.assertEqual(begun["word"], b"L")
+                np.testing.assert_allclose((begun["x"], begun["v"]), (x, v), rtol=1e-11)
+            found.append(begun)
+        self.assertGreater(abs(found[0]["x"] - found[1]["x"]), 0.1)
+        unstable = [np.abs(one["multiplier_re"]).max() > 1 for one in found]
+        self.assertEqual(sorted(unstable), [False, True])
 
     def test_random_scenes_from_any_state(self):
         done = 0

@@ -93,6 +93,11 @@ TEST(EveryKey, of_the_wrong_kind_says_what_is_expected) {
       for (const char* value : {"1", "true", "\"a\"", "[1]", "[2, 1]", "[1, 1]", "[1, 2, 3]", "[1, inf]"})
         expect_wrong_value(key, value, words, "toml");
       for (const char* value : {"1", "2, 1", "1, 2, 3"}) expect_wrong_value(key, value, words, "ini");
+    } else if (key.kind == Kind::choices) {
+      for (const char* value : {"1", "true", "\"a\"", "\"\""}) expect_wrong_value(key, value, words, "toml");
+      for (const char* value : {"a", "[a]", "none, none"}) expect_wrong_value(key, value, words, "ini");
+      const std::string in_list = std::string(key.name) + " = [\"a\"]";
+      expect_mistake(key, std::string(key.section), in_list, static_cast<int>(key.name.size()) + 5, words, "toml");
     } else {
       for (const char* value : {"1", "true", "[\"a\"]"}) expect_wrong_value(key, value, words, "toml");
     }
