@@ -107,6 +107,8 @@ Json value(const Key& key) {
       const Json end{{"anyOf", number_or_text(key)}};
       return {{"type", "array"}, {"items", end}, {"minItems", 2}, {"maxItems", 2}};
     }
+    case Kind::choices:
+      return {{"anyOf", Json::array({{{"type", "array"}, {"items", {{"enum", key.choices}}}}, {{"type", "string"}}})}};
     case Kind::text:
     case Kind::names:
       break;

@@ -32,14 +32,14 @@ std::vector<double> numbers_in(const results::ValueArray& values) {
   return numbers;
 }
 
+}  // namespace
+
 double number_of(const Place& place, const Entry& entry, const std::string& path) try {
   return config::in_unit_of_file(place.value, entry.units, {.source = "--where " + place.axis},
                                  config::in_quotes(place.axis) + " in " + storage::quoted_name(path));
 } catch (const config::ConfigError& error) {
   throw ChoiceError(error.what());
 }
-
-}  // namespace
 
 const Entry* find_variable(const results::FileSummary& summary, std::string_view name) {
   const auto found = std::ranges::find(summary.variables, name, &Entry::name);

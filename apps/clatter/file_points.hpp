@@ -77,6 +77,9 @@ struct ComponentName {
 /// Advances indexes to the next point, the last dimension first.
 void advance(std::vector<std::size_t>& at, const std::vector<results::NamedLength>& rows);
 
+/// The value that a place asks for, in the unit of a variable. Throws ChoiceError if its own unit doesn't fit.
+[[nodiscard]] double number_of(const Place& place, const results::FileSummary::Entry& entry, const std::string& path);
+
 /// Which values of an axis are the one that a place asks for, in the axis's own unit. Throws ChoiceError if none is, or
 /// if the unit of the place doesn't fit.
 [[nodiscard]] std::vector<bool> indexes_at(const Place& place, const results::Variable& axis,

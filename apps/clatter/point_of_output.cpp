@@ -23,7 +23,7 @@
 namespace clatter::app {
 namespace {
 
-using Places = std::vector<std::pair<std::string, double>>;
+using Places = std::vector<Place>;
 
 [[noreturn]] void refuse_damaged(const std::string& path) {
   storage::refuse_reading(path, "is damaged: its points aren't those of its configuration",
@@ -81,7 +81,7 @@ point::Problem started_problem(const sweep::Sweep& sweep, std::size_t point) {
 
 /// The status of a point whose motion has no period, or which failed; empty: it may have one.
 std::string_view fault_of(std::uint8_t status) {
-  for (const auto& [known, name] : steady::status_names)
+  for (const auto& [known, name, meaning] : steady::status_names)
     if (static_cast<std::uint8_t>(known) == status && (lacks_period(known) || failed(known))) return name;
   return {};
 }
@@ -121,7 +121,8 @@ PointOfOutput point_of_sweep(const std::string& path, const Places& where) {
 /// The points of branches, or of curves in two parameters, with what --where may choose them by.
 class BranchPoints {
  public:
-  BranchPoints(const std::string& path, const config::Config& config) : path_(path), scene_(config.sweep.problem) {
+  BranchPoints(const std::string& path, const results::FileSummary& summary, const config::Config& config)
+      : path_(path), summary_(summary), scene_(config.sweep.problem) {
     if (!config.branch) refuse_damaged(path);
     varied_ = {config.branch->along};
     if (config.branch->across) varied_.push_back(*config.branch->across);
@@ -135,9 +136,13 @@ class BranchPoints {
 
   [[nodiscard]] PointOfOutput chosen(const Places& where) const {
     std::vector<std::size_t> points;
-    for (std::size_t i = 0; i < count_; ++i)
-      if (std::ranges::all_of(where, [&](const auto& place) { return is_at(i, place.first, place.second); }))
-        points.push_back(i);
+    std::vector<double> values;
+    for (const Place& place : where) values.push_back(value_of(place));
+    for (std::size_t i = 0; i < count_; ++i) {
+      bool is_there = true;
+      for (std::size_t p = 0; p < where.size(); ++p) is_there = is_there && is_at(i, where[p].axis, values[p]);
+      if (is_there) points.push_back(i);
+    }
     if (points.size() > 1)
       throw UsageError(storage::quoted_name(path_) + " has " + std::to_string(points.size()) +
                        " such points; choose one by --where point=N: " + listed(points));
@@ -153,6 +158,11 @@ class BranchPoints {
     return values_in<std::int32_t>(dataset_, "branch", count_, path_)[i];
   }
 
+  /// Of --where, in the unit of the file.
+  [[nodiscard]] double value_of(const Place& place) const {
+    const auto* const entry = find_variable(summary_, place.axis);
+    return entry != nullptr ? number_of(place, *entry, path_) : place.value.value;
+  }
   [[nodiscard]] bool is_at(std::size_t i, const std::string& name, double value) const {
     if (name == "point") return value == static_cast<double>(i);
     if (name == "branch") return value == branch(i);
@@ -213,6 +223,7 @@ class BranchPoints {
   }
 
   std::string path_;
+  const results::FileSummary& summary_;
   GivenScene scene_;
   std::vector<Parameter> varied_;
   results::Dataset dataset_;
@@ -227,7 +238,8 @@ PointOfOutput point_of_output(const std::string& path, const Places& where) try 
     storage::refuse_reading(path, "holds what accuracy costs, not motions",
                             "name an output of `clatter run` or `clatter branch`");
   if (!origin || origin->command != "branch") return point_of_sweep(path, where);
-  return BranchPoints(path, outputs::config_of_output(outputs::read_summary(path), path)).chosen(where);
+  const results::FileSummary summary = outputs::read_summary(path);
+  return BranchPoints(path, summary, outputs::config_of_output(summary, path)).chosen(where);
 } catch (const ChoiceError& error) {
   throw UsageError(error.what());
 }

@@ -2,9 +2,9 @@
 
 #include <cstdint>
 #include <string>
-#include <utility>
 #include <vector>
 
+#include "file_points.hpp"
 #include "scene/given_scene.hpp"
 #include "scene/parameter.hpp"
 
@@ -22,7 +22,6 @@ struct PointOfOutput {
 /// the numbers of a branch and of a point. A point of a sweep is run anew as `clatter run` runs it, so that any output
 /// will do; a point of a branch is stored with its state. Throws UsageError if there is no such point, or several, or
 /// no periodic motion there, and IoError if the file can't be read.
-[[nodiscard]] PointOfOutput point_of_output(const std::string& path,
-                                            const std::vector<std::pair<std::string, double>>& where);
+[[nodiscard]] PointOfOutput point_of_output(const std::string& path, const std::vector<Place>& where);
 
 }  // namespace clatter::app
