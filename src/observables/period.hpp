@@ -26,17 +26,18 @@ struct Period {
   [[nodiscard]] static bool wanted(const Settings& settings) { return settings.period; }
   [[nodiscard]] static std::string description(const Settings&) { return "period"; }
   [[nodiscard]] static std::vector<Column<Values>> columns(const Settings&) {
-    return {missing_if("no period is known, or the mass stands still",
-                       scalar("period", "period of the motion", &Values::period, Quantity::time)),
-            missing_if("it is a transient, stands still, has no force, or rounding would decide; 0 if it doesn't repeat",
-                       scalar("period_ratio", "period of the motion in forcing periods", &Values::period_ratio)),
-            missing_if("there is a force, no period is known, or the mass stands still",
-                       in_si("one over the period of unforced motion",
-                             scalar("eigenfrequency", "2 pi over the period of unforced motion",
-                                    &Values::eigenfrequency, Quantity::frequency))),
-            missing_if("no stop is hit, or the stops aren't symmetric",
-                       in_relative_frame(scalar("velocity_ratio", "|velocity before impact / xs|",
-                                                &Values::velocity_ratio, Quantity::rate)))};
+    return {
+        missing_if("no period is known, or the mass stands still",
+                   scalar("period", "period of the motion", &Values::period, Quantity::time)),
+        missing_if("it is a transient, stands still, has no force, or rounding would decide; 0 if it doesn't repeat",
+                   scalar("period_ratio", "period of the motion in forcing periods", &Values::period_ratio)),
+        missing_if("there is a force, no period is known, or the mass stands still",
+                   in_si("one over the period of unforced motion",
+                         scalar("eigenfrequency", "2 pi over the period of unforced motion", &Values::eigenfrequency,
+                                Quantity::frequency))),
+        missing_if("no stop is hit, or the stops aren't symmetric",
+                   in_relative_frame(scalar("velocity_ratio", "|velocity before impact / xs|", &Values::velocity_ratio,
+                                            Quantity::rate)))};
   }
   [[nodiscard]] static bool in_lanes(const Settings&, const ObservedSpan&) { return true; }
 

@@ -146,9 +146,7 @@ class HelpOnResults(CommandLine):
         brief, verbose = self.page("info", "a.h5"), self.page("info", "-v", "a.h5")
         self.assertEqual([line for line in verbose.splitlines() if line in brief.splitlines()], brief.splitlines())
         words = " ".join(verbose.split())
-        self.assertIn(
-            "fastest impact, m s-1 NaN if the point failed, or the stop isn't hit; asked for by", words
-        )
+        self.assertIn("fastest impact, m s-1 NaN if the point failed, or the stop isn't hit; asked for by", words)
         self.assertIn("asked for by observe.impacts", words)
 
     def test_the_guide_of_results_has_every_result_of_a_run_with_its_type_and_dimension(self):
