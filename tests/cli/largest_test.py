@@ -199,6 +199,25 @@ class Largest(CommandLine):
         self.assertEqual(first["value"], special.max())
         self.assertEqual(first["special_kind"], self.values(path, "special_kind")[np.argmax(special)].decode())
 
+    def test_of_periodic_motion_alone(self):
+        """The fastest impacts of the guide's rig are those of motion without a period."""
+        rig = SOURCE / "configs" / "rig.toml"
+        self.assertEqual(self.clatter("run", rig, "-o", "rig.h5", "-q").returncode, 0)
+        speed = np.nanmax(np.nan_to_num(self.values("rig.h5", "impact_speed"), nan=-1), axis=1)
+        status, frequency = self.values("rig.h5", "status"), self.values("rig.h5", "frequency")
+        self.assertEqual({point["status"] for point in self.points("rig.h5", "impact_speed")}, {"aperiodic"})
+        told = json.loads(self.told("rig.h5", "--max", "impact_speed", "--periodic", "--json"))["points"]
+        order = [i for i in np.argsort(-speed, kind="stable") if status[i] == 0][:5]
+        self.assertEqual([point["value"] for point in told], speed[order].tolist())
+        self.assertEqual([point["at"]["frequency"] for point in told], frequency[order].tolist())
+        self.assertRegex(self.told("rig.h5", "--max", "impact_speed"), r"\n  0\.4576\d+ m/s at frequency = 21\.25 Hz")
+        self.assertRegex(
+            self.told("rig.h5", "--max", "impact_speed", "--periodic"),
+            r"\n  0\.4552\d+ m/s at frequency = 23\.4 Hz, stop = 1, periodic, LULULUU",
+        )
+        words = "--periodic without --max or --min; it chooses among their points"
+        self.assert_refused(2, words, "info", "rig.h5", "--periodic")
+
     def test_the_guide_shows_what_is_printed(self):
         words = ("run", SOURCE / "configs" / "harvester.toml", "-o", "harvester.h5", "-q")
         self.assertEqual(self.clatter(*words).returncode, 0)
