@@ -58,7 +58,8 @@ void warn_of_repeats(const Settings& settings, const AxisGroups& groups, std::ve
   }
 }
 
-/// Warns of a damping ratio of a machine's soft stop that was hardly meant to be one, as a coefficient without its unit.
+/// Warns of a damping ratio of a machine's soft stop that was hardly meant to be one, as a coefficient without its
+/// unit.
 void warn_of_great_ratios(const Settings& settings, std::vector<Warning>& warnings) {
   constexpr double greatest = 2;  // twice critical: R = 0.05 (eq. 55)
   if (!settings.is_si()) return;

@@ -44,6 +44,8 @@ void expect_runs(const Along& of) {
     const PhasePoint state = state_at_phase_zero(point.scene, point.orbit);
     sweep::GivenProblem at = given;
     if (of.along.role() == Role::damping) at.damper = at.damping_ratio = 0, at.quality = HUGE_VAL;
+    if (of.along.role() == Role::stop_damping)
+      at.stop_damper_lower = at.stop_damper_upper = at.stops.damping_lower = at.stops.damping_upper = 0;
     set(at, of.along, value_of(point.scene, of.along));
     at.start = {state.x, state.v * factor_of(start.units, Quantity::velocity), 0.0};
     at.observe.extrema = at.observe.impacts = true;
@@ -78,7 +80,9 @@ TEST(MachineBranch, is_followed_along_any_key_beside_any_other) {
         {"mass beside a stop's damper", "mass", {0.48, 0.55}, true, 0, 0.05, HUGE_VAL, 40},
         {"a stop's damper", stop_damper, {30, 60}, true, 0, 0.05, HUGE_VAL, 40},
         {"a stop's stiffness beside its damper", "stop_stiffness", {3e5, 5e5}, true, 0, 0.05, HUGE_VAL, 40},
-        {"a stop's damping ratio", "stop_damping", {0.02, 0.1}, true, 0, 0.05, HUGE_VAL, 0, 0.05}}) {
+        {"a stop's damping ratio", "stop_damping", {0.02, 0.1}, true, 0, 0.05, HUGE_VAL, 0, 0.05},
+        {"a stop's restitution beside its ratio", "stop_R", {0.8, 0.95}, true, 0, 0.05, HUGE_VAL, 0, 0.05},
+        {"a stop's restitution beside its damper", "stop_R", {0.8, 0.95}, true, 0, 0.05, HUGE_VAL, 40}}) {
     expect_runs(of);
     if (testing::Test::HasFailure()) return;
   }

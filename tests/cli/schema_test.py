@@ -1,4 +1,4 @@
-"""`clatter defaults --schema`: a JSON Schema that takes every configuration that runs, and no wrong one that it can see.
+"""`clatter defaults --schema`: a JSON Schema that takes each configuration that runs, and no wrong one that it sees.
 
 Environment: CLATTER, the program; CLATTER_SOURCE, the source directory.
 """
