@@ -48,7 +48,7 @@ class ImpactLog::Observer {
   [[nodiscard]] Values finish(const ObservedSpan&, double, double) { return std::move(values_); }
 
  private:
-  /// What the forcing phase is counted by: periods of the force, if one is left in the moving frame, else time.
+  /// The forcing phase is counted by periods of the force, if one is left in the moving frame, else by time.
   enum class Drive : std::uint8_t { none, force, shaking };
 
   template <class Contact>
