@@ -176,7 +176,8 @@ class Walk {
     const Along late = lateness(stretch, end, phase);
     const Along v = end.v + end.a * late;
     const State before = state_;
-    state_ = {end.x + end.v * late, v, phase + nu * late};
+    const bool is_on_stop = stretch.end && stretch.end->kind == Event::Kind::impact;
+    state_ = {is_on_stop ? position(stretch.end->side) : Along(end.x + end.v * late), v, phase + nu * late};
     lose(stretch, arc, end, late);
     each_place(i, [&](const Place& place) {
       if (place.s >= stretch.length) return displacement({end.offset, state_.x, v, end.a, end.sine, end.cosine}, state_.phase);
@@ -220,7 +221,7 @@ class Walk {
     const Along R = event.side == Side::upper ? scene_.stops.restitution_upper : scene_.stops.restitution_lower;
     const Along after = Restitution<Along>{R}.after(state_.v);
     lost_ += (state_.v * state_.v - after * after) / 2;
-    state_.x = position(event.side), state_.v = after;
+    state_.v = after;
   }
 
   /// The energy that soft stops take: in contact their dampers (eq. 54), and as they relax that of their springs.
