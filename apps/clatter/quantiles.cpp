@@ -112,13 +112,14 @@ std::string quantiles_text(const results::FileSummary& summary, const std::vecto
   const auto aligned = [](std::string text, std::size_t width) {
     return std::string(width - std::min(width, text.size()), ' ') + text;
   };
-  constexpr std::size_t number_width = 12;
+  constexpr std::size_t number_width = 14;  // -1.23457e-17 and two blanks
   std::size_t name_width = 0;
   for (const Quantiles& of_result : quantiles) name_width = std::max(name_width, of_result.result.size());
   std::string text = "\nQuantiles over " + over + '\n' + std::string(name_width + 2, ' ');
   for (const double share : told_shares) text += aligned(formatted("%.0f %%", 100 * share), number_width);
   text += '\n';
   for (const auto& [result, units, points, values] : quantiles) {
+    if (points == 0) continue;
     const Amounts amounts(units, values);
     std::string name = "  " + storage::printable(result);
     name.resize(std::max(name.size(), name_width + 2), ' ');

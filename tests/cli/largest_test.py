@@ -213,7 +213,7 @@ class Largest(CommandLine):
         self.assertRegex(self.told("rig.h5", "--max", "impact_speed"), r"\n  0\.4576\d+ m/s at frequency = 21\.25 Hz")
         self.assertRegex(
             self.told("rig.h5", "--max", "impact_speed", "--periodic"),
-            r"\n  0\.4552\d+ m/s at frequency = 23\.4 Hz, stop = 1, periodic, LULULUU",
+            r"\n  0\.4552\d+ m/s at frequency = 23\.4 Hz, stop = -1, periodic, LULULUU",
         )
         words = "--periodic without --max or --min; it chooses among their points"
         self.assert_refused(2, words, "info", "rig.h5", "--periodic")
