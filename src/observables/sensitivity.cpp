@@ -45,9 +45,10 @@ struct Place {
 struct Extremes {
   Place least{std::numeric_limits<double>::infinity()}, greatest{-std::numeric_limits<double>::infinity()};
 
-  void see(const Place& place) {
-    if (place.x < least.x) least = place;
-    if (place.x > greatest.x) greatest = place;
+  /// Takes a place that goes beyond those before it by more than a margin.
+  void see(const Place& place, double margin = 0.0) {
+    if (place.x < least.x - margin) least = place;
+    if (place.x > greatest.x + margin) greatest = place;
   }
 };
 
@@ -59,7 +60,10 @@ Extremes extremes_of(const Course& course, const ObservedSpan& span) {
   Range range;
   std::size_t i = 0;
   const auto search = [&](const auto& arc) {
-    const auto see = [&](const motion::Motion<double>& m, double s) { range.include(m.x), extremes.see({m.x, i, s}); };
+    // an instant beside an impact is no turning point, though by rounding it may lie beyond the stop
+    const auto see = [&](const motion::Motion<double>& m, double s) {
+      range.include(m.x), extremes.see({m.x, i, s}, s > 0 && s < course[i].length ? span.uncertainty : 0.0);
+    };
     RangeSearch(arc, course[i].length, see).exceed(DisplacementOnArc{}, range);
   };
   const auto look_at = [&]<Effects of>(const motion::ArcConstants<double, of>& of_arc) {
@@ -119,7 +123,9 @@ class Walk {
     Along phase;  ///< of the force in the moving frame, rad; of it only the derivatives count
   };
 
-  [[nodiscard]] Along position(Side side) const { return side == Side::upper ? scene_.stops.upper : scene_.stops.lower; }
+  [[nodiscard]] Along position(Side side) const {
+    return side == Side::upper ? scene_.stops.upper : scene_.stops.lower;
+  }
 
   /// The first stretch to follow. A rest forgets all that went before, so that the course of a motion that rests is
   /// followed from a release on; any other begins at a section, with an unknown state.
@@ -131,7 +137,8 @@ class Walk {
         return i;
       }
     forgets_ = !course_.empty() && course_.front().is_rest();  // for ever
-    if (!course_.empty()) state_.x = Along(course_.front().start.x, by_x), state_.v = Along(course_.front().start.v, by_v);
+    if (!course_.empty())
+      state_.x = Along(course_.front().start.x, by_x), state_.v = Along(course_.front().start.v, by_v);
     first_ = state_;
     return 0;
   }
@@ -180,7 +187,8 @@ class Walk {
     state_ = {is_on_stop ? position(stretch.end->side) : Along(end.x + end.v * late), v, phase + nu * late};
     lose(stretch, arc, end, late);
     each_place(i, [&](const Place& place) {
-      if (place.s >= stretch.length) return displacement({end.offset, state_.x, v, end.a, end.sine, end.cosine}, state_.phase);
+      if (place.s >= stretch.length)
+        return displacement({end.offset, state_.x, v, end.a, end.sine, end.cosine}, state_.phase);
       if (!(place.s > 0)) return displacement(arc.start(), before.phase);
       return turning_point(arc.at(Along(place.s)), before.phase + with_slope_of(0, nu * place.s));
     });
@@ -285,7 +293,8 @@ class Walk {
   /// A course whose stretches don't follow from each other has no derivatives.
   void check(const State& state, const motion::Motion<double>& next) {
     const double size = std::max(std::abs(next.x), std::abs(next.v));
-    closes_ = closes_ && std::abs(state.x.value - next.x) <= same * size && std::abs(state.v.value - next.v) <= same * size;
+    closes_ =
+        closes_ && std::abs(state.x.value - next.x) <= same * size && std::abs(state.v.value - next.v) <= same * size;
   }
 
   [[nodiscard]] Sensitivity::ByKey result() {
@@ -300,7 +309,10 @@ class Walk {
     }
     const auto total = [&](const Along& y) { return y.slope[by_key] + y.slope[by_x] * x + y.slope[by_v] * v; };
     const Along period = 2 * pi<double>() * span_.turns / scene_.oscillator.frequency;
-    return {total(least_), total(greatest_), total(period), {total(fastest_[0]), total(fastest_[1])},
+    return {total(least_),
+            total(greatest_),
+            total(period),
+            {total(fastest_[0]), total(fastest_[1])},
             total(lost_ * mass_ / period)};
   }
 
