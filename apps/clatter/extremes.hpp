@@ -32,8 +32,8 @@ inline constexpr std::size_t most_extremes = 5;
 /// counts by the best of a point, or by the one that is named, as in v_before[-1]. Failed points and NaN don't count.
 class Extremes {
  public:
-  /// `name` may name a component. `periodic`: only points whose motion is periodic count. Throws ChoiceError if the file
-  /// has no such result, it isn't one of numbers, or no status says what is periodic; IoError if it is a shard.
+  /// `name` may name a component. `periodic`: only points whose motion is periodic count. Throws ChoiceError if the
+  /// file has no such result, it isn't one of numbers, or no status says what is periodic; IoError if it is a shard.
   Extremes(const results::FileSummary& summary, const std::string& path, const std::string& name, bool largest,
            bool periodic = false);
 

@@ -28,7 +28,8 @@ void check_name(const Settings& settings, const Setting& names, const std::strin
   if (parameter && !counterpart_of(name).empty())
     fail(names.location, message + ", no key of [" + section + "], which describes this scene; take " +
                              in_quotes(counterpart_of(name)));
-  fail(names.location, message + ", which is no key of [" + section + ']' + suggestion(name, known, "; the keys are: "));
+  fail(names.location,
+       message + ", which is no key of [" + section + ']' + suggestion(name, known, "; the keys are: "));
 }
 
 /// Throws ConfigError if a key has no value that could change, since others give what it would.
@@ -77,7 +78,8 @@ void check_sensitivity(const Settings& settings) {
   const Setting* const names = settings.find("observe", "sensitivity");
   if (named_parameters(settings, "observe", "sensitivity").empty()) return;
   if (settings.text("time", "mode") == "transient")
-    fail(names->location, "sensitivity of a transient; only steady motion has it, so leave out it or mode = \"transient\"");
+    fail(names->location,
+         "sensitivity of a transient; only steady motion has it, so leave out it or mode = \"transient\"");
   if (const std::string method = settings.text("integrator", "method"); method != "exact")
     fail(names->location, "sensitivity by method = " + in_quotes(method) + "; only 'exact' has it");
 }

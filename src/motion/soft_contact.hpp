@@ -35,8 +35,7 @@ class SoftContact {
                            Of<Damping::heavy, Forcing::regular>>;
 
   template <Effects E>
-  [[nodiscard]] static Any constants_for(const ArcConstants<Number, E>& free,
-                                         const SoftStop<Number>& stop) {
+  [[nodiscard]] static Any constants_for(const ArcConstants<Number, E>& free, const SoftStop<Number>& stop) {
     const Oscillator pressed{.damping = static_cast<double>(free.h + stop.damping),
                              .forcing = static_cast<double>(free.f),
                              .frequency = static_cast<double>(free.nu),

@@ -69,7 +69,7 @@ struct Column {
   std::string name_in_si{};       ///< the long name in the results of a machine, if that is another
   std::string_view observable{};  ///< the key of [observe] that asks for it
   FrameOf frame = FrameOf::any;
-  std::string_view missing_if{};  ///< when a point that hasn't failed has no value, NaN or an empty text, in words
+  std::string_view missing_if{};    ///< when a point that hasn't failed has no value, NaN or an empty text, in words
   Quantity per = Quantity::number;  ///< of a derivative: the quantity of what it is by, in the user's units
 
   [[nodiscard]] std::size_t width() const { return along.empty() ? 1 : along.front().length; }

@@ -2,17 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
-#include <limits>
 #include <utility>
 
 #include "math/dual.hpp"
 #include "motion/arc.hpp"
 #include "motion/soft_contact.hpp"
-#include "observables/absolute_arc.hpp"
+#include "observables/course_extremes.hpp"
 #include "observables/quadrature.hpp"
-#include "observables/range.hpp"
-#include "observables/range_search.hpp"
 #include "scene/smooth_effects.hpp"
 
 namespace clatter::observables {
@@ -29,63 +25,6 @@ Along with_slope_of(double value, const Along& other) {
   Along number = other;
   number.value = value;
   return number;
-}
-
-/// An instant of a course at which the displacement is extreme.
-struct Place {
-  double x;
-  std::size_t stretch = 0;
-  double s = 0.0;    ///< tau since the stretch began
-  int quarter = -1;  ///< at rest on what is shaken, which turns back there: the quarter turn of its phase
-
-  [[nodiscard]] bool is_in(std::size_t i) const { return stretch == i; }
-};
-
-/// The least and the greatest displacement of a course in the observed frame.
-struct Extremes {
-  Place least{std::numeric_limits<double>::infinity()}, greatest{-std::numeric_limits<double>::infinity()};
-
-  /// Takes a place that goes beyond those before it by more than a margin.
-  void see(const Place& place, double margin = 0.0) {
-    if (place.x < least.x - margin) least = place;
-    if (place.x > greatest.x + margin) greatest = place;
-  }
-};
-
-template <Effects E>
-Extremes extremes_of(const Course& course, const ObservedSpan& span) {
-  const motion::ArcConstants<double, E> constants(span.scene.oscillator);
-  const motion::SoftContact<double> contact(constants, span.scene.stops);
-  Extremes extremes;
-  Range range;
-  std::size_t i = 0;
-  const auto search = [&](const auto& arc) {
-    // an instant beside an impact is no turning point, though by rounding it may lie beyond the stop
-    const auto see = [&](const motion::Motion<double>& m, double s) {
-      range.include(m.x), extremes.see({m.x, i, s}, s > 0 && s < course[i].length ? span.uncertainty : 0.0);
-    };
-    RangeSearch(arc, course[i].length, see).exceed(DisplacementOnArc{}, range);
-  };
-  const auto look_at = [&]<Effects of>(const motion::ArcConstants<double, of>& of_arc) {
-    const motion::Arc<double, of> arc(of_arc, course[i].start, course[i].anchor);
-    if (!span.frame) return search(arc);
-    search(AbsoluteArc(arc, *span.frame, span.scene.stops, course[i].begin));
-  };
-  const auto look_at_rest = [&](double position) {
-    if (!span.frame) return extremes.see({position, i});
-    for (const int quarter : {1, 3})
-      if (span.frame->passes(quarter, course[i].begin, course[i].length))
-        extremes.see({position + span.frame->displacement(sine_cosine_of_turns(quarter / 4.0)), i, 0.0, quarter});
-  };
-  for (; i < course.size(); ++i) {
-    if (course[i].is_rest())
-      look_at_rest(course[i].anchor);
-    else if (course[i].length > 0 && course[i].pressed != Side::none)
-      contact.with_constants(course[i].pressed, look_at);
-    else if (course[i].length > 0)
-      look_at(constants);
-  }
-  return extremes;
 }
 
 /// Follows a course on numbers that carry derivatives. Where a stretch ends is known; by how much that instant changes
@@ -349,8 +288,8 @@ bool has_derivative(const BasicScene<Along>& scene) {
 std::vector<Sensitivity::ByKey> sensitivities(const Course& course, const ObservedSpan& span,
                                               const std::vector<Parameter>& keys) {
   std::vector<Sensitivity::ByKey> all;
+  const Extremes extremes = extremes_of(course, span);
   with_smooth_effects<true>(span.scene.oscillator, [&]<Effects E>() {
-    const Extremes extremes = extremes_of<E>(course, span);
     for (const Parameter key : keys) {
       auto given = with_numbers<Along>(*span.given);
       differentiate_by(given, key, by_key);

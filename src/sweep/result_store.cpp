@@ -286,9 +286,8 @@ results::Dataset ResultStore::dataset() {
     const bool is_si = sweep_.problem.is_si;
     const std::string& long_name = is_si && !output.name_in_si.empty() ? output.name_in_si : output.long_name;
     const Quantity quantity = output.intermediate ? Quantity::number : output.quantity;
-    dataset.variables.push_back(
-        {output.name, std::move(dimensions), std::move(values), long_name,
-         unit_of_derivative(quantity, output.per, is_si)});
+    dataset.variables.push_back({output.name, std::move(dimensions), std::move(values), long_name,
+                                 unit_of_derivative(quantity, output.per, is_si)});
     name_frame(sweep_, output.frame, dataset.variables.back());
     if (!output.observable.empty()) name_observable(output.observable, dataset.variables.back());
     std::string& missing_if = dataset.variables.back().missing_if;

@@ -7,7 +7,7 @@ import unittest
 import h5py
 import numpy as np
 
-from command_line import SOURCE, CommandLine
+from command_line import CommandLine
 
 SHARES = ("0.05", "0.25", "0.5", "0.75", "0.95")
 STUDY = """title = "a study"
@@ -39,7 +39,7 @@ class Tolerances(CommandLine):
         return result.stdout
 
     def test_a_sample_fills_its_box_evenly_and_in_its_order(self):
-        """Sobol's sequence of two dimensions has one point in each elementary interval; it begins with its second one."""
+        """Sobol's sequence of two dimensions has one point in each elementary interval, but for its first one, 0."""
         with self.study() as file:
             u, v = (file["R"][()] - 0.5) / 0.2, (file["gap"][()] - 1.4e-3) / 2e-4
             self.assertEqual(file.attrs["sampled_axes"], "R gap")
