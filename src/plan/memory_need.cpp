@@ -14,7 +14,7 @@ namespace clatter::plan {
 namespace {
 
 constexpr double kibi = 1024;
-constexpr double program = 10.5 * kibi * kibi;  ///< the program and its libraries, with a sweep of a few points
+constexpr double program = 11.5 * kibi * kibi;  ///< the program and its libraries, with a sweep of a few points
 constexpr double thread = 64 * kibi;            ///< stack and heap of a thread
 constexpr double value = sizeof(double);
 

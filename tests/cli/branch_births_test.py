@@ -94,7 +94,7 @@ class Births(BranchRuns):
         config = self.write("a.toml", SCENE + BRANCH)
         arrays, attributes, specials, _ = self.found(config, "graze")
         graze = next(point["nu"] for point in specials if point["kind"] == "graze")
-        free = arrays["word"] == b""
+        free = arrays["word"] == b"-"
         self.assertGreaterEqual(arrays["nu"][free].min(), graze)
         near = np.abs(arrays["nu"] - graze) < 1e-2
         slow = near & ~free & (arrays["impact_speed"] < 0.3)
@@ -102,7 +102,7 @@ class Births(BranchRuns):
         self.assertGreaterEqual(arrays["nu"][slow].min(), graze)
         self.assertEqual(self.counts(attributes)["graze"], 0)
         arrays, attributes, _, _ = self.found(config, "none")
-        self.assertNotIn(b"", arrays["word"])
+        self.assertNotIn(b"-", arrays["word"])
         self.assertEqual(self.counts(attributes), {"symmetry": 1, "flip": 0, "graze": 1})
 
     def test_motion_that_goes_on_beyond_a_graze_is_followed_whatever_is_chosen(self):
@@ -111,7 +111,7 @@ class Births(BranchRuns):
         config = self.write("a.toml", soft + WIDE.replace("0.5, 2", "0.5, 0.95"))
         arrays, attributes, specials, _ = self.found(config, "none")
         graze = next(point["nu"] for point in specials if point["kind"] == "graze")
-        self.assertTrue((arrays["word"][arrays["nu"] < graze - 1e-9] == b"").all())
+        self.assertTrue((arrays["word"][arrays["nu"] < graze - 1e-9] == b"-").all())
         self.assertTrue((arrays["word"][arrays["nu"] > graze + 1e-9] == b"LU").all())
         self.assertEqual(arrays["nu"].max(), 0.95)
         self.assertEqual(self.counts(attributes)["graze"], 0)

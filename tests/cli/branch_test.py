@@ -307,12 +307,6 @@ class Branch(BranchRuns):
         self.assertNotEqual(result.returncode, 0)
         self.assertIn("`clatter run`, this is one of `clatter branch`", result.stderr)
 
-    def test_export_says_that_branches_are_no_points(self):
-        self.branch(SCENE + BRANCH, "-q")
-        result = self.clatter("export", "a.branch.h5")
-        self.assertEqual(result.returncode, 74)
-        self.assertIn("holds branches", result.stderr)
-
 
 if __name__ == "__main__":
     unittest.main()
