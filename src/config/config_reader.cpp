@@ -49,7 +49,7 @@ void read(const Settings& settings, const observables::Field<Object, T>& field, 
     object.*field.member = settings.integer(section, name);
   } else if constexpr (std::is_same_v<T, double>) {
     object.*field.member = settings.number(section, name);
-  } else if constexpr (std::is_same_v<T, std::vector<Parameter>>) {
+  } else if constexpr (std::is_same_v<T, ParameterSet>) {
     object.*field.member = named_parameters(settings, section, name);
   } else {
     static_assert(std::is_enum_v<T>);

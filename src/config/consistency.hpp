@@ -35,8 +35,7 @@ using AxisGroups = std::vector<std::vector<std::size_t>>;
 
 /// The parameters of the scene that a key names, as they are given. Throws ConfigError at a name that is none, or by
 /// which steady motion has no derivative.
-[[nodiscard]] std::vector<Parameter> named_parameters(const Settings& settings, std::string_view section,
-                                                      std::string_view name);
+[[nodiscard]] ParameterSet named_parameters(const Settings& settings, std::string_view section, std::string_view name);
 
 /// Throws ConfigError if derivatives are asked for that the motion, or the method, doesn't have.
 void check_sensitivity(const Settings& settings);

@@ -58,18 +58,17 @@ std::optional<Quantity> quantity_given(const Settings& settings, Parameter key) 
   return std::nullopt;
 }
 
-std::vector<Parameter> named_parameters(const Settings& settings, std::string_view section, std::string_view name) {
+ParameterSet named_parameters(const Settings& settings, std::string_view section, std::string_view name) {
   const Setting* const names = settings.find(section, name);
-  std::vector<Parameter> parameters;
+  ParameterSet parameters;
   if (names == nullptr || without_blanks(std::get<std::string>(names->value)).empty()) return parameters;
   for (const std::string& key : split_names(std::get<std::string>(names->value))) {
     check_name(settings, *names, key);
     const Quantity written = quantity_given(settings, Parameter::of(key).value()).value_or(Quantity::number);
     const Parameter parameter = Parameter::of(key, written).value();
-    if (std::ranges::find(parameters, parameter) != parameters.end())
-      fail(names->location, names_key(*names, key) + " twice; name each key once");
+    if (parameters.contains(parameter)) fail(names->location, names_key(*names, key) + " twice; name each key once");
     check_given(settings, *names, parameter);
-    parameters.push_back(parameter);
+    parameters.insert(parameter);
   }
   return parameters;
 }

@@ -303,8 +303,9 @@ std::vector<Sensitivity::ByKey> sensitivities(const Course& course, const Observ
 
 std::vector<Column<Sensitivity::Values>> Sensitivity::columns(const Settings& settings) {
   std::vector<Column<Values>> all;
-  for (std::size_t i = 0; i < settings.sensitivity.size(); ++i) {
-    const Parameter key = settings.sensitivity[i];
+  const std::vector<Parameter> keys = settings.sensitivity.list();
+  for (std::size_t i = 0; i < keys.size(); ++i) {
+    const Parameter key = keys[i];
     std::string_view missing = "the motion has no period, no force drives it, or it grazes a stop";
     const auto add = [&](const std::string& name, Quantity quantity, FrameOf frame, auto ByKey::*member,
                          std::vector<Coordinate> along = {}) {

@@ -16,7 +16,7 @@ namespace clatter::observables {
 /// rounding has none, nor has motion without a period.
 struct Sensitivity {
   struct Settings {
-    std::vector<Parameter> sensitivity{};  ///< the keys by which derivatives are taken
+    ParameterSet sensitivity{};  ///< the keys by which derivatives are taken
   };
   /// Derivatives by one key; those of impact speeds are NaN on a stop without impacts.
   struct ByKey {
@@ -37,7 +37,7 @@ struct Sensitivity {
   [[nodiscard]] static bool wanted(const Settings& settings) { return !settings.sensitivity.empty(); }
   [[nodiscard]] static std::string description(const Settings& settings) {
     std::string keys;
-    for (const Parameter key : settings.sensitivity) keys.append(keys.empty() ? "" : ", ").append(key.key());
+    for (const Parameter key : settings.sensitivity.list()) keys.append(keys.empty() ? "" : ", ").append(key.key());
     return "derivatives by " + keys;
   }
   [[nodiscard]] static std::vector<Column<Values>> columns(const Settings& settings);

@@ -51,7 +51,7 @@ class Sensitivity::Observer {
 
   [[nodiscard]] Values finish(const ObservedSpan& span, double, double) const {
     if (!is_sought_ || grazes()) return {};
-    return {sensitivities(course_, span, keys_)};
+    return {sensitivities(course_, span, keys_.list())};
   }
   [[nodiscard]] double evaluations() const { return stability_.evaluations(); }  ///< of arcs
 
@@ -60,7 +60,7 @@ class Sensitivity::Observer {
     if (!course_.empty()) course_.back().end = event;
   }
 
-  const std::vector<Parameter>& keys_;
+  ParameterSet keys_;
   bool is_sought_;
   Stability::Observer stability_;  ///< tells grazes
   Course course_{};

@@ -144,7 +144,7 @@ class Point {
     span_.transient = observed_.status == steady::Status::transient;
     span_.stands_still = observed_.found_by == steady::FoundBy::standstill;
     span_.uncertainty = uncertainty();
-    span_.given = problem_.given.get(), span_.units = problem_.units;
+    span_.given = problem_.given ? &*problem_.given : nullptr, span_.units = problem_.units;
     // a section under a force has the phase of the start
     const double after = forced ? 0.0 : static_cast<double>(observed_.from.periods) * integrator_.period();
     span_.theta = forcing_phase(problem_, after), span_.frame = observed_frame(problem_, after);

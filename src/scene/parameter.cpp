@@ -13,5 +13,12 @@ std::optional<Parameter> Parameter::of(std::string_view key, Quantity written) {
   return found;
 }
 
+std::vector<Parameter> ParameterSet::list() const {
+  std::vector<Parameter> parameters;
+  for (const Parameter parameter : all_parameters)
+    if (contains(parameter)) parameters.push_back(parameter);
+  return parameters;
+}
+
 }  // namespace scene
 }  // namespace clatter

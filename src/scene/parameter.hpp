@@ -5,6 +5,7 @@
 #include <optional>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include "scene/parameter_table.hpp"
 
@@ -64,6 +65,19 @@ class Parameter {
   constexpr explicit Parameter(std::size_t row) : row_(static_cast<std::uint8_t>(row)) {}
 
   std::uint8_t row_;
+};
+
+/// Some of the parameters, in the order of the table.
+class ParameterSet {
+ public:
+  constexpr void insert(Parameter parameter) { rows_ |= std::uint64_t{1} << parameter.index(); }
+  [[nodiscard]] constexpr bool contains(Parameter parameter) const { return (rows_ >> parameter.index() & 1) != 0; }
+  [[nodiscard]] constexpr bool empty() const { return rows_ == 0; }
+  [[nodiscard]] std::vector<Parameter> list() const;
+
+ private:
+  static_assert(detail::table<double>.size() <= 64);
+  std::uint64_t rows_ = 0;  ///< a bit each
 };
 
 /// Sets a number of a scene. A key of both stops sets that of each; `xs` and `gap` place them at -|value| and +|value|.

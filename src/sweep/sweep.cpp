@@ -1,7 +1,6 @@
 #include "sweep/sweep.hpp"
 
 #include <algorithm>
-#include <memory>
 #include <numbers>
 
 namespace clatter::sweep {
@@ -30,7 +29,7 @@ std::size_t size_one_way(const Sweep& sweep) {
 point::Problem computed(const GivenProblem& given) {
   const auto [scene, units] = clatter::computed(given);
   point::Problem problem{scene, given, units};
-  if (!given.observe.sensitivity.empty()) problem.given = std::make_shared<GivenScene>(given);
+  if (!given.observe.sensitivity.empty()) problem.given = given;
   problem.time.duration /= units.time;
   problem.observe.base_frequency *= units.is_si ? 2 * std::numbers::pi * units.time : units.time;
   enter_shaken_frame(problem);

@@ -5,9 +5,7 @@ Environment: CLATTER, the program; CLATTER_SOURCE, the source directory. A reade
 
 import hashlib
 import os
-import re
 import subprocess
-import sys
 import tomllib
 import warnings
 from pathlib import Path
@@ -273,27 +271,6 @@ class Readers(RunTest):
     def test_impact_log_without_impacts(self):
         config = toml(scene={**FORCED, "xs": -100.0}, sweep={"nu": [0.9, 1.0]}, observe={"impact_log": True})
         self.assert_log(self.run_clatter(config), 0, ALWAYS)
-
-    def test_the_guides_example_for_xarray_needs_only_one_of_its_engines(self):
-        guide = (SOURCE / "src/results/README.md").read_text()
-        (example,) = (block for block in re.findall(r"```python\n(.*?)```", guide, re.S) if "import xarray" in block)
-        (self.scratch / "out").mkdir()
-        path = self.run_clatter((SOURCE / "configs/fig22.toml").read_text(), "out/fig22")
-        with h5py.File(path) as file:
-            expected = file["x_max"][numpy.abs(file["nu"][:] - 1.2).argmin()]
-        for missing in ("h5netcdf", "netCDF4"):
-            code = f"import sys\nsys.modules['{missing}'] = None\n{example}"
-            done = subprocess.run(
-                [sys.executable, "-c", code],
-                cwd=self.scratch,
-                env={**os.environ, "MPLBACKEND": "Agg"},
-                capture_output=True,
-                text=True,
-                check=False,
-                timeout=LONGEST,
-            )
-            self.assertEqual((done.returncode, done.stderr), (0, ""), f"without {missing}")
-            self.assertEqual(float(done.stdout), expected)
 
     def test_flags_and_failed_points(self):
         config = self.scratch / "failed.toml"
