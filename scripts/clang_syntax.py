@@ -46,6 +46,7 @@ def main():
     parser.add_argument("build", type=Path, help="build folder of clang++ that has a compile database")
     build = parser.parse_args().build.resolve()
     database = json.loads((build / "compile_commands.json").read_text(encoding="utf-8"))
+    database = [entry for entry in database if build not in Path(entry["file"]).parents]  # files that a build makes
     tests = [entry for entry in database if entry["file"].endswith("_test.cpp")]
     options = precompiled(build, tests[0]) if tests else []
     with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:

@@ -83,7 +83,7 @@ std::vector<Quantiles> quantiles_of(const results::FileSummary& summary, const s
         names.push_back(entry.dimensions[1].name);
     }
   std::ranges::sort(names);
-  names.erase(std::ranges::unique(names).begin(), names.end());
+  names.erase(std::unique(names.begin(), names.end()), names.end());
   const results::Dataset dataset = results::read_variables(path, names);
   const auto* const status = results::values_of<std::uint8_t>(dataset, "status");
   std::vector<Quantiles> all;

@@ -117,7 +117,7 @@ class Walk {
     const Stretch& stretch = course_[i];
     const motion::Arc<Along, of> arc(constants, start_of(stretch, constants), Along(stretch.anchor));
     const Motion end = arc.at(Along(stretch.length));
-    const auto& [h, f, nu, load, k] = scene_.oscillator;
+    const Along& nu = scene_.oscillator.frequency;
     Along phase = state_.phase + with_slope_of(0, nu * stretch.length);
     const Along late = lateness(stretch, end, phase);
     const Along v = end.v + end.a * late;
@@ -310,11 +310,11 @@ std::vector<Column<Sensitivity::Values>> Sensitivity::columns(const Settings& se
     const auto add = [&](const std::string& name, Quantity quantity, FrameOf frame, auto ByKey::*member,
                          std::vector<Coordinate> along = {}) {
       const auto put = [i, member](const Values& values, double* out) {
-        const ByKey by_key = i < values.sensitivities.size() ? values.sensitivities[i] : ByKey{};
-        if constexpr (requires { (by_key.*member).size(); })
-          std::ranges::copy(by_key.*member, out);
+        const ByKey own = i < values.sensitivities.size() ? values.sensitivities[i] : ByKey{};
+        if constexpr (requires { (own.*member).size(); })
+          std::ranges::copy(own.*member, out);
         else
-          *out = by_key.*member;
+          *out = own.*member;
       };
       Column<Values>& column = all.emplace_back();
       column.name = "d_" + name + "_d_" + std::string(key.key());

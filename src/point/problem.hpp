@@ -18,7 +18,7 @@ struct RunSettings {
 
 /// One point of a sweep: a scene, and how it is run and observed.
 struct Problem : Scene, RunSettings {
-  Units units{};                              ///< of all its numbers
+  Units units{};                      ///< of all its numbers
   std::optional<GivenScene> given{};  ///< the user's numbers, if derivatives by them are asked for
 };
 

@@ -143,7 +143,7 @@ def require_unit(axes, axis, limits):
     if not unit or not words or scale_in(words) != 1 and limits.units == "m":
         return
     if f"({typeset_unit(limits.units)})" not in words:
-        name = " ".join(words.split())
+        name = " ".join(re.sub(r"\$[^$]*\$", " ", words).split()) or words  # a terminal shows no TeX
         raise ChoiceProblem(f"--{axis}lim: the unit '{unit}' doesn't fit the axis '{name}'")
 
 
