@@ -129,7 +129,7 @@ class Units(unittest.TestCase):
             ("machine", ["--at", "gap=3 foo"], "'3 foo': unknown unit 'foo'"),
             ("cube", ["--at", "xs=3 mm"], "--at xs: the unit 'mm' doesn't fit: it has none; give numbers alone"),
             ("machine", ["--along", "frequency", "--at", "gap=0.004", "--xlim", "1 mm,2 mm"], "--xlim: the unit 'mm'"),
-            ("map", ["--xlim", "1 mm,2 mm"], "doesn't fit the axis 'excitation frequency'"),
+            ("cube", ["--at", "R=0.3", "--xlim", "1 Hz,2 Hz"], "doesn't fit the axis 'excitation frequency'"),
             ("machine", ["--xlim", "10 Hz,0.01"], "give both limits units of one kind, or none"),
             ("machine", ["--xlim", "10 Hz,1 mm"], "give both limits units of one kind, or none"),
             ("machine", ["--at", "gap=2 mm,5 mm", "--along", "gap"], "--along gap: --at chooses values of it"),
