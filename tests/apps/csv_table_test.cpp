@@ -106,7 +106,8 @@ TEST(CsvTable, refuses_what_the_file_does_not_have) {
   EXPECT_EQ(refusal({.only = {"x_phase[7]"}}),
             "--only: 'x_phase[7]' is no component; there are x_phase[0] to x_phase[1]");
   EXPECT_EQ(refusal({.where = {{"xs", {1}}}}), "--where: 'xs' is no axis of 'a.h5'; its axes are nu, f, R");
-  EXPECT_EQ(refusal({.where = {{"nu", {0.8}}}}), "--where nu=0.8: the axis has no such value; the nearest are 1 and 0.5");
+  EXPECT_EQ(refusal({.where = {{"nu", {0.8}}}}),
+            "--where nu=0.8: the axis has no such value; the nearest are 1 and 0.5");
 }
 
 TEST(CsvTable, refuses_a_file_that_contradicts_itself) {
