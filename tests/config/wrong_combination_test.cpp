@@ -151,7 +151,7 @@ TEST(Together, axes_of_sobol_are_linked_and_in_range) {
   const std::string scene = "[scene]\nxs = 9\nf = 1\n[sweep]\n";
   const std::string crossed = scene + "x0 = \"sobol(-1, 1, 8)\"\nv0 = \"sobol(-1, 1, 8)\"\n";
   const std::vector<Wrong> table{
-      {scene + "R = \"sobol(0.9, 1.2, 8)\"\n", "5:5", "R = 1.05; expected 0 ... 1"},
+      {scene + "R = \"sobol(0.9, 1.2, 8)\"\n", "5:5", "R = 1.05 is out of range; expected 0 ... 1"},
       {scene + "nu = \"sobol(1, 2, 8)\"\nfollow = \"nu\"\n", "6:10",
        "follow along 'nu', whose values sobol(...) leap to and fro; write linspace(a, b, n), or follow none"},
       {crossed, "5:6", "x0 = sobol(...) without its partners, which would cross them; write linked = \"x0, v0\""},
