@@ -1,229 +1,19 @@
-"""Derivatives of periodic motion by keys of the scene: `observe.sensitivity`.
-
-They are compared with closed forms, with the relations that units of length, time and mass demand of them (Euler's
-theorem on homogeneous functions), and with differences of runs. Scenes are random; CLATTER_SENSITIVITY is COUNT or
-COUNT:SEED of them.
-"""
+"""Derivatives of periodic motion by keys of the scene, `observe.sensitivity`, against closed forms and branches."""
 
 import cmath
 import math
 import os
-import tempfile
+import subprocess
 import unittest
 
 import h5py
 import numpy as np
-from random_scenes import compliant_scenes, pressing_scenes, random_scenes
+
 from runs import RunTest, quoted, toml
-from scene_runs import STEADY, Program, keys_of, machine_keys
 
 CLATTER = os.environ["CLATTER"]
-COUNT, _, SEED = os.environ.get("CLATTER_SENSITIVITY", "300").partition(":")
-COUNT, SEED = int(COUNT), int(SEED or 461)
-
 STARTS = {"x0", "v0", "phase"}
-SETTLE = 'mode = "steady"\nmax_periods = 600\n'
 PERIODIC, GRAZING = 0, 3
-
-# powers of length, time and mass; all that isn't here is a number
-OF_SCENE = {"h": (0, -1), "nu": (0, -1), "f": (1, -2), "load": (1, -2), "stiffness": (0, -2)}
-OF_MACHINE = {
-    "damping": (0, -1, 1),
-    "frequency": (0, -1, 0),
-    "force": (1, -2, 1),
-    "load": (1, -2, 1),
-    "stiffness": (0, -2, 1),
-    "mass": (0, 0, 1),
-}
-LENGTHS = ("stop_lower", "stop_upper", "stop_amplitude", "base_amplitude")
-STIFFNESSES = ("stop_stiffness_lower", "stop_stiffness_upper")
-RESULTS = {
-    "x_min": (1, 0, 0),
-    "x_max": (1, 0, 0),
-    "period": (0, 1, 0),
-    "impact_speed": (1, -1, 0),
-    "impact_power": (2, -3, 1),
-}
-
-
-def powers_of(key, of_section):
-    if key in LENGTHS:
-        return (1, 0, 0)
-    if key in STIFFNESSES:
-        return (0, -2, 1)
-    return of_section.get(key, (0, 0, 0))
-
-
-def derivative(runs, result, key):
-    return runs[f"d_{result}_d_{key}"]
-
-
-class Family:
-    """Scenes with the same keys, and the derivatives by all of them."""
-
-    def __init__(self, program, scenes, section="[scene]\n", of_section=keys_of, time=SETTLE, observe=""):
-        self.values = [of_section(scene) for scene in scenes]
-        self.keys = [key for key in self.values[0] if key not in STARTS]
-        if section.startswith("[machine]"):
-            self.keys.append("mass")
-        wanted = f'{STEADY}{observe}sensitivity = "{", ".join(self.keys)}"\n'
-        self.runs = program.run(scenes, time, wanted, section=section, keys_of=of_section)
-
-    def __len__(self):
-        return len(self.values)
-
-
-def families(scenes, of_section=keys_of):
-    kinds = {}
-    for scene in scenes:
-        kinds.setdefault(tuple(of_section(scene)), []).append(scene)
-    return kinds.values()
-
-
-def drawn(count, seed):
-    """Forced scenes of any effects, some that rest, some between soft stops."""
-    scenes = random_scenes(count, seed) + pressing_scenes(count // 6, seed) + compliant_scenes(count // 6, seed)
-    return [scene for scene in scenes if not scene.is_unforced() and abs(scene.f) >= 0.02]
-
-
-class OfRandomScenes(unittest.TestCase):
-    """Every failure names its scene."""
-
-    def setUp(self):
-        scratch = tempfile.TemporaryDirectory()
-        self.addCleanup(scratch.cleanup)
-        self.program = Program(CLATTER, scratch.name)
-        self.compared, self.worst = 0, 0.0
-        self.failures, self.unknown = [], []
-
-    def check(self, off, allowed, text):
-        self.compared += 1
-        self.worst = max(self.worst, off / allowed)
-        if not off <= allowed:
-            self.failures.append(f"{text}: off by {off:.3g}, {allowed:.3g} allowed")
-
-    def told(self):
-        return "\n".join(self.failures[:12])
-
-    def check_scaling(self, family, scenes, of_section, mass):
-        """If the unit of a quantity changes, keys and results change by its powers; so do their derivatives."""
-        for i, values in enumerate(family.values):
-            if family.runs["status"][i] != PERIODIC or math.isnan(family.runs["period"][i]):
-                continue
-            values = {**values, "mass": mass}
-            for result, of_result in RESULTS.items():
-                found = np.atleast_1d(family.runs[result][i])
-                for unit in range(3 if mass else 2):
-                    terms = np.zeros((len(family.keys), len(found)))
-                    for row, key in enumerate(family.keys):
-                        weight = (*powers_of(key, of_section), 0)[unit] * values[key]
-                        if weight:
-                            terms[row] = weight * derivative(family.runs, result, key)[i]
-                    expected = of_result[unit] * found
-                    size = np.abs(terms).sum(axis=0) + np.abs(expected)
-                    text = f"{result} in units of {('length', 'time', 'mass')[unit]}, {scenes[i]}"
-                    for own, off, scale in zip(found, np.abs(terms.sum(axis=0) - expected), size):
-                        if math.isnan(off) and not math.isnan(own):
-                            self.unknown.append(text)
-                        elif not math.isnan(own):
-                            self.check(off, 1e-8 * scale + 1e-13, text)
-
-    def test_the_units_of_length_time_and_mass_may_change(self):
-        for scenes in families(drawn(COUNT, SEED)):
-            self.check_scaling(Family(self.program, scenes), scenes, OF_SCENE, 0)
-            if any(scene.base_amplitude or scene.stop_amplitude for scene in scenes):
-                absolute = Family(self.program, scenes, observe='frame = "absolute"\n')
-                self.check_scaling(absolute, scenes, OF_SCENE, 0)
-        mass = 0.3
-        for scenes in families(drawn(COUNT // 3, SEED + 1), machine_keys(mass)):
-            family = Family(self.program, scenes, f"[machine]\nmass = {mass}\n", machine_keys(mass))
-            self.check_scaling(family, scenes, OF_MACHINE, mass)
-        self.assertEqual(self.told(), "")
-        self.assertGreater(self.compared, 8 * COUNT)
-        springless = [text for text in self.unknown if "stiffness=0.0," in text]  # free to drift without impacts
-        self.assertEqual([text for text in self.unknown if text not in springless], [])
-        self.assertLess(len(springless), 0.1 * self.compared)
-
-    def test_they_are_the_limits_of_differences(self):
-        """By one key of each scene, from runs that begin on the motion itself; to four orders in the step."""
-        sharp = 0
-        for n, scenes in enumerate(families(drawn(COUNT, SEED + 2))):
-            frame = 'frame = "absolute"\n' if scenes[0].base_amplitude or scenes[0].stop_amplitude else ""
-            family = Family(self.program, scenes, observe=frame)
-            key = family.keys[n % len(family.keys)]
-            found = [i for i in range(len(scenes)) if family.runs["status"][i] == PERIODIC]
-            found = [i for i in found if not math.isnan(family.runs["period"][i])]
-            if not found:
-                continue
-            starts = [started(scenes[i], family.runs["x"][i, 0], family.runs["v"][i, 0], frame) for i in found]
-            steps = [1e-4 * max(0.05, abs(getattr(scene, key))) for scene in starts]
-            sides = {}
-            for side in (-2, -1, 1, 2):
-                moved = [within_stops(s.changed(**{key: getattr(s, key) + side * d})) for s, d in zip(starts, steps)]
-                if any(not permitted(scene) for scene in moved):
-                    break
-                sides[side] = self.program.run(
-                    moved, SETTLE, STEADY + frame, keys_of=lambda s: keys_of_kind(s, starts[0])
-                )
-            if len(sides) < 4:
-                continue
-            for j, i in enumerate(found):
-                sharp += self.compare_differences(family.runs, i, key, sides, j, steps[j], scenes[i])
-        self.assertEqual(self.told(), "")
-        self.assertGreater(sharp, COUNT // 2)
-
-    def compare_differences(self, runs, i, key, sides, j, step, scene):
-        """How many derivatives the differences confirm to 1e-5 or better."""
-        same = all(
-            side["status"][j] == PERIODIC
-            and side["impact_word"][j] == runs["impact_word"][i]
-            and abs(side["period_ratio"][j] - runs["period_ratio"][i]) < 1e-9
-            for side in sides.values()
-        )
-        contraction = 1 - abs(complex(runs["multiplier_re"][i, 0], runs["multiplier_im"][i, 0]))
-        if not same or not contraction > 1e-3:
-            return 0
-        sharp = 0
-        for result in RESULTS:
-            at = {side: np.atleast_1d(run[result][j]) for side, run in sides.items()}
-            near, far = (at[1] - at[-1]) / (2 * step), (at[2] - at[-2]) / (4 * step)
-            told, noise = np.atleast_1d(derivative(runs, result, key)[i]), 1e-11 * np.abs(at[1]) / contraction / step
-            for own, one, other, rounding in zip(told, near, far, noise):
-                if math.isnan(one) or math.isnan(other) or (key == "stiffness" and scene.stiffness == 0):
-                    continue
-                if abs(one - other) > 1e-3 * abs(one) + rounding:
-                    continue  # too long a step for motion so near a fold
-                allowed = 0.05 * abs(one - other) + rounding + 1e-12 / step
-                self.check(abs(own - (4 * one - other) / 3), allowed, f"{result} by {key}, {scene}")
-                sharp += allowed < 1e-5 * abs(own)
-        return sharp
-
-
-def permitted(scene):
-    sides = ("_lower", "_upper")
-    numbers = [getattr(scene, name + side) for name in ("stop_damping",) for side in sides] + [scene.h]
-    R = [getattr(scene, "R" + side) for side in sides]
-    return all(number >= 0 for number in numbers) and all(0 <= number <= 1 for number in R)
-
-
-def started(scene, x, v, frame):
-    """The scene from a state at its forcing phase, which is absolute if a frame is asked for."""
-    amplitude, angle = scene.base_amplitude + scene.stop_amplitude, scene.phase + scene.stop_phase
-    if frame:
-        x, v = x - amplitude * math.sin(angle), v - amplitude * scene.nu * math.cos(angle)
-    return within_stops(scene.changed(x0=x, v0=v))
-
-
-def within_stops(scene):
-    """The same scene, its start on a rigid stop that has moved over it."""
-    low = scene.stop_lower if math.isinf(scene.stop_stiffness_lower) else -math.inf
-    high = scene.stop_upper if math.isinf(scene.stop_stiffness_upper) else math.inf
-    return scene.changed(x0=min(max(scene.x0, low), high))
-
-
-def keys_of_kind(scene, first):
-    """The keys of the first scene of a kind, also where a step leaves 0."""
-    return {key: getattr(scene, key) for key in keys_of(first)}
 
 
 def symmetric_motion(h, f, nu, R, xs):
@@ -307,6 +97,47 @@ class ClosedForms(RunTest):
         np.testing.assert_allclose(slopes["quality"]["quality"], -of_damper * natural * (2 * zeta) ** 2, rtol=1e-9)
         along = of_damper * zeta * math.sqrt(stiffness / mass)  # the damper that a ratio adds with the mass
         np.testing.assert_allclose(slopes["damping_ratio"]["mass"], slopes["damping"]["mass"] + along, rtol=1e-8)
+
+    def test_they_are_the_slopes_of_branches(self):
+        """Of polynomials through seven points of a branch; where the impact speed is greatest the slope is 0."""
+        scene = {"h": 0.1, "f": -1.0, "R": 0.7, "xs": -3.0}
+        text = toml(scene={**scene, "nu": 1.2}, branch={"along": quoted("nu"), "range": [0.9, 1.5]})
+        (self.scratch / "b.toml").write_text(text + "[observe]\nextrema = true\n", encoding="utf-8")
+        words = [CLATTER, "branch", self.scratch / "b.toml", "-o", self.scratch / "b.h5", "-q"]
+        subprocess.run(words, check=True, capture_output=True)
+        with h5py.File(self.scratch / "b.h5") as file:
+            found = {
+                name: file[name][()]
+                for name in ("arclength", "nu", "x", "v", "impact_speed", "x_max", "stable", "branch")
+            }
+            greatest = file["special_kind"][()] == b"maximum impact_speed"
+            top = [float(file["special_" + name][greatest][0]) for name in ("nu", "x", "v")]
+        compared = 0
+        for i in range(3, len(found["nu"]) - 3, 4):
+            near = slice(i - 3, i + 4)
+            if len(set(found["branch"][near])) > 1 or not (found["stable"][near] != 0).all():
+                continue
+
+            def slope_of(name, near=near, i=i):
+                along = found["arclength"][near] - found["arclength"][i]
+                return np.polynomial.Polynomial.fit(along, found[name][near], 6).deriv()(0.0)
+
+            slopes = self.slopes_from(scene, found["nu"][i], found["x"][i], found["v"][i])
+            for name in ("impact_speed", "x_max"):
+                if found["impact_speed"][i] == 0 and name == "impact_speed":
+                    continue
+                expected = slope_of(name) / slope_of("nu")
+                np.testing.assert_allclose(slopes[name], expected, rtol=1e-4, atol=1e-6, err_msg=f"{name}, {i}")
+                compared += 1
+        self.assertGreater(compared, 20)
+        self.assertLess(abs(self.slopes_from(scene, *top)["impact_speed"]), 1e-6)
+
+    def slopes_from(self, scene, nu, x, v):
+        values = {**scene, "nu": float(nu), "x0": float(x), "v0": float(v)}
+        with self.run_at(values, "slopes", time={"max_periods": 400}) as file:
+            self.assertEqual(file["status"][()], PERIODIC)
+            faster = int(np.nan_to_num(file["impact_speed"], nan=-1).argmax())
+            return {"impact_speed": file["d_impact_speed_d_nu"][faster], "x_max": file["d_x_max_d_nu"][()]}
 
     def test_none_at_a_graze_and_the_status_says_so(self):
         """The stop is a few roundings off an extremum of the response to the force."""
