@@ -300,6 +300,20 @@ class Branch(BranchRuns):
             self.write("a.toml", scene + branch)
             self.assert_refused(1, message, "branch", "a.toml")
 
+    def test_along_the_load_a_branch_begins_at_none_without_a_spring(self):
+        """The response to the load was left out where it is 0, and with it its derivative. Loads of both signs mirror."""
+        scene = "[scene]\nstiffness = 0\nload = 0\nh = 0.05\nf = 1.0\nR = 0.7\nxs = 0.5\nnu = 2.0\n"
+        branch = '[branch]\nalong = "load"\nrange = [-0.2, 0.2]\n'
+        result = self.branch(scene + branch, "-q")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        with h5py.File(self.directory / "a.branch.h5") as file:
+            load, v_max, v_min, speed = (file[name][()] for name in ("load", "v_max", "v_min", "impact_speed"))
+        order = np.argsort(load)
+        self.assertEqual((load.min(), load.max()), (-0.2, 0.2))
+        for own, other in ((speed, speed), (v_max, -v_min)):
+            mirrored = np.interp(-load[order], load[order], other[order])
+            np.testing.assert_allclose(own[order], mirrored, rtol=1e-4)
+
     def test_other_outputs_are_not_overwritten(self):
         self.write("a.toml", SCENE + "[observe]\nextrema = true\n" + BRANCH)
         self.assertEqual(self.clatter("run", "a.toml", "-o", "a.h5", "-q").returncode, 0)
