@@ -108,7 +108,7 @@ std::string quantiles_text(const results::FileSummary& summary, const std::vecto
   if (axes.empty()) return {};
   std::string over;
   for (const std::string& axis : axes) over += (over.empty() ? "" : ", ") + storage::printable(axis);
-  if (quantiles.empty()) return "\nQuantiles over " + over + " are told of a sweep that has no other axes\n";
+  if (quantiles.empty()) return "\nQuantiles over " + over + ": only for a sweep without other axes\n";
   const auto aligned = [](std::string text, std::size_t width) {
     return std::string(width - std::min(width, text.size()), ' ') + text;
   };

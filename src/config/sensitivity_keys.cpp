@@ -78,9 +78,9 @@ void check_sensitivity(const Settings& settings) {
   if (named_parameters(settings, "observe", "sensitivity").empty()) return;
   if (settings.text("time", "mode") == "transient")
     fail(names->location,
-         "sensitivity of a transient; only steady motion has it, so leave out it or mode = \"transient\"");
+         "sensitivity of a transient; only steady motion has one: remove the key, or mode = \"transient\"");
   if (const std::string method = settings.text("integrator", "method"); method != "exact")
-    fail(names->location, "sensitivity by method = " + in_quotes(method) + "; only 'exact' has it");
+    fail(names->location, "sensitivity by method = " + in_quotes(method) + "; only 'exact' computes it");
 }
 
 }  // namespace clatter::config

@@ -93,7 +93,7 @@ class Tolerances(CommandLine):
             "[sweep]\n", '[sweep]\nfrequency = ["25 Hz", "26 Hz"]\n'
         )
         with self.study(crossed):
-            self.assertIn("Quantiles over R, gap are told of a sweep that has no other axes\n", self.told())
+            self.assertIn("Quantiles over R, gap: only for a sweep without other axes\n", self.told())
 
     def test_one_sampled_parameter_beside_fixed_ones(self):
         alone = STUDY.replace('gap = "sobol(1.4 mm, 1.6 mm, 64)"\nlinked = "R, gap"\n', "").replace(

@@ -179,7 +179,7 @@ TEST(Together, sensitivity_names_keys_of_steady_motion) {
       {asked(machine, "quality"), "5:15", "the damping isn't given by it; name 'damping' or 'damping_ratio'"},
       {asked(scene, "R") + "[time]\nmode = \"transient\"\nduration = 9\n", "5:15", "sensitivity of a transient"},
       {asked(scene, "R") + "[integrator]\nmethod = \"dopri5\"\n", "5:15",
-       "sensitivity by method = 'dopri5'; only 'exact' has it"},
+       "sensitivity by method = 'dopri5'; only 'exact' computes it"},
   };
   expect_all("a.toml", table);
 }
