@@ -301,7 +301,7 @@ class Branch(BranchRuns):
             self.assert_refused(1, message, "branch", "a.toml")
 
     def test_along_the_load_a_branch_begins_at_none_without_a_spring(self):
-        """The response to the load was left out where it is 0, and with it its derivative. Loads of both signs mirror."""
+        """A load of 0 once had no derivative, since its response was left out. Loads of both signs mirror."""
         scene = "[scene]\nstiffness = 0\nload = 0\nh = 0.05\nf = 1.0\nR = 0.7\nxs = 0.5\nnu = 2.0\n"
         branch = '[branch]\nalong = "load"\nrange = [-0.2, 0.2]\n'
         result = self.branch(scene + branch, "-q")
