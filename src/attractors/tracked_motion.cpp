@@ -19,6 +19,8 @@ point::Problem between(const point::Problem& from, const point::Problem& to, dou
   o.damping = mix(a.damping, b.damping), o.forcing = mix(a.forcing, b.forcing);
   o.frequency = mix(a.frequency, b.frequency), o.load = mix(a.load, b.load);
   o.stiffness = mix(a.stiffness, b.stiffness);
+  problem.friction = {mix(from.friction.kinetic, to.friction.kinetic),
+                      mix(from.friction.static_level, to.friction.static_level)};
   problem.stops = {mix(from.stops.lower, to.stops.lower),
                    mix(from.stops.upper, to.stops.upper),
                    mix(from.stops.restitution_lower, to.stops.restitution_lower),

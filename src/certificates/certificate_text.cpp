@@ -25,6 +25,10 @@ const char* name_of(Kind kind) {
       return "renewal";
     case Kind::separation:
       return "separation";
+    case Kind::stick:
+      return "stick";
+    case Kind::reversal:
+      return "reversal";
   }
   return "";
 }

@@ -101,6 +101,7 @@ sweep::Sweep sweep_of(Settings& settings, const AxisGroups& groups) {
   sweep::Sweep sweep{.problem = given_problem(settings), .follow = followed_dimension(settings, groups)};
   sweep.problem.observe.of_soft_stops =
       is_soft_somewhere(settings, Side::lower) || is_soft_somewhere(settings, Side::upper);
+  sweep.problem.observe.of_friction = sweep.problem.observe.of_sticks = has_friction_somewhere(settings);
   if (sweep.follow) sweep.direction = direction_of(settings);
   for (const std::vector<std::size_t>& group : groups) {
     sweep::Dimension& dimension = sweep.dimensions.emplace_back();

@@ -52,8 +52,12 @@ void let_command_line_win(Settings& settings);
 /// Throws ConfigError if a key is missing that others need, or if keys conflict.
 void check_alternatives(const Settings& settings);
 
-/// Throws ConfigError if at some point of the sweep the stops are in the wrong order or the start is not between them.
+/// Throws ConfigError if at some point of the sweep the stops are in the wrong order, the start is not between them, or
+/// stops and start are none that shaking or friction go with.
 void check_stops_and_start(const Settings& settings, const AxisGroups& groups);
+
+/// Whether there is dry friction at some point of the sweep.
+[[nodiscard]] bool has_friction_somewhere(const Settings& settings);
 
 /// Whether a stop is soft at some point of the sweep, or at every one.
 [[nodiscard]] bool is_soft_somewhere(const Settings& settings, Side side);

@@ -58,8 +58,8 @@ void compare(const Quantity& low, const Quantity& high, Permitted permitted, con
   if (!permitted(low.values[low_index], high.values[high_index])) refuse(low, low_index, high, high_index, rule);
 }
 
-/// The place of a value other than 0 of an amplitude, or nullptr.
-const SourceLocation* place_of_shaking(const Setting* amplitude) {
+/// The place of a value other than 0 of a setting, or nullptr.
+const SourceLocation* place_of_nonzero(const Setting* amplitude) {
   if (amplitude == nullptr) return nullptr;
   const auto values = amplitude->numbers();
   const auto found = std::ranges::find_if(values, [](double value) { return value != 0; });
@@ -89,8 +89,8 @@ void check_unsprung(const Settings& settings) {
 
 /// Throws ConfigError if both amplitudes, or an amplitude and start_period, are given, or there is no stop to move.
 void check_shaking(const Settings& settings) {
-  const SourceLocation* const moved = place_of_shaking(settings.given("stop_amplitude"));
-  const SourceLocation* const carried = place_of_shaking(settings.given("base_amplitude"));
+  const SourceLocation* const moved = place_of_nonzero(settings.given("stop_amplitude"));
+  const SourceLocation* const carried = place_of_nonzero(settings.given("base_amplitude"));
   if (moved != nullptr && carried != nullptr)
     fail(*carried, "'base_amplitude' and 'stop_amplitude'; give one of them, as the base moves the stops, too");
   const SourceLocation* const shaken = moved != nullptr ? moved : carried;
@@ -100,6 +100,30 @@ void check_shaking(const Settings& settings) {
       settings.given("stop_upper") == nullptr)
     fail(*moved, "'stop_amplitude' without stops; give " + std::string(settings.is_si() ? "gap" : "xs") +
                      ", stop_lower or stop_upper");
+}
+
+/// The place of a level of friction that isn't 0 at some point, or nullptr.
+const SourceLocation* place_of_friction(const Settings& settings) {
+  for (const Parameter level : {Parameter("friction"), Parameter("friction_static")})
+    if (const SourceLocation* const place = place_of_nonzero(settings.given(level))) return place;
+  return nullptr;
+}
+
+/// Throws ConfigError if the static level of the friction is below the kinetic one, or the motion has no friction.
+void check_friction(const Settings& settings, const AxisGroups& groups) {
+  const SourceLocation* const place = place_of_friction(settings);
+  if (place == nullptr) return;
+  if (settings.given("friction_static") != nullptr)
+    compare(
+        quantity(settings, groups, "friction"), quantity(settings, groups, "friction_static"),
+        [](double kinetic, double level) { return kinetic <= level; }, "friction <= friction_static");
+  if (place_of_nonzero(settings.given("stop_amplitude")) != nullptr)
+    fail(*place,
+         "friction conflicts with 'stop_amplitude', since it acts against the ground, over which the mass moves "
+         "otherwise than over the stops; give base_amplitude, whose base carries the friction, too");
+  if (settings.given("start_period") != nullptr)
+    fail(*place,
+         "friction conflicts with 'start_period', which is that of motion without loss; give x0 and v0 instead");
 }
 
 /// The stiffness given for a stop, alone or for both; nullptr: it is rigid.
@@ -156,6 +180,7 @@ void check_soft_restitution(const Settings& settings, Side side) {
 void check_stops_and_start(const Settings& settings, const AxisGroups& groups) {
   check_unsprung(settings);
   check_shaking(settings);
+  check_friction(settings, groups);
   const bool symmetric = settings.given_symmetric_stops() != nullptr;
   Quantity lower = symmetric ? symmetric_stop(settings, groups, -1) : quantity(settings, groups, "stop_lower");
   Quantity upper = symmetric ? symmetric_stop(settings, groups, 1) : quantity(settings, groups, "stop_upper");
@@ -175,6 +200,8 @@ void check_stops_and_start(const Settings& settings, const AxisGroups& groups) {
   if (!is_soft_everywhere(settings, Side::lower)) compare(lower, start, not_above, rule);
   if (!is_soft_everywhere(settings, Side::upper)) compare(start, upper, not_above, rule);
 }
+
+bool has_friction_somewhere(const Settings& settings) { return place_of_friction(settings) != nullptr; }
 
 bool is_soft_somewhere(const Settings& settings, Side side) {
   const Setting* const given = stiffness_of(settings, side);

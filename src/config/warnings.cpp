@@ -126,6 +126,8 @@ bool absent(const Settings& settings, Parameter stop) {
 }
 bool no_lower(const Settings& settings) { return absent(settings, "stop_lower"); }
 bool no_upper(const Settings& settings) { return absent(settings, "stop_upper"); }
+bool no_friction(const Settings& settings) { return !has_friction_somewhere(settings); }
+bool no_word(const Settings& settings) { return !settings.flag("observe", "word"); }
 bool no_soft_lower(const Settings& settings) { return !is_soft_somewhere(settings, Side::lower); }
 bool no_soft_upper(const Settings& settings) { return !is_soft_somewhere(settings, Side::upper); }
 bool no_soft_stop(const Settings& settings) { return no_soft_lower(settings) && no_soft_upper(settings); }
@@ -213,6 +215,8 @@ constexpr Rule rules[] = {
      "without a force and a spring, since between these stops the mass never passes x = 0 on its way up: its values "
      "will be NaN",
      or_force},
+    {"observe", "word_sticks", no_friction, "without friction", "give one in [scene]"},
+    {"observe", "word_sticks", no_word, "without word", "write word = true"},
     {"observe", "section_phase", no_section, "without a section", "write e.g. section = 500"},
     {"observe", "section_phase", unforced, no_force, or_force},
     {"observe", "period", comes_to_a_standstill, standstill, or_force},

@@ -57,8 +57,8 @@ bool yields(const Scene& scene, Side side) {
 bool accepts(const Scene& scene) {
   const Oscillator& o = scene.oscillator;
   const Stops& stops = scene.stops;
-  const bool moves = o.forcing != 0 && o.damping >= 0 && o.damping <= 0.9 * rate_of(o) && holds(scene) &&
-                     forcing_of(o) == Forcing::regular;
+  const bool moves = o.forcing != 0 && !has_friction(scene.friction) && o.damping >= 0 &&
+                     o.damping <= 0.9 * rate_of(o) && holds(scene) && forcing_of(o) == Forcing::regular;
   const double amplitude = steady_response(o).amplitude, room = stops.upper - stops.lower;
   const bool bounces = std::min(stops.restitution_lower, stops.restitution_upper) >= 1.0 / 16;
   return moves && yields(scene, Side::lower) && yields(scene, Side::upper) && o.frequency >= 1e-3 &&

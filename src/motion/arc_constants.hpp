@@ -41,7 +41,7 @@ class ArcConstants {
                                                const SoftStop<Number>& stop) requires(E.stiffness) {
     ArcConstants pressed =
         of(free.h + stop.damping, free.f, free.nu, free.load + stop.stiffness * stop.position, free.k + stop.stiffness);
-    pressed.stop = stop;
+    pressed.stop = stop, pressed.friction = free.friction;
     if (pressed.natural > 0) {
       pressed.origin = stop.position, pressed.balance = (free.load - free.k * stop.position) / pressed.k;
       pressed.equilibrium = pressed.origin + pressed.balance;
@@ -123,6 +123,7 @@ class ArcConstants {
   }
 
   Number h, f, nu, load;       ///< of the oscillator; without forcing nu is that of `counting_frequency`
+  Number friction{};           ///< the part of the load that is dry friction, against the velocity of a slip
   Number k;                    ///< stiffness; 1 unless it is an effect
   Number equilibrium;          ///< the displacement at which the spring balances the load; 0 without a spring
   Number unbalanced;           ///< the load, if no spring balances it, else 0

@@ -30,6 +30,30 @@ template <class Number, Effects E>
   return {time - (h + slope) * time * time / 3, (rates * rates + bend) * time * time * time};
 }
 
+/// The same under friction mu < a, of which a rebound with speed w takes R ((a - mu)/(a + mu))^(1/2) to the next one:
+/// S = S1 w + S2 w^2 (eq. 63), by the flights' expansions up and down and S(w, a) = flight + S(next w, next a).
+template <class Number, Effects E>
+[[nodiscard]] ChatterSum<Number> rubbing_chatter_sum(const ArcConstants<Number, E>& constants, const Stop<Number>& stop,
+                                                     const ContactForce<Number>& press, const Number& mu,
+                                                     const Number& rebound) {
+  using std::abs, std::sqrt;
+  const Number &a = press.force, &j = press.rate, &h = constants.h, &w = rebound;
+  const Number up = a + mu, down = a - mu, fall = 1 / sqrt(up * down);  // the times of a flight are w/up and w fall
+  const Number height = -(j / (6 * up) + 2 * h / 3) / (up * up);        // of w^3 in that of the peak
+  const Number fall2 =
+      (height - j * fall * fall / (2 * up) - (j - 2 * h * down) * fall * fall * fall / 6) / (down * fall);
+  const Number ratio = stop.law.R * sqrt(down / up),
+               ratio2 = stop.law.R * (down * fall2 + j * fall / up + (j / 2 - h * down) * fall * fall);
+  const Number flight = 1 / up + fall, flight2 = fall2 - (j / (2 * up) + h) / (up * up);
+  const Number flight_by_a = -1 / (up * up) - a * fall * fall * fall, ratio_by_a = ratio * mu * fall * fall;
+  const Number sum = flight / (1 - ratio);
+  const Number sum_by_a = (flight_by_a + sum * ratio_by_a) / (1 - ratio);
+  const Number sum2 = (flight2 + sum * ratio2 + sum_by_a * j * flight * ratio) / ((1 - ratio) * (1 + ratio));
+  const Number time = sum * w, rates = constants.natural + 2 * h + abs(j) / down,
+               bend = abs(constants.f) / down * constants.nu * constants.nu;
+  return {time + sum2 * w * w, (rates * rates + bend) * time * time * time};
+}
+
 /// The displacements that motion beside a stop has, by which the rebounds of its chatter count as high: those that the
 /// force makes, |f| / max(|k|, 2 h nu, nu^2); without a force those of the start, |x0 - x_stop| and the height to which
 /// its speed carries the mass. Never more than the distance between the stops. It is the same wherever stop and mass
@@ -84,6 +108,22 @@ template <class Number, Effects E>
   const ChatterSum<Number> sum = chatter_sum(constants, stop, press, rebound);
   return sum.bound <= accuracy * max(sum.time, Number(1 / constants.rate)) ? std::optional<Number>(sum.time)
                                                                            : std::nullopt;
+}
+
+/// The same under friction. If the pressing force falls to the static level meanwhile, the mass may stick off the stop,
+/// and nothing is summed.
+template <class Number, Effects E>
+[[nodiscard]] std::optional<Number> rubbing_chatter_time(const ArcConstants<Number, E>& constants,
+                                                         const Stop<Number>& stop, const ContactForce<Number>& press,
+                                                         const Number& kinetic, const Number& static_level,
+                                                         const Number& rebound, const Number& low,
+                                                         const Number& accuracy) {
+  using std::abs, std::max;
+  if (!(press.force > static_level) || rebound * (rebound / press.force) > 2 * low) return std::nullopt;
+  const ChatterSum<Number> sum = rubbing_chatter_sum(constants, stop, press, kinetic, rebound);
+  if (!(sum.time > 0) || !(sum.bound <= accuracy * max(sum.time, Number(1 / constants.rate)))) return std::nullopt;
+  const Number falls = (abs(press.rate) + abs(constants.f) * constants.nu * constants.nu * sum.time) * sum.time;
+  return press.force - falls > static_level ? std::optional<Number>(sum.time) : std::nullopt;
 }
 
 }  // namespace clatter::motion

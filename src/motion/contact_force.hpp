@@ -53,18 +53,26 @@ template <class Number, Effects E>
   return press.force > 0 || (press.force == 0 && press.rate > 0);
 }
 
+/// Forcing phase, in turns 0 ... 1, at which f sin(theta) passes a value, on its way to a side; nothing if it never
+/// does, or only touches it.
+template <class Number, Effects E>
+[[nodiscard]] std::optional<Number> phase_of_force(const ArcConstants<Number, E>& constants, const Number& needed,
+                                                   Side side) {
+  using std::abs, std::atan2, std::sqrt;
+  const Number& f = constants.f;
+  if (E.forcing == Forcing::none || !(abs(needed) < abs(f))) return std::nullopt;
+  // |cos(theta)|, over |f| so that no square vanishes
+  const Number size = abs(f), along = sqrt((size - needed) / size * ((size + needed) / size));
+  const Number sine = needed / size, cosine = side == Side::upper ? along : Number(-along);
+  const Number turns = (f > 0 ? atan2(sine, cosine) : atan2(Number(-sine), Number(-cosine))) / (2 * pi<Number>());
+  return turns < 0 ? Number(turns + 1) : turns;
+}
+
 /// Forcing phase, in turns 0 ... 1, at which a stop releases a pressed mass (eq. 26); nothing if the pressing force
 /// never falls to 0, or only touches it.
 template <class Number, Effects E>
 [[nodiscard]] std::optional<Number> release_phase(const ArcConstants<Number, E>& constants, const Stop<Number>& stop) {
-  using std::abs, std::atan2, std::sqrt;
-  const Number needed = constants.spring(stop.position) - constants.load, f = constants.f;
-  if (E.forcing == Forcing::none || !(abs(needed) < abs(f))) return std::nullopt;
-  // |cos(theta)|, over |f| so that no square vanishes; the pressing force falls if into(f cos) < 0
-  const Number size = abs(f), along = sqrt((size - needed) / size * ((size + needed) / size));
-  const Number sine = needed / size, cosine = stop.into(-along);
-  const Number turns = (f > 0 ? atan2(sine, cosine) : atan2(Number(-sine), Number(-cosine))) / (2 * pi<Number>());
-  return turns < 0 ? Number(turns + 1) : turns;
+  return phase_of_force(constants, Number(constants.spring(stop.position) - constants.load), opposite(stop.side));
 }
 
 }  // namespace clatter::motion

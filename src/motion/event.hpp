@@ -16,13 +16,16 @@ struct Event {
     touch,       ///< of a soft stop at its position, where contact begins
     renewal,     ///< of the contact with a soft stop, whose force rises from zero, beyond its position
     separation,  ///< from a soft stop, whose force falls to zero
+    stick,       ///< of a slip, away from rigid stops, begins: `Rest` without a side
+    reversal,    ///< of a slip, whose velocity passes 0
   };
   Kind kind = Kind::impact;
   Side side = Side::none;
   double time = 0.0;      ///< tau
   double velocity = 0.0;  ///< before it; 0 at rest
-  double length = 0.0;    ///< of a rest or a chatter's end, tau
+  double length = 0.0;    ///< of a rest, a stick or a chatter's end, tau
   double after = 0.0;     ///< velocity after an impact
+  double place = 0.0;     ///< displacement of a stick or a reversal
 
   [[nodiscard]] double end() const { return time + length; }
   [[nodiscard]] double speed() const { return std::abs(velocity); }
@@ -33,7 +36,11 @@ struct Event {
   return {Event::Kind::impact, impact.side, impact.time, impact.before, 0.0, impact.after};
 }
 [[nodiscard]] inline Event event_of(const Rest& rest) {
+  if (rest.is_stick()) return {Event::Kind::stick, Side::none, rest.time, 0.0, rest.length, 0.0, rest.position};
   return {rest.held ? Event::Kind::rest : Event::Kind::chatter, rest.side, rest.time, 0.0, rest.length};
+}
+[[nodiscard]] inline Event event_of(const Reversal& reversal) {
+  return {Event::Kind::reversal, Side::none, reversal.time, 0.0, 0.0, 0.0, reversal.position};
 }
 [[nodiscard]] inline Event event_of(const Touch& touch) {
   return {touch.from_outside ? Event::Kind::touch : Event::Kind::renewal, touch.side, touch.time, touch.velocity};

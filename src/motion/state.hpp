@@ -15,7 +15,8 @@ struct State {
   Number v{};                   ///< velocity
   Number phase_turns{};         ///< forcing periods since the last section, 0 ... 1
   std::int64_t periods = 0;     ///< sections passed
-  bool released = false;        ///< a stop releases the mass at this instant: v = 0 and the acceleration is exactly 0
+  bool released = false;        ///< a stop releases the mass at this instant: v = 0 and the acceleration is exactly 0;
+                                ///< or friction does, at its static level
   Side from_stop = Side::none;  ///< the stop that the present flight began on
   Number offset{};              ///< x minus the position of that stop: keeps the digits of a flight that a section cuts
   Side within = Side::none;     ///< the soft stop beyond whose position the mass is; then also `from_stop`
@@ -63,15 +64,24 @@ struct Separation {
   double velocity;  ///< of the mass
 };
 
-/// A time on a stop, as it is reported to observers.
+/// The velocity of a mass that slips falls to 0 and changes its sign at once, as it is reported to observers.
+struct Reversal {
+  double time;           ///< tau since observation began
+  double position;       ///< of the mass
+  double before, after;  ///< its acceleration, which friction makes jump
+};
+
+/// A time on a stop, or a stick anywhere, as it is reported to observers.
 struct Rest {
-  double time;    ///< its beginning: tau since observation began
-  double length;  ///< in tau
-  Side side;
-  double position;  ///< of the stop
+  double time;      ///< its beginning: tau since observation began
+  double length;    ///< in tau
+  Side side;        ///< of the stop; none: friction alone holds the mass, it sticks
+  double position;  ///< of the mass
   bool held;        ///< at rest; false: the summed end of a chatter, or a part of it if a section cuts it, or a force
                     ///< within rounding of 0: too low to be told from rest
   double v_begin = 0.0, v_end = 0.0;  ///< velocities at its ends; not 0 within a chatter
+
+  [[nodiscard]] bool is_stick() const { return side == Side::none; }
 };
 
 }  // namespace clatter::motion

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "motion/arc.hpp"
 #include "motion/contact_force.hpp"
@@ -10,8 +11,9 @@
 namespace clatter::motion {
 
 /// The derivative of a motion with respect to its start: free motion over the arcs (eq. 7), the saltation matrix at
-/// each impact (eq. 27; Nordmark 1991), 0 after a rest. Kept as a rotation times a triangle, so that the determinant
-/// (eq. 28) keeps its digits however far apart the multipliers are, times a power of two, so that nothing overflows.
+/// each impact (eq. 27; Nordmark 1991) and each reversal of a slip (eq. 64), 0 after a rest; of a stick the place is
+/// left. Kept as a rotation times a triangle, so that the determinant (eq. 28) keeps its digits however far apart the
+/// multipliers are, times a power of two, so that nothing overflows.
 template <class Number>
 class TangentMap {
  public:
@@ -20,16 +22,24 @@ class TangentMap {
   template <class A>
   void arc(const A& arc, double, double length) {
     const auto& constants = arc.constants();
+    if (std::exchange(sticks_, false)) release(arc);
     multiply(power_of(constants, Number(length)));
+    friction_ = constants.friction;
     h_ = constants.h, k_ = constants.k, force_ = constants.force(arc.phase_after(Number(length)).sine);
   }
-  void rest(const Rest&) { top_ = shear_ = bottom_ = 0; }
+  void rest(const Rest& rest) {
+    if (!rest.is_stick()) top_ = shear_ = bottom_ = 0;
+    if (rest.is_stick()) scale_velocity(Number(0));
+    sticks_ = rest.is_stick();
+  }
+  /// The acceleration jumps where the velocity is 0.
+  void reversal(const Reversal& reversal) { scale_velocity(Number(reversal.after) / Number(reversal.before)); }
   void impact(const Impact& impact) {
     const Number before(impact.before), after(impact.after);
     const Number slope = stop_at<Number>(stops_, impact.side).law.derivative();
     if (before == 0) return;  // it touches, and the velocity is not reversed
     const Number force = force_ - k_ * impact.position;
-    const Number a_before = force - 2 * h_ * before, a_after = force - 2 * h_ * after;
+    const Number a_before = force - 2 * h_ * before, a_after = force - 2 * friction_ - 2 * h_ * after;
     multiply({{slope, Number(0), (a_after - slope * a_before) / before, slope}, slope * slope});
   }
 
@@ -74,6 +84,16 @@ class TangentMap {
   }
 
  private:
+  void scale_velocity(const Number& factor) { multiply({{Number(1), Number(0), Number(0), factor}, factor}); }
+  /// A stick ends the later the further the spring has to be overcome: by k dx/(f nu cos theta) (eq. 65).
+  template <class A>
+  void release(const A& arc) {
+    const auto& constants = arc.constants();
+    const auto& start = arc.start();
+    const Number later = constants.spring(Number(1)) / (constants.f * constants.nu * start.cosine);
+    if (start.a != 0) multiply({{Number(1), Number(0), -start.a * later, Number(1)}, Number(1)});
+  }
+
   /// A map times 2^exponent, with its determinant kept apart.
   struct ScaledMap {
     Jacobian<Number> map;
@@ -133,7 +153,9 @@ class TangentMap {
   Number cosine_ = 1, sine_ = 0;             ///< the rotation
   Number top_ = 1, shear_ = 0, bottom_ = 1;  ///< the triangle,
   double exponent_ = 0;                      ///< times 2^exponent
-  Number h_ = 0, k_ = 1, force_ = 0;         ///< damping, stiffness, and the force at the end of the last arc
+  Number h_ = 0, k_ = 1, force_ = 0;         ///< damping, stiffness, and the force at the end of the last arc,
+  Number friction_ = 0;                      ///< of which so much is friction
+  bool sticks_ = false;                      ///< friction has held the mass since
 };
 
 }  // namespace clatter::motion

@@ -11,15 +11,16 @@ namespace clatter::observables {
 
 /// The energy ledger of the observed time, per unit mass (eqs. 31 to 34). The energy is (x'^2 + k x^2)/2, and that of
 /// the springs of soft stops beyond whose position the mass is (eq. 54); the work of the force and the load, less the
-/// losses by damping and on the stops, is its growth, and the residual says how well this holds.
+/// losses by damping, dry friction and on the stops, is its growth, and the residual says how well this holds.
 ///
 /// Work and damping are integrated over each arc by Gauss-Legendre quadrature, exact to rounding.
 struct Energy {
   struct Settings {
     bool energy = false;
+    bool of_friction = false;  ///< with it: what only dry friction takes
   };
   struct Values {
-    double work_in = no_value, loss_damping = no_value;
+    double work_in = no_value, loss_damping = no_value, loss_friction = no_value;
     std::array<double, 2> loss_impact{no_value, no_value};  ///< [stop]
     std::array<double, 2> impulse{no_value, no_value};      ///< [stop]: of impacts, and of the force pressing at rest
     double energy_residual = no_value;                      ///< work less losses and growth: 0 but for rounding
@@ -32,9 +33,9 @@ struct Energy {
 
   [[nodiscard]] static bool wanted(const Settings& settings) { return settings.energy; }
   [[nodiscard]] static std::string description(const Settings&) { return "energy"; }
-  [[nodiscard]] static std::vector<Column<Values>> columns(const Settings&) {
+  [[nodiscard]] static std::vector<Column<Values>> columns(const Settings& settings) {
     const Coordinate stop = stop_coordinate();
-    return {
+    std::vector<Column<Values>> all{
         in_relative_frame(in_si("work of the force and the load in the observed time",
                                 scalar("work_in", "work of the force and the load in the observed time, per unit mass",
                                        &Values::work_in, Quantity::energy))),
@@ -53,6 +54,12 @@ struct Energy {
         in_si("energy lost in impacts per second",
               scalar("impact_power", "energy lost in impacts per tau, per unit mass", &Values::impact_power,
                      Quantity::power))};
+    if (settings.of_friction)
+      all.push_back(in_relative_frame(
+          in_si("energy lost to dry friction in the observed time",
+                scalar("loss_friction", "energy lost to dry friction in the observed time, per unit mass",
+                       &Values::loss_friction, Quantity::energy))));
+    return all;
   }
 
   class Observer;  ///< in energy_observer.hpp

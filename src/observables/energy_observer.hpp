@@ -26,6 +26,7 @@ class Energy::Observer {
   }
   void rest(const motion::Rest& rest) {
     begin(rest.position, rest.v_begin);
+    if (rest.is_stick()) return press(rest);
     const std::size_t stop = index_of(rest.side);
     // a chatter takes the energy of its rebounds, and gives their momentum back to the mass
     impulse_[stop] += pressing(rest) - sign_of(rest.side) * (rest.v_end - rest.v_begin);
@@ -41,12 +42,14 @@ class Energy::Observer {
   [[nodiscard]] Values finish(const ObservedSpan& span, double x, double v) {
     begin(x, v);
     const double load_work = oscillator_.load * (x - x_begin_);  // of a period only that of rounding
-    Values values{.work_in = force_work_ + (span.periodic ? 0.0 : load_work), .loss_damping = loss_damping_};
+    Values values{.work_in = force_work_ + (span.periodic ? 0.0 : load_work),
+                  .loss_damping = loss_damping_,
+                  .loss_friction = loss_friction_};
     values.loss_impact = loss_impact_, values.impulse = impulse_;
     const double lost = loss_impact_[0] + loss_impact_[1];
     const double k = oscillator_.stiffness, stored = stored_at(x) - stored_at(x_begin_),
                  growth = ((v - v_begin_) * (v + v_begin_) + k * (x - x_begin_) * (x + x_begin_)) / 2 + stored;
-    values.energy_residual = force_work_ + load_work - loss_damping_ - lost - growth;
+    values.energy_residual = force_work_ + load_work - loss_damping_ - loss_friction_ - lost - growth;
     values.impact_power = lost / span.total;
     return values;
   }
@@ -72,6 +75,7 @@ class Energy::Observer {
       if (stop != nullptr) impulse += weight * stop->force(stop->into(m.offset), stop->into(m.v));
     });
     force_work_ += constants.f * work;
+    if (constants.friction != 0) loss_friction_ -= constants.friction * (arc.at(length).offset - arc.start().offset);
     if (stop != nullptr) {
       loss_damping_ += 2 * oscillator_.damping * squares;
       loss_impact_[index_of(stop->side)] += 2 * stop->damping * squares;
@@ -96,6 +100,13 @@ class Energy::Observer {
     const motion::Motion<double>& m = arc.start();
     if (const auto* const stop = soft_stop_of(arc); stop != nullptr)
       impulse_[index_of(stop->side)] += length * stop->force(stop->into(m.offset), stop->into(m.v));
+  }
+  /// The force of a soft stop, with which friction holds the mass.
+  void press(const motion::Rest& stick) {
+    const Side side = soft_stop_beyond(stops_, stick.position);
+    if (side == Side::none) return;
+    const auto stop = motion::soft_stop_at<double>(stops_, side);
+    impulse_[index_of(side)] += stick.length * stop.force(stop.into(stick.position - stop.position), 0.0);
   }
   /// The soft stop that an arc is in contact with, or nullptr.
   template <class A>
@@ -135,7 +146,7 @@ class Energy::Observer {
   double phase_;  ///< of the force at the beginning, a section
   bool has_begun_ = false;
   double x_begin_ = 0, v_begin_ = 0;
-  double force_work_ = 0, loss_damping_ = 0;
+  double force_work_ = 0, loss_damping_ = 0, loss_friction_ = 0;
   std::array<double, 2> loss_impact_{}, impulse_{};  ///< [stop]
   double evaluations_ = 0;
 };

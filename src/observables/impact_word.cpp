@@ -13,8 +13,8 @@ namespace {
 using Contact = ImpactWord::Contact;
 
 /// The letters of a word in the order in which texts of them sort.
-enum class Letter : unsigned char { lower_ending_in_rest, lower, upper_ending_in_rest, upper };
-constexpr std::array<std::string_view, 4> letter_texts{"L*", "L", "U*", "U"};
+enum class Letter : unsigned char { lower_ending_in_rest, lower, stick, upper_ending_in_rest, upper };
+constexpr std::array<std::string_view, 5> letter_texts{"L*", "L", "S", "U*", "U"};
 constexpr std::string_view cut = "…";
 
 /// The letters of one period. They begin after a rest, if there is one, so that no series of impacts that ends in rest
@@ -27,7 +27,9 @@ std::vector<Letter> letters_of(std::vector<Contact> contacts) {
   for (const Contact& contact : contacts) {
     const bool upper = contact.side == Side::upper;
     const Letter impact = upper ? Letter::upper : Letter::lower;
-    if (contact.before != 0) {
+    if (contact.side == Side::none) {
+      letters.push_back(Letter::stick);
+    } else if (contact.before != 0) {
       letters.push_back(impact);
     } else if (!letters.empty() && letters.back() == impact) {  // else a rest that goes on
       while (!letters.empty() && letters.back() == impact) letters.pop_back();
@@ -59,14 +61,14 @@ std::size_t first_rotation(const std::vector<T>& items) {
 }  // namespace
 
 std::vector<Column<ImpactWord::Values>> ImpactWord::columns(const Settings&) {
-  return {
-      missing_if("no period is known",
-                 text("impact_word", "impacts of one period in order, L: lower stop, U: upper stop, *: until at rest",
-                      &Values::impact_word, longest + cut.size())),
-      missing_if("no period is known, or there is no force",
-                 text("regime", "impacts on the stop with more of them / forcing periods", &Values::regime, 40)),
-      missing_if("no period is known, or the scene isn't symmetric",
-                 scalar("symmetric", "1: half a period later the motion is its mirror image", &Values::symmetric))};
+  return {missing_if("no period is known", text("impact_word",
+                                                "impacts of one period in order, L: lower stop, U: upper stop, *: "
+                                                "until at rest, S: a stick, if word_sticks",
+                                                &Values::impact_word, longest + cut.size())),
+          missing_if("no period is known, or there is no force",
+                     text("regime", "impacts on the stop with more of them / forcing periods", &Values::regime, 40)),
+          missing_if("no period is known, or the scene isn't symmetric",
+                     scalar("symmetric", "1: half a period later the motion is its mirror image", &Values::symmetric))};
 }
 
 std::string ImpactWord::word_of(const std::vector<Contact>& contacts, Side within) {
@@ -86,7 +88,7 @@ std::string ImpactWord::word_of(const std::vector<Contact>& contacts, Side withi
 }
 
 std::string ImpactWord::regime_of(const std::vector<Contact>& contacts, double periods) {
-  std::array<std::size_t, 4> counts{};
+  std::array<std::size_t, letter_texts.size()> counts{};
   for (const Letter letter : letters_of(contacts)) ++counts[static_cast<std::size_t>(letter)];
   const auto count = [&](Letter letter) { return counts[static_cast<std::size_t>(letter)]; };
   const bool rests = count(Letter::lower_ending_in_rest) + count(Letter::upper_ending_in_rest) > 0;
@@ -115,10 +117,18 @@ bool ImpactWord::Observer::is_mirrored(const ObservedSpan& span, double x, doubl
   });
 }
 
+std::vector<Contact> ImpactWord::Observer::whole_contacts(double total) const {
+  std::vector<Contact> contacts = contacts_;
+  const bool begins_stuck = !contacts.empty() && contacts.front().side == Side::none && contacts.front().time <= 0;
+  if (begins_stuck && contacts.size() > 1 && stuck_until_ >= total * (1 - same_instant))
+    contacts.erase(contacts.begin());
+  return contacts;
+}
+
 ImpactWord::Values ImpactWord::Observer::finish(const ObservedSpan& span, double x, double v) const {
   Values values;
   if (!span.periodic) return values;
-  values.impact_word = word_of(contacts_, soft_stop_beyond(span.scene.stops, x));
+  values.impact_word = word_of(whole_contacts(span.total), soft_stop_beyond(span.scene.stops, x));
   if (span.scene.oscillator.forcing != 0) values.regime = regime_of(contacts_, span.turns);
   if (is_symmetric(span.scene)) values.symmetric = is_mirrored(span, x, v) ? 1.0 : 0.0;
   return values;

@@ -16,6 +16,7 @@ namespace clatter::observables {
 struct ImpactWord {
   struct Settings {
     bool word = false;
+    bool word_sticks = false;
   };
   struct Values {
     std::string impact_word{}, regime{};  ///< empty: no period; of the regime also no force
@@ -26,7 +27,12 @@ struct ImpactWord {
   static constexpr std::tuple fields{Field{Key{"observe", "word", Kind::flag, "false", "true",
                                                "impacts of one period in order, e.g. LLU (L lower, U upper stop), "
                                                "their number over periods, symmetry of the motion"},
-                                           &Settings::word}};
+                                           &Settings::word},
+                                     Field{with("[scene]\nfriction = 0.2\n\n[observe]\nword = true\n",
+                                                Key{"observe", "word_sticks", Kind::flag, "false", "true",
+                                                    "with word: a letter S for each time in which dry friction holds "
+                                                    "the mass away from rigid stops"}),
+                                           &Settings::word_sticks}};
 
   [[nodiscard]] static bool wanted(const Settings& settings) { return settings.word; }
   [[nodiscard]] static std::string description(const Settings&) { return "impact words"; }
@@ -38,7 +44,7 @@ struct ImpactWord {
   struct Contact {
     double time;
     double before;  ///< velocity before the impact; 0: at rest
-    Side side;
+    Side side;      ///< none: dry friction holds the mass
   };
   /// The stops of the impacts of one period in order, from the rotation on that sorts first. Impacts that end in rest
   /// are one L* or U*: how many of them were taken says nothing about the motion. Motion without impacts stays on a

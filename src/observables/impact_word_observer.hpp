@@ -11,7 +11,8 @@ namespace clatter::observables {
 
 class ImpactWord::Observer {
  public:
-  Observer(const Settings&, const ObservedSpan& span) : periodic_(span.periodic), half_(span.total / 2) {}
+  Observer(const Settings& settings, const ObservedSpan& span)
+      : periodic_(span.periodic), shows_sticks_(settings.word_sticks), half_(span.total / 2) {}
 
   template <class A>
   void arc(const A& arc, double begin, double length) {
@@ -19,7 +20,10 @@ class ImpactWord::Observer {
     const motion::Motion<double> m = arc.at(half_ - begin);
     halfway_ = {m.x, m.v};
   }
-  void rest(const motion::Rest& rest) { see(rest.time, rest.side, 0.0); }
+  void rest(const motion::Rest& rest) {
+    if (rest.is_stick()) return stick(rest);
+    see(rest.time, rest.side, 0.0);
+  }
   void impact(const motion::Impact& impact) { see(impact.time, impact.side, impact.before); }
   /// The touch of a soft stop has the letter of an impact.
   void touch(const motion::Touch& touch) {
@@ -35,14 +39,25 @@ class ImpactWord::Observer {
   [[nodiscard]] Values finish(const ObservedSpan& span, double x, double v) const;
 
  private:
+  static constexpr double same_instant = 1e-12;
   static constexpr double same = 1e-6;  ///< relative difference of what counts as the mirror image
 
+  /// One that a section cuts is one stick.
+  void stick(const motion::Rest& rest) {
+    if (rest.time <= half_ && half_ <= rest.time + rest.length) halfway_ = {rest.position, 0.0};
+    const bool goes_on = rest.time <= stuck_until_ * (1 + same_instant);
+    stuck_until_ = rest.time + rest.length;
+    if (shows_sticks_ && !goes_on) see(rest.time, Side::none, 0.0);
+  }
   void see(double time, Side side, double before) {
     if (periodic_) contacts_.push_back({time, before, side});
   }
+  /// A stick that the beginning of the period cuts is one.
+  [[nodiscard]] std::vector<Contact> whole_contacts(double total) const;
   [[nodiscard]] bool is_mirrored(const ObservedSpan& span, double x, double v) const;
 
-  bool periodic_;
+  bool periodic_, shows_sticks_;
+  double stuck_until_ = -1.0;            ///< end of the last stick, tau
   double half_;                          ///< of the period, in tau
   std::vector<Contact> contacts_{};      ///< in order
   std::optional<PhasePoint> halfway_{};  ///< half a period after its beginning, in flight

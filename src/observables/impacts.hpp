@@ -19,12 +19,14 @@ struct Impacts {
   struct Settings {
     bool impacts = false;
     bool of_soft_stops = false;  ///< with it: what only soft stops have
+    bool of_sticks = false;      ///< with it: the share of time in which dry friction holds the mass
   };
   struct Values {
     std::array<double, 2> impacts_per_period{no_value, no_value};  ///< [stop]
     std::array<double, 2> v_before{no_value, no_value}, v_after{no_value, no_value};
     std::array<double, 2> impact_speed{no_value, no_value};
     std::array<double, 2> rest_fraction{no_value, no_value};
+    double stick_fraction = no_value;
     std::array<double, 2> contact_fraction{no_value, no_value}, contact_force_max{no_value, no_value};
   };
   static constexpr std::string_view not_hit = "the stop isn't hit";
@@ -47,6 +49,9 @@ struct Impacts {
         missing_if(not_hit, in_relative_frame(pair("impact_speed", "speed of the fastest impact", stop,
                                                    &Values::impact_speed, Quantity::velocity))),
         pair("rest_fraction", "share of time at rest on the stop", stop, &Values::rest_fraction)};
+    if (settings.of_sticks)
+      all.push_back(scalar("stick_fraction", "share of time in which dry friction holds the mass away from rigid stops",
+                           &Values::stick_fraction));
     if (!settings.of_soft_stops) return all;
     all.push_back(pair("contact_fraction", "share of time in contact with the stop", stop, &Values::contact_fraction));
     all.push_back(missing_if("the stop is rigid, or isn't there",

@@ -6,6 +6,7 @@
 #include <cstddef>
 
 #include "motion/polynomial_arc.hpp"
+#include "motion/soft_stop.hpp"
 #include "motion/state.hpp"
 #include "observables/impacts.hpp"
 #include "observables/range_search.hpp"
@@ -15,7 +16,7 @@ namespace clatter::observables {
 class Impacts::Observer {
  public:
   Observer() = default;
-  Observer(const Settings&, const ObservedSpan&) {}
+  Observer(const Settings&, const ObservedSpan& span) : soft_stops_(span.scene.stops) {}
 
   template <class A>
   void arc(const A& arc, double, double length) {
@@ -23,6 +24,7 @@ class Impacts::Observer {
       if (arc.constants().stop.side != Side::none && length > 0) contact(arc, length);
   }
   void rest(const motion::Rest& rest) {
+    if (rest.is_stick()) return stick(rest);
     if (rest.held) stops_[index_of(rest.side)].rest_time += rest.length;
   }
   void impact(const motion::Impact& impact) {
@@ -51,6 +53,7 @@ class Impacts::Observer {
   [[nodiscard]] Values finish(const ObservedSpan& span, double, double) const {
     const double periods = span.counts_as_one_period() ? 1.0 : span.turns;
     Values values;
+    values.stick_fraction = std::min(1.0, stick_time_ / span.total);
     for (std::size_t i = 0; i < stops_.size(); ++i) {
       values.impacts_per_period[i] = stops_[i].count / periods;
       values.v_before[i] = stops_[i].before, values.v_after[i] = stops_[i].after;
@@ -65,6 +68,15 @@ class Impacts::Observer {
   }
 
  private:
+  /// Friction may hold the mass in contact with a soft stop, too.
+  void stick(const motion::Rest& stick) {
+    stick_time_ += stick.length;
+    const Side side = soft_stop_beyond(soft_stops_, stick.position);
+    if (side == Side::none) return;
+    const auto stop = motion::soft_stop_at<double>(soft_stops_, side);
+    stops_[index_of(side)].contact_time += stick.length;
+    stops_[index_of(side)].force.include(stop.force(stop.into(stick.position - stop.position), 0.0));
+  }
   template <Effects E>
   void contact(const motion::Arc<double, E>& arc, double length) {
     const motion::SoftStop<double>& of_arc = arc.constants().stop;
@@ -88,6 +100,8 @@ class Impacts::Observer {
   }
 
   std::array<OfStop, 2> stops_{};
+  Stops soft_stops_{};
+  double stick_time_ = 0.0;  ///< tau
 };
 
 }  // namespace clatter::observables

@@ -108,6 +108,13 @@ class Observers<ObservableList<Os...>> {
     });
   }
 
+  /// The velocity of a slip passes 0, for those that ask for it.
+  void reversal(const motion::Reversal& reversal) {
+    present([&](auto& observer) {
+      if constexpr (requires { observer.reversal(reversal); }) observer.reversal(reversal);
+    });
+  }
+
   /// Ends the observed time in a state, and fills in the values of every observer.
   void finish(const ObservedSpan& span, double x, double v, typename List::Values& values) {
     each([&]<class O>(Slot<O>& slot) {

@@ -15,13 +15,14 @@ class Stability::Observer {
  public:
   using Complex = std::complex<double>;
 
-  Observer(const Settings&, const ObservedSpan& span) : Observer(span.scene.stops, span.uncertainty) {}
+  Observer(const Settings&, const ObservedSpan& span)
+      : Observer(span.scene.stops, span.uncertainty, has_friction(span.scene.friction)) {}
 
-  /// `rounding` bounds the errors of displacements and velocities.
-  Observer(const Stops& stops, double rounding)
+  /// `rounding` bounds the errors of displacements and velocities; `is_rough`: there is dry friction.
+  Observer(const Stops& stops, double rounding, bool is_rough = false)
       : tangent_(stops),
         nearby_(stops, motion::Ellipse::disc(rounding), rounding),
-        graze_matters_(!has_soft_stop(stops)) {}
+        graze_matters_(!is_rough && !has_soft_stop(stops)) {}
 
   template <class A>
   void arc(const A& arc, double begin, double length) {
@@ -34,6 +35,7 @@ class Stability::Observer {
     }
   }
   void rest(const motion::Rest& rest) { tangent_.rest(rest), rests_ = true; }
+  void reversal(const motion::Reversal& reversal) { tangent_.reversal(reversal); }
   void impact(const motion::Impact& impact) {
     tangent_.impact(impact);
     if (graze_matters_) nearby_.impact(impact);
@@ -42,7 +44,7 @@ class Stability::Observer {
 
   /// True if motions that differ from this one by rounding meet other stops. After a rest no difference is left; and
   /// motion by general methods isn't known to rounding. A graze of a soft stop changes little, and beside one those of
-  /// a rigid stop aren't told.
+  /// a rigid stop aren't told; nor are they under dry friction.
   [[nodiscard]] bool grazes() const { return graze_matters_ && !rests_ && !nearby_.holds(); }
 
   /// Ends the observed time, one period. Unforced motion (`autonomous`) is periodic only when it loses nothing; a shift

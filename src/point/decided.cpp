@@ -136,12 +136,13 @@ ObservedTime Decisions::decided_by_fixed_point(const Problem& problem, ObservedT
 Decisions::OfScene& Decisions::of(const Problem& problem) {
   const auto same = std::ranges::find_if(scenes_, [&](const OfScene& scene) {
     return scene.oscillator == problem.oscillator && scene.stops == problem.stops &&
-           scene.phase == problem.start.phase && scene.most_impacts == problem.time.max_impacts;
+           scene.friction == problem.friction && scene.phase == problem.start.phase &&
+           scene.most_impacts == problem.time.max_impacts;
   });
   if (same != scenes_.end()) return *same;
   if (scenes_.size() == most_scenes) scenes_.pop_back();
   return scenes_.emplace_front(
-      OfScene{problem.oscillator, problem.stops, problem.start.phase, problem.time.max_impacts});
+      OfScene{problem.oscillator, problem.stops, problem.friction, problem.start.phase, problem.time.max_impacts});
 }
 
 const RestingMotion& Decisions::resting(const Problem& problem, Side side) {

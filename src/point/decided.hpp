@@ -32,6 +32,7 @@ class Decisions {
   struct OfScene {
     Oscillator oscillator;
     Stops stops;
+    Friction friction;
     double phase, most_impacts;
     std::array<std::optional<RestingMotion>, 2> resting{};  ///< [stop]
     std::vector<Sections> orbits{};                         ///< without a rest

@@ -22,13 +22,14 @@ class ErrorWatch {
     in_double_.show(arc, [&](const auto& rounded) { growth_.arc(rounded, begin, length); });
   }
   void rest(const motion::Rest& rest) {
-    if (rest.held) held_by_ = rest.side;
+    if (rest.held && !rest.is_stick()) held_by_ = rest.side;
     if (rest.held && rest.length < shortest_rest) return;
     growth_.rest(rest);
     if (!rest.held) growth_.delay(period_ * epsilon<double>() / static_cast<double>(epsilon<Number>()));
   }
   void impact(const motion::Impact& impact) { growth_.impact(impact); }
   void touch(const motion::Touch& touch) { growth_.touch(touch); }
+  void reversal(const motion::Reversal& reversal) { growth_.reversal(reversal); }
 
   /// The largest error up to now, relative to the size of the motion.
   [[nodiscard]] double error() const { return growth_.largest() * static_cast<double>(epsilon<Number>()); }

@@ -9,8 +9,8 @@ namespace clatter::point {
 template <class Function>
 decltype(auto) with_every_effect(const Scene& scene, Function&& function) {
   if (rotates(scene.oscillator))
-    return function.template operator()<effect_sets::with_soft_stops(Damping::light, Forcing::secular)>();
-  return function.template operator()<effect_sets::with_soft_stops(Damping::heavy, Forcing::regular)>();
+    return function.template operator()<effect_sets::with_friction(Damping::light, Forcing::secular)>();
+  return function.template operator()<effect_sets::with_friction(Damping::heavy, Forcing::regular)>();
 }
 
 }  // namespace clatter::point

@@ -23,6 +23,7 @@ class MotionRecorder {
   }
   void rest(const motion::Rest& rest) { add(event_of(rest)), watch.rest(rest); }
   void impact(const motion::Impact& impact) { add(event_of(impact)), watch.impact(impact); }
+  void reversal(const motion::Reversal& reversal) { add(event_of(reversal)), watch.reversal(reversal); }
   void touch(const motion::Touch& touch) { add(event_of(touch)), watch.touch(touch); }
   void separate(const motion::Separation& separation) { watch.separate(separation), add(event_of(separation)); }
 

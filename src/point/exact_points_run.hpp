@@ -72,6 +72,7 @@ double ExactPoints<E>::seconds_per_evaluation() {
   problem.start.velocity = 1.0;
   if (E.stops()) problem.stops = {-0.5, 0.5, 0.7, 0.7};
   if (E.soft) problem.stops.stiffness_lower = problem.stops.stiffness_upper = 100.0;
+  if (E.friction) problem.friction = {0.1, 0.1};
   using Clock = std::chrono::steady_clock;
   double least = std::numeric_limits<double>::infinity();
   for (int repetition = 0; repetition < 3; ++repetition) {

@@ -76,6 +76,7 @@ class Derivative {
   void rest(const motion::Rest& rest) { tangent_.rest(rest); }
   void impact(const motion::Impact& impact) { tangent_.impact(impact); }
   void touch(const motion::Touch& touch) { tangent_.touch(touch); }
+  void reversal(const motion::Reversal& reversal) { tangent_.reversal(reversal); }
 
   [[nodiscard]] motion::Jacobian<FiftyDigits> map() const { return tangent_.map(); }
 
@@ -120,7 +121,8 @@ RestingMotion resting_motion(const Problem& problem, Side side) {
   const Stops& stops = problem.stops;
   const double position = side == Side::upper ? stops.upper : stops.lower,
                R = side == Side::upper ? stops.restitution_upper : stops.restitution_lower;
-  if (!std::isfinite(position) || is_soft(stops, side) || R == 1) return {};  // nothing comes to rest there
+  if (!std::isfinite(position) || is_soft(stops, side) || (R == 1 && !has_friction(problem.friction)))
+    return {};  // nothing comes to rest there
   return with_every_effect(problem, [&]<Effects E>() { return run_from_release<E>(problem, side); });
 }
 

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "math/number.hpp"
+#include "scene/effects.hpp"
 #include "scene/response.hpp"
 
 namespace clatter {
@@ -166,20 +167,48 @@ double displacement_bound(const Oscillator& oscillator, const PhaseState& now, d
   return bound;
 }
 
+double friction_bound(const Oscillator& oscillator, const Friction& friction) {
+  const double k = oscillator.stiffness, mu = friction.kinetic, h = oscillator.damping;
+  if (mu == 0) return 0;
+  if (!(k > 0) || !(h > 0)) return std::numeric_limits<double>::infinity();
+  const double root = std::sqrt(k - h * h);
+  const double swings = rotates(oscillator) ? 1 / std::tanh(pi<double>() * h / (2 * root)) : 1.0;
+  return mu / k * swings * (1 + rounding);
+}
+
 bool response_meets(const Oscillator& oscillator, const Stops& stops) {
   const auto response = steady_response(oscillator);
   return !(response.amplitude < gap_of(oscillator, stops));
 }
 
 bool grows_at_resonance(const Scene& scene) {
-  const auto& [o, stops, start, shaking] = scene;
+  const Oscillator& o = scene.oscillator;
+  const Stops& stops = scene.stops;
   const double natural = natural_frequency(o);
   return o.stiffness > 0 && o.damping == 0 && o.forcing != 0 && std::isinf(stops.lower) && std::isinf(stops.upper) &&
          std::abs(o.frequency - natural) <= 4 * std::numeric_limits<double>::epsilon() * natural;
 }
 
+namespace {
+
+/// Whether the mass moves on for ever under friction: once the spring and the load together push it on harder than the
+/// other forces can push it back, the spring, if there is one, only helps.
+bool escapes_friction(const Scene& scene, double x, double v) {
+  const Oscillator& o = scene.oscillator;
+  const Stops& stops = scene.stops;
+  if (o.stiffness > 0) return false;
+  const double ahead = constant_force(o, x);
+  const bool is_open = ahead > 0 ? std::isinf(stops.upper) : std::isinf(stops.lower);
+  const double against = (std::abs(o.forcing) + scene.friction.static_level) * (1 + rounding);
+  return is_open && v * ahead >= 0 && std::abs(ahead) > against;
+}
+
+}  // namespace
+
 bool escapes(const Scene& scene, double x, double v, const SineCosine<double>& phase) {
-  const auto& [o, stops, start, shaking] = scene;
+  if (has_friction(scene.friction)) return escapes_friction(scene, x, v);
+  const Oscillator& o = scene.oscillator;
+  const Stops& stops = scene.stops;
   if (grows_at_resonance(scene)) return true;
   if (!(o.stiffness <= 0) || (std::isfinite(stops.lower) && std::isfinite(stops.upper))) return false;
   const PhasePoint free = transient_of(o, {x - equilibrium_of(o), v, phase.sine, phase.cosine});

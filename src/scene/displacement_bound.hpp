@@ -42,8 +42,12 @@ struct PhasePoint {
 [[nodiscard]] double displacement_bound(const Oscillator& oscillator, const PhaseState& now, double duration,
                                         double enough);
 
+/// Bound of the part of a displacement that friction makes, while no stop interferes: it is a force of at most mu in
+/// either direction (eq. 62). Infinite if nothing bounds it.
+[[nodiscard]] double friction_bound(const Oscillator& oscillator, const Friction& friction);
+
 /// Bound of the distance from the equilibrium for a time `duration` that holds through impacts too, since they take
-/// energy (eq. 18); infinite if nothing bounds the motion.
+/// energy, as does friction (eq. 18); infinite if nothing bounds the motion.
 [[nodiscard]] double displacement_bound_through_impacts(const Oscillator& oscillator, const PhaseState& now,
                                                         double duration);
 

@@ -30,6 +30,7 @@ struct Effects {
   bool rest = false;                  ///< chatter and rest: a stop in reach may be pressed
   bool stiffness = false;             ///< a spring of stiffness k other than 1, or none
   bool soft = false;                  ///< a soft stop in reach
+  bool friction = false;              ///< dry friction
 
   [[nodiscard]] constexpr bool stops() const { return lower || upper; }
 
@@ -49,7 +50,7 @@ struct Effects {
   const bool stiffness = all.stiffness == some.stiffness || (all.soft && all.stiffness);
   return damping && stiffness && all.forcing >= some.forcing && all.load >= some.load && all.lower >= some.lower &&
          all.upper >= some.upper && all.dissipation >= some.dissipation && all.rest >= some.rest &&
-         all.soft >= some.soft;
+         all.soft >= some.soft && all.friction >= some.friction;
 }
 
 namespace effect_sets {
@@ -76,6 +77,11 @@ namespace effect_sets {
   effects.soft = true;
   return effects;
 }
+[[nodiscard]] constexpr Effects with_friction(Damping damping, Forcing forcing) {
+  Effects effects = with_soft_stops(damping, forcing);
+  effects.friction = true;
+  return effects;
+}
 
 }  // namespace effect_sets
 
@@ -84,8 +90,8 @@ namespace effect_sets {
 /// in every evaluation), dissipation (one multiplication an impact), chatter and rest (one comparison an impact), and
 /// critical damping, which is rare. A stiffness other than 1 has two sets that contain all the rest: points with k > 0
 /// are run with k = 1, in other units of time, so only those without a spring or with an unstable one need them.
-/// Soft stops need them, too, as the mass moves on another spring while it is in contact. src/scene/README.md has the
-/// cost of each effect.
+/// Soft stops need them, too, as the mass moves on another spring while it is in contact; and so does friction, which
+/// has two sets of its own, as it divides each flight into slips. src/scene/README.md has the cost of each effect.
 inline constexpr std::array compiled_effects{
     effect_sets::free_of_stops(Damping::none, Forcing::none),
     effect_sets::free_of_stops(Damping::light, Forcing::regular),
@@ -103,6 +109,8 @@ inline constexpr std::array compiled_effects{
     effect_sets::of_any_stiffness(Damping::heavy, Forcing::regular),
     effect_sets::with_soft_stops(Damping::light, Forcing::secular),
     effect_sets::with_soft_stops(Damping::heavy, Forcing::regular),
+    effect_sets::with_friction(Damping::light, Forcing::secular),
+    effect_sets::with_friction(Damping::heavy, Forcing::regular),
 };
 
 /// The cheapest compiled set that contains the effects: an index of `compiled_effects`.
@@ -117,7 +125,7 @@ inline constexpr std::array compiled_effects{
 [[nodiscard]] inline bool cheaper(const Effects& one, const Effects& other) {
   const auto key = [](const Effects& e) {
     return std::tuple(effect_set_of(e), e.damping, e.forcing, e.stiffness, e.load, e.lower, e.upper, e.dissipation,
-                      e.rest, e.soft);
+                      e.rest, e.soft, e.friction);
   };
   return key(one) < key(other);
 }
@@ -143,9 +151,13 @@ inline constexpr double secular_distance = 1.0 / 16.0;
 
 /// Every effect that a scene can have.
 [[nodiscard]] inline Effects all_effects(const Scene& scene) {
+  const bool rotates = clatter::rotates(scene.oscillator);
+  if (has_friction(scene.friction))
+    return rotates ? effect_sets::with_friction(Damping::light, Forcing::secular)
+                   : effect_sets::with_friction(Damping::heavy, Forcing::regular);
   if (!has_soft_stop(scene.stops)) return all_effects(scene.oscillator);
-  return rotates(scene.oscillator) ? effect_sets::with_soft_stops(Damping::light, Forcing::secular)
-                                   : effect_sets::with_soft_stops(Damping::heavy, Forcing::regular);
+  return rotates ? effect_sets::with_soft_stops(Damping::light, Forcing::secular)
+                 : effect_sets::with_soft_stops(Damping::heavy, Forcing::regular);
 }
 
 [[nodiscard]] constexpr Damping damping_of(const Oscillator& oscillator) {
@@ -191,8 +203,10 @@ decltype(auto) with_effects(const Effects& effects, Function&& function) {
 
 /// The same for a scene, which may have soft stops.
 [[nodiscard]] inline Effects general_effects(const Scene& scene) {
+  const Damping damping = rotates(scene.oscillator) ? Damping::light : Damping::heavy;
+  if (has_friction(scene.friction)) return effect_sets::with_friction(damping, Forcing::regular);
   if (!has_soft_stop(scene.stops)) return general_effects(scene.oscillator);
-  return effect_sets::with_soft_stops(rotates(scene.oscillator) ? Damping::light : Damping::heavy, Forcing::regular);
+  return effect_sets::with_soft_stops(damping, Forcing::regular);
 }
 
 /// Calls `function.operator()<set>()` for one of the two sets that general methods are compiled with. Each contains all
@@ -200,8 +214,8 @@ decltype(auto) with_effects(const Effects& effects, Function&& function) {
 template <class Function>
 decltype(auto) with_general_effects(const Scene& scene, Function&& function) {
   if (rotates(scene.oscillator))
-    return function.template operator()<effect_sets::with_soft_stops(Damping::light, Forcing::regular)>();
-  return function.template operator()<effect_sets::with_soft_stops(Damping::heavy, Forcing::regular)>();
+    return function.template operator()<effect_sets::with_friction(Damping::light, Forcing::regular)>();
+  return function.template operator()<effect_sets::with_friction(Damping::heavy, Forcing::regular)>();
 }
 
 /// Calls `function.operator()<set>()` for an oscillator between any rigid stops: one of the twelve complete sets.
@@ -226,9 +240,14 @@ decltype(auto) with_any_stops(const Oscillator& oscillator, Function&& function)
   return with_damping.template operator()<Damping::heavy>();
 }
 
-/// The same for a scene, which may have soft stops.
+/// The same for a scene, which may have soft stops and friction.
 template <class Function>
 decltype(auto) with_any_stops(const Scene& scene, Function&& function) {
+  if (has_friction(scene.friction)) {
+    if (rotates(scene.oscillator))
+      return function.template operator()<effect_sets::with_friction(Damping::light, Forcing::secular)>();
+    return function.template operator()<effect_sets::with_friction(Damping::heavy, Forcing::regular)>();
+  }
   if (!has_soft_stop(scene.stops)) return with_any_stops(scene.oscillator, static_cast<Function&&>(function));
   if (rotates(scene.oscillator))
     return function.template operator()<effect_sets::with_soft_stops(Damping::light, Forcing::secular)>();

@@ -51,6 +51,8 @@ template <class Number>
   BasicScene<Number> scene = given;
   auto& [h, f, nu, load, k] = scene.oscillator;
   f = f / force, load = load / force, k = k / force;
+  scene.friction.kinetic = scene.friction.kinetic / force;
+  scene.friction.static_level = scene.friction.static_level / force;
   nu = (given.is_si ? 2 * std::numbers::pi : 1.0) * nu * T;
   h = h * T + given.damper * T / (2 * m);
   if (!is_always_zero(given.damping_ratio)) h += given.damping_ratio * sqrt(abs(k));
@@ -87,6 +89,8 @@ template <class Number>
   const bool is_in_own_units = !given.is_si && units == Units{};
   BasicScene<Number> scene = given;
   if (!is_in_own_units) scene = detail::in_units(given, units);
+  auto& [kinetic, static_level] = scene.friction;  // 0: the static level isn't given
+  if (static_level < kinetic) static_level = kinetic;
   detail::damp(scene.stops.stiffness_lower, given.stop_restitution_lower, scene.stops.damping_lower);
   detail::damp(scene.stops.stiffness_upper, given.stop_restitution_upper, scene.stops.damping_upper);
   if (is_finite(

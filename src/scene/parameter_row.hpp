@@ -17,6 +17,7 @@ enum class Role : std::uint8_t {
   drive,        ///< amplitude of the force
   load,         ///< constant force
   shaking,      ///< amplitude of stops or base
+  friction,     ///< a level of dry friction
   position,     ///< of a stop
   restitution,  ///< of a rigid stop
   softness,     ///< stiffness of a soft stop

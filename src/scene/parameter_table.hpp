@@ -14,7 +14,7 @@ inline namespace scene {
 
 namespace detail {
 
-constexpr std::string_view a_force = "f = 1.0\n", gap_only = "gap = 3e-3\n",
+constexpr std::string_view a_force = "f = 1.0\n", friction_only = "friction = 0.2\n", gap_only = "gap = 3e-3\n",
                            mass_stops_frequency = "mass = 0.25\nstiffness = 800.0\ngap = 3e-3\nfrequency = 25.0\n",
                            mass_stops_force = "mass = 0.25\nstiffness = 800.0\ngap = 3e-3\nforce = 40.0\n",
                            forced = "mass = 0.25\nstiffness = 800.0\ngap = 3e-3\nforce = 40.0\nfrequency = 25.0\n";
@@ -41,10 +41,12 @@ constexpr auto parameter_rows() {
   using O = BasicOscillator<Number>;
   using B = BasicStart<Number>;
   using K = BasicShaking<Number>;
+  using F = BasicFriction<Number>;
   using Row = ParameterRow<Number>;
   constexpr auto o = &Parts::oscillator;
   constexpr auto b = &Parts::start;
   constexpr auto k = &Parts::shaking;
+  constexpr auto dry = &Parts::friction;
   const std::array before_stops{
       Row{.key = "mass",
           .quantity = mass,
@@ -130,6 +132,33 @@ constexpr auto parameter_rows() {
           .in_machine = {"0", "-2 N", "constant force", mass_spring_stops, "constant force"},
           .role = Role::load,
           .place = in<Number, o, &O::load>},
+      Row{.key = "friction",
+          .quantity = force,
+          .range = not_negative,
+          .in_scene =
+              {"0", "0.2",
+               "dry friction mu, a force in the unit of f: mu against the velocity, and at x' = 0 whatever force "
+               "holds the mass, up to friction_static",
+               "", "dry friction"},
+          .in_machine = {"0", "2 N",
+                         "dry friction, a force against the velocity; at rest whatever force holds the mass, up to "
+                         "friction_static",
+                         mass_spring_stops, "dry friction"},
+          .role = Role::friction,
+          .place = in<Number, dry, &F::kinetic>},
+      Row{.key = "friction_static",
+          .quantity = force,
+          .range = not_negative,
+          .in_scene = {"", "0.3",
+                       "static level of the dry friction, the largest force against which it holds a mass at rest, no "
+                       "less than friction; without this key equal to it",
+                       friction_only, "static friction"},
+          .in_machine = {"", "3 N",
+                         "static level of the dry friction, the largest force against which it holds a mass at rest, "
+                         "no less than friction; without this key equal to it",
+                         "mass = 0.25\nstiffness = 800.0\ngap = 3e-3\nfriction = 2.0\n", "static friction"},
+          .role = Role::friction,
+          .place = in<Number, dry, &F::static_level>},
       Row{.key = "stop_amplitude",
           .quantity = length,
           .in_scene = {"0", "0.1",

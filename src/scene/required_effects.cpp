@@ -11,6 +11,14 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
+/// Bound of the distance from the equilibrium under friction, while no stop interferes: what moves the mass without it,
+/// and what friction adds (eq. 62), or the energy, which friction never raises (eq. 18).
+double rubbing_reach(const Scene& scene, const PhaseState& start, double duration) {
+  const Oscillator& o = scene.oscillator;
+  return std::fmin(displacement_bound(o, start, duration, 0.0) + friction_bound(o, scene.friction),
+                   displacement_bound_through_impacts(o, start, duration));
+}
+
 enum class Sharpness { sufficient, sharpest };
 
 /// Both kinds of bounds give the same effects; sufficient ones cost less.
@@ -19,12 +27,14 @@ Requirements requirements(const Scene& scene, double duration, Sharpness bounds)
   const Stops& stops = scene.stops;
   Requirements needs{
       {.damping = damping_of(o), .forcing = forcing_of(o), .load = o.load != 0, .stiffness = o.stiffness != 1.0}};
+  needs.effects.friction = has_friction(scene.friction);
   const double middle = equilibrium_of(o);
   needs.lower_gap = middle - stops.lower, needs.upper_gap = stops.upper - middle;
   const PhaseState start{scene.start.displacement - middle, scene.start.velocity, std::sin(scene.start.phase),
                          std::cos(scene.start.phase)};
   const double enough = bounds == Sharpness::sharpest ? 0.0 : std::fmin(needs.lower_gap, needs.upper_gap);
-  needs.free_reach = displacement_bound(o, start, duration, enough);
+  needs.free_reach =
+      needs.effects.friction ? rubbing_reach(scene, start, duration) : displacement_bound(o, start, duration, enough);
   const bool soft_lower = is_soft(stops, Side::lower), soft_upper = is_soft(stops, Side::upper);
   const double x0 = scene.start.displacement;
   const bool in_a_stop = (soft_lower && x0 < stops.lower) || (soft_upper && x0 > stops.upper);
@@ -38,7 +48,9 @@ Requirements requirements(const Scene& scene, double duration, Sharpness bounds)
   effects.soft = (effects.lower && soft_lower) || (effects.upper && soft_upper);
   effects.dissipation = (effects.lower && loses(soft_lower, stops.restitution_lower, stops.damping_lower)) ||
                         (effects.upper && loses(soft_upper, stops.restitution_upper, stops.damping_upper));
-  const double push = std::abs(o.forcing) * (1 + 4 * std::numeric_limits<double>::epsilon());
+  // friction holds a mass that is pulled away from a stop, too
+  const double push =
+      (std::abs(o.forcing) + scene.friction.static_level) * (1 + 4 * std::numeric_limits<double>::epsilon());
   effects.rest = (effects.lower && !soft_lower && !(push < constant_force(o, stops.lower))) ||
                  (effects.upper && !soft_upper && !(push < -constant_force(o, stops.upper)));
   return needs;

@@ -5,6 +5,7 @@
 #include <limits>
 #include <optional>
 
+#include "scene/friction.hpp"
 #include "scene/oscillator.hpp"
 #include "scene/shaking.hpp"
 #include "scene/stops.hpp"
@@ -21,14 +22,15 @@ struct BasicStart {
 };
 using Start = BasicStart<double>;
 
-/// An oscillator, its stops, its start, and the shaking by which displacements count: everything that the motion
-/// depends on.
+/// An oscillator, its stops, its start, the shaking by which displacements count, and its friction: everything that the
+/// motion depends on.
 template <class Number>
 struct BasicScene {
   BasicOscillator<Number> oscillator{};
   BasicStops<Number> stops{};
   BasicStart<Number> start{};
   BasicShaking<Number> shaking{};
+  BasicFriction<Number> friction{};
 };
 using Scene = BasicScene<double>;
 

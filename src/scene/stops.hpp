@@ -18,6 +18,8 @@ enum class Side : std::int8_t { lower = -1, none = 0, upper = 1 };
 /// +1 at the upper stop, -1 at the lower one.
 [[nodiscard]] constexpr int sign_of(Side side) { return static_cast<int>(side); }
 
+[[nodiscard]] constexpr Side opposite(Side side) { return static_cast<Side>(-sign_of(side)); }
+
 /// The two stops. At a rigid one the mass keeps a share of its speed (eq. 4): x'+ = -R x'-. A soft one is a spring and
 /// a damper that push the mass back while it is beyond the stop's position (eq. 50), and never pull.
 template <class Number>

@@ -32,9 +32,9 @@ class FreeSearch {
       const auto settled = static_cast<double>(section);
       if (escapes(scene_, state.x, state.v, {0.0, 1.0})) return escape(state, settled);
       if constexpr (I::effects.soft)
-        if (const auto found = pressed(state, settled)) return *found;
+        if (const auto found = integrator_.is_rough() ? std::nullopt : pressed(state, settled)) return *found;
       if (stands_still(state)) return {Status::periodic, state, 1.0, settled, FoundBy::standstill, settled};
-      if (I::in_closed_form && !all_effects_) {
+      if (I::in_closed_form && !all_effects_ && !integrator_.is_rough()) {
         const double turns = section == 0 && conservative() ? free_turns(start) : 0.0;
         if (turns > shortest) return {Status::periodic, start, turns, 0.0, FoundBy::energy, 0.0};
         if (const auto found = closed_form(state, section)) return *found;
@@ -44,7 +44,7 @@ class FreeSearch {
       returns_.begin_period(integrator_.period());
       const stepping::Outcome outcome = advance_to_section(integrator_, state, state.periods, returns_);
       if (outcome != stepping::Outcome::completed) return {status_of(outcome), state, 0.0, settled, FoundBy::nothing};
-      if (integrator_.holding_stop(state) || (all_effects_ && section + 1 < most)) continue;
+      if (integrator_.holding_stop(state) || integrator_.is_rough() || (all_effects_ && section + 1 < most)) continue;
       const bool rotates = returns_.free_rotation() && state.within == Side::none;
       const double turns = rotates ? 1.0 : returns_.period() / integrator_.period();
       if (turns > 0)
@@ -55,7 +55,8 @@ class FreeSearch {
 
  private:
   [[nodiscard]] bool stands_still(const motion::State<double>& state) const {
-    return returns_.stands_still(state.x, state.v, integrator_.holding_stop(state).has_value());
+    const bool is_held = integrator_.holding_stop(state) || integrator_.sticks_for_good(state);
+    return integrator_.is_rough() ? is_held : returns_.stands_still(state.x, state.v, is_held);
   }
 
   [[nodiscard]] bool conservative() const {

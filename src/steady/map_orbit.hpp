@@ -14,6 +14,7 @@ namespace clatter::steady {
 struct Passage {
   std::uint64_t itinerary = 0;  ///< the same for the same contacts in the same order, 0 without contact
   double log_area = 0.0;        ///< logarithm of the factor by which its stops shrink areas of states; -inf: a rest
+                                ///< or a stick
   Side rested_on = Side::none;  ///< the stop that held the mass last
 
   /// Whether they have the same contacts; the time in contact with a damped stop may differ, and the area with it.

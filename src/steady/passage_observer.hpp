@@ -11,8 +11,8 @@
 
 namespace clatter::steady {
 
-/// Records, for the search of a periodic motion, which stops are hit, rested on, touched and left between sections, in
-/// their order, and if asked for the derivative of the motion.
+/// Records, for the search of a periodic motion, which stops are hit, rested on, touched and left between sections, and
+/// where the mass sticks or turns back, in their order, and if asked for the derivative of the motion.
 class PassageObserver {
  public:
   explicit PassageObserver(const Stops& stops)
@@ -32,7 +32,7 @@ class PassageObserver {
       }
   }
   void rest(const motion::Rest& rest) {
-    add(rest.side == Side::upper ? 4 : 3);
+    add(rest.is_stick() ? 13 : rest.side == Side::upper ? 4 : 3);
     if (rest.held) passage_.rested_on = rest.side;
     passage_.log_area = -std::numeric_limits<double>::infinity();
     if (differentiates_) tangent_.rest(rest);
@@ -42,6 +42,12 @@ class PassageObserver {
     add(upper ? 2 : 1);
     passage_.log_area += upper ? log_upper_ : log_lower_;
     if (differentiates_) tangent_.impact(impact);
+  }
+
+  void reversal(const motion::Reversal& reversal) {
+    add(14);
+    passage_.log_area += std::log(reversal.after / reversal.before);
+    if (differentiates_) tangent_.reversal(reversal);
   }
 
   void touch(const motion::Touch& touch) {

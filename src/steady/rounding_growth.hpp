@@ -26,8 +26,10 @@ class RoundingGrowth {
     take();
   }
   void rest(const motion::Rest& rest) {
-    if (rest.held) error_ = {};
+    if (rest.held && !rest.is_stick()) error_ = {};
+    if (rest.is_stick()) tangent_.rest(rest), take();
   }
+  void reversal(const motion::Reversal& reversal) { tangent_.reversal(reversal), take(); }
   /// Adds an error of time, in units of epsilon.
   void delay(double time) { lateness_ += time; }
   void impact(const motion::Impact& impact) {

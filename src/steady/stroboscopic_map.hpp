@@ -82,6 +82,10 @@ class StroboscopicMap {
     }
     void rest(const motion::Rest& rest) { one.rest(rest), other.rest(rest); }
     void impact(const motion::Impact& impact) { one.impact(impact), other.impact(impact); }
+    void reversal(const motion::Reversal& reversal) {
+      one.reversal(reversal);
+      if constexpr (requires { other.reversal(reversal); }) other.reversal(reversal);
+    }
     void touch(const motion::Touch& touch) {
       one.touch(touch);
       if constexpr (requires { other.touch(touch); }) other.touch(touch);

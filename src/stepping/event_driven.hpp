@@ -7,25 +7,14 @@
 #include <optional>
 
 #include "motion/chatter.hpp"
-#include "motion/contact.hpp"
-#include "stepping/integrator.hpp"
+#include "stepping/soft_phases.hpp"
 
 namespace clatter::stepping {
 
-/// An arc and its end: the first of its margins that falls to 0, else the horizon, or an earlier instant if the method
-/// divides the flight into several arcs.
-template <class A>
-struct ArcToEvent {
-  A arc;
-  motion::Crossing<typename A::Number> crossing{};
-};
-
-/// Event-driven integration: from contact to contact, chatter completed, rests released at their exact time. The method
-/// computes the flight and its contact: `fly(state, motion, anchor, horizon)`; beyond the position of a soft stop
-/// `fly_within(constants, state, motion, anchor, margins, horizon)`.
+/// Event-driven integration: from contact to contact, chatter completed, rests released at their exact time.
 template <class Method, class N, Effects E>
-class EventDriven : public IntegratorBase<N, E> {
-  using Base = IntegratorBase<N, E>;
+class EventDriven : public SoftPhases<Method, N, E> {
+  using Base = SoftPhases<Method, N, E>;
 
  public:
   using Number = N;
@@ -35,8 +24,7 @@ class EventDriven : public IntegratorBase<N, E> {
       : Base(scene, in_reach, limits),
         low_{rule.low[0] * motion::displacements_beside(scene, Side::lower),
              rule.low[1] * motion::displacements_beside(scene, Side::upper)},
-        chatter_accuracy_(rule.accuracy),
-        soft_stops_(has_soft_stop(scene.stops)) {}
+        chatter_accuracy_(rule.accuracy) {}
 
   /// Runs from `state` to the phase `end`, in turns 0 ... 1 since the last section (the stroboscopic section of
   /// `motion::State`), and reports every arc, rest and impact with its time since the section `origin`.
@@ -72,12 +60,17 @@ class EventDriven : public IntegratorBase<N, E> {
   /// | at rest       | held by a stop     | its force, in closed form     | release                               |
   /// | in contact    | with the soft stop | its force                     | separation                            |
   /// | beyond a stop | free               | depth; pull of the soft stop  | back between the stops; renewal       |
+  /// | slips         | with the friction  | gap ahead, or force; velocity | the same; stick, rest, reversal       |
+  /// | sticks        | held by friction   | its level, in closed form     | release                               |
   template <class Observer>
   [[nodiscard]] Outcome run_phase(motion::State<Number>& state, const Number& end, std::int64_t origin,
                                   Observer& observer) {
+    if constexpr (E.friction)
+      if (this->is_rough()) return run_rough_phase(state, end, origin, observer);
     if constexpr (E.soft) {
-      if (soft_stops_ && soft_stop_around(state) != Side::none)
-        return state.pressed ? run_in_contact(state, end, origin, observer) : run_beyond(state, end, origin, observer);
+      if (this->has_soft_stops() && this->soft_stop_around(state) != Side::none)
+        return state.pressed ? this->run_in_contact(state, end, origin, observer)
+                             : this->run_beyond(state, end, origin, observer);
     }
     if (E.rest && state.chatters) return run_in_chatter(state, end, origin, observer);
     if (const auto stop = this->holding_stop(state)) return rest(state, *stop, end, origin, observer);
@@ -89,42 +82,35 @@ class EventDriven : public IntegratorBase<N, E> {
   [[nodiscard]] Outcome run_between(motion::State<Number>& state, const Number& end, std::int64_t origin,
                                     Observer& observer) {
     const Number horizon = (end - state.phase_turns) * this->period();
-    const auto [arc, contact] = static_cast<Method&>(*this).fly(state, motion(state), anchor(state), horizon);
-    if (!contact.resolved) return outcome_at(contact);
+    const auto [arc, contact] =
+        this->method().fly(state, this->motion(this->constants(), state), this->anchor(state), horizon);
+    if (!contact.resolved) return this->outcome_at(contact);
     const Side side = contact.side;
     if (side != Side::none && contact.elapsed == 0 && state.v == 0) {
-      if (!E.soft || !is_soft(this->stops(), side) || !begin_pressed(state, contact))
+      if (!E.soft || !is_soft(this->stops(), side) || !this->begin_pressed(state, contact))
         pass_zero_force(state, motion::stop_at<Number>(this->stops(), side), end, origin, observer);
       return Outcome::completed;
     }
     observer.arc(arc, this->time(state, origin), static_cast<double>(contact.elapsed));
-    pass(state, contact.elapsed);
+    this->pass(state, contact.elapsed);
     state.x = contact.motion.x, state.v = contact.motion.v, state.offset = contact.motion.offset,
     state.released = false;
     if (side == Side::none) {
       if (contact.elapsed == horizon) state.phase_turns = end;
       return Outcome::completed;
     }
-    if constexpr (E.soft)
-      if (is_soft(this->stops(), side)) return touch(state, side, origin, observer);
-    const bool touches = state.v == 0;  // no impact
-    rebound(state, motion::stop_at<Number>(this->stops(), side), end, origin, observer);
-    return touches || this->count_impact() ? Outcome::completed : Outcome::event_budget;
+    return meet(state, motion::stop_at<Number>(this->stops(), side), end, origin, observer);
   }
 
-  [[nodiscard]] motion::Motion<Number> motion(const motion::State<Number>& state) const {
-    const auto [sine, cosine] = this->phase(state);
-    const Number offset = state.from_stop == Side::none ? Number(0) : state.offset;
-    const Number displacement = this->constants().from_equilibrium(state.x, anchor(state), offset);
-    const Number a = state.released ? Number(0) : this->constants().acceleration(displacement, state.v, sine);
-    return {offset, state.x, state.v, a, sine, cosine};
-  }
-  /// The position that the offset of the present flight counts from.
-  [[nodiscard]] Number anchor(const motion::State<Number>& state) const {
-    return state.from_stop == Side::none ? state.x : motion::stop_at<Number>(this->stops(), state.from_stop).position;
-  }
-  void pass(motion::State<Number>& state, const Number& elapsed) const {
-    state.phase_turns += elapsed / this->period();
+  /// An impact on a rigid stop, or the begin of a contact with a soft one.
+  template <class Observer>
+  [[nodiscard]] Outcome meet(motion::State<Number>& state, const motion::Stop<Number>& stop, const Number& end,
+                             std::int64_t origin, Observer& observer) {
+    if constexpr (E.soft)
+      if (is_soft(this->stops(), stop.side)) return this->touch(state, stop.side, origin, observer);
+    const bool touches = state.v == 0;  // no impact
+    rebound(state, stop, end, origin, observer);
+    return touches || this->count_impact() ? Outcome::completed : Outcome::event_budget;
   }
 
   /// Reverses the velocity (eq. 4) and completes the chatter that may follow.
@@ -149,11 +135,16 @@ class EventDriven : public IntegratorBase<N, E> {
   }
   [[nodiscard]] std::optional<Number> chatter_time(const motion::State<Number>& state,
                                                    const motion::Stop<Number>& stop) const {
-    return motion::chatter_time(this->constants(), stop, contact_force(this->constants(), stop, this->phase(state)),
-                                Number(-stop.into(state.v)), low_[index_of(stop.side)], chatter_accuracy_);
+    const auto press = contact_force(this->constants(), stop, this->phase(state));
+    const Number rebound = -stop.into(state.v), &low = low_[index_of(stop.side)];
+    if constexpr (E.friction)
+      if (this->is_rough())
+        return rubbing_chatter_time(this->constants(), stop, press, this->slips().kinetic, this->slips().static_level,
+                                    rebound, low, chatter_accuracy_);
+    return motion::chatter_time(this->constants(), stop, press, rebound, low, chatter_accuracy_);
   }
   void complete(motion::State<Number>& state, const Number& left) const {
-    pass(state, left);
+    this->pass(state, left);
     state.v = 0, state.chatters = false;
   }
 
@@ -173,24 +164,58 @@ class EventDriven : public IntegratorBase<N, E> {
         }
       }
       const Number horizon = (end - state.phase_turns) * this->period();
-      const motion::Crossing<Number> contact =
-          static_cast<Method&>(*this).fly(state, motion(state), anchor(state), horizon).crossing;
-      if (!contact.resolved) return outcome_at(contact);
-      pass(state, contact.elapsed);
+      const motion::Crossing<Number> contact = next_in_chatter(state, horizon);
+      if (!contact.resolved) return this->outcome_at(contact);
+      this->pass(state, contact.elapsed);
       state.x = contact.motion.x, state.v = contact.motion.v, state.offset = contact.motion.offset;
       if (contact.side == Side::none && contact.elapsed == horizon) state.phase_turns = end;
-      if (contact.side != Side::none) reverse(state, stop);
+      if (contact.side == Side::none) continue;
+      reverse(state, stop);
       if (state.v == 0) state.chatters = false;
     }
     this->show_chatter(begin, stop, Number(state.phase_turns - begin.phase_turns), state.v, origin, observer);
     return Outcome::completed;
   }
 
+  /// The next contact of a flight of a chatter; under friction, which divides it, perhaps the peak before.
+  [[nodiscard]] motion::Crossing<Number> next_in_chatter(motion::State<Number>& state, const Number& horizon) {
+    if constexpr (E.friction)
+      if (this->is_rough()) {
+        const Side ahead = this->heading(state);
+        auto crossing =
+            this->method()
+                .fly_within(this->slips().towards(ahead), state, this->motion(this->slips().towards(ahead), state),
+                            this->anchor(state), this->slip_margins(state, ahead), horizon)
+                .crossing;
+        if (crossing.margin == 0) crossing.side = ahead;
+        if (crossing.margin == 1) crossing.motion.v = 0;
+        return crossing;
+      }
+    return this->method().fly(state, this->motion(this->constants(), state), this->anchor(state), horizon).crossing;
+  }
+
   /// The phase at which a stop releases a mass, in turns since the section, 0 ... 1: the same number after every rest.
   [[nodiscard]] std::optional<Number> release_turns(const motion::Stop<Number>& stop) const {
-    const auto phase_of_release = release_phase(this->constants(), stop);
-    if (!phase_of_release) return std::nullopt;
-    return part_of_turn(Number(*phase_of_release - this->start_turns()));
+    if constexpr (E.friction)
+      if (this->is_rough()) {
+        motion::State<Number> state;
+        state.x = stop.position;
+        return in_section(this->holding_at(state).release_phase(this->constants(), opposite(stop.side)));
+      }
+    return in_section(release_phase(this->constants(), stop));
+  }
+  /// A phase of the force counted from the section.
+  [[nodiscard]] std::optional<Number> in_section(const std::optional<Number>& phase) const {
+    if (!phase) return std::nullopt;
+    return part_of_turn(Number(*phase - this->start_turns()));
+  }
+  /// A release at a phase if it is ahead and not beyond `end`. Just behind it is now, to rounding.
+  [[nodiscard]] static std::optional<Number> upcoming(const std::optional<Number>& release, const Number& now,
+                                                      const Number& end) {
+    if (!release) return std::nullopt;
+    const Number ahead = *release - now + (*release < now ? 1 : 0);
+    const Number at = ahead > 1 - 16 * epsilon<Number>() ? now : *release;
+    return at >= now && at <= end ? std::optional(at) : std::nullopt;
   }
 
   /// Holds the mass until its release or until `end`, whichever is first.
@@ -199,110 +224,100 @@ class EventDriven : public IntegratorBase<N, E> {
                              std::int64_t origin, Observer& observer) {
     Number until = end;
     state.from_stop = stop.side, state.offset = 0;
-    if (auto release = release_turns(stop)) {
-      const Number ahead = *release - state.phase_turns + (*release < state.phase_turns ? 1 : 0);
-      if (ahead > 1 - 16 * epsilon<Number>())
-        release = state.phase_turns;  // it is now, to rounding, not a whole turn ahead
-      if (*release >= state.phase_turns && *release <= end) until = *release, state.released = true;
-    }
+    if (const auto release = upcoming(release_turns(stop), state.phase_turns, end))
+      until = *release, state.released = true;
     this->show_rest(state, stop, Number(until - state.phase_turns), true, origin, observer);
     state.phase_turns = until;
     return Outcome::completed;
   }
 
-  /// The soft stop beyond whose position the mass is.
-  [[nodiscard]] Side soft_stop_around(motion::State<Number>& state) const {
-    if (state.within != Side::none) return state.within;
-    const auto [side, offset, pressed] = motion::soft_stop_around(this->stops(), state.x, state.v);
-    if (side != Side::none) state.within = state.from_stop = side, state.offset = offset, state.pressed = pressed;
-    return side;
-  }
-
-  /// Begins a contact with a soft stop at its position. A mass that only touches, without speed, flies on.
+  /// The phases of a mass under dry friction, which slips, or stands.
   template <class Observer>
-  [[nodiscard]] Outcome touch(motion::State<Number>& state, Side side, std::int64_t origin, Observer& observer) {
-    state.from_stop = side, state.offset = 0;
-    if (state.v == 0) return Outcome::completed;
-    state.within = side, state.pressed = true;
-    this->show_touch(state, true, origin, observer);
-    return this->count_impact() ? Outcome::completed : Outcome::event_budget;
-  }
-  /// Presses a mass without speed into the soft stop that it is on, if the force does so.
-  [[nodiscard]] bool begin_pressed(motion::State<Number>& state, const motion::Crossing<Number>& contact) const {
-    const auto stop = motion::soft_stop_at<Number>(this->stops(), contact.side);
-    if (!(stop.into(contact.motion.a) > 0)) return false;
-    state.x = stop.position, state.offset = 0, state.from_stop = state.within = contact.side, state.pressed = true;
-    return true;
-  }
-
-  /// In contact with a soft stop until its force falls to 0 (eqs. 50 and 51).
-  template <class Observer>
-  [[nodiscard]] Outcome run_in_contact(motion::State<Number>& state, const Number& end, std::int64_t origin,
-                                       Observer& observer) {
-    const auto stop = motion::soft_stop_at<Number>(this->stops(), state.within);
-    const motion::Margin<Number> force{Number(0), stop.into(Number(1)), stop.into(stop.relaxation())};
-    return this->in_contact(state.within, [&](const auto& constants) {
-      const Number offset = state.offset, v = state.v;
-      const auto crossing = cross(constants, state, std::array{force}, end, origin, observer);
-      if (crossing.resolved && crossing.margin == 0) {
-        if (constants.h == 0 && constants.f == 0) state.v = stop.into(-constants.speed_at_stop(offset, v));
-        separate(state, stop, origin, observer);
-      }
-      return outcome_at(crossing);
-    });
-  }
-  /// Free beyond a soft stop's position until the mass comes back to that, or the stop, which relaxes at once, pushes
-  /// again.
-  template <class Observer>
-  [[nodiscard]] Outcome run_beyond(motion::State<Number>& state, const Number& end, std::int64_t origin,
-                                   Observer& observer) {
-    const auto stop = motion::soft_stop_at<Number>(this->stops(), state.within);
-    const Number one = stop.into(Number(1));
-    const motion::Margin<Number> depth{Number(0), one, Number(0)}, pull{Number(0), -one, -stop.into(stop.relaxation())};
-    const auto crossing = cross(this->constants(), state, std::array{depth, pull}, end, origin, observer);
-    if (crossing.resolved && crossing.margin == 0) leave(state, stop);
-    if (crossing.resolved && crossing.margin == 1) {
-      state.pressed = true;
-      this->show_touch(state, false, origin, observer);
-      if (!this->count_impact()) return Outcome::event_budget;
+  [[nodiscard]] Outcome run_rough_phase(motion::State<Number>& state, const Number& end, std::int64_t origin,
+                                        Observer& observer) {
+    if (state.chatters) return run_in_chatter(state, end, origin, observer);
+    if (this->has_soft_stops() && this->soft_stop_around(state) != Side::none) {
+      if (state.v == 0) state.pressed = true;  // the stop has come up to the mass
+      if (!state.pressed) return this->run_beyond(state, end, origin, observer);
     }
-    return outcome_at(crossing);
-  }
-  [[nodiscard]] static Outcome outcome_at(const motion::Crossing<Number>& crossing) {
-    if (crossing.resolved) return Outcome::completed;
-    return Base::finite(crossing.motion.x) ? Outcome::unresolved : Outcome::not_finite;
+    if (const auto holding = this->held(state)) return stand(state, *holding, end, origin, observer);
+    return state.pressed ? slip_in_contact(state, end, origin, observer) : slip(state, end, origin, observer);
   }
 
-  /// One arc with these constants, up to the first margin that falls to 0.
-  template <class Constants, std::size_t count, class Observer>
-  motion::Crossing<Number> cross(const Constants& constants, motion::State<Number>& state,
-                                 const std::array<motion::Margin<Number>, count>& margins, const Number& end,
-                                 std::int64_t origin, Observer& observer) {
-    const auto [sine, cosine] = this->phase(state);
-    const Number from = anchor(state), displacement = constants.from_equilibrium(state.x, from, state.offset);
-    const motion::Motion<Number> start{
-        state.offset, state.x, state.v, constants.acceleration(displacement, state.v, sine), sine, cosine};
-    const Number horizon = (end - state.phase_turns) * this->period();
-    const auto [arc, crossing] =
-        static_cast<Method&>(*this).fly_within(constants, state, start, from, margins, horizon);
-    if (!crossing.resolved) return crossing;
-    observer.arc(arc, this->time(state, origin), static_cast<double>(crossing.elapsed));
-    pass(state, crossing.elapsed);
-    state.x = crossing.motion.x, state.v = crossing.motion.v, state.offset = crossing.motion.offset;
-    return crossing;
-  }
-
-  /// Ends a contact. Without a damper the stop's force falls to 0 at its position.
+  /// Holds a mass by friction, on a stop or anywhere, until its release or until `end`, whichever is first.
   template <class Observer>
-  void separate(motion::State<Number>& state, const motion::SoftStop<Number>& stop, std::int64_t origin,
-                Observer& observer) const {
-    state.pressed = false;
-    this->show_separation(state, stop.side, origin, observer);
-    if (stop.damping == 0 || !(stop.into(state.offset) > 0)) leave(state, stop);
+  [[nodiscard]] Outcome stand(motion::State<Number>& state, const motion::Holding<Number>& holding, const Number& end,
+                              std::int64_t origin, Observer& observer) {
+    if (holding.stop != Side::none) state.from_stop = holding.stop, state.offset = 0;
+    Number until = end;
+    for (const Side side : {Side::lower, Side::upper})
+      if (const auto release =
+              upcoming(in_section(holding.release_phase(this->constants(), side)), state.phase_turns, until))
+        until = *release, state.released = true;
+    this->show_stand(state, holding.stop, Number(until - state.phase_turns), true, origin, observer);
+    state.phase_turns = until;
+    return Outcome::completed;
   }
-  /// Leaves the region beyond a soft stop's position.
-  static void leave(motion::State<Number>& state, const motion::SoftStop<Number>& stop) {
-    state.x = stop.position, state.offset = 0, state.within = Side::none, state.pressed = false;
+
+  /// Slips until it meets the stop ahead, or its velocity falls to 0.
+  template <class Observer>
+  [[nodiscard]] Outcome slip(motion::State<Number>& state, const Number& end, std::int64_t origin, Observer& observer) {
+    const Side ahead = this->heading(state);
+    const auto stop = motion::stop_at<Number>(this->stops(), ahead);
+    const bool begins = state.v == 0;
+    const auto crossing = this->cross(this->slips().towards(ahead), state, this->slip_margins(state, ahead), end,
+                                      origin, observer, this->slips().release_acceleration(ahead));
+    if (!crossing.resolved) return this->outcome_at(crossing);
+    if (begins && crossing.margin < 2 && crossing.elapsed == 0) return begin_anew(state, ahead, end, origin, observer);
+    state.released = false;
+    if (crossing.margin == 1) turn(state, ahead, origin, observer);
+    if (crossing.margin != 0) return Outcome::completed;
+    state.x = stop.position;
+    if (stop.into(state.v) < 0) state.v = 0;
+    return meet(state, stop, end, origin, observer);
+  }
+  /// The same in contact with a soft stop, whose force may fall to 0.
+  template <class Observer>
+  [[nodiscard]] Outcome slip_in_contact(motion::State<Number>& state, const Number& end, std::int64_t origin,
+                                        Observer& observer) {
+    const Side ahead = this->heading(state);
+    const auto stop = motion::soft_stop_at<Number>(this->stops(), state.within);
+    const std::array margins{motion::Margin<Number>{Number(0), stop.into(Number(1)), stop.into(stop.relaxation())},
+                             motion::Margin<Number>{Number(0), Number(0), Number(sign_of(ahead))}};
+    const bool begins = state.v == 0;
+    const auto crossing = this->slips().in_contact(state.within, ahead, [&](const auto& constants) {
+      return this->cross(constants, state, margins, end, origin, observer, this->slips().release_acceleration(ahead));
+    });
+    if (!crossing.resolved) return this->outcome_at(crossing);
+    if (begins && crossing.margin < 2 && crossing.elapsed == 0) return begin_anew(state, ahead, end, origin, observer);
+    state.released = false;
+    if (crossing.margin == 0) this->separate(state, stop, origin, observer);
+    if (crossing.margin == 1) turn(state, ahead, origin, observer);
+    return Outcome::completed;
+  }
+  /// Ends a slip towards a side: the mass sticks, as the next phase finds, or moves back at once.
+  template <class Observer>
+  void turn(motion::State<Number>& state, Side ahead, std::int64_t origin, Observer& observer) const {
+    state.v = 0;
+    if (this->held(state) || this->heading(state) == ahead) return;
+    const Number push = this->push(state), rubs = sign_of(ahead) * this->slips().kinetic;
+    this->show_reversal(state, Number(push - rubs), Number(push + rubs), origin, observer);
+  }
+  /// A mass without speed that would meet at once what is ahead: it enters the soft stop that it is on, else the force
+  /// is within rounding of the level of friction, and it waits.
+  template <class Observer>
+  [[nodiscard]] Outcome begin_anew(motion::State<Number>& state, Side ahead, const Number& end, std::int64_t origin,
+                                   Observer& observer) {
+    const Number position = ahead == Side::upper ? Number(this->stops().upper) : Number(this->stops().lower);
+    if (state.within == Side::none && is_soft(this->stops(), ahead) && state.x == position) {
+      state.offset = 0, state.from_stop = state.within = ahead, state.pressed = true;
+      return Outcome::completed;
+    }
+    using std::min, std::sqrt;
+    const Number turns = min(Number(end - state.phase_turns), Number(sqrt(epsilon<Number>())));
+    this->show_stand(state, this->holding_at(state).stop, turns, false, origin, observer);
+    state.phase_turns += turns, state.released = false;
+    return Outcome::completed;
   }
 
   /// Moves a mass at rest past an instant at which the contact force is zero to rounding, so its sign decides nothing.
@@ -318,7 +333,6 @@ class EventDriven : public IntegratorBase<N, E> {
 
   std::array<Number, 2> low_;  ///< [stop]: rebounds of chatter that is summed aren't higher
   Number chatter_accuracy_;    ///< of a sum
-  bool soft_stops_;            ///< asked at each arc: general methods have one set of effects for soft and rigid stops
 };
 
 }  // namespace clatter::stepping

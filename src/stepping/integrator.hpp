@@ -11,7 +11,7 @@
 #include <utility>
 
 #include "motion/contact_force.hpp"
-#include "motion/soft_contact.hpp"
+#include "motion/dry_friction.hpp"
 #include "scene/scene.hpp"
 #include "stepping/integration.hpp"
 
@@ -37,6 +37,7 @@ class IntegratorBase {
       : constants_(scene.oscillator),
         stops_(in_reach),
         soft_(constants_, stops_),
+        slips_(constants_, scene.friction, stops_),
         budget_(limits.impacts),
         longest_(limits.periods),
         start_turns_(turns_of(Number(scene.start.phase))) {}
@@ -60,12 +61,38 @@ class IntegratorBase {
   /// The stop that holds a mass at rest, if one does.
   [[nodiscard]] std::optional<motion::Stop<Number>> holding_stop(const motion::State<Number>& state) const {
     if (!E.rest || state.v != 0 || state.released) return std::nullopt;
+    if constexpr (E.friction)
+      if (is_rough()) {
+        const auto holding = held(state);
+        if (!holding || holding->stop == Side::none) return std::nullopt;
+        return motion::stop_at<Number>(stops_, holding->stop);
+      }
     for (const Side side : {Side::lower, Side::upper}) {
       if (E.soft && is_soft(stops_, side)) continue;
       const auto stop = motion::stop_at<Number>(stops_, side);
       if (state.x == stop.position && holds(constants_, stop, phase(state))) return stop;
     }
     return std::nullopt;
+  }
+
+  /// Whether there is dry friction.
+  [[nodiscard]] bool is_rough() const { return slips_.is_rough(); }
+  /// The friction, and the stop if there is one, that holds a mass at x' = 0; nothing: it moves on.
+  [[nodiscard]] std::optional<motion::Holding<Number>> held(const motion::State<Number>& state) const
+      requires(E.friction) {
+    if (state.v != 0 || state.released) return std::nullopt;
+    const motion::Holding<Number> holding = holding_at(state);
+    return holding.holds(constants_, phase(state)) ? std::optional(holding) : std::nullopt;
+  }
+  /// Whether friction holds a mass for good, away from rigid stops.
+  [[nodiscard]] bool sticks_for_good(const motion::State<Number>& state) const {
+    if constexpr (E.friction) {
+      if (!is_rough()) return false;
+      const auto holding = held(state);
+      return holding && holding->stop == Side::none && !holding->release_phase(constants_, Side::lower) &&
+             !holding->release_phase(constants_, Side::upper);
+    }
+    return false;
   }
 
   /// Calls `function(constants)` with those of motion in contact with a soft stop.
@@ -85,6 +112,23 @@ class IntegratorBase {
   }
 
  protected:
+  /// What may hold a mass at x' = 0: the constant forces there, those of a soft stop included, and the static level.
+  [[nodiscard]] motion::Holding<Number> holding_at(const motion::State<Number>& state) const requires(E.friction) {
+    motion::Holding<Number> holding{Side::none, constants_.constant_force(state.x), slips_.static_level};
+    for (const Side side : {Side::lower, Side::upper}) {
+      const auto stop = motion::stop_at<Number>(stops_, side);
+      if (!is_soft(stops_, side) && state.x == stop.position) holding.stop = side;
+    }
+    Side within = state.within;
+    Number depth = state.offset;
+    if (within == Side::none) {
+      const auto around = motion::soft_stop_around(stops_, state.x, state.v);
+      within = around.side, depth = around.offset;
+    }
+    if (within != Side::none) holding.constant -= motion::soft_stop_at<Number>(stops_, within).stiffness * depth;
+    return holding;
+  }
+  [[nodiscard]] const auto& slips() const { return slips_; }
   [[nodiscard]] static bool finite(const Number& x) { return std::isfinite(static_cast<double>(x)); }
   [[nodiscard]] static Outcome outcome_of(const motion::State<Number>& state) {
     return finite(state.x) && finite(state.v) ? Outcome::completed : Outcome::not_finite;
@@ -129,6 +173,19 @@ class IntegratorBase {
                                static_cast<double>(stop.position), held});
   }
   template <class Observer>
+  void show_stand(const motion::State<Number>& state, Side side, const Number& turns, bool held, std::int64_t origin,
+                  Observer& observer) const {
+    observer.rest(motion::Rest{time(state, origin), static_cast<double>(turns * constants_.period), side,
+                               static_cast<double>(state.x), held});
+  }
+  template <class Observer>
+  void show_reversal(const motion::State<Number>& state, const Number& before, const Number& after, std::int64_t origin,
+                     Observer& observer) const {
+    if constexpr (requires { observer.reversal(motion::Reversal{}); })
+      observer.reversal(motion::Reversal{time(state, origin), static_cast<double>(state.x), static_cast<double>(before),
+                                         static_cast<double>(after)});
+  }
+  template <class Observer>
   void show_chatter(const motion::State<Number>& begin, const motion::Stop<Number>& stop, const Number& turns,
                     const Number& v_end, std::int64_t origin, Observer& observer) const {
     observer.rest(motion::Rest{time(begin, origin), static_cast<double>(turns * constants_.period), stop.side,
@@ -143,6 +200,7 @@ class IntegratorBase {
   motion::ArcConstants<Number, E.arc()> constants_;
   Stops stops_;
   [[no_unique_address]] std::conditional_t<E.soft, motion::SoftContact<Number>, motion::NoSoftContact> soft_;
+  [[no_unique_address]] std::conditional_t<E.friction, motion::Slips<Number, E.arc()>, motion::NoSlips> slips_;
   double budget_;
   double longest_;  ///< forcing periods that a run may take
   Number start_turns_;

@@ -1,0 +1,93 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "motion/contact.hpp"
+#include "stepping/integrator.hpp"
+
+namespace clatter::stepping {
+
+/// An arc and its end: the first of its margins that falls to 0, else the horizon, or an earlier instant if the method
+/// divides the flight into several arcs.
+template <class A>
+struct ArcToEvent {
+  A arc;
+  motion::Crossing<typename A::Number> crossing{};
+};
+
+/// Flights of the event loop, each by the method: `fly(state, motion, anchor, horizon)` between rigid stops, and
+/// `fly_within(constants, state, motion, anchor, margins, horizon)` up to the first of some margins that falls to 0.
+template <class Method, class N, Effects E>
+class Flights : public IntegratorBase<N, E> {
+  using Base = IntegratorBase<N, E>;
+
+ public:
+  using Number = N;
+  using Base::Base;
+
+ protected:
+  [[nodiscard]] Method& method() { return static_cast<Method&>(*this); }
+
+  /// The position that the offset of the present flight counts from.
+  [[nodiscard]] Number anchor(const motion::State<Number>& state) const {
+    return state.from_stop == Side::none ? state.x : motion::stop_at<Number>(this->stops(), state.from_stop).position;
+  }
+  /// The beginning of a flight; `released`: the acceleration if it begins with a release.
+  template <class Constants>
+  [[nodiscard]] motion::Motion<Number> motion(const Constants& constants, const motion::State<Number>& state,
+                                              const Number& released = Number(0)) const {
+    const auto [sine, cosine] = this->phase(state);
+    const Number offset = state.from_stop == Side::none ? Number(0) : state.offset;
+    const Number displacement = constants.from_equilibrium(state.x, anchor(state), offset);
+    const Number a = state.released ? released : constants.acceleration(displacement, state.v, sine);
+    return {offset, state.x, state.v, a, sine, cosine};
+  }
+
+  void pass(motion::State<Number>& state, const Number& elapsed) const {
+    state.phase_turns += elapsed / this->period();
+  }
+  [[nodiscard]] static Outcome outcome_at(const motion::Crossing<Number>& crossing) {
+    if (crossing.resolved) return Outcome::completed;
+    return Base::finite(crossing.motion.x) ? Outcome::unresolved : Outcome::not_finite;
+  }
+
+  /// The constant force and f sin(theta) on a mass at x' = 0.
+  [[nodiscard]] Number push(const motion::State<Number>& state) const requires(E.friction) {
+    return this->holding_at(state).constant + this->constants().f * this->phase(state).sine;
+  }
+  /// The side that a mass slips to: that of its velocity, or that to which it is pushed, or let go.
+  [[nodiscard]] Side heading(const motion::State<Number>& state) const requires(E.friction) {
+    const Number way = state.v != 0     ? state.v
+                       : state.released ? Number(this->constants().f * this->phase(state).cosine)
+                                        : push(state);
+    return way > 0 ? Side::upper : Side::lower;
+  }
+  /// The gap to the stop ahead, and the velocity.
+  [[nodiscard]] std::array<motion::Margin<Number>, 2> slip_margins(const motion::State<Number>& state,
+                                                                   Side ahead) const {
+    const Number one(sign_of(ahead)), position(ahead == Side::upper ? this->stops().upper : this->stops().lower);
+    return {motion::Margin<Number>{one * (position - anchor(state)), -one, Number(0)},
+            motion::Margin<Number>{Number(0), Number(0), one}};
+  }
+
+  /// One arc with these constants, up to the first margin that falls to 0.
+  template <class Constants, std::size_t count, class Observer>
+  motion::Crossing<Number> cross(const Constants& constants, motion::State<Number>& state,
+                                 const std::array<motion::Margin<Number>, count>& margins, const Number& end,
+                                 std::int64_t origin, Observer& observer, const Number& released = Number(0)) {
+    const motion::Motion<Number> start = motion(constants, state, released);
+    const Number horizon = (end - state.phase_turns) * this->period();
+    const auto [arc, crossing] = method().fly_within(constants, state, start, anchor(state), margins, horizon);
+    if (!crossing.resolved) return crossing;
+    if constexpr (E.friction)  // a slip that ends where it begins is none
+      if (this->is_rough() && crossing.elapsed == 0 && state.v == 0) return crossing;
+    observer.arc(arc, this->time(state, origin), static_cast<double>(crossing.elapsed));
+    pass(state, crossing.elapsed);
+    state.x = crossing.motion.x, state.v = crossing.motion.v, state.offset = crossing.motion.offset;
+    return crossing;
+  }
+};
+
+}  // namespace clatter::stepping
