@@ -27,11 +27,19 @@ bool is_possible(const point::Problem& problem, const Ending& ending) {
          x <= stops.upper;
 }
 
+/// A mass that friction holds for good.
+Motion stuck(const point::Problem& problem, const PhasePoint& state) {
+  Motion motion{.periodic = standstill(problem, state.x), .state = state, .sticks = true};
+  if (problem.oscillator.forcing != 0) motion.periodic->regime = "0/1";
+  return motion;
+}
+
 }  // namespace
 
 std::optional<std::size_t> EnsembleMotions::motion_of(const point::Problem& problem, const Ending& ending) {
   if (!is_possible(problem, ending)) return std::nullopt;
   PhasePoint state = ending.state;
+  if (state.v == 0 && sticks_for_good(problem, state.x)) return sticking_ ? sticking_ : add(stuck(problem, state));
   if (problem.oscillator.forcing == 0) {
     if (const auto known = passing(state)) return known;
     return add({.periodic = standstill(problem, state.x), .state = state});
@@ -47,7 +55,9 @@ std::optional<std::size_t> EnsembleMotions::motion_of(const point::Problem& prob
 
 void EnsembleMotions::restore(const point::Problem& problem, const Ending& ending) {
   Motion motion{.state = ending.state};
-  if (problem.oscillator.forcing == 0) {
+  if (ending.state.v == 0 && sticks_for_good(problem, ending.state.x)) {
+    motion = stuck(problem, ending.state);
+  } else if (problem.oscillator.forcing == 0) {
     motion.periodic = standstill(problem, ending.state.x);
   } else if (ending.periods > 0) {
     motion.periodic = periodic_motion(problem, ending.state, static_cast<std::size_t>(ending.periods));
@@ -125,7 +135,9 @@ bool EnsembleMotions::visits_mirror(const point::Problem& problem, const Motion&
 
 std::size_t EnsembleMotions::add(Motion motion) {
   const std::size_t index = motions_.size();
-  if (motion.periodic) {
+  if (motion.sticks) {
+    sticking_ = index;
+  } else if (motion.periodic) {
     largest_ = std::max(largest_, motion.periodic->size);
     for (const PhasePoint& state : motion.periodic->cycle) by_x_.emplace(state.x, index);
   }

@@ -23,6 +23,7 @@ struct Motion {
   PhasePoint state{};                        ///< at forcing phase 0
   VisitedCells cells{};                      ///< of motion without a period
   bool symmetric = false;                    ///< motion without a period visits the cells of its mirror image
+  bool sticks = false;                       ///< dry friction holds the mass for good, here or at any place of a band
 
   [[nodiscard]] std::size_t periods() const { return periodic ? periodic->cycle.size() : 0; }
 };
@@ -43,6 +44,8 @@ class EnsembleMotions {
 
   /// The periodic motion that passes a state at forcing phase 0.
   [[nodiscard]] std::optional<std::size_t> passing(const PhasePoint& state) const;
+  /// The mass that friction holds for good.
+  [[nodiscard]] std::optional<std::size_t> sticking() const { return sticking_; }
   /// The motion without a period in whose cells most of some successive states lie.
   [[nodiscard]] std::optional<std::size_t> visiting(std::span<const PhasePoint> states) const;
 
@@ -59,6 +62,7 @@ class EnsembleMotions {
   std::vector<Motion> motions_;
   std::multimap<double, std::size_t> by_x_;  ///< of every state of every cycle, the index of the motion
   double largest_ = 0.0;                     ///< size of the periodic motions
+  std::optional<std::size_t> sticking_{};    ///< index of the motion
 };
 
 }  // namespace clatter::attractors

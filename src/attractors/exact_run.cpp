@@ -13,16 +13,18 @@ using motion::Event;
 
 /// Adds the contacts of a round over a time in tau.
 void add_contacts(const std::vector<Event>& events, double total, Round& round) {
-  std::vector<double> ends;  // [contact]: the beginning of the flight after it
+  std::vector<double> begins, ends;  // of contacts, sticks and reversals: between them the mass flies
   for (const Event& event : events) {
     if (event.kind == Event::Kind::separation && !ends.empty()) ends.back() = event.time;
     if (event.kind == Event::Kind::separation || event.kind == Event::Kind::renewal) continue;
-    round.contacts.push_back({event.time, event.velocity, event.side}), ends.push_back(event.time + event.length);
+    begins.push_back(event.time), ends.push_back(event.time + event.length);
+    if (event.side == Side::none) continue;
+    round.contacts.push_back({event.time, event.velocity, event.side});
     round.fastest = std::max(round.fastest, std::abs(event.velocity));
   }
   double longest = 0.0;
   for (std::size_t i = 0; i < ends.size(); ++i) {
-    const double next = i + 1 < ends.size() ? round.contacts[i + 1].time : round.contacts[0].time + total;
+    const double next = i + 1 < ends.size() ? begins[i + 1] : begins[0] + total;
     if (next - ends[i] <= longest) continue;
     longest = next - ends[i];
     round.middle_of_flight = std::fmod((ends[i] + next) / 2, total) / total * static_cast<double>(round.orbit.periods);

@@ -47,12 +47,13 @@ double place_of_rest(const point::Problem& from, const point::Problem& to, doubl
 
 TrackedMotion::TrackedMotion(const point::Problem& problem, const Motion& motion)
     : at_(problem), state_(motion.state), periods_(motion.periods()), symmetric_(motion.symmetric) {
+  sticks_ = motion.sticks;
   if (!motion.periodic) return;
   const PeriodicMotion& periodic = *motion.periodic;
   word_ = periodic.word, size_ = periodic.size;
   state_ = periodic.cycle[static_cast<std::size_t>(periodic.middle_of_flight)];
   phase_turns_ = periodic.middle_of_flight - std::floor(periodic.middle_of_flight);
-  if (problem.oscillator.forcing == 0 || phase_turns_ == 0) return;
+  if (sticks_ || problem.oscillator.forcing == 0 || phase_turns_ == 0) return;
   const auto there = state_after(started(problem, state_, 0.0), phase_turns_);
   lost_ = !there;
   if (there) state_ = *there;
@@ -61,7 +62,10 @@ TrackedMotion::TrackedMotion(const point::Problem& problem, const Motion& motion
 bool TrackedMotion::follow(const point::Problem& to) {
   if (lost_) return false;
   bool followed = true;
-  if (to.oscillator.forcing == 0 || at_.oscillator.forcing == 0) {
+  if (sticks_) {  // perhaps elsewhere in its band
+    if (!sticks_for_good(to, state_.x)) state_.x = equilibrium_of(to.oscillator);
+    followed = sticks_for_good(to, state_.x);
+  } else if (to.oscillator.forcing == 0 || at_.oscillator.forcing == 0) {
     followed = to.oscillator.forcing == at_.oscillator.forcing;
     state_.x = place_of_rest(at_, to, state_.x);
   } else if (is_periodic()) {
@@ -130,6 +134,7 @@ bool TrackedMotion::move_section(const point::Problem& problem, const Round& rou
 }
 
 std::optional<std::size_t> TrackedMotion::among(const EnsembleMotions& motions) const {
+  if (sticks_) return motions.sticking();
   if (!is_periodic()) {
     const auto met = motions.visiting(states_);
     return met && motions.motions()[*met].symmetric == symmetric_ ? met : std::nullopt;

@@ -38,6 +38,7 @@ class TrackedMotion {
   std::string word_{};
   double size_ = 0.0;
   bool symmetric_ = false;            ///< of motion without a period
+  bool sticks_ = false;               ///< friction holds the mass for good
   bool lost_ = false;                 ///< it couldn't be brought to its section
   std::vector<PhasePoint> states_{};  ///< of motion without a period at phase 0, at these parameters
 };

@@ -229,6 +229,17 @@ bool escapes(const Scene& scene, double x, double v, const SineCosine<double>& p
   return departing < 0 && std::isinf(stops.lower) && nearest + size < stops.upper - equilibrium_of(o);
 }
 
+bool sticks_for_good(const Scene& scene, double x) {
+  const Stops& stops = scene.stops;
+  const bool on_rigid_stop =
+      (x == stops.lower && !is_soft(stops, Side::lower)) || (x == stops.upper && !is_soft(stops, Side::upper));
+  if (!has_friction(scene.friction) || on_rigid_stop) return false;
+  double force = constant_force(scene.oscillator, x);
+  if (soft_stop_beyond(stops, x) == Side::lower) force -= stops.stiffness_lower * (x - stops.lower);
+  if (soft_stop_beyond(stops, x) == Side::upper) force -= stops.stiffness_upper * (x - stops.upper);
+  return scene.friction.static_level - std::abs(force) >= std::abs(scene.oscillator.forcing);
+}
+
 bool out_of_reach(const Oscillator& oscillator, const PhaseState& now, const Stops& stops) {
   if (response_meets(oscillator, stops)) return false;  // cheap to check first
   const double gap = gap_of(oscillator, stops);

@@ -62,6 +62,9 @@ struct PhasePoint {
 /// other one (eq. 49).
 [[nodiscard]] bool escapes(const Scene& scene, double x, double v, const SineCosine<double>& phase);
 
+/// Whether dry friction holds a mass at x, away from rigid stops, for all time once its velocity is 0.
+[[nodiscard]] bool sticks_for_good(const Scene& scene, double x);
+
 /// Whether no stop can be met from an instant on, for all time.
 [[nodiscard]] bool out_of_reach(const Oscillator& oscillator, const PhaseState& now, const Stops& stops);
 
