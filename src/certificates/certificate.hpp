@@ -21,7 +21,8 @@ struct ClaimedEvent {
   motion::Event::Kind kind;
   Side side;
   Claimed time;
-  Claimed then;         ///< of a rest or a chatter the time of its end, else the velocity before the event
+  Claimed then;         ///< of a rest, a stick or a chatter the time of its end, else the velocity before the event
+  Claimed place{};      ///< of a stick or a reversal the displacement
   bool grazes = false;  ///< it has no speed, and changes nothing
 };
 

@@ -53,12 +53,22 @@ Json json_of(const Scene& scene) {
   const Oscillator& o = scene.oscillator;
   Json json{{"h", o.damping},    {"k", o.stiffness}, {"f", o.forcing},
             {"nu", o.frequency}, {"load", o.load},   {"phase", scene.start.phase}};
+  if (has_friction(scene.friction)) {
+    json["friction"] = scene.friction.kinetic;
+    if (scene.friction.static_level != scene.friction.kinetic) json["friction_static"] = scene.friction.static_level;
+  }
   if (std::isfinite(scene.stops.lower)) json["lower"] = json_of(scene.stops, Side::lower);
   if (std::isfinite(scene.stops.upper)) json["upper"] = json_of(scene.stops, Side::upper);
   return json;
 }
 
 Json json_of(const ClaimedEvent& event) {
+  if (event.side == Side::none) {
+    Json turn{{"event", name_of(event.kind)}, {"time", json_of(event.time)}};
+    if (event.kind == Kind::stick) turn["until"] = json_of(event.then);
+    turn["x"] = json_of(event.place);
+    return turn;
+  }
   if (event.grazes) return {{"event", "graze"}, {"stop", name_of(event.side)}, {"time", json_of(event.time)}};
   const bool lasts = event.kind == Kind::rest || event.kind == Kind::chatter;
   return {{"event", name_of(event.kind)},

@@ -44,10 +44,15 @@ class ErrorBounds {
   [[nodiscard]] double acceleration(const RecordedEvent& event) const;
   [[nodiscard]] ClaimedEvent claimed_contact(const RecordedEvent& event, double since) const;
   [[nodiscard]] ClaimedEvent claimed_stay(const RecordedEvent& event, const ClaimedEvent* before) const;
+  /// Of a stick or a reversal, the velocity of a slip being 0.
+  [[nodiscard]] ClaimedEvent claimed_turn(const RecordedEvent& event) const;
   [[nodiscard]] double chatter_error(const RecordedEvent& event, const ClaimedEvent* before) const;
-  [[nodiscard]] double release_error(const RecordedEvent& event) const;
+  [[nodiscard]] double release_error(const RecordedEvent& event, double x, double x_error) const;
+  [[nodiscard]] double push_at(double time, double x) const;
+  [[nodiscard]] double stiffness_at(double x) const;
 
   Oscillator oscillator_;
+  Friction friction_;
   Stops stops_;
   double phase_, begin_, forcing_period_;
   double size_, of_start_, stretching_;  ///< S, error of the start over 1e-12 S, largest norm of the derivative
