@@ -213,7 +213,9 @@ void expect_no_impact_missed(InstructionSet arch) {
     const std::vector<LaneRun> runs = run_lanes<E>(scenes, step_functions_of<E>(arch).plain, 20, 100);
     for (std::size_t i = 0; i < scenes.size(); ++i) {
       const Scene& scene = scenes[i];
-      const auto& [o, stops, start, shaking] = scene;
+      const Oscillator& o = scene.oscillator;
+      const Stops& stops = scene.stops;
+      const Start& start = scene.start;
       motion::Impact last{0, Side::none, 0, start.velocity, start.displacement};
       for (const motion::Impact& impact : runs[i].impacts) {
         const long double phase = start.phase + static_cast<long double>(o.frequency) * last.time;
