@@ -88,7 +88,7 @@ class EventDriven : public SoftPhases<Method, N, E> {
     const Side side = contact.side;
     if (side != Side::none && contact.elapsed == 0 && state.v == 0) {
       if (!E.soft || !is_soft(this->stops(), side) || !this->begin_pressed(state, contact))
-        pass_zero_force(state, motion::stop_at<Number>(this->stops(), side), end, origin, observer);
+        wait(state, side, end, origin, observer);
       return Outcome::completed;
     }
     observer.arc(arc, this->time(state, origin), static_cast<double>(contact.elapsed));
@@ -226,7 +226,7 @@ class EventDriven : public SoftPhases<Method, N, E> {
     state.from_stop = stop.side, state.offset = 0;
     if (const auto release = upcoming(release_turns(stop), state.phase_turns, end))
       until = *release, state.released = true;
-    this->show_rest(state, stop, Number(until - state.phase_turns), true, origin, observer);
+    this->show_rest(state, stop.side, Number(until - state.phase_turns), true, origin, observer);
     state.phase_turns = until;
     return Outcome::completed;
   }
@@ -254,7 +254,7 @@ class EventDriven : public SoftPhases<Method, N, E> {
       if (const auto release =
               upcoming(in_section(holding.release_phase(this->constants(), side)), state.phase_turns, until))
         until = *release, state.released = true;
-    this->show_stand(state, holding.stop, Number(until - state.phase_turns), true, origin, observer);
+    this->show_rest(state, holding.stop, Number(until - state.phase_turns), true, origin, observer);
     state.phase_turns = until;
     return Outcome::completed;
   }
@@ -265,16 +265,29 @@ class EventDriven : public SoftPhases<Method, N, E> {
     const Side ahead = this->heading(state);
     const auto stop = motion::stop_at<Number>(this->stops(), ahead);
     const bool begins = state.v == 0;
-    const auto crossing = this->cross(this->slips().towards(ahead), state, this->slip_margins(state, ahead), end,
-                                      origin, observer, this->slips().release_acceleration(ahead));
+    const Number rounding = rounding_of_gap(state, stop);
+    const auto margins = this->slip_margins(state, ahead);
+    const auto crossing = this->cross(this->slips().towards(ahead), state, margins, end, origin, observer,
+                                      this->slips().release_acceleration(ahead));
     if (!crossing.resolved) return this->outcome_at(crossing);
     if (begins && crossing.margin < 2 && crossing.elapsed == 0) return begin_anew(state, ahead, end, origin, observer);
     state.released = false;
-    if (crossing.margin == 1) turn(state, ahead, origin, observer);
-    if (crossing.margin != 0) return Outcome::completed;
+    const bool touches = crossing.margin == 1 && margins[0].of(crossing.motion) <= rounding;
+    if (crossing.margin == 1 && !touches) turn(state, ahead, origin, observer);
+    if (crossing.margin > 0 && !touches) return Outcome::completed;
     state.x = stop.position;
-    if (stop.into(state.v) < 0) state.v = 0;
+    const Number brakes = -stop.into(crossing.motion.a), speed = stop.into(state.v);
+    if (touches || speed < 0 || speed * speed <= 2 * brakes * rounding) state.v = 0;
     return meet(state, stop, end, origin, observer);
+  }
+  /// Of the gap to a rigid stop at the end of a slip. Without a spring, and with a force that is the same both ways, a
+  /// mass that a stop has released comes back to it exactly without speed: it then rests, whatever rounding says.
+  [[nodiscard]] Number rounding_of_gap(const motion::State<Number>& state, const motion::Stop<Number>& stop) const {
+    using std::abs;
+    if (is_soft(this->stops(), stop.side) || !Base::finite(stop.position)) return Number(0);
+    const Number size = state.from_stop == stop.side ? Number(abs(state.offset))
+                                                     : Number(abs(stop.position - state.x) + abs(stop.position));
+    return 64 * epsilon<Number>() * size;
   }
   /// The same in contact with a soft stop, whose force may fall to 0.
   template <class Observer>
@@ -313,21 +326,17 @@ class EventDriven : public SoftPhases<Method, N, E> {
       state.offset = 0, state.from_stop = state.within = ahead, state.pressed = true;
       return Outcome::completed;
     }
-    using std::min, std::sqrt;
-    const Number turns = min(Number(end - state.phase_turns), Number(sqrt(epsilon<Number>())));
-    this->show_stand(state, this->holding_at(state).stop, turns, false, origin, observer);
-    state.phase_turns += turns, state.released = false;
+    wait(state, this->holding_at(state).stop, end, origin, observer);
     return Outcome::completed;
   }
 
-  /// Moves a mass at rest past an instant at which the contact force is zero to rounding, so its sign decides nothing.
-  /// After sqrt(epsilon) of a period the force is clear of rounding; the mass moves by far less than an ulp.
+  /// Moves a mass at rest past an instant at which the force that holds it is zero to rounding, so its sign decides
+  /// nothing. After sqrt(epsilon) of a period it is clear of rounding; the mass moves by far less than an ulp.
   template <class Observer>
-  void pass_zero_force(motion::State<Number>& state, const motion::Stop<Number>& stop, const Number& end,
-                       std::int64_t origin, Observer& observer) {
+  void wait(motion::State<Number>& state, Side side, const Number& end, std::int64_t origin, Observer& observer) {
     using std::min, std::sqrt;
     const Number turns = min(Number(end - state.phase_turns), Number(sqrt(epsilon<Number>())));
-    this->show_rest(state, stop, turns, false, origin, observer);
+    this->show_rest(state, side, turns, false, origin, observer);
     state.phase_turns += turns, state.released = false;
   }
 
