@@ -152,7 +152,7 @@ bool comes_to_a_standstill(const Settings& settings) {
     return given_everywhere(settings, parameter, [](double value) { return value > 0 && std::isfinite(value); });
   };
   return steady(settings) && unforced(settings) &&
-         (damps("h") || damps("damping") || damps("damping_ratio") || damps("quality"));
+         (damps("h") || damps("damping") || damps("damping_ratio") || damps("quality") || damps("friction"));
 }
 /// Without a spring a section is taken at x = 0, to which a rigid stop at 0 or beyond lets no mass rise.
 bool never_passes_zero(const Settings& settings) {
