@@ -18,6 +18,7 @@ struct SlideEvent {
     separation,  ///< from a soft stop
     stick,       ///< away from rigid stops
     reversal,    ///< the velocity passes 0
+    chatter,     ///< of the program's motions: impacts on a stop that it doesn't tell one by one
   };
   using Real = long double;
 
