@@ -65,7 +65,9 @@ inline void vary_start(support::Random& random, const Stops& stops, Start& start
   start.displacement = position + sign_of(side) * random.logarithmic(1e-6, 1) / std::sqrt(kappa);
 }
 
-/// A random scene with dry friction; forces, damping and stops otherwise as `any_scene` draws them.
+/// A random scene with dry friction; forces, damping and stops otherwise as `any_scene` draws them. Without a spring there
+/// is a load: without both a mass that leaves a stop comes back to it without any speed, so rounding decides whether it
+/// meets it.
 [[nodiscard]] inline AnyScene any_sliding_scene(std::uint64_t index) {
   AnyScene any = any_scene(index);
   support::Random random(20470, index);
@@ -75,6 +77,8 @@ inline void vary_start(support::Random& random, const Stops& stops, Start& start
   oscillator.stiffness = random.happens(0.75) ? 1 : any_other_stiffness(random, stops, any.duration);
   vary_start(random, stops, start);
   const double force = oscillator.forcing != 0 ? std::abs(oscillator.forcing) : 1;
+  if (oscillator.stiffness == 0 && oscillator.load == 0)
+    oscillator.load = random.sign() * force * random.logarithmic(1e-3, 1);
   friction.kinetic = force * any_kinetic(random);
   friction.static_level = force * any_static_level(random, friction.kinetic / force);
   if (friction.static_level < friction.kinetic) friction.static_level = friction.kinetic;

@@ -19,7 +19,8 @@ enum class End : std::uint8_t { none, stop_ahead, still, force_gone, left, force
 
 class Slide {
  public:
-  Slide(const Scene& scene, Real duration) : scene_(scene), end_(duration), anchor_(scene.start.displacement) {
+  Slide(const Scene& scene, Real duration, Real rounding)
+      : scene_(scene), end_(duration), rounding_(rounding), anchor_(scene.start.displacement) {
     v_ = scene.start.velocity;
     const Side around = soft_stop_beyond(scene.stops, scene.start.displacement);
     if (around != Side::none) enter(around, Real(scene.start.displacement) - position(around));
@@ -41,7 +42,7 @@ class Slide {
 
  private:
   static constexpr Real pi = std::numbers::pi_v<Real>;
-  static constexpr Real still = 1e-13L;                   ///< rebounds are as slow, in units of the fastest speed
+  static constexpr Real still = 1e-16L;                   ///< rebounds are as slow, in units of the fastest speed
   static constexpr std::size_t most_phases = 20'000'000;  ///< flights are cut into Taylor steps
 
   [[nodiscard]] Real x() const { return anchor_ + y_; }
@@ -209,6 +210,7 @@ class Slide {
   /// The end of a slip: a reversal, unless the mass is held.
   void turn() {
     v_ = 0;
+    y_ += std::min(rounding_ * std::abs(x()), Real(1e-6) * std::abs(y_));
     if (within_ != Side::none) pressed_ = true;
     if (is_held(Side::lower) && is_held(Side::upper)) return;
     const Real rub = sign_of(ahead_) * Real(scene_.friction.kinetic);
@@ -223,7 +225,8 @@ class Slide {
   void leave() { y_ = 0, within_ = Side::none, pressed_ = balanced_ = false; }
 
   const Scene scene_;
-  const Real end_;  ///< of the run, tau
+  const Real end_;       ///< of the run, tau
+  const Real rounding_;  ///< of places at which the velocity falls to 0
   Real time_ = 0;
   Real anchor_;               ///< the place that the offset counts from: keeps the digits of short flights
   Real y_ = 0;                ///< offset
@@ -238,8 +241,8 @@ class Slide {
 
 }  // namespace
 
-SlideRun slide(const Scene& scene, Real duration, std::size_t most_events) {
-  return Slide(scene, duration).run(most_events);
+SlideRun slide(const Scene& scene, Real duration, std::size_t most_events, Real rounding) {
+  return Slide(scene, duration, rounding).run(most_events);
 }
 
 }  // namespace clatter::hard

@@ -93,10 +93,10 @@ class Matching {
 }  // namespace
 
 SlideScales scales_of(const Scene& scene, double duration, const SlideRun& run) {
-  const double size = static_cast<double>(std::max({std::abs(run.lowest), std::abs(run.highest)}));
-  const Oscillator& o = scene.oscillator;
-  return {duration, size, static_cast<double>(run.fastest),
-          std::abs(o.forcing) + std::abs(o.load) + std::abs(o.stiffness) * size + scene.friction.static_level};
+  const auto& [h, f, nu, load, k] = scene.oscillator;
+  const double response = std::abs(f) / std::max({std::abs(k - nu * nu), 2 * h * nu, nu / duration});
+  const double size = std::max(response, static_cast<double>(std::max(std::abs(run.lowest), std::abs(run.highest))));
+  return {duration, size, std::max({response * nu, size * std::sqrt(std::abs(k)), static_cast<double>(run.fastest)})};
 }
 
 Events as_slide_events(const std::vector<motion::Event>& events) {

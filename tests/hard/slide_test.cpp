@@ -122,7 +122,7 @@ TEST(Slide, chatters_at_the_ratio_that_friction_leaves) {
     for (std::size_t i = 0; i < impacts.size(); ++i)
       expect_near(-R * impacts[i].velocity / std::pow(rho, Real(i + 1)), 1, 1e-14L);
     const Real end = (1 / (a + mu) + 1 / std::sqrt(a * a - mu * mu)) / (1 - rho);
-    expect_near(rests[0].time, end, 1e-12L);  // rebounds below 1e-13 are cut off
+    expect_near(rests[0].time, end, 1e-12L);
     EXPECT_EQ(run.x, 0);
     expect_near(run.highest, 1 / (2 * (a + mu)));
   }

@@ -20,19 +20,22 @@ namespace {
 
 using Kind = SlideEvent::Kind;
 
-/// The scene with each input moved by a few roundings, with signs drawn by a number.
-Scene moved(const Scene& scene, std::uint64_t way) {
-  support::Random random(20471, way);
+/// The scene with each input moved by a few roundings. Signs are drawn, but friction rises against the force or falls.
+Scene moved(const AnyScene& any, std::uint64_t way) {
+  support::Random random(20471, 4 * any.index + way);
+  const Scene& scene = any.scene;
   Scene other = scene;
   auto& [o, stops, start, shaking, friction] = other;
-  const auto nudge = [&](double value) { return value * (1 + random.sign() * 2 * epsilon<double>()); };
+  const auto by = [](double sign) { return 1 + sign * 2 * epsilon<double>(); };
+  const auto nudge = [&](double value) { return value * by(random.sign()); };
   for (double* value : {&o.damping, &o.forcing, &o.frequency, &o.load, &o.stiffness, &start.velocity,
                         &stops.stiffness_lower, &stops.stiffness_upper, &stops.damping_lower, &stops.damping_upper})
     *value = nudge(*value);
   for (double* R : {&stops.restitution_lower, &stops.restitution_upper}) *R = std::min(1.0, nudge(*R));
   start.phase += random.sign() * 8 * epsilon<double>();
-  friction = {nudge(friction.kinetic), nudge(friction.static_level)};
-  if (scene.friction.kinetic == scene.friction.static_level) friction.static_level = friction.kinetic;
+  const double rises = way % 2 == 0 ? 1 : -1;
+  friction = {friction.kinetic * by(rises), friction.static_level * by(rises)};
+  o.forcing = scene.oscillator.forcing * by(-rises);
   const auto is_on = [&](double stop) { return scene.start.displacement == stop; };
   const Stops before = stops;
   stops.lower = nudge(stops.lower), stops.upper = nudge(stops.upper);
@@ -45,25 +48,23 @@ Scene moved(const Scene& scene, std::uint64_t way) {
 /// The simulator's motion of a scene, and how much roundings of the inputs are magnified in it.
 class Reference {
  public:
-  Reference(const Scene& scene, double duration)
-      : run(slide(scene, duration, most_events)),
-        scales(scales_of(scene, duration, run)),
-        events(joined(run.events, duration)),
+  explicit Reference(const AnyScene& any)
+      : run(slide(any.scene, any.duration, most_events)),
+        scales(scales_of(any.scene, any.duration, run)),
+        events(joined(run.events, any.duration)),
         decided(events.size()),
         growth(events.size(), 0.0) {
-    for (std::uint64_t way = 0; way < 3; ++way) {
-      const SlideRun other = slide(moved(scene, way), duration, most_events);
-      compare(other);
-    }
+    for (std::uint64_t way = 0; way < 4; ++way) compare(slide(moved(any, way), any.duration, most_events));
+    compare(slide(any.scene, any.duration, most_events, epsilon<double>()));
     for (std::size_t i = 1; i < growth.size(); ++i) growth[i] = std::max(growth[i], growth[i - 1]);
   }
 
   /// The most by which the program may be off in an event.
   [[nodiscard]] double allowed(std::size_t event) const {
-    return std::max((16 + static_cast<double>(event)) * epsilon<double>(), 64 * growth[event]);
+    return std::max((16 + static_cast<double>(event)) * epsilon<double>(), 128 * growth[event]);
   }
   [[nodiscard]] double allowed_at_end() const {
-    return std::max((16 + static_cast<double>(events.size())) * epsilon<double>(), 64 * end_growth);
+    return std::max((16 + static_cast<double>(events.size())) * epsilon<double>(), 128 * end_growth);
   }
   [[nodiscard]] bool is_decided() const { return run.completed && decided == events.size() && ends_alike; }
   [[nodiscard]] double end_deviation(double x, double v) const {
@@ -112,7 +113,7 @@ TEST(SlidingScenes, are_told_event_by_event_as_taylor_series_tell_them) {
   std::map<Kind, std::uint64_t> counts;
   std::uint64_t scenes = 0, decided = 0;
   in_every_scene(sliding, [&](const AnyScene& any) {
-    const Reference reference(any.scene, any.duration);
+    const Reference reference(any);
     const Told told(any);
     const bool is_cut = told.outcome == stepping::Outcome::event_budget;
     const SlideMatch found = match(told.events, is_cut, reference.events, !reference.run.completed, reference.scales);
@@ -125,6 +126,7 @@ TEST(SlidingScenes, are_told_event_by_event_as_taylor_series_tell_them) {
     for (const auto& [i, j] : found.pairs) {
       if (j >= reference.decided) break;
       const double deviation = deviation_of(told.events[i], reference.events[j], reference.scales);
+      if (deviation > reference.allowed(j) && worst <= 1) std::printf("OFF %lu event %zu of %zu kind %d t %.12g dev %.3g allowed %.3g : %.3g of it, T %.3g; %d\n", any.index, j, reference.events.size(), (int)reference.events[j].kind, (double)reference.events[j].time, deviation, reference.allowed(j), deviation/reference.allowed(j), any.duration, (int)(told.events[i].time!=(double)reference.events[j].time));
       raise(worst, deviation / reference.allowed(j)), ++counts[reference.events[j].kind];
     }
     off.take(any, worst);
