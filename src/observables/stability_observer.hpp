@@ -3,10 +3,12 @@
 #include <cmath>
 #include <complex>
 #include <numbers>
+#include <optional>
 
 #include "motion/neighbourhood.hpp"
 #include "motion/polynomial_arc.hpp"
 #include "motion/tangent_map.hpp"
+#include "observables/rough_grazes.hpp"
 #include "observables/stability.hpp"
 
 namespace clatter::observables {
@@ -15,37 +17,48 @@ class Stability::Observer {
  public:
   using Complex = std::complex<double>;
 
-  Observer(const Settings&, const ObservedSpan& span)
-      : Observer(span.scene.stops, span.uncertainty, has_friction(span.scene.friction)) {}
+  Observer(const Settings&, const ObservedSpan& span) : Observer(span.scene.stops, span.uncertainty) {
+    if (has_friction(span.scene.friction)) graze_matters_ = false, rough_.emplace(span.scene, span.uncertainty);
+  }
 
-  /// `rounding` bounds the errors of displacements and velocities; `is_rough`: there is dry friction.
-  Observer(const Stops& stops, double rounding, bool is_rough = false)
+  /// `rounding` bounds the errors of displacements and velocities.
+  Observer(const Stops& stops, double rounding)
       : tangent_(stops),
         nearby_(stops, motion::Ellipse::disc(rounding), rounding),
-        graze_matters_(!is_rough && !has_soft_stop(stops)) {}
+        graze_matters_(!has_soft_stop(stops)) {}
 
   template <class A>
   void arc(const A& arc, double begin, double length) {
     tangent_.arc(arc, begin, length);
     ++evaluations_;
     if constexpr (motion::Polynomial<A>) {
-      graze_matters_ = false;
+      graze_matters_ = false, rough_.reset();
     } else {
       if (graze_matters_) nearby_.arc(arc, begin, length);
+      if (rough_) rough_->arc(arc, begin, length);
     }
   }
-  void rest(const motion::Rest& rest) { tangent_.rest(rest), rests_ = true; }
-  void reversal(const motion::Reversal& reversal) { tangent_.reversal(reversal); }
+  void rest(const motion::Rest& rest) {
+    tangent_.rest(rest), rests_ = rests_ || !rest.is_stick();
+    if (rough_) rough_->rest(rest);
+  }
+  void reversal(const motion::Reversal& reversal) {
+    tangent_.reversal(reversal);
+    if (rough_) rough_->reversal(reversal);
+  }
   void impact(const motion::Impact& impact) {
     tangent_.impact(impact);
     if (graze_matters_) nearby_.impact(impact);
+    if (rough_) rough_->impact(impact);
   }
   void touch(const motion::Touch& touch) { tangent_.touch(touch); }
 
   /// True if motions that differ from this one by rounding meet other stops. After a rest no difference is left; and
   /// motion by general methods isn't known to rounding. A graze of a soft stop changes little, and beside one those of
-  /// a rigid stop aren't told; nor are they under dry friction.
-  [[nodiscard]] bool grazes() const { return graze_matters_ && !rests_ && !nearby_.holds(); }
+  /// a rigid stop aren't told. Under dry friction the least speeds and distances tell them.
+  [[nodiscard]] bool grazes() const {
+    return !rests_ && ((graze_matters_ && !nearby_.holds()) || (rough_ && rough_->found()));
+  }
 
   /// Ends the observed time, one period. Unforced motion (`autonomous`) is periodic only when it loses nothing; a shift
   /// of time along it, and one to a neighbouring speed, stay what they are: both multipliers are 1.
@@ -87,6 +100,7 @@ class Stability::Observer {
  private:
   motion::TangentMap<double> tangent_;
   motion::Neighbourhood nearby_;
+  std::optional<RoughGrazes> rough_{};  ///< under dry friction, in place of `nearby_`
   bool graze_matters_, rests_ = false;
   Complex first_{no_value, no_value}, second_{no_value, no_value};
   double exponent_ = no_value;

@@ -1,7 +1,10 @@
 #pragma once
 
+#include <type_traits>
+
 #include "math/fifty_digits.hpp"
 #include "motion/arc.hpp"
+#include "motion/dry_friction.hpp"
 #include "motion/state.hpp"
 
 namespace clatter::point {
@@ -25,7 +28,8 @@ namespace clatter::point {
 template <Effects E>
 class InDouble {
  public:
-  explicit InDouble(const Scene& scene) : stops_(scene.stops), constants_(scene.oscillator) {}
+  explicit InDouble(const Scene& scene)
+      : stops_(scene.stops), constants_(scene.oscillator), slips_(constants_, scene.friction, scene.stops) {}
 
   /// Calls `function(arc)` with an arc in double.
   template <class Number, Effects Of, class Function>
@@ -34,13 +38,21 @@ class InDouble {
       const Side side = arc.constants().stop.side;
       if (side != Side::none) {
         const auto stop = motion::soft_stop_at<double>(stops_, side);
-        return show_with(arc, motion::ArcConstants<double, Of>::in_contact(constants_, stop), function);
+        return show_with(arc, motion::ArcConstants<double, Of>::in_contact(free(arc), stop), function);
       }
     }
-    if constexpr (Of == E.arc()) show_with(arc, constants_, function);
+    if constexpr (Of == E.arc()) show_with(arc, free(arc), function);
   }
 
  private:
+  /// The constants of a free mass, in the direction of an arc's slip if friction acts on it.
+  template <class A>
+  [[nodiscard]] const motion::ArcConstants<double, E.arc()>& free(const A& arc) const {
+    if constexpr (E.friction)
+      if (arc.constants().friction != 0)
+        return slips_.towards(arc.constants().friction < 0 ? Side::upper : Side::lower);
+    return constants_;
+  }
   template <class Number, Effects Of, class Function>
   static void show_with(const motion::Arc<Number, Of>& arc, const motion::ArcConstants<double, Of>& constants,
                         Function& function) {
@@ -53,6 +65,7 @@ class InDouble {
 
   Stops stops_;
   motion::ArcConstants<double, E.arc()> constants_;
+  [[no_unique_address]] std::conditional_t<E.friction, motion::Slips<double, E.arc()>, motion::NoSlips> slips_;
 };
 
 }  // namespace clatter::point

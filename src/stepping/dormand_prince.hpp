@@ -67,7 +67,7 @@ class DormandPrince : public EventDriven<DormandPrince<E>, double, E> {
   template <Effects Within, std::size_t count>
   [[nodiscard]] ArcToEvent<motion::PolynomialArc<Within>> fly_within(
       const motion::ArcConstants<double, Within>& constants, const motion::State<double>& state,
-      const motion::Motion<double>& start, double anchor, const std::array<motion::Margin<double>, count>& margins,
+      const motion::Motion<double>& start, double anchor, std::array<motion::Margin<double>, count> margins,
       double horizon) {
     go_on(constants, state, start, anchor);
     ArcToEvent<motion::PolynomialArc<Within>> flight{standing(constants, state), {count, Side::none, 0.0, start}};
@@ -82,6 +82,7 @@ class DormandPrince : public EventDriven<DormandPrince<E>, double, E> {
       flight.crossing.resolved = false;
       return flight;
     }
+    for (motion::Margin<double>& margin : margins) margin.constant += margin.place * (anchor_ - anchor);
     motion::Crossing<double>& crossing = flight.crossing = first_crossing(flight.arc, margins, horizon);
     const double turns = state.phase_turns + crossing.elapsed / this->period();
     crossing.resolved = this->finite(crossing.motion.x) && (crossing.margin < count || turns > state.phase_turns);

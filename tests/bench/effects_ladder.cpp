@@ -34,6 +34,7 @@ void damping(Effects& effects) { effects.damping = Damping::light; }
 void rest(Effects& effects) { effects.rest = true; }
 void upper(Effects& effects) { effects.upper = true; }
 void stops(Effects& effects) { effects.lower = effects.upper = effects.dissipation = true; }
+void friction(Effects& effects) { effects.friction = true; }
 void stops_and_rest(Effects& effects) { stops(effects), rest(effects); }
 
 constexpr double long_run = 200;
@@ -46,6 +47,14 @@ Rung rung(std::string left_out, PutBack put_back, const Oscillator& oscillator, 
   Effects kept_in = required_effects(scene);
   put_back(kept_in);
   return {std::move(left_out), scene, kept_in, periods};
+}
+
+/// A scene with friction, that lacks nothing.
+Rung rough(const Oscillator& oscillator, const Stops& between, double kinetic) {
+  Rung with_friction = rung("", same, oscillator, between);
+  with_friction.scene.friction = {kinetic, kinetic};
+  with_friction.kept_in = required_effects(with_friction.scene);
+  return with_friction;
 }
 
 constexpr Oscillator near_resonance(double h) { return {.damping = h, .forcing = 1, .frequency = 1.03, .load = 0.02}; }
@@ -84,7 +93,9 @@ std::vector<Rung> rungs() {
           rung("", same, driven(heavy), close),
           rung("heavy damping", same, driven(1), close),
           rung("forcing", forcing, free_motion(heavy, push), pressed, {}, until_rest),
-          rung("both stops", stops_and_rest, driven(heavy), far)};
+          rung("both stops", stops_and_rest, driven(heavy), far),
+          rough(driven(light), wide, 0.1),
+          rung("friction", friction, driven(light), wide)};
 }
 
 /// A scene's effects in words, separated by commas.
@@ -97,6 +108,7 @@ std::string words(const Effects& effects) {
   if (effects.stops()) text += effects.lower && effects.upper ? ", two stops" : ", one stop";
   if (effects.dissipation) text += ", R < 1";
   if (effects.rest) text += ", rest";
+  if (effects.friction) text += ", friction";
   return text.empty() ? "none" : text.substr(2);
 }
 
@@ -144,7 +156,7 @@ bool same_run(const Rung& rung, const Effects& a, const Effects& b) {
 
 /// Benchmarks called e.g. "1/resonance/own" and "1/resonance/kept in, all".
 void add(std::size_t number, const Rung& rung) {
-  const Effects own = required_effects(rung.scene), all = all_effects(rung.scene.oscillator);
+  const Effects own = required_effects(rung.scene), all = all_effects(rung.scene);
   std::vector<std::pair<std::string, Effects>> runs{{"own", own}};
   const auto compare_with = [&](const std::string& what, const Effects& effects) {
     for (auto& [names, known] : runs)

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
 #include <cstdint>
 #include <limits>
 
@@ -55,6 +56,60 @@ TEST(Friction, never_carries_it_beyond_the_bound_that_keeps_stops_in_reach) {
     beyond_the_response += farthest_place > steady_response(o).amplitude * (1 + 1e-9) ? 1 : 0;
   }
   EXPECT_GT(beyond_the_response, 10);
+}
+
+/// Steady motion that turns round twice in a forcing period without sticking.
+Problem swinging(double static_level) {
+  Problem problem;
+  problem.oscillator = {.damping = 0.05, .forcing = 1, .frequency = 0.8};
+  problem.stops = {-none, none, 0.7, 0.7};
+  problem.friction = {0.3, static_level};
+  problem.observe.extrema = problem.observe.stability = true;
+  return problem;
+}
+
+steady::Status status_of(const Problem& problem) {
+  ThreadScratch scratch;
+  return run_point(problem, scratch).status;
+}
+
+/// e^(-2hT) prod a+/a- = e^(-0.1 T) (a+/a-)^2.
+TEST(Friction, shrinks_areas_at_each_reversal) {
+  ThreadScratch scratch;
+  const PointResult result = run_point(swinging(0.3), scratch);
+  const std::complex<double> first(result.multiplier_re[0], result.multiplier_im[0]),
+      second(result.multiplier_re[1], result.multiplier_im[1]);
+  EXPECT_NEAR(std::abs(first * second), 0.20139584, 5e-9);
+}
+
+TEST(Friction, leaves_no_derivative_where_a_turning_point_lies_on_a_stop) {
+  ThreadScratch scratch;
+  Problem problem = swinging(0.3);
+  const double turns_at = run_point(problem, scratch).x_max;
+  for (const double beyond : {1e-15, 1e-6}) {
+    problem.stops.upper = turns_at + beyond;
+    EXPECT_EQ(status_of(problem), beyond < 1e-12 ? steady::Status::grazing : steady::Status::periodic) << beyond;
+  }
+}
+
+/// The force on the mass, friction apart, where it turns back at x: the slip down from there lasts half a period, and
+/// its free motion (y, w) about the equilibrium mu ends in -x, with the response (r, s) turned to (-r, -s).
+double push_at_turn(const Problem& problem, double x) {
+  const double h = problem.oscillator.damping, nu = problem.oscillator.frequency, mu = problem.friction.kinetic;
+  const double T = std::acos(-1.0) / nu, root = std::sqrt(1 - h * h), e = std::exp(-h * T);
+  const double b = e * std::sin(root * T) / root, cosine = e * std::cos(root * T);
+  const double a = cosine + h * b, c = cosine - h * b, determinant = (1 + a) * (1 + c) + b * b;
+  const double y = -2 * mu * (1 + c) / determinant, w = -2 * mu * b / determinant;
+  const double r = x - mu - y, s = -w;
+  return (1 - nu * nu) * r + 2 * h * s - x;  // f sin(theta) of the response, less the spring
+}
+
+/// At a static level above the force there the mass sticks, and is let go later: motion jumps.
+TEST(Friction, leaves_no_derivative_where_a_reversal_just_sticks_and_motion_jumps) {
+  ThreadScratch scratch;
+  const double push = std::abs(push_at_turn(swinging(0.3), run_point(swinging(0.3), scratch).x_max));
+  EXPECT_EQ(status_of(swinging(push)), steady::Status::grazing);
+  EXPECT_EQ(status_of(swinging(push * (1 - 1e-6))), steady::Status::periodic);
 }
 
 }  // namespace

@@ -1,0 +1,61 @@
+#pragma once
+
+#include <cmath>
+
+#include "motion/state.hpp"
+#include "scene/scene.hpp"
+
+namespace clatter::observables {
+
+/// Tells whether rounding decides, under dry friction, if the motion meets a rigid stop, or sticks where it turns back:
+/// then a neighbour goes another way, and the motion has no derivative. At a static level that equals the kinetic one a
+/// reversal that just sticks is none of these, since a stick then begins as briefly as one likes.
+class RoughGrazes {
+ public:
+  /// `rounding` bounds the errors of displacements and velocities.
+  RoughGrazes(const Scene& scene, double rounding)
+      : stops_(rigid_ones(scene.stops)),
+        friction_(scene.friction),
+        stiffness_(std::abs(scene.oscillator.stiffness)),
+        rounding_(rounding) {}
+
+  [[nodiscard]] bool is_sought() const { return has_friction(friction_); }
+
+  template <class A>
+  void arc(const A& arc, double, double length) {
+    const auto last = arc.at(length);
+    acceleration_ = last.a, push_ = last.a - arc.constants().friction;
+  }
+  /// An impact so slow that the mass would turn back within rounding of the stop.
+  void impact(const motion::Impact& impact) {
+    const bool brakes = impact.before * acceleration_ < 0;
+    if (brakes && impact.before * impact.before <= 2 * std::abs(acceleration_) * rounding_) grazes_ = true;
+  }
+  void reversal(const motion::Reversal& reversal) { turn(reversal.position, (reversal.before + reversal.after) / 2); }
+  /// Not of one that goes on after a section.
+  void rest(const motion::Rest& rest) {
+    const bool goes_on = rest.time <= until_ * (1 + 1e-12);
+    until_ = rest.time + rest.length;
+    if (rest.is_stick() && rest.time > 0 && !goes_on) turn(rest.position, push_);
+  }
+
+  [[nodiscard]] bool found() const { return grazes_; }
+
+ private:
+  /// The velocity falls to 0 at x under the other forces `push`.
+  void turn(double x, double push) {
+    if (std::abs(x - stops_.lower) <= rounding_ || std::abs(x - stops_.upper) <= rounding_) grazes_ = true;
+    const double left = std::abs(push) - friction_.static_level;
+    const bool jumps = friction_.static_level > friction_.kinetic;
+    if (jumps && std::abs(left) <= rounding_ * (1 + stiffness_)) grazes_ = true;
+  }
+
+  Stops stops_;
+  Friction friction_;
+  double stiffness_, rounding_;
+  double acceleration_ = 0.0, push_ = 0.0;  ///< at the end of the last arc; the second without friction
+  double until_ = -1.0;                     ///< end of the last stick
+  bool grazes_ = false;
+};
+
+}  // namespace clatter::observables
