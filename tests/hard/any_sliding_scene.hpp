@@ -49,10 +49,8 @@ inline void vary_stops(support::Random& random, Stops& stops) {
   if (random.happens(0.125)) stops = {-none, none, 1, 1};
   if (random.happens(0.6)) return;
   const double kind = random.uniform(0, 1);
-  if (kind < 0.7 && std::isfinite(stops.lower))
-    soften_for_slides(random, stops.stiffness_lower, stops.damping_lower);
-  if (kind > 0.3 && std::isfinite(stops.upper))
-    soften_for_slides(random, stops.stiffness_upper, stops.damping_upper);
+  if (kind < 0.7 && std::isfinite(stops.lower)) soften_for_slides(random, stops.stiffness_lower, stops.damping_lower);
+  if (kind > 0.3 && std::isfinite(stops.upper)) soften_for_slides(random, stops.stiffness_upper, stops.damping_upper);
 }
 
 /// More starts at rest, and some beyond the position of a soft stop.
@@ -65,9 +63,9 @@ inline void vary_start(support::Random& random, const Stops& stops, Start& start
   start.displacement = position + sign_of(side) * random.logarithmic(1e-6, 1) / std::sqrt(kappa);
 }
 
-/// A random scene with dry friction; forces, damping and stops otherwise as `any_scene` draws them. Without a spring there
-/// is a load: without both a mass that leaves a stop comes back to it without any speed, so rounding decides whether it
-/// meets it.
+/// A random scene with dry friction; forces, damping and stops otherwise as `any_scene` draws them. Without a spring
+/// there is a load: without both a mass that leaves a stop comes back to it without any speed, so rounding decides
+/// whether it meets it.
 [[nodiscard]] inline AnyScene any_sliding_scene(std::uint64_t index) {
   AnyScene any = any_scene(index);
   support::Random random(20470, index);
@@ -85,6 +83,6 @@ inline void vary_start(support::Random& random, const Stops& stops, Start& start
   return any;
 }
 
-inline constexpr Kind sliding{"sliding", any_sliding_scene, 10000};
+inline constexpr Kind sliding{"sliding", any_sliding_scene, 2000};
 
 }  // namespace clatter::hard

@@ -87,7 +87,7 @@ class Slide {
     for (const Side side : {Side::lower, Side::upper})
       if (const auto release = on == side ? std::nullopt : release_of(side); release && *release < until)
         until = *release, ahead_ = side, released_ = true;
-    run_.events.push_back({on == Side::none ? Kind::stick : Kind::rest, on, time_, 0, until, x()});
+    run_.events.push_back({on == Side::none ? Kind::stick : Kind::rest, on, time_, 0, until, x(), braked_});
     if (on == Side::none) run_.stuck += until - time_;
     time_ = until;
     return true;
@@ -119,7 +119,7 @@ class Slide {
     const Real from = x();
     time_ = end == End::none && step == end_ - time_ ? end_ : time_ + u * step;
     if (end != End::none || u > 0) y_ = value_of(y, u), v_ = value_of(slope, u) / step;
-    released_ = balanced_ = false;
+    released_ = balanced_ = false, braked_ = 0;
     run_.rubbed += Real(scene_.friction.kinetic) * std::abs(x() - from);
     conclude(end);
     run_.lowest = std::min(run_.lowest, x()), run_.highest = std::max(run_.highest, x());
@@ -139,8 +139,8 @@ class Slide {
   /// The fastest that the motion changes.
   [[nodiscard]] Real rate() const {
     const auto& o = scene_.oscillator;
-    return std::max({std::sqrt(std::abs(stiffness())), 2 * damping(), o.forcing == 0 ? Real(0) : Real(o.frequency),
-                     Real(0.01)});
+    return std::max(
+        {std::sqrt(std::abs(stiffness())), 2 * damping(), o.forcing == 0 ? Real(0) : Real(o.frequency), Real(0.01)});
   }
   [[nodiscard]] Real damping() const { return scene_.oscillator.damping + (pressed_ ? damper(within_) : 0); }
   [[nodiscard]] Real stiffness() const { return scene_.oscillator.stiffness + (pressed_ ? kappa(within_) : 0); }
@@ -212,9 +212,10 @@ class Slide {
     v_ = 0;
     y_ += std::min(rounding_ * std::abs(x()), Real(1e-6) * std::abs(y_));
     if (within_ != Side::none) pressed_ = true;
-    if (is_held(Side::lower) && is_held(Side::upper)) return;
     const Real rub = sign_of(ahead_) * Real(scene_.friction.kinetic);
-    run_.events.push_back({Kind::reversal, Side::none, time_, 0, 0, x(), push() - rub, push() + rub});
+    braked_ = push() - rub;
+    if (is_held(Side::lower) && is_held(Side::upper)) return;
+    run_.events.push_back({Kind::reversal, Side::none, time_, 0, 0, x(), braked_, push() + rub});
   }
   void enter(Side side, Real offset) { within_ = side, anchor_ = position(side), y_ = offset; }
   void separate() {
@@ -236,6 +237,7 @@ class Slide {
   bool pressed_ = false;      ///< that stop pushes the mass
   bool released_ = false;     ///< friction lets the mass go at this instant
   bool balanced_ = false;     ///< the force of the soft stop around is 0 at this instant
+  Real braked_ = 0;           ///< acceleration at the end of the last slip
   SlideRun run_;
 };
 

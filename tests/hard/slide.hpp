@@ -28,7 +28,7 @@ struct SlideEvent {
   Real velocity = 0;           ///< before an impact, at a touch, renewal or separation
   Real until = 0;              ///< the end of a rest or stick, tau
   Real place = 0;              ///< displacement of a stick or reversal
-  Real before = 0, after = 0;  ///< accelerations at a reversal
+  Real before = 0, after = 0;  ///< accelerations at a reversal; before a stick into which a slip ends
 };
 
 /// A motion from its start.
@@ -47,8 +47,8 @@ struct SlideRun {
 /// Simulates a scene with dry friction,
 ///   x'' + 2h x' + k x + mu sgn x' = f sin(nu tau + phase) + load,
 /// between rigid or soft stops at rest, by Taylor series in long double. It shares the numbers of the scene with the
-/// program and nothing else: no closed form, no root finder, no sum over chatter. Impacts are followed one by one until a
-/// rebound has less than 1e-16 of the fastest speed. `rounding` moves each place at which the velocity falls to 0, in
+/// program and nothing else: no closed form, no root finder, no sum over chatter. Impacts are followed one by one until
+/// a rebound has less than 1e-16 of the fastest speed. `rounding` moves each place at which the velocity falls to 0, in
 /// parts of the displacement, but by a millionth of the height of a flight at most: the effect of a coarser arithmetic.
 [[nodiscard]] SlideRun slide(const Scene& scene, SlideEvent::Real duration, std::size_t most_events = 4000,
                              SlideEvent::Real rounding = 0);

@@ -20,8 +20,7 @@ constexpr Real instant = 1e-9L;  ///< of the duration: stands that are shorter a
 }
 
 [[nodiscard]] std::string text(const SlideEvent& event) {
-  static constexpr std::array names{"impact",     "rest",  "touch",    "renewal",
-                                    "separation", "stick", "reversal", "chatter"};
+  static constexpr std::array names{"impact", "rest", "touch", "renewal", "separation", "stick", "reversal", "chatter"};
   std::ostringstream out;
   out << std::setprecision(15) << names[static_cast<std::size_t>(event.kind)] << " on side " << sign_of(event.side)
       << " at " << event.time;
@@ -45,8 +44,7 @@ constexpr Real instant = 1e-9L;  ///< of the duration: stands that are shorter a
 /// Goes through two lists side by side.
 class Matching {
  public:
-  Matching(const Events& events, bool is_cut, const Events& reference, bool reference_is_cut,
-           const SlideScales& scales)
+  Matching(const Events& events, bool is_cut, const Events& reference, bool reference_is_cut, const SlideScales& scales)
       : a_(events), b_(reference), a_is_cut_(is_cut), b_is_cut_(reference_is_cut), scales_(scales) {}
 
   SlideMatch run() {
@@ -57,8 +55,8 @@ class Matching {
       found_.pairs.emplace_back(i_++, j_++);
     }
     found_.first_difference = j_;
-    const bool more = (i_ < a_.size() && !b_is_cut_ && !is_last(a_[i_])) ||
-                      (j_ < b_.size() && !a_is_cut_ && !is_last(b_[j_]));
+    const bool more =
+        (i_ < a_.size() && !b_is_cut_ && !is_last(a_[i_])) || (j_ < b_.size() && !a_is_cut_ && !is_last(b_[j_]));
     return more ? different() : std::move(found_);
   }
 
@@ -103,14 +101,22 @@ Events as_slide_events(const std::vector<motion::Event>& events) {
   using Told = motion::Event::Kind;
   const auto kind_of = [](Told kind) {
     switch (kind) {
-      case Told::impact: return Kind::impact;
-      case Told::rest: return Kind::rest;
-      case Told::chatter: return Kind::chatter;
-      case Told::touch: return Kind::touch;
-      case Told::renewal: return Kind::renewal;
-      case Told::separation: return Kind::separation;
-      case Told::stick: return Kind::stick;
-      case Told::reversal: return Kind::reversal;
+      case Told::impact:
+        return Kind::impact;
+      case Told::rest:
+        return Kind::rest;
+      case Told::chatter:
+        return Kind::chatter;
+      case Told::touch:
+        return Kind::touch;
+      case Told::renewal:
+        return Kind::renewal;
+      case Told::separation:
+        return Kind::separation;
+      case Told::stick:
+        return Kind::stick;
+      case Told::reversal:
+        return Kind::reversal;
     }
     return Kind::chatter;
   };

@@ -10,8 +10,8 @@
 
 namespace clatter::hard {
 
-/// The scales of a motion, to which deviations are relative: its length, and the largest displacement and speed of it or
-/// of the response to the force, since a flight is a difference of terms of that size.
+/// The scales of a motion, to which deviations are relative: its length, and the largest displacement and speed of it
+/// or of the response to the force, since a flight is a difference of terms of that size.
 struct SlideScales {
   double duration, size, fastest;
 };

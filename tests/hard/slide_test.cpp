@@ -1,5 +1,5 @@
-// The simulator of `slide.hpp` against closed forms of motion with dry friction, and against numbers that were published
-// or computed before it was written.
+// The simulator of `slide.hpp` against closed forms of motion with dry friction, and against numbers that were
+// published or computed before it was written.
 
 #include "hard/slide.hpp"
 
@@ -164,10 +164,8 @@ TEST(Slide, rests_on_a_rigid_stop_until_the_pull_away_passes_the_static_level) {
 /// Pressed by a speed into a soft stop without a damper: to and from the depth d at which
 /// v^2 = kappa d^2 + 2 mu d (k = 0), then d' with kappa d'^2 = kappa d^2 - 2 mu d on leaving it.
 TEST(Slide, loses_in_a_soft_stop_the_work_of_friction) {
-  Scene scene{.oscillator = {.stiffness = 0},
-              .stops = {-none, 0, 1, 1, none, 100},
-              .start = {0, 1, 0},
-              .friction = {0.5, 0.5}};
+  Scene scene{
+      .oscillator = {.stiffness = 0}, .stops = {-none, 0, 1, 1, none, 100}, .start = {0, 1, 0}, .friction = {0.5, 0.5}};
   const Real kappa = 100, mu = 0.5, depth = (std::sqrt(mu * mu + kappa) - mu) / kappa;
   const SlideRun run = slide(scene, 0.4);
   ASSERT_EQ(run.events.size(), 3u);
