@@ -236,6 +236,7 @@ class EventDriven : public SoftPhases<Method, N, E> {
   [[nodiscard]] Outcome run_rough_phase(motion::State<Number>& state, const Number& end, std::int64_t origin,
                                         Observer& observer) {
     if (state.chatters) return run_in_chatter(state, end, origin, observer);
+    this->end_creep(state);
     if (this->has_soft_stops() && this->soft_stop_around(state) != Side::none) {
       if (state.v == 0) state.pressed = true;  // the stop has come up to the mass
       if (!state.pressed) return this->run_beyond(state, end, origin, observer);
@@ -272,9 +273,9 @@ class EventDriven : public SoftPhases<Method, N, E> {
     if (!crossing.resolved) return this->outcome_at(crossing);
     if (begins && crossing.margin < 2 && crossing.elapsed == 0) return begin_anew(state, ahead, end, origin, observer);
     state.released = false;
-    const bool touches = crossing.margin == 1 && margins[0].of(crossing.motion) <= rounding;
-    if (crossing.margin == 1 && !touches) turn(state, ahead, origin, observer);
-    if (crossing.margin > 0 && !touches) return Outcome::completed;
+    const bool still = is_still(crossing), touches = still && margins[0].of(crossing.motion) <= rounding;
+    if (still && !touches) turn(state, ahead, origin, observer);
+    if (crossing.margin != 0 && !touches) return Outcome::completed;
     state.x = stop.position;
     const Number brakes = -stop.into(crossing.motion.a), speed = stop.into(state.v);
     if (touches || speed < 0 || speed * speed <= 2 * brakes * rounding) state.v = 0;
@@ -305,8 +306,12 @@ class EventDriven : public SoftPhases<Method, N, E> {
     if (begins && crossing.margin < 2 && crossing.elapsed == 0) return begin_anew(state, ahead, end, origin, observer);
     state.released = false;
     if (crossing.margin == 0) this->separate(state, stop, origin, observer);
-    if (crossing.margin == 1) turn(state, ahead, origin, observer);
+    if (is_still(crossing)) turn(state, ahead, origin, observer);
     return Outcome::completed;
+  }
+  /// Whether the velocity of a slip falls to 0, perhaps with the horizon.
+  [[nodiscard]] static bool is_still(const motion::Crossing<Number>& crossing) {
+    return crossing.margin == 1 || (crossing.margin > 1 && crossing.motion.v == 0);
   }
   /// Ends a slip towards a side: the mass sticks, as the next phase finds, or moves back at once.
   template <class Observer>

@@ -64,6 +64,25 @@ class Flights : public IntegratorBase<N, E> {
                                         : push(state);
     return way > 0 ? Side::upper : Side::lower;
   }
+  /// Stops a mass that creeps: without a force, heavy damping lets it come ever closer to the place at which friction
+  /// holds it. Once the way left and the acceleration are below rounding it is there, within the level of friction.
+  void end_creep(motion::State<Number>& state) const requires(E.friction) {
+    using std::abs;
+    if (state.v == 0 || this->constants().f != 0) return;
+    const Side ahead = heading(state);
+    const auto stop_on_way = [&](const auto& slip) {
+      if (!(slip.k > 0) || slip.h * slip.h < slip.k) return;
+      const Number size = abs(state.x) + (abs(this->constants().load) + this->slips().kinetic) / slip.k;
+      const Number left = sign_of(ahead) * push(state) - this->slips().kinetic, rounding = 4 * epsilon<Number>() * size;
+      if (!(2 * slip.h * abs(state.v) <= slip.k * rounding && abs(left) <= slip.k * rounding)) return;
+      state.v = 0, state.x += sign_of(ahead) * 2 * rounding, state.offset += sign_of(ahead) * 2 * rounding;
+    };
+    if (state.pressed)
+      this->slips().in_contact(state.within, ahead, stop_on_way);
+    else
+      stop_on_way(this->slips().towards(ahead));
+  }
+
   /// The gap to the stop ahead, and the velocity.
   [[nodiscard]] std::array<motion::Margin<Number>, 2> slip_margins(const motion::State<Number>& state,
                                                                    Side ahead) const {

@@ -117,7 +117,8 @@ class IntegratorBase {
     motion::Holding<Number> holding{Side::none, constants_.constant_force(state.x), slips_.static_level};
     for (const Side side : {Side::lower, Side::upper}) {
       const auto stop = motion::stop_at<Number>(stops_, side);
-      if (!is_soft(stops_, side) && state.x == stop.position) holding.stop = side;
+      const bool just_off = state.from_stop == side && state.offset != 0;  // by less than x can tell
+      if (!is_soft(stops_, side) && state.x == stop.position && !just_off) holding.stop = side;
     }
     Side within = state.within;
     Number depth = state.offset;

@@ -9,7 +9,7 @@ import unittest
 
 from combinations import Campaign, report
 from followed_branches import BranchCampaign
-from random_scenes import followed_scenes, random_scenes, weak_scenes
+from random_scenes import followed_scenes, rough_scenes, weak_scenes
 from sweep_relations import SweepCampaign
 
 CLATTER = os.environ["CLATTER"]
@@ -28,7 +28,7 @@ class Combinations(unittest.TestCase):
 
     def test_two_ways_to_write_a_scene_give_one_motion(self):
         for first in range(0, COUNT, AT_ONCE):
-            self.check(random_scenes(min(AT_ONCE, COUNT - first), SEED + first // AT_ONCE))
+            self.check(rough_scenes(min(AT_ONCE, COUNT - first), SEED + first // AT_ONCE))
 
     def test_every_impact_of_a_weak_scene_is_told(self):
         """Once spring, damper and force were next to nothing, chatter was summed from its first rebound on."""

@@ -105,6 +105,8 @@ std::string configuration_of(const point::Problem& s, double duration) {
     else
       out << "\nR_" << which << " = " << (upper ? stops.restitution_upper : stops.restitution_lower);
   }
+  if (has_friction(s.friction))
+    out << "\nfriction = " << s.friction.kinetic << "\nfriction_static = " << s.friction.static_level;
   out << "\n[time]\nmode = \"transient\"\nduration = " << duration << "\nmax_impacts = " << s.time.max_impacts
       << "\n[observe]\nimpact_log = true\n";
   return out.str();

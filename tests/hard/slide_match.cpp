@@ -1,0 +1,159 @@
+#include "hard/slide_match.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <iomanip>
+#include <sstream>
+
+namespace clatter::hard {
+namespace {
+
+using Kind = SlideEvent::Kind;
+using Real = SlideEvent::Real;
+using Events = std::vector<SlideEvent>;
+
+constexpr Real instant = 1e-9L;  ///< of the duration: stands that are shorter aren't told from none
+
+[[nodiscard]] bool is_stand(const SlideEvent& event) {
+  return event.kind == Kind::rest || event.kind == Kind::stick || event.kind == Kind::chatter;
+}
+
+[[nodiscard]] std::string text(const SlideEvent& event) {
+  static constexpr std::array names{"impact", "rest", "touch", "renewal", "separation", "stick", "reversal", "chatter"};
+  std::ostringstream out;
+  out << std::setprecision(15) << names[static_cast<std::size_t>(event.kind)] << " on side " << sign_of(event.side)
+      << " at " << event.time;
+  if (is_stand(event)) out << " until " << event.until;
+  return out.str();
+}
+[[nodiscard]] std::string text(const Events& events, std::size_t i) {
+  return i < events.size() ? text(events[i]) : "nothing";
+}
+
+/// The place after what may belong to a chatter on a stop: impacts on it, and what happens at the peaks between them,
+/// no later than an instant.
+[[nodiscard]] std::size_t after_chatter(const Events& events, std::size_t from, Side side, Real latest) {
+  const auto belongs = [&](const SlideEvent& event) {
+    return event.time <= latest && ((event.kind == Kind::impact && event.side == side) || event.kind == Kind::reversal);
+  };
+  while (from < events.size() && belongs(events[from])) ++from;
+  return from;
+}
+
+/// Goes through two lists side by side.
+class Matching {
+ public:
+  Matching(const Events& events, bool is_cut, const Events& reference, bool reference_is_cut, const SlideScales& scales)
+      : a_(events), b_(reference), a_is_cut_(is_cut), b_is_cut_(reference_is_cut), scales_(scales) {}
+
+  SlideMatch run() {
+    while (i_ < a_.size() || j_ < b_.size()) {
+      if (skip_chatter()) continue;
+      if (i_ == a_.size() || j_ == b_.size()) break;
+      if (a_[i_].kind != b_[j_].kind || a_[i_].side != b_[j_].side) return different();
+      found_.pairs.emplace_back(i_++, j_++);
+    }
+    found_.first_difference = j_;
+    const bool more =
+        (i_ < a_.size() && !b_is_cut_ && !is_last(a_[i_])) || (j_ < b_.size() && !a_is_cut_ && !is_last(b_[j_]));
+    return more ? different() : std::move(found_);
+  }
+
+ private:
+  /// Steps over impacts that one list sums, or ends earlier in a rest, than the other.
+  bool skip_chatter() {
+    if (i_ < a_.size() && a_[i_].kind == Kind::chatter) {
+      j_ = after_chatter(b_, j_, a_[i_].side, a_[i_].until + tolerance());
+      return ++i_, true;
+    }
+    const auto rests = [](const Events& list, std::size_t k) { return k < list.size() && list[k].kind == Kind::rest; };
+    const std::size_t i = i_, j = j_;
+    if (rests(b_, j_)) i_ = after_chatter(a_, i_, b_[j_].side, b_[j_].time + tolerance());
+    if (rests(a_, i_)) j_ = after_chatter(b_, j_, a_[i_].side, a_[i_].time + tolerance());
+    return i != i_ || j != j_;
+  }
+  [[nodiscard]] Real tolerance() const { return instant * scales_.duration; }
+  [[nodiscard]] bool is_last(const SlideEvent& event) const { return event.time > scales_.duration - tolerance(); }
+  SlideMatch different() {
+    found_.first_difference = j_;
+    found_.difference = text(a_, i_) + " against " + text(b_, j_);
+    return std::move(found_);
+  }
+
+  const Events &a_, &b_;
+  const bool a_is_cut_, b_is_cut_;
+  const SlideScales scales_;
+  std::size_t i_ = 0, j_ = 0;
+  SlideMatch found_{};
+};
+
+}  // namespace
+
+SlideScales scales_of(const Scene& scene, double duration, const SlideRun& run) {
+  const auto& [h, f, nu, load, k] = scene.oscillator;
+  const double response = std::abs(f) / std::max({std::abs(k - nu * nu), 2 * h * nu, nu / duration});
+  const double size = std::max(response, static_cast<double>(std::max(std::abs(run.lowest), std::abs(run.highest))));
+  return {duration, size, std::max({response * nu, size * std::sqrt(std::abs(k)), static_cast<double>(run.fastest)})};
+}
+
+Events as_slide_events(const std::vector<motion::Event>& events) {
+  using Told = motion::Event::Kind;
+  const auto kind_of = [](Told kind) {
+    switch (kind) {
+      case Told::impact:
+        return Kind::impact;
+      case Told::rest:
+        return Kind::rest;
+      case Told::chatter:
+        return Kind::chatter;
+      case Told::touch:
+        return Kind::touch;
+      case Told::renewal:
+        return Kind::renewal;
+      case Told::separation:
+        return Kind::separation;
+      case Told::stick:
+        return Kind::stick;
+      case Told::reversal:
+        return Kind::reversal;
+    }
+    return Kind::chatter;
+  };
+  Events converted;
+  for (const motion::Event& event : events)
+    converted.push_back({kind_of(event.kind), event.side, event.time, event.velocity, event.end(), event.place});
+  return converted;
+}
+
+Events joined(const Events& events, double duration) {
+  Events all;
+  for (const SlideEvent& event : events) {
+    const bool continues = !all.empty() && is_stand(event) && all.back().kind == event.kind &&
+                           all.back().side == event.side && event.time - all.back().until <= instant * duration;
+    if (continues)
+      all.back().until = event.until;
+    else
+      all.push_back(event);
+  }
+  std::erase_if(all, [&](const SlideEvent& event) {
+    return is_stand(event) && event.kind != Kind::chatter && event.until - event.time <= instant * duration;
+  });
+  return all;
+}
+
+double deviation_of(const SlideEvent& event, const SlideEvent& reference, const SlideScales& scales) {
+  Real off = std::abs(event.time - reference.time) / scales.duration;
+  if (is_stand(reference)) off = std::max(off, std::abs(event.until - reference.until) / scales.duration);
+  if (reference.velocity != 0) off = std::max(off, std::abs(event.velocity - reference.velocity) / scales.fastest);
+  if (reference.kind == Kind::stick || reference.kind == Kind::reversal)
+    off = std::max(off, std::abs(event.place - reference.place) / scales.size);
+  return static_cast<double>(off);
+}
+
+SlideMatch match(const Events& events, bool is_cut, const Events& reference, bool reference_is_cut,
+                 const SlideScales& scales) {
+  return Matching(events, is_cut, reference, reference_is_cut, scales).run();
+}
+
+}  // namespace clatter::hard
