@@ -31,6 +31,8 @@ class Scene:
     stop_damping_lower: float = 0.0
     stop_damping_upper: float = 0.0
     stop_phase: float = 0.0
+    friction: float = 0.0
+    friction_static: float = 0.0  # 0: as large as the friction
 
     def changed(self, **values):
         return Scene(**{**self.__dict__, **values})
@@ -48,6 +50,7 @@ class Scene:
 
     def scaled(self, size):
         names = ("f", "load", "x0", "v0", "stop_lower", "stop_upper", "stop_amplitude", "base_amplitude")
+        names += ("friction", "friction_static")
         return self.changed(**{name: size * getattr(self, name) for name in names})
 
     def shifted(self, place):
@@ -58,6 +61,7 @@ class Scene:
         """The same motion in units of time that are shorter by so much."""
         changes = {name: getattr(self, name) / faster for name in ("h", "nu", "v0")}
         squares = ("f", "load", "stiffness", "stop_stiffness_lower", "stop_stiffness_upper")
+        squares += ("friction", "friction_static")
         return self.changed(**changes, **{name: getattr(self, name) / faster**2 for name in squares})
 
     def turned(self):
@@ -126,6 +130,23 @@ def drawn(draw):
 def random_scenes(count, seed):
     draw = random.Random(seed)
     return [drawn(draw) for _ in range(count)]
+
+
+def rubbed(draw, scene):
+    """The scene with dry friction, from next to nothing to nearly as much as holds the mass; not between stops that move."""
+    if scene.stop_amplitude:
+        return scene
+    force = max(abs(scene.f), abs(scene.base_amplitude * scene.stiffness)) or abs(scene.load) or 1.0
+    friction = force * draw.choice([draw.uniform(0.02, 0.7), draw.uniform(0.02, 0.7), logarithmic(draw, 1e-6, 1)])
+    static = draw.choice([0.0, friction, friction * draw.uniform(1, 1.6)])
+    return scene.changed(friction=friction, friction_static=static)
+
+
+def rough_scenes(count, seed):
+    """Those of `random_scenes`, a quarter of them with dry friction."""
+    draw = random.Random(f"friction {seed}")
+    scenes = random_scenes(count, seed)
+    return [rubbed(draw, scene) if draw.random() < 0.25 else scene for scene in scenes]
 
 
 def compliant(draw):
