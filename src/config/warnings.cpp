@@ -10,9 +10,12 @@
 namespace clatter::config {
 namespace {
 
-/// Whether a key chooses an observable, as those do that are off by default; the others say how to compute one.
+/// Whether a key chooses an observable, as those do that are off by default; the others say how to compute one, or need
+/// one beside them.
 bool is_observable(const Key& key) {
-  return key.section == "observe" && (key.fallback == "false" || (key.kind == Kind::integer && key.fallback == "0"));
+  const bool needs_another = key.beside.find("[observe]") != std::string_view::npos;
+  return key.section == "observe" && !needs_another &&
+         (key.fallback == "false" || (key.kind == Kind::integer && key.fallback == "0"));
 }
 
 /// Warns of a run that observes nothing, unless every observable is written as off, as by `clatter defaults`.

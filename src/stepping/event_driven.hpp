@@ -266,29 +266,20 @@ class EventDriven : public SoftPhases<Method, N, E> {
     const Side ahead = this->heading(state);
     const auto stop = motion::stop_at<Number>(this->stops(), ahead);
     const bool begins = state.v == 0;
-    const Number rounding = rounding_of_gap(state, stop);
+    const Number rounding = this->rounding_of_gap(state, stop);
     const auto margins = this->slip_margins(state, ahead);
     const auto crossing = this->cross(this->slips().towards(ahead), state, margins, end, origin, observer,
                                       this->slips().release_acceleration(ahead));
     if (!crossing.resolved) return this->outcome_at(crossing);
     if (begins && crossing.margin < 2 && crossing.elapsed == 0) return begin_anew(state, ahead, end, origin, observer);
     state.released = false;
-    const bool still = is_still(crossing), touches = still && margins[0].of(crossing.motion) <= rounding;
+    const bool still = this->is_still(crossing), touches = still && margins[0].of(crossing.motion) <= rounding;
     if (still && !touches) turn(state, ahead, origin, observer);
     if (crossing.margin != 0 && !touches) return Outcome::completed;
     state.x = stop.position;
     const Number brakes = -stop.into(crossing.motion.a), speed = stop.into(state.v);
     if (touches || speed < 0 || speed * speed <= 2 * brakes * rounding) state.v = 0;
     return meet(state, stop, end, origin, observer);
-  }
-  /// Of the gap to a rigid stop at the end of a slip. Without a spring, and with a force that is the same both ways, a
-  /// mass that a stop has released comes back to it exactly without speed: it then rests, whatever rounding says.
-  [[nodiscard]] Number rounding_of_gap(const motion::State<Number>& state, const motion::Stop<Number>& stop) const {
-    using std::abs;
-    if (is_soft(this->stops(), stop.side) || !Base::finite(stop.position)) return Number(0);
-    const Number size = state.from_stop == stop.side ? Number(abs(state.offset))
-                                                     : Number(abs(stop.position - state.x) + abs(stop.position));
-    return 64 * epsilon<Number>() * size;
   }
   /// The same in contact with a soft stop, whose force may fall to 0.
   template <class Observer>
@@ -306,12 +297,8 @@ class EventDriven : public SoftPhases<Method, N, E> {
     if (begins && crossing.margin < 2 && crossing.elapsed == 0) return begin_anew(state, ahead, end, origin, observer);
     state.released = false;
     if (crossing.margin == 0) this->separate(state, stop, origin, observer);
-    if (is_still(crossing)) turn(state, ahead, origin, observer);
+    if (this->is_still(crossing)) turn(state, ahead, origin, observer);
     return Outcome::completed;
-  }
-  /// Whether the velocity of a slip falls to 0, perhaps with the horizon.
-  [[nodiscard]] static bool is_still(const motion::Crossing<Number>& crossing) {
-    return crossing.margin == 1 || (crossing.margin > 1 && crossing.motion.v == 0);
   }
   /// Ends a slip towards a side: the mass sticks, as the next phase finds, or moves back at once.
   template <class Observer>
